@@ -23,9 +23,8 @@
 #include "engine/streams/live_stream.h"
 #include "engine/teaching/moves_file.h"
 #include "reports/coach/coach_lines.h"
-#include "sim/choreography/beats.h"
 #include "sim/choreography/dance_of.h"
-#include "sim/music/click_track.h"
+#include "sim/music/music.h"
 
 namespace etude {
 namespace {

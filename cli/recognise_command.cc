@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <iostream>
@@ -7,7 +8,6 @@
 
 #include "bench/files/files.h"
 #include "bench/streams/label_scores.h"
-#include "bench/streams/leave_one_out.h"
 #include "cli/commands.h"
 #include "cli/stream_commands.h"
 #include "engine/base/named.h"

@@ -2,12 +2,12 @@
 
 #include "bench/files/files.h"
 #include "bench/sensor_fit/fit.h"
-#include "bench/sensor_fit/table.h"
+#include "bench/sensor_fit/statistics.h"
 #include "cli/commands.h"
 #include "cli/output_file.h"
 #include "cli/sensor_commands.h"
 #include "cli/sensor_reading.h"
-#include "sim/skeleton_sensor/sensor_file.h"
+#include "sim/skeleton_sensor/options.h"
 
 namespace etude {
 namespace {
@@ -29,8 +29,8 @@ void PrintComparison(const char* title, const char* real_name, const RealRecordi
 /// Fits one half and compares on the other; nothing but a remark when a half is too short.
 void PrintHalves(const RealRecording& real, const SensorFitOptions& options) {
   const std::size_t frames = real.recording.frames.size();
-  const auto first = MakeRealRecording(Part(real.recording, 0, frames / 2), real.twin);
-  const auto second = MakeRealRecording(Part(real.recording, frames / 2, frames), real.twin);
+  const auto first = MakeRealRecording(Excerpt(real.recording, 0, frames / 2), real.twin);
+  const auto second = MakeRealRecording(Excerpt(real.recording, frames / 2, frames), real.twin);
   if (!first || !second) {
     fmt::print("\nThe halves are too short to be fitted by themselves.\n");
     return;

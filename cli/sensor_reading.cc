@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 
 #include "bench/files/files.h"
-#include "sim/skeleton_sensor/sensor_file.h"
+#include "sim/skeleton_sensor/options.h"
 
 namespace etude {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "bench/sensor_fit/simulated.h"
+#include "bench/sensor_fit/fit.h"
 #include "cli/sensor_commands.h"
 
 namespace etude {

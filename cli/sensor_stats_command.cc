@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "bench/sensor_fit/table.h"
+#include "bench/sensor_fit/statistics.h"
 #include "cli/commands.h"
 #include "cli/sensor_commands.h"
 #include "cli/sensor_reading.h"

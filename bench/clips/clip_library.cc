@@ -1,9 +1,8 @@
 #include "bench/clips/clip_library.h"
 
-#include "bench/clips/builtin_clip.h"
 #include "bench/clips/references.h"
 #include "engine/retargeting/measure_body.h"
-#include "sim/character/recorded_figure.h"
+#include "sim/character/posed.h"
 
 namespace etude {
 namespace {

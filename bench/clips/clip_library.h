@@ -32,7 +32,7 @@ struct ClipLibrary {
   std::vector<LibraryClip> clips;
 };
 
-/// What the clip was recorded with: the folder of its file, or "builtin".
+/// Returns the collection that a clip belongs to: the folder of its file, or "builtin".
 std::string CollectionOf(const LibraryClip& clip);
 
 /// Loads every reference, in order: what ExpandReference knows; every animation of a glTF file is a clip of its own.

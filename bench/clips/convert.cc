@@ -1,8 +1,11 @@
 #include "bench/clips/convert.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <limits>
+#include <string_view>
 
 #include "engine/base/names.h"
 #include "engine/formats/bvh.h"
@@ -13,10 +16,16 @@
 #include "engine/retargeting/proportions.h"
 #include "engine/retargeting/rig.h"
 #include "sim/character/characters.h"
-#include "sim/choreography/stance.h"
+#include "sim/choreography/canonical_body.h"
 
 namespace etude {
 namespace {
+
+bool ParseSeconds(std::string_view text, double& seconds) {
+  if (text.empty()) return true;  // an open end
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+  return error == std::errc() && end == text.data() + text.size() && std::isfinite(seconds) && seconds >= 0;
+}
 
 // As much as ReadBvh takes.
 constexpr double kLargestResampled = 1e9;
@@ -56,7 +65,7 @@ Result<Clip> Edited(const Clip& clip, const ConvertOptions& options) {
   return edited;
 }
 
-/// The unit that a BVH file is in, and which axis is up.
+/// Finds the unit that a BVH file is in, and which axis is up.
 Result<BodyConversion> FindUnit(const SourceClip& source, const OpenOptions& options) {
   auto opened = UnderstandClip(source, options);
   if (opened) return std::move(opened->body);
@@ -142,6 +151,25 @@ Result<Converted> ConvertBodies(std::vector<SourceClip> sources, MotionFormat fo
 }
 
 }  // namespace
+
+Result<TimeSpan> ParseTimeSpan(const std::string& text) {
+  TimeSpan span{0, std::numeric_limits<double>::infinity()};
+  const std::size_t colon = text.find(':');
+  const bool is_span = colon != std::string::npos &&
+                       ParseSeconds(std::string_view(text).substr(0, colon), span.from_s) &&
+                       ParseSeconds(std::string_view(text).substr(colon + 1), span.to_s);
+  if (!is_span) {
+    return Fail({}, "{} is no span of time; allowed: FROM:TO in seconds, such as 1.5:4, 2: or :3", Quote(text));
+  }
+  if (span.to_s < span.from_s) return Fail({}, "{} ends before it starts", Quote(text));
+  return span;
+}
+
+Result<Clip> TrimTo(const Clip& clip, const std::optional<TimeSpan>& span) {
+  if (!span) return clip;
+  const bool is_open = span->to_s == std::numeric_limits<double>::infinity();
+  return Trim(clip, span->from_s, is_open ? std::max(span->from_s, clip.DurationSeconds()) : span->to_s);
+}
 
 Result<MotionFormat> FormatOfName(const std::string& path) {
   const std::string extension = std::filesystem::path(path).extension().string();

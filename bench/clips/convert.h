@@ -5,16 +5,28 @@
 #include <vector>
 
 #include "bench/clips/open_clip.h"
-#include "bench/clips/time_span.h"
 #include "engine/base/result.h"
+#include "engine/motion/clip.h"
 
 namespace etude {
 
+/// A part of a clip, seconds from its first frame.
+struct TimeSpan {
+  double from_s = 0;
+  double to_s = 0;
+};
+/// Reads a span such as "1.5:4", of which either end may be left out. Anything else and an end before its start are
+/// refused.
+Result<TimeSpan> ParseTimeSpan(const std::string& text);
+
+/// Returns that part of a clip, or all of it without a span. An open end is the clip's.
+Result<Clip> TrimTo(const Clip& clip, const std::optional<TimeSpan>& span);
+
 enum class MotionFormat { kBvh, kGlb, kTrc, kCsv };
-/// By the extension of a file's name.
+/// Returns the format of a file by the extension of its name.
 Result<MotionFormat> FormatOfName(const std::string& path);
 
-/// Who a converted motion shall be performed by.
+/// The figure that performs a converted motion.
 enum class Performer { kFile, kNone, kBear, kMannequin };
 
 struct ConvertOptions {
@@ -27,7 +39,7 @@ struct ConvertOptions {
   OpenOptions open;
 };
 
-/// The bytes of the converted file, and what was done on the way, in plain words.
+/// The bytes of the converted file, and a note in plain words on what was done.
 struct Converted {
   std::string bytes;
   std::string note;

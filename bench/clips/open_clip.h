@@ -1,11 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "bench/clips/clip_file.h"
 #include "engine/base/result.h"
 #include "engine/motion/character.h"
 #include "engine/motion/clip.h"
@@ -15,7 +16,25 @@
 
 namespace etude {
 
-/// What a reference to a clip may be told beside its name.
+enum class ClipFormat { kBvh, kGltf, kGlb, kDeepMimic, kBuiltin };
+/// Returns the name of a format: "BVH", "glTF", "GLB", "DeepMimic" or "built-in".
+std::string_view FormatName(ClipFormat format);
+
+/// The content of a motion file.
+struct ClipFile {
+  ClipFormat format = ClipFormat::kBvh;
+  Character figure;         ///< a skeleton, and meshes if the file has any
+  std::vector<Clip> clips;  ///< on that skeleton; a glTF file may have none
+};
+
+/// The largest size of a file, or of a .gltf with its buffers, bytes; more is refused before memory is taken.
+constexpr std::uintmax_t kLargestClipFile = 500'000'000;
+
+/// Reads a BVH or glTF file or a motion of DeepMimic, told by its content, whatever it is called. The buffers of a
+/// .gltf are read from its own folder and below only, links leading out of it are refused.
+Result<ClipFile> ReadClipFile(const std::string& path);
+
+/// The options with which a clip is opened.
 struct OpenOptions {
   std::optional<TaughtRoles> roles;  ///< of --joint-map
   BodyOptions body;
@@ -33,9 +52,9 @@ struct SourceClip {
   std::optional<Ground> ground = {};  ///< of all clips of the file, where there are several
 };
 
-/// The clips of one file or built-in name (ExpandReference gives them): one of a BVH, all animations of a glTF, or the
-/// one behind '#', which may leave out what exporters put before it ("Jump" of "Armature|Jump"). Fails when there is
-/// none, saying what there is instead. `options` only help to find the ground.
+/// Reads the clips of one file or built-in name (as ExpandReference gives them): one of a BVH, all animations of a
+/// glTF, or the one behind '#', which may leave out what exporters put before it ("Jump" of "Armature|Jump"). Fails
+/// when there is none, saying what there is instead. `options` only help to find the ground.
 Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const OpenOptions& options = {});
 
 /// A clip with its roles found and its body's motion.
@@ -45,7 +64,8 @@ struct OpenedClip {
   BodyConversion body;
 };
 
-/// Built-in clips are bodies already: metres, standing where they stand.
+/// Finds the roles and the body's motion of a clip. Built-in clips are bodies already: metres, standing where they
+/// stand.
 Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options);
 
 }  // namespace etude

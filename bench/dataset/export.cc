@@ -6,7 +6,7 @@
 #include "bench/dataset/layout.h"
 #include "bench/files/files.h"
 #include "bench/files/save_json.h"
-#include "bench/films/take_films.h"
+#include "bench/films/encoder.h"
 #include "bench/run/manifest.h"
 #include "bench/run/plan.h"
 #include "bench/run/suite.h"

@@ -11,11 +11,16 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "bench/files/files.h"
+#include "sim/render/scene.h"
+#include "sim/sensors/image_files.h"
 
 namespace etude {
 namespace {
@@ -48,6 +53,15 @@ int Spawn(const std::vector<std::string>& arguments, int input, int errors, pid_
   const int error = posix_spawnp(&child, argv.front(), &actions, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   return error;
+}
+
+/// Returns the take in a picture's name, "camera-1" of "camera-1-0042.png"; empty for other names.
+std::string_view TakeOf(std::string_view name) {
+  constexpr std::string_view kForm = "-0000.png";
+  if (name.size() <= kForm.size()) return {};
+  const std::string_view end = name.substr(name.size() - kForm.size());
+  const auto fits = [](char form, char c) { return form == '0' ? c >= '0' && c <= '9' : form == c; };
+  return std::ranges::equal(kForm, end, fits) ? name.substr(0, name.size() - kForm.size()) : std::string_view{};
 }
 
 }  // namespace
@@ -134,6 +148,26 @@ tl::unexpected<Error> Encoder::Complaint(const std::string& what) {
   words.resize(std::fread(words.data(), 1, words.size(), log_.get()));
   words.resize(std::min(words.find('\n'), words.size()));
   return Fail(Place{.file = path_.string()}, "{}{}{}", what, words.empty() ? "" : ": ", words);
+}
+
+Result<void> SaveTakeFilms(std::span<const Attachment> files, int rate_hz, const std::filesystem::path& folder) {
+  std::optional<Encoder> film;
+  std::string_view filmed;
+  for (const Attachment& file : files) {
+    const std::string_view take = TakeOf(file.name);
+    if (take.empty()) continue;
+    constexpr std::size_t kMostPixels = std::size_t{kLargestPicture} * kLargestPicture;
+    ASSIGN_OR_RETURN(const auto picture, DecodeColourPng(file.bytes, kMostPixels));
+    if (!film || take != filmed) {
+      if (film) RETURN_IF_ERROR(film->Finish());
+      const std::filesystem::path path = folder / (std::string(take) + ".mp4");
+      ASSIGN_OR_RETURN(auto started, Encoder::Start(path, picture.width, picture.height, rate_hz));
+      film.emplace(std::move(started));
+      filmed = take;
+    }
+    RETURN_IF_ERROR(film->Add(picture));
+  }
+  return film ? film->Finish() : Result<void>{};
 }
 
 }  // namespace etude

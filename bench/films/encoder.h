@@ -5,8 +5,10 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 
+#include "bench/model/payload.h"
 #include "engine/base/image.h"
 #include "engine/base/result.h"
 
@@ -17,15 +19,15 @@ namespace etude {
 /// dropped before Finish leaves nothing behind.
 class Encoder {
  public:
-  /// Pictures must have this size (even numbers) and follow at `rate_hz`. `sound`: a WAV file that goes with them, kept
-  /// without a loss (FLAC); empty = silence. Fails when `program` cannot be started, saying why.
+  /// Starts ffmpeg. Pictures must have this size (even numbers) and follow at `rate_hz`. `sound`: a WAV file that goes
+  /// with them, kept without a loss (FLAC); empty = silence. Fails when `program` cannot be started, saying why.
   static Result<Encoder> Start(const std::filesystem::path& path, int width, int height, int rate_hz,
                                const std::filesystem::path& sound = {}, const std::string& program = "ffmpeg");
   ~Encoder();
   Encoder(Encoder&& other) noexcept;
   Encoder& operator=(Encoder&&) = delete;
 
-  /// Fails when ffmpeg has given up; its last words come with the error.
+  /// Sends a picture. Fails when ffmpeg has stopped; its message comes with the error.
   Result<void> Add(const ColourImage& picture);
   /// Waits for ffmpeg to end and puts the file at its path.
   Result<void> Finish();
@@ -41,5 +43,9 @@ class Encoder {
   int pictures_;  ///< the socket that ffmpeg reads from; −1 once closed
   Log log_;       ///< what ffmpeg says on its standard error
 };
+
+/// Puts the takes among `files` into `folder`, each as a film: `camera-1-0000.png`, `camera-1-0001.png`, … (in this
+/// order, PNG) become `camera-1.mp4`. Fails where ffmpeg does, for instance at odd widths.
+Result<void> SaveTakeFilms(std::span<const Attachment> files, int rate_hz, const std::filesystem::path& folder);
 
 }  // namespace etude

@@ -22,7 +22,7 @@ constexpr double kOurPixelCentre = 0.5;
 constexpr double kLargestPixel = 1e6;
 constexpr std::size_t kMostPeople = 64;
 
-/// Numbers in names by their value: frame 9 before frame 10.
+/// Orders names with the numbers in them by their value: frame 9 comes before frame 10.
 bool NaturallyBefore(const fs::path& a, const fs::path& b) {
   const std::string x = a.filename().string(), y = b.filename().string();
   std::size_t i = 0, j = 0;
@@ -59,7 +59,7 @@ Result<std::vector<fs::path>> FilesIn(const fs::path& folder, const char* ending
   return files;
 }
 
-/// Null where there is none.
+/// Returns the member of that name, or null where there is none.
 const Json* Member(const Json& json, const char* name) {
   const auto found = json.is_object() ? json.find(name) : json.end();
   return json.is_object() && found != json.end() ? &*found : nullptr;
@@ -97,7 +97,7 @@ std::string WithNullForNan(std::string text) {
   return text;
 }
 
-/// The triples x, y, confidence of a list; one with a null was not seen.
+/// Reads the triples x, y, confidence of a list; a point with a null was not seen.
 Result<std::vector<Keypoint>> Triples(const Json* list, const Place& place) {
   if (list == nullptr || !list->is_array() || list->size() % 3 != 0) {
     return Fail(place, "no list of keypoints; allowed: x, y, confidence of each");

@@ -27,8 +27,8 @@ Result<PeopleOfFilm> ReadKeypoints(const std::filesystem::path& path, const std:
 /// each.
 Result<PeopleOfFilm> ReadMarkedPictures(const std::filesystem::path& folder);
 
-/// The one entry of a folder that belongs to the film of that name: its name is the film's, or begins with it and goes
-/// on with no letter or digit ("cam01", "cam01_json", "cam01.json"). Fails when there is none or are several.
+/// Finds the one entry of a folder that belongs to the film of that name: its name is the film's, or begins with it and
+/// goes on with no letter or digit ("cam01", "cam01_json", "cam01.json"). Fails when there is none or are several.
 Result<std::filesystem::path> EntryOfFilm(const std::filesystem::path& folder, const std::string& film);
 
 }  // namespace etude

@@ -4,7 +4,7 @@
 #include "engine/vision/strokes.h"
 #include "sim/annotator/annotator.h"
 #include "sim/annotator/drawing.h"
-#include "sim/choreography/stance.h"
+#include "sim/choreography/canonical_body.h"
 #include "sim/render/renderer.h"
 
 namespace etude {

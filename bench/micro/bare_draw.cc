@@ -2,13 +2,12 @@
 
 #include <cstddef>
 
-#include "sim/render/capsule_batch.h"
+#include "sim/render/empty_room.h"
+#include "sim/render/figure_batches.h"
 #include "sim/render/gl_context.h"
-#include "sim/render/kept_rooms.h"
-#include "sim/render/pixel_geometry.h"
-#include "sim/render/shader_pieces.h"
+#include "sim/render/gl_objects.h"
 #include "sim/render/shaders.h"
-#include "sim/render/vertex_stream.h"
+#include "sim/render/uniforms.h"
 
 namespace etude {
 namespace {

@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "engine/base/result.h"
-#include "sim/render/renderer.h"
+#include "engine/cameras/camera.h"
+#include "sim/render/scene.h"
 
 namespace etude {
 

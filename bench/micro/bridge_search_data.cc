@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "bench/clips/builtin_clip.h"
 #include "bench/clips/clip_library.h"
+#include "bench/clips/references.h"
 #include "engine/fuzzy/features.h"
 #include "sim/choreography/varied_library.h"
 

@@ -2,7 +2,8 @@
 #include <benchmark/benchmark.h>
 
 #include "sim/camera/camera_model.h"
-#include "sim/choreography/stance.h"
+#include "sim/choreography/canonical_body.h"
+#include "sim/render/renderer.h"
 
 namespace etude {
 namespace {

@@ -4,7 +4,7 @@
 #include "bench/micro/bare_draw.h"
 #include "sim/character/characters.h"
 #include "sim/character/posed.h"
-#include "sim/choreography/stance.h"
+#include "sim/choreography/canonical_body.h"
 #include "sim/render/renderer.h"
 #include "sim/stage/stage.h"
 

@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// How far what some cameras tell is from a reference, over all its markers or joints and all frames.
+/// The distance of some cameras' capture from a reference, over all its markers or joints and all frames.
 struct RealDistance {
   std::string cameras;                                ///< "all", "1+4"
   std::optional<double> median_mm = {}, p95_mm = {};  ///< nothing where these cameras gave no motion
@@ -30,10 +30,10 @@ struct RealTake {
   bool operator==(const RealTake&) const = default;
 };
 
-/// The values of `RealTake::recovery`.
+/// Returns the values of `RealTake::recovery`.
 const std::vector<std::string>& RealRecoveries();
 
-/// As JSON, the same for the same take.
+/// Writes a take as JSON; the bytes are the same for the same take.
 std::string WriteRealTake(const RealTake& take);
 /// Reads what `WriteRealTake` writes. Every error names place, what was found, and what is allowed.
 Result<RealTake> ReadRealTake(std::string_view text, const std::string& file);

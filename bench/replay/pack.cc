@@ -5,7 +5,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "bench/clips/builtin_clip.h"
 #include "bench/clips/references.h"
 #include "bench/files/files.h"
 #include "bench/files/temporary_folder.h"

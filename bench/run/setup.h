@@ -8,7 +8,7 @@
 
 #include "bench/files/json.h"
 #include "bench/scenario/scenario.h"
-#include "bench/streams/labelled.h"
+#include "bench/streams/load.h"
 #include "bench/tasks/base/task.h"
 
 namespace etude {

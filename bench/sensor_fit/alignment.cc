@@ -20,7 +20,7 @@ std::optional<Carrier> Between(const std::optional<Carrier>& a, const std::optio
   return Carrier{glm::mix(a->position, b->position, share), glm::slerp(a->rotation, b->rotation, share)};
 }
 
-/// The twin's carriers at a time of its own; empty outside.
+/// Returns the twin's carriers at a time of its own; empty outside.
 std::array<std::optional<Carrier>, kRoleCount> CarriersAt(const TwinMotion& twin, double time_s) {
   const double frame = time_s * twin.rate_hz;
   if (frame < 0 || frame > static_cast<double>(twin.frames.size()) - 1) return {};
@@ -33,7 +33,7 @@ std::array<std::optional<Carrier>, kRoleCount> CarriersAt(const TwinMotion& twin
   return carriers;
 }
 
-/// All pairs in every `stride`-th frame.
+/// Returns all pairs in every `stride`-th frame.
 std::vector<Pair> PairsAt(const JointRecording& recording, const TwinMotion& twin, double shift_s, std::size_t stride) {
   std::vector<Pair> pairs;
   for (std::size_t t = 0; t < recording.frames.size(); t += stride) {
@@ -45,7 +45,7 @@ std::vector<Pair> PairsAt(const JointRecording& recording, const TwinMotion& twi
   return pairs;
 }
 
-/// The rotation and translation that bring `from` closest to `to` (Kabsch 1976).
+/// Finds the rotation and translation that bring `from` closest to `to` (Kabsch 1976).
 void FitRigid(const std::vector<glm::dvec3>& from, const std::vector<glm::dvec3>& to, TwinAlignment& alignment) {
   glm::dvec3 mean_from(0), mean_to(0);
   const auto count = static_cast<double>(from.size());
@@ -70,7 +70,7 @@ void FitRigid(const std::vector<glm::dvec3>& from, const std::vector<glm::dvec3>
   alignment.p_ST = mean_to - alignment.R_ST * mean_from;
 }
 
-/// The mean place of each joint in its carrier.
+/// Sets the offsets to the mean place of each joint in its carrier.
 void FitOffsets(const std::vector<Pair>& pairs, TwinAlignment& alignment) {
   std::array<glm::dvec3, kRoleCount> sums{};
   std::array<double, kRoleCount> counts{};
@@ -94,7 +94,7 @@ double RootMeanSquare(const std::vector<Pair>& pairs, const TwinAlignment& align
   return std::sqrt(sum / static_cast<double>(pairs.size()));
 }
 
-/// By turns until what is left changes no more; `alignment` holds where to begin.
+/// Fits rotation, translation and offsets by turns until the remaining distance settles; `alignment` holds the start.
 void Settle(const std::vector<Pair>& pairs, int most_turns, TwinAlignment& alignment) {
   constexpr double kSettled = 1e-6;  // metres
   std::vector<glm::dvec3> from(pairs.size()), to(pairs.size());
@@ -113,7 +113,7 @@ void Settle(const std::vector<Pair>& pairs, int most_turns, TwinAlignment& align
   }
 }
 
-/// The mean speed of the arms' joints at one frame, where they are seen in both neighbours.
+/// Computes the mean speed of the joints at each frame, of those that are seen there and in the frame before.
 std::vector<std::optional<double>> Speeds(const JointRecording& recording) {
   std::vector<std::optional<double>> speeds(recording.frames.size());
   for (std::size_t t = 1; t < speeds.size(); ++t) {
@@ -129,7 +129,7 @@ std::vector<std::optional<double>> Speeds(const JointRecording& recording) {
   return speeds;
 }
 
-/// The twin's carriers as a recording at `rate_hz`, for speeds.
+/// Returns the twin's carriers as a recording at `rate_hz`, for speeds.
 JointRecording AtRate(const TwinMotion& twin, double rate_hz) {
   JointRecording recording{.rate_hz = rate_hz, .frames = {}, .sensor_at = {}};
   const auto frames = static_cast<std::size_t>(twin.DurationSeconds() * rate_hz);
@@ -162,7 +162,7 @@ std::optional<double> CorrelationAt(const std::vector<std::optional<double>>& a,
   return (sab - sa * sb / n) / std::sqrt(va * vb);
 }
 
-/// The shift at which both move at the same times; at least half of the shorter one overlaps.
+/// Finds the shift at which both move at the same times; at least half of the shorter one overlaps.
 double ShiftBySpeeds(const JointRecording& recording, const TwinMotion& twin) {
   const auto a = Speeds(recording), b = Speeds(AtRate(twin, recording.rate_hz));
   const long na = static_cast<long>(a.size()), nb = static_cast<long>(b.size()), least = std::min(na, nb) / 2;
@@ -187,7 +187,7 @@ bool IsEnough(const std::vector<Pair>& pairs, const JointRecording& recording, s
 
 constexpr int kTurnsOfSearch = 8, kTurnsAtEnd = 200;
 
-/// The best of the shifts from `centre - reach` to `centre + reach`.
+/// Returns the best of the shifts from `centre - reach` to `centre + reach`.
 std::optional<TwinAlignment> BestShift(const JointRecording& recording, const TwinMotion& twin,
                                        const TwinAlignment& start, double reach_s, double step_s) {
   constexpr std::size_t kFramesOfSearch = 150;

@@ -9,16 +9,16 @@
 
 namespace etude {
 
-/// How a recording and its twin lie to each other: what is not the sensor's error, as far as one recording tells.
+/// The alignment of a recording and its twin: what is not the sensor's error, as far as one recording tells.
 struct TwinAlignment {
   double shift_s = 0;  ///< the recording's time 0 is this time of the twin: clocks, and the sensor's lag
   glm::dmat3 R_ST{1};  ///< rotates the twin's directions into the sensor's space
   glm::dvec3 p_ST{0};  ///< the twin's origin there
-  /// Of each joint in its carrier; no value where the two never saw it together.
+  /// The offset of each joint in its carrier; no value where the two never saw it together.
   std::array<std::optional<glm::dvec3>, kRoleCount> offsets{};
   double rms_m = 0;  ///< what is left, over all joints
 
-  /// Where the carried joint is in the sensor's space.
+  /// Returns where the carried joint is in the sensor's space.
   std::optional<glm::dvec3> JointAt(const std::optional<Carrier>& carrier, Role role) const;
 };
 
@@ -33,8 +33,8 @@ struct TwinMatch {
 /// Nothing when the two overlap in less than a second, or in less than three joints.
 std::optional<TwinMatch> AlignTwin(const JointRecording& recording, const TwinMotion& twin);
 
-/// Likewise from a near solution, for a recording that differs little from one aligned before: looks for shifts within
-/// `most_shift_s` of its only.
+/// Aligns a recording that differs little from one aligned before: starts from that alignment and looks for shifts
+/// within `most_shift_s` of it only.
 std::optional<TwinMatch> RealignTwin(const JointRecording& recording, const TwinMotion& twin,
                                      const TwinAlignment& start, double most_shift_s);
 

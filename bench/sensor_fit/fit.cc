@@ -3,10 +3,64 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/angles.h"
 #include "engine/document/fields.h"
+#include "sim/skeleton_sensor/skeleton_sensor.h"
 
 namespace etude {
 namespace {
+
+/// Returns a place for every joint of every frame: where the twin has none, the last or else the next one it had.
+BodyMotion WholeMotion(const RealRecording& real) {
+  BodyMotion motion{.rate_hz = real.recording.rate_hz, .poses = std::vector<BodyPose>(real.match.truth.size())};
+  for (const Role role : AllRoles()) {
+    const std::size_t j = Index(role);
+    std::optional<glm::dvec3> last;
+    for (std::size_t t = 0; t < motion.poses.size() && !last; ++t) last = real.match.truth[t][j];
+    const auto parent = ParentOf(role);
+    for (std::size_t t = 0; t < motion.poses.size(); ++t) {
+      if (real.match.truth[t][j]) last = real.match.truth[t][j];
+      // A joint without any truth is not compared; it lies where it cannot hide another.
+      motion.poses[t].joints[j] = last ? *last : parent ? motion.poses[t][*parent] : glm::dvec3(0, 0, 1);
+    }
+  }
+  return motion;
+}
+
+/// Bodies do not shiver: what is faster than 6 Hz in the twin's motion is its own noise, which a sensor would see as
+/// its own. A Gaussian whose pass ends there (−3 dB), as biomechanics filters optical recordings.
+BodyMotion WithoutShiver(const BodyMotion& motion) {
+  constexpr double kPassHz = 6;
+  const double deviation_s = std::sqrt(std::log(2.0)) / (2 * kPi * kPassHz);
+  constexpr long kReach = 4;
+  BodyMotion smooth = motion;
+  const long count = static_cast<long>(motion.poses.size());
+  for (long t = 0; t < count; ++t) {
+    for (std::size_t j = 0; j < kRoleCount; ++j) {
+      glm::dvec3 sum(0);
+      double weights = 0;
+      const long reach = std::min({kReach, t, count - 1 - t});  // as far to both sides: no lag at the ends
+      for (long d = -reach; d <= reach; ++d) {
+        const double off = static_cast<double>(d) / motion.rate_hz / deviation_s;
+        const double weight = std::exp(-0.5 * off * off);
+        sum += weight * motion.poses[static_cast<std::size_t>(t + d)].joints[j];
+        weights += weight;
+      }
+      smooth.poses[static_cast<std::size_t>(t)].joints[j] = sum / weights;
+    }
+  }
+  return smooth;
+}
+
+Camera SensorOf(const RealRecording& real, const BodyMotion& motion, const Intrinsics& view) {
+  if (real.recording.sensor_at)
+    return LookAt(view, *real.recording.sensor_at, *real.recording.sensor_at + glm::dvec3(0, 0, 1));
+  const BodyPose& pose = motion.poses[motion.poses.size() / 2];
+  const glm::dvec3 body = pose[Role::kHipCentre];
+  const SensorPlace usual;
+  const glm::dvec3 eye = body + usual.distance * Facing(pose);
+  return LookAt(view, eye, body);
+}
 
 constexpr WorldKey kFitWorlds{.suite_seed = 1, .scenario = "sensor-fit", .trial = 0};
 
@@ -65,6 +119,41 @@ double MeanDistance(const RealRecording& real) {
 }
 
 }  // namespace
+
+std::optional<RealRecording> MakeRealRecording(JointRecording recording, TwinMotion twin) {
+  auto match = AlignTwin(recording, twin);
+  if (!match) return std::nullopt;
+  return RealRecording{std::move(recording), std::move(twin), *std::move(match)};
+}
+
+SensorStatistics StatisticsOf(const RealRecording& real) { return StatisticsOf(real.recording, &real.match); }
+
+JointRecording Simulate(const RealRecording& real, const SkeletonSensorOptions& options, const WorldKey& world) {
+  const BodyMotion motion = WithoutShiver(WholeMotion(real));
+  const Camera sensor = SensorOf(real, motion, options.view);
+  JointRecording simulated = RecordingOf(SenseSkeleton(motion, sensor, {}, options, world), sensor.p_WC);
+  for (std::size_t t = 0; t < simulated.frames.size(); ++t) {
+    for (std::size_t j = 0; j < kRoleCount; ++j) {
+      if (!real.match.truth[t][j]) simulated.frames[t][j].reset();
+    }
+  }
+  return simulated;
+}
+
+SensorStatisticsSummary SimulatedStatistics(const RealRecording& real, const SkeletonSensorOptions& options, int worlds,
+                                            const WorldKey& first_world) {
+  std::vector<SensorStatistics> recordings;
+  TwinAlignment start = real.match.alignment;
+  start.shift_s -= options.Lag() / real.recording.rate_hz;
+  for (int i = 0; i < worlds; ++i) {
+    WorldKey world = first_world;
+    world.trial += i;
+    const JointRecording simulated = Simulate(real, options, world);
+    const auto match = RealignTwin(simulated, real.twin, start, 1 / real.recording.rate_hz);
+    recordings.push_back(StatisticsOf(simulated, match ? &*match : nullptr));
+  }
+  return Summarise(recordings);
+}
 
 SkeletonSensorOptions FitSensor(const RealRecording& real, const SensorFitOptions& options) {
   const SensorStatistics measured = StatisticsOf(real);

@@ -12,7 +12,7 @@ namespace {
 
 using enum Role;
 
-/// Which target carries each role's joint: a target near the joint, on one of the bones that end in it.
+/// The target that carries each role's joint: one near the joint, on one of the bones that end in it.
 using T = BodyTarget;
 constexpr std::array<BodyTarget, kRoleCount> kTargetOfRole = {
     T::kHips,       T::kChest,        T::kChest,        T::kHead,        // trunk and head
@@ -38,7 +38,8 @@ TwinMotion TwinOfTargets(const std::vector<TargetFrame>& targets) {
   return twin;
 }
 
-/// How a body without orientations is turned: its trunk, and each limb as the trunk would have to swing to follow it.
+/// The orientations of a body that has none: of its trunk, and of each limb as the trunk would have to swing to follow
+/// it.
 class BoneFrames {
  public:
   explicit BoneFrames(const RolePlaces& places) : places_(places) {
@@ -103,7 +104,7 @@ TwinMotion TwinOfJoints(const JointCsv& csv) {
   return twin;
 }
 
-/// The usual rate at which so many frames last `seconds` most nearly.
+/// Returns the usual rate at which so many frames last `seconds` most nearly.
 double UsualRate(std::size_t frames, double seconds) {
   double best = 60, best_error = 1e300;
   for (const double rate : {30.0, 50.0, 60.0, 100.0, 120.0, 200.0, 240.0}) {
@@ -148,7 +149,7 @@ Result<TwinMotion> ReadTwinMotion(std::string_view text, const std::string& file
   return twin;
 }
 
-JointRecording Part(const JointRecording& recording, std::size_t begin, std::size_t end) {
+JointRecording Excerpt(const JointRecording& recording, std::size_t begin, std::size_t end) {
   JointRecording part{.rate_hz = recording.rate_hz, .frames = {}, .sensor_at = recording.sensor_at};
   for (std::size_t t = begin; t < std::min(end, recording.frames.size()); ++t) {
     part.frames.push_back(recording.frames[t]);

@@ -14,12 +14,12 @@
 
 namespace etude {
 
-/// What a sensor delivered: places of the twenty joints, absent where it did not see them. Metres, in a space of its
+/// The recording of a sensor: places of the twenty joints, absent where it did not see them. Metres, in a space of its
 /// own whose Y axis points up.
 struct JointRecording {
   double rate_hz = kJudgedRateHz;
   std::vector<RolePlaces> frames;
-  /// Where the sensor stands in that space. A Kinect's own space begins at it; nobody knows of other files.
+  /// The place of the sensor in that space. A Kinect's own space begins at it; for other files it is not known.
   std::optional<glm::dvec3> sensor_at;
 
   double DurationSeconds() const { return static_cast<double>(frames.size()) / rate_hz; }
@@ -31,7 +31,7 @@ struct Carrier {
   glm::dquat rotation{1, 0, 0, 0};
 };
 
-/// The same motion, told by that system: per frame and joint its carrier. Metres.
+/// The same motion as that system saw it: per frame and joint its carrier, metres.
 struct TwinMotion {
   double rate_hz = 60;
   std::vector<std::array<std::optional<Carrier>, kRoleCount>> frames;
@@ -50,10 +50,10 @@ Result<JointRecording> ReadJointRecording(std::string_view text, const std::stri
 Result<TwinMotion> ReadTwinMotion(std::string_view text, const std::string& file, std::optional<double> rate_hz,
                                   double seconds);
 
-/// The frames [begin, end) alone.
-JointRecording Part(const JointRecording& recording, std::size_t begin, std::size_t end);
+/// Returns the frames [begin, end) alone.
+JointRecording Excerpt(const JointRecording& recording, std::size_t begin, std::size_t end);
 
-/// What a stream says, as a recording: joints that are not tracked are absent.
+/// Makes a recording of a stream: joints that are not tracked are absent.
 JointRecording RecordingOf(const SkeletonStream& stream, const glm::dvec3& sensor_at);
 
 }  // namespace etude

@@ -1,7 +1,10 @@
 #include "bench/sensor_fit/statistics.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "engine/base/order_statistics.h"
@@ -41,7 +44,7 @@ ErrorSeries ErrorsOf(const JointRecording& recording, const TwinMatch& match, Ro
   return series;
 }
 
-/// Whether the twin's joint is at rest around a frame.
+/// Tells whether the twin's joint is at rest around a frame.
 bool IsPlanted(const TwinMatch& match, std::size_t frame, std::size_t joint, double rate_hz) {
   constexpr std::size_t kReach = 5;
   constexpr double kResting = 0.1;  // m/s
@@ -52,7 +55,7 @@ bool IsPlanted(const TwinMatch& match, std::size_t frame, std::size_t joint, dou
   return true;
 }
 
-/// The deviation of the distance of two joints over its mean, percent.
+/// Returns the deviation of the distance of two joints over its mean, percent.
 std::optional<double> Variation(const JointRecording& recording, Role a, Role b) {
   std::vector<double> lengths;
   for (const RolePlaces& places : recording.frames) {
@@ -66,7 +69,7 @@ std::optional<double> Variation(const JointRecording& recording, Role a, Role b)
   return mean > 0 ? std::optional(100 * std::sqrt(squares / count) / mean) : std::nullopt;
 }
 
-/// |p(t−1) − 2 p(t) + p(t+1)| where all three were seen.
+/// Returns |p(t−1) − 2 p(t) + p(t+1)| where all three were seen.
 std::optional<double> SecondDifference(const JointRecording& recording, std::size_t t, std::size_t j) {
   if (t == 0 || t + 1 >= recording.frames.size()) return std::nullopt;
   const auto &before = recording.frames[t - 1][j], &here = recording.frames[t][j], &after = recording.frames[t + 1][j];
@@ -205,7 +208,7 @@ void MeasureJumps(const JointRecording& recording, SensorStatistics& result) {
   result.hand_jump_cm = 100 * LowerPercentile(std::move(jumps), 0.99);
 }
 
-/// Every value of some statistics, in one order.
+/// Returns every value of some statistics, in one order.
 std::vector<std::optional<double>*> ValuesOf(SensorStatistics& s) {
   std::vector<std::optional<double>*> values = {
       &s.shoulders_and_hips_mm, &s.planted_feet_mm,        &s.quiet_white_mm,     &s.arm_bones_percent,
@@ -214,6 +217,24 @@ std::vector<std::optional<double>*> ValuesOf(SensorStatistics& s) {
   for (auto& value : s.depth_ratio) values.push_back(&value);
   for (auto& value : s.correlation) values.push_back(&value);
   return values;
+}
+
+std::string CellText(const StatisticRow& row) { return row.value ? fmt::format("{:.2f}", *row.value) : "-"; }
+
+bool IsWithin(const StatisticRow& reference, const StatisticRow& other) {
+  if (reference.held_by == HeldBy::kDifference) {
+    return std::abs(*other.value - *reference.value) <= kCorrelationTolerance;
+  }
+  return *reference.value > 0 && std::abs(*other.value / *reference.value - 1) <= kSizeTolerance;
+}
+
+std::string Held(const StatisticRow& reference, const StatisticRow& other) {
+  if (!reference.value || !other.value) return "";
+  const char* mark = IsWithin(reference, other) ? "" : " !";
+  if (reference.held_by == HeldBy::kDifference) {
+    return fmt::format("{:+.2f}{}", *other.value - *reference.value, mark);
+  }
+  return *reference.value > 0 ? fmt::format("x{:.2f}{}", *other.value / *reference.value, mark) : "";
 }
 
 }  // namespace
@@ -247,6 +268,69 @@ SensorStatisticsSummary Summarise(const std::vector<SensorStatistics>& recording
     *deviations[i] = std::sqrt(std::max(0.0, variance));
   }
   return summary;
+}
+
+std::vector<StatisticRow> RowsOf(const SensorStatistics& statistics) {
+  std::vector<StatisticRow> rows;
+  const auto add = [&](std::string name, const char* unit, const std::optional<double>& value,
+                       HeldBy held_by = HeldBy::kRatio) {
+    rows.push_back({std::move(name), unit, held_by, value});
+  };
+  for (const JointGroup group : AllJointGroups()) {
+    if (group == JointGroup::kFeet) continue;
+    add(fmt::format("error of {}", GroupName(group)), "mm", statistics.error_mm[Index(group)]);
+  }
+  add("error of shoulders and hips", "mm", statistics.shoulders_and_hips_mm);
+  add("error of all feet", "mm", statistics.error_mm[Index(JointGroup::kFeet)]);
+  add("error of planted feet", "mm", statistics.planted_feet_mm);
+  for (const JointGroup group : AllJointGroups()) {
+    add(fmt::format("depth : across, {}", GroupName(group)), "", statistics.depth_ratio[Index(group)]);
+  }
+  for (const BoneKind kind : AllBoneKinds()) {
+    std::string name(BoneName(kind));
+    std::ranges::replace(name, '_', ' ');
+    add("correlation along " + name, "", statistics.correlation[Index(kind)], HeldBy::kDifference);
+  }
+  add("white part, quiet torso", "mm", statistics.quiet_white_mm);
+  add("length of arm bones varies", "%", statistics.arm_bones_percent);
+  add("length of leg bones varies", "%", statistics.leg_bones_percent);
+  add("shoulder width varies", "%", statistics.shoulder_width_percent);
+  add("length of hand bones varies", "%", statistics.hand_bones_percent);
+  add("hands' second difference, p99", "cm", statistics.hand_jump_cm);
+  return rows;
+}
+
+Agreement AgreementOf(const SensorStatistics& reference, const SensorStatistics& other) {
+  const auto a = RowsOf(reference), b = RowsOf(other);
+  Agreement agreement;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (!a[i].value || !b[i].value) continue;
+    ++agreement.compared;
+    agreement.within += IsWithin(a[i], b[i]);
+  }
+  return agreement;
+}
+
+std::string StatisticsTable(const std::vector<std::pair<std::string, SensorStatistics>>& columns, bool compares) {
+  constexpr int kNameWidth = 31, kUnitWidth = 3;
+  std::vector<std::vector<StatisticRow>> rows;
+  std::string text = fmt::format("{:<{}} {:<{}}", "", kNameWidth, "", kUnitWidth);
+  const auto out = std::back_inserter(text);
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    fmt::format_to(out, " {:>12}{}", columns[c].first, compares && c == 1 ? fmt::format("{:>9}", "") : "");
+    rows.push_back(RowsOf(columns[c].second));
+  }
+  text += '\n';
+  for (std::size_t r = 0; !rows.empty() && r < rows[0].size(); ++r) {
+    fmt::format_to(out, "{:<{}} {:<{}}", rows[0][r].name, kNameWidth, rows[0][r].unit, kUnitWidth);
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      fmt::format_to(out, " {:>12}", CellText(rows[c][r]));
+      if (compares && c == 1) fmt::format_to(out, "  {:<7}", Held(rows[0][r], rows[c][r]));
+    }
+    while (text.back() == ' ') text.pop_back();
+    text += '\n';
+  }
+  return text;
 }
 
 }  // namespace etude

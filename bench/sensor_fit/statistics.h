@@ -2,6 +2,8 @@
 
 #include <array>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/sensor_fit/alignment.h"
@@ -10,8 +12,8 @@
 
 namespace etude {
 
-/// What a recording says of its sensor's errors. A value is absent where the recording cannot tell it: all that begins
-/// with an error needs a twin, ratios need to know where the sensor stands.
+/// The statistics of a sensor's errors in a recording. A value is absent where the recording cannot tell it: all that
+/// begins with an error needs a twin, ratios need to know where the sensor stands.
 struct SensorStatistics {
   using ByGroup = std::array<std::optional<double>, kJointGroupCount>;
 
@@ -26,16 +28,43 @@ struct SensorStatistics {
   std::optional<double> hand_jump_cm;  ///< 99th percentile of the hands' second differences
 };
 
-/// The statistics of one recording; `match` may be null. Errors of a group are pooled over its joints, correlations
-/// over both sides of the body. The quiet part is the middle length of the torso joints' second differences over three
-/// frames, where the joint moves less than 5 mm in ten frames, as the deviation of white noise that would show it:
-/// smooth motion and slow errors hardly enter.
+/// Computes the statistics of one recording; `match` may be null. Errors of a group are pooled over its joints,
+/// correlations over both sides of the body. The quiet part is the middle length of the torso joints' second
+/// differences over three frames, where the joint moves less than 5 mm in ten frames, as the deviation of white noise
+/// that would show it: smooth motion and slow errors hardly enter.
 SensorStatistics StatisticsOf(const JointRecording& recording, const TwinMatch* match);
 
-/// Of many recordings: each statistic's mean, and its deviation from one recording to the next.
+/// A summary of many recordings: each statistic's mean, and its deviation from one recording to the next.
 struct SensorStatisticsSummary {
   SensorStatistics mean, deviation;
 };
 SensorStatisticsSummary Summarise(const std::vector<SensorStatistics>& recordings);
+
+/// The way in which two values of a statistic are compared.
+enum class HeldBy { kRatio, kDifference };
+
+struct StatisticRow {
+  std::string name;
+  std::string unit;
+  HeldBy held_by;
+  std::optional<double> value;
+};
+
+/// Returns the rows of a table of statistics, in order.
+std::vector<StatisticRow> RowsOf(const SensorStatistics& statistics);
+
+/// The tolerances of a simulation: sizes within 30 % of real ones, correlations within 0.15.
+constexpr double kSizeTolerance = 0.30, kCorrelationTolerance = 0.15;
+
+/// The number of rows that both columns have, and of those among them that lie within the tolerances.
+struct Agreement {
+  int within = 0;
+  int compared = 0;
+};
+Agreement AgreementOf(const SensorStatistics& reference, const SensorStatistics& other);
+
+/// Writes a table for people, a line per statistic and a column per recording, "-" for what one cannot tell. With
+/// `compares`, the second column is held against the first: its ratio or difference, "!" where out of tolerance.
+std::string StatisticsTable(const std::vector<std::pair<std::string, SensorStatistics>>& columns, bool compares);
 
 }  // namespace etude

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,29 +27,29 @@ struct NamedStream {
 Result<std::vector<NamedStream>> LoadStream(const std::string& reference, const StreamReading& reading,
                                             const StreamOptions& options);
 
-/// Clips as recordings of a sensor without errors.
+/// Makes recordings of clips, as a sensor without errors would.
 std::vector<NamedStream> StreamsOf(const ClipLibrary& library);
 
-/// All recordings of files, patterns and folders (with all below, sorted).
+/// The recordings of files, patterns and folders (with all below, sorted).
 struct LoadedStreams {
   std::vector<NamedStream> streams;
   std::vector<Error> refused;  ///< files of folders and patterns that could not be read; those named alone fail
   int passed_over = 0;         ///< files of folders that are no recordings
 };
-/// Fails when nothing is left.
+/// Loads recordings; fails when there is none.
 Result<LoadedStreams> LoadStreams(const std::vector<std::string>& references, const StreamReading& reading,
                                   const StreamOptions& options);
 
-/// Who was recorded, as file names of known sets have it: NTU's "P003" of "S001C002P003R002A013", MSRC-12's "p06" of
-/// "P1_1_1_p06", UTKinect's "s01" of "joints_s01_e02". Else "".
+/// Returns who was recorded, as file names of known sets have it: NTU's "P003" of "S001C002P003R002A013", MSRC-12's
+/// "p06" of "P1_1_1_p06", UTKinect's "s01" of "joints_s01_e02"; else "".
 std::string PersonInName(std::string_view name);
 
-/// The files of labels that a path means: itself, or, of a folder, all tag streams in it.
+/// Returns the files of labels that a path means: itself, or, of a folder, all tag streams in it.
 Result<std::vector<std::string>> LabelFiles(const std::string& path);
-/// Labels of a file, or of all tag streams of a folder.
+/// Loads the labels of a file, or of all tag streams of a folder.
 Result<std::vector<Label>> LoadLabels(const std::string& path);
 
-/// One performance, cut out of its recording.
+/// A performance within its recording.
 struct LabelledPart {
   std::size_t stream = 0;  ///< index
   std::string move, fault, person;
@@ -59,16 +60,41 @@ struct LabelledPart {
   bool IsRight() const { return fault.empty(); }
 };
 
-/// What the labels mean in these streams, in the order of the streams, then of time. A label of another recording is
-/// left out. Refused, with the label's line: times outside the recording by more than half a second; no label of any
+/// Finds what the labels mean in these streams, in the order of the streams, then of time. A label of another recording
+/// is left out. Refused, with the label's line: times outside the recording by more than half a second; no label of any
 /// recording.
 Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, const std::string& file,
                                               const std::vector<NamedStream>& streams);
 
-/// Without labels one file is one move, performed right, called by the file's name; of NTU's by its action ("A013").
+/// Takes each stream without labels for one move, performed right and called by the file's name; of NTU's by its action
+/// ("A013").
 std::vector<LabelledPart> WholeStreams(const std::vector<NamedStream>& streams);
 
-/// The frames [begin, end) alone.
+/// Returns the frames [begin, end) alone.
 SkeletonStream PartOf(const SkeletonStream& stream, int begin, int end);
+
+/// A person of a set, with all that was recorded of them.
+struct RecordedPerson {
+  std::string name;
+  std::vector<std::size_t> streams;  ///< indices
+};
+
+/// Recordings, who is in them, and what was done there.
+struct LabelledStreams {
+  std::string file;  ///< of the labels, for complaints; the recordings' where there are none
+  std::vector<NamedStream> streams;
+  std::vector<LabelledPart> parts;     ///< in the order of the streams, then of time
+  std::vector<RecordedPerson> people;  ///< by name
+  std::vector<std::string> moves;      ///< all that labels name, sorted
+  std::string nobody;                  ///< a recording of which nothing says who is in it; "" = there is none
+};
+
+/// The texts of label files, by path.
+using LabelTexts = std::map<std::string, std::string>;
+
+/// Puts labels and recordings together; without labels one recording is one performance (WholeStreams). A recording
+/// without a label shows nothing that was asked for. Who is in it: its labels say, else its file's name, else it is
+/// somebody of its own. Refused as ReadLabels and MatchLabels do; a recording whose labels name two people.
+Result<LabelledStreams> LabelStreams(std::vector<NamedStream> streams, const LabelTexts& labels);
 
 }  // namespace etude

@@ -17,7 +17,7 @@ Result<std::vector<TaughtMove>> TeachMoves(const std::vector<NamedStream>& strea
                                            const std::vector<LabelledPart>& parts,
                                            const std::function<bool(const LabelledPart&)>& takes, bool is_strict);
 
-/// Parts whose action points became performances as above; the others as they are.
+/// Returns the parts with action points turned into performances as above; the others stay as they are.
 std::vector<LabelledPart> PerformancesOf(const std::vector<LabelledPart>& parts,
                                          const std::vector<NamedStream>& streams);
 

@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// How streams are watched.
+/// The options with which streams are watched.
 struct WatchOptions {
   RecogniserOptions recogniser;
   FilterOptions filter;
@@ -30,7 +30,7 @@ class StreamWatcher {
  public:
   StreamWatcher(const Recogniser& recogniser, std::size_t moves, const WatchOptions& options, double rate_hz);
 
-  /// What was spotted in the next frame.
+  /// Takes the next frame and returns what was spotted in it.
   std::vector<Spotting> Take(const SensedFrame& frame);
 
  private:
@@ -40,16 +40,16 @@ class StreamWatcher {
   int frame_ = 0;
 };
 
-/// All of a recorded stream.
+/// Watches all of a recorded stream.
 std::vector<Spotting> Watch(const SkeletonStream& stream, const Recogniser& recogniser, std::size_t moves,
                             const WatchOptions& options);
 
-/// Which move the frames [begin, end) show most: the one whose evidence rises highest in them, looked at as if they
-/// were all there is. Nothing when none has any.
+/// Finds the move that the frames [begin, end) show most: the one whose evidence rises highest in them, looked at as if
+/// they were all there is. Returns nothing when none has any.
 std::optional<std::size_t> Classify(const SeenStream& seen, int begin, int end, const Recogniser& recogniser,
                                     std::size_t moves);
 
-/// How right the move looks when it is asked for in the frames [begin, end), in [0, 1].
+/// Returns how right the move looks when it is asked for in the frames [begin, end), in [0, 1].
 double JudgeAsked(const SeenStream& seen, int begin, int end, const Recogniser& recogniser, std::size_t move);
 
 }  // namespace etude

@@ -2,20 +2,24 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
+
+#include "engine/fuzzy/membership.h"
+#include "engine/fuzzy/weights.h"
 
 namespace etude {
 
 /// A genome: genes in [0, 1].
 using Genome = std::vector<double>;
 
-/// How long and how widely to search. The defaults are where more of either no longer changed what was learnt.
+/// The length and width of the search. At the defaults, more of either no longer changed what was learnt.
 struct GeneticOptions {
   int population = 40;
   int generations = 60;
   std::uint64_t seed = 1;
-  /// Told after every generation: how many there have been, and the best score so far.
+  /// Called after every generation with the number of generations and the best score so far.
   std::function<void(int generation, double best)> progress = {};
 };
 
@@ -25,11 +29,40 @@ struct GeneticResult {
   int generations = 0;
 };
 
-/// A genetic algorithm (Holland; Pagmo's `sga`: tournaments of 2, binomial crossover, Gaussian mutation, the best of
-/// parents and children survive). Looks for the genome of the highest `score`, which must be finite and depend on
-/// the genome alone. The first population is `ancestors` (at least one, all of the same length), then random ones; so
-/// the answer scores no less than any ancestor. The same seed gives the same answer.
+/// Searches by a genetic algorithm (Holland; Pagmo's `sga`: tournaments of 2, binomial crossover, Gaussian mutation,
+/// the best of parents and children survive). It looks for the genome of the highest `score`, which must be finite and
+/// depend on the genome alone. The first population is `ancestors` (at least one, all of the same length), then random
+/// ones; so the answer scores no less than any ancestor. The same seed gives the same answer.
 GeneticResult SearchGenetically(const std::function<double(std::span<const double>)>& score,
                                 std::span<const Genome> ancestors, const GeneticOptions& options = {});
+
+/// The share of d² = 0.4² within which the genetic algorithms count a pair as let through in part (PairTable::SoftF1).
+/// Close pairs are so few that F1 itself moves in steps of single pairs: a search by it learns those by heart, and does
+/// worse on other clips.
+constexpr double kFitnessRamp = 0.5;
+
+/// Fits the `genetic` weights (paper A's future work; how is ours): the S ≥ 0 of sum 8 by which "d < 0.4" tells the
+/// close pairs best, by their soft F1. The first ancestor is `start`, so that what is learnt does no worse on what it
+/// saw. Status as of FitWeights, `iterations` counts generations; unless kFitted, the weights are `start`.
+WeightFit FitWeightsGenetically(std::span<const LabelledPair> pairs, const FeatureWeights& start,
+                                const GeneticOptions& options = {});
+
+/// Returns the weights that genes in [0, 1] stand for: their squares' proportions, with sum 8. A gene is a √S, by which
+/// equation 1 stretches a difference of grades; so weights near zero are found, too. Nothing when all genes are zero.
+std::optional<FeatureWeights> WeightsOfGenes(std::span<const double> genes);
+/// Returns the genes of weights of which at least one is above zero.
+Genome GenesOf(const FeatureWeights& weights);
+
+/// The largest move of a breakpoint, as a share of its feature's universe.
+constexpr double kBreakpointReach = 0.2;
+
+/// Returns the number of genes of the memberships: one per breakpoint within the universe of the triangular and
+/// trapezoidal shapes. Breakpoints at its ends stay there, so that shoulders stay shoulders; left and right limbs share
+/// theirs; Gaussian and singleton shapes stay as they are.
+std::size_t CountMembershipGenes(const Memberships& start);
+
+/// Returns the memberships that genes in [0, 1] stand for: every breakpoint of `start` moved by (2 gene − 1) reaches,
+/// and each shape's put back into rising order. All genes ½ is `start`.
+Memberships MembershipsOfGenes(const Memberships& start, std::span<const double> genes);
 
 }  // namespace etude

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "bench/training/genetic_weights.h"
+#include "bench/training/genetic_search.h"
 #include "engine/base/named.h"
 
 namespace etude {

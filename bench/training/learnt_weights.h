@@ -6,36 +6,35 @@
 #include <tuple>
 #include <vector>
 
-#include "bench/training/training_clips.h"
 #include "bench/training/training_pairs.h"
 #include "engine/fuzzy/fuzzy_system.h"
 
 namespace etude {
 
-/// Where S of equation 1 comes from.
+/// The source of S in equation 1.
 enum class WeightSource {
   kFixed,     ///< the fuzzy system's own, paper A's unless a file says otherwise
   kAdaptive,  ///< a logistic regression (engine/fuzzy/weights.h)
-  kGenetic,   ///< a genetic algorithm (genetic_weights.h)
+  kGenetic,   ///< a genetic algorithm (genetic_search.h)
 };
 
-/// "fixed", "adaptive", "genetic".
+/// Returns the names "fixed", "adaptive", "genetic".
 std::vector<std::string> WeightSourceNames();
-/// `name` must be one of them.
+/// Returns the source of a name, which must be one of them.
 WeightSource FindWeightSource(std::string_view name);
 
 /// The weights of each pair of judged clips, learnt from all other clips: a weight never saw what it is judged by.
-/// Remembers what it has learnt, because trials meet the same pairs again; what it answers depends on the question
-/// alone, so any number of workers gives the same.
+/// Keeps what it has learnt, because trials meet the same pairs again; an answer depends on the question alone, so any
+/// number of workers gives the same.
 class LearntWeights {
  public:
   explicit LearntWeights(TrainingClips training, const FuzzySystem& system = {});
 
-  /// The weights of `source` for a transition between clips of these identities, in either order; the system's own
-  /// where nothing could be learnt.
+  /// Returns the weights of `source` for a transition between clips of these identities, in either order; the system's
+  /// own where nothing could be learnt.
   const FeatureWeights& For(WeightSource source, const std::string& judged_a, const std::string& judged_b);
 
-  /// How the learning went; `source` is not kFixed.
+  /// Returns the fit behind those weights; `source` is not kFixed.
   const WeightFit& FitOf(WeightSource source, const std::string& judged_a, const std::string& judged_b);
 
  private:

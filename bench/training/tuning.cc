@@ -3,8 +3,7 @@
 #include <algorithm>
 
 #include "bench/metrics/detection.h"
-#include "bench/training/genetic_weights.h"
-#include "bench/training/membership_genes.h"
+#include "bench/training/genetic_search.h"
 #include "bench/training/training_pairs.h"
 
 namespace etude {

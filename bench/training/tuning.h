@@ -5,18 +5,17 @@
 #include <vector>
 
 #include "bench/training/genetic_search.h"
-#include "bench/training/match_score.h"
-#include "bench/training/training_clips.h"
+#include "bench/training/training_pairs.h"
 #include "engine/fuzzy/fuzzy_system.h"
 
 namespace etude {
 
 using ClipFrames = std::span<const std::vector<TrainingFrame>>;
 
-/// What is learnt, and how.
+/// The part of the system that is learnt, and the method.
 enum class Tuning {
   kAdaptive,            ///< the weights, by logistic regression (engine/fuzzy/weights.h)
-  kGenetic,             ///< the weights, by the genetic algorithm (genetic_weights.h)
+  kGenetic,             ///< the weights, by the genetic algorithm (genetic_search.h)
   kGeneticMemberships,  ///< weights and breakpoints of the membership functions together, by the same
 };
 
@@ -27,11 +26,11 @@ struct TunedSystem {
   int generations = 0;  ///< or Newton steps
 };
 
-/// Paper A's fuzzy system tuned so that "d < 0.4" tells the close pairs of these clips (paper A names this as future
-/// work; how is ours). `genetic` is of no use to kAdaptive.
+/// Tunes paper A's fuzzy system so that "d < 0.4" tells the close pairs of these clips (paper A names this as future
+/// work; how is ours). `genetic` has no effect on kAdaptive.
 TunedSystem TuneSystem(ClipFrames clips, Tuning tuning, const GeneticOptions& genetic = {});
 
-/// How well a system tells the pairs of these clips.
+/// The score of a system that tells close pairs of clips from others.
 struct SystemScore {
   MatchScore at_threshold;    ///< of 0.4
   std::optional<double> auc;  ///< whatever the threshold; nothing when all pairs are close, or none is

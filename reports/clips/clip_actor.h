@@ -6,8 +6,8 @@
 #include "bench/clips/open_clip.h"
 #include "engine/motion/body.h"
 #include "engine/motion/character.h"
-#include "sim/character/recorded_figure.h"
-#include "sim/render/renderer.h"
+#include "sim/character/posed.h"
+#include "sim/render/scene.h"
 
 namespace etude {
 

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "bench/clips/clip_file.h"
 #include "bench/clips/open_clip.h"
 #include "engine/base/result.h"
 #include "engine/motion/statistics.h"

@@ -6,7 +6,7 @@
 #include "bench/films/encoder.h"
 #include "engine/formats/wav.h"
 #include "reports/films/look.h"
-#include "sim/music/click_track.h"
+#include "sim/music/music.h"
 
 namespace etude {
 namespace {

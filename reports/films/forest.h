@@ -1,7 +1,7 @@
 #pragma once
 
 #include "engine/motion/body.h"
-#include "sim/render/renderer.h"
+#include "sim/render/scene.h"
 
 namespace etude {
 

@@ -1,6 +1,9 @@
 #include "sim/annotator/annotator.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <optional>
 
@@ -8,6 +11,51 @@ namespace etude {
 namespace {
 
 using enum Role;
+
+constexpr double kHeadDeviation = 0.035, kShoulderDeviation = 0.079, kElbowDeviation = 0.072, kWristDeviation = 0.062,
+                 kFingerDeviation = 0.026, kHipDeviation = 0.107, kKneeDeviation = 0.087, kAnkleDeviation = 0.089,
+                 kToeDeviation = 0.068;
+
+// Hip centre and spine are never marked.
+constexpr std::array<double, kRoleCount> kDeviations = {
+    0,
+    0,
+    kShoulderDeviation,
+    kHeadDeviation,
+    kShoulderDeviation,
+    kElbowDeviation,
+    kWristDeviation,
+    kFingerDeviation,
+    kShoulderDeviation,
+    kElbowDeviation,
+    kWristDeviation,
+    kFingerDeviation,
+    kHipDeviation,
+    kKneeDeviation,
+    kAnkleDeviation,
+    kToeDeviation,
+    kHipDeviation,
+    kKneeDeviation,
+    kAnkleDeviation,
+    kToeDeviation,
+};
+
+constexpr std::array<double, kRoleCount> kRelative = [] {
+  double sum = 0;
+  int count = 0;
+  for (const double deviation : kDeviations) {
+    sum += deviation;
+    count += deviation > 0;
+  }
+  std::array<double, kRoleCount> relative{};
+  for (std::size_t i = 0; i < kRoleCount; ++i) relative[i] = kDeviations[i] * count / sum;
+  return relative;
+}();
+
+glm::dvec2 Normal2(RandomStream& random) {
+  const double u = random.Normal();
+  return {u, random.Normal()};
+}
 
 constexpr double kUsualErrorPx = 2;  // that probabilities and shares are given for
 
@@ -55,16 +103,16 @@ void Exchange(const Pair& pair, PictureEvidence& seen) {
   }
 }
 
-/// Where this picture's marks are put, joint by joint.
-class ErringHand {
+/// The errors of this picture's marks, joint by joint.
+class PictureErrors {
  public:
-  ErringHand(const PersonErrors& errors, const std::array<glm::dvec2, kRoleCount>& bias, const PictureDice& dice,
-             const PictureEvidence& seen)
+  PictureErrors(const PersonErrors& errors, const std::array<glm::dvec2, kRoleCount>& bias, const PictureDice& dice,
+                const PictureEvidence& seen)
       : errors_(errors), bias_(bias), dice_(dice), seen_(seen) {
-    LookAtLimbs();
+    MeasureLimbs();
   }
 
-  /// By how much a mark misses the joint centre, pixels.
+  /// Returns by how much a mark misses the joint centre, pixels.
   glm::dvec2 ErrorAt(Role role) const {
     const std::size_t i = Index(role);
     const glm::dvec2 along = along_[i], across(-along.y, along.x);
@@ -78,7 +126,7 @@ class ErringHand {
     return dice_.miss[stroke] < Strength() * MissProbability(*seen_.limbs[stroke]);
   }
 
-  /// Between the marked ends, and perhaps too short.
+  /// Returns the stroke between the marked ends, perhaps too short.
   PixelSegment Stroke(std::size_t i) const {
     const PixelSegment& line = seen_.limbs[i]->line;
     const glm::dvec2 a = line.a + ErrorAt(StrokeMarks()[i].from), b = line.b + ErrorAt(StrokeMarks()[i].to);
@@ -91,7 +139,7 @@ class ErringHand {
   double Strength() const { return errors_.error_px / kUsualErrorPx; }
 
   // A joint's bias lies along the limb beyond it, else along the one before it; it is as unclear as the less clear one.
-  void LookAtLimbs() {
+  void MeasureLimbs() {
     along_.fill({0, 1});
     for (std::size_t i = kStrokeCount; i-- > 0;) {
       if (!seen_.limbs[i]) continue;
@@ -121,11 +169,45 @@ std::size_t StrokeTo(Role role) {
 
 }  // namespace
 
+const std::array<double, kRoleCount>& RelativeDeviations() { return kRelative; }
+
+double Unclearness(double contrast) {
+  constexpr double kHalf = 20;
+  return 1 / (1 + contrast * contrast / (kHalf * kHalf));
+}
+
+double MissProbability(const LimbEvidence& limb) {
+  constexpr double kAlways = 0.002, kHidden = 0.1, kUnclear = 0.03;
+  const double hidden = 1 - limb.seen_share;
+  return kAlways + kHidden * hidden * hidden + kUnclear * Unclearness(limb.contrast);
+}
+
+AnnotatorDice::AnnotatorDice(const WorldKey& key, int annotator, int camera)
+    : key_(key), purpose_(fmt::format("annotator-{}/camera-{}", annotator, camera)) {
+  RandomStream random(key, fmt::format("annotator-{}/bias", annotator));
+  for (glm::dvec2& joint : bias_) joint = Normal2(random);
+}
+
+const PictureDice& AnnotatorDice::Throw(int frame) {
+  assert(frame > last_frame_);
+  RandomStream random(key_, fmt::format("{}/{}", purpose_, frame));
+  const double kept = last_frame_ < 0 ? 0 : std::exp((last_frame_ - frame) / kLastingFrames);
+  const double renewed = std::sqrt(1 - kept * kept);
+  for (glm::dvec2& joint : dice_.lasting) joint = kept * joint + renewed * Normal2(random);
+  for (glm::dvec2& joint : dice_.independent) joint = Normal2(random);
+  for (glm::dvec2& stroke : dice_.shortness) stroke = Normal2(random);
+  for (double& stroke : dice_.miss) stroke = random.Uniform();
+  for (double& limbs : dice_.swap_begins) limbs = random.Uniform();
+  for (double& limbs : dice_.swap_lasts) limbs = random.Uniform();
+  last_frame_ = frame;
+  return dice_;
+}
+
 Annotator::Annotator(const PersonErrors& errors, const EvidenceOptions& eye, const WorldKey& key, int annotator,
                      int camera)
     : errors_(errors), eye_(eye), dice_(key, annotator, camera) {}
 
-void Annotator::Mistake(const PictureDice& dice, PictureEvidence& seen) {
+void Annotator::SwapSides(const PictureDice& dice, PictureEvidence& seen) {
   const double strength = errors_.error_px / kUsualErrorPx;
   for (std::size_t i = 0; i < kPairs.size(); ++i) {
     const double begins = strength * (kSwapProbability + kOverlapSwapProbability * Overlap(seen, kPairs[i]));
@@ -142,19 +224,19 @@ void Annotator::Mistake(const PictureDice& dice, PictureEvidence& seen) {
 Marks Annotator::Mark(int frame, const AnnotatedPicture& picture) {
   const PictureDice& dice = dice_.Throw(frame);
   PictureEvidence seen = SeePicture(picture, eye_);
-  Mistake(dice, seen);
-  const ErringHand hand(errors_, dice_.bias(), dice, seen);
+  SwapSides(dice, seen);
+  const PictureErrors errors(errors_, dice_.bias(), dice, seen);
   Marks marks;
   std::array<bool, kStrokeCount> overlooked{};
   for (std::size_t i = 0; i < kStrokeCount; ++i) {
     if (!seen.limbs[i]) continue;
-    overlooked[i] = hand.Overlooks(i);
-    if (!overlooked[i]) marks.strokes[i] = hand.Stroke(i);
+    overlooked[i] = errors.Overlooks(i);
+    if (!overlooked[i]) marks.strokes[i] = errors.Stroke(i);
   }
   for (std::size_t i = 0; i < kEffectorCount; ++i) {
     const Role role = EffectorMarks()[i].role;
     const auto& joint = seen.joints[Index(role)];
-    if (joint && !overlooked[StrokeTo(role)]) marks.effectors[i] = *joint + hand.ErrorAt(role);
+    if (joint && !overlooked[StrokeTo(role)]) marks.effectors[i] = *joint + errors.ErrorAt(role);
   }
   return marks;
 }

@@ -7,7 +7,8 @@
 
 namespace etude {
 
-/// The annotation picture that shows these marks (engine/vision/strokes.h): on black, strokes first, discs over them.
+/// Returns the annotation picture that shows these marks (engine/vision/strokes.h): on black, strokes first, discs over
+/// them.
 ColourImage DrawMarks(const Marks& marks, int width, int height);
 
 /// Draws one stroke from a to b, the second half in the second shade. Parts outside are cut off.

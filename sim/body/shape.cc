@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace etude {
 namespace {
@@ -134,7 +135,7 @@ void AddHead(const BodyPose& pose, std::vector<Capsule>& body) {
   body.push_back({Part::kHead, middle - half, middle + half, kHeadPerTrunk * trunk});
 }
 
-/// The smaller root of t² + 2bt + c = 0 when the ray enters from outside, else infinity.
+/// Returns the smaller root of t² + 2bt + c = 0 when the ray enters from outside, else infinity.
 double EntryRoot(double b, double c) {
   const double discriminant = b * b - c;
   if (discriminant < 0) return kInfinity;
@@ -155,7 +156,7 @@ bool IsInside(const Capsule& capsule, const glm::dvec3& point) {
   return glm::dot(off, off) <= capsule.radius * capsule.radius;
 }
 
-/// Whether the ray misses the sphere around the whole capsule, by so much that rounding cannot matter: most do.
+/// Tells whether the ray misses the sphere around the whole capsule by so much that rounding cannot matter, as most do.
 bool PassesBy(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction) {
   constexpr double kAir = 1e-6;  // metres
   const glm::dvec3 from = origin - 0.5 * (capsule.a + capsule.b);
@@ -164,7 +165,7 @@ bool PassesBy(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3
   return outside > 0 && (along > 0 || along * along < outside);
 }
 
-/// Where the ray enters the round side of the capsule, its half-spheres aside.
+/// Returns where the ray enters the round side of the capsule, its half-spheres aside.
 double SideEntry(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction) {
   const glm::dvec3 axis = capsule.b - capsule.a;
   const double length = glm::length(axis);
@@ -180,6 +181,11 @@ double SideEntry(const Capsule& capsule, const glm::dvec3& origin, const glm::dv
                              (glm::dot(from_across, from_across) - capsule.radius * capsule.radius) / scale);
   const double along = glm::dot(from + t * direction, unit);
   return t < kInfinity && along >= 0 && along <= length ? t : kInfinity;
+}
+
+// From the world's axes to the box's.
+glm::dvec3 Turned(const glm::dvec3& v, double sine, double cosine) {
+  return {cosine * v.x - sine * v.z, v.y, sine * v.x + cosine * v.z};
 }
 
 }  // namespace
@@ -221,6 +227,25 @@ JointSight SightOf(const std::vector<Capsule>& body, const BodyPose& pose, Role 
 bool IsHidden(const std::vector<Capsule>& body, const BodyPose& pose, Role role, const glm::dvec3& eye) {
   const JointSight sight = SightOf(body, pose, role, eye);
   return sight.other < sight.skin - kHidingClearance;
+}
+
+double HitDistance(const Cuboid& box, const glm::dvec3& origin, const glm::dvec3& direction) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double sine = std::sin(box.heading), cosine = std::cos(box.heading);
+  const glm::dvec3 from = Turned(origin - box.centre, sine, cosine), along = Turned(direction, sine, cosine);
+  double enter = 0, leave = kInfinity;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (along[axis] == 0) {
+      if (std::abs(from[axis]) > box.half_size[axis]) return kInfinity;
+      continue;
+    }
+    double near = (-box.half_size[axis] - from[axis]) / along[axis];
+    double far = (box.half_size[axis] - from[axis]) / along[axis];
+    if (near > far) std::swap(near, far);
+    enter = std::max(enter, near);
+    leave = std::min(leave, far);
+  }
+  return enter <= leave ? enter : kInfinity;
 }
 
 }  // namespace etude

@@ -8,7 +8,8 @@
 
 namespace etude {
 
-/// What a pixel or a ray can meet, as numbers in label images: the parts of the performer's body, and what else is there.
+/// The things that a pixel or a ray can meet, by their numbers in label images: the parts of the performer's body, and
+/// what else is there.
 enum class Part : std::uint32_t {
   kBackground = 0,
   kShadow = 1,
@@ -33,7 +34,7 @@ enum class Part : std::uint32_t {
 constexpr std::uint32_t kFirstBodyPart = 2;
 constexpr std::uint32_t kPartCount = 16;
 
-/// Whether a number in a label image is a part of the performer's body: what truth masks hold.
+/// Tells whether a number in a label image is a part of the performer's body, which truth masks hold.
 constexpr bool IsPerformer(std::uint32_t label) {
   return label >= kFirstBodyPart && label <= static_cast<std::uint32_t>(Part::kRightFoot);
 }
@@ -46,27 +47,39 @@ struct Capsule {
   double radius;
 };
 
-/// The flesh around a pose: the one shape that the renderer draws, the depth sensor measures and
-/// occlusion is decided by. Radii scale with the body's own limb lengths.
+/// Returns the flesh around a pose: the one shape that the renderer draws, the depth sensor measures and occlusion is
+/// decided by. Radii scale with the body's own limb lengths.
 std::vector<Capsule> BodyCapsules(const BodyPose& pose);
 
-/// The distance along the ray (unit direction) to the first surface met, or infinity. A ray that
-/// starts inside the capsule meets it at 0.
+/// Returns the distance along the ray (unit direction) to the first surface met, or infinity. A ray that starts inside
+/// the capsule meets it at 0.
 double HitDistance(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction);
 
-/// What a ray from an eye to a joint meets, as distances from the eye; infinity where it meets nothing.
+/// The distances from an eye at which a ray to a joint meets flesh; infinity where it meets nothing.
 struct JointSight {
   double skin;   ///< the joint's own skin: of the parts that end in it, or the joint itself
   double other;  ///< the nearest of the other parts
 };
-/// `body` is `BodyCapsules(pose)`.
+/// Follows the ray from `eye` to the joint of `role`. `body` is `BodyCapsules(pose)`.
 JointSight SightOf(const std::vector<Capsule>& body, const BodyPose& pose, Role role, const glm::dvec3& eye);
 
-/// What touches hides nothing (a hand on the hip): what hides a joint stands clearly before its skin, metres.
+/// The least distance before a joint's skin at which flesh hides it, metres: what touches hides nothing, as a hand on
+/// the hip.
 constexpr double kHidingClearance = 0.02;
 
-/// Whether a part other than those ending in `role` stands between `eye` and the joint: clearly before the skin that
-/// the eye would see there. `body` is `BodyCapsules(pose)`.
+/// Tells whether a part other than those ending in `role` stands between `eye` and the joint: clearly before the skin
+/// that the eye would see there. `body` is `BodyCapsules(pose)`.
 bool IsHidden(const std::vector<Capsule>& body, const BodyPose& pose, Role role, const glm::dvec3& eye);
+
+/// A solid box that stands upright, turned about the vertical: furniture, as far as rays and pictures need it. Metres.
+struct Cuboid {
+  glm::dvec3 centre{0};
+  glm::dvec3 half_size{0.5};  ///< along its own axes, each positive
+  double heading = 0;         ///< radians: its own +Z points to (sin heading, 0, cos heading)
+};
+
+/// Returns the distance along the ray (unit direction) to the box's surface, or infinity. A ray that starts inside
+/// meets it at 0.
+double HitDistance(const Cuboid& box, const glm::dvec3& origin, const glm::dvec3& direction);
 
 }  // namespace etude

@@ -3,22 +3,51 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/cameras/camera.h"
-#include "sim/camera/bayer.h"
 #include "sim/camera/camera_effects.h"
-#include "sim/camera/defocus.h"
-#include "sim/camera/exposure.h"
 #include "sim/camera/lens.h"
-#include "sim/camera/sensor_noise.h"
-#include "sim/camera/shutter.h"
-#include "sim/camera/vignette.h"
+#include "sim/camera/sensor.h"
 #include "sim/random/stream.h"
-#include "sim/render/renderer.h"
+#include "sim/render/scene.h"
 
 namespace etude {
 
-/// Which camera of a world this is: what its dice are keyed by.
+/// The shutter says when a camera takes its pictures. Times are in frames of the reference clock, as is the truth:
+/// frame k of a faultless camera is taken at k.
+class Shutter {
+ public:
+  /// @param is_reference the camera whose clock is right; the others' offset and drift have a sign by throws, their
+  ///        size is the effect's
+  Shutter(const CameraEffects& effects, double rate_hz, bool is_reference, RandomStream& random);
+
+  /// Returns the time at which the middle row of the camera's own frame k is taken: k (1 + drift) + offset.
+  double TimeOf(std::size_t frame) const;
+
+  /// A band of rows that are taken at one time.
+  struct Band {
+    RowRange rows;
+    double time = 0;
+  };
+  /// Returns the bands of a frame. A rolling shutter reads row after row, from the top; it is drawn in kBands bands,
+  /// each at the time of its middle; without one there is a single band.
+  std::vector<Band> BandsOf(std::size_t frame, int height) const;
+  static constexpr int kBands = 8;
+
+  /// Returns the times, while the shutter is open, whose pictures are averaged: kSubframes of them, evenly spread about
+  /// the band's; one without motion blur.
+  std::vector<double> SubframesOf(const Band& band) const;
+  static constexpr int kSubframes = 9;
+
+ private:
+  double offset_ = 0;    ///< frames
+  double drift_ = 0;     ///< frames per frame
+  double read_out_ = 0;  ///< frames from the first row to the last
+  double open_ = 0;      ///< frames
+};
+
+/// The identity of a camera within its world, which keys its dice.
 struct CameraIdentity {
   WorldKey world;
   std::string name;          ///< "capture/camera-0": its purposes begin so
@@ -29,22 +58,22 @@ struct CameraIdentity {
 /// meets them (README.md). Not thread-safe: it reuses its buffers.
 class CameraModel {
  public:
-  /// What a faultless pinhole (`pinhole()`) would see in some rows, at a time told in frames of the reference clock:
-  /// a view as high as there are rows.
+  /// Draws what a faultless pinhole (`pinhole()`) would see in some rows, at a time in frames of the reference clock,
+  /// as a view as high as there are rows.
   using Scene = std::function<View(double frame, const RowRange& rows, Targets targets)>;
 
   /// @param camera with its distortion (LensDistortion); `effects` has the rest
   CameraModel(const Camera& camera, const CameraEffects& effects, double rate_hz, CameraIdentity identity);
 
-  /// The camera that scenes are drawn for: without distortion, with a margin for it.
+  /// Returns the camera that scenes are drawn for: without distortion, with a margin for it.
   const Camera& pinhole() const { return lens_.pinhole(); }
   const Shutter& shutter() const { return shutter_; }
 
-  /// The camera's own frame k. Labels and depth, if asked for, are those of the light on each pixel's middle, in the
-  /// middle of the exposure: free of blur, noise and dust.
+  /// Takes the camera's own frame k. Labels and depth, if asked for, are those of the light on each pixel's middle, in
+  /// the middle of the exposure: free of blur, noise and dust.
   View Shoot(std::size_t frame, const Scene& scene, Targets targets);
 
-  /// The empty stage, at the beginning; with dice of its own.
+  /// Takes a picture of the empty stage at the beginning, with dice of its own.
   ColourImage ShootBackground(const Scene& scene);
 
  private:

@@ -21,31 +21,31 @@ JSAMPROW RowOf(const ColourImage& picture, JDIMENSION y) {
 }
 
 // libjpeg knows no other way out of a damaged file.
-struct Complaint {
+struct JpegError {
   jpeg_error_mgr errors;  // first: libjpeg knows this part only
   std::jmp_buf way_out;
   std::array<char, JMSG_LENGTH_MAX> words;
 };
 
-void LeaveWith(j_common_ptr job) {
-  auto* complaint = reinterpret_cast<Complaint*>(job->err);
-  job->err->format_message(job, complaint->words.data());
-  std::longjmp(complaint->way_out, 1);
+void JumpOut(j_common_ptr job) {
+  auto* jpeg_error = reinterpret_cast<JpegError*>(job->err);
+  job->err->format_message(job, jpeg_error->words.data());
+  std::longjmp(jpeg_error->way_out, 1);
 }
 
 // Warnings tell of damage, too; traces (levels from 0) do not.
-void LeaveWithWarning(j_common_ptr job, int level) {
-  if (level < 0) LeaveWith(job);
+void JumpOnWarning(j_common_ptr job, int level) {
+  if (level < 0) JumpOut(job);
 }
 
-// The size, or with `picture` its pixels, too: false when the file is damaged, as `complaint` says. No object here has
+// The size, or with `picture` its pixels, too: false when the file is damaged, as `jpeg_error` says. No object here has
 // a destructor, so that a jump leaves nothing behind.
-bool DecodeAnybodys(std::string_view jpeg, Complaint& complaint, jpeg_decompress_struct& job, ColourImage* picture) {
-  job.err = jpeg_std_error(&complaint.errors);
-  complaint.errors.error_exit = LeaveWith;
-  complaint.errors.emit_message = LeaveWithWarning;
+bool DecodeUntrusted(std::string_view jpeg, JpegError& jpeg_error, jpeg_decompress_struct& job, ColourImage* picture) {
+  job.err = jpeg_std_error(&jpeg_error.errors);
+  jpeg_error.errors.error_exit = JumpOut;
+  jpeg_error.errors.emit_message = JumpOnWarning;
   jpeg_create_decompress(&job);
-  if (setjmp(complaint.way_out) != 0) return false;
+  if (setjmp(jpeg_error.way_out) != 0) return false;
   jpeg_mem_src(&job, reinterpret_cast<const unsigned char*>(jpeg.data()), jpeg.size());
   jpeg_read_header(&job, TRUE);
   if (picture == nullptr) return true;
@@ -63,9 +63,9 @@ bool DecodeAnybodys(std::string_view jpeg, Complaint& complaint, jpeg_decompress
 }  // namespace
 
 Result<ColourImage> ReadJpeg(std::string_view jpeg, std::size_t most_pixels) {
-  Complaint complaint{};
+  JpegError jpeg_error{};
   jpeg_decompress_struct job{};
-  bool is_read = DecodeAnybodys(jpeg, complaint, job, nullptr);
+  bool is_read = DecodeUntrusted(jpeg, jpeg_error, job, nullptr);
   const std::size_t width = job.image_width, height = job.image_height;
   jpeg_destroy_decompress(&job);
   constexpr std::size_t kLargestSide = 16'384;  // what GL can hold
@@ -77,10 +77,10 @@ Result<ColourImage> ReadJpeg(std::string_view jpeg, std::size_t most_pixels) {
   if (is_read) {
     picture = ColourImage(static_cast<int>(width), static_cast<int>(height));
     job = {};
-    is_read = DecodeAnybodys(jpeg, complaint, job, &picture);
+    is_read = DecodeUntrusted(jpeg, jpeg_error, job, &picture);
     jpeg_destroy_decompress(&job);
   }
-  if (!is_read) return Fail({}, "a damaged JPEG picture: {}", complaint.words.data());
+  if (!is_read) return Fail({}, "a damaged JPEG picture: {}", jpeg_error.words.data());
   return picture;
 }
 

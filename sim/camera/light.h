@@ -14,7 +14,7 @@ struct alignas(16) Light {
 };
 using LightImage = Image<Light>;
 
-/// The linear light of each of the 256 values of an sRGB picture.
+/// Returns the linear light of each of the 256 values of an sRGB picture.
 const std::array<float, 256>& LightOfCodes();
 
 /// The sRGB value of linear light, by a table of 2^14 steps: within 0.11 of a count of the exact curve before it is
@@ -24,7 +24,8 @@ class CodeTable {
   static const CodeTable& Get();
   std::uint8_t operator()(float light) const { return At(StepOf(light)); }
 
-  /// In two parts, of which the first can be done for many at once.
+  /// Returns the step of the table. This is the first of the conversion's two parts, which can be done for many values
+  /// at once.
   static std::int32_t StepOf(float light) {
     const float above = light > 0 ? light : 0;
     const float inside = above < 1 ? above : 1;
@@ -42,7 +43,7 @@ class CodeTable {
 /// Writes rows of pixels, all of one length.
 void DecodeRow(const Rgb8* codes, int pixels, Light* out);
 void EncodeRow(const Light* light, int pixels, Rgb8* out);
-/// Adds share · light.
+/// Adds share · light to a row.
 void AddDecodedRow(const Rgb8* codes, int pixels, float share, Light* out);
 
 }  // namespace etude

@@ -1,6 +1,6 @@
-#include "sim/character/character_builder.h"
 #include "sim/character/characters.h"
-#include "sim/choreography/stance.h"
+#include "sim/character/pieces.h"
+#include "sim/choreography/canonical_body.h"
 
 namespace etude {
 namespace {
@@ -17,7 +17,8 @@ constexpr Rgb8 kRibbon{32, 150, 170};
 
 // Centimetres throughout. The skeleton is an adult's, the head of a toy's size.
 
-/// From under the seat to the throat, which the head hides. A low seat makes an adult's long legs look short.
+/// The trunk reaches from under the seat to the throat, which the head hides. A low seat makes an adult's long legs
+/// look short.
 const Tube kTrunk{.name = "trunk",
                   .chain = {kHipCentre, kSpine, kShoulderCentre},
                   .rings = {{-33.5, 14, 13, 1},

@@ -4,10 +4,10 @@
 
 namespace etude {
 
-/// The coach: a friendly low-poly toy bear (paper A, figure 16). Generated, bound to BodySkeleton(StandingPose()).
+/// Generates the coach, a friendly low-poly toy bear (paper A, figure 16), bound to BodySkeleton(StandingPose()).
 Character BearCharacter();
 
-/// The learner: a plain mannequin, likewise.
+/// Generates the learner, a plain mannequin, bound likewise.
 Character MannequinCharacter();
 
 }  // namespace etude

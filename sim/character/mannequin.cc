@@ -1,8 +1,8 @@
 #include <array>
 
-#include "sim/character/character_builder.h"
 #include "sim/character/characters.h"
-#include "sim/choreography/stance.h"
+#include "sim/character/pieces.h"
+#include "sim/choreography/canonical_body.h"
 
 namespace etude {
 namespace {

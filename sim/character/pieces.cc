@@ -6,6 +6,8 @@
 
 #include "engine/base/angles.h"
 #include "engine/base/smoothstep.h"
+#include "engine/base/srgb.h"
+#include "engine/motion/from_body.h"
 #include "sim/choreography/rotations.h"
 
 namespace etude {
@@ -32,7 +34,7 @@ void CloseRings(Piece& piece, int around) {
 
 double CornerAngle(int corner, int around) { return 2 * kPi * corner / around; }
 
-/// A tube's shape in metres.
+/// The shape of a tube, in metres.
 class TubeShape {
  public:
   TubeShape(const Tube& tube, const BodyPose& rest) : tube_(tube) {
@@ -45,7 +47,7 @@ class TubeShape {
     }
   }
 
-  /// The ring that the table means at `along_cm`, within it.
+  /// Returns the ring that the table means at `along_cm`, within it.
   Tube::Ring RingAt(double along_cm) const {
     std::size_t i = 0;
     while (i + 2 < tube_.rings.size() && tube_.rings[i + 1].along_cm < along_cm) ++i;
@@ -55,7 +57,8 @@ class TubeShape {
             std::lerp(a.front_cm, b.front_cm, t), std::lerp(a.ahead_cm, b.ahead_cm, t)};
   }
 
-  /// A point of the ring at `angle` from the left over the front, `lift` metres above the skin, with its weights.
+  /// Returns a point of the ring at `angle` from the left over the front, `lift` metres above the skin, with its
+  /// weights.
   Piece::Vertex VertexAt(const Tube::Ring& ring, double angle, double lift = 0) const {
     const double along = ring.along_cm * kMetresPerCm;
     const auto [centre, direction] = PathAt(along);
@@ -101,7 +104,7 @@ class TubeShape {
   std::vector<double> starts_;
 };
 
-/// Half an ellipsoid on the end of a tube: smaller rings ever farther out, then the pole. In order from the tube
+/// Makes half an ellipsoid on the end of a tube: smaller rings ever farther out, then the pole. In order from the tube
 /// outwards; `out` is −1 before the first ring.
 std::vector<Tube::Ring> Cap(const Tube::Ring& end, double length_cm, double out) {
   constexpr int kRings = 3;
@@ -117,6 +120,18 @@ std::vector<Tube::Ring> Cap(const Tube::Ring& end, double length_cm, double out)
 
 void TurnInsideOut(Piece& piece) {
   for (auto& triangle : piece.triangles) std::swap(triangle[1], triangle[2]);
+}
+
+/// Computes the normal of each vertex: the mean of its triangles' normals, weighted by their areas.
+std::vector<glm::dvec3> Normals(const Piece& piece) {
+  std::vector<glm::dvec3> normals(piece.vertices.size(), glm::dvec3(0));
+  for (const auto& [a, b, c] : piece.triangles) {
+    const glm::dvec3 at = piece.vertices[a].position;
+    const glm::dvec3 normal = glm::cross(piece.vertices[b].position - at, piece.vertices[c].position - at);
+    for (const std::uint32_t corner : {a, b, c}) normals[corner] += normal;
+  }
+  for (glm::dvec3& normal : normals) normal = glm::normalize(normal);
+  return normals;
 }
 
 }  // namespace
@@ -229,6 +244,48 @@ Piece MakePiece(const Rope& rope, const BodyPose& rest) {
   add(points.back() + rope.radius_cm * glm::normalize(points.back() - points[points.size() - 2]));
   CloseRings(piece, kAround);
   return piece;
+}
+
+CharacterBuilder::CharacterBuilder(std::string name, const BodyPose& rest) : rest_(rest) {
+  character_.name = std::move(name);
+  character_.skeleton = BodySkeleton(rest);
+}
+
+int CharacterBuilder::AddMaterial(std::string name, Rgb8 colour) {
+  const int material = static_cast<int>(character_.materials.size());
+  SkinnedMesh mesh{.name = name, .material = material, .bindings = {}, .vertices = {}, .triangles = {}};
+  // Bindings are numbered as roles are; at rest all axes are the world's.
+  for (const Role role : AllRoles()) {
+    glm::dmat4 inverse_bind(1);
+    inverse_bind[3] = glm::dvec4(-rest_[role], 1);
+    mesh.bindings.push_back({static_cast<int>(Index(role)), inverse_bind});
+  }
+  character_.meshes.push_back(std::move(mesh));
+  character_.materials.push_back(
+      {std::move(name), {LinearOfSrgb(colour.r), LinearOfSrgb(colour.g), LinearOfSrgb(colour.b)}});
+  return material;
+}
+
+void CharacterBuilder::Add(int material, const Piece& piece) {
+  SkinnedMesh& mesh = character_.meshes[material];
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  const std::vector<glm::dvec3> normals = Normals(piece);
+  for (std::size_t i = 0; i < piece.vertices.size(); ++i) {
+    const Piece::Vertex& vertex = piece.vertices[i];
+    SkinnedMesh::Vertex& bound = mesh.vertices.emplace_back();
+    bound.position = vertex.position;
+    bound.normal = normals[i];
+    for (std::size_t k = 0; k < vertex.joints.size(); ++k) {
+      bound.bindings[k] = static_cast<int>(Index(vertex.joints[k]));
+      bound.weights[k] = vertex.weights[k];
+    }
+  }
+  for (const auto& [a, b, c] : piece.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
+}
+
+void CharacterBuilder::AddOnBothSides(int material, const Piece& piece) {
+  Add(material, piece);
+  Add(material, MirrorImage(piece));
 }
 
 }  // namespace etude

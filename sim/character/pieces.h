@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/image.h"
 #include "engine/motion/body.h"
+#include "engine/motion/character.h"
 
 namespace etude {
 
@@ -22,7 +24,7 @@ struct Piece {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
 };
 
-/// The same on the body's other side.
+/// Returns the mirror image of a piece, for the body's other side.
 Piece MirrorImage(const Piece& piece);
 
 /// A rounded body that moves with one joint; lengths in centimetres, axes as the body at rest: left, up, forward.
@@ -32,7 +34,7 @@ struct Blob {
   glm::dvec3 centre_cm;    ///< from the joint
   glm::dvec3 half_cm;      ///< half its size along the three axes, before it is tilted
   glm::dvec3 tilt_deg{0};  ///< about left, then up, then forward
-  /// Nothing of it lies lower above the floor: a foot's flat sole.
+  /// The lowest height above the floor, for a foot's flat sole.
   double sole_cm = -std::numeric_limits<double>::infinity();
   int around = 16;  ///< corners of its equator; half as many rings from pole to pole
 };
@@ -75,5 +77,24 @@ struct Rope {
   double radius_cm;
 };
 Piece MakePiece(const Rope& rope, const BodyPose& rest);
+
+/// Puts pieces together to a character bound to BodySkeleton(rest): one mesh per material, normals smoothed within
+/// each piece.
+class CharacterBuilder {
+ public:
+  CharacterBuilder(std::string name, const BodyPose& rest);
+
+  /// Adds a material of a colour in sRGB; returns the number to add pieces with.
+  int AddMaterial(std::string name, Rgb8 colour);
+  void Add(int material, const Piece& piece);
+  /// Adds a piece and its mirror image on the other side.
+  void AddOnBothSides(int material, const Piece& piece);
+
+  Character Take() && { return std::move(character_); }
+
+ private:
+  BodyPose rest_;
+  Character character_;
+};
 
 }  // namespace etude

@@ -4,10 +4,12 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "engine/base/srgb.h"
+#include "engine/motion/sample.h"
 #include "engine/retargeting/rig.h"
-#include "sim/choreography/stance.h"
+#include "sim/choreography/canonical_body.h"
 
 namespace etude {
 namespace {
@@ -52,6 +54,12 @@ glm::dvec3 SizeOf(Role role, const BodyPose& pose) {
   }
   // Where in the head its joint lies is a file's choice: a longer way there is not all size.
   return glm::dvec3(std::sqrt(ratio(*ParentOf(role), role)));
+}
+
+glm::dmat4 MatrixOf(const FloorMove& move) {
+  const glm::dvec3 origin = move.Apply(glm::dvec3(0));
+  const auto axis = [&](const glm::dvec3& along) { return glm::dvec4(move.Apply(along) - origin, 0); };
+  return {axis({1, 0, 0}), axis({0, 1, 0}), axis({0, 0, 1}), glm::dvec4(origin, 1)};
 }
 
 }  // namespace
@@ -161,6 +169,20 @@ std::vector<GlobalTransform> FilledGlobals(const Character& character, const Bod
 Figure PosedFigure(const Character& character, const BodyPose& pose) {
   return FigureAt(character, StillSurfaces(character, PartsOfJoints(character.skeleton)),
                   FilledGlobals(character, pose));
+}
+
+RecordedFigure::RecordedFigure(std::shared_ptr<const Character> character, Clip clip, const JointMap& map,
+                               const BodyConversion& body)
+    : character_(std::move(character)),
+      clip_(std::move(clip)),
+      first_(static_cast<double>(body.dropped_frames)),
+      frames_per_frame_(clip_.rate_hz / body.motion.rate_hz),
+      to_world_(WorldFromFile(body)),
+      still_(StillSurfaces(*character_, PartsOfJoints(character_->skeleton, map))) {}
+
+Figure RecordedFigure::At(double frame, const FloorMove& move) const {
+  const LocalPose pose = SampleFrame(clip_, first_ + frame * frames_per_frame_);
+  return FigureAt(*character_, still_, GlobalsInWorld(character_->skeleton, pose, MatrixOf(move) * to_world_));
 }
 
 }  // namespace etude

@@ -6,11 +6,11 @@
 
 namespace etude {
 
-/// scenarios/choreography/moves/*.yaml, sorted by name (written by the build).
+/// Returns the files scenarios/choreography/moves/*.yaml, sorted by name; the build writes the function.
 std::span<const EmbeddedText> BuiltinMoveFiles();
-/// scenarios/choreography/acts/*.yaml, likewise.
+/// Returns the files scenarios/choreography/acts/*.yaml, likewise.
 std::span<const EmbeddedText> BuiltinActFiles();
-/// scenarios/choreography/songs/*.yaml, likewise.
+/// Returns the files scenarios/choreography/songs/*.yaml, likewise.
 std::span<const EmbeddedText> BuiltinSongFiles();
 
 }  // namespace etude

@@ -52,11 +52,17 @@ struct BodyDimensions {
   double HipHeight() const { return thigh + shank + ankle_height; }
 };
 
-/// Where the twenty joints are, on a floor at y = 0, facing +Z, the feet's home spots left and right
-/// of the origin. Legs that are not free reach for their spot by two-bone inverse kinematics, so a
-/// standing foot cannot slide; the hips sink as far as standing legs need to reach. Limb lengths are
-/// those of `body` in every pose. Angles are taken as they are, metres (of hips, feet and jumps) in proportion to the
-/// legs: a child's step is a child's.
+/// Computes the twenty joints of a body on a floor at y = 0, facing +Z, the feet's home spots left and right of the
+/// origin. Legs that are not free reach for their spot by two-bone inverse kinematics, so a standing foot cannot slide;
+/// the hips sink as far as standing legs need to reach. Limb lengths are those of `body` in every pose. Angles are
+/// taken as they are, metres (of hips, feet and jumps) in proportion to the legs: a child's step is a child's.
 BodyPose PoseOf(const Controls& controls, const BodyDimensions& body = {});
+
+/// Returns the ready stance near which every move starts and ends: feet on their home spots, knees soft, arms loosely
+/// hanging. What a choreography file does not name stands like this.
+Controls ReadyStance();
+
+/// Returns the canonical body at rest, with straight legs and hanging arms: the pose to calibrate, fit and compare by.
+BodyPose StandingPose();
 
 }  // namespace etude

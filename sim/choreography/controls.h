@@ -9,8 +9,8 @@
 
 namespace etude {
 
-/// What moves the middle of the body. Angles turn the way a person would say it: bend = forward,
-/// side and turn = to the person's own left.
+/// The controls of the middle of the body. Angles turn the way a person would say it: bend = forward, side and turn =
+/// to the person's own left.
 enum class MiddleControl {
   kHipsSide,   ///< from above the middle of the home spots of the feet, metres to the left
   kHipsAhead,  ///< metres forward
@@ -27,8 +27,8 @@ enum class MiddleControl {
 };
 constexpr std::size_t kMiddleControlCount = 12;
 
-/// What moves one arm and leg. Positive is forward, or outward from the body, on both sides, so the
-/// mirror image of a pose exchanges the sides and no sign.
+/// The controls of one arm and leg. Positive is forward, or outward from the body, on both sides, so the mirror image
+/// of a pose exchanges the sides and no sign.
 enum class SideControl {
   kArmForward,  ///< raises the arm in the sagittal plane; 0 = hanging
   kArmSide,     ///< away from the sagittal plane, applied first: (0, 90) is a T, (90, 90) too
@@ -65,24 +65,25 @@ struct Controls {
   }
 };
 
-/// How a choreography file names a control, and in which unit.
+/// The name of a control in choreography files, and its unit.
 struct ControlName {
   std::string_view group;  ///< "hips", "arm", "elbow"; side controls are "left_arm", "right_arm" or "arms" there
   std::string_view key;    ///< the key inside the group's mapping; empty: the group itself is a number
   double per_unit;         ///< radians per degree, or metres per centimetre
 };
-/// In the order of the enums. `kLegFree` has no name: files free a leg by giving its angles.
+/// Returns the names of all controls, in the order of the enums. `kLegFree` has no name: files free a leg by giving its
+/// angles.
 std::span<const ControlName, kMiddleControlCount> MiddleControlNames();
 std::span<const ControlName, kSideControlCount> SideControlNames();
 
-/// Left and right exchanged.
+/// Returns the controls with left and right exchanged.
 Controls Mirrored(const Controls& controls);
-/// Control by control.
+/// Adds two sets of controls, control by control.
 Controls Sum(const Controls& a, const Controls& b);
-/// (1 − share) · from + share · to.
+/// Returns (1 − share) · from + share · to.
 Controls Mix(const Controls& from, const Controls& to, double share);
-/// Every control's distance from `centre` times `factor`; whether a leg is free stays as it is, so
-/// that a smaller kick is still a kick.
+/// Scales every control's distance from `centre` by `factor`; kLegFree stays as it is, so that a smaller kick is still
+/// a kick.
 Controls Exaggerated(const Controls& controls, const Controls& centre, double factor);
 
 }  // namespace etude

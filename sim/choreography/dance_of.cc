@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <utility>
@@ -10,20 +12,21 @@
 
 #include "engine/base/named.h"
 #include "engine/base/names.h"
+#include "engine/base/order_statistics.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/slow_demonstration.h"
 
 namespace etude {
 namespace {
 
-/// Up to so many degrees (Posture: on its scale) a feature is called so.
+/// The word for a feature of up to so many degrees (Posture: on its own scale).
 struct Word {
   double up_to;
   std::string_view word;
 };
 constexpr double kAny = 1e9;
 
-/// What a feature is about, without its side, and its words; "" = not worth saying.
+/// The part of the body that a feature is about, without its side, and its words; "" is not worth saying.
 struct Vocabulary {
   std::string_view feature;  ///< R or L left out
   std::string_view part;     ///< of the body
@@ -50,7 +53,7 @@ std::optional<double> DegreesOf(const KeyPose& pose, const std::string& feature)
   return found != pose.targets.end() ? std::optional(found->degrees) : std::nullopt;
 }
 
-/// The two sides of one part; "both …s" when they are alike.
+/// Says the two sides of one part; "both …s" when they are alike.
 void SayLimb(const KeyPose& pose, const Vocabulary& vocabulary, std::vector<std::string>& said) {
   const auto word_of = [&](const char* side) {
     const auto degrees = DegreesOf(pose, side + std::string(vocabulary.feature));
@@ -78,7 +81,7 @@ std::string Words(const KeyPose& pose) {
   return Join(said);
 }
 
-/// The pose with its targets' sides exchanged.
+/// Returns the pose with its targets' sides exchanged.
 KeyPose OtherSide(KeyPose pose) {
   for (KeyPose::Target& target : pose.targets) {
     char& side = target.feature.front();
@@ -97,13 +100,35 @@ Result<DanceMove> DanceMoveOf(const std::string& name) {
                    .slow = std::move(slow.motion)};
 }
 
-/// The moment of every beat, from the song's beginning to its end.
+/// Returns the moment of every beat, from the song's beginning to its end.
 std::vector<double> BeatsOf(const Song& song) {
   std::vector<double> beats;
   for (int beat = 0; beat * 60 / song.tempo_bpm <= song.motion.DurationSeconds(); ++beat) {
     beats.push_back(beat * 60 / song.tempo_bpm);
   }
   return beats;
+}
+
+constexpr double kShortestBeat = 0.2, kLongestBeat = 3;
+constexpr std::size_t kFewestBeats = 8, kMostBeats = 10000;
+
+std::string_view WithoutBlanks(std::string_view line) {
+  const auto first = line.find_first_not_of(" \t\r");
+  return first == std::string_view::npos ? std::string_view() : line.substr(first);
+}
+
+std::optional<double> NumberAtFront(std::string_view line) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), number);
+  const bool is_whole = end == line.data() + line.size() || std::string_view(" \t\r,;").find(*end) != std::string::npos;
+  return error == std::errc() && is_whole && std::isfinite(number) ? std::optional(number) : std::nullopt;
+}
+
+/// Returns the moment of a beat; between two beats it goes in proportion.
+double MomentOf(double beat, const std::vector<double>& beats_s) {
+  const auto before = static_cast<std::size_t>(beat);
+  const double share = beat - std::floor(beat);
+  return share > 0 ? std::lerp(beats_s[before], beats_s[before + 1], share) : beats_s[before];
 }
 
 }  // namespace
@@ -159,6 +184,47 @@ Result<Dance> DanceOf(const Song& song) {
     ASSIGN_OR_RETURN(auto act, LoadBuiltinMove(name));
     dance.acts.push_back({.name = name, .motion = std::move(act.motion), .loops = act.loops});
   }
+  return dance;
+}
+
+Result<std::vector<double>> ReadBeats(std::string_view text, const std::string& file) {
+  std::vector<double> beats;
+  int number = 0;
+  while (!text.empty()) {
+    const std::string_view line = WithoutBlanks(text.substr(0, text.find('\n')));
+    text.remove_prefix(std::min(text.size(), std::min(text.find('\n'), text.size() - 1) + 1));
+    ++number;
+    if (line.empty() || line.front() == '#') continue;
+    const auto moment = NumberAtFront(line);
+    if (!moment) return Fail({file, number, 1}, "a beat is a number of seconds, found {}", Quote(line.substr(0, 40)));
+    if (*moment < 0) return Fail({file, number, 1}, "a beat at {} s; must not be before 0", *moment);
+    const double step = beats.empty() ? kShortestBeat : *moment - beats.back();
+    if (step < kShortestBeat - 1e-9 || step > kLongestBeat) {
+      return Fail({file, number, 1}, "a beat at {} s, {:.3f} s after the one before; allowed: {} to {}", *moment, step,
+                  kShortestBeat, kLongestBeat);
+    }
+    beats.push_back(*moment);
+    if (beats.size() > kMostBeats) return Fail({file, number, 1}, "more than {} beats", kMostBeats);
+  }
+  if (beats.size() < kFewestBeats) return Fail({file}, "{} beats; at least {}", beats.size(), kFewestBeats);
+  return beats;
+}
+
+double TempoOf(const std::vector<double>& beats_s) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < beats_s.size(); ++i) steps.push_back(beats_s[i] - beats_s[i - 1]);
+  // To a hundredth: digits of a file are no reason to call a tempo too fast for a move.
+  return std::round(6000 / UpperMedian(std::move(steps))) / 100;
+}
+
+Result<Dance> ToBeats(Dance dance, const std::vector<double>& beats_s) {
+  const double beats_per_s = dance.tempo_bpm / 60;
+  const double last = static_cast<double>(dance.motion.poses.size() - 1) / kJudgedRateHz * beats_per_s;
+  if (last > static_cast<double>(beats_s.size() - 1)) {
+    return Fail({}, "{} beats; '{}' takes {:.0f} of them", beats_s.size(), dance.title, std::ceil(last) + 1);
+  }
+  for (MusicTag& tag : dance.tags) tag.music_s = MomentOf(tag.music_s * beats_per_s, beats_s);
+  dance.beats_s = beats_s;
   return dance;
 }
 

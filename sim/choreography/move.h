@@ -35,17 +35,17 @@ struct Move {
   BodyMotion motion;           ///< one performance at `tempo_bpm`, 30 Hz, performed by the canonical body
 };
 
-/// The names of all built-in moves (choreography/moves), sorted.
+/// Returns the names of all built-in moves (choreography/moves), sorted.
 std::vector<std::string> BuiltinMoveNames();
-/// The names of the coach's acts (choreography/acts), sorted.
+/// Returns the names of the coach's acts (choreography/acts), sorted.
 std::vector<std::string> BuiltinActNames();
-/// The built-in move or act of that name, or a move's slow demonstration, "slow_clap" (slow_demonstration.h); the error
-/// lists the known ones.
+/// Loads the built-in move or act of that name, or a move's slow demonstration, "slow_clap" (slow_demonstration.h); the
+/// error lists the known ones.
 Result<Move> LoadBuiltinMove(const std::string& name);
-/// The move danced to music of another tempo: the same beats, while flights take as long as gravity has them. Fails at
+/// Returns the move at another tempo: the beats are the same, while flights take as long as gravity has them. Fails at
 /// `place` when they do not fit into the beats any more. `move` has poses.
 Result<Move> AtTempo(const Move& move, double tempo_bpm, const Place& place);
-/// One performance, sampled at 30 Hz: what `Move::motion` holds.
+/// Samples one performance at 30 Hz: the value of `Move::motion`.
 BodyMotion MotionOf(const Move& move);
 /// Reads one move or act from the text of a choreography file.
 Result<Move> ParseMove(std::string_view yaml, const std::string& file);

@@ -9,7 +9,83 @@
 namespace etude {
 namespace {
 
-/// How much of the overlap each control comes late: hips lead, hands and head follow. Feet keep time.
+using Keys = std::vector<PeriodicCurve::Key>;
+
+constexpr double kStandardGravity = 9.80665;  // m/s²
+
+/// The controls that say where a standing foot is on the floor.
+constexpr SideControl kSpot[] = {SideControl::kFootSide, SideControl::kFootAhead, SideControl::kFootTurn};
+
+bool IsOneOf(std::size_t control, std::span<const SideControl> of) {
+  return std::ranges::any_of(of, [control](SideControl wanted) {
+    return control == Controls::SideIndex(Side::kLeft, wanted) || control == Controls::SideIndex(Side::kRight, wanted);
+  });
+}
+
+/// Tells whether the foot must be lifted off the floor on its way from one pose to the next.
+bool Steps(const Controls& from, const Controls& to, Side side) {
+  if (from[MiddleControl::kJump] > 0 || to[MiddleControl::kJump] > 0) return false;
+  for (SideControl off_the_floor : {SideControl::kFootLift, SideControl::kLegFree}) {
+    if (from.Of(side, off_the_floor) > 0 || to.Of(side, off_the_floor) > 0) return false;
+  }
+  return std::ranges::any_of(kSpot, [&](SideControl spot) { return from.Of(side, spot) != to.Of(side, spot); });
+}
+
+/// Returns the keys of the foot's height: as authored, and lifted half way through every step.
+Keys LiftKeys(const std::vector<PoseKey>& poses, double beats, Side side) {
+  constexpr double kStepHeight = 0.05;
+  Keys keys;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const bool wraps = i + 1 == poses.size();
+    const PoseKey &from = poses[i], &to = poses[wraps ? 0 : i + 1];
+    keys.push_back({from.beat, from.controls.Of(side, SideControl::kFootLift), from.ease});
+    if (!Steps(from.controls, to.controls, side)) continue;
+    const double middle = 0.5 * (from.beat + to.beat + (wraps ? beats : 0));
+    keys.insert(middle < beats ? keys.end() : keys.begin(), {std::fmod(middle, beats), kStepHeight});
+  }
+  return keys;
+}
+
+double JumpOf(const PoseKey& pose) { return pose.controls[MiddleControl::kJump]; }
+
+/// The times of a jump, in beats from its top: the body is in the air for `flight` before and after it, and the knees
+/// throw and catch it from `effort` before to `effort` after.
+struct JumpTimes {
+  double flight, effort;
+};
+
+JumpTimes TimesOf(const PoseKey& top, double beat_seconds) {
+  constexpr double kEffort = 2.5;  // of half a flight: three quarters of a flight for the knees on either side
+  const double flight = std::sqrt(2 * JumpOf(top) / kStandardGravity) / beat_seconds;
+  return {flight, kEffort * flight};
+}
+
+Keys JumpKeys(const std::vector<PoseKey>& poses, double beat_seconds) {
+  const double gravity = kStandardGravity * beat_seconds * beat_seconds;  // metres per square beat
+  const auto belongs_to_a_jump = [&](double beat) {
+    return std::ranges::any_of(poses, [&](const PoseKey& top) {
+      return JumpOf(top) > 0 && std::abs(beat - top.beat) <= TimesOf(top, beat_seconds).effort;
+    });
+  };
+  Keys keys;
+  for (const PoseKey& pose : poses) {
+    if (JumpOf(pose) > 0) {
+      const auto [flight, effort] = TimesOf(pose, beat_seconds);
+      const double speed = gravity * flight;
+      keys.push_back({pose.beat - effort, 0});
+      // Quintics through these three are the parabola, exactly.
+      keys.push_back({pose.beat - flight, 0, Ease::kSmooth, {{speed, -gravity}}});
+      keys.push_back({pose.beat, JumpOf(pose), Ease::kSmooth, {{0, -gravity}}});
+      keys.push_back({pose.beat + flight, 0, Ease::kSmooth, {{-speed, -gravity}}});
+      keys.push_back({pose.beat + effort, 0});
+    } else if (!belongs_to_a_jump(pose.beat)) {
+      keys.push_back({pose.beat, JumpOf(pose)});
+    }
+  }
+  return keys;
+}
+
+/// The share of the overlap by which each control comes late: hips lead, hands and head follow, feet keep time.
 constexpr std::array<double, kControlCount> kLateness = [] {
   std::array<double, kControlCount> lateness{};
   const auto late = [&](SideControl control, double share) {
@@ -30,6 +106,41 @@ constexpr std::array<double, kControlCount> kLateness = [] {
 }();
 
 }  // namespace
+
+std::vector<PeriodicCurve::Key> KeysOf(const std::vector<PoseKey>& poses, std::size_t control, double beats,
+                                       double beat_seconds) {
+  if (control == static_cast<std::size_t>(MiddleControl::kJump)) return JumpKeys(poses, beat_seconds);
+  for (Side side : {Side::kLeft, Side::kRight}) {
+    if (control == Controls::SideIndex(side, SideControl::kFootLift)) return LiftKeys(poses, beats, side);
+  }
+  constexpr SideControl kLegFree[] = {SideControl::kLegFree};
+  const bool is_spot = IsOneOf(control, kSpot), is_leg_free = IsOneOf(control, kLegFree);
+  Keys keys;
+  for (const PoseKey& pose : poses) {
+    const double value = pose.controls.values[control];
+    Ease ease = pose.ease;
+    if (is_spot) ease = Ease::kStep;
+    // Lifting and lowering take their time: the leg is free before its angles carry it up, and after they have brought
+    // it down.
+    if (is_leg_free) ease = value > 0 ? Ease::kLinger : Ease::kRush;
+    keys.push_back({pose.beat, value, ease});
+  }
+  return keys;
+}
+
+Result<void> CheckJumps(const std::vector<PoseKey>& poses, double beats, double beat_seconds, const Place& place) {
+  double caught = 0;
+  for (const PoseKey& top : poses) {
+    if (JumpOf(top) <= 0) continue;
+    const double effort = TimesOf(top, beat_seconds).effort;
+    if (top.beat - effort <= caught || top.beat + effort >= beats) {
+      return Fail(place, "the jump at beat {:.4g} would take from beat {:.2f} to {:.2f}; allowed: {:.2f} to {:.4g}",
+                  top.beat, top.beat - effort, top.beat + effort, caught, beats);
+    }
+    caught = top.beat + effort;
+  }
+  return {};
+}
 
 MoveCurves::MoveCurves(const std::vector<PoseKey>& authored, double beats, Style style)
     : style_(style), last_beat_(authored.back().beat) {

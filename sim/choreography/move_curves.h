@@ -1,13 +1,34 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
-#include "sim/choreography/control_keys.h"
+#include "engine/base/result.h"
 #include "sim/choreography/controls.h"
 #include "sim/choreography/periodic_curve.h"
 
 namespace etude {
+
+/// One authored pose of a move: the body at a beat.
+struct PoseKey {
+  double beat = 0;
+  Controls controls;
+  Ease ease = Ease::kSmooth;  ///< of the way to this pose from the one before
+};
+
+/// Returns the keys of one control's curve through the poses of a loop of `beats` beats, each `beat_seconds` long. Two
+/// things are not left to the poses, because nobody would author them well enough:
+/// - a foot whose spot differs between two poses steps there: it is lifted, travels, and is down again before the pose;
+/// - a pose with a jump is the top of a flight that obeys gravity: its height says how far
+///   off take-off and landing are, and poses near it do not say how high the body is.
+///   Before and after, the hips dip: the knees throw the
+///   body up and catch it.
+std::vector<PeriodicCurve::Key> KeysOf(const std::vector<PoseKey>& poses, std::size_t control, double beats,
+                                       double beat_seconds);
+
+/// Fails, at `place`, unless every jump, the knees' part included, lies within the loop and after the one before.
+Result<void> CheckJumps(const std::vector<PoseKey>& poses, double beats, double beat_seconds, const Place& place);
 
 /// A move as smooth curves of its controls over the beats of one performance: what a performer varies
 /// before joints are made of it.
@@ -16,12 +37,12 @@ class MoveCurves {
   struct Style {
     /// Follow-through: how many beats the ends of a limb come after its root.
     double overlap_beats = 0;
-    /// How far the hips sink on every beat, metres.
+    /// The depth by which the hips sink on every beat, metres.
     double bounce = 0;
-    /// At the move's own tempo: gravity decides how many beats a flight lasts.
+    /// The length of a beat, seconds: gravity decides how many beats a flight lasts.
     double beat_seconds = 0.5;
-    /// Whether the last pose leads back to the first; if not, the body stands still in the first pose
-    /// before it and in the last one after it.
+    /// If true, the last pose leads back to the first; if not, the body stands still in the first pose before it and in
+    /// the last one after it.
     bool loops = true;
   };
 
@@ -30,13 +51,13 @@ class MoveCurves {
   /// seam.
   MoveCurves(const std::vector<PoseKey>& keys, double beats, Style style);
 
-  /// The smooth loop through bodies at even steps of `beats` beats (at least one): for a performance that no poses
-  /// describe. Equal neighbours are held exactly.
+  /// Makes the smooth loop through bodies at even steps of `beats` beats (at least one), for a performance that no
+  /// poses describe. Equal neighbours are held exactly.
   static MoveCurves Through(std::span<const Controls> bodies, double beats);
 
   const Style& style() const { return style_; }
 
-  /// The body at any beat, before 0 and after the end too.
+  /// Returns the body at any beat, also before 0 and after the end.
   Controls At(double beat) const;
 
  private:

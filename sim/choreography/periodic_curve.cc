@@ -7,7 +7,7 @@
 namespace etude {
 namespace {
 
-/// The slope at a key from the steps before and after it (widths h, secants d).
+/// Returns the slope at a key from the steps before and after it (widths h, secants d).
 double MonotoneSlope(double h_before, double d_before, double h_after, double d_after) {
   if (d_before * d_after <= 0) return 0;
   const double w_before = 2 * h_after + h_before, w_after = h_after + 2 * h_before;
@@ -19,11 +19,11 @@ double SmallerOfSameSign(double a, double b) {
   return std::abs(a) < std::abs(b) ? a : b;
 }
 
-/// Whether the way starts and ends at rest.
+/// Tells whether the way starts and ends at rest.
 bool IsBetweenRests(Ease ease) { return ease == Ease::kSnap || ease == Ease::kStep; }
 
-/// The share of the way's quintic that is reached after a share of its time. Where the curve does not rest at both
-/// ends, the first two derivatives there must be those of the identity.
+/// Returns the share of the way's quintic that is reached after a share of its time. Where the curve does not rest at
+/// both ends, the first two derivatives there must be those of the identity.
 double Eased(Ease ease, double share) {
   // Zero up to the second derivative at both ends; up to 18.6 times it the sum below still rises everywhere.
   constexpr double kStrength = 8;

@@ -5,7 +5,7 @@
 
 namespace etude {
 
-/// How the time on the way to a key is spent.
+/// The course of time on the way to a key.
 enum class Ease {
   kSmooth,  ///< evenly, flowing through
   kLinger,  ///< most of the way early, then ever slower: hangs before it gets there
@@ -40,7 +40,7 @@ class PeriodicCurve {
   /// `keys` (at least one) lie in [0, period), strictly ascending.
   PeriodicCurve(std::vector<Key> keys, double period);
 
-  /// The value at any time; times outside [0, period) wrap round.
+  /// Returns the value at any time; times outside [0, period) wrap round.
   double At(double time) const;
 
  private:

@@ -19,8 +19,8 @@ inline glm::dmat3 RotationZ(double angle) {
   return {{c, s, 0}, {-s, c, 0}, {0, 0, 1}};
 }
 
-/// An upright part of the body: turned to its left, then bent sideways to its left and forward in
-/// the turned frame.
+/// Returns the rotation of an upright part of the body, turned to its left, then bent sideways to its left and forward
+/// in the turned frame.
 inline glm::dmat3 TurnSideBend(double turn, double side, double bend) {
   return RotationY(turn) * RotationZ(-side) * RotationX(bend);
 }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kHoldBeats = 1;
 
-/// Where in the move a demonstration is: the move's beat as a function of its own, standing still at the key poses.
+/// The timing of a demonstration: the move's beat as a function of its own, standing still at the key poses.
 class Pauses {
  public:
   /// `stops` ascend strictly within (0, beats).
@@ -25,10 +25,10 @@ class Pauses {
     }
   }
 
-  /// How much longer every stop makes the demonstration: the hold, and what the two ramps lose.
+  /// Returns by how much every stop lengthens the demonstration: the hold, and what the two ramps lose.
   double PerStop() const { return kHoldBeats + ramp_; }
   double Beats() const { return beats_ + PerStop() * static_cast<double>(stops_.size()); }
-  /// When the hold of a stop begins.
+  /// Returns when the hold of a stop begins.
   double HoldStart(std::size_t stop) const {
     return stops_[stop] + PerStop() * static_cast<double>(stop) + 0.5 * ramp_;
   }
@@ -44,7 +44,8 @@ class Pauses {
   }
 
  private:
-  /// How far one comes in `time` from standing still: the speed rises to 1 along a smoothstep of length `ramp_`.
+  /// Returns how far one comes in `time` from standing still: the speed rises to 1 along a smoothstep of length
+  /// `ramp_`.
   double Gathering(double time) const {
     if (time >= ramp_) return time - 0.5 * ramp_;
     const double t = time / ramp_;

@@ -1,28 +1,60 @@
 #include "sim/choreography/song.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <set>
 
+#include "engine/base/angles.h"
 #include "engine/base/named.h"
 #include "engine/base/names.h"
+#include "engine/base/smoothstep.h"
 #include "engine/document/fields.h"
 #include "sim/choreography/builtin_files.h"
 #include "sim/choreography/canonical_body.h"
-#include "sim/choreography/sequence.h"
 
 namespace etude {
 namespace {
 
+Controls Waiting(double beat) {
+  constexpr double kGive = 0.015;  // metres
+  Controls waiting = ReadyStance();
+  waiting[MiddleControl::kHipsDrop] += kGive * 0.5 * (1 - std::cos(2 * kPi * beat));
+  return waiting;
+}
+
+/// Returns the time of a clock that stands until -`lead`, gathers way, and runs with the music from 0 on.
+double StartingClock(double time, double lead) {
+  if (time >= 0) return time;
+  const double t = std::max(time, -lead) + lead;
+  return 0.5 * (t * t / lead - lead);
+}
+
+/// Returns a turn's own clock, beats: it runs with the music within the turn, gathers way in the blend before, and
+/// comes to rest in the blend after, so that nobody starts a gesture that is not to be.
+double ClockOf(const Turn& turn, double beat) {
+  const double since = beat - turn.start_beat;
+  if (since > turn.beats) return turn.beats - StartingClock(turn.beats - since, kBlendBeatsAfter);
+  return StartingClock(since, kBlendBeatsBefore);
+}
+
+Controls TurnAt(const Turn& turn, double beat) {
+  const double clock = ClockOf(turn, beat);
+  return turn.move ? turn.move->curves.At(turn.pace * clock) : Waiting(clock);
+}
+
+/// Tells whether the control puts a foot somewhere. A heel rises above toes that stay where they are.
+bool MovesAFoot(SideControl control) { return control >= SideControl::kLegFree && control != SideControl::kFootHeel; }
+
 constexpr std::size_t kFewestMoves = 8, kMostMoves = 12;
 constexpr double kLongestSeconds = 600;
-/// The dancer waits that long for the music to come to the point, and stands again for as long.
+/// The beats for which the dancer waits before the first part, and stands after the last one.
 constexpr double kLeadBeats = 4;
 constexpr double kHalfTimePace = 0.5;
 
 double PaceOf(const SongPart& part) { return part.half_time ? kHalfTimePace : 1; }
 
-/// The part's move as danced to music of that tempo; fails when it does not suit it.
+/// Returns the part's move at the music's tempo; fails when the tempo does not suit it.
 Result<Move> MoveOf(const SongPart& part, double tempo_bpm, const Place& place) {
   if (FindByName(BuiltinMoveFiles(), part.move, StemOf) == nullptr) {
     return Fail(place, "{}", UnknownName("move", part.move, BuiltinMoveNames()));
@@ -106,6 +138,29 @@ std::vector<MusicTag> TagsOf(const Song& song) {
 }
 
 }  // namespace
+
+Controls SequenceAt(std::span<const Turn> turns, double beat) {
+  assert(!turns.empty());
+  // The turn that the beat belongs to, and the two turns of the blend that it lies in.
+  const auto after = std::ranges::upper_bound(turns.begin() + 1, turns.end(), beat, {}, &Turn::start_beat);
+  const Turn& now = *(after - 1);
+  const Controls dancing = TurnAt(now, beat);
+  const bool is_leaving = after != turns.end() && beat > after->start_beat - kBlendBeatsBefore;
+  const bool is_arriving = &now != &turns.front() && beat < now.start_beat + kBlendBeatsAfter;
+  if (!is_leaving && !is_arriving) return dancing;
+
+  const Turn& next = is_leaving ? *after : now;
+  const double since = beat - (next.start_beat - kBlendBeatsBefore);
+  const double share = Smootherstep(since / (kBlendBeatsBefore + kBlendBeatsAfter));
+  Controls mixed = Mix(TurnAt(*(&next - 1), beat), TurnAt(next, beat), share);
+  for (Side side : {Side::kLeft, Side::kRight}) {
+    for (std::size_t i = 0; i < kSideControlCount; ++i) {
+      const auto control = static_cast<SideControl>(i);
+      if (MovesAFoot(control)) mixed.Of(side, control) = dancing.Of(side, control);
+    }
+  }
+  return mixed;
+}
 
 Result<Song> ParseSong(std::string_view yaml, const std::string& file, std::optional<double> tempo_bpm) {
   ASSIGN_OR_RETURN(const auto document, ParseYaml(yaml, file));

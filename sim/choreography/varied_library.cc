@@ -14,7 +14,7 @@ namespace {
 
 using enum Role;
 
-/// What is scaled together.
+/// The parts of the body whose turns are scaled together.
 enum class Part { kTrunk, kLeftArm, kRightArm, kLeftLeg, kRightLeg };
 constexpr std::size_t kPartCount = 5;
 /// The rows of hips and shoulders carry the others and are left as they are.
@@ -73,7 +73,7 @@ Directions DirectionsOf(const BodyPose& pose) {
   return directions;
 }
 
-/// What a motion does on average.
+/// The mean pose of a motion.
 struct MeanPose {
   Directions directions{};
   double hip_height = 0;
@@ -90,7 +90,7 @@ MeanPose ComputeMean(const BodyMotion& motion) {
   return mean;
 }
 
-/// `direction` turned about `centre` to `factor` times its angle from it, at most opposite to it.
+/// Returns `direction` turned about `centre` to `factor` times its angle from it, at most opposite to it.
 glm::dvec3 ScaleTurn(const glm::dvec3& direction, const glm::dvec3& centre, double factor) {
   const double along = glm::dot(direction, centre);
   const glm::dvec3 across = direction - along * centre;
@@ -101,7 +101,7 @@ glm::dvec3 ScaleTurn(const glm::dvec3& direction, const glm::dvec3& centre, doub
   return std::cos(angle) * centre + std::sin(angle) * (across / sine);
 }
 
-/// The pose between two frames of a motion. Joints move straight; `Vary` gives limbs their lengths back.
+/// Returns the pose between two frames of a motion. Joints move straight; `Vary` gives limbs their lengths back.
 BodyPose PoseAt(const BodyMotion& motion, double frame) {
   const auto before = static_cast<std::size_t>(frame);
   const std::size_t after = std::min(before + 1, motion.poses.size() - 1);
@@ -111,7 +111,7 @@ BodyPose PoseAt(const BodyMotion& motion, double frame) {
   return pose;
 }
 
-/// How a dancer performs a clip.
+/// The style in which a dancer performs a clip.
 struct Style {
   Wander tempo;
   std::array<Wander, kPartCount> amplitudes;
@@ -123,7 +123,7 @@ struct Style {
   }
 };
 
-/// `pose`, a moment of a motion with the given mean, in a style; limb lengths are those of `lengths`.
+/// Returns `pose`, a moment of a motion with the given mean, in a style; limb lengths are those of `lengths`.
 BodyPose Vary(const BodyPose& pose, const BodyPose& lengths, const MeanPose& mean, const Style& style, double seconds) {
   const Directions directions = DirectionsOf(pose);
   const FloorMove to_world{.yaw = Heading(pose)};

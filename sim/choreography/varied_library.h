@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// A large library made of few motions: as when many dancers perform them, each at a tempo and an amplitude of his
+/// Makes a large library of few motions, as when many dancers perform them, each at a tempo and an amplitude of his
 /// own, on either side of the body. `frames` frames in all; the last clip is cut off there. No frame is a copy of
 /// another.
 ///

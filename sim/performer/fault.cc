@@ -1,7 +1,10 @@
 #include "sim/performer/fault.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "engine/base/angles.h"
 #include "engine/base/named.h"
 
 namespace etude {
@@ -17,6 +20,36 @@ constexpr std::array<Named<Fault>, 10> kFaults = {{{"amplitude", Fault::kAmplitu
                                                    {"elbow_straight", Fault::kElbowStraight},
                                                    {"wrong_order", Fault::kWrongOrder},
                                                    {"stopped", Fault::kStopped}}};
+
+using enum Role;
+
+/// The limbs that strays are measured by: trunk, line of the shoulders, and both upper arms, forearms, thighs, shanks.
+constexpr std::size_t kStrayLimbs = 10;
+constexpr std::array<Bone, kStrayLimbs> kLimbs = {{{kHipCentre, kShoulderCentre},
+                                                   {kRightShoulder, kLeftShoulder},
+                                                   {kLeftShoulder, kLeftElbow},
+                                                   {kLeftElbow, kLeftWrist},
+                                                   {kRightShoulder, kRightElbow},
+                                                   {kRightElbow, kRightWrist},
+                                                   {kLeftHip, kLeftKnee},
+                                                   {kLeftKnee, kLeftAnkle},
+                                                   {kRightHip, kRightKnee},
+                                                   {kRightKnee, kRightAnkle}}};
+
+/// Returns the middle of the i-th of `count` equal parts of [0, 1].
+double MiddleOf(int i, int count) { return (i + 0.5) / count; }
+
+/// Returns the unit directions of those limbs, as the person stands: `pose` faces +Z when they face the coach. A limb
+/// without length has none (zero), which differs from nothing.
+std::array<glm::dvec3, kStrayLimbs> LimbDirections(const BodyPose& pose) {
+  std::array<glm::dvec3, kStrayLimbs> directions{};
+  for (std::size_t i = 0; i < kStrayLimbs; ++i) {
+    const glm::dvec3 limb = pose[kLimbs[i].child] - pose[kLimbs[i].parent];
+    const double length = glm::length(limb);
+    if (length > 0) directions[i] = limb / length;
+  }
+  return directions;
+}
 
 }  // namespace
 
@@ -45,6 +78,45 @@ std::string FaultNames(const std::vector<GradedFault>& faults) {
     names += FaultName(graded.fault);
   }
   return names.empty() ? "none" : names;
+}
+
+std::string_view TruthName(Truth truth) {
+  constexpr std::array<std::string_view, 3> kNames = {"right", "grey", "wrong"};
+  return kNames[static_cast<std::size_t>(truth)];
+}
+
+Truth TruthOf(const Stray& stray, const StrayLimits& limits) {
+  const auto is_within = [&](const Stray& limit) {
+    return stray.limb_deg <= limit.limb_deg && stray.timing_beats <= limit.timing_beats;
+  };
+  if (is_within(limits.right)) return Truth::kRight;
+  return is_within(limits.wrong) ? Truth::kGrey : Truth::kWrong;
+}
+
+double LimbStrayDeg(const std::function<BodyPose(double share)>& meant,
+                    const std::function<BodyPose(double share)>& danced) {
+  constexpr int kShares = 32;
+  std::array<double, kStrayLimbs> squares{};
+  for (int k = 0; k < kShares; ++k) {
+    const auto from = LimbDirections(meant(MiddleOf(k, kShares))), to = LimbDirections(danced(MiddleOf(k, kShares)));
+    for (std::size_t i = 0; i < kStrayLimbs; ++i) {
+      const double degrees = Degrees(AngleBetween(from[i], to[i]));
+      squares[i] += degrees * degrees / kShares;
+    }
+  }
+  return std::sqrt(*std::ranges::max_element(squares));
+}
+
+double TimingStrayBeats(const std::function<double(double due)>& meant, const std::function<double(double due)>& danced,
+                        double beats) {
+  constexpr int kMoments = 64;
+  double square = 0;
+  for (int k = 0; k < kMoments; ++k) {
+    const double due = MiddleOf(k, kMoments);
+    const double off = std::clamp(danced(due), 0.0, 1.0) - std::clamp(meant(due), 0.0, 1.0);
+    square += off * off / kMoments;
+  }
+  return beats * std::sqrt(square);
 }
 
 }  // namespace etude

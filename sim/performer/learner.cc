@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cmath>
+#include <memory>
 #include <numeric>
-#include <string>
 
 #include "engine/base/smoothstep.h"
 #include "sim/choreography/canonical_body.h"
-#include "sim/performer/eased_time.h"
+#include "sim/performer/rendition.h"
 
 namespace etude {
 namespace {
@@ -37,7 +36,7 @@ constexpr double kPraiseGain = 0.03;
 /// The severity of a fault when it happens (ours): seldom too mild to be wrong.
 constexpr double kLeastSeverity = 0.35;
 
-/// How often each fault happens to somebody without any skill, in the order of Fault (ours).
+/// The frequency of each fault of somebody without any skill, in the order of Fault (ours).
 constexpr std::array<double, 10> kUsual = {0.25, 0.10, 0.10, 0.12, 0.15, 0.10, 0.12, 0.12, 0.08, 0.10};
 using Proneness = std::array<double, 10>;
 
@@ -61,7 +60,7 @@ Proneness DrawProneness(RandomStream& dice, std::span<const GradedFault> showabl
   return proneness;
 }
 
-/// Of people: how skilled they start, on average, and how patient they are (ours).
+/// The skill with which people of a kind start, on average, and their patience (ours).
 struct Beginning {
   double skill, patience;
 };
@@ -125,7 +124,7 @@ struct Learner::Layer {
 
   double Weight(double time_s) const { return Smootherstep((time_s - seen_s) / blend_s); }
 
-  /// What the person's clock says, in shares of the performance: the beat that they saw their lag ago. Before the first
+  /// Returns the person's clock, in shares of the performance: the beat that they saw their lag ago. Before the first
   /// they gather way, and after the last one shown they go on by themselves.
   double DueAt(double time_s) const {
     const Move& move = rendition->style().move();

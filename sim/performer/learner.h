@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -11,12 +10,12 @@
 #include "sim/performer/person.h"
 #include "sim/performer/rendition.h"
 #include "sim/performer/session.h"
-#include "sim/performer/sway.h"
+#include "sim/performer/style.h"
 #include "sim/random/stream.h"
 
 namespace etude {
 
-/// What a learner sees of the coach in one frame.
+/// The part of the coach that a learner sees in one frame.
 struct Shown {
   enum class Act {
     kNothing,      ///< stands by, dozes, wakes: there is nothing to follow
@@ -34,12 +33,13 @@ struct Shown {
 struct LearnerOptions {
   LearningLaw law = LearningLaw::kExponential;
   LearningRates rates = {};
-  /// What frequent feedback costs (Salmoni, Schmidt and Walter 1984; Winstein and Schmidt 1990): where it follows every
-  /// performance, this share of what it teaches does not last. In [0, 1]; a half is ours.
+  /// The cost of frequent feedback (Salmoni, Schmidt and Walter 1984; Winstein and Schmidt 1990): the share of what
+  /// feedback teaches that does not last when it follows every performance. In [0, 1]; a half is ours.
   double guidance = 0.5;
-  /// Where every skill starts, in [0, 1]; else by the person's kind, another for every fault of every move.
+  /// The level at which every skill starts, in [0, 1]; without a value it follows the person's kind and differs for
+  /// every fault of every move.
   std::optional<double> skill = {};
-  /// How bad every fault is that happens, in [0, 1]; else thrown.
+  /// The severity of every fault that happens, in [0, 1]; drawn when there is no value.
   std::optional<double> severity = {};
   bool gives_up = true;  ///< whether patience can end
 };
@@ -48,11 +48,11 @@ struct LearnerOptions {
 struct LearnerPerformance {
   int repetition = -1;  ///< of the dance
   int move = 0;
-  int attempt = 0;       ///< the how-manieth of this move, from 0: what its luck is keyed by
+  int attempt = 0;       ///< the number of the attempt at this move, from 0; keys its luck
   bool is_over = false;  ///< the coach shows it no more
   bool is_cut = false;   ///< and stopped before its last beat: there is nothing to judge
-  /// Faults, stray and truth from its first frame on; `end_s` is expected until it is over; `first_right_s` is found
-  /// when it comes.
+  /// The event, with faults, stray and truth from its first frame on; `end_s` is expected until it is over;
+  /// `first_right_s` is found when it comes.
   SessionEvent event;
 };
 
@@ -73,19 +73,19 @@ class Learner {
   Learner(const Learner&) = delete;
   Learner& operator=(const Learner&) = delete;
 
-  /// The learner in the frame (30 Hz) in which they see this of the coach.
+  /// Moves the learner on by one frame (30 Hz), in which they see this of the coach; returns the pose.
   const BodyPose& Step(const Shown& shown);
 
   const Person& person() const { return person_; }
-  /// In the order in which they began, the current one last.
+  /// Returns the performances in the order in which they began, the current one last.
   std::span<const LearnerPerformance> performances() const { return performances_; }
-  /// In [0, 1]; 0 is given up.
+  /// Returns the patience that is left, in [0, 1]; at 0 the learner has given up.
   double patience() const { return patience_; }
   bool HasGivenUp() const { return patience_ <= 0; }
-  /// The chance that the next performance of this move has no fault, as things stand.
+  /// Returns the chance that the next performance of this move has no fault, as things stand.
   double ChanceOfRight(std::size_t move) const;
-  /// The same without a coach, so many performances' time later: nothing guides any more, and what is forgotten by then
-  /// is forgotten. That of somebody who has given up is what they could do.
+  /// Returns that chance without a coach, after the time of so many performances: nothing guides any more, and what is
+  /// forgotten by then is forgotten. That of somebody who has given up is what they could do.
   double RetainedChanceOfRight(std::size_t move, int performances_later) const;
 
  private:

@@ -6,21 +6,21 @@
 
 namespace etude {
 
-/// How errors shrink with learning. Since the learner is an invention, a verdict about coaches counts only if it holds
-/// under all of them.
+/// The law by which errors shrink with learning. Since the learner is an invention, a verdict about coaches counts only
+/// if it holds under all of them.
 enum class LearningLaw {
   kExponential,  ///< Heathcote, Brown and Mewhort (2000): of one person's practice
   kPower,        ///< Newell and Rosenbloom (1981): quick at first, never quite done
   kTwoRate,      ///< Smith, Ghazizadeh and Shadmehr (2006): what is learnt fast is forgotten fast
 };
-/// "exponential", "power", "two-rate": in the order of the enum.
+/// Returns the names "exponential", "power", "two-rate", in the order of the enum.
 const std::vector<std::string>& LearningLawNames();
-/// `name` must be one of LearningLawNames().
+/// Returns the law of a name, which must be one of LearningLawNames().
 LearningLaw FindLearningLaw(std::string_view name);
 
 /// The constants of the laws.
 struct LearningRates {
-  /// Of the exponential law: the share of the error that is lost per unit of learning, at first. The power law starts
+  /// The share of the error that is lost per unit of learning at first, under the exponential law. The power law starts
   /// as steeply (ours).
   double rate = 0.15;
   /// The power law's exponent: (1 + n·rate/exponent)^−exponent after n units (Newell and Rosenbloom report 0.2–0.6).
@@ -30,21 +30,21 @@ struct LearningRates {
   double slow_kept = 0.992, slow_learnt = 0.02;
 };
 
-/// One skill: how likely one fault of one move still is, and how it got there.
+/// A skill: the likelihood of one fault of one move, and the learning that led to it.
 class Skill {
  public:
-  /// `error` in [0, 1] is where it starts, `floor` in [0, error] what never goes away.
+  /// The skill starts at `error` in [0, 1]; `floor` in [0, error] never goes away.
   Skill(LearningLaw law, double error, double floor = 0, const LearningRates& rates = {});
 
   double Error() const;
-  /// One performance goes by, which teaches `units` (in [0, 1]; a unit is what a trial with knowledge of its result
+  /// Lets one performance go by, which teaches `units` (in [0, 1]; a unit is what a trial with knowledge of its result
   /// does). Under the two-rate law it makes forget, too.
   void Practise(double units);
-  /// What somebody else teaches between performances, ≥ 0 units.
+  /// Adds what somebody else teaches between performances, ≥ 0 units.
   void Learn(double units);
   /// Loses what so many units had taught at first.
   void Unlearn(double units);
-  /// So much time passes as this many performances take.
+  /// Lets the time of this many performances pass.
   void Rest(int performances);
 
  private:

@@ -33,16 +33,17 @@ constexpr Preset kPresets[] = {
     {1.50, 1.90, 0.24, 0.07, 0.95, 0.24, 0.08, 0.05, 0.84, 0.13, 0.70, 0.25, 0.25, 0.07, 1.25, 0.03},
 };
 
-/// 1 at a metre, 0 from 1.65 m on.
+/// Returns the childhood of a stature: 1 at a metre, 0 from 1.65 m on.
 double ChildhoodOf(People kind, double stature_m) {
   if (kind != People::kToddler && kind != People::kSchoolChild) return 0;
   return std::clamp((1.65 - stature_m) / 0.65, 0.0, 1.0);
 }
 
-/// Normal, but never further than two and a half deviations: nobody is a monster.
+/// Draws a standard normal number, cut off at two and a half deviations.
 double Bounded(RandomStream& random) { return std::clamp(random.Normal(), -2.5, 2.5); }
 
-/// How far people's own way of standing is from the ready stance, at looseness 1: radians and metres.
+/// Draws how far a person's own way of standing is from the ready stance; sizes are for looseness 1, in radians and
+/// metres.
 Controls DrawPosture(RandomStream& random, double looseness) {
   Controls posture;
   const auto middle = [&](MiddleControl control, double size) {
@@ -137,7 +138,7 @@ double VigourAfter(const Person& person, double danced_s) {
 
 BodyDimensions DimensionsOf(double stature_m, double childhood) {
   constexpr double kCanonicalStature = 1.7;
-  /// Of stature, at four years.
+  /// The shares of stature of a child of four years.
   constexpr BodyDimensions kChild = {.hip_half_width = 0.055,
                                      .thigh = 0.213,
                                      .shank = 0.211,

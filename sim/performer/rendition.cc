@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-/// Over which share of a performance a person changes from what is wrong to what is right, or back.
+/// The share of a performance over which a person changes from what is wrong to what is right, or back.
 constexpr double kChange = 0.25;
 
 // What faults do at severity 1 (ours).
@@ -22,12 +22,12 @@ constexpr double kOffBeats = 1;  // at its furthest, or what leaves the clock ri
 constexpr double kMostOff = 0.7 / kPi;
 constexpr double kUnstopped = 0.35;  // what is danced before a person stops
 
-/// 1 in the first `severity` of the performance, then 0.
+/// Returns 1 in the first `severity` of the performance, then 0.
 double First(double share, double severity) {
   return 1 - Smootherstep((share - severity * (1 + kChange)) / kChange + 1);
 }
 
-/// The controls of one arm or leg.
+/// Returns the controls of one arm or leg.
 std::span<const SideControl> ControlsOf(bool is_leg) {
   using enum SideControl;
   static constexpr std::array kArm = {kArmForward, kArmSide, kArmTwist, kElbow, kWrist};
@@ -42,7 +42,7 @@ struct LimbName {
   bool is_leg;
 };
 
-/// The limb that a choice in [0, 1) falls on.
+/// Returns the limb that a choice in [0, 1) falls on.
 LimbName LimbOf(double choice) {
   constexpr std::array<LimbName, 4> kLimbs = {
       {{Side::kLeft, false}, {Side::kRight, false}, {Side::kLeft, true}, {Side::kRight, true}}};

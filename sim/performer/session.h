@@ -10,7 +10,6 @@
 #include "sim/performer/fault.h"
 #include "sim/performer/person.h"
 #include "sim/performer/rendition.h"
-#include "sim/performer/stray.h"
 #include "sim/random/stream.h"
 
 namespace etude {
@@ -25,7 +24,7 @@ struct SessionOptions {
   double rest_s = 1.5;                  ///< least pause between one event's window and the next first beat; at least 1
 };
 
-/// One scripted performance of a move. All times are seconds from the session's first frame.
+/// A scripted performance of a move. All times are seconds from the session's first frame.
 struct SessionEvent {
   std::string move;                      ///< asked for, and meant
   std::vector<GradedFault> faults = {};  ///< none: performed as meant
@@ -35,12 +34,12 @@ struct SessionEvent {
   Chance chance = {};                    ///< the luck of this performance
   Stray stray;                           ///< truth: from what was meant
   Truth truth = Truth::kRight;           ///< what follows from `stray`
-  /// When the move's last key beat was performed, of right events only: from the choreography's clock and the person's,
-  /// not from any pose.
+  /// The time at which the move's last key beat was performed, for right events only: by the clocks of the choreography
+  /// and of the person, not by any pose.
   std::optional<double> first_right_s = {};
 
   bool IsRight() const { return truth == Truth::kRight; }
-  /// The event is judged from its first beat to half a second after its last (docs/metrics.md).
+  /// Returns the end of the time in which the event is judged: half a second after its last beat (docs/metrics.md).
   double WindowEnd() const { return end_s + 0.5; }
 };
 
@@ -49,7 +48,7 @@ struct SessionPlan {
   double duration_s = 0;
 };
 
-/// A session as it was truly performed: what the sensor looks at.
+/// A session as it was truly performed, which the sensor looks at.
 struct Performance {
   Person person;
   BodyMotion motion;                 ///< the whole session, 30 Hz, the person's body

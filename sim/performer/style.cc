@@ -5,7 +5,7 @@
 
 #include "engine/base/angles.h"
 #include "engine/base/smoothstep.h"
-#include "sim/choreography/stance.h"
+#include "sim/choreography/canonical_body.h"
 
 namespace etude {
 namespace {
@@ -91,7 +91,7 @@ ControlSpan SpanOf(SideControl control) {
   return {};
 }
 
-/// The spans of all controls, in their order.
+/// Returns the spans of all controls, in their order.
 const std::array<ControlSpan, kControlCount>& Spans() {
   static const std::array<ControlSpan, kControlCount> spans = [] {
     std::array<ControlSpan, kControlCount> all{};
@@ -109,7 +109,7 @@ const std::array<ControlSpan, kControlCount>& Spans() {
 
 bool IsSpot(SideControl control) { return control == kFootSide || control == kFootAhead || control == kFootTurn; }
 
-/// What has no size to make more or less of: whether a leg is free, and how high a body flies.
+/// Tells whether a control is a switch, which no gain or offset changes: whether a leg is free.
 bool IsSwitch(std::size_t control) {
   return control == Controls::SideIndex(Side::kLeft, kLegFree) ||
          control == Controls::SideIndex(Side::kRight, kLegFree);
@@ -118,14 +118,14 @@ bool IsSwitch(std::size_t control) {
 /// The share of each harmonic in an offset's spread: half of it stays, the rest comes and goes. Squares sum to one.
 constexpr std::array<double, 7> kTermShares = {0.66, 0.38, 0.38, 0.28, 0.28, 0.22, 0.22};
 
-/// Standard normal terms times their shares.
+/// Draws standard normal terms, times their shares.
 std::array<double, 7> DrawTerms(RandomStream& random) {
   std::array<double, 7> terms{};
   for (std::size_t i = 0; i < terms.size(); ++i) terms[i] = kTermShares[i] * std::clamp(random.Normal(), -2.5, 2.5);
   return terms;
 }
 
-/// What is left of a deviation where there is so much room: nearly all of a small one, never more than the room.
+/// Returns a deviation that fits into the room: nearly all of a small one, never more than the room.
 double Saturated(double deviation, double room) {
   if (room <= 0) return 0;
   return room * (1 - std::exp(-deviation / room));
@@ -208,6 +208,26 @@ Controls WithinReach(const Controls& wanted, const Controls& authored) {
     if (deviation < 0) within.Of(side, kArmSide) = from - Saturated(-deviation, from - lower);
   }
   return within;
+}
+
+Sway::Sway(RandomStream& random) {
+  for (double& phase : phases_) phase = random.Uniform(0, 2 * kPi);
+}
+
+Controls Sway::At(double time_s) const {
+  const auto wave = [&](std::size_t i, double period_s) { return std::sin(2 * kPi * time_s / period_s + phases_[i]); };
+  const double weight = wave(0, 5.3), breath = wave(2, 3.4), arms = wave(4, 4.7);
+  Controls sway;
+  sway[MiddleControl::kHipsSide] = 0.018 * weight;
+  sway[MiddleControl::kHipsAhead] = 0.008 * wave(1, 3.9);
+  sway[MiddleControl::kTrunkSide] = Radians(1.5) * weight;
+  sway[MiddleControl::kTrunkBend] = Radians(0.8) * breath;
+  sway[MiddleControl::kNeckTurn] = Radians(6) * wave(3, 7.1);
+  for (Side side : {Side::kLeft, Side::kRight}) {
+    sway.Of(side, SideControl::kArmSide) = Radians(1) * breath;
+    sway.Of(side, SideControl::kArmForward) = Radians(2) * arms;
+  }
+  return sway;
 }
 
 }  // namespace etude

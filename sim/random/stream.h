@@ -8,8 +8,8 @@
 
 namespace etude {
 
-/// What a world's dice are keyed by: never the method, never the condition's values, so that every
-/// method meets the same world and a sweep changes strengths, not the dice.
+/// The key of a world's dice: never the method, never the condition's values, so that every method meets the same world
+/// and a sweep changes strengths, not the dice.
 struct WorldKey {
   std::uint64_t suite_seed = 1;
   std::string_view scenario;
@@ -21,21 +21,21 @@ struct WorldKey {
 /// standard library's differ from one implementation to the next.
 class RandomStream {
  public:
-  /// One independent stream per purpose, e.g. "joint-noise" or "camera-0/pixel-noise".
+  /// Makes the stream of one purpose, independent of all others, e.g. "joint-noise" or "camera-0/pixel-noise".
   RandomStream(const WorldKey& world, std::string_view purpose);
 
   std::uint64_t Bits();
-  /// As many calls of Bits() as fit into `out`, faster.
+  /// Fills `out` as that many calls of Bits() would, but faster.
   void FillBits(std::span<std::uint64_t> out);
-  /// Uniform in [0, 1), 53 bits.
+  /// Draws a number uniform in [0, 1), of 53 bits.
   double Uniform();
   double Uniform(double low, double high) { return low + (high - low) * Uniform(); }
-  /// Standard normal (Box–Muller, both values used).
+  /// Draws a standard normal number (Box–Muller, both values used).
   double Normal();
   double Normal(double mean, double deviation) { return mean + deviation * Normal(); }
-  /// Three independent standard normals.
+  /// Draws three independent standard normal numbers.
   glm::dvec3 Normal3();
-  /// Uniform in {0, …, count − 1}, unbiased; `count` > 0.
+  /// Draws a number uniform in {0, …, count − 1}, unbiased; `count` > 0.
   std::uint64_t IndexBelow(std::uint64_t count);
   bool Chance(double probability) { return Uniform() < probability; }
 

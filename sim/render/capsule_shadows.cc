@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "sim/render/backdrop.h"
+#include "sim/render/empty_room.h"
 
 namespace etude {
 namespace {
@@ -14,13 +14,13 @@ constexpr float kContactReach = 0.12f;
 // Pixels are computed with floats.
 constexpr double kFloatMargin = 1e-3;
 // What lies farther away throws no shadow here, metres.
-constexpr double kFarthest = 1e4;
+constexpr double kFarthestCaster = 1e4;
 
 float Clamp01(float value) { return std::min(std::max(value, 0.0f), 1.0f); }
 
-bool IsSound(const Capsule& capsule) {
-  return glm::all(glm::lessThan(glm::abs(capsule.a), glm::dvec3(kFarthest))) &&
-         glm::all(glm::lessThan(glm::abs(capsule.b), glm::dvec3(kFarthest))) && capsule.radius > 0;
+bool CanThrowShadow(const Capsule& capsule) {
+  return glm::all(glm::lessThan(glm::abs(capsule.a), glm::dvec3(kFarthestCaster))) &&
+         glm::all(glm::lessThan(glm::abs(capsule.b), glm::dvec3(kFarthestCaster))) && capsule.radius > 0;
 }
 
 // Pixels beside each other in a row, of a LampView.
@@ -120,7 +120,7 @@ std::vector<Caster> CastersOf(const std::vector<Figure>& figures, bool is_interi
   std::vector<Caster> casters;
   const auto add = [&](const std::vector<Capsule>& shape) {
     for (const Capsule& capsule : shape) {
-      if (IsSound(capsule)) casters.emplace_back(capsule, lamp);
+      if (CanThrowShadow(capsule)) casters.emplace_back(capsule, lamp);
     }
   };
   for (const Figure& figure : figures) {

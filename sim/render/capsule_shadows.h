@@ -2,9 +2,8 @@
 
 #include <vector>
 
-#include "sim/render/kept_rooms.h"
-#include "sim/render/renderer.h"
-#include "sim/render/touched_pixels.h"
+#include "sim/render/empty_room.h"
+#include "sim/render/scene.h"
 
 namespace etude {
 

@@ -116,7 +116,7 @@ class GlContext {
   std::vector<unsigned char> unused_framebuffer_ = std::vector<unsigned char>(64 * 64 * 4);
 };
 
-/// A texture whose texels are read one by one, left bound.
+/// Makes a texture without filtering and leaves it bound.
 GLuint MakeUnfilteredTexture(const GlFunctions& gl);
 
 }  // namespace etude

@@ -4,18 +4,13 @@
 #include <cassert>
 #include <cstddef>
 
-#include "sim/render/averaged.h"
-#include "sim/render/backdrop.h"
-#include "sim/render/capsule_batch.h"
 #include "sim/render/capsule_shadows.h"
-#include "sim/render/frame_targets.h"
-#include "sim/render/kept_rooms.h"
-#include "sim/render/pixel_geometry.h"
+#include "sim/render/empty_room.h"
+#include "sim/render/figure_batches.h"
+#include "sim/render/gl_objects.h"
 #include "sim/render/shaders.h"
-#include "sim/render/surface_batch.h"
-#include "sim/render/texture_store.h"
 #include "sim/render/touched_pixels.h"
-#include "sim/render/vertex_stream.h"
+#include "sim/render/uniforms.h"
 
 namespace etude {
 namespace {
@@ -101,6 +96,30 @@ bool AllClosed(const std::vector<Figure>& figures) {
   return std::ranges::all_of(figures, [](const Figure& figure) {
     return std::ranges::all_of(figure.surfaces, [](const Surface& surface) { return surface.is_closed; });
   });
+}
+
+// The same view with twice as many pixels a side.
+Camera Doubled(const Camera& camera) {
+  Camera doubled = camera;
+  Intrinsics& in = doubled.intrinsics;
+  in.width *= 2;
+  in.height *= 2;
+  for (double* length : {&in.fx, &in.fy, &in.cx, &in.cy, &in.skew}) *length *= 2;
+  return doubled;
+}
+
+// Each pixel of `small` that `rect` of `large` touches becomes the mean of its four there.
+void AverageFours(const ColourImage& large, const PixelRect& rect, ColourImage& small) {
+  const auto mean = [](int p, int q, int r, int s) { return static_cast<std::uint8_t>((p + q + r + s + 2) / 4); };
+  for (int y = rect.top / 2; y < (rect.bottom + 1) / 2; ++y) {
+    const Rgb8* upper = &large.At(0, 2 * y);
+    const Rgb8* lower = &large.At(0, 2 * y + 1);
+    Rgb8* out = &small.At(0, y);
+    for (int x = rect.left / 2; x < (rect.right + 1) / 2; ++x) {
+      const Rgb8 &a = upper[2 * x], &b = upper[2 * x + 1], &c = lower[2 * x], &d = lower[2 * x + 1];
+      out[x] = {mean(a.r, b.r, c.r, d.r), mean(a.g, b.g, c.g, d.g), mean(a.b, b.b, c.b, d.b)};
+    }
+  }
 }
 
 }  // namespace

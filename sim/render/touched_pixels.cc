@@ -28,7 +28,7 @@ struct Extent {
   }
 };
 
-bool IsSound(const glm::dvec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+bool IsFinitePoint(const glm::dvec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 // What grows over projected points. One behind the camera may be seen anywhere: then it is the whole picture.
 class SeenRect {
@@ -93,7 +93,7 @@ Extent ThrownOnto(const Extent& extent, const glm::dvec3& lamp, int axis, double
 std::vector<Extent> ExtentsOf(const std::vector<Capsule>& shape) {
   std::vector<Extent> extents;
   for (const Capsule& capsule : shape) {
-    if (!IsSound(capsule.a) || !IsSound(capsule.b) || !(capsule.radius > 0)) continue;
+    if (!IsFinitePoint(capsule.a) || !IsFinitePoint(capsule.b) || !(capsule.radius > 0)) continue;
     Extent& extent = extents.emplace_back();
     extent.Add(capsule.a, 1.02 * capsule.radius);
     extent.Add(capsule.b, 1.02 * capsule.radius);
@@ -106,7 +106,7 @@ std::vector<Extent> ExtentsOf(const std::vector<Surface>& surfaces) {
   for (const Surface& surface : surfaces) {
     Extent& extent = extents.emplace_back();
     for (const glm::dvec3& position : surface.positions) {
-      if (IsSound(position)) extent.Add(position);
+      if (IsFinitePoint(position)) extent.Add(position);
     }
     if (extent.IsEmpty()) extents.pop_back();
   }

@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// How the cameras stand about the performer.
+/// The arrangement of the cameras about the performer.
 enum class RigShape {
   kAngles,   ///< "angles": at the angles and heights that are given
   kStereo,   ///< "stereo": a pair side by side in front, both axes parallel
@@ -20,11 +20,11 @@ enum class RigShape {
 
 struct RigOptions {
   RigShape shape = RigShape::kAngles;
-  /// kAngles: about the performer, degrees; 0 = in front, positive = to the performer's left.
+  /// The angles about the performer for kAngles, degrees; 0 = in front, positive = to the performer's left.
   std::vector<double> angles_deg = {-40, 40};
-  /// kAngles: one per angle; else the cameras take them in turn. Metres. Cameras at one height cannot tell the
-  /// direction of a limb parallel to the line between them, and a performer who faces two has hips, shoulders and
-  /// stretched arms there: so heights differ.
+  /// The heights of the cameras, metres: one per angle for kAngles, else taken in turn. Cameras at one height cannot
+  /// tell the direction of a limb parallel to the line between them, and a performer who faces two has hips, shoulders
+  /// and stretched arms there: so heights differ.
   std::vector<double> heights_m = {1.0, 2.2};
   double distance_m = 3.8;       ///< from the middle of where the performer moves, as far as the room allows
   double baseline_m = 0.6;       ///< kStereo: between the two
@@ -34,21 +34,22 @@ struct RigOptions {
 
 constexpr std::size_t kMostCameras = 8;
 
-/// The cameras of a studio, set up by hand for a take: fitted to the room (none stands in or behind its back wall) and
-/// to the motion. They look at the middle of where the performer moves; a camera that would lose a part of the
-/// performer takes a wider lens, to 94° (half of the usual focal length), and what leaves the picture then is out of
-/// view. Nobody sets up a tripod to the centimetre: every camera has dice of its own. A rig of one's own is moved along
-/// the floor as a whole, its cameras' common middle to that of the motion, and left as it is otherwise.
+/// Sets up the cameras of a studio as people do by hand for a take: fitted to the room (none stands in or behind its
+/// back wall) and to the motion. They look at the middle of where the performer moves; a camera that would lose a part
+/// of the performer takes a wider lens, to 94° (half of the usual focal length), and what leaves the picture then is
+/// out of view. Nobody sets up a tripod to the centimetre: every camera has dice of its own. A rig of one's own is
+/// moved along the floor as a whole, its cameras' common middle to that of the motion, and left as it is otherwise.
 /// @param motion at least one pose, metres, Y up
 std::vector<Camera> SetUpCameras(const RigOptions& options, std::span<const BodyPose> motion, const WorldKey& key);
 
-/// The middle of the box around all joints of a motion, on the floor.
+/// Returns the middle of the box around all joints of a motion, on the floor.
 glm::dvec3 MiddleOnFloor(std::span<const BodyPose> motion);
 
-/// Whether the camera's picture shows all twenty joints, as far as nothing stands before them.
+/// Tells whether the camera's picture shows all twenty joints, as far as nothing stands before them.
 bool IsInPicture(const Camera& camera, const BodyPose& pose);
 
-/// Of each frame, whether at least two cameras have the whole body in their pictures: nothing can be measured else.
+/// Tells for each frame whether at least two cameras have the whole body in their pictures; otherwise nothing can be
+/// measured.
 std::vector<bool> FramesInView(std::span<const Camera> cameras, std::span<const BodyPose> motion);
 
 }  // namespace etude

@@ -225,6 +225,16 @@ View ReadExr(const std::string& path) {
   return view;
 }
 
+/// Returns what `read` reads, or what OpenEXR throws as an error.
+template <typename Read>
+auto OrError(const std::string& path, const Read& read) -> Result<decltype(read())> {
+  try {
+    return read();
+  } catch (const std::exception& error) {
+    return Fail({path}, "cannot be read as OpenEXR: {}", error.what());
+  }
+}
+
 }  // namespace
 
 std::string EncodePng(const ColourImage& image) {
@@ -294,27 +304,15 @@ Result<void> SaveExr(const View& view, const std::string& path) {
 }
 
 Result<NormalImage> LoadExrNormals(const std::string& path) {
-  try {
-    return ReadExrNormals(path);
-  } catch (const std::exception& error) {
-    return Fail({path}, "cannot be read as OpenEXR: {}", error.what());
-  }
+  return OrError(path, [&] { return ReadExrNormals(path); });
 }
 
 Result<DepthImage> LoadExrDepth(const std::string& path, const std::string& channel) {
-  try {
-    return ReadExrDepth(path, channel);
-  } catch (const std::exception& error) {
-    return Fail({path}, "cannot be read as OpenEXR: {}", error.what());
-  }
+  return OrError(path, [&] { return ReadExrDepth(path, channel); });
 }
 
 Result<View> LoadExr(const std::string& path) {
-  try {
-    return ReadExr(path);
-  } catch (const std::exception& error) {
-    return Fail({path}, "cannot be read as OpenEXR: {}", error.what());
-  }
+  return OrError(path, [&] { return ReadExr(path); });
 }
 
 }  // namespace etude

@@ -6,7 +6,7 @@
 
 #include "engine/base/image.h"
 #include "engine/base/result.h"
-#include "sim/render/renderer.h"
+#include "sim/render/scene.h"
 #include "sim/sensors/normals.h"
 
 namespace etude {
@@ -14,13 +14,13 @@ namespace etude {
 // Pictures as files: the one door to PNG and OpenEXR. Pictures of more than kLargestPicture pixels a
 // side are refused before memory is taken. Every error names the file.
 
-/// The bytes of a PNG file, for embedding in a page; the same for the same picture. `image` has at least
-/// one pixel.
+/// Returns the bytes of a PNG file, for embedding in a page; the same for the same picture. `image` has at least one
+/// pixel.
 std::string EncodePng(const ColourImage& image);
-/// As grey: 0 black, anything else white.
+/// Returns the bytes of a mask as a grey PNG: 0 is black, anything else white.
 std::string EncodePng(const Mask& mask);
 
-/// The bytes of a binary PPM file (P6), which every picture library reads, and which costs no time.
+/// Returns the bytes of a binary PPM file (P6), which every picture library reads, and which costs no time.
 std::string EncodePpm(const ColourImage& image);
 
 Result<void> SavePng(const ColourImage& image, const std::string& path);
@@ -28,30 +28,31 @@ Result<void> SavePng(const Mask& mask, const std::string& path);
 
 /// Reads any PNG as 8-bit RGB; transparent parts lie on black.
 Result<ColourImage> LoadColourPng(const std::string& path);
-/// The same of a file's bytes, transparent parts in their own colours; at most so many pixels. The error names no file.
+/// Decodes the bytes of a PNG file of at most so many pixels; transparent parts keep their own colours. The error names
+/// no file.
 Result<ColourImage> DecodeColourPng(std::string_view bytes, std::size_t most_pixels);
 /// Reads any PNG as a mask: 1 where the grey value is at least 128.
 Result<Mask> LoadMaskPng(const std::string& path);
 
-/// A depth image by its channel's name.
+/// A depth image and the name of its channel.
 struct DepthChannel {
   std::string name;
   DepthImage depth;
 };
 
-/// The bytes of an OpenEXR file (ZIP, lossless) with the channels R, G, B (half, linear light: 1 is the brightest that
-/// an 8-bit picture can show), Z (float, metres along the viewing axis), label (uint) and N.X, N.Y, N.Z (float, normals
-/// in the world), and further depth images (float) under names of their own. Empty pictures are left out; the others
-/// have one size. The same for the same pictures.
+/// Returns the bytes of an OpenEXR file (ZIP, lossless) with the channels R, G, B (half, linear light: 1 is the
+/// brightest that an 8-bit picture can show), Z (float, metres along the viewing axis), label (uint) and N.X, N.Y, N.Z
+/// (float, normals in the world), and further depth images (float) under names of their own. Empty pictures are left
+/// out; the others have one size. The same for the same pictures.
 Result<std::string> EncodeExr(const View& view, const NormalImage& normals = {},
                               std::span<const DepthChannel> measured = {});
 Result<void> SaveExr(const View& view, const std::string& path);
 /// Reads what SaveExr writes, bit for bit; pictures whose channels the file lacks stay empty. Light beyond what 8 bits
 /// can show is cut off.
 Result<View> LoadExr(const std::string& path);
-/// The normals of such a file; empty when it has none.
+/// Reads the normals of such a file; empty when it has none.
 Result<NormalImage> LoadExrNormals(const std::string& path);
-/// A depth channel of such a file, bit for bit; empty when it has none of that name.
+/// Reads a depth channel of such a file, bit for bit; empty when it has none of that name.
 Result<DepthImage> LoadExrDepth(const std::string& path, const std::string& channel);
 
 }  // namespace etude

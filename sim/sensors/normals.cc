@@ -27,7 +27,7 @@ class Points {
     return points_.At(x, y);
   }
 
-  /// From here to the next pixel that way, or from the one before: whichever is nearer in depth.
+  /// Returns the step from here to the next pixel that way, or from the one before: whichever is nearer in depth.
   std::optional<glm::dvec3> StepAt(int x, int y, int right, int down) const {
     const auto here = At(x, y), next = At(x + right, y + down), before = At(x - right, y - down);
     if (!here || (!next && !before)) return std::nullopt;

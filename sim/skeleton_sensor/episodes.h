@@ -3,16 +3,31 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "engine/motion/body.h"
+#include "sim/body/shape.h"
 #include "sim/random/stream.h"
 #include "sim/skeleton_sensor/joint_errors.h"
 #include "sim/skeleton_sensor/options.h"
-#include "sim/skeleton_sensor/visibility.h"
 
 namespace etude {
 
-/// What the sensor makes of a joint that is not plainly seen.
+/// Flags that say for each joint of one frame whether it is hidden.
+using HiddenJoints = std::array<bool, kRoleCount>;
+
+/// The things beside the body itself that may stand between it and a sensor.
+struct Occluders {
+  std::vector<Cuboid> furniture;
+  std::vector<BodyPose> bystander;  ///< a second person: a pose per frame (the last one stays), none = nobody
+};
+
+/// Finds the joints of `pose` in this frame that `eye` does not see: the ray to the joint meets another part of the
+/// body, furniture or the second person clearly (2 cm) before the joint's own skin. The flesh is what the renderer
+/// draws (sim/body).
+HiddenJoints FindHidden(const BodyPose& pose, std::size_t frame, const Occluders& occluders, const glm::dvec3& eye);
+
+/// The sensor's guess of a joint that is not plainly seen.
 struct Guess {
   bool inferred = false;
   glm::dvec3 offset{0};  ///< metres from where it would be reported if it were seen
@@ -27,7 +42,7 @@ class OcclusionGuesses {
 
  private:
   static constexpr std::size_t kLimbs = 4, kJointsOfLimb = 4;
-  /// One limb's current wrong (or lucky) idea of where its hidden joints are.
+  /// The current guess of where the hidden joints of one limb are, wrong or right by luck.
   struct Episode {
     int age = 0;
     int length = 0;  ///< 0: none running
@@ -57,7 +72,7 @@ class Outliers {
   RandomStream dice_;
 };
 
-/// Whether a frame shows arms, or legs, exchanged.
+/// Flags that say whether a frame shows arms, or legs, exchanged.
 struct Swap {
   bool arms = false;
   bool legs = false;
@@ -65,7 +80,7 @@ struct Swap {
 class Swaps {
  public:
   Swaps(double rate_hz, const SkeletonSensorOptions& options, const WorldKey& world);
-  /// `turn`: how far the body is turned away from the sensor in this frame, radians.
+  /// Returns the next frame's swap. `turn` is how far the body is turned away from the sensor in it, radians.
   Swap Next(double turn);
 
  private:
@@ -77,7 +92,7 @@ class Swaps {
   Swap current_;
 };
 
-/// Which frames the whole body is lost in.
+/// The dropouts: frames in which the whole body is lost.
 class Dropouts {
  public:
   Dropouts(const SkeletonSensorOptions& options, const WorldKey& world);

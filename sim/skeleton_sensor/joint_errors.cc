@@ -4,8 +4,34 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/base/angles.h"
+#include "sim/skeleton_sensor/options.h"
+
 namespace etude {
 namespace {
+
+/// Returns the share of its value that a first-order low pass keeps over one frame; a time constant of 0 keeps nothing.
+double MemoryOf(double time_s, double rate_hz) { return time_s > 0 ? std::exp(-1.0 / (rate_hz * time_s)) : 0.0; }
+
+constexpr double kLoudnessTime = 0.7;  // seconds that a burst lasts, about (ours)
+
+using enum Role;
+
+bool IsLeft(Role role) { return RoleName(role).starts_with("left"); }
+
+/// Returns the standard normal value that is exceeded with this probability, in (0, 1).
+double NormalQuantileAbove(double probability) {
+  double low = -9, high = 9;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (0.5 * std::erfc(middle / std::sqrt(2.0)) > probability ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+PoseLengths LengthsOf(const SkeletonSensorOptions& options) {
+  return {.own = options.pose_length_m, .far = options.far_pose_length_m};
+}
 
 constexpr double kFullSpeed = 0.5;  // m/s at which the fast part has its size
 constexpr double kSpeedCap = 1.3;   // times kFullSpeed: no further growth
@@ -40,7 +66,7 @@ Sight SightOf(const Camera& sensor, const glm::dvec3& joint, const SkeletonSenso
           .along_growth = DepthDeviation(options.depth_law, z) / DepthDeviation(options.depth_law, z0)};
 }
 
-/// From unit errors (across, across, along) to metres in the world.
+/// Turns unit errors (across, across, along) into metres in the world.
 glm::dvec3 InWorld(const Sight& sight, const glm::dvec3& unit, double size, double depth_ratio) {
   const double across = size / std::sqrt(2 + depth_ratio * depth_ratio);
   return sight.axes *
@@ -84,6 +110,96 @@ glm::dvec3 Stiffened(glm::dvec3 own, Role role, const BodyPose& pose, const Sigh
 }
 
 }  // namespace
+
+SlowNoise::SlowNoise(double time_s, double smoothing_s, double rate_hz, RandomStream& dice)
+    : memory_(MemoryOf(time_s, rate_hz)), smoothing_(MemoryOf(smoothing_s, rate_hz)) {
+  // The variance of a second low pass (s) behind a unit AR(1) (m): (1 − s) (1 + s m) / ((1 + s) (1 − s m)).
+  const double s = smoothing_, m = memory_;
+  scale_ = std::sqrt((1 + s) * (1 - s * m) / ((1 - s) * (1 + s * m)));
+  // The joint stationary law of both: variances 1 and 1/scale², covariance (1 − s) / (1 − s m).
+  const glm::dvec3 a = dice.Normal3(), b = dice.Normal3();
+  const double covariance = (1 - s) / (1 - s * m);
+  const double rest = std::max(0.0, 1 / (scale_ * scale_) - covariance * covariance);
+  first_ = a;
+  second_ = covariance * a + std::sqrt(rest) * b;
+}
+
+glm::dvec3 SlowNoise::Next(RandomStream& dice) {
+  first_ = memory_ * first_ + std::sqrt(1 - memory_ * memory_) * dice.Normal3();
+  second_ = smoothing_ * second_ + (1 - smoothing_) * first_;
+  return scale_ * second_;
+}
+
+BurstNoise::BurstNoise(double time_s, double tail, double rate_hz, RandomStream& dice)
+    : tail_(tail), noise_(time_s, 0, rate_hz, dice), loudness_(kLoudnessTime, 0, rate_hz, dice) {}
+
+glm::dvec3 BurstNoise::Next(RandomStream& dice) {
+  const glm::dvec3 noise = noise_.Next(dice);
+  // Log-normal of unit mean square, the same along all axes.
+  const double loudness = std::exp(tail_ * loudness_.Next(dice).x - tail_ * tail_);
+  return loudness * noise;
+}
+
+PoseField::PoseField(Role role, const PoseLengths& lengths, RandomStream& dice) {
+  const auto see = [&](Role joint, bool from_shoulders, double length) {
+    seen_[seen_count_++] = {joint, from_shoulders, length};
+  };
+  const auto see_arms = [&] {
+    for (const Role joint : {kLeftElbow, kLeftWrist, kRightElbow, kRightWrist}) see(joint, true, lengths.far);
+  };
+  switch (GroupOf(role)) {
+    case JointGroup::kElbows:
+    case JointGroup::kWrists:
+    case JointGroup::kHands:
+      see(IsLeft(role) ? kLeftElbow : kRightElbow, true, lengths.own);
+      see(IsLeft(role) ? kLeftWrist : kRightWrist, true, lengths.own);
+      break;
+    case JointGroup::kFeet:
+      see(role, false, lengths.own);
+      break;
+    default:
+      see(role, false, lengths.own);
+      see_arms();
+  }
+  for (Wave& wave : waves_) {
+    wave.direction = dice.Normal3() * std::sqrt(2.0 / kWaves);
+    wave.phase = dice.Uniform(0, 2 * kPi);
+    // As many throws whatever the joint sees.
+    for (std::size_t i = 0; i < kMostPlaces; ++i) {
+      const glm::dvec3 thrown = dice.Normal3();
+      wave.per_metre[i] = i < seen_count_ ? thrown / seen_[i].length : glm::dvec3(0);
+    }
+  }
+}
+
+glm::dvec3 PoseField::At(const BodyPose& pose) const {
+  std::array<glm::dvec3, kMostPlaces> places;
+  for (std::size_t i = 0; i < seen_count_; ++i) {
+    places[i] = pose[seen_[i].joint] - (seen_[i].from_shoulders ? pose[kShoulderCentre] : glm::dvec3(0));
+  }
+  glm::dvec3 sum(0);
+  for (const Wave& wave : waves_) {
+    double phase = wave.phase;
+    for (std::size_t i = 0; i < seen_count_; ++i) phase += glm::dot(wave.per_metre[i], places[i]);
+    sum += wave.direction * std::cos(phase);
+  }
+  return sum;
+}
+
+PoseError::PoseError(Role role, const SkeletonSensorOptions& options, RandomStream& dice)
+    : usual_(role, LengthsOf(options), dice),
+      in_mode_(role, LengthsOf(options), dice),
+      preference_(role, LengthsOf(options), dice) {
+  const double q = options.mode_share, r = options.mode_ratio;
+  usual_size_ = 1 / std::sqrt(1 - q + q * r * r);
+  mode_size_ = r * usual_size_;
+  threshold_ = NormalQuantileAbove(q);
+}
+
+glm::dvec3 PoseError::At(const BodyPose& pose) const {
+  const bool mode = preference_.At(pose).x > threshold_;
+  return mode ? mode_size_ * in_mode_.At(pose) : usual_size_ * usual_.At(pose);
+}
 
 ContinuousErrors::ContinuousErrors(const Camera& sensor, const SkeletonSensorOptions& options, double rate_hz,
                                    const WorldKey& world)

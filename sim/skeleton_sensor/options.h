@@ -3,14 +3,16 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
+#include "engine/base/result.h"
 #include "engine/cameras/camera.h"
 #include "engine/motion/body.h"
 
 namespace etude {
 
-/// Joints that a sensor sees alike.
+/// Groups of joints that a sensor sees alike.
 enum class JointGroup {
   kTorso,  ///< hip centre, spine, shoulder centre, head
   kShoulders,
@@ -24,7 +26,7 @@ enum class JointGroup {
 constexpr std::size_t kJointGroupCount = 8;
 constexpr std::size_t Index(JointGroup group) { return static_cast<std::size_t>(group); }
 JointGroup GroupOf(Role role);
-/// "torso", "shoulders", …: in sensor files and tables, in the order of the enum.
+/// Returns the name of a group in sensor files and tables: "torso", "shoulders", ….
 std::string_view GroupName(JointGroup group);
 std::span<const JointGroup, kJointGroupCount> AllJointGroups();
 
@@ -44,9 +46,9 @@ enum class BoneKind {
 };
 constexpr std::size_t kBoneKindCount = 11;
 constexpr std::size_t Index(BoneKind kind) { return static_cast<std::size_t>(kind); }
-/// Of the bone that ends in `child`, which is not the hip centre.
+/// Returns the kind of the bone that ends in `child`, which is not the hip centre.
 BoneKind BoneKindOf(Role child);
-/// "lower_spine", "upper_spine", …
+/// Returns the name of a kind in sensor files and tables: "lower_spine", "upper_spine", ….
 std::string_view BoneName(BoneKind kind);
 std::span<const BoneKind, kBoneKindCount> AllBoneKinds();
 
@@ -59,22 +61,22 @@ struct GroupErrors {
   double white = 0;        ///< the part without memory
 };
 
-/// How errors grow with the distance z from the sensor (metres along its axis). Across the line of sight they grow as
-/// the pixels' footprint, with z.
+/// The law by which errors grow with the distance z from the sensor (metres along its axis). Across the line of sight
+/// they grow as the pixels' footprint, with z.
 enum class DepthLaw {
   /// Structured light: σ_z = 0.0012 + 0.0019 (z − 0.4)² m (Nguyen, Izadi and Lovell 2012).
   kStructuredLight,
   /// Time of flight: σ_z = 1.5 − 0.5 z + 0.3 z² mm (Fankhauser et al. 2015, facing the surface).
   kTimeOfFlight,
 };
-/// σ_z of a single depth pixel, metres. Joints take its growth only: they are many pixels' work.
+/// Returns σ_z of a single depth pixel, metres. Joints take its growth only, because each comes from many pixels.
 double DepthDeviation(DepthLaw law, double z);
 
 /// The errors of a Kinect-like skeleton sensor: `SensorV1()` or `SensorV2()`, or a file (docs/sensor.md). What comes
 /// from where stands with the presets.
 struct SkeletonSensorOptions {
-  /// Times every size, chance and lag below (chances stop at 1); occlusion itself, its offsets and what falls out of
-  /// view stay as they are. 0: hidden joints are inferred correctly, all else is true.
+  /// A factor on every size, chance and lag below (chances stop at 1); occlusion itself, its offsets and what falls out
+  /// of view stay as they are. 0: hidden joints are inferred correctly, all else is true.
   double strength = 1.0;
 
   Intrinsics view;  ///< of the depth camera
@@ -89,7 +91,8 @@ struct SkeletonSensorOptions {
   double arm_stretch = 1;       ///< of shoulders, elbows and wrists along upper arm and forearm
   double hand_stretch = 1;      ///< of hands along the hand
   double shoulder_stretch = 1;  ///< of shoulders towards each other
-  /// `size` of an ankle or foot that rests on the floor, of a slow noise (`rest_time_s`); in motion it is the group's.
+  /// The `size` of an ankle or foot that rests on the floor, whose noise is slow (`rest_time_s`); in motion it is the
+  /// group's.
   double planted_feet = 0.003;
   double rest_time_s = 0.2;  ///< (ours)
 
@@ -125,7 +128,7 @@ struct SkeletonSensorOptions {
   double outlier_chance = 0.001;  ///< per joint and frame (ours; Gaussian + uniform: arXiv 1512.04134)
   double outlier_size_m = 0.15;   ///< uniform in a cube of this half side (ours)
 
-  /// `lag_frames` at this strength.
+  /// Returns `lag_frames` at this strength.
   int Lag() const;
 
   GroupErrors& operator[](JointGroup group) { return groups[Index(group)]; }
@@ -136,7 +139,23 @@ struct SkeletonSensorOptions {
 SkeletonSensorOptions SensorV1();
 /// Kinect v2, fitted to a recording with an optical twin; what one recording cannot tell is v1's or ours.
 SkeletonSensorOptions SensorV2();
-/// "v1" or "v2".
+/// Returns the preset "v1" or "v2"; nothing for other names.
 std::optional<SkeletonSensorOptions> FindSensorPreset(std::string_view name);
+
+/// Reads a sensor file (docs/sensor.md): YAML, all keys optional on top of the preset that `based_on` names.
+///
+///     based_on: v2                # or v1
+///     reference_distance_m: 2.9
+///     planted_feet_m: 0.003
+///     fast_share: 0.2
+///     groups:
+///       torso: {size_m: 0.021, depth_ratio: 1.2, still_m: 0.001, white_m: 0.0001}
+///     correlation: {upper_arm: 0.04, shank: 0.49}
+///
+/// Refuses unknown keys and values out of range, with file, line and column.
+Result<SkeletonSensorOptions> ReadSensorFile(std::string_view text, const std::string& file);
+
+/// Writes all keys of such a file but `strength`, which is a scenario's. What was read from it is written the same.
+std::string WriteSensorFile(const SkeletonSensorOptions& options, std::string_view based_on);
 
 }  // namespace etude

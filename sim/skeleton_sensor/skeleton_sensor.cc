@@ -17,7 +17,7 @@ bool IsInView(const Camera& camera, const ProjectionMatrix& matrix, const glm::d
          pixel->y < camera.intrinsics.height;
 }
 
-/// How far the body is turned away from the sensor.
+/// Returns how far the body is turned away from the sensor, radians.
 double TurnFrom(const glm::dvec3& eye, const BodyPose& pose) {
   const glm::dvec3 to_eye = eye - pose[kHipCentre];
   return AngleBetween(Facing(pose), {to_eye.x, 0, to_eye.z});
@@ -70,7 +70,7 @@ SensedFrame SkeletonSensor::Sense(const BodyPose& pose, const FrameMotion& motio
   return frame;
 }
 
-/// Every frame is told Lag() frames late; until then the first one is.
+/// Delays every frame by Lag() frames; until then the first one is reported.
 SensedFrame SkeletonSensor::Delayed(const SensedFrame& sensed) {
   if (frame_ == 0) std::fill(delayed_.begin(), delayed_.end(), sensed);
   delayed_[frame_ % delayed_.size()] = sensed;

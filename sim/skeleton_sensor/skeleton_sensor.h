@@ -10,13 +10,11 @@
 #include "sim/skeleton_sensor/episodes.h"
 #include "sim/skeleton_sensor/joint_errors.h"
 #include "sim/skeleton_sensor/live_sensor.h"
-#include "sim/skeleton_sensor/motion_window.h"
 #include "sim/skeleton_sensor/options.h"
-#include "sim/skeleton_sensor/visibility.h"
 
 namespace etude {
 
-/// Where a sensor stands: in front of a performer who is at the origin facing +Z.
+/// The place of a sensor in front of a performer who is at the origin facing +Z.
 struct SensorPlace {
   double distance = 2.75;  ///< metres on the floor
   double turn = 0;         ///< radians: the performer is seen turned by so much
@@ -34,10 +32,10 @@ class SkeletonSensor final : public LiveSensor {
   SkeletonSensor(const Camera& sensor, const Occluders& occluders, const SkeletonSensorOptions& options, double rate_hz,
                  const WorldKey& world);
 
-  /// A joint is inferred while something stands before it, not tracked while out of view; a report is of a pose the
-  /// options' lag ago.
+  /// Reports a joint as inferred while something stands before it, and as not tracked while it is out of view; a report
+  /// is of the pose the options' lag ago.
   std::optional<SensedFrame> Update(const BodyPose& pose) override;
-  /// The reports still owed at the end of a motion, of its last `kAhead` frames. Nothing may follow.
+  /// Returns the reports of the last `kAhead` frames at the end of a motion. Nothing may follow.
   std::vector<SensedFrame> Finish();
 
  private:
@@ -58,7 +56,7 @@ class SkeletonSensor final : public LiveSensor {
   std::vector<SensedFrame> delayed_;  ///< a ring of the last Lag() + 1 frames
 };
 
-/// What `sensor` would report of a body moving as `truth`: one frame per frame.
+/// Returns what `sensor` would report of a body that moves as `truth`, frame by frame.
 SkeletonStream SenseSkeleton(const BodyMotion& truth, const Camera& sensor, const Occluders& occluders,
                              const SkeletonSensorOptions& options, const WorldKey& world);
 

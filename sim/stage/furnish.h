@@ -2,11 +2,9 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "engine/cameras/camera.h"
-#include "engine/motion/body.h"
-#include "sim/render/interior.h"
+#include "sim/render/scene.h"
 
 namespace etude {
 
@@ -15,7 +13,7 @@ struct FreeFloor {
   glm::dvec2 low{0}, high{0};  ///< x, z
 };
 
-/// Where moving things of the room have their place.
+/// The places of the room's moving things.
 struct Places {
   glm::dvec3 plant{0};  ///< the top of its pot
   bool has_plant = false;
@@ -28,8 +26,9 @@ struct FurnishedRoom {
   Places places;
 };
 
-/// The room of this seed. Each piece has dice of its own and appears at its own threshold of `scene`, so that what is
-/// there at 0.25 is there at 0.5; colours lie `colour_share` of the way from the studio's to those of everyday things.
+/// Furnishes the room of this seed. Each piece has dice of its own and appears at its own threshold of `scene`, so that
+/// what is there at 0.25 is there at 0.5; colours lie `colour_share` of the way from the studio's to those of everyday
+/// things.
 FurnishedRoom Furnish(std::uint64_t seed, double scene, double colour_share, const FreeFloor& free,
                       std::span<const Camera> cameras);
 

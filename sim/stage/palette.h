@@ -15,14 +15,14 @@ struct Hsv {
 Rgb8 ToRgb(const Hsv& colour);
 Hsv ToHsv(Rgb8 colour);
 
-/// From `a` (share 0) to `b` (share 1), hues the shorter way round.
+/// Mixes two colours from `a` (share 0) to `b` (share 1), hues the shorter way round.
 Hsv Mixed(const Hsv& a, const Hsv& b, double share);
 
-/// A colour of things that people live with, walls and clothes alike: often wood and leather, some denim, some green,
-/// sometimes anything. Always takes as many numbers.
+/// Draws a colour of things that people live with, walls and clothes alike: often wood and leather, some denim, some
+/// green, sometimes anything. It always takes as many numbers.
 Hsv DrawColour(RandomStream& random);
 
-/// A colour of the studio's things: hues of 150–230°, away from its performers.
+/// Draws a colour of the studio's things: hues of 150–230°, away from its performers.
 Hsv DrawStudioColour(RandomStream& random);
 
 }  // namespace etude

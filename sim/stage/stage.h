@@ -6,15 +6,57 @@
 #include <vector>
 
 #include "engine/cameras/camera.h"
+#include "engine/motion/body.h"
 #include "sim/character/dressed_person.h"
-#include "sim/render/renderer.h"
+#include "sim/render/scene.h"
 #include "sim/stage/furnish.h"
-#include "sim/stage/movers.h"
 #include "sim/stage/wardrobe.h"
 
 namespace etude {
 
-/// What one stage is made of.
+/// The things that move in the room besides the performer: a plant, a screen, a ball and a second person. Each of them
+/// is a function of time; each has dice of its own and appears at its own threshold of `scene`.
+class Movers {
+ public:
+  Movers(std::uint64_t seed, double scene, double colour_share, const FurnishedRoom& room, const FreeFloor& free);
+
+  /// Returns the figures at a moment, which may lie before the take; they are labelled kClutter and kBystander.
+  std::vector<Figure> At(double seconds) const;
+
+  /// Returns the second person's joints at that moment; nothing while nobody is there.
+  std::optional<BodyPose> BystanderAt(double seconds) const;
+
+ private:
+  struct Leaf {
+    glm::dvec3 tip{0};  ///< from the pot, at rest
+    double phase = 0, rate_hz = 0;
+  };
+  struct Ball {
+    glm::dvec3 middle{0};
+    double reach = 0, radius = 0, height = 0, period_s = 1, phase = 0;
+    Rgb8 colour{};
+  };
+  struct Bystander {
+    DressedPerson person;
+    BodyMotion motion;
+    glm::dvec3 place{0};
+    double size = 1, heading = 0, stroll_m = 0, period_s = 1, phase = 0;
+  };
+
+  Figure PlantAt(double seconds) const;
+  Figure ScreenAt(double seconds) const;
+  Figure BallAt(double seconds) const;
+
+  std::uint64_t seed_;
+  double scene_, colour_share_;
+  Places places_;
+  std::vector<Leaf> leaves_;
+  Rgb8 leaf_colour_{};
+  std::optional<Ball> ball_;
+  std::optional<Bystander> bystander_;
+};
+
+/// The options of a stage.
 struct StageOptions {
   std::uint64_t seed = 1;  ///< of every dice: nothing that they decide depends on `scene`
   /// 0 = the studio: an empty, bluish room and a performer of capsules in warm colours; 1 = a furnished room with
@@ -31,19 +73,19 @@ class StagedRoom {
   /// For a performer who moves like `poses` before `cameras`: furniture leaves that floor free.
   StagedRoom(const StageOptions& options, std::span<const BodyPose> poses, std::span<const Camera> cameras);
 
-  /// Null: the studio. Lives as long as this.
+  /// Returns the interior, or null for the studio. It lives as long as this.
   const Interior* interior() const { return furnished_ ? &furnished_->interior : nullptr; }
-  bool IsPerformerDressed() const { return performer_.has_value(); }
-  /// The dressed performer; at scene 0 the capsules in `studio` colours.
+  /// Returns the dressed performer; at scene 0 the capsules in `studio` colours.
   Figure PerformerAt(const BodyPose& pose, const PartColours& studio) const;
-  /// What moves in the room, `seconds` after the take's start (less than 0: before).
+  /// Returns what moves in the room, `seconds` after the take's start (less than 0: before).
   std::vector<Figure> MoversAt(double seconds) const;
-  /// The second person, as far as it is there.
+  /// Returns the joints of the second person, if there is one.
   std::optional<BodyPose> BystanderAt(double seconds) const;
-  /// By what the lamps' mains multiplies the light of a picture taken at that moment: 100 Hz, sampled by the camera.
+  /// Returns the factor that the lamps' mains puts on the light of a picture taken at that moment: 100 Hz, sampled by
+  /// the camera.
   double FlickerAt(double seconds) const;
 
-  /// When the background picture was taken: before the take, with everything that moves elsewhere.
+  /// The time of the background picture: before the take, with everything that moves elsewhere.
   static constexpr double kBackgroundSeconds = -6.3;
 
  private:
@@ -54,7 +96,7 @@ class StagedRoom {
   double flicker_ = 0, flicker_phase_ = 0;
 };
 
-/// How far from the studio's colours to everyday ones they are at this `scene`.
+/// Returns how far from the studio's colours to everyday ones the colours are at this `scene`.
 double ColourShare(double scene);
 
 }  // namespace etude

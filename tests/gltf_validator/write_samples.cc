@@ -10,8 +10,8 @@
 #include "engine/formats/gltf/gltf.h"
 #include "engine/retargeting/rig.h"
 #include "sim/character/characters.h"
+#include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"
-#include "sim/choreography/stance.h"
 #include "tests/support/person.h"
 
 namespace etude {

@@ -6,7 +6,7 @@
 #include "bench/tasks/capture/shooting.h"
 #include "engine/base/unit_vector.h"
 #include "sim/annotator/drawing.h"
-#include "sim/annotator/regions.h"
+#include "sim/annotator/evidence.h"
 #include "sim/body/shape.h"
 
 namespace etude {

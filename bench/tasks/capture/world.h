@@ -14,9 +14,9 @@
 #include "engine/kinematics/limb_lengths.h"
 #include "engine/motion/body.h"
 #include "engine/motion/rest_body.h"
-#include "sim/character/recorded_figure.h"
+#include "sim/character/posed.h"
 #include "sim/random/stream.h"
-#include "sim/render/renderer.h"
+#include "sim/render/scene.h"
 #include "sim/stage/stage.h"
 
 namespace etude {

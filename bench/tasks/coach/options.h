@@ -7,7 +7,7 @@
 #include "bench/tasks/transition/options.h"
 #include "engine/coaching/coach.h"
 #include "engine/coaching/policy.h"
-#include "sim/music/music_clock.h"
+#include "sim/music/music.h"
 #include "sim/performer/learner.h"
 
 namespace etude {

@@ -7,7 +7,7 @@
 
 #include "bench/tasks/sensing/camera_sensor.h"
 #include "engine/coaching/session.h"
-#include "sim/music/music_clock.h"
+#include "sim/music/music.h"
 
 namespace etude {
 namespace {

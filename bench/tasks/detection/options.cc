@@ -3,7 +3,7 @@
 #include "bench/keys/part_fields.h"
 #include "bench/keys/setting_fields.h"
 #include "bench/tasks/base/moves_key.h"
-#include "sim/skeleton_sensor/sensor_file.h"
+#include "sim/skeleton_sensor/options.h"
 
 namespace etude {
 namespace {

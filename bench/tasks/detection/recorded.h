@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/streams/labelled.h"
+#include "bench/streams/load.h"
 #include "bench/tasks/detection/operating_point.h"
 #include "bench/tasks/detection/world.h"
 

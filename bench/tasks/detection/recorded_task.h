@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "bench/streams/labelled.h"
+#include "bench/streams/load.h"
 #include "bench/tasks/base/task.h"
 #include "bench/tasks/detection/options.h"
 

@@ -7,7 +7,7 @@
 #include "bench/tasks/pose_distance/exchange.h"
 #include "bench/tasks/pose_distance/options.h"
 #include "bench/tasks/pose_distance/score.h"
-#include "bench/training/training_clips.h"
+#include "bench/training/training_pairs.h"
 
 namespace etude {
 namespace {

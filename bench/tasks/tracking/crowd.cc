@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "bench/clips/builtin_clip.h"
 #include "bench/clips/clip_library.h"
+#include "bench/clips/references.h"
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/gauss_newton_batch.h"
 #include "sim/choreography/move.h"

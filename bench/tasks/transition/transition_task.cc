@@ -3,7 +3,7 @@
 #include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/transition/exchange.h"
 #include "bench/tasks/transition/run.h"
-#include "bench/training/training_clips.h"
+#include "bench/training/training_pairs.h"
 
 namespace etude {
 namespace {

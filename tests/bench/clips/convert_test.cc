@@ -7,8 +7,8 @@
 #include "engine/formats/bvh.h"
 #include "engine/formats/gltf/gltf.h"
 #include "engine/motion/statistics.h"
+#include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"
-#include "sim/choreography/stance.h"
 #include "tests/bench/clips/clip_folder.h"
 
 namespace etude {

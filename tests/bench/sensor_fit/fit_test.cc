@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/sensor_fit/table.h"
-#include "sim/skeleton_sensor/sensor_file.h"
+#include "bench/sensor_fit/statistics.h"
+#include "sim/skeleton_sensor/options.h"
 #include "tests/bench/sensor_fit/small_recording.h"
 
 // A sensor is recovered from what it was seen to do: recordings are simulated with a sensor that the fit does not know.

@@ -2,7 +2,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 
-#include "bench/sensor_fit/simulated.h"
+#include "bench/sensor_fit/fit.h"
 #include "sim/choreography/move.h"
 #include "sim/random/stream.h"
 

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "bench/sensor_fit/table.h"
 #include "tests/bench/sensor_fit/small_recording.h"
 
 // Statistics of recordings whose errors were made up: each against its closed form.

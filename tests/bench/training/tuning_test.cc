@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/training/membership_genes.h"
+#include "bench/training/genetic_search.h"
 #include "bench/training/training_pairs.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"

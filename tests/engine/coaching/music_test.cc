@@ -1,5 +1,7 @@
 // Music-time tags against closed forms, and the target: clocks that drift and stutter.
 
+#include "sim/music/music.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,7 +9,6 @@
 #include <cmath>
 
 #include "engine/coaching/tempo.h"
-#include "sim/music/music_clock.h"
 #include "tests/engine/coaching/small_dance.h"
 
 namespace etude {

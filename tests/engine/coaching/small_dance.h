@@ -7,7 +7,6 @@
 #include "engine/transitions/choices/choice.h"
 #include "engine/transitions/joins/join.h"
 #include "sim/choreography/canonical_body.h"
-#include "sim/choreography/stance.h"
 
 namespace etude {
 

@@ -8,8 +8,8 @@
 #include <iterator>
 #include <tuple>
 
+#include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"
-#include "sim/choreography/stance.h"
 #include "tests/support/read_body.h"
 
 namespace etude {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "engine/base/angles.h"
+#include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"
-#include "sim/choreography/stance.h"
 
 namespace etude {
 namespace {

@@ -12,7 +12,6 @@
 #include "engine/retargeting/rig.h"
 #include "sim/character/characters.h"
 #include "sim/choreography/canonical_body.h"
-#include "sim/choreography/stance.h"
 #include "tests/reports/clips/clip_scene.h"
 
 namespace etude {

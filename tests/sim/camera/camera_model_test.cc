@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "tests/sim/camera/shots.h"
 
 namespace etude {
@@ -100,5 +102,188 @@ TEST(CameraModel, ShowsTheBackgroundWithDiceOfItsOwn) {
   EXPECT_EQ(faultless.ShootBackground(SceneOf(faultless, grey)).pixels, Shoot(faultless, grey, 0).pixels);
 }
 
+constexpr int kWidth = 640, kHeight = 96;
+
+/// Bright to the left of an edge that stands at `edge` at a time.
+Painter MovingEdge(const std::function<double(double)>& edge) {
+  return [edge](int x, int, double frame) { return x + 0.5 < edge(frame) ? Rgb8{230, 230, 230} : Rgb8{30, 30, 30}; };
+}
+
+/// Where the edge stands in a row: as many pixels as there is light.
+double EdgeInRow(const ColourImage& picture, int y) {
+  const double dark = LightOfCodes()[30], bright = LightOfCodes()[230];
+  double sum = 0;
+  for (int x = 0; x < picture.width; ++x) sum += (LightAt(picture, x, y) - dark) / (bright - dark);
+  return sum;
+}
+
+CameraModel Wide(const CameraEffects& effects, bool is_reference = true) {
+  return ModelOf(effects, PlainCamera(kWidth, kHeight), is_reference);
+}
+
+// A vertical edge that moves leans over in the picture: its slant, rows apart, gives the time between them.
+double ReadOutMs(double effect_ms) {
+  constexpr double kPixelsPerFrame = 300;
+  CameraModel model = Wide({.rolling_shutter_ms = effect_ms, .noise = 0});
+  const ColourImage picture =
+      Shoot(model, MovingEdge([](double frame) { return 320 + kPixelsPerFrame * (frame - 4); }), 4);
+  std::vector<std::pair<double, double>> middles;  // of the bands, whose rows are seen at the band's middle
+  for (int band = 0; band < Shutter::kBands; ++band) {
+    const int rows = kHeight / Shutter::kBands;
+    middles.push_back({band * rows + rows / 2.0, EdgeInRow(picture, band * rows + rows / 2)});
+  }
+  return FitLine(middles).slope * kHeight / kPixelsPerFrame / 30 * 1000;
+}
+
+TEST(RollingShutter, IsRecoveredFromTheSlantOfAMovingEdge) {
+  for (const double effect_ms : {5.0, 15.0, 30.0}) EXPECT_NEAR(ReadOutMs(effect_ms) / effect_ms, 1, 0.03);
+  EXPECT_NEAR(ReadOutMs(0), 0, 1e-9);
+  EXPECT_GT(ReadOutMs(16), 15.5);
+}
+
+TEST(RollingShutter, IsExactInEachOfItsBands) {
+  CameraModel model = Wide({.rolling_shutter_ms = 30, .noise = 0});
+  const auto edge = [](double frame) { return 320 + 300 * (frame - 4); };
+  const ColourImage picture = Shoot(model, MovingEdge(edge), 4);
+  const std::vector<Shutter::Band> bands = model.shutter().BandsOf(4, kHeight);
+  ASSERT_EQ(bands.size(), 8u);
+  int next = 0;
+  for (const Shutter::Band& band : bands) {
+    EXPECT_EQ(band.rows.first, next);
+    next = band.rows.end;
+    for (int y = band.rows.first; y < band.rows.end; ++y) EXPECT_NEAR(EdgeInRow(picture, y), edge(band.time), 0.51);
+  }
+  EXPECT_EQ(next, kHeight);
+}
+
+// An edge that moves is a ramp as wide as its way while the shutter is open; its standard deviation, of nine equal
+// steps, tells how wide.
+double BlurPixels(double blur, double pixels_per_frame) {
+  CameraModel model = Wide({.motion_blur = blur, .noise = 0});
+  const ColourImage picture =
+      Shoot(model, MovingEdge([=](double frame) { return 320 + pixels_per_frame * (frame - 4); }), 4);
+  const auto value = [&](int x) { return LightAt(picture, x, 10); };
+  double sum = 0, first = 0, second = 0;
+  for (int x = 1; x < kWidth; ++x) {
+    const double step = value(x - 1) - value(x);
+    sum += step;
+    first += step * x;
+    second += step * x * x;
+  }
+  const double variance = second / sum - first * first / sum / sum;
+  const double subframes = Shutter::kSubframes;
+  return std::sqrt(12 * variance / (1 - 1 / (subframes * subframes)));
+}
+
+TEST(MotionBlur, IsRecoveredFromAMovingEdge) {
+  for (const double blur : {0.25, 0.5, 1.0}) EXPECT_NEAR(BlurPixels(blur, 160) / (blur * 160), 1, 0.02) << blur;
+  EXPECT_NEAR(BlurPixels(0.5, 80) / 40, 1, 0.03) << "half as fast, half as wide";
+  EXPECT_EQ(BlurPixels(0, 160), 0);
+}
+
+// Nine levels of light, evenly spaced: codes would be evenly spaced if they, not light, had been averaged.
+TEST(MotionBlur, IsAMeanOfLightAndNotOfCodes) {
+  CameraModel model = Wide({.motion_blur = 1, .noise = 0});
+  const ColourImage picture = Shoot(model, MovingEdge([](double frame) { return 320 + 180 * (frame - 4); }), 4);
+  const double dark = LightOfCodes()[30], bright = LightOfCodes()[230];
+  for (int level = 0; level <= 9; ++level) {
+    const int x = 230 + 20 * level;  // sub-frames' edges stand at 240, 260, … 400
+    EXPECT_NEAR(LightAt(picture, x, 5), bright + (dark - bright) * level / 9, 0.004);
+  }
+  EXPECT_GT(picture.At(310, 5).g - (230 - (230 - 30) * 4 / 9), 20) << "the mean of codes is darker";
+}
+
+// --- Two cameras that see one thing move.
+
+double Dance(double frame) {
+  return 320 + 120 * std::sin(frame / 5.9) + 60 * std::sin(frame / 2.3 + 1) + 30 * std::sin(frame / 17.0);
+}
+
+std::vector<double> Seen(const CameraEffects& effects, bool is_reference, std::size_t frames) {
+  CameraModel model = ModelOf(effects, PlainCamera(kWidth, 4), is_reference);
+  std::vector<double> edges;
+  for (std::size_t k = 0; k < frames; ++k) edges.push_back(EdgeInRow(Shoot(model, MovingEdge(Dance), k), 1));
+  return edges;
+}
+
+double Between(const std::vector<double>& values, double at) {
+  const auto k = static_cast<std::size_t>(at);
+  const double t = at - static_cast<double>(k), u = 1 - t;
+  return u * u * (1 + 2 * t) * values[k] + t * t * (3 - 2 * t) * values[k + 1] +
+         t * u * u * 0.5 * (values[k + 1] - values[k - 1]) - t * t * u * 0.5 * (values[k + 2] - values[k]);
+}
+
+// By how many frames `other` is ahead of `reference` within frames from…to: where their correlation is largest.
+double LagOf(const std::vector<double>& reference, const std::vector<double>& other, std::size_t from, std::size_t to) {
+  double best = -2, best_lag = 0;
+  for (double lag = -8; lag <= 8; lag += 0.01) {
+    double n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
+    for (std::size_t k = from; k < to; ++k) {
+      const double x = Between(reference, static_cast<double>(k) + lag), y = other[k];
+      n += 1;
+      a += x;
+      b += y;
+      aa += x * x;
+      bb += y * y;
+      ab += x * y;
+    }
+    const double correlation = (n * ab - a * b) / std::sqrt((n * aa - a * a) * (n * bb - b * b));
+    if (correlation <= best) continue;
+    best = correlation;
+    best_lag = lag;
+  }
+  return best_lag;
+}
+
+double LagMs(double effect_ms) {
+  const CameraEffects effects{.sync_offset_ms = effect_ms, .noise = 0};
+  return std::abs(LagOf(Seen(effects, true, 120), Seen(effects, false, 120), 12, 100)) / 30 * 1000;
+}
+
+TEST(SyncOffset, IsRecoveredByCrossCorrelationOfWhatBothCamerasSee) {
+  for (const double effect_ms : {8.0, 40.0, 100.0}) EXPECT_NEAR(LagMs(effect_ms), effect_ms, 0.7);
+  EXPECT_NEAR(LagMs(0), 0, 0.2);
+  EXPECT_GT(LagMs(10), 8.7) << "told apart from 8 ms";
+}
+
+// The lag of one second after the other, against time.
+double DriftPpm(double effect_ppm) {
+  const CameraEffects effects{.clock_drift_ppm = effect_ppm, .noise = 0};
+  const std::vector<double> reference = Seen(effects, true, 330), other = Seen(effects, false, 330);
+  std::vector<std::pair<double, double>> lags;
+  for (std::size_t k = 10; k + 70 <= 320; k += 30) {
+    lags.push_back({static_cast<double>(k) + 29.5, LagOf(reference, other, k, k + 60)});
+  }
+  return std::abs(FitLine(lags).slope) * 1e6;
+}
+
+TEST(ClockDrift, IsRecoveredByRegressionOfTheLag) {
+  for (const double effect_ppm : {4000.0, 15000.0}) EXPECT_NEAR(DriftPpm(effect_ppm) / effect_ppm, 1, 0.05);
+  EXPECT_LT(DriftPpm(0), 50);
+  EXPECT_GT(DriftPpm(4600), 4250);
+}
+
+TEST(Shutter, LeavesTheReferenceClockAlone) {
+  RandomStream random(kShotWorld, "clock");
+  const Shutter shutter({.sync_offset_ms = 50, .clock_drift_ppm = 9000}, 30, true, random);
+  for (std::size_t k = 0; k < 100; ++k) EXPECT_EQ(shutter.TimeOf(k), static_cast<double>(k));
+}
+
+TEST(Shutter, ThrowsTheSignsOfOffsetAndDriftAndNothingElse) {
+  int late = 0, slow = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    RandomStream random({1, "signs", trial}, "clock");
+    const Shutter shutter({.sync_offset_ms = 50, .clock_drift_ppm = 9000}, 30, false, random);
+    const double offset = shutter.TimeOf(0), drift = shutter.TimeOf(1) - shutter.TimeOf(0) - 1;
+    EXPECT_NEAR(std::abs(offset), 1.5, 1e-12);
+    EXPECT_NEAR(std::abs(drift), 0.009, 1e-12);
+    late += offset > 0;
+    slow += drift > 0;
+  }
+  EXPECT_NEAR(late, 100, 35);
+  EXPECT_NEAR(slow, 100, 35);
+}
+
 }  // namespace
+
 }  // namespace etude

@@ -7,7 +7,8 @@
 #include <numbers>
 
 #include "sim/body/shape.h"
-#include "sim/choreography/stance.h"
+#include "sim/choreography/canonical_body.h"
+#include "sim/render/renderer.h"
 #include "tests/sim/camera/shots.h"
 
 namespace etude {

@@ -12,8 +12,8 @@
 
 #include "engine/base/digest.h"
 #include "engine/retargeting/rig.h"
+#include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"
-#include "sim/choreography/stance.h"
 
 namespace etude {
 namespace {

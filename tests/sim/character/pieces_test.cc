@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "sim/choreography/stance.h"
+#include "sim/choreography/canonical_body.h"
 
 namespace etude {
 namespace {

@@ -9,7 +9,6 @@
 #include "sim/choreography/move.h"
 #include "sim/choreography/slow_demonstration.h"
 #include "sim/choreography/song.h"
-#include "sim/choreography/stance.h"
 #include "tests/sim/choreography/measures.h"
 
 namespace etude {

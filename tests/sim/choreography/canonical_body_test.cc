@@ -6,7 +6,6 @@
 
 #include "engine/base/angles.h"
 #include "engine/fuzzy/features.h"
-#include "sim/choreography/stance.h"
 #include "sim/random/stream.h"
 
 namespace etude {

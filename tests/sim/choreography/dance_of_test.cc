@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sim/choreography/beats.h"
-
 namespace etude {
 namespace {
 

@@ -13,7 +13,6 @@
 #include "engine/kinematics/start_angles.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"
-#include "sim/choreography/stance.h"
 #include "tests/sim/choreography/balance.h"
 
 namespace etude {

@@ -7,7 +7,6 @@
 
 #include "engine/fuzzy/features.h"
 #include "sim/choreography/canonical_body.h"
-#include "sim/choreography/stance.h"
 #include "tests/sim/choreography/key_poses_shown.h"
 
 namespace etude {

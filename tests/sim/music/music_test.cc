@@ -1,3 +1,5 @@
+#include "sim/music/music.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -5,8 +7,6 @@
 #include <cmath>
 
 #include "engine/formats/wav.h"
-#include "sim/music/click_track.h"
-#include "sim/music/music_clock.h"
 
 namespace etude {
 namespace {

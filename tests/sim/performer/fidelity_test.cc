@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/choreography/stance.h"
+#include "sim/choreography/canonical_body.h"
 #include "tests/sim/performer/neighbours.h"
 
 namespace etude {

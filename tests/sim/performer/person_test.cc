@@ -9,7 +9,7 @@
 #include "engine/base/angles.h"
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/start_angles.h"
-#include "sim/choreography/stance.h"
+#include "sim/choreography/canonical_body.h"
 #include "sim/performer/rendition.h"
 #include "tests/sim/performer/all_moves.h"
 

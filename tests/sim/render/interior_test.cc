@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/body/cuboid.h"
+#include "sim/body/shape.h"
 #include "sim/render/renderer.h"
 #include "tests/sim/render/dancer.h"
 #include "tests/sim/render/ray_caster.h"

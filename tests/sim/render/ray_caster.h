@@ -3,7 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/render/renderer.h"
+#include "engine/cameras/camera.h"
+#include "sim/render/scene.h"
 
 namespace etude {
 

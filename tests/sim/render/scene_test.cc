@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "engine/base/angles.h"
+#include "sim/render/empty_room.h"
 #include "sim/render/renderer.h"
-#include "sim/render/room_texture.h"
 #include "tests/sim/render/dancer.h"
 #include "tests/support/gtest_printers.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "sim/render/figure_batches.h"
 #include "sim/render/renderer.h"
-#include "sim/render/surface_batch.h"
 #include "tests/sim/render/dancer.h"
 #include "tests/sim/render/ray_caster.h"
 #include "tests/sim/render/tessellation.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/render/renderer.h"
+#include "sim/render/scene.h"
 
 namespace etude {
 

@@ -9,7 +9,8 @@
 #include "engine/base/angles.h"
 #include "engine/boards/find_disc.h"
 #include "engine/cameras/dlt.h"
-#include "sim/choreography/stance.h"
+#include "sim/choreography/canonical_body.h"
+#include "sim/render/renderer.h"
 #include "sim/rig/rig.h"
 
 namespace etude {

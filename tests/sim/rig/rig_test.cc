@@ -8,8 +8,8 @@
 #include <glm/gtc/matrix_access.hpp>
 
 #include "engine/base/angles.h"
-#include "sim/choreography/stance.h"
-#include "sim/render/renderer.h"
+#include "sim/choreography/canonical_body.h"
+#include "sim/render/scene.h"
 
 namespace etude {
 namespace {

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "sim/choreography/move.h"
-#include "sim/skeleton_sensor/processes.h"
 #include "sim/skeleton_sensor/skeleton_sensor.h"
 #include "tests/sim/skeleton_sensor/whole_motion.h"
 

@@ -1,5 +1,3 @@
-#include "sim/skeleton_sensor/visibility.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include "sim/choreography/move.h"
 #include "sim/random/stream.h"
 #include "sim/render/renderer.h"
+#include "sim/skeleton_sensor/episodes.h"
 #include "sim/skeleton_sensor/skeleton_sensor.h"
 #include "tests/sim/skeleton_sensor/whole_motion.h"
 

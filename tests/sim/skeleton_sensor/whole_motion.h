@@ -6,7 +6,6 @@
 #include "engine/motion/body.h"
 #include "sim/skeleton_sensor/episodes.h"
 #include "sim/skeleton_sensor/joint_errors.h"
-#include "sim/skeleton_sensor/visibility.h"
 
 namespace etude {
 

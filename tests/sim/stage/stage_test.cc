@@ -6,9 +6,10 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/body/cuboid.h"
+#include "sim/body/shape.h"
+#include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"
-#include "sim/choreography/stance.h"
+#include "sim/render/renderer.h"
 #include "sim/stage/palette.h"
 #include "tests/support/gtest_printers.h"
 

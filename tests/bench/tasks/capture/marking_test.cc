@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "sim/choreography/stance.h"
+#include "sim/choreography/canonical_body.h"
 #include "sim/render/renderer.h"
 #include "sim/stage/wardrobe.h"
 #include "tests/sim/annotator/annotated_body.h"

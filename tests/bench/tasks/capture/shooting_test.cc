@@ -7,7 +7,7 @@
 
 #include "engine/retargeting/rig.h"
 #include "sim/character/characters.h"
-#include "sim/choreography/stance.h"
+#include "sim/choreography/canonical_body.h"
 
 namespace etude {
 namespace {

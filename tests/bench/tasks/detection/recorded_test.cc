@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "bench/streams/leave_one_out.h"
+#include "bench/streams/label_scores.h"
 #include "tests/bench/streams/record_people.h"
 #include "tests/bench/tasks/detection/detection_fixture.h"
 #include "tests/support/run_world.h"
