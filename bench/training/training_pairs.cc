@@ -1,7 +1,7 @@
 #include "bench/training/training_pairs.h"
 
 #include "bench/metrics/pose_distance.h"
-#include "engine/transitions/base/alignment.h"
+#include "engine/transitions/alignment.h"
 
 namespace etude {
 namespace {

@@ -28,7 +28,7 @@ double Dot(const Row& row, const Row& beta) {
   return sum;
 }
 
-/// Without overflow for any finite input.
+/// Computes the logistic function without overflow for any finite input.
 double Sigmoid(double x) { return x >= 0 ? 1.0 / (1.0 + std::exp(-x)) : std::exp(x) / (1.0 + std::exp(x)); }
 
 /// −log likelihood plus the ridge's penalty.

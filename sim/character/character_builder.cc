@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "engine/base/srgb.h"
+#include "engine/base/image.h"
 #include "engine/motion/from_body.h"
 
 namespace etude {

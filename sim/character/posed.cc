@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "engine/base/srgb.h"
+#include "engine/base/image.h"
 #include "engine/retargeting/rig.h"
 #include "sim/choreography/stance.h"
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "engine/motion/sample.h"
+#include "engine/motion/clip.h"
 #include "sim/character/posed.h"
 
 namespace etude {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/base/angles.h"
+#include "engine/base/directions.h"
 
 namespace etude {
 namespace {

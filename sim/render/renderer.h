@@ -10,7 +10,6 @@
 
 #include "engine/base/image.h"
 #include "engine/base/result.h"
-#include "engine/base/texture.h"
 #include "engine/cameras/camera.h"
 #include "sim/body/shape.h"
 #include "sim/render/interior.h"

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "engine/base/texture.h"
+#include "engine/base/image.h"
 #include "sim/render/gl_context.h"
 
 namespace etude {

@@ -15,13 +15,11 @@ MAY_INCLUDE = {
         "engine/base engine/boards engine/bundle_adjustment engine/cameras engine/kinematics engine/kinematics/solvers "
         "engine/motion engine/smoothing engine/vision",
     "engine/coaching":
-        "engine/base engine/fuzzy engine/motion engine/recognition engine/transitions engine/transitions/base "
+        "engine/base engine/fuzzy engine/motion engine/recognition engine/transitions/choices engine/transitions "
         "engine/transitions/joins engine/transitions/library",
     "engine/document": "engine/base",
     "engine/formats": "engine/base engine/motion",
-    "engine/formats/deepmimic": "engine/base engine/formats/json engine/motion",
     "engine/formats/gltf": "engine/base engine/formats engine/motion",
-    "engine/formats/json": "engine/base",
     "engine/fuzzy": "engine/base engine/document engine/motion",
     "engine/keypoints":
         "engine/base engine/cameras engine/capture engine/formats engine/kinematics engine/motion engine/vision",
@@ -32,24 +30,16 @@ MAY_INCLUDE = {
     "engine/retargeting": "engine/base engine/document engine/motion",
     "engine/silhouettes": "engine/base engine/cameras engine/kinematics engine/motion",
     "engine/smoothing": "",
-    "engine/streams": "engine/base engine/formats engine/formats/json engine/recognition",
+    "engine/streams": "engine/base engine/formats engine/recognition",
     "engine/teaching": "engine/base engine/document engine/recognition",
-    "engine/transitions": "engine/transitions/choices engine/transitions/joins",
-    "engine/transitions/base": "engine/fuzzy engine/motion",
-    "engine/transitions/bridge_frames":
-        "engine/base engine/fuzzy engine/motion engine/transitions/base engine/transitions/search",
     "engine/transitions/choices":
-        "engine/base engine/fuzzy engine/motion engine/transitions/base engine/transitions/bridge_frames "
-        "engine/transitions/in_betweens engine/transitions/joins engine/transitions/library "
-        "engine/transitions/search",
-    "engine/transitions/in_betweens":
-        "engine/base engine/motion engine/transitions/base engine/transitions/bridge_frames",
-    "engine/transitions/joins": "engine/base engine/motion engine/transitions/base",
-    "engine/transitions/library":
-        "engine/fuzzy engine/motion engine/transitions/bridge_frames engine/transitions/in_betweens",
-    "engine/transitions/search": "engine/base engine/fuzzy engine/transitions/base",
-    "engine/transitions/tags_file":
-        "engine/base engine/fuzzy engine/transitions/bridge_frames engine/transitions/library",
+        "engine/transitions/joins engine/base engine/fuzzy engine/motion engine/transitions "
+        "engine/transitions/library engine/transitions/search",
+    "engine/transitions": "engine/fuzzy engine/motion",
+    "engine/transitions/library": "engine/base engine/fuzzy engine/motion engine/transitions engine/transitions/search",
+    "engine/transitions/joins": "engine/base engine/motion engine/transitions",
+    "engine/transitions/search": "engine/base engine/fuzzy engine/transitions",
+    "engine/transitions/tags_file": "engine/base engine/fuzzy engine/transitions/library",
     "engine/unmarked":
         "engine/base engine/cameras engine/capture engine/kinematics engine/motion engine/silhouettes engine/vision",
     "engine/vision": "engine/base engine/cameras engine/motion",
@@ -74,8 +64,8 @@ MAY_INCLUDE = {
     # bench/
     "bench/calibration": "sim/random bench/statistics",
     "bench/clips":
-        "engine/base engine/formats engine/formats/deepmimic engine/formats/gltf engine/motion engine/retargeting "
-        "sim/camera sim/character sim/choreography sim/sensors bench/files",
+        "engine/base engine/formats engine/formats/gltf engine/motion engine/retargeting sim/camera sim/character "
+        "sim/choreography sim/sensors bench/files",
     "bench/dataset": "engine/base bench/files bench/films bench/process bench/run bench/scenario",
     "bench/files": "engine/base",
     "bench/films": "engine/base sim/render sim/sensors bench/files bench/model",
@@ -129,7 +119,7 @@ MAY_INCLUDE = {
         "engine/base engine/kinematics engine/kinematics/solvers sim/random bench/files bench/metrics "
         "bench/tasks/base",
     "bench/tasks/pose_distance":
-        "engine/base engine/fuzzy engine/transitions/base engine/transitions/choices engine/transitions/library "
+        "engine/base engine/fuzzy engine/transitions engine/transitions/choices engine/transitions/library "
         "sim/choreography sim/random bench/clips bench/keys bench/metrics bench/tasks/base bench/training",
     "bench/tasks/search":
         "engine/base engine/fuzzy engine/transitions/search sim/choreography sim/random bench/clips bench/keys "
@@ -141,19 +131,18 @@ MAY_INCLUDE = {
         "engine/base engine/formats engine/kinematics engine/kinematics/solvers engine/motion sim/choreography "
         "sim/random bench/clips bench/files bench/metrics bench/model bench/tasks/base",
     "bench/tasks/transition":
-        "engine/base engine/formats engine/fuzzy engine/motion engine/transitions engine/transitions/base "
-        "engine/transitions/bridge_frames engine/transitions/joins engine/transitions/library sim/choreography "
-        "sim/random bench/clips bench/keys bench/metrics bench/tasks/base bench/training",
+        "engine/base engine/formats engine/fuzzy engine/motion engine/transitions/choices engine/transitions "
+        "engine/transitions/library engine/transitions/joins sim/choreography sim/random bench/clips bench/keys "
+        "bench/metrics bench/tasks/base bench/training",
     "bench/training":
-        "engine/base engine/fuzzy engine/transitions/base engine/transitions/library sim/choreography sim/random "
+        "engine/base engine/fuzzy engine/transitions engine/transitions/library sim/choreography sim/random "
         "bench/metrics",
     # reports/
     "reports":
         "engine/base bench/files bench/gate bench/model bench/real_takes bench/recordings reports/assets reports/films reports/growth "
         "reports/paper reports/plots reports/transitions reports/words",
     "reports/assets": "",
-    "reports/bridges":
-        "engine/base engine/fuzzy engine/transitions/bridge_frames engine/transitions/library bench/files",
+    "reports/bridges": "engine/base engine/fuzzy engine/transitions/library bench/files",
     "reports/captures": "engine/base engine/cameras engine/keypoints engine/motion bench/films reports/films",
     "reports/clips":
         "engine/base engine/cameras engine/motion engine/retargeting engine/transitions/joins sim/body sim/character "

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/coaching/tempo.h"
+#include "engine/coaching/dance.h"
 #include "sim/music/music_clock.h"
 #include "tests/engine/coaching/small_dance.h"
 
