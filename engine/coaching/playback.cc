@@ -103,7 +103,7 @@ std::shared_ptr<const ShownPath> DanceTransitions::Splice(int from, int frame, c
 
 namespace {
 
-/// First `inner`, then `outer`.
+/// Returns the move that does first `inner`, then `outer`.
 FloorMove After(const FloorMove& outer, const FloorMove& inner) {
   const glm::dvec3 shift = outer.Apply(glm::dvec3(inner.x, 0, inner.z));
   return {.yaw = outer.yaw + inner.yaw, .x = shift.x, .z = shift.z};

@@ -35,7 +35,7 @@ namespace {
 /// A body at rest wanders by millimetres, a guessed limb by decimetres: what counts is the mean over the joints that
 /// are seen. Ours.
 constexpr double kMovingMetres = 0.025;
-/// Per frame towards where the joint is now: a time constant of half a second.
+/// The share of the way to where the joint is now, per frame: a time constant of half a second.
 constexpr double kFollowing = 1.0 / 15;
 
 }  // namespace

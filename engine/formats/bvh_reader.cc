@@ -187,7 +187,7 @@ struct MotionHeader {
   Token frames_place;  ///< where the number of frames stands
 };
 
-/// Files print a frame time with few digits; the rate meant is a whole number nearly always.
+/// Returns the rate that a frame time means: files print few digits, and it is a whole number nearly always.
 double RateOf(double frame_seconds) {
   constexpr double kPrintedPrecision = 1e-4;
   const double rate = 1.0 / frame_seconds;

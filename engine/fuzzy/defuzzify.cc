@@ -95,7 +95,8 @@ std::vector<double> BendsOf(std::span<const ActivatedTerm> terms, const Universe
   return all;
 }
 
-/// Area and first moment of the union of the terms: Simpson's rule between bends, where it is exact for straight lines.
+/// Returns area and first moment of the union of the terms: Simpson's rule between bends, where it is exact for
+/// straight lines.
 Moment AreaUnder(std::span<const ActivatedTerm> terms, const Universe& universe) {
   const auto height = [&](double x) {
     double highest = 0;

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
-/// √S · μ of every frame: the points whose Euclidean distance equation 1 is.
+/// Returns √S · μ of every frame: the points whose Euclidean distance equation 1 is.
 std::vector<Grades> Scaled(std::span<const Grades> motion, const FeatureWeights& weights) {
   Grades roots{};
   for (std::size_t i = 0; i < kTermCount; ++i) {

@@ -181,7 +181,7 @@ std::string WriteFeatures(const FeatureSettings& settings) {
 constexpr std::size_t kMostRules = 100;
 constexpr std::size_t kLongestPose = 40;
 
-/// Plain enough to be written back, and shown, without quotes.
+/// Says whether a name is plain enough to be written back, and shown, without quotes.
 bool IsPoseName(const std::string& name) {
   const auto is_plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == ' ' || c == '-';

@@ -34,10 +34,10 @@ bool IsUpper(char c) { return c >= 'A' && c <= 'Z'; }
 bool IsLetter(char c) { return IsLower(c) || IsUpper(c); }
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
-/// Behind the namespace: "mixamorig:LeftArm".
+/// Returns the index behind the namespace: "mixamorig:LeftArm".
 std::size_t StartOfName(std::string_view name) { return name.find_last_of(':') + 1; }
 
-/// Behind the word that begins at `at`: "Left|Arm", "l|Shldr", "L|Thigh", "upper|_arm".
+/// Returns the index behind the word that begins at `at`: "Left|Arm", "l|Shldr", "L|Thigh", "upper|_arm".
 std::size_t EndOfWord(std::string_view name, std::size_t at) {
   std::size_t end = at + 1;
   for (; end < name.size() && IsLetter(name[end]); ++end) {

@@ -168,7 +168,7 @@ class Stillness {
   Stillness(const PoseVector& pose, std::size_t longest) : pose_(pose), gaps_(longest) {}
 
   void Update(const PoseVector& step) { gaps_[count_++ % gaps_.size()] = SquaredDistance(step, pose_); }
-  /// Root mean square over so many steps; kFar when too little was seen.
+  /// Returns the root mean square over so many steps; kFar when too little was seen.
   double Distance(std::size_t steps) const {
     if (count_ < steps) return kFar;
     double sum = 0;

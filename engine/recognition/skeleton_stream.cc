@@ -29,7 +29,7 @@ SkeletonStream StreamOf(const BodyMotion& motion) {
 
 namespace {
 
-/// Tracked < inferred < not tracked, as the enum is ordered.
+/// Returns the worst state: tracked < inferred < not tracked, as the enum is ordered.
 TrackingState WorstOf(const SensedFrame& frame, std::span<const Role> joints) {
   TrackingState worst = TrackingState::kTracked;
   for (Role role : joints) worst = std::max(worst, frame[role].state);

@@ -100,7 +100,7 @@ std::vector<std::string> WordsOf(std::string_view name) {
 
 bool IsNumber(const std::string& word) { return std::ranges::all_of(word, IsDigit); }
 
-/// "upperarm01.L" is read like "upperarm.L.01": the number counts as a suffix.
+/// Moves a side before a number: "upperarm01.L" is read like "upperarm.L.01": the number counts as a suffix.
 void PutSideBeforeNumber(std::vector<std::string>& words) {
   constexpr std::string_view kSides[] = {"l", "r", "left", "right"};
   if (words.size() < 3 || std::ranges::find(kSides, words.back()) == std::end(kSides)) return;

@@ -138,7 +138,7 @@ Result<std::vector<Label>> ReadCsv(Lines lines, const std::string& file) {
   return labels;
 }
 
-/// Ticks of a clock of 49.875 MHz, against the recording's microseconds.
+/// Reads ticks of a clock of 49.875 MHz, against the recording's microseconds.
 Result<std::vector<Label>> ReadTags(Lines lines, const std::string& file, std::string_view clip) {
   constexpr double kTicksPerSecond = 49'875'000;
   std::vector<Label> labels;

@@ -69,7 +69,7 @@ double MiddleDistance(const StreamRecording& recording, Role a, Role b) {
   return UpperMedian(std::move(lengths));
 }
 
-/// No person is anywhere near so far from the sensor.
+/// Refuses joints farther from the sensor than any person is.
 Result<void> CheckReach(const StreamRecording& recording, const std::string& file) {
   constexpr double kFarthest = 100;
   for (const RecordedFrame& frame : recording.frames) {
@@ -83,7 +83,7 @@ Result<void> CheckReach(const StreamRecording& recording, const std::string& fil
   return {};
 }
 
-/// Frames that stand twice under one time count once, as the last one tells them.
+/// Puts frames in order of time. Frames of one time count once, as the last one tells them.
 Result<void> OrderTimes(StreamRecording& recording, const std::string& file) {
   std::vector<RecordedFrame> ordered;
   for (const RecordedFrame& frame : recording.frames) {

@@ -19,7 +19,7 @@ namespace {
 /// Several people of one file, told apart by the names that the file gives them.
 class Bodies {
  public:
-  /// The frame of the body called `id`, at this index of the file's frames.
+  /// Adds a frame of the body called `id`, at this index of the file's frames.
   void Add(std::string_view id, std::size_t frame, const RolePlaces& places,
            const std::array<TrackingState, kRoleCount>& states);
 

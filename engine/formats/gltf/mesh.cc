@@ -19,7 +19,7 @@ namespace {
 /// The base colour textures of a file's materials; each picture is decoded once.
 class GltfTextures {
  public:
-  /// Both must outlive it.
+  /// Decodes pictures of `file`; both arguments must outlive it.
   GltfTextures(const GltfFile& file, const DecodePicture& decode) : file_(file), decode_(decode) {}
 
   /// The material's texture times its colour (linear RGB); null where it has none, or none in PNG or JPEG. Refused:

@@ -39,7 +39,7 @@ constexpr std::uint32_t kBinaryChunk = 0x004E4942;  // "BIN\0"
 constexpr int kDeepestNesting = 64;
 constexpr std::size_t kMostValues = 1'000'000;
 
-/// Little-endian, as the format is on every machine.
+/// Reads a number, little-endian as the format is on every machine.
 std::uint32_t Number(std::string_view bytes, std::size_t at) {
   std::uint32_t number = 0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -169,7 +169,7 @@ struct Fetcher {
   }
 };
 
-/// Pictures are asked for in the same way as buffers.
+/// Says whether a file is a picture, since pictures are asked for in the same way as buffers.
 bool IsPicture(const std::string& uri) {
   constexpr std::array<std::string_view, 7> kEndings = {".png", ".jpg", ".jpeg", ".webp", ".ktx2", ".dds", ".gif"};
   std::string lower = uri;
@@ -254,7 +254,8 @@ Error NotGltf(const std::string& file, const std::string& complaint) {
   return Fail(std::move(place), "not glTF 2.0: {}", what.substr(0, kLongest)).value();
 }
 
-/// Extensions of lights and looks change nothing that is read here; quantised meshes are understood.
+/// Says whether an extension may be required: those of lights and looks change nothing that is read here, and quantised
+/// meshes are understood.
 bool IsHarmless(const std::string& extension) {
   return extension.starts_with("KHR_materials_") || extension.starts_with("KHR_texture_") ||
          extension.starts_with("EXT_texture_") || extension == "KHR_lights_punctual" ||
@@ -272,7 +273,7 @@ Result<void> CheckExtensions(const tinygltf::Model& model, const std::string& fi
   return {};
 }
 
-/// tinygltf takes an optional index or count that is negative, or no number, for one that is not there.
+/// Refuses an optional index or count that is negative or no number, which tinygltf takes for one that is not there.
 Result<void> CheckCounts(const nlohmann::json& json, const std::string& where, const std::string& file) {
   constexpr std::array<std::string_view, 10> kCounts = {
       "bufferView", "byteOffset", "byteStride", "indices", "material", "mesh", "mode", "scene", "skeleton", "skin"};
@@ -354,7 +355,7 @@ Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const
   return model;
 }
 
-/// "dances/robot.glb" → "robot"
+/// Returns a file's name without folder and ending: "dances/robot.glb" → "robot".
 std::string Stem(const std::string& file) {
   const std::string name = file.substr(file.find_last_of('/') + 1);
   return name.substr(0, name.find_last_of('.'));

@@ -19,7 +19,7 @@
 namespace etude {
 namespace {
 
-/// Bytes of a buffer view in the making.
+/// The bytes of a buffer view that is being made.
 class GltfBytes {
  public:
   void Float(double value);  ///< rounded to a float

@@ -32,8 +32,8 @@ double SquaredDistance(const MotionFeatures& a, const MotionFeatures& b) {
   return sum;
 }
 
-/// For each part of the wait, the pair that is nearest; every few frames of the wanted clip are enough where it is
-/// long.
+/// Finds, for each part of the wait, the pair that is nearest; every few frames of the wanted clip are enough where it
+/// is long.
 std::vector<FramePair> NearestPairs(const MotionLibrary& library, const TransitionRequest& request,
                                     const AllowedFrames& allowed) {
   const auto &playing = library.features[request.from], &next = library.features[request.to];
@@ -57,7 +57,7 @@ std::vector<FramePair> NearestPairs(const MotionLibrary& library, const Transiti
   return pairs;
 }
 
-/// Frames of a clip from one on, that one included: `count` more, the last repeated where the clip ends.
+/// Returns frames of a clip from one on, that one included: `count` more, the last repeated where the clip ends.
 std::vector<BodyPose> FramesFrom(const BodyMotion& clip, int first, int count) {
   std::vector<BodyPose> frames;
   const int last = static_cast<int>(clip.poses.size()) - 1;

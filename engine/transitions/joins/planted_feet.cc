@@ -30,8 +30,8 @@ FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz, c
 
 namespace {
 
-/// Pairs of points of the floor, summed up for the turn and shift that lay the second onto the first with the least sum
-/// of squares.
+/// Sums up pairs of points of the floor for the turn and shift that lay the second onto the first with the least sum of
+/// squares.
 class FloorFit {
  public:
   void Add(const glm::dvec3& onto, const glm::dvec3& point, double weight) {

@@ -81,7 +81,7 @@ std::vector<TaggedClip> TagClips(std::span<const BodyMotion> clips, double stand
 
 namespace {
 
-/// Sums over frames of one class, from which the mean squared distance of any frame to them follows at once.
+/// The sums over frames of one class, from which the mean squared distance of any frame to them follows at once.
 struct Sums {
   int frames = 0;
   Grades grades{}, squares{};
@@ -101,7 +101,7 @@ struct PoseClass {
   std::map<int, Sums> by_clip;
 };
 
-/// Σ over the class's frames outside `own` of d², divided by their number: Σ w (a² − 2 a E[x] + E[x²]).
+/// Returns the sum over the class's frames outside `own` of d², divided by their number: Σ w (a² − 2 a E[x] + E[x²]).
 double MeanSquareDistance(const Grades& frame, const Sums& all, const Sums& own, const FeatureWeights& weights) {
   const double others = all.frames - own.frames;
   double sum = 0;

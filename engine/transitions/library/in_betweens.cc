@@ -17,7 +17,7 @@ using enum Role;
 /// The greatest slope of Smootherstep, at its middle.
 constexpr double kPeakSlope = 1.875;
 
-/// Left, up and front of the upper body.
+/// Returns the frame of the upper body: left, up and front.
 glm::dquat TrunkFrame(const BodyPose& pose) {
   const glm::dvec3 up = UnitOr(pose[kShoulderCentre] - pose[kHipCentre], {0, 1, 0});
   const glm::dvec3 across = pose[kLeftShoulder] - pose[kRightShoulder];
@@ -26,7 +26,8 @@ glm::dquat TrunkFrame(const BodyPose& pose) {
   return glm::quat_cast(glm::dmat3(left, up, glm::cross(left, up)));
 }
 
-/// Arms and head go with the trunk; hips and legs do not, or feet would slide whenever the body bows.
+/// Says whether a limb goes with the trunk: arms and head do; hips and legs do not, or feet would slide whenever the
+/// body bows.
 bool GoesWithTrunk(Role child) {
   return child == kHead || (Index(child) >= Index(kLeftShoulder) && Index(child) <= Index(kRightHand));
 }

@@ -49,8 +49,8 @@ class Tween {
   std::array<double, kRoleCount> lengths_from_{}, lengths_to_{};
 };
 
-/// The frames of a tween: the first is `from`, the last is `to` on its new place, and speed and acceleration are zero
-/// at both. As many as the rules' speed asks for.
+/// Samples a tween: the first is `from`, the last is `to` on its new place, and speed and acceleration are zero at
+/// both. As many as the rules' speed asks for.
 std::vector<BodyPose> SampleTween(const Tween& tween, double rate_hz, const TweenRules& rules);
 
 /// Appends a tween from the last of `frames`, of which there must be one, to `to` on its new place.
@@ -76,8 +76,8 @@ struct InBetweenNet {
   TweenRules tween;
 };
 
-/// The keys of a library's in-betweens: going from the most frequent poses to the rarest, and in each from the most
-/// typical frame on, every bridge frame becomes a key that has none within the threshold. A library without bridge
+/// Chooses the keys of a library's in-betweens: going from the most frequent poses to the rarest, and in each from the
+/// most typical frame on, every bridge frame becomes a key that has none within the threshold. A library without bridge
 /// frames gets its keys of all frames. Needs a frame.
 InBetweenNet BuildInBetweens(std::span<const TaggedClip> tagged, const InBetweenRules& rules = {});
 

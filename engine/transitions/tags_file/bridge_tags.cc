@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-/// 30, not 29.999999999999996.
+/// Returns degrees as they were meant: 30, not 29.999999999999996.
 double RoundedDegrees(double radians) {
   constexpr double kSteps = 1e9;
   return std::round(Degrees(radians) * kSteps) / kSteps;

@@ -64,15 +64,15 @@ struct BridgeTags {
 /// Tells one set of membership functions from another.
 std::string MembershipsDigest(const FuzzySystem& system);
 
-/// The tags of a library that was made by `tag_rules` and `system`. `sources` as the library's clips.
+/// Collects the tags of a library that was made by `tag_rules` and `system`. `sources` as the library's clips.
 BridgeTags CollectTags(const MotionLibrary& library, std::span<const std::string> sources, const FuzzySystem& system,
                        const TagRules& tag_rules, const MatchRules& match_rules);
 
 /// The largest tags file, bytes: larger ones are refused before memory is taken.
 constexpr std::size_t kLargestTagsFile = 512'000'000;
 
-/// The tags as XML of docs/schemas/bridge-tags.xsd: the same bytes for the same tags, numbers with the fewest digits
-/// that read back the same. Refused: names that XML cannot hold (bytes that are no UTF-8, control characters).
+/// Writes the tags as XML of docs/schemas/bridge-tags.xsd: the same bytes for the same tags, numbers with the fewest
+/// digits that read back the same. Refused: names that XML cannot hold (bytes that are no UTF-8, control characters).
 Result<std::string> WriteTagsFile(const BridgeTags& tags);
 
 /// Reads what WriteTagsFile writes, to the last bit; `file` is what complaints call it. Everything is held against the
