@@ -7,7 +7,6 @@
 #include "cli/commands.h"
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
-#include "engine/transitions/tags_file/compare_tags.h"
 #include "engine/transitions/tags_file/tags_file.h"
 #include "reports/bridges/bridge_summary.h"
 

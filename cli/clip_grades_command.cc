@@ -9,7 +9,6 @@
 #include "cli/commands.h"
 #include "cli/output_file.h"
 #include "engine/fuzzy/fuzzy_motion.h"
-#include "engine/fuzzy/motion_similarity.h"
 
 namespace etude {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "bench/metrics/share.h"
 #include "engine/base/angles.h"
+#include "engine/base/directions.h"
 
 namespace etude {
 namespace {

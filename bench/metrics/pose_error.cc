@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/base/angles.h"
+#include "engine/base/directions.h"
 
 namespace etude {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "bench/metrics/percentile.h"
 #include "engine/base/angles.h"
+#include "engine/base/directions.h"
 
 namespace etude {
 namespace {

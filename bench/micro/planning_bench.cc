@@ -9,8 +9,8 @@
 #include "bench/micro/bridge_search_data.h"
 #include "engine/fuzzy/features.h"
 #include "engine/transitions/choices/choice.h"
-#include "engine/transitions/choices/diagonal_sums.h"
 #include "engine/transitions/choices/matching.h"
+#include "engine/transitions/choices/pair_rows.h"
 #include "sim/choreography/varied_library.h"
 
 namespace etude {

@@ -58,7 +58,7 @@ Result<bool> LooksLikeStream(const std::string& path) {
   if (IsClip(path)) return true;
   if (fs::path(path).extension() == ".tagstream") return false;
   ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(path));
-  return TellStreamFormat(text).has_value();
+  return DetectStreamFormat(text).has_value();
 }
 
 Result<void> AddFolder(const std::string& folder, const StreamReading& reading, const StreamOptions& options,

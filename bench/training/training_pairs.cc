@@ -4,7 +4,7 @@
 #include <array>
 
 #include "bench/metrics/pose_distance.h"
-#include "engine/transitions/base/alignment.h"
+#include "engine/transitions/alignment.h"
 #include "sim/choreography/move.h"
 
 namespace etude {

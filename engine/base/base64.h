@@ -6,7 +6,7 @@
 
 namespace etude {
 
-/// RFC 4648, with padding.
+/// Encodes bytes as Base64 (RFC 4648), with padding.
 std::string Base64(std::span<const unsigned char> bytes);
 std::string Base64(std::string_view bytes);
 

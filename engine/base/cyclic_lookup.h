@@ -12,7 +12,7 @@ namespace etude {
 template <typename T>
 class CyclicLookup {
  public:
-  /// Null when there is none of that name.
+  /// Returns the item of that name, null when there is none.
   T* Find(std::string_view name) {
     for (std::size_t tried = 0; tried < items_.size(); ++tried, ++next_) {
       if (next_ >= items_.size()) next_ = 0;
@@ -26,7 +26,7 @@ class CyclicLookup {
     }
     return nullptr;
   }
-  /// One of a new name.
+  /// Adds an item of a name that is not in the list yet.
   T& Add(std::string name, T item) { return items_.emplace_back(std::move(name), std::move(item)).second; }
 
   auto begin() { return items_.begin(); }

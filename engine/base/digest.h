@@ -24,7 +24,7 @@ class Digest {
   Digest& Add(std::span<const double> values);
 
   std::uint64_t Value() const;
-  /// Sixteen lower-case hexadecimal digits.
+  /// Returns the value as sixteen lower-case hexadecimal digits.
   std::string Hex() const;
 
  private:

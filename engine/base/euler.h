@@ -7,7 +7,8 @@ namespace etude {
 /// The rotation about the unit vector `axis` by `angle` radians (right-hand rule).
 glm::dmat3 AxisRotation(const glm::dvec3& axis, double angle);
 
-/// Rx(x) · Ry(y) · Rz(z), radians: how joints of a kinematic tree and cameras turn (paper B, sections 3.3 and 2.2).
+/// Returns Rx(x) · Ry(y) · Rz(z) of radians: how joints of a kinematic tree and cameras turn (paper B, sections 3.3 and
+/// 2.2).
 glm::dmat3 RotationXyz(const glm::dvec3& angles);
 
 /// The angles of `RotationXyz` that make `rotation`: x and z in (−π, π], y in [−π/2, π/2]. At y = ±π/2

@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace etude {
@@ -35,11 +36,31 @@ struct Rgb8 {
 };
 
 using ColourImage = Image<Rgb8>;
-/// 1 = belongs to the thing looked for, 0 = does not.
+/// A picture of 1 where a pixel belongs to the thing looked for, and 0 elsewhere.
 using Mask = Image<std::uint8_t>;
-/// Distance along the camera's viewing axis in metres; infinity where nothing was hit.
+/// A picture of distances along the camera's viewing axis in metres; infinity where nothing was hit.
 using DepthImage = Image<float>;
-/// What each pixel shows; the meaning of the numbers is the renderer's (`sim/render`).
+/// The thing that each pixel shows, as a number whose meaning is the renderer's (`sim/render`).
 using LabelImage = Image<std::uint32_t>;
+
+/// A picture that is laid on a surface by coordinates (u, v): (0, 0) is its upper left corner, (1, 1) the lower right
+/// one.
+struct Texture {
+  /// Says how the picture goes on beyond 0…1.
+  enum class Beyond { kRepeats, kMirrors, kStays };
+
+  ColourImage picture;
+  Beyond beyond_u = Beyond::kRepeats, beyond_v = Beyond::kRepeats;
+};
+
+/// A texture shared between a file's materials, the surfaces of every frame and what draws them: large, and never
+/// changed.
+using SharedTexture = std::shared_ptr<const Texture>;
+
+/// Returns the linear light, 0…1, of a screen's value (IEC 61966-2-1).
+double LinearOfSrgb(std::uint8_t value);
+
+/// Returns the screen's value nearest to linear light, which is clamped to 0…1.
+std::uint8_t SrgbOfLinear(double light);
 
 }  // namespace etude

@@ -16,7 +16,7 @@ struct Named {
   Value value;
 };
 
-/// What a row is called unless said otherwise: its member `name`.
+/// Reads a row's name from its member `name`, which FindByName does unless told otherwise.
 struct NameMember {
   template <typename Row>
   constexpr std::string_view operator()(const Row& row) const {
@@ -49,7 +49,7 @@ constexpr auto ValueNamed(const Rows& rows, std::string_view name) {
   return row->value;
 }
 
-/// What the rows are called, in their order.
+/// Lists the rows' names in their order.
 template <typename Rows, typename NameOf = NameMember>
 std::vector<std::string> NamesOf(const Rows& rows, NameOf name_of = {}) {
   std::vector<std::string> names;

@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-/// Damerau-Levenshtein distance in its "optimal string alignment" form, ignoring case.
+/// Returns the Damerau-Levenshtein distance in its "optimal string alignment" form, ignoring case.
 int EditDistance(std::string_view a, std::string_view b) {
   const auto same = [](char x, char y) {
     return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));

@@ -15,11 +15,11 @@ std::string NearestName(std::string_view name, std::span<const std::string> know
 /// "unknown solver 'cdc'; did you mean 'ccd'? Allowed: ccd, ccd-hinges".
 std::string UnknownName(std::string_view kind, std::string_view name, std::span<const std::string> known);
 
-/// "a, b, c"
+/// Joins items as in "a, b, c".
 std::string Join(std::span<const std::string> items, std::string_view separator = ", ");
 
-/// How complaints show a word: in quotes, shortened, unprintable bytes as `?`; nothing at all is
-/// "the end of the line or file".
+/// Shows a word as complaints do: in quotes, shortened, unprintable bytes as `?`; nothing at all is "the end of the
+/// line or file".
 std::string Quote(std::string_view text);
 
 }  // namespace etude

@@ -3,7 +3,7 @@
 namespace etude {
 namespace {
 
-/// In one line, and harmless to a terminal, whatever a file made us quote.
+/// Replaces control characters by spaces, so that a quoted file cannot break the line or command a terminal.
 std::string WithoutControls(std::string text) {
   for (char& c : text) {
     if ((c >= 0 && c < ' ') || c == 0x7f) c = ' ';

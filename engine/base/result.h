@@ -8,20 +8,20 @@
 
 namespace etude {
 
-/// Where in a file something was found. Line and column count from 1; 0 means "not known".
+/// A place in a file. Line and column count from 1; 0 means "not known".
 struct Place {
   std::string file;
   int line = 0;
   int column = 0;
 };
 
-/// Bad input, told to a human: where it is, what was found, what is allowed.
+/// An error of bad input for a human to read: where it is, what was found, what is allowed.
 struct Error {
   Place place;
   std::string message;
 };
 
-/// "file:line:column: message", leaving out what is not known; one line, control characters made spaces.
+/// Formats "file:line:column: message", leaving out what is not known; one line, control characters made spaces.
 std::string ToString(const Error& error);
 std::string ToString(const Place& place);
 

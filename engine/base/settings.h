@@ -49,7 +49,7 @@ class SettingTable {
     return settings;
   }
 
-  /// `values`: one per row, in their order; none at all: the defaults.
+  /// Makes options of `values`, one per row in their order; of none at all, the defaults.
   Options Apply(std::span<const double> values) const {
     assert(values.empty() || values.size() == rows_.size());
     Options options;

@@ -9,7 +9,7 @@ std::uint8_t ByteAt(std::string_view text, std::size_t at) {
   return at < text.size() ? static_cast<std::uint8_t>(text[at]) : 0;
 }
 
-/// How many bytes the character at `at` has; 0 when there is none. RFC 3629, section 4.
+/// Returns how many bytes the character at `at` has (RFC 3629, section 4); 0 when no character begins there.
 std::size_t LengthAt(std::string_view text, std::size_t at) {
   const std::uint8_t first = ByteAt(text, at), second = ByteAt(text, at + 1);
   const auto follows = [&](std::size_t from, std::size_t to) {

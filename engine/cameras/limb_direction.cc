@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/base/directions.h"
+
 namespace etude {
 namespace {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/base/angles.h"
-#include "engine/base/unit_vector.h"
+#include "engine/base/directions.h"
 #include "engine/vision/strokes.h"
 
 namespace etude {

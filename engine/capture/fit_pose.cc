@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "engine/base/angles.h"
+#include "engine/base/directions.h"
 #include "engine/base/euler.h"
-#include "engine/base/unit_vector.h"
 
 namespace etude {
 namespace {

@@ -1,23 +1,98 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
-#include "engine/coaching/clap.h"
-#include "engine/coaching/coach_options.h"
-#include "engine/coaching/coach_record.h"
 #include "engine/coaching/dance.h"
 #include "engine/coaching/playback.h"
 #include "engine/coaching/policy.h"
-#include "engine/coaching/stillness.h"
+#include "engine/coaching/senses.h"
 #include "engine/recognition/recogniser.h"
+#include "engine/transitions/transition_record.h"
 
 namespace etude {
 
-/// What the coach does. Arrows: README.md.
+/// The settings of a coach. Times are in seconds, and ours where paper A gives none.
+struct CoachOptions {
+  /// A performance counts as right from this evidence on, in (0, 1]. It depends on the recogniser: tune it where false
+  /// alarms are to be equal.
+  double right_from = 0.5;
+  /// Windows open and close so much after the repetition that the coach dances: a learner follows with a lag.
+  double reaction_s = 0.3;
+  /// The player's left is the coach's right, as in a mirror: what is seen is mirrored before it is judged. Whoever
+  /// feeds the coach does that (CoachSession); here it decides words only.
+  bool player_mirrors = false;
+  /// After this many mistakes in a row the coach is puzzled instead of shaking its head.
+  int puzzled_after = 3;
+  /// A repetition is corrected at most this often before the dance goes on.
+  int most_corrections = 3;
+  /// The share of a song's judged performances that must be right for praise at its end.
+  double praise_share = 0.8;
+  /// A window in which the body moved less than this share of the time is stood through.
+  double still_share = 0.1;
+  /// After so long without anybody moving or in sight, the coach leaves the dance or standby for the attract act.
+  double idle_s = 30;
+  /// After so much attracting the coach dozes off.
+  double doze_s = 30;
+  /// The limits within which tags may slow and hurry a move: frames of the dance per frame.
+  double slowest = 0.8, fastest = 1.25;
+  bool follows_tags = true;  ///< false: the dance keeps its own tempo, whatever the music does
+  /// The sensor in the world, and how far from it on the floor the player should be, metres.
+  glm::dvec3 sensor{0, 1, 2.75};
+  double nearest_m = 1.5, farthest_m = 3.6;
+};
+
+/// A decision of the coach.
+enum class CoachEvent {
+  kWoken,       ///< a clap
+  kSongBegins,  ///< the dance begins
+  kRight,       ///< a window closed: right
+  kWrong,       ///< a window closed: a mistake
+  kUnjudged,    ///< a window closed and nothing could be said, or it was cut off
+  kCorrects,    ///< leaves the dance for a corrective act
+  kShows,       ///< begins a slow demonstration
+  kReturns,     ///< back to the dance, at the repetition
+  kGoesOn,      ///< leaves it at that after too many corrections of one repetition
+  kPraises,     ///< a word after a mistake that was put right, or the act at the song's end
+  kTag,         ///< a music-time tag was reached
+  kTransition,  ///< how it gets from clip to clip
+  kSongEnds,
+  kAttracts,  ///< nobody takes part: come and dance!
+  kDozes,
+};
+/// Returns "woken", "song begins", "right", ….
+std::string_view EventName(CoachEvent event);
+
+/// The reason why a performance counts as a mistake.
+enum class Mistake {
+  kNone,
+  kNotReached,  ///< the move was not recognised
+  kStoodStill,  ///< paper A, 3.1: not following is a mistake
+  kWrongSide,   ///< its mirror image was recognised
+};
+std::string_view MistakeName(Mistake mistake);
+
+/// A decision, explained.
+struct CoachRecord {
+  CoachEvent event = CoachEvent::kWoken;
+  std::int64_t frame = 0;  ///< since the session began
+  int repetition = -1;     ///< of the dance, where it speaks of one
+  int move = -1;           ///< likewise
+  int tag = -1;            ///< of the dance, of kTag
+  Mistake mistake = Mistake::kNone;
+  double evidence = 0;      ///< of kRight, kWrong, kUnjudged
+  double beat_error_s = 0;  ///< of kTag: how much later the dance is there than the music; negative: earlier
+  double rate = 1;          ///< of kTag: frames of the dance shown per frame from here on
+  std::shared_ptr<const TransitionRecord> transition;  ///< of kTransition
+  std::string why;                                     ///< one sentence with numbers
+};
+
+/// The states of the coach; README.md draws the arrows between them.
 enum class CoachMode {
   kStandby,
   kAttract,
@@ -28,7 +103,7 @@ enum class CoachMode {
   kDemonstrate,  ///< the move, slowly: the player only watches
   kPraise,
 };
-/// "standby", "attract", …
+/// Returns "standby", "attract", ….
 std::string_view ModeName(CoachMode mode);
 
 /// One frame's news.
@@ -41,12 +116,12 @@ struct CoachInput {
   bool moment = false;                    ///< for `yoked`: correct now, or as soon as there is a dance to interrupt
 };
 
-/// Where the player should go.
+/// Where the player is asked to go.
 enum class PlayerHint { kNone, kComeIntoView, kComeNearer, kStepBack };
-/// "", "come into view", "come nearer", "step back".
+/// Returns "", "come into view", "come nearer" or "step back".
 std::string_view HintText(PlayerHint hint);
 
-/// What the music is to do.
+/// A command to whoever plays the music.
 struct MusicCommand {
   enum class Kind { kNone, kPlayFrom, kPause };
   Kind kind = Kind::kNone;
@@ -60,7 +135,7 @@ struct OpenWindow {
   friend bool operator==(const OpenWindow&, const OpenWindow&) = default;
 };
 
-/// What to show, and why.
+/// The output of one frame: what is to be shown, and why.
 struct CoachOutput {
   CoachMode mode = CoachMode::kStandby;
   BodyPose body;          ///< of the coach, now
@@ -75,12 +150,12 @@ struct CoachOutput {
   const BodyPose* picture = nullptr;  ///< the same as a picture, likewise
   PlayerHint stand = PlayerHint::kNone;
   MusicCommand music;
-  /// While it dances to music: how much later the dance is than the music, seconds; negative: earlier.
+  /// The lag of the dance behind the music while it dances to music, seconds; negative when it is early.
   std::optional<double> beat_error_s;
   std::vector<CoachRecord> records;  ///< what was decided in this frame, in order
 };
 
-/// Everything that a session has come to: plain values, to be copied at will.
+/// The whole state of a session: plain values, to be copied at will.
 struct CoachState {
   std::int64_t frame = 0;
   CoachMode mode = CoachMode::kStandby;
@@ -132,22 +207,22 @@ class Coach {
     std::vector<double> settings;  ///< one per setting; none: the defaults
   };
 
-  /// `transitions` must outlive the coach.
+  /// Makes a coach; `transitions` must outlive it.
   Coach(const DanceTransitions& transitions, const CoachOptions& options, PolicyChoice policy);
 
   const Dance& dance() const { return transitions_.dance(); }
   const CoachOptions& options() const { return options_; }
 
-  /// Standing by, until somebody claps.
+  /// Begins in standby, which lasts until somebody claps.
   CoachState Begin() const;
-  /// In the dance's first frame, as if somebody had clapped.
+  /// Begins in the dance's first frame, as if somebody had clapped.
   CoachState BeginDancing() const;
 
   /// Plans what a dance will most likely need, so that no frame of a live session has to wait for it: the ways out of
   /// every window into every corrective act, and on from there. Answers stay the same.
   void PlanAhead() const;
 
-  /// The same inputs give the same outputs, and nothing else changes.
+  /// Takes one frame. The function is pure: the same inputs give the same outputs.
   CoachStep Step(CoachState state, const CoachInput& input) const;
 
  private:

@@ -17,7 +17,7 @@ struct MusicTag {
   double music_s = 0;
 };
 
-/// What the coach knows of a move of its dance.
+/// A move of the dance, as the coach knows it.
 struct DanceMove {
   std::string name;   ///< as the recogniser was taught it
   std::string hint;   ///< the key pose in words: "both arms up"
@@ -32,7 +32,7 @@ struct Repetition {
   std::size_t end = 0;
 };
 
-/// Something the coach does beside dancing.
+/// A clip that the coach plays beside the dance.
 struct CoachAct {
   std::string name;
   BodyMotion motion;  ///< 30 Hz, two frames at least
@@ -53,10 +53,22 @@ struct Dance {
   const CoachAct* FindAct(std::string_view name) const;
 };
 
-/// "standby", "attract", "doze", "wake", "head_shake", "wave", "puzzled", "praise".
+/// Lists "standby", "attract", "doze", "wake", "head_shake", "wave", "puzzled", "praise".
 std::vector<std::string> RequiredActs();
 
-/// What is wrong with a dance, if anything.
+/// Refuses a dance that breaks what its fields promise, and says why.
 Result<void> CheckDance(const Dance& dance);
+
+/// The moment of the music that belongs to a frame of the dance, seconds: straight between two tags, and at 30 Hz
+/// before the first and after the last.
+double MusicAt(const Dance& dance, double frame);
+
+/// The first tag of the dance at `frame` or after it.
+int NextTag(const Dance& dance, double frame);
+
+/// Paper A's music-time tags (3.4): how many frames of the dance to show per frame, from `frame` on, where `music_s` is
+/// heard, so that tag `next` (beyond the last one: the dance's end) is reached when its moment is. Below 1 the move is
+/// slowed, above it is hurried; within [slowest, fastest].
+double RateToTag(const Dance& dance, int next, double frame, double music_s, double slowest, double fastest);
 
 }  // namespace etude

@@ -11,13 +11,13 @@
 namespace etude {
 namespace {
 
-/// Beyond the next repetition's beginning: the wait for a window to close, the budget of a transition, and what the
-/// joins take to go on with.
+/// The frames beyond the next repetition's beginning: the wait for a window to close, the budget of a transition, and
+/// what the joins take to go on with.
 constexpr std::size_t kLeavingFrames = 60;
-/// In which an act is entered: half a second, and the longest join.
+/// The frames in which an act may be entered: half a second and the longest join.
 constexpr std::size_t kEnteringFrames = 15 + 30 + 1;
-/// Around a repetition that is returned to: a lead, so that whoever follows is moving when it begins, and the longest
-/// join.
+/// The frames around a repetition that is returned to: a lead, so that whoever follows is moving when it begins, and
+/// the longest join.
 constexpr std::size_t kBeforeFrames = 45, kIntoFrames = 30;
 
 BodyMotion Excerpt(const BodyMotion& motion, std::size_t first, std::size_t end) {

@@ -21,25 +21,25 @@ class DanceLibrary {
   const MotionLibrary& library() const { return library_; }
 
   // Clips of the library. `repetition` -1 stands for the song's beginning.
-  /// An act, which must be one of the dance's; a slow demonstration. Whole, to be left.
+  /// The whole clip of an act of the dance, and that of a slow demonstration: clips to be left.
   int ClipOfAct(std::string_view act) const;
   int ClipOfSlow(int move) const;
-  /// What is left at a frame from this repetition on, until the next one and a while into it; the last one's reaches to
+  /// The clip to be left at a frame between this repetition and a while into the next one; the last one's reaches to
   /// the song's end.
   int ClipLeaving(int repetition) const;
-  /// How an act or a slow demonstration, given whole, begins: what is entered, so that no transition skips what it is
-  /// about.
+  /// The clip of the beginning of a whole act or slow demonstration: transitions enter it, so that they cannot skip the
+  /// main part.
   int ClipEntering(int whole) const;
-  /// Likewise of the dance, when it goes (back) to a repetition: from a while before it to a while into it.
+  /// The clip of the dance that is entered to go (back) to a repetition: from a while before it to a while into it.
   int ClipReturning(int repetition) const;
 
-  /// What is played on once this clip was entered: of a beginning, the whole.
+  /// The clip that is played on once this one was entered: the whole one of a beginning.
   int WholeOf(int clip) const;
   /// The repetition that has begun last at a frame of the dance; −1 before the first.
   int RepetitionAt(double dance_frame) const;
   /// The frame of the dance that is the first of a clip that is left or returned to.
   std::size_t DanceFrameOf(int clip) const;
-  /// Whether a clip is one that is returned to.
+  /// Says whether the dance is returned to through this clip.
   bool IsReturning(int clip) const { return clip >= ClipReturning(-1); }
   bool IsLoop(int clip) const;
 

@@ -9,7 +9,7 @@ namespace {
 
 using Values = std::span<const double>;
 
-/// After so many mistakes in a row of a move.
+/// Corrects after so many mistakes in a row of a move.
 struct AfterOptions {
   int mistakes = 2;
 };

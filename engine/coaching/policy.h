@@ -9,14 +9,14 @@
 
 namespace etude {
 
-/// What a window came to.
+/// The verdict on a window.
 enum class WindowVerdict {
   kRight,
   kWrong,
   kUnknown,  ///< the player was not seen, or the one who knows did not say
 };
 
-/// What a coach remembers of one move, or of all of them.
+/// The coach's memory of one move, or of all of them.
 struct MoveMemory {
   int judged = 0;           ///< windows that came to right or wrong
   int mistakes = 0;         ///< of them wrong
@@ -24,7 +24,7 @@ struct MoveMemory {
   int corrections = 0;      ///< given
 };
 
-/// What a policy decides by, once a window has closed.
+/// The facts that a policy decides by, once a window has closed.
 struct PolicyInput {
   WindowVerdict verdict = WindowVerdict::kUnknown;
   double evidence = 0;    ///< Evidence::asked at the window's end
@@ -37,7 +37,7 @@ struct PolicyDecision {
   std::string why;  ///< one sentence with numbers
 };
 
-/// When the coach interrupts, by the name scenario files call it. All policies are pure.
+/// A rule for when the coach interrupts, by its name in scenario files. All policies are pure functions.
 struct Policy {
   std::string name;
   std::string description;     ///< one line, for people
@@ -48,12 +48,12 @@ struct Policy {
   PolicyDecision (*decide)(const PolicyInput& input, std::span<const double> values) = nullptr;
 };
 
-/// Paper A's first: at-first-mistake, never, after-n, confidence, fading, oracle, yoked.
+/// Lists all policies, paper A's first: at-first-mistake, never, after-n, confidence, fading, oracle, yoked.
 std::span<const Policy> AllPolicies();
 std::vector<std::string> PolicyNames();
-/// Those that need no one who knows the truth or another session: what can coach real people.
+/// Lists the policies that need neither the truth nor another session, and so can coach real people.
 std::vector<std::string> LivePolicyNames();
-/// Null when there is no such policy.
+/// Returns the policy of that name, null when there is none.
 const Policy* FindPolicy(std::string_view name);
 
 }  // namespace etude

@@ -6,8 +6,8 @@
 
 namespace etude {
 
-struct CoachSession::Eyes {
-  Eyes(const Parts& parts)
+struct CoachSession::Perception {
+  Perception(const Parts& parts)
       : sight(parts.filter, kJudgedRateHz),
         follower(parts.recogniser->Follow(kJudgedRateHz)),
         mirror_sight(parts.filter, kJudgedRateHz),
@@ -25,7 +25,7 @@ struct CoachSession::Eyes {
 };
 
 CoachSession::CoachSession(const Parts& parts, CoachState begin)
-    : coach_(parts.coach), state_(std::move(begin)), eyes_(std::make_unique<Eyes>(parts)) {}
+    : coach_(parts.coach), state_(std::move(begin)), perception_(std::make_unique<Perception>(parts)) {}
 CoachSession::~CoachSession() = default;
 CoachSession::CoachSession(CoachSession&&) noexcept = default;
 CoachSession& CoachSession::operator=(CoachSession&&) noexcept = default;
@@ -33,20 +33,20 @@ CoachSession& CoachSession::operator=(CoachSession&&) noexcept = default;
 CoachOutput CoachSession::Next(const SensedFrame& frame, const SessionInput& input) {
   const bool mirrors = coach_->options().player_mirrors;
   const SensedFrame image = MirrorImage(frame);
-  CoachInput news{.seen = eyes_->sight.Update(mirrors ? image : frame),
+  CoachInput news{.seen = perception_->sight.Update(mirrors ? image : frame),
                   .music_s = input.music_s,
                   .told_right = input.told_right,
                   .moment = input.moment};
-  news.evidence = eyes_->follower->Update(news.seen);
-  if (eyes_->mirror_follower) {
-    const SeenFrame other = eyes_->mirror_sight.Update(mirrors ? frame : image);
-    news.other_side = eyes_->mirror_follower->Update(other).asked;
+  news.evidence = perception_->follower->Update(news.seen);
+  if (perception_->mirror_follower) {
+    const SeenFrame other = perception_->mirror_sight.Update(mirrors ? frame : image);
+    news.other_side = perception_->mirror_follower->Update(other).asked;
   }
   CoachStep step = coach_->Step(std::move(state_), news);
   state_ = std::move(step.state);
   if (step.output.asks) {
     const auto& open = step.output.open;
-    eyes_->Ask(open ? std::optional<std::size_t>(open->move) : std::nullopt);
+    perception_->Ask(open ? std::optional<std::size_t>(open->move) : std::nullopt);
   }
   return std::move(step.output);
 }

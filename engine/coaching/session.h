@@ -10,14 +10,14 @@
 
 namespace etude {
 
-/// What a session may be told beside what the sensor sees.
+/// The inputs of a session beside the sensor's frame.
 struct SessionInput {
   std::optional<double> music_s = {};   ///< CoachInput's
   std::optional<bool> told_right = {};  ///< likewise
   bool moment = false;                  ///< likewise
 };
 
-/// A coach with eyes: filter, recogniser and Coach::Step, frame by frame. What is judged in the benchmark and what runs
+/// A coach with a sensor: recogniser and Coach::Step, frame by frame. What is judged in the benchmark and what runs
 /// live is this.
 class CoachSession {
  public:
@@ -28,28 +28,29 @@ class CoachSession {
     bool tells_wrong_side = true;  ///< a second follower looks at the mirror image: words only, and time
   };
 
-  /// What `parts` points to must outlive the session. `begin`: Coach::Begin() or BeginDancing().
+  /// Starts in `begin`, which Coach::Begin() or BeginDancing() made. All that `parts` points to must outlive the
+  /// session.
   CoachSession(const Parts& parts, CoachState begin);
   ~CoachSession();
   CoachSession(CoachSession&&) noexcept;
   CoachSession& operator=(CoachSession&&) noexcept;
 
-  /// The sensor's next frame, as it came.
+  /// Takes the sensor's next frame, as it came.
   CoachOutput Next(const SensedFrame& frame, const SessionInput& input = {});
 
   const CoachState& state() const { return state_; }
-  /// Goes on from another state, when no window is open: what was seen of the player so far is not forgotten.
-  void GoOnFrom(CoachState state) { state_ = std::move(state); }
+  /// Replaces the state while no window is open; what was seen of the player so far is kept.
+  void ReplaceState(CoachState state) { state_ = std::move(state); }
 
  private:
-  struct Eyes;
+  struct Perception;
 
   const Coach* coach_;
   CoachState state_;
-  std::unique_ptr<Eyes> eyes_;
+  std::unique_ptr<Perception> perception_;
 };
 
-/// What the sensor would have seen in a mirror: left and right exchanged, x reversed.
+/// Returns the frame as the sensor would have seen it in a mirror: left and right exchanged, x reversed.
 SensedFrame MirrorImage(const SensedFrame& frame);
 
 }  // namespace etude

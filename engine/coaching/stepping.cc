@@ -6,7 +6,7 @@
 #include <glm/glm.hpp>
 #include <utility>
 
-#include "engine/coaching/tempo.h"
+#include "engine/coaching/dance.h"
 
 namespace etude {
 namespace {

@@ -13,7 +13,7 @@ constexpr int kBeforeEndFrames = 15;
 /// One frame of Coach::Step: takes the player in, goes on playing, shows that, and decides what comes next.
 class Stepping {
  public:
-  /// Everything must outlive this; `step.state` is changed, `step.output` filled.
+  /// Prepares a step. Everything must outlive this; `step.state` is changed, `step.output` filled.
   Stepping(const DanceTransitions& transitions, const CoachOptions& options, const Coach::PolicyChoice& policy,
            const CoachInput& input, CoachStep& step);
 

@@ -35,7 +35,7 @@ void Stepping::OpenWindowAt(double dance_frame) {
   if (dance_frame > opens + kLateFrames) return;
   state_.open = {.repetition = index, .move = repetition.move};
   state_.decided = false;
-  CountAnew(state_.stillness);
+  ResetCounts(state_.stillness);
 }
 
 WindowVerdict Stepping::Judge(Mistake& mistake) const {

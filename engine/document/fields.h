@@ -27,7 +27,8 @@ struct Range {
 ///     RETURN_IF_ERROR(fields.Finish());
 class Fields {
  public:
-  /// `what` is the mapping's role in complaints, e.g. "a method of task ik". `node` must outlive this.
+  /// Reads the fields of `node`; `what` is the mapping's role in complaints, e.g. "a method of task ik". `node` must
+  /// outlive this.
   Fields(const Node& node, std::string what);
 
   double Number(std::string_view key, double fallback, Range range = {});

@@ -89,9 +89,9 @@ class Builder {
   std::string file_;
 };
 
-/// What must be known before a document is loaded, seen in yaml-cpp's event stream. An alias (`*name`)
-/// repeats a whole subtree, so a few lines can expand to gigabytes; loading expands it without a trace.
-class Survey : public YAML::EventHandler {
+/// Checks a document's event stream before it is loaded. An alias (`*name`) repeats a whole subtree, so a few lines can
+/// expand to gigabytes; loading expands it without a trace.
+class DocumentCheck : public YAML::EventHandler {
  public:
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
@@ -132,7 +132,7 @@ Result<Node> ParseYaml(std::string_view text, const std::string& file, std::size
   Builder builder(file);
   try {
     std::istringstream events{std::string(text)};
-    Survey survey;
+    DocumentCheck survey;
     YAML::Parser parser(events);
     parser.HandleNextDocument(survey);
     if (!survey.alias.is_null()) return Fail(builder.At(survey.alias), "aliases (*name) are not read; write it out");

@@ -31,14 +31,15 @@ struct Node::Entry {
 };
 
 /// Reads one YAML document. `file` names it in complaints. Refused: syntax errors, duplicate keys,
-/// aliases, a second document, more than `largest` bytes of text (1 MiB unless texts hold data) or 10,000 values, nesting
-/// deeper than 32 levels.
+/// aliases, a second document, more than `largest` bytes of text (1 MiB unless texts hold data) or 10,000 values,
+/// nesting deeper than 32 levels.
 Result<Node> ParseYaml(std::string_view text, const std::string& file, std::size_t largest = std::size_t{1} << 20);
 
-/// How many values a document or a part of it holds, itself among them.
+/// Returns how many values a document or a part of it holds, itself among them.
 std::size_t CountValues(const Node& node);
 
-/// "a mapping", "a list", "the text 'abc'", "nothing": how complaints name what was found.
+/// Describes a value as complaints do: "a mapping", "a list", "the text 'abc'", "nothing": how complaints name what was
+/// found.
 std::string Describe(const Node& node);
 
 }  // namespace etude

@@ -30,7 +30,7 @@ EulerZxy ToEulerZxy(const glm::dquat& rotation) {
   return {std::atan2(-r(0, 1), r(1, 1)), x, std::atan2(-r(2, 0), r(2, 2))};
 }
 
-/// What stands in the file: six decimals. Nearest whole number of them, never a minus zero.
+/// Rounds to the six decimals of the file, in millionths; never a minus zero.
 double Millionths(double value) { return std::round(value * 1e6) + 0.0; }
 glm::dvec3 Millionths(const glm::dvec3& v) { return {Millionths(v.x), Millionths(v.y), Millionths(v.z)}; }
 
@@ -81,7 +81,7 @@ class Writer {
 
   const etude::Joint& Joint(std::size_t index) const { return clip_.skeleton.joints[index]; }
 
-  /// In any frame, by as much as shows in the file.
+  /// Says whether a joint leaves its offset in any frame, by as much as shows in the file.
   bool LeavesItsOffset(int joint) const {
     const glm::dvec3 offset = Millionths(Joint(joint).rest.translation);
     return std::ranges::any_of(clip_.frames,
@@ -111,12 +111,12 @@ class Writer {
     Print("{}}}\n", indent);
   }
 
-  /// With a blank behind each.
+  /// Prints three numbers with a blank behind each.
   void PrintNumbers(const glm::dvec3& numbers) {
     for (int i = 0; i < 3; ++i) PrintNumber(Millionths(numbers[i]));
   }
 
-  /// By hand: it is most of what writing a file takes.
+  /// Prints a number of millionths; by hand, because it is most of what writing a file takes.
   void PrintNumber(double millionths) {
     constexpr std::uint64_t kWhole = 1'000'000;
     if (millionths < 0) text_ += '-';

@@ -40,24 +40,19 @@ std::optional<double> RateOf(const NumberRows& table, std::size_t time_column) {
   return middle > 0 ? std::optional(1 / middle) : std::nullopt;
 }
 
-using JointColumns = std::array<std::array<std::optional<std::size_t>, 3>, kRoleCount>;
+Result<void> CheckColumns(std::size_t headings, std::size_t columns, const std::string& file) {
+  if (headings != columns) return Fail({file, 1}, "{} headings over {} columns", headings, columns);
+  return {};
+}
 
-/// Where each joint's coordinates and the time stand.
-struct Columns {
-  JointColumns joints;
-  std::optional<std::size_t> time;
-};
-
-Result<Columns> FindColumns(const NumberRows& table, const std::string& file) {
+Result<JointCsvColumns> FindColumns(const NumberRows& table, const std::string& file) {
   const std::vector<std::string> headings = SplitHeadings(table.heading);
-  if (headings.size() != table.columns) {
-    return Fail({file, 1}, "{} headings over {} columns", table.heading.empty() ? 0 : headings.size(), table.columns);
-  }
+  RETURN_IF_ERROR(CheckColumns(table.heading.empty() ? 0 : headings.size(), table.columns, file));
   std::vector<std::string> known = {"frame", "time_s"};
   for (const Role role : AllRoles()) {
     for (int axis = 0; axis < 3; ++axis) known.push_back(HeadingOf(role, axis));
   }
-  Columns columns;
+  JointCsvColumns columns{.count = headings.size()};
   for (std::size_t i = 0; i < headings.size(); ++i) {
     const auto found = std::ranges::find(known, headings[i]);
     if (found == known.end()) return Fail({file, 1}, "{}", UnknownName("heading", headings[i], known));
@@ -71,6 +66,17 @@ Result<Columns> FindColumns(const NumberRows& table, const std::string& file) {
     return Fail({file, 1}, "'{}' has not all of its three coordinates", RoleName(role));
   }
   return columns;
+}
+
+JointCsvRow RowOf(std::span<const double> values, const JointCsvColumns& columns) {
+  JointCsvRow row{.time_s = columns.time ? values[*columns.time] : std::numeric_limits<double>::quiet_NaN()};
+  for (std::size_t j = 0; j < kRoleCount; ++j) {
+    const auto& [x, y, z] = columns.joints[j];
+    if (!x) continue;
+    const glm::dvec3 place(values[*x], values[*y], values[*z]);
+    if (!std::isnan(place.x + place.y + place.z)) row.places[j] = place;
+  }
+  return row;
 }
 
 }  // namespace
@@ -92,23 +98,23 @@ std::string WriteJointCsv(const BodyMotion& motion) {
 
 Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file) {
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file));
-  ASSIGN_OR_RETURN(const Columns columns, FindColumns(table, file));
   JointCsv csv;
-  if (columns.time) csv.rate_hz = RateOf(table, *columns.time);
-  csv.frames.resize(table.RowCount());
-  csv.times_s.resize(table.RowCount(), std::numeric_limits<double>::quiet_NaN());
+  ASSIGN_OR_RETURN(csv.columns, FindColumns(table, file));
+  if (csv.columns.time) csv.rate_hz = RateOf(table, *csv.columns.time);
   csv.lines = table.lines;
-  for (std::size_t t = 0; t < csv.frames.size(); ++t) {
-    const auto row = table.Row(t);
-    if (columns.time) csv.times_s[t] = row[*columns.time];
-    for (std::size_t j = 0; j < kRoleCount; ++j) {
-      const auto& [x, y, z] = columns.joints[j];
-      if (!x) continue;
-      const glm::dvec3 place(row[*x], row[*y], row[*z]);
-      if (!std::isnan(place.x + place.y + place.z)) csv.frames[t][j] = place;
-    }
+  for (std::size_t t = 0; t < table.RowCount(); ++t) {
+    const JointCsvRow row = RowOf(table.Row(t), csv.columns);
+    csv.times_s.push_back(row.time_s);
+    csv.frames.push_back(row.places);
   }
   return csv;
+}
+
+Result<JointCsvRow> ReadJointCsvRow(std::string_view row, const JointCsvColumns& columns, const std::string& file) {
+  // Below a heading, or a word in the row's first column would make the row one.
+  ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows("row\n" + std::string(row), file));
+  RETURN_IF_ERROR(CheckColumns(columns.count, table.columns, file));
+  return RowOf(table.Row(0), columns);
 }
 
 }  // namespace etude

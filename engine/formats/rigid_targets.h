@@ -34,7 +34,7 @@ enum class BodyTarget {
 };
 constexpr std::size_t kBodyTargetCount = 17;
 
-/// Where a target is and how it is turned, in the optical system's own space; metres.
+/// The pose of a target in the optical system's own space, metres.
 struct TargetPose {
   glm::dvec3 position{0};
   glm::dquat rotation{1, 0, 0, 0};

@@ -26,7 +26,7 @@ class TextScanner {
   Token Next();
   /// The next word of this line, split at blanks only; empty at the end of the line.
   Token NextInLine();
-  /// What is left of this line before any `{`, without blanks around it: a name may contain blanks.
+  /// Returns the rest of this line before any `{`, without blanks around it: a name may contain blanks.
   Token NameInLine();
   /// The next word of this line if it is a number that `Number` takes; else none, and the word is still to come.
   std::optional<double> TakeNumberInLine();

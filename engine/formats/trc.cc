@@ -50,7 +50,7 @@ std::string_view TakeLine(std::string_view& text, int& line) {
   return here;
 }
 
-/// What stands between tabs; of a line that ends in tabs the last ones are empty.
+/// Splits a line at its tabs; of a line that ends in tabs the last cells are empty.
 std::vector<std::string_view> Cells(std::string_view line) {
   std::vector<std::string_view> cells;
   while (true) {

@@ -24,7 +24,7 @@ struct MarkerMotion {
   std::vector<std::vector<std::optional<glm::dvec3>>> frames;
 };
 
-/// The same file of markers; what was not seen stays empty between its tabs, as OpenSim reads it.
+/// Writes such a file of markers; what was not seen stays empty between its tabs, as OpenSim reads it.
 std::string WriteTrc(const MarkerMotion& motion, std::string name);
 
 /// Reads a TRC file in metres or millimetres (`Units`; also cm), its axes as they are. An empty place or "nan" is a

@@ -10,7 +10,7 @@ using enum Defuzzification;
 constexpr std::array<Defuzzification, 4> kMethods = {kMaximum, kCentroid, kHeight, kArea};
 constexpr std::array<std::string_view, 4> kNames = {"maximum", "centroid", "height", "area"};
 
-/// What is added up to become a weighted mean.
+/// The sums of a weighted mean.
 struct Moment {
   double weight = 0, sum = 0;
 
@@ -28,7 +28,7 @@ Cut Within(const Universe& universe, const Cut& cut) {
   return {std::max(cut.low, universe.low), std::min(cut.high, universe.high)};
 }
 
-/// Where a term alone has its largest grade.
+/// Returns the input at which a term alone has its largest grade.
 double PeakOf(const Shape& shape, const Universe& universe) {
   const Cut top = Within(universe, CutOf(shape, 1));
   return 0.5 * (top.low + top.high);
@@ -54,7 +54,7 @@ std::optional<double> MeanOfMaxima(std::span<const ActivatedTerm> terms, const U
   return lengths.weight > 0 ? lengths.Mean() : points.Mean();
 }
 
-/// Where a straight-sided term bends, and steps small enough for one that is not.
+/// Adds the inputs at which a straight-sided term bends, or small steps for a term that is not.
 void AddBends(const ActivatedTerm& term, const Universe& universe, std::vector<double>& bends) {
   for (double grade : {1.0, term.grade}) {
     const Cut cut = CutOf(term.shape, grade);
@@ -73,7 +73,7 @@ void AddBends(const ActivatedTerm& term, const Universe& universe, std::vector<d
   std::erase_if(bends, [&](double x) { return x <= universe.low || x >= universe.high; });
 }
 
-/// Where the union of the terms may bend: where one does, and where two cross.
+/// Lists the inputs at which the union of the terms may bend: where one does, and where two cross.
 std::vector<double> BendsOf(std::span<const ActivatedTerm> terms, const Universe& universe) {
   std::vector<double> bends;
   for (const ActivatedTerm& term : terms) AddBends(term, universe, bends);
@@ -95,7 +95,8 @@ std::vector<double> BendsOf(std::span<const ActivatedTerm> terms, const Universe
   return all;
 }
 
-/// Area and first moment of the union of the terms: Simpson's rule between bends, where it is exact for straight lines.
+/// Returns area and first moment of the union of the terms: Simpson's rule between bends, where it is exact for
+/// straight lines.
 Moment AreaUnder(std::span<const ActivatedTerm> terms, const Universe& universe) {
   const auto height = [&](double x) {
     double highest = 0;

@@ -19,7 +19,7 @@ enum class Defuzzification {
 };
 
 std::span<const Defuzzification, 4> AllDefuzzifications();
-/// "maximum", "centroid", "height", "area".
+/// Returns "maximum", "centroid", "height", "area".
 std::string_view DefuzzificationName(Defuzzification method);
 
 /// A term's shape, cut off at the grade to which it is activated.

@@ -9,7 +9,7 @@ namespace etude {
 /// One number per feature, in the order of `AllFeatures`.
 using PerFeature = std::array<double, kFeatureCount>;
 
-/// S of equation 1: how much each feature counts. They sum to 8, so that thresholds keep their meaning.
+/// The weights S of equation 1: how much each feature counts. They sum to 8, so that thresholds keep their meaning.
 using FeatureWeights = PerFeature;
 constexpr double kWeightSum = 8;
 
@@ -20,19 +20,19 @@ FeatureWeights PaperWeights();
 /// Two frames closer than this may be a transition point (paper A).
 constexpr double kPaperThreshold = 0.4;
 
-/// Δ_k² = Σ over the terms of feature k of (μ₁ − μ₂)².
+/// Returns, per feature k, Δ_k² = Σ over the terms of feature k of (μ₁ − μ₂)².
 PerFeature SquaredGradeGaps(const Grades& a, const Grades& b);
 
-/// How unlike two frames are, and which features say so.
+/// The distance of two frames and each feature's part in it.
 struct FuzzyDistance {
   double value = 0;       ///< d of equation 1
   PerFeature partials{};  ///< S_k Δ_k², which sum to d²
 };
 
-/// Equation 1, d = sqrt(Σ_k S_k Σ_terms (μ₁ − μ₂)²): a Euclidean distance in 24 dimensions.
+/// Computes equation 1, d = sqrt(Σ_k S_k Σ_terms (μ₁ − μ₂)²): a Euclidean distance in 24 dimensions.
 FuzzyDistance ComputeDistance(const Grades& a, const Grades& b, const FeatureWeights& weights);
 
-/// Whether ComputeDistance's d < `threshold`, to the last bit; stops adding up as soon as the answer is known.
+/// Says whether ComputeDistance's d < `threshold`, to the last bit; stops adding up as soon as the answer is known.
 bool IsCloser(const Grades& a, const Grades& b, const FeatureWeights& weights, double threshold);
 
 }  // namespace etude

@@ -1,6 +1,7 @@
 #include "engine/fuzzy/features.h"
 
 #include "engine/base/angles.h"
+#include "engine/base/directions.h"
 #include "engine/base/named.h"
 
 namespace etude {

@@ -14,11 +14,11 @@ enum class Feature { kRH, kLH, kRHE, kLHE, kPosture, kTrunk, kRF, kLF, kRFK, kLF
 constexpr std::size_t kFeatureCount = 10;
 
 std::span<const Feature, kFeatureCount> AllFeatures();
-/// "RH", "LH", "RHE", "LHE", "Posture", "Trunk", "RF", "LF", "RFK", "LFK".
+/// Returns "RH", "LH", "RHE", "LHE", "Posture", "Trunk", "RF", "LF", "RFK", "LFK".
 std::string_view FeatureName(Feature feature);
-/// Null when there is no such feature.
+/// Returns the feature of that name, null when there is none.
 const Feature* FindFeature(std::string_view name);
-/// The joints whose positions enter the feature.
+/// Lists the joints whose positions enter the feature.
 std::span<const Role> JointsOf(Feature feature);
 
 /// The crisp inputs of the membership functions: degrees, but for Posture (standing = 80).

@@ -1,5 +1,10 @@
 #include "engine/fuzzy/fuzzy_motion.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
 namespace etude {
 
 FuzzyMotion FuzzifyMotion(const BodyMotion& motion, double standing_hip_height, const FuzzySystem& system) {
@@ -12,6 +17,85 @@ FuzzyMotion FuzzifyMotion(const BodyMotion& motion, double standing_hip_height, 
     fuzzy.poses.push_back(concluded == nullptr ? "" : *concluded);
   }
   return fuzzy;
+}
+
+namespace {
+
+constexpr double kUnreached = std::numeric_limits<double>::infinity();
+
+/// Returns √S · μ of every frame: the points whose Euclidean distance equation 1 is.
+std::vector<Grades> Scaled(std::span<const Grades> motion, const FeatureWeights& weights) {
+  Grades roots{};
+  for (std::size_t i = 0; i < kTermCount; ++i) {
+    roots[i] = std::sqrt(weights[static_cast<std::size_t>(AllTerms()[i].feature)]);
+  }
+  std::vector<Grades> scaled(motion.begin(), motion.end());
+  for (Grades& frame : scaled) {
+    for (std::size_t i = 0; i < kTermCount; ++i) frame[i] *= roots[i];
+  }
+  return scaled;
+}
+
+double Euclidean(const Grades& a, const Grades& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < kTermCount; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(sum);
+}
+
+/// The columns of a row that the band allows. Symmetric in rows and columns; neighbouring rows always share one.
+class Band {
+ public:
+  Band(std::size_t rows, std::size_t columns, double share)
+      : rows_(static_cast<double>(rows) - 1), columns_(static_cast<double>(columns) - 1) {
+    slack_ = std::max(share * rows_ * columns_, std::max(rows_, columns_));
+  }
+  std::size_t First(std::size_t row) const {
+    if (rows_ == 0) return 0;
+    return static_cast<std::size_t>(std::max(0.0, std::ceil((static_cast<double>(row) * columns_ - slack_) / rows_)));
+  }
+  std::size_t Last(std::size_t row) const {
+    if (rows_ == 0) return static_cast<std::size_t>(columns_);
+    return static_cast<std::size_t>(
+        std::min(columns_, std::floor((static_cast<double>(row) * columns_ + slack_) / rows_)));
+  }
+
+ private:
+  double rows_, columns_;  ///< counts less one
+  double slack_;           ///< |row · columns_ − column · rows_| is at most this
+};
+
+}  // namespace
+
+std::optional<double> ComputeMotionSimilarity(std::span<const Grades> a, std::span<const Grades> b,
+                                              const MotionSimilarityOptions& options) {
+  if (a.empty() || b.empty()) return std::nullopt;
+  const std::vector<Grades> rows = Scaled(a, options.weights), columns = Scaled(b, options.weights);
+  const Band band(rows.size(), columns.size(), options.band);
+  const double steps = static_cast<double>(rows.size() + columns.size());
+  // D above this makes the similarity fall below `at_least`; a hair is left for rounding.
+  const double most =
+      options.at_least > 0 ? steps * options.half_at * (1 / options.at_least - 1) * (1 + 1e-12) + 1e-12 : kUnreached;
+
+  std::vector<double> above(columns.size(), kUnreached), row(columns.size(), kUnreached);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::ranges::fill(row, kUnreached);
+    double least = kUnreached;
+    const std::size_t last = band.Last(i);
+    for (std::size_t j = band.First(i); j <= last; ++j) {
+      const double cost = Euclidean(rows[i], columns[j]);
+      double best = i == 0 && j == 0 ? 2 * cost : kUnreached;
+      if (i > 0) best = std::min(best, above[j] + cost);
+      if (j > 0) best = std::min(best, row[j - 1] + cost);
+      if (i > 0 && j > 0) best = std::min(best, above[j - 1] + 2 * cost);
+      row[j] = best;
+      least = std::min(least, best);
+    }
+    if (least > most) return std::nullopt;
+    std::swap(above, row);
+  }
+  const double similarity = 1 / (1 + above.back() / steps / options.half_at);
+  if (similarity < options.at_least) return std::nullopt;
+  return similarity;
 }
 
 }  // namespace etude

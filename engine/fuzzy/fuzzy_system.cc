@@ -1,15 +1,264 @@
 #include "engine/fuzzy/fuzzy_system.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
 
 #include "engine/base/named.h"
 #include "engine/base/names.h"
+#include "engine/base/result.h"
 #include "engine/document/fields.h"
-#include "engine/fuzzy/features_text.h"
-#include "engine/fuzzy/rules_text.h"
+#include "engine/document/node.h"
+#include "engine/fuzzy/distance.h"
+#include "engine/fuzzy/membership.h"
+#include "engine/fuzzy/shape_text.h"
 
 namespace etude {
 namespace {
+
+/// The part of a file about table 1's features.
+struct FeatureSettings {
+  Memberships memberships;
+  FeatureWeights weights{};  ///< scaled to sum to 8
+};
+
+std::vector<std::string> FeatureNames() {
+  std::vector<std::string> names;
+  for (Feature feature : AllFeatures()) names.emplace_back(FeatureName(feature));
+  return names;
+}
+
+std::vector<std::string> TermNames(Feature feature) {
+  std::vector<std::string> names;
+  for (const Term& term : TermsOf(feature)) names.emplace_back(term.name);
+  return names;
+}
+
+/// The features that "RH, LH" names: they share what stands under it.
+Result<std::vector<Feature>> ReadGroup(const Node::Entry& entry) {
+  std::vector<Feature> group;
+  std::string_view rest = entry.key;
+  while (true) {
+    const std::size_t comma = rest.find(',');
+    std::string_view name = rest.substr(0, comma);
+    while (name.starts_with(' ')) name.remove_prefix(1);
+    while (name.ends_with(' ')) name.remove_suffix(1);
+    const Feature* feature = FindFeature(name);
+    if (feature == nullptr) return Fail(entry.place, "{}", UnknownName("feature", name, FeatureNames()));
+    group.push_back(*feature);
+    if (TermNames(*feature) != TermNames(group.front())) {
+      return Fail(entry.place, "{} and {} have other terms ({}; {}), so they cannot stand together",
+                  FeatureName(group.front()), name, Join(TermNames(group.front())), Join(TermNames(*feature)));
+    }
+    if (comma == std::string_view::npos) return group;
+    rest.remove_prefix(comma + 1);
+  }
+}
+
+Result<Universe> ReadUniverse(Fields& fields) {
+  constexpr double kLargest = 1e6;  // as of shapes
+  const Node* node = fields.Raw("universe");
+  const std::vector<double> ends = fields.Numbers("universe", {-kLargest, kLargest});
+  if (node != nullptr && fields.ok() && ends.size() == 2 && ends[0] < ends[1]) return Universe{ends[0], ends[1]};
+  fields.Complain(node == nullptr ? fields.node().place : node->place,
+                  "'universe' must be two rising numbers, such as [0, 180]");
+  return tl::unexpected(fields.Finish().error());
+}
+
+/// The file's features, put together.
+class FeaturesReader {
+ public:
+  Result<void> ReadFeature(const Node::Entry& entry) {
+    ASSIGN_OR_RETURN(const auto group, ReadGroup(entry));
+    for (Feature feature : group) {
+      bool& seen = seen_[static_cast<std::size_t>(feature)];
+      if (seen) return Fail(entry.place, "the feature {} stands here twice", FeatureName(feature));
+      seen = true;
+    }
+    Fields fields(entry.value, "the feature " + entry.key);
+    ASSIGN_OR_RETURN(const auto universe, ReadUniverse(fields));
+    const std::optional<double> weight = fields.OptionalNumber("weight", {0, 1e6});
+    if (!weight) fields.Complain(entry.place, fmt::format("{} needs a 'weight' (S of equation 1)", entry.key));
+    const Node* terms = fields.Raw("terms");
+    if (terms == nullptr) fields.Complain(entry.place, fmt::format("{} needs 'terms'", entry.key));
+    RETURN_IF_ERROR(fields.Finish());
+    ASSIGN_OR_RETURN(const auto shapes, ReadTerms(entry.key, group.front(), *terms, universe));
+    for (Feature feature : group) {
+      const std::size_t k = static_cast<std::size_t>(feature);
+      memberships_.universes[k] = universe;
+      weights_[k] = *weight;
+      std::ranges::copy(shapes, memberships_.shapes.begin() + static_cast<std::ptrdiff_t>(FirstTermOf(feature)));
+    }
+    return {};
+  }
+
+  /// Refuses what is still missing, and scales the weights.
+  Result<void> Finish(const Place& place) {
+    std::vector<std::string> missing;
+    for (std::size_t k = 0; k < kFeatureCount; ++k) {
+      if (!seen_[k]) missing.emplace_back(FeatureName(AllFeatures()[k]));
+    }
+    if (!missing.empty()) return Fail(place, "'features' lacks {}; all ten must be there", Join(missing));
+    double sum = 0;
+    for (double weight : weights_) sum += weight;
+    if (sum == 0) return Fail(place, "all weights are 0; at least one must be positive");
+    constexpr double kRounding = 1e-12;  // what is written is read back as it was
+    if (std::abs(sum - kWeightSum) > kRounding) {
+      for (double& weight : weights_) weight *= kWeightSum / sum;
+    }
+    return {};
+  }
+
+  FeatureSettings settings() const { return {memberships_, weights_}; }
+
+ private:
+  static Result<std::vector<Shape>> ReadTerms(const std::string& name, Feature feature, const Node& node,
+                                              const Universe& universe) {
+    Fields fields(node, "'terms' of " + name);
+    std::vector<Shape> shapes;
+    for (const std::string& term : TermNames(feature)) {
+      const Node* shape_node = fields.Raw(term);
+      if (shape_node == nullptr) continue;  // an unknown key is the likelier cause: told first
+      ASSIGN_OR_RETURN(const auto shape, ReadShape(*shape_node, universe));
+      shapes.push_back(shape);
+    }
+    RETURN_IF_ERROR(fields.Finish());
+    if (shapes.size() < TermsOf(feature).size()) {
+      return Fail(node.place, "{} needs all its terms: {}", name, Join(TermNames(feature)));
+    }
+    return shapes;
+  }
+
+  Memberships memberships_;
+  FeatureWeights weights_{};
+  std::array<bool, kFeatureCount> seen_{};
+};
+
+/// Writes the lines that stand under a feature's name.
+std::string Written(Feature feature, const FeatureSettings& settings) {
+  const std::size_t k = static_cast<std::size_t>(feature);
+  const Universe& universe = settings.memberships.universes[k];
+  std::string text = fmt::format("    universe: [{}, {}]\n    weight: {}\n    terms:\n", universe.low, universe.high,
+                                 settings.weights[k]);
+  std::size_t i = FirstTermOf(feature);
+  for (const Term& term : TermsOf(feature)) {
+    text += fmt::format("      {}: {}\n", term.name, WriteShape(settings.memberships.shapes[i++]));
+  }
+  return text;
+}
+
+/// Reads the mapping under `features`: all ten of table 1 with all their terms, no other; "RH, LH" stand together.
+Result<FeatureSettings> ReadFeatures(const Node& node) {
+  if (node.kind != Node::Kind::kMapping) {
+    return Fail(node.place, "'features' must map features to their terms (RH, LH: …), found {}", Describe(node));
+  }
+  FeaturesReader reader;
+  for (const Node::Entry& entry : node.entries) {
+    RETURN_IF_ERROR(reader.ReadFeature(entry));
+  }
+  RETURN_IF_ERROR(reader.Finish(node.place));
+  return reader.settings();
+}
+
+/// Writes the lines that stand indented under `features`; features that are alike stand together.
+std::string WriteFeatures(const FeatureSettings& settings) {
+  std::vector<std::pair<std::string, std::string>> groups;  // the names, and what stands under them
+  for (Feature feature : AllFeatures()) {
+    const std::string text = Written(feature, settings);
+    const auto alike = std::ranges::find(groups, text, &std::pair<std::string, std::string>::second);
+    if (alike != groups.end()) {
+      alike->first += fmt::format(", {}", FeatureName(feature));
+    } else {
+      groups.emplace_back(FeatureName(feature), text);
+    }
+  }
+  std::string text;
+  for (const auto& [names, below] : groups) text += fmt::format("  {}:\n{}", names, below);
+  return text;
+}
+
+constexpr std::size_t kMostRules = 100;
+constexpr std::size_t kLongestPose = 40;
+
+/// Says whether a name is plain enough to be written back, and shown, without quotes.
+bool IsPoseName(const std::string& name) {
+  const auto is_plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == ' ' || c == '-';
+  };
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  return !name.empty() && name.size() <= kLongestPose && std::ranges::all_of(name, is_plain) &&
+         is_letter(name.front()) && name.back() != ' ';
+}
+
+/// The place in `AllTerms` of what "RH: up" names.
+Result<std::size_t> ReadTerm(const Node::Entry& entry) {
+  const Feature* feature = FindFeature(entry.key);
+  if (feature == nullptr) {
+    std::vector<std::string> names;
+    for (Feature known : AllFeatures()) names.emplace_back(FeatureName(known));
+    return Fail(entry.place, "{}", UnknownName("feature", entry.key, names));
+  }
+  std::vector<std::string> names;
+  for (const Term& term : TermsOf(*feature)) names.emplace_back(term.name);
+  const std::string wanted = entry.value.kind == Node::Kind::kScalar ? entry.value.scalar : Describe(entry.value);
+  const auto found = std::ranges::find(names, wanted);
+  if (found == names.end()) return Fail(entry.value.place, "{}", UnknownName("term of " + entry.key, wanted, names));
+  return FirstTermOf(*feature) + static_cast<std::size_t>(found - names.begin());
+}
+
+Result<void> ReadRule(const Node& node, RuleBase& base) {
+  Fields fields(node, "a rule");
+  const Node* premise = fields.Raw("if");
+  const std::string pose = fields.RequiredText("then");
+  RETURN_IF_ERROR(fields.Finish());
+  if (premise == nullptr || premise->kind != Node::Kind::kMapping || premise->entries.empty()) {
+    return Fail(premise == nullptr ? node.place : premise->place, "'if' must name terms ({{RH: up, LH: up}}), found {}",
+                premise == nullptr ? "nothing" : Describe(*premise));
+  }
+  if (!IsPoseName(pose)) {
+    return Fail(fields.Raw("then")->place,
+                "{} is no pose's name: at most {} letters, digits, spaces, '-', a letter first", Quote(pose),
+                kLongestPose);
+  }
+  Rule rule;
+  for (const Node::Entry& entry : premise->entries) {
+    ASSIGN_OR_RETURN(const auto term, ReadTerm(entry));
+    rule.terms.push_back(term);
+  }
+  const auto known = std::ranges::find(base.poses, pose);
+  rule.pose = static_cast<std::size_t>(known - base.poses.begin());
+  if (known == base.poses.end()) base.poses.push_back(pose);
+  base.rules.push_back(std::move(rule));
+  return {};
+}
+
+/// Reads the list under `rules`: `- {if: {RH: up, LH: up}, then: arms up}`. At most 100 rules.
+Result<RuleBase> ReadRules(const Node& node) {
+  if (node.kind != Node::Kind::kSequence || node.items.size() > kMostRules) {
+    return Fail(node.place, "'rules' must be a list of at most {} rules, found {}", kMostRules,
+                node.kind == Node::Kind::kSequence ? fmt::format("{}", node.items.size()) : Describe(node));
+  }
+  RuleBase base;
+  for (const Node& item : node.items) {
+    RETURN_IF_ERROR(ReadRule(item, base));
+  }
+  return base;
+}
+
+/// Writes the lines that stand indented under `rules`.
+std::string WriteRules(const RuleBase& base) {
+  std::string text;
+  for (const Rule& rule : base.rules) {
+    std::vector<std::string> premise;
+    for (std::size_t i : rule.terms) {
+      const Term& term = AllTerms()[i];
+      premise.push_back(fmt::format("{}: {}", FeatureName(term.feature), term.name));
+    }
+    text += fmt::format("  - {{if: {{{}}}, then: {}}}\n", Join(premise), base.poses[rule.pose]);
+  }
+  return text;
+}
 
 constexpr std::size_t kLongestName = 80;
 
@@ -66,6 +315,23 @@ Result<FuzzySystem> LoadBuiltinFuzzySystem(const std::string& name, const Place&
     return Fail(place, "{}", UnknownName("fuzzy system", name, BuiltinFuzzySystemNames()));
   }
   return ReadFuzzySystem(file->text, "scenarios/fuzzy/" + std::string(file->name));
+}
+
+std::vector<double> InferPoses(const RuleBase& base, const Grades& grades) {
+  std::vector<double> activations(base.poses.size(), 0.0);
+  for (const Rule& rule : base.rules) {
+    double weakest = 1;
+    for (std::size_t term : rule.terms) weakest = std::min(weakest, grades[term]);
+    activations[rule.pose] = std::max(activations[rule.pose], weakest);
+  }
+  return activations;
+}
+
+const std::string* ChoosePose(const RuleBase& base, const Grades& grades) {
+  const std::vector<double> activations = InferPoses(base, grades);
+  const auto strongest = std::ranges::max_element(activations);
+  if (strongest == activations.end() || *strongest == 0) return nullptr;
+  return &base.poses[static_cast<std::size_t>(strongest - activations.begin())];
 }
 
 }  // namespace etude

@@ -8,7 +8,7 @@
 namespace etude {
 namespace {
 
-/// What a shape is called in files, and the numbers that make it.
+/// A kind of shape: its name in files, and the numbers that make it.
 struct ShapeKind {
   const char* name;
   const char* numbers;

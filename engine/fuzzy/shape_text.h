@@ -12,7 +12,7 @@ namespace etude {
 /// Refused: breakpoints out of order, sigma that is not positive, and a shape whose top no input of `universe` reaches.
 Result<Shape> ReadShape(const Node& node, const Universe& universe);
 
-/// As ReadShape reads it back, to the last bit.
+/// Writes a shape as ReadShape reads it back, to the last bit.
 std::string WriteShape(const Shape& shape);
 
 }  // namespace etude

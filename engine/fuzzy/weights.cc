@@ -28,10 +28,10 @@ double Dot(const Row& row, const Row& beta) {
   return sum;
 }
 
-/// Without overflow for any finite input.
+/// Computes the logistic function without overflow for any finite input.
 double Sigmoid(double x) { return x >= 0 ? 1.0 / (1.0 + std::exp(-x)) : std::exp(x) / (1.0 + std::exp(x)); }
 
-/// −log likelihood plus the ridge's penalty.
+/// Returns the negative log likelihood plus the ridge's penalty.
 double Loss(std::span<const LabelledPair> pairs, const Row& beta, double ridge) {
   double loss = 0;
   for (std::size_t k = 0; k < kFeatureCount; ++k) loss += 0.5 * ridge * beta[k] * beta[k];

@@ -27,7 +27,7 @@ enum class WeightFitStatus {
   kNotConverged,
 };
 
-/// What was learnt. Unless `status` is kFitted, `weights` are paper A's.
+/// The result of a fit. Unless `status` is kFitted, `weights` are paper A's.
 struct WeightFit {
   WeightFitStatus status = WeightFitStatus::kOneClassOnly;
   FeatureWeights weights = PaperWeights();

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "engine/base/angles.h"
+#include "engine/base/directions.h"
 #include "engine/base/euler.h"
-#include "engine/base/unit_vector.h"
 #include "engine/kinematics/capture_body.h"
 
 namespace etude {

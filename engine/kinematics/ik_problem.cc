@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/directions.h"
+
 namespace etude {
 namespace {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <initializer_list>
 
+#include "engine/base/directions.h"
 #include "engine/base/euler.h"
-#include "engine/base/unit_vector.h"
 
 namespace etude {
 namespace {

@@ -41,17 +41,17 @@ constexpr std::size_t kRoleCount = 20;
 
 constexpr std::size_t Index(Role role) { return static_cast<std::size_t>(role); }
 
-/// All roles in order.
+/// Lists all roles in order.
 std::span<const Role, kRoleCount> AllRoles();
-/// "hip_centre", "left_shoulder", …: the names used in every file Etude reads or writes.
+/// Returns "hip_centre", "left_shoulder", …: the names used in every file Etude reads or writes.
 std::string_view RoleName(Role role);
 std::optional<Role> FindRole(std::string_view name);
-/// The joint it hangs from; the hip centre has none.
+/// Returns the joint that it hangs from; the hip centre has none.
 std::optional<Role> ParentOf(Role role);
 /// A side of the body, the person's own.
 enum class Side { kLeft, kRight };
 
-/// The same joint of the other side; itself for joints of the middle.
+/// Returns the same joint of the other side; a joint of the middle itself.
 Role Mirrored(Role role);
 
 /// One frame: where the twenty joints are, metres, in the world (right-handed, Y up).

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/texture.h"
+#include "engine/base/image.h"
 #include "engine/motion/clip.h"
 
 namespace etude {
 
-/// What a surface is painted with.
+/// The paint of a surface.
 struct Material {
   std::string name;
   glm::dvec3 colour{0.8};   ///< linear RGB, 0…1 (glTF's base colour factor)
@@ -54,8 +54,8 @@ struct DeformedMesh {
   std::vector<glm::dvec3> normals;  ///< unit
 };
 
-/// Linear blend skinning: v ↦ Σ wᵢ · globalᵢ · inverse_bindᵢ · v. `globals` is ComputeGlobals's output for
-/// the skeleton that the mesh is bound to. Normals go through the inverse transpose.
+/// Deforms a mesh by linear blend skinning: v ↦ Σ wᵢ · globalᵢ · inverse_bindᵢ · v. `globals` is ComputeGlobals's
+/// output for the skeleton that the mesh is bound to. Normals go through the inverse transpose.
 DeformedMesh Deform(const SkinnedMesh& mesh, const std::vector<GlobalTransform>& globals);
 
 }  // namespace etude

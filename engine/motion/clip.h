@@ -44,7 +44,7 @@ struct Clip {
   double rate_hz = 30;
   std::vector<LocalPose> frames;
 
-  /// From the first frame to the last.
+  /// Returns the time from the first frame to the last, seconds.
   double DurationSeconds() const { return frames.empty() ? 0 : static_cast<double>(frames.size() - 1) / rate_hz; }
 };
 
@@ -54,7 +54,17 @@ struct GlobalTransform {
   glm::dmat3 axes{1};
 };
 
-/// Forward kinematics of one frame: `out` gets one entry per joint.
+/// Computes the forward kinematics of one frame: `out` gets one entry per joint.
 void ComputeGlobals(const Skeleton& skeleton, const LocalPose& pose, std::vector<GlobalTransform>& out);
+
+/// Returns the transform `part` of the way from one to the other: the rotation along the shorter great arc (slerp), the
+/// translation and the scale straight.
+LocalTransform Between(const LocalTransform& from, const LocalTransform& to, double part);
+
+/// Returns the pose of a clip at `frame` counted from 0, also between frames, clamped to the clip: every joint's
+/// rotation along the shorter great arc between the two frames around (slerp), translations and scales straight. Joints
+/// turn, so a limb keeps its length in between; interpolated positions would shorten it. A whole number gives the frame
+/// as it is. Needs at least one frame.
+LocalPose SampleFrame(const Clip& clip, double frame);
 
 }  // namespace etude

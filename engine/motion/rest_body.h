@@ -10,8 +10,8 @@
 
 namespace etude {
 
-/// Which way the limb that ends in a joint leads at rest: a person who stands with hanging arms, facing +Z; hips and
-/// shoulders to the person's left are +X.
+/// Returns the direction at rest of the limb that ends in a joint: a person who stands with hanging arms, facing +Z;
+/// hips and shoulders to the person's left are +X.
 glm::dvec3 DirectionAtRest(Role child);
 
 /// One person's body as it can be measured before a take: its joints in some pose at rest, metres, Y up, facing +Z. It
@@ -34,8 +34,8 @@ struct RestBody {
   BodyPose Pose() const;
 };
 
-/// A body of the twenty roles alone: a rigid pelvis with both hips, and every other limb a joint of its own, each as
-/// long as it is on average over `poses`, of which there is one at least. It stands with hanging arms.
+/// Makes a body of the twenty roles alone: a rigid pelvis with both hips, and every other limb a joint of its own, each
+/// as long as it is on average over `poses`, of which there is one at least. It stands with hanging arms.
 RestBody RestBodyOf(std::span<const BodyPose> poses);
 
 }  // namespace etude

@@ -4,11 +4,11 @@
 
 namespace etude {
 
-/// The stature of a pose in its own unit: the way along the limbs from the ankles over knees, hips, spine and neck to
-/// the head (both legs' mean), divided by the 0.92 of a body that it covers.
+/// Returns the stature of a pose in its own unit: the way along the limbs from the ankles over knees, hips, spine and
+/// neck to the head (both legs' mean), divided by the 0.92 of a body that it covers.
 double Stature(const BodyPose& pose);
 
-/// What one looks at first in a clip of a body: metres, seconds.
+/// Overall measures of a motion, in metres and seconds.
 struct MotionStatistics {
   double stature_m = 0;         ///< median over the frames (Stature)
   double travelled_m = 0;       ///< way of the hip centre along the floor
@@ -20,10 +20,11 @@ struct MotionStatistics {
   double lowest_foot_m = 0;    ///< lowest ankle or toe of either foot over the clip; near 0 for a clip on the floor
 };
 
-/// Needs at least one frame; of one frame all speeds are 0. A speed is the way from one frame to the next.
+/// Measures a motion of at least one frame; of one frame all speeds are 0. A speed is the way from one frame to the
+/// next.
 MotionStatistics ComputeStatistics(const BodyMotion& motion);
 
-/// Mean over frames and feet of the toes' horizontal speed, weighted by how much they stand: the weight is
+/// Returns the mean over frames and feet of the toes' horizontal speed, weighted by how much they stand: the weight is
 /// clamp(2 − 2^(h / 2.5 cm), 0, 1) at height h above the floor (Zhang et al. 2018, "Mode-adaptive neural networks").
 /// Heights are above each foot's own lowest point, so that it need not be known where the floor is. Metres per second;
 /// 0 of a single frame.

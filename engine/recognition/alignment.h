@@ -14,13 +14,13 @@ struct StepPair {
   int taught = 0;  ///< index in the pattern
 };
 
-/// Subsequence dynamic time warping, step by step (Müller 2007, section 4.4, with his slope condition of at most 2):
-/// the path through all of a pattern that ends in the step seen last, wherever it began. Every step seen costs its
+/// Runs subsequence dynamic time warping step by step (Müller 2007, section 4.4, with his slope condition of at most
+/// 2): the path through all of a pattern that ends in the step seen last, wherever it began. Every step seen costs its
 /// distance, every step of the pattern that was passed over, too.
 class SubsequenceAligner {
  public:
-  /// `pattern` has at least one step and must outlive this. A path of more than `longest` ≥ 1 steps seen is
-  /// dropped, with those that it was better than.
+  /// Aligns with `pattern`, which has at least one step and must outlive this. A path of more than `longest` ≥ 1 steps
+  /// seen is dropped, with those that it was better than.
   SubsequenceAligner(std::span<const PoseVector> pattern, int longest);
 
   void Reset();

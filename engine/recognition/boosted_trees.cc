@@ -48,7 +48,7 @@ Sample MakeSample(std::span<const PerformanceMeasures> performances, std::span<c
   return sample;
 }
 
-/// First and second derivatives of the loss, and how many performances they are of.
+/// The first and second derivatives of the loss, and how many performances they are of.
 struct Slope {
   double gradient = 0, curvature = 0;
   int count = 0;

@@ -24,7 +24,7 @@ struct BoostedTrees {
   double bias = 0;  ///< log-odds
   std::vector<DecisionTree> trees;
 
-  /// In (0, 1).
+  /// Returns the probability that the performance is right, in (0, 1).
   double Probability(const PerformanceMeasures& of) const;
 };
 
@@ -44,8 +44,8 @@ struct BoostingOptions {
   int rounds = 3;
 };
 
-/// Newton's boosting of the logistic loss, measures cut at 63 quantiles; right and wrong bags weigh alike in all. No
-/// dice. Without a right or without a wrong bag: no trees, even odds.
+/// Fits trees by Newton's boosting of the logistic loss, measures cut at 63 quantiles; right and wrong bags weigh alike
+/// in all. No dice. Without a right or without a wrong bag: no trees, even odds.
 BoostedTrees FitBoostedTrees(std::span<const LabelledBag> bags, const BoostingOptions& options = {});
 
 }  // namespace etude

@@ -14,12 +14,13 @@ namespace etude {
 /// The defaults are the SDK's "some smoothing with little latency … good for gesture recognition"; it gives two more
 /// sets, for menus and for a very smooth skeleton, which pay for calm with latency.
 struct HoltOptions {
-  /// In [0, 1]; 0 follows the raw data. Raise it for a sensor that jitters more, at the price of latency.
+  /// The weight of the past, in [0, 1]; 0 follows the raw data. Raise it for a sensor that jitters more, at the price
+  /// of latency.
   double smoothing = 0.5;
-  /// In [0, 1]: how fast the trend follows. Raise it where joints turn round quickly.
+  /// The speed at which the trend follows, in [0, 1]. Raise it where joints turn round quickly.
   double correction = 0.5;
-  /// ≥ 0: how many frames ahead the output is, which makes up for the lag of smoothing. Above 0.5 quick changes
-  /// overshoot.
+  /// The number of frames by which the output is ahead, ≥ 0, which makes up for the lag of smoothing. Above 0.5 quick
+  /// changes overshoot.
   double prediction_frames = 0.5;
   /// A step inside this radius is damped in proportion to its length. Lower it where small motions matter, 0 for none.
   double jitter_radius_m = 0.05;
@@ -51,7 +52,8 @@ class HoltFilter {
 /// bearable; then move quickly and raise `beta_per_m` until the lag is.
 struct OneEuroOptions {
   double min_cutoff_hz = 1.0;  ///< > 0; the paper's; lower = less jitter at rest, more lag in slow motion
-  /// ≥ 0: cut-off gained per m/s (ours: the paper's pixels do not carry over). Raise it for dances quicker than ours.
+  /// The cut-off gained per m/s, ≥ 0 (ours: the paper's pixels do not carry over). Raise it for dances quicker than
+  /// ours.
   double beta_per_m = 5.0;
   double derivative_cutoff_hz = 1.0;  ///< > 0; the paper's, which found no need to change it
 
@@ -76,9 +78,9 @@ class OneEuroFilter {
 enum class FilterKind { kNone, kHolt, kOneEuro };
 
 struct FilterOptions {
-  /// None: key poses must be held over several frames anyway, and nothing lags. Holt, which Kinect's programmers turn
-  /// on, finds a little more with fewer false alarms (`scenarios/quick/detection.yaml`); 1€ where joints must both rest
-  /// quietly and move quickly.
+  /// The default is no filter: key poses must be held over several frames anyway, and nothing lags. Holt, which
+  /// Kinect's programmers turn on, finds a little more with fewer false alarms (`scenarios/quick/detection.yaml`); 1€
+  /// where joints must both rest quietly and move quickly.
   FilterKind kind = FilterKind::kNone;
   HoltOptions holt{};         ///< read with kHolt only
   OneEuroOptions one_euro{};  ///< read with kOneEuro only
@@ -86,16 +88,16 @@ struct FilterOptions {
   bool operator==(const FilterOptions&) const = default;
 };
 
-/// "none", "holt", "one-euro".
+/// Returns "none", "holt", "one-euro".
 const std::vector<std::string>& FilterNames();
-/// `name` must be one of FilterNames().
+/// Returns the filter of that name, which must be one of FilterNames().
 FilterKind FilterOf(std::string_view name);
 
 /// Smooths every joint on its own, frame by frame, causally: frame t depends on frames ≤ t only. A joint that is not
 /// tracked passes through unchanged and its filter starts anew afterwards. States are kept.
 class StreamFilter {
  public:
-  /// `rate_hz` > 0.
+  /// Smooths frames of rate `rate_hz` > 0.
   StreamFilter(const FilterOptions& options, double rate_hz);
 
   SensedFrame Update(const SensedFrame& raw);

@@ -4,10 +4,131 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
 
-#include "engine/recognition/pose_sequence_recogniser.h"
+#include "engine/recognition/recogniser.h"
+#include "engine/recognition/taught_move.h"
 
 namespace etude {
+namespace {
+
+/// Returns how well a frame in which a body is seen matches a key pose, in [0, 1].
+using PoseMatcher = std::function<double(const FeatureFrame& frame, const TaughtPose& pose)>;
+
+/// The key poses of one move, and how long it may take.
+struct Sequence {
+  std::vector<TaughtPose> poses;
+  double span_s;
+};
+
+struct Taught {
+  std::vector<Sequence> moves;
+  int hold_frames;
+  PoseMatcher match;
+};
+
+class Follower final : public MoveFollower {
+ public:
+  Follower(const Taught& taught, double rate_hz) : taught_(taught), spotted_(taught.moves.size(), 0.0) {
+    for (const Sequence& move : taught.moves) {
+      const int span_frames = static_cast<int>(std::ceil(move.span_s * rate_hz));
+      sequences_.emplace_back(move.poses.size(), taught.hold_frames, span_frames);
+    }
+  }
+
+  void Ask(std::optional<std::size_t> move) override {
+    asked_ = move;
+    if (move) sequences_[*move].Open();
+  }
+
+  Evidence Update(const SeenFrame& frame) override {
+    for (std::size_t i = 0; i < sequences_.size(); ++i) {
+      matches_.clear();
+      if (frame.features.body_seen) {
+        for (const TaughtPose& pose : taught_.moves[i].poses) matches_.push_back(taught_.match(frame.features, pose));
+      }
+      sequences_[i].Update(matches_);
+      spotted_[i] = sequences_[i].Spotted();
+    }
+    return {.asked = asked_ ? sequences_[*asked_].Asked() : 0.0, .spotted = spotted_};
+  }
+
+ private:
+  const Taught& taught_;
+  std::vector<PoseSequence> sequences_;  // one per move
+  std::vector<double> matches_, spotted_;
+  std::optional<std::size_t> asked_;
+};
+
+class PoseSequenceRecogniser final : public Recogniser {
+ public:
+  explicit PoseSequenceRecogniser(Taught taught) : taught_(std::move(taught)) {}
+
+  std::unique_ptr<MoveFollower> Follow(double rate_hz) const override {
+    return std::make_unique<Follower>(taught_, rate_hz);
+  }
+
+ private:
+  Taught taught_;
+};
+
+/// Recognises a move by passing its key poses in order (PoseSequence), however a frame is matched with one.
+std::unique_ptr<Recogniser> MakePoseSequenceRecogniser(std::span<const TaughtMove> taught, int hold_frames,
+                                                       PoseMatcher match) {
+  Taught sequences{.moves = {}, .hold_frames = hold_frames, .match = std::move(match)};
+  for (const TaughtMove& move : taught) sequences.moves.push_back({move.poses, move.span_s});
+  return std::make_unique<PoseSequenceRecogniser>(std::move(sequences));
+}
+
+}  // namespace
+
+PoseSequence::PoseSequence(std::size_t poses, int hold_frames, int span_frames)
+    : hold_frames_(static_cast<std::size_t>(hold_frames)),
+      span_frames_(span_frames),
+      recent_(poses, std::vector<double>(hold_frames_, 0.0)),
+      asked_(poses, 0.0) {
+  assert(poses >= 1 && hold_frames >= 1 && span_frames >= 0);
+}
+
+void PoseSequence::Open() {
+  seen_since_open_ = 0;
+  std::ranges::fill(asked_, 0.0);
+}
+
+void PoseSequence::Update(std::span<const double> matches) {
+  const int now = frame_++;
+  spotted_ = 0;
+  if (matches.empty()) return;
+  const std::size_t slot = seen_++ % hold_frames_;
+  ++seen_since_open_;
+
+  std::vector<double> held;
+  for (std::size_t k = 0; k < recent_.size(); ++k) {
+    recent_[k][slot] = matches[k];
+    held.push_back(*std::ranges::min_element(recent_[k]));
+  }
+  // From the last pose to the first: each reads its predecessor's state of the previous frame, not of this one.
+  for (std::size_t k = held.size(); k-- > 0 && seen_since_open_ >= hold_frames_;) {
+    asked_[k] = std::max(asked_[k], std::min(held[k], k == 0 ? 1.0 : asked_[k - 1]));
+  }
+  while (!within_span_.empty() && within_span_.front().frame < now - span_frames_) within_span_.pop_front();
+  spotted_ = BestPassageEndingIn(held);
+  if (held.size() > 1) within_span_.push_back({now, std::move(held)});
+}
+
+double PoseSequence::BestPassageEndingIn(std::span<const double> held) const {
+  if (held.size() == 1 || held.back() == 0) return held.back();
+  std::vector<double> best(held.size() - 1, 0.0);
+  for (const Held& before : within_span_) {
+    for (std::size_t k = best.size(); k-- > 0;) {
+      best[k] = std::max(best[k], std::min(before.scores[k], k == 0 ? 1.0 : best[k - 1]));
+    }
+  }
+  return std::min(best.back(), held.back());
+}
 
 double MatchOf(const FeatureFrame& frame, const TaughtPose& pose, const SightWeights& weights,
                const KeyPoseOptions& options) {
@@ -42,6 +163,45 @@ std::unique_ptr<Recogniser> MakeKeyPoseRecogniser(std::span<const TaughtMove> ta
   return MakePoseSequenceRecogniser(taught, options.hold_frames,
                                     [weights, options](const FeatureFrame& frame, const TaughtPose& pose) {
                                       return MatchOf(frame, pose, weights, options);
+                                    });
+}
+
+namespace {
+
+/// Returns the overlap of a feature's grades at two inputs, in [0, 1].
+double Overlap(Feature feature, double seen, double taught, const Memberships& memberships) {
+  const Universe& universe = memberships.universes[static_cast<std::size_t>(feature)];
+  const std::size_t first = FirstTermOf(feature), last = first + TermsOf(feature).size();
+  double common = 0, all = 0;
+  for (std::size_t term = first; term < last; ++term) {
+    const Shape& shape = memberships.shapes[term];
+    const double a = GradeOf(shape, std::clamp(seen, universe.low, universe.high));
+    const double b = GradeOf(shape, std::clamp(taught, universe.low, universe.high));
+    common += std::min(a, b);
+    all += std::max(a, b);
+  }
+  return all > 0 ? common / all : 1.0;
+}
+
+}  // namespace
+
+double RuleStrength(const FeatureFrame& frame, const TaughtPose& pose, const SightWeights& weights,
+                    const Memberships& memberships) {
+  double strength = 1, most = 0;
+  for (const PoseTarget& target : pose.targets) {
+    const double weight = weights.Of(frame.StateOf(target.feature));
+    const double overlap = Overlap(target.feature, frame.features[target.feature], target.degrees, memberships);
+    strength = std::min(strength, std::max(overlap, 1.0 - weight));
+    most = std::max(most, weight);
+  }
+  return most > 0 ? strength : 0.0;
+}
+
+std::unique_ptr<Recogniser> MakeFuzzyRulesRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
+                                                     const FuzzyRulesOptions& options) {
+  return MakePoseSequenceRecogniser(taught, options.hold_frames,
+                                    [weights](const FeatureFrame& frame, const TaughtPose& pose) {
+                                      return RuleStrength(frame, pose, weights, PaperMemberships());
                                     });
 }
 

@@ -11,11 +11,10 @@
 #include "engine/recognition/measuring_recogniser.h"
 #include "engine/recognition/recogniser.h"
 #include "engine/recognition/taught_move.h"
-#include "engine/recognition/weighting.h"
 
 namespace etude {
 
-/// What was learnt of right and faulty performances, whatever the move: kept in a file, so that nobody need train.
+/// A model learnt from right and faulty performances of any move, kept in a file so that nobody need train.
 struct LearntModel {
   BoostedTrees asked, spotted;
 };
@@ -25,17 +24,17 @@ Result<LearntModel> ReadLearntModel(std::string_view text, const std::string& fi
 /// The text that ReadLearntModel reads back to the same model, to the last bit.
 std::string WriteLearntModel(const LearntModel& model);
 
-/// scenarios/recognisers/*.yaml (written by the build).
+/// Returns the files scenarios/recognisers/*.yaml (written by the build).
 std::span<const EmbeddedText> BuiltinLearntModelFiles();
-/// What recogniser `learnt` knows: scenarios/recognisers/learnt.yaml.
+/// Returns the model of recogniser `learnt`: scenarios/recognisers/learnt.yaml.
 const LearntModel& BuiltinLearntModel();
-/// What recogniser `coached` knows: scenarios/recognisers/coached.yaml of performances asked for, learnt.yaml of
-/// others.
+/// Returns the model of recogniser `coached`: scenarios/recognisers/coached.yaml of performances asked for, learnt.yaml
+/// of others.
 const LearntModel& BuiltinCoachedModel();
 
-/// Ours: performances are aligned with the taught examples, measured, and judged by what simulated people taught the
-/// model; what is farther from every example than nearly all that taught it is no move at all. The moves are those
-/// taught: the model knows none. `by_clock`: as the model was fitted.
+/// Makes our learnt recogniser: performances are aligned with the taught examples, measured, and judged by what
+/// simulated people taught the model; what is farther from every example than nearly all that taught it is no move at
+/// all. The moves are those taught: the model knows none. `by_clock`: as the model was fitted.
 std::unique_ptr<Recogniser> MakeLearntRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
                                                  const LearntModel& model, ByClock by_clock = ByClock::kNo);
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "engine/recognition/step_follower.h"
+#include "engine/recognition/pose_vector.h"
 
 namespace etude {
 namespace {
@@ -34,7 +34,7 @@ class RecentSteps {
   int count_ = 0;
 };
 
-/// What each move cost at its best lately.
+/// Keeps each move's lowest cost of late.
 class RecentCosts {
  public:
   explicit RecentCosts(std::size_t moves) : moves_(moves), costs_(moves * kKept, kUnaligned) {}
@@ -46,7 +46,7 @@ class RecentCosts {
     double& known = costs_[step_ % kKept * moves_ + move];
     known = std::min(known, cost);
   }
-  /// Of the moves other than this one.
+  /// Returns the lowest cost of the moves other than this one.
   double LowestOther(std::size_t move) const {
     double lowest = kUnaligned;
     for (std::size_t i = 0; i < costs_.size(); ++i) {
@@ -145,7 +145,8 @@ class MeasuringFollower final : public StepFollower {
     return measures;
   }
 
-  /// Where one move is all that was taught: what holding still in its mean pose would cost, on the same path.
+  /// Returns the cost of holding still in the mean pose on the same path, which stands in for other moves where only
+  /// one was taught.
   static double CostOfHolding(const TaughtExample& example, std::span<const StepPair> path,
                               const std::function<const PoseVector&(int)>& seen) {
     double cost = 0;
@@ -168,7 +169,7 @@ class MeasuringFollower final : public StepFollower {
   std::vector<SubsequenceAligner> always_;  // one per example
   std::vector<InWindow> in_window_;
   int opened_at_ = 0;
-  PersonsUsual usual_;
+  PersonBaseline usual_;
   std::optional<PerformanceMeasures> nearest_in_window_;
   double nearest_cost_ = kUnaligned;
 };

@@ -7,11 +7,10 @@
 #include "engine/recognition/performance_measures.h"
 #include "engine/recognition/recogniser.h"
 #include "engine/recognition/taught_move.h"
-#include "engine/recognition/weighting.h"
 
 namespace etude {
 
-/// What a performance is measured for.
+/// The purpose for which a performance is measured.
 enum class Occasion {
   kAsked,    ///< it may be the one asked for, which began when its window opened
   kSpotted,  ///< it may have begun at any time
@@ -21,7 +20,8 @@ enum class Occasion {
 using PerformanceJudge =
     std::function<double(Occasion occasion, std::size_t move, const PerformanceMeasures& measures)>;
 
-/// Whether performances are also measured by the clock of who asks for them: worth it where that clock is the music's.
+/// Says whether performances are also measured by the clock of who asks for them, which pays where that clock is the
+/// music's.
 enum class ByClock { kNo, kYes };
 
 /// Aligns what is seen with every example (limb directions, SubsequenceAligner) and has performances judged by their

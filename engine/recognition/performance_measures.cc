@@ -6,6 +6,64 @@
 #include "engine/base/order_statistics.h"
 
 namespace etude {
+
+ClockComparison::ClockComparison(std::span<const PoseVector> pattern) : pattern_(pattern) {}
+
+void ClockComparison::Update(const PoseVector& seen) {
+  const int now = count_++, size = static_cast<int>(pattern_.size());
+  for (int shift = -kMostSteps; shift <= kMostSteps; ++shift) {
+    const int taught = now - shift;
+    if (taught < 0 || taught >= size) continue;
+    ShiftSum& sum = halves_[2 * taught < size ? 0 : 1][static_cast<std::size_t>(shift + kMostSteps)];
+    sum.distance += SquaredDistance(seen, pattern_[static_cast<std::size_t>(taught)]);
+    ++sum.count;
+  }
+}
+
+ClockComparison::ShiftSum ClockComparison::SumOf(Part part, int shift) const {
+  const auto index = static_cast<std::size_t>(shift + kMostSteps);
+  if (part == Part::kFirst) return halves_[0][index];
+  if (part == Part::kSecond) return halves_[1][index];
+  return halves_[0][index] + halves_[1][index];
+}
+
+ClockComparison::Fit ClockComparison::FitOf(Part part, double usual_s) const {
+  constexpr double kLeastShare = 0.6;   // of the part: what is seen of less tells nothing
+  constexpr double kPerSecond2 = 0.02;  // of two shifts that fit alike the nearer to the usual one
+  const double usual = std::clamp(usual_s * kStepsPerSecond, -1.0 * kMostSteps, 1.0 * kMostSteps);
+  const double length = static_cast<double>(pattern_.size()) * (part == Part::kWhole ? 1 : 0.5);
+  Fit fit{.shift_s = usual / kStepsPerSecond};
+  double best = -1, best_cost = 0, at_usual = -1;
+  for (int shift = -kMostSteps; shift <= kMostSteps; ++shift) {
+    const ShiftSum sum = SumOf(part, shift);
+    if (sum.count < kLeastShare * length) continue;
+    const double mean = sum.distance / sum.count, away_s = (shift - usual) / kStepsPerSecond;
+    if (std::abs(shift - usual) <= 0.5 && at_usual < 0) at_usual = mean;
+    const double cost = mean + kPerSecond2 * away_s * away_s;
+    if (best >= 0 && cost >= best_cost) continue;
+    best = mean;
+    best_cost = cost;
+    fit.shift_s = shift / kStepsPerSecond;
+  }
+  if (at_usual < 0) return fit;  // too little was seen
+  fit.off = std::sqrt(at_usual);
+  fit.gain = fit.off - std::sqrt(std::min(best, at_usual));
+  return fit;
+}
+
+ClockMeasures ClockComparison::Measure(double usual_s) const {
+  const Fit whole = FitOf(Part::kWhole, usual_s), first = FitOf(Part::kFirst, usual_s),
+            second = FitOf(Part::kSecond, usual_s);
+  return {.shift = whole.shift_s,
+          .first = first.shift_s,
+          .second = second.shift_s,
+          .drift = second.shift_s - first.shift_s,
+          .off = whole.off,
+          .gain = whole.gain,
+          .first_gain = first.gain,
+          .second_gain = second.gain};
+}
+
 namespace {
 
 /// One limb along a path: weighted sums over its pairs.
@@ -60,7 +118,7 @@ LimbMeasures MeasureLimb(const LimbSums& sums) {
 constexpr std::array<std::size_t, 4> kMiddle = {0, 1, 2, 11};
 constexpr std::array<std::array<std::size_t, 2>, 4> kPairs = {{{3, 4}, {5, 6}, {7, 8}, {9, 10}}};
 
-/// How the clock of a performance went against the example's, seconds.
+/// The clock of a performance against the example's, seconds.
 struct PathClock {
   double lag = 0;       ///< mean, from the first step seen
   double stretch = 0;   ///< 0 at the taught tempo, 1 at half of it
@@ -172,7 +230,7 @@ void ForEachOwn(const Relate& relate) {
 
 }  // namespace
 
-void PersonsUsual::Add(const PerformanceMeasures& performance) {
+void PersonBaseline::Add(const PerformanceMeasures& performance) {
   constexpr std::size_t kLatest = 32;
   if (latest_.size() == kLatest) latest_.erase(latest_.begin());
   latest_.push_back(performance);
@@ -183,12 +241,12 @@ void PersonsUsual::Add(const PerformanceMeasures& performance) {
   });
 }
 
-void PersonsUsual::Relate(PerformanceMeasures& performance) const {
+void PersonBaseline::Relate(PerformanceMeasures& performance) const {
   if (latest_.empty()) return;
   ForEachOwn([&](std::size_t own, std::size_t beyond) { performance[beyond] = performance[own] - usual_[own]; });
 }
 
-double PersonsUsual::Shift() const {
+double PersonBaseline::Shift() const {
   // A window opens a reaction time after the coach begins, and people follow a little later than that: ours.
   constexpr double kUnknown = -0.1;
   return latest_.empty() ? kUnknown : usual_[kFirstClockMeasure];

@@ -7,11 +7,57 @@
 #include <vector>
 
 #include "engine/recognition/alignment.h"
-#include "engine/recognition/clock_measures.h"
+#include "engine/recognition/pose_vector.h"
 
 namespace etude {
 
-/// What is measured of one performance against one example, of whatever move: per limb how far it is off, how far once
+/// Measures of how a performance keeps to the clock of who asks for it: what is seen from the window's opening on is
+/// laid on an example that is moved in time as a whole and never warped. A warped path hides who is late in the middle;
+/// and a move that repeats itself fits anywhere.
+struct ClockMeasures {
+  double shift = 0;   ///< seconds by which the example must come later to fit best
+  double first = 0;   ///< likewise of the example's first half alone
+  double second = 0;  ///< of its second half
+  double drift = 0;   ///< second − first
+  /// Root mean squared distance at the shift that is usual of this person, and by how much that falls where the example
+  /// is moved: all of it, its first half, its second.
+  double off = 0, gain = 0, first_gain = 0, second_gain = 0;
+
+  std::array<double, 8> All() const { return {shift, first, second, drift, off, gain, first_gain, second_gain}; }
+};
+constexpr std::size_t kClockMeasures = 8;
+
+/// Gathers the measures step by step.
+class ClockComparison {
+ public:
+  /// Compares with `pattern`, of limbs, which must outlive this.
+  explicit ClockComparison(std::span<const PoseVector> pattern);
+
+  /// Takes the next step since the window opened.
+  void Update(const PoseVector& seen);
+  /// Measures the steps so far. `usual_s` is the shift that is usual of this person.
+  ClockMeasures Measure(double usual_s) const;
+
+ private:
+  static constexpr int kMostSteps = 24;  ///< 1.6 s: a beat of a slow move
+  struct ShiftSum {
+    double distance = 0;
+    int count = 0;
+    ShiftSum operator+(const ShiftSum& other) const { return {distance + other.distance, count + other.count}; }
+  };
+  struct Fit {
+    double shift_s = 0, off = 0, gain = 0;
+  };
+  enum class Part { kWhole, kFirst, kSecond };
+  ShiftSum SumOf(Part part, int shift) const;
+  Fit FitOf(Part part, double usual_s) const;
+
+  std::span<const PoseVector> pattern_;
+  int count_ = 0;                                                     ///< steps seen
+  std::array<std::array<ShiftSum, 2 * kMostSteps + 1>, 2> halves_{};  ///< of the example, by shift
+};
+
+/// The number of measures of one performance against one example, of any move: per limb how far it is off, how far once
 /// its mean direction is forgiven, and what share of its amplitude is missing; left and right as the larger and the
 /// smaller of both; how far the body is off in each third of the example; the clock; the nearest other move.
 constexpr std::size_t kOwnMeasures = 47;
@@ -23,7 +69,7 @@ constexpr std::size_t kFirstClockMeasure = 2 * kOwnMeasures;
 constexpr std::size_t kMeasureCount = kFirstClockMeasure + 2 * kClockMeasures;
 using PerformanceMeasures = std::array<double, kMeasureCount>;
 
-/// Their names, for people, in their order.
+/// Lists the measures' names, for people, in their order.
 const std::vector<std::string>& MeasureNames();
 
 /// A performance as it went along an example.
@@ -35,18 +81,19 @@ struct AlignedPerformance {
   double other_cost = 0;                       ///< of the nearest other move lately; infinite: of none
 };
 
-/// Those beyond the usual are left 0 (PersonsUsual fills them in), and those of the clock.
+/// Measures a performance. The measures beyond the usual are left 0 (PersonBaseline fills them in), and so are those of
+/// the clock.
 PerformanceMeasures Measure(const AlignedPerformance& performance);
 
-/// What is usual of a person: the medians of what was measured of their performances so far. People differ in how far
+/// Keeps what is usual of a person: the medians of the measures of their performances so far. People differ in how far
 /// they swing and how late they are; a fault is what they do not do otherwise.
-class PersonsUsual {
+class PersonBaseline {
  public:
-  /// One more performance, right or not; the latest 32 count.
+  /// Adds a performance, right or not; the latest 32 count.
   void Add(const PerformanceMeasures& performance);
   /// Fills in what is beyond the usual.
   void Relate(PerformanceMeasures& performance) const;
-  /// The shift by which this person keeps the clock, seconds: by how much windows open too late for them.
+  /// Returns the shift by which this person keeps the clock, seconds: by how much windows open too late for them.
   double Shift() const;
 
  private:

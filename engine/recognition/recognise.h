@@ -27,7 +27,7 @@ struct AskedMove {
   FrameInterval window;
 };
 
-/// What a recogniser made of every frame of a stream.
+/// A recogniser's evidence in every frame of a stream.
 struct EvidenceTrace {
   std::size_t moves = 0;
   std::vector<double> asked;    ///< per frame
@@ -43,17 +43,17 @@ struct EvidenceTrace {
 Result<EvidenceTrace> FollowStream(const Recogniser& recogniser, std::size_t moves, const SeenStream& seen,
                                    std::span<const AskedMove> asked);
 
-/// What evidence comes to.
+/// The options by which evidence becomes decisions.
 struct DecisionOptions {
-  /// Evidence from which on a move counts as performed, in (0, 1]. Set it on people who are not judged, to the false
-  /// alarms that one can bear.
+  /// The evidence from which on a move counts as performed, in (0, 1]. Set it on people who are not judged, to the
+  /// false alarms that one can bear.
   double threshold = 0.5;
   /// A move that was spotted is not spotted again for so long, seconds, ≥ 0: a performance is one detection, however
   /// its evidence flickers.
   double refractory_s = 1.0;
 };
 
-/// What the coach concludes about one performance it asked for.
+/// The coach's conclusion about one performance that it asked for.
 struct Judgement {
   std::optional<int> recognised_at;   ///< frame within the window; empty: the move was not recognised
   double score = 0;                   ///< in [0, 1], for ROC curves

@@ -3,11 +3,9 @@
 #include <algorithm>
 
 #include "engine/base/named.h"
-#include "engine/recognition/dtw.h"
-#include "engine/recognition/fuzzy_rules.h"
+#include "engine/recognition/example_recognisers.h"
 #include "engine/recognition/key_pose.h"
 #include "engine/recognition/learnt_model.h"
-#include "engine/recognition/nearest.h"
 
 namespace etude {
 namespace {

@@ -11,7 +11,6 @@
 #include "engine/base/settings.h"
 #include "engine/recognition/recogniser.h"
 #include "engine/recognition/taught_move.h"
-#include "engine/recognition/weighting.h"
 
 namespace etude {
 
@@ -25,7 +24,7 @@ struct RecogniserKind {
   bool needs_examples = false;   ///< at least one of every taught move
   /// The evidence from which on it calls a move right unless told otherwise, in (0, 1).
   double threshold = 0.5;
-  /// What `RecogniserOptions::settings` holds values for, in this order.
+  /// The settings that `RecogniserOptions::settings` holds values for, in this order.
   std::vector<NumberSetting> settings = {};
   std::function<std::unique_ptr<Recogniser>(std::span<const TaughtMove> taught, const RecogniserOptions& options)>
       teach = {};
@@ -33,7 +32,7 @@ struct RecogniserKind {
 
 std::span<const RecogniserKind> AllRecognisers();
 std::vector<std::string> RecogniserNames();
-/// Null when there is none of this name.
+/// Returns the recogniser of that name, null when there is none.
 const RecogniserKind* FindRecogniser(std::string_view name);
 
 struct RecogniserOptions {

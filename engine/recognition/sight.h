@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "engine/recognition/features_seen.h"
 #include "engine/recognition/filters.h"
 #include "engine/recognition/recogniser.h"
+#include "engine/recognition/skeleton_stream.h"
 
 namespace etude {
 
@@ -17,7 +17,7 @@ class StandingHeight {
 
   /// Takes one frame in; later frames than those of the first second change nothing.
   void Update(const SensedFrame& frame);
-  /// Metres, > 0; 0.9 before a body was seen.
+  /// Returns the hip height, metres, > 0; 0.9 before a body was seen.
   double Value() const { return value_; }
 
  private:
@@ -26,14 +26,14 @@ class StandingHeight {
   double value_;
 };
 
-/// How recognisers see a stream while it comes: frame by frame through the filter, then the features. A stream that
+/// Turns a live stream into what recognisers see: frame by frame through the filter, then the features. A stream that
 /// was recorded is seen by the same (SeeStream), so both answer the same to the last bit.
 class LiveSight {
  public:
   /// `rate_hz` > 0.
   LiveSight(const FilterOptions& filter, double rate_hz);
 
-  /// What it points to is valid until the next call.
+  /// Takes the next frame. The result's pointers are valid until the next call.
   SeenFrame Update(const SensedFrame& raw);
 
  private:

@@ -4,11 +4,12 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "engine/fuzzy/features.h"
 #include "engine/motion/body.h"
 
 namespace etude {
 
-/// What the sensor says about a joint: Kinect's own contract (SDK 1.x, NUI_SKELETON_POSITION_TRACKING_STATE).
+/// The sensor's own word about a joint: Kinect's own contract (SDK 1.x, NUI_SKELETON_POSITION_TRACKING_STATE).
 enum class TrackingState {
   kTracked,     ///< seen
   kInferred,    ///< not seen, guessed from its neighbours: may be far off
@@ -28,7 +29,7 @@ struct SensedFrame {
   const SensedJoint& operator[](Role role) const { return joints[Index(role)]; }
 };
 
-/// What a skeleton sensor delivers, and what recognition works on.
+/// A skeleton sensor's output, which recognition works on.
 struct SkeletonStream {
   double rate_hz = kJudgedRateHz;
   std::vector<SensedFrame> frames;
@@ -38,7 +39,19 @@ struct SkeletonStream {
 BodyPose PoseOf(const SensedFrame& frame);
 BodyMotion MotionOf(const SkeletonStream& stream);
 
-/// What a sensor without errors would deliver: every joint tracked, where it is.
+/// Returns the stream of a sensor without errors: every joint tracked, where it is.
 SkeletonStream StreamOf(const BodyMotion& motion);
+
+/// One frame as a recogniser sees it: paper A's ten features, and how well each was seen.
+struct FeatureFrame {
+  PoseFeatures features;
+  std::array<TrackingState, kFeatureCount> states{};  ///< the worst state among the feature's joints
+  bool body_seen = false;                             ///< false: nothing of the rest means anything
+
+  TrackingState StateOf(Feature feature) const { return states[static_cast<std::size_t>(feature)]; }
+};
+
+/// Computes the features of a frame. `standing_hip_height` is in metres, > 0.
+FeatureFrame SeeFeatures(const SensedFrame& frame, double standing_hip_height);
 
 }  // namespace etude

@@ -22,7 +22,7 @@ struct TaughtPose {
 
 constexpr double kLongestSpan = 60;  ///< seconds
 
-/// What recognisers are told of a move. Each takes what it needs and refuses a move that lacks it.
+/// A move as recognisers are taught it. Each takes what it needs and refuses a move that lacks it.
 struct TaughtMove {
   std::string name;
   std::vector<TaughtPose> poses = {};  ///< to be reached in this order

@@ -14,7 +14,7 @@ namespace {
 
 using enum Role;
 
-/// What a complaint says was seen: the first names of the file.
+/// Lists the first names of the file, for complaints.
 std::string NamesSeen(const Skeleton& skeleton) {
   constexpr std::size_t kShownNames = 60;
   std::vector<std::string> seen;
@@ -194,7 +194,7 @@ class MapFinder {
   const JointNames names_;
   std::string prefix_;  ///< of the limbs' names
   std::array<bool, kRoleCount> is_taught_{};
-  RolePlaces places_;
+  JointMapDraft places_;
 };
 
 }  // namespace

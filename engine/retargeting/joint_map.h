@@ -16,10 +16,10 @@ struct RolePoint {
   glm::dvec3 offset{0};  ///< in the joint's frame, the file's unit; zero: the joint itself
 };
 
-/// Where a clip's own skeleton has the twenty roles.
+/// The places of the twenty roles in a clip's own skeleton.
 struct JointMap {
   std::array<RolePoint, kRoleCount> points;  ///< by Index(role)
-  /// Roles that no joint or end site of the skeleton plays: points that ride on a neighbouring joint.
+  /// The roles that no joint or end site of the skeleton plays: points that ride on a neighbouring joint.
   std::vector<Role> composed;
 
   const RolePoint& operator[](Role role) const { return points[Index(role)]; }
@@ -46,8 +46,8 @@ struct TaughtRoles;
 /// others; a joint that is not there is refused at its place in the joint-map file.
 Result<JointMap> FindJointMap(const Skeleton& skeleton, const std::string& file, const TaughtRoles* taught = nullptr);
 
-/// One frame of a clip as the twenty joints, in the file's unit and axes. `globals` is
-/// ComputeGlobals's output for that frame.
+/// Returns one frame of a clip as the twenty joints, in the file's unit and axes. `globals` is ComputeGlobals's output
+/// for that frame.
 BodyPose Evaluate(const JointMap& map, const std::vector<GlobalTransform>& globals);
 
 }  // namespace etude

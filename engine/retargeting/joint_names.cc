@@ -74,7 +74,8 @@ bool IsLower(char c) { return c >= 'a' && c <= 'z'; }
 bool IsUpper(char c) { return c >= 'A' && c <= 'Z'; }
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
-/// Whether a new word begins at `i`, within a word: "upLeg", "Bip01", "LHip" (where the next letter is small again).
+/// Says whether a new word begins at `i`, within a word: "upLeg", "Bip01", "LHip" (where the next letter is small
+/// again).
 bool BeginsWord(std::string_view name, std::size_t i) {
   const char before = name[i - 1];
   const char here = name[i];
@@ -83,7 +84,7 @@ bool BeginsWord(std::string_view name, std::size_t i) {
   return !IsUpper(before) || (i + 1 < name.size() && IsLower(name[i + 1]));
 }
 
-/// In lower case.
+/// Splits a name into its words, in lower case.
 std::vector<std::string> WordsOf(std::string_view name) {
   std::vector<std::string> words;
   bool is_inside = false;
@@ -99,7 +100,7 @@ std::vector<std::string> WordsOf(std::string_view name) {
 
 bool IsNumber(const std::string& word) { return std::ranges::all_of(word, IsDigit); }
 
-/// "upperarm01.L" is read like "upperarm.L.01": the number counts as a suffix.
+/// Moves a side before a number: "upperarm01.L" is read like "upperarm.L.01": the number counts as a suffix.
 void PutSideBeforeNumber(std::vector<std::string>& words) {
   constexpr std::string_view kSides[] = {"l", "r", "left", "right"};
   if (words.size() < 3 || std::ranges::find(kSides, words.back()) == std::end(kSides)) return;

@@ -17,19 +17,19 @@ struct LimbNames {
   std::array<std::string_view, 3> joints;  ///< from the trunk outwards
 };
 
-/// Arms: shoulder, elbow, wrist. A scheme counts only when it names all three, since one word means
-/// different joints in different schemes: MotionBuilder's "LeftShoulder" is the collar bone.
+/// Lists the schemes of arms: shoulder, elbow, wrist. A scheme counts only when it names all three, since one word
+/// means different joints in different schemes: MotionBuilder's "LeftShoulder" is the collar bone.
 std::span<const LimbNames> ArmSchemes();
-/// Legs: hip, knee, ankle.
+/// Lists the schemes of legs: hip, knee, ankle.
 std::span<const LimbNames> LegSchemes();
 /// The base of the neck. CMU's "Neck" lies at the chest: whoever uses these must look where a joint is.
 std::span<const std::string_view> NeckNames();
 std::span<const std::string_view> HeadNames();
 
-/// What finger a joint belongs to by its own name alone, in the order in which they suit as the tip of a hand.
+/// The finger that a joint belongs to by its own name alone, in the order in which they suit as the tip of a hand.
 enum class Finger { kMiddle, kIndex, kRing, kLittle, kNotNamed, kThumb };
-/// "LeftHandThumb2", "thumb_01_l" and "lthumb" are thumbs. 3ds Max' biped numbers its fingers, the thumb being
-/// "Finger0", as others begin with the index finger: such names say nothing.
+/// Returns the finger of a name: "LeftHandThumb2", "thumb_01_l" and "lthumb" are thumbs. 3ds Max' biped numbers its
+/// fingers, the thumb being "Finger0", as others begin with the index finger: such names say nothing.
 Finger FingerOf(std::string_view name);
 
 /// A joint that bears a name.
@@ -48,9 +48,9 @@ class JointNames {
  public:
   explicit JointNames(const Skeleton& skeleton);
 
-  /// At most sixteen joints, those with the fewest suffixes first, then in the skeleton's order.
+  /// Finds at most sixteen joints of that name: those with the fewest suffixes first, then in the skeleton's order.
   std::vector<NamedJoint> Find(std::string_view name, Side side) const;
-  /// Joints of the middle: "Neck", "J_Bip_C_Neck".
+  /// Finds joints of the middle: "Neck", "J_Bip_C_Neck".
   std::vector<NamedJoint> Find(std::string_view name) const;
 
  private:

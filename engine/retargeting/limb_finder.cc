@@ -1,9 +1,34 @@
 #include "engine/retargeting/limb_finder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace etude {
+
+SkeletonTree::SkeletonTree(const Skeleton& skeleton) : skeleton_(skeleton) {
+  ComputeGlobals(skeleton, RestPose(skeleton), rest_);
+}
+
+bool SkeletonTree::HangsFrom(int joint, int ancestor) const {
+  if (joint == ancestor) return false;
+  while (joint > ancestor) joint = ParentOf(joint);  // parents stand first
+  return joint == ancestor;
+}
+
+int SkeletonTree::CommonAncestor(int a, int b) const {
+  while (a != b) (a > b ? a : b) = ParentOf(std::max(a, b));
+  return a;
+}
+
+glm::dvec3 SkeletonTree::InFrameOf(int joint, const glm::dvec3& point) const {
+  const auto& [position, axes] = rest_[joint];
+  if (!std::isnormal(glm::determinant(axes))) return glm::dvec3(0);
+  const glm::dvec3 inside = glm::inverse(axes) * (point - position);
+  const bool is_finite = std::isfinite(inside.x) && std::isfinite(inside.y) && std::isfinite(inside.z);
+  return is_finite ? inside : glm::dvec3(0);
+}
+
 namespace {
 
 // How good a find is; below: the number of joints that are named.
@@ -56,7 +81,7 @@ class Search {
   }
 
  private:
-  /// What there is by name, hanging together or not: for complaints.
+  /// Finds the joints there are by name, hanging together or not, for complaints.
   void TryNames(const LimbNames& scheme, const Candidates& candidates) {
     for (const auto& of_joint : candidates) {
       for (const NamedJoint& candidate : of_joint) TryPrefix(scheme, candidates, candidate.prefix);

@@ -4,13 +4,36 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "engine/motion/clip.h"
 #include "engine/retargeting/joint_names.h"
-#include "engine/retargeting/skeleton_tree.h"
 
 namespace etude {
 
-/// What the names say about a limb: from the trunk outwards, −1 where a joint is missing.
+/// The tree of a skeleton's joints, with their places in its rest pose. `skeleton` must outlive this.
+class SkeletonTree {
+ public:
+  explicit SkeletonTree(const Skeleton& skeleton);
+
+  int size() const { return static_cast<int>(rest_.size()); }
+  const std::string& NameOf(int joint) const { return skeleton_.joints[joint].name; }
+  int ParentOf(int joint) const { return skeleton_.joints[joint].parent; }
+  const glm::dvec3& RestOf(int joint) const { return rest_[joint].position; }
+
+  /// Says whether `joint` hangs from `ancestor`, at whatever distance; a joint does not hang from itself.
+  bool HangsFrom(int joint, int ancestor) const;
+  /// The lowest joint that carries both, or −1.
+  int CommonAncestor(int a, int b) const;
+  /// Returns `point` of the rest pose in the joint's own frame; zero when that frame has no size.
+  glm::dvec3 InFrameOf(int joint, const glm::dvec3& point) const;
+
+ private:
+  const Skeleton& skeleton_;
+  std::vector<GlobalTransform> rest_;
+};
+
+/// A limb found by its names: its joints from the trunk outwards, −1 where a joint is missing.
 struct FoundLimb {
   std::array<int, 3> joints{-1, -1, -1};
   std::string prefix;                 ///< common to the joints' names

@@ -15,7 +15,7 @@ std::vector<std::string> AllRoleNames() {
   return names;
 }
 
-/// In double quotes, as YAML reads it back.
+/// Puts a name in double quotes, as YAML reads it back.
 std::string Quoted(std::string_view name) {
   std::string quoted = "\"";
   for (const char c : name) {

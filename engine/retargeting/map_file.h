@@ -16,7 +16,7 @@ struct TaughtJoint {
   Place place;       ///< for complaints
 };
 
-/// What a joint-map file says: which joint plays a role. Roles that it leaves out are found as usual.
+/// The contents of a joint-map file: which joint plays a role. Roles that it leaves out are found as usual.
 struct TaughtRoles {
   std::map<Role, TaughtJoint> joints;
 };

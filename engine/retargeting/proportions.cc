@@ -8,27 +8,27 @@
 #include "engine/base/order_statistics.h"
 #include "engine/base/smoothstep.h"
 #include "engine/retargeting/limbs.h"
-#include "engine/retargeting/rotations.h"
+#include "engine/retargeting/rig.h"
 
 namespace etude {
 namespace {
 
 using enum Role;
 
-/// Thigh and shank.
+/// Returns the length of thigh and shank.
 double LegLength(const BodyPose& pose, const Limb& leg) {
   const auto [hip, knee, ankle] = leg.roles;
   return glm::distance(pose[hip], pose[knee]) + glm::distance(pose[knee], pose[ankle]);
 }
 
-/// Of both legs, the mean.
+/// Returns the mean length of both legs.
 double LegLength(const BodyPose& pose) {
   double sum = 0;
   for (const Limb& leg : kLegs) sum += LegLength(pose, leg);
   return sum / kLegs.size();
 }
 
-/// Of a performer whose measured limbs stretch, the usual length.
+/// Returns the usual length of the legs, because measured limbs stretch.
 double UsualLegLength(const BodyMotion& motion) {
   std::vector<double> lengths;
   for (const BodyPose& pose : motion.poses) lengths.push_back(LegLength(pose));
@@ -53,7 +53,7 @@ BodyPose WithNewLimbs(const BodyPose& performer, const BodyPose& body, double sc
   return pose;
 }
 
-/// How far the hips must sink for the leg to reach `ankle`. A foot in the air pulls nobody down.
+/// Returns how far the hips must sink for the leg to reach `ankle`, metres. A foot in the air pulls nobody down.
 double NeededDrop(const BodyPose& pose, const Limb& leg, const glm::dvec3& ankle, double toe_height) {
   constexpr double kStands = 0.05, kFlies = 0.15;  // metres of the toes above the floor
   const double stands = 1 - Smoothstep(kStands, kFlies, toe_height);

@@ -1,23 +1,56 @@
 #include "engine/retargeting/rig.h"
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <utility>
 
 #include "engine/base/angles.h"
+#include "engine/base/directions.h"
 #include "engine/base/smoothstep.h"
 #include "engine/retargeting/limbs.h"
-#include "engine/retargeting/rotations.h"
 
 namespace etude {
 namespace {
 
+/// Sines below this are rounding, not directions.
+constexpr double kDegenerate = 1e-9;
+
+}  // namespace
+
+glm::dquat ShortestTurn(const glm::dvec3& from, const glm::dvec3& to) {
+  const double lengths = glm::length(from) * glm::length(to);
+  if (!(lengths > 0)) return {1, 0, 0, 0};
+  const glm::dvec3 across = glm::cross(from, to) / lengths;
+  const double cosine = glm::dot(from, to) / lengths;
+  const double sine = glm::length(across);
+  if (sine > kDegenerate || cosine > 0) {
+    const double half = 0.5 * std::atan2(sine, cosine);
+    const glm::dvec3 axis = sine > 0 ? across / sine : glm::dvec3(0);
+    return glm::normalize(glm::dquat(std::cos(half), std::sin(half) * axis));
+  }
+  const glm::dvec3 some = std::abs(from.x) < 0.5 * glm::length(from) ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
+  return glm::angleAxis(kPi, glm::normalize(glm::cross(from, some)));
+}
+
+glm::dquat Orientation(const glm::dvec3& x, const glm::dvec3& y) {
+  const glm::dvec3 z = glm::cross(x, y);
+  const double sine = glm::length(z);
+  if (!(sine > kDegenerate * glm::length(x) * glm::length(y)) || !(sine > 0)) {
+    return ShortestTurn({1, 0, 0}, x);
+  }
+  const glm::dvec3 along = glm::normalize(x), out = z / sine;
+  return glm::normalize(glm::quat_cast(glm::dmat3(along, glm::cross(out, along), out)));
+}
+
+namespace {
+
 using enum Role;
 
-/// In the order of kLimbs: a direction of the upper bone in the middle of where it can point, in the axes of chest or
-/// hips. A straight limb has the twist of a hanging one that is swung there and on by the shortest ways. At one
-/// direction that twist jumps, the opposite one, which must lie where no limb goes: inward through the chest, backward
-/// through the hips.
+/// Per limb, in the order of kLimbs, a direction of the upper bone in the middle of where it can point, in the axes of
+/// chest or hips. A straight limb has the twist of a hanging one that is swung there and on by the shortest ways. At
+/// one direction that twist jumps, the opposite one, which must lie where no limb goes: inward through the chest,
+/// backward through the hips.
 constexpr std::array<glm::dvec3, kLimbs.size()> kMiddles = {
     {{0.71, 0, 0.71}, {-0.71, 0, 0.71}, {0, -0.87, 0.5}, {0, -0.87, 0.5}}};
 
@@ -27,8 +60,8 @@ constexpr double kBent = Radians(60);
 
 glm::dvec3 Way(const BodyPose& pose, Role from, Role to) { return pose[to] - pose[from]; }
 
-/// How the parts stand in the world that more than one joint shows.
-struct Stand {
+/// The orientations in the world of the parts that more than one joint shows.
+struct BodyAxes {
   glm::dquat hips, chest;                       ///< X to the left, Y upward, Z forward
   std::array<glm::dquat, kLimbs.size()> upper;  ///< X along the upper bone, Y near the axis of elbow or knee
 };
@@ -65,17 +98,17 @@ glm::dquat UpperOf(const Limb& limb, const glm::dvec3& middle, const glm::dquat&
   return Orientation(upper, axis);
 }
 
-Stand StandOf(const BodyPose& pose) {
-  Stand stand{.hips = HipsOf(pose), .chest = ChestOf(pose), .upper = {}};
+BodyAxes StandOf(const BodyPose& pose) {
+  BodyAxes stand{.hips = HipsOf(pose), .chest = ChestOf(pose), .upper = {}};
   for (std::size_t i = 0; i < kLimbs.size(); ++i) {
     stand.upper[i] = UpperOf(kLimbs[i], kMiddles[i], kLimbs[i].is_arm ? stand.chest : stand.hips, pose);
   }
   return stand;
 }
 
-/// How far each joint has turned in the world since the rest pose.
+/// Returns each joint's turn in the world since the rest pose.
 std::array<glm::dquat, kRoleCount> Turns(const BodyPose& rest, const BodyPose& pose) {
-  const Stand from = StandOf(rest), to = StandOf(pose);
+  const BodyAxes from = StandOf(rest), to = StandOf(pose);
   std::array<glm::dquat, kRoleCount> turns;
   // Takes `above`'s turn, then goes by the shortest way to where the limb points.
   const auto follow = [&](const glm::dquat& above, Role begin, Role end) {

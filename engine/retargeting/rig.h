@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <string>
 
 #include "engine/motion/body.h"
@@ -7,6 +9,14 @@
 #include "engine/motion/from_body.h"
 
 namespace etude {
+
+/// The shortest rotation that brings `from`'s direction into `to`'s. Where there is none to choose (opposite
+/// directions) it turns about an axis across `from`; no direction at all (a zero vector) turns nothing.
+glm::dquat ShortestTurn(const glm::dvec3& from, const glm::dvec3& to);
+
+/// The orientation whose X axis points along `x` and whose Y axis lies in the plane of `x` and `y`, on `y`'s side.
+/// Where both are parallel or of no length, X is turned there by the shortest way.
+glm::dquat Orientation(const glm::dvec3& x, const glm::dvec3& y);
 
 /// The local transforms that bring BodySkeleton(rest) into `pose`: hips and chest as their joints show them, each limb
 /// by the shortest way from where the one before has carried it, elbows and knees about their hinge: that gives the

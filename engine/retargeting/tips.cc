@@ -5,10 +5,27 @@
 #include <vector>
 
 #include "engine/base/angles.h"
+#include "engine/base/directions.h"
 #include "engine/retargeting/joint_names.h"
 #include "engine/retargeting/limbs.h"
 
 namespace etude {
+
+bool JointMapDraft::IsComposed(Role role) const {
+  return std::ranges::find(map_.composed, role) != map_.composed.end();
+}
+
+void JointMapDraft::Set(Role role, int joint) {
+  map_.points[Index(role)] = {.joint = joint};
+  rest_[Index(role)] = tree_.RestOf(joint);
+}
+
+void JointMapDraft::Compose(Role role, int joint, const glm::dvec3& rest) {
+  map_.points[Index(role)] = {.joint = joint, .offset = tree_.InFrameOf(joint, rest)};
+  rest_[Index(role)] = rest;
+  map_.composed.push_back(role);
+}
+
 namespace {
 
 using enum Role;
@@ -18,17 +35,17 @@ constexpr double kHandPerForearm = 18.0 / 25.0;
 constexpr double kFootPerShank = 18.0 / 42.0;
 constexpr double kHeadPerTrunk = 25.0 / 50.0;
 
-/// The lengths at which a tip is believed, relative to the proportion above.
-struct Believed {
+/// The range in which a tip's length is believed, relative to the proportion above.
+struct TipLength {
   double shortest;
   double longest;
 };
 // CMU's fingers are half as long as a hand.
-constexpr Believed kBelievedHand{0.4, 1.6};
+constexpr TipLength kBelievedHand{0.4, 1.6};
 // Boxing_Toes' feet are 1.4 times as long as paper B's, KayKit's toys stand on feet of 2.6 times that.
-constexpr Believed kBelievedFoot{0.4, 3.0};
+constexpr TipLength kBelievedFoot{0.4, 3.0};
 // A lone "Head" joint lies at the skull's base, at 0.2 of the trunk.
-constexpr Believed kBelievedHead{0.5, 1.6};
+constexpr TipLength kBelievedHead{0.5, 1.6};
 
 // Tips as far as that from each other are equally far: files print six decimals, also of metres.
 constexpr double kEquallyFar = 1e-4;
@@ -48,7 +65,7 @@ Finger FingerBelow(const SkeletonTree& tree, int joint, int top) {
 /// another one on the left than on the right.
 template <typename MayBe>
 std::optional<int> FarthestTip(const SkeletonTree& tree, int top, const glm::dvec3& base, double proportion,
-                               const Believed& believed, MayBe may_be) {
+                               const TipLength& believed, MayBe may_be) {
   struct Tip {
     int joint;
     double distance;
@@ -67,19 +84,19 @@ std::optional<int> FarthestTip(const SkeletonTree& tree, int top, const glm::dve
   return std::ranges::min_element(tips, {}, [&](const Tip& tip) { return FingerBelow(tree, tip.joint, top); })->joint;
 }
 
-glm::dvec3 RestForward(const RolePlaces& places) {
+glm::dvec3 RestForward(const JointMapDraft& places) {
   return glm::cross(places.RestOf(kLeftHip) - places.RestOf(kRightHip),
                     places.RestOf(kShoulderCentre) - places.RestOf(kHipCentre));
 }
 
-void FindLimbTip(RolePlaces& places, const Limb& limb) {
+void FindLimbTip(JointMapDraft& places, const Limb& limb) {
   const auto [upper, middle, last] = limb.roles;
   const glm::dvec3 end = places.RestOf(last);
   const glm::dvec3 last_bone = end - places.RestOf(middle);
   const double length = glm::length(last_bone) * (limb.is_arm ? kHandPerForearm : kFootPerShank);
   // What hangs from a control is no part of the body.
   if (!IsFree(places, last)) {
-    const Believed& believed = limb.is_arm ? kBelievedHand : kBelievedFoot;
+    const TipLength& believed = limb.is_arm ? kBelievedHand : kBelievedFoot;
     const int top = places.JointOf(last);
     const auto is_no_thumb = [&](int joint) { return FingerBelow(places.tree(), joint, top) != Finger::kThumb; };
     const auto tip = FarthestTip(places.tree(), top, end, length, believed, is_no_thumb);
@@ -90,7 +107,7 @@ void FindLimbTip(RolePlaces& places, const Limb& limb) {
   places.Compose(limb.tip, places.JointOf(last), size > 0 ? end + direction * (length / size) : end);
 }
 
-void FindHeadTip(RolePlaces& places) {
+void FindHeadTip(JointMapDraft& places) {
   const glm::dvec3 neck = places.RestOf(kShoulderCentre);
   const glm::dvec3 trunk = neck - 0.5 * (places.RestOf(kLeftHip) + places.RestOf(kRightHip));
   if (!places.Has(kHead)) return places.Compose(kHead, places.JointOf(kShoulderCentre), neck + trunk * kHeadPerTrunk);
@@ -108,14 +125,14 @@ void FindHeadTip(RolePlaces& places) {
 
 }  // namespace
 
-void FindTips(RolePlaces& places, const std::array<bool, kRoleCount>& is_taught) {
+void FindTips(JointMapDraft& places, const std::array<bool, kRoleCount>& is_taught) {
   for (const Limb& limb : kLimbs) {
     if (!is_taught[Index(limb.tip)]) FindLimbTip(places, limb);
   }
   if (!is_taught[Index(kHead)]) FindHeadTip(places);
 }
 
-bool IsFree(const RolePlaces& places, Role end) {
+bool IsFree(const JointMapDraft& places, Role end) {
   const int joint = places.JointOf(end);
   return std::ranges::none_of(kLimbs, [&](const Limb& limb) {
     const int top = places.JointOf(limb.roles[0]);

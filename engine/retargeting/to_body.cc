@@ -4,16 +4,134 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "engine/base/angles.h"
+#include "engine/base/directions.h"
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
+#include "engine/base/result.h"
+#include "engine/motion/body.h"
+#include "engine/motion/clip.h"
 #include "engine/motion/statistics.h"
-#include "engine/retargeting/body_sampler.h"
-#include "engine/retargeting/check_sides.h"
+#include "engine/retargeting/joint_map.h"
 
 namespace etude {
 namespace {
+
+/// Evaluates a clip's twenty joints at any time, in the file's unit and axes. Only the joints that carry a role are
+/// looked at, and nothing is allocated per frame. `clip` must outlive this.
+class BodySampler {
+ public:
+  BodySampler(const Clip& clip, const JointMap& map);
+
+  BodyPose Rest();
+  /// Returns the pose at a frame counted from 0, also between frames (SampleFrame); it must lie within the clip.
+  BodyPose At(double frame);
+
+ private:
+  BodyPose Evaluated();
+
+  const Clip& clip_;
+  std::vector<int> joints_;  ///< of the clip: those with a role and all above them
+  Skeleton skeleton_;        ///< of these joints alone
+  JointMap map_;             ///< on that skeleton
+  LocalPose local_;
+  std::vector<GlobalTransform> globals_;
+};
+
+BodySampler::BodySampler(const Clip& clip, const JointMap& map) : clip_(clip), map_(map) {
+  const std::vector<Joint>& all = clip.skeleton.joints;
+  std::vector<bool> is_needed(all.size());
+  for (const RolePoint& point : map.points) {
+    for (int joint = point.joint; joint >= 0; joint = all[joint].parent) is_needed[joint] = true;
+  }
+  std::vector<int> index(all.size(), -1);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!is_needed[i]) continue;
+    index[i] = static_cast<int>(joints_.size());
+    joints_.push_back(static_cast<int>(i));
+    const int parent = all[i].parent;
+    skeleton_.joints.push_back({.name = "", .parent = parent < 0 ? -1 : index[parent], .rest = all[i].rest});
+  }
+  for (RolePoint& point : map_.points) point.joint = index[point.joint];
+  local_.resize(joints_.size());
+}
+
+BodyPose BodySampler::Rest() {
+  for (std::size_t i = 0; i < joints_.size(); ++i) local_[i] = skeleton_.joints[i].rest;
+  return Evaluated();
+}
+
+BodyPose BodySampler::At(double frame) {
+  const auto index = static_cast<std::size_t>(frame);
+  const double part = frame - static_cast<double>(index);
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    const LocalTransform& here = clip_.frames[index][joints_[i]];
+    local_[i] = part == 0 ? here : Between(here, clip_.frames[index + 1][joints_[i]], part);
+  }
+  return Evaluated();
+}
+
+BodyPose BodySampler::Evaluated() {
+  ComputeGlobals(skeleton_, local_, globals_);
+  return Evaluate(map_, globals_);
+}
+
+using enum Role;
+
+glm::dvec3 Direction(const glm::dvec3& v) {
+  const double length = glm::length(v);
+  return length > 0 ? v / length : glm::dvec3(0);
+}
+
+glm::dvec3 Across(const BodyPose& pose, Role left, Role right) { return Direction(pose[left] - pose[right]); }
+
+/// Returns the direction in which chest and belly look.
+glm::dvec3 Forward(const BodyPose& pose) {
+  return Direction(glm::cross(Across(pose, kLeftHip, kRightHip), Direction(pose[kShoulderCentre] - pose[kHipCentre])));
+}
+
+glm::dvec3 Toe(const BodyPose& pose, Role ankle, Role toe) { return Direction(pose[toe] - pose[ankle]); }
+
+/// Returns how far the knee stands out from the straight line, in lengths of the leg.
+glm::dvec3 Knee(const BodyPose& pose, Role hip, Role knee, Role ankle) {
+  const double leg = glm::distance(pose[hip], pose[knee]) + glm::distance(pose[knee], pose[ankle]);
+  return leg > 0 ? (pose[knee] - 0.5 * (pose[hip] + pose[ankle])) / leg : glm::dvec3(0);
+}
+
+/// Checks that left is left throughout a motion, in the body's own frame, so that it may lie or turn over (ours).
+/// Refused, naming `file`: a left arm on the side of the right leg; feet that point backwards, or, when `map` has
+/// composed them forward, knees that stand out backwards. Straight knees prove nothing and pass.
+Result<void> CheckSides(std::span<const BodyPose> poses, const JointMap& map, const std::string& file) {
+  double arms = 0;
+  double toes = 0;
+  double knees = 0;
+  for (const BodyPose& pose : poses) {
+    const glm::dvec3 forward = Forward(pose);
+    arms += glm::dot(Across(pose, kLeftShoulder, kRightShoulder), Across(pose, kLeftHip, kRightHip));
+    toes += glm::dot(forward, Toe(pose, kLeftAnkle, kLeftFoot) + Toe(pose, kRightAnkle, kRightFoot));
+    knees +=
+        glm::dot(forward, Knee(pose, kLeftHip, kLeftKnee, kLeftAnkle) + Knee(pose, kRightHip, kRightKnee, kRightAnkle));
+  }
+  if (arms < 0) {
+    return Fail({file}, "the left arm is on the side of the right leg; left and right are mixed up");
+  }
+  // Per foot and frame. Feet that hang down from a lying body point backwards a little.
+  constexpr double kBackwards = 0.35;
+  const auto count = static_cast<double>(2 * poses.size());
+  const bool has_feet = std::ranges::find(map.composed, kLeftFoot) == map.composed.end();
+  if (has_feet && toes < -kBackwards * count) {
+    return Fail({file}, "the feet point backwards: left and right are swapped, or the axes are left-handed");
+  }
+  constexpr double kStandsOut = 0.01;
+  if (!has_feet && knees < -kStandsOut * count) {
+    return Fail({file}, "the knees bend backwards: left and right are swapped, or the axes are left-handed");
+  }
+  return {};
+}
 
 using enum Role;
 
@@ -54,8 +172,8 @@ double WorstGap(const BodyPose& a, const BodyPose& b) {
   return worst;
 }
 
-/// How many frames at the start are one T-pose that the motion does not begin with, but jumps away from: by far more
-/// than its next step, and by more than a hand's width.
+/// Returns how many frames at the start are one T-pose that the motion does not begin with, but jumps away from: by far
+/// more than its next step, and by more than a hand's width.
 std::size_t CountForeignTPose(const Clip& clip, BodySampler& sampler, UpAxis up) {
   constexpr double kStillPerStature = 1e-4;
   constexpr double kJumpPerStature = 0.05;
@@ -81,7 +199,8 @@ std::vector<double> OverFrames(const std::vector<BodyPose>& poses, Measure measu
   return values;
 }
 
-/// Of all joints, for people lie and sit; but for finger tips, which rigs place carelessly.
+/// Returns the lowest height of all joints, because people lie and sit, but of finger tips, which rigs place
+/// carelessly.
 double LowestPoint(const BodyPose& pose) {
   double lowest = pose[kHipCentre].y;
   for (const Role role : AllRoles()) {
@@ -95,7 +214,7 @@ bool IsFinite(const BodyPose& pose) {
                              [](const glm::dvec3& joint) { return std::isfinite(glm::dot(joint, joint)); });
 }
 
-/// From frame `first` to the clip's end, upright.
+/// Samples the clip from frame `first` to its end, upright.
 Result<std::vector<BodyPose>> Resampled(const Clip& clip, BodySampler& sampler, std::size_t first, double rate_hz,
                                         UpAxis up, const std::string& file) {
   const auto frames = static_cast<double>(clip.frames.size() - 1 - first);
@@ -118,8 +237,8 @@ Result<std::vector<BodyPose>> Resampled(const Clip& clip, BodySampler& sampler, 
   return poses;
 }
 
-/// In the file's unit: the rest pose's, which all clips of a file share, unless it is not made like the body that moves
-/// (some files leave all offsets to the frames).
+/// Returns the stature in the file's unit: the rest pose's, which all clips of a file share, unless it is not made like
+/// the body that moves (some files leave all offsets to the frames).
 double FindStature(const BodyPose& rest, const std::vector<BodyPose>& poses) {
   const double at_rest = Stature(rest);
   const double moving = LowerPercentile(OverFrames(poses, Stature), 0.5);
@@ -144,14 +263,14 @@ double FindFloor(const std::vector<BodyPose>& poses) {
   return LowerPercentile(OverFrames(poses, LowestPoint), kLow);
 }
 
-double LegLength(const BodyPose& pose) {
+double LeftLegLength(const BodyPose& pose) {
   return glm::distance(pose[kLeftHip], pose[kLeftKnee]) + glm::distance(pose[kLeftKnee], pose[kLeftAnkle]);
 }
 
 /// The floor told, unless the body stays out of its reach.
 double FloorOf(const std::vector<BodyPose>& poses, const std::optional<double>& told) {
   const double own = FindFloor(poses);
-  return told && std::abs(own - *told) <= LegLength(poses.front()) ? *told : own;
+  return told && std::abs(own - *told) <= LeftLegLength(poses.front()) ? *told : own;
 }
 
 /// Puts the body on the floor, in metres.

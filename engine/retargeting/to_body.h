@@ -12,7 +12,7 @@
 
 namespace etude {
 
-/// What is found out by itself unless it is told here.
+/// Facts about a file that are found out unless they are given here.
 struct BodyOptions {
   double rate_hz = kJudgedRateHz;
   std::optional<double> metres_per_unit = std::nullopt;
@@ -28,7 +28,7 @@ struct BodyConversion {
   UpAxis up = UpAxis::kY;
   double floor = 0;                ///< height of the floor in the file's unit, along its up axis
   std::size_t dropped_frames = 0;  ///< at the clip's beginning: a T-pose
-  /// What was found out and repaired, in plain words: "1 unit = 5.64 cm (CMU); dropped a leading T-pose".
+  /// The findings and repairs in plain words: "1 unit = 5.64 cm (CMU); dropped a leading T-pose".
   std::string note;
   BodyMotion motion;
 };
@@ -51,7 +51,7 @@ struct BodyConversion {
 Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const std::string& file,
                                     const BodyOptions& options = {});
 
-/// Which axis is up in a file, and where its floor is.
+/// A file's upward axis and the height of its floor.
 struct Ground {
   UpAxis up = UpAxis::kY;
   double floor = 0;  ///< along that axis, in the file's unit
@@ -62,10 +62,10 @@ struct Ground {
 /// tell either. Nothing when no clip has a frame, or joints lie beyond all measure.
 std::optional<Ground> FindGround(std::span<const Clip> clips, const JointMap& map, const BodyOptions& options = {});
 
-/// From the file's unit and axes to where ToBodyMotion has put the body: for what else the clip moves, its meshes.
+/// Returns the transform from the file's unit and axes to where ToBodyMotion has put the body, for the clip's meshes.
 glm::dmat4 WorldFromFile(const BodyConversion& body);
 
-/// Whether the body stands with straight legs and both arms stretched out sideways.
+/// Says whether the body stands with straight legs and both arms stretched out sideways.
 bool IsTPose(const BodyPose& pose);
 
 }  // namespace etude

@@ -10,12 +10,12 @@ namespace {
 
 using enum Role;
 
-/// Of a mean body axis, or of the rest pose: hardly ever anything but upright.
+/// The least length of a mean or resting body axis along an axis of the file that means standing.
 constexpr double kStanding = 0.9;
 /// Mostly upright: people bend, sit and fall.
 constexpr double kMostlyStanding = 0.5;
 
-/// Whether the hips move about on a floor of X and Y, by half a body's length.
+/// Says whether the hips move about on a floor of X and Y, by half a body's length.
 bool TravelsOverXY(std::span<const BodyPose> poses) {
   glm::dvec3 low = poses.front()[kHipCentre];
   glm::dvec3 high = low;

@@ -6,7 +6,7 @@
 
 namespace etude {
 
-/// Which of a file's axes points upwards.
+/// The axis of a file that points upwards.
 enum class UpAxis { kY, kZ };
 
 /// A point of a file in the world: Y up. Z-up files are turned about X, so that right-handed stays right-handed and
@@ -16,7 +16,7 @@ BodyPose Upright(BodyPose pose, UpAxis up);
 
 /// The unit direction from the feet to the head; zero for a body of no size.
 glm::dvec3 BodyAxis(const BodyPose& pose);
-/// Its mean over the poses: short where the body turns over.
+/// Returns the mean body axis over the poses, which is short where the body turns over.
 glm::dvec3 MeanBodyAxis(std::span<const BodyPose> poses);
 
 /// Finds the axis that a body stands along, from its rest pose and from what it does (ours). Both may mislead: some

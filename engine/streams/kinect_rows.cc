@@ -8,7 +8,7 @@
 namespace etude {
 namespace {
 
-/// How a row is laid out.
+/// The layout of a row.
 struct RowLayout {
   std::size_t columns;
   std::size_t joints;
@@ -40,11 +40,12 @@ const RowLayout* FindLayout(StreamFormat format, std::size_t columns) {
   return nullptr;
 }
 
-/// From the sensor's space (X to its left, Y up, Z away from it) to one in which a person who faces it looks along +Z.
+/// Turns a point of the sensor's space (X to its left, Y up, Z away from it) into one in which a person who faces it
+/// looks along +Z.
 glm::dvec3 FromSensor(const glm::dvec3& p) { return {-p.x, p.y, -p.z}; }
 
-/// Whether the fourth numbers are states of the SDK (0 not tracked, 1 inferred, 2 tracked): they are when nothing else
-/// occurs and 2 does. MSRC-12 has a weight there, which is 1 throughout.
+/// Says whether the fourth numbers are states of the SDK (0 not tracked, 1 inferred, 2 tracked): they are when nothing
+/// else occurs and 2 does. MSRC-12 has a weight there, which is 1 throughout.
 bool FourthsAreStates(const NumberRows& table, const RowLayout& layout) {
   if (!layout.has_fourth) return false;
   bool some_tracked = false;
@@ -58,7 +59,7 @@ bool FourthsAreStates(const NumberRows& table, const RowLayout& layout) {
   return some_tracked;
 }
 
-/// How many seconds the first column counts by, from the middle step between rows: seconds, frames at 30 Hz,
+/// Returns how many seconds the first column counts by, from the middle step between rows: seconds, frames at 30 Hz,
 /// milliseconds or microseconds. Nothing when the clock stands still or leaps.
 std::optional<double> SecondsPerCount(const NumberRows& table) {
   std::vector<double> steps;

@@ -1,7 +1,5 @@
 #include "engine/streams/labels.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -46,7 +44,7 @@ class Lines {
   explicit Lines(std::string_view text) : text_(text) {
     if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
   }
-  /// Nothing at the end.
+  /// Returns the next line; nothing at the end.
   std::optional<std::string_view> Next() {
     while (!text_.empty()) {
       const std::size_t end = std::min(text_.find('\n'), text_.size());
@@ -86,7 +84,7 @@ Result<std::string> NameIn(const Cell& cell, const std::string& file, int line, 
 
 constexpr std::array<std::string_view, 6> kHeadings = {"clip", "from_s", "to_s", "move", "truth", "person"};
 
-/// Which cell holds each heading's value.
+/// Finds the cell that holds each heading's value.
 Result<std::array<std::optional<std::size_t>, kHeadings.size()>> FindHeadings(std::string_view line,
                                                                               const std::string& file, int number) {
   std::array<std::optional<std::size_t>, kHeadings.size()> found;
@@ -140,7 +138,7 @@ Result<std::vector<Label>> ReadCsv(Lines lines, const std::string& file) {
   return labels;
 }
 
-/// Ticks of a clock of 49.875 MHz, against the recording's microseconds.
+/// Reads ticks of a clock of 49.875 MHz, against the recording's microseconds.
 Result<std::vector<Label>> ReadTags(Lines lines, const std::string& file, std::string_view clip) {
   constexpr double kTicksPerSecond = 49'875'000;
   std::vector<Label> labels;
@@ -213,16 +211,6 @@ Result<std::vector<Label>> ReadLabels(std::string_view text, const std::string& 
                                               : ReadCsv(lines, file);
   if (labels && labels->empty()) return Fail({file}, "no labels");
   return labels;
-}
-
-std::string WriteLabels(const std::vector<Label>& labels) {
-  std::string text = fmt::format("{}\n", fmt::join(kHeadings, ","));
-  for (const Label& label : labels) {
-    text += fmt::format("{},{},{},{},{},{}\n", label.clip, label.from_s ? fmt::format("{}", *label.from_s) : "",
-                        label.to_s ? fmt::format("{}", *label.to_s) : "", label.move,
-                        label.IsRight() ? "right" : label.fault, label.person);
-  }
-  return text;
 }
 
 bool IsLabelOf(const Label& label, std::string_view recording) {

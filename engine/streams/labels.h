@@ -9,11 +9,11 @@
 
 namespace etude {
 
-/// What somebody who watched a recording says was done in it.
+/// A statement of somebody who watched a recording about what was done in it.
 struct Label {
   std::string clip;  ///< the recording: its file's name without folder and ending
-  /// Seconds. Both: a performance from its beginning to its end. The first alone: an action point, the moment at which
-  /// the performance is clear to those who watch. Neither: the whole recording is one performance.
+  /// The label's times, seconds. Both: a performance from its beginning to its end. The first alone: an action point,
+  /// the moment at which the performance is clear to those who watch. Neither: the whole recording is one performance.
   std::optional<double> from_s, to_s;
   std::string move;           ///< what was to be done
   std::string fault;          ///< what was wrong with it; empty: it was right
@@ -41,10 +41,7 @@ constexpr double kActionPointTolerance = 0.333;
 /// more than 16 MiB.
 Result<std::vector<Label>> ReadLabels(std::string_view text, const std::string& file, std::string_view clip = "");
 
-/// Etude's CSV of these labels, those by own clocks too (as they are).
-std::string WriteLabels(const std::vector<Label>& labels);
-
-/// Whether the label is of the recording of that name: the same name, or, of UTKinect's, part of it.
+/// Says whether the label is of the recording of that name: the same name, or, of UTKinect's, part of it.
 bool IsLabelOf(const Label& label, std::string_view recording);
 
 }  // namespace etude

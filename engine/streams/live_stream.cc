@@ -47,7 +47,7 @@ Result<void> LiveStream::Take(std::string_view line, std::vector<SensedFrame>& s
   first_lines_ += line;
   first_lines_ += '\n';
   const int wanted = static_cast<int>(kJudgedRateHz);
-  const bool is_csv = TellStreamFormat(heading_) == StreamFormat::kEtudeCsv;
+  const bool is_csv = DetectStreamFormat(heading_) == StreamFormat::kEtudeCsv;
   if (is_csv ? rows_ >= 3 : rows_ % wanted == 0) return Start(false, stream);
   return {};
 }
@@ -58,7 +58,7 @@ Result<void> LiveStream::Finish(std::vector<SensedFrame>& stream) {
 }
 
 Result<void> LiveStream::Start(bool at_end, std::vector<SensedFrame>& stream) {
-  const auto format = reading_.format ? reading_.format : TellStreamFormat(first_lines_);
+  const auto format = reading_.format ? reading_.format : DetectStreamFormat(first_lines_);
   const bool is_rows = format && (*format == StreamFormat::kEtudeCsv || *format == StreamFormat::kKinectV1 ||
                                   *format == StreamFormat::kKinectV2);
   if (!is_rows) {
@@ -94,7 +94,7 @@ Result<void> LiveStream::Add(const RecordedFrame& frame, std::vector<SensedFrame
   return maker_->Add(frame, stream);
 }
 
-Result<RecordedFrame> LiveStream::Read(std::string_view line) const {
+Result<RecordedFrame> LiveStream::Read(std::string_view line) {
   if (meaning_->format != StreamFormat::kEtudeCsv) {
     ASSIGN_OR_RETURN(RecordedFrame frame, ReadKinectRow(line, name_, *meaning_, frames_));
     for (auto& place : frame.places) {
@@ -102,9 +102,13 @@ Result<RecordedFrame> LiveStream::Read(std::string_view line) const {
     }
     return frame;
   }
-  ASSIGN_OR_RETURN(const JointCsv csv, ReadJointCsv(heading_ + "\n" + std::string(line), name_));
-  RecordedFrame frame{.places = csv.frames.front()};
-  frame.time_s = meaning_->tells_times ? csv.times_s.front() : static_cast<double>(frames_) / meaning_->rate_hz;
+  if (!columns_) {
+    ASSIGN_OR_RETURN(const JointCsv csv, ReadJointCsv(heading_ + "\n" + std::string(line), name_));
+    columns_ = csv.columns;
+  }
+  ASSIGN_OR_RETURN(const JointCsvRow row, ReadJointCsvRow(line, *columns_, name_));
+  RecordedFrame frame{.places = row.places};
+  frame.time_s = meaning_->tells_times ? row.time_s : static_cast<double>(frames_) / meaning_->rate_hz;
   if (std::isnan(frame.time_s)) return Fail({name_}, "no time, although other rows tell one");
   return frame;
 }

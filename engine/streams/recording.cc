@@ -9,7 +9,9 @@
 #include "engine/base/named.h"
 #include "engine/base/names.h"
 #include "engine/base/order_statistics.h"
+#include "engine/formats/joint_csv.h"
 #include "engine/formats/number_rows.h"
+#include "engine/formats/trc.h"
 #include "engine/streams/format_readers.h"
 
 namespace etude {
@@ -67,7 +69,7 @@ double MiddleDistance(const StreamRecording& recording, Role a, Role b) {
   return UpperMedian(std::move(lengths));
 }
 
-/// No person is anywhere near so far from the sensor.
+/// Refuses joints farther from the sensor than any person is.
 Result<void> CheckReach(const StreamRecording& recording, const std::string& file) {
   constexpr double kFarthest = 100;
   for (const RecordedFrame& frame : recording.frames) {
@@ -81,7 +83,7 @@ Result<void> CheckReach(const StreamRecording& recording, const std::string& fil
   return {};
 }
 
-/// Frames that stand twice under one time count once, as the last one tells them.
+/// Puts frames in order of time. Frames of one time count once, as the last one tells them.
 Result<void> OrderTimes(StreamRecording& recording, const std::string& file) {
   std::vector<RecordedFrame> ordered;
   for (const RecordedFrame& frame : recording.frames) {
@@ -110,7 +112,7 @@ std::string_view StreamFormatName(StreamFormat format) { return kFormats[static_
 
 StreamFormat FindStreamFormat(std::string_view name) { return ValueNamed(kFormats, name); }
 
-std::optional<StreamFormat> TellStreamFormat(std::string_view text) {
+std::optional<StreamFormat> DetectStreamFormat(std::string_view text) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   const std::size_t start = text.find_first_not_of(" \t\r\n");
@@ -174,7 +176,7 @@ Result<StreamRecording> ReadStreamRecording(std::string_view text, const std::st
   if (text.size() > kLargestNumberText) {
     return Fail({file}, "{} bytes; allowed: at most {}", text.size(), kLargestNumberText);
   }
-  const auto format = reading.format ? reading.format : TellStreamFormat(text);
+  const auto format = reading.format ? reading.format : DetectStreamFormat(text);
   if (!format) {
     const std::size_t columns = FirstRowColumns(text);
     const std::string found = columns == 0 ? "no rows of numbers" : fmt::format("{} numbers in its first row", columns);
@@ -188,6 +190,36 @@ Result<StreamRecording> ReadStreamRecording(std::string_view text, const std::st
   RETURN_IF_ERROR(OrderTimes(recording, file));
   if (!recording.is_level) RETURN_IF_ERROR(ToMetres(recording, file));
   RETURN_IF_ERROR(CheckReach(recording, file));
+  return recording;
+}
+
+Result<StreamRecording> ReadEtudeCsv(std::string_view text, const std::string& file, const StreamReading& reading) {
+  ASSIGN_OR_RETURN(JointCsv csv, ReadJointCsv(text, file));
+  StreamRecording recording{.format = StreamFormat::kEtudeCsv, .is_level = true};
+  recording.tells_times = csv.rate_hz.has_value() && !reading.rate_hz;
+  recording.rate_hz = reading.rate_hz.value_or(csv.rate_hz.value_or(kJudgedRateHz));
+  for (std::size_t t = 0; t < csv.frames.size(); ++t) {
+    RecordedFrame& frame = recording.frames.emplace_back();
+    frame.time_s = recording.tells_times ? csv.times_s[t] : static_cast<double>(t) / recording.rate_hz;
+    frame.line = csv.lines[t];
+    frame.places = csv.frames[t];
+    if (std::isnan(frame.time_s)) return Fail({file, frame.line}, "no time, although other rows tell one");
+  }
+  return recording;
+}
+
+Result<StreamRecording> ReadTrcStream(std::string_view text, const std::string& file) {
+  ASSIGN_OR_RETURN(const MarkerMotion markers, ReadTrc(text, file));
+  StreamRecording recording{
+      .format = StreamFormat::kTrc, .tells_times = true, .is_level = true, .rate_hz = markers.rate_hz};
+  for (const auto& places : markers.frames) {
+    const auto t = static_cast<double>(recording.frames.size());
+    RecordedFrame& frame = recording.frames.emplace_back();
+    frame.time_s = t / markers.rate_hz;
+    for (std::size_t marker = 0; marker < places.size(); ++marker) {
+      if (const auto role = FindRole(markers.names[marker])) frame.places[Index(*role)] = places[marker];
+    }
+  }
   return recording;
 }
 

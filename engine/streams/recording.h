@@ -22,25 +22,25 @@ enum class StreamFormat {
   kAzureKinect,  ///< JSON of the Azure Kinect body tracking's offline processor
 };
 
-/// "etude-csv", "trc", "kinect-v2", "kinect-v1", "ntu", "azure-kinect": in the order of the enum.
+/// Lists "etude-csv", "trc", "kinect-v2", "kinect-v1", "ntu", "azure-kinect": in the order of the enum.
 const std::vector<std::string>& StreamFormatNames();
 std::string_view StreamFormatName(StreamFormat format);
-/// `name` must be one of StreamFormatNames().
+/// Returns the format of that name, which must be one of StreamFormatNames().
 StreamFormat FindStreamFormat(std::string_view name);
 
 /// The format that a text has by its first lines; nothing when it is none of them.
-std::optional<StreamFormat> TellStreamFormat(std::string_view text);
+std::optional<StreamFormat> DetectStreamFormat(std::string_view text);
 
 /// One frame as a file tells it.
 struct RecordedFrame {
   double time_s = 0;  ///< by the file's own clock
   int line = 0;       ///< where it stands in the text, from 1; 0: not known
-  /// In the file's own space, its Y axis up, metres; nothing where a joint was not reported.
+  /// Where joints are in the file's own space, its Y axis up, metres; nothing where a joint was not reported.
   RolePlaces places = {};
   std::array<TrackingState, kRoleCount> states{};  ///< of joints that have a place
 };
 
-/// What a file says, before anything is estimated or made even.
+/// The contents of a file, before anything is estimated or made even.
 struct StreamRecording {
   StreamFormat format = StreamFormat::kEtudeCsv;
   bool tells_states = false;  ///< else every joint that has a place counts as tracked
@@ -53,7 +53,7 @@ struct StreamRecording {
   std::vector<std::string> remarks = {};   ///< what reading had to decide ("2 bodies; body 0, seen longest")
 };
 
-/// What is told about a file that cannot tell it itself.
+/// Facts about a file that the file itself may not tell.
 struct StreamReading {
   std::optional<StreamFormat> format = {};  ///< else told by content
   std::optional<double> rate_hz = {};       ///< of files without a clock; else 30

@@ -1,9 +1,125 @@
 #include "engine/streams/stream_maker.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
+
+#include "engine/base/angles.h"
+#include "engine/base/directions.h"
+#include "engine/base/order_statistics.h"
 
 namespace etude {
+namespace {
+
+using enum Role;
+
+constexpr double kMostTilt = Radians(30), kMostApart = Radians(15);
+const glm::dvec3 kFileUp(0, 1, 0);
+
+/// The middle of the trunk's directions, axis by axis.
+std::optional<glm::dvec3> UpOfTrunk(std::span<const RecordedFrame> frames) {
+  std::vector<double> axes[3];
+  for (const RecordedFrame& frame : frames) {
+    const auto &hips = frame.places[Index(kHipCentre)], &neck = frame.places[Index(kShoulderCentre)];
+    if (!hips || !neck || *hips == *neck) continue;
+    const glm::dvec3 up = glm::normalize(*neck - *hips);
+    for (int axis = 0; axis < 3; ++axis) axes[axis].push_back(up[axis]);
+  }
+  if (axes[0].empty()) return std::nullopt;
+  const glm::dvec3 middle(LowerPercentile(axes[0], 0.5), LowerPercentile(axes[1], 0.5), LowerPercentile(axes[2], 0.5));
+  if (glm::length(middle) < 0.5) return std::nullopt;
+  return glm::normalize(middle);
+}
+
+/// Lists the places of standing feet: those that move less than 0.1 m/s.
+std::vector<glm::dvec3> PlantedFeet(std::span<const RecordedFrame> frames, double rate_hz) {
+  constexpr double kStill = 0.1;
+  std::vector<glm::dvec3> points;
+  for (std::size_t t = 1; t < frames.size(); ++t) {
+    for (const Role foot : {kLeftFoot, kRightFoot}) {
+      const auto &before = frames[t - 1].places[Index(foot)], &now = frames[t].places[Index(foot)];
+      const bool is_tracked = frames[t].states[Index(foot)] == TrackingState::kTracked;
+      if (before && now && is_tracked && glm::distance(*before, *now) * rate_hz < kStill) points.push_back(*now);
+    }
+  }
+  return points;
+}
+
+/// The normal of y = a x + b z + c in the sense of least squares, where the points spread enough to tell it.
+std::optional<glm::dvec3> UpOfFeet(const std::vector<glm::dvec3>& points) {
+  constexpr std::size_t kFewest = 30;
+  constexpr double kSpread = 0.10, kFlat = 0.03;
+  if (points.size() < kFewest) return std::nullopt;
+  const auto n = static_cast<double>(points.size());
+  glm::dvec3 mean(0);
+  for (const glm::dvec3& p : points) mean += p / n;
+  double xx = 0, xz = 0, zz = 0, xy = 0, zy = 0;
+  for (const glm::dvec3& p : points) {
+    const glm::dvec3 d = p - mean;
+    xx += d.x * d.x / n;
+    xz += d.x * d.z / n;
+    zz += d.z * d.z / n;
+    xy += d.x * d.y / n;
+    zy += d.z * d.y / n;
+  }
+  const double smaller = 0.5 * (xx + zz) - std::sqrt(0.25 * (xx - zz) * (xx - zz) + xz * xz);
+  if (smaller < kSpread * kSpread) return std::nullopt;
+  const double determinant = xx * zz - xz * xz;
+  const double a = (xy * zz - zy * xz) / determinant, b = (zy * xx - xy * xz) / determinant;
+  double off = 0;
+  for (const glm::dvec3& p : points) {
+    const glm::dvec3 d = p - mean;
+    off += (d.y - a * d.x - b * d.z) * (d.y - a * d.x - b * d.z) / n;
+  }
+  if (off > kFlat * kFlat) return std::nullopt;
+  return glm::normalize(glm::dvec3(-a, 1, -b));
+}
+
+/// The rotation that takes one unit vector to another along the shortest way, for angles below 180°.
+glm::dmat3 Swing(const glm::dvec3& from, const glm::dvec3& to) {
+  const glm::dvec3 v = glm::cross(from, to);
+  const glm::dmat3 cross(0, v.z, -v.y, -v.z, 0, v.x, v.y, -v.x, 0);
+  return glm::dmat3(1) + cross + cross * cross / (1 + glm::dot(from, to));
+}
+
+}  // namespace
+
+StreamLevel EstimateLevel(std::span<const RecordedFrame> frames, double rate_hz) {
+  StreamLevel level;
+  const auto trunk = UpOfTrunk(frames), feet = UpOfFeet(PlantedFeet(frames, rate_hz));
+  std::optional<glm::dvec3> up;
+  if (feet && trunk && AngleBetween(*feet, *trunk) <= kMostApart) {
+    up = feet;
+    level.up_by = StreamLevel::By::kFeet;
+  } else if (trunk) {
+    up = trunk;
+    level.up_by = StreamLevel::By::kTrunk;
+  }
+  if (up && AngleBetween(*up, kFileUp) <= kMostTilt) {
+    level.R_WF = Swing(*up, kFileUp);
+    level.tilt_deg = Degrees(AngleBetween(*up, kFileUp));
+  } else {
+    level.up_by = StreamLevel::By::kNothing;
+  }
+  std::vector<double> heights;
+  for (const RecordedFrame& frame : frames) {
+    const auto &left = frame.places[Index(kLeftFoot)], &right = frame.places[Index(kRightFoot)];
+    if (left && right) heights.push_back(std::min((level.R_WF * *left).y, (level.R_WF * *right).y));
+  }
+  if (!heights.empty()) level.floor_m = LowerPercentile(heights, 0.1);
+  return level;
+}
+
+std::string Describe(const StreamLevel& level) {
+  const char* by = level.up_by == StreamLevel::By::kFeet    ? "by the feet"
+                   : level.up_by == StreamLevel::By::kTrunk ? "by the trunk"
+                                                            : "as the file has it";
+  return fmt::format("up {} ({:.1f} degrees), floor {:.2f} m below the sensor", by, level.tilt_deg, -level.floor_m);
+}
+
 namespace {
 
 using enum Role;

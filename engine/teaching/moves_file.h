@@ -9,8 +9,8 @@
 
 namespace etude {
 
-/// Taught moves as YAML (docs/streams.md, "A moves file"), for every recogniser: key poses as choreography files have
-/// them, performances as lines of millimetres with a letter a joint.
+/// Writes taught moves as YAML (docs/streams.md, "A moves file"), for every recogniser: key poses as choreography files
+/// have them, performances as lines of millimetres with a letter a joint.
 ///
 ///     moves:
 ///       - name: arms-open

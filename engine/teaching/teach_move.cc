@@ -35,7 +35,7 @@ Track TrackOf(const SkeletonStream& stream) {
   return smooth;
 }
 
-/// How far an angle goes, but for the outermost twentieths.
+/// Returns the range of an angle without its outermost twentieths.
 double RangeOf(const Track& track, std::size_t feature) {
   std::vector<double> values;
   for (const Angles& angles : track) values.push_back(angles[feature]);
@@ -79,8 +79,9 @@ double Distance(const Angles& a, const Angles& b, std::span<const std::size_t> f
   return std::sqrt(sum);
 }
 
-/// Which poses are held: no angle strays from them in a tenth of a second to either side by as much as a tolerance, so
-/// that a recogniser can meet them for some frames. Where none is, all: of a move that never comes to rest any will do.
+/// Finds the poses that are held: no angle strays from them in a tenth of a second to either side by as much as a
+/// tolerance, so that a recogniser can meet them for some frames. Where none is, all: of a move that never comes to
+/// rest any will do.
 std::vector<bool> HeldPoses(const Track& track, std::span<const std::size_t> features, double rate_hz,
                             const TeachOptions& options) {
   const auto count = static_cast<int>(track.size());
@@ -138,8 +139,8 @@ std::vector<std::size_t> KeyFrames(const Track& track, std::span<const std::size
   return frames;
 }
 
-/// What a track shows while the other shows each of its frames: by dynamic time warping, the mean of the frames that go
-/// with it.
+/// Aligns a track with another by dynamic time warping: each frame becomes the mean of the frames that go with the
+/// other's.
 Track Aligned(const Track& track, const Track& to, std::span<const std::size_t> features) {
   const std::size_t rows = to.size(), columns = track.size();
   std::vector<double> cost(rows * columns);

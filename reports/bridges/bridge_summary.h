@@ -5,9 +5,8 @@
 
 #include "engine/base/result.h"
 #include "engine/fuzzy/fuzzy_system.h"
-#include "engine/transitions/bridge_frames/coverage.h"
-#include "engine/transitions/bridge_frames/transition_points.h"
 #include "engine/transitions/library/library.h"
+#include "engine/transitions/library/transition_points.h"
 
 namespace etude {
 

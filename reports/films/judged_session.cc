@@ -7,7 +7,6 @@
 
 #include "engine/fuzzy/features.h"
 #include "engine/recognition/key_pose.h"
-#include "engine/recognition/pose_sequence.h"
 
 namespace etude {
 namespace {

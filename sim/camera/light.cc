@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/base/srgb.h"
+#include "engine/base/image.h"
 
 namespace etude {
 

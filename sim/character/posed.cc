@@ -6,8 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/base/srgb.h"
-#include "engine/motion/sample.h"
+#include "engine/base/image.h"
 #include "engine/retargeting/rig.h"
 #include "sim/choreography/canonical_body.h"
 

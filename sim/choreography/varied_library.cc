@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/base/unit_vector.h"
+#include "engine/base/directions.h"
 #include "engine/motion/edit.h"
 
 namespace etude {

@@ -17,7 +17,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "engine/base/srgb.h"
+#include "engine/base/image.h"
 
 namespace etude {
 namespace {

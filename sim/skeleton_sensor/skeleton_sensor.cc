@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/base/angles.h"
+#include "engine/base/directions.h"
 
 namespace etude {
 namespace {

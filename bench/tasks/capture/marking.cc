@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bench/tasks/capture/shooting.h"
-#include "engine/base/unit_vector.h"
+#include "engine/base/directions.h"
 #include "sim/annotator/drawing.h"
 #include "sim/annotator/evidence.h"
 #include "sim/body/shape.h"

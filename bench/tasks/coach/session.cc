@@ -55,7 +55,7 @@ class Loop {
     CoachState state = parts_.coach.BeginDancing();
     state.moves = coach_->state().moves;
     first_frame_ = frame_ + 1;
-    coach_->GoOnFrom(std::move(state));
+    coach_->ReplaceState(std::move(state));
   }
 
   void MoveLearner() { log_.learner.poses.push_back(player_.Next(shown_)); }

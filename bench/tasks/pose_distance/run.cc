@@ -5,8 +5,8 @@
 
 #include "bench/metrics/pose_distance.h"
 #include "engine/base/named.h"
-#include "engine/transitions/base/alignment.h"
-#include "engine/transitions/choices/point_cloud_rows.h"
+#include "engine/transitions/alignment.h"
+#include "engine/transitions/choices/pair_rows.h"
 
 namespace etude {
 namespace {

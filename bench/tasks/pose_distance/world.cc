@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "bench/tasks/pose_distance/blind_spots.h"
-#include "engine/transitions/base/alignment.h"
+#include "engine/transitions/alignment.h"
 #include "sim/choreography/canonical_body.h"
 
 namespace etude {

@@ -5,7 +5,7 @@
 #include "bench/keys/field_table.h"
 #include "bench/tasks/transition/stage.h"
 #include "bench/training/learnt_weights.h"
-#include "engine/transitions/transition.h"
+#include "engine/transitions/choices/choice.h"
 
 namespace etude {
 

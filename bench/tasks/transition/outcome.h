@@ -1,8 +1,8 @@
 #pragma once
 
-#include "engine/transitions/base/match_rules.h"
-#include "engine/transitions/bridge_frames/transition_points.h"
 #include "engine/transitions/joins/splice.h"
+#include "engine/transitions/library/transition_points.h"
+#include "engine/transitions/transition_record.h"
 
 namespace etude {
 

@@ -1,8 +1,8 @@
 #include "bench/tasks/transition/tally.h"
 
 #include "bench/metrics/transition_smoothness.h"
-#include "engine/transitions/base/alignment.h"
-#include "engine/transitions/bridge_frames/transition_points.h"
+#include "engine/transitions/alignment.h"
+#include "engine/transitions/library/transition_points.h"
 
 namespace etude {
 

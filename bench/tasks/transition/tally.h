@@ -2,7 +2,7 @@
 
 #include "bench/metrics/matching.h"
 #include "bench/tasks/transition/stage.h"
-#include "engine/transitions/transition.h"
+#include "engine/transitions/choices/choice.h"
 
 namespace etude {
 

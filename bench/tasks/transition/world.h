@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bench/tasks/transition/stage.h"
-#include "engine/transitions/base/transition_record.h"
+#include "engine/transitions/transition_record.h"
 #include "sim/random/stream.h"
 
 namespace etude {

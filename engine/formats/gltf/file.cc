@@ -63,7 +63,7 @@ const char* Name(GltfComponents allowed) {
   return "";
 }
 
-/// 0 for kinds that are not read here.
+/// Returns the numbers per element; 0 for kinds that are not read here.
 std::size_t Width(int type) {
   switch (type) {
     case TINYGLTF_TYPE_SCALAR:
@@ -122,7 +122,7 @@ Result<std::span<const unsigned char>> ViewBytes(const GltfFile& file, int view_
   return std::span(data).subspan(view.byteOffset, view.byteLength);
 }
 
-/// `count` elements of `size` bytes each, at `offset` of a buffer view. `stride` 0 means: the view's own.
+/// Locates `count` elements of `size` bytes each, at `offset` of a buffer view. `stride` 0 means: the view's own.
 Result<Elements> Locate(const GltfFile& file, int view_index, std::size_t offset, std::size_t count, std::size_t size,
                         const std::string& where) {
   ASSIGN_OR_RETURN(const auto bytes, ViewBytes(file, view_index, where + ".bufferView"));

@@ -14,9 +14,9 @@ class Model;
 
 namespace etude {
 
-/// What the parser leaves where an index is not given.
+/// The parser's value of an index that is not given.
 constexpr int kNoIndex = -1;
-/// Larger numbers are refused, so that sums and products of what was read stay finite.
+/// The largest number that is read: larger ones are refused, so that sums and products of what was read stay finite.
 constexpr double kLargestGltfNumber = 1e9;
 
 /// The numbers of an accessor, element by element.
@@ -28,7 +28,7 @@ struct GltfNumbers {
   const double* operator[](std::size_t element) const { return values.data() + element * width; }
 };
 
-/// Which component types may stand in an accessor.
+/// The component types that may stand in an accessor.
 enum class GltfComponents {
   kFloat,
   kFloatOrNormalized,  ///< integers only when they stand for −1…1
@@ -39,12 +39,12 @@ enum class GltfComponents {
 /// A parsed file, read with suspicion: every index and size is checked here.
 class GltfFile {
  public:
-  /// Both must outlive it.
+  /// Reads `model`; both arguments must outlive it.
   GltfFile(const tinygltf::Model& model, const std::string& name) : model_(model), name_(name) {}
 
   const tinygltf::Model& model() const { return model_; }
 
-  /// "file: where: what was found; what is allowed"
+  /// Makes the error "file: where: what was found; what is allowed".
   template <typename... Args>
   tl::unexpected<Error> Refuse(const std::string& where, fmt::format_string<Args...> format, Args&&... args) const {
     return Fail({name_}, "{}: {}", where, fmt::format(format, std::forward<Args>(args)...));

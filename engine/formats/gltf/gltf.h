@@ -12,8 +12,8 @@
 
 namespace etude {
 
-/// What a glTF file holds: a figure (its skeleton is all nodes of the default scene; meshes may be none) and clips, one
-/// per animation, on that same skeleton.
+/// The contents of a glTF file: a figure (its skeleton is all nodes of the default scene; meshes may be none) and
+/// clips, one per animation, on that same skeleton.
 struct GltfContent {
   Character character;
   std::vector<Clip> clips;  ///< named as in the file, in one line; unnamed or doubled names are numbered

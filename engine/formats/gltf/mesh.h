@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// The scene's surfaces and their colours, put into `character`, whose skeleton is the nodes'. One mesh per primitive
+/// Reads the scene's surfaces and their colours into `character`, whose skeleton is the nodes'. One mesh per primitive
 /// that has triangles (lists, strips, fans; points and lines are passed over):
 /// - with a skin, one binding per joint of the skin; of several sets of joints the four greatest weights of a vertex
 ///   are kept and made to sum to 1; a vertex without weight hangs on the skin's first joint;
@@ -18,7 +18,7 @@ namespace etude {
 /// are not read.
 Result<void> ReadGltfMeshes(GltfFile& file, const GltfNodes& nodes, const DecodePicture& decode, Character& character);
 
-/// Whether a joint's axes at rest are a mirror image, under which triangles turn over.
+/// Says whether a joint's axes at rest are a mirror image, under which triangles turn over.
 bool IsMirrored(const Skeleton& skeleton, int joint);
 
 /// Changes which side of the triangles is the outside.

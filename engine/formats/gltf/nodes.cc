@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMostJoints = 1024;
 constexpr int kMostLevels = 128;
 
-/// Up to this much a matrix may miss a right angle, and a last row 0, 0, 0, 1: files hold floats.
+/// The error by which a matrix may miss a right angle, and a last row 0, 0, 0, 1: files hold floats.
 constexpr double kMatrixRounding = 1e-3;
 
 std::string NodeName(int node) { return fmt::format("nodes[{}]", node); }
@@ -65,7 +65,7 @@ class NodeReader {
     return {};
   }
 
-  /// Either nested too deep or below a cycle: with more steps than nodes there is one.
+  /// Refuses a node that is nested too deep or below a cycle: with more steps than nodes there is one.
   Result<void> TooDeep(int node) const {
     std::size_t steps = 0;
     for (int above = parents_[node]; above != kNoIndex; above = parents_[above]) {

@@ -30,7 +30,7 @@ Result<GltfNodes> ReadGltfNodes(const GltfFile& file);
 Result<void> CheckGltfPose(const GltfFile& file, const Skeleton& skeleton, const LocalPose& pose,
                            const std::string& where);
 
-/// Whether a vector's or quaternion's square of length is 1 as far as floats can tell. Such ones are taken as they
+/// Says whether a vector's or quaternion's square of length is 1 as far as floats can tell. Such ones are taken as they
 /// stand in the file, so that writing and reading change nothing; others are made unit.
 bool IsUnit(double square_length);
 

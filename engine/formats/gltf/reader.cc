@@ -1,16 +1,361 @@
 #include <tiny_gltf.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "engine/base/names.h"
+#include "engine/base/result.h"
 #include "engine/formats/gltf/animation.h"
 #include "engine/formats/gltf/file.h"
 #include "engine/formats/gltf/gltf.h"
 #include "engine/formats/gltf/mesh.h"
 #include "engine/formats/gltf/nodes.h"
-#include "engine/formats/gltf/parse.h"
+#include "engine/formats/gltf/text.h"
 
 namespace etude {
 namespace {
 
-/// "dances/robot.glb" → "robot"
+/// The two parts of a glTF file.
+struct GltfContainer {
+  bool is_binary = false;
+  std::string_view json;
+  std::string_view binary;  ///< of a GLB; may be empty
+};
+
+/// The most bytes taken from a file, from its binary part times the buffers that copy it, and from the files it names.
+constexpr double kMostGltfBytes = 256e6;
+constexpr std::size_t kHeaderBytes = 12;
+constexpr std::size_t kChunkHeaderBytes = 8;
+constexpr std::uint32_t kJsonChunk = 0x4E4F534A;    // "JSON"
+constexpr std::uint32_t kBinaryChunk = 0x004E4942;  // "BIN\0"
+constexpr int kDeepestNesting = 64;
+constexpr std::size_t kMostValues = 1'000'000;
+
+/// Reads a number, little-endian as the format is on every machine.
+std::uint32_t Number(std::string_view bytes, std::size_t at) {
+  std::uint32_t number = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    number |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[at + i])) << (8 * i);
+  }
+  return number;
+}
+
+/// The chunk that begins at `at`, behind which `at` is left.
+Result<std::string_view> TakeChunk(std::string_view bytes, std::size_t& at, std::uint32_t kind, const Place& place) {
+  const std::size_t left = bytes.size() - at;
+  if (left < kChunkHeaderBytes) {
+    return Fail(place, "the GLB ends within a chunk's header, at byte {}", bytes.size());
+  }
+  const std::size_t length = Number(bytes, at);
+  const std::uint32_t found = Number(bytes, at + 4);
+  if (found != kind) {
+    return Fail(place, "found a chunk of type 0x{:08X} at byte {}; allowed here: 0x{:08X}", found, at, kind);
+  }
+  if (length > left - kChunkHeaderBytes || length % 4 != 0) {
+    return Fail(place, "found a chunk of {} bytes at byte {}; allowed: a multiple of 4, up to the {} bytes that follow",
+                length, at, left - kChunkHeaderBytes);
+  }
+  at += kChunkHeaderBytes + length;
+  return bytes.substr(at - length, length);
+}
+
+Result<GltfContainer> OpenGlb(std::string_view bytes, const Place& place) {
+  if (bytes.size() < kHeaderBytes) return Fail(place, "a GLB of {} bytes; its header alone has 12", bytes.size());
+  if (const std::uint32_t version = Number(bytes, 4); version != 2) {
+    return Fail(place, "found GLB version {}; allowed: 2", version);
+  }
+  const std::size_t length = Number(bytes, 8);
+  if (length > bytes.size() || length < kHeaderBytes) {
+    return Fail(place, "the GLB announces {} bytes; the file holds {}", length, bytes.size());
+  }
+  bytes = bytes.substr(0, length);
+  std::size_t at = kHeaderBytes;
+  ASSIGN_OR_RETURN(auto json, TakeChunk(bytes, at, kJsonChunk, place));
+  GltfContainer container{.is_binary = true, .json = json, .binary = {}};
+  if (at < bytes.size()) {
+    ASSIGN_OR_RETURN(auto binary, TakeChunk(bytes, at, kBinaryChunk, place));
+    container.binary = binary;
+  }
+  return container;
+}
+
+/// Walks JSON without understanding it: nesting, number of values, and how many buffers there are.
+class JsonShape {
+ public:
+  Result<std::size_t> CountBuffers(std::string_view json, const Place& place) {
+    for (std::size_t i = 0; i < json.size(); ++i) {
+      switch (json[i]) {
+        case '"': {
+          const std::size_t start = ++i;
+          while (i < json.size() && json[i] != '"') i += json[i] == '\\' ? 2 : 1;
+          if (i >= json.size()) return Fail(place, "a string of the JSON has no end");
+          if (depth_ == 1) key_ = json.substr(start, i - start);
+          // An escaped name could hide from the comparison below.
+          if (depth_ == 1 && key_.find('\\') != std::string_view::npos) {
+            return Fail(place, "found {} at the top of the JSON; allowed: names without '\\'", Quote(key_));
+          }
+          break;
+        }
+        case '{':
+        case '[':
+          if (depth_ == 2 && json[i] == '{' && key_ == "buffers") ++buffers_;
+          ++values_;
+          if (++depth_ > kDeepestNesting) return Fail(place, "JSON nested deeper than {} levels", kDeepestNesting);
+          break;
+        case '}':
+        case ']':
+          --depth_;
+          break;
+        case ',':
+          ++values_;
+          break;
+        default:
+          break;
+      }
+      if (values_ > kMostValues) return Fail(place, "JSON of more than {} values", kMostValues);
+    }
+    return buffers_;
+  }
+
+ private:
+  int depth_ = 0;
+  std::size_t values_ = 0;
+  std::size_t buffers_ = 0;
+  std::string_view key_;  ///< the last string at the top level
+};
+
+/// Finds the parts of a .gltf or .glb, and refuses what would make a parser of JSON take memory out of proportion:
+/// sizes that disagree, over 256 MB, JSON nested deeper than 64 levels or of over a million values, many buffers that
+/// each copy the binary part. Whether the JSON is JSON is the parser's matter.
+Result<GltfContainer> OpenGltfContainer(std::string_view bytes, const std::string& file) {
+  const Place place{file};
+  if (static_cast<double>(bytes.size()) > kMostGltfBytes) {
+    return Fail(place, "a glTF file of {} bytes; allowed: {:.0f} MB", bytes.size(), kMostGltfBytes / 1e6);
+  }
+  GltfContainer container{.is_binary = false, .json = bytes, .binary = {}};
+  if (bytes.starts_with("glTF")) {
+    auto glb = OpenGlb(bytes, place);
+    if (!glb) return glb;
+    container = *glb;
+  }
+  ASSIGN_OR_RETURN(const auto buffers, JsonShape().CountBuffers(container.json, place));
+  // Every buffer without a URI gets its own copy of the binary part.
+  if (static_cast<double>(buffers) * static_cast<double>(container.binary.size()) > kMostGltfBytes) {
+    return Fail(place, "{} buffers beside {} bytes of binary data; allowed: {:.0f} MB together", buffers,
+                container.binary.size(), kMostGltfBytes / 1e6);
+  }
+  return container;
+}
+
+/// The data that the callbacks of one parse share.
+struct Fetcher {
+  const FetchFile* fetch = nullptr;
+  std::string file;
+  bool wants_pictures = false;
+  double bytes_left = kMostGltfBytes;
+  std::optional<Error> complaint;  ///< the first
+
+  bool Complain(Error error) {
+    if (!complaint) complaint = std::move(error);
+    return false;
+  }
+};
+
+/// Says whether a file is a picture, since pictures are asked for in the same way as buffers.
+bool IsPicture(const std::string& uri) {
+  constexpr std::array<std::string_view, 7> kEndings = {".png", ".jpg", ".jpeg", ".webp", ".ktx2", ".dds", ".gif"};
+  std::string lower = uri;
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return std::ranges::any_of(kEndings, [&](std::string_view ending) { return lower.ends_with(ending); });
+}
+
+/// Says whether a percent-decoded URI names something in the file's folder or below it.
+bool StaysInFolder(std::string_view uri) {
+  const auto is_bad = [](char c) { return c == ':' || c == '\\' || (c >= 0 && c < ' ') || c == 0x7f; };
+  if (uri.empty() || uri.starts_with('/') || uri.starts_with('~') || std::ranges::any_of(uri, is_bad)) return false;
+  while (!uri.empty()) {
+    const std::size_t slash = std::min(uri.find('/'), uri.size());
+    if (uri.substr(0, slash) == "..") return false;
+    uri.remove_prefix(std::min(slash + 1, uri.size()));
+  }
+  return true;
+}
+
+bool FileExists(const std::string& path, void* user_data) {
+  return static_cast<const Fetcher*>(user_data)->wants_pictures || !IsPicture(path);
+}
+
+std::string ExpandFilePath(const std::string& path, void*) { return path; }
+
+bool ReadWholeFile(std::vector<unsigned char>* out, std::string*, const std::string& uri, void* user_data) {
+  Fetcher& fetcher = *static_cast<Fetcher*>(user_data);
+  const Place place{fetcher.file};
+  if (!StaysInFolder(uri)) {
+    return fetcher.Complain(Fail(place, "names the file {}; allowed: files in its own folder", Quote(uri)).value());
+  }
+  if (!*fetcher.fetch) {
+    return fetcher.Complain(Fail(place, "names the file {}; allowed here: data within the file", Quote(uri)).value());
+  }
+  auto bytes = (*fetcher.fetch)(uri);
+  if (!bytes) return fetcher.Complain(bytes.error());
+  fetcher.bytes_left -= static_cast<double>(bytes->size());
+  if (fetcher.bytes_left < 0) {
+    return fetcher.Complain(
+        Fail(place, "names files of over {:.0f} MB; {} is one too many", kMostGltfBytes / 1e6, Quote(uri)).value());
+  }
+  out->assign(bytes->begin(), bytes->end());
+  return true;
+}
+
+bool WriteWholeFile(std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }
+
+/// Keeps a picture as it stands in its own file or URI. Of those within a buffer tinygltf has not checked the place.
+bool KeepEncoded(tinygltf::Image* image, const int, std::string*, std::string*, int, int, const unsigned char* bytes,
+                 int size, void*) {
+  if (image->bufferView == kNoIndex && size > 0) image->image.assign(bytes, bytes + size);
+  return true;
+}
+
+/// tinygltf puts what it dislikes into one text, a line each, and goes on where it can. What it only wishes were there
+/// is no reason to refuse.
+std::string Complaint(std::string_view text) {
+  constexpr std::array<std::string_view, 3> kHarmless = {
+      "'inverseBindMatrices' property is missing in Skin.",  // optional since 2.0
+      "'node' property is missing.",                         // such channels are to be ignored
+      "`node` field is missing in animation.channels.target",
+  };
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = text.substr(0, end);
+    if (!line.empty() && std::ranges::find(kHarmless, line) == kHarmless.end()) return std::string(line);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return "";
+}
+
+/// JSON's own errors say where they are.
+Error NotGltf(const std::string& file, const std::string& complaint) {
+  Place place{file};
+  std::string what = complaint;
+  if (const std::size_t at = complaint.find("parse error at line "); at != std::string::npos) {
+    std::sscanf(complaint.c_str() + at, "parse error at line %d, column %d", &place.line, &place.column);
+    constexpr std::string_view kSeparator = ": ";
+    what = complaint.substr(complaint.find(kSeparator, at) + kSeparator.size());
+  }
+  constexpr std::size_t kLongest = 200;
+  return Fail(std::move(place), "not glTF 2.0: {}", what.substr(0, kLongest)).value();
+}
+
+/// Says whether an extension may be required: those of lights and looks change nothing that is read here, and quantised
+/// meshes are understood.
+bool IsHarmless(const std::string& extension) {
+  return extension.starts_with("KHR_materials_") || extension.starts_with("KHR_texture_") ||
+         extension.starts_with("EXT_texture_") || extension == "KHR_lights_punctual" ||
+         extension == "KHR_mesh_quantization";
+}
+
+Result<void> CheckExtensions(const tinygltf::Model& model, const std::string& file) {
+  for (const std::string& extension : model.extensionsRequired) {
+    if (IsHarmless(extension)) continue;
+    return Fail({file},
+                "extensionsRequired: found {}; allowed: KHR_materials_*, KHR_texture_*, EXT_texture_*, "
+                "KHR_lights_punctual, KHR_mesh_quantization",
+                Quote(extension));
+  }
+  return {};
+}
+
+/// Refuses an optional index or count that is negative or no number, which tinygltf takes for one that is not there.
+Result<void> CheckCounts(const nlohmann::json& json, const std::string& where, const std::string& file) {
+  constexpr std::array<std::string_view, 10> kCounts = {
+      "bufferView", "byteOffset", "byteStride", "indices", "material", "mesh", "mode", "scene", "skeleton", "skin"};
+  if (json.is_object()) {
+    for (const auto& [key, value] : json.items()) {
+      if (key == "extras" || key == "extensions") continue;
+      const std::string name = where.empty() ? key : where + "." + key;
+      if (std::ranges::find(kCounts, key) != kCounts.end() && !value.is_number_unsigned() && !value.is_object()) {
+        return Fail({file}, "{}: found {}; allowed: a whole number from 0", name, value.dump().substr(0, 40));
+      }
+      RETURN_IF_ERROR(CheckCounts(value, name, file));
+    }
+  } else if (json.is_array()) {
+    for (std::size_t i = 0; i < json.size(); ++i) {
+      RETURN_IF_ERROR(CheckCounts(json[i], fmt::format("{}[{}]", where, i), file));
+    }
+  }
+  return {};
+}
+
+/// Every clip copies the names of its joints: long ones would multiply.
+constexpr std::size_t kLongestName = 500;
+
+template <typename Named>
+Result<void> TidyNames(std::vector<Named>& all, std::string_view kind, const std::string& file) {
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].name.size() > kLongestName) {
+      return Fail({file}, "{}[{}].name: found {} bytes; allowed: {}", kind, i, all[i].name.size(), kLongestName);
+    }
+    all[i].name = GltfText(all[i].name);
+  }
+  return {};
+}
+
+Result<void> TidyAllNames(tinygltf::Model& model, const std::string& file) {
+  RETURN_IF_ERROR(TidyNames(model.nodes, "nodes", file));
+  RETURN_IF_ERROR(TidyNames(model.animations, "animations", file));
+  RETURN_IF_ERROR(TidyNames(model.meshes, "meshes", file));
+  return TidyNames(model.materials, "materials", file);
+}
+
+/// tinygltf's model of a file, as found: nothing in it can be trusted but the JSON types. Its buffers are loaded, its
+/// images left encoded, and fetched from files of their own only where pictures are wanted. Refused: what
+/// OpenGltfContainer or tinygltf refuses, another version than 2.x, extensions that are required and change what is
+/// read here, URIs that leave the file's folder.
+Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const std::string& file,
+                                                   const FetchFile& fetch, bool wants_pictures) {
+  ASSIGN_OR_RETURN(auto container, OpenGltfContainer(bytes, file));
+
+  Fetcher fetcher{.fetch = &fetch, .file = file, .wants_pictures = wants_pictures, .complaint = {}};
+  tinygltf::TinyGLTF parser;
+  parser.SetImageLoader(KeepEncoded, nullptr);
+  parser.SetFsCallbacks({FileExists, ExpandFilePath, ReadWholeFile, WriteWholeFile, &fetcher});
+  auto model = std::make_unique<tinygltf::Model>();
+  std::string errors, warnings;
+  bool is_read = false;
+  try {
+    is_read = container.is_binary ? parser.LoadBinaryFromMemory(model.get(), &errors, &warnings,
+                                                                reinterpret_cast<const unsigned char*>(bytes.data()),
+                                                                static_cast<unsigned>(bytes.size()))
+                                  : parser.LoadASCIIFromString(model.get(), &errors, &warnings, bytes.data(),
+                                                               static_cast<unsigned>(bytes.size()), "");
+  } catch (const std::exception& exception) {
+    errors = exception.what();
+  }
+  // Filled even where reading failed, and then most likely the reason.
+  RETURN_IF_ERROR(CheckExtensions(*model, file));
+  const std::string complaint = Complaint(errors);
+  if (!is_read || !complaint.empty()) {
+    // Files asked for in vain count only when they were needed.
+    if (fetcher.complaint) return tl::unexpected(*fetcher.complaint);
+    return tl::unexpected(NotGltf(file, complaint.empty() ? "the parser gave up" : complaint));
+  }
+  if (!model->asset.version.starts_with("2.")) {
+    return Fail({file}, "asset.version: found {}; allowed: 2.0", Quote(model->asset.version));
+  }
+  RETURN_IF_ERROR(CheckCounts(nlohmann::json::parse(container.json, nullptr, /*allow_exceptions=*/false), "", file));
+  RETURN_IF_ERROR(TidyAllNames(*model, file));
+  return model;
+}
+
+/// Returns a file's name without folder and ending: "dances/robot.glb" → "robot".
 std::string Stem(const std::string& file) {
   const std::string name = file.substr(file.find_last_of('/') + 1);
   return name.substr(0, name.find_last_of('.'));

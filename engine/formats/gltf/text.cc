@@ -5,8 +5,8 @@
 namespace etude {
 namespace {
 
-/// How many bytes the UTF-8 character at the start of `text` has; 0 when there is none (RFC 3629), or one that would
-/// break a line or command a terminal.
+/// Returns how many bytes the UTF-8 character at the start of `text` has; 0 when there is none (RFC 3629), or one that
+/// would break a line or command a terminal.
 std::size_t CharacterBytes(std::string_view text) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const unsigned first = byte(0);

@@ -1,17 +1,199 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
 #include <sstream>
 #include <utility>
+#include <vector>
 
-#include "engine/formats/gltf/buffer.h"
-#include "engine/formats/gltf/clip_writer.h"
 #include "engine/formats/gltf/gltf.h"
 #include "engine/formats/gltf/mesh.h"
 #include "engine/formats/gltf/text.h"
+#include "engine/motion/clip.h"
 
 namespace etude {
 namespace {
+
+/// The bytes of a buffer view that is being made.
+class GltfBytes {
+ public:
+  void Float(double value);  ///< rounded to a float
+  void Byte(std::uint32_t value);
+  void Short(std::uint32_t value);
+  void Integer(std::uint32_t value);
+
+  std::size_t size() const { return bytes_.size(); }
+  const std::vector<unsigned char>& bytes() const { return bytes_; }
+
+ private:
+  template <typename T>
+  void Append(T value);
+
+  std::vector<unsigned char> bytes_;
+};
+
+/// The use of a view's bytes.
+enum class GltfTarget { kOther, kVertices, kIndices };
+
+/// The elements of an accessor: where they begin, and what they are.
+struct GltfSlice {
+  int view = 0;
+  std::size_t offset = 0;
+  int component_type = 0;  ///< TINYGLTF_COMPONENT_TYPE_…
+  int type = 0;            ///< TINYGLTF_TYPE_…
+  std::size_t count = 0;
+};
+
+static_assert(std::endian::native == std::endian::little, "the format's bytes are little-endian");
+
+template <typename T>
+void GltfBytes::Append(T value) {
+  const std::size_t at = bytes_.size();
+  bytes_.resize(at + sizeof value);
+  std::memcpy(bytes_.data() + at, &value, sizeof value);
+}
+
+void GltfBytes::Float(double value) { Append(static_cast<float>(value)); }
+
+void GltfBytes::Byte(std::uint32_t value) { Append(static_cast<std::uint8_t>(value)); }
+
+void GltfBytes::Short(std::uint32_t value) { Append(static_cast<std::uint16_t>(value)); }
+
+void GltfBytes::Integer(std::uint32_t value) { Append(value); }
+
+/// Puts bytes behind all others of the model's one buffer, 4-aligned, as a new view; returns its index. `stride` 0:
+/// elements stand side by side.
+int AddGltfView(tinygltf::Model& model, const GltfBytes& bytes, std::size_t stride, GltfTarget target) {
+  if (model.buffers.empty()) model.buffers.emplace_back();
+  std::vector<unsigned char>& data = model.buffers.front().data;
+  data.resize((data.size() + 3) / 4 * 4);
+  tinygltf::BufferView view;
+  view.buffer = 0;
+  view.byteOffset = data.size();
+  view.byteLength = bytes.size();
+  view.byteStride = stride;
+  if (target == GltfTarget::kVertices) view.target = TINYGLTF_TARGET_ARRAY_BUFFER;
+  if (target == GltfTarget::kIndices) view.target = TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER;
+  data.insert(data.end(), bytes.bytes().begin(), bytes.bytes().end());
+  model.bufferViews.push_back(std::move(view));
+  return static_cast<int>(model.bufferViews.size()) - 1;
+}
+
+/// Adds an accessor; returns its index. With `values`, the numbers it holds element by element, it tells their least
+/// and greatest, as positions and times of keys must.
+int AddGltfAccessor(tinygltf::Model& model, const GltfSlice& slice, std::span<const double> values = {}) {
+  tinygltf::Accessor accessor;
+  accessor.bufferView = slice.view;
+  accessor.byteOffset = slice.offset;
+  accessor.componentType = slice.component_type;
+  accessor.type = slice.type;
+  accessor.count = slice.count;
+  const std::size_t width = values.size() / std::max<std::size_t>(slice.count, 1);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double value = static_cast<float>(values[i]);
+    if (i < width) {
+      accessor.minValues.push_back(value);
+      accessor.maxValues.push_back(value);
+    }
+    double& least = accessor.minValues[i % width];
+    double& greatest = accessor.maxValues[i % width];
+    least = std::min(least, value);
+    greatest = std::max(greatest, value);
+  }
+  model.accessors.push_back(std::move(accessor));
+  return static_cast<int>(model.accessors.size()) - 1;
+}
+
+/// One property of a joint over the frames of a clip.
+struct Track {
+  int joint = 0;
+  const char* path = "";
+  std::ptrdiff_t width = 3;
+  std::vector<float> values;  ///< at rest, then frame by frame
+
+  void Add(const glm::vec3& value) { values.insert(values.end(), {value.x, value.y, value.z}); }
+  void Add(const glm::vec4& value) { values.insert(values.end(), {value.x, value.y, value.z, value.w}); }
+
+  /// Says whether all frames are alike, and so worth one key.
+  bool IsStill() const { return std::equal(values.begin() + 2 * width, values.end(), values.begin() + width); }
+  bool IsAtRest() const { return std::equal(values.begin() + width, values.end(), values.begin()); }
+};
+
+int AddTimes(tinygltf::Model& model, std::size_t count, double rate_hz) {
+  GltfBytes bytes;
+  std::vector<double> seconds;
+  for (std::size_t k = 0; k < count; ++k) {
+    seconds.push_back(static_cast<double>(k) / rate_hz);
+    bytes.Float(seconds.back());
+  }
+  const int view = AddGltfView(model, bytes, 0, GltfTarget::kOther);
+  return AddGltfAccessor(model, {view, 0, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_SCALAR, count}, seconds);
+}
+
+std::array<Track, 3> TracksOf(const Skeleton& skeleton, const Clip& clip, std::size_t joint) {
+  const int index = static_cast<int>(joint);
+  std::array<Track, 3> tracks = {Track{index, "translation", 3, {}}, Track{index, "rotation", 4, {}},
+                                 Track{index, "scale", 3, {}}};
+  const auto add = [&](const LocalTransform& local) {
+    const glm::dquat& q = local.rotation;
+    tracks[0].Add(glm::vec3(local.translation));
+    tracks[1].Add(glm::vec4(glm::dvec4(q.x, q.y, q.z, q.w)));
+    tracks[2].Add(glm::vec3(local.scale));
+  };
+  add(skeleton.joints[joint].rest);
+  for (const LocalPose& pose : clip.frames) add(pose[joint]);
+  return tracks;
+}
+
+/// Adds a channel with one key or a key per frame, as many as `input` has.
+void AddTrack(tinygltf::Model& model, tinygltf::Animation& animation, const Track& track, int input) {
+  const std::size_t count = model.accessors[static_cast<std::size_t>(input)].count;
+  const auto width = static_cast<std::size_t>(track.width);
+  GltfBytes bytes;
+  for (std::size_t i = width; i < (count + 1) * width; ++i) bytes.Float(track.values[i]);
+  const int view = AddGltfView(model, bytes, 0, GltfTarget::kOther);
+  tinygltf::AnimationSampler sampler;
+  sampler.input = input;
+  sampler.output = AddGltfAccessor(
+      model, {view, 0, TINYGLTF_COMPONENT_TYPE_FLOAT, width == 4 ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3, count});
+  tinygltf::AnimationChannel channel;
+  channel.sampler = static_cast<int>(animation.samplers.size());
+  channel.target_node = track.joint;
+  channel.target_path = track.path;
+  animation.samplers.push_back(std::move(sampler));
+  animation.channels.push_back(std::move(channel));
+}
+
+/// Adds a clip as a LINEAR animation of the model's first nodes, which are the joints of `skeleton`. What stays at rest
+/// gets no channel, what stays still one key; a clip in which nothing moves keeps its length in one channel. A clip
+/// without frames is left out.
+void AddGltfClip(tinygltf::Model& model, const Skeleton& skeleton, const Clip& clip) {
+  if (clip.frames.empty()) return;
+  std::vector<Track> tracks;
+  for (std::size_t joint = 0; joint < skeleton.joints.size(); ++joint) {
+    for (Track& track : TracksOf(skeleton, clip, joint)) tracks.push_back(std::move(track));
+  }
+  // An animation needs a channel, and one of full length, also when nothing moves.
+  const bool all_still = std::ranges::all_of(tracks, &Track::IsStill);
+  const int times = AddTimes(model, clip.frames.size(), clip.rate_hz);
+  int first_time = -1;  // made when asked for
+
+  tinygltf::Animation animation;
+  animation.name = GltfText(clip.name);
+  for (const Track& track : tracks) {
+    const bool is_kept = all_still && &track == &tracks.front();
+    if (!is_kept && track.IsAtRest()) continue;
+    const bool needs_one_key = !is_kept && track.IsStill();
+    if (needs_one_key && first_time < 0) first_time = AddTimes(model, 1, clip.rate_hz);
+    AddTrack(model, animation, track, needs_one_key ? first_time : times);
+  }
+  model.animations.push_back(std::move(animation));
+}
 
 /// Meshes that are written as the primitives of one: neighbours of one name on the same joints.
 using Group = std::span<const SkinnedMesh>;

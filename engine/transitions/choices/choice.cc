@@ -4,12 +4,10 @@
 #include <utility>
 
 #include "engine/base/named.h"
-#include "engine/transitions/choices/abrupt.h"
 #include "engine/transitions/choices/fuzzy_bridge.h"
 #include "engine/transitions/choices/matching.h"
+#include "engine/transitions/choices/plain_choices.h"
 #include "engine/transitions/choices/played.h"
-#include "engine/transitions/choices/through_standing.h"
-#include "engine/transitions/choices/unbroken.h"
 
 namespace etude {
 namespace {
@@ -25,7 +23,7 @@ TransitionRecord PlanBy(Library library, Request request, Rules rules, Values /*
   return Plan(library, request, rules);
 }
 
-/// Of a choice that has options: makes them of the values.
+/// Plans by a choice that has options, which are made of the values.
 template <auto Plan, auto Settings>
 TransitionRecord PlanWith(Library library, Request request, Rules rules, Values values) {
   return Plan(library, request, rules, Settings().Apply(values));
@@ -93,5 +91,13 @@ std::span<const Choice> AllChoices() { return Table(); }
 
 std::vector<std::string> ChoiceNames() { return NamesOf(AllChoices()); }
 const Choice* FindChoice(std::string_view name) { return FindByName(AllChoices(), name); }
+
+Transition MakeTransition(const MotionLibrary& library, const TransitionRequest& request, const TransitionWay& way) {
+  Transition made{way.choice->plan(library, request, way.rules, way.choice_settings), {}};
+  if (!made.record.segments.empty()) {
+    made.splice = SpliceSegments(library.motions, made.record.segments, *way.join, way.join_settings);
+  }
+  return made;
+}
 
 }  // namespace etude

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "engine/base/settings.h"
-#include "engine/transitions/base/match_rules.h"
-#include "engine/transitions/base/transition_record.h"
-#include "engine/transitions/choices/allowed_frames.h"
+#include "engine/transitions/choices/planning.h"
+#include "engine/transitions/joins/splice.h"
 #include "engine/transitions/library/library.h"
+#include "engine/transitions/transition_record.h"
 
 namespace etude {
 
@@ -21,18 +21,38 @@ struct Choice {
   bool matches_poses = false;  ///< it takes frames because they are alike, so that `false_smooth` can be asked
   bool uses_fuzzy = false;     ///< the rules' weights and threshold apply
   std::vector<NumberSetting> settings = {};  ///< its own numbers, beside the rules of all fuzzy choices
-  /// The frames that it may take; null for choices that match no poses.
+  /// Returns the frames that it may take; null for choices that match no poses.
   AllowedFrames (*allowed)(const MotionLibrary& library, const TransitionRequest& request,
                            std::span<const double> values) = nullptr;
-  /// Always leaves segments when it can; a record without any says why. `request.to` must have two frames.
+  /// Plans a transition. The record has segments whenever there is a way; one without any says why. `request.to` must
+  /// have two frames.
   TransitionRecord (*plan)(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
                            std::span<const double> values) = nullptr;
 };
 
-/// Paper A's first.
+/// Lists all choices, paper A's first.
 std::span<const Choice> AllChoices();
 std::vector<std::string> ChoiceNames();
-/// Null when there is no such choice.
+/// Returns the choice of that name, null when there is none.
 const Choice* FindChoice(std::string_view name);
+
+/// A way to get from clip to clip: a choice of frames × a join, with what they can be set by.
+struct TransitionWay {
+  const Choice* choice = nullptr;
+  const Join* join = nullptr;
+  MatchRules rules = {};
+  std::vector<double> choice_settings = {},
+                      join_settings = {};  ///< one per setting of the choice, of the join; none: defaults
+};
+
+/// The transition that a way made for a request.
+struct Transition {
+  TransitionRecord record;
+  Splice splice;  ///< empty when the record has no segments
+};
+
+/// Makes a transition from a frame of a clip into another clip, within a budget of time. The request's clips and frame
+/// must be in the library, and the wanted clip must have two frames.
+Transition MakeTransition(const MotionLibrary& library, const TransitionRequest& request, const TransitionWay& way);
 
 }  // namespace etude

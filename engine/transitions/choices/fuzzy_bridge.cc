@@ -5,27 +5,24 @@
 #include <optional>
 #include <vector>
 
-#include "engine/transitions/bridge_frames/transition_points.h"
-#include "engine/transitions/choices/allowed_frames.h"
-#include "engine/transitions/choices/direct.h"
-#include "engine/transitions/choices/explain.h"
-#include "engine/transitions/choices/fuzzy_gate.h"
+#include "engine/transitions/choices/planning.h"
 #include "engine/transitions/choices/through_in_between.h"
+#include "engine/transitions/library/transition_points.h"
 
 namespace etude {
 namespace {
 
 /// Every pair of bridge frames that the budget allows: those behind the first match, too, which the search never saw.
-struct Survey {
+struct PairSurvey {
   AllowedFrames allowed;
   std::int64_t matching = 0;
   std::int64_t nearer = 0;          ///< matching ones that are nearer than the taken pair
   std::vector<RankedPair> nearest;  ///< for each bridge frame that may be left: its nearest but the taken pair
 };
 
-Survey SurveyPairs(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
-                   const std::optional<TransitionPoint>& taken) {
-  Survey survey{.allowed = AllowedBridgeFrames(library, request), .nearest = {}};
+PairSurvey SurveyPairs(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
+                       const std::optional<TransitionPoint>& taken) {
+  PairSurvey survey{.allowed = AllowedBridgeFrames(library, request), .nearest = {}};
   FuzzyGate gate(library.tagged[request.from], library.tagged[request.to], survey.allowed.enter, rules);
   for (int from : survey.allowed.leave) {
     std::optional<RankedPair> nearest;
@@ -40,7 +37,7 @@ Survey SurveyPairs(const MotionLibrary& library, const TransitionRequest& reques
   return survey;
 }
 
-std::string WhyTaken(const std::string& pair, const TransitionPoint& point, bool is_rear, const Survey& survey,
+std::string WhyTaken(const std::string& pair, const TransitionPoint& point, bool is_rear, const PairSurvey& survey,
                      const MatchRules& rules) {
   if (rules.pick == Pick::kFirst) {
     return fmt::format("first match: {}, d = {:.2f} < {:g}; of {} matching pairs {} nearer ones came later", pair,
@@ -51,7 +48,7 @@ std::string WhyTaken(const std::string& pair, const TransitionPoint& point, bool
                      point.distance.value, rules.threshold, survey.matching);
 }
 
-std::string WhyNone(const MotionLibrary& library, const TransitionRequest& request, const Survey& survey,
+std::string WhyNone(const MotionLibrary& library, const TransitionRequest& request, const PairSurvey& survey,
                     const MatchRules& rules) {
   if (survey.allowed.leave.empty()) {
     return fmt::format("{} has no bridge frame within {:g} s", library.names[request.from], request.budget_s);
@@ -67,7 +64,7 @@ TransitionRecord PlanFuzzyBridge(const MotionLibrary& library, const TransitionR
   const TaggedClip &playing = library.tagged[request.from], &next = library.tagged[request.to];
   const FrameWindow window = WaitWindow(playing, request.request_frame, request.budget_s);
   const std::optional<TransitionPoint> point = FindTransitionPoint(playing, window, next, rules);
-  const Survey survey = SurveyPairs(library, request, rules, point);
+  const PairSurvey survey = SurveyPairs(library, request, rules, point);
   if (!point) {
     return ThroughInBetween(library, request, rules, WhyNone(library, request, survey, rules), survey.allowed.Pairs());
   }

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "engine/transitions/base/match_rules.h"
-#include "engine/transitions/base/transition_record.h"
 #include "engine/transitions/library/library.h"
+#include "engine/transitions/transition_record.h"
 
 namespace etude {
 

@@ -1,16 +1,147 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cstddef>
 #include <span>
+#include <vector>
+
+#include "engine/fuzzy/distance.h"
+#include "engine/motion/body.h"
+#include "engine/transitions/search/grade_blocks.h"
 
 namespace etude {
 
-/// What one kind of cost says of the pairs of a row: those of one frame that may be left. Rows are asked for in rising
+/// Computes one kind of cost for the pairs of a row: those of one frame that may be left. Rows are asked for in rising
 /// order.
 class PairRows {
  public:
   virtual ~PairRows() = default;
-  /// The costs of leaving at `leave_frame` and entering at each of `enter_frames`; `costs` has as many places.
+  /// Computes the costs of leaving at `leave_frame` and entering at each of `enter_frames`; `costs` has as many places.
   virtual void Compute(int leave_frame, std::span<const int> enter_frames, std::span<double> costs) = 0;
+};
+
+/// Keeps sums along the diagonals of a table of two clips' frames, whose rows come one after the other: what two
+/// stretches of motion that run side by side have in common. Each sum takes two look-ups, however long the stretch.
+/// `Value` is a number or a vector of numbers.
+template <class Value>
+class DiagonalSums {
+ public:
+  /// Keeps the last `depth` rows (up to the next power of two), which bounds the memory; the first row will be
+  /// `first_row`.
+  DiagonalSums(int first_row, int columns, int depth)
+      : first_row_(first_row),
+        next_row_(first_row),
+        columns_(columns),
+        depth_(static_cast<int>(std::bit_ceil(static_cast<unsigned>(depth)))),
+        sums_(static_cast<std::size_t>(columns) * static_cast<std::size_t>(depth_)) {}
+
+  /// Returns room for the next row's values; CloseRow counts them in.
+  std::span<Value> OpenRow() { return Row(next_row_); }
+  void CloseRow() {
+    if (next_row_ > first_row_) {
+      const std::span<Value> above = Row(next_row_ - 1), row = Row(next_row_);
+      for (std::size_t c = 1; c < row.size(); ++c) row[c] += above[c - 1];
+    }
+    ++next_row_;
+  }
+  int NextRow() const { return next_row_; }
+
+  /// Returns the sum of `count` values that end at (row, column) and go up along the diagonal, which must stay in the
+  /// table. Row − `count` must be among the kept rows, or before the first.
+  Value SumEndingAt(int row, int column, int count) const { return At(row, column) - At(row - count, column - count); }
+
+ private:
+  std::size_t Start(int row) const {
+    return static_cast<std::size_t>((row - first_row_) & (depth_ - 1)) * static_cast<std::size_t>(columns_);
+  }
+  std::span<Value> Row(int row) { return std::span(sums_).subspan(Start(row), static_cast<std::size_t>(columns_)); }
+  /// Returns the sum of the diagonal down to here; 0 outside.
+  Value At(int row, int column) const {
+    if (row < first_row_ || column < 0) return Value(0);
+    assert(row < next_row_ && row >= next_row_ - depth_ && column < columns_);
+    return sums_[Start(row) + static_cast<std::size_t>(column)];
+  }
+
+  int first_row_, next_row_, columns_;
+  int depth_;                ///< a power of two: places in the ring are found without dividing
+  std::vector<Value> sums_;  ///< a ring of rows
+};
+
+/// The extent of a stretch around a pair of frames, the same in both clips, as far as both clips go.
+struct Reach {
+  int before = 0, after = 0;
+
+  int Count() const { return before + 1 + after; }
+};
+inline Reach ReachAround(int frame_a, int frames_a, int frame_b, int frames_b, int half) {
+  return {.before = std::min({half, frame_a, frame_b}),
+          .after = std::min({half, frames_a - 1 - frame_a, frames_b - 1 - frame_b})};
+}
+
+/// Computes equation 1 from one frame to many, side by side, to the last bit as ComputeDistance does.
+class FuzzyRows {
+ public:
+  FuzzyRows(std::span<const Grades> frames, const FeatureWeights& weights);
+
+  /// The distances from `grades` to the first frames, as many as `distances` has room for.
+  void Compute(const Grades& grades, std::span<double> distances) const;
+
+ private:
+  GradeMetric metric_;
+  std::vector<FrameBlock> blocks_;
+};
+
+/// The mean of equation 1's distance over the frames around each pair of a row, `reach` to each side as far as both
+/// motions go: two frames are compared once, not once per window.
+class FuzzyWindowRows : public PairRows {
+ public:
+  /// Rows begin at `first_leave_frame`; the playing clip's grades must outlive this.
+  FuzzyWindowRows(std::span<const Grades> playing, std::span<const Grades> next, int first_leave_frame, int reach,
+                  const FeatureWeights& weights);
+  void Compute(int leave_frame, std::span<const int> enter_frames, std::span<double> costs) override;
+
+ private:
+  std::span<const Grades> playing_;
+  int next_frames_, reach_;
+  FuzzyRows rows_;
+  DiagonalSums<double> distances_;
+};
+
+/// Computes Kovar, Gleicher and Pighin's distance of two frames ("Motion graphs", 2002, section 3.1): the twenty joints
+/// of all frames around the one, as a cloud of points, against those around the other, after the turn about the
+/// vertical and the shift on the floor that lay the one cloud best onto the other (in closed form). All points weigh
+/// the same, and the cost is the root mean square of their distances, centimetres; so clouds cut short by a clip's end
+/// compare, too.
+///
+/// In the paper the one cloud begins and the other ends at the frame, since they are crossfaded there; here the pair is
+/// in the middle, since a cut is.
+class PointCloudRows : public PairRows {
+ public:
+  /// Rows begin at `first_leave_frame`; `playing` must outlive this.
+  PointCloudRows(const BodyMotion& playing, const BodyMotion& next, int first_leave_frame, double window_s);
+  void Compute(int leave_frame, std::span<const int> enter_frames, std::span<double> costs) override;
+
+ private:
+  /// The sums of a cloud's own coordinates over all frames before one.
+  struct CloudSum {
+    double x = 0, z = 0, square = 0;
+  };
+  static CloudSum Plus(CloudSum sum, const BodyPose& pose);
+  void AddFrame(int frame);
+
+  static constexpr std::size_t kLanes = 8;
+  using Block = std::array<std::array<std::array<double, kLanes>, 3>, kRoleCount>;  ///< [joint][x, y, z][frame]
+
+  const BodyMotion& playing_;
+  int next_frames_, half_, first_frame_;
+  glm::dvec3 playing_origin_;
+  std::vector<Block> blocks_;
+  std::vector<CloudSum> playing_sums_, next_sums_;
+  /// Σ xx′ + zz′ (along), Σ xz′ − zx′ (across) and Σ yy′ (up) over the points of two frames.
+  DiagonalSums<glm::dvec3> products_;
 };
 
 }  // namespace etude

@@ -10,9 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/transitions/choices/allowed_frames.h"
-#include "engine/transitions/choices/direct.h"
-#include "engine/transitions/choices/explain.h"
+#include "engine/transitions/choices/planning.h"
 #include "engine/transitions/joins/planted_feet.h"
 #include "engine/transitions/joins/splice.h"
 
@@ -34,8 +32,8 @@ double SquaredDistance(const MotionFeatures& a, const MotionFeatures& b) {
   return sum;
 }
 
-/// For each part of the wait, the pair that is nearest; every few frames of the wanted clip are enough where it is
-/// long.
+/// Finds, for each part of the wait, the pair that is nearest; every few frames of the wanted clip are enough where it
+/// is long.
 std::vector<FramePair> NearestPairs(const MotionLibrary& library, const TransitionRequest& request,
                                     const AllowedFrames& allowed) {
   const auto &playing = library.features[request.from], &next = library.features[request.to];
@@ -59,7 +57,7 @@ std::vector<FramePair> NearestPairs(const MotionLibrary& library, const Transiti
   return pairs;
 }
 
-/// Frames of a clip from one on, that one included: `count` more, the last repeated where the clip ends.
+/// Returns frames of a clip from one on, that one included: `count` more, the last repeated where the clip ends.
 std::vector<BodyPose> FramesFrom(const BodyMotion& clip, int first, int count) {
   std::vector<BodyPose> frames;
   const int last = static_cast<int>(clip.poses.size()) - 1;
@@ -106,8 +104,8 @@ glm::dvec3 SecondDifferenceOf(const BodyPose& before, const BodyPose& here, cons
   return after.joints[joint] - 2.0 * here.joints[joint] + before.joints[joint];
 }
 
-/// By frame from the point on, and joint: the larger of both motions' own second differences, metres; of a motion that
-/// has ended none.
+/// The larger of both motions' own second differences, metres, by frame from the point on and by joint; a motion that
+/// has ended has none.
 using OwnAccelerations = std::vector<std::array<double, kRoleCount>>;
 
 OwnAccelerations OwnOf(const JoinWindow& window) {
@@ -155,7 +153,7 @@ class CostMeter {
     ++count_;
   }
 
-  /// Of the frames added, seconds: it never becomes less.
+  /// Returns the cost of the frames added so far, seconds; it never becomes less.
   double Seconds() const {
     constexpr double kCm = 100;
     return kCm * (worst_excess_ / options_.excess_per_s + off_ / window_.rate_hz / options_.invented_per_s);
@@ -184,7 +182,7 @@ bool IsBetterWay(const PlayedWay& a, const PlayedWay& b) {
   return std::tuple(a.cost_s, a.number, a.frames, a.fades) < std::tuple(b.cost_s, b.number, b.frames, b.fades);
 }
 
-/// All that were worth playing, the best first.
+/// Plays the transitions that are worth it, and ranks them, the best first.
 class Rehearsal {
  public:
   Rehearsal(const MotionLibrary& library, const TransitionRequest& request, const PlayedOptions& options,
@@ -206,7 +204,7 @@ class Rehearsal {
 
   double Time(const PlayedWay& way) const { return (way.pair.leave - request_.request_frame + way.frames) / rate_hz_; }
 
-  /// Without feet. Not all of it is counted once it is `enough`.
+  /// Returns the cost of a way without planted feet; it is not counted to the end once it is `enough`.
   double Cost(const PlayedWay& way, double enough) const {
     const JoinWindow& window = windows_[way.number];
     const MinimumJerkPlay play(window, way.frames, way.fades);

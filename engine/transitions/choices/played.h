@@ -1,17 +1,17 @@
 #pragma once
 
 #include "engine/base/settings.h"
-#include "engine/transitions/base/match_rules.h"
-#include "engine/transitions/base/transition_record.h"
 #include "engine/transitions/library/library.h"
+#include "engine/transitions/transition_record.h"
 
 namespace etude {
 
 struct PlayedOptions {
-  /// Exchange rate of the cost: one second of waiting or blending equals this much acceleration beyond the clips' own,
-  /// cm/frame². Smaller: smoother, later, longer transitions.
+  /// The exchange rate of the cost: one second of waiting or blending equals this much acceleration beyond the clips'
+  /// own, cm/frame². Smaller: smoother, later, longer transitions.
   double excess_per_s = 0.5;
-  /// Likewise for poses of neither clip: cm off the nearer clip, integrated over seconds.
+  /// The exchange rate for poses of neither clip: one second equals so many cm off the nearer clip, integrated over
+  /// seconds.
   double invented_per_s = 5;
   double least_play_s = 1;  ///< what must be left of the wanted clip to play, as PointCloudOptions'
 };

@@ -6,14 +6,14 @@
 #include <utility>
 #include <vector>
 
-#include "engine/transitions/bridge_frames/transition_points.h"
+#include "engine/transitions/library/transition_points.h"
 
 namespace etude {
 namespace {
 
 using Key = InBetweenNet::Key;
 
-/// Where a clip and the in-between meet.
+/// The transition point between a clip and the in-between.
 struct KeyPoint {
   int frame = 0;  ///< of the clip
   int key = -1;   ///< of the net

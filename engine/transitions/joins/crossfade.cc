@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "engine/base/smoothstep.h"
-#include "engine/transitions/joins/limb_turn.h"
+#include "engine/transitions/joins/limbs.h"
 
 namespace etude {
 

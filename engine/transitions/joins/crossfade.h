@@ -4,7 +4,7 @@
 
 namespace etude {
 
-/// `share` of the way from one pose to another, limb by limb; the limbs have the lengths of `to`.
+/// Returns the pose `share` of the way from one to another, limb by limb; the limbs have the lengths of `to`.
 BodyPose PoseBetween(const BodyPose& from, const BodyPose& to, double share);
 
 struct CrossfadeOptions {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "engine/base/angles.h"
-#include "engine/transitions/joins/limb_turn.h"
+#include "engine/transitions/joins/limbs.h"
 
 namespace etude {
 namespace {

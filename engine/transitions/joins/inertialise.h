@@ -7,13 +7,13 @@
 
 namespace etude {
 
-/// How far the old motion was off from the new one, as a vector: metres, or the turn of a limb in radians.
+/// The difference of the old motion from the new one as a vector: metres, or the turn of a limb in radians.
 struct Offset {
   glm::dvec3 value{0};
   glm::dvec3 velocity{0};  ///< per second
 };
 
-/// What is left of an offset `seconds` after the transition point: all of it at 0.
+/// Returns what is left of an offset `seconds` after the transition point: all of it at 0.
 using DecayLaw = std::function<glm::dvec3(const Offset& offset, double seconds)>;
 
 /// The join one would use today (Bollo 2018): keep what the old motion was off from the new one, in pose and in
@@ -41,8 +41,8 @@ struct SpringOptions {
 };
 const SettingTable<SpringOptions>& SpringSettings();
 
-/// A critically damped spring that halves an offset in about `half_life_s` (Holden 2020, "Spring-It-On"). An offset
-/// that is still growing goes on to do so for a while: velocities are continuous.
+/// Computes a critically damped spring that halves an offset in about `half_life_s` (Holden 2020, "Spring-It-On"). An
+/// offset that is still growing goes on to do so for a while: velocities are continuous.
 glm::dvec3 SpringDecay(const Offset& offset, double seconds, const SpringOptions& options = {});
 Blend InertialiseSpring(const JoinInput& input, const SpringOptions& options = {});
 
@@ -51,8 +51,9 @@ struct QuinticOptions {
 };
 const SettingTable<QuinticOptions>& QuinticSettings();
 
-/// Bollo's quintic (GDC 2018): the offset keeps its axis and its length goes to rest at zero within `blend_s`, sooner
-/// when it shrinks so fast that it would overshoot; a growing one is taken as resting, and what turns the axis is lost.
+/// Computes Bollo's quintic (GDC 2018): the offset keeps its axis and its length goes to rest at zero within `blend_s`,
+/// sooner when it shrinks so fast that it would overshoot; a growing one is taken as resting, and what turns the axis
+/// is lost.
 glm::dvec3 QuinticDecay(const Offset& offset, double seconds, const QuinticOptions& options = {});
 Blend InertialiseQuintic(const JoinInput& input, const QuinticOptions& options = {});
 

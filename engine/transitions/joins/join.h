@@ -9,24 +9,23 @@
 
 #include "engine/base/settings.h"
 #include "engine/motion/body.h"
-#include "engine/transitions/base/transition_record.h"
+#include "engine/transitions/transition_record.h"
 
 namespace etude {
 
-/// Two successive frames: where a body is, and, by difference, how it moves.
+/// Two successive frames: a body's pose and, by difference, its velocity.
 struct PosePair {
   BodyPose before;
   BodyPose now;
 };
 
-/// What a join knows of a transition point, all in the place where it is shown.
+/// The input of a join at a transition point, all in the place where it is shown.
 struct JoinInput {
   PosePair shown;   ///< the last two frames shown
   PosePair target;  ///< the new motion's frames that would stand in their place
-  /// What the old motion would have shown next: so many frames, fewer where it ends. To be asked only while the join
-  /// begins.
+  /// Returns the old motion's next `count` frames, fewer where it ends. It may be called only while the join begins.
   std::function<std::vector<BodyPose>(std::size_t count)> continuation;
-  /// What the new motion has next after its frame at the point, likewise.
+  /// Returns the new motion's next `count` frames after its frame at the point, under the same conditions.
   std::function<std::vector<BodyPose>(std::size_t count)> upcoming = {};
   std::optional<PreferredJoin> preferred = {};  ///< of the choice of frames; minimum-jerk and planted-feet follow it
   double rate_hz = kJudgedRateHz;
@@ -35,7 +34,7 @@ struct JoinInput {
 /// The frame to show, `frames` (≥ 1) after the transition point, from the new motion's frame there.
 using Blend = std::function<BodyPose(const BodyPose& target, int frames)>;
 
-/// How much motion after the point a join is aligned by, seconds.
+/// The length of motion after the point by which a join is aligned, seconds.
 constexpr double kAlignedSeconds = 0.5;
 
 /// A way to put two clips together at a transition point, by the name scenario files call it. All limbs keep their
@@ -51,10 +50,10 @@ struct Join {
   FloorMove (*align)(std::span<const BodyPose> old, std::span<const BodyPose> next, double rate_hz) = nullptr;
 };
 
-/// Paper A's cut first.
+/// Lists all joins, paper A's cut first.
 std::span<const Join> AllJoins();
 std::vector<std::string> JoinNames();
-/// Null when there is no such join.
+/// Returns the join of that name, null when there is none.
 const Join* FindJoin(std::string_view name);
 
 }  // namespace etude

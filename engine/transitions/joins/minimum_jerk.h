@@ -17,8 +17,9 @@ struct MinimumJerkOptions {
 };
 const SettingTable<MinimumJerkOptions>& MinimumJerkSettings();
 
-/// The quintic from an offset and its whole velocity, acceleration 0, to rest at zero after `blend_s`: a movement of
-/// least jerk (Flash and Hogan 1985) with that start. Unlike Bollo's it keeps what grows, and what turns the axis.
+/// Computes the quintic from an offset and its whole velocity, acceleration 0, to rest at zero after `blend_s`: a
+/// movement of least jerk (Flash and Hogan 1985) with that start. Unlike Bollo's it keeps what grows, and what turns
+/// the axis.
 glm::dvec3 MinimumJerkDecay(const Offset& offset, double seconds, double blend_s);
 
 /// A join's window, in the place where it is shown.
@@ -35,7 +36,7 @@ struct JoinWindow {
 /// The window of `frames` frames after the point; where a motion ends earlier, it holds its last frame.
 JoinWindow WindowOf(const JoinInput& input, int frames);
 
-/// What is shown of a window, frame by frame.
+/// Computes what is shown of a window, frame by frame.
 ///
 /// By default the new motion plays, and limb by limb what the old one was off from it dies away along MinimumJerkDecay.
 /// Velocities are those from the point to the next frame: so the first frame shown is the old motion's next one, and
@@ -47,7 +48,7 @@ class MinimumJerkPlay {
   /// A join of `frames` ≥ 1 frames, at most the window's, which must outlive this.
   MinimumJerkPlay(const JoinWindow& window, int frames, bool fades);
 
-  /// `frame` from 0, which is the last one shown, to `frames`.
+  /// Returns the pose of a frame from 0, which is the last one shown, to `frames`.
   BodyPose At(int frame) const;
 
  private:
@@ -56,11 +57,11 @@ class MinimumJerkPlay {
   std::optional<Inertialiser> decay_;  ///< without it the motions fade
 };
 
-/// Every frame of the window by MinimumJerkPlay.
+/// Returns every frame of the window by MinimumJerkPlay.
 std::vector<BodyPose> PlayMinimumJerk(const JoinWindow& window, bool fades);
 
 Blend MinimumJerk(const JoinInput& input, const MinimumJerkOptions& options);
-/// What the choice of frames prefers, or else the options; and the window of that.
+/// Returns what the choice of frames prefers, or else the options; and the window of that.
 PreferredJoin PreferredJoinOf(const JoinInput& input, const MinimumJerkOptions& options);
 JoinWindow WindowOfJoin(const JoinInput& input, const PreferredJoin& preferred);
 /// Shows `played` (a window's frames), then the new motion.

@@ -6,14 +6,32 @@
 #include <utility>
 
 #include "engine/base/smoothstep.h"
-#include "engine/transitions/joins/leg.h"
-#include "engine/transitions/joins/limb_turn.h"
+#include "engine/transitions/joins/limbs.h"
 
 namespace etude {
+
+FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz, const ContactRules& rules) {
+  FootContacts contacts;
+  const std::size_t count = poses.size();
+  for (std::size_t side = 0; side < kLegs.size(); ++side) {
+    const Role foot = kLegs[side].foot;
+    bool stands = false;
+    for (std::size_t f = 0; f < count; ++f) {
+      const std::size_t next = std::min(f + 1, count - 1), here = next > 0 ? next - 1 : 0;
+      const double speed = rate_hz * glm::distance(poses[next][foot], poses[here][foot]);
+      const double height = poses[f][foot].y;
+      stands = stands ? height <= rules.lift_height && speed <= rules.lift_speed
+                      : height <= rules.plant_height && speed <= rules.plant_speed;
+      contacts[side].push_back(stands);
+    }
+  }
+  return contacts;
+}
+
 namespace {
 
-/// Pairs of points of the floor, summed up for the turn and shift that lay the second onto the first with the least sum
-/// of squares.
+/// Sums up pairs of points of the floor for the turn and shift that lay the second onto the first with the least sum of
+/// squares.
 class FloorFit {
  public:
   void Add(const glm::dvec3& onto, const glm::dvec3& point, double weight) {
@@ -48,7 +66,7 @@ class FloorFit {
 
 double FloorDistance(const glm::dvec3& a, const glm::dvec3& b) { return std::hypot(a.x - b.x, a.z - b.z); }
 
-/// How far a foot is from one path to the other: at its farthest in the window's middle half.
+/// The way of a foot from one path to the other, at its farthest in the window's middle half.
 struct Travel {
   double floor = 0, whole = 0;  // metres
 };
@@ -126,8 +144,8 @@ LegPath PathAt(const JoinWindow& window, const LegRoles& leg, const FootStep& st
   return {toe - limb, limb};
 }
 
-/// As far as a leg may reach: as far as both motions' own legs do, and a little less in the join's middle, where a leg
-/// that is all but straight would throw its knee about.
+/// Returns how far a leg may reach: as far as both motions' own legs do, and a little less in the join's middle, where
+/// a leg that is all but straight would throw its knee about.
 double ReachAt(const JoinWindow& window, const LegRoles& leg, int frame) {
   const double s = static_cast<double>(frame) / window.Frames();
   const auto reach = [&](const BodyPose& pose) { return glm::distance(pose[leg.hip], pose[leg.ankle]); };
@@ -139,7 +157,7 @@ double ReachAt(const JoinWindow& window, const LegRoles& leg, int frame) {
   return std::min(std::max(own, kEasy * whole), whole) - kGiven * 64 * rest * rest * rest;
 }
 
-/// How much lower a hip must be for its leg to reach, metres; at most a hand's breadth.
+/// Returns how much lower a hip must be for its leg to reach, metres; at most a hand's breadth.
 double DropFor(const glm::dvec3& hip, const glm::dvec3& ankle, double reach) {
   constexpr double kMostDrop = 0.10;
   const double floor = FloorDistance(hip, ankle);

@@ -1,26 +1,48 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
-#include "engine/transitions/joins/foot_contacts.h"
+#include "engine/motion/body.h"
 #include "engine/transitions/joins/minimum_jerk.h"
 
 namespace etude {
+
+/// The rules by which a foot stands, with two thresholds each, so that a foot near one of them does not flicker.
+/// Heights are of the toe tips above the floor (y = 0), metres; speeds are theirs, metres per second. Ours.
+struct ContactRules {
+  double plant_height = 0.04, plant_speed = 0.25;  ///< it stands from the frame on where it is below both
+  double lift_height = 0.06, lift_speed = 0.45;    ///< until it is above one of these
+};
+
+/// Whether each foot stands, by side (Side's order) and frame. Speeds are from a frame to the next, the last frame's to
+/// the one before it.
+using FootContacts = std::array<std::vector<bool>, 2>;
+FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz, const ContactRules& rules = {});
+
+/// The joints of a leg, from the hip down.
+struct LegRoles {
+  Role hip, knee, ankle, foot;
+};
+/// The legs by side.
+constexpr std::array<LegRoles, 2> kLegs = {
+    LegRoles{Role::kLeftHip, Role::kLeftKnee, Role::kLeftAnkle, Role::kLeftFoot},
+    LegRoles{Role::kRightHip, Role::kRightKnee, Role::kRightAnkle, Role::kRightFoot}};
 
 /// The move on the floor that lays the new motion so that feet which stand in both motions, at the same frames after
 /// the point, stand in the same places: least squares over toe tips and ankles, and, weaker, over hips and shoulders at
 /// the point, which decide alone where no foot stands. `old` and `next`: frames from the point on, one at least each.
 FloorMove AlignOnPlantedFeet(std::span<const BodyPose> old, std::span<const BodyPose> next, double rate_hz);
 
-/// When a foot changes over from the old motion's path to the new one's, and how high it is lifted on the way.
+/// A foot's change from the old motion's path to the new one's: when it happens, and how high the foot is lifted.
 struct FootStep {
   bool keeps = false;  ///< the foot is left where the limbs put it: it stands in neither motion
   double begin = 0;    ///< frames after the point
   double end = 1;
   double lift = 0;  ///< metres at the middle of the step
 };
-/// By side.
+/// The changes of both feet, by side.
 using FootPlan = std::array<FootStep, 2>;
 
 /// Plans a step for each foot within the window: the two one after the other where both must travel, long ones so that
@@ -31,7 +53,7 @@ FootPlan PlanSteps(const JoinWindow& window);
 /// Limbs keep their lengths; the first frame stays as it is.
 void PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played);
 
-/// MinimumJerk with PlantFeet, the new motion laid by AlignOnPlantedFeet.
+/// Joins by MinimumJerk with PlantFeet, the new motion laid by AlignOnPlantedFeet.
 Blend PlantedFeet(const JoinInput& input, const MinimumJerkOptions& options);
 
 }  // namespace etude

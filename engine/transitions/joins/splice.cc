@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-#include "engine/transitions/base/alignment.h"
+#include "engine/transitions/alignment.h"
 
 namespace etude {
 namespace {
@@ -28,7 +28,7 @@ struct PlacedSegment {
     if (frame > 0) return At(frame - 1);
     return frames.size() > 1 ? FrameBefore(At(0), At(1)) : At(0);
   }
-  /// What would be shown after `frame`, if the old motion went on: at most `count` frames.
+  /// Returns at most `count` frames that would be shown after `frame` if the old motion went on.
   std::vector<BodyPose> After(int frame, std::size_t count) const {
     std::vector<BodyPose> next;
     for (std::size_t f = frame + 1; f < frames.size() && next.size() < count; ++f) {
@@ -46,7 +46,8 @@ struct PlacedSegment {
   }
 };
 
-/// Where a segment is laid that follows `old` at its frame `left`. What a choice made itself is made to begin there.
+/// Returns where a segment is laid that follows `old` at its frame `left`. Frames that a choice made itself begin
+/// there.
 FloorMove Lay(const Join& join, const PlacedSegment& old, int left, const PlacedSegment& next, double rate_hz) {
   if (join.align == nullptr || next.is_own) return AlignOnFloor(next.frames[next.first], old.At(left));
   const std::size_t count = static_cast<std::size_t>(rate_hz * kAlignedSeconds);

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "engine/motion/body.h"
-#include "engine/transitions/base/transition_record.h"
 #include "engine/transitions/joins/join.h"
+#include "engine/transitions/transition_record.h"
 
 namespace etude {
 

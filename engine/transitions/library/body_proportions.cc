@@ -54,7 +54,7 @@ std::vector<double> FootHeights(const BodyMotion& motion) {
   return heights;
 }
 
-/// Where the floor is: not the lowest frame of all, which one bad frame would decide. Needs a height.
+/// Returns the floor's height: not the lowest of all, which one bad frame would decide. Needs at least one height.
 double FloorHeight(std::vector<double> heights) {
   const auto fifth_percent = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 20);
   std::nth_element(heights.begin(), fifth_percent, heights.end());

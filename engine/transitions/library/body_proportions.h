@@ -10,16 +10,17 @@ namespace etude {
 
 /// The body that performs all clips of a library: how long its limbs are, and how high its hips stand.
 struct BodyProportions {
-  /// Metres, by the limb's child joint; the hip centre's entry is 0.
+  /// The limbs' lengths, metres, by the limb's child joint; the hip centre's entry is 0.
   std::array<double, kRoleCount> limb_lengths{};
   double standing_hip_height = 0;  ///< metres, as `StandingHipHeight` reads it
 };
 
-/// Those of `pose`, scaled so that the hips stand `standing_hip_height` metres high. `pose` must have legs.
+/// Returns the proportions of `pose`, scaled so that the hips stand `standing_hip_height` metres high. `pose` must have
+/// legs.
 BodyProportions MakeBodyProportions(const BodyPose& pose, double standing_hip_height);
 
-/// The same motions, performed by a body of these proportions. Paper A's clips all belong to one character; real clips
-/// come from many people, and a transition between two bodies would be seen whatever the pose.
+/// Returns the same motions, performed by a body of these proportions. Paper A's clips all belong to one character;
+/// real clips come from many people, and a transition between two bodies would be seen whatever the pose.
 ///
 /// Every limb keeps its direction and gets its new length; travel and hip height scale with the legs; then the clips
 /// are set down, so that the lower foot is on or below the floor in 5 % of the frames. Clips whose legs are equally

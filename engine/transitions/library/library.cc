@@ -1,8 +1,82 @@
 #include "engine/transitions/library/library.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace etude {
+namespace {
+
+constexpr std::array kEnds = {Role::kLeftFoot, Role::kRightFoot, Role::kLeftHand, Role::kRightHand};
+constexpr std::size_t kVectorCount = kMotionFeatureCount / 3;
+static_assert(kVectorCount == 2 * kEnds.size() + 1);
+
+MotionFeatures FeaturesAt(const BodyMotion& motion, int frame) {
+  const int last = static_cast<int>(motion.poses.size()) - 1;
+  const int before = std::max(frame - 1, 0), after = std::min(frame + 1, last);
+  const double seconds = std::max(after - before, 1) / motion.rate_hz;
+  const FloorMove to_origin = ToOrigin(motion.poses[frame]);
+  const FloorMove turn{.yaw = to_origin.yaw};
+  const auto velocity = [&](Role role) {
+    return turn.Apply((motion.poses[after][role] - motion.poses[before][role]) / seconds);
+  };
+
+  MotionFeatures features{};
+  auto next = features.begin();
+  const auto append = [&](const glm::dvec3& v) {
+    for (int axis = 0; axis < 3; ++axis) *next++ = v[axis];
+  };
+  for (Role end : kEnds) append(to_origin.Apply(motion.poses[frame][end]));
+  for (Role end : kEnds) append(velocity(end));
+  append(velocity(Role::kHipCentre));
+  return features;
+}
+
+/// The standard deviation of each vector over all frames: the root of its three variances' mean.
+std::array<double, kVectorCount> Spreads(const std::vector<std::vector<MotionFeatures>>& clips) {
+  MotionFeatures means{};
+  double count = 0;
+  for (const auto& frames : clips) {
+    count += static_cast<double>(frames.size());
+    for (const MotionFeatures& features : frames) {
+      for (std::size_t i = 0; i < kMotionFeatureCount; ++i) means[i] += features[i];
+    }
+  }
+  for (double& mean : means) mean /= std::max(count, 1.0);
+  std::array<double, kVectorCount> spreads{};
+  for (const auto& frames : clips) {
+    for (const MotionFeatures& features : frames) {
+      for (std::size_t i = 0; i < kMotionFeatureCount; ++i) {
+        const double off = features[i] - means[i];
+        spreads[i / 3] += off * off;
+      }
+    }
+  }
+  for (double& spread : spreads) spread = std::sqrt(spread / std::max(3 * count, 1.0));
+  return spreads;
+}
+
+}  // namespace
+
+std::vector<std::vector<MotionFeatures>> ComputeMotionFeatures(std::span<const BodyMotion> clips) {
+  std::vector<std::vector<MotionFeatures>> computed;
+  computed.reserve(clips.size());
+  for (const BodyMotion& motion : clips) {
+    auto& frames = computed.emplace_back();
+    frames.reserve(motion.poses.size());
+    for (int f = 0; f < static_cast<int>(motion.poses.size()); ++f) frames.push_back(FeaturesAt(motion, f));
+  }
+  const std::array<double, kVectorCount> spreads = Spreads(computed);
+  constexpr double kNoSpread = 1e-9;  // rounding is no movement
+  for (auto& frames : computed) {
+    for (MotionFeatures& features : frames) {
+      for (std::size_t i = 0; i < kMotionFeatureCount; ++i) {
+        features[i] = spreads[i / 3] < kNoSpread ? 0 : features[i] / spreads[i / 3];
+      }
+    }
+  }
+  return computed;
+}
 
 MotionLibrary MakeLibraryOfOneBody(std::vector<std::string> names, std::vector<BodyMotion> motions,
                                    const BodyProportions& proportions, const TagRules& rules, const TweenRules& tween) {

@@ -1,15 +1,27 @@
 #pragma once
 
+#include <array>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "engine/motion/body.h"
-#include "engine/transitions/bridge_frames/bridge_frames.h"
-#include "engine/transitions/in_betweens/in_between_net.h"
 #include "engine/transitions/library/body_proportions.h"
-#include "engine/transitions/library/motion_features.h"
+#include "engine/transitions/library/bridge_frames.h"
+#include "engine/transitions/library/in_betweens.h"
 
 namespace etude {
+
+/// The numbers of nine vectors: where feet and hands are, how fast they move, and how fast the hips move.
+constexpr std::size_t kMotionFeatureCount = 27;
+/// The features that motion matching compares (Clavet 2016; Holden et al. 2020): hands and feet as seen from the
+/// character, who is at the origin of the floor and faces +Z, and the velocities of hands, feet and hips in the same
+/// axes.
+using MotionFeatures = std::array<double, kMotionFeatureCount>;
+
+/// The features of every frame of every clip. Each of the nine vectors is divided by its own standard deviation over
+/// all frames of the library, so that metres and metres per second count alike; one that never varies counts nothing.
+std::vector<std::vector<MotionFeatures>> ComputeMotionFeatures(std::span<const BodyMotion> clips);
 
 /// Clips made ready for transitions: all performed by one body, at 30 Hz, tagged, and joined by in-betweens.
 struct MotionLibrary {

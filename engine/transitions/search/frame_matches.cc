@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "engine/transitions/search/time_blocks.h"
+#include "engine/transitions/search/grade_index.h"
 
 namespace etude {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/base/progress.h"
-#include "engine/transitions/base/match_rules.h"
 #include "engine/transitions/search/grade_index.h"
+#include "engine/transitions/transition_record.h"
 
 namespace etude {
 
@@ -18,7 +18,7 @@ struct MatchClip {
   std::span<const Tags> tags = {};                            ///< one per frame; only read `within_class`
 };
 
-/// Which frames of another clip match a frame: d < threshold.
+/// The frames of another clip that match a frame: d < threshold.
 struct FrameMatches {
   int frame = 0;        ///< of the clip that is left
   int first = 0;        ///< the first match in time order: paper A's "front half, then rear half"
@@ -30,7 +30,7 @@ struct FrameMatches {
 class MatchTable {
  public:
   int ClipCount() const { return static_cast<int>(asked_.size()); }
-  /// How many frames of a clip took part.
+  /// Returns how many frames of a clip took part.
   int AskedFrames(int clip) const { return asked_[static_cast<std::size_t>(clip)]; }
   /// The frames of clip `from` that match a frame of clip `to`, rising; none when both are the same clip.
   std::span<const FrameMatches> Of(int from, int to) const { return found_[Pair(from, to)]; }

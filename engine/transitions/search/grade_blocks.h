@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// How many frames, or boxes of frames, are compared at once.
+/// The number of frames, or boxes of frames, that are compared at once.
 constexpr int kBlockLanes = 16;
 using BlockLanes = std::array<double, kBlockLanes>;
 
@@ -39,14 +39,14 @@ struct alignas(64) BoxBlock {
   void Set(int lane, const GradeBox& box);
 };
 
-/// How many blocks so many take.
+/// Returns how many blocks `count` frames take.
 constexpr int BlocksFor(std::size_t count) { return static_cast<int>((count + kBlockLanes - 1) / kBlockLanes); }
 /// The bits of the lanes that a block has when `count` are left from its first one on.
 constexpr std::uint32_t LanesOf(int count) { return count >= kBlockLanes ? 0xffff : (1u << count) - 1; }
 
 /// Equation 1 ready to be computed: whose terms are which, and what each feature weighs.
 struct GradeMetric {
-  /// None of the weights is negative.
+  /// Makes the metric of weights, none of which may be negative.
   explicit GradeMetric(const FeatureWeights& feature_weights);
 
   FeatureWeights weights;
@@ -66,7 +66,8 @@ void ForEachLane(std::uint32_t bits, const Visit& visit) {
   for (; bits != 0; bits &= bits - 1) visit(std::countr_zero(bits));
 }
 
-/// d² of `query` and every frame of the block: the very bits that `ComputeDistance` takes the root of, on every CPU.
+/// Returns d² of `query` and every frame of the block: the very bits that `ComputeDistance` takes the root of, on every
+/// CPU.
 BlockResult SquaredDistances(const GradeMetric& metric, const Grades& query, const FrameBlock& block, double limit);
 
 /// The least d² that any frame of `query` can have from any frame of each box (rounded outwards). It is never greater

@@ -4,12 +4,87 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <span>
 #include <tuple>
+#include <vector>
 
-#include "engine/transitions/search/block_order.h"
+#include "engine/transitions/search/grade_blocks.h"
 
 namespace etude {
 namespace {
+
+/// A frame and its place along the axis of a split.
+struct Placed {
+  double at;
+  int frame;
+};
+
+class Splitter {
+ public:
+  Splitter(std::span<const Grades> frames, const GradeMetric& metric) : frames_(frames), placed_(frames.size()) {
+    for (std::size_t k = 0; k < kFeatureCount; ++k) {
+      for (std::size_t t = metric.first_term[k]; t < metric.first_term[k + 1]; ++t) weights_[t] = metric.weights[k];
+    }
+  }
+
+  void Split(std::span<int> order) {
+    if (order.size() <= kBlockLanes) {
+      std::ranges::sort(order);
+      return;
+    }
+    const std::size_t axis = WidestAxis(order);
+    const std::span<Placed> placed(placed_.data(), order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) placed[i] = {frames_[order[i]][axis], order[i]};
+    // The left side gets a power of two of blocks, so that each block, and each group of sixteen, is a subtree.
+    const std::size_t blocks = (order.size() + kBlockLanes - 1) / kBlockLanes;
+    const std::size_t left = std::bit_ceil(blocks) / 2 * kBlockLanes;
+    std::ranges::nth_element(placed, placed.begin() + static_cast<std::ptrdiff_t>(left), {},
+                             [](const Placed& p) { return std::tuple(p.at, p.frame); });
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = placed[i].frame;
+    Split(order.first(left));
+    Split(order.subspan(left));
+  }
+
+ private:
+  /// The term whose weighted grades vary most, judged by some of the frames.
+  std::size_t WidestAxis(std::span<const int> order) const {
+    constexpr std::size_t kSample = 64;
+    const std::size_t step = std::max<std::size_t>(1, order.size() / kSample);
+    Grades sum{}, squares{};
+    double count = 0;
+    for (std::size_t i = 0; i < order.size(); i += step, ++count) {
+      const Grades& grades = frames_[order[i]];
+      for (std::size_t t = 0; t < kTermCount; ++t) {
+        sum[t] += grades[t];
+        squares[t] += grades[t] * grades[t];
+      }
+    }
+    std::size_t widest = 0;
+    double most = -1;
+    for (std::size_t t = 0; t < kTermCount; ++t) {
+      const double variance = weights_[t] * (squares[t] - sum[t] * sum[t] / count);
+      if (variance > most) {
+        most = variance;
+        widest = t;
+      }
+    }
+    return widest;
+  }
+
+  std::span<const Grades> frames_;
+  Grades weights_{};
+  std::vector<Placed> placed_;
+};
+
+/// The numbers of all frames, so ordered that every `kBlockLanes` in a row are close to each other, and likewise every
+/// sixteen such blocks, and so on: a k-d tree whose leaves are the blocks. Within a block in time order.
+std::vector<int> OrderForBlocks(std::span<const Grades> frames, const GradeMetric& metric) {
+  std::vector<int> order(frames.size());
+  std::iota(order.begin(), order.end(), 0);
+  Splitter(frames, metric).Split(order);
+  return order;
+}
 
 /// Most first matches of a large library lie among so many frames; scanning their boxes takes a microsecond.
 constexpr std::size_t kHeadFrames = 4096;
@@ -26,7 +101,7 @@ void AddWork(const SearchWork& of_search, SearchWork* work) {
   work->distances += of_search.distances;
 }
 
-/// By frame. Many matches are sorted by their digits: standing still, a frame can have a hundred thousand.
+/// Sorts matches by frame. Many are sorted by their digits: standing still, a frame can have a hundred thousand.
 void SortByFrame(std::vector<Neighbour>& found, int frame_count) {
   constexpr int kDigitBits = 11;
   constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
@@ -47,7 +122,7 @@ void SortByFrame(std::vector<Neighbour>& found, int frame_count) {
 
 }  // namespace
 
-/// What is known of the frames below a node.
+/// The bounds of the frames below a node.
 struct GradeIndex::Node {
   GradeBox box;
   int first_frame;
@@ -270,6 +345,17 @@ void GradeIndex::FindWithin(int level, int node, WithinSearch& search) const {
   }
   for (const Child& child : ChildrenWithin(level, node, search.query, search.threshold, search.work)) {
     if (child.bound < search.threshold) FindWithin(level - 1, child.index, search);
+  }
+}
+
+TimeBlocks::TimeBlocks(std::span<const Grades> all) : frame_count(static_cast<int>(all.size())) {
+  frames.resize(static_cast<std::size_t>(BlocksFor(all.size())));
+  boxes.resize(static_cast<std::size_t>(BlocksFor(frames.size())));
+  for (std::size_t b = 0; b < frames.size(); ++b) {
+    const std::span<const Grades> own =
+        all.subspan(b * kBlockLanes).first(std::min<std::size_t>(kBlockLanes, all.size() - b * kBlockLanes));
+    for (std::size_t i = 0; i < own.size(); ++i) frames[b].Set(static_cast<int>(i), own[i]);
+    boxes[b / kBlockLanes].Set(static_cast<int>(b % kBlockLanes), BoxOf(own));
   }
 }
 

@@ -7,9 +7,21 @@
 
 #include "engine/fuzzy/distance.h"
 #include "engine/transitions/search/grade_blocks.h"
-#include "engine/transitions/search/time_blocks.h"
 
 namespace etude {
+
+/// Frames in time order, sixteen to a block, and the box of every block: frames in a row are close to each other, so
+/// most blocks are seen to be far as a whole.
+struct TimeBlocks {
+  TimeBlocks() = default;
+  explicit TimeBlocks(std::span<const Grades> frames);
+
+  int frame_count = 0;
+  std::vector<FrameBlock> frames;
+  std::vector<BoxBlock> boxes;  ///< boxes[i] are those of frames[16 i] …
+
+  int BlockCount() const { return static_cast<int>(frames.size()); }
+};
 
 /// A frame of the index, and how far it is from the one that was asked about.
 struct Neighbour {
@@ -17,7 +29,7 @@ struct Neighbour {
   double distance = 0;  ///< `ComputeDistance`'s value
 };
 
-/// What a search cost, the same on every machine; added up over searches.
+/// The cost of searches as counts, which are the same on every machine.
 struct SearchWork {
   std::int64_t distances = 0;  ///< frames whose distance was computed, or found to be too far on the way
   std::int64_t boxes = 0;      ///< likewise, boxes of frames and their least possible distance
@@ -27,16 +39,16 @@ struct SearchWork {
 /// `ComputeDistance`.
 class GradeIndex {
  public:
-  /// `frames` in time order, up to 2³¹ − 1; none of `weights` is negative. Copies what it needs.
+  /// Indexes `frames` in time order, up to 2³¹ − 1; none of `weights` is negative. Copies what it needs.
   GradeIndex(std::span<const Grades> frames, const FeatureWeights& weights);
 
   int FrameCount() const { return frame_count_; }
-  /// Memory held, bytes.
+  /// Returns the memory held, bytes.
   std::int64_t Bytes() const;
 
   /// The first frame in time order with a distance < `threshold`.
   std::optional<Neighbour> First(const Grades& query, double threshold, SearchWork* work = nullptr) const;
-  /// All frames with a distance < `threshold`, in time order.
+  /// Returns all frames with a distance < `threshold`, in time order.
   std::vector<Neighbour> Within(const Grades& query, double threshold, SearchWork* work = nullptr) const;
   /// The `k` frames of smallest distance, by distance, then in time order; all frames when there are fewer than `k`.
   std::vector<Neighbour> Nearest(const Grades& query, int k, SearchWork* work = nullptr) const;

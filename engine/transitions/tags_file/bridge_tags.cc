@@ -1,14 +1,19 @@
-#include "engine/transitions/tags_file/bridge_tags.h"
+#include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "engine/base/digest.h"
-#include "engine/transitions/bridge_frames/frame_ratings.h"
+#include "engine/base/names.h"
+#include "engine/transitions/library/bridge_frames.h"
+#include "engine/transitions/tags_file/tags_file.h"
 
 namespace etude {
 namespace {
 
-/// 30, not 29.999999999999996.
+/// Returns degrees as they were meant: 30, not 29.999999999999996.
 double RoundedDegrees(double radians) {
   constexpr double kSteps = 1e9;
   return std::round(Degrees(radians) * kSteps) / kSteps;
@@ -56,6 +61,77 @@ BridgeTags CollectTags(const MotionLibrary& library, std::span<const std::string
     tags.keys.push_back({library.names[key.clip], key.frame});
   }
   return tags;
+}
+
+namespace {
+
+constexpr double kRounding = 1e-9;
+
+bool IsSame(const TaggedFrame& a, const TaggedFrame& b) {
+  if (a.tags != b.tags || a.clips != b.clips || std::abs(a.difference - b.difference) > kRounding) return false;
+  return std::equal(a.grades.begin(), a.grades.end(), b.grades.begin(),
+                    [](double x, double y) { return std::abs(x - y) <= kRounding; });
+}
+
+void CompareClips(const ClipTags& file, const ClipTags& now, TagsComparison& comparison) {
+  const std::string name = Quote(file.name);
+  if (file.frames != now.frames || file.rate_hz != now.rate_hz) {
+    comparison.differences.push_back(fmt::format("clip {} has {} frames at {} Hz in the file, {} at {} Hz now", name,
+                                                 file.frames, file.rate_hz, now.frames, now.rate_hz));
+    return;
+  }
+  std::map<int, const TaggedFrame*> frames_now;
+  for (const TaggedFrame& frame : now.bridge_frames) frames_now[frame.frame] = &frame;
+  for (const TaggedFrame& frame : file.bridge_frames) {
+    const auto found = frames_now.find(frame.frame);
+    if (found == frames_now.end()) {
+      comparison.differences.push_back(fmt::format("clip {}: frame {} is no bridge frame now", name, frame.frame));
+      continue;
+    }
+    ++comparison.bridge_frames;
+    if (!IsSame(frame, *found->second)) {
+      comparison.differences.push_back(
+          fmt::format("clip {}: frame {} has other tags or grades now", name, frame.frame));
+    }
+    frames_now.erase(found);
+  }
+  for (const auto& [frame, tagged] : frames_now) {
+    comparison.differences.push_back(fmt::format("clip {}: frame {} is a bridge frame only now", name, frame));
+  }
+}
+
+}  // namespace
+
+TagsComparison CompareTags(const BridgeTags& file, const BridgeTags& now) {
+  TagsComparison comparison;
+  const auto compare = [&](const char* what, const auto& in_file, const auto& found) {
+    if (in_file != found) comparison.differences.push_back(fmt::format("{} is another one now", what));
+  };
+  compare("the fuzzy system's name", file.system, now.system);
+  compare("the set of membership functions", file.memberships_digest, now.memberships_digest);
+  compare("the set of weights", file.weights, now.weights);
+  compare("the body's height", file.standing_hip_height_m, now.standing_hip_height_m);
+
+  // Missing clips are reported first: they are the cause of differing bridge frames (other poses become frequent).
+  std::map<std::string, const ClipTags*> clips_now;
+  for (const ClipTags& clip : now.clips) clips_now[clip.name] = &clip;
+  std::vector<std::pair<const ClipTags*, const ClipTags*>> in_both;
+  for (const ClipTags& clip : file.clips) {
+    const auto found = clips_now.find(clip.name);
+    if (found == clips_now.end()) {
+      comparison.differences.push_back(fmt::format("clip {} is only in the file", Quote(clip.name)));
+      continue;
+    }
+    in_both.emplace_back(&clip, found->second);
+    clips_now.erase(found);
+  }
+  for (const auto& [name, clip] : clips_now) {
+    comparison.differences.push_back(fmt::format("clip {} is not in the file", Quote(name)));
+  }
+  comparison.clips = static_cast<int>(in_both.size());
+  for (const auto& [clip, clip_now] : in_both) CompareClips(*clip, *clip_now, comparison);
+  compare("the choice of keys", file.keys, now.keys);
+  return comparison;
 }
 
 }  // namespace etude

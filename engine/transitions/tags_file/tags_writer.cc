@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// Elements and attributes, two blanks deep each.
+/// Writes elements and attributes, indented by two blanks.
 class XmlWriter {
  public:
   XmlWriter() : buffer_(xmlBufferCreate(), xmlBufferFree), writer_(xmlNewTextWriterMemory(buffer_.get(), 0), Free) {

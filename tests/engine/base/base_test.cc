@@ -4,6 +4,7 @@
 
 #include "engine/base/angles.h"
 #include "engine/base/digest.h"
+#include "engine/base/directions.h"
 #include "engine/base/names.h"
 #include "engine/base/result.h"
 

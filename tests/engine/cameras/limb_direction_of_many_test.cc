@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "engine/base/directions.h"
 #include "engine/cameras/limb_direction.h"
 
 namespace etude {

@@ -1,3 +1,4 @@
+#include "engine/base/directions.h"
 #include "engine/cameras/limb_direction.h"
 
 #include <gtest/gtest.h>

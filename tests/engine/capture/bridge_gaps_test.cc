@@ -1,3 +1,4 @@
+#include "engine/base/directions.h"
 #include "engine/capture/bridge_gaps.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+#include "engine/base/directions.h"
 #include "engine/capture/measure_frames.h"
 
 #include <gtest/gtest.h>

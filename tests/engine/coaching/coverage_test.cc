@@ -1,6 +1,6 @@
 // Paper A, section 3.5: every move needs a bridge frame into the corrective clips.
 
-#include "engine/transitions/bridge_frames/coverage.h"
+#include "engine/transitions/library/transition_points.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

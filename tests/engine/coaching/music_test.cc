@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/coaching/tempo.h"
+#include "engine/coaching/dance.h"
 #include "tests/engine/coaching/small_dance.h"
 
 namespace etude {

@@ -3,9 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/coaching/clap.h"
+#include "engine/coaching/senses.h"
 #include "engine/coaching/session.h"
-#include "engine/coaching/stillness.h"
 #include "sim/choreography/move.h"
 #include "sim/random/stream.h"
 #include "tests/engine/coaching/small_dance.h"

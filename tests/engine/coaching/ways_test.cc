@@ -7,7 +7,7 @@
 #include <string>
 #include <tuple>
 
-#include "engine/coaching/dance_transitions.h"
+#include "engine/coaching/playback.h"
 #include "engine/transitions/choices/choice.h"
 #include "engine/transitions/joins/join.h"
 #include "sim/choreography/dance_of.h"

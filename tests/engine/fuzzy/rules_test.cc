@@ -1,4 +1,4 @@
-#include "engine/fuzzy/rules.h"
+#include "engine/fuzzy/fuzzy_system.h"
 
 #include <gtest/gtest.h>
 

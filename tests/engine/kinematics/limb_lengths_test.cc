@@ -1,3 +1,4 @@
+#include "engine/base/directions.h"
 #include "engine/kinematics/limb_lengths.h"
 
 #include <gtest/gtest.h>

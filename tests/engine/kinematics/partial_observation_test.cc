@@ -1,3 +1,4 @@
+#include "engine/base/directions.h"
 #include "engine/kinematics/partial_observation.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+#include "engine/base/directions.h"
 #include "engine/kinematics/start_angles.h"
 
 #include <gtest/gtest.h>

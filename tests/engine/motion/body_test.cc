@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/base/angles.h"
+#include "engine/base/directions.h"
 
 namespace etude {
 namespace {

@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "engine/recognition/pose_sequence.h"
-
 namespace etude {
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "engine/recognition/fuzzy_rules.h"
+#include "engine/recognition/key_pose.h"
 #include "engine/recognition/recognise.h"
 #include "tests/engine/recognition/waving_body.h"
 

@@ -1,4 +1,4 @@
-#include "engine/retargeting/rotations.h"
+#include "engine/retargeting/rig.h"
 
 #include <gtest/gtest.h>
 

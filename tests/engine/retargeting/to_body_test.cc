@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/angles.h"
+#include "engine/base/directions.h"
 #include "engine/motion/statistics.h"
 #include "tests/support/person.h"
 #include "tests/support/read_body.h"

@@ -26,7 +26,16 @@ TEST(Labels, CsvTellsPerformancesActionPointsAndWholeRecordings) {
   EXPECT_EQ((*labels)[2].fault, "half");
   EXPECT_FALSE((*labels)[2].from_s);
   EXPECT_EQ((*labels)[2].person, "bo");
-  EXPECT_EQ(WriteLabels(*labels), text);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ((*labels)[i].clip, i < 2 ? "seq-1" : "seq-2");
+    EXPECT_EQ((*labels)[i].move, "arms-open");
+    EXPECT_EQ((*labels)[i].IsRight(), i < 2);
+  }
+  EXPECT_EQ((*labels)[0].person, "anna");
+  EXPECT_EQ((*labels)[1].person, "anna");
+  EXPECT_EQ((*labels)[1].from_s, 4);
+  EXPECT_FALSE((*labels)[1].to_s);
+  EXPECT_FALSE((*labels)[2].to_s);
 }
 
 TEST(Labels, ColumnsMayStandInAnyOrderWithoutPersonAmongRemarks) {

@@ -68,7 +68,7 @@ TEST(Streams, EveryFormatGivesTheSameMotionBackLevelAndFacingTheSensor) {
       {StreamFormat::kTrc, WriteTrc(motion, "m")}};
   for (const auto& [format, text] : files) {
     SCOPED_TRACE(StreamFormatName(format));
-    ASSERT_EQ(TellStreamFormat(text), format);
+    ASSERT_EQ(DetectStreamFormat(text), format);
     EXPECT_LT(FurthestFrom(motion, Made(text).stream), 1e-3);
   }
 }

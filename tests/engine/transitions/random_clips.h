@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/base/angles.h"
-#include "engine/transitions/joins/limb_turn.h"
+#include "engine/transitions/joins/limbs.h"
 #include "engine/transitions/library/library.h"
 #include "sim/random/stream.h"
 #include "tests/engine/fuzzy/posed_body.h"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "engine/transitions/bridge_frames/bridge_frames.h"
+#include "engine/transitions/library/bridge_frames.h"
 #include "tests/engine/fuzzy/posed_body.h"
 
 namespace etude {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "engine/formats/bvh.h"
-#include "engine/formats/deepmimic/deepmimic.h"
+#include "engine/formats/deepmimic.h"
 #include "engine/formats/gltf/gltf.h"
 #include "engine/formats/joint_csv.h"
 #include "engine/formats/rigid_targets.h"

@@ -68,11 +68,7 @@ void Live(std::string_view bytes) {
   live.Finish(frames);
 }
 
-void LabelFile(std::string_view bytes) {
-  const auto labels = ReadLabels(bytes, kFile, "clip");
-  if (!labels) return;
-  Required(ReadLabels(WriteLabels(*labels), kFile, "clip"), "labels that were written are not read");
-}
+void LabelFile(std::string_view bytes) { ReadLabels(bytes, kFile, "clip"); }
 
 }  // namespace
 

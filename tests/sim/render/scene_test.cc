@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/base/angles.h"
+#include "engine/base/directions.h"
 #include "sim/render/empty_room.h"
 #include "sim/render/renderer.h"
 #include "tests/sim/render/dancer.h"

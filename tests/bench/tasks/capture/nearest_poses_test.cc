@@ -6,6 +6,7 @@
 
 #include "bench/clips/clip_library.h"
 #include "engine/base/angles.h"
+#include "engine/base/directions.h"
 #include "tests/support/gtest_printers.h"
 
 namespace etude {

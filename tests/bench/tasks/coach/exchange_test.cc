@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/tasks/base/pose_json.h"
-#include "engine/recognition/features_seen.h"
 #include "engine/recognition/sight.h"
+#include "engine/recognition/skeleton_stream.h"
 #include "tests/bench/tasks/coach/coach_fixture.h"
 
 namespace etude {

@@ -14,8 +14,8 @@
 #include "bench/tasks/transition/score.h"
 #include "bench/tasks/transition/world.h"
 #include "engine/base/smoothstep.h"
+#include "engine/transitions/choices/choice.h"
 #include "engine/transitions/joins/crossfade.h"
-#include "engine/transitions/transition.h"
 #include "tests/bench/tasks/transition/transition_fixture.h"
 
 namespace etude {

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/base/srgb.h"
+#include "engine/base/image.h"
 #include "tests/engine/formats/gltf/small_glb.h"
 #include "tests/engine/formats/small_bvh.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/transitions/bridge_frames/frame_ratings.h"
+#include "engine/transitions/library/bridge_frames.h"
 #include "engine/transitions/library/library.h"
 #include "tests/engine/transitions/connection.h"
 #include "tests/engine/transitions/test_clips.h"

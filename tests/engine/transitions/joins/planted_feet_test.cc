@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/transitions/base/alignment.h"
-#include "engine/transitions/joins/leg.h"
+#include "engine/transitions/alignment.h"
+#include "engine/transitions/joins/limbs.h"
 #include "engine/transitions/joins/splice.h"
 #include "tests/engine/transitions/expect_pose.h"
 #include "tests/engine/transitions/joins/join_pictures.h"

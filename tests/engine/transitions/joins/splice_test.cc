@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/transitions/base/alignment.h"
+#include "engine/transitions/alignment.h"
 #include "tests/engine/transitions/joins/join_pictures.h"
 #include "tests/engine/transitions/test_clips.h"
 

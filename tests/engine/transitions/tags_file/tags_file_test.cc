@@ -3,9 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/transitions/bridge_frames/bridge_frames.h"
-#include "engine/transitions/in_betweens/in_between_net.h"
-#include "engine/transitions/tags_file/compare_tags.h"
+#include "engine/transitions/library/bridge_frames.h"
+#include "engine/transitions/library/in_betweens.h"
 #include "tests/engine/transitions/test_clips.h"
 
 namespace etude {

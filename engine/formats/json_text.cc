@@ -1,0 +1,32 @@
+#include "engine/formats/json_text.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace etude {
+namespace {
+
+/// `index` may be the text's length: its end.
+Place PlaceOf(std::string_view text, std::size_t index, const std::string& file) {
+  const std::string_view before = text.substr(0, index);
+  const std::size_t start = before.rfind('\n') + 1;  // 0 when there is none
+  return {file, static_cast<int>(1 + std::ranges::count(before, '\n')), static_cast<int>(before.size() - start + 1)};
+}
+
+}  // namespace
+
+Result<nlohmann::json> ParseJsonText(std::string_view text, const std::string& file) {
+  if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {
+    return Fail(PlaceOf(text, zero, file), "a zero byte, which no JSON holds");
+  }
+  try {
+    return nlohmann::json::parse(text);
+  } catch (const nlohmann::json::parse_error& error) {
+    const std::size_t index = error.byte == 0 ? 0 : error.byte - 1;  // the parser counts from 1
+    return Fail(PlaceOf(text, std::min(index, text.size()), file), "no JSON from here on");
+  } catch (const nlohmann::json::exception& error) {
+    return Fail({file, 0, 0}, "no readable JSON: {}", error.what());
+  }
+}
+
+}  // namespace etude

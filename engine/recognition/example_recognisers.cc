@@ -1,0 +1,280 @@
+#include "engine/recognition/example_recognisers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/recognition/alignment.h"
+#include "engine/recognition/pose_vector.h"
+
+namespace etude {
+namespace {
+
+/// One move's examples, and how many steps a performance of it may last.
+struct Examples {
+  std::vector<std::vector<PoseVector>> patterns;
+  int longest = 0;
+
+  std::vector<SubsequenceAligner> Aligners() const {
+    std::vector<SubsequenceAligner> aligners;
+    for (const auto& pattern : patterns) aligners.emplace_back(pattern, longest);
+    return aligners;
+  }
+};
+
+class DtwFollower final : public StepFollower {
+ public:
+  DtwFollower(const std::vector<Examples>& moves, const SightWeights& weights, const DtwOptions& options,
+              double rate_hz)
+      : StepFollower(PoseParts::kJoints, weights, moves.size(), rate_hz), moves_(moves), options_(options) {
+    for (const Examples& move : moves) always_.push_back(move.Aligners());
+  }
+
+ private:
+  void Open(std::optional<std::size_t> move) override {
+    in_window_ = move ? moves_[*move].Aligners() : std::vector<SubsequenceAligner>();
+  }
+
+  double Take(const PoseVector& step, std::span<double> spotted) override {
+    for (std::size_t i = 0; i < spotted.size(); ++i) spotted[i] = Nearest(always_[i], step);
+    return Nearest(in_window_, step);
+  }
+
+  double Nearest(std::vector<SubsequenceAligner>& aligners, const PoseVector& step) const {
+    double evidence = 0;
+    const double half_at = options_.half_at_cm / 100;
+    for (SubsequenceAligner& aligner : aligners) {
+      aligner.Update(step);
+      evidence = std::max(evidence, 1.0 / (1.0 + aligner.Cost() / (half_at * half_at)));
+    }
+    return evidence;
+  }
+
+  const std::vector<Examples>& moves_;
+  const DtwOptions& options_;
+  std::vector<std::vector<SubsequenceAligner>> always_;  // per move
+  std::vector<SubsequenceAligner> in_window_;
+};
+
+class DtwRecogniser final : public Recogniser {
+ public:
+  DtwRecogniser(std::vector<Examples> moves, const SightWeights& weights, const DtwOptions& options)
+      : moves_(std::move(moves)), weights_(weights), options_(options) {}
+
+  std::unique_ptr<MoveFollower> Follow(double rate_hz) const override {
+    return std::make_unique<DtwFollower>(moves_, weights_, options_, rate_hz);
+  }
+
+ private:
+  std::vector<Examples> moves_;
+  SightWeights weights_;
+  DtwOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Recogniser> MakeDtwRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
+                                              const DtwOptions& options) {
+  std::vector<Examples> moves;
+  for (const TaughtMove& move : taught) {
+    Examples& examples = moves.emplace_back();
+    examples.longest = static_cast<int>(std::ceil(move.span_s * kStepsPerSecond));
+    for (const SkeletonStream& example : move.examples) {
+      auto pattern = DescribeStream(example, PoseParts::kJoints);
+      if (!pattern.empty()) examples.patterns.push_back(std::move(pattern));
+    }
+  }
+  return std::make_unique<DtwRecogniser>(std::move(moves), weights, options);
+}
+
+namespace {
+
+using Pattern = std::vector<PoseVector>;
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+/// The largest distance at which an unknown other motion is assumed, metres: nineteen of twenty performances of a move
+/// by another person are nearer to it (tests/sim/performer; the middle one of two recorded sets is at 10 and 16–28 cm).
+constexpr double kSomethingElse = 0.21;
+
+/// An example, and what it is compared with because it is not the move. All last alike.
+struct Example {
+  std::size_t move;
+  Pattern right;
+  std::vector<Pattern> wrong;  ///< mirrored, at half its amplitude
+  PoseVector middle;           ///< its mean pose: somebody holds still in it
+};
+
+/// A body of paper B's proportions, the trunk 50 cm, that stands with its arms hanging.
+PoseVector Standing() {
+  PoseVector pose;
+  pose.parts = {{{0, 0.75, 0},
+                 {0.18, 0.5, 0},
+                 {-0.18, 0.5, 0},
+                 {0.18, 0.21, 0},
+                 {-0.18, 0.21, 0},
+                 {0.18, -0.04, 0},
+                 {-0.18, -0.04, 0},
+                 {0.09, -0.43, 0},
+                 {-0.09, -0.43, 0},
+                 {0.09, -0.85, 0},
+                 {-0.09, -0.85, 0},
+                 {0, 0, 0}}};
+  return pose;
+}
+
+template <typename Change>
+Pattern Changed(const Pattern& pattern, Change change) {
+  Pattern changed;
+  for (const PoseVector& pose : pattern) changed.push_back(change(pose));
+  return changed;
+}
+
+PoseVector Halved(const PoseVector& pose) {
+  static const PoseVector standing = Standing();
+  PoseVector halved = pose;
+  for (std::size_t i = 0; i < kPosePartCount; ++i) halved.parts[i] = 0.5 * (pose.parts[i] + standing.parts[i]);
+  return halved;
+}
+
+/// Returns the distance of the end of `seen` from the pattern, root mean square over its steps; kFar when too little
+/// was seen, or when it is farther than `farthest`, so that most patterns are given up after a few steps.
+double Distance(std::span<const PoseVector> seen, const Pattern& pattern, double farthest = kFar) {
+  if (seen.size() < pattern.size()) return kFar;
+  const auto end = seen.last(pattern.size());
+  const auto steps = static_cast<double>(pattern.size());
+  constexpr double kRounding = 1 + 1e-9;  // what is as far is not given up
+  const double most = kRounding * farthest * farthest * steps;
+  double sum = 0;
+  for (std::size_t i = 0; i < pattern.size(); ++i) {
+    sum += SquaredDistance(end[i], pattern[i]);
+    if (sum > most) return kFar;
+  }
+  return std::sqrt(sum / steps);
+}
+
+Example ExampleOf(std::size_t move, Pattern right) {
+  constexpr double kOwnImage = 0.03;  // metres: a move that is its own mirror image cannot be done on the wrong side
+  Example example{.move = move, .right = std::move(right), .wrong = {}, .middle = {}};
+  example.middle = MeanOf(example.right);
+  Pattern mirrored = Changed(example.right, [](const PoseVector& pose) { return Mirrored(pose, PoseParts::kJoints); });
+  if (Distance(mirrored, example.right) > kOwnImage) example.wrong.push_back(std::move(mirrored));
+  example.wrong.push_back(Changed(example.right, Halved));
+  return example;
+}
+
+/// Compares the steps seen last with a pose that is held.
+class Stillness {
+ public:
+  Stillness(const PoseVector& pose, std::size_t longest) : pose_(pose), gaps_(longest) {}
+
+  void Update(const PoseVector& step) { gaps_[count_++ % gaps_.size()] = SquaredDistance(step, pose_); }
+  /// Returns the root mean square over so many steps; kFar when too little was seen.
+  double Distance(std::size_t steps) const {
+    if (count_ < steps) return kFar;
+    double sum = 0;
+    for (std::size_t i = count_ - steps; i < count_; ++i) sum += gaps_[i % gaps_.size()];
+    return std::sqrt(sum / static_cast<double>(steps));
+  }
+
+ private:
+  PoseVector pose_;
+  std::size_t count_ = 0;
+  std::vector<double> gaps_;  // a ring
+};
+
+class NearestFollower final : public StepFollower {
+ public:
+  NearestFollower(const std::vector<Example>& examples, std::size_t moves, const SightWeights& weights, double rate_hz)
+      : StepFollower(PoseParts::kJoints, weights, moves, rate_hz),
+        examples_(examples),
+        right_(moves),
+        wrong_(moves),
+        held_still_(moves),
+        longest_(LongestOf(examples)),
+        standing_(Standing(), longest_) {
+    for (const Example& example : examples) held_.emplace_back(example.middle, longest_);
+  }
+
+ private:
+  static std::size_t LongestOf(const std::vector<Example>& examples) {
+    std::size_t longest = 1;
+    for (const Example& example : examples) longest = std::max(longest, example.right.size());
+    return longest;
+  }
+
+  void Open(std::optional<std::size_t>) override { since_open_ = 0; }
+
+  double Take(const PoseVector& step, std::span<double> spotted) override {
+    if (seen_.size() == longest_) seen_.erase(seen_.begin());
+    seen_.push_back(step);
+    ++since_open_;
+    std::ranges::fill(right_, kFar);
+    std::ranges::fill(wrong_, kFar);
+    std::ranges::fill(held_still_, kFar);
+    bool fits_into_window = false;
+    standing_.Update(step);
+    for (std::size_t i = 0; i < examples_.size(); ++i) {
+      const Example& example = examples_[i];
+      const std::size_t steps = example.right.size();
+      double &right = right_[example.move], &wrong = wrong_[example.move], &still = held_still_[example.move];
+      held_[i].Update(step);
+      wrong = std::min(wrong, standing_.Distance(steps));
+      still = std::min(still, held_[i].Distance(steps));
+      right = std::min(right, Distance(seen_, example.right, right));
+      for (const Pattern& pattern : example.wrong) wrong = std::min(wrong, Distance(seen_, pattern, wrong));
+      fits_into_window |= asked() == example.move && example.right.size() <= since_open_;
+    }
+    for (std::size_t move = 0; move < spotted.size(); ++move) {
+      spotted[move] = EvidenceAgainst(std::min(held_still_[move], kSomethingElse), move);
+    }
+    return fits_into_window ? EvidenceAgainst(kFar, *asked()) : 0.0;
+  }
+
+  /// `other`: the distance of something besides all that is known not to be the move.
+  double EvidenceAgainst(double other, std::size_t move) const {
+    if (right_[move] == kFar) return 0;
+    other = std::min(other, wrong_[move]);
+    for (std::size_t i = 0; i < right_.size(); ++i) {
+      if (i != move) other = std::min(other, right_[i]);
+    }
+    const double both = right_[move] + other;
+    return both > 0 ? other / both : 0.5;
+  }
+
+  const std::vector<Example>& examples_;
+  std::vector<double> right_, wrong_, held_still_;  // distances per move, of this step
+  std::size_t longest_, since_open_ = 0;
+  Stillness standing_;
+  std::vector<Stillness> held_;   // one per example
+  std::vector<PoseVector> seen_;  // the last `longest_` steps
+};
+
+class NearestRecogniser final : public Recogniser {
+ public:
+  NearestRecogniser(std::vector<Example> examples, std::size_t moves, const SightWeights& weights)
+      : examples_(std::move(examples)), moves_(moves), weights_(weights) {}
+
+  std::unique_ptr<MoveFollower> Follow(double rate_hz) const override {
+    return std::make_unique<NearestFollower>(examples_, moves_, weights_, rate_hz);
+  }
+
+ private:
+  std::vector<Example> examples_;
+  std::size_t moves_;
+  SightWeights weights_;
+};
+
+}  // namespace
+
+std::unique_ptr<Recogniser> MakeNearestRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights) {
+  std::vector<Example> examples;
+  for (std::size_t move = 0; move < taught.size(); ++move) {
+    for (const SkeletonStream& stream : taught[move].examples) {
+      Pattern right = DescribeStream(stream, PoseParts::kJoints);
+      if (!right.empty()) examples.push_back(ExampleOf(move, std::move(right)));
+    }
+  }
+  return std::make_unique<NearestRecogniser>(std::move(examples), taught.size(), weights);
+}
+
+}  // namespace etude

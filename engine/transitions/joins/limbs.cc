@@ -1,0 +1,65 @@
+#include "engine/transitions/joins/limbs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+
+#include "engine/base/directions.h"
+
+namespace etude {
+
+LimbTurn TurnBetween(const glm::dvec3& from, const glm::dvec3& to) {
+  const glm::dvec3 normal = glm::cross(from, to);
+  const double length = glm::length(normal);
+  const double angle = AngleBetween(from, to);
+  if (length > 0) return normal * (angle / length);
+  if (angle == 0) return LimbTurn(0);
+  const glm::dvec3 helper = std::abs(from.y) < std::abs(from.x) ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+  return glm::normalize(glm::cross(from, helper)) * angle;
+}
+
+glm::dvec3 Turned(const glm::dvec3& v, const LimbTurn& turn) {
+  const double angle = glm::length(turn);
+  return angle > 0 ? glm::angleAxis(angle, turn / angle) * v : v;
+}
+
+namespace {
+
+constexpr double kNothing = 1e-12;
+
+glm::dvec3 AcrossOf(const glm::dvec3& v, const glm::dvec3& axis) { return v - axis * glm::dot(v, axis); }
+
+glm::dvec3 AnyAcross(const glm::dvec3& axis) {
+  const glm::dvec3 helper = std::abs(axis.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+  return glm::normalize(AcrossOf(helper, axis));
+}
+
+glm::dvec3 DirectionOr(const glm::dvec3& v, const glm::dvec3& otherwise) {
+  const double length = glm::length(v);
+  return length > kNothing ? v / length : otherwise;
+}
+
+}  // namespace
+
+glm::dvec3 KneeOffset(const glm::dvec3& hip, const glm::dvec3& knee, const glm::dvec3& ankle) {
+  return AcrossOf(knee - hip, DirectionOr(ankle - hip, {0, -1, 0}));
+}
+
+glm::dvec3 CarriedOffset(const glm::dvec3& offset, const glm::dvec3& from, const glm::dvec3& to) {
+  return Turned(offset, TurnBetween(from, to));
+}
+
+Leg SolveLeg(const glm::dvec3& hip, const glm::dvec3& ankle, double thigh, double shin, const glm::dvec3& pole) {
+  const glm::dvec3 axis = DirectionOr(ankle - hip, {0, -1, 0});
+  const double shortest = std::abs(thigh - shin) + kNothing;
+  const double reach = std::clamp(glm::distance(hip, ankle), shortest, std::max(thigh + shin, shortest));
+  const double along = (reach * reach + thigh * thigh - shin * shin) / (2 * reach);
+  const double across = std::sqrt(std::max(thigh * thigh - along * along, 0.0));
+  Leg leg;
+  leg.knee = hip + along * axis + across * DirectionOr(AcrossOf(pole, axis), AnyAcross(axis));
+  // By direction, so that rounding near a straight leg cannot change the shin.
+  leg.ankle = leg.knee + shin * DirectionOr(hip + reach * axis - leg.knee, axis);
+  return leg;
+}
+
+}  // namespace etude

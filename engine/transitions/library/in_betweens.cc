@@ -1,0 +1,160 @@
+#include "engine/transitions/library/in_betweens.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "engine/base/directions.h"
+#include "engine/base/smoothstep.h"
+#include "engine/transitions/alignment.h"
+#include "engine/transitions/library/bridge_frames.h"
+
+namespace etude {
+namespace {
+
+using enum Role;
+
+/// The greatest slope of Smootherstep, at its middle.
+constexpr double kPeakSlope = 1.875;
+
+/// Returns the frame of the upper body: left, up and front.
+glm::dquat TrunkFrame(const BodyPose& pose) {
+  const glm::dvec3 up = UnitOr(pose[kShoulderCentre] - pose[kHipCentre], {0, 1, 0});
+  const glm::dvec3 across = pose[kLeftShoulder] - pose[kRightShoulder];
+  const glm::dvec3 fallback = UnitOr(glm::cross(up, Facing(pose)), {1, 0, 0});
+  const glm::dvec3 left = UnitOr(across - glm::dot(across, up) * up, fallback);
+  return glm::quat_cast(glm::dmat3(left, up, glm::cross(left, up)));
+}
+
+/// Says whether a limb goes with the trunk: arms and head do; hips and legs do not, or feet would slide whenever the
+/// body bows.
+bool GoesWithTrunk(Role child) {
+  return child == kHead || (Index(child) >= Index(kLeftShoulder) && Index(child) <= Index(kRightHand));
+}
+
+double LowestHeight(const BodyPose& pose) {
+  double lowest = pose.joints[0].y;
+  for (const glm::dvec3& joint : pose.joints) lowest = std::min(lowest, joint.y);
+  return lowest;
+}
+
+double Mix(double from, double to, double part) { return from + part * (to - from); }
+
+}  // namespace
+
+double LongestTween(const TweenRules& rules) { return std::max(rules.shortest_s, kPeakSlope * kPi / rules.turn_speed); }
+
+glm::dvec3 Tween::Turn::At(double part) const { return angle > 0 ? glm::angleAxis(part * angle, axis) * start : start; }
+
+Tween::Turn Tween::MakeTurn(const glm::dvec3& from, const glm::dvec3& to) {
+  // Opposite directions leave the axis undefined: then limbs swing sideways, about the body's forward axis.
+  const glm::dvec3 aside = UnitOr(glm::dvec3(0, 0, 1) - from.z * from, {0, 1, 0});
+  return {.start = from, .axis = UnitOr(glm::cross(from, to), aside), .angle = AngleBetween(from, to)};
+}
+
+Tween::Tween(const BodyPose& from, const BodyPose& to) : from_(from) {
+  const BodyPose aligned = AlignOnFloor(to, from).Apply(to);
+  low_from_ = LowestHeight(from);
+  low_to_ = LowestHeight(aligned);
+  const auto height = [&](Role ankle) { return from[ankle].y + aligned[ankle].y; };
+  planted_ = height(kRightAnkle) < height(kLeftAnkle) ? kRightAnkle : kLeftAnkle;
+  trunk_from_ = TrunkFrame(from);
+  trunk_to_ = TrunkFrame(aligned);
+  for (const Bone& bone : AllBones()) {
+    const std::size_t i = Index(bone.child);
+    lengths_from_[i] = BoneLength(from, bone);
+    lengths_to_[i] = BoneLength(aligned, bone);
+    const bool with_trunk = GoesWithTrunk(bone.child);
+    const glm::dquat no_turn(1, 0, 0, 0);
+    const glm::dvec3 down(0, -1, 0);
+    const glm::dvec3 start =
+        glm::conjugate(with_trunk ? trunk_from_ : no_turn) * UnitOr(from[bone.child] - from[bone.parent], down);
+    const glm::dvec3 end =
+        glm::conjugate(with_trunk ? trunk_to_ : no_turn) * UnitOr(aligned[bone.child] - aligned[bone.parent], down);
+    turns_[i] = MakeTurn(start, end);
+  }
+}
+
+double Tween::WidestTurn() const {
+  double widest = 0;
+  for (const Turn& turn : turns_) widest = std::max(widest, turn.angle);
+  return widest;
+}
+
+BodyPose Tween::At(double part) const {
+  const glm::dquat trunk = glm::slerp(trunk_from_, trunk_to_, part);
+  BodyPose pose;
+  pose[kHipCentre] = from_[kHipCentre];
+  for (const Bone& bone : AllBones()) {
+    const std::size_t i = Index(bone.child);
+    const glm::dvec3 direction = turns_[i].At(part);
+    pose[bone.child] = pose[bone.parent] + Mix(lengths_from_[i], lengths_to_[i], part) *
+                                               (GoesWithTrunk(bone.child) ? trunk * direction : direction);
+  }
+  glm::dvec3 shift = from_[planted_] - pose[planted_];
+  shift.y = Mix(low_from_, low_to_, part) - LowestHeight(pose);
+  for (glm::dvec3& joint : pose.joints) joint += shift;
+  return pose;
+}
+
+std::vector<BodyPose> SampleTween(const Tween& tween, double rate_hz, const TweenRules& rules) {
+  const double seconds = std::max(rules.shortest_s, kPeakSlope * tween.WidestTurn() / rules.turn_speed);
+  const int steps = std::max(1, static_cast<int>(std::ceil(seconds * rate_hz - 1e-9)));
+  std::vector<BodyPose> frames;
+  frames.reserve(static_cast<std::size_t>(steps) + 1);
+  for (int i = 0; i <= steps; ++i) frames.push_back(tween.At(Smootherstep(static_cast<double>(i) / steps)));
+  return frames;
+}
+
+void AppendTween(const BodyPose& to, double rate_hz, const TweenRules& rules, std::vector<BodyPose>& frames) {
+  const std::vector<BodyPose> rest = SampleTween(Tween(frames.back(), to), rate_hz, rules);
+  frames.insert(frames.end(), rest.begin() + 1, rest.end());
+}
+
+namespace {
+
+using Key = InBetweenNet::Key;
+
+/// Lists the frames that keys may be made of, the most typical of the most frequent pose first.
+std::vector<Key> RankForKeys(std::span<const TaggedClip> tagged, const FeatureWeights& weights) {
+  const bool has_bridge_frames =
+      std::any_of(tagged.begin(), tagged.end(), [](const TaggedClip& clip) { return !clip.bridge_frames.empty(); });
+  const std::vector<std::vector<FrameRating>> ratings = RateFrames(tagged, weights);
+  std::vector<Key> ranked;
+  for (int c = 0; c < static_cast<int>(tagged.size()); ++c) {
+    if (has_bridge_frames) {
+      for (int frame : tagged[c].bridge_frames) ranked.push_back({c, frame});
+    } else {
+      for (int frame = 0; frame < tagged[c].FrameCount(); ++frame) ranked.push_back({c, frame});
+    }
+  }
+  const auto rank = [&](const Key& key) {
+    const FrameRating& rating = ratings[key.clip][key.frame];
+    return std::tuple(-rating.clips, -rating.frames, tagged[key.clip].tags[key.frame], rating.difference);
+  };
+  std::stable_sort(ranked.begin(), ranked.end(), [&](const Key& a, const Key& b) { return rank(a) < rank(b); });
+  return ranked;
+}
+
+}  // namespace
+
+InBetweenNet BuildInBetweens(std::span<const TaggedClip> tagged, const InBetweenRules& rules) {
+  InBetweenNet net{.keys = {}, .tween = rules.tween};
+  std::vector<Grades> taken;  // the keys' own, side by side
+  for (const Key& key : RankForKeys(tagged, rules.weights)) {
+    const Grades& grades = tagged[key.clip].grades[key.frame];
+    const bool is_covered = std::any_of(taken.begin(), taken.end(), [&](const Grades& other) {
+      return IsCloser(grades, other, rules.weights, rules.threshold);
+    });
+    if (is_covered) continue;
+    net.keys.push_back(key);
+    taken.push_back(grades);
+  }
+  return net;
+}
+
+double LongestInBetween(const TweenRules& rules, double rate_hz) {
+  return 2 * std::ceil(LongestTween(rules) * rate_hz) / rate_hz;
+}
+
+}  // namespace etude

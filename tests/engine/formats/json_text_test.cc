@@ -1,0 +1,34 @@
+#include "engine/formats/json_text.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace etude {
+namespace {
+
+using namespace std::string_view_literals;
+
+std::string ComplaintOf(std::string_view text) {
+  const auto json = ParseJsonText(text, "f");
+  return json ? "" : ToString(json.error());
+}
+
+TEST(JsonText, IsReadAsItStands) {
+  EXPECT_EQ(ParseJsonText(R"({"a": [1, 2.5, null]})", "f").value(), (nlohmann::json{{"a", {1, 2.5, nullptr}}}));
+}
+
+TEST(JsonText, SaysWhereItEndsToBeAny) {
+  EXPECT_EQ(ComplaintOf("[1,\n 2, x]"), "f:2:5: no JSON from here on");
+  EXPECT_EQ(ComplaintOf("[1"), "f:1:3: no JSON from here on");
+  EXPECT_EQ(ComplaintOf(""), "f:1:1: no JSON from here on");
+}
+
+TEST(JsonText, DoesNotEndAtAZeroByte) {
+  EXPECT_EQ(ComplaintOf("[1]\n\0, 2]"sv), "f:2:1: a zero byte, which no JSON holds");
+}
+
+TEST(JsonText, RefusesNumbersThatNoDoubleHolds) { EXPECT_NE(ComplaintOf("[1e999]"), ""); }
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,33 @@
+#include "engine/transitions/joins/limbs.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/base/angles.h"
+
+namespace etude {
+namespace {
+
+constexpr glm::dvec3 kLeft(1, 0, 0), kUp(0, 1, 0), kFront(0, 0, 1);
+
+TEST(LimbTurn, IsTheAxisTimesTheAngle) {
+  const LimbTurn turn = TurnBetween(2.0 * kLeft, 5.0 * kUp);
+  EXPECT_NEAR(glm::distance(turn, 0.5 * kPi * kFront), 0, 1e-12);
+  EXPECT_NEAR(glm::distance(Turned(3.0 * kLeft, turn), 3.0 * kUp), 0, 1e-12);
+}
+
+TEST(LimbTurn, GoesHalfWayRoundBetweenOpposites) {
+  for (const glm::dvec3& limb : {kLeft, kUp, kFront, -kUp, glm::dvec3(1, 1, 1)}) {
+    const LimbTurn turn = TurnBetween(limb, -limb);
+    EXPECT_NEAR(glm::length(turn), kPi, 1e-12);
+    EXPECT_NEAR(glm::distance(Turned(limb, turn), -limb), 0, 1e-12);
+  }
+}
+
+TEST(LimbTurn, IsNoneForALimbWithoutLength) {
+  EXPECT_EQ(TurnBetween(glm::dvec3(0), kUp), LimbTurn(0));
+  EXPECT_EQ(TurnBetween(kUp, glm::dvec3(0)), LimbTurn(0));
+  EXPECT_EQ(Turned(kUp, LimbTurn(0)), kUp);
+}
+
+}  // namespace
+}  // namespace etude
