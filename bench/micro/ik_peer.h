@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// What a peer has found.
+/// The answer of a peer.
 struct IkPeerAnswer {
   std::vector<double> angles;
   int steps = -1;  ///< −1: it does not tell
@@ -21,10 +21,10 @@ class IkPeer {
  public:
   virtual ~IkPeer() = default;
 
-  /// Where the library's own forward kinematics has the effectors: its model must be the tree.
+  /// Returns where the library's own forward kinematics has the effectors: its model must be the tree.
   virtual std::vector<LimbFrame> Effectors(std::span<const double> angles) = 0;
 
-  /// What it finds from `problem.start`, to the goals of `options` as far as its own stop criteria can say so.
+  /// Returns what it finds from `problem.start`, to the goals of `options` as far as its own stop criteria can say so.
   virtual IkPeerAnswer Solve(const IkProblem& problem, const IkOptions& options) = 0;
 };
 

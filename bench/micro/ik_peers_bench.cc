@@ -21,11 +21,10 @@
 #include "bench/micro/simbody_peer.h"
 #include "bench/tasks/ik/world.h"
 #include "engine/kinematics/body_tree.h"
-#include "engine/kinematics/solvers/gauss_newton_batch.h"
+#include "engine/kinematics/solvers/gauss_newton.h"
 #include "engine/kinematics/solvers/gauss_newton_plain.h"
 #include "engine/kinematics/solvers/ik_run.h"
 #include "engine/kinematics/solvers/ik_solver.h"
-#include "engine/kinematics/solvers/restarts.h"
 
 namespace etude {
 namespace {

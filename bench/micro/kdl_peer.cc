@@ -9,7 +9,6 @@
 #include <kdl/treeiksolvervel_wdls.hpp>
 
 #include "engine/kinematics/solvers/ik_run.h"
-#include "engine/kinematics/solvers/restarts.h"
 
 namespace etude {
 namespace {

@@ -6,7 +6,7 @@
 
 namespace etude {
 
-/// How the tree solvers of Orocos KDL are set. The defaults were the best of those tried (README.md).
+/// The settings of the tree solvers of Orocos KDL. The defaults were the best of those tried (README.md).
 struct KdlSettings {
   double damping = 0.03;       ///< λ of the damped least-squares step (TreeIkSolverVel_wdls)
   double position_weight = 5;  ///< weight of a metre against a radian

@@ -1,4 +1,4 @@
-// The parts of a Gauss–Newton step (gauss_newton_step.h), and of the forward kinematics before it, for a value V that
+// The parts of a Gauss–Newton step (gauss_newton_plain.h), and of the forward kinematics before it, for a value V that
 // has + − * / and, found by its type, Select, Below, AtLeast, AreEqual, Larger: a double, or one lane each of many
 // problems on the same tree. Every operation is the one that `ComputeFrames` and `GaussNewtonStep` make, in their
 // order, so that a problem in double has their very bits, in every lane, on every CPU. Compiled once per target, hence
@@ -12,8 +12,7 @@
 
 #include <type_traits>
 
-#include "engine/kinematics/solvers/gauss_newton_tree.h"
-#include "engine/kinematics/solvers/lanes-inl.h"
+#include "engine/kinematics/solvers/vectors-inl.h"
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -100,13 +99,13 @@ struct FrameLanes {
   V position[3];
 };
 
-/// A frame's axes times a vector in it.
+/// Sets `out` to a frame's axes times a vector in it.
 template <class V>
-HWY_INLINE void Mix(const V (&axes)[3][3], const double (&by)[3], V (&out)[3]) {
-  for (int k = 0; k < 3; ++k) out[k] = axes[0][k] * V(by[0]) + axes[1][k] * V(by[1]) + axes[2][k] * V(by[2]);
+HWY_INLINE void Mix(const V (&axes)[3][3], const V (&by)[3], V (&out)[3]) {
+  for (int k = 0; k < 3; ++k) out[k] = axes[0][k] * by[0] + axes[1][k] * by[1] + axes[2][k] * by[2];
 }
 
-/// A frame's axes times the rotation by an angle about its axis `kAxis`.
+/// Turns a frame's axes by an angle about its axis `kAxis`.
 template <int kAxis, class V>
 HWY_INLINE void TurnAxes(const V& s, const V& c, V (&axes)[3][3]) {
   constexpr int i = (kAxis + 1) % 3, j = (kAxis + 2) % 3;
@@ -117,7 +116,7 @@ HWY_INLINE void TurnAxes(const V& s, const V& c, V (&axes)[3][3]) {
   }
 }
 
-/// Sets `out` to `axis`, and what it moves of the limb's point at the root R by turning at J.
+/// Sets `screw` to `axis`, and to how turning about it at J moves the limb's point at the root R.
 template <class V>
 HWY_INLINE void SetScrew(const V (&axis)[3], const V (&p_RJ_W)[3], V (&screw)[6]) {
   V shift[3];
@@ -288,6 +287,12 @@ HWY_INLINE void EliminateHinge(const V& damping, const V& pull, const V& lower, 
   hinge.best = best;
 }
 
+/// The nearest to `x` that is not beyond an end.
+template <class V>
+HWY_INLINE V Clamped(const V& x, const V& lower, const V& upper) {
+  return Select(Below(x, lower), lower, Select(Below(upper, x), upper, x));
+}
+
 /// The hinge's change and side, as its limb moves now, and with it the movement of the limb beyond.
 template <class V>
 HWY_INLINE void SubstituteHinge(const V& lower, const V& upper, const HingeLanes<V>& hinge, V& change, V& side,
@@ -298,6 +303,103 @@ HWY_INLINE void SubstituteHinge(const V& lower, const V& upper, const HingeLanes
   side = Select(is_below, V(-1.0), OrZero(is_above, V(1.0)));
   change = Select(is_below, lower, Select(is_above, upper, best));
   for (int k = 0; k < 6; ++k) movement[k] = movement[k] + change * hinge.screw[k];
+}
+
+// ---- The step for one limb, by rows --------------------------------------------------------------------------------
+
+// Six numbers at a time, every sum in the order in which it stands above.
+
+/// Six numbers in a row, and two zeros.
+struct SixRow {
+  Four low, high;
+};
+
+HWY_INLINE SixRow LoadRow(const double* from) { return {LoadFour(from), LoadFour(from + 4)}; }
+HWY_INLINE void StoreRow(const SixRow& a, double* to) {
+  StoreFour(a.low, to);
+  StoreFour(a.high, to + 4);
+}
+HWY_INLINE SixRow operator+(const SixRow& a, const SixRow& b) { return {a.low + b.low, a.high + b.high}; }
+HWY_INLINE SixRow operator-(const SixRow& a, const SixRow& b) { return {a.low - b.low, a.high - b.high}; }
+HWY_INLINE SixRow operator*(const Four& a, const SixRow& b) { return {a * b.low, a * b.high}; }
+
+/// `Dot6` of two rows, in every lane.
+HWY_INLINE Four DotRows(const SixRow& a, const SixRow& b) {
+  const Four low = a.low * b.low, high = a.high * b.high;
+  const Four pairs = low + SwapNeighbours(low), last = high + SwapNeighbours(high);
+  return (pairs + SwapHalves(pairs)) + LowerTwice(last);
+}
+
+/// Puts six numbers of every lane into a row for each lane, at `row_of(lane)`.
+template <class RowOf>
+HWY_INLINE void PutRows(const Four* numbers, const RowOf& row_of) {
+  Four a = numbers[0], b = numbers[1], c = numbers[2], d = numbers[3];
+  Transpose(a, b, c, d);
+  Four e = numbers[4], f = numbers[5], g, h;
+  TransposeTwo(e, f, g, h);
+  row_of(0) = {a, e};
+  row_of(1) = {b, f};
+  row_of(2) = {c, g};
+  row_of(3) = {d, h};
+}
+
+/// What is asked of a limb: `QuadraticLanes` of one.
+struct QuadraticRows {
+  SixRow matrix[6];
+  SixRow vector;
+};
+
+/// `FrameLanes` of one.
+struct TrunkFrame {
+  Four axes[3];  ///< x, y, z, 0
+  Four position;
+};
+
+/// `HingeLanes` of one.
+struct alignas(64) TrunkHinge {
+  double screw[8], matrix_s[8];
+  double scale, best, side;
+};
+
+/// a × b of x, y, z, 0
+HWY_INLINE Four CrossAxes(const Four& a, const Four& b) {
+  return NextAxes(a) * NextAxes(NextAxes(b)) - NextAxes(b) * NextAxes(NextAxes(a));
+}
+
+/// Takes a hinge's part off what is asked of its limb, (m, v).
+HWY_INLINE void EliminateHinge(const Four& damping, double to_start, double to_lower, double to_upper, SixRow (&m)[6],
+                               SixRow& v, TrunkHinge& hinge) {
+  const double* s = hinge.screw;
+  const SixRow screw = LoadRow(s);
+  const SixRow y = (Four(s[0]) * m[0] + Four(s[1]) * m[1]) + (Four(s[2]) * m[2] + Four(s[3]) * m[3]) +
+                   (Four(s[4]) * m[4] + Four(s[5]) * m[5]);
+  StoreRow(y, hinge.matrix_s);
+  const Four nothing(0.0);
+  const Four scale = Four(1.0) / (damping + Larger(nothing, DotRows(y, screw)));
+  const Four best = scale * (damping * Four(to_start) + DotRows(v, screw));
+  const Four side(hinge.side);
+  const auto is_free = AreEqual(side, nothing);
+  const Four change = Select(is_free, best, Select(Below(side, nothing), Four(to_lower), Four(to_upper)));
+  const Four share = OrZero(is_free, nothing - scale);
+  for (int r = 0; r < 6; ++r) m[r] = m[r] + (share * Four(hinge.matrix_s[r])) * y;
+  v = v + (nothing - change) * y;
+  hinge.scale = FirstOf(scale);
+  hinge.best = FirstOf(best);
+}
+
+/// The hinge's change, as its limb moves now, and with it the movement of the limb beyond. Returns whether it has
+/// changed sides.
+HWY_INLINE bool SubstituteHinge(double to_lower, double to_upper, TrunkHinge& hinge, double& change, SixRow& movement) {
+  const Four best = Four(hinge.best) - Four(hinge.scale) * DotRows(LoadRow(hinge.matrix_s), movement);
+  const Four lower(to_lower), upper(to_upper);
+  const auto is_below = Below(best, lower), is_above = Below(upper, best);
+  const Four moved = Select(is_below, lower, Select(is_above, upper, best));
+  movement = movement + moved * LoadRow(hinge.screw);
+  const double side = FirstOf(Select(is_below, Four(-1.0), OrZero(is_above, Four(1.0))));
+  const bool has_changed = side != hinge.side;
+  hinge.side = side;
+  change = FirstOf(moved);
+  return has_changed;
 }
 
 }  // namespace etude::HWY_NAMESPACE

@@ -6,12 +6,9 @@
 #include "engine/kinematics/solvers/ccd.h"
 #include "engine/kinematics/solvers/ccd_anderson.h"
 #include "engine/kinematics/solvers/ceres_lm.h"
-#include "engine/kinematics/solvers/damped_least_squares.h"
 #include "engine/kinematics/solvers/fabrik.h"
 #include "engine/kinematics/solvers/gauss_newton.h"
-#include "engine/kinematics/solvers/gauss_newton_batch.h"
-#include "engine/kinematics/solvers/jacobian_pinv.h"
-#include "engine/kinematics/solvers/jacobian_transpose.h"
+#include "engine/kinematics/solvers/jacobian_solvers.h"
 #include "engine/kinematics/solvers/levenberg_marquardt.h"
 
 namespace etude {

@@ -1,4 +1,4 @@
-#include "engine/kinematics/solvers/gauss_newton_batch.h"
+#include "engine/kinematics/solvers/gauss_newton.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
