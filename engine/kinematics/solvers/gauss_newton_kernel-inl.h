@@ -1,8 +1,7 @@
-// The parts of a Gauss–Newton step (gauss_newton_plain.h), and of the forward kinematics before it, for a value V that
-// has + − * / and, found by its type, Select, Below, AtLeast, AreEqual, Larger: a double, or one lane each of many
-// problems on the same tree. Every operation is the one that `ComputeFrames` and `GaussNewtonStep` make, in their
-// order, so that a problem in double has their very bits, in every lane, on every CPU. Compiled once per target, hence
-// this kind of guard.
+// The parts of a Gauss–Newton step (gauss_newton_plain.h), and of the forward kinematics before it, for a value V: one
+// number each of many problems (`Lanes`) or of four limbs (`Four`). Every operation is the one that `ComputeFrames` and
+// `GaussNewtonStep` make, in their order, so that a problem in double has their very bits, in every lane, on every CPU.
+// Included once per instruction set, hence this kind of guard.
 #if defined(ETUDE_GAUSS_NEWTON_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ETUDE_GAUSS_NEWTON_KERNEL_INL_H_
 #undef ETUDE_GAUSS_NEWTON_KERNEL_INL_H_
@@ -23,8 +22,8 @@ inline constexpr double kSquaredPositionScale = 0.30 * 0.30;
 
 // ---- Sine and cosine ------------------------------------------------------------------------------------------------
 
-/// Those of an angle whose nearest quarter turns are counted by the last bits of `shifted` and whose rest has `s` and
-/// `c`: an odd number swaps the two, every second one turns a sign.
+/// Sets sine and cosine of an angle from those of its rest, `s` and `c`. The last bits of `shifted` count its quarter
+/// turns: an odd number of them swaps the two, every second one turns a sign.
 template <class T>
 HWY_INLINE void AddQuarters(const Lanes<T>& shifted, const Lanes<T>& s, const Lanes<T>& c, Lanes<T>& sine,
                             Lanes<T>& cosine) {
@@ -40,7 +39,7 @@ HWY_INLINE void AddQuarters(const Lanes<T>& shifted, const Lanes<T>& s, const La
   cosine = Lanes<T>(hn::BitCast(Tag(), hn::Xor(hn::Xor(c_bits, swap), c_sign)));
 }
 
-/// `ComputeSineCosine` for lanes of doubles: the same operations.
+/// Computes sine and cosine by the operations of `ComputeSineCosine`.
 HWY_INLINE void SineAndCosine(const Lanes<double>& angle, Lanes<double>& sine, Lanes<double>& cosine) {
   using V = Lanes<double>;
   const V shifted = angle * V(0.6366197723675814) + V(0x1.8p52), quarters = shifted - V(0x1.8p52);
@@ -58,8 +57,8 @@ HWY_INLINE void SineAndCosine(const Lanes<double>& angle, Lanes<double>& sine, L
   AddQuarters(shifted, s, c, sine, cosine);
 }
 
-/// The same in float, for |angle| ≤ 1000, within 2 units in their last place: Taylor's series to r⁹ and r⁸ leave less
-/// than 10⁻⁸.
+/// Computes sine and cosine in float, for |angle| ≤ 1000, within 2 units in their last place: Taylor's series to r⁹ and
+/// r⁸ leave less than 10⁻⁸.
 HWY_INLINE void SineAndCosine(const Lanes<float>& angle, Lanes<float>& sine, Lanes<float>& cosine) {
   using V = Lanes<float>;
   const V shifted = angle * V(0.6366197723675814) + V(0x1.8p23), quarters = shifted - V(0x1.8p23);
@@ -137,7 +136,7 @@ struct TargetLanes {
   V axis_weights[3];
 };
 
-/// The quadratic ½VᵀΛV − ηᵀV that a target asks of its limb, as the numbers that it is made of.
+/// The quadratic ½VᵀΛV − ηᵀV that a target asks of its limb, as the few numbers that it is made of.
 template <class V>
 struct AskedLanes {
   V turn[6];  ///< the lower triangle of Λ's first three rows, row by row
@@ -151,7 +150,7 @@ struct AskedLanes {
 template <class V>
 inline constexpr bool kHasUpperTriangle = !std::is_same_v<V, Lanes<float>>;
 
-/// The same, or a sum of such, in full.
+/// The quadratic that all targets beyond ask of a limb, in full.
 template <class V>
 struct QuadraticLanes {
   V matrix[36];  ///< Λ
@@ -254,7 +253,7 @@ HWY_INLINE V Dot6(const V (&a)[6], const V (&b)[6]) {
   return (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]) + (a[4] * b[4] + a[5] * b[5]);
 }
 
-/// Takes a hinge's part off what is asked of its limb.
+/// Takes a hinge's part off the quadratic of its limb.
 template <class V>
 HWY_INLINE void EliminateHinge(const V& damping, const V& pull, const V& lower, const V& upper, QuadraticLanes<V>& limb,
                                HingeLanes<V>& hinge) {
@@ -287,13 +286,13 @@ HWY_INLINE void EliminateHinge(const V& damping, const V& pull, const V& lower, 
   hinge.best = best;
 }
 
-/// The nearest to `x` that is not beyond an end.
+/// Returns the value nearest to `x` that is not beyond an end.
 template <class V>
 HWY_INLINE V Clamped(const V& x, const V& lower, const V& upper) {
   return Select(Below(x, lower), lower, Select(Below(upper, x), upper, x));
 }
 
-/// The hinge's change and side, as its limb moves now, and with it the movement of the limb beyond.
+/// Sets the hinge's change and side, as its limb moves now, and makes `movement` that of the limb beyond.
 template <class V>
 HWY_INLINE void SubstituteHinge(const V& lower, const V& upper, const HingeLanes<V>& hinge, V& change, V& side,
                                 V (&movement)[6]) {
@@ -323,7 +322,7 @@ HWY_INLINE SixRow operator+(const SixRow& a, const SixRow& b) { return {a.low + 
 HWY_INLINE SixRow operator-(const SixRow& a, const SixRow& b) { return {a.low - b.low, a.high - b.high}; }
 HWY_INLINE SixRow operator*(const Four& a, const SixRow& b) { return {a * b.low, a * b.high}; }
 
-/// `Dot6` of two rows, in every lane.
+/// Returns `Dot6` of two rows, in every lane.
 HWY_INLINE Four DotRows(const SixRow& a, const SixRow& b) {
   const Four low = a.low * b.low, high = a.high * b.high;
   const Four pairs = low + SwapNeighbours(low), last = high + SwapNeighbours(high);
@@ -343,7 +342,7 @@ HWY_INLINE void PutRows(const Four* numbers, const RowOf& row_of) {
   row_of(3) = {d, h};
 }
 
-/// What is asked of a limb: `QuadraticLanes` of one.
+/// `QuadraticLanes` of one limb.
 struct QuadraticRows {
   SixRow matrix[6];
   SixRow vector;
@@ -361,12 +360,12 @@ struct alignas(64) TrunkHinge {
   double scale, best, side;
 };
 
-/// a × b of x, y, z, 0
+/// Returns a × b of vectors x, y, z, 0.
 HWY_INLINE Four CrossAxes(const Four& a, const Four& b) {
   return NextAxes(a) * NextAxes(NextAxes(b)) - NextAxes(b) * NextAxes(NextAxes(a));
 }
 
-/// Takes a hinge's part off what is asked of its limb, (m, v).
+/// Takes a hinge's part off the quadratic of its limb, (m, v).
 HWY_INLINE void EliminateHinge(const Four& damping, double to_start, double to_lower, double to_upper, SixRow (&m)[6],
                                SixRow& v, TrunkHinge& hinge) {
   const double* s = hinge.screw;
@@ -387,8 +386,8 @@ HWY_INLINE void EliminateHinge(const Four& damping, double to_start, double to_l
   hinge.best = FirstOf(best);
 }
 
-/// The hinge's change, as its limb moves now, and with it the movement of the limb beyond. Returns whether it has
-/// changed sides.
+/// Sets the hinge's change, as its limb moves now, and makes `movement` that of the limb beyond. Returns whether the
+/// hinge has changed sides.
 HWY_INLINE bool SubstituteHinge(double to_lower, double to_upper, TrunkHinge& hinge, double& change, SixRow& movement) {
   const Four best = Four(hinge.best) - Four(hinge.scale) * DotRows(LoadRow(hinge.matrix_s), movement);
   const Four lower(to_lower), upper(to_upper);

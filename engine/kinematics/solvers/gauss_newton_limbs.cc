@@ -23,9 +23,8 @@ class LimbPoses {
  public:
   explicit LimbPoses(const LimbPacks& packs)
       : packs_(packs),
-        places_(static_cast<std::size_t>(packs.place_count)),
-        sines_(places_),
-        cosines_(places_),
+        sines_(packs.place_count),
+        cosines_(packs.place_count),
         trunk_(packs.trunk.size()),
         trunk_hinges_(packs.trunk_hinge_count),
         hinges_(packs.slot_count),
@@ -34,7 +33,7 @@ class LimbPoses {
 
   /// `angles` at their places; the root's p_WL, and R_WL column by column.
   void Place(const double* angles, const double (&root)[12]) {
-    ForPlaces(places_, [&](std::size_t i) HWY_ATTR {
+    ForPlaces(sines_.size(), [&](std::size_t i) HWY_ATTR {
       Places sine, cosine;
       SineAndCosine(LoadPlaces(angles + i), sine, cosine);
       StorePlaces(sine, sines_.begin() + i);
@@ -190,7 +189,6 @@ class LimbPoses {
   }
 
   const LimbPacks& packs_;
-  const std::size_t places_;
   AlignedList<double> sines_, cosines_;
   AlignedList<TrunkFrame> trunk_;
   AlignedList<TrunkHinge> trunk_hinges_;

@@ -73,9 +73,6 @@ class IkRun {
 
   bool HasConverged() const { return worst_.Within(options_); }
   bool MustGoOn() const { return !HasConverged() && !has_stalled_ && solution_.iterations < options_.max_iterations; }
-  /// Returns the largest errors of the state recorded last, if it was recorded with its errors.
-  const WorstError& worst() const { return worst_; }
-  std::span<const EffectorError> errors() const { return solution_.errors; }
   int iterations() const { return solution_.iterations; }
 
   /// Ends the run. Returns the solution with these angles, which were recorded last.
