@@ -1,4 +1,4 @@
-#include "bench/micro/dense_peer.h"
+#include "bench/micro/ik_peers.h"
 
 #include <algorithm>
 #include <cmath>

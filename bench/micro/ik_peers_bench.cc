@@ -16,9 +16,7 @@
 #include <ranges>
 #include <string_view>
 
-#include "bench/micro/dense_peer.h"
-#include "bench/micro/kdl_peer.h"
-#include "bench/micro/simbody_peer.h"
+#include "bench/micro/ik_peers.h"
 #include "bench/tasks/ik/world.h"
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/gauss_newton.h"

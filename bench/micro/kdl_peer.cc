@@ -1,4 +1,4 @@
-#include "bench/micro/kdl_peer.h"
+#include "bench/micro/ik_peers.h"
 
 #include <algorithm>
 #include <cmath>
