@@ -1,10 +1,9 @@
-#include "bench/micro/ik_peers.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
+#include "bench/micro/ik_peers.h"
 #include "engine/kinematics/sine_cosine.h"
 #include "engine/kinematics/solvers/gauss_newton.h"
 #include "engine/kinematics/solvers/gauss_newton_vectors.h"

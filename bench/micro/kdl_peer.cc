@@ -1,5 +1,3 @@
-#include "bench/micro/ik_peers.h"
-
 #include <algorithm>
 #include <cmath>
 #include <kdl/tree.hpp>
@@ -8,6 +6,7 @@
 #include <kdl/treeiksolverpos_online.hpp>
 #include <kdl/treeiksolvervel_wdls.hpp>
 
+#include "bench/micro/ik_peers.h"
 #include "engine/kinematics/solvers/ik_run.h"
 
 namespace etude {

@@ -90,7 +90,7 @@ Branch BranchOf(const KinematicTree& tree, const FixedPoint& point, std::span<co
   return branch;
 }
 
-// How far two points can be from each other at most: all limbs between them stretched out.
+// The longest distance that two points can be from each other: all limbs between them stretched out.
 double LongestBetween(const KinematicTree& tree, const FixedPoint& a, const FixedPoint& b) {
   const Branch to_a = BranchOf(tree, a, b.joints), to_b = BranchOf(tree, b, a.joints);
   if (to_a.top < 0 || to_b.top < 0) return to_a.length + to_b.length;
@@ -175,7 +175,7 @@ std::string_view FindTreeFault(const KinematicTree& tree) {
   if (!IsATree(tree)) return "the joints are no tree with its root first";
   for (const TreeJoint& joint : tree.joints) {
     if (joint.parent < 0) continue;
-    // Where the root stands a joint may, too: so a tree turns as a whole.
+    // A joint may stand where the root does: so a tree turns as a whole.
     if (!IsSane(joint.p_PJ) || (joint.parent > 0 && glm::length(joint.p_PJ) <= 0)) return "a limb has no length";
   }
   for (const Effector& effector : tree.effectors) {

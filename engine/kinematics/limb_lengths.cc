@@ -110,7 +110,7 @@ class Completer {
   glm::dvec3 LimbOfLike(Role to) const { return UnitOr(like_[to] - like_[*ParentOf(to)], {0, -1, 0}); }
   glm::dvec3 Direction(Role to) const { return glm::normalize(whole_.directions[Index(to)]); }
 
-  /// Of a chain, from the trunk outwards.
+  /// Completes the directions of a chain, from the trunk outwards.
   void CompleteDirections(std::initializer_list<Role> limbs) {
     glm::dmat3 turn(1);  // of the limb before, from the pose that it is like
     for (const Role limb : limbs) {

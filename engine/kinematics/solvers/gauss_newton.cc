@@ -20,7 +20,7 @@ constexpr double kDoubtfulShare = 1e-9, kDoubtfulRounding = 1e-14;
 
 // In float goals are this share of what is asked for, and nothing is in doubt.
 constexpr double kFloatShare = 0.9;
-// What a step in floats may still move when it has arrived, radians: the last bit of an angle.
+// A step in floats may still move this much when it has arrived, radians: the last bit of an angle.
 constexpr double kFloatStall = 2e-7;
 constexpr GaussNewtonCourse::Numerics kFloatNumerics{.least_damping = 1e-5, .pulled_above = 1e-6};
 

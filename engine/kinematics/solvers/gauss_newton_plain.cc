@@ -56,7 +56,7 @@ class PlainSolver {
   }
 
  private:
-  // How far the pose is off, and what follows from that.
+  // Finds how far the pose is off, and asks the course what follows from that.
   GaussNewtonCourse::Next LinearisePose() {
     const bool is_met = run_.HasConverged();
     return course_.Arrive(is_met ? 0 : step_.Build(frames_), is_met, [&] { return IsOutOfReach(tree_, problem_); });

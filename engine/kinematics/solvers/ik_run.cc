@@ -7,8 +7,7 @@
 namespace etude {
 namespace {
 
-// Of restarts.
-constexpr double kScatter = 1.5;                     // radians
+constexpr double kScatter = 1.5;                     // of restarts, radians
 constexpr double kGoldenShare = 0.6180339887498949;  // its multiples, modulo 1, are spread evenly
 constexpr double kSpread = 300;                      // a fifth of a degree changes x by a whole period
 

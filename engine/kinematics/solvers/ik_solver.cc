@@ -15,7 +15,7 @@ namespace etude {
 
 namespace {
 
-// What solvers were called in former versions, and what they are called now.
+// Former names of solvers, and their present ones.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 1> kRenamed = {{{"ccd-nullspace", "gauss-newton"}}};
 
 template <typename Own>
@@ -48,7 +48,7 @@ class PreparedGaussNewton final : public PreparedIkSolver {
   const GaussNewtonSolver solver_;
 };
 
-/// Of a solver that has nothing to prepare.
+/// Wraps a solver that has nothing to prepare.
 class Unprepared final : public PreparedIkSolver {
  public:
   Unprepared(const IkSolver& solver, const KinematicTree& tree) : solver_(solver), tree_(tree) {}

@@ -25,9 +25,10 @@ void ComputeStep(const LinearTargets& linear, std::span<const double> angles, st
   if (length > 0) step *= gain * residuals.dot(gained) / length;
 }
 
-// Of the active set's steps where an undamped one within the limits cannot meet the targets.
+// Damps the active set's steps where an undamped one within the limits cannot meet the targets.
 constexpr double kFallbackDamping = 0.1;
 
+// Damped least squares' range of λ, and the factor by which λ follows the steps' success.
 constexpr double kSmallestDamping = 1e-9;
 constexpr double kLargestDamping = 1e6;
 constexpr double kDampingStep = 5;

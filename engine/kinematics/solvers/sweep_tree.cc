@@ -20,7 +20,7 @@ bool SwapsAxes(const glm::dmat3& rotation) {
   return true;
 }
 
-// Which coordinate axis a unit vector along one is.
+// The coordinate axis along which a unit vector is.
 struct NamedAxis {
   int name = 0;
   double sign = 1;
