@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// What searches are measured on: the grades of clips that were danced with varied tempo and amplitude
+/// The data that searches are measured on: the grades of clips that were danced with varied tempo and amplitude
 /// (sim/choreography/varied_library.h), out of the built-in moves and acts and real clips.
 struct SearchData {
   std::vector<std::vector<Grades>> clips;
@@ -29,8 +29,8 @@ struct Seed {
 /// cannot be read; goes without the real ones where they are not installed.
 std::vector<Seed> LoadSeeds(const std::vector<std::string>& files);
 
-/// What a library is made of, in a line: names and numbers of frames, those that stay out of it (every fifth) in
-/// brackets.
+/// Describes in a line what a library is made of: names and numbers of frames, those that stay out of it (every fifth)
+/// in brackets.
 std::string MakeUp(std::span<const Seed> seeds);
 
 /// A library of `count` frames: the seeds varied. Every fifth seed stays out of it and gives the foreign queries.

@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "bench/tasks/tracking/crowd.h"
-#include "engine/kinematics/solvers/batch_sweep.h"
+#include "engine/kinematics/solvers/gauss_newton.h"
 
 namespace etude {
 namespace {

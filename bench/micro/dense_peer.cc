@@ -1,14 +1,14 @@
-#include "bench/micro/dense_peer.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
+#include "bench/micro/ik_peers.h"
 #include "engine/kinematics/sine_cosine.h"
-#include "engine/kinematics/solvers/lane_goals.h"
+#include "engine/kinematics/solvers/gauss_newton.h"
+#include "engine/kinematics/solvers/gauss_newton_vectors.h"
+#include "engine/kinematics/solvers/ik_run.h"
 #include "engine/kinematics/solvers/linear_targets.h"
-#include "engine/kinematics/solvers/restarts.h"
 
 namespace etude {
 namespace {
@@ -144,7 +144,7 @@ class DensePeer final : public IkPeer {
                    std::sqrt(2 * from.axis_weights.x)};
     }
     squared_goal_ = options.position_goal * options.position_goal;
-    squared_chord_ = GoalsFor(options, Precision::kDouble).squared_chord_met;
+    squared_chord_ = RulesFor(options, {}, Precision::kDouble).squared_chord_met;
     most_steps_ = options.max_iterations;
     steps_ = 0;
     is_met_ = false;

@@ -16,16 +16,13 @@
 #include <ranges>
 #include <string_view>
 
-#include "bench/micro/dense_peer.h"
-#include "bench/micro/kdl_peer.h"
-#include "bench/micro/simbody_peer.h"
+#include "bench/micro/ik_peers.h"
 #include "bench/tasks/ik/world.h"
 #include "engine/kinematics/body_tree.h"
-#include "engine/kinematics/solvers/gauss_newton_batch.h"
+#include "engine/kinematics/solvers/gauss_newton.h"
 #include "engine/kinematics/solvers/gauss_newton_plain.h"
 #include "engine/kinematics/solvers/ik_run.h"
 #include "engine/kinematics/solvers/ik_solver.h"
-#include "engine/kinematics/solvers/restarts.h"
 
 namespace etude {
 namespace {

@@ -1,22 +1,17 @@
 // What a sweep of coordinate descent costs, all side by side: forward kinematics alone; paper B's joints and hinges
-// from effector to effector; hinges in moment form; many problems at once by kind of vectors. The counter `per_sweep`
-// is the time for one problem and one sweep, with its forward kinematics and its measuring; for batches that is a share
-// of whole solutions of 500 sweeps.
+// from effector to effector; hinges in moment form. The counter `per_sweep` is the time for one problem and one sweep,
+// with its forward kinematics and its measuring.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
 
 #include "engine/kinematics/body_tree.h"
-#include "engine/kinematics/solvers/batch_sweep.h"
-#include "engine/kinematics/solvers/ccd_sweep.h"
+#include "engine/kinematics/solvers/ccd.h"
 #include "engine/kinematics/solvers/moment_sweep.h"
 #include "engine/kinematics/tree.h"
 
 namespace etude {
 namespace {
-
-constexpr int kBatchProblems = 64;
-constexpr int kBatchSweeps = 500;
 
 // A pose inside the limits, half way out in a pattern that leaves no joint at rest, and a start 15° away from it.
 IkProblem MakeProblem(const KinematicTree& tree, double phase = 1) {
@@ -84,42 +79,5 @@ BENCHMARK_CAPTURE(MomentForm, fixed_tuned, WeightRule::kFixedTuned);
 BENCHMARK_CAPTURE(MomentForm, adaptive, WeightRule::kAdaptive);
 BENCHMARK_CAPTURE(MomentForm, adaptive_power, WeightRule::kAdaptivePower);
 
-void BatchSweeps(benchmark::State& state, const std::string& target, Precision precision, WeightRule rule) {
-  const KinematicTree tree = MakeBodyTree({});
-  std::vector<IkProblem> problems;
-  for (int i = 0; i < kBatchProblems; ++i) problems.push_back(MakeProblem(tree, 0.1 * i));
-  IkOptions options;
-  options.weights = rule;
-  options.max_iterations = kBatchSweeps;
-  options.position_goal = 0;  // never met
-  SetBatchTarget(target);
-  double sweeps = 0;
-  for (auto _ : state) {
-    for (const IkSolution& solution : SolveCcdBatch(tree, problems, options, precision)) sweeps += solution.iterations;
-  }
-  CountSweeps(state, sweeps);
-  SetBatchTarget("");
-}
-
-void RegisterBatches() {
-  for (const WeightRule rule : {WeightRule::kFixedTuned, WeightRule::kAdaptivePower}) {
-    for (const Precision precision : {Precision::kFloat, Precision::kDouble}) {
-      for (const std::string& target : BatchTargets()) {
-        const std::string name = "BatchSweeps/" + WeightRuleNames()[static_cast<int>(rule)] +
-                                 (precision == Precision::kFloat ? "/float/" : "/double/") + target;
-        benchmark::RegisterBenchmark(name.c_str(), BatchSweeps, target, precision, rule);
-      }
-    }
-  }
-}
-
 }  // namespace
 }  // namespace etude
-
-int main(int argc, char** argv) {
-  etude::RegisterBatches();
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
-}

@@ -1,5 +1,3 @@
-#include "bench/micro/kdl_peer.h"
-
 #include <algorithm>
 #include <cmath>
 #include <kdl/tree.hpp>
@@ -8,8 +6,8 @@
 #include <kdl/treeiksolverpos_online.hpp>
 #include <kdl/treeiksolvervel_wdls.hpp>
 
+#include "bench/micro/ik_peers.h"
 #include "engine/kinematics/solvers/ik_run.h"
-#include "engine/kinematics/solvers/restarts.h"
 
 namespace etude {
 namespace {

@@ -16,7 +16,7 @@ GradePoint PointOf(const Grades& grades, const GradePoint& roots);
 /// √S of every term.
 GradePoint RootsOf(const FeatureWeights& weights);
 
-/// What one would write: a loop over all frames in time order that stops adding up when a frame is too far.
+/// The search that one would write: a loop over all frames in time order that stops adding up when a frame is too far.
 class LoopPeer {
  public:
   LoopPeer(std::span<const Grades> frames, const FeatureWeights& weights);
@@ -29,7 +29,7 @@ class LoopPeer {
   std::vector<GradePoint> points_;
 };
 
-/// The same with our vectors: sixteen frames at once, all of them. How much the tree gives beyond them.
+/// A search of all frames with our vectors, sixteen at once: it shows how much the tree gives beyond them.
 class VectorLoopPeer {
  public:
   VectorLoopPeer(std::span<const Grades> frames, const FeatureWeights& weights);

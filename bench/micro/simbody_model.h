@@ -6,7 +6,7 @@
 
 namespace etude {
 
-/// How Simbody's Assembler is set.
+/// The settings of Simbody's Assembler.
 struct SimbodySettings {
   double accuracy = 1e-5;      ///< its optimiser's; less does not make it stop later
   double position_weight = 3;  ///< weight of a square metre against a square radian
@@ -35,9 +35,9 @@ class SimbodyModel {
                const SimbodySettings& settings);
   ~SimbodyModel();
 
-  /// By Simbody's forward kinematics. Angles in the order of joints.
+  /// Returns the effectors by Simbody's forward kinematics. Angles in the order of joints.
   std::vector<Frame> Effectors(const double* angles);
-  /// What the Assembler finds from `start`; what it has got when it gives up.
+  /// Returns what the Assembler finds from `start`, or what it has when it gives up.
   std::vector<double> Assemble(const double* start, const std::vector<Frame>& targets);
 
  private:

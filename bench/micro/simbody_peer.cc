@@ -1,4 +1,4 @@
-#include "bench/micro/simbody_peer.h"
+#include "bench/micro/ik_peers.h"
 
 namespace etude {
 namespace {

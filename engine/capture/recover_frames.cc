@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-#include "engine/kinematics/partial_observation.h"
+#include "engine/kinematics/limb_lengths.h"
 #include "engine/kinematics/start_angles.h"
 
 namespace etude {

@@ -21,7 +21,7 @@ struct LimbLengths {
   double hand = 0.18;  ///< wrist to finger tips
 };
 
-/// Every length is finite and more than zero.
+/// Returns whether every length is finite and more than zero.
 bool IsValid(const LimbLengths& lengths);
 
 /// Indices of `MakeBodyTree(…).joints`.
@@ -44,19 +44,19 @@ enum BodyTreeJoint {
   kBodyTreeJointCount
 };
 
-/// Paper B's body (figure 3.10): rooted at the left toe, 15 joints, 29 degrees of freedom,
+/// Returns paper B's body (figure 3.10): rooted at the left toe, 15 joints, 29 degrees of freedom,
 /// limits `adult`, effectors right foot, left hand, right hand, head in this order. At rest (all angles zero) it
 /// stands with hanging arms. *Ours*: its feet are level then; on real clips that keeps the ankles within their limits
 /// most often.
 KinematicTree MakeBodyTree(const LimbLengths& lengths);
 
-/// Which part of the canonical body a limb of the tree is.
+/// The part of the canonical body that a limb of the tree is.
 struct BodyTreeLimb {
   Role from;  ///< the joint that it turns about
   Role to;    ///< the joint that it leads to, or the end: the role of the effector on this limb
 };
 
-/// Of `MakeBodyTree(…).joints`, in the order of BodyTreeJoint.
+/// Returns the limbs of `MakeBodyTree(…).joints`, in the order of BodyTreeJoint.
 std::span<const BodyTreeLimb, kBodyTreeJointCount> BodyTreeLimbs();
 
 }  // namespace etude

@@ -9,7 +9,7 @@ namespace {
 
 using enum Role;
 
-// Of paper B's body every role is where a limb begins or ends, but for the spine.
+// Every role of paper B's body is where a limb begins or ends, but for the spine.
 std::array<TreePoint, kRoleCount> PaperRoles(const KinematicTree& tree, const LimbLengths& lengths) {
   std::array<TreePoint, kRoleCount> roles;
   for (std::size_t i = 0; i < tree.joints.size(); ++i) {

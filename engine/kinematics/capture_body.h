@@ -10,16 +10,15 @@
 #include "engine/kinematics/ik_problem.h"
 #include "engine/kinematics/limb_lengths.h"
 #include "engine/kinematics/tree.h"
-#include "engine/kinematics/tree_point.h"
 #include "engine/motion/body.h"
 #include "engine/motion/clip.h"
 #include "engine/motion/rest_body.h"
 
 namespace etude {
 
-/// A body that a motion is captured with: a tree, and what its parts are to the observer.
+/// A body that a motion is captured with: a tree, and what an observer sees of its parts.
 struct CaptureBody {
-  /// What pictures tell of an end effector of the tree: the place of an end, the direction of the limb that leads to a
+  /// The part of an end effector that pictures show: the place of an end, the direction of the limb that leads to a
   /// role, or both.
   struct End {
     Role role;
@@ -55,11 +54,11 @@ struct CaptureBody {
   TreePoint skeleton_root;                  ///< where its first joint is
 };
 
-/// Paper B's body (`MakeBodyTree`): 29 degrees of freedom, limits `adult`.
+/// Returns paper B's body (`MakeBodyTree`): 29 degrees of freedom, limits `adult`.
 CaptureBody PaperBody(const LimbLengths& lengths);
 
-/// The person's own body: every joint of `rest` that lies between two of the twenty roles is a joint of the tree, so
-/// that whatever the person does can be done by the tree. Rooted at the left toe, too, where the whole body turns
+/// Makes the person's own body: every joint of `rest` that lies between two of the twenty roles is a joint of the tree,
+/// so that whatever the person does can be done by the tree. Rooted at the left toe, too, where the whole body turns
 /// freely. *(Ours.)*
 /// - Whatever lies between the joint that carries both hips and the hips is one rigid pelvis. Joints from which nothing
 ///   leads anywhere are left out.
@@ -72,18 +71,18 @@ CaptureBody PaperBody(const LimbLengths& lengths);
 /// Fails, saying why, for a body that has no pelvis, or two joints of a limb in one place.
 Result<CaptureBody> FittedBody(const RestBody& rest);
 
-/// A pose of the tree as the twenty joints.
+/// Returns the twenty joints of a pose of the tree.
 BodyPose ToBodyPose(const CaptureBody& body, const TreeState& state);
 BodyPose ToBodyPose(const CaptureBody& body, const TreeFrames& frames);
 
-/// The problem that remains when a start is found: bring the ends back to where they were seen, the last limbs into
-/// their seen directions, as far as `CaptureBody::ends` says that a limb has one. X and Y of the targets are the start
-/// pose's, turned by the smallest rotation, and weigh nothing; so does all that `observation` lacks. Limits are the
-/// tree's.
+/// Makes the problem that remains when a start is found: bring the ends back to where they were seen, the last limbs
+/// into their seen directions, as far as `CaptureBody::ends` says that a limb has one. X and Y of the targets are the
+/// start pose's, turned by the smallest rotation, and weigh nothing; so does all that `observation` lacks. Limits are
+/// the tree's.
 IkProblem MakeImageProblem(const CaptureBody& body, const LimbObservation& observation, const TreeState& start);
 
-/// A motion of the body as a clip of its own skeleton, metres, Y up, rooted at the hips. Exact: ComputeGlobals gives
-/// every joint the position that `ToBodyPose` gives.
+/// Returns a motion of the body as a clip of its own skeleton, metres, Y up, rooted at the hips. Exact: ComputeGlobals
+/// gives every joint the position that `ToBodyPose` gives.
 Clip ToClip(const CaptureBody& body, std::span<const TreeState> states, double rate_hz, const std::string& name);
 
 }  // namespace etude

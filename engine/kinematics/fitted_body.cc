@@ -17,7 +17,7 @@ constexpr double kShortestLimb = 1e-4;  // metres
 constexpr double kOffLine = 1e-4;       // metres
 // No end of a range is ever met: angles start within half a turn.
 constexpr double kFreely = 3 * kPi;
-// Of joints that no role shows.
+// A joint that no role shows turns by so much at most.
 constexpr double kMostHidden = Radians(90);
 const glm::dvec3 kToTheRight(-1, 0, 0), kDownwards(0, -1, 0), kAhead(0, 0, 1);
 
@@ -41,7 +41,7 @@ class Parts {
     all_[pelvis_].parent = -1;
   }
 
-  /// Whether every role hangs on the pelvis.
+  /// Returns whether every role hangs on the pelvis.
   bool HangTogether() const {
     return std::ranges::all_of(AllRoles(), [&](Role role) { return IsBelowPelvis(carrier_[Index(role)]); });
   }
@@ -96,7 +96,7 @@ class Parts {
     all_[from].is_left_out = true;
   }
 
-  // What lies between the pelvis and the part that turns about the hip.
+  // Makes what lies between the pelvis and the part that turns about the hip a piece of the pelvis.
   void JoinToPelvis(Role hip) {
     const int thigh = carrier_[Index(hip)];
     const bool turns_there = AreSame(all_[thigh].at, places_[hip]);
@@ -276,7 +276,7 @@ class Builder {
     return is_branched || !is_line || is_climbed_shank || bends_below ? 3 : 2;
   }
 
-  // Whether no role shows how it bends.
+  // Returns whether no role shows how a part bends.
   bool IsHidden(int part, const glm::dvec3& from) const {
     if (part == parts_.pelvis()) return false;
     return std::ranges::none_of(parts_.places().joints, [&](const glm::dvec3& place) { return AreSame(place, from); });
@@ -305,7 +305,7 @@ class Builder {
     body_.lengths = MeasureLimbLengths(std::span(&rest, 1));
   }
 
-  // Of the limbs that turn elbows and knees into the plane in which they bend.
+  // Adds the twists of the limbs that turn elbows and knees into the plane in which they bend.
   void AddTwists() {
     const auto add = [&](Role lower_joint, Role upper, Role middle, Role lower, double bends) {
       const TreePoint& point = body_.roles[Index(lower_joint)];

@@ -12,10 +12,10 @@ namespace etude {
 /// side in it.
 class IkBatch {
  public:
-  /// `count` problems, all zeros.
+  /// Makes `count` problems, all zeros.
   IkBatch(const KinematicTree& tree, int count);
-  /// The problems of a list. One whose lists do not fit the tree stays all zeros, which no problem may be (its axes are
-  /// none).
+  /// Takes the problems of a list. One whose lists do not fit the tree stays all zeros, which no problem may be (its
+  /// axes are none).
   IkBatch(const KinematicTree& tree, std::span<const IkProblem> problems);
 
   int count() const { return count_; }
@@ -23,9 +23,10 @@ class IkBatch {
   std::span<double> start_angles(int dof) { return row(dof); }
   std::span<double> lower_limits(int dof) { return row(dofs_ + dof); }
   std::span<double> upper_limits(int dof) { return row(2 * dofs_ + dof); }
-  /// 0…2: p_WL of the root; 3…11: R_WL of the root, column by column.
+  /// Returns a number of the root. 0…2 are p_WL; 3…11 are R_WL, column by column.
   std::span<double> root(int number) { return row(3 * dofs_ + number); }
-  /// 0…2: p_WD; 3…11: R_WD, column by column; 12: the position's weight; 13…15: the axes' weights.
+  /// Returns a number of a target. 0…2 are p_WD; 3…11 are R_WD, column by column; 12 is the position's weight; 13…15
+  /// are the axes' weights.
   std::span<double> target(int effector, int number) {
     return row(3 * dofs_ + kRootNumbers + effector * kTargetNumbers + number);
   }
@@ -45,11 +46,11 @@ class IkBatch {
   Column column(int place) const { return {numbers_.data() + place, stride_}; }
   static constexpr int kRootNumbers = 12, kTargetNumbers = 16;
 
-  /// `problem` fits the tree.
+  /// Puts `problem`, which must fit the tree, to its place.
   void Set(int place, const IkProblem& problem);
   IkProblem Get(int place) const;
 
-  /// The places of problems that `FindFault` has nothing to say of.
+  /// Returns the places of the problems in which `FindFault` finds no fault.
   std::vector<int> FindSound() const;
 
  private:
@@ -61,7 +62,7 @@ class IkBatch {
   std::vector<double> numbers_;
 };
 
-/// What came of a batch.
+/// The solutions of a batch.
 struct IkBatchSolution {
   int count = 0;
   std::vector<double> angles;  ///< of the first degree of freedom for all problems, then of the second and so on

@@ -3,10 +3,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/angles.h"
 #include "engine/base/directions.h"
+#include "engine/base/named.h"
 
 namespace etude {
 namespace {
+
+constexpr double kCmPerMetre = 100;
+constexpr double kPerSquareCm = kCmPerMetre * kCmPerMetre;  // of a weight per cm², in a weight per m²
+
+constexpr Named<WeightRule> kRules[] = {{"fixed", WeightRule::kFixed},
+                                        {"fixed-tuned", WeightRule::kFixedTuned},
+                                        {"adaptive", WeightRule::kAdaptive},
+                                        {"adaptive-tuned", WeightRule::kAdaptiveTuned},
+                                        {"adaptive-power", WeightRule::kAdaptivePower},
+                                        {"wang-chen", WeightRule::kWangChen}};
+constexpr Named<WeightRefresh> kRefreshes[] = {
+    {"sweep", WeightRefresh::kSweep}, {"joint", WeightRefresh::kJoint}, {"dof", WeightRefresh::kDof}};
 
 // Without branches: `&` where all is as good as always true. What is no number is below nothing.
 inline bool IsSane(double value) { return std::abs(value) <= kIkFarthest; }
@@ -77,7 +91,7 @@ Branch BranchOf(const KinematicTree& tree, const FixedPoint& point, std::span<co
   return branch;
 }
 
-// How far two points can be from each other at most: all limbs between them stretched out.
+// The longest distance that two points can be from each other: all limbs between them stretched out.
 double LongestBetween(const KinematicTree& tree, const FixedPoint& a, const FixedPoint& b) {
   const Branch to_a = BranchOf(tree, a, b.joints), to_b = BranchOf(tree, b, a.joints);
   if (to_a.top < 0 || to_b.top < 0) return to_a.length + to_b.length;
@@ -88,6 +102,64 @@ double LongestBetween(const KinematicTree& tree, const FixedPoint& a, const Fixe
 }
 
 }  // namespace
+
+const std::vector<std::string>& WeightRuleNames() {
+  static const std::vector<std::string> names = NamesOf(kRules);
+  return names;
+}
+
+const std::vector<std::string>& WeightRefreshNames() {
+  static const std::vector<std::string> names = NamesOf(kRefreshes);
+  return names;
+}
+
+std::optional<WeightRule> FindWeightRule(std::string_view name) { return FindValue(kRules, name); }
+
+std::optional<WeightRefresh> FindWeightRefresh(std::string_view name) { return FindValue(kRefreshes, name); }
+
+WeightFormula FormulaOf(WeightRule rule) {
+  constexpr double kRoot = 31.622776601683793;  // 100^0.75, of centimetres in a metre
+  switch (rule) {
+    case WeightRule::kFixed:
+      return {kPerSquareCm, 1, ErrorPower::kNone};
+    case WeightRule::kFixedTuned:
+      return {0.0015 * kPerSquareCm, 1, ErrorPower::kNone};
+    case WeightRule::kAdaptive:
+      return {kCmPerMetre * kPerSquareCm, Degrees(1), ErrorPower::kOne};
+    case WeightRule::kAdaptiveTuned:
+      return {0.003 * kCmPerMetre * kPerSquareCm, Degrees(1), ErrorPower::kOne};
+    case WeightRule::kAdaptivePower:
+      return {5e-5 * kRoot * kPerSquareCm, 1, ErrorPower::kThreeQuarters};
+    case WeightRule::kWangChen:
+      return {0.0007 * kPerSquareCm, 1, ErrorPower::kNone};
+  }
+  return {};
+}
+
+bool IsAdaptive(WeightRule rule) { return FormulaOf(rule).power != ErrorPower::kNone; }
+
+EffectorWeights ComputeWeights(WeightRule rule, double distance, const glm::dvec3& axis_angles) {
+  const WeightFormula formula = FormulaOf(rule);
+  const auto power = [&formula](double error) {
+    switch (formula.power) {
+      case ErrorPower::kNone:
+        return 1.0;
+      case ErrorPower::kThreeQuarters:
+        return std::sqrt(error * std::sqrt(error));  // the same bits with every libm, unlike std::pow
+      case ErrorPower::kOne:
+        return error;
+    }
+    return 1.0;
+  };
+  return {formula.position * power(distance),
+          formula.axis * glm::dvec3(power(axis_angles.x), power(axis_angles.y), power(axis_angles.z))};
+}
+
+double WangChenFactor(const glm::dvec3& current, const glm::dvec3& desired) {
+  const double c = glm::length(current), d = glm::length(desired);
+  const double larger = std::max(c, d);
+  return larger > 0 ? 1 + std::min(c, d) / larger : 1;
+}
 
 double EffectorError::MeanAxisAngle(const glm::dvec3& axis_weights) const {
   double sum = 0;
@@ -104,7 +176,7 @@ std::string_view FindTreeFault(const KinematicTree& tree) {
   if (!IsATree(tree)) return "the joints are no tree with its root first";
   for (const TreeJoint& joint : tree.joints) {
     if (joint.parent < 0) continue;
-    // Where the root stands a joint may, too: so a tree turns as a whole.
+    // A joint may stand where the root does: so a tree turns as a whole.
     if (!IsSane(joint.p_PJ) || (joint.parent > 0 && glm::length(joint.p_PJ) <= 0)) return "a limb has no length";
   }
   for (const Effector& effector : tree.effectors) {

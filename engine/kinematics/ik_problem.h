@@ -5,14 +5,65 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "engine/base/angles.h"
 #include "engine/kinematics/tree.h"
-#include "engine/kinematics/weights.h"
 
 namespace etude {
+
+/// The rule by which an end effector's position counts against its three axes. Paper B, section 3.7.3, asks for weights
+/// that follow the errors and gives no formula; the formulas are ours. e = distance to the target in cm, θ_k = angle of
+/// axis k to its target.
+enum class WeightRule {
+  kFixed,          ///< w_p = 1, w_o = 1
+  kFixedTuned,     ///< w_p = 0.0015, w_o = 1
+  kAdaptive,       ///< w_p = e, w_ok = θ_k in degrees: B's rule, plain
+  kAdaptiveTuned,  ///< w_p = 0.003 e, w_ok = θ_k in degrees
+  kAdaptivePower,  ///< w_p = 5·10⁻⁵ e^0.75, w_ok = θ_k^0.75, radians
+  kWangChen,       ///< w_p = 0.0007 (1 + min/max(|P_d|, |P_c|)), w_o = 1 (Wang and Chen 1991)
+};
+
+/// How often errors are measured anew for the weights that depend on them.
+enum class WeightRefresh { kSweep, kJoint, kDof };
+
+/// Return the names of scenario files: "fixed", "fixed-tuned", … and "sweep", "joint", "dof".
+const std::vector<std::string>& WeightRuleNames();
+const std::vector<std::string>& WeightRefreshNames();
+std::optional<WeightRule> FindWeightRule(std::string_view name);
+std::optional<WeightRefresh> FindWeightRefresh(std::string_view name);
+
+/// The weights of one end effector.
+struct EffectorWeights {
+  double position = 1;  ///< w_p per square METRE (the formulas' value, which is per cm², times 10⁴)
+  glm::dvec3 axes{1};   ///< w_o1, w_o2, w_o3
+};
+
+/// The power of an error that a weight grows with.
+enum class ErrorPower { kNone, kThreeQuarters, kOne };
+
+/// A rule as numbers: w_p = `position` · e^power, w_ok = `axis` · θ_k^power with e in metres and θ_k in radians.
+struct WeightFormula {
+  double position = 1;
+  double axis = 1;
+  ErrorPower power = ErrorPower::kNone;
+};
+
+/// Returns the rule as numbers; of `kWangChen` the part without ρ.
+WeightFormula FormulaOf(WeightRule rule);
+
+/// Returns whether the rule depends on errors. `kWangChen` does not: it depends on the joint that turns.
+bool IsAdaptive(WeightRule rule);
+
+/// Returns the weights by `rule` of an effector `distance` metres from its target with axes off by `axis_angles`
+/// radians. For `kWangChen` this is the part without ρ; multiply `position` by `WangChenFactor` at each joint.
+EffectorWeights ComputeWeights(WeightRule rule, double distance, const glm::dvec3& axis_angles);
+
+/// Returns 1 + ρ, where ρ = min / max of the distances of the effector and of its target from the joint; 1 when both
+/// are 0.
+double WangChenFactor(const glm::dvec3& current, const glm::dvec3& desired);
 
 /// The pose X_WD that one end effector shall have, and how much each part of that matters.
 struct EffectorTarget {
@@ -22,34 +73,34 @@ struct EffectorTarget {
   glm::dvec3 axis_weights{1};  ///< multiplies w_o of each axis; (0, 0, 1) when only the limb's direction is known
 };
 
-/// Find angles that bring every end effector to its target, beginning with those of `start`, whose root stays where it
-/// is.
+/// The task to find angles that bring every end effector to its target, beginning with those of `start`, whose root
+/// stays where it is.
 struct IkProblem {
   TreeState start;
   std::vector<EffectorTarget> targets;  ///< one per effector of the tree, in its order
   std::vector<AngleRange> limits;       ///< one per degree of freedom, e.g. the tree's own
 };
 
-/// What all solvers can be set by; what only one of them can stands in its own header.
+/// The settings that all solvers share; those of one solver are in its own header.
 struct IkOptions {
   WeightRule weights = WeightRule::kAdaptive;  ///< CCD only
   WeightRefresh refresh = WeightRefresh::kSweep;
-  /// For `IkSolver::solve`: the solver's own settings, one value for each of `IkSolver::settings`; none: its defaults.
+  /// The solver's own settings for `IkSolver::solve`, one value for each of `IkSolver::settings`; empty: its defaults.
   std::vector<double> solver_settings;
   bool limits = true;  ///< paper B, section 3.7.1; off: angles are free
-  /// Paper B, section 3.7.2: no angle may leave its start angle by more than this (radians). Empty: no such bound.
+  /// No angle may leave its start angle by more than this, radians (paper B, section 3.7.2). Empty: no such bound.
   std::optional<double> angle_change_tolerance;
   int max_iterations = 200;
-  /// Converged when every effector is nearer than the one, and every single axis of it than the other (axes and
-  /// positions of weight 0 do not count): a mean over the axes would pass a limb that is twisted too far, since the
+  /// A pose has converged when every effector is nearer than the one, and every single axis of it than the other (axes
+  /// and positions of weight 0 do not count): a mean over the axes would pass a limb that is twisted too far, since the
   /// axis that it is twisted about stays. The defaults are "solved practically": 0.1 cm and 0.1°.
   double position_goal = 0.001;     ///< metres
   double axis_goal = Radians(0.1);  ///< radians
-  /// Stalled when no angle moves further than this in one iteration (radians): far below what any goal can see, and
-  /// above rounding.
+  /// A solver has stalled when no angle moves further than this in one iteration (radians): far below what any goal can
+  /// see, and above rounding.
   double stall_change = 1e-10;
   bool trace = false;  ///< fill IkSolution::trace
-  /// With so many entries at most, the first ones: an entry takes half a kilobyte and what it costs to know it.
+  /// The trace keeps this many entries at most, the first ones: an entry takes half a kilobyte, and time to compute.
   int longest_trace = std::numeric_limits<int>::max();
 
   bool operator==(const IkOptions&) const = default;
@@ -63,12 +114,12 @@ enum class IkStatus {
   kBadInput,  ///< nothing was computed; angles are zeros
 };
 
-/// How far one end effector is from its target.
+/// The distance of one end effector from its target.
 struct EffectorError {
   double position = 0;        ///< metres
   glm::dvec3 axis_angles{0};  ///< of each axis to its target, radians
 
-  /// Mean over the axes of non-zero weight; 0 when there is none.
+  /// Returns the mean over the axes of non-zero weight; 0 when there is none.
   double MeanAxisAngle(const glm::dvec3& axis_weights) const;
 };
 
@@ -93,28 +144,29 @@ struct IkSolution {
 /// No number of a problem may be larger: beyond this (metres: 1,000 km), squares of distances lose what goals are made
 /// of.
 inline constexpr double kIkFarthest = 1e6;
-/// How far squares of unit vectors, and the determinant of a frame, may be from 1.
+/// Squares of unit vectors, and the determinant of a frame, may differ from 1 by this much.
 inline constexpr double kUnitTolerance = 2e-6, kFrameTolerance = 1e-5;
 
-/// Why a problem cannot be worked on, or empty when it can: joints that are no tree, angles that are not theirs one
-/// after the other, sizes that do not fit it, values that are not finite or absurdly far (> 1,000 km), limbs of no
+/// Returns why a problem cannot be worked on, or empty when it can: joints that are no tree, angles that are not theirs
+/// one after the other, sizes that do not fit it, values that are not finite or absurdly far (> 1,000 km), limbs of no
 /// length (a joint may stand where the root does), limits whose lower end is above the upper, axes that are not unit
 /// vectors, negative weights, an iteration limit below 1.
 std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
-/// The parts of it that are no single problem's, and the one that is: of a tree without faults.
+/// Find the faults of the tree, of the options or of both; and of one problem of a tree without faults.
 std::string_view FindFault(const KinematicTree& tree, const IkOptions& options);
 std::string_view FindTreeFault(const KinematicTree& tree);
 std::string_view FindFault(const IkOptions& options);
 std::string_view FindProblemFault(const KinematicTree& tree, const IkProblem& problem);
 
-/// Whether the limbs are too short for the targets whatever the angles: an effector's target is farther from the root,
-/// or two effectors' targets from each other, than all limbs between them together. `false` promises nothing.
+/// Returns whether the limbs are too short for the targets whatever the angles: an effector's target is farther from
+/// the root, or two effectors' targets from each other, than all limbs between them together. `false` promises nothing.
 bool IsOutOfReach(const KinematicTree& tree, const IkProblem& problem);
 
-/// The range every angle may take: limits (when on) and the box of the angle-change tolerance, intersected. The box is
-/// laid around the start angle after that was moved into its limits, so that the intersection is never empty.
+/// Returns the range that every angle may take: limits (when on) and the box of the angle-change tolerance,
+/// intersected. The box is laid around the start angle after that was moved into its limits, so that the intersection
+/// is never empty.
 std::vector<AngleRange> AllowedRanges(const IkProblem& problem, const IkOptions& options);
-/// Of one angle.
+/// Returns that range of one angle.
 AngleRange AllowedRange(double start_angle, const AngleRange& limits, const IkOptions& options);
 
 EffectorError ErrorOf(const LimbFrame& effector, const EffectorTarget& target);

@@ -95,7 +95,7 @@ constexpr std::array<DofRow, 29> kDofs = {{
     {kTreeRightAnkle, 1, kAnkleInversion, kAnkleEversion},
 }};
 
-// How far a movement leads, radians.
+// The angle that a movement leads to, radians.
 double Reach(const Movement& movement, int column, int axis) {
   const double degrees = movement[column] == kNotGiven ? movement[0] : movement[column];
   return Radians(axis == 1 ? std::min(degrees, kLargestSideways) : degrees);

@@ -20,11 +20,11 @@ enum class LimitSet {
   kAma,
 };
 
-/// The names of scenario files: "adult", "aaos", "kendall", "hoppenfeld", "ama".
+/// Returns the names of scenario files: "adult", "aaos", "kendall", "hoppenfeld", "ama".
 const std::vector<std::string>& LimitSetNames();
 std::optional<LimitSet> FindLimitSet(std::string_view name);
 
-/// The range of every degree of freedom of the body's tree, radians, for `IkProblem::limits`. Table 3.1 names
+/// Returns the range of every degree of freedom of the body's tree, radians, for `IkProblem::limits`. Table 3.1 names
 /// movements of a body in the anatomical position: standing, palms forward. *Ours*: which axis of the tree each of them
 /// is, the left side being the right one's mirror image:
 /// - X bends and stretches (hips, knees, ankles, trunk, neck, shoulders, elbows, wrists), Y leads sideways (abduction,

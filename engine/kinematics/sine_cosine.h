@@ -9,9 +9,9 @@ struct SineCosine {
   double sine = 0, cosine = 1;
 };
 
-/// Sine and cosine of one angle, for |angle| ≤ 10⁶, within 1.5 units in their last place up to 100 rad and 2.5 beyond.
-/// Cheaper than the C library's: without branches, so that a processor works on several angles at once. The same bits
-/// with every C library.
+/// Returns sine and cosine of one angle, for |angle| ≤ 10⁶, within 1.5 units in their last place up to 100 rad and 2.5
+/// beyond. Cheaper than the C library's: without branches, so that a processor works on several angles at once. The
+/// same bits with every C library.
 ///
 /// The angle is reduced to r in [−π/4, π/4] by the nearest multiple of π/2, in three parts of π/2 (Cody and Waite), the
 /// first short enough for its multiple to be exact. There Taylor's series to r¹⁷ and r¹⁶ leave less than 10⁻¹⁷.

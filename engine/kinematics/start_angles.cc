@@ -59,7 +59,7 @@ std::optional<glm::dmat3> FindRootFrame(const Directions& directions) {
   return glm::dmat3(x, glm::cross(z, x), z);
 }
 
-// Where the limb's X axis shall point in the world, if anything tells.
+// Finds where the limb's X axis shall point in the world, if anything tells.
 std::optional<glm::dvec3> FindTwist(int limb, const Directions& directions, const BodyPose& joints) {
   const auto next = std::ranges::find(kTwistHinges, limb, &TwistHinge::limb);
   glm::dvec3 x(0);

@@ -9,8 +9,8 @@
 
 namespace etude {
 
-/// The angles of paper B's body (`MakeBodyTree`) that point its limbs as in `joints` (section 3.3), the root standing
-/// at the left foot. From the root outwards every joint takes the angles that bring its limb into the wanted
+/// Returns the angles of paper B's body (`MakeBodyTree`) that point its limbs as in `joints` (section 3.3), the root
+/// standing at the left foot. From the root outwards every joint takes the angles that bring its limb into the wanted
 /// direction, given where the joints before it really went: an angle clipped at its limit is made up for by the next
 /// joint as far as that one can. Two positions say nothing about the twist of a limb; these rules do *(ours)*:
 /// - upper arms and the right thigh: the X axis of elbow and knee is normal to both limbs, unless they are nearly
@@ -21,8 +21,8 @@ namespace etude {
 /// - the pelvis: its Y axis is as near as possible to the trunk, so that a sitting body bends at the hips and not at
 ///   the navel; the trunk: its X axis points along the shoulders.
 /// A pose of the tree comes back exactly (all joints' positions) when `limits` allow it.
-/// Nothing when a position is not finite, or two neighbouring joints coincide, or the left leg and the hips lie in one
-/// line.
+/// Returns nothing when a position is not finite, or two neighbouring joints coincide, or the left leg and the hips lie
+/// in one line.
 std::optional<TreeState> FindStartState(const KinematicTree& body, const BodyPose& joints,
                                         std::span<const AngleRange> limits);
 

@@ -13,7 +13,7 @@ struct AngleRange {
   double upper = 0;
 };
 
-/// `angle` itself, or a full turn away, when that lies in `range`; else the end of `range` nearest to it on the circle:
+/// Returns `angle`, or a full turn away, if that lies in `range`; else the end of `range` nearest to it on the circle:
 /// an angle just short of −π is next to +170°, not to −50°.
 double ClampAngle(double angle, const AngleRange& range);
 
@@ -37,8 +37,13 @@ struct Effector {
   glm::dvec3 p_LE{0};  ///< metres
 };
 
-/// A kinematic tree as data. What body it is, if any, nobody needs to know who works on it; for paper B's see
-/// body_tree.h.
+/// A point Q of a limb L of a tree.
+struct TreePoint {
+  int joint = 0;       ///< whose limb it is fixed to
+  glm::dvec3 p_LQ{0};  ///< metres
+};
+
+/// A kinematic tree as data, whatever body it is of. Paper B's is in body_tree.h.
 struct KinematicTree {
   std::vector<TreeJoint> joints;
   std::vector<Effector> effectors;
@@ -48,14 +53,14 @@ struct KinematicTree {
   int dof_count() const { return static_cast<int>(limits.size()); }
 };
 
-/// Everything that a pose of the tree consists of.
+/// A pose of the tree.
 struct TreeState {
   glm::dvec3 root_position{0};  ///< p_WL of the root
   glm::dmat3 root_frame{1};     ///< R_WL of the root
   std::vector<double> angles;   ///< radians, one per degree of freedom
 };
 
-/// All angles zero, the root at the origin.
+/// Returns the pose with all angles zero and the root at the origin.
 TreeState StandingState(const KinematicTree& tree);
 
 /// The pose X_WF of a frame F in the world: a limb's, an effector's.
@@ -72,14 +77,14 @@ struct TreeFrames {
   std::vector<LimbFrame> effectors;  ///< X_WE
 };
 
-/// Fills `out`, which keeps its memory from call to call.
+/// Computes the frames of a pose. `out` keeps its memory from call to call.
 void ComputeFrames(const KinematicTree& tree, const TreeState& state, TreeFrames& out);
 TreeFrames ComputeFrames(const KinematicTree& tree, const TreeState& state);
 
-/// The angles of `joint` as x, y, z; those it does not have are zero.
+/// Returns the angles of `joint` as x, y, z; those it does not have are zero.
 glm::dvec3 JointAngles(const TreeJoint& joint, std::span<const double> angles);
 
-/// The unit vector of the world about which `axis` (0 = X, 1 = Y, 2 = Z) of `joint` turns what is below.
+/// Returns the unit vector of the world about which `axis` (0 = X, 1 = Y, 2 = Z) of `joint` turns what is below.
 glm::dvec3 DofAxis(const TreeJoint& joint, const glm::dmat3& R_WJ, std::span<const double> angles, int axis);
 
 }  // namespace etude

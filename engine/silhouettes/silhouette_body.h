@@ -6,7 +6,6 @@
 
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/tree.h"
-#include "engine/kinematics/tree_point.h"
 #include "engine/motion/body.h"
 
 namespace etude {

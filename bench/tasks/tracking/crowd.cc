@@ -8,7 +8,7 @@
 #include "bench/clips/clip_library.h"
 #include "bench/clips/references.h"
 #include "engine/kinematics/body_tree.h"
-#include "engine/kinematics/solvers/gauss_newton_batch.h"
+#include "engine/kinematics/solvers/gauss_newton.h"
 #include "sim/choreography/move.h"
 
 namespace etude {

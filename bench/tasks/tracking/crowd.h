@@ -6,7 +6,7 @@
 
 #include "bench/tasks/tracking/world.h"
 #include "engine/kinematics/ik_batch.h"
-#include "engine/kinematics/solvers/batch_sweep.h"
+#include "engine/kinematics/solvers/gauss_newton.h"
 
 namespace etude {
 

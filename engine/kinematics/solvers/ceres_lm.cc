@@ -7,7 +7,6 @@
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
 
-#include "engine/kinematics/jacobian.h"
 #include "engine/kinematics/solvers/ik_run.h"
 #include "engine/kinematics/solvers/linear_targets.h"
 

@@ -13,8 +13,8 @@ struct CeresLmOptions {
   double first_radius = 10;
 };
 
-/// The Levenberg–Marquardt method of Ceres Solver, the general-purpose solver to beat, as fast as we could make it
-/// (bench/micro/README.md says what was tried). Minimises what `damped-least-squares` minimises,
+/// Solves by the Levenberg–Marquardt method of Ceres Solver, the general-purpose solver to beat, as fast as we could
+/// make it (bench/micro/README.md says what was tried). Minimises what `damped-least-squares` minimises,
 ///   Σ_e [ position_weight · (|P_d − P_c| / 30 cm)² + Σ_k axis_weights_k · |u_kd − u_kc|² ],
 /// by steps (JᵀJ + I / radius) dq = −Jᵀr with an analytic Jacobian; steps
 /// may raise the sum for a while. Limits are Ceres's bounds. `IkOptions::weights` and `refresh` do not apply. One

@@ -7,7 +7,7 @@
 
 namespace etude {
 
-/// How a solver of dense linear steps keeps to the ranges of angles.
+/// The way in which a solver of dense linear steps keeps to the ranges of angles.
 enum class Bounds {
   kClamped,    ///< `Step`, and the stepped angles are clamped: others do not make up for what is lost
   kActiveSet,  ///< `StepWithin`: angles that would leave their range are fixed at its end, and the others solved for
@@ -25,7 +25,7 @@ class DampedInverse {
   /// 10⁻¹² of its largest.
   bool Step(double damping, std::span<const double> preferred, std::vector<double>& step);
 
-  /// The same within `ranges`, in which `angles` are now:
+  /// Sets `step` to the best one within `ranges`, in which `angles` are now:
   ///     argmin |J dq − e|² + μ |dq − preferred|²   subject to   lower ≤ angles + dq ≤ upper.
   /// By duality dq = clamp(preferred + Jᵀy), where J dq + μ y = e: a piecewise linear equation of as many unknowns as
   /// targets have numbers. Newton's method on it is the primal-dual active set (Hintermüller, Ito and Kunisch 2002): y
@@ -38,10 +38,10 @@ class DampedInverse {
   bool StepWithin(double damping, std::span<const double> preferred, std::span<const double> angles,
                   std::span<const AngleRange> ranges, std::vector<double>& step);
 
-  /// Whether the last step of `StepWithin` is the optimum.
+  /// Returns whether the last step of `StepWithin` is the optimum.
   bool is_exact() const { return is_exact_; }
 
-  /// |e|² − |e − J step|², by which the sum of squares falls to first order.
+  /// Returns |e|² − |e − J step|², by which the sum of squares falls to first order.
   double Gain(std::span<const double> step) const;
 
  private:

@@ -1,88 +1,229 @@
 #include "engine/kinematics/solvers/gauss_newton.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
-#include "engine/kinematics/solvers/gauss_newton_limbs.h"
+#include "engine/kinematics/sine_cosine.h"
 #include "engine/kinematics/solvers/gauss_newton_plain.h"
+#include "engine/kinematics/solvers/gauss_newton_vectors.h"
 #include "engine/kinematics/solvers/ik_run.h"
-#include "engine/kinematics/solvers/limb_packs.h"
 #include "engine/kinematics/solvers/linear_targets.h"
 #include "engine/kinematics/solvers/moment_sweep.h"
-#include "engine/kinematics/solvers/restarts.h"
+#include "hwy/highway.h"
 
 namespace etude {
+namespace {
 
-class GaussNewtonSolver::Solver final : public GaussNewtonHelp {
+// Nearer to a goal than this share of it, and this far, rounding might decide.
+constexpr double kDoubtfulShare = 1e-9, kDoubtfulRounding = 1e-14;
+
+// In float goals are this share of what is asked for, and nothing is in doubt.
+constexpr double kFloatShare = 0.9;
+// A step in floats may still move this much when it has arrived, radians: the last bit of an angle.
+constexpr double kFloatStall = 2e-7;
+constexpr GaussNewtonCourse::Numerics kFloatNumerics{.least_damping = 1e-5, .pulled_above = 1e-6};
+
+double SquareBelow(double goal) {
+  const double certain = std::max(0.0, goal * (1 - kDoubtfulShare) - kDoubtfulRounding);
+  return certain * certain;
+}
+
+// Does what is rare for the vector solvers, one number at a time.
+class ScalarHelp final : public GaussNewtonHelp {
+ public:
+  using FindProblem = std::function<IkProblem(int)>;
+
+  ScalarHelp(const KinematicTree& tree, const IkOptions& options, FindProblem find)
+      : tree_(tree), options_(options), find_(std::move(find)) {}
+
+  bool IsOutOfReach(int n) override { return etude::IsOutOfReach(tree_, find_(n)); }
+
+  bool MeetsGoals(int n, std::span<const double> angles) override { return MeetsGoalsOf(find_(n), angles); }
+
+  void Sweep(int n, const GaussNewtonCourse::Next& next, GaussNewtonCourse& course, std::span<double> angles) override {
+    IkProblem problem = find_(n);
+    problem.limits = AllowedRanges(problem, options_);
+    std::vector<double> start = problem.start.angles;
+    for (std::size_t d = 0; d < start.size(); ++d) {
+      start[d] = std::clamp(start[d], problem.limits[d].lower, problem.limits[d].upper);
+    }
+    problem.start.angles.assign(angles.begin(), angles.end());
+    if (next.restart > 0) ScatterAround(start, problem.limits, next.restart, problem.start.angles);
+    MomentSweep sweep(tree_, problem, GaussNewtonSweepOptions(options_));
+    for (int i = 0; i < next.sweeps; ++i) {
+      sweep.Sweep();
+      std::ranges::copy(sweep.Angles(), angles.begin());
+      const bool may_go_on = course.CountSweep();
+      if (!may_go_on || (!sweep.MissesGoals() && MeetsGoalsOf(problem, angles))) break;
+    }
+  }
+
+  IkStatus StatusOf(int n, const GaussNewtonCourse& course) {
+    return course.has_converged() ? IkStatus::kConverged
+           : IsOutOfReach(n)      ? IkStatus::kUnreachable
+           : course.HasStalled()  ? IkStatus::kStalled
+                                  : IkStatus::kIterationLimit;
+  }
+
+ private:
+  bool MeetsGoalsOf(const IkProblem& problem, std::span<const double> angles) const {
+    std::vector<EffectorError> errors;
+    MeasurePose(tree_, problem, angles, errors);
+    return FindWorst(errors, problem.targets).Within(options_);
+  }
+
+  const KinematicTree& tree_;
+  const IkOptions& options_;
+  const FindProblem find_;
+};
+
+// Hands out the problems of a batch.
+class BatchQueue final : public GaussNewtonQueue {
+ public:
+  BatchQueue(const KinematicTree& tree, const IkBatch& problems, const IkOptions& options, Precision precision,
+             const GaussNewtonOptions& own, std::vector<int> asked, ScalarHelp& help, IkBatchSolution& solution)
+      : tree_(tree),
+        problems_(problems),
+        options_(options),
+        course_(InPrecision(options, precision), own,
+                precision == Precision::kFloat ? kFloatNumerics : GaussNewtonCourse::Numerics{}),
+        asked_(std::move(asked)),
+        may_round_(precision == Precision::kFloat),
+        help_(help),
+        solution_(solution),
+        own_ranges_(options.limits && !options.angle_change_tolerance ? 0 : NumberCount(tree)) {}
+
+  int Next() override {
+    if (next_ == asked_.size()) return -1;
+    const int n = asked_[next_++];
+    const IkBatch::Column from = problems_.column(n);
+    column_ = {from.numbers, from.stride};
+    if (own_ranges_.empty()) return n;
+    for (std::size_t k = 0; k < own_ranges_.size(); ++k) own_ranges_[k] = from.numbers[k * from.stride];
+    for (int d = 0; d < tree_.dof_count(); ++d) {
+      const AngleRange range = RangeOf(n, d);
+      own_ranges_[tree_.dof_count() + d] = range.lower;
+      own_ranges_[2 * tree_.dof_count() + d] = range.upper;
+    }
+    column_ = {own_ranges_.data(), 1};
+    return n;
+  }
+
+  Column Problem() const override { return column_; }
+  GaussNewtonCourse Course() const override { return course_; }
+
+  void Finish(int n, const GaussNewtonCourse& course, std::span<const double> angles) override {
+    for (int d = 0; d < tree_.dof_count(); ++d) {
+      double& angle = solution_.angles[static_cast<std::size_t>(d) * solution_.count + n];
+      angle = angles[d];
+      if (!may_round_) continue;
+      const AngleRange range = own_ranges_.empty() ? LimitsOf(n, d) : RangeOf(n, d);
+      angle = std::clamp(angle, range.lower, range.upper);
+    }
+    solution_.statuses[n] = help_.StatusOf(n, course);
+    solution_.iterations[n] = course.iterations();
+    solution_.fk_evaluations[n] = course.fk_evaluations();
+  }
+
+ private:
+  static IkOptions InPrecision(const IkOptions& options, Precision precision) {
+    IkOptions made = options;
+    if (precision == Precision::kFloat) made.stall_change = std::max(options.stall_change, kFloatStall);
+    return made;
+  }
+
+  static std::size_t NumberCount(const KinematicTree& tree) {
+    return 3 * tree.limits.size() + IkBatch::kRootNumbers + IkBatch::kTargetNumbers * tree.effectors.size();
+  }
+
+  AngleRange LimitsOf(int n, int d) const { return {problems_.lower_limits(d)[n], problems_.upper_limits(d)[n]}; }
+  AngleRange RangeOf(int n, int d) const {
+    return AllowedRange(problems_.start_angles(d)[n], LimitsOf(n, d), options_);
+  }
+
+  const KinematicTree& tree_;
+  const IkBatch& problems_;
+  const IkOptions& options_;
+  const GaussNewtonCourse course_;
+  const std::vector<int> asked_;
+  const bool may_round_;  // angles, to float and beyond their ranges
+  std::size_t next_ = 0;
+  ScalarHelp& help_;
+  IkBatchSolution& solution_;
+  Column column_;
+  std::vector<double> own_ranges_;  // a column whose ranges are not the problem's limits
+};
+
+}  // namespace
+
+GaussNewtonRules RulesFor(const IkOptions& options, const GaussNewtonOptions& own, Precision precision) {
+  const double position = options.position_goal, axis = options.axis_goal;
+  // The chord of an angle is shorter than its arc.
+  const double chord = 2 * ComputeSineCosine(0.5 * std::min(axis, kPi)).sine;
+  if (precision == Precision::kDouble) {
+    return {SquareBelow(position), position * position, SquareBelow(chord),
+            axis * axis,           own.extra_passes,    kLargestTurn};
+  }
+  constexpr double kSquaredShare = kFloatShare * kFloatShare;
+  const double squared_distance = kSquaredShare * position * position, squared_chord = kSquaredShare * chord * chord;
+  return {squared_distance, squared_distance, squared_chord, squared_chord, own.extra_passes, kLargestTurn};
+}
+
+GaussNewtonCourse::GaussNewtonCourse(const IkOptions& options, const GaussNewtonOptions& own, const Numerics& numerics)
+    : numerics_(numerics),
+      max_iterations_(options.max_iterations),
+      first_sweeps_(own.first_sweeps),
+      patience_(std::clamp(options.max_iterations / kShareOfPatience, 1, kPatience)),
+      stall_change_(options.stall_change),
+      most_restarts_(kRestarts) {
+  Begin(Phase::kToStart, kProgress, patience_);
+}
+
+// One problem at a time, whose numbers it puts to their places and whose answer it takes from there.
+class GaussNewtonSolver::Solver {
  public:
   explicit Solver(const KinematicTree& tree) : tree_(tree), packs_(tree), limbs_(GaussNewtonLimbs::Make(packs_)) {}
 
   IkSolution Solve(const IkProblem& problem, const IkOptions& options, const GaussNewtonOptions& own) {
-    problem_ = &problem;
-    options_ = &options;
-    Take();
+    ScalarHelp help(tree_, options, [&problem](int) { return problem; });
+    PutAngles(problem, options);
+    PutTargets(problem);
     GaussNewtonCourse course(options, own, {});
-    limbs_->Solve(GoalsFor(options, Precision::kDouble), own.extra_passes, course, *this);
+    limbs_->Solve(RulesFor(options, own, Precision::kDouble), course, help);
     IkSolution solution;
-    solution.angles = ToAngles(limbs_->angles);
+    solution.angles.resize(packs_.places.size());
+    for (std::size_t d = 0; d < packs_.places.size(); ++d) solution.angles[d] = limbs_->angles[packs_.places[d]];
     if (course.has_converged()) {
-      MeasureEnds(solution.errors);
+      MeasureEnds(problem, solution.errors);
     } else {
-      MeasurePose(solution.angles, solution.errors);
+      MeasurePose(tree_, problem, solution.angles, solution.errors);
     }
-    solution.status = course.has_converged() ? IkStatus::kConverged
-                      : IsOutOfReach()       ? IkStatus::kUnreachable
-                      : course.HasStalled()  ? IkStatus::kStalled
-                                             : IkStatus::kIterationLimit;
+    solution.status = help.StatusOf(0, course);
     solution.iterations = course.iterations();
     solution.fk_evaluations = course.fk_evaluations();
     return solution;
   }
 
  private:
-  bool IsOutOfReach() override { return etude::IsOutOfReach(tree_, *problem_); }
-
-  bool MeetsGoals(std::span<const double> angles) override {
-    std::vector<EffectorError> errors;
-    MeasurePose(ToAngles(angles.data()), errors);
-    return FindWorst(errors, problem_->targets).Within(*options_);
-  }
-
-  void Sweep(const GaussNewtonCourse::Next& next, GaussNewtonCourse& course, std::span<double> angles) override {
-    IkProblem problem = *problem_;
-    problem.limits = AllowedRanges(*problem_, *options_);
-    for (std::size_t d = 0; d < problem.limits.size(); ++d) {
-      double& start = problem.start.angles[d];
-      start = std::clamp(start, problem.limits[d].lower, problem.limits[d].upper);
-    }
-    if (next.restart > 0) {
-      ScatterAround(std::vector<double>(problem.start.angles), problem.limits, next.restart, problem.start.angles);
-    } else {
-      problem.start.angles = ToAngles(angles.data());
-    }
-    MomentSweep sweep(tree_, problem, GaussNewtonSweepOptions(*options_));
-    for (int i = 0; i < next.sweeps; ++i) {
-      sweep.Sweep();
-      Put(sweep.Angles(), angles.data());
-      if (!course.CountSweep() || (!sweep.MissesGoals() && MeetsGoals(angles))) break;
-    }
-  }
-
-  void Take() {
+  void PutAngles(const IkProblem& problem, const IkOptions& options) {
     for (std::size_t d = 0; d < packs_.places.size(); ++d) {
-      const double start = problem_->start.angles[d];
-      const AngleRange range = AllowedRange(start, problem_->limits[d], *options_);
+      const double start = problem.start.angles[d];
+      const AngleRange range = AllowedRange(start, problem.limits[d], options);
       const int place = packs_.places[d];
       limbs_->angles[place] = std::clamp(start, range.lower, range.upper);
       limbs_->lower[place] = range.lower;
       limbs_->upper[place] = range.upper;
     }
     for (int k = 0; k < 3; ++k) {
-      limbs_->root[k] = problem_->start.root_position[k];
-      for (int c = 0; c < 3; ++c) limbs_->root[3 + 3 * c + k] = problem_->start.root_frame[c][k];
+      limbs_->root[k] = problem.start.root_position[k];
+      for (int c = 0; c < 3; ++c) limbs_->root[3 + 3 * c + k] = problem.start.root_frame[c][k];
     }
-    for (std::size_t e = 0; e < problem_->targets.size(); ++e) {
-      const EffectorTarget& target = problem_->targets[e];
+  }
+
+  void PutTargets(const IkProblem& problem) {
+    for (std::size_t e = 0; e < problem.targets.size(); ++e) {
+      const EffectorTarget& target = problem.targets[e];
       double* to = limbs_->TargetOf(static_cast<int>(e));
       const auto put = [&to](double x) {
         *to = x;
@@ -97,38 +238,20 @@ class GaussNewtonSolver::Solver final : public GaussNewtonHelp {
     }
   }
 
-  std::vector<double> ToAngles(const double* at_places) const {
-    std::vector<double> angles(packs_.places.size());
-    for (std::size_t d = 0; d < angles.size(); ++d) angles[d] = at_places[packs_.places[d]];
-    return angles;
-  }
-  void Put(std::span<const double> angles, double* at_places) const {
-    for (std::size_t d = 0; d < angles.size(); ++d) at_places[packs_.places[d]] = angles[d];
-  }
-
-  void MeasureEnds(std::vector<EffectorError>& errors) const {
-    errors.resize(problem_->targets.size());
+  void MeasureEnds(const IkProblem& problem, std::vector<EffectorError>& errors) const {
+    errors.resize(problem.targets.size());
     for (std::size_t e = 0; e < errors.size(); ++e) {
       const auto [p, axes] = limbs_->EndOf(static_cast<int>(e));
       LimbFrame X_WE;
       X_WE.position = {p[0], p[1], p[2]};
       for (int c = 0; c < 3; ++c) X_WE.axes[c] = {axes[c][0], axes[c][1], axes[c][2]};
-      errors[e] = ErrorOf(X_WE, problem_->targets[e]);
+      errors[e] = ErrorOf(X_WE, problem.targets[e]);
     }
-  }
-  void MeasurePose(const std::vector<double>& angles, std::vector<EffectorError>& errors) {
-    TreeState state = problem_->start;
-    state.angles = angles;
-    ComputeFrames(tree_, state, frames_);
-    MeasureErrors(frames_, problem_->targets, errors);
   }
 
   const KinematicTree& tree_;
   const LimbPacks packs_;
   const std::unique_ptr<GaussNewtonLimbs> limbs_;
-  const IkProblem* problem_ = nullptr;
-  const IkOptions* options_ = nullptr;
-  TreeFrames frames_;
 };
 
 GaussNewtonSolver::GaussNewtonSolver(const KinematicTree& tree) : tree_(tree) {
@@ -142,6 +265,62 @@ IkSolution GaussNewtonSolver::Solve(const IkProblem& problem, const IkOptions& o
   return options.trace ? SolveGaussNewtonPlainly(tree_, problem, options, own) : solver_->Solve(problem, options, own);
 }
 
+IkSolution SolveGaussNewton(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
+                            const GaussNewtonOptions& own) {
+  return GaussNewtonSolver(tree).Solve(problem, options, own);
+}
+
+IkBatchSolution SolveGaussNewtonBatch(const KinematicTree& tree, const IkBatch& problems, const IkOptions& options,
+                                      Precision precision, const GaussNewtonOptions& own) {
+  const std::size_t count = problems.count();
+  IkBatchSolution solution;
+  solution.count = problems.count();
+  solution.angles.resize(tree.limits.size() * count);
+  solution.statuses.assign(count, IkStatus::kBadInput);
+  solution.iterations.resize(count);
+  solution.fk_evaluations.resize(count);
+  if (!FindFault(tree, options).empty()) return solution;
+
+  std::vector<int> asked = problems.FindSound();
+  const GaussNewtonTree lane_tree(tree);
+  ScalarHelp help(tree, options, [&problems](int n) { return problems.Get(n); });
+  const auto solve = [&](std::vector<int> places, Precision in) {
+    BatchQueue queue(tree, problems, options, in, own, std::move(places), help, solution);
+    const auto solve_in = in == Precision::kFloat ? SolveInFloats : SolveInDoubles;
+    solve_in(lane_tree, RulesFor(options, own, in), queue, help);
+  };
+  solve(asked, precision);
+  if (precision == Precision::kFloat) {
+    std::erase_if(asked, [&](int n) { return solution.statuses[n] == IkStatus::kConverged; });
+    if (!asked.empty()) solve(asked, Precision::kDouble);
+  }
+  return solution;
+}
+
+std::vector<IkSolution> SolveGaussNewtonBatch(const KinematicTree& tree, std::span<const IkProblem> problems,
+                                              const IkOptions& options, Precision precision,
+                                              const GaussNewtonOptions& own) {
+  const IkBatchSolution batch = SolveGaussNewtonBatch(tree, IkBatch(tree, problems), options, precision, own);
+  std::vector<IkSolution> solutions(problems.size());
+  TreeFrames frames;
+  for (std::size_t n = 0; n < problems.size(); ++n) {
+    IkSolution& solution = solutions[n];
+    if (batch.statuses[n] == IkStatus::kBadInput) {
+      solution = BadInput(tree);
+      continue;
+    }
+    TreeState state = problems[n].start;
+    for (int d = 0; d < tree.dof_count(); ++d) state.angles[d] = batch.angles_of(d)[n];
+    ComputeFrames(tree, state, frames);
+    MeasureErrors(frames, problems[n].targets, solution.errors);
+    solution.status = batch.statuses[n];
+    solution.iterations = batch.iterations[n];
+    solution.fk_evaluations = batch.fk_evaluations[n];
+    solution.angles = std::move(state.angles);
+  }
+  return solutions;
+}
+
 IkOptions GaussNewtonSweepOptions(const IkOptions& options) {
   IkOptions made = options;
   made.weights = WeightRule::kAdaptivePower;
@@ -151,9 +330,19 @@ IkOptions GaussNewtonSweepOptions(const IkOptions& options) {
   return made;
 }
 
-IkSolution SolveGaussNewton(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
-                            const GaussNewtonOptions& own) {
-  return GaussNewtonSolver(tree).Solve(problem, options, own);
+std::vector<std::string> BatchTargets() {
+  hwy::SetSupportedTargetsForTest(0);
+  std::vector<std::string> names;
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) names.push_back(hwy::TargetName(target));
+  return names;
+}
+
+void SetBatchTarget(std::string_view name) {
+  hwy::SetSupportedTargetsForTest(0);
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    if (name == hwy::TargetName(target)) hwy::SetSupportedTargetsForTest(target);
+  }
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 }  // namespace etude

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <limits>
 
-#include "engine/kinematics/ik_problem.h"
-#include "engine/kinematics/solvers/gauss_newton.h"
-#include "engine/kinematics/solvers/restarts.h"
-
 namespace etude {
 
-/// What `gauss-newton` does next with one problem (gauss_newton.h says in which turn), from how far each pose is off.
-/// It knows numbers only, neither angles nor trees, so that one problem and many in lanes take the same way:
+struct IkOptions;
+struct GaussNewtonOptions;
+
+/// Decides what `gauss-newton` does next with one problem (gauss_newton.h says in which turn), from how far each pose
+/// is off. It knows numbers only, neither angles nor trees, so that one problem and many in lanes take the same way:
 ///
 ///     place the start;
 ///     while (true) {
@@ -21,11 +20,11 @@ namespace etude {
 class GaussNewtonCourse {
  public:
   enum class Act {
-    kStep,    ///< keep the pose as the last one; step with `damping`, and tell of it by `Stepped`
-    kGoBack,  ///< to the last pose: the step from there has raised the residual
-    kSweep,   ///< scatter by number `restart`, if it is not 0, and sweep `sweeps` times, or until `CountSweep` says no
+    kStep,      ///< keep the pose as the last one, step with `damping`, and report the step by `Stepped`
+    kGoBack,    ///< return to the last pose: the step from there has raised the residual
+    kSweep,     ///< scatter by `restart`, if it is not 0, and sweep `sweeps` times, or until `CountSweep` says no
     kTakeBest,  ///< go on from the best pose
-    kEnd,       ///< at this pose if it `has_converged`, else with the best one
+    kEnd,       ///< end at this pose if it `has_converged`, else at the best one
   };
   struct Next {
     Act act = Act::kEnd;
@@ -36,24 +35,18 @@ class GaussNewtonCourse {
     int sweeps = 0;
   };
 
-  /// The least damping, and the squared residual below which steps are no longer pulled to the start: other ones where
-  /// numbers have few digits.
+  /// The least damping, and the squared residual below which steps are no longer pulled to the start. Both are larger
+  /// where numbers have few digits.
   struct Numerics {
     double least_damping = 1e-7;
     double pulled_above = 0;
   };
 
   GaussNewtonCourse() = default;
-  GaussNewtonCourse(const IkOptions& options, const GaussNewtonOptions& own, const Numerics& numerics)
-      : numerics_(numerics),
-        max_iterations_(options.max_iterations),
-        first_sweeps_(own.first_sweeps),
-        patience_(std::clamp(options.max_iterations / kShareOfPatience, 1, kPatience)),
-        stall_change_(options.stall_change) {
-    Begin(Phase::kToStart, kProgress, patience_);
-  }
+  GaussNewtonCourse(const IkOptions& options, const GaussNewtonOptions& own, const Numerics& numerics);
 
-  /// `is_out_of_reach()` is asked once, where restarts would begin: whether no pose can meet the targets.
+  /// Takes in a pose that has been placed: its |e|² and whether it meets the goals. `is_out_of_reach()`, whether no
+  /// pose can meet the targets, is asked once, where restarts would begin.
   template <class IsOutOfReach>
   Next Arrive(double squares, bool is_met, const IsOutOfReach& is_out_of_reach) {
     if (arrival_ == Arrival::kStep) ++iterations_;
@@ -76,7 +69,7 @@ class GaussNewtonCourse {
         continue;
       }
       const bool is_best = next.is_best;
-      if (phase_ == Phase::kHere) restarts_ = MayGoOn() && !is_out_of_reach() ? kRestarts : 0;
+      if (phase_ == Phase::kHere) restarts_ = MayGoOn() && !is_out_of_reach() ? most_restarts_ : 0;
       if (MayGoOn() && phase_ != Phase::kSettle) {
         if (restart_ < restarts_) {
           ++restart_;
@@ -98,17 +91,17 @@ class GaussNewtonCourse {
     }
   }
 
-  /// `largest`: the largest change of an angle that the step's optimum asks for, 0 without a step.
+  /// Takes in the largest change of an angle that the step's optimum asks for; 0 where there was no step.
   void Stepped(double largest) { is_stuck_ = largest < stall_change_; }
 
-  /// Counts a sweep; whether there may be another.
+  /// Counts a sweep. Returns whether there may be another.
   bool CountSweep() {
     ++iterations_;
     ++fk_evaluations_;
     return MayGoOn();
   }
 
-  /// Whether a step with `damping` gets extra passes of its active set.
+  /// Returns whether a step with `damping` gets extra passes of its active set.
   static bool HasExtraPasses(double damping) { return damping < kSmallDamping; }
 
   bool has_converged() const { return has_converged_; }
@@ -149,7 +142,7 @@ class GaussNewtonCourse {
     factor_ = 1;
   }
 
-  /// Whether steps go on, as `next` says; if not, this approach is at its end.
+  /// Returns whether steps go on, as `next` says; if not, this approach is at its end.
   bool Approach(double squares, Next& next) {
     if (!MayGoOn()) return false;
     if (phase_ != Phase::kToStart && squares > before_) {
@@ -201,7 +194,7 @@ class GaussNewtonCourse {
   bool is_stuck_ = false, has_converged_ = false;
   double progress_ = 0, before_ = 0, fallen_to_ = 0, factor_ = 1;
   double best_squares_ = std::numeric_limits<double>::infinity();
-  int left_ = 0, most_left_ = 0, restart_ = 0, restarts_ = 0;
+  int left_ = 0, most_left_ = 0, restart_ = 0, restarts_ = 0, most_restarts_ = 0;
   int iterations_ = 0, fk_evaluations_ = 0;
 };
 

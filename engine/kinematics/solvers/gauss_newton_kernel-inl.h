@@ -1,8 +1,7 @@
-// The parts of a Gauss–Newton step (gauss_newton_step.h), and of the forward kinematics before it, for a value V that
-// has + − * / and, found by its type, Select, Below, AtLeast, AreEqual, Larger: a double, or one lane each of many
-// problems on the same tree. Every operation is the one that `ComputeFrames` and `GaussNewtonStep` make, in their
-// order, so that a problem in double has their very bits, in every lane, on every CPU. Compiled once per target, hence
-// this kind of guard.
+// The parts of a Gauss–Newton step (gauss_newton_plain.h), and of the forward kinematics before it, for a value V: one
+// number each of many problems (`Lanes`) or of four limbs (`Four`). Every operation is the one that `ComputeFrames` and
+// `GaussNewtonStep` make, in their order, so that a problem in double has their very bits, in every lane, on every CPU.
+// Included once per instruction set, hence this kind of guard.
 #if defined(ETUDE_GAUSS_NEWTON_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ETUDE_GAUSS_NEWTON_KERNEL_INL_H_
 #undef ETUDE_GAUSS_NEWTON_KERNEL_INL_H_
@@ -12,8 +11,7 @@
 
 #include <type_traits>
 
-#include "engine/kinematics/solvers/gauss_newton_tree.h"
-#include "engine/kinematics/solvers/lanes-inl.h"
+#include "engine/kinematics/solvers/vectors-inl.h"
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -24,8 +22,8 @@ inline constexpr double kSquaredPositionScale = 0.30 * 0.30;
 
 // ---- Sine and cosine ------------------------------------------------------------------------------------------------
 
-/// Those of an angle whose nearest quarter turns are counted by the last bits of `shifted` and whose rest has `s` and
-/// `c`: an odd number swaps the two, every second one turns a sign.
+/// Sets sine and cosine of an angle from those of its rest, `s` and `c`. The last bits of `shifted` count its quarter
+/// turns: an odd number of them swaps the two, every second one turns a sign.
 template <class T>
 HWY_INLINE void AddQuarters(const Lanes<T>& shifted, const Lanes<T>& s, const Lanes<T>& c, Lanes<T>& sine,
                             Lanes<T>& cosine) {
@@ -41,7 +39,7 @@ HWY_INLINE void AddQuarters(const Lanes<T>& shifted, const Lanes<T>& s, const La
   cosine = Lanes<T>(hn::BitCast(Tag(), hn::Xor(hn::Xor(c_bits, swap), c_sign)));
 }
 
-/// `ComputeSineCosine` for lanes of doubles: the same operations.
+/// Computes sine and cosine by the operations of `ComputeSineCosine`.
 HWY_INLINE void SineAndCosine(const Lanes<double>& angle, Lanes<double>& sine, Lanes<double>& cosine) {
   using V = Lanes<double>;
   const V shifted = angle * V(0.6366197723675814) + V(0x1.8p52), quarters = shifted - V(0x1.8p52);
@@ -59,8 +57,8 @@ HWY_INLINE void SineAndCosine(const Lanes<double>& angle, Lanes<double>& sine, L
   AddQuarters(shifted, s, c, sine, cosine);
 }
 
-/// The same in float, for |angle| ≤ 1000, within 2 units in their last place: Taylor's series to r⁹ and r⁸ leave less
-/// than 10⁻⁸.
+/// Computes sine and cosine in float, for |angle| ≤ 1000, within 2 units in their last place: Taylor's series to r⁹ and
+/// r⁸ leave less than 10⁻⁸.
 HWY_INLINE void SineAndCosine(const Lanes<float>& angle, Lanes<float>& sine, Lanes<float>& cosine) {
   using V = Lanes<float>;
   const V shifted = angle * V(0.6366197723675814) + V(0x1.8p23), quarters = shifted - V(0x1.8p23);
@@ -100,13 +98,13 @@ struct FrameLanes {
   V position[3];
 };
 
-/// A frame's axes times a vector in it.
+/// Sets `out` to a frame's axes times a vector in it.
 template <class V>
-HWY_INLINE void Mix(const V (&axes)[3][3], const double (&by)[3], V (&out)[3]) {
-  for (int k = 0; k < 3; ++k) out[k] = axes[0][k] * V(by[0]) + axes[1][k] * V(by[1]) + axes[2][k] * V(by[2]);
+HWY_INLINE void Mix(const V (&axes)[3][3], const V (&by)[3], V (&out)[3]) {
+  for (int k = 0; k < 3; ++k) out[k] = axes[0][k] * by[0] + axes[1][k] * by[1] + axes[2][k] * by[2];
 }
 
-/// A frame's axes times the rotation by an angle about its axis `kAxis`.
+/// Turns a frame's axes by an angle about its axis `kAxis`.
 template <int kAxis, class V>
 HWY_INLINE void TurnAxes(const V& s, const V& c, V (&axes)[3][3]) {
   constexpr int i = (kAxis + 1) % 3, j = (kAxis + 2) % 3;
@@ -117,7 +115,7 @@ HWY_INLINE void TurnAxes(const V& s, const V& c, V (&axes)[3][3]) {
   }
 }
 
-/// Sets `out` to `axis`, and what it moves of the limb's point at the root R by turning at J.
+/// Sets `screw` to `axis`, and to how turning about it at J moves the limb's point at the root R.
 template <class V>
 HWY_INLINE void SetScrew(const V (&axis)[3], const V (&p_RJ_W)[3], V (&screw)[6]) {
   V shift[3];
@@ -138,7 +136,7 @@ struct TargetLanes {
   V axis_weights[3];
 };
 
-/// The quadratic ½VᵀΛV − ηᵀV that a target asks of its limb, as the numbers that it is made of.
+/// The quadratic ½VᵀΛV − ηᵀV that a target asks of its limb, as the few numbers that it is made of.
 template <class V>
 struct AskedLanes {
   V turn[6];  ///< the lower triangle of Λ's first three rows, row by row
@@ -152,7 +150,7 @@ struct AskedLanes {
 template <class V>
 inline constexpr bool kHasUpperTriangle = !std::is_same_v<V, Lanes<float>>;
 
-/// The same, or a sum of such, in full.
+/// The quadratic that all targets beyond ask of a limb, in full.
 template <class V>
 struct QuadraticLanes {
   V matrix[36];  ///< Λ
@@ -255,7 +253,7 @@ HWY_INLINE V Dot6(const V (&a)[6], const V (&b)[6]) {
   return (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]) + (a[4] * b[4] + a[5] * b[5]);
 }
 
-/// Takes a hinge's part off what is asked of its limb.
+/// Takes a hinge's part off the quadratic of its limb.
 template <class V>
 HWY_INLINE void EliminateHinge(const V& damping, const V& pull, const V& lower, const V& upper, QuadraticLanes<V>& limb,
                                HingeLanes<V>& hinge) {
@@ -288,7 +286,13 @@ HWY_INLINE void EliminateHinge(const V& damping, const V& pull, const V& lower, 
   hinge.best = best;
 }
 
-/// The hinge's change and side, as its limb moves now, and with it the movement of the limb beyond.
+/// Returns the value nearest to `x` that is not beyond an end.
+template <class V>
+HWY_INLINE V Clamped(const V& x, const V& lower, const V& upper) {
+  return Select(Below(x, lower), lower, Select(Below(upper, x), upper, x));
+}
+
+/// Sets the hinge's change and side, as its limb moves now, and makes `movement` that of the limb beyond.
 template <class V>
 HWY_INLINE void SubstituteHinge(const V& lower, const V& upper, const HingeLanes<V>& hinge, V& change, V& side,
                                 V (&movement)[6]) {
@@ -298,6 +302,103 @@ HWY_INLINE void SubstituteHinge(const V& lower, const V& upper, const HingeLanes
   side = Select(is_below, V(-1.0), OrZero(is_above, V(1.0)));
   change = Select(is_below, lower, Select(is_above, upper, best));
   for (int k = 0; k < 6; ++k) movement[k] = movement[k] + change * hinge.screw[k];
+}
+
+// ---- The step for one limb, by rows --------------------------------------------------------------------------------
+
+// Six numbers at a time, every sum in the order in which it stands above.
+
+/// Six numbers in a row, and two zeros.
+struct SixRow {
+  Four low, high;
+};
+
+HWY_INLINE SixRow LoadRow(const double* from) { return {LoadFour(from), LoadFour(from + 4)}; }
+HWY_INLINE void StoreRow(const SixRow& a, double* to) {
+  StoreFour(a.low, to);
+  StoreFour(a.high, to + 4);
+}
+HWY_INLINE SixRow operator+(const SixRow& a, const SixRow& b) { return {a.low + b.low, a.high + b.high}; }
+HWY_INLINE SixRow operator-(const SixRow& a, const SixRow& b) { return {a.low - b.low, a.high - b.high}; }
+HWY_INLINE SixRow operator*(const Four& a, const SixRow& b) { return {a * b.low, a * b.high}; }
+
+/// Returns `Dot6` of two rows, in every lane.
+HWY_INLINE Four DotRows(const SixRow& a, const SixRow& b) {
+  const Four low = a.low * b.low, high = a.high * b.high;
+  const Four pairs = low + SwapNeighbours(low), last = high + SwapNeighbours(high);
+  return (pairs + SwapHalves(pairs)) + LowerTwice(last);
+}
+
+/// Puts six numbers of every lane into a row for each lane, at `row_of(lane)`.
+template <class RowOf>
+HWY_INLINE void PutRows(const Four* numbers, const RowOf& row_of) {
+  Four a = numbers[0], b = numbers[1], c = numbers[2], d = numbers[3];
+  Transpose(a, b, c, d);
+  Four e = numbers[4], f = numbers[5], g, h;
+  TransposeTwo(e, f, g, h);
+  row_of(0) = {a, e};
+  row_of(1) = {b, f};
+  row_of(2) = {c, g};
+  row_of(3) = {d, h};
+}
+
+/// `QuadraticLanes` of one limb.
+struct QuadraticRows {
+  SixRow matrix[6];
+  SixRow vector;
+};
+
+/// `FrameLanes` of one.
+struct TrunkFrame {
+  Four axes[3];  ///< x, y, z, 0
+  Four position;
+};
+
+/// `HingeLanes` of one.
+struct alignas(64) TrunkHinge {
+  double screw[8], matrix_s[8];
+  double scale, best, side;
+};
+
+/// Returns a × b of vectors x, y, z, 0.
+HWY_INLINE Four CrossAxes(const Four& a, const Four& b) {
+  return NextAxes(a) * NextAxes(NextAxes(b)) - NextAxes(b) * NextAxes(NextAxes(a));
+}
+
+/// Takes a hinge's part off the quadratic of its limb, (m, v).
+HWY_INLINE void EliminateHinge(const Four& damping, double to_start, double to_lower, double to_upper, SixRow (&m)[6],
+                               SixRow& v, TrunkHinge& hinge) {
+  const double* s = hinge.screw;
+  const SixRow screw = LoadRow(s);
+  const SixRow y = (Four(s[0]) * m[0] + Four(s[1]) * m[1]) + (Four(s[2]) * m[2] + Four(s[3]) * m[3]) +
+                   (Four(s[4]) * m[4] + Four(s[5]) * m[5]);
+  StoreRow(y, hinge.matrix_s);
+  const Four nothing(0.0);
+  const Four scale = Four(1.0) / (damping + Larger(nothing, DotRows(y, screw)));
+  const Four best = scale * (damping * Four(to_start) + DotRows(v, screw));
+  const Four side(hinge.side);
+  const auto is_free = AreEqual(side, nothing);
+  const Four change = Select(is_free, best, Select(Below(side, nothing), Four(to_lower), Four(to_upper)));
+  const Four share = OrZero(is_free, nothing - scale);
+  for (int r = 0; r < 6; ++r) m[r] = m[r] + (share * Four(hinge.matrix_s[r])) * y;
+  v = v + (nothing - change) * y;
+  hinge.scale = FirstOf(scale);
+  hinge.best = FirstOf(best);
+}
+
+/// Sets the hinge's change, as its limb moves now, and makes `movement` that of the limb beyond. Returns whether the
+/// hinge has changed sides.
+HWY_INLINE bool SubstituteHinge(double to_lower, double to_upper, TrunkHinge& hinge, double& change, SixRow& movement) {
+  const Four best = Four(hinge.best) - Four(hinge.scale) * DotRows(LoadRow(hinge.matrix_s), movement);
+  const Four lower(to_lower), upper(to_upper);
+  const auto is_below = Below(best, lower), is_above = Below(upper, best);
+  const Four moved = Select(is_below, lower, Select(is_above, upper, best));
+  movement = movement + moved * LoadRow(hinge.screw);
+  const double side = FirstOf(Select(is_below, Four(-1.0), OrZero(is_above, Four(1.0))));
+  const bool has_changed = side != hinge.side;
+  hinge.side = side;
+  change = FirstOf(moved);
+  return has_changed;
 }
 
 }  // namespace etude::HWY_NAMESPACE

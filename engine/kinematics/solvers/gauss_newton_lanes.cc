@@ -1,11 +1,10 @@
-// Compiled once for every kind of vectors that x86-64 CPUs have, as batch_lanes.cc is and for its reasons.
-#include "engine/kinematics/solvers/gauss_newton_lanes.h"
-
+// Many problems of one tree, each in a lane of the CPU's vectors. Compiled once per instruction set; the best one is
+// chosen when the program runs (README.md).
 #include <algorithm>
 #include <limits>
 #include <vector>
 
-#include "engine/kinematics/solvers/linear_targets.h"
+#include "engine/kinematics/solvers/gauss_newton_vectors.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/kinematics/solvers/gauss_newton_lanes.cc"
@@ -13,12 +12,130 @@
 
 // In this order: per target.
 #include "engine/kinematics/solvers/gauss_newton_kernel-inl.h"
-#include "engine/kinematics/solvers/lane_poses-inl.h"
-#include "engine/kinematics/solvers/lanes-inl.h"
+#include "engine/kinematics/solvers/vectors-inl.h"
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace etude::HWY_NAMESPACE {
+
+/// The angles of one degree of freedom.
+template <class V>
+struct AngleLanes {
+  V now, last, best, start, lower, upper;
+};
+
+/// Places poses, one in each lane: forward kinematics, in the order of `ComputeFrames`, and what targets ask there.
+template <class T>
+class LanePoses {
+ public:
+  using V = Lanes<T>;
+
+  explicit LanePoses(const GaussNewtonTree& tree)
+      : tree_(tree),
+        hinges_(tree.dof_count),
+        frames_(tree.joints.size()),
+        targets_(tree.effectors.size()),
+        asked_(tree.effectors.size()),
+        miss_(1) {}
+
+  /// The root and the targets of a problem: numbers as `IkBatch::column` has them, `stride` apart.
+  void Load(int n, const double* from, std::size_t stride) {
+    const auto take = [&from, stride] {
+      const double number = *from;
+      from += stride;
+      return number;
+    };
+    // In float, places are counted from the root, where they have the most digits.
+    constexpr bool kFromRoot = sizeof(T) < sizeof(double);
+    double origin[3] = {};
+    for (int k = 0; k < 3; ++k) {
+      const double place = take();
+      if (kFromRoot) origin[k] = place;
+      SetLane(frames_[0].position[k], n, place - origin[k]);
+    }
+    for (int k = 0; k < 9; ++k) SetLane(frames_[0].axes[k / 3][k % 3], n, take());
+    for (TargetLanes<V>& target : targets_) {
+      for (int k = 0; k < 3; ++k) SetLane(target.position[k], n, take() - origin[k]);
+      for (int k = 0; k < 9; ++k) SetLane(target.axes[k / 3][k % 3], n, take());
+      SetLane(target.position_weight, n, take() / kSquaredPositionScale);
+      for (int k = 0; k < 3; ++k) SetLane(target.axis_weights[k], n, take());
+    }
+  }
+
+  void Place(const AlignedList<AngleLanes<V>>& angles) {
+    PlaceLimbs(angles);
+    Linearise();
+  }
+
+  /// How far the poses are off.
+  const MissLanes<V>& miss() const { return miss_[0]; }
+  const AskedLanes<V>& AskedOf(std::size_t effector) const { return asked_[effector]; }
+  /// With their screws at the poses; all else in them is the step's.
+  AlignedList<HingeLanes<V>>& hinges() { return hinges_; }
+
+ private:
+  void PlaceLimbs(const AlignedList<AngleLanes<V>>& angles) {
+    const FrameLanes<V>& root = frames_[0];
+    for (std::size_t n = 1; n < tree_.joints.size(); ++n) {
+      const GaussNewtonTree::Joint& joint = tree_.joints[n];
+      const FrameLanes<V>& parent = frames_[joint.parent];
+      FrameLanes<V>& frame = frames_[n];
+      V p_RJ_W[3], axes[3][3];
+      V p_PJ_W[3];
+      MixNumbers(parent.axes, joint.p_PJ, p_PJ_W);
+      for (int k = 0; k < 3; ++k) {
+        frame.position[k] = parent.position[k] + p_PJ_W[k];
+        p_RJ_W[k] = frame.position[k] - root.position[k];
+      }
+      if (joint.renames_axes) {
+        for (int c = 0; c < 3; ++c) {
+          for (int k = 0; k < 3; ++k) axes[c][k] = parent.axes[joint.from[c]][k] * V(joint.sign[c]);
+        }
+      } else {
+        for (int c = 0; c < 3; ++c) MixNumbers(parent.axes, joint.R_PJ[c], axes[c]);
+      }
+      if (joint.dof_count > 0) TurnHinge<0>(joint, angles, p_RJ_W, axes);
+      if (joint.dof_count > 1) TurnHinge<1>(joint, angles, p_RJ_W, axes);
+      if (joint.dof_count > 2) TurnHinge<2>(joint, angles, p_RJ_W, axes);
+      for (int c = 0; c < 3; ++c) Copy3(axes[c], frame.axes[c]);
+    }
+  }
+
+  static HWY_INLINE void MixNumbers(const V (&axes)[3][3], const double (&numbers)[3], V (&out)[3]) {
+    const V by[3] = {V(numbers[0]), V(numbers[1]), V(numbers[2])};
+    Mix(axes, by, out);
+  }
+
+  template <int kAxis>
+  HWY_INLINE void TurnHinge(const GaussNewtonTree::Joint& joint, const AlignedList<AngleLanes<V>>& angles,
+                            const V (&p_RJ_W)[3], V (&axes)[3][3]) {
+    const int dof = joint.first_dof + kAxis;
+    V s, c;
+    SineAndCosine(angles[dof].now, s, c);
+    TurnAxes<kAxis>(s, c, axes);
+    SetScrew(axes[kAxis], p_RJ_W, hinges_[dof].screw);
+  }
+
+  void Linearise() {
+    MissLanes<V> miss{V(0.0), V(0.0), V(0.0)};
+    for (std::size_t e = 0; e < tree_.effectors.size(); ++e) {
+      const GaussNewtonTree::Effector& effector = tree_.effectors[e];
+      const FrameLanes<V>& limb = frames_[effector.joint];
+      V p_WE[3];
+      MixNumbers(limb.axes, effector.p_LE, p_WE);
+      for (int k = 0; k < 3; ++k) p_WE[k] = limb.position[k] + p_WE[k];
+      HWY_NAMESPACE::Linearise(targets_[e], limb.axes, p_WE, frames_[0].position, asked_[e], miss);
+    }
+    miss_[0] = miss;
+  }
+
+  const GaussNewtonTree& tree_;
+  AlignedList<HingeLanes<V>> hinges_;
+  AlignedList<FrameLanes<V>> frames_;  // of each joint's limb
+  AlignedList<TargetLanes<V>> targets_;
+  AlignedList<AskedLanes<V>> asked_;
+  AlignedList<MissLanes<V>> miss_;
+};
 
 /// Problems on their way, one in each lane: a round places all poses, tells their courses how far they are off, and
 /// steps. A lane whose pose is no outcome of a step, or whose step wants another pass of its active set while few
@@ -27,11 +144,12 @@ namespace etude::HWY_NAMESPACE {
 template <class T>
 class GaussNewtonLanes {
  public:
-  GaussNewtonLanes(const GaussNewtonTree& tree, const LaneGoals& goals, int extra_passes, GaussNewtonQueue& queue)
+  GaussNewtonLanes(const GaussNewtonTree& tree, const GaussNewtonRules& rules, GaussNewtonQueue& queue,
+                   GaussNewtonHelp& help)
       : tree_(tree),
-        goals_(goals),
-        extra_passes_(extra_passes),
+        rules_(rules),
         queue_(queue),
+        help_(help),
         lanes_(hn::Lanes(hn::ScalableTag<T>())),
         angles_(tree.dof_count),
         poses_(tree),
@@ -133,7 +251,7 @@ class GaussNewtonLanes {
   /// Whether the lane steps.
   bool Ask(Lane& lane, int n) {
     using enum GaussNewtonCourse::Act;
-    const auto is_out_of_reach = [&] { return queue_.IsOutOfReach(lane.problem); };
+    const auto is_out_of_reach = [&] { return help_.IsOutOfReach(lane.problem); };
     const GaussNewtonCourse::Next next =
         lane.course.Arrive(GetLane(poses_.miss().squares, n), IsMet(lane, n), is_out_of_reach);
     if (next.act == kStep) {
@@ -152,7 +270,7 @@ class GaussNewtonLanes {
       for (AngleLanes<V>& angle : angles_) SetLane(angle.now, n, GetLane(angle.best, n));
     }
     if (next.act == kSweep) {
-      queue_.Sweep(lane.problem, next, lane.course, Angles(n));
+      help_.Sweep(lane.problem, next, lane.course, Angles(n));
       for (std::size_t d = 0; d < angles_.size(); ++d) {
         // Rounded to float, an angle may be beyond its range.
         const double lower = GetLane(angles_[d].lower, n), upper = GetLane(angles_[d].upper, n);
@@ -166,11 +284,8 @@ class GaussNewtonLanes {
   }
 
   bool IsMet(const Lane& lane, int n) {
-    const double distance = GetLane(poses_.miss().squared_distance, n), chord = GetLane(poses_.miss().squared_chord, n);
-    // So that what is no number meets nothing.
-    if (!(distance < goals_.squared_distance_missed && chord < goals_.squared_chord_missed)) return false;
-    if (distance < goals_.squared_distance_met && chord < goals_.squared_chord_met) return true;
-    return queue_.MeetsGoals(lane.problem, Angles(n));
+    const auto measure = [&] { return help_.MeetsGoals(lane.problem, Angles(n)); };
+    return rules_.AreMet(GetLane(poses_.miss().squared_distance, n), GetLane(poses_.miss().squared_chord, n), measure);
   }
 
   std::span<double> Angles(int n) {
@@ -190,7 +305,7 @@ class GaussNewtonLanes {
       for (std::size_t n = 0; n < lanes_.size(); ++n) {
         Lane& lane = lanes_[n];
         if (At(kCounts, n) == 0) continue;
-        const bool is_finished = At(kHasChanged, n) == 0 || lane.passes == extra_passes_ ||
+        const bool is_finished = At(kHasChanged, n) == 0 || lane.passes == rules_.extra_passes ||
                                  !GaussNewtonCourse::HasExtraPasses(At(kDamping, n));
         lane.passes = is_finished ? 0 : lane.passes + 1;
         if (is_finished) At(kCounts, n) = 0;
@@ -274,15 +389,13 @@ class GaussNewtonLanes {
     }
     largest = OrZero(is_finite, largest);
     registers_[kLargest] = largest;
-    const V most(kLargestTurn);
+    const V most(rules_.largest_turn);
     const V share = Select(Below(most, largest), most / largest, V(1.0));
     const M moves = Flag(kMoves) && Below(V(0.0), largest);
     for (std::size_t d = 0; d < angles_.size(); ++d) {
       AngleLanes<V>& angle = angles_[d];
       const V moved = angle.now + share * hinges_[d].change;
-      const V clamped =
-          Select(Below(moved, angle.lower), angle.lower, Select(Below(angle.upper, moved), angle.upper, moved));
-      angle.now = Select(moves, clamped, angle.now);
+      angle.now = Select(moves, Clamped(moved, angle.lower, angle.upper), angle.now);
     }
   }
 
@@ -291,9 +404,9 @@ class GaussNewtonLanes {
   };
 
   const GaussNewtonTree& tree_;
-  const LaneGoals& goals_;
-  const int extra_passes_;
+  const GaussNewtonRules& rules_;
   GaussNewtonQueue& queue_;
+  GaussNewtonHelp& help_;
   bool is_empty_ = false;  // the queue
   std::vector<Lane> lanes_;
   AlignedList<AngleLanes<V>> angles_;
@@ -305,11 +418,13 @@ class GaussNewtonLanes {
   AlignedList<V> registers_;
 };
 
-void SolveFloats(const GaussNewtonTree& tree, const LaneGoals& goals, int extra_passes, GaussNewtonQueue& queue) {
-  GaussNewtonLanes<float>(tree, goals, extra_passes, queue).Run();
+void SolveFloats(const GaussNewtonTree& tree, const GaussNewtonRules& rules, GaussNewtonQueue& queue,
+                 GaussNewtonHelp& help) {
+  GaussNewtonLanes<float>(tree, rules, queue, help).Run();
 }
-void SolveDoubles(const GaussNewtonTree& tree, const LaneGoals& goals, int extra_passes, GaussNewtonQueue& queue) {
-  GaussNewtonLanes<double>(tree, goals, extra_passes, queue).Run();
+void SolveDoubles(const GaussNewtonTree& tree, const GaussNewtonRules& rules, GaussNewtonQueue& queue,
+                  GaussNewtonHelp& help) {
+  GaussNewtonLanes<double>(tree, rules, queue, help).Run();
 }
 
 }  // namespace etude::HWY_NAMESPACE
@@ -321,11 +436,13 @@ namespace etude {
 HWY_EXPORT(SolveFloats);
 HWY_EXPORT(SolveDoubles);
 
-void SolveInLanes(const GaussNewtonTree& tree, const LaneGoals& goals, int extra_passes, Precision precision,
-                  GaussNewtonQueue& queue) {
-  const auto solve =
-      precision == Precision::kFloat ? HWY_DYNAMIC_DISPATCH(SolveFloats) : HWY_DYNAMIC_DISPATCH(SolveDoubles);
-  solve(tree, goals, extra_passes, queue);
+void SolveInFloats(const GaussNewtonTree& tree, const GaussNewtonRules& rules, GaussNewtonQueue& queue,
+                   GaussNewtonHelp& help) {
+  HWY_DYNAMIC_DISPATCH(SolveFloats)(tree, rules, queue, help);
+}
+void SolveInDoubles(const GaussNewtonTree& tree, const GaussNewtonRules& rules, GaussNewtonQueue& queue,
+                    GaussNewtonHelp& help) {
+  HWY_DYNAMIC_DISPATCH(SolveDoubles)(tree, rules, queue, help);
 }
 
 }  // namespace etude

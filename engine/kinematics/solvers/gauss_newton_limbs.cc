@@ -1,40 +1,217 @@
-// Compiled once for every kind of vectors that x86-64 CPUs have, as batch_lanes.cc is and for its reasons. Whatever
-// their width, the numbers are added up in one order: that of `GaussNewtonStep`.
-#include "engine/kinematics/solvers/gauss_newton_limbs.h"
-
+// One problem after the other, four limbs in the lanes of vectors and the trunk by rows. Compiled once per instruction
+// set; the best one is chosen when the program runs (README.md). Whatever the width of vectors, numbers are added up in
+// one order: that of gauss_newton_plain.cc.
 #include <algorithm>
 #include <limits>
 
-#include "engine/kinematics/solvers/linear_targets.h"
+#include "engine/kinematics/solvers/gauss_newton_vectors.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/kinematics/solvers/gauss_newton_limbs.cc"
 #include "hwy/foreach_target.h"  // before highway.h
 
 // In this order: per target.
-#include "engine/kinematics/solvers/four-inl.h"
 #include "engine/kinematics/solvers/gauss_newton_kernel-inl.h"
-#include "engine/kinematics/solvers/lanes-inl.h"
-#include "engine/kinematics/solvers/limb_poses-inl.h"
-#include "engine/kinematics/solvers/rows-inl.h"
+#include "engine/kinematics/solvers/vectors-inl.h"
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace etude::HWY_NAMESPACE {
 
+// Places limbs: forward kinematics, in the order of `ComputeFrames`, and what targets ask there.
+class LimbPoses {
+ public:
+  explicit LimbPoses(const LimbPacks& packs)
+      : packs_(packs),
+        sines_(packs.place_count),
+        cosines_(packs.place_count),
+        trunk_(packs.trunk.size()),
+        trunk_hinges_(packs.trunk_hinge_count),
+        hinges_(packs.slot_count),
+        ends_(packs.ends.size()),
+        squares_of_(packs.end_places.size()) {}
+
+  /// `angles` at their places; the root's p_WL, and R_WL column by column.
+  void Place(const double* angles, const double (&root)[12]) {
+    ForPlaces(sines_.size(), [&](std::size_t i) HWY_ATTR {
+      Places sine, cosine;
+      SineAndCosine(LoadPlaces(angles + i), sine, cosine);
+      StorePlaces(sine, sines_.begin() + i);
+      StorePlaces(cosine, cosines_.begin() + i);
+    });
+    PlaceTrunk(root);
+    miss_ = {};
+    for (const LimbPacks::Pack& pack : packs_.packs) PlaceLimbs(pack, root);
+    for (const double squares : squares_of_) miss_.squares += squares;
+  }
+
+  /// How far the pose is off: |e|², and the largest distance and chord that count.
+  const MissLanes<double>& miss() const { return miss_; }
+  const AskedLanes<Four>& AskedAt(int ends) const { return ends_[ends].asked; }
+  /// With their screws at the pose; all else in them is the step's.
+  AlignedList<HingeLanes<Four>>& hinges() { return hinges_; }
+  AlignedList<TrunkHinge>& trunk_hinges() { return trunk_hinges_; }
+
+  /// As in `GaussNewtonLimbs`.
+  double* TargetOf(int effector) { return reinterpret_cast<double*>(&EndsOf(effector).target) + Lane(effector); }
+  GaussNewtonLimbs::End EndOf(int effector) {
+    const double* from = reinterpret_cast<const double*>(&EndsOf(effector).frame) + Lane(effector);
+    GaussNewtonLimbs::End end;
+    for (int i = 0; i < 9; ++i) end.axes[i / 3][i % 3] = from[LimbPacks::kWidth * i];
+    for (int k = 0; k < 3; ++k) end.position[k] = from[LimbPacks::kWidth * (9 + k)];
+    return end;
+  }
+
+ private:
+  struct EndsState {
+    TargetLanes<Four> target;
+    AskedLanes<Four> asked;
+    FrameLanes<Four> frame;
+  };
+
+  EndsState& EndsOf(int effector) { return ends_[packs_.end_places[effector] / LimbPacks::kWidth]; }
+  int Lane(int effector) const { return packs_.end_places[effector] % LimbPacks::kWidth; }
+
+  void PlaceTrunk(const double (&root)[12]) {
+    TrunkFrame& at_root = trunk_[0];
+    alignas(64) double numbers[16] = {};
+    for (int i = 0; i < 12; ++i) numbers[4 * (i / 3) + i % 3] = root[i];
+    at_root.position = LoadFour(numbers);
+    for (int c = 0; c < 3; ++c) at_root.axes[c] = LoadFour(numbers + 4 * (c + 1));
+    for (std::size_t n = 1; n < packs_.trunk.size(); ++n) {
+      const LimbPacks::TrunkJoint& joint = packs_.trunk[n];
+      const TrunkFrame& parent = trunk_[joint.parent];
+      Four axes[3];
+      for (int c = 0; c < 3; ++c) axes[c] = MixRows(parent.axes, joint.R_PJ[c]);
+      const Four position = parent.position + MixRows(parent.axes, joint.p_PJ);
+      const Four p_RJ_W = position - at_root.position;
+      if (joint.hinge_count > 0) TurnTrunk<0>(joint, p_RJ_W, axes);
+      if (joint.hinge_count > 1) TurnTrunk<1>(joint, p_RJ_W, axes);
+      if (joint.hinge_count > 2) TurnTrunk<2>(joint, p_RJ_W, axes);
+      TrunkFrame& frame = trunk_[n];
+      for (int c = 0; c < 3; ++c) frame.axes[c] = axes[c];
+      frame.position = position;
+    }
+  }
+
+  static HWY_INLINE Four MixRows(const Four (&axes)[3], const double (&by)[3]) {
+    return axes[0] * Four(by[0]) + axes[1] * Four(by[1]) + axes[2] * Four(by[2]);
+  }
+
+  template <int kAxis>
+  HWY_INLINE void TurnTrunk(const LimbPacks::TrunkJoint& joint, const Four& p_RJ_W, Four (&axes)[3]) {
+    constexpr int i = (kAxis + 1) % 3, j = (kAxis + 2) % 3;
+    const int hinge = joint.first_hinge + kAxis;
+    const Four s(sines_[packs_.first_trunk_place + hinge]), c(cosines_[packs_.first_trunk_place + hinge]);
+    const Four x = axes[i], y = axes[j];
+    axes[i] = c * x + s * y;
+    axes[j] = c * y - s * x;
+    double* screw = trunk_hinges_[hinge].screw;
+    PutFour(axes[kAxis], screw);
+    PutFour(CrossAxes(p_RJ_W, axes[kAxis]), screw + 3);
+  }
+
+  void PlaceLimbs(const LimbPacks::Pack& pack, const double (&root)[12]) {
+    FrameLanes<Four> frame;
+    TakeFrames(pack, frame);
+    const Four p_WR[3] = {Four(root[0]), Four(root[1]), Four(root[2])};
+    for (const LimbPacks::Level& level : packs_.LevelsOf(pack)) {
+      Four p_PJ_W[3], p_RJ_W[3];
+      MixLoaded(frame.axes, level.p_PJ, p_PJ_W);
+      for (int k = 0; k < 3; ++k) {
+        frame.position[k] = frame.position[k] + p_PJ_W[k];
+        p_RJ_W[k] = frame.position[k] - p_WR[k];
+      }
+      if (level.turns_axes) {
+        Four turned[3][3];
+        for (int c = 0; c < 3; ++c) MixLoaded(frame.axes, level.R_PJ[c], turned[c]);
+        for (int c = 0; c < 3; ++c) Copy3(turned[c], frame.axes[c]);
+      }
+      if (level.hinge_count > 0) TurnLimbs<0>(level, p_RJ_W, frame.axes);
+      if (level.hinge_count > 1) TurnLimbs<1>(level, p_RJ_W, frame.axes);
+      if (level.hinge_count > 2) TurnLimbs<2>(level, p_RJ_W, frame.axes);
+      if (level.ends >= 0) LineariseEnds(level.ends, frame, p_WR);
+    }
+  }
+
+  static HWY_INLINE void MixLoaded(const Four (&axes)[3][3], const double (&from)[3][4], Four (&out)[3]) {
+    const Four by[3] = {LoadFour(from[0]), LoadFour(from[1]), LoadFour(from[2])};
+    Mix(axes, by, out);
+  }
+
+  /// Sets the lanes of `frame` to the frames of the joints that limbs hang on.
+  HWY_INLINE void TakeFrames(const LimbPacks::Pack& pack, FrameLanes<Four>& frame) {
+    const TrunkFrame* from[LimbPacks::kWidth];
+    for (int lane = 0; lane < LimbPacks::kWidth; ++lane) from[lane] = &trunk_[pack.parents[lane]];
+    const auto take = [&from](const auto& part, Four(&out)[3]) HWY_ATTR {
+      Four x = part(*from[0]), y = part(*from[1]), z = part(*from[2]), none = part(*from[3]);
+      Transpose(x, y, z, none);
+      out[0] = x;
+      out[1] = y;
+      out[2] = z;
+    };
+    for (int c = 0; c < 3; ++c) {
+      take([c](const TrunkFrame& at) HWY_ATTR { return at.axes[c]; }, frame.axes[c]);
+    }
+    take([](const TrunkFrame& at) HWY_ATTR { return at.position; }, frame.position);
+  }
+
+  template <int kAxis>
+  HWY_INLINE void TurnLimbs(const LimbPacks::Level& level, const Four (&p_RJ_W)[3], Four (&axes)[3][3]) {
+    const int slot = level.first_slot + kAxis;
+    const Four s = LoadFour(sines_.begin() + 4 * slot), c = LoadFour(cosines_.begin() + 4 * slot);
+    TurnAxes<kAxis>(s, c, axes);
+    Four(&screw)[6] = hinges_[slot].screw;
+    SetScrew(axes[kAxis], p_RJ_W, screw);
+    const Four has_hinge = LoadFour(level.has_hinge[kAxis]);
+    for (Four& component : screw) component = component * has_hinge;
+  }
+
+  HWY_INLINE void LineariseEnds(int number, const FrameLanes<Four>& limb, const Four (&p_WR)[3]) {
+    const LimbPacks::Ends& ends = packs_.ends[number];
+    FrameLanes<Four>& frame = ends_[number].frame;
+    Four p_LE_W[3], p_WE[3];
+    MixLoaded(limb.axes, ends.p_LE, p_LE_W);
+    for (int k = 0; k < 3; ++k) p_WE[k] = limb.position[k] + p_LE_W[k];
+    for (int c = 0; c < 3; ++c) Copy3(limb.axes[c], frame.axes[c]);
+    Copy3(p_WE, frame.position);
+    MissLanes<Four> miss{Four(0.0), Four(0.0), Four(0.0)};
+    Linearise(ends_[number].target, limb.axes, p_WE, p_WR, ends_[number].asked, miss);
+    alignas(64) double squares[4], distances[4], chords[4];
+    StoreFour(miss.squares, squares);
+    StoreFour(miss.squared_distance, distances);
+    StoreFour(miss.squared_chord, chords);
+    for (int lane = 0; lane < LimbPacks::kWidth; ++lane) {
+      miss_.squared_distance = std::max(miss_.squared_distance, distances[lane]);
+      miss_.squared_chord = std::max(miss_.squared_chord, chords[lane]);
+      if (ends.effectors[lane] >= 0) squares_of_[ends.effectors[lane]] = squares[lane];
+    }
+  }
+
+  const LimbPacks& packs_;
+  AlignedList<double> sines_, cosines_;
+  AlignedList<TrunkFrame> trunk_;
+  AlignedList<TrunkHinge> trunk_hinges_;
+  AlignedList<HingeLanes<Four>> hinges_;  // of each slot
+  AlignedList<EndsState> ends_;
+  AlignedList<double> squares_of_;  // of each effector
+  MissLanes<double> miss_{};
+};
+
+// Steps from pose to pose as the course says.
 class LimbLanes final : public GaussNewtonLimbs {
  public:
   explicit LimbLanes(const LimbPacks& packs)
       : packs_(packs),
         places_(static_cast<std::size_t>(packs.place_count)),
-        trunk_angles_(static_cast<std::size_t>(LimbPacks::kWidth) * packs.slot_count),
         poses_(packs),
         numbers_(10 * places_),
         trunk_(packs.trunk.size()),
         trunk_hinges_(poses_.trunk_hinges()),
         hinges_(poses_.hinges()),
         sum_(1),
-        limb_rows_(packs.packs.size() * LimbPacks::kWidth) {
+        limb_rows_(packs.packs.size() * LimbPacks::kWidth),
+        scratch_(packs.places.size()) {
     double* next = numbers_.begin();
     for (double** const row :
          {&now_, &last_, &best_, &start_, &lower_, &upper_, &to_start_, &to_lower_, &to_upper_, &change_}) {
@@ -52,20 +229,20 @@ class LimbLanes final : public GaussNewtonLimbs {
   double* TargetOf(int effector) override { return poses_.TargetOf(effector); }
   End EndOf(int effector) override { return poses_.EndOf(effector); }
 
-  void Solve(const LaneGoals& goals, int extra_passes, GaussNewtonCourse& course, GaussNewtonHelp& help) override {
+  void Solve(const GaussNewtonRules& rules, GaussNewtonCourse& course, GaussNewtonHelp& help) override {
     using enum GaussNewtonCourse::Act;
     for (HingeLanes<Four>& hinge : hinges_) hinge.side = Four(0.0);
     for (TrunkHinge& hinge : trunk_hinges_) hinge.side = 0;
     Copy(start_, now_);
-    const auto is_out_of_reach = [&] { return help.IsOutOfReach(); };
+    const auto is_out_of_reach = [&] { return help.IsOutOfReach(0); };
     while (true) {
       poses_.Place(now_, root);
-      const GaussNewtonCourse::Next next = course.Arrive(poses_.miss().squares, IsMet(goals, help), is_out_of_reach);
+      const GaussNewtonCourse::Next next = course.Arrive(poses_.miss().squares, IsMet(rules, help), is_out_of_reach);
       if (next.is_best) Copy(now_, best_);
       switch (next.act) {
         case kStep:
           Copy(now_, last_);
-          course.Stepped(Step(next, extra_passes));
+          course.Stepped(Step(next, rules));
           break;
         case kGoBack:
           Copy(last_, now_);
@@ -74,7 +251,8 @@ class LimbLanes final : public GaussNewtonLimbs {
           Copy(best_, now_);
           break;
         case kSweep:
-          help.Sweep(next, course, {now_, places_});
+          help.Sweep(0, next, course, Angles());
+          for (std::size_t d = 0; d < scratch_.size(); ++d) now_[packs_.places[d]] = scratch_[d];
           break;
         case kEnd:
           Copy(course.has_converged() ? now_ : best_, start_);
@@ -93,16 +271,18 @@ class LimbLanes final : public GaussNewtonLimbs {
     ForPlaces(places_, [&](std::size_t i) HWY_ATTR { StorePlaces(LoadPlaces(from + i), to + i); });
   }
 
-  bool IsMet(const LaneGoals& goals, GaussNewtonHelp& help) {
-    const double distance = poses_.miss().squared_distance, chord = poses_.miss().squared_chord;
-    // So that what is no number meets nothing.
-    if (!(distance < goals.squared_distance_missed && chord < goals.squared_chord_missed)) return false;
-    if (distance < goals.squared_distance_met && chord < goals.squared_chord_met) return true;
-    return help.MeetsGoals({now_, places_});
+  bool IsMet(const GaussNewtonRules& rules, GaussNewtonHelp& help) {
+    const auto measure = [&] { return help.MeetsGoals(0, Angles()); };
+    return rules.AreMet(poses_.miss().squared_distance, poses_.miss().squared_chord, measure);
+  }
+
+  std::span<double> Angles() {
+    for (std::size_t d = 0; d < scratch_.size(); ++d) scratch_[d] = now_[packs_.places[d]];
+    return {scratch_.begin(), scratch_.size()};
   }
 
   /// Returns the largest change of an angle.
-  double Step(const GaussNewtonCourse::Next& next, int extra_passes) {
+  double Step(const GaussNewtonCourse::Next& next, const GaussNewtonRules& rules) {
     ForPlaces(places_, [&](std::size_t i) HWY_ATTR {
       const Places now = LoadPlaces(now_ + i);
       StorePlaces(next.to_start ? LoadPlaces(start_ + i) - now : Places(0.0), to_start_ + i);
@@ -120,9 +300,9 @@ class LimbLanes final : public GaussNewtonLimbs {
       limbs_have_changed = false;
       for (const LimbPacks::Pack& pack : packs_.packs) limbs_have_changed |= SubstituteLimbs(pack);
       if (!trunk_has_changed && !limbs_have_changed) break;
-      if (pass == extra_passes || !GaussNewtonCourse::HasExtraPasses(next.damping)) break;
+      if (pass == rules.extra_passes || !GaussNewtonCourse::HasExtraPasses(next.damping)) break;
     }
-    return Move();
+    return Move(rules.largest_turn);
   }
 
   void EliminateLimbs(std::size_t number, const Four& damping) {
@@ -151,19 +331,6 @@ class LimbLanes final : public GaussNewtonLimbs {
     PutRows(sum.vector, [&](int lane) -> SixRow& { return rows[lane].vector; });
   }
 
-  /// Six numbers of every limb as a row for each.
-  template <class RowOf>
-  static HWY_INLINE void PutRows(const Four* numbers, const RowOf& row_of) {
-    Four a = numbers[0], b = numbers[1], c = numbers[2], d = numbers[3];
-    Transpose(a, b, c, d);
-    Four e = numbers[4], f = numbers[5], g, h;
-    TransposeTwo(e, f, g, h);
-    row_of(0) = {a, e};
-    row_of(1) = {b, f};
-    row_of(2) = {c, g};
-    row_of(3) = {d, h};
-  }
-
   void EliminateTrunk(const Four& damping) {
     for (const int n : packs_.inwards) {
       const LimbPacks::TrunkJoint& joint = packs_.trunk[n];
@@ -178,7 +345,7 @@ class LimbLanes final : public GaussNewtonLimbs {
         is_first = false;
       }
       for (int h = joint.first_hinge + joint.hinge_count; h-- > joint.first_hinge;) {
-        const std::size_t place = trunk_angles_ + h;
+        const std::size_t place = packs_.first_trunk_place + h;
         EliminateHinge(damping, to_start_[place], to_lower_[place], to_upper_[place], m, v, trunk_hinges_[h]);
       }
       QuadraticRows& to = trunk_[n].quadratic;
@@ -197,7 +364,7 @@ class LimbLanes final : public GaussNewtonLimbs {
       const LimbPacks::TrunkJoint& joint = packs_.trunk[n];
       SixRow movement = trunk_[joint.parent].movement;
       for (int h = joint.first_hinge; h < joint.first_hinge + joint.hinge_count; ++h) {
-        const std::size_t place = trunk_angles_ + h;
+        const std::size_t place = packs_.first_trunk_place + h;
         has_changed |= SubstituteHinge(to_lower_[place], to_upper_[place], trunk_hinges_[h], change_[place], movement);
       }
       trunk_[n].movement = movement;
@@ -231,8 +398,8 @@ class LimbLanes final : public GaussNewtonLimbs {
     return Any(has_changed);
   }
 
-  /// By all changes, shortened where they are too long.
-  double Move() {
+  /// Turns all angles by their changes, shortened where they are too long. Returns the largest change.
+  double Move(double longest) {
     Places largest(0.0);
     auto is_finite = AtLeast(Places(0.0), Places(0.0));
     ForPlaces(places_, [&](std::size_t i) HWY_ATTR {
@@ -242,19 +409,17 @@ class LimbLanes final : public GaussNewtonLimbs {
     });
     const double most = hn::GetLane(hn::MaxOfLanes(Places::Tag(), largest.v));
     if (Any(!is_finite) || !(most > 0)) return 0;
-    const Places share(most > kLargestTurn ? kLargestTurn / most : 1);
+    const Places share(most > longest ? longest / most : 1);
     ForPlaces(places_, [&](std::size_t i) HWY_ATTR {
       const Places least = LoadPlaces(lower_ + i), most_allowed = LoadPlaces(upper_ + i);
       const Places moved = LoadPlaces(now_ + i) + share * LoadPlaces(change_ + i);
-      StorePlaces(Select(Below(moved, least), least, Select(Below(most_allowed, moved), most_allowed, moved)),
-                  now_ + i);
+      StorePlaces(Clamped(moved, least, most_allowed), now_ + i);
     });
     return most;
   }
 
   const LimbPacks& packs_;
   const std::size_t places_;
-  const std::size_t trunk_angles_;  // the place of the trunk's first angle
   LimbPoses poses_;
   AlignedList<double> numbers_;  // these rows, of all places
   double *now_, *last_, *best_, *start_, *lower_, *upper_;
@@ -264,6 +429,7 @@ class LimbLanes final : public GaussNewtonLimbs {
   AlignedList<HingeLanes<Four>>& hinges_;
   AlignedList<QuadraticLanes<Four>> sum_;  // of a pack on its way inwards
   AlignedList<QuadraticRows> limb_rows_;   // of each limb, when its hinges are eliminated
+  AlignedList<double> scratch_;            // angles in the tree's order
 };
 
 std::unique_ptr<GaussNewtonLimbs> MakeLimbs(const LimbPacks& packs) { return std::make_unique<LimbLanes>(packs); }

@@ -2,23 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
-#include <vector>
+#include <cstring>
 
 #include "engine/kinematics/solvers/gauss_newton_course.h"
-#include "engine/kinematics/solvers/gauss_newton_step.h"
 #include "engine/kinematics/solvers/ik_run.h"
 #include "engine/kinematics/solvers/linear_targets.h"
 #include "engine/kinematics/solvers/moment_sweep.h"
-#include "engine/kinematics/solvers/restarts.h"
 
 namespace etude {
 namespace {
 
-class Solver {
+// Goes the way that a GaussNewtonCourse tells.
+class PlainSolver {
  public:
-  Solver(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options, const GaussNewtonOptions& own,
-         IkRun& run, TreeState& state, TreeFrames& frames)
+  PlainSolver(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
+              const GaussNewtonOptions& own, IkRun& run, TreeState& state, TreeFrames& frames)
       : tree_(tree),
         problem_(problem),
         options_(options),
@@ -31,52 +29,67 @@ class Solver {
 
   void Solve() {
     using enum GaussNewtonCourse::Act;
-    const auto is_out_of_reach = [&] { return IsOutOfReach(tree_, problem_); };
     while (true) {
-      const bool is_met = run_.HasConverged();
-      const auto next = course_.Arrive(is_met ? 0 : step_.Build(frames_), is_met, is_out_of_reach);
+      const GaussNewtonCourse::Next next = LinearisePose();
       if (next.is_best) best_angles_ = state_.angles;
       switch (next.act) {
         case kStep:
           last_angles_ = state_.angles;
-          course_.Stepped(Step(next));
+          FindChange(next);
+          MoveByChange();
           break;
         case kGoBack:
-          state_.angles = last_angles_;
-          Place();
+          PlaceAt(last_angles_);
           break;
         case kSweep:
-          if (next.restart > 0) {
-            ScatterAround(run_.start_angles(), run_.ranges(), next.restart, state_.angles);
-            Place();
-          }
+          if (next.restart > 0) Scatter(next.restart);
           Sweep(next.sweeps);
           break;
         case kTakeBest:
-          state_.angles = best_angles_;
-          Place();
+          PlaceAt(best_angles_);
           break;
         case kEnd:
-          if (course_.has_converged()) return;
-          if (course_.HasStalled()) run_.Stall();
-          run_.DiscardErrors();
-          state_.angles = best_angles_;
+          if (!course_.has_converged()) EndAtBest();
           return;
       }
     }
   }
 
  private:
-  /// Forward kinematics of angles that are not the outcome of an iteration.
-  void Place() {
-    ComputeFrames(tree_, state_, frames_);
-    run_.CountPass();
+  // Finds how far the pose is off, and asks the course what follows from that.
+  GaussNewtonCourse::Next LinearisePose() {
+    const bool is_met = run_.HasConverged();
+    return course_.Arrive(is_met ? 0 : step_.Build(frames_), is_met, [&] { return IsOutOfReach(tree_, problem_); });
   }
 
-  /// Forward kinematics after an iteration, and how far it is off.
-  void Measure() {
-    ComputeFrames(tree_, state_, frames_);
-    run_.RecordFrames(frames_, state_.angles);
+  // The step's optimum within the ranges, or what some passes of its active set have made of it.
+  void FindChange(const GaussNewtonCourse::Next& next) {
+    const std::vector<double>& posture = next.to_start ? run_.start_angles() : state_.angles;
+    change_ = step_.Solve(state_.angles, posture, run_.ranges(), next.damping);
+    const int extra_passes = GaussNewtonCourse::HasExtraPasses(next.damping) ? own_.extra_passes : 0;
+    for (int pass = 0; pass < extra_passes && !step_.is_exact(); ++pass) {
+      change_ = step_.Solve(state_.angles, posture, run_.ranges(), next.damping);
+    }
+  }
+
+  // Turns all angles by their changes, all shortened by one share where one is too long.
+  void MoveByChange() {
+    double largest = 0;
+    for (const double c : change_) largest = std::max(largest, std::abs(c));
+    // Overflow, from weights and limbs of absurd sizes: no step.
+    if (!std::ranges::all_of(change_, [](double c) { return std::isfinite(c); })) largest = 0;
+    const double share = largest > kLargestTurn ? kLargestTurn / largest : 1;
+    for (std::size_t d = 0; d < state_.angles.size() && largest > 0; ++d) {
+      const AngleRange& range = run_.ranges()[d];
+      state_.angles[d] = std::clamp(state_.angles[d] + share * change_[d], range.lower, range.upper);
+    }
+    Measure();
+    course_.Stepped(largest);
+  }
+
+  void Scatter(int restart) {
+    ScatterAround(run_.start_angles(), run_.ranges(), restart, state_.angles);
+    Place();
   }
 
   void Sweep(int count) {
@@ -90,25 +103,27 @@ class Solver {
     }
   }
 
-  /// One step from `frames_`, at which `step_` is built. Returns the largest change of an angle.
-  double Step(const GaussNewtonCourse::Next& next) {
-    const std::vector<double>& posture = next.to_start ? run_.start_angles() : state_.angles;
-    std::span<const double> change = step_.Solve(state_.angles, posture, run_.ranges(), next.damping);
-    const int extra_passes = GaussNewtonCourse::HasExtraPasses(next.damping) ? own_.extra_passes : 0;
-    for (int pass = 0; pass < extra_passes && !step_.is_exact(); ++pass) {
-      change = step_.Solve(state_.angles, posture, run_.ranges(), next.damping);
-    }
-    double largest = 0;
-    for (const double c : change) largest = std::max(largest, std::abs(c));
-    // Overflow, from weights and limbs of absurd sizes: no step.
-    if (!std::ranges::all_of(change, [](double c) { return std::isfinite(c); })) largest = 0;
-    const double share = largest > kLargestTurn ? kLargestTurn / largest : 1;
-    for (std::size_t d = 0; d < state_.angles.size() && largest > 0; ++d) {
-      const AngleRange& range = run_.ranges()[d];
-      state_.angles[d] = std::clamp(state_.angles[d] + share * change[d], range.lower, range.upper);
-    }
-    Measure();
-    return largest;
+  void EndAtBest() {
+    if (course_.HasStalled()) run_.Stall();
+    run_.DiscardErrors();
+    state_.angles = best_angles_;
+  }
+
+  void PlaceAt(const std::vector<double>& angles) {
+    state_.angles = angles;
+    Place();
+  }
+
+  // Forward kinematics of angles that are not the outcome of an iteration.
+  void Place() {
+    ComputeFrames(tree_, state_, frames_);
+    run_.CountPass();
+  }
+
+  // Forward kinematics after an iteration, and how far it is off.
+  void Measure() {
+    ComputeFrames(tree_, state_, frames_);
+    run_.RecordFrames(frames_, state_.angles);
   }
 
   const KinematicTree& tree_;
@@ -120,16 +135,200 @@ class Solver {
   TreeFrames& frames_;
   GaussNewtonStep step_;
   GaussNewtonCourse course_;
+  std::span<const double> change_;  // of every angle, in a step
   std::vector<double> best_angles_, last_angles_;
 };
+
+// The loops have fixed lengths and no aliases, so that compilers make vector code of them.
+
+double DotSix(const double* a, const double* b) {
+  return (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]) + (a[4] * b[4] + a[5] * b[5]);
+}
+
+// y = M s, M symmetric.
+void Multiply(const double* __restrict matrix, const double* __restrict s, double* __restrict y) {
+  for (int i = 0; i < 6; ++i) {
+    y[i] = (matrix[i] * s[0] + matrix[6 + i] * s[1]) + (matrix[12 + i] * s[2] + matrix[18 + i] * s[3]) +
+           (matrix[24 + i] * s[4] + matrix[30 + i] * s[5]);
+  }
+}
+
+// M −= scale · y yᵀ
+void SubtractOuter(const double* __restrict y, double scale, double* __restrict matrix) {
+  for (int r = 0; r < 6; ++r) {
+    const double share = scale * y[r];
+    for (int i = 0; i < 6; ++i) matrix[6 * r + i] -= share * y[i];
+  }
+}
+
+// to += from
+template <int kSize>
+void Add(const double* __restrict from, double* __restrict to) {
+  for (int i = 0; i < kSize; ++i) to[i] += from[i];
+}
+
+// to += scale · from
+void AddScaled(const double* __restrict from, double scale, double* __restrict to) {
+  for (int i = 0; i < 6; ++i) to[i] += scale * from[i];
+}
 
 }  // namespace
 
 IkSolution SolveGaussNewtonPlainly(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                                    const GaussNewtonOptions& own) {
   return RunFromStart(tree, problem, options, [&](IkRun& run, TreeState& state, TreeFrames& frames) {
-    Solver(tree, problem, options, own, run, state, frames).Solve();
+    PlainSolver(tree, problem, options, own, run, state, frames).Solve();
   });
+}
+
+GaussNewtonStep::GaussNewtonStep(const KinematicTree& tree, std::span<const EffectorTarget> targets)
+    : tree_(tree),
+      targets_(targets),
+      inwards_(JointsInwards(tree)),
+      hinges_(std::make_unique_for_overwrite<Hinge[]>(tree.limits.size())),
+      effectors_(std::make_unique_for_overwrite<Quadratic[]>(tree.effectors.size())),
+      limbs_(std::make_unique_for_overwrite<Quadratic[]>(tree.joints.size())),
+      movements_(tree.joints.size()),
+      change_(tree.limits.size()) {}
+
+double GaussNewtonStep::Build(const TreeFrames& frames) {
+  const glm::dvec3 p_WR = frames.joints[0].position;
+  for (const int n : inwards_) {
+    const TreeJoint& joint = tree_.joints[n];
+    const glm::dvec3 p_RJ_W = frames.joints[n].position - p_WR;
+    for (int d = joint.first_dof; d < joint.first_dof + joint.dof_count; ++d) {
+      const glm::dvec3& axis = frames.dof_axes[d];
+      const glm::dvec3 shift = glm::cross(p_RJ_W, axis);
+      hinges_[d].screw = {axis.x, axis.y, axis.z, shift.x, shift.y, shift.z};
+    }
+  }
+  double squares = 0;
+  for (std::size_t e = 0; e < targets_.size(); ++e) {
+    squares += LineariseTarget(targets_[e], frames.effectors[e], p_WR, effectors_[e]);
+  }
+  return squares;
+}
+
+// Sets `out` to what one target asks of the limb. Returns its part of |e|².
+double GaussNewtonStep::LineariseTarget(const EffectorTarget& target, const LimbFrame& X_WE, const glm::dvec3& p_WR,
+                                        Quadratic& out) {
+  const double w = target.position_weight / (kPositionScale * kPositionScale);
+  const glm::dvec3& u = target.axis_weights;
+  const glm::dmat3 &R_WE = X_WE.axes, &R_WD = target.axes;
+  const glm::dvec3 p_RE_W = X_WE.position - p_WR;
+  const glm::dvec3 p_ED_W = target.position - X_WE.position;
+  const glm::dvec3 pull = w * p_ED_W;
+  glm::dvec3 twist = glm::cross(p_RE_W, pull);
+  double squares = glm::dot(pull, p_ED_W);
+  for (int k = 0; k < 3; ++k) {
+    twist += u[k] * glm::cross(R_WE[k], R_WD[k]);
+    squares += 2 * u[k] * (1 - glm::dot(R_WE[k], R_WD[k]));
+  }
+  // The square of shift + turn × p_RE with weight w, and of each axis the part of the turn that is across it.
+  const double straight = w * glm::dot(p_RE_W, p_RE_W) + u.x + u.y + u.z;
+  const glm::dvec3 lever = w * p_RE_W;
+  std::array<double, 36>& m = out.matrix;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c <= r; ++c) {
+      const double along = lever[r] * p_RE_W[c] + u.x * R_WE[0][r] * R_WE[0][c] + u.y * R_WE[1][r] * R_WE[1][c] +
+                           u.z * R_WE[2][r] * R_WE[2][c];
+      m[6 * r + c] = m[6 * c + r] = (r == c ? straight : 0) - along;
+      m[6 * (3 + r) + 3 + c] = m[6 * (3 + c) + 3 + r] = r == c ? w : 0;
+    }
+    const int i = (r + 1) % 3, j = (r + 2) % 3;
+    m[6 * r + 3 + r] = m[6 * (3 + r) + r] = 0;
+    m[6 * i + 3 + j] = m[6 * (3 + j) + i] = -lever[r];
+    m[6 * j + 3 + i] = m[6 * (3 + i) + j] = lever[r];
+    out.vector[r] = twist[r];
+    out.vector[3 + r] = pull[r];
+  }
+  return squares;
+}
+
+// From the leaves to the root.
+void GaussNewtonStep::EliminateInwards(double damping) {
+  std::memset(limbs_.get(), 0, tree_.joints.size() * sizeof(Quadratic));  // a loop costs as much as ten hinges
+  for (std::size_t e = 0; e < targets_.size(); ++e) {
+    Quadratic& limb = limbs_[tree_.effectors[e].joint];
+    Add<36>(effectors_[e].matrix.data(), limb.matrix.data());
+    Add<6>(effectors_[e].vector.data(), limb.vector.data());
+  }
+  for (const int n : inwards_) {
+    const TreeJoint& joint = tree_.joints[n];
+    Quadratic& limb = limbs_[n];
+    for (int d = joint.first_dof + joint.dof_count - 1; d >= joint.first_dof; --d) {
+      Hinge& hinge = hinges_[d];
+      Spatial y;
+      Multiply(limb.matrix.data(), hinge.screw.data(), y.data());
+      // sᵀΛs is not negative but by rounding.
+      hinge.scale = 1 / (damping + std::max(0.0, DotSix(y.data(), hinge.screw.data())));
+      hinge.best = hinge.scale * (damping * hinge.pull + DotSix(limb.vector.data(), hinge.screw.data()));
+      hinge.matrix_s = y;
+      double change = hinge.side == Side::kLower ? hinge.lower : hinge.upper;
+      if (hinge.side == Side::kFree) {
+        change = hinge.best;
+        SubtractOuter(y.data(), hinge.scale, limb.matrix.data());
+      }
+      AddScaled(y.data(), -change, limb.vector.data());
+    }
+    Quadratic& parent = limbs_[joint.parent];
+    Add<36>(limb.matrix.data(), parent.matrix.data());
+    Add<6>(limb.vector.data(), parent.vector.data());
+  }
+}
+
+// From the root to the leaves. Returns whether a hinge has changed sides.
+bool GaussNewtonStep::SubstituteOutwards() {
+  bool has_changed = false;
+  movements_[0].fill(0);
+  for (auto n = inwards_.rbegin(); n != inwards_.rend(); ++n) {
+    const TreeJoint& joint = tree_.joints[*n];
+    Spatial movement = movements_[joint.parent];
+    for (int d = joint.first_dof; d < joint.first_dof + joint.dof_count; ++d) {
+      Hinge& hinge = hinges_[d];
+      const double best = hinge.best - hinge.scale * DotSix(hinge.matrix_s.data(), movement.data());
+      const Side side = best < hinge.lower ? Side::kLower : best > hinge.upper ? Side::kUpper : Side::kFree;
+      has_changed |= side != hinge.side;
+      hinge.side = side;
+      change_[d] = std::clamp(best, hinge.lower, hinge.upper);
+      AddScaled(hinge.screw.data(), change_[d], movement.data());
+    }
+    movements_[*n] = movement;
+  }
+  return has_changed;
+}
+
+std::span<const double> GaussNewtonStep::Solve(std::span<const double> angles, std::span<const double> preferred,
+                                               std::span<const AngleRange> ranges, double damping) {
+  for (std::size_t d = 0; d < change_.size(); ++d) {
+    hinges_[d].pull = preferred[d] - angles[d];
+    hinges_[d].lower = ranges[d].lower - angles[d];
+    hinges_[d].upper = ranges[d].upper - angles[d];
+  }
+  EliminateInwards(damping);
+  is_exact_ = !SubstituteOutwards();
+  return change_;
+}
+
+std::vector<int> JointHeights(const KinematicTree& tree) {
+  std::vector<int> height(tree.joints.size());
+  for (std::size_t n = tree.joints.size() - 1; n > 0; --n) {
+    int& above = height[tree.joints[n].parent];
+    above = std::max(above, height[n] + 1);
+  }
+  return height;
+}
+
+std::vector<int> JointsInwards(const KinematicTree& tree) {
+  const std::vector<int> height = JointHeights(tree);
+  std::vector<int> inwards;
+  inwards.reserve(tree.joints.size());
+  for (int h = 0; h < height[0]; ++h) {
+    for (std::size_t n = 1; n < tree.joints.size(); ++n) {
+      if (height[n] == h) inwards.push_back(static_cast<int>(n));
+    }
+  }
+  return inwards;
 }
 
 }  // namespace etude

@@ -1,8 +1,17 @@
 #include "engine/kinematics/solvers/ik_run.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace etude {
+namespace {
+
+constexpr double kScatter = 1.5;                     // of restarts, radians
+constexpr double kGoldenShare = 0.6180339887498949;  // its multiples, modulo 1, are spread evenly
+constexpr double kSpread = 300;                      // a fifth of a degree changes x by a whole period
+
+}  // namespace
 
 IkRun::IkRun(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options)
     : tree_(tree),
@@ -49,10 +58,10 @@ bool IkRun::MissesByFar(const TreeFrames& frames) const {
   return false;
 }
 
-void IkRun::RecordMisses(int count) {
-  solution_.iterations += has_begun_ ? count : count - 1;
+void IkRun::RecordMisses() {
+  if (has_begun_) ++solution_.iterations;
   has_begun_ = true;
-  solution_.fk_evaluations += count;
+  ++solution_.fk_evaluations;
   ClearErrors();
 }
 
@@ -68,11 +77,7 @@ void IkRun::ClearErrors() {
 }
 
 IkSolution IkRun::Finish(std::vector<double> angles) {
-  if (solution_.errors.empty()) {
-    TreeState state = problem_.start;
-    state.angles = angles;
-    MeasureErrors(ComputeFrames(tree_, state), problem_.targets, solution_.errors);
-  }
+  if (solution_.errors.empty()) MeasurePose(tree_, problem_, angles, solution_.errors);
   solution_.status = HasConverged()                  ? IkStatus::kConverged
                      : IsOutOfReach(tree_, problem_) ? IkStatus::kUnreachable
                      : has_stalled_                  ? IkStatus::kStalled
@@ -91,6 +96,22 @@ IkSolution BadInput(const KinematicTree& tree) {
 void MeasureErrors(const TreeFrames& frames, std::span<const EffectorTarget> targets, std::vector<EffectorError>& out) {
   out.resize(targets.size());
   for (std::size_t e = 0; e < targets.size(); ++e) out[e] = ErrorOf(frames.effectors[e], targets[e]);
+}
+
+void MeasurePose(const KinematicTree& tree, const IkProblem& problem, std::span<const double> angles,
+                 std::vector<EffectorError>& out) {
+  const TreeState state{problem.start.root_position, problem.start.root_frame, {angles.begin(), angles.end()}};
+  MeasureErrors(ComputeFrames(tree, state), problem.targets, out);
+}
+
+void ScatterAround(std::span<const double> start, std::span<const AngleRange> ranges, int number,
+                   std::vector<double>& angles) {
+  angles.resize(start.size());
+  for (std::size_t d = 0; d < start.size(); ++d) {
+    double x = kGoldenShare * number * (static_cast<double>(d) + 1) + kSpread * start[d];
+    x -= std::floor(x);
+    angles[d] = std::clamp(start[d] + kScatter * (2 * x - 1), ranges[d].lower, ranges[d].upper);
+  }
 }
 
 }  // namespace etude

@@ -9,17 +9,21 @@
 
 namespace etude {
 
-/// The errors of all effectors at these frames.
+/// Sets `out` to the errors of all effectors at these frames.
 void MeasureErrors(const TreeFrames& frames, std::span<const EffectorTarget> targets, std::vector<EffectorError>& out);
 
-/// The records that all solvers keep: the ranges of the angles, when to stop, the trace and the status. `tree` and
+/// Sets `out` to the errors of all effectors of `problem` at these angles.
+void MeasurePose(const KinematicTree& tree, const IkProblem& problem, std::span<const double> angles,
+                 std::vector<EffectorError>& out);
+
+/// Keeps the records of a solver: the ranges of the angles, when to stop, the trace and the status. `tree` and
 /// `problem` must be free of faults (`FindFault`) and outlive this. See `RunFromStart` for its use.
 class IkRun {
  public:
   IkRun(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
 
   const std::vector<AngleRange>& ranges() const { return ranges_; }
-  /// The problem's start angles, moved into their ranges.
+  /// Returns the problem's start angles, moved into their ranges.
   const std::vector<double>& start_angles() const { return start_angles_; }
 
   /// Records the start, at the first call, and then the outcome of each iteration: errors by forward kinematics of
@@ -41,8 +45,8 @@ class IkRun {
     }
   }
 
-  /// The same by the frames of `angles`, for solvers that do not look at errors themselves: these are computed only
-  /// where they are needed: in a trace, near the goals and at the end.
+  /// Records by the frames of `angles`, for solvers that do not look at errors themselves: errors are computed only
+  /// where they are needed, in a trace, near the goals and at the end.
   template <class Angles>
   void RecordFrames(const TreeFrames& frames, const Angles& angles) {
     if (!Traces() && MissesByFar(frames)) {
@@ -53,28 +57,25 @@ class IkRun {
     Record(errors_, angles);
   }
 
-  /// Whether the trace takes in what is recorded next.
+  /// Returns whether the trace takes in what is recorded next.
   bool Traces() const { return options_.trace && std::ssize(solution_.trace) < options_.longest_trace; }
 
-  /// Records iterations that certainly miss the goals and whose errors are not needed: not while it traces.
-  void RecordMisses(int count = 1);
+  /// Records an iteration that certainly misses the goals and whose errors are not needed: not while it traces.
+  void RecordMisses();
 
   /// Counts a forward-kinematics pass beyond the one of each iteration.
   void CountPass() { ++solution_.fk_evaluations; }
-  /// The angles cannot move any further.
+  /// Records that the angles cannot move any further.
   void Stall() { has_stalled_ = true; }
 
-  /// The solution is not the state recorded last: its errors take a pass of their own.
+  /// Records that the solution is not the state recorded last, so that its errors take a pass of their own.
   void DiscardErrors();
 
   bool HasConverged() const { return worst_.Within(options_); }
   bool MustGoOn() const { return !HasConverged() && !has_stalled_ && solution_.iterations < options_.max_iterations; }
-  /// The largest errors of the state recorded last, if it was recorded with its errors.
-  const WorstError& worst() const { return worst_; }
-  std::span<const EffectorError> errors() const { return solution_.errors; }
   int iterations() const { return solution_.iterations; }
 
-  /// The solution with these angles, which were recorded last. Ends the run.
+  /// Ends the run. Returns the solution with these angles, which were recorded last.
   IkSolution Finish(std::vector<double> angles);
 
  private:
@@ -95,11 +96,11 @@ class IkRun {
   IkSolution solution_;
 };
 
-/// What every solver answers to a faulty problem.
+/// Returns what every solver answers to a faulty problem.
 IkSolution BadInput(const KinematicTree& tree);
 
-/// What solvers share that go from pose to pose. `iterate(run, state, frames)` begins at the start, which is recorded,
-/// and leaves the angles that it has found in `state`:
+/// Runs a solver that goes from pose to pose. `iterate(run, state, frames)` begins at the start, which is recorded, and
+/// leaves the angles that it has found in `state`:
 ///
 ///     while (run.MustGoOn()) {
 ///       … one iteration: new state.angles …
@@ -119,5 +120,37 @@ IkSolution RunFromStart(const KinematicTree& tree, const IkProblem& problem, con
   iterate(run, state, frames);
   return run.Finish(std::move(state.angles));
 }
+
+/// Runs a solver that goes sweep by sweep and does not look at errors itself. `step(sweep, run)` makes one iteration of
+/// a Sweep, made of (tree, problem, options, own…), and returns the largest turn. Errors are measured at
+/// `Sweep::Angles` in a trace, and where `Sweep::MissesGoals` does not exclude that the pose meets the goals.
+template <class Sweep, class Step, class... Own>
+IkSolution RunSweeps(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options, const Step& step,
+                     const Own&... own) {
+  return RunFromStart(tree, problem, options, [&](IkRun& run, TreeState& state, TreeFrames& frames) {
+    Sweep sweep(tree, problem, options, own...);
+    while (run.MustGoOn()) {
+      const bool has_stalled = step(sweep, run) < options.stall_change;
+      const bool is_last = has_stalled || run.iterations() + 1 == options.max_iterations;
+      if (run.Traces() || is_last || !sweep.MissesGoals()) {
+        state.angles = sweep.Angles();
+        ComputeFrames(tree, state, frames);
+        run.RecordFrames(frames, state.angles);
+      } else {
+        run.RecordMisses();
+      }
+      if (has_stalled) run.Stall();
+    }
+  });
+}
+
+/// The number of other poses that a solver that got stuck begins at, before it gives up.
+inline constexpr int kRestarts = 20;
+
+/// Sets `angles` to a pose to begin at anew: around `start`, up to 1.5 rad from it in every angle, within `ranges`. It
+/// is another one for every number ≥ 1 and every start, and the same at every call: no dice are thrown, and along a
+/// motion, with few iterations a frame, every frame tries new ones.
+void ScatterAround(std::span<const double> start, std::span<const AngleRange> ranges, int number,
+                   std::vector<double>& angles);
 
 }  // namespace etude

@@ -6,19 +6,16 @@
 #include "engine/kinematics/solvers/ccd.h"
 #include "engine/kinematics/solvers/ccd_anderson.h"
 #include "engine/kinematics/solvers/ceres_lm.h"
-#include "engine/kinematics/solvers/damped_least_squares.h"
 #include "engine/kinematics/solvers/fabrik.h"
 #include "engine/kinematics/solvers/gauss_newton.h"
-#include "engine/kinematics/solvers/gauss_newton_batch.h"
-#include "engine/kinematics/solvers/jacobian_pinv.h"
-#include "engine/kinematics/solvers/jacobian_transpose.h"
+#include "engine/kinematics/solvers/jacobian_solvers.h"
 #include "engine/kinematics/solvers/levenberg_marquardt.h"
 
 namespace etude {
 
 namespace {
 
-// What solvers were called in former versions, and what they are called now.
+// Former names of solvers, and their present ones.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 1> kRenamed = {{{"ccd-nullspace", "gauss-newton"}}};
 
 template <typename Own>
@@ -51,7 +48,7 @@ class PreparedGaussNewton final : public PreparedIkSolver {
   const GaussNewtonSolver solver_;
 };
 
-/// Of a solver that has nothing to prepare.
+/// Wraps a solver that has nothing to prepare.
 class Unprepared final : public PreparedIkSolver {
  public:
   Unprepared(const IkSolver& solver, const KinematicTree& tree) : solver_(solver), tree_(tree) {}

@@ -8,7 +8,6 @@
 #include "engine/kinematics/solvers/damped_inverse.h"
 #include "engine/kinematics/solvers/ik_run.h"
 #include "engine/kinematics/solvers/linear_targets.h"
-#include "engine/kinematics/solvers/restarts.h"
 
 namespace etude {
 namespace {

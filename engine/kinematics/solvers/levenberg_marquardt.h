@@ -13,9 +13,9 @@ struct LevenbergMarquardtOptions {
   double damping_share = 0.3;
 };
 
-/// The Levenberg–Marquardt method (Levenberg 1944; Marquardt 1963), dense, with limits as a projected active set: what
-/// a good engineer would write today for this problem, and the strongest rival of `gauss-newton`. Minimises what
-/// `damped-least-squares` minimises,
+/// Solves by the Levenberg–Marquardt method (Levenberg 1944; Marquardt 1963), dense, with limits as a projected active
+/// set: what a good engineer would write today for this problem, and the strongest rival of `gauss-newton`. Minimises
+/// what `damped-least-squares` minimises,
 ///   Σ_e [ position_weight · (|P_d − P_c| / 30 cm)² + Σ_k axis_weights_k · |u_kd − u_kc|² ],
 /// by the best step within the ranges, argmin |J dq − e|² + μ |dq|², whose angles at an end of their range are fixed
 /// where the gradient pushes them out of it (Bertsekas 1982; `DampedInverse::StepWithin`). The damping μ is the sum of

@@ -10,7 +10,7 @@
 namespace etude {
 
 /// The sweeps of `CcdSweep` with `CcdJoint::kHinges` and weights refreshed every sweep, in moment form
-/// (sweep_kernel-inl.h): the same angles to rounding, four times faster. Not for `WeightRule::kWangChen`, whose weights
+/// (moment_sweep.cc): the same angles to rounding, four times faster. Not for `WeightRule::kWangChen`, whose weights
 /// differ from joint to joint. Takes its memory when made; `Sweep` allocates nothing. `tree` and `problem` must be free
 /// of faults (`FindFault`) and outlive this.
 class MomentSweep {
@@ -18,30 +18,31 @@ class MomentSweep {
   MomentSweep(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
   ~MomentSweep();
 
-  /// Whether moments can carry the weights that these options ask for.
+  /// Returns whether moments can carry the weights that these options ask for.
   static bool CanServe(const IkOptions& options);
 
   /// Turns every joint once, leaves to root. Returns the largest change of an angle (its chord), radians.
   double Sweep();
 
-  /// The two halves of `Sweep`: new angles, and what they lead to.
+  /// The two halves of `Sweep`: `Turn` finds new angles, `Measure` the errors that they lead to.
   double Turn();
   void Measure();
 
-  /// What turns lower: Σ w_p e² + Σ w_o |u_c − u_d|² of the pose measured last, by the weights of the last turn.
+  /// Returns what turns lower: Σ w_p e² + Σ w_o |u_c − u_d|² of the pose measured last, by the weights of the last
+  /// turn.
   double Merit() const;
-  /// tan((q − middle) / 2) of every present angle; the middle is that of its range, or a free angle's start.
+  /// Writes tan((q − middle) / 2) of every present angle; the middle is that of its range, or a free angle's start.
   void ReadHalfTangents(std::span<double> out) const;
-  /// Puts every angle there, or to the nearest end of its range. Measures nothing.
+  /// Sets every angle, or the nearest end of its range. Measures nothing.
   void SetHalfTangents(std::span<const double> half_tangents);
 
-  /// Whether the pose measured last certainly misses the goals of the options: much cheaper than `errors`. When not,
-  /// errors decide.
+  /// Returns whether the pose measured last certainly misses the goals of the options: much cheaper than `errors`. When
+  /// not, errors decide.
   bool MissesGoals() const;
 
-  /// The present angles, radians.
+  /// Returns the present angles, radians.
   std::vector<double> Angles() const;
-  /// The errors of the pose measured last; axis angles are off by up to 10⁻¹² of themselves.
+  /// Returns the errors of the pose measured last; axis angles are off by up to 10⁻¹² of themselves.
   std::vector<EffectorError> errors() const;
 
  private:

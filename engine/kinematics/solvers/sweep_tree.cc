@@ -11,31 +11,6 @@ void Copy(const glm::dvec3& from, double (&to)[3]) {
   for (int k = 0; k < 3; ++k) to[k] = from[k];
 }
 
-// Angles are counted from here, by less than half a turn: a free one from its start.
-double MiddleOf(const AngleRange& range, double start) {
-  const bool is_free = start - kPi > range.lower && start + kPi < range.upper;
-  return is_free ? start : 0.5 * (range.lower + range.upper);
-}
-
-SweepProblem::Range NumbersOf(const AngleRange& range, double middle) {
-  const double half = 0.5 * (range.upper - range.lower);
-  const bool is_bounded = half < kPi;
-  return {std::cos(middle), std::sin(middle), is_bounded ? std::cos(half) : -2, is_bounded ? std::sin(half) : 0};
-}
-
-SweepProblem::Goal GoalOf(const SweepTree::Effector& effector, const EffectorTarget& target, const glm::dvec3& root) {
-  SweepProblem::Goal goal{};
-  Copy(target.position - root, goal.position);
-  goal.position_weight = target.position_weight;
-  goal.position_share = target.position_weight > 0 ? 1 : 0;
-  for (int k = 0; k < 3; ++k) {
-    Copy(effector.signs[k] * target.axes[effector.names[k]], goal.axes[k]);
-    goal.axis_weights[k] = target.axis_weights[effector.names[k]];
-    goal.axis_shares[k] = goal.axis_weights[k] > 0 ? 1 : 0;
-  }
-  return goal;
-}
-
 bool SwapsAxes(const glm::dmat3& rotation) {
   for (int c = 0; c < 3; ++c) {
     for (int r = 0; r < 3; ++r) {
@@ -45,7 +20,7 @@ bool SwapsAxes(const glm::dmat3& rotation) {
   return true;
 }
 
-// Which coordinate axis a unit vector along one is.
+// The coordinate axis along which a unit vector is.
 struct NamedAxis {
   int name = 0;
   double sign = 1;
@@ -165,29 +140,6 @@ void SweepTree::PlaceMoments() {
     joint.is_first = parent.moments < 0;
     if (joint.is_first) parent.moments = joint.moments;
   }
-}
-
-SweepProblem::SweepProblem(const SweepTree& tree, const IkProblem& problem, std::vector<AngleRange> allowed_ranges)
-    : ranges(std::move(allowed_ranges)) {
-  for (std::size_t i = 0; i < ranges.size(); ++i) {
-    const double start = problem.start.angles[i];
-    middles.push_back(MiddleOf(ranges[i], start));
-    range_numbers.push_back(NumbersOf(ranges[i], middles[i]));
-    const double angle = std::clamp(start, ranges[i].lower, ranges[i].upper);
-    cosines.push_back(std::cos(angle));
-    sines.push_back(std::sin(angle));
-  }
-  for (std::size_t e = 0; e < problem.targets.size(); ++e) {
-    goals.push_back(GoalOf(tree.effectors[e], problem.targets[e], problem.start.root_position));
-  }
-  for (int k = 0; k < 3; ++k) Copy(problem.start.root_frame[k], root_axes[k]);
-}
-
-double SweepProblem::Angle(int dof, double cosine, double sine) const {
-  const Range& range = range_numbers[dof];
-  const double from_middle = std::atan2(sine * range.cos_middle - cosine * range.sin_middle,
-                                        cosine * range.cos_middle + sine * range.sin_middle);
-  return std::clamp(middles[dof] + from_middle, ranges[dof].lower, ranges[dof].upper);
 }
 
 }  // namespace etude

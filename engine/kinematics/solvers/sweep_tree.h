@@ -1,18 +1,16 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
-#include "engine/kinematics/ik_problem.h"
 #include "engine/kinematics/tree.h"
 
 namespace etude {
 
-/// A tree as a sweep reads it (sweep_kernel-inl.h): plain numbers and a list of steps, the same for every problem.
-/// Forwards, the steps are a sweep from the leaves to the root; backwards, they are forward kinematics. Its limbs have
-/// frames S of their own: where R_PJ of the tree only swaps axes, as everywhere on the body, the sweep names the limb's
-/// axes after the parent's, so that R_PJ is the identity here and nothing is left to do from limb to limb. P, J and L
-/// below are limbs in the sweep's frames.
+/// A tree as `MomentSweep` reads it: plain numbers and a list of steps, the same for every problem. Forwards, the steps
+/// are a sweep from the leaves to the root; backwards, they are forward kinematics. Its limbs have frames S of their
+/// own: where R_PJ of the tree only swaps axes, as everywhere on the body, the sweep names the limb's axes after the
+/// parent's, so that R_PJ is the identity here and nothing is left to do from limb to limb. P, J and L below are limbs
+/// in the sweep's frames.
 struct SweepTree {
   struct Joint {
     int parent = -1;
@@ -54,34 +52,6 @@ struct SweepTree {
   void NameAxes(const KinematicTree& tree);
   void PlaceAxes();
   void PlaceMoments();
-};
-
-/// A problem as a sweep reads it: angles as (cos, sin), places from the root's. `problem` must be free of faults.
-struct SweepProblem {
-  /// The range of an angle, as cosines and sines of its middle and of half its width. `cos_half` is −2 when every angle
-  /// is allowed.
-  struct Range {
-    double cos_middle, sin_middle, cos_half, sin_half;
-  };
-  /// The goal of an effector. A share is 1 for a position or an axis that counts, else 0.
-  struct Goal {
-    double axes[3][3];  ///< of each axis: its coordinates
-    double position[3];
-    double position_weight, axis_weights[3];
-    double position_share, axis_shares[3];
-  };
-
-  std::vector<AngleRange> ranges;
-  std::vector<double> middles;  ///< of the ranges, or the start where an angle is free: angles are counted from there
-  std::vector<Range> range_numbers;
-  std::vector<double> cosines, sines;  ///< of the start angles, moved into their ranges
-  std::vector<Goal> goals;
-  double root_axes[3][3];  ///< of each axis: its coordinates
-
-  SweepProblem(const SweepTree& tree, const IkProblem& problem, std::vector<AngleRange> allowed_ranges);
-
-  /// An angle of this problem, within its range.
-  double Angle(int dof, double cosine, double sine) const;
 };
 
 }  // namespace etude

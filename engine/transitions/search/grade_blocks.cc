@@ -1,5 +1,5 @@
 // Compiled once for every kind of vectors that x86-64 CPUs have; the best one is chosen when the program runs
-// (engine/kinematics/solvers/batch_lanes.cc says why by Highway).
+// (engine/kinematics/solvers/README.md says why by Highway).
 #include "engine/transitions/search/grade_blocks.h"
 
 #include <algorithm>

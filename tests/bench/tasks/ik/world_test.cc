@@ -5,7 +5,7 @@
 
 #include "engine/base/angles.h"
 #include "engine/kinematics/body_tree.h"
-#include "engine/kinematics/jacobian.h"
+#include "engine/kinematics/solvers/linear_targets.h"
 
 namespace etude {
 namespace {

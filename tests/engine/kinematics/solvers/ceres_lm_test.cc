@@ -8,7 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/kinematics/body_tree.h"
-#include "engine/kinematics/solvers/damped_least_squares.h"
+#include "engine/kinematics/solvers/jacobian_solvers.h"
 #include "tests/engine/kinematics/posed_tree.h"
 #include "tests/engine/kinematics/solvers/arms.h"
 

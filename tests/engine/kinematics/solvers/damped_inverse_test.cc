@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "engine/kinematics/body_tree.h"
-#include "engine/kinematics/solvers/gauss_newton_step.h"
+#include "engine/kinematics/solvers/gauss_newton_plain.h"
 #include "tests/engine/kinematics/posed_tree.h"
 #include "tests/engine/kinematics/solvers/arms.h"
 

@@ -6,7 +6,6 @@
 
 #include "engine/base/euler.h"
 #include "engine/kinematics/body_tree.h"
-#include "engine/kinematics/solvers/fabrik_pass.h"
 #include "tests/engine/kinematics/posed_tree.h"
 #include "tests/engine/kinematics/solvers/arms.h"
 

@@ -1,10 +1,9 @@
-#include "engine/kinematics/solvers/gauss_newton_batch.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
 
+#include "engine/kinematics/solvers/gauss_newton.h"
 #include "engine/kinematics/solvers/gauss_newton_plain.h"
 #include "tests/engine/kinematics/posed_tree.h"
 #include "tests/engine/kinematics/solvers/any_problem.h"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/kinematics/solvers/damped_least_squares.h"
-#include "engine/kinematics/solvers/gauss_newton_step.h"
+#include "engine/kinematics/solvers/gauss_newton_plain.h"
+#include "engine/kinematics/solvers/jacobian_solvers.h"
 #include "tests/engine/kinematics/solvers/any_problem.h"
 
 namespace etude {

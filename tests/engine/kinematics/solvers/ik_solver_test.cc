@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "engine/kinematics/body_tree.h"
-#include "engine/kinematics/solvers/ccd_sweep.h"
+#include "engine/kinematics/solvers/ccd.h"
 #include "tests/engine/kinematics/posed_tree.h"
 
 namespace etude {

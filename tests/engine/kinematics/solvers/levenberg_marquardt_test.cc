@@ -5,9 +5,8 @@
 #include <cmath>
 
 #include "engine/kinematics/solvers/ceres_lm.h"
-#include "engine/kinematics/solvers/damped_least_squares.h"
 #include "engine/kinematics/solvers/gauss_newton.h"
-#include "engine/kinematics/solvers/jacobian_pinv.h"
+#include "engine/kinematics/solvers/jacobian_solvers.h"
 #include "engine/kinematics/solvers/linear_targets.h"
 #include "tests/engine/kinematics/solvers/any_problem.h"
 #include "tests/engine/kinematics/solvers/arms.h"

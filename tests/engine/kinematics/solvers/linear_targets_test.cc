@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/kinematics/body_tree.h"
 #include "tests/engine/kinematics/posed_tree.h"
+#include "tests/engine/kinematics/random_tree.h"
 
 namespace etude {
 namespace {
@@ -91,6 +93,152 @@ TEST(LinearTargets, StepsEndAtTheRangesAndAreShortenedAsAWhole) {
   EXPECT_NEAR(angles[0], 0.1, 1e-15);
   EXPECT_NEAR(angles[1], -0.1, 1e-15);
   EXPECT_EQ(angles[2], 0);
+}
+
+// Forward kinematics by products of exponentials (Brockett 1984; Lynch and Park 2017, chapter 4): each angle is a screw
+// in the world, as it lies when all angles are zero, and a place on a limb is moved by the screws between the root and
+// it, the one nearest to it first. No frame of a posed limb comes in.
+class Screws {
+ public:
+  Screws(const KinematicTree& tree, const TreeState& state) : tree_(tree), angles_(state.angles) {
+    for (const TreeJoint& joint : tree.joints) {
+      const glm::dmat4 local = glm::translate(glm::dmat4(1), joint.p_PJ) * glm::dmat4(joint.R_PJ);
+      at_zero_.push_back(joint.parent >= 0
+                             ? at_zero_[joint.parent] * local
+                             : glm::translate(glm::dmat4(1), state.root_position) * glm::dmat4(state.root_frame));
+    }
+  }
+
+  // Where the frame of a limb goes.
+  glm::dmat4 LimbFrame(int joint) const { return Movement(joint, tree_.joints[joint].dof_count) * at_zero_[joint]; }
+
+  // What one radian of an angle does to a point of the world that hangs below it: its velocity and the rotation vector.
+  std::array<glm::dvec3, 2> Twist(int joint, int axis, const glm::dvec3& point) const {
+    const glm::dmat4 before = Movement(joint, axis);
+    const glm::dvec3 turn(before * at_zero_[joint][axis]);
+    const glm::dvec3 place(before * at_zero_[joint][3]);
+    return {glm::cross(turn, point) + glm::cross(place, turn), turn};
+  }
+
+ private:
+  // The product of all exponentials from the root to the first `axes` angles of `joint`.
+  glm::dmat4 Movement(int joint, int axes) const {
+    const TreeJoint& row = tree_.joints[joint];
+    glm::dmat4 product = row.parent < 0 ? glm::dmat4(1) : Movement(row.parent, tree_.joints[row.parent].dof_count);
+    const glm::dmat4& zero = at_zero_[joint];
+    for (int k = 0; k < axes; ++k) {
+      product = glm::translate(product, glm::dvec3(zero[3]));
+      product = glm::rotate(product, angles_[row.first_dof + k], glm::dvec3(zero[k]));
+      product = glm::translate(product, -glm::dvec3(zero[3]));
+    }
+    return product;
+  }
+
+  const KinematicTree& tree_;
+  const std::vector<double>& angles_;
+  std::vector<glm::dmat4> at_zero_;
+};
+
+struct Posed {
+  KinematicTree tree;
+  TreeState state;
+};
+
+// The body and trees that no solver has ever seen.
+std::vector<Posed> Samples() {
+  std::vector<Posed> samples;
+  for (int trial = 0; trial < 20; ++trial) {
+    for (const KinematicTree& tree : {MakeBodyTree({}), RandomTree(trial, 9)}) {
+      samples.push_back({tree, RandomPose(tree, trial, 1.0)});
+    }
+  }
+  return samples;
+}
+
+double Gap(const LimbFrame& frame, const glm::dmat4& other) {
+  double gap = glm::distance(frame.position, glm::dvec3(other[3]));
+  for (int k = 0; k < 3; ++k) gap = std::max(gap, glm::distance(frame.axes[k], glm::dvec3(other[k])));
+  return gap;
+}
+
+TEST(Jacobian, FramesAgreeWithProductsOfExponentials) {
+  for (const auto& [tree, state] : Samples()) {
+    const TreeFrames frames = ComputeFrames(tree, state);
+    const Screws screws(tree, state);
+    for (std::size_t j = 0; j < tree.joints.size(); ++j) {
+      EXPECT_LT(Gap(frames.joints[j], screws.LimbFrame(static_cast<int>(j))), 1e-12);
+    }
+    for (std::size_t e = 0; e < tree.effectors.size(); ++e) {
+      const glm::dmat4 tip = glm::translate(screws.LimbFrame(tree.effectors[e].joint), tree.effectors[e].p_LE);
+      EXPECT_LT(Gap(frames.effectors[e], tip), 1e-12);
+    }
+  }
+}
+
+TEST(Jacobian, AgreesWithProductsOfExponentials) {
+  int zeros = 0, others = 0;
+  for (const auto& [tree, state] : Samples()) {
+    const TreeFrames frames = ComputeFrames(tree, state);
+    TreeJacobian jacobian;
+    ComputeJacobian(tree, frames, jacobian);
+    ASSERT_EQ(jacobian.rows, 24);
+    const Screws screws(tree, state);
+    for (std::size_t e = 0; e < tree.effectors.size(); ++e) {
+      std::vector<std::array<glm::dvec3, 2>> expected(state.angles.size());
+      for (int j = tree.effectors[e].joint; j >= 0; j = tree.joints[j].parent) {
+        for (int k = 0; k < tree.joints[j].dof_count; ++k) {
+          expected[tree.joints[j].first_dof + k] = screws.Twist(j, k, frames.effectors[e].position);
+        }
+      }
+      for (int dof = 0; dof < tree.dof_count(); ++dof) {
+        const double* cell = jacobian.column(dof).data() + 6 * e;
+        for (int row = 0; row < 6; ++row) {
+          EXPECT_NEAR(cell[row], expected[dof][row / 3][row % 3], 1e-12);
+          ++(cell[row] == 0 ? zeros : others);
+        }
+      }
+    }
+  }
+  EXPECT_GT(zeros, 1000) << "angles that lead to no effector";
+  EXPECT_GT(others, 1000);
+}
+
+TEST(Jacobian, AgreesWithDifferencesOfFrames) {
+  constexpr double kStep = 1e-6;
+  double largest = 0;
+  for (const auto& [tree, state] : Samples()) {
+    TreeJacobian jacobian;
+    ComputeJacobian(tree, ComputeFrames(tree, state), jacobian);
+    for (int dof = 0; dof < tree.dof_count(); ++dof) {
+      TreeState ahead = state, behind = state;
+      ahead.angles[dof] += kStep;
+      behind.angles[dof] -= kStep;
+      const TreeFrames a = ComputeFrames(tree, ahead), b = ComputeFrames(tree, behind);
+      for (std::size_t e = 0; e < tree.effectors.size(); ++e) {
+        const double* cell = jacobian.column(dof).data() + 6 * e;
+        const glm::dvec3 moves(cell[0], cell[1], cell[2]), turns(cell[3], cell[4], cell[5]);
+        const glm::dvec3 moved = (a.effectors[e].position - b.effectors[e].position) / (2 * kStep);
+        largest = std::max(largest, glm::distance(moves, moved));
+        // A small rotation from b to a, as a vector: half the sum of what it does to each axis.
+        glm::dvec3 turned(0);
+        for (int k = 0; k < 3; ++k) turned += 0.5 * glm::cross(b.effectors[e].axes[k], a.effectors[e].axes[k]);
+        largest = std::max(largest, glm::distance(turns, turned / (2 * kStep)));
+      }
+    }
+  }
+  EXPECT_LT(largest, 1e-8);
+  EXPECT_GT(largest, 0);
+}
+
+TEST(Jacobian, KeepsNothingOfAnotherPose) {
+  const KinematicTree tree = MakeBodyTree({});
+  TreeJacobian used, fresh;
+  ComputeJacobian(RandomTree(1, 12), ComputeFrames(RandomTree(1, 12), StandingState(RandomTree(1, 12))), used);
+  const TreeFrames frames = ComputeFrames(tree, RandomPose(tree, 2, 0.7));
+  ComputeJacobian(tree, frames, used);
+  ComputeJacobian(tree, frames, fresh);
+  EXPECT_EQ(used.rows, fresh.rows);
+  EXPECT_EQ(used.values, fresh.values);
 }
 
 }  // namespace

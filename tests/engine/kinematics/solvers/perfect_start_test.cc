@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "engine/kinematics/capture_body.h"
+#include "engine/kinematics/ik_problem.h"
 #include "engine/kinematics/solvers/ik_solver.h"
-#include "engine/kinematics/weights.h"
 #include "tests/engine/kinematics/posed_tree.h"
 #include "tests/engine/kinematics/rest_bodies.h"
 

@@ -1,4 +1,4 @@
-#include "engine/kinematics/solvers/gauss_newton_step.h"
+#include "engine/kinematics/solvers/gauss_newton_plain.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "engine/kinematics/body_tree.h"
-#include "engine/kinematics/jacobian.h"
+#include "engine/kinematics/solvers/linear_targets.h"
 #include "tests/engine/kinematics/random_tree.h"
 
 namespace etude {

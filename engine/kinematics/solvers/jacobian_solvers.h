@@ -1,0 +1,84 @@
+#pragma once
+
+#include "engine/kinematics/ik_problem.h"
+#include "engine/kinematics/solvers/damped_inverse.h"
+#include "engine/kinematics/tree.h"
+
+namespace etude {
+
+struct JacobianTransposeOptions {
+  /// Multiplies the step length that is best to first order; below 2 the error still falls to first order. One is the
+  /// method as it is known. It zigzags, as steepest descent with exact steps does; shorter steps avoid that (Raydan and
+  /// Svaiter 2002): of 200 starts off by 15°, 0.5 solves 82 % (poses of half the joints' ranges) or 57 % (of the whole)
+  /// to 10⁻³ cm and 10⁻³° within 2,000 steps, where 1 and more solve none. Set it to 0.5 to see how good the idea can
+  /// be.
+  double gain = 1;
+};
+
+/// Solves by the Jacobian's transpose in place of its inverse (Wolovich and Elliott 1984; paper B, section 3.5): the
+/// errors dX pull at the limbs like forces, and every angle yields to its torque, ΔΘ = α JᵀdX. *Ours*: the step length
+///     α = gain · ⟨dX, JJᵀdX⟩ / ⟨JJᵀdX, JJᵀdX⟩
+/// makes |dX − J ΔΘ| least for a gain of 1 (Buss 2004), and to first order every gain between 0 and 2 makes it fall.
+/// Angles at an end of their range whose torque points out of it take no part; no step turns an angle
+/// by more than 0.6 rad; stepped angles are clamped. Cheap steps, but thousands of them: errors that the limbs feel
+/// weakly fade slowly. Stalls where JᵀdX = 0, as in a limb stretched towards its target (figure 3.8).
+/// `IkOptions::weights` and `refresh` do not apply. One iteration is one step; each costs one forward-kinematics pass.
+IkSolution SolveJacobianTranspose(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
+                                  const JacobianTransposeOptions& own = {});
+
+struct JacobianPinvOptions {
+  /// The damping μ of J⁺ = Jᵀ(JJᵀ + μI)⁻¹. Zero is paper B's formula, which solves 99.5 % of 200 starts off by 15°
+  /// (poses of half the joints' ranges) to 10⁻³ cm and 10⁻³°. A damped J⁺ no longer takes the whole effect of the
+  /// preferred posture on the effectors away, so that steps come to rest beside the targets: μ = 10⁻³ solves none of
+  /// them. Set it to 10⁻⁶, which costs nothing, where JJᵀ is singular at every pose, as of limbs that cannot leave a
+  /// plane.
+  double damping = 0;
+  /// The way in which a step keeps to the limits. The paper clamps the stepped angles: of 200 starts off by 15° it
+  /// solves 99.5 % (poses of half the joints' ranges) and 44 % (of the whole) to 10⁻³ cm and 10⁻³°, the active set 100
+  /// and 96 %
+  /// (`jacobian-pinv-active-set`).
+  Bounds bounds = Bounds::kClamped;
+};
+
+/// Solves by the pseudo-inverse with a preferred posture for what the targets leave open (paper B, equations 3.5
+/// and 3.7):
+///     dΘ = J⁺dX + (I − J⁺J) dZ,   J⁺ = Jᵀ(JJᵀ + μI)⁻¹,   dZ = Θ₀ − Θ
+/// *Ours*: the preferred posture is the start Θ₀; μ is zero in the paper; no step turns an angle by more than 0.6 rad;
+/// limits by clamping the stepped angles, as in the paper, or by an active set: angles that would leave their limits
+/// are fixed there, and the others meet the targets as well as they can (Flacco, De Luca and Khatib 2012, "saturation
+/// in the null space"; here the set is the optimal one, `DampedInverse::StepWithin`). Where no step within the limits
+/// meets the targets to first order, or the set does not settle, the active set's step is damped by at least 0.1: from
+/// starts off by 15°, 0.03 solves as many in more steps, 0.3 and 1 fewer. Nothing promises that the error falls: near a
+/// singularity, and where limits bind, it may rise, and an angle that is clamped is not made up for by others. Where
+/// JJᵀ is singular (a stretched limb, figure 3.8) the formula has no value (`DampedInverse`); the solver stalls there
+/// with the angles it has. `IkOptions::weights` and `refresh` do not apply. One iteration is one step; each costs one
+/// forward-kinematics pass.
+IkSolution SolveJacobianPinv(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
+                             const JacobianPinvOptions& own = {});
+
+struct DampedLeastSquaresOptions {
+  /// The damping λ of the first step; Marquardt's choice (1963). λ follows the steps' success, so that what is solved
+  /// hardly depends on it (93 to 96 % of 200 starts off by 15° from 10⁻⁴ to 1), but the answer does: from 1 hidden
+  /// angles end 0.44 of the noise from the truth, from 10⁻⁴ 0.71. Raise it where the answer shall stay near the start.
+  double first_damping = 1e-2;
+  /// The way in which a step keeps to the limits. Clamped is what most who write this method do, and what
+  /// `damped-least-squares` always was here; it crawls along the limits, where others make up for an angle's lost share
+  /// only step by step: of 200 starts off by 15° (poses of the joints' whole ranges) it solves 96 % to 10⁻³ cm and
+  /// 10⁻³°, in 28 steps at the median, the active set all, in 6 (`damped-least-squares-active-set`).
+  Bounds bounds = Bounds::kClamped;
+};
+
+/// Solves by damped least squares (Wampler 1986; Buss and Kim 2005), the method that most would use today; who writes
+/// it anew should take its active set, or `SolveLevenbergMarquardt`. Minimises
+///   Σ_e [ position_weight · (|P_d − P_c| / 30 cm)² + Σ_k axis_weights_k · |u_kd − u_kc|² ]
+/// over the angles with Gauss–Newton steps (JᵀJ + λI) Δq = Jᵀ r. The damping follows Marquardt: λ is
+/// divided by 5 after a step that lowers the sum, multiplied by 5 (and the step undone) after one that does not.
+/// `Bounds::kClamped`: each angle by itself moves by at most 0.6 rad a step and stops at its limits. `kActiveSet`:
+/// angles that would leave their limits are fixed there and the step is solved anew for the others (Baerlocher and
+/// Boulic 2004; here the set is the optimal one, `DampedInverse::StepWithin`), and the whole step is shortened to 0.6
+/// rad. `IkOptions::weights` and `refresh` do not apply. Stalled also when a step lowers the sum by less than 10⁻⁶ of
+/// it. One iteration is one attempted step; each costs one forward-kinematics pass.
+IkSolution SolveDampedLeastSquares(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
+                                   const DampedLeastSquaresOptions& own = {});
+
+}  // namespace etude
