@@ -19,7 +19,7 @@ Turns TurnsOf(std::uint16_t code) {
 
 int Difference(std::uint16_t a, std::uint16_t b) { return std::popcount(static_cast<std::uint16_t>(a ^ b)); }
 
-/// Whether the code can be told from its own turns.
+/// Returns whether the code differs enough from its own turns.
 bool TellsItsTurn(const Turns& turns) {
   return std::all_of(turns.begin() + 1, turns.end(),
                      [&](std::uint16_t turn) { return Difference(turns[0], turn) >= kCodeDistance; });

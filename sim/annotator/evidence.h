@@ -2,7 +2,7 @@
 
 #include "engine/base/image.h"
 #include "engine/vision/limb_evidence.h"
-#include "engine/vision/near_person.h"
+#include "engine/vision/limb_regions.h"
 
 namespace etude {
 

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "engine/vision/near_person.h"
+#include "engine/vision/limb_regions.h"
 
 namespace etude {
 namespace {

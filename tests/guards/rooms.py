@@ -8,12 +8,12 @@ renames or joins rooms edits this file, and only this. The rooms form no circle.
 MAY_INCLUDE = {
     # engine/
     "engine/base": "",
-    "engine/boards": "engine/base",
+    "engine/boards": "engine/base engine/cameras",
     "engine/bundle_adjustment": "engine/base engine/cameras engine/kinematics",
     "engine/cameras": "engine/base engine/document",
     "engine/capture":
-        "engine/base engine/boards engine/bundle_adjustment engine/cameras engine/kinematics engine/kinematics/solvers "
-        "engine/motion engine/smoothing engine/vision",
+        "engine/base engine/bundle_adjustment engine/cameras engine/kinematics engine/kinematics/solvers engine/motion "
+        "engine/smoothing engine/vision",
     "engine/coaching":
         "engine/base engine/fuzzy engine/motion engine/recognition engine/transitions engine/transitions/base "
         "engine/transitions/joins engine/transitions/library",
