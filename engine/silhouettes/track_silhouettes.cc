@@ -21,7 +21,7 @@ constexpr double kClearlyBetter = 0.95;
 double Squared(double x) { return x * x; }
 
 // Returns the cost of going from one pose to the next: squared differences over the expected changes.
-double Jump(const TreeState& a, const TreeState& b, const TrackOptions& options) {
+double StepCost(const TreeState& a, const TreeState& b, const TrackOptions& options) {
   const glm::dvec3 moved = a.root_position - b.root_position;
   const glm::dvec3 turned = TurnOf(a.root_frame * glm::transpose(b.root_frame));
   double jump = glm::dot(moved, moved) / Squared(options.place_change_m) +
@@ -221,7 +221,7 @@ class Tracker {
       for (int which = 0; which < 2; ++which) {
         std::array<double, 2> through{};
         for (int from = 0; from < 2; ++from) {
-          through[from] = costs[from] + Jump(of(i - 1, from).state, of(i, which).state, options_);
+          through[from] = costs[from] + StepCost(of(i - 1, from).state, of(i, which).state, options_);
         }
         came_from[i][which] = through[1] < through[0];
         next[which] = through[came_from[i][which]] + of(i, which).picture_cost;

@@ -100,7 +100,7 @@ class Recovery {
       if (!take_.stature_m) stature_ = StatureOf(track);
       if (!knows_rooms) EstimateRooms(some, track);
     }
-    return Told(Track(all));
+    return MotionOf(Track(all));
   }
 
  private:
@@ -193,7 +193,7 @@ class Recovery {
     return FitStature(track.body, stature_, moments, {.cost = options_.track.cost});
   }
 
-  Result<UnmarkedMotion> Told(const SilhouetteTrack& track) {
+  Result<UnmarkedMotion> MotionOf(const SilhouetteTrack& track) {
     UnmarkedMotion told;
     told.motion.rate_hz = take_.rate_hz;
     told.stature_m = stature_;

@@ -78,14 +78,14 @@ Border MeasureBorder(const std::vector<glm::dvec2>& points, const glm::dvec2& li
   return border;
 }
 
-class Looker {
+class EvidenceFinder {
  public:
-  Looker(const LimbRegions& regions, const FigureLook& look)
+  EvidenceFinder(const LimbRegions& regions, const FigureLook& look)
       : regions_(regions), look_(look), body_(BodyOf(look.figure)) {
     for (std::size_t i = 0; i < kStrokeCount; ++i) Look(i);
   }
 
-  PictureEvidence Tell() {
+  PictureEvidence Find() {
     for (std::size_t i = 0; i < kStrokeCount; ++i) {
       if (limbs_[i]) PutInnerJoint(i);
     }
@@ -325,7 +325,7 @@ class Looker {
 }  // namespace
 
 PictureEvidence FindLimbEvidence(const LimbRegions& regions, const FigureLook& look) {
-  return Looker(regions, look).Tell();
+  return EvidenceFinder(regions, look).Find();
 }
 
 }  // namespace etude
