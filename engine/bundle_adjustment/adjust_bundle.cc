@@ -1,6 +1,11 @@
 #include "engine/bundle_adjustment/adjust_bundle.h"
 
-#include <ceres/ceres.h>
+#include <ceres/cost_function.h>
+#include <ceres/evaluation_callback.h>
+#include <ceres/loss_function.h>
+#include <ceres/manifold.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
 #include <glog/logging.h>
 
 #include <algorithm>

@@ -1,10 +1,14 @@
 #include "engine/cameras/refine.h"
 
-#include <ceres/ceres.h>
+#include <ceres/crs_matrix.h>
 #include <ceres/dynamic_autodiff_cost_function.h>
+#include <ceres/manifold.h>
+#include <ceres/problem.h>
 #include <ceres/rotation.h>
+#include <ceres/solver.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
