@@ -6,20 +6,19 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <optional>
 
 #include "bench/files/files.h"
 #include "cli/commands.h"
 #include "cli/output_file.h"
 #include "engine/base/angles.h"
-#include "engine/boards/board.h"
+#include "engine/boards/board_views.h"
 #include "engine/cameras/camera_parameters.h"
 #include "engine/cameras/pairs_file.h"
 #include "engine/cameras/planes.h"
 #include "engine/cameras/rig_file.h"
-#include "engine/capture/board_views.h"
 #include "reports/films/decoder.h"
+#include "sim/camera/jpeg.h"
 #include "sim/sensors/image_files.h"
 
 namespace etude {
@@ -159,83 +158,63 @@ Result<std::vector<fs::path>> PicturesIn(const fs::path& folder) {
 }
 
 Result<ColourImage> ReadPicture(const fs::path& path) {
-  if (path.extension() == ".png") return LoadColourPng(path.string());
-  ASSIGN_OR_RETURN(const FilmFacts facts, ProbeFilm(path));
-  ASSIGN_OR_RETURN(Decoder decoder, Decoder::Start(path, facts));
-  ColourImage picture;
-  ASSIGN_OR_RETURN(const bool is_there, decoder.Next(picture));
-  if (!is_there) return Fail({path.string()}, "no picture in it");
+  constexpr std::size_t kMostPixels = 100'000'000;
+  ASSIGN_OR_RETURN(const std::string bytes, ReadWholeFile(path));
+  if (bytes.starts_with("\x89PNG")) return LoadColourPng(path.string());
+  auto picture = ReadJpeg(bytes, kMostPixels);
+  if (!picture) return Fail({path.string()}, "{}", picture.error().message);
   return picture;
 }
 
-/// Looks for boards in what every camera took.
-class BoardSearch {
- public:
-  BoardSearch(std::vector<Board> boards, int every) : views_(std::move(boards)), every_(every) {}
-
-  Result<void> AddCamera(const fs::path& input) {
-    const std::size_t camera = sizes_.size();
-    sizes_.emplace_back();
-    RETURN_IF_ERROR(fs::is_directory(input) ? AddFolder(input, camera) : AddFilm(input, camera));
-    fmt::print("{}: {} pictures, {} of them with a board, {} corners\n", input.string(), looked_, with_board_,
-               corners_);
-    return {};
-  }
-  const std::vector<TargetView>& views() const { return views_.views(); }
-  const std::vector<PictureSize>& sizes() const { return sizes_; }
-
- private:
-  Result<void> AddFolder(const fs::path& folder, std::size_t camera) {
-    Begin();
-    ASSIGN_OR_RETURN(const auto files, PicturesIn(folder));
-    for (const fs::path& file : files) {
-      ASSIGN_OR_RETURN(const ColourImage picture, ReadPicture(file));
-      RETURN_IF_ERROR(Look(camera, file.stem().string(), picture, file.string()));
-    }
-    return {};
-  }
-
-  Result<void> AddFilm(const fs::path& film, std::size_t camera) {
-    Begin();
-    ASSIGN_OR_RETURN(const FilmFacts facts, ProbeFilm(film));
-    ASSIGN_OR_RETURN(Decoder decoder, Decoder::Start(film, facts));
-    ColourImage frame;
-    for (int i = 0;; ++i) {
-      ASSIGN_OR_RETURN(const bool is_there, decoder.Next(frame));
-      if (!is_there) return {};
-      if (i % every_ == 0) RETURN_IF_ERROR(Look(camera, fmt::format("{:08}", i), frame, film.string()));
-    }
-  }
-
-  void Begin() { looked_ = with_board_ = corners_ = 0; }
-
-  Result<void> Look(std::size_t camera, const std::string& moment, const ColourImage& picture,
-                    const std::string& file) {
-    PictureSize& size = sizes_[camera];
-    if (size.width == 0) size = {picture.width, picture.height};
-    if (size.width != picture.width || size.height != picture.height) {
-      return Fail({file}, "{} x {} pixels, the pictures before it {} x {}", picture.width, picture.height, size.width,
-                  size.height);
-    }
-    const std::size_t number = moments_.try_emplace(moment, moments_.size()).first->second;
-    const std::size_t seen = views_.Add(camera, number, picture);
-    ++looked_;
-    with_board_ += seen > 0 ? 1 : 0;
-    corners_ += seen;
-    return {};
-  }
-
-  BoardViews views_;
-  const int every_;
-  std::vector<PictureSize> sizes_;
-  std::map<std::string, std::size_t> moments_;
-  std::size_t looked_ = 0, with_board_ = 0, corners_ = 0;  ///< of this camera
+/// What the pictures of one camera showed.
+struct BoardCounts {
+  std::size_t looked = 0, with_board = 0, corners = 0;
 };
+
+Result<void> AddPicture(std::size_t camera, const std::string& moment, const ColourImage& picture,
+                        const std::string& file, BoardViews& views, BoardCounts& counts) {
+  const auto corners = views.Add(camera, moment, picture);
+  if (!corners) return Fail({file}, "{}", corners.error().message);
+  ++counts.looked;
+  counts.with_board += *corners > 0 ? 1 : 0;
+  counts.corners += *corners;
+  return {};
+}
+
+Result<BoardCounts> AddFolder(std::size_t camera, const fs::path& folder, BoardViews& views) {
+  BoardCounts counts;
+  ASSIGN_OR_RETURN(const auto files, PicturesIn(folder));
+  for (const fs::path& file : files) {
+    ASSIGN_OR_RETURN(const ColourImage picture, ReadPicture(file));
+    RETURN_IF_ERROR(AddPicture(camera, file.stem().string(), picture, file.string(), views, counts));
+  }
+  return counts;
+}
+
+/// Every `every`-th picture of a film; a picture's number names its moment.
+Result<BoardCounts> AddFilm(std::size_t camera, const fs::path& film, int every, BoardViews& views) {
+  BoardCounts counts;
+  ASSIGN_OR_RETURN(const FilmFacts facts, ProbeFilm(film));
+  ASSIGN_OR_RETURN(Decoder decoder, Decoder::Start(film, facts));
+  ColourImage frame;
+  for (int i = 0;; ++i) {
+    ASSIGN_OR_RETURN(const bool is_there, decoder.Next(frame));
+    if (!is_there) return counts;
+    if (i % every != 0) continue;
+    RETURN_IF_ERROR(AddPicture(camera, fmt::format("{:08}", i), frame, film.string(), views, counts));
+  }
+}
 
 Result<Calibrated> FromPictures(const CalibrateOptions& options) {
   ASSIGN_OR_RETURN(const auto boards, ReadBoards(options.boards));
-  BoardSearch search(boards, options.every);
-  for (const std::string& input : options.inputs) RETURN_IF_ERROR(search.AddCamera(input));
+  BoardViews search(boards);
+  for (std::size_t camera = 0; camera < options.inputs.size(); ++camera) {
+    const fs::path input = options.inputs[camera];
+    ASSIGN_OR_RETURN(const BoardCounts counts, fs::is_directory(input) ? AddFolder(camera, input, search)
+                                                                       : AddFilm(camera, input, options.every, search));
+    fmt::print("{}: {} pictures, {} of them with a board, {} corners\n", options.inputs[camera], counts.looked,
+               counts.with_board, counts.corners);
+  }
   ASSIGN_OR_RETURN(auto refined, CalibrateFromPlanes(search.sizes(), search.views(), RefineOptionsOf(options)));
   TurnToStance(options.world == "floor" ? BoardStance::kOnFloor : BoardStance::kOnWall, refined.cameras);
   Calibrated rig;

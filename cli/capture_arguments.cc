@@ -4,7 +4,7 @@
 #include "cli/capture_command.h"
 #include "cli/common_arguments.h"
 #include "cli/validators.h"
-#include "engine/keypoints/landmarks.h"
+#include "engine/keypoints/people.h"
 
 namespace etude {
 namespace {

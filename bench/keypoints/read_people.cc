@@ -9,7 +9,7 @@
 
 #include "bench/files/files.h"
 #include "bench/files/json.h"
-#include "engine/keypoints/marked_person.h"
+#include "engine/keypoints/people.h"
 #include "engine/vision/strokes.h"
 #include "sim/sensors/image_files.h"
 

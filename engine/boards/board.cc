@@ -19,8 +19,8 @@ Turns TurnsOf(std::uint16_t code) {
 
 int Difference(std::uint16_t a, std::uint16_t b) { return std::popcount(static_cast<std::uint16_t>(a ^ b)); }
 
-/// Whether the code can be told from its own turns.
-bool TellsItsTurn(const Turns& turns) {
+/// Returns whether the code differs enough from its own turns.
+bool DiffersFromItsTurns(const Turns& turns) {
   return std::all_of(turns.begin() + 1, turns.end(),
                      [&](std::uint16_t turn) { return Difference(turns[0], turn) >= kCodeDistance; });
 }
@@ -36,7 +36,7 @@ std::vector<std::uint16_t> MakeCodes() {
       return std::all_of(turns.begin(), turns.end(),
                          [&](std::uint16_t turn) { return Difference(turn, other) >= kCodeDistance; });
     });
-    if (is_free && TellsItsTurn(turns)) codes.push_back(word);
+    if (is_free && DiffersFromItsTurns(turns)) codes.push_back(word);
   }
   assert(codes.size() == kCodeCount);
   return codes;

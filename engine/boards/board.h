@@ -20,23 +20,22 @@ constexpr int kMostSquares = 16;
 /// A code is kCodeSide × kCodeSide modules, black for 1; around it a margin of one white module on every side.
 constexpr int kCodeSide = 4;
 constexpr int kModules = kCodeSide + 2;
-/// How many codes there are. Any two, and any two turns of one, differ in at least kCodeDistance modules.
+/// The number of codes. Any two, and any two turns of one, differ in at least kCodeDistance modules.
 constexpr int kCodeCount = 120;
 constexpr int kCodeDistance = 4;
 
-/// The modules of a code in rows from the top, the first one in the highest bit. 0 ≤ `number` < kCodeCount.
+/// Returns the modules of a code in rows from the top, the first one in the highest bit. 0 ≤ `number` < kCodeCount.
 std::uint16_t CodeOf(int number);
-/// The code turned a quarter clockwise.
+/// Returns the code turned a quarter clockwise.
 std::uint16_t Turned(std::uint16_t code);
 
-/// How many codes the board uses.
+/// Returns how many codes the board uses.
 int CountCodes(const Board& board);
-/// Whether the square is black.
 constexpr bool IsBlackSquare(int column, int row) { return (column + row) % 2 == 0; }
-/// The number of a white square's code.
+/// Returns the number of a white square's code.
 int CodeNumberOf(const Board& board, int column, int row);
 
-/// Whether the board is black at a point of its plane, metres from its top left corner: x to the right, y down.
+/// Returns whether the board is black at a point of its plane, metres from its top left corner: x to the right, y down.
 bool IsBlackAt(const Board& board, const glm::dvec2& point);
 
 /// A corner between four squares: the lower right one of the square (column, row); 0 ≤ column < columns − 1.

@@ -76,7 +76,7 @@ std::vector<glm::ivec2> DarkPiece(const GreyImage& picture, const glm::ivec2& da
   return is_cut ? std::vector<glm::ivec2>{} : piece;
 }
 
-// How much of a piece's surroundings is dark, and how that lies: its moments.
+// The moments of the darkness in a piece and its surroundings.
 struct Darkness {
   double area = 0;  // pixels
   glm::dvec2 middle{0};

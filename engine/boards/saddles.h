@@ -10,10 +10,11 @@ namespace etude {
 
 using GreyImage = Image<float>;
 
-/// The picture's brightness, 0…255.
+/// Returns the picture's brightness, 0…255.
 GreyImage ToGrey(const ColourImage& picture);
 
-/// The brightness at a point, between pixels bilinear; outside the picture that of its edge. At least 2 × 2 pixels.
+/// Returns the brightness at a point, bilinear between pixels; outside the picture that of its edge. At least 2 × 2
+/// pixels.
 double BrightnessAt(const GreyImage& picture, const glm::dvec2& pixel);
 
 /// A point around which dark and bright quarters take turns: a corner of a chessboard, or of a code on it.
@@ -25,8 +26,8 @@ struct Saddle {
   double strength = 0;
 };
 
-/// The saddles of a picture, the strongest first; to about 0.1 pixel where the squares around them have 6 pixels or
-/// more.
+/// Finds the saddles of a picture, the strongest first, to about 0.1 pixel where the squares around them have 6 pixels
+/// or more.
 std::vector<Saddle> FindSaddles(const GreyImage& picture);
 
 }  // namespace etude

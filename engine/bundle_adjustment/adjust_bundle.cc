@@ -1,6 +1,11 @@
 #include "engine/bundle_adjustment/adjust_bundle.h"
 
-#include <ceres/ceres.h>
+#include <ceres/cost_function.h>
+#include <ceres/evaluation_callback.h>
+#include <ceres/loss_function.h>
+#include <ceres/manifold.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
 #include <glog/logging.h>
 
 #include <algorithm>
@@ -212,7 +217,7 @@ class PointAcceleration final : public ceres::CostFunction {
   const int length_block_;
 };
 
-/// Likewise of all angles. Blocks: the angles of each frame.
+/// The second difference of all angles over three frames, in usual sizes. Blocks: the angles of each frame.
 class AngleAcceleration final : public ceres::CostFunction {
  public:
   AngleAcceleration(int angles, double usual) : angles_(angles), usual_(usual) {
@@ -237,7 +242,7 @@ class AngleAcceleration final : public ceres::CostFunction {
   const double usual_;
 };
 
-/// How far angles lie beyond their limits, in deviations.
+/// The amounts by which angles lie beyond their limits, in deviations.
 class BeyondLimits final : public ceres::CostFunction {
  public:
   BeyondLimits(std::span<const AngleRange> limits, double deviation) : limits_(limits), deviation_(deviation) {
@@ -274,10 +279,10 @@ std::unique_ptr<ceres::LossFunction> MakeLoss(const BundleOptions& options) {
   return nullptr;
 }
 
-/// The sum of squares, which owns its terms.
-class Sum {
+/// The sum of squares as a problem of Ceres; owns its terms.
+class BundleProblem {
  public:
-  Sum(const BundleInputs& inputs, const BundleOptions& options, Variables& variables)
+  BundleProblem(const BundleInputs& inputs, const BundleOptions& options, Variables& variables)
       : options_(options),
         variables_(variables),
         loss_(MakeLoss(options)),
@@ -379,7 +384,7 @@ BundleSolution AdjustBundle(const BundleInputs& inputs, const BundleOptions& opt
   solution.lengths = inputs.body.lengths;
   solution.states.assign(inputs.start.begin(), inputs.start.end());
   if (variables.frames.empty()) return solution;
-  Sum sum(inputs, options, variables);
+  BundleProblem sum(inputs, options, variables);
   ceres::Solver::Summary summary;
   ceres::Solve(SolverOptions(options), &sum.problem(), &summary);
   if (!summary.IsSolutionUsable()) return solution;

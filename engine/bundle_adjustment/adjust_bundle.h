@@ -12,7 +12,7 @@
 
 namespace etude {
 
-/// One point of the body, as one picture shows it.
+/// A point of the body as one picture shows it.
 struct BundleMark {
   int frame = 0;
   int point = 0;  ///< index of `MeasurableBody::points`
@@ -23,40 +23,41 @@ struct BundleMark {
 
 struct BundleInputs {
   const MeasurableBody& body;
-  /// Where the search begins: one pose per frame. Frames follow each other at one rate.
+  /// The poses that the search begins with, one per frame. Frames follow each other at one rate.
   std::span<const TreeState> start;
   std::span<const BundleMark> marks;
 };
 
-/// How much a mark counts that lies far from where the body would be seen.
+/// The loss of a mark by its distance from the projected body.
 enum class RobustLoss {
   kNone,    ///< as its square: one gross error moves the whole body
   kHuber,   ///< beyond `loss_scale` as its distance
   kCauchy,  ///< beyond `loss_scale` as the distance's logarithm: hardly at all
 };
 
-/// What is known of people's motion before anything is seen: second differences of three frames are small.
+/// The prior knowledge of people's motion: second differences of three frames are small.
 struct BundleSmoothness {
   double rate_hz = 30;
-  /// Usual size of a point's acceleration along each axis, m/s²: of the points `points`.
+  /// The usual acceleration of the points `points` along each axis, m/s².
   double acceleration = 8;
   std::vector<int> points;
-  /// Of every angle, rad/s². *(Ours)*
+  /// The usual acceleration of every angle, rad/s² *(ours)*.
   double angle_acceleration = 40;
 };
 
 struct BundleOptions {
   RobustLoss loss = RobustLoss::kCauchy;
-  /// In standard deviations of a mark.
+  /// The distance beyond which the loss flattens, in standard deviations of a mark.
   double loss_scale = 2;
-  /// Absent when frames do not follow each other.
+  /// The smoothness that is asked for; absent when frames do not follow each other.
   std::optional<BundleSmoothness> smoothness;
-  /// How far an angle lies beyond its limit, radians (standard deviation): limits are of people in general *(ours)*.
+  /// The standard deviation of how far an angle lies beyond its limit, radians: limits are those of people in general
+  /// *(ours)*.
   double limit_deviation = Radians(3);
   bool adjusts_lengths = false;
-  /// A take settles within some ten; what is not settled by then crawls along what nothing tells.
+  /// A take settles within some ten iterations; later ones move only along directions that no mark determines.
   int max_iterations = 25;
-  /// It ends when a step lowers the cost by a smaller part than this.
+  /// The search ends when a step lowers the cost by a smaller part than this.
   double smallest_decrease = 1e-4;
 };
 

@@ -17,7 +17,7 @@ void AddAngleGains(const KinematicTree& tree, const TreeFrames& frames, const Bo
   }
 }
 
-// Whether the point is moved by what moves the joint: the joint lies between it and the root, or carries it.
+// Returns whether the point moves with the joint: the joint lies between it and the root, or carries it.
 bool Carries(const KinematicTree& tree, int joint, const BodyPoint& point) {
   int j = point.joint;
   while (j > joint) j = tree.joints[j].parent;

@@ -8,35 +8,35 @@
 
 namespace etude {
 
-/// A point Q of a tree's limb L that pictures show.
+/// A point Q, fixed to a tree's limb L, that pictures show.
 struct BodyPoint {
   int joint = 0;       ///< whose limb it is fixed to
   glm::dvec3 p_LQ{0};  ///< metres
 };
 
-/// What a length adds to a vector of a body: `per_metre` for every metre that it grows.
+/// The share of a length in an offset of the body: the offset grows by `per_metre` for every metre of the length.
 struct LengthShare {
   int index = 0;   ///< of the joint whose p_PJ, or of the point whose p_LQ it is
   int length = 0;  ///< index of the length
   glm::dvec3 per_metre{0};
 };
 
-/// A body whose pose can be told from the pictures of its points, and its lengths too: offsets grow linearly with a few
+/// A body whose pose and lengths can be estimated from pictures of its points: offsets grow linearly with a few
 /// lengths, which both sides may share.
 struct MeasurableBody {
   KinematicTree tree;
   std::vector<BodyPoint> points;
-  /// What the offsets of `tree` and `points` are made with, metres; may be empty: nothing of the body can be measured.
+  /// The lengths that the offsets of `tree` and `points` are made with, metres; empty when none is to be estimated.
   std::vector<double> lengths;
   std::vector<LengthShare> joint_shares, point_shares;
 };
 
-/// The same body with other lengths: as many, metres.
+/// Returns the body with other lengths: as many, metres.
 MeasurableBody WithLengths(const MeasurableBody& body, std::span<const double> lengths);
 
-/// Where a body's points are in one pose, and how they move. Column by column, three numbers for each point: what its
-/// place in the world gains (metres) when the root is shifted along x, y, z (metres), when the whole body turns about
-/// the root about the world's x, y, z (radians), per angle (radians), per length (metres).
+/// The places of a body's points in one pose, and their Jacobian. Column by column, three numbers for each point: what
+/// its place in the world gains (metres) when the root is shifted along x, y, z (metres), when the whole body turns
+/// about the root about the world's x, y, z (radians), per angle (radians), per length (metres).
 struct PlacedPoints {
   std::vector<glm::dvec3> positions;  ///< p_WQ, metres
   int columns = 0;                    ///< 6 + angles + lengths

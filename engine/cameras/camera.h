@@ -4,12 +4,33 @@
 #include <glm/glm.hpp>
 #include <optional>
 
-#include "engine/cameras/distortion.h"
-
 namespace etude {
 
-/// The intrinsics of a camera, pixels. Image axes: u right, v down, origin at the top left corner;
-/// the centre of pixel (i, j) is (i + 0.5, j + 0.5).
+/// The distortion of a lens: Brown and Conrady's model with OpenCV's coefficients and signs. With r² = x² + y², the ray
+/// through (x, y, 1) in the camera's frame becomes that through
+///
+///     x' = x (1 + k1 r² + k2 r⁴ + k3 r⁶) + 2 p1 x y + p2 (r² + 2 x²)
+///     y' = y (1 + k1 r² + k2 r⁴ + k3 r⁶) + p1 (r² + 2 y²) + 2 p2 x y
+///
+/// which the intrinsics turn into a pixel. With all coefficients zero the camera is a pinhole.
+struct Distortion {
+  double k1 = 0, k2 = 0;  ///< radial; k1 < 0 is a barrel
+  double p1 = 0, p2 = 0;  ///< tangential: a lens that is not parallel to the sensor
+  double k3 = 0;          ///< radial, the sixth power
+
+  bool IsNone() const { return *this == Distortion{}; }
+  friend bool operator==(const Distortion&, const Distortion&) = default;
+};
+
+/// Returns the distorted point (x', y') of the ray through (x, y, 1).
+glm::dvec2 Distort(const Distortion& distortion, const glm::dvec2& ray);
+
+/// Returns the (x, y) nearest to the axis that `Distort` takes to `distorted`, by Newton's method to 1e-12; nothing
+/// when there is none: beyond the radius at which the model turns back on itself, it shows no lens.
+std::optional<glm::dvec2> Undistort(const Distortion& distortion, const glm::dvec2& distorted);
+
+/// The intrinsics of a camera in pixels. Image axes: u right, v down, origin at the top left corner; the centre of
+/// pixel (i, j) is (i + 0.5, j + 0.5).
 struct Intrinsics {
   int width = 640;
   int height = 480;
@@ -20,7 +41,7 @@ struct Intrinsics {
   double skew = 0;
 };
 
-/// A camera in the world W. Its own frame C: x right, y down, z forward (as OpenCV).
+/// A camera in the world W. Its own frame C has x right, y down, z forward (as OpenCV).
 struct Camera {
   Intrinsics intrinsics;
   glm::dmat3 R_CW{1};  ///< rotates world directions into the camera's frame
@@ -28,8 +49,8 @@ struct Camera {
   Distortion distortion{};
 };
 
-/// The camera at `p_WC` looking at the point T at `p_WT`, its v axis pointing down as far as possible.
-/// T is not at the camera, and the view is not vertical.
+/// Returns the camera at `p_WC` looking at the point T at `p_WT`, its v axis pointing down as far as possible. T is not
+/// at the camera, and the view is not vertical.
 Camera LookAt(const Intrinsics& intrinsics, const glm::dvec3& p_WC, const glm::dvec3& p_WT);
 
 /// Paper B's H (section 2.2), from the world to pixels: (u·w, v·w, w)ᵀ = H (X, Y, Z, 1)ᵀ with p_WQ = (X, Y, Z) of a
@@ -38,18 +59,19 @@ struct ProjectionMatrix {
   std::array<std::array<double, 4>, 3> h{};
 };
 
-/// Of the camera's pinhole: a matrix knows no distortion.
+/// Returns the matrix of the camera's pinhole; its distortion is left out.
 ProjectionMatrix MatrixOf(const Camera& camera);
 
-/// The pixel that shows the point Q at `p_WQ`; nothing when it lies on or behind the camera's plane. The sign of H is
-/// taken such that w > 0 in front of the camera (DLT normalises it so).
+/// Returns the pixel that shows the point Q at `p_WQ`; nothing when Q lies on or behind the camera's plane. The sign of
+/// H is taken such that w > 0 in front of the camera (DLT normalises it so).
 std::optional<glm::dvec2> Project(const ProjectionMatrix& matrix, const glm::dvec3& p_WQ);
 
-/// The same of a camera with its lens. Nothing, too, far outside the picture where a lens of that distortion would fold
-/// the world back into it.
+/// Returns the pixel at which the camera with its lens shows Q; nothing also far outside the picture, where a lens of
+/// that distortion would fold the world back into it.
 std::optional<glm::dvec2> Project(const Camera& camera, const glm::dvec3& p_WQ);
 
-/// The pixel that shows what a pinhole would show at `pixel`, and the other way round: nothing where there is none.
+/// `DistortPixel` returns the pixel at which the lens shows what a pinhole shows at `pixel`, `UndistortPixel` its
+/// inverse; nothing where there is none.
 std::optional<glm::dvec2> DistortPixel(const Camera& camera, const glm::dvec2& pixel);
 std::optional<glm::dvec2> UndistortPixel(const Camera& camera, const glm::dvec2& pixel);
 

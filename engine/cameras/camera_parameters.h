@@ -29,12 +29,12 @@ struct CameraParameters {
   static constexpr double kRightAngle = 1.5707963267948966;
 };
 
-/// The parameters of a matrix, in closed form. Fails when it is no camera's: a number that is not finite,
+/// Decomposes a matrix into its parameters, in closed form. Fails when it is no camera's: a number that is not finite,
 /// rows that are parallel, or a picture that only a mirror shows.
 Result<CameraParameters> Decompose(const ProjectionMatrix& matrix);
 
-/// The pinhole with these parameters, its picture of `width` × `height` pixels; and the parameters of a camera, which
-/// leave its distortion out.
+/// `ToCamera` makes the pinhole with these parameters and a picture of `width` × `height` pixels; `ParametersIn`
+/// returns the parameters of a camera without its distortion.
 Camera ToCamera(const CameraParameters& parameters, int width, int height);
 CameraParameters ParametersIn(const Camera& camera);
 

@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// A point Q whose place in the world was measured (metres), and the pixel that shows it.
+/// A point Q, measured in the world (metres), and the pixel that shows it.
 struct PointPair {
   glm::dvec3 world{0};  ///< p_WQ
   glm::dvec2 pixel{0};
@@ -25,18 +25,18 @@ enum class Calibration {
   kRefined,
 };
 
-/// "dlt", "dlt-normalised", "refined": the names used in scenarios.
+/// Returns the names used in scenarios: "dlt", "dlt-normalised", "refined".
 std::vector<std::string> CalibrationNames();
-/// `name` is one of CalibrationNames().
+/// Returns the calibration of that name, which is one of CalibrationNames().
 Calibration CalibrationNamed(std::string_view name);
 
-/// The projection matrix that maps the pairs' world points to their pixels, by the direct linear
-/// transform. The result is scaled such that w is the depth in metres, positive in front of the camera.
-/// Fails, saying why, when the pairs do not determine a camera: fewer than six, a number that is not
-/// finite, world points (nearly) in one plane or on one line, or pairs that no camera can have seen.
+/// Computes the projection matrix that maps the pairs' world points to their pixels, by the direct linear transform.
+/// The result is scaled such that w is the depth in metres, positive in front of the camera. Fails, saying why, when
+/// the pairs do not determine a camera: fewer than six, a number that is not finite, world points (nearly) in one plane
+/// or on one line, or pairs that no camera can have seen.
 Result<ProjectionMatrix> Calibrate(std::span<const PointPair> pairs, Calibration calibration);
 
-/// Root mean square distance between the pixels and the projected world points, pixels; infinity when
+/// Returns the root mean square distance between the pixels and the projected world points, pixels; infinity when
 /// `matrix` does not show some point.
 double ReprojectionRms(const ProjectionMatrix& matrix, std::span<const PointPair> pairs);
 

@@ -2,7 +2,6 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -47,7 +46,7 @@ glm::dvec3 LineAlong(std::span<const StrokePlane> planes, std::span<const double
   return {along_W[0], along_W[1], along_W[2]};
 }
 
-// What an error of a pixel at the stroke's ends is worth in Nᵢ·d, inverted; relative to the largest.
+// Returns the inverse of what an error of a pixel at the stroke's ends makes of Nᵢ·d, relative to the largest.
 std::vector<double> WeightsOf(std::span<const StrokePlane> planes, const glm::dvec3& along_W) {
   std::vector<double> weights;
   constexpr double kEndOn = 0.05;  // sine: a limb seen along itself tells nothing sure, however short its stroke
@@ -60,8 +59,8 @@ std::vector<double> WeightsOf(std::span<const StrokePlane> planes, const glm::dv
   return weights;
 }
 
-// How far `direction` leads from ray a towards ray b, in [−1, 1]. Within the plane, direction =
-// α·a + β·b; a point on ray a moving along it is seen moving towards b exactly when β > 0.
+// Returns how far `direction` leads from ray a towards ray b, in [−1, 1]. Within the plane, direction = α·a + β·b; a
+// point on ray a moving along it is seen moving towards b exactly when β > 0.
 double Sense(const StrokePlane& plane, const glm::dvec3& direction_W) {
   return glm::dot(glm::cross(plane.ray_a_W, direction_W), plane.normal_W);
 }
@@ -96,13 +95,6 @@ LimbDirection ComputeLimbDirection(std::span<const LimbSighting> sightings, doub
   double sense = 0;
   for (const StrokePlane& plane : planes) sense += Sense(plane, along_W);
   return {DirectionStatus::kOk, sense < 0 ? -along_W : along_W, limb.plane_angle};
-}
-
-LimbDirection ComputeLimbDirection(const ProjectionMatrix& matrix1, const PixelSegment& stroke1,
-                                   const ProjectionMatrix& matrix2, const PixelSegment& stroke2,
-                                   double smallest_plane_angle) {
-  const std::array<LimbSighting, 2> sightings = {{{matrix1, stroke1}, {matrix2, stroke2}}};
-  return ComputeLimbDirection(sightings, smallest_plane_angle);
 }
 
 }  // namespace etude

@@ -9,23 +9,23 @@
 
 namespace etude {
 
-/// A limb as drawn in one picture: two pixels on it, in the sense from its start to its end.
+/// A limb as drawn in one picture: the pixels of its start `a` and its end `b`.
 struct PixelSegment {
   glm::dvec2 a{0};
   glm::dvec2 b{0};
 };
 
-/// How one camera sees a limb.
+/// A camera and the stroke that its picture shows of a limb.
 struct LimbSighting {
   ProjectionMatrix matrix;
   PixelSegment stroke;
 };
 
-/// The direction in the world in which the camera sees `pixel`, pointing away from the camera: the cross product of
-/// the two planes through that pixel (paper B, equations 2.4 and 2.5). Of any length.
+/// Returns the direction in the world in which the camera sees `pixel`, pointing away from the camera: the cross
+/// product of the two planes through that pixel (paper B, equations 2.4 and 2.5). Of any length.
 glm::dvec3 ViewingRay(const ProjectionMatrix& matrix, const glm::dvec2& pixel);
 
-/// The plane through a camera's centre and a stroke, in which the limb lies.
+/// The plane through a camera's centre and a stroke; the limb lies in it.
 struct StrokePlane {
   glm::dvec3 normal_W{0};  ///< unit, ray(a) × ray(b)
   glm::dvec3 ray_a_W{0};   ///< unit, from the camera through the stroke's start
@@ -33,7 +33,8 @@ struct StrokePlane {
   double length_px = 0;    ///< of the stroke
 };
 
-/// Nothing for a stroke without length: shorter than 0.01 pixel at a focal length of 600.
+/// Returns the plane of a stroke; nothing for one without length, which is shorter than 0.01 pixel at a focal length of
+/// 600.
 std::optional<StrokePlane> PlaneOf(const LimbSighting& sighting);
 
 enum class DirectionStatus {
@@ -50,19 +51,14 @@ struct LimbDirection {
   double plane_angle = 0;
 };
 
-/// The direction of a limb seen by two or more cameras. Each stroke and its camera's centre span a plane with the unit
-/// normal N ~ ray(a) × ray(b), in which the limb lies. With two planes it lies along N₁ × N₂ (paper B, section 2.3).
-/// *Ours*: with more, along the unit vector d with the smallest Σ (Nᵢ·d)²/εᵢ², where εᵢ ~ |rayᵢ × d| / length of the
-/// stroke is what an error of so many pixels at its ends makes of Nᵢ·d: planes of strokes that are drawn long for what
-/// they show of the limb weigh more, which are those of near cameras (d for the weights is that of equal ones). Strokes
-/// without length are left out. The sign is such that the limb runs from a to b in the pictures (ours; the paper is silent);
-/// where they disagree, those in which the limb is less foreshortened decide.
+/// Computes the direction of a limb seen by two or more cameras. Each stroke and its camera's centre span a plane with
+/// the unit normal N ~ ray(a) × ray(b), in which the limb lies. With two planes it lies along N₁ × N₂ (paper B, section
+/// 2.3). *Ours*: with more, along the unit vector d with the smallest Σ (Nᵢ·d)²/εᵢ², where εᵢ ~ |rayᵢ × d| / length of
+/// the stroke is what an error of so many pixels at its ends makes of Nᵢ·d: planes of strokes that are drawn long for
+/// what they show of the limb weigh more, which are those of near cameras (d for the weights is that of equal ones).
+/// Strokes without length are left out. The sign is such that the limb runs from a to b in the pictures (ours; the
+/// paper is silent); where they disagree, those in which the limb is less foreshortened decide.
 /// @param smallest_plane_angle ill-conditioned when no two planes are so far from parallel, radians
 LimbDirection ComputeLimbDirection(std::span<const LimbSighting> sightings, double smallest_plane_angle = Radians(3));
-
-/// The same for paper B's two cameras.
-LimbDirection ComputeLimbDirection(const ProjectionMatrix& matrix1, const PixelSegment& stroke1,
-                                   const ProjectionMatrix& matrix2, const PixelSegment& stroke2,
-                                   double smallest_plane_angle = Radians(3));
 
 }  // namespace etude

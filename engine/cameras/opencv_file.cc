@@ -3,11 +3,100 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <charconv>
+#include <cmath>
 #include <vector>
 
-#include "engine/cameras/calibration_text.h"
-
 namespace etude {
+namespace {
+
+constexpr double kOurPixelCentre = 0.5;
+
+bool IsSide(double pixels) { return pixels >= 1 && pixels <= 65536 && pixels == std::floor(pixels); }
+
+bool AreFinite(const OpenCvParameters& p) {
+  double sum = 0;  // not finite when any of them is not
+  for (const double value : p.camera_matrix) sum += std::abs(value);
+  for (const double value : p.distortion) sum += std::abs(value);
+  for (int i = 0; i < 3; ++i) sum += glm::length(p.R[i]) + std::abs(p.T[i]);
+  return std::isfinite(sum);
+}
+
+bool IsRotation(const glm::dmat3& R) {
+  constexpr double kTolerance = 1e-6;
+  const glm::dmat3 product = R * glm::transpose(R);
+  double off = std::abs(glm::determinant(R) - 1);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) off = std::max(off, std::abs(product[i][j] - (i == j ? 1 : 0)));
+  }
+  return off < kTolerance;
+}
+
+}  // namespace
+
+OpenCvParameters ParametersOf(const Camera& camera) {
+  const Intrinsics& in = camera.intrinsics;
+  const Distortion& d = camera.distortion;
+  return {.width = static_cast<double>(in.width),
+          .height = static_cast<double>(in.height),
+          .camera_matrix = {in.fx, in.skew, in.cx - kOurPixelCentre, 0, in.fy, in.cy - kOurPixelCentre, 0, 0, 1},
+          .distortion = {d.k1, d.k2, d.p1, d.p2, d.k3},
+          .R = camera.R_CW,
+          .T = -(camera.R_CW * camera.p_WC)};
+}
+
+Result<Camera> CameraOf(const OpenCvParameters& p) {
+  if (!IsSide(p.width) || !IsSide(p.height)) {
+    return Fail({}, "a picture of {:g} x {:g} pixels; allowed: whole numbers of 1 to 65536", p.width, p.height);
+  }
+  const std::vector<double>& K = p.camera_matrix;
+  if (K.size() != 9) return Fail({}, "the camera matrix has {} numbers; allowed: 9", K.size());
+  if (p.distortion.size() != 4 && p.distortion.size() != 5) {
+    return Fail({}, "{} distortion coefficients; allowed: 4 (k1, k2, p1, p2) or 5 (and k3)", p.distortion.size());
+  }
+  if (!AreFinite(p)) return Fail({}, "a number that is not finite");
+  if (!(K[0] > 0) || !(K[4] > 0)) return Fail({}, "focal lengths of {:g} and {:g}; allowed: above 0", K[0], K[4]);
+  if (K[3] != 0 || K[6] != 0 || K[7] != 0 || K[8] != 1) {
+    return Fail({}, "the camera matrix must end in rows 0 fy cy, 0 0 1");
+  }
+  if (!IsRotation(p.R)) return Fail({}, "R is no rotation");
+  Camera camera;
+  camera.intrinsics = {.width = static_cast<int>(p.width),
+                       .height = static_cast<int>(p.height),
+                       .fx = K[0],
+                       .fy = K[4],
+                       .cx = K[2] + kOurPixelCentre,
+                       .cy = K[5] + kOurPixelCentre,
+                       .skew = K[1]};
+  camera.distortion = {p.distortion[0], p.distortion[1], p.distortion[2], p.distortion[3],
+                       p.distortion.size() == 5 ? p.distortion[4] : 0};
+  camera.R_CW = p.R;
+  camera.p_WC = -(glm::transpose(p.R) * p.T);
+  return camera;
+}
+
+std::optional<std::vector<double>> NumbersOf(std::string_view text) {
+  constexpr std::string_view kBetween = " \t\r\n,[]";
+  std::vector<double> numbers;
+  while (true) {
+    const std::size_t start = text.find_first_not_of(kBetween);
+    if (start == std::string_view::npos) return numbers;
+    text.remove_prefix(start);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{}) return std::nullopt;
+    numbers.push_back(value);
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    if (!text.empty() && kBetween.find(text.front()) == std::string_view::npos) return std::nullopt;
+  }
+}
+
+std::string RealText(double value) {
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".en") == std::string::npos) text += ".0";
+  return text;
+}
+
 namespace {
 
 /// FileStorage tells a real number from a whole one by its point.
@@ -25,7 +114,7 @@ std::string Matrix(std::string_view name, int rows, int columns, const std::vect
                      fmt::join(texts, ", "));
 }
 
-/// What stands behind "name:" at the beginning of a line, to the end of the text.
+/// Returns what follows "name:" at the beginning of a line, to the end of the text.
 std::optional<std::string_view> Behind(std::string_view text, std::string_view name) {
   const std::string wanted = "\n" + std::string(name) + ":";
   const std::size_t at = text.find(wanted);

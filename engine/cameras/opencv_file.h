@@ -1,12 +1,36 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/base/result.h"
 #include "engine/cameras/camera.h"
 
 namespace etude {
+
+// What files of cameras have in common. OpenCV's pixels have their centres at whole numbers, ours at halves.
+
+/// A camera in OpenCV's parameters: K row by row, distortion (k1, k2, p1, p2 and perhaps k3), and where the world is in
+/// the camera's frame: X_C = R X_W + T.
+struct OpenCvParameters {
+  double width = 0, height = 0;
+  std::vector<double> camera_matrix;
+  std::vector<double> distortion;
+  glm::dmat3 R{1};
+  glm::dvec3 T{0};
+};
+
+OpenCvParameters ParametersOf(const Camera& camera);
+/// Makes a camera of the parameters. Fails, with the reason, when they are no camera's.
+Result<Camera> CameraOf(const OpenCvParameters& parameters);
+
+/// Reads all numbers of a text such as "[ [1., 0], [2e-3]]"; nothing when something else stands among them.
+std::optional<std::vector<double>> NumbersOf(std::string_view text);
+
+/// Formats a number so that no reader takes it for a whole one: "600.0".
+std::string RealText(double value);
 
 /// Writes a camera as OpenCV's cv::FileStorage does (YAML 1.0): `image_width`, `image_height`, `camera_matrix` (3 × 3),
 /// `distortion_coefficients` (k1, k2, p1, p2, k3), and the extrinsics `R` (3 × 3) and `T` (3 × 1, metres):

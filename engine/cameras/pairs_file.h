@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// What one camera is calibrated with.
+/// The point pairs that one camera is calibrated with.
 struct CameraPairs {
   std::string name;
   int width = 0, height = 0;  ///< of its picture; 0: the file does not tell

@@ -23,7 +23,7 @@ Matrix3d Normaliser(const Eigen::MatrixX2d& points) {
 bool LieOnALine(const Eigen::MatrixX2d& points) {
   constexpr double kOneLine = 1e-4;
   const Eigen::MatrixX2d centred = points.rowwise() - points.colwise().mean();
-  const Eigen::Vector2d extents = Eigen::JacobiSVD<Eigen::MatrixX2d>(centred).singularValues();
+  const Eigen::Vector2d extents = Eigen::JacobiSVD<Eigen::MatrixXd>(centred).singularValues();
   return !(extents[1] > kOneLine * extents[0]);
 }
 

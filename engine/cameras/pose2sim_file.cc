@@ -6,7 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <map>
 
-#include "engine/cameras/calibration_text.h"
+#include "engine/cameras/opencv_file.h"
 
 namespace etude {
 namespace {

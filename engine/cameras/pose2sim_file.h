@@ -15,10 +15,11 @@ struct NamedCamera {
   Camera camera;
 };
 
-/// The cameras of a rig as Pose2Sim's calibration file (TOML; Pagnon et al. 2021): a table per camera with `name`,
-/// `size`, `matrix`, `distortions` (k1, k2, p1, p2; and k3 where there is one), `rotation` (Rodrigues' vector) and
-/// `translation` (metres) of the world in the camera's frame, `fisheye`. Pixels are OpenCV's. Pose2Sim's world has Z
-/// up, ours Y: its (x, y, z) is our (z, x, y), so that what Pose2Sim triangulates and turns Y up is told in our world.
+/// Writes the cameras of a rig as Pose2Sim's calibration file (TOML; Pagnon et al. 2021): a table per camera with
+/// `name`, `size`, `matrix`, `distortions` (k1, k2, p1, p2; and k3 where there is one), `rotation` (Rodrigues' vector)
+/// and `translation` (metres) of the world in the camera's frame, `fisheye`. Pixels are OpenCV's. Pose2Sim's world has
+/// Z up, ours Y: its (x, y, z) is our (z, x, y), so that what Pose2Sim triangulates and turns Y up is told in our
+/// world.
 std::string WritePose2SimCalibration(std::span<const NamedCamera> cameras);
 
 /// Reads what WritePose2SimCalibration or Pose2Sim has written; other tables (`metadata`) are skipped. Fails, naming

@@ -1,12 +1,18 @@
 #include "engine/cameras/refine.h"
 
-#include <ceres/ceres.h>
+#include <ceres/crs_matrix.h>
+#include <ceres/dynamic_autodiff_cost_function.h>
+#include <ceres/manifold.h>
+#include <ceres/problem.h>
 #include <ceres/rotation.h>
+#include <ceres/solver.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "engine/cameras/camera_parameters.h"
 
@@ -21,14 +27,15 @@ constexpr std::array<const char*, kIntrinsicsCount> kIntrinsicsNames = {
 /// A pose: Rodrigues' vector, then the translation; of a camera R_CW and p_CW, of a target R_WT and p_WT.
 constexpr int kPoseCount = 6;
 
-/// How far a pixel is from where its point is shown. The distortion is that of distortion.h, once more because Ceres
-/// differentiates it.
+/// The reprojection error of a point. The distortion is that of camera.h, repeated here because Ceres differentiates
+/// it.
 struct ReprojectionError {
   glm::dvec3 p_TQ;
   glm::dvec2 pixel;
 
   template <typename T>
-  bool operator()(const T* intrinsics, const T* camera, const T* target, T* residual) const {
+  bool operator()(T const* const* blocks, T* residual) const {
+    const T *const intrinsics = blocks[0], *const camera = blocks[1], *const target = blocks[2];
     const T in_target[3] = {T(p_TQ.x), T(p_TQ.y), T(p_TQ.z)};
     T in_world[3], in_camera[3];
     ceres::AngleAxisRotatePoint(target, in_target, in_world);
@@ -46,6 +53,16 @@ struct ReprojectionError {
     return true;
   }
 };
+
+/// Differentiates by four parameters at a time, because the code for all 22 at once takes the compiler much longer.
+/// Every derivative is computed by itself, so that none changes in its last bit.
+std::unique_ptr<ceres::CostFunction> MakeCost(const PointPair& pair) {
+  auto cost = std::make_unique<ceres::DynamicAutoDiffCostFunction<ReprojectionError, 4>>(
+      new ReprojectionError{pair.world, pair.pixel});
+  for (const int size : {int{kIntrinsicsCount}, kPoseCount, kPoseCount}) cost->AddParameterBlock(size);
+  cost->SetNumResiduals(2);
+  return cost;
+}
 
 using IntrinsicsBlock = std::array<double, kIntrinsicsCount>;
 using PoseBlock = std::array<double, kPoseCount>;
@@ -70,7 +87,7 @@ IntrinsicsBlock ToBlock(const Camera& camera, const RefineOptions& options) {
   return {in.fx, in.fy, in.cx, in.cy, in.skew, d.k1, d.k2, d.p1, d.p2, d.k3};
 }
 
-/// Which intrinsics of a camera stay as they are.
+/// Returns the intrinsics that are held.
 std::vector<int> Held(const RefineOptions& options) {
   std::vector<int> held;
   const bool holds_lens = options.lens == LensModel::kPinhole || options.lens == LensModel::kAsInCamera;
@@ -123,7 +140,7 @@ class Bundle {
     return {};
   }
 
-  /// What the views say of the parameters: the inverse of JᵀJ. Fails for what they do not determine.
+  /// Computes the parameters' deviations from the inverse of JᵀJ. Fails when the views leave a parameter undetermined.
   Result<std::vector<IntrinsicsDeviation>> Deviations() {
     const Eigen::MatrixXd normal = NormalMatrix();
     const Eigen::VectorXd scale = normal.diagonal().cwiseSqrt();
@@ -175,7 +192,7 @@ class Bundle {
   }
 
  private:
-  /// Which free parameter a column of the Jacobian belongs to.
+  /// The free parameter that a column of the Jacobian belongs to.
   struct Column {
     std::size_t camera = 0;  ///< or the target, counted behind the cameras
     int intrinsic = -1;      ///< Intrinsic, or −1: of a pose
@@ -183,10 +200,8 @@ class Bundle {
 
   void AddView(const TargetView& view) {
     for (const PointPair& pair : view.pairs) {
-      using Cost = ceres::AutoDiffCostFunction<ReprojectionError, 2, kIntrinsicsCount, kPoseCount, kPoseCount>;
-      problem_.AddResidualBlock(new Cost(new ReprojectionError{pair.world, pair.pixel}), nullptr,
-                                intrinsics_[view.camera].data(), cameras_[view.camera].data(),
-                                targets_[view.target].data());
+      problem_.AddResidualBlock(MakeCost(pair).release(), nullptr, intrinsics_[view.camera].data(),
+                                cameras_[view.camera].data(), targets_[view.target].data());
     }
     points_ += view.pairs.size();
   }

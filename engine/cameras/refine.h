@@ -11,14 +11,14 @@
 
 namespace etude {
 
-/// Where a calibration target T, rigid with known points, stands in the world W: p_WQ = R_WT p_TQ + p_WT.
+/// The pose of a calibration target T, rigid with known points, in the world W: p_WQ = R_WT p_TQ + p_WT.
 struct TargetPlace {
   glm::dmat3 R_WT{1};
   glm::dvec3 p_WT{0};
 };
 
-/// What one picture shows of a target. Points that were measured in the world are a target that stands at the world's
-/// origin.
+/// The point pairs that one picture shows of a target. Points that were measured in the world are a target that stands
+/// at the world's origin.
 struct TargetView {
   std::size_t camera = 0;
   std::size_t target = 0;
@@ -34,15 +34,15 @@ enum class LensModel {
 
 struct RefineOptions {
   LensModel lens = LensModel::kRadial2;
-  /// Free the skew. Sensors have had none for decades: only when paper B's eleven degrees of freedom are wanted.
+  /// Frees the skew. Sensors have had none for decades: only when paper B's eleven degrees of freedom are wanted.
   bool skew = false;
-  /// Hold focal lengths, principal points and lenses as the start has them: rigs whose cameras were calibrated one by
+  /// Holds focal lengths, principal points and lenses as the start has them: rigs whose cameras were calibrated one by
   /// one and then set up.
   bool hold_intrinsics = false;
   int most_iterations = 200;
 };
 
-/// Cameras and targets, as far as they are known.
+/// A first guess of all cameras and targets.
 struct RigGuess {
   std::vector<Camera> cameras;
   std::vector<TargetPlace> targets;  ///< the first stays where it is: it is what "the world" means
@@ -64,19 +64,19 @@ struct RefinedRig {
   std::vector<IntrinsicsDeviation> deviations;
 };
 
-/// The cameras and places of targets that make the sum of squared reprojection errors smallest (`refined`;
-/// Levenberg–Marquardt by Ceres), with distortion. `guess` is near it: from `Calibrate`, `Decompose` or planes.h.
-/// Fails when a camera has no view, when there are fewer equations than unknowns, when the start does not show a point,
-/// and when the views leave something undetermined: it is named.
+/// Finds the cameras and places of targets that make the sum of squared reprojection errors smallest (`refined`;
+/// Levenberg–Marquardt by Ceres), with distortion. `guess` is near it: from `Calibrate`, `Decompose` or planes.h. Fails
+/// when a camera has no view, when there are fewer equations than unknowns, when the start does not show a point, and
+/// when the views leave something undetermined: it is named.
 Result<RefinedRig> RefineRig(const RigGuess& guess, std::span<const TargetView> views,
                              const RefineOptions& options = {});
 
-/// One camera from points measured in the world: `Calibrate` (normalised), `Decompose`, then `RefineRig`.
+/// Calibrates one camera from points measured in the world: `Calibrate` (normalised), `Decompose`, then `RefineRig`.
 Result<RefinedRig> RefineCamera(std::span<const PointPair> pairs, int width, int height,
                                 const RefineOptions& options = {});
 
-/// Root mean square distance of the views' pixels from what the camera, with its lens, shows; infinity when it does not
-/// show some point.
+/// Returns the root mean square distance of the views' pixels from what the camera, with its lens, shows; infinity when
+/// it does not show some point.
 double ReprojectionRms(const Camera& camera, const TargetPlace& target, std::span<const PointPair> pairs);
 
 }  // namespace etude

@@ -1,13 +1,138 @@
 #include "engine/cameras/robust_triangulation.h"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
-
-#include "engine/cameras/agreeing_views.h"
-#include "engine/cameras/likeliest_point.h"
+#include <numeric>
+#include <optional>
+#include <vector>
 
 namespace etude {
+
+std::optional<PointEquations> PointEquationsAt(std::span<const InformedSighting> sightings, const glm::dvec3& p_WQ) {
+  PointEquations sum;
+  for (const InformedSighting& seen : sightings) {
+    const auto pixel = Project(seen.sighting.matrix, p_WQ);
+    if (!pixel) return std::nullopt;
+    const auto& h = seen.sighting.matrix.h;
+    const double depth = h[2][0] * p_WQ.x + h[2][1] * p_WQ.y + h[2][2] * p_WQ.z + h[2][3];
+    glm::dmat3x2 gains;  // of u and v, column by column for x, y, z
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int k = 0; k < 2; ++k) gains[axis][k] = (h[k][axis] - (*pixel)[k] * h[2][axis]) / depth;
+    }
+    const glm::dmat2x3 transposed = glm::transpose(gains);
+    sum.information += transposed * seen.information * gains;
+    sum.right += transposed * (seen.information * (seen.sighting.pixel - *pixel));
+  }
+  return sum;
+}
+
+std::optional<LikeliestPoint> TriangulateLikeliest(std::span<const InformedSighting> sightings) {
+  std::vector<Sighting> plain;
+  for (const InformedSighting& seen : sightings) plain.push_back(seen.sighting);
+  const TriangulatedPoint linear = Triangulate(plain);
+  if (linear.status != PointStatus::kOk) return std::nullopt;
+  glm::dvec3 place = linear.position;
+  constexpr int kSteps = 5;
+  for (int i = 0; i < kSteps; ++i) {
+    const auto sum = PointEquationsAt(sightings, place);
+    if (!sum) return std::nullopt;
+    place += glm::inverse(sum->information) * sum->right;
+  }
+  const auto sum = PointEquationsAt(sightings, place);
+  if (!sum || !std::isfinite(glm::length(place)) || !(glm::determinant(sum->information) > 0)) return std::nullopt;
+  return LikeliestPoint{place, sum->information};
+}
+
+namespace {
+
+/// The distance, in pixels, of each view from the point that two others triangulate; infinity when it cannot show it.
+using DistanceOfView = std::vector<double>;
+
+struct Consensus {
+  std::vector<std::size_t> views;
+  double weight = 0;
+  double squares = std::numeric_limits<double>::infinity();  // their mean squared distance
+
+  bool IsBetterThan(const Consensus& other) const {
+    return weight != other.weight ? weight > other.weight : squares < other.squares;
+  }
+};
+
+Consensus ConsensusOf(const DistanceOfView& distances, double tolerance_px, std::span<const double> weights) {
+  Consensus consensus;
+  double sum = 0;
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    if (!(distances[i] <= tolerance_px)) continue;
+    const double weight = weights.empty() ? 1 : weights[i];
+    consensus.views.push_back(i);
+    consensus.weight += weight;
+    sum += weight * distances[i] * distances[i];
+  }
+  if (!consensus.views.empty()) consensus.squares = sum / consensus.weight;
+  return consensus;
+}
+
+// `distances_by(i, j)`: of all views from what the views i and j say, or nothing.
+template <typename DistancesBy>
+std::vector<std::size_t> LargestConsensus(std::size_t count, double tolerance_px, std::span<const double> weights,
+                                          const DistancesBy& distances_by) {
+  std::vector<std::size_t> all(count);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  if (count < 3) return all;
+  Consensus best;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = i + 1; j < count; ++j) {
+      const std::optional<DistanceOfView> distances = distances_by(i, j);
+      if (!distances) continue;
+      const Consensus consensus = ConsensusOf(*distances, tolerance_px, weights);
+      if (consensus.views.size() >= 2 && consensus.IsBetterThan(best)) best = consensus;
+    }
+  }
+  return best.views.empty() ? all : best.views;
+}
+
+std::optional<DistanceOfView> DistancesFrom(std::span<const Sighting> sightings, std::size_t i, std::size_t j) {
+  const std::array<Sighting, 2> pair = {sightings[i], sightings[j]};
+  const TriangulatedPoint point = Triangulate(pair);
+  if (point.status != PointStatus::kOk) return std::nullopt;
+  DistanceOfView distances;
+  for (const Sighting& sighting : sightings) {
+    const auto pixel = Project(sighting.matrix, point.position);
+    distances.push_back(pixel ? glm::distance(*pixel, sighting.pixel) : std::numeric_limits<double>::infinity());
+  }
+  return distances;
+}
+
+}  // namespace
+
+std::vector<std::size_t> AgreeingViews(std::span<const Sighting> sightings, double tolerance_px,
+                                       std::span<const double> weights) {
+  assert(weights.empty() || weights.size() == sightings.size());
+  return LargestConsensus(sightings.size(), tolerance_px, weights,
+                          [&](std::size_t i, std::size_t j) { return DistancesFrom(sightings, i, j); });
+}
+
+std::vector<std::size_t> AgreeingViews(std::span<const LimbSighting> sightings, double tolerance_px) {
+  std::vector<Sighting> begins, ends;
+  for (const LimbSighting& sighting : sightings) {
+    begins.push_back({sighting.matrix, sighting.stroke.a});
+    ends.push_back({sighting.matrix, sighting.stroke.b});
+  }
+  return LargestConsensus(sightings.size(), tolerance_px, {},
+                          [&](std::size_t i, std::size_t j) -> std::optional<DistanceOfView> {
+                            auto distances = DistancesFrom(begins, i, j);
+                            const auto others = DistancesFrom(ends, i, j);
+                            if (!distances || !others) return std::nullopt;
+                            for (std::size_t k = 0; k < distances->size(); ++k) {
+                              (*distances)[k] = std::max((*distances)[k], (*others)[k]);
+                            }
+                            return distances;
+                          });
+}
+
 namespace {
 
 double DistancePx(const Sighting& sighting, const glm::dvec3& p_WQ) {
@@ -15,7 +140,7 @@ double DistancePx(const Sighting& sighting, const glm::dvec3& p_WQ) {
   return pixel ? glm::distance(*pixel, sighting.pixel) : std::numeric_limits<double>::infinity();
 }
 
-/// Which of those that are sure of anything agree with each other.
+/// Returns which of the sightings of positive weight agree with each other.
 std::vector<bool> AgreeingOf(std::span<const WeightedSighting> sightings, double outlier_px) {
   std::vector<Sighting> sure;
   std::vector<double> weights;

@@ -1,9 +1,72 @@
 #include "engine/capture/adjust_take.h"
 
+#include <algorithm>
+#include <cassert>
+
+#include "engine/base/order_statistics.h"
 #include "engine/kinematics/capture_body.h"
 #include "engine/kinematics/start_angles.h"
 
 namespace etude {
+namespace {
+
+constexpr std::array<double LimbLengths::*, 10> kLengths = {
+    &LimbLengths::foot,    &LimbLengths::shank, &LimbLengths::thigh,          &LimbLengths::hip_width,
+    &LimbLengths::trunk,   &LimbLengths::neck,  &LimbLengths::shoulder_width, &LimbLengths::upper_arm,
+    &LimbLengths::forearm, &LimbLengths::hand};
+static_assert(sizeof(LimbLengths) == kLengths.size() * sizeof(double), "every length stands in the list");
+
+// All offsets are linear in the lengths: what a metre of one adds is the body that has no other.
+void AddLengths(const LimbLengths& lengths, TakeBody& made) {
+  const auto list = ListOf(lengths);
+  made.measurable.lengths.assign(list.begin(), list.end());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    std::array<double, 10> one{};
+    one[i] = 1;
+    const CaptureBody unit = PaperBody(LimbLengthsOf(one));
+    const int length = static_cast<int>(i);
+    for (std::size_t j = 0; j < unit.tree.joints.size(); ++j) {
+      const glm::dvec3& offset = unit.tree.joints[j].p_PJ;
+      if (offset != glm::dvec3(0)) made.measurable.joint_shares.push_back({static_cast<int>(j), length, offset});
+    }
+    for (const Role role : AllRoles()) {
+      const int point = made.points[Index(role)];
+      const glm::dvec3& offset = unit.roles[Index(role)].p_LQ;
+      if (point >= 0 && offset != glm::dvec3(0)) made.measurable.point_shares.push_back({point, length, offset});
+    }
+  }
+}
+
+}  // namespace
+
+LimbLengths LimbLengthsOf(std::span<const double> lengths) {
+  assert(lengths.size() == kLengths.size());
+  LimbLengths limbs;
+  for (std::size_t i = 0; i < kLengths.size(); ++i) limbs.*kLengths[i] = lengths[i];
+  return limbs;
+}
+
+std::array<double, 10> ListOf(const LimbLengths& lengths) {
+  std::array<double, 10> list{};
+  for (std::size_t i = 0; i < kLengths.size(); ++i) list[i] = lengths.*kLengths[i];
+  return list;
+}
+
+TakeBody MakeTakeBody(const LimbLengths& lengths) {
+  TakeBody made;
+  made.body = PaperBody(lengths);
+  made.measurable.tree = made.body.tree;
+  made.points.fill(-1);
+  for (const Role role : AllRoles()) {
+    if (role == Role::kHipCentre || role == Role::kSpine) continue;
+    const TreePoint& place = made.body.roles[Index(role)];
+    made.points[Index(role)] = static_cast<int>(made.measurable.points.size());
+    made.measurable.points.push_back({place.joint, place.p_LQ});
+  }
+  AddLengths(lengths, made);
+  return made;
+}
+
 namespace {
 
 /// One state per frame; frames without one take their neighbour's. Empty when no frame has one.
@@ -66,6 +129,116 @@ AdjustedTake AdjustTake(const AdjustTakeInputs& inputs, const AdjustTakeOptions&
   take.states = solution.states;
   if (options.bundle.adjusts_lengths) take.body = PaperBody(LimbLengthsOf(solution.lengths));
   return take;
+}
+
+namespace {
+
+using enum Role;
+
+/// A length of LimbLengths as the distance of two joints, and of the same two on the other side.
+struct LengthBetween {
+  double LimbLengths::*length;
+  Role a, b;
+};
+constexpr std::array<LengthBetween, 8> kBetween = {{{&LimbLengths::foot, kLeftAnkle, kLeftFoot},
+                                                    {&LimbLengths::shank, kLeftKnee, kLeftAnkle},
+                                                    {&LimbLengths::thigh, kLeftHip, kLeftKnee},
+                                                    {&LimbLengths::hip_width, kLeftHip, kRightHip},
+                                                    {&LimbLengths::shoulder_width, kLeftShoulder, kRightShoulder},
+                                                    {&LimbLengths::upper_arm, kLeftShoulder, kLeftElbow},
+                                                    {&LimbLengths::forearm, kLeftElbow, kLeftWrist},
+                                                    {&LimbLengths::hand, kLeftWrist, kLeftHand}}};
+
+SomeJoints PlacedJoints(const JointMeasurements& frame) {
+  SomeJoints joints;
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    if (frame.is_triangulated[i]) joints[i] = frame.joints[i].position;
+  }
+  return joints;
+}
+
+std::optional<double> MedianOf(std::vector<double> values) {
+  if (values.empty()) return std::nullopt;
+  return UpperMedian(std::move(values));
+}
+
+std::optional<glm::dvec3> MiddleOf(const SomeJoints& joints, Role a, Role b) {
+  if (!joints[Index(a)] || !joints[Index(b)]) return std::nullopt;
+  return 0.5 * (*joints[Index(a)] + *joints[Index(b)]);
+}
+
+// Returns the median lengths; those that no frame shows stay an adult's.
+LimbLengths MedianLengths(std::span<const SomeJoints> frames) {
+  LimbLengths lengths;
+  const auto set = [&](double LimbLengths::*length, std::vector<double> found) {
+    if (const auto median = MedianOf(std::move(found)); median && *median > 0) lengths.*length = *median;
+  };
+  for (const auto& [length, a, b] : kBetween) {
+    std::vector<double> found;
+    for (const SomeJoints& joints : frames) {
+      for (const auto& [from, to] : {std::pair(a, b), std::pair(Mirrored(a), Mirrored(b))}) {
+        if (joints[Index(from)] && joints[Index(to)]) {
+          found.push_back(glm::distance(*joints[Index(from)], *joints[Index(to)]));
+        }
+      }
+    }
+    set(length, std::move(found));
+  }
+  std::vector<double> trunks, necks;
+  for (const SomeJoints& joints : frames) {
+    const auto hips = MiddleOf(joints, kLeftHip, kRightHip),
+               shoulders = MiddleOf(joints, kLeftShoulder, kRightShoulder);
+    if (hips && shoulders) trunks.push_back(glm::distance(*hips, *shoulders));
+    if (shoulders && joints[Index(kHead)]) necks.push_back(glm::distance(*shoulders, *joints[Index(kHead)]));
+  }
+  set(&LimbLengths::trunk, std::move(trunks));
+  set(&LimbLengths::neck, std::move(necks));
+  return lengths;
+}
+
+// Chooses frames, evenly apart, of those that show the most joints.
+std::vector<std::size_t> ChooseFrames(std::span<const SomeJoints> joints, std::size_t wanted) {
+  std::vector<std::size_t> shown;
+  for (const SomeJoints& frame : joints) {
+    shown.push_back(
+        static_cast<std::size_t>(std::ranges::count_if(frame, [](const auto& j) { return j.has_value(); })));
+  }
+  std::vector<std::size_t> candidates;
+  for (std::size_t least = kRoleCount; least > 0 && candidates.size() < wanted; --least) {
+    candidates.clear();
+    for (std::size_t k = 0; k < shown.size(); ++k) {
+      if (shown[k] >= least) candidates.push_back(k);
+    }
+  }
+  if (candidates.size() <= wanted) return candidates;
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < wanted; ++i) {
+    chosen.push_back(candidates[wanted == 1 ? 0 : i * (candidates.size() - 1) / (wanted - 1)]);
+  }
+  return chosen;
+}
+
+}  // namespace
+
+std::optional<LimbLengths> MeasureLengths(const MeasureInputs& pictures, std::span<const JointMeasurements> measured,
+                                          const MeasureLengthsOptions& options) {
+  std::vector<SomeJoints> placed;
+  for (const JointMeasurements& frame : measured) placed.push_back(PlacedJoints(frame));
+  const auto chosen = ChooseFrames(placed, static_cast<std::size_t>(options.frames));
+  std::vector<SomeJoints> start;
+  std::vector<std::vector<Marks>> marks(pictures.marks.size());
+  for (const std::size_t k : chosen) {
+    start.push_back(placed[k]);
+    for (std::size_t camera = 0; camera < marks.size(); ++camera) marks[camera].push_back(pictures.marks[camera][k]);
+  }
+  const LimbLengths first = MedianLengths(start);
+  if (!IsValid(first)) return std::nullopt;
+  AdjustTakeOptions adjust{.marks = options.marks, .bundle = {}};
+  adjust.bundle.adjusts_lengths = true;
+  const AdjustedTake take =
+      AdjustTake({.pictures = {.cameras = pictures.cameras, .marks = marks}, .lengths = first, .start = start}, adjust);
+  if (!take.is_solved || !IsValid(take.body.lengths)) return std::nullopt;
+  return take.body.lengths;
 }
 
 }  // namespace etude

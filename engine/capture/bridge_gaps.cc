@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-// Along the great circle from one unit vector to another; straight through when they are opposite.
+// Interpolates along the great circle from one unit vector to another; straight through when they are opposite.
 glm::dvec3 SlerpDirections(const glm::dvec3& from, const glm::dvec3& to, double share) {
   const double angle = AngleBetween(from, to);
   constexpr double kNearlyEqual = 1e-6;
@@ -20,7 +20,7 @@ glm::dvec3 SlerpDirections(const glm::dvec3& from, const glm::dvec3& to, double 
 
 glm::dvec3 MixPoints(const glm::dvec3& from, const glm::dvec3& to, double share) { return glm::mix(from, to, share); }
 
-/// What the measurements around a frame say of one quantity.
+/// A quantity at a frame, interpolated from the measurements around it.
 struct Bridged {
   glm::dvec3 value{0};
   int distance = 0;  ///< frames to the nearest measurement; 0: measured in the frame itself
@@ -42,7 +42,7 @@ std::optional<Bridged> Bridge(int frame, int frames, int longest_gap, ValueAt va
   return Bridged{mix(*value_at(before), *value_at(after), share), distance};
 }
 
-// Of a limb that is taken for unforeshortened: from where its strokes begin to where they end.
+// Returns the direction of a limb that is assumed unforeshortened: from where its strokes begin to where they end.
 std::optional<glm::dvec3> DirectionAcrossSight(std::span<const StrokePlane> planes) {
   glm::dvec3 sum(0);
   for (const StrokePlane& plane : planes) sum += glm::normalize(plane.ray_b_W - plane.ray_a_W);

@@ -11,15 +11,15 @@
 namespace etude {
 
 struct BridgeOptions {
-  /// How many frames a measurement is used before and after its own. 15 is half a second at 30 Hz, after which a
-  /// performer's limb may be anywhere. Scale it with the rate; when only every n-th frame is marked, make it n at
-  /// least.
+  /// The number of frames that a measurement is used before and after its own. 15 is half a second at 30 Hz, after
+  /// which a performer's limb may be anywhere. Scale it with the rate; when only every n-th frame is marked, make it n
+  /// at least.
   int longest_gap = 15;
-  /// How exact marks are: standard deviation of a stroke's end, pixels. Only its ratio to the next one counts, and only
-  /// for limbs whose strokes alone give no direction.
+  /// The standard deviation of a stroke's end, pixels. Only its ratio to the next one counts, and only for limbs whose
+  /// strokes alone give no direction.
   double mark_error_px = 2;
-  /// How far a limb has turned away from what its neighbours say, radians per frame from the nearest one: 3° at 30 Hz
-  /// *(ours)*.
+  /// The standard deviation of a limb's turn away from its neighbours' direction, radians per frame from the nearest
+  /// one: 3° at 30 Hz *(ours)*.
   double turn_per_frame = Radians(3);
 };
 
@@ -37,7 +37,7 @@ struct BridgeOptions {
 std::vector<std::optional<LimbObservation>> BridgeGaps(std::span<const FrameMeasurement> frames,
                                                        const BridgeOptions& options = {});
 
-/// The last of these frames, completed from those before it alone: what a live system knows. Frames more than
+/// Completes the last of these frames from those before it alone, which is what a live system knows. Frames more than
 /// `longest_gap` before it change nothing.
 std::optional<LimbObservation> BridgeLast(std::span<const FrameMeasurement> frames, const BridgeOptions& options = {});
 

@@ -13,25 +13,25 @@
 namespace etude {
 
 struct CalibrationOptions {
-  /// Paper B's by default. Use `kDltNormalised` when point pairs are few or noisy, or far from the world's origin: its
-  /// equations are scaled alike, so that no pair counts more because its numbers are larger. `kRefined` asks for
-  /// `RefineCameras`.
+  /// The method, paper B's by default. Use `kDltNormalised` when point pairs are few or noisy, or far from the world's
+  /// origin: its equations are scaled alike, so that no pair counts more because its numbers are larger. `kRefined`
+  /// asks for `RefineCameras`.
   Calibration method = Calibration::kDlt;
 };
 
-/// The matrix H of every camera (paper B, section 2.2) from the point pairs measured for it, `pairs[camera]`.
-/// A camera whose matrix is known needs no pairs: `MatrixOf`. How well a matrix fits: `ReprojectionRms`.
-/// Fails for the first camera whose pairs do not determine it, and names it, counted from 1: "camera 2: …".
+/// Computes the matrix H of every camera (paper B, section 2.2) from the point pairs measured for it, `pairs[camera]`.
+/// A camera whose matrix is known needs no pairs: `MatrixOf`. How well a matrix fits: `ReprojectionRms`. Fails for the
+/// first camera whose pairs do not determine it, and names it, counted from 1: "camera 2: …".
 Result<std::vector<ProjectionMatrix>> CalibrateCameras(std::span<const std::vector<PointPair>> pairs,
                                                        const CalibrationOptions& options = {});
 
-/// The same with each camera's lens, by least squared reprojection error (`RefineCamera`).
+/// Calibrates every camera with its lens, by least squared reprojection error (`RefineCamera`).
 /// @param sizes of the cameras' pictures, one each
 Result<std::vector<Camera>> RefineCameras(std::span<const std::vector<PointPair>> pairs,
                                           std::span<const PictureSize> sizes, const RefineOptions& options = {});
 
-/// The marks as a camera without a lens's distortion would show them: what `MeasureInputs` takes, beside `MatrixOf`. A
-/// mark outside of what the lens can show is missing.
+/// Returns the marks as the camera would show them without its lens's distortion, which is what `MeasureInputs` takes
+/// beside `MatrixOf`. A mark outside of what the lens can show is missing.
 Marks UndistortMarks(const Camera& camera, const Marks& marks);
 
 }  // namespace etude

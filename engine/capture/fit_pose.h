@@ -11,13 +11,13 @@
 
 namespace etude {
 
-/// Where the twenty roles shall be, and how much each of them counts.
+/// Target places of the twenty roles, with weights.
 struct PoseTargets {
   BodyPose places;                           ///< in the world, metres
   std::array<double, kRoleCount> weights{};  ///< 0: it is not known where the role is
 };
 
-/// Every role counts alike.
+/// Makes targets of a pose in which every role counts alike.
 PoseTargets TargetsAt(const BodyPose& pose);
 
 /// Finds poses of one body from the places of its joints. *(Ours.)* Two steps: from the root outwards every limb points
@@ -31,10 +31,10 @@ class PoseFitter {
   PoseFitter(const PoseFitter&) = delete;
   PoseFitter& operator=(const PoseFitter&) = delete;
 
-  /// The angles that minimise Σ weight · |place − role|², at least locally; the root stands at the place of the left
-  /// foot. Nothing when a place that counts is not finite, or the left foot's does not count.
+  /// Finds the angles that minimise Σ weight · |place − role|², at least locally; the root stands at the place of the
+  /// left foot. Nothing when a place that counts is not finite, or the left foot's does not count.
   std::optional<TreeState> Fit(const PoseTargets& wanted) const;
-  /// The same, beginning at a state of the body instead; its root is kept.
+  /// Finds the same minimum beginning at a state of the body instead; its root is kept.
   TreeState Improve(const PoseTargets& wanted, const TreeState& state) const;
 
  private:

@@ -15,21 +15,30 @@
 
 namespace etude {
 
-/// A vector for some of the twenty roles.
+/// Removes the marks that disagree with the other cameras' *(ours)*: of every disc and stroke that three or more
+/// pictures of a frame show, the views lose it that `AgreeingViews` leaves out. Helps where a camera is knocked, or its
+/// marks are of another limb; costs a little where all err alike.
+/// @param marks `marks[camera][frame]`
+/// @param tolerance_px how far from the others' point a picture may be and agree with them. Marks that err by 2 pixels,
+///     and by more at joints that clothes hide, agree within 12.
+std::vector<std::vector<Marks>> AgreeingMarks(std::span<const ProjectionMatrix> cameras,
+                                              std::span<const std::vector<Marks>> marks, double tolerance_px = 12);
+
+/// Vectors of those of the twenty roles that have one.
 using RoleVectors = std::array<std::optional<glm::dvec3>, kRoleCount>;
 
-/// What one frame's marks say about space.
+/// What is measured in space from one frame's marks.
 struct FrameMeasurement {
   RoleVectors ends;        ///< p_WE, metres: each end effector's place in the world, at its role
   RoleVectors directions;  ///< unit, in the world: each limb's direction, at the role of its lower joint
-  /// What is known of limbs without a direction: they lie in these planes, one for each picture that shows the limb.
+  /// The planes that limbs without a direction lie in, one for each picture that shows the limb.
   std::array<std::vector<StrokePlane>, kRoleCount> planes = {};
-  /// What is known of ends that only one picture shows: they lie on this line.
+  /// The lines that ends lie on which only one picture shows.
   std::array<std::optional<SightLine>, kRoleCount> sight_lines = {};
 };
 
-/// What the caller knows of one frame without marks: from another sensor, or true values, to see what a stage costs.
-/// Each member that is present replaces all measurements of its kind in that frame.
+/// Measurements of one frame that the caller knows without marks: from another sensor, or true values, to see what a
+/// stage costs. Each member that is present replaces all measurements of its kind in that frame.
 struct KnownMeasurement {
   std::optional<RoleVectors> ends;
   std::optional<RoleVectors> directions;
@@ -51,8 +60,9 @@ struct MeasureOptions {
   /// the planes are handed on, and the frames before and after help (`BridgeGaps`). Raise it when marks are inexact;
   /// lower it when marks are exact, or cameras stand close together.
   double smallest_plane_angle = Radians(8);
-  /// Likewise for strokes (pixels): when a limb is seen almost end on, the error of the marks hides its direction. 6 is
-  /// three times the usual error of marks in pictures of 640 × 480, 2 pixels; scale it with that error.
+  /// Strokes shorter than this (pixels) give no direction: when a limb is seen almost end on, the error of the marks
+  /// hides its direction. 6 is three times the usual error of marks in pictures of 640 × 480, 2 pixels; scale it with
+  /// that error.
   double shortest_stroke_px = 6;
 };
 

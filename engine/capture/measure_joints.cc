@@ -1,19 +1,60 @@
 #include "engine/capture/measure_joints.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
 #include "engine/base/order_statistics.h"
-#include "engine/cameras/likeliest_point.h"
+#include "engine/cameras/robust_triangulation.h"
 #include "engine/kinematics/limb_lengths.h"
 
 namespace etude {
 namespace {
 
+// Returns the information of a stroke's end: exact across the stroke, less so along it.
+glm::dmat2 InformationOfEnd(const PixelSegment& stroke, const MarkErrors& errors) {
+  const glm::dvec2 limb = stroke.b - stroke.a;
+  const double length = glm::length(limb);
+  const double across = errors.mark_error_px, along = std::hypot(across, errors.slide_share * length);
+  if (!(length > 0)) return glm::dmat2(1 / (across * across));
+  const glm::dvec2 t = limb / length, n(-t.y, t.x);
+  return glm::outerProduct(t, t) / (along * along) + glm::outerProduct(n, n) / (across * across);
+}
+
+// A disc lies over the end of its limb's stroke, which is read too short.
+bool HasDisc(const Marks& marks, Role role) {
+  for (std::size_t i = 0; i < kEffectorCount; ++i) {
+    if (EffectorMarks()[i].role == role) return marks.effectors[i].has_value();
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<MarkedJoint> MarkedJointsOf(const Marks& marks, const MarkErrors& errors) {
+  std::vector<MarkedJoint> joints;
+  for (std::size_t i = 0; i < kStrokeCount; ++i) {
+    if (!marks.strokes[i]) continue;
+    const glm::dmat2 information = InformationOfEnd(*marks.strokes[i], errors);
+    joints.push_back({StrokeMarks()[i].from, marks.strokes[i]->a, information});
+    if (!HasDisc(marks, StrokeMarks()[i].to)) joints.push_back({StrokeMarks()[i].to, marks.strokes[i]->b, information});
+  }
+  const glm::dmat2 of_disc(1 / (errors.mark_error_px * errors.mark_error_px));
+  for (std::size_t i = 0; i < kEffectorCount; ++i) {
+    if (marks.effectors[i]) joints.push_back({EffectorMarks()[i].role, *marks.effectors[i], of_disc});
+  }
+  std::array<int, kRoleCount> count{};
+  for (const MarkedJoint& joint : joints) ++count[Index(joint.role)];
+  for (MarkedJoint& joint : joints) joint.information /= static_cast<double>(count[Index(joint.role)]);
+  return joints;
+}
+
+namespace {
+
 using enum Role;
 
-// Of each role: one sighting per picture that shows it, all its marks together.
+// The sightings of each role: one per picture that shows it, which joins all its marks.
 using FrameSightings = std::array<std::vector<InformedSighting>, kRoleCount>;
 
 FrameSightings SightingsOf(const MeasureInputs& inputs, std::size_t frame, const MarkErrors& errors) {
@@ -56,7 +97,7 @@ std::vector<std::optional<glm::dvec3>> BridgeTrack(std::span<const std::optional
   return bridged;
 }
 
-// What a single picture says: the joint lies on its line of sight.
+// Measures a joint that a single picture shows: it lies on the line of sight.
 std::optional<PointMeasurement> OnSightLine(const InformedSighting& seen, const glm::dvec3& near_W) {
   const auto line = SightLineOf(seen.sighting);
   if (!line) return std::nullopt;

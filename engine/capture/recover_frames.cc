@@ -12,7 +12,7 @@ namespace {
 
 using enum Role;
 
-/// Where pictures put the joints before the solver brings the ends back.
+/// The joints as pictures place them, before the solver brings the ends back.
 struct Start {
   BodyPose fixed;                 ///< with the body's lengths
   std::optional<TreeState> seen;  ///< the same as angles
@@ -24,7 +24,8 @@ std::optional<Start> PaperStart(const CaptureBody& body, const LimbObservation& 
   return Start{*fixed, FindStartState(body.tree, *fixed, body.tree.limits)};
 }
 
-// Every joint that an end and the limbs from there lead to, as paper B's figure 3.2(a), and the middle of the hips.
+// Places every joint that an end and the limbs from there lead to, as paper B's figure 3.2(a), and the middle of the
+// hips.
 PoseTargets ClimbFromEnds(const CaptureBody& body, const LimbObservation& seen) {
   constexpr double kUnseen = 0.01;  // what was completed weighs little,
   constexpr double kBent = 0.1;     // and what lies beyond a joint that nobody sees bend less than the rest
@@ -54,7 +55,7 @@ std::optional<Start> FittedStart(const CaptureBody& body, const PoseFitter& fitt
   return Start{ToBodyPose(body, *state), state};
 }
 
-// Of the effectors whose ends were seen.
+// Returns the errors of those effectors whose ends were seen.
 std::vector<EffectorError> ErrorsSeen(const CaptureBody& body, const LimbObservation& seen,
                                       const std::vector<EffectorError>& errors) {
   std::vector<EffectorError> kept;
@@ -77,7 +78,9 @@ std::optional<TreeState> StartOf(const Start& found, const std::optional<Recover
 }  // namespace
 
 FrameRecovery::FrameRecovery(const CaptureBody& body, const RecoverOptions& options)
-    : body_(body), options_(options), solver_(Prepare(*options.solver, body.tree)), fitter_(body) {}
+    : body_(body), options_(options), solver_(Prepare(*options.solver, body.tree)), fitter_(body) {
+  assert(!body.is_paper || IsValid(body.lengths));
+}
 
 std::optional<RecoveredFrame> FrameRecovery::Next(const std::optional<LimbObservation>& observed, bool is_marked,
                                                   const KnownAngles& known) {
@@ -121,6 +124,7 @@ std::optional<RecoveredFrame> FrameRecovery::Solve(const LimbObservation& seen, 
 std::vector<std::optional<RecoveredFrame>> RecoverFrames(const RecoverInputs& inputs, const RecoverOptions& options) {
   const auto fits = [&](std::size_t count) { return count == 0 || count == inputs.seen.size(); };
   assert(fits(inputs.marked.size()) && fits(inputs.known_starts.size()) && fits(inputs.known_poses.size()));
+  assert(options.solver != nullptr);
   (void)fits;
   FrameRecovery recovery(inputs.body, options);
   std::vector<std::optional<RecoveredFrame>> frames;
@@ -152,6 +156,15 @@ Clip ToClip(const CaptureBody& body, std::span<const RecoveredFrame> frames, dou
   std::vector<TreeState> states;
   for (const RecoveredFrame& frame : frames) states.push_back(frame.state);
   return ToClip(body, states, rate_hz, name);
+}
+
+LiveRecovery::LiveRecovery(const CaptureBody& body, const RecoverOptions& recover, const BridgeOptions& bridge)
+    : bridge_(bridge), recovery_(body, recover) {}
+
+std::optional<RecoveredFrame> LiveRecovery::Next(const FrameMeasurement& measured, const KnownAngles& known) {
+  if (latest_.size() > static_cast<std::size_t>(bridge_.longest_gap)) latest_.erase(latest_.begin());
+  latest_.push_back(measured);
+  return recovery_.Next(BridgeLast(latest_, bridge_), /*is_marked=*/true, known);
 }
 
 }  // namespace etude

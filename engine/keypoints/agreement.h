@@ -10,17 +10,17 @@
 
 namespace etude {
 
-/// The places of landmarks as markers that carry their names; those never seen are left out.
+/// Turns the places of landmarks into markers of their names; landmarks never seen are left out.
 MarkerMotion ToMarkers(std::span<const LandmarkPlaces> frames, double rate_hz);
 
-/// The other way round; markers of other names are passed over.
+/// Turns markers into places of landmarks; markers of other names are passed over.
 std::vector<LandmarkPlaces> ToLandmarks(const MarkerMotion& markers);
 
-/// The joints that landmarks tell of (`JointsOf`), and those of a motion, as markers that carry their roles' names.
+/// Returns the joints that landmarks determine (`JointsOf`), or those of a motion, as markers of their roles' names.
 MarkerMotion JointMarkers(std::span<const LandmarkPlaces> frames, double rate_hz);
 MarkerMotion JointMarkers(const BodyMotion& motion);
 
-/// How far two recordings of one marker are apart.
+/// The distance between two recordings of one marker.
 struct MarkerAgreement {
   std::string name;
   double median_mm = 0;
@@ -28,12 +28,12 @@ struct MarkerAgreement {
   std::size_t frames = 0;  ///< in which both have it
 };
 
-/// Marker by marker, those that both name, in the reference's order: frame by frame, as many as the shorter one has.
-/// Distances between markers of one name in one frame; no alignment. A distance to a reference that was made of the
-/// same keypoints is agreement, not error.
+/// Compares the markers that both name, one by one in the reference's order, over as many frames as the shorter motion
+/// has. Distances between markers of one name in one frame; no alignment. A distance to a reference that was made of
+/// the same keypoints is agreement, not error.
 std::vector<MarkerAgreement> CompareMarkers(const MarkerMotion& motion, const MarkerMotion& reference);
 
-/// Over all markers and frames at once.
+/// Compares all markers and frames at once.
 MarkerAgreement CompareAllMarkers(const MarkerMotion& motion, const MarkerMotion& reference);
 
 }  // namespace etude

@@ -36,7 +36,7 @@ constexpr SideRoles kSideRoles[] = {{Role::kLeftShoulder, Role::kLeftElbow, Role
 constexpr double kHandOfForearm = 0.72;
 constexpr double kFootLength = 0.18;
 
-/// Where the body faces: normal to the hips' line and the trunk, level.
+/// Returns the direction that the body faces: normal to the hips' line and the trunk, level.
 std::optional<glm::dvec3> FacingOf(const RoleVectors& joints) {
   const auto &left = joints[Index(Role::kLeftHip)], &right = joints[Index(Role::kRightHip)];
   if (!left || !right) return std::nullopt;

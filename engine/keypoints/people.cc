@@ -1,9 +1,74 @@
 #include "engine/keypoints/people.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <optional>
+#include <utility>
+
+#include "engine/vision/strokes.h"
 
 namespace etude {
+namespace {
+
+constexpr std::array<std::string_view, kLandmarkCount> kNames = {
+    "Nose",      "LEye",  "REye",    "LEar",      "REar",  "LShoulder", "RShoulder", "LElbow", "RElbow", "LWrist",
+    "RWrist",    "LHip",  "RHip",    "LKnee",     "RKnee", "LAnkle",    "RAnkle",    "Neck",   "Head",   "LBigToe",
+    "LSmallToe", "LHeel", "RBigToe", "RSmallToe", "RHeel", "MidHip",    "LHand",     "RHand"};
+
+/// The landmarks of a list of their names, apart by blanks.
+std::vector<Landmark> Listed(std::string_view names) {
+  std::vector<Landmark> landmarks;
+  while (!names.empty()) {
+    const std::size_t end = std::min(names.find(' '), names.size());
+    landmarks.push_back(*FindLandmark(names.substr(0, end)));
+    names.remove_prefix(std::min(end + 1, names.size()));
+  }
+  return landmarks;
+}
+
+}  // namespace
+
+std::string_view LandmarkName(Landmark landmark) { return kNames[Index(landmark)]; }
+
+std::optional<Landmark> FindLandmark(std::string_view name) {
+  const auto found = std::ranges::find(kNames, name);
+  if (found == kNames.end()) return std::nullopt;
+  return static_cast<Landmark>(found - kNames.begin());
+}
+
+std::span<const KeypointLayout> KeypointLayouts() {
+  static const std::vector<KeypointLayout> layouts = {
+      {"coco",
+       Listed("Nose LEye REye LEar REar LShoulder RShoulder LElbow RElbow LWrist RWrist LHip RHip LKnee RKnee LAnkle "
+              "RAnkle")},
+      {"body_25",
+       Listed("Nose Neck RShoulder RElbow RWrist LShoulder LElbow LWrist MidHip RHip RKnee RAnkle LHip LKnee LAnkle "
+              "REye LEye REar LEar LBigToe LSmallToe LHeel RBigToe RSmallToe RHeel")},
+      {"body_25b",
+       Listed("Nose LEye REye LEar REar LShoulder RShoulder LElbow RElbow LWrist RWrist LHip RHip LKnee RKnee LAnkle "
+              "RAnkle Neck Head LBigToe LSmallToe LHeel RBigToe RSmallToe RHeel")},
+      {"halpe_26",
+       Listed("Nose LEye REye LEar REar LShoulder RShoulder LElbow RElbow LWrist RWrist LHip RHip LKnee RKnee LAnkle "
+              "RAnkle Head Neck MidHip LBigToe RBigToe LSmallToe RSmallToe LHeel RHeel")},
+      {"halpe_26_hands",
+       Listed("Nose LEye REye LEar REar LShoulder RShoulder LElbow RElbow LWrist RWrist LHip RHip LKnee RKnee LAnkle "
+              "RAnkle Head Neck MidHip LBigToe RBigToe LSmallToe RSmallToe LHeel RHeel LHand RHand")},
+  };
+  return layouts;
+}
+
+std::vector<std::string> KeypointLayoutNames() {
+  std::vector<std::string> names;
+  for (const KeypointLayout& layout : KeypointLayouts()) names.push_back(layout.name);
+  return names;
+}
+
+const KeypointLayout* FindKeypointLayout(std::string_view name) {
+  const auto layouts = KeypointLayouts();
+  const auto found = std::ranges::find(layouts, name, &KeypointLayout::name);
+  return found == layouts.end() ? nullptr : &*found;
+}
 
 double HeightPx(const SeenPerson& person) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -13,6 +78,54 @@ double HeightPx(const SeenPerson& person) {
     high = std::max(high, keypoint.pixel.y);
   }
   return std::max(0.0, high - low);
+}
+
+namespace {
+
+/// The landmark at a joint that strokes begin or end at, or a disc marks.
+std::optional<Landmark> LandmarkAt(Role role) {
+  constexpr std::pair<Role, Landmark> kSame[] = {
+      {Role::kLeftShoulder, Landmark::kLeftShoulder}, {Role::kRightShoulder, Landmark::kRightShoulder},
+      {Role::kLeftElbow, Landmark::kLeftElbow},       {Role::kRightElbow, Landmark::kRightElbow},
+      {Role::kLeftWrist, Landmark::kLeftWrist},       {Role::kRightWrist, Landmark::kRightWrist},
+      {Role::kLeftHand, Landmark::kLeftHand},         {Role::kRightHand, Landmark::kRightHand},
+      {Role::kLeftHip, Landmark::kLeftHip},           {Role::kRightHip, Landmark::kRightHip},
+      {Role::kLeftKnee, Landmark::kLeftKnee},         {Role::kRightKnee, Landmark::kRightKnee},
+      {Role::kLeftAnkle, Landmark::kLeftAnkle},       {Role::kRightAnkle, Landmark::kRightAnkle},
+      {Role::kLeftFoot, Landmark::kLeftBigToe},       {Role::kRightFoot, Landmark::kRightBigToe},
+      {Role::kShoulderCentre, Landmark::kNeck},       {Role::kHead, Landmark::kHead}};
+  for (const auto& [at, landmark] : kSame) {
+    if (at == role) return landmark;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+SeenPerson PersonOf(const Marks& marks) {
+  std::array<glm::dvec2, kLandmarkCount> sums{};
+  std::array<int, kLandmarkCount> counts{};
+  const auto add = [&](Role role, const glm::dvec2& pixel) {
+    if (const auto landmark = LandmarkAt(role)) {
+      sums[Index(*landmark)] += pixel;
+      ++counts[Index(*landmark)];
+    }
+  };
+  for (std::size_t i = 0; i < kStrokeCount; ++i) {
+    if (!marks.strokes[i]) continue;
+    add(StrokeMarks()[i].from, marks.strokes[i]->a);
+    add(StrokeMarks()[i].to, marks.strokes[i]->b);
+  }
+  SeenPerson person;
+  for (std::size_t i = 0; i < kLandmarkCount; ++i) {
+    if (counts[i] > 0) person.keypoints[i] = {sums[i] / static_cast<double>(counts[i]), 1};
+  }
+  // A disc says where the end is better than its stroke.
+  for (std::size_t i = 0; i < kEffectorCount; ++i) {
+    const auto landmark = LandmarkAt(EffectorMarks()[i].role);
+    if (marks.effectors[i] && landmark) person[*landmark] = {*marks.effectors[i], 1};
+  }
+  return person;
 }
 
 }  // namespace etude

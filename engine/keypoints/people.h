@@ -1,14 +1,73 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
 #include <vector>
-
-#include "engine/keypoints/landmarks.h"
 
 namespace etude {
 
-/// Where a picture shows a landmark, pixels, and how sure the estimator is: 0 = not seen, 1 = sure.
+struct Marks;
+
+/// Places of a body that estimators of keypoints know, and the finger tips that marks tell. Left is the person's own.
+enum class Landmark {
+  kNose,
+  kLeftEye,
+  kRightEye,
+  kLeftEar,
+  kRightEar,
+  kLeftShoulder,
+  kRightShoulder,
+  kLeftElbow,
+  kRightElbow,
+  kLeftWrist,
+  kRightWrist,
+  kLeftHip,
+  kRightHip,
+  kLeftKnee,
+  kRightKnee,
+  kLeftAnkle,
+  kRightAnkle,
+  kNeck,
+  kHead,  ///< its top
+  kLeftBigToe,
+  kLeftSmallToe,
+  kLeftHeel,
+  kRightBigToe,
+  kRightSmallToe,
+  kRightHeel,
+  kMidHip,
+  kLeftHand,
+  kRightHand,
+};
+
+constexpr std::size_t kLandmarkCount = 28;
+
+constexpr std::size_t Index(Landmark landmark) { return static_cast<std::size_t>(landmark); }
+
+/// Returns the name that OpenPose and Pose2Sim use: "RHip", "LBigToe", …
+std::string_view LandmarkName(Landmark landmark);
+std::optional<Landmark> FindLandmark(std::string_view name);
+
+/// The order of the landmarks in an estimator's list of keypoints.
+struct KeypointLayout {
+  std::string name;
+  std::vector<Landmark> landmarks;
+};
+
+/// Returns all layouts: "coco" (17 points), "body_25" and "body_25b" (25 each, in different orders; OpenPose),
+/// "halpe_26"; "halpe_26_hands" (ours): the same and the finger tips, which are all landmarks, as `etude export` writes
+/// marks.
+std::span<const KeypointLayout> KeypointLayouts();
+std::vector<std::string> KeypointLayoutNames();
+/// Finds a layout by its name; null when there is none.
+const KeypointLayout* FindKeypointLayout(std::string_view name);
+
+/// The pixel at which a picture shows a landmark, and the estimator's confidence: 0 = not seen, 1 = sure.
 struct Keypoint {
   glm::dvec2 pixel{0};
   double confidence = 0;
@@ -22,10 +81,14 @@ struct SeenPerson {
   const Keypoint& operator[](Landmark landmark) const { return keypoints[Index(landmark)]; }
 };
 
-/// Of each frame of one camera, everybody in it, in no order.
+/// Everybody in each frame of one camera, in no order.
 using SeenPeople = std::vector<std::vector<SeenPerson>>;
 
-/// The height of the box around all keypoints that were seen; 0 of nobody.
+/// Returns the height of the box around all keypoints that were seen, pixels; 0 when none was.
 double HeightPx(const SeenPerson& person);
+
+/// Makes keypoints of the marks of one picture (paper B, section 4.2): joints are the ends of strokes, their mean where
+/// strokes meet; tips are the discs. What is marked has confidence 1.
+SeenPerson PersonOf(const Marks& marks);
 
 }  // namespace etude

@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// How a film's pixels come from the rig's: film = scale · rig + shift, each axis by itself.
+/// The map from the rig's pixels to a film's: film = scale · rig + shift, each axis by itself.
 struct PixelFit {
   glm::dvec2 scale{1};
   glm::dvec2 shift{0};
@@ -19,7 +19,7 @@ struct PixelFit {
   bool IsNone() const { return scale == glm::dvec2(1) && shift == glm::dvec2(0); }
 };
 
-/// How pictures of one size were made those of another.
+/// The way pictures of one size were made from those of another.
 enum class FitMode {
   kNone,       ///< "none": not at all; other sizes are refused
   kLetterbox,  ///< "letterbox": scaled alike in both axes until they fit in, bars of equal size added
@@ -29,7 +29,8 @@ enum class FitMode {
 
 std::optional<FitMode> FindFitMode(std::string_view name);
 
-/// Fails when sizes differ and `mode` is kNone, and for sizes of nothing.
+/// Computes the map from the rig's pixels to the film's. Fails when sizes differ and `mode` is kNone, and for sizes of
+/// nothing.
 Result<PixelFit> FitPictures(FitMode mode, const glm::dvec2& rig, const glm::dvec2& film);
 
 }  // namespace etude

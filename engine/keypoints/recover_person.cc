@@ -1,13 +1,117 @@
 #include "engine/keypoints/recover_person.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
-#include "engine/keypoints/fit_person.h"
+#include "engine/base/order_statistics.h"
+#include "engine/capture/fit_pose.h"
+#include "engine/capture/measure_joints.h"
 #include "engine/kinematics/capture_body.h"
+#include "engine/kinematics/limb_lengths.h"
+#include "engine/kinematics/start_angles.h"
+#include "engine/motion/rest_body.h"
 
 namespace etude {
+namespace {
+
+constexpr std::ptrdiff_t kLeastJoints = 8;
+constexpr double kUnseen = 0.01;  // the weight of a joint that was completed
+constexpr int kRootSteps = 3;     // twenty bring joints nearer by one percent more
+
+std::optional<double> MedianDistance(std::span<const RoleVectors> frames, Role a, Role b) {
+  std::vector<double> lengths;
+  for (const RoleVectors& joints : frames) {
+    const auto &p = joints[Index(a)], &q = joints[Index(b)];
+    if (p && q) lengths.push_back(glm::distance(*p, *q));
+  }
+  if (lengths.empty()) return std::nullopt;
+  return UpperMedian(std::move(lengths));
+}
+
+std::optional<double> MedianBone(std::span<const RoleVectors> frames, const Bone& bone) {
+  // No landmark is the spine's: it shares the trunk.
+  const bool is_below = bone.child == Role::kSpine, is_above = bone.parent == Role::kSpine;
+  if (!is_below && !is_above) return MedianDistance(frames, bone.parent, bone.child);
+  const auto trunk = MedianDistance(frames, Role::kHipCentre, Role::kShoulderCentre);
+  if (!trunk) return std::nullopt;
+  return (is_below ? kSpineShare : 1 - kSpineShare) * *trunk;
+}
+
+/// Readers of clips look for a joint that is called the head, and BVH ends each branch by an end without a name.
+void NameHead(CaptureBody& body) {
+  const auto head = std::ranges::find(body.skeleton, "head_end", &CaptureBody::ClipJoint::name);
+  if (head == body.skeleton.end()) return;
+  CaptureBody::ClipJoint end = *head;
+  end.parent = static_cast<int>(head - body.skeleton.begin());
+  end.offset = glm::dvec3(0);
+  head->name = "head";
+  head->is_end = false;
+  body.skeleton.push_back(end);
+}
+
+PoseTargets TargetsOf(const RoleVectors& joints, const BodyPose& completed) {
+  PoseTargets wanted{.places = completed, .weights = {}};
+  for (std::size_t i = 0; i < kRoleCount; ++i) wanted.weights[i] = joints[i] ? 1 : kUnseen;
+  // Where the trunk is seen shorter than its bones nobody sees which way it bends: it stays nearly straight.
+  if (joints[Index(Role::kHipCentre)] && joints[Index(Role::kShoulderCentre)]) wanted.weights[Index(Role::kSpine)] = 1;
+  return wanted;
+}
+
+/// The root stands at the left toe's place, whose errors then are the whole body's: in turn it moves by the mean of
+/// what all joints are off, and the angles follow.
+TreeState MoveRoot(const CaptureBody& body, const PoseFitter& fitter, const PoseTargets& wanted, TreeState state) {
+  for (int step = 0; step < kRootSteps; ++step) {
+    const BodyPose pose = ToBodyPose(body, state);
+    glm::dvec3 sum(0);
+    double weights = 0;
+    for (std::size_t i = 0; i < kRoleCount; ++i) {
+      sum += wanted.weights[i] * (wanted.places.joints[i] - pose.joints[i]);
+      weights += wanted.weights[i];
+    }
+    state.root_position += sum / weights;
+    state = fitter.Improve(wanted, state);
+  }
+  return state;
+}
+
+}  // namespace
+
+Result<CaptureBody> MedianBody(std::span<const LandmarkPlaces> frames) {
+  std::vector<RoleVectors> joints;
+  for (const LandmarkPlaces& landmarks : frames) joints.push_back(JointsOf(landmarks));
+  // Only the lengths of its bones count.
+  BodyPose straight;
+  for (const Bone& bone : AllBones()) {
+    const auto length = MedianBone(joints, bone);
+    if (!length) return Fail({}, "no frame shows how far {} is from {}", RoleName(bone.child), RoleName(bone.parent));
+    straight[bone.child] = straight[bone.parent] + glm::dvec3(0, *length, 0);
+  }
+  ASSIGN_OR_RETURN(CaptureBody body, FittedBody(RestBodyOf({&straight, 1})));
+  NameHead(body);
+  return body;
+}
+
+std::vector<std::optional<TreeState>> FitPerson(const CaptureBody& body, std::span<const LandmarkPlaces> frames) {
+  const PoseFitter fitter(body);
+  BodyPose like = ToBodyPose(body, StandingState(body.tree));
+  std::vector<std::optional<TreeState>> states;
+  for (const LandmarkPlaces& landmarks : frames) {
+    const RoleVectors joints = JointsOf(landmarks);
+    states.emplace_back();
+    if (std::ranges::count_if(joints, [](const auto& joint) { return joint.has_value(); }) < kLeastJoints) continue;
+    const std::optional<BodyPose> completed = CompleteJoints(joints, like);
+    if (!completed) continue;
+    const PoseTargets wanted = TargetsOf(joints, *completed);
+    const std::optional<TreeState> pointed = fitter.Fit(wanted);
+    if (!pointed) continue;
+    states.back() = MoveRoot(body, fitter, wanted, *pointed);
+    like = ToBodyPose(body, *states.back());
+  }
+  return states;
+}
+
 namespace {
 
 /// Every frame: those without a state show the last one before, leading ones the first. At least one has a state.

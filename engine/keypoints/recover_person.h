@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -8,10 +9,23 @@
 #include "engine/cameras/camera.h"
 #include "engine/keypoints/keypoint_motion.h"
 #include "engine/kinematics/capture_body.h"
+#include "engine/kinematics/tree.h"
 #include "engine/motion/body.h"
 #include "engine/motion/clip.h"
 
 namespace etude {
+
+/// Estimates a person's body: every bone between two joints as long as it is in the median of the frames that show
+/// both, left and right by themselves; the spine at `kSpineShare` of the trunk (`FittedBody`). The head is a joint of
+/// its clip. Fails, naming the joint, when no frame shows some bone.
+Result<CaptureBody> MedianBody(std::span<const LandmarkPlaces> frames);
+
+/// Finds the angles and the root's place in every frame that bring all joints of the body nearest to where landmarks
+/// say they are (`JointsOf`): Σ weight · |place − joint|² is least, at least locally. Joints that a frame lacks hang as
+/// they did in the frame before, and weigh a hundredth; the spine, which no landmark shows, lies on the line from hips
+/// to shoulders and weighs one, since else the trunk would bend any way where it is seen shorter. Nothing for frames
+/// that tell of fewer than eight joints. *(Ours.)*
+std::vector<std::optional<TreeState>> FitPerson(const CaptureBody& body, std::span<const LandmarkPlaces> frames);
 
 struct RecoverPersonOptions {
   double rate_hz = 30;
@@ -22,11 +36,11 @@ struct RecoverPersonOptions {
   double cutoff_hz = 0;        ///< places are smoothed below this; 0: not at all
 };
 
-/// For keypoints in pictures whose longer side has so many pixels: outliers are 3 % of it off, and somebody who was not
-/// seen for half a second is somebody new.
+/// Returns the options for pictures whose longer side has so many pixels: outliers are 3 % of it off, and somebody who
+/// was not seen for half a second is somebody new.
 RecoverPersonOptions UsualRecovery(double rate_hz, double longer_side_px);
 
-/// A person out of several cameras' keypoints.
+/// A person recovered from several cameras' keypoints.
 struct RecoveredPerson {
   std::vector<MatchedPerson> people;      ///< everybody that was found
   std::vector<LandmarkPlaces> landmarks;  ///< of the person asked for, bridged and smoothed
@@ -37,10 +51,10 @@ struct RecoveredPerson {
   std::vector<bool> is_held;  ///< the frames of which nothing could be recovered: they show the last pose
 };
 
-/// Keypoints in the rig's own pixels, with what its lenses do, as they would be without.
+/// Removes the lens's distortion from keypoints in the camera's own pixels.
 SeenPeople UndistortPeople(const Camera& camera, SeenPeople people);
 
-/// From the keypoints of everybody to the motion of one person: MatchPeople, TriangulatePerson, BridgePoints,
+/// Recovers the motion of one person from the keypoints of everybody: MatchPeople, TriangulatePerson, BridgePoints,
 /// SmoothPoints, then the person's own body (MedianBody) and its poses (FitPerson). Fails when nobody is seen by two
 /// cameras, there are not so many people, or some limb never was seen.
 /// @param cameras at least two, without their lenses, as are the pixels (`UndistortPeople`)

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/cameras/epipolar.h"
+#include "engine/cameras/triangulation.h"
 
 namespace etude {
 namespace {
@@ -15,7 +15,7 @@ class MovingPerson {
 
   const PersonTrack& track() const { return track_; }
 
-  /// Nothing where a frame next to that time does not show the person.
+  /// Returns the person between frames; nothing where a frame next to that time does not show it.
   std::optional<SeenPerson> At(double frame) const {
     if (frame < 0) return std::nullopt;
     const auto at = static_cast<std::size_t>(frame);
@@ -60,7 +60,7 @@ struct Misfit {
   double mean() const { return squares / count; }
 };
 
-/// Of two people, in every so many frames of the first camera's time.
+/// Computes the misfit of two people, in every so many frames of the first camera's time.
 Misfit MisfitOf(const EpipolarGeometry& geometry, const MovingPerson& one, double one_offset, const MovingPerson& other,
                 double other_offset, std::size_t frames, const PeopleSyncOptions& options) {
   constexpr std::size_t kMostFrames = 100;  // a longer film says it no better

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "engine/cameras/camera.h"
-#include "engine/capture/clock_search.h"
-#include "engine/keypoints/follow_people.h"
+#include "engine/capture/synchronise.h"
+#include "engine/keypoints/match_people.h"
 
 namespace etude {
 
@@ -14,17 +14,18 @@ struct PeopleSyncOptions {
   FollowOptions follow;
 };
 
-/// How late each camera's pictures are, as `EstimateOffsets` tells it of marks *(ours)*: its frame k was taken at
-/// k + offset of the first camera's time. Nobody need know who is who: at each offset every person whom the first
-/// camera followed is whomever of the other's people the keypoints meet best, squared distances (`EpipolarGeometry`) in
-/// the mean. A camera of which nothing tells the time has offset 0; the first camera's is told by definition.
+/// Estimates how late each camera's pictures are, as the overload for marks does *(ours)*: its frame k was taken at k +
+/// offset of the first camera's time. Nobody need know who is who: at each offset every person whom the first camera
+/// followed is whomever of the other's people the keypoints meet best, squared distances (`EpipolarGeometry`) in the
+/// mean. A camera of which nothing tells the time has offset 0; the first camera's is told by definition.
 /// @param cameras without their lenses, as are the pixels
 /// @param people of each camera, as many frames as it has
 std::vector<ClockOffset> EstimateOffsets(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                                          const PeopleSyncOptions& options = {});
 
-/// One camera's people at the first one's times, `frames` of them: between frames each follows the cubic through their
-/// own keypoints (`PixelBetween`), as sure as the less sure frame. Nobody is where the film has no frames.
+/// Returns one camera's people at the first one's times, `frames` of them: between frames each follows the cubic
+/// through their own keypoints (`PixelBetween`), as sure as the less sure frame. Nobody is where the film has no
+/// frames.
 SeenPeople PeopleInTime(const SeenPeople& people, double offset, std::size_t frames, const FollowOptions& options = {});
 
 }  // namespace etude

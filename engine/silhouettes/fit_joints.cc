@@ -75,7 +75,7 @@ class JointFit {
     }
   }
 
-  // How a point moves with every coordinate: 3 rows.
+  // Returns the Jacobian of a point by every coordinate: 3 rows.
   Eigen::MatrixXd MotionOf(const TreePoint& point, Eigen::Index size) const {
     Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(3, size);
     const glm::dvec3 p_WQ = PlaceOf(point, frames_);
@@ -164,6 +164,18 @@ JointTargets TargetsOf(const BodyPose& pose, double sigma_m) {
   JointTargets targets;
   for (std::size_t i = 0; i < kRoleCount; ++i) targets[i] = {pose.joints[i], sigma_m};
   return targets;
+}
+
+TreeState TurnedRound(const SilhouetteBody& body, const TreeState& state) {
+  constexpr double kExact = 0.05;  // metres
+  const BodyPose pose = ToBodyPose(body, state);
+  BodyPose exchanged;
+  for (const Role role : AllRoles()) exchanged[role] = pose[Mirrored(role)];
+  JointTargets targets = TargetsOf(exchanged, kExact);
+  for (const Role role : {Role::kLeftFoot, Role::kRightFoot, Role::kHead}) targets[Index(role)].reset();
+  TreeState start = state;
+  start.root_frame = RotationBy({0, kPi, 0}) * state.root_frame;
+  return FitJoints(body, targets, start);
 }
 
 }  // namespace etude

@@ -6,14 +6,14 @@
 #include <cassert>
 #include <cmath>
 
-#include "engine/silhouettes/pixel_scale.h"
+#include "engine/silhouettes/silhouette_cost.h"
 #include "engine/silhouettes/turns.h"
 
 namespace etude {
 namespace {
 
-// How the two ends of one capsule move in one picture, by coordinate: the columns of δ of SilhouetteResidual, only for
-// the coordinates that move its limb.
+// The derivatives of the two ends of one capsule in one picture, by coordinate: the columns of δ of SilhouetteResidual,
+// only for the coordinates that move its limb.
 struct CapsuleMotion {
   std::vector<int> coordinates;
   std::vector<std::array<double, 6>> columns;

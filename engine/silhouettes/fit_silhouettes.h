@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// What is known of a pose besides its pictures: that it is near another one. Standard deviations.
+/// Prior knowledge of a pose: it is near another one, with these standard deviations.
 struct PosePrior {
   TreeState near;
   double place_m = 0.1;    ///< of the root's place, along each axis
@@ -19,7 +19,8 @@ struct PosePrior {
 struct FitOptions {
   SilhouetteCostOptions cost;
   int max_iterations = 20;
-  /// A step that lowers the cost by less than this share of it is the last.
+  /// The smallest share of the cost that a step must lower it by; a step that lowers the cost by less than this share
+  /// of it is the last.
   double enough = 1e-3;
 };
 
@@ -38,7 +39,7 @@ struct FitWorkspace {
   std::vector<SilhouetteResidual> residuals;
 };
 
-/// What `state` costs. `prior` may be null.
+/// Computes what `state` costs. `prior` may be null.
 SilhouetteFit CostOf(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& state,
                      const PosePrior* prior, const SilhouetteCostOptions& options, FitWorkspace& workspace);
 
@@ -48,8 +49,9 @@ SilhouetteFit CostOf(const SilhouetteBody& body, std::span<const SilhouetteView>
 SilhouetteFit FitSilhouettes(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& start,
                              const PosePrior* prior, const FitOptions& options, FitWorkspace& workspace);
 
-/// What `FitSilhouettes` steps along: the gradient of half the cost, and Gauss and Newton's approximation of its
-/// Hessian, by columns; first the root's place, then its turn (a rotation vector in the world), then the angles.
+/// The normal equations of a step of `FitSilhouettes`: the gradient of half the cost, and Gauss and Newton's
+/// approximation of its Hessian, by columns; first the root's place, then its turn (a rotation vector in the world),
+/// then the angles.
 struct NormalEquations {
   std::vector<double> gradient;
   std::vector<double> hessian;

@@ -23,13 +23,13 @@ void Bend(const SilhouetteBody& body, bool arms, double upper, double lower, Tre
   }
 }
 
-// Whether `joint` moves with `ancestor`.
+// Returns whether `joint` moves with `ancestor`.
 bool HangsFrom(const KinematicTree& tree, int joint, int ancestor) {
   while (joint > ancestor) joint = tree.joints[joint].parent;
   return joint == ancestor;
 }
 
-// What places of one limb cost, the rest of the body staying where it is.
+// The cost of places of one limb, while the rest of the body stays where it is.
 class LimbCost {
  public:
   LimbCost(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& state, int upper,

@@ -7,11 +7,12 @@
 
 namespace etude {
 
-/// Postures to look for a person with: standing with hanging arms, with raised arms, and on bent legs. The root is at
-/// the origin, facing +Z.
+/// Returns the postures that a person is searched with: standing with hanging arms, with raised arms, and on bent legs.
+/// The root is at the origin, facing +Z.
 std::vector<TreeState> Postures(const SilhouetteBody& body);
 
-/// `state` with one arm or leg elsewhere: of a grid over the range of its joints, the few places that cost least.
+/// Returns `state` with one arm or leg elsewhere: the few places that cost least, of a grid over the range of its
+/// joints.
 std::vector<TreeState> LimbPlaces(const SilhouetteBody& body, std::span<const SilhouetteView> views,
                                   const TreeState& state, const SilhouetteBody::Limb& limb,
                                   const SilhouetteCostOptions& options);

@@ -106,7 +106,7 @@ const std::array<JointRow, kJointCount>& JointRows() {
   return rows;
 }
 
-// Which limb carries each joint of the canonical body, in the order of Role.
+// The limb that carries each joint of the canonical body, in the order of Role.
 constexpr std::array<JointIndex, kRoleCount> kCarriers = {
     kPelvis,   kChest,         kNeck,         kNeck,       kLeftUpperArm, kLeftForearm, kLeftPalm,
     kLeftPalm, kRightUpperArm, kRightForearm, kRightPalm,  kRightPalm,    kLeftThigh,   kLeftShank,

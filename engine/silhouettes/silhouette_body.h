@@ -18,21 +18,21 @@ struct FleshCapsule {
   int part = 0;  ///< whose thickness it shares: both arms are as thick as each other
 };
 
-/// A person as the silhouettes are compared with: what moves, where the twenty joints lie in it, and the flesh. Any
+/// A person's body for comparison with silhouettes: what moves, where the twenty joints lie in it, and the flesh. Any
 /// tree will do whose limits keep Y angles of joints with three degrees of freedom within ±90°.
 struct SilhouetteBody {
   KinematicTree tree;
   std::array<TreePoint, kRoleCount> roles;
   std::vector<FleshCapsule> flesh;
   int part_count = 0;
-  /// Of each degree of freedom: the angle it has mostly, and how far people stray from that (standard deviation), both
-  /// in radians. They decide where pictures do not.
+  /// The usual angle of a degree of freedom and people's standard deviation from it, both in radians. They decide where
+  /// pictures do not.
   struct Habit {
     double angle = 0;
     double spread = 1;
   };
   std::vector<Habit> habits;
-  /// The joints of each arm and leg, from the body outwards: what a search for a lost limb turns.
+  /// The joints of an arm or leg, from the body outwards, which a search for a lost limb turns.
   struct Limb {
     int upper = 0;
     int lower = 0;
@@ -41,10 +41,10 @@ struct SilhouetteBody {
   std::vector<Limb> limbs;
 };
 
-/// A generic adult of these limb lengths: rooted at the hip centre, which is free to move and turn; the back bends in
-/// two places, each shoulder is borne by a collar bone. The flesh is that of an average clothed adult (girths *ours*:
-/// round figures for a grown person, no table's, and a centimetre of clothes on the trunk), scaled by what the lengths
-/// say of the stature. Of the person in the pictures it knows nothing but `lengths`.
+/// Makes a generic adult of these limb lengths: rooted at the hip centre, which is free to move and turn; the back
+/// bends in two places, each shoulder is borne by a collar bone. The flesh is that of an average clothed adult (girths
+/// *ours*: round figures for a grown person, no table's, and a centimetre of clothes on the trunk), scaled by what the
+/// lengths say of the stature. Of the person in the pictures it knows nothing but `lengths`.
 SilhouetteBody MakeSilhouetteBody(const LimbLengths& lengths);
 
 glm::dvec3 PlaceOf(const TreePoint& point, const TreeFrames& frames);

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/silhouettes/pixel_scale.h"
-
 namespace etude {
 namespace {
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <glm/glm.hpp>
 #include <span>
 #include <vector>
 
@@ -10,25 +12,64 @@
 
 namespace etude {
 
-/// One camera's share of a frame.
+/// A camera's matrix, normalised so that depths are metres, with the scale of what it shows. Frames: W the world, Q any
+/// point.
+class PixelScale {
+ public:
+  explicit PixelScale(const ProjectionMatrix& matrix) {
+    const auto row = [&](int i) { return glm::dvec3(matrix.h[i][0], matrix.h[i][1], matrix.h[i][2]); };
+    const double length = glm::length(row(2));
+    for (int i = 0; i < 3; ++i) {
+      rows_[i] = row(i) / length;
+      offsets_[i] = matrix.h[i][3] / length;
+    }
+    focal_px_ = std::sqrt(glm::length(glm::cross(rows_[0], rows_[2])) * glm::length(glm::cross(rows_[1], rows_[2])));
+  }
+
+  /// Returns the depth along the camera's axis, metres; positive in front of it.
+  double DepthOf(const glm::dvec3& p_WQ) const { return glm::dot(rows_[2], p_WQ) + offsets_[2]; }
+  glm::dvec2 PixelOf(const glm::dvec3& p_WQ) const {
+    return glm::dvec2(glm::dot(rows_[0], p_WQ) + offsets_[0], glm::dot(rows_[1], p_WQ) + offsets_[1]) / DepthOf(p_WQ);
+  }
+  /// Returns the size in pixels of one metre, one metre away: the geometric mean of both directions.
+  double focal_px() const { return focal_px_; }
+
+  /// The gradients of u, v and of the pixels per metre, with respect to the place of the point.
+  struct Slopes {
+    glm::dvec3 u, v, pixels_per_metre;
+  };
+  Slopes SlopesAt(const glm::dvec3& p_WQ) const {
+    const double depth = DepthOf(p_WQ);
+    const glm::dvec2 pixel = PixelOf(p_WQ);
+    return {(rows_[0] - pixel.x * rows_[2]) / depth, (rows_[1] - pixel.y * rows_[2]) / depth,
+            -focal_px_ / (depth * depth) * rows_[2]};
+  }
+
+ private:
+  std::array<glm::dvec3, 3> rows_{};
+  std::array<double, 3> offsets_{};
+  double focal_px_ = 0;
+};
+
+/// One camera's matrix and silhouette in a frame.
 struct SilhouetteView {
   ProjectionMatrix matrix;  ///< world (metres) to pixels
   const Silhouette* silhouette = nullptr;
 };
 
-/// How a pose of the body is compared with silhouettes. All lengths in pixels of the camera.
+/// The options of comparing a pose with silhouettes. All lengths are pixels of the camera.
 struct SilhouetteCostOptions {
-  /// A residual of this size counts as one standard deviation, against the habits of the body's angles. It is several
-  /// times what an outline errs, because neighbouring points err alike: clothes, flesh of other shape.
+  /// The size of a residual that counts as one standard deviation, against the habits of the body's angles. It is
+  /// several times what an outline errs, because neighbouring points err alike: clothes, flesh of other shape.
   double sigma_px = 8;
-  /// Beyond this distance an outline point, or a piece of the body outside the silhouette, counts less and less (Geman
-  /// and McClure's loss): what it tells is somebody's shadow, a lost piece, or a limb that is elsewhere. Wide far from
+  /// The distance beyond which an outline point, or a piece of the body outside the silhouette, counts less and less
+  /// (Geman and McClure's loss): it shows somebody's shadow, a lost piece, or a limb that is elsewhere. Wide far from
   /// the solution, narrow near it.
   double outline_reach_px = 14;
   double inside_reach_px = 60;
-  /// How much of the flesh must lie inside: 1 all of it. Less, because this person may be thinner.
+  /// The share of the flesh that must lie inside; less than 1 because this person may be thinner.
   double inside_share = 0.8;
-  /// What one sample of the flesh counts, beside one point of the outline.
+  /// The weight of one sample of the flesh relative to one point of the outline.
   double inside_weight = 2;
 };
 
@@ -56,7 +97,7 @@ void ProjectFlesh(const SilhouetteBody& body, const TreeFrames& frames, const Pr
 /// The signed distance from `pixel` to the outline of a projected capsule, negative inside, with its slopes.
 SilhouetteResidual DistanceTo(const ProjectedCapsule& capsule, const glm::dvec2& pixel);
 
-/// What one picture says about the flesh, appended to `out`:
+/// Appends the residuals of the flesh in one picture to `out`:
 /// - coverage: every point of the silhouette's outline lies on the outline of the flesh: its signed distance to the
 ///   nearest piece is 0;
 /// - containment: every piece of flesh lies inside the silhouette: at samples along its axis, the silhouette's signed

@@ -28,7 +28,7 @@ void SilhouetteFollower::Begin(const MomentViews& views) {
   for (const SilhouetteFit& fit : fitter_.Find(views)) paths_.push_back({fit, fit.state, fit.picture_cost});
 }
 
-// What a moment costs that has lost nothing is what the best fifth of the last ones do.
+// The best fifth of the last moments gives the cost of a moment in which no limb is lost.
 bool SilhouetteFollower::IsLost(const SilhouetteFit& fit) const {
   constexpr std::size_t kEnough = 10;
   if (costs_.size() < kEnough) return false;

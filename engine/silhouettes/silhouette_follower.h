@@ -8,16 +8,14 @@
 #include "engine/cameras/camera.h"
 #include "engine/silhouettes/moment_fitter.h"
 #include "engine/silhouettes/silhouette.h"
-#include "engine/silhouettes/thickness.h"
-#include "engine/silhouettes/track_options.h"
 
 namespace etude {
 
-/// `TrackSilhouettes` as it happens: a body followed by its silhouettes moment by moment, each pose from the pictures
-/// up to it alone. Without a known start it is searched for in the first moment that shows somebody; the likeliest
-/// poses are followed beside each other for `trial_frames` and the one that explained most is kept. When a moment costs
-/// far more than most did, arms and legs are looked for elsewhere. The thickness is estimated from what was seen so
-/// far. A pose that was told is never taken back: nothing is smoothed.
+/// Follows a body by its silhouettes moment by moment, as it happens, each pose from the pictures up to it alone.
+/// Without a known start it is searched for in the first moment that shows somebody; the likeliest poses are followed
+/// beside each other for `trial_frames` and the one that explained most is kept. When a moment costs far more than most
+/// did, arms and legs are looked for elsewhere. The thickness is estimated from what was seen so far. A pose that was
+/// told is never taken back: nothing is smoothed.
 class SilhouetteFollower {
  public:
   /// @param cameras world (metres) to pixels, at least two
@@ -27,10 +25,11 @@ class SilhouetteFollower {
   SilhouetteFollower(const SilhouetteFollower&) = delete;
   SilhouetteFollower& operator=(const SilhouetteFollower&) = delete;
 
-  /// The next moment's pictures, one per camera. Nothing when fewer than two show anybody, or nobody can be found.
+  /// Fits the next moment's pictures, one per camera. Returns nothing when fewer than two show anybody, or nobody can
+  /// be found.
   std::optional<SilhouetteFit> Next(std::span<const Silhouette> silhouettes);
 
-  /// With its thickness as estimated so far.
+  /// Returns the body with its thickness as estimated so far.
   const SilhouetteBody& body() const { return body_; }
 
  private:

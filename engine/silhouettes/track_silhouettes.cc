@@ -5,9 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "engine/silhouettes/fit_joints.h"
 #include "engine/silhouettes/moment_fitter.h"
-#include "engine/silhouettes/thickness.h"
-#include "engine/silhouettes/turned_round.h"
 #include "engine/silhouettes/turns.h"
 
 namespace etude {
@@ -21,8 +20,8 @@ constexpr double kClearlyBetter = 0.95;
 
 double Squared(double x) { return x * x; }
 
-// How far apart two poses are for a path of them: squares over the changes expected.
-double Jump(const TreeState& a, const TreeState& b, const TrackOptions& options) {
+// Returns the cost of going from one pose to the next: squared differences over the expected changes.
+double StepCost(const TreeState& a, const TreeState& b, const TrackOptions& options) {
   const glm::dvec3 moved = a.root_position - b.root_position;
   const glm::dvec3 turned = TurnOf(a.root_frame * glm::transpose(b.root_frame));
   double jump = glm::dot(moved, moved) / Squared(options.place_change_m) +
@@ -104,7 +103,8 @@ class Tracker {
     return sum / count;
   }
 
-  // Where the take is followed from: the known start, and what was found in the pictures, the likeliest first.
+  // Chooses the poses that the take is followed from: the known start, or those found in the pictures, the likeliest
+  // first.
   std::vector<Anchor> ChooseAnchors() {
     std::vector<Anchor> anchors = FindAnchors();
     if (const std::optional<Anchor> known = KnownAnchor()) anchors.insert(anchors.begin(), *known);
@@ -182,7 +182,7 @@ class Tracker {
     return OwnCost(turned) < kClearlyBetter * OwnCost(fits) ? Better(fits, turned) : fits;
   }
 
-  // What all frames cost without a thought of each other.
+  // Returns the sum of the frames' own costs, without those of going from one to the next.
   double OwnCost(const Fits& fits) {
     double sum = 0;
     for (std::size_t k = 0; k < frame_count_; ++k) {
@@ -191,7 +191,7 @@ class Tracker {
     return sum;
   }
 
-  // The same take followed in the other direction of time: from each end to the other.
+  // Follows the take in the other direction of time, from each end to the other.
   Fits Retraced(const Fits& fits) {
     const auto first = std::ranges::find_if(fits, [](const auto& fit) { return fit.has_value(); });
     const auto last = std::find_if(fits.rbegin(), fits.rend(), [](const auto& fit) { return fit.has_value(); });
@@ -221,7 +221,7 @@ class Tracker {
       for (int which = 0; which < 2; ++which) {
         std::array<double, 2> through{};
         for (int from = 0; from < 2; ++from) {
-          through[from] = costs[from] + Jump(of(i - 1, from).state, of(i, which).state, options_);
+          through[from] = costs[from] + StepCost(of(i - 1, from).state, of(i, which).state, options_);
         }
         came_from[i][which] = through[1] < through[0];
         next[which] = through[came_from[i][which]] + of(i, which).picture_cost;
@@ -250,7 +250,7 @@ class Tracker {
     }
   }
 
-  // What the neighbours on both sides, or the only one there is, foretell of a frame.
+  // Predicts a frame from its neighbours on both sides, or from the only one there is.
   std::optional<TreeState> Between(const Fits& fits, std::size_t k) const {
     const bool before = k > 0 && fits[k - 1], after = k + 1 < frame_count_ && fits[k + 1];
     if (before && after) return MeanState(fits[k - 1]->state, fits[k + 1]->state);
@@ -259,7 +259,7 @@ class Tracker {
     return std::nullopt;
   }
 
-  // What a frame costs that has lost nothing.
+  // Returns the usual cost of a frame in which no limb is lost.
   double UsualCost(const Fits& fits) const {
     std::vector<double> costs;
     for (const auto& fit : fits) {

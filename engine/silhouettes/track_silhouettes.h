@@ -6,9 +6,9 @@
 
 #include "engine/cameras/camera.h"
 #include "engine/silhouettes/fit_silhouettes.h"
+#include "engine/silhouettes/moment_fitter.h"
 #include "engine/silhouettes/silhouette.h"
 #include "engine/silhouettes/silhouette_body.h"
-#include "engine/silhouettes/track_options.h"
 
 namespace etude {
 
@@ -17,8 +17,8 @@ struct SilhouetteTake {
   std::span<const ProjectionMatrix> cameras;
   /// `silhouettes[camera][frame]`, taken at the same moments.
   std::span<const std::vector<Silhouette>> silhouettes;
-  /// About where the body is in the first frame, when that is known: people are asked to begin in an agreed pose.
-  /// Nothing: the start is found from the pictures ("cold").
+  /// The body's approximate state in the first frame, when it is known because people begin in an agreed pose. Without
+  /// one the start is found from the pictures ("cold").
   std::optional<TreeState> start;
 };
 

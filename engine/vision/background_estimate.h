@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// How much goes on at every pixel of a picture: the less, the likelier it shows the room behind. Any unit.
+/// The activity at every pixel of a picture, in any unit: the less, the likelier the pixel shows the room behind.
 using Activity = Image<float>;
 
 struct MotionOptions {
@@ -19,14 +19,14 @@ struct MotionOptions {
   int change = 14;  ///< levels by which a colour must differ to have moved: several deviations of noise
 };
 
-/// Of each picture and pixel the share of the pixels about it that are another colour in the picture `lag` before or
-/// after.
+/// Computes, for each picture and pixel, the share of the pixels about it that are another colour in the picture `lag`
+/// before or after.
 std::vector<Activity> MotionActivity(std::span<const ColourImage> pictures, const MotionOptions& options = {});
 
-/// Background of a static scene: per pixel and channel the median of the `kept` pictures with the least motion there;
-/// ties go to the earliest. A pixel never uncovered keeps what hid it. (B. Laugraud, S. Piérard, M. Van Droogenbroeck,
-/// "LaBGen: a method based on motion detection for generating the background of a scene", Pattern Recognition Letters
-/// 96, 2017; theirs counts motion in patches.)
+/// Estimates the background of a static scene: per pixel and channel the median of the `kept` pictures with the least
+/// motion there; ties go to the earliest. A pixel never uncovered keeps what hid it. (B. Laugraud, S. Piérard, M. Van
+/// Droogenbroeck, "LaBGen: a method based on motion detection for generating the background of a scene", Pattern
+/// Recognition Letters 96, 2017; theirs counts motion in patches.)
 /// @param activity of each picture, of its size
 /// @param kept at least one; as many as there are pictures gives their median
 ColourImage EstimateBackground(std::span<const ColourImage> pictures, std::span<const Activity> activity,

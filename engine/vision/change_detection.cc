@@ -6,11 +6,26 @@
 #include <cmath>
 #include <cstdint>
 
+#include "engine/base/angles.h"
 #include "engine/base/named.h"
 #include "engine/vision/components.h"
-#include "engine/vision/hsi.h"
 
 namespace etude {
+
+Hsi ToHsi(Rgb8 colour) {
+  const double r = colour.r, g = colour.g, b = colour.b;
+  const double sum = r + g + b;
+  Hsi hsi;
+  hsi.intensity = sum / 3;
+  if (sum > 0) hsi.saturation = 1 - 3 * std::min({r, g, b}) / sum;
+
+  const double spread = std::sqrt((r - g) * (r - g) + (r - b) * (g - b));
+  if (spread == 0) return hsi;  // grey
+  const double theta = std::acos(std::clamp(((r - g) + (r - b)) / 2 / spread, -1.0, 1.0));
+  hsi.hue = b <= g ? theta : 2 * kPi - theta;
+  return hsi;
+}
+
 namespace {
 
 constexpr Named<Segmenter> kSegmenters[] = {{"rgb", Segmenter::kRgb},
@@ -19,7 +34,7 @@ constexpr Named<Segmenter> kSegmenters[] = {{"rgb", Segmenter::kRgb},
                                             {"ratio", Segmenter::kRatio},
                                             {"running", Segmenter::kRunning}};
 
-// Whether two hues are more than the threshold apart, by the cosine of the angle between them.
+// Decides whether two hues are more than the threshold apart, by the cosine of the angle between them.
 class HueComparison {
  public:
   explicit HueComparison(double threshold) : cosine2_(std::cos(threshold) * std::cos(threshold)) {}
@@ -83,7 +98,7 @@ void CompareColours(const ColourImage& background, const ColourImage& picture, i
   }
 }
 
-/// Whether a pixel is not its background's colour times a factor that light explains.
+/// Returns whether a pixel is not its background's colour times a factor that light explains.
 bool IsNoShade(Rgb8 background, Rgb8 pixel, const ChangeOptions& o) {
   const double br = background.r, bg = background.g, bb = background.b;
   const double dot = pixel.r * br + pixel.g * bg + pixel.b * bb;

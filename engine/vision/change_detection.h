@@ -9,6 +9,30 @@
 
 namespace etude {
 
+/// A colour as hue, saturation and intensity (Gonzalez & Woods; paper B, section 4.1.1).
+struct Hsi {
+  double hue = 0;         ///< radians, [0, 2π): red 0, green 2π/3, blue 4π/3; 0 for grey, which has none
+  double saturation = 0;  ///< 1 − 3·min / (R + G + B), in [0, 1]; 0 for black
+  double intensity = 0;   ///< (R + G + B) / 3, in [0, 255]
+};
+
+/// Converts a colour by the paper's formulas as printed; θ is the hue when B ≤ G, else 2π − θ.
+Hsi ToHsi(Rgb8 colour);
+
+/// A colour's point in the plane of colours of equal intensity, whose polar angle is the hue; grey is the
+/// origin. The point is (x / 2, √3/2 · y), in grey levels, with x = 2R − G − B and y = G − B: whole
+/// numbers, so that hues can be compared exactly and without an arc cosine per pixel.
+struct Chroma {
+  int x = 0;
+  int y = 0;
+
+  explicit constexpr Chroma(Rgb8 colour) : x(2 * colour.r - colour.g - colour.b), y(colour.g - colour.b) {}
+  bool IsGrey() const { return x == 0 && y == 0; }
+};
+
+/// Returns four times the dot product of two such points: 4·|a||b|·cos of the angle between the hues.
+inline int Dot4(Chroma a, Chroma b) { return a.x * b.x + 3 * a.y * b.y; }
+
 enum class Segmenter {
   /// "rgb": red, green and blue compared by themselves: what paper B, chapter 4, starts from, and leaves because it
   /// takes shadows for a person.
@@ -26,9 +50,9 @@ enum class Segmenter {
   kRunning,
 };
 
-/// "rgb", "hue", "hue-gated", "ratio", "running": the names used in scenarios.
+/// Returns the names used in scenarios: "rgb", "hue", "hue-gated", "ratio", "running".
 std::vector<std::string> SegmenterNames();
-/// `name` is one of SegmenterNames().
+/// Returns the segmenter of that name, which is one of SegmenterNames().
 Segmenter SegmenterNamed(std::string_view name);
 
 struct ChangeOptions {
@@ -57,12 +81,12 @@ struct ChangeOptions {
   double least_deviation = 4;
 };
 
-/// The pixels in which `picture` shows something else than `background`. The two have the same size.
-/// A grey pixel has hue 0 for `kHue`, as in the paper's formula. Not for `kRunning`.
+/// Finds the pixels in which `picture` shows something else than `background`. The two have the same size. A grey pixel
+/// has hue 0 for `kHue`, as in the paper's formula. Not for `kRunning`.
 Mask DetectChange(const ColourImage& background, const ColourImage& picture, Segmenter segmenter,
                   const ChangeOptions& options = {});
 
-/// Which pieces of what changed are the person.
+/// The pieces of what changed that are taken for the person.
 enum class PersonPieces {
   kLargest,  ///< the largest one alone (paper B)
   /// *Ours*: the largest, and every one of some size beside it. Where a sleeve ends, or skin is of the wall's hue,
@@ -76,16 +100,16 @@ struct PersonOptions {
   PersonPieces pieces = PersonPieces::kLargest;
   /// kLarge: pieces of fewer pixels are noise. 120 is a hand four metres away in a picture of 640 × 480.
   int smallest_piece = 120;
-  /// kLarge: so far may the box about a piece be from that about the largest one, pixels: the length of a forearm
+  /// kLarge: the largest distance of the box about a piece from that about the largest one, pixels: a forearm's length
   /// there.
   int piece_reach = 40;
   /// Holes of at most this many pixels are filled; the gap between an arm and the trunk is larger.
   int largest_hole = 60;
 };
 
-/// The person in the picture (paper B, chapter 4): change detection, then the 8-connected component or components that
-/// `pieces` names, then their small holes filled. All zero when nothing changed. Takes go through `PersonFinder`, which
-/// tests compare with this plain form.
+/// Finds the person in the picture (paper B, chapter 4): change detection, then the 8-connected component or components
+/// that `pieces` names, then their small holes filled. All zero when nothing changed. Takes go through `PersonFinder`,
+/// which tests compare with this plain form.
 Mask ExtractPerson(const ColourImage& background, const ColourImage& picture, const PersonOptions& options);
 
 }  // namespace etude

@@ -7,10 +7,10 @@
 
 namespace etude {
 
-/// Which neighbours belong together: the four that share an edge, or also the four that share a corner.
+/// The neighbours that belong together: the four that share an edge, or also the four that share a corner.
 enum class Connectivity { kFour, kEight };
 
-/// The pieces that equal pixels of a mask hang together in, as the runs of pixels that they consist of.
+/// The connected pieces of equal pixels of a mask, as the runs of pixels that they consist of.
 struct Components {
   /// The pixels begin ≤ x < end of one row.
   struct Run {
@@ -33,17 +33,17 @@ struct Components {
 /// a closed 8-connected outline separates inside from outside).
 Components LabelComponents(const Mask& mask, Connectivity connectivity = Connectivity::kEight);
 
-/// The largest 8-connected piece of 1s alone; the first in scan order among equals; nothing from nothing.
+/// Returns the largest 8-connected piece of 1s alone; the first in scan order among equals; nothing from nothing.
 Mask LargestComponent(const Mask& mask);
 
-/// The largest 8-connected piece of 1s, and all others of at least `smallest` pixels whose boxes come within `reach`
-/// pixels of its box.
+/// Returns the largest 8-connected piece of 1s, and all others of at least `smallest` pixels whose boxes come within
+/// `reach` pixels of its box.
 Mask LargeComponents(const Mask& mask, int smallest, int reach);
 
 /// Sets the holes (4-connected pieces of 0s that do not touch the border) of at most `largest_hole` pixels.
 Mask FillHoles(const Mask& mask, int largest_hole);
 
-/// FillHoles(LargestComponent(mask), largest_hole), in place and with one look at the pixels. Set pixels are 1.
+/// Computes FillHoles(LargestComponent(mask), largest_hole) in place, reading the pixels once. Set pixels are 1.
 void KeepPerson(Mask& mask, int largest_hole);
 
 }  // namespace etude

@@ -7,8 +7,8 @@
 
 namespace etude {
 
-/// Some neighbouring pixels of a picture, and the chromas (hsi.h) of the same pixels of the background; grey ones as
-/// pure red.
+/// Some neighbouring pixels of a picture, and the chromas (change_detection.h) of the same pixels of the background;
+/// grey ones count as pure red.
 struct HueBlock {
   const Rgb8* pixels = nullptr;
   const std::int16_t* background_x = nullptr;

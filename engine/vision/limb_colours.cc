@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-/// What each pixel shows: 0 nothing of the suit, then the trunk, then the limb of each stroke.
+/// The label of each pixel: 0 for nothing of the suit, then the trunk, then the limb of each stroke.
 using LimbImage = Image<std::uint8_t>;
 constexpr std::uint8_t kTrunk = 1, kFirstLimb = 2;
 constexpr std::size_t kLabels = kFirstLimb + kStrokeCount;
@@ -66,7 +66,7 @@ glm::dvec2 ChromaticityOf(Rgb8 colour) {
   return sum > 0 ? glm::dvec2(colour.r, colour.g) / sum : glm::dvec2(1.0 / 3);
 }
 
-/// Which of a suit's colours a pixel has.
+/// Finds which of a suit's colours a pixel has.
 class Palette {
  public:
   Palette(const LimbColours& suit, const LimbColourOptions& options) : options_(options) {
@@ -111,7 +111,7 @@ LimbImage Classified(const ColourImage& picture, const Mask& person, const LimbC
   return limbs;
 }
 
-/// What most of the nine pixels about each show: noise goes, and so do lines of mixed colours along edges.
+/// Replaces each pixel by the majority of the nine about it: noise goes, and so do lines of mixed colours along edges.
 LimbImage Voted(const LimbImage& limbs) {
   constexpr int kMost = 5;
   LimbImage voted(limbs.width, limbs.height);
@@ -129,7 +129,7 @@ LimbImage Voted(const LimbImage& limbs) {
   return voted;
 }
 
-/// Of each piece, whether it holds a square of `side` pixels a side.
+/// Returns for each piece whether it holds a square of `side` pixels a side.
 std::vector<bool> HaveSquares(const Components& found, const Mask& mask, int side) {
   std::vector<bool> have(found.pieces.size());
   const auto is_square = [&](int left, int top) {
@@ -180,7 +180,8 @@ void Paint(const Region& region, std::uint8_t label, LimbImage& limbs) {
   }
 }
 
-/// Where limbs meet: between the last pixel of one and the first of the next, to the right of it and below.
+/// Adds the borders where limbs meet: between the last pixel of one and the first of the next, to the right of it and
+/// below.
 void AddBorders(const LimbImage& limbs, int seam_px, LimbRegions& regions) {
   const auto look = [&](int x, int y, int step_x, int step_y) {
     const std::uint8_t label = limbs.At(x, y);

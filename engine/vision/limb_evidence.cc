@@ -4,19 +4,19 @@
 #include <cmath>
 
 #include "engine/base/angles.h"
-#include "engine/vision/middle_line.h"
+#include "engine/vision/limb_regions.h"
 
 namespace etude {
 namespace {
 
-/// What in the picture tells where a limb's inner joint is.
+/// The feature of the picture from which a limb's inner joint is found.
 enum class Landmark {
   kBorder,     ///< the middle of its border with the part it hangs from
   kBorderEnd,  ///< the end of that border that lies farthest along the limb: of a thigh, the crotch
   kInnerEnd,   ///< where the limb is seen to begin
 };
 
-/// What is known of each limb *(ours)*; shares are of half the limb's width.
+/// The known proportions of each limb *(ours)*; shares are of half the limb's width.
 struct Anatomy {
   double length;   ///< of its bone, when seen from aside
   double joint;    ///< how far outwards from the landmark its inner joint lies
@@ -78,14 +78,14 @@ Border MeasureBorder(const std::vector<glm::dvec2>& points, const glm::dvec2& li
   return border;
 }
 
-class Looker {
+class EvidenceFinder {
  public:
-  Looker(const LimbRegions& regions, const FigureLook& look)
+  EvidenceFinder(const LimbRegions& regions, const FigureLook& look)
       : regions_(regions), look_(look), body_(BodyOf(look.figure)) {
     for (std::size_t i = 0; i < kStrokeCount; ++i) Look(i);
   }
 
-  PictureEvidence Tell() {
+  PictureEvidence Find() {
     for (std::size_t i = 0; i < kStrokeCount; ++i) {
       if (limbs_[i]) PutInnerJoint(i);
     }
@@ -123,7 +123,7 @@ class Looker {
     return MeasureBorder(points, regions_.limbs[i].middle);
   }
 
-  // Whether anything tells which end is the outer one.
+  // Orients the limb outwards; returns false when nothing tells which end is the outer one.
   bool TurnOutwards(std::size_t i, Limb& limb) const {
     glm::dvec2 outwards(0);
     const Region& inner_part = HangsFromTrunk(i) ? regions_.trunk : regions_.limbs[i - 1];
@@ -173,7 +173,7 @@ class Looker {
     return line;
   }
 
-  // Whether the picture's edge cuts off the limb's outer end.
+  // Returns whether the picture's edge cuts off the limb's outer end.
   bool IsCutOff(const Limb& limb) const {
     if (!limb.region->is_cut) return false;
     const glm::dvec2 end = limb.line.At(limb.line.high);
@@ -195,7 +195,7 @@ class Looker {
     return to_low < to_high ? limb.line.along : -limb.line.along;
   }
 
-  // Whether the border lies across one end of the limb.
+  // Returns whether the border lies across one end of the limb.
   static bool EndsAt(const Limb& limb, const std::optional<Border>& border) {
     constexpr double kNearEnd = 0.3, kAcross = 1.5;
     const double middle = 0.5 * (limb.line.low + limb.line.high);
@@ -203,7 +203,7 @@ class Looker {
            std::abs(limb.line.Where(border->middle) - middle) > kNearEnd * (limb.line.high - limb.line.low);
   }
 
-  // Whether the limb touches the part it hangs from with its side, as a hanging arm does the flank.
+  // Returns whether the limb touches the part it hangs from with its side, as a hanging arm does the flank.
   static bool RunsAlong(const Limb& limb) {
     constexpr double kSide = 1.5;
     return limb.line.IsLong() && limb.inner->half_breadth > kSide * limb.line.half_width;
@@ -214,8 +214,8 @@ class Looker {
     return line.At(std::max(0.5 * (line.low + line.high), line.high - inset));
   }
 
-  // How far a limb's round end is seen to reach beyond its centre, where a thinner limb grows out of it at an angle in
-  // the picture: as far as the ball of radius R goes beside the other limb's strip of half width r.
+  // Returns how far a limb's round end is seen to reach beyond its centre, where a thinner limb grows out of it at an
+  // angle in the picture: as far as the ball of radius R goes beside the other limb's strip of half width r.
   static double ReachBeyondJoint(const MiddleLine& limb, const MiddleLine& next) {
     if (!next.IsLong()) return limb.half_width;
     const double between = std::acos(std::clamp(glm::dot(limb.along, next.along), -1.0, 1.0));
@@ -325,7 +325,7 @@ class Looker {
 }  // namespace
 
 PictureEvidence FindLimbEvidence(const LimbRegions& regions, const FigureLook& look) {
-  return Looker(regions, look).Tell();
+  return EvidenceFinder(regions, look).Find();
 }
 
 }  // namespace etude

@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// What a picture shows of one limb.
+/// One limb as a picture shows it.
 struct LimbEvidence {
   PixelSegment line;      ///< from the inner to the outer end, pixels; where an end is hidden, as far as is seen
   double seen_share = 1;  ///< of the pixels that a limb as wide would have, seen whole and from aside: in (0, 1]
@@ -20,39 +20,40 @@ struct LimbEvidence {
 };
 
 struct PictureEvidence {
-  /// By stroke; nothing where too little of the limb is seen to tell where it runs.
+  /// The limbs by stroke; nothing where too little of the limb is seen to tell where it runs.
   std::array<std::optional<LimbEvidence>, kStrokeCount> limbs;
-  /// Where joint centres seem to be: where a visible limb touches the part it hangs from, and at the tips.
+  /// Estimated joint centres: where a visible limb touches the part it hangs from, and at the tips.
   std::array<std::optional<glm::dvec2>, kRoleCount> joints;
 };
 
-/// What a person looks like, and so where joints lie in what is seen of a limb; anyone knows it who looks.
+/// The kind of figure, which decides where joints lie in what is seen of a limb. An observer sees it at once, so that
+/// methods may know it.
 enum class FigureKind {
   /// Paper B's studio: round limbs, of which the thicker one ends about the joint; trunk joints are outside.
   kCapsules,
   kDressed,  ///< limbs are cut across at their joints (sim/character)
 };
 
-/// What is known of the person beforehand.
+/// What is known of the person's looks beforehand.
 struct FigureLook {
   FigureKind figure = FigureKind::kCapsules;
-  /// Which point of the head is meant: how far it lies below the crown, in half widths of the head. Files end the head
-  /// at its middle or at its top; like limb lengths, this is agreed on before the take.
+  /// The distance of the head's point below the crown, in half widths of the head. Files end the head at its middle or
+  /// at its top; like limb lengths, this is agreed on before the take.
   double head_below_crown = 1.3;
 };
 
-/// Where limbs run and joints are in a picture that was parted into limbs, by whoever did it. The middle line of each
-/// limb is that of its visible pixels (`FindMiddleLine`). Joint centres, from what anyone knows of bodies:
+/// Finds the limbs' lines and the joints in a picture that was segmented into limbs. The middle line of each limb is
+/// that of its visible pixels (`FindMiddleLine`). Joint centres, from what anyone knows of bodies:
 /// - capsules end round: a joint lies half a width inside the end of the limb that covers the other one there. Which
 ///   one covers shows in their common border, whose ends bend back towards it. Hips, shoulders and the neck lie inside
 ///   the trunk: beyond the border, along the limb, by a share of the border's breadth that is the joint's own;
 /// - the limbs of people in clothes are cut across at their joints: a joint lies at that border or, of arms, near the
 ///   limb's inner end; a shoulder half an arm's width inside the arm, a hip above the crotch;
-/// - a tip lies about half a width inside the limb's outer end; the head's point some way below the crown.
-/// All these shares are *ours*: what each kind of figure shows at rest, from aside.
-/// A limb that is cut off, by another one or the picture's edge, ends where it is cut off; one of which neither both
-/// ends nor a quarter in a clearly long piece is seen is left out, and so is one that touches nothing known, because
-/// nothing tells which end is which. What these rules cost in exact joint centres: docs/annotator.md, by joint.
+/// - a tip lies about half a width inside the limb's outer end; the head's point some way below the crown. All these
+///   shares are *ours*: what each kind of figure shows at rest, from aside. A limb that is cut off, by another one or
+///   the picture's edge, ends where it is cut off; one of which neither both ends nor a quarter in a clearly long piece
+///   is seen is left out, and so is one that touches nothing known, because nothing tells which end is which. What
+///   these rules cost in exact joint centres: docs/annotator.md, by joint.
 PictureEvidence FindLimbEvidence(const LimbRegions& regions, const FigureLook& look = {});
 
 }  // namespace etude

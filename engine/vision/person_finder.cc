@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "engine/vision/change_detection.h"
 #include "engine/vision/components.h"
-#include "engine/vision/hsi.h"
 #include "engine/vision/hue_block.h"
 
 namespace etude {
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kPixelsAtOnce = 512;
 
-/// As `DetectChange` does: grey has the hue of pure red.
+/// Returns the chroma; grey has the hue of pure red, as in `DetectChange`.
 Chroma ChromaOrPureRed(Rgb8 colour) {
   constexpr int kPureRed = Chroma(Rgb8{255, 0, 0}).x;
   Chroma chroma(colour);

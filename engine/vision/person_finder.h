@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// The person among the pixels that changed: the pieces that `options` names, and their small holes.
+/// Finds the person among the pixels that changed: the pieces that `options` names, and their small holes.
 Mask PersonAmong(Mask changed, const PersonOptions& options);
 
 /// Cuts the person out of one camera's pictures, one after the other: what `ExtractPerson` does, pixel by pixel the
@@ -18,10 +18,10 @@ class PersonFinder {
   /// `background` is the empty room; not looked at by `kRunning`, but for its size.
   PersonFinder(const ColourImage& background, const PersonOptions& options);
 
-  /// The person in the next picture, of the background's size.
+  /// Finds the person in the next picture, which is of the background's size.
   Mask Find(const ColourImage& picture);
 
-  /// The pixels that changed, before the largest piece is kept: `DetectChange`.
+  /// Finds the pixels that changed, before the largest piece is kept (`DetectChange`).
   Mask Detect(const ColourImage& picture);
 
  private:

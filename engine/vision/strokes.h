@@ -11,8 +11,8 @@
 
 namespace etude {
 
-/// How one limb is marked in an annotation picture (paper B, section 4.2: one colour per limb): a stroke
-/// from `from` to `to`, in two shades (ours), so that the picture tells which end is which.
+/// The mark of one limb in an annotation picture (paper B, section 4.2: one colour per limb): a stroke from `from` to
+/// `to`, in two shades (ours), so that the picture tells which end is which.
 struct StrokeMark {
   Role from;
   Role to;
@@ -20,7 +20,7 @@ struct StrokeMark {
   Rgb8 second_half;
 };
 
-/// How the tip of a limb is marked: a disc.
+/// The mark of the tip of a limb: a disc.
 struct EffectorMark {
   Role role;
   Rgb8 colour;
@@ -29,17 +29,17 @@ struct EffectorMark {
 constexpr std::size_t kStrokeCount = 13;
 constexpr std::size_t kEffectorCount = 5;
 
-/// The limbs that paper B needs (section 3.2): legs and arms from the trunk outwards, and the neck (the
-/// hip and shoulder lines follow from the joints). No two colours of the palette are equal, none is black.
+/// Returns the strokes of the limbs that paper B needs (section 3.2): legs and arms from the trunk outwards, and the
+/// neck (the hip and shoulder lines follow from the joints). No two colours of the palette are equal, none is black.
 std::span<const StrokeMark, kStrokeCount> StrokeMarks();
-/// Left foot (the root), right foot, left hand, right hand, head.
+/// Returns the discs: left foot (the root), right foot, left hand, right hand, head.
 std::span<const EffectorMark, kEffectorCount> EffectorMarks();
 
 /// Pixels; marks are drawn on black with hard edges: strokes first, discs over them.
 constexpr double kStrokeWidth = 3;
 constexpr double kDiscRadius = 4;
 
-/// What an annotation picture says; nothing where a mark is missing or cannot be read any more.
+/// The marks of an annotation picture; nothing where a mark is missing or cannot be read any more.
 struct Marks {
   std::array<std::optional<PixelSegment>, kStrokeCount> strokes;  ///< from `from` to `to`
   std::array<std::optional<glm::dvec2>, kEffectorCount> effectors;

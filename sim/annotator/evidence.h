@@ -7,7 +7,6 @@
 #include "engine/base/image.h"
 #include "engine/vision/limb_evidence.h"
 #include "engine/vision/limb_regions.h"
-#include "engine/vision/near_person.h"
 #include "sim/body/shape.h"
 
 namespace etude {

@@ -7,8 +7,7 @@
 
 #include "bench/files/json.h"
 #include "bench/tasks/base/answer_fields.h"
-#include "engine/keypoints/landmarks.h"
-#include "engine/keypoints/marked_person.h"
+#include "engine/keypoints/people.h"
 
 namespace etude {
 namespace {

@@ -5,8 +5,8 @@
 #include "bench/recordings/capture_extras.h"
 #include "bench/tasks/capture/nearest_poses.h"
 #include "bench/tasks/capture/recovery.h"
-#include "engine/capture/agreeing_marks.h"
 #include "engine/capture/calibrate_cameras.h"
+#include "engine/capture/measure_frames.h"
 
 namespace etude {
 

@@ -7,7 +7,7 @@
 #include "bench/tasks/capture/crew.h"
 #include "bench/tasks/capture/silhouettes.h"
 #include "bench/tasks/capture/stages.h"
-#include "engine/capture/live_recovery.h"
+#include "engine/capture/recover_frames.h"
 
 namespace etude {
 

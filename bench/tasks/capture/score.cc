@@ -7,7 +7,7 @@
 #include "bench/metrics/share.h"
 #include "bench/tasks/capture/recording.h"
 #include "engine/base/digest.h"
-#include "engine/capture/take_body.h"
+#include "engine/capture/adjust_take.h"
 #include "engine/kinematics/limb_lengths.h"
 
 namespace etude {

@@ -8,8 +8,8 @@
 #include "engine/base/result.h"
 #include "engine/capture/recover_frames.h"
 #include "engine/kinematics/capture_body.h"
+#include "engine/silhouettes/moment_fitter.h"
 #include "engine/silhouettes/silhouette_follower.h"
-#include "engine/silhouettes/track_options.h"
 #include "sim/random/stream.h"
 
 namespace etude {

@@ -7,8 +7,8 @@
 #include "bench/metrics/measurement.h"
 #include "bench/tasks/capture/nearest_poses.h"
 #include "engine/base/digest.h"
-#include "engine/capture/agreeing_marks.h"
 #include "engine/capture/calibrate_cameras.h"
+#include "engine/capture/measure_frames.h"
 #include "engine/capture/synchronise.h"
 
 namespace etude {

@@ -2,10 +2,93 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace etude {
 namespace {
+
+constexpr Distortion kLens{.k1 = -0.28, .k2 = 0.09, .p1 = 0.0012, .p2 = -0.0021, .k3 = -0.01};
+
+// cv::projectPoints' documentation, written down once more.
+glm::dvec2 AsOpenCvSays(const Distortion& d, double x, double y) {
+  const double r2 = x * x + y * y;
+  const double radial = 1 + d.k1 * r2 + d.k2 * std::pow(r2, 2) + d.k3 * std::pow(r2, 3);
+  return {x * radial + 2 * d.p1 * x * y + d.p2 * (r2 + 2 * x * x),
+          y * radial + d.p1 * (r2 + 2 * y * y) + 2 * d.p2 * x * y};
+}
+
+TEST(Distortion, IsOpenCvsFormula) {
+  for (double x = -0.6; x < 0.61; x += 0.1) {
+    for (double y = -0.5; y < 0.51; y += 0.1) {
+      const glm::dvec2 expected = AsOpenCvSays(kLens, x, y), found = Distort(kLens, {x, y});
+      EXPECT_NEAR(found.x, expected.x, 1e-14);
+      EXPECT_NEAR(found.y, expected.y, 1e-14);
+    }
+  }
+  EXPECT_NE(Distort(kLens, {0.3, 0.2}), Distort({.k1 = -0.28, .k2 = 0.09, .p1 = -0.0021, .p2 = 0.0012}, {0.3, 0.2}));
+}
+
+TEST(Distortion, IsUndone) {
+  for (double x = -0.6; x < 0.61; x += 0.05) {
+    for (double y = -0.5; y < 0.51; y += 0.05) {
+      const auto back = Undistort(kLens, Distort(kLens, {x, y}));
+      ASSERT_TRUE(back);
+      EXPECT_NEAR(back->x, x, 1e-11);
+      EXPECT_NEAR(back->y, y, 1e-11);
+    }
+  }
+}
+
+// r' = r + k r³ has a root in closed form (Cardano): on an axis, without tangential terms.
+TEST(Distortion, IsUndoneByTheCubicsOwnRoot) {
+  for (const double k1 : {0.2, 0.5}) {
+    for (const double seen : {0.1, 0.4, 0.7}) {
+      const double p = 1 / k1, q = -seen / k1;
+      const double root = std::sqrt(q * q / 4 + p * p * p / 27);
+      const double exact = std::cbrt(-q / 2 + root) + std::cbrt(-q / 2 - root);
+      EXPECT_NEAR(Undistort({.k1 = k1}, {seen, 0})->x, exact, 1e-12);
+      EXPECT_NEAR(Undistort({.k1 = k1}, {0, -seen})->y, -exact, 1e-12);
+    }
+  }
+}
+
+TEST(Distortion, HasNoInverseBeyondItsFold) {
+  // r + k r³ with k = −0.3 is largest at r = 1.054, where it is 0.7027.
+  EXPECT_TRUE(Undistort({.k1 = -0.3}, {0.70, 0}));
+  EXPECT_FALSE(Undistort({.k1 = -0.3}, {0.71, 0}));
+  EXPECT_FALSE(Undistort({.k1 = -0.3}, {NAN, 0}));
+}
+
+TEST(Distortion, OfNothingLeavesEveryBit) {
+  EXPECT_EQ(Distort({}, {0.1234567, -0.7654321}), glm::dvec2(0.1234567, -0.7654321));
+  EXPECT_EQ(*Undistort({}, {0.1234567, -0.7654321}), glm::dvec2(0.1234567, -0.7654321));
+}
+
+TEST(Distortion, OfACameraMovesItsPixels) {
+  Camera camera = LookAt({.fx = 610, .fy = 590, .cx = 318, .cy = 243, .skew = 2}, {1, 1.5, 3}, {0, 1, 0});
+  const glm::dvec3 point(0.6, 1.7, -0.2);
+  EXPECT_EQ(*Project(camera, point), *Project(MatrixOf(camera), point)) << "a pinhole, to the last bit";
+  camera.distortion = kLens;
+  const glm::dvec2 straight = *Project(MatrixOf(camera), point), seen = *Project(camera, point);
+  EXPECT_GT(glm::length(straight - seen), 2);
+  // Through the camera's own frame: K (distorted ray).
+  const glm::dvec3 ray = camera.R_CW * (point - camera.p_WC);
+  const glm::dvec2 bent = AsOpenCvSays(kLens, ray.x / ray.z, ray.y / ray.z);
+  EXPECT_NEAR(seen.x, 610 * bent.x + 2 * bent.y + 318, 1e-9);
+  EXPECT_NEAR(seen.y, 590 * bent.y + 243, 1e-9);
+  const glm::dvec2 back = *UndistortPixel(camera, seen);
+  EXPECT_NEAR(back.x, straight.x, 1e-8);
+  EXPECT_NEAR(back.y, straight.y, 1e-8);
+}
+
+TEST(Distortion, HidesWhatALensWouldFoldBackIntoThePicture) {
+  Camera camera = LookAt({}, {0, 1, 4}, {0, 1, 0});
+  camera.distortion = {.k1 = -0.3};
+  EXPECT_TRUE(Project(camera, {2, 1, 0}));
+  EXPECT_FALSE(Project(camera, {7, 1, 0})) << "60 degrees aside: the model turns back at 46";
+  EXPECT_TRUE(Project(MatrixOf(camera), {7, 1, 0}));
+}
 
 TEST(Camera, ShowsItsTargetAtThePrincipalPoint) {
   const Camera camera = LookAt({}, {3, 1.4, 2}, {0.2, 0.9, -0.1});

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "engine/cameras/opencv_file.h"
-#include "engine/cameras/qualisys_file.h"
 
 namespace etude {
 namespace {

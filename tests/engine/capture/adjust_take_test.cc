@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/capture/measure_lengths.h"
 #include "tests/engine/capture/marked_body.h"
 
 namespace etude {

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "engine/cameras/limb_direction.h"
-#include "engine/capture/agreeing_marks.h"
 #include "engine/kinematics/limb_lengths.h"
 #include "tests/engine/capture/marked_body.h"
 
@@ -179,8 +178,8 @@ TEST(MeasureFrames, UsesNoStrokeThatIsTooShortAndNoPlanesThatAreTooNear) {
   const std::size_t knee = Index(Role::kLeftKnee);
   EXPECT_TRUE(MeasureFrame(cameras, marks, {.shortest_stroke_px = shortest}).directions[knee]);
   EXPECT_FALSE(MeasureFrame(cameras, marks, {.shortest_stroke_px = shortest + 1e-9}).directions[knee]);
-  const double angle =
-      ComputeLimbDirection(cameras[0], *marks[0][0].strokes[i], cameras[1], *marks[1][0].strokes[i]).plane_angle;
+  const LimbSighting two[] = {{cameras[0], *marks[0][0].strokes[i]}, {cameras[1], *marks[1][0].strokes[i]}};
+  const double angle = ComputeLimbDirection(two).plane_angle;
   EXPECT_TRUE(MeasureFrame(cameras, marks, {.smallest_plane_angle = angle}).directions[knee]);
   EXPECT_FALSE(MeasureFrame(cameras, marks, {.smallest_plane_angle = angle + 1e-9}).directions[knee]);
 }

@@ -1,11 +1,10 @@
-#include "engine/keypoints/fit_person.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "engine/base/angles.h"
+#include "engine/keypoints/recover_person.h"
 #include "tests/engine/keypoints/walkers.h"
 
 namespace etude {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/keypoints/agreement.h"
-#include "engine/keypoints/marked_person.h"
+#include "engine/keypoints/people.h"
 
 namespace etude {
 namespace {

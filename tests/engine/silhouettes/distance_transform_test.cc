@@ -1,5 +1,3 @@
-#include "engine/silhouettes/distance_transform.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>

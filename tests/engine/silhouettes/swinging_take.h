@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "engine/silhouettes/fit_silhouettes.h"
+#include "engine/silhouettes/moment_fitter.h"
 #include "engine/silhouettes/silhouette.h"
-#include "engine/silhouettes/track_options.h"
 #include "engine/silhouettes/turns.h"
 #include "tests/engine/silhouettes/capsule_picture.h"
 

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-#include "engine/silhouettes/turned_round.h"
+#include "engine/silhouettes/fit_joints.h"
 #include "tests/engine/silhouettes/swinging_take.h"
 
 namespace etude {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "engine/silhouettes/turns.h"
-#include "engine/unmarked/adult_body.h"
 #include "tests/engine/silhouettes/capsule_picture.h"
 
 namespace etude {

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/vision/hsi.h"
-
 namespace etude {
 namespace {
 

@@ -1,10 +1,9 @@
-#include "engine/vision/hsi.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "engine/base/angles.h"
+#include "engine/vision/change_detection.h"
 
 namespace etude {
 namespace {

@@ -7,8 +7,8 @@
 #include <cstdint>
 
 #include "engine/base/angles.h"
+#include "engine/vision/change_detection.h"
 #include "engine/vision/components.h"
-#include "engine/vision/hsi.h"
 #include "sim/random/stream.h"
 
 namespace etude {

@@ -3,7 +3,6 @@
 #include "engine/cameras/opencv_file.h"
 #include "engine/cameras/pairs_file.h"
 #include "engine/cameras/pose2sim_file.h"
-#include "engine/cameras/qualisys_file.h"
 #include "engine/cameras/rig_file.h"
 #include "tests/fuzz/readers/target.h"
 

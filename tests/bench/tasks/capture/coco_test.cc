@@ -7,7 +7,7 @@
 #include "bench/files/files.h"
 #include "bench/files/temporary_folder.h"
 #include "bench/keypoints/read_people.h"
-#include "engine/keypoints/marked_person.h"
+#include "engine/keypoints/people.h"
 
 namespace etude {
 namespace {

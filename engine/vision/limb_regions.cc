@@ -1,4 +1,4 @@
-#include "engine/vision/middle_line.h"
+#include "engine/vision/limb_regions.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "engine/capture/board_views.h"
+#include "engine/boards/board_views.h"
 
 #include <gtest/gtest.h>
 
@@ -57,11 +57,15 @@ TEST(BoardViews, PicturesOfBoardsGiveTwoCamerasBack) {
   BoardViews views({kBoard});
   for (std::size_t moment = 0; moment < std::size(boards); ++moment) {
     for (std::size_t c = 0; c < 2; ++c) {
-      EXPECT_GT(views.Add(c, moment, Photograph(cameras[c], boards[moment])), 10u) << moment << ", " << c;
+      const auto corners = views.Add(c, std::to_string(moment), Photograph(cameras[c], boards[moment]));
+      ASSERT_TRUE(corners) << ToString(corners.error());
+      EXPECT_GT(*corners, 10u) << moment << ", " << c;
     }
   }
-  EXPECT_EQ(views.Add(0, 99, ColourImage(640, 480, {90, 90, 90})), 0u) << "nothing in an empty picture";
-  auto rig = CalibrateFromPlanes(std::vector<PictureSize>(2, {640, 480}), views.views());
+  EXPECT_EQ(*views.Add(0, "empty", ColourImage(640, 480, {90, 90, 90})), 0u) << "nothing in an empty picture";
+  const auto other_size = views.Add(0, "small", ColourImage(320, 240, {90, 90, 90}));
+  EXPECT_EQ(other_size.error().message, "320 x 240 pixels, the pictures before it 640 x 480");
+  auto rig = CalibrateFromPlanes(views.sizes(), views.views());
   ASSERT_TRUE(rig) << ToString(rig.error());
   EXPECT_LT(rig->rms_px, 0.15);
   TurnToStance(BoardStance::kOnWall, rig->cameras);

@@ -1,10 +1,8 @@
-#include "bench/calibration/samples.h"
+#include "bench/calibration/verdict_rates.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "bench/calibration/verdict_rates.h"
 
 namespace etude {
 namespace {

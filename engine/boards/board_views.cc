@@ -1,8 +1,15 @@
-#include "engine/capture/board_views.h"
+#include "engine/boards/board_views.h"
 
 namespace etude {
 
-std::size_t BoardViews::Add(std::size_t camera, std::size_t moment, const ColourImage& picture) {
+Result<std::size_t> BoardViews::Add(std::size_t camera, const std::string& moment, const ColourImage& picture) {
+  if (camera >= sizes_.size()) sizes_.resize(camera + 1);
+  PictureSize& size = sizes_[camera];
+  if (size.width == 0) size = {picture.width, picture.height};
+  if (size.width != picture.width || size.height != picture.height) {
+    return Fail({}, "{} x {} pixels, the pictures before it {} x {}", picture.width, picture.height, size.width,
+                size.height);
+  }
   const std::vector<SeenCorner> corners = FindBoards(picture, boards_);
   std::map<std::size_t, TargetView> by_board;
   for (const SeenCorner& corner : corners) {

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/boards/board.h"
+#include "engine/boards/find_boards.h"
+#include "engine/cameras/planes.h"
+#include "engine/cameras/refine.h"
+
+namespace etude {
+
+/// Looks for boards in the pictures of a rig's cameras and collects what they show for `CalibrateFromPlanes`. A board
+/// at one moment is a target of its own: it may be carried about between pictures, but pictures of one moment show it
+/// at one place.
+class BoardViews {
+ public:
+  explicit BoardViews(std::vector<Board> boards) : boards_(std::move(boards)) {}
+
+  /// Adds a picture of the camera of that number, counted from 0. Fails when its size is not that of the camera's
+  /// pictures before it.
+  /// @param moment names when it was taken: pictures of the same moment show boards at the same places
+  /// @return how many corners it shows
+  Result<std::size_t> Add(std::size_t camera, const std::string& moment, const ColourImage& picture);
+
+  const std::vector<TargetView>& views() const { return views_; }
+  /// The sizes of the cameras' pictures, by camera.
+  const std::vector<PictureSize>& sizes() const { return sizes_; }
+
+ private:
+  const std::vector<Board> boards_;
+  std::map<std::pair<std::string, std::size_t>, std::size_t> targets_;  ///< of moment and board
+  std::vector<TargetView> views_;
+  std::vector<PictureSize> sizes_;
+};
+
+/// The pose of the first board in the world that the rig's cameras are given in.
+enum class BoardStance {
+  kOnFloor,  ///< its front up: X along its rows to the right, Z down its columns, Y up
+  kOnWall,   ///< upright: X to the right, Y up its columns, Z out of its front
+};
+
+/// Expresses the cameras in a world with Y up, its origin at the top left corner of the first board's first square.
+void TurnToStance(BoardStance stance, std::span<Camera> cameras);
+
+}  // namespace etude
