@@ -92,6 +92,7 @@ function(etude_tests)
   endif()
   add_executable(${target} ${sources})
   etude_test_options(${target})
+  set_target_properties(${target} PROPERTIES BUILD_RPATH "${CMAKE_BINARY_DIR}")  # where modules are
   if(ETUDE_HAS_GOLD AND NOT ETUDE_SANITIZE)
     target_link_options(${target} PRIVATE -fuse-ld=gold)
   endif()

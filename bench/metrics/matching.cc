@@ -1,6 +1,6 @@
 #include "bench/metrics/matching.h"
 
-#include "bench/metrics/share.h"
+#include "bench/statistics/curves/curves.h"
 
 namespace etude {
 

@@ -3,7 +3,7 @@
 #include <cassert>
 #include <numeric>
 
-#include "bench/metrics/share.h"
+#include "bench/statistics/curves/curves.h"
 
 namespace etude {
 

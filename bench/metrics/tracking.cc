@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "bench/metrics/percentile.h"
-#include "bench/metrics/share.h"
+#include "bench/statistics/curves/curves.h"
 
 namespace etude {
 namespace {

@@ -31,7 +31,8 @@ std::string BuildIdIn(std::span<const unsigned char> notes) {
 
 int AddLibrary(dl_phdr_info* object, std::size_t, void* list) {
   const std::string name = std::filesystem::path(object->dlpi_name).filename().string();
-  if (name.empty() || name.starts_with("linux-vdso")) return 0;  // the program itself; the kernel's part of it
+  // The program itself and its modules; the kernel's part of it.
+  if (name.empty() || name.starts_with("etude_") || name.starts_with("linux-vdso")) return 0;
   std::string build;
   for (const ElfW(Phdr) & part : std::span(object->dlpi_phdr, object->dlpi_phnum)) {
     if (part.p_type != PT_NOTE || !build.empty()) continue;

@@ -8,7 +8,7 @@
 namespace etude {
 
 /// The settings under which the same build gives the same bytes on any machine, as NAME=VALUE. They must stand before a
-/// process starts, which is why every command but those that draw for people starts itself anew (cli/main.cc).
+/// process starts, which is why commands that compute start themselves anew (cli/main.cc).
 const std::vector<std::string>& PinnedEnvironment();
 
 /// The names of what may come from outside: where programs, homes and temporary files are, who asks, the terminal, and

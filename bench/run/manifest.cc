@@ -15,6 +15,7 @@
 #include "bench/results/folder.h"
 #include "bench/tasks/base/sensor_key.h"
 #include "bench/tasks/registry.h"
+#include "bench/training/genetic_search.h"
 #include "engine/base/digest.h"
 #include "sim/render/renderer.h"
 
@@ -82,9 +83,11 @@ std::string DigestOf(const std::vector<std::string>& texts) {
   return digest.Hex();
 }
 
-/// Of the libraries of a process that draws, renderer and codecs among them, by their build IDs.
+/// The digest of all libraries that a worker may load, by their build IDs: those of the program, renderer and codecs, and
+/// of the genetic search.
 std::string DigestOfLibraries() {
-  static_cast<void>(LoadRenderer());  // where there is none, the digest tells that
+  static_cast<void>(LoadRenderer());  // where one is missing, the digest tells that
+  static_cast<void>(LoadGeneticSearch());
   std::vector<std::string> texts;
   for (const auto& [name, build] : LoadedLibraries()) texts.push_back(name + " " + build);
   return DigestOf(texts);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bench/metrics/detection.h"
+#include "bench/statistics/curves/curves.h"
 #include "bench/training/genetic_weights.h"
 #include "bench/training/membership_genes.h"
 #include "bench/training/training_pairs.h"

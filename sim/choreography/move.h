@@ -42,9 +42,14 @@ std::vector<std::string> BuiltinActNames();
 /// The built-in move or act of that name, or a move's slow demonstration, "slow_clap" (slow_demonstration.h); the error
 /// lists the known ones.
 Result<Move> LoadBuiltinMove(const std::string& name);
+/// The same without its `motion`, which takes longer to make than all else: for those who need the curves alone. Knows no
+/// slow demonstrations.
+Result<Move> LoadBuiltinCurves(const std::string& name);
 /// The move danced to music of another tempo: the same beats, while flights take as long as gravity has them. Fails at
 /// `place` when they do not fit into the beats any more. `move` has poses.
 Result<Move> AtTempo(const Move& move, double tempo_bpm, const Place& place);
+/// The same without its `motion`.
+Result<Move> CurvesAtTempo(const Move& move, double tempo_bpm, const Place& place);
 /// One performance, sampled at 30 Hz: what `Move::motion` holds.
 BodyMotion MotionOf(const Move& move);
 /// Reads one move or act from the text of a choreography file.

@@ -83,7 +83,7 @@ MAY_INCLUDE = {
     "bench/gate": "engine/base sim/random bench/files bench/metrics bench/model bench/statistics",
     "bench/keys": "engine/base engine/document bench/files",
     "bench/keypoints": "engine/base engine/keypoints engine/vision sim/sensors bench/files",
-    "bench/metrics": "engine/base engine/cameras engine/kinematics engine/motion bench/files",
+    "bench/metrics": "engine/base engine/cameras engine/kinematics engine/motion bench/files bench/statistics/curves",
     "bench/micro":
         "engine/base engine/cameras engine/formats engine/fuzzy engine/kinematics engine/kinematics/solvers engine/motion "
         "engine/recognition engine/transitions/choices engine/transitions/search engine/vision sim/annotator "
@@ -97,7 +97,7 @@ MAY_INCLUDE = {
     "bench/results": "engine/base bench/files bench/metrics bench/model",
     "bench/run":
         "engine/base sim/render bench/files bench/model bench/metrics bench/outside bench/process bench/results bench/scenario "
-        "bench/statistics bench/streams bench/tasks bench/tasks/base",
+        "bench/statistics bench/streams bench/tasks bench/tasks/base bench/training",
     "bench/scenario":
         "engine/base engine/document engine/streams bench/files bench/keys bench/metrics bench/model bench/tasks "
         "bench/tasks/base",
@@ -105,6 +105,7 @@ MAY_INCLUDE = {
     "bench/sensor_fit":
         "engine/base engine/document engine/formats engine/recognition sim/random sim/skeleton_sensor",
     "bench/statistics": "engine/base sim/random bench/metrics bench/model",
+    "bench/statistics/curves": "",
     "bench/streams":
         "engine/base engine/recognition engine/streams engine/teaching bench/clips bench/files bench/metrics",
     "bench/tasks":
@@ -116,10 +117,10 @@ MAY_INCLUDE = {
     "bench/tasks/capture":
         "engine/base engine/boards engine/cameras engine/capture engine/formats engine/keypoints engine/kinematics engine/motion "
         "engine/silhouettes engine/vision sim/annotator sim/body sim/camera sim/character sim/depth_camera sim/random sim/render sim/rig "
-        "sim/sensors sim/stage bench/clips bench/files bench/keys bench/metrics bench/model bench/recordings bench/tasks/base",
+        "sim/sensors sim/stage bench/clips bench/files bench/keys bench/metrics bench/model bench/recordings bench/statistics/curves bench/tasks/base",
     "bench/tasks/coach":
         "engine/base engine/coaching engine/motion engine/recognition "
-        "sim/choreography sim/music sim/performer sim/random sim/skeleton_sensor bench/keys bench/metrics bench/model "
+        "sim/choreography sim/music sim/performer sim/random sim/skeleton_sensor bench/keys bench/metrics bench/model bench/statistics/curves "
         "bench/tasks/base bench/tasks/detection bench/tasks/sensing bench/tasks/transition",
     "bench/tasks/detection":
         "engine/base engine/formats engine/motion engine/recognition engine/teaching sim/choreography sim/performer "
@@ -130,7 +131,7 @@ MAY_INCLUDE = {
         "bench/tasks/base",
     "bench/tasks/pose_distance":
         "engine/base engine/fuzzy engine/transitions/base engine/transitions/choices engine/transitions/library "
-        "sim/choreography sim/random bench/clips bench/keys bench/metrics bench/tasks/base bench/training",
+        "sim/choreography sim/random bench/clips bench/keys bench/metrics bench/statistics/curves bench/tasks/base bench/training",
     "bench/tasks/search":
         "engine/base engine/fuzzy engine/transitions/search sim/choreography sim/random bench/clips bench/keys "
         "bench/metrics bench/tasks/base",
@@ -146,7 +147,8 @@ MAY_INCLUDE = {
         "sim/random bench/clips bench/keys bench/metrics bench/tasks/base bench/training",
     "bench/training":
         "engine/base engine/fuzzy engine/transitions/base engine/transitions/library sim/choreography sim/random "
-        "bench/metrics",
+        "bench/metrics bench/statistics/curves",
+    "bench/training/pagmo": "bench/training",
     # reports/
     "reports":
         "engine/base bench/files bench/gate bench/model bench/real_takes bench/recordings reports/assets reports/films reports/growth "
@@ -165,7 +167,7 @@ MAY_INCLUDE = {
         "sim/render sim/sensors sim/stage bench/files bench/films bench/metrics bench/model bench/recordings reports/plots reports/transitions reports/words",
     "reports/growth": "bench/model reports/paper reports/words",
     "reports/paper": "engine/fuzzy engine/kinematics bench/model reports/plots reports/words",
-    "reports/plots": "bench/model bench/statistics reports/words",
+    "reports/plots": "bench/model bench/statistics bench/statistics/curves reports/words",
     "reports/sensors": "engine/base bench/model reports/films",
     "reports/transitions": "engine/base engine/fuzzy bench/files bench/model reports/words",
     "reports/words": "bench/metrics bench/model",
