@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/base/result.h"
@@ -22,5 +23,9 @@ std::vector<std::string> ClosedEnvironment();
 /// Starts this very command anew in the closed environment, unless it is in there already. Returns only when it is, or
 /// when that fails.
 Result<void> EnterPinnedEnvironment();
+
+/// The shared libraries that are loaded now, sorted by name: "libOSMesa.so.8" and its build ID in hexadecimal, which
+/// tells any two builds of it apart ("" where it has none).
+std::vector<std::pair<std::string, std::string>> LoadedLibraries();
 
 }  // namespace etude

@@ -10,7 +10,6 @@
 
 #include "bench/files/files.h"
 #include "bench/metrics/catalogue.h"
-#include "bench/process/loaded_libraries.h"
 #include "bench/process/pinned_environment.h"
 #include "bench/results/folder.h"
 #include "bench/tasks/base/sensor_key.h"
@@ -47,7 +46,7 @@ Json DescribeClips(const ClipLibrary& library) {
   return clips;
 }
 
-/// Whether a task of another kind sees by the cameras of the capture task.
+/// True if a task of another kind sees by the cameras of the capture task.
 bool IsFilmed(const Scenario& scenario) {
   return std::ranges::any_of(scenario.conditions, [](const Condition& condition) {
     const Node* sensor = condition.node.Find(kSensorKey);
@@ -55,7 +54,7 @@ bool IsFilmed(const Scenario& scenario) {
   });
 }
 
-/// Of the clips, then of the recordings of people.
+/// Describes the clips, then the recordings of people.
 Json DescribeMotions(const PreparedScenario& scenario) {
   Json motions = DescribeClips(scenario.clips());
   if (scenario.setup().streams.empty()) return motions;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/metrics/action_points.h"
+#include "bench/metrics/detection.h"
 #include "bench/streams/teach.h"
 #include "bench/streams/watch.h"
 

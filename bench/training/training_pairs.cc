@@ -1,6 +1,6 @@
 #include "bench/training/training_pairs.h"
 
-#include "bench/metrics/pose_distance.h"
+#include "bench/metrics/matching.h"
 #include "engine/transitions/base/alignment.h"
 
 namespace etude {

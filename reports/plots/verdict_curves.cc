@@ -156,7 +156,7 @@ void AddMethod(const ScenarioSummary& scenario, std::size_t method, const Method
     told += fmt::format("{:.3f} [{:.3f}, {:.3f}]", area->value, area->low, area->high);
     curves.words += fmt::format("{}: area {:.3f}. ", name, area->value);
   }
-  if (const auto at = OperatingPoint(events)) {
+  if (const auto at = OperatedAt(events)) {
     curves.operated[method] = *at;
     told += fmt::format("; praises {:.0f} % of the right and {:.0f} % of the wrong; best F1 of any threshold {:.2f}",
                         100 * at->second, 100 * at->first, *BestF1(events));

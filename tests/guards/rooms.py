@@ -186,6 +186,7 @@ NEVER_INCLUDES = [
     ("bench/model", "bench/metrics bench/results bench/statistics bench/gate bench/recordings reports"),
     ("bench/model bench/recordings bench/results bench/statistics bench/metrics bench/gate reports", TASKS),
     ("bench/model bench/recordings bench/results bench/statistics bench/metrics bench/gate", MATERIAL),
+    ("bench/statistics", "engine/motion engine/cameras engine/kinematics"),
     ("reports/words reports/growth reports/transitions reports/paper", "bench/clips engine/retargeting sim"),
     ("reports/films", "bench/clips"),
 ]

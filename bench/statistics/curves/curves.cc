@@ -97,7 +97,7 @@ std::vector<std::pair<double, double>> RocCurve(std::span<const JudgedEvent> eve
   return curve;
 }
 
-std::optional<std::pair<double, double>> OperatingPoint(std::span<const JudgedEvent> events) {
+std::optional<std::pair<double, double>> OperatedAt(std::span<const JudgedEvent> events) {
   const Confusion confusion = CountConfusion(events);
   const auto wrong = Share(confusion.false_positives, confusion.false_positives + confusion.true_negatives);
   const auto right = Recall(confusion);

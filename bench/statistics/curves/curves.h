@@ -51,7 +51,7 @@ std::optional<double> ThresholdAtRecall(std::span<const JudgedEvent> events, dou
 std::vector<std::pair<double, double>> RocCurve(std::span<const JudgedEvent> events);
 
 /// The point of the ROC at which the events were called. Empty without a right or a wrong one.
-std::optional<std::pair<double, double>> OperatingPoint(std::span<const JudgedEvent> events);
+std::optional<std::pair<double, double>> OperatedAt(std::span<const JudgedEvent> events);
 
 /// The largest F1 that any threshold on the scores reaches: what the scores are worth, whatever threshold was set. Empty
 /// without a right or a wrong event.

@@ -103,11 +103,11 @@ TEST(RocCurve, GoesThroughItsPointsEqualScoresInOneStep) {
   EXPECT_TRUE(RocCurve({}).empty());
 }
 
-TEST(OperatingPoint, IsAPointOfTheCurveWhereVerdictsFollowScores) {
+TEST(OperatedAt, IsAPointOfTheCurveWhereVerdictsFollowScores) {
   std::vector<JudgedEvent> all = {Right(0.9), Wrong(0.7), Right(0.7), Wrong(0.1)};
   for (JudgedEvent& one : all) one.called_right = one.score >= 0.8;
-  EXPECT_EQ(*OperatingPoint(all), (std::pair{0.0, 0.5}));
-  EXPECT_FALSE(OperatingPoint(std::vector{Right(0.5)}));
+  EXPECT_EQ(*OperatedAt(all), (std::pair{0.0, 0.5}));
+  EXPECT_FALSE(OperatedAt(std::vector{Right(0.5)}));
   // From 0.7 on: two hits and one false, 2·2 / (2·2 + 1).
   EXPECT_DOUBLE_EQ(*BestF1(all), 0.8);
   EXPECT_FALSE(BestF1(std::vector{Right(0.5)}));
