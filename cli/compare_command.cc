@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bench/finished_runs/load.h"
+#include "bench/finished_runs/finished_runs.h"
 #include "bench/gate/comparison.h"
 #include "cli/commands.h"
 #include "cli/move_table.h"

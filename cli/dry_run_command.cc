@@ -5,7 +5,7 @@
 #include "bench/run/dry_run.h"
 #include "bench/statistics/beyond.h"
 #include "bench/statistics/bootstrap.h"
-#include "bench/statistics/power.h"
+#include "bench/statistics/distributions.h"
 #include "cli/commands.h"
 
 namespace etude {

@@ -3,8 +3,7 @@
 #include <filesystem>
 
 #include "bench/files/files.h"
-#include "bench/finished_runs/in_process_run.h"
-#include "bench/finished_runs/load.h"
+#include "bench/finished_runs/finished_runs.h"
 #include "bench/gate/baseline_file.h"
 #include "bench/gate/gate.h"
 #include "bench/gate/self_test.h"

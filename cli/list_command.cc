@@ -38,10 +38,10 @@ int ListClips() {
   }
   fmt::print("Songs (builtin:songs):\n");
   for (const std::string& name : BuiltinSongNames()) {
-    const auto song = LoadBuiltinSong(name);
+    const auto song = LoadBuiltinSongOutline(name);
     if (!song) return Complain(song.error());
     fmt::print("  builtin:{:<14} {} moves at {:g} per minute, {:.0f} s\n", name, song->parts.size(), song->tempo_bpm,
-               song->motion.DurationSeconds());
+               static_cast<double>(song->CountFrames()) / kJudgedRateHz);
   }
   fmt::print("Your own: BVH, glTF and DeepMimic files, 'dance.glb#Jump', patterns such as '~/mocap/*.bvh' (docs/clips.md).\n");
   return kSuccess;

@@ -71,9 +71,10 @@ int ComplainOfArguments(const CLI::App& app, const CLI::ParseError& error) {
   return Complain(Error{{}, fmt::format("{} (etude {}--help explains)", message, words)});
 }
 
-/// Pages, sheets and films are drawn as fast as this machine can; all else must come out the same on any.
-bool DrawsForPeople(const CLI::App& app) {
-  if (app.got_subcommand("report")) return true;
+/// Whether the command computes nothing that must come out the same on any machine: it prints what is known or written,
+/// or draws pages, sheets and films, as fast as this machine can.
+bool RunsUnpinned(const CLI::App& app) {
+  if (app.got_subcommand("list") || app.got_subcommand("rows") || app.got_subcommand("report")) return true;
   return app.got_subcommand("clip") && app.get_subcommand("clip")->got_subcommand("render");
 }
 
@@ -102,7 +103,7 @@ int Main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return ComplainOfArguments(app, error);
   }
-  if (!DrawsForPeople(app)) {
+  if (!RunsUnpinned(app)) {
     if (auto pinned = EnterPinnedEnvironment(); !pinned) return Complain(pinned.error());
   }
   EndWhenInterrupted();

@@ -145,6 +145,7 @@ Result<void> CheckOptions(const TrainOptions& options) {
     return Fail({"--memberships", 0, 0}, "the method '{}' learns weights only; allowed with: --method genetic",
                 options.method);
   }
+  if (options.method == "genetic") RETURN_IF_ERROR(LoadGeneticSearch());
   return CheckOutput(options.output, options.overwrite);
 }
 

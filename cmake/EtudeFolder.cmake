@@ -121,6 +121,7 @@ function(etude_test_program NAME)
 
   add_executable(${program} ${sources})
   etude_unity(${program})
+  set_target_properties(${program} PROPERTIES BUILD_RPATH "${CMAKE_BINARY_DIR}")  # where modules are
   if(ETUDE_HAS_GOLD AND NOT ETUDE_SANITIZE)
     target_link_options(${program} PRIVATE -fuse-ld=gold)
   endif()

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "bench/statistics/distributions.h"
-#include "bench/statistics/proportion.h"
+#include "bench/statistics/interval.h"
 
 namespace etude {
 namespace {

@@ -7,7 +7,6 @@
 #include "bench/files/save_json.h"
 #include "bench/process/clock.h"
 #include "bench/run/cell_runner.h"
-#include "bench/run/finish.h"
 #include "bench/run/manifest.h"
 #include "bench/run/run_folder.h"
 #include "bench/run/suite.h"

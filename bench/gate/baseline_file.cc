@@ -1,10 +1,15 @@
 #include "bench/gate/baseline_file.h"
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "bench/files/files.h"
 #include "bench/files/json.h"
+#include "bench/gate/placed_json.h"
+#include "bench/metrics/catalogue.h"
+#include "engine/base/names.h"
 
 namespace etude {
 namespace {
@@ -52,6 +57,201 @@ class Lines {
   std::optional<Error> error_;
 };
 
+constexpr std::string_view kLetters = "oufbs";   // no baseline is made where the machine ended a cell
+constexpr std::string_view kAnswers = "ou";      // a method gave an answer, right or not
+constexpr std::int64_t kMostTrials = 1'000'000;  // as a scenario may ask for
+constexpr std::int64_t kMostVersions = 1'000'000;
+
+/// The cells that a line can be about, by "scenario, condition, method".
+struct Slot {
+  std::size_t trials = 0;
+  SnapshotCells* cells = nullptr;
+};
+using Slots = std::map<std::string, Slot>;
+
+class BaselineReader {
+ public:
+  BaselineReader(std::string file, JsonPlaces places) : file_(std::move(file)), places_(std::move(places)) {}
+
+  Result<Snapshot> Read(const Json& json) {
+    ASSIGN_OR_RETURN(const auto head, JsonObject::Of(json, PlaceOf("", 0), "a baseline",
+                                                     {"schema", "etude", "suite", "scenarios", "statuses", "values"}));
+    ASSIGN_OR_RETURN(const auto schema, head.Whole("schema", 0, kMostVersions));
+    if (schema != kBaselineSchema) return Fail(head.place(), "schema {}; allowed: {}", schema, kBaselineSchema);
+    ASSIGN_OR_RETURN(snapshot_.suite, head.Text("suite"));
+    ASSIGN_OR_RETURN(snapshot_.program_version, head.Text("etude"));
+    RETURN_IF_ERROR(ForEach(head, "scenarios",
+                            [this](const Json& entry, const Place& place) { return ReadScenario(entry, place); }));
+    if (snapshot_.scenarios.empty()) return Fail(head.place(), "holds no scenario; allowed: one or more");
+    RETURN_IF_ERROR(CountLines(head));
+    MakeSlots();
+    RETURN_IF_ERROR(ForEach(head, "statuses",
+                            [this](const Json& entry, const Place& place) { return ReadStatuses(entry, place); }));
+    RETURN_IF_ERROR(
+        ForEach(head, "values", [this](const Json& entry, const Place& place) { return ReadValues(entry, place); }));
+    const auto has_answer = [](const auto& slot) {
+      return slot.second.cells->statuses.find_first_of(kAnswers) != std::string::npos;
+    };
+    if (std::ranges::any_of(slots_, has_answer)) return std::move(snapshot_);
+    return Fail(head.place(), "no cell has an answer (a letter of '{}'): nothing could be worse", kAnswers);
+  }
+
+ private:
+  Place PlaceOf(const std::string& list, std::size_t entry) const {
+    const auto found = places_.lines.find(list);
+    const bool known = found != places_.lines.end() && entry < found->second.size();
+    return {file_, known ? found->second[entry] : 0, 0};
+  }
+
+  Result<void> ForEach(const JsonObject& head, const std::string& list,
+                       const std::function<Result<void>(const Json&, const Place&)>& read) const {
+    ASSIGN_OR_RETURN(const Json* entries, head.List(list));
+    for (std::size_t i = 0; i < entries->size(); ++i) {
+      RETURN_IF_ERROR(read((*entries)[i], PlaceOf(list, i)));
+    }
+    return {};
+  }
+
+  Result<void> ReadScenario(const Json& entry, const Place& place) {
+    ASSIGN_OR_RETURN(const auto line, JsonObject::Of(entry, place, "a scenario",
+                                                     {"scenario", "seed", "trials", "metrics", "worlds", "methods"}));
+    SnapshotScenario scenario;
+    ASSIGN_OR_RETURN(scenario.name, line.Text("scenario"));
+    for (const SnapshotScenario& other : snapshot_.scenarios) {
+      if (other.name == scenario.name) return Fail(place, "two scenarios {}; allowed: one", Quote(scenario.name));
+    }
+    ASSIGN_OR_RETURN(scenario.seed, line.Unsigned("seed"));
+    ASSIGN_OR_RETURN(const auto trials, line.Whole("trials", 1, kMostTrials));
+    scenario.trials = static_cast<int>(trials);
+    const auto read_digests = [&](std::string_view key, NamedDigests& digests) {
+      return line.Each(key, [&](const std::string& name, const JsonObject& inner) -> Result<void> {
+        ASSIGN_OR_RETURN(auto digest, inner.Text(name));
+        digests.emplace_back(name, std::move(digest));
+        return {};
+      });
+    };
+    RETURN_IF_ERROR(read_digests("worlds", scenario.worlds));
+    RETURN_IF_ERROR(read_digests("methods", scenario.methods));
+    RETURN_IF_ERROR(line.Each("metrics", [&](const std::string& id, const JsonObject& inner) -> Result<void> {
+      if (FindMetric(id) == nullptr) {
+        return Fail(place, "scenario {} has an unknown metric {}", Quote(scenario.name), Quote(id));
+      }
+      ASSIGN_OR_RETURN(const auto version, inner.Whole(id, 1, kMostVersions));
+      scenario.metrics.emplace_back(id, static_cast<int>(version));
+      return {};
+    }));
+    snapshot_.scenarios.push_back(std::move(scenario));
+    return {};
+  }
+
+  /// Counted before allocating: two long lists of names in a small file would make a huge table. No line may come
+  /// twice, so a file with as many lines as cells fills every cell.
+  Result<void> CountLines(const JsonObject& head) const {
+    std::size_t cells = 0, lists = 0;
+    for (const SnapshotScenario& scenario : snapshot_.scenarios) {
+      cells += scenario.worlds.size() * scenario.methods.size();
+      lists += scenario.worlds.size() * scenario.methods.size() * scenario.metrics.size();
+    }
+    ASSIGN_OR_RETURN(const Json* statuses, head.List("statuses"));
+    ASSIGN_OR_RETURN(const Json* values, head.List("values"));
+    if (statuses->size() == cells && values->size() == lists) return {};
+    return Fail(head.place(), "{} lines of statuses and {} of values; its scenarios have {} and {}", statuses->size(),
+                values->size(), cells, lists);
+  }
+
+  /// Makes an empty place for each line that must follow.
+  void MakeSlots() {
+    for (SnapshotScenario& scenario : snapshot_.scenarios) {
+      for (const auto& [condition, world] : scenario.worlds) {
+        for (const auto& [method, settings] : scenario.methods) {
+          SnapshotCells& cells = scenario.cells.emplace_back(SnapshotCells{condition, method, "", {}});
+          for (const auto& [id, version] : scenario.metrics) cells.metrics.push_back({id, {}});
+        }
+      }
+      for (SnapshotCells& cells : scenario.cells) {
+        slots_[fmt::format("{}, {}, {}", scenario.name, cells.condition, cells.method)] = {
+            static_cast<std::size_t>(scenario.trials), &cells};
+      }
+    }
+  }
+
+  /// Whose line this is: "scenario, condition, method".
+  Result<Slots::const_iterator> FindSlot(const JsonObject& line, std::string_view what) const {
+    ASSIGN_OR_RETURN(const auto scenario, line.Text("scenario"));
+    ASSIGN_OR_RETURN(const auto condition, line.Text("condition"));
+    ASSIGN_OR_RETURN(const auto method, line.Text("method"));
+    const std::string name = fmt::format("{}, {}, {}", scenario, condition, method);
+    const auto slot = slots_.find(name);
+    if (slot == slots_.end()) return Fail(line.place(), "{} of {}, which no scenario has", what, name);
+    return slot;
+  }
+
+  Result<void> ReadStatuses(const Json& entry, const Place& place) {
+    ASSIGN_OR_RETURN(const auto line,
+                     JsonObject::Of(entry, place, "a line of statuses", {"scenario", "condition", "method", "cells"}));
+    ASSIGN_OR_RETURN(const auto slot, FindSlot(line, "statuses"));
+    const auto& [name, cells] = *slot;
+    std::string& statuses = cells.cells->statuses;
+    if (!statuses.empty()) return Fail(place, "two lines of statuses of {}; allowed: one", name);
+    ASSIGN_OR_RETURN(statuses, line.Text("cells"));
+    if (statuses.find_first_not_of(kLetters) != std::string::npos || statuses.size() != cells.trials) {
+      return Fail(place, "the statuses of {} are not {} letters of '{}'", name, cells.trials, kLetters);
+    }
+    const bool skipped = statuses.find_first_not_of('s') == std::string::npos;  // with a reason, and nothing is said
+    if (skipped || statuses.find_first_of(kAnswers) != std::string::npos) return {};
+    return Fail(place,
+                "all {} cells of {} failed: nothing could be worse; allowed: a baseline in which each method has "
+                "an answer (a letter of '{}') somewhere, or is skipped",
+                cells.trials, name, kAnswers);
+  }
+
+  Result<void> ReadValues(const Json& entry, const Place& place) {
+    ASSIGN_OR_RETURN(const auto line,
+                     JsonObject::Of(entry, place, "a line of values",
+                                    {"scenario", "condition", "method", "metric", "values"}, {"nulls"}));
+    ASSIGN_OR_RETURN(const auto slot, FindSlot(line, "values"));
+    ASSIGN_OR_RETURN(const auto metric, line.Text("metric"));
+    const auto& [name, cells] = *slot;
+    const auto kept = std::ranges::find(cells.cells->metrics, metric, &SnapshotValues::metric);
+    if (kept == cells.cells->metrics.end()) {
+      return Fail(place, "values of {} of {}, a metric that its scenario does not list", metric, name);
+    }
+    if (!kept->values.empty()) return Fail(place, "two lines of {} of {}; allowed: one", metric, name);
+    ASSIGN_OR_RETURN(const Json* values, line.List("values"));
+    if (values->size() != cells.trials) {
+      return Fail(place, "{} values of {} of {}; it has {} trials", values->size(), metric, name, cells.trials);
+    }
+    for (std::size_t trial = 0; trial < cells.trials; ++trial) {
+      const Json& value = (*values)[trial];
+      if (!value.is_null() && !value.is_number()) {
+        return Fail(place, "the value of {} of {} in trial {} is {}; allowed: a number or null", metric, name, trial,
+                    DescribeJson(value));
+      }
+      kept->values.push_back(value.is_null() ? std::nullopt : std::optional(value.get<double>()));
+    }
+    return CheckNulls(line, *kept, name);
+  }
+
+  /// A world without a value cannot get worse, so a null that slipped in would switch it off: they are counted.
+  Result<void> CheckNulls(const JsonObject& line, const SnapshotValues& kept, const std::string& name) const {
+    std::int64_t allowed = 0;
+    if (line.Has("nulls")) {
+      ASSIGN_OR_RETURN(allowed, line.Whole("nulls", 1, static_cast<std::int64_t>(kept.values.size())));
+    }
+    const auto found = std::ranges::count(kept.values, std::optional<double>());
+    if (found == allowed) return {};
+    const auto first = std::ranges::find(kept.values, std::optional<double>()) - kept.values.begin();
+    return Fail(line.place(),
+                "{} of the values of {} of {} are null{}; allowed: as many as the line's 'nulls' says, {}", found,
+                kept.metric, name, found == 0 ? "" : fmt::format(", the first in trial {}", first), allowed);
+  }
+
+  std::string file_;
+  JsonPlaces places_;
+  Snapshot snapshot_;
+  Slots slots_;
+};
+
 }  // namespace
 
 Result<std::string> WriteBaseline(const Snapshot& snapshot) {
@@ -86,6 +286,12 @@ Result<std::string> WriteBaseline(const Snapshot& snapshot) {
 Result<Snapshot> LoadBaseline(const std::filesystem::path& path) {
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
   return ReadBaseline(text, path.string());
+}
+
+Result<Snapshot> ReadBaseline(const std::string& text, const std::string& file) {
+  ASSIGN_OR_RETURN(const auto json, ReadJson(text, file));
+  ASSIGN_OR_RETURN(auto places, FindJsonPlaces(text, file));
+  return BaselineReader(file, std::move(places)).Read(json);
 }
 
 }  // namespace etude

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "bench/gate/snapshot.h"
+#include "bench/gate/finished_run.h"
 
 namespace etude {
 

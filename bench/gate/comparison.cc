@@ -29,7 +29,7 @@ const SnapshotValues* FindValues(const SnapshotCells& cells, const std::string& 
   return FindIn(cells.metrics, [&](const SnapshotValues& values) { return values.metric == metric; });
 }
 
-/// What `one` holds and `other` does not, told once at the level at which it is missing.
+/// Lists what `one` holds and `other` does not, once at the level at which it is missing.
 std::vector<std::string> OnlyIn(const Snapshot& one, const Snapshot& other) {
   std::vector<std::string> only;
   for (const SnapshotScenario& scenario : one.scenarios) {

@@ -4,9 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/gate/finished_run.h"
 #include "bench/gate/metric_move.h"
-#include "bench/gate/snapshot.h"
-#include "bench/gate/tail_rule.h"
 
 namespace etude {
 
@@ -17,7 +16,7 @@ struct SnapshotComparison {
   std::vector<std::string> settings_changed;         ///< methods: same name, other settings
 };
 
-/// Why the worlds of two snapshots are not the same, so that nothing can be paired: another seed, number of
+/// Explains why the worlds of two snapshots are not the same, so that nothing can be paired: another seed, number of
 /// trials, parameters of the task, clips, or version of a metric. Empty = they can be compared.
 std::vector<std::string> WhyNotComparable(const Snapshot& before, const Snapshot& after);
 

@@ -1,13 +1,27 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bench/gate/comparison.h"
 #include "bench/gate/finished_run.h"
-#include "bench/gate/time_ratios.h"
 
 namespace etude {
+
+/// A rule about times, and what the run says about it.
+struct RatioResult {
+  std::string scenario;
+  TimeRatio rule;
+  int pairs = 0;  ///< worlds of all conditions in which both methods ended for reasons of their own
+  std::optional<double> median, ci_low, ci_high;  ///< of processor time over processor time
+  /// Unmet when the whole interval lies above the limit, for a busy machine moves single times; undecided when
+  /// only the median does, or when too few worlds have both times.
+  Ruling ruling = Ruling::kUndecided;
+};
+
+/// Judges the time rules of all scenarios. Both times of a pair come from the same world of the same run.
+std::vector<RatioResult> JudgeTimeRatios(const FinishedRun& run);
 
 enum class GateVerdict { kPassed, kRegressed, kNotWhole };
 
@@ -16,7 +30,7 @@ struct GateExpectation {
   ExpectationResult result;
 };
 
-/// All that a gate has looked at, and what it found.
+/// The findings of a gate, and how much it has looked at.
 struct GateReport {
   std::string suite;
   std::string run_folder;        ///< as the caller names it, for `etude replay`; "" = not known
@@ -33,14 +47,14 @@ struct GateReport {
 /// baseline. Fails when the baseline's worlds are not the run's (WhyNotComparable).
 Result<GateReport> JudgeRun(const FinishedRun& run, const Snapshot* baseline, const std::string& baseline_file);
 
-/// What the scenarios of a run want compared digit by digit, and what they call a regression of single worlds.
+/// The rules of a run's scenarios: what is compared digit by digit, and what is a regression of single worlds.
 std::set<std::string> ExactScenarios(const FinishedRun& run);
 TailRules TailRulesOf(const FinishedRun& run);
 
 /// One sentence per scenario and status that depends on the machine (timeout, crashed, out of memory).
 std::vector<std::string> DescribeMachineEnds(const FinishedRun& run);
 
-/// Whether a move makes the gate fail.
+/// True if a move makes the gate fail.
 bool IsRegression(const MetricMove& move);
 
 /// Incomplete goes before regression: a run without all its cells is not judged, however bad the rest looks. What

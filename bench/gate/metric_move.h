@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -8,17 +9,18 @@
 #include <vector>
 
 #include "bench/metrics/catalogue.h"
+#include "bench/model/study.h"
 #include "bench/model/summary.h"
 
 namespace etude {
 
-/// What stands for "did the cell end ok?" among the metrics of a comparison: 1 or 0 in every world.
+/// The pseudo-metric "did the cell end ok?" of a comparison: 1 or 0 in every world.
 constexpr const char* kOkShare = "ok_share";
 
 /// The catalogue's entry of a metric, or ours of kOkShare. Null when there is no such metric.
 const MetricInfo* FindGateMetric(std::string_view id);
 
-/// How a metric moved from one snapshot to another.
+/// The change of a metric from one snapshot to another.
 enum class Movement {
   kSame,      ///< not a digit
   kBetter,    ///< clearly, and by as much as matters
@@ -59,7 +61,7 @@ struct MetricMove {
   bool by_tail = false;                 ///< the tail rule has decided: all worlds together would not have failed
 };
 
-/// The same trials before and after; `compared` says which of them count. All of one length.
+/// The values of the same trials before and after; `compared` says which of them count. All of one length.
 struct MoveColumns {
   std::vector<std::optional<double>> before, after;
   std::vector<bool> compared;
@@ -69,7 +71,7 @@ struct MoveColumns {
 /// Compares world by world; the verdict is left to JudgeMoves. `seed` keys the dice.
 MetricMove MeasureMove(MoveIdentity identity, const MoveColumns& columns, std::uint64_t seed);
 
-/// Says of each move what it means. In a scenario of `exact` any difference is kChanged. Else it takes the test's p
+/// Judges each move. In a scenario of `exact` any difference is kChanged. Else it takes the test's p
 /// after Holm's correction over all comparisons of `moves` that differ at all, and three questions: the metric's own
 /// aggregate; the mean, because a median does not see what happens in fewer than half of the worlds, and a change of
 /// code often touches no more; and the share of worlds that have a value. Worse in one of them is worse.
@@ -77,5 +79,22 @@ MetricMove MeasureMove(MoveIdentity identity, const MoveColumns& columns, std::u
 /// Leaving out what does not differ costs no validity: the tests flip the signs of the differences that there are,
 /// and whether there are any does not depend on signs.
 void JudgeMoves(std::span<MetricMove> moves, const std::set<std::string>& exact);
+
+/// The tail rules of scenarios, by name; one that is not there has the default.
+using TailRules = std::map<std::string, TailRule>;
+
+/// The worlds that are worse by more than `rule.times` practical thresholds, or have lost something: of a metric, its
+/// value; of kOkShare, an `ok` that is `ok` no more, which is lost when there is no answer at all (`unsolved` is one).
+/// Without a better direction, no value is worse than another, but lost ones are. Lost worlds first, then the worst.
+std::vector<TailWorld> FindTail(const MoveColumns& columns, const MetricInfo& metric, const TailRule& rule);
+
+/// The number of far worse worlds, of so many compared ones, that is a regression; 0 = none ever is.
+int WorldsThatFail(int compared, const TailRule& rule);
+/// True if these are a regression, of so many compared.
+bool IsTailRegression(const std::vector<TailWorld>& tail, int compared, const TailRule& rule);
+
+/// Makes kWorse of moves whose tail is a regression and that all worlds together do not call worse already. What is
+/// judged by the rule `exact` (kChanged) stays.
+void JudgeTail(MetricMove& move, const TailRule& rule);
 
 }  // namespace etude

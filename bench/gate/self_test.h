@@ -5,24 +5,24 @@
 #include <vector>
 
 #include "bench/gate/finished_run.h"
-#include "bench/gate/snapshot.h"
+#include "bench/gate/metric_move.h"
 
 namespace etude {
 
-/// How often something happened, with its 95 % Wilson interval.
+/// A count of something that happened, with the 95 % Wilson interval of its share.
 struct Rate {
   int count = 0;
   int of = 0;
   double low = 0, high = 1;
 };
 
-/// How often a gate found a change that was made.
+/// The share of made changes that a gate found.
 struct PowerResult {
   std::string change;
   Rate found;
 };
 
-/// What a gate that tests itself has measured.
+/// The figures of a gate that has tested itself.
 struct SelfTestReport {
   int comparisons = 0;                ///< of one gate
   Rate rerun_alarms;                  ///< gates by the rule `exact` between two runs of one seed: must be none
@@ -33,7 +33,7 @@ struct SelfTestReport {
   std::vector<PowerResult> tails;     ///< a few worlds made far worse, or losing their value, in the same metric
   std::vector<PowerResult> real;      ///< the first method replaced by each other one
 
-  /// Whether the gate keeps its promise: reruns never alarm, false alarms are not clearly above kFalseAlarmLimit, and
+  /// True if the gate keeps its promise: reruns never alarm, false alarms are not clearly above kFalseAlarmLimit, and
   /// the tail rule finds as many far worse worlds as it counts.
   bool Holds() const;
   bool tails_found = true;  ///< every gate in which the tail rule had to fail did, and no other
@@ -59,5 +59,29 @@ using RunUnderSeed = std::function<Result<FinishedRun>(std::uint64_t seed)>;
 ///  - real: the first seed's worlds, in which another method takes the first one's place.
 /// Fails when a run does, or when the scenario has no metric to inject into.
 Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions);
+
+/// Makes few worlds of a snapshot far worse, and counts in how many gates that is found: every one in which the tail
+/// rule says so, and no other by this rule.
+class InjectedTails {
+ public:
+  /// Changes `target` (scenario 0, cells 0, this metric) of copies of `first`: n worlds worse by twice the rule's
+  /// `times`, n = 1, 2, 3, 5, 10 and as many as fail by the rule; that many by nine tenths of it; one value lost.
+  /// `seed` keys which worlds.
+  void Try(const Snapshot& first, const std::string& target, std::uint64_t seed, const TailRule& rule);
+
+  std::vector<PowerResult> Results() const;
+  /// True if all gates did as the rule says.
+  bool AsTheRuleSays() const { return as_the_rule_says_; }
+
+ private:
+  struct Case {
+    std::string change;
+    int found = 0, of = 0;
+  };
+  void Count(const std::string& change, bool must_be_found, const SnapshotComparison& comparison);
+
+  std::vector<Case> cases_;
+  bool as_the_rule_says_ = true;
+};
 
 }  // namespace etude

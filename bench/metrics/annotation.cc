@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "bench/metrics/share.h"
+#include "bench/statistics/curves/curves.h"
 
 namespace etude {
 

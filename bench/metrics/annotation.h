@@ -6,7 +6,7 @@
 
 namespace etude {
 
-/// Where two people marked the same thing in the same picture, pixels; nothing where one did not mark it.
+/// The places that two people marked for the same thing in the same picture, pixels; empty where one did not mark it.
 struct MarkedTwice {
   std::optional<glm::dvec2> first, second;
 };

@@ -12,10 +12,10 @@ enum class Direction { kLowerIsBetter, kHigherIsBetter, kNeither };
 /// "lower is better", "higher is better", or "" for neither.
 std::string_view DirectionWords(Direction direction);
 
-/// How a run sums up the cells' values: shares and other 0/1 values by their mean, the rest by median.
+/// The way in which a run sums up the cells' values: shares and other 0/1 values by their mean, the rest by median.
 enum class Aggregate { kMedian, kMean };
 
-/// What a cell's value is, so that people are told in the right words: shares and scores are shown in per cent, and
+/// The kind of a cell's value, so that people are told in the right words: shares and scores are shown in per cent, and
 /// their differences in percentage points.
 enum class Reading {
   kAmount,  ///< so much of the metric's unit, or so many
@@ -40,7 +40,7 @@ struct MetricVector {
   std::string_view source;         ///< "derived: …" or "published: …"
 };
 
-/// What a metric means: the entry that tables, comparisons and other implementations go by.
+/// The definition of a metric: the entry that tables, comparisons and other implementations go by.
 struct MetricInfo {
   std::string id;     ///< unit in the name, e.g. "position_error_cm"
   int version = 1;    ///< raised when the definition changes; values of two versions never mix

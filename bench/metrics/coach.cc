@@ -4,10 +4,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "bench/metrics/detection.h"
 #include "bench/metrics/percentile.h"
-#include "bench/metrics/share.h"
 #include "bench/metrics/transition_smoothness.h"
+#include "bench/statistics/curves/curves.h"
 
 namespace etude {
 namespace {

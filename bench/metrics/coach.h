@@ -6,7 +6,7 @@
 
 namespace etude {
 
-/// What a performance truly was.
+/// The truth about a performance.
 enum class PerformanceTruth { kRight, kGrey, kWrong };
 
 /// One performance that a coach asked for and judged in its window; one whose window was cut off is none.
@@ -34,7 +34,7 @@ struct CoachedSession {
   double Minutes() const { return frames / rate_hz / 60; }
 };
 
-/// Which corrections were called for.
+/// Counts of the corrections that were due, given and missed.
 struct CorrectionTally {
   int due = 0;           ///< performances that were wrong
   int given = 0;         ///< corrections
@@ -44,7 +44,7 @@ struct CorrectionTally {
 };
 CorrectionTally TallyCorrections(const CoachedSession& session);
 
-/// Of the mistakes, the share that was answered by a correction within one repetition. Empty without mistakes.
+/// The share of mistakes that was answered by a correction within one repetition. Empty without mistakes.
 std::optional<double> AnsweredShare(const CorrectionTally& tally);
 
 /// `decision_delay_s`: from a wrong performance's first frame until it is called wrong; one that is not was waited for

@@ -3,30 +3,43 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <set>
 #include <vector>
 
-#include "bench/metrics/share.h"
-
 namespace etude {
-Confusion CountConfusion(std::span<const JudgedEvent> events) {
-  Confusion confusion;
-  for (const JudgedEvent& event : events) {
-    if (event.is_right) {
-      ++(event.called_right ? confusion.true_positives : confusion.false_negatives);
-    } else {
-      ++(event.called_right ? confusion.false_positives : confusion.true_negatives);
-    }
+namespace {
+
+std::vector<double> TimesOf(std::string_view move, std::span<const Moment> moments) {
+  std::vector<double> times;
+  for (const Moment& moment : moments) {
+    if (moment.move == move) times.push_back(moment.at_s);
   }
-  return confusion;
+  std::ranges::sort(times);
+  return times;
 }
 
-std::optional<double> Precision(const Confusion& confusion) {
-  return Share(confusion.true_positives, confusion.true_positives + confusion.false_positives);
+/// As many pairs as can be: the earliest detection that a point can have is never worth more to a later point.
+int CountPairs(const std::vector<double>& points, const std::vector<double>& detections, double tolerance_s) {
+  constexpr double kRounding = 1e-9;
+  int pairs = 0;
+  std::size_t d = 0;
+  for (const double point : points) {
+    while (d < detections.size() && detections[d] < point - tolerance_s - kRounding) ++d;
+    if (d == detections.size() || detections[d] > point + tolerance_s + kRounding) continue;
+    ++pairs;
+    ++d;
+  }
+  return pairs;
 }
 
-std::optional<double> Recall(const Confusion& confusion) {
-  return Share(confusion.true_positives, confusion.true_positives + confusion.false_negatives);
+std::set<std::string> MovesOf(std::span<const Moment> points, std::span<const Moment> detections) {
+  std::set<std::string> moves;
+  for (const Moment& moment : points) moves.insert(moment.move);
+  for (const Moment& moment : detections) moves.insert(moment.move);
+  return moves;
 }
+
+}  // namespace
 
 std::optional<double> FaultFound(const std::vector<bool>& called) {
   return Share(static_cast<int>(std::ranges::count(called, false)), static_cast<int>(called.size()));
@@ -40,46 +53,6 @@ std::optional<double> MoveNamed(std::span<const NamedMove> performances) {
   const auto named =
       std::ranges::count_if(performances, [](const NamedMove& each) { return each.named == each.danced; });
   return Share(static_cast<int>(named), static_cast<int>(performances.size()));
-}
-
-std::optional<double> F1(const Confusion& confusion) {
-  const int doubled = 2 * confusion.true_positives;
-  return Share(doubled, doubled + confusion.false_positives + confusion.false_negatives);
-}
-
-std::optional<double> RocAuc(std::span<const JudgedEvent> events) {
-  std::vector<JudgedEvent> sorted(events.begin(), events.end());
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const JudgedEvent& a, const JudgedEvent& b) { return a.score < b.score; });
-
-  // Walks up through groups of equal score; each right event beats the wrong ones below its group
-  // and half of those inside.
-  double right = 0, wrong_below = 0, won = 0;
-  for (std::size_t begin = 0; begin < sorted.size();) {
-    double group_right = 0, group_wrong = 0;
-    std::size_t end = begin;
-    for (; end < sorted.size() && sorted[end].score == sorted[begin].score; ++end) {
-      ++(sorted[end].is_right ? group_right : group_wrong);
-    }
-    won += group_right * (wrong_below + 0.5 * group_wrong);
-    right += group_right;
-    wrong_below += group_wrong;
-    begin = end;
-  }
-  if (right == 0 || wrong_below == 0) return std::nullopt;
-  return won / (right * wrong_below);
-}
-
-std::optional<double> ThresholdAtRecall(std::span<const JudgedEvent> events, double recall) {
-  std::vector<double> scores;
-  for (const JudgedEvent& event : events) {
-    if (event.is_right) scores.push_back(event.score);
-  }
-  if (scores.empty()) return std::nullopt;
-  std::ranges::sort(scores, std::ranges::greater());
-  constexpr double kRounding = 1e-9;  // 0.9 of ten are nine
-  const double needed = std::ceil(recall * static_cast<double>(scores.size()) - kRounding);
-  return scores[static_cast<std::size_t>(std::max(needed, 1.0)) - 1];
 }
 
 Wait WaitForPraise(double first_right_s, std::optional<int> called_frame, int window_end_frame, double rate_hz) {
@@ -106,21 +79,33 @@ double FalseAlarmsPerMinute(std::size_t alarms, double session_s) {
   return static_cast<double>(alarms) / (session_s / kSecondsPerMinute);
 }
 
-std::optional<double> KaplanMeierMedian(std::span<const Wait> waits) {
-  std::vector<Wait> sorted(waits.begin(), waits.end());
-  // What happens at a time happens before what is given up at that time (the usual convention).
-  std::stable_sort(sorted.begin(), sorted.end(), [](const Wait& a, const Wait& b) {
-    return a.seconds != b.seconds ? a.seconds < b.seconds : a.happened > b.happened;
-  });
-  double still_waiting = 1.0;
-  constexpr double kRounding = 1e-12;  // ½ reached by products of fractions
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
-    if (!sorted[i].happened) continue;
-    const auto at_risk = static_cast<double>(sorted.size() - i);
-    still_waiting *= (at_risk - 1.0) / at_risk;
-    if (still_waiting <= 0.5 + kRounding) return sorted[i].seconds;
+std::optional<double> MomentMatch::FScore() const {
+  if (points + detections == 0) return std::nullopt;
+  return 2.0 * matched / (points + detections);
+}
+
+MomentMatch MatchMoments(std::span<const Moment> points, std::span<const Moment> detections, double tolerance_s) {
+  MomentMatch match{.points = static_cast<int>(points.size()), .detections = static_cast<int>(detections.size())};
+  for (const std::string& move : MovesOf(points, detections)) {
+    match.matched += CountPairs(TimesOf(move, points), TimesOf(move, detections), tolerance_s);
   }
-  return std::nullopt;
+  return match;
+}
+
+std::optional<double> MeanFScore(std::span<const Moment> points, std::span<const Moment> detections,
+                                 double tolerance_s) {
+  const std::set<std::string> moves = MovesOf(points, detections);
+  if (moves.empty()) return std::nullopt;
+  double sum = 0;
+  for (const std::string& move : moves) {
+    const auto of_move = [&](std::span<const Moment> moments) {
+      std::vector<Moment> own;
+      std::ranges::copy_if(moments, std::back_inserter(own), [&](const Moment& m) { return m.move == move; });
+      return own;
+    };
+    sum += *MatchMoments(of_move(points), of_move(detections), tolerance_s).FScore();  // every move here occurs
+  }
+  return sum / static_cast<double>(moves.size());
 }
 
 }  // namespace etude

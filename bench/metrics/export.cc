@@ -1,5 +1,7 @@
 #include "bench/metrics/export.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "bench/files/json.h"
@@ -67,6 +69,82 @@ Json EncodeMetric(const MetricInfo& metric) {
           {"vectors", std::move(vectors)}};
 }
 
+constexpr std::string_view kIntroduction = R"(# Metrics
+
+Written by `etude list metrics --markdown`; a test compares. What every number of `cells.jsonl` means, precisely enough
+that another implementation can prove its agreement:
+
+    etude list metrics --json | python3 tests/bench/metrics/second_implementation.py
+
+The JSON (`docs/schemas/metrics.schema.json`) holds every definition below with its test vectors, inputs included.
+
+## What holds for all
+
+- **Identity.** An id carries its unit. A definition that changes raises its version: values of two versions are two things.
+- **Motions** are judged at 30 Hz, in metres, Y up, as positions of twenty joints; a limb is the line from a joint to its
+  parent (`joints` of the JSON). In transitions the body's hips stand at 0.90 m.
+- **A missing value** is null with its reason in `null_reasons`, never zero. A cell without an answer (failed, timeout,
+  crashed, out_of_memory, bad_output) has no values, but for those metrics that give failing a value (0 for a solved
+  share, twice the limit for PAR-2), so that it stays in the denominator; a skipped one has none at all.
+- **A run** sums up the cells' values by each metric's aggregate, median or mean, with a 95 % bootstrap interval; shares and
+  0/1 values by their mean.
+- **The practical threshold** is the smallest difference that anybody would act on. A comparison calls nothing better or
+  worse below it.
+- **∠(u, v)** is atan2(‖u × v‖, u · v), 0 when a vector is zero.
+
+## The vectors' inputs
+
+- A motion: `{"rate_hz": 30, "frames": 3, "joints_m": {"left_hand": [[x, y, z], …]}}`: one position per frame, or one for
+  all frames; a joint that is not named stays at the origin; `rate_hz` is 30 when it is not said.
+- A pose: `{"left_hand": [x, y, z], …}`, a joint that is not named is at the origin.
+- A vector's value must lie within its tolerance, absolute, in the metric's unit; `expected: null` means no value.
+- `derived:` values follow from the definition by hand; `published:` ones stand in the work named.
+)";
+
+std::string Amount(double value, const std::string& unit) {
+  return unit.empty() ? fmt::format("{}", value) : fmt::format("{} {}", value, unit);
+}
+
+std::string Facts(const MetricInfo& metric) {
+  std::string facts = metric.label;
+  for (const std::string& fact :
+       {metric.unit, std::string(DirectionWords(metric.direction)),
+        std::string(metric.aggregate == Aggregate::kMedian ? "median over cells" : "mean over cells"),
+        fmt::format("version {}", metric.version)}) {
+    if (!fact.empty()) facts += " · " + fact;
+  }
+  return facts;
+}
+
+std::string ExpectedText(const MetricVector& vector) {
+  if (!vector.expected) return fmt::format("null: {}", vector.null_reason);
+  return vector.tolerance > 0 ? fmt::format("{:.9g} ± {:g}", *vector.expected, vector.tolerance)
+                              : fmt::format("{:.9g}", *vector.expected);
+}
+
+/// What a table's cell cannot hold: the bar that ends it.
+std::string InTable(std::string_view content) {
+  std::string text(content);
+  for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2)) text.insert(at, "\\");
+  return text;
+}
+
+std::string Section(const MetricInfo& metric) {
+  std::string text = fmt::format("\n### `{}`\n\n{}\n\n{}\n\n", metric.id, Facts(metric), metric.definition);
+  text += fmt::format("- **Formula.** {}\n- **Null.** {}\n", metric.formula, metric.null_rule);
+  text += fmt::format("- **Matters from {} on.** {}\n", Amount(metric.practical, metric.unit), metric.practical_reason);
+  text += fmt::format("- **Source.** {}\n- **Input of its vectors.**", metric.source);
+  for (const MetricInput& input : metric.inputs) {
+    text += fmt::format("{} `{}`: {}", &input == &metric.inputs.front() ? "" : ";", input.key, input.meaning);
+  }
+  text += ".\n\n| vector | value | where from |\n|---|---|---|\n";
+  for (const MetricVector& vector : metric.vectors) {
+    text +=
+        fmt::format("| {} | {} | {} |\n", InTable(vector.title), InTable(ExpectedText(vector)), InTable(vector.source));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string MetricsJson() {
@@ -74,6 +152,17 @@ std::string MetricsJson() {
   Json& metrics = json["metrics"] = Json::array();
   for (const MetricInfo& metric : AllMetrics()) metrics.push_back(EncodeMetric(metric));
   return WriteJson(json).value();  // the files' numbers are finite
+}
+
+std::string MetricsPage() {
+  std::string page(kIntroduction);
+  std::string domain;
+  for (const MetricInfo& metric : AllMetrics()) {
+    if (metric.domain != domain) page += fmt::format("\n## {}\n", metric.domain);
+    domain = metric.domain;
+    page += Section(metric);
+  }
+  return page;
 }
 
 }  // namespace etude

@@ -3,7 +3,7 @@
 #include <cassert>
 #include <cstdint>
 
-#include "bench/metrics/share.h"
+#include "bench/statistics/curves/curves.h"
 #include "engine/base/angles.h"
 #include "engine/base/directions.h"
 

@@ -13,7 +13,7 @@ struct Sighted {
   std::optional<glm::dvec3> truth;
 };
 
-/// How far measurements are from the truth, and how many of them there are.
+/// The errors of measurements against the truth, and how many measurements there are.
 struct MeasuredError {
   std::optional<double> mean;      ///< over what was measured; empty when nothing was
   std::optional<double> coverage;  ///< share of what has a truth that was measured; empty when nothing has
@@ -27,7 +27,7 @@ MeasuredError LimbDirectionErrorDeg(std::span<const Sighted> limbs);
 /// entry per end effector and frame, metres.
 MeasuredError TriangulationErrorMm(std::span<const Sighted> ends);
 
-/// What a calibrated camera makes of the points that it was calibrated by.
+/// A calibrated camera and the points that it was calibrated by.
 struct CameraFit {
   ProjectionMatrix matrix;
   std::span<const PointPair> pairs;

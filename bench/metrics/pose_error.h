@@ -24,10 +24,10 @@ Similarity AlignSimilarity(std::span<const glm::dvec3> points, std::span<const g
 
 /// Mean distance of a joint to the true one, millimetres.
 double FrameMpjpeMm(const BodyPose& found, const BodyPose& truth);
-/// The same after `AlignSimilarity` of this frame.
+/// The mean joint error after `AlignSimilarity` of this frame.
 double FramePaMpjpeMm(const BodyPose& found, const BodyPose& truth);
 
-/// How far a recovered motion is from the true one (docs/metrics.md), over all joints and frames.
+/// The errors of a recovered motion against the true one (docs/metrics.md), over all joints and frames.
 struct PoseErrors {
   double mpjpe_mm = 0;
   double pa_mpjpe_mm = 0;
@@ -38,7 +38,7 @@ struct PoseErrors {
   std::vector<double> frame_mpjpe_mm;
 };
 
-/// Both motions have the same number of frames, at least one.
+/// Measures a recovered motion; both have the same number of frames, at least one.
 PoseErrors ComparePoses(std::span<const BodyPose> found, std::span<const BodyPose> truth);
 
 /// `mpjpe_seen_mm` and `mpjpe_held_mm`: the mean of one value per frame over the frames that have a flag; nothing when

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cstdint>
 
-#include "bench/metrics/share.h"
+#include "bench/statistics/curves/curves.h"
 
 namespace etude {
 namespace {

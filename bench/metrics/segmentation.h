@@ -7,7 +7,7 @@
 
 namespace etude {
 
-/// How well one mask, or the mean of many, agrees with the true one; nothing where a share has no pixels
+/// The agreement of one mask, or the mean of many, with the true one; nothing where a share has no pixels
 /// to be a share of.
 struct MaskScore {
   std::optional<double> iou = {};           ///< |found ∩ true| / |found ∪ true|

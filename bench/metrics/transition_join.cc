@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "bench/metrics/spectral_arc_length.h"
+#include "bench/metrics/speed_profile.h"
 #include "bench/metrics/transition_smoothness.h"
 
 namespace etude {
@@ -33,7 +33,7 @@ std::optional<double> JumpCm(std::span<const BodyPose> poses, int frame) {
   return kCmPerMetre * worst;
 }
 
-/// What the clips themselves jump at a frame of the join.
+/// The jump of the clips themselves at a frame of the join.
 double OwnJumpCm(const JoinView& view, int frame) {
   return std::max(JumpCm(view.left, frame).value_or(0), JumpCm(view.wanted, frame - view.last).value_or(0));
 }

@@ -75,15 +75,15 @@ double StrangeCmSeconds(const JoinView& view, const RealFrames& real);
 /// `skipped_s`: how much of the wanted clip lies before the frame entered.
 constexpr double SkippedSeconds(int entered_frame, double rate_hz) { return entered_frame / rate_hz; }
 
-/// What `clean_share` asks of a transition.
+/// The demands of `clean_share` on a transition.
 struct CleanMeasures {
   bool natural = false, calmly_natural = false;
   double slide_cmps = 0, strange_cm_s = 0, live = 0;
   double own_slide_cmps = 0;  ///< foot slide of the clip that slides more, over all of it
   std::optional<double> settle_s;
 };
-/// Both kinds of natural, slide ≤ 6 cm/s or what a clip slides itself, settled within 1.5 s, strange ≤ 10 cm·s, live ≥
-/// 0.5.
+/// True if a transition meets them all: both kinds of natural, slide ≤ 6 cm/s or what a clip slides itself, settled
+/// within 1.5 s, strange ≤ 10 cm·s, live ≥ 0.5.
 bool IsClean(const CleanMeasures& measures);
 
 }  // namespace etude

@@ -56,7 +56,7 @@ double RotationStepChangeAt(const BodyMotion& motion, int frame) {
   return largest;
 }
 
-/// Of the frames frame − 1 … frame + 2.
+/// The largest third difference of any joint over the frames frame − 1 … frame + 2.
 double ThirdDifferenceAt(const BodyMotion& motion, int frame) {
   double largest = 0;
   for (std::size_t joint = 0; joint < kRoleCount; ++joint) {

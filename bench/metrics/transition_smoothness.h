@@ -11,7 +11,7 @@ namespace etude {
 /// The smoothness of a motion around given frames (docs/metrics.md, Transitions). Motions are judged
 /// at 30 Hz, in metres, of a body whose hips stand at 0.90 m.
 
-/// How unevenly a motion moves close to a transition point.
+/// The unevenness of a motion close to a transition point.
 struct TransitionSmoothness {
   double jump_cm = 0;             ///< largest second difference of any joint
   double mean_joint_jump_cm = 0;  ///< largest over frames of the mean over joints
@@ -32,7 +32,7 @@ std::vector<double> SecondDifferencesCm(const BodyMotion& motion);
 /// Nature's own: jump_cm of every unbroken window of eleven frames of a clip.
 std::vector<double> NaturalJumpsCm(const BodyMotion& clip);
 
-/// What still counts as natural: the 95th percentile (linear between neighbours) of natural jumps.
+/// The largest jump that still counts as natural: the 95th percentile (linear between neighbours) of natural jumps.
 /// Needs a value.
 double NaturalLimitCm(std::vector<double> natural_jumps);
 

@@ -13,7 +13,7 @@ struct Attachment {
   std::string bytes;
 };
 
-/// What a method outside the program is given of a world, or what is true about it (docs/outside-methods.md).
+/// The part of a world that a method outside the program is given, or the truth about it (docs/outside-methods.md).
 struct Payload {
   JsonPtr json;  ///< never null
   std::vector<Attachment> files;

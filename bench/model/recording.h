@@ -2,8 +2,8 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
+#include "bench/model/row.h"
 #include "engine/motion/body.h"
 
 namespace etude {
@@ -12,13 +12,6 @@ namespace etude {
 struct Track {
   std::string name;  ///< "truth", "recovered", "coach", …
   BodyMotion motion;
-};
-
-/// Everything needed to show a cell again without rerunning it: what a video draws.
-struct Recording {
-  std::vector<Track> tracks;
-  /// Free-form facts for the viewer, as JSON text written by the task (cameras, masks, captions).
-  std::string extras_json;
 };
 
 /// The motion of that name, or null.

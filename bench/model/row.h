@@ -3,11 +3,84 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "bench/model/cell_result.h"
-
 namespace etude {
+
+/// The time and memory that one cell took on this machine.
+struct CellUsage {
+  double wall_s = 0;
+  double cpu_s = 0;  ///< of the worker and of the method outside
+  /// The largest resident size of either while the cell was run; cells shorter than a look at it share one look.
+  double peak_mb = 0;
+  /// The building of the world, in the row of the first cell that was run in it.
+  double world_wall_s = 0, world_cpu_s = 0;
+};
+
+/// The end of a cell (world × method). Every cell becomes a row with one of these.
+enum class Status { kOk, kUnsolved, kFailed, kTimeout, kCrashed, kOutOfMemory, kBadOutput, kSkipped };
+constexpr int kStatusCount = static_cast<int>(Status::kSkipped) + 1;
+
+std::string_view StatusName(Status status);
+/// The status of that name; nothing when there is none.
+std::optional<Status> FindStatus(std::string_view name);
+
+/// One measured value of a cell; a missing value says why, and never counts as zero.
+struct MetricValue {
+  std::string id;  ///< an id of bench/metrics, unit in the name
+  std::optional<double> value;
+  std::string null_reason;  ///< only when `value` is empty
+};
+
+/// A curve of a cell: one value per frame or iteration, e.g. the error of each frame.
+struct Series {
+  std::string name;  ///< e.g. "mpjpe_mm"
+  std::string axis;  ///< what the values are along: "frame", "iteration", "effector", "angle"
+  std::vector<double> values;
+  std::vector<std::string> names = {};  ///< of categories, where `values` are indices into them
+};
+
+struct Track;  // bench/model/recording.h, which brings motions along
+
+/// Everything needed to show a cell again without rerunning it: what a film draws.
+struct Recording {
+  Recording();
+  Recording(std::vector<Track> motions, std::string extras);
+  Recording(const Recording&);
+  Recording(Recording&&) noexcept;
+  Recording& operator=(const Recording&);
+  Recording& operator=(Recording&&) noexcept;
+  ~Recording();
+
+  std::vector<Track> tracks;
+  /// Facts for the viewer, as JSON text written by the task (cameras, masks, captions).
+  std::string extras_json;
+};
+
+/// The result of one method in one world.
+struct CellResult {
+  Status status = Status::kFailed;
+  std::string reason = "the task did not fill this cell";
+  std::vector<MetricValue> metrics;
+  /// Fingerprint of each stage's output, in order: the first one that differs names the culprit.
+  std::vector<std::pair<std::string, std::string>> digests;
+  std::vector<Series> series;
+  std::optional<Recording> recording;
+
+  /// A cell that ended without measurements.
+  static CellResult Ended(Status status, std::string reason) {
+    CellResult result;
+    result.status = status;
+    result.reason = std::move(reason);
+    return result;
+  }
+  void Measure(std::string id, double value) { metrics.push_back({std::move(id), value, ""}); }
+  void MeasureOr(std::string id, std::optional<double> value, std::string why_missing) {
+    value ? Measure(std::move(id), *value) : Missing(std::move(id), std::move(why_missing));
+  }
+  void Missing(std::string id, std::string why) { metrics.push_back({std::move(id), std::nullopt, std::move(why)}); }
+};
 
 /// A swept parameter and its value in one condition, both as the scenario wrote them.
 struct SweptValue {
@@ -34,9 +107,9 @@ struct Row {
 /// A row's value of a metric; nothing when it is missing or was not measured.
 std::optional<double> ValueOf(const Row& row, std::string_view metric);
 
-/// For people: "key=value, key=value", or "" when nothing is swept.
+/// The condition for people to read: "key=value, key=value", or "" when nothing is swept.
 std::string ConditionLabel(const std::vector<SweptValue>& condition);
-/// For identities: "key=value,key=value", or "-".
+/// The condition in identities: "key=value,key=value", or "-".
 std::string CompactLabel(const std::vector<SweptValue>& condition);
 
 }  // namespace etude

@@ -26,7 +26,7 @@ struct SheetRow {
   std::vector<SheetPicture> pictures;
 };
 
-/// What the sensors of a world see, for people to look at.
+/// The pictures of all sensors of a world, for people to look at.
 struct SensorSheet {
   std::string title;
   std::vector<SheetRow> rows;

@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// What a scenario says should come out: judged after the run, shown in the report.
+/// A statement of a scenario about what should come out, judged after the run and shown in the report.
 struct Expectation {
   std::string metric;
   std::string of;                           ///< the method judged
@@ -29,8 +29,8 @@ struct TimeRatio {
   Place place;
 };
 
-/// When single worlds are a regression of their own, whatever all worlds together say: on the same worlds any
-/// difference comes from the code. How the defaults were measured: docs/gate.md.
+/// The rule by which single worlds are a regression of their own, whatever all worlds together say: on the same worlds
+/// any difference comes from the code. How the defaults were measured: docs/gate.md.
 struct TailRule {
   double times = 20;    ///< a world is far worse when it is worse by more than so many practical thresholds
   int worlds = 4;       ///< so many far worse worlds of one comparison are a regression; 0 = none ever is …
@@ -38,7 +38,7 @@ struct TailRule {
   int lost = 1;         ///< so many worlds that lost their value or answer are one; 0 = none ever is
 };
 
-/// What `etude gate` holds against a baseline, for one scenario.
+/// The rules by which `etude gate` compares one scenario with a baseline.
 struct GateRules {
   std::vector<std::string> metrics;  ///< the headline metrics when the file names none
   bool exact = false;                ///< every difference is a regression; else only one that matters (threshold)
@@ -55,7 +55,7 @@ struct ComparedMethod {
   std::string settings = {};  ///< all else that is said of it, the same text for the same; "" = of an outside method
 };
 
-/// What a scenario compares and what it expects, without how its worlds are made: all that judging its rows takes.
+/// The comparisons and expectations of a scenario, without how its worlds are made: all that judging its rows takes.
 struct Study {
   std::string scenario;
   std::string task;

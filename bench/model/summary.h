@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// How an interval was computed (bench/statistics/bootstrap.h, proportion.h).
+/// The method by which an interval was computed (bench/statistics/bootstrap.h, interval.h).
 enum class IntervalKind {
   kNone,
   kBca,              ///< bias-corrected and accelerated bootstrap
@@ -51,13 +51,13 @@ struct PairedTest {
   std::string how;          ///< "exact", "normal approximation", "9,999 draws"
 };
 
-/// What is left of a comparison's mean difference when one unit's worlds are left out.
+/// A comparison's mean difference without the worlds of one unit.
 struct LeftOut {
   std::string unit;
   double difference = 0;
 };
 
-/// What a comparison says beyond its worlds: about other units (clips, people, …) like those it was sampled from
+/// The result of a comparison beyond its worlds: about other units (clips, people, …) like those it was sampled from
 /// (bench/statistics/beyond.h). Where every world is its own unit this says what the worlds say.
 struct Beyond {
   int units = 0;                                  ///< that have a pair
@@ -95,7 +95,7 @@ struct Comparison {
   Beyond beyond;                   ///< these worlds, for other units like theirs
 };
 
-/// What one stage costs: how much smaller the error is when the truth stands for it, mean over worlds.
+/// The cost of one stage: how much smaller the error is when the truth stands for it, mean over worlds.
 struct BudgetShare {
   std::string stage;  ///< or several, that were made true together
   double mean = 0;
@@ -138,11 +138,11 @@ struct AcrossVerdict {
   bool Holds() const { return verdict != Verdict::kInconclusive; }
 };
 
-/// Whether something that was said to come out did: an expectation, a time rule.
+/// The ruling on something that was said to come out: an expectation, a time rule.
 enum class Ruling { kMet, kUnmet, kUndecided };
 std::string_view RulingName(Ruling ruling);
 
-/// What a scenario said it expects, and whether it came so.
+/// An expectation of a scenario, and whether it came out.
 struct ExpectationResult {
   std::string text;  ///< "orientation_error_deg of adaptive below fixed"
   Ruling ruling = Ruling::kUndecided;

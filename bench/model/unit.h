@@ -8,8 +8,8 @@
 
 namespace etude {
 
-/// What the worlds of a scenario were drawn from: worlds that share such a unit resemble each other, so a claim beyond
-/// them counts units, not worlds.
+/// The unit that the worlds of a scenario were drawn from: worlds that share such a unit resemble each other, so a
+/// claim beyond them counts units, not worlds.
 enum class SamplingUnit {
   kWorld,     ///< every world is drawn for itself
   kPerson,    ///< every world has a person of its own
@@ -27,7 +27,7 @@ std::string_view SamplingUnitName(SamplingUnit unit);
 /// "6 clips", "1 person"; a clip-pair counts its clips.
 std::string CountUnits(int count, SamplingUnit unit);
 
-/// Whether no two worlds share a unit, so that worlds are units.
+/// True if no two worlds share a unit, so that worlds are units.
 constexpr bool IsEveryWorldItsOwn(SamplingUnit unit) {
   return unit == SamplingUnit::kWorld || unit == SamplingUnit::kPerson;
 }

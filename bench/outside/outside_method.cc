@@ -20,8 +20,6 @@
 #include "bench/outside/messages.h"
 #include "bench/process/child_process.h"
 #include "bench/process/clock.h"
-#include "bench/process/find_program.h"
-#include "bench/process/program_limits.h"
 
 namespace etude {
 namespace {

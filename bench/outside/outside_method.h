@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "bench/files/json.h"
-#include "bench/model/cell_result.h"
 #include "bench/model/payload.h"
+#include "bench/model/row.h"
 #include "bench/process/fence.h"
 
 namespace etude {

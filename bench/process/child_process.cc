@@ -5,24 +5,28 @@
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <set>
 #include <utility>
 
-#include "bench/process/descriptor.h"
-#include "bench/process/find_program.h"
-#include "bench/process/held_tree.h"
 #include "bench/process/pinned_environment.h"
-#include "bench/process/program_limits.h"
+#include "bench/process/process_tree.h"
 
 namespace etude {
 namespace {
+
+bool IsProgram(const std::string& path) {
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) && ::access(path.c_str(), X_OK) == 0;
+}
 
 constexpr int kChunksPerReceive = 16;  // a child that never stops talking must not keep us from looking at the clock
 
@@ -51,7 +55,7 @@ void Limit(__rlimit_resource resource, rlim_t most) {
   ::setrlimit(resource, &limit);
 }
 
-/// What keeps a program that is not ours within bounds wherever it runs.
+/// Sets the limits that keep a program that is not ours within bounds wherever it runs.
 void LimitProgram() {
   ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
   Limit(RLIMIT_FSIZE, ProgramLimits::kFileBytes);
@@ -59,7 +63,7 @@ void LimitProgram() {
   Limit(RLIMIT_CORE, 0);
 }
 
-/// What a forked child does to become the program. Only system calls are safe here.
+/// Turns a forked child into the program. Only system calls are safe here.
 [[noreturn]] void BecomeProgram(const char* path, char* const* argv, char* const* envp, int input, int output,
                                 int errors, int report, pid_t parent, bool limited) {
   ::setpgid(0, 0);
@@ -102,7 +106,7 @@ void EndOrphans() {
   }
 }
 
-/// How a program ended. A shell, and a fence, tell a signal by an exit code beyond 128.
+/// Describes how a program ended. A shell, and a fence, tell a signal by an exit code beyond 128.
 std::string DescribeEnd(int status) {
   const int code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
   const int signal = code - 128;
@@ -111,6 +115,23 @@ std::string DescribeEnd(int status) {
 }
 
 }  // namespace
+
+Result<std::string> FindProgram(const std::string& name) {
+  if (name.find('/') != std::string::npos) {
+    if (::access(name.c_str(), F_OK) != 0) return Fail({name, 0, 0}, "no such program: {}", std::strerror(errno));
+    if (!IsProgram(name)) return Fail({name, 0, 0}, "is no program that may be executed");
+    return name;
+  }
+  const char* variable = ::getenv("PATH");
+  const std::string folders = variable != nullptr ? variable : "/usr/bin:/bin";
+  for (std::size_t start = 0; start <= folders.size();) {
+    const std::size_t end = std::min(folders.find(':', start), folders.size());
+    const std::string folder = end == start ? "." : folders.substr(start, end - start);
+    if (std::string path = folder + "/" + name; !name.empty() && IsProgram(path)) return path;
+    start = end + 1;
+  }
+  return Fail({}, "no program '{}' in PATH ({})", name, folders);
+}
 
 void AdoptOrphans() { ::prctl(PR_SET_CHILD_SUBREAPER, 1); }
 

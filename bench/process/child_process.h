@@ -2,6 +2,8 @@
 
 #include <sys/types.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +14,17 @@
 
 namespace etude {
 
+/// The limits of a program that is not ours, beside the time and memory that a scenario allows it.
+struct ProgramLimits {
+  static constexpr std::uint64_t kFileBytes = std::uint64_t{256} << 20;  ///< of a file; in a fence, of a scratch folder
+  static constexpr std::uint64_t kOpenFiles = 4096;
+  static constexpr std::uint64_t kThreads = 4096;  ///< of all its processes; in a fence, and not for root
+  static constexpr std::size_t kProcesses = 256;   ///< looked at 50 times a second
+};
+
+/// The path of a program, the way a shell finds it.
+Result<std::string> FindProgram(const std::string& name);
+
 struct ChildOptions {
   std::string program;  ///< a path, or a name to be found in PATH
   std::vector<std::string> arguments = {};
@@ -19,7 +32,7 @@ struct ChildOptions {
   bool limited = false;         ///< it is not ours: it gains no privileges and is kept within ProgramLimits
 };
 
-/// From now on what a child leaves behind becomes a child of this process, which ends it with the child. For processes
+/// Makes what a child leaves behind from now on a child of this process, which ends it with the child. For processes
 /// whose only children are those of ChildProcess.
 void AdoptOrphans();
 
@@ -39,8 +52,8 @@ class ChildProcess {
   /// calls of Receive and Send. False when the child no longer listens.
   bool Send(const std::string& line);
   bool HasUnsent() const { return sent_ < unsent_.size(); }
-  /// For poll(): `output` is readable when the child has said something or ended; `input` is writable when
-  /// something unsent can be sent on.
+  /// The descriptors for poll(): `output` is readable when the child has said something or ended; `input` is writable
+  /// when something unsent can be sent on.
   int output() const { return output_; }
   int input() const { return input_; }
   /// Takes some of what can be read now (poll says whether there is more) and sends on what is unsent. Whole
@@ -48,13 +61,13 @@ class ChildProcess {
   /// output, that is, ended, or when a line grows beyond `longest_line` bytes.
   bool Receive(std::size_t longest_line = std::size_t{1} << 30);
   std::optional<std::string> NextLine();
-  /// What has been read of a line that is not whole yet.
+  /// The beginning of a line that has not been read to its end yet.
   std::string_view PartOfLine() const { return std::string_view(buffer_).substr(line_start_); }
-  /// What it and its descendants use now; zeros when it has ended.
+  /// The usage of the child and its descendants now; zeros when it has ended.
   ProcessUsage Measure() const;
-  /// The same of the child alone.
+  /// The usage of the child alone.
   ProcessUsage MeasureAlone() const;
-  /// Whether the program itself has ended; what it has started may still hold its output open.
+  /// True if the program itself has ended; what it has started may still hold its output open.
   bool HasEnded() const;
   /// Ends its input, gives it `patience_ms` to end by itself, then kills it; kills what it has started either
   /// way. Says how it ended: "exit code 2", "signal 11 (Segmentation fault)"; the latter also of exit code 139, by

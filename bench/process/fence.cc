@@ -9,8 +9,6 @@
 #include <set>
 
 #include "bench/process/child_process.h"
-#include "bench/process/find_program.h"
-#include "bench/process/program_limits.h"
 
 namespace etude {
 namespace {
@@ -29,7 +27,7 @@ bool IsFolder(const fs::path& path) {
   return fs::is_directory(fs::symlink_status(path, error));
 }
 
-/// Of a path in a replaced folder, the part just below that folder; else "".
+/// The part of a path just below the replaced folder that it lies in; else "".
 fs::path TopBelowReplaced(const fs::path& path) {
   for (const char* replaced : {kScratch[0], kScratch[1], kScratch[2], kSockets}) {
     const fs::path inside = path.lexically_relative(replaced);

@@ -1,19 +1,23 @@
 #include "bench/process/pinned_environment.h"
 
+#include <fmt/format.h>
+#include <link.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <span>
 #include <string_view>
 
 namespace etude {
 namespace {
 
-/// Says in the environment of a process that is started anew which one it is; processes keep their number then.
+/// The variable that tells a process started anew which one it is; processes keep their number then.
 constexpr std::string_view kRestarted = "ETUDE_RESTARTED";
 
 std::string_view NameOf(std::string_view assignment) { return assignment.substr(0, assignment.find('=')); }
@@ -23,7 +27,7 @@ bool Holds(const Texts& texts, std::string_view text) {
   return std::ranges::find(texts, text) != texts.end();
 }
 
-/// Whether the environment is what `ClosedEnvironment` would make of it.
+/// True if the environment is what `ClosedEnvironment` would make of it.
 bool IsClosed() {
   std::size_t pinned = 0;
   for (char** entry = environ; *entry != nullptr; ++entry) {
@@ -34,6 +38,38 @@ bool IsClosed() {
     }
   }
   return pinned == PinnedEnvironment().size();
+}
+
+using Libraries = std::vector<std::pair<std::string, std::string>>;
+
+/// The build ID among the notes of an ELF segment.
+std::string BuildIdIn(std::span<const unsigned char> notes) {
+  const auto padded = [](std::size_t size) { return (size + 3) / 4 * 4; };
+  while (notes.size() >= sizeof(ElfW(Nhdr))) {
+    ElfW(Nhdr) head;
+    std::memcpy(&head, notes.data(), sizeof head);
+    const std::size_t name = sizeof head, value = name + padded(head.n_namesz), end = value + padded(head.n_descsz);
+    if (end > notes.size()) break;
+    if (head.n_type == NT_GNU_BUILD_ID && head.n_namesz == 4 && std::memcmp(notes.data() + name, "GNU", 4) == 0) {
+      return fmt::format("{:02x}", fmt::join(notes.subspan(value, head.n_descsz), ""));
+    }
+    notes = notes.subspan(end);
+  }
+  return "";
+}
+
+int AddLibrary(dl_phdr_info* object, std::size_t, void* list) {
+  const std::string name = std::filesystem::path(object->dlpi_name).filename().string();
+  // The program itself and its modules; the kernel's part of it.
+  if (name.empty() || name.starts_with("etude_") || name.starts_with("linux-vdso")) return 0;
+  std::string build;
+  for (const ElfW(Phdr) & part : std::span(object->dlpi_phdr, object->dlpi_phnum)) {
+    if (part.p_type != PT_NOTE || !build.empty()) continue;
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader tells addresses as numbers
+    build = BuildIdIn({reinterpret_cast<const unsigned char*>(object->dlpi_addr + part.p_vaddr), part.p_memsz});
+  }
+  static_cast<Libraries*>(list)->emplace_back(name, std::move(build));
+  return 0;
 }
 
 }  // namespace
@@ -97,6 +133,13 @@ Result<void> EnterPinnedEnvironment() {
   arguments.push_back(nullptr);
   ::execve("/proc/self/exe", arguments.data(), variables.data());
   return Fail({}, "this program cannot be started anew: {}", std::strerror(errno));
+}
+
+std::vector<std::pair<std::string, std::string>> LoadedLibraries() {
+  Libraries libraries;
+  ::dl_iterate_phdr(AddLibrary, &libraries);
+  std::ranges::sort(libraries);
+  return libraries;
 }
 
 }  // namespace etude

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/base/result.h"
@@ -8,7 +9,7 @@
 namespace etude {
 
 /// The settings under which the same build gives the same bytes on any machine, as NAME=VALUE. They must stand before a
-/// process starts, which is why every command but those that draw for people starts itself anew (cli/main.cc).
+/// process starts, which is why commands that compute start themselves anew (cli/main.cc).
 const std::vector<std::string>& PinnedEnvironment();
 
 /// The names of what may come from outside: where programs, homes and temporary files are, who asks, the terminal, and
@@ -22,5 +23,9 @@ std::vector<std::string> ClosedEnvironment();
 /// Starts this very command anew in the closed environment, unless it is in there already. Returns only when it is, or
 /// when that fails.
 Result<void> EnterPinnedEnvironment();
+
+/// The shared libraries that are loaded now, sorted by name: "libOSMesa.so.8" and its build ID in hexadecimal, which
+/// tells any two builds of it apart ("" where it has none).
+std::vector<std::pair<std::string, std::string>> LoadedLibraries();
 
 }  // namespace etude

@@ -3,9 +3,12 @@
 #include <dirent.h>
 #include <fcntl.h>
 #include <fmt/core.h>
+#include <signal.h>
+#include <sys/syscall.h>
 #include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -48,12 +51,18 @@ void AddChildren(pid_t parent, std::vector<pid_t>& processes) {
   ::closedir(threads);
 }
 
-/// Its own CPU time, to the nanosecond, where /proc/<pid>/stat counts in hundredths of a second.
+/// The CPU time of a process alone, to the nanosecond, where /proc/<pid>/stat counts in hundredths of a second.
 double OwnCpuSeconds(pid_t process) {
   clockid_t clock;
   timespec time;
   if (::clock_getcpuclockid(process, &clock) != 0 || ::clock_gettime(clock, &time) != 0) return 0;
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+constexpr int kMostLooks = 100;  // at a tree that grows while it is held
+
+bool Signal(const Descriptor& process, int signal) {
+  return ::syscall(SYS_pidfd_send_signal, process.number(), signal, nullptr, 0) == 0;
 }
 
 }  // namespace
@@ -96,6 +105,42 @@ ProcessUsage MeasureTree(pid_t root) {
     sum.processes += usage.processes;
   }
   return sum;
+}
+
+HeldTree::HeldTree(pid_t root) {
+  AddTree(root);
+  for (int i = 0; i < kMostLooks && Grow(); ++i) {
+  }
+}
+
+void HeldTree::Kill() {
+  // A stopped process starts no other, but may have just forked: stop and list until two passes find nothing new.
+  for (int i = 0, quiet = 0; i < kMostLooks && quiet < 2; ++i) {
+    SignalAll(SIGSTOP);
+    quiet = Grow() ? 0 : quiet + 1;
+  }
+  SignalAll(SIGKILL);
+}
+
+bool HeldTree::Grow() {
+  const std::size_t before = processes_.size();
+  for (std::size_t i = 0; i < before; ++i) {
+    constexpr int kOnlyAsk = 0;
+    if (Signal(processes_[i].handle, kOnlyAsk)) AddTree(processes_[i].number);
+  }
+  return processes_.size() > before;
+}
+
+void HeldTree::AddTree(pid_t root) {
+  for (const pid_t number : ProcessTree(root)) {
+    const bool known = std::any_of(processes_.begin(), processes_.end(),
+                                   [&](const Process& process) { return process.number == number; });
+    if (!known) processes_.push_back({number, Descriptor(static_cast<int>(::syscall(SYS_pidfd_open, number, 0)))});
+  }
+}
+
+void HeldTree::SignalAll(int signal) const {
+  for (const Process& process : processes_) Signal(process.handle, signal);
 }
 
 }  // namespace etude

@@ -1,12 +1,34 @@
 #pragma once
 
 #include <sys/types.h>
+#include <unistd.h>
 
+#include <utility>
 #include <vector>
 
 namespace etude {
 
-/// What a process and all its descendants hold and have used.
+/// A file descriptor that is closed at the end of its scope.
+class Descriptor {
+ public:
+  explicit Descriptor(int number = -1) : number_(number) {}
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+  ~Descriptor() { Close(); }
+  int number() const { return number_; }
+  int Release() { return std::exchange(number_, -1); }
+  void Close() {
+    if (number_ >= 0) ::close(std::exchange(number_, -1));
+  }
+
+ private:
+  int number_;
+};
+
+/// The memory and processor time of a process and all its descendants.
 struct ProcessUsage {
   double resident_mb = 0;  ///< pages that several of them share count for each
   double cpu_s = 0;        ///< with what was used by those that they have waited for
@@ -24,5 +46,27 @@ std::vector<pid_t> ChildrenOf(pid_t parent);
 ProcessUsage MeasureTree(pid_t root);
 /// The process alone, without its descendants.
 ProcessUsage MeasureProcess(pid_t process);
+
+/// A process and its descendants, held so that ending them cannot hit another process that has been given one of
+/// their numbers meanwhile.
+class HeldTree {
+ public:
+  explicit HeldTree(pid_t root);
+
+  /// Ends all of them, and all that they have started since.
+  void Kill();
+
+ private:
+  struct Process {
+    pid_t number;
+    Descriptor handle;  ///< a pidfd
+  };
+  /// Takes hold of what the held ones have started since; whether there was any.
+  bool Grow();
+  void AddTree(pid_t root);
+  void SignalAll(int signal) const;
+
+  std::vector<Process> processes_;
+};
 
 }  // namespace etude

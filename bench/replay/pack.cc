@@ -8,7 +8,6 @@
 #include "bench/clips/references.h"
 #include "bench/files/files.h"
 #include "bench/files/temporary_folder.h"
-#include "bench/replay/compare_rows.h"
 #include "bench/replay/replay.h"
 #include "bench/results/folder.h"
 #include "bench/results/row_json.h"
@@ -85,8 +84,8 @@ Result<Json> PackStreams(const LabelledStreams& recordings) {
   return Json{{"clips", std::move(clips)}, {"files", std::move(files)}};
 }
 
-/// What a scenario's worlds are made of: {"clips": what PackClips gives, "libraries": {name: likewise, …}, "streams":
-/// likewise, where there are any}.
+/// Encodes what a scenario's worlds are made of: {"clips": what PackClips gives, "libraries": {name: likewise, …},
+/// "streams": likewise, where there are any}.
 Result<Json> PackMotions(const PreparedScenario& scenario) {
   Json motions{{"clips", nullptr}, {"libraries", Json::object()}};
   for (const auto& [name, library] : scenario.libraries()) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/model/row.h"
 #include "bench/results/folder.h"
 #include "bench/run/outside_programs.h"
 #include "engine/base/result.h"
@@ -15,10 +16,14 @@ namespace etude {
 struct CellCheck {
   std::string cell;
   bool same = false;
-  /// Where it went another way: the first stage whose digest differs, else "status" or a metric; "" when the same.
+  /// The place where it went another way: the first stage whose digest differs, else "status" or a metric; "" when the
+  /// same.
   std::string stage;
   std::string then, now;  ///< what stood there, what came now
 };
+
+/// Compares a row with the one that came when the cell was run again: stage by stage, then status, then metrics.
+CellCheck CompareRows(const Row& then, const Row& now);
 
 struct ReplayOptions {
   std::string folder;

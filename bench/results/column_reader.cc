@@ -1,4 +1,4 @@
-#include "bench/results/column_reader.h"
+#include "bench/results/columns.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "bench/files/json.h"
-#include "bench/results/column_index.h"
 #include "bench/results/npy.h"
 
 namespace etude {

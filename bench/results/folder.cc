@@ -8,7 +8,7 @@
 
 #include "bench/files/files.h"
 #include "bench/files/save_json.h"
-#include "bench/results/column_reader.h"
+#include "bench/results/columns.h"
 #include "bench/results/row_json.h"
 #include "bench/results/seal.h"
 #include "bench/results/summary_json.h"

@@ -12,7 +12,7 @@
 #include "bench/files/json.h"
 #include "bench/model/run_data.h"
 #include "bench/model/study.h"
-#include "bench/results/column_writer.h"
+#include "bench/results/columns.h"
 
 namespace etude {
 
@@ -24,7 +24,7 @@ constexpr const char* kJournalFile = "journal.jsonl";
 
 /// Runs of more cells than this keep them as columns (column_writer.h) instead of lines of text.
 constexpr std::size_t kMostRowsAsText = 100'000;
-/// Of such runs LoadRun holds about so many rows.
+/// The number of rows, about, that LoadRun holds of such runs.
 constexpr std::size_t kMostRowsHeld = 20'000;
 
 /// Writes cells, series, recordings, times and summary of a whole run, row by row; all but the times are the same bytes
@@ -37,7 +37,7 @@ class ResultWriter {
 
   /// The next row, in canonical order.
   Result<void> Add(const Row& row, const CellUsage& usage);
-  /// What stands in the folder then is all there is.
+  /// Ends the writing: what stands in the folder then is all there is.
   Result<void> Finish(const std::vector<ScenarioSummary>& scenarios);
 
  private:
@@ -54,7 +54,7 @@ class ResultWriter {
   std::optional<ColumnWriter> columns_;
 };
 
-/// What a reader does about a folder whose seal does not hold (seal.h).
+/// The way in which a reader treats a folder whose seal does not hold (seal.h).
 enum class Sealing {
   kRequired,  ///< refuses it
   kIgnored,   ///< reads it, and says so in `RunData::unsealed`
@@ -71,7 +71,7 @@ Result<RunData> LoadRunOutline(const std::filesystem::path& folder, Sealing seal
 Result<void> WriteRows(const std::filesystem::path& folder, Sealing sealing,
                        const std::function<Result<void>(std::string_view line)>& write);
 
-/// Whether the rows are those that summary.json sums up: as many of each scenario, none twice.
+/// True if the rows are those that summary.json sums up: as many of each scenario, none twice.
 Result<void> CheckRowsAgainstSummary(const std::filesystem::path& folder, const RunData& run);
 
 }  // namespace etude

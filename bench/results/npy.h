@@ -47,7 +47,7 @@ class NpyWriter {
   std::size_t count_ = 0;
 };
 
-/// Such a file as a part of memory: the system reads of it what is looked at.
+/// An .npy file mapped into memory: the system reads of it what is looked at.
 class NpyFile {
  public:
   /// Fails, naming the path, when it is none that NpyWriter wrote, or holds another number of numbers.

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/metrics/catalogue.h"
+#include "bench/model/recording.h"
 
 namespace etude {
 namespace {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "bench/files/json.h"
-#include "bench/model/cell_usage.h"
 #include "bench/model/row.h"
 
 namespace etude {

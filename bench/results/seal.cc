@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr int kSealVersion = 1;
 
-/// By path from the folder, with '/' between its parts.
+/// The digests of files, by path from the folder with '/' between its parts.
 using Digests = std::map<std::string, std::string>;
 
 bool IsSealed(const fs::path& from_folder) {

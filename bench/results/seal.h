@@ -7,10 +7,10 @@
 
 namespace etude {
 
-/// What stands in the folder of a whole run: a digest of every file that the run or the merge wrote.
+/// The seal in the folder of a whole run: a digest of every file that the run or the merge wrote.
 constexpr const char* kSealFile = "seal.json";
 
-/// Whether a part of a result folder is made from the results, and may be made again: `report`, `video`. Such parts are
+/// True if a part of a result folder is made from the results, and may be made again: `report`, `video`. Such parts are
 /// not sealed.
 bool IsMadeFromResults(std::string_view part);
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bench/metrics/catalogue.h"
+#include "bench/model/recording.h"
 #include "bench/results/row_json.h"
 #include "engine/base/digest.h"
 
@@ -26,7 +27,7 @@ std::size_t PlaceInCatalogue(const std::string& id) {
   return metric == nullptr ? AllMetrics().size() : static_cast<std::size_t>(metric - AllMetrics().data());
 }
 
-/// Why this cell cannot be written as it is, or "".
+/// The reason why this cell cannot be written as it is, or "".
 std::string FindBadValue(const CellResult& result) {
   for (const MetricValue& metric : result.metrics) {
     if (FindMetric(metric.id) == nullptr) return "the metric '" + metric.id + "' is not in the catalogue";

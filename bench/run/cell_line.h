@@ -23,13 +23,13 @@ namespace etude {
 /// not finite, or a metric that the catalogue does not know, turns the cell into bad_output.
 std::string EncodeCellLine(std::size_t cell, FinishedCell finished);
 
-/// What a line says first.
+/// The word that a line begins with.
 struct CellLineHead {
   std::size_t cell = 0;
   Status status = Status::kFailed;
 };
 
-/// Nothing when the line is not as EncodeCellLine wrote it.
+/// Reads a line back; nothing when it is not as EncodeCellLine wrote it.
 std::optional<CellLineHead> ReadCellLineHead(std::string_view line);
 
 /// Reads a line that is as it was written; `identity` is the row of its cell, without a result.

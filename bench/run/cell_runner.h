@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "bench/model/cell_usage.h"
+#include "bench/model/row.h"
 #include "bench/outside/outside_method.h"
 #include "bench/process/clock.h"
 #include "bench/run/setup.h"
@@ -51,7 +51,7 @@ class CellRunner {
   CellResult RunWithProgram(std::size_t method, CellUsage& usage);
   /// Its place among those that the task runs.
   std::size_t IndexInTask(std::size_t method) const;
-  /// What is told to methods outside before their first problem; a cell that ended when it cannot be made.
+  /// The message to methods outside before their first problem; a cell that ended when it cannot be made.
   tl::expected<const Payload*, CellResult> OpenSetting();
   std::string SettingId() const;
 

@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-/// What the worlds of the first condition are drawn from.
+/// The units that the worlds of the first condition are drawn from.
 int CountUnitsOf(const PreparedScenario& prepared) {
   const Scenario& scenario = prepared.scenario();
   if (IsEveryWorldItsOwn(scenario.unit)) return scenario.trials;

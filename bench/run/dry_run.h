@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// What a scenario would take, and what it could show.
+/// The time that a scenario would take, and the differences that it could show.
 struct ScenarioForecast {
   std::string name, task;
   std::size_t worlds = 0;      ///< of each condition

@@ -10,11 +10,11 @@
 
 #include "bench/files/files.h"
 #include "bench/metrics/catalogue.h"
-#include "bench/process/loaded_libraries.h"
 #include "bench/process/pinned_environment.h"
 #include "bench/results/folder.h"
 #include "bench/tasks/base/sensor_key.h"
 #include "bench/tasks/registry.h"
+#include "bench/training/genetic_search.h"
 #include "engine/base/digest.h"
 #include "sim/render/renderer.h"
 
@@ -46,7 +46,7 @@ Json DescribeClips(const ClipLibrary& library) {
   return clips;
 }
 
-/// Whether a task of another kind sees by the cameras of the capture task.
+/// True if a task of another kind sees by the cameras of the capture task.
 bool IsFilmed(const Scenario& scenario) {
   return std::ranges::any_of(scenario.conditions, [](const Condition& condition) {
     const Node* sensor = condition.node.Find(kSensorKey);
@@ -54,7 +54,7 @@ bool IsFilmed(const Scenario& scenario) {
   });
 }
 
-/// Of the clips, then of the recordings of people.
+/// Describes the clips, then the recordings of people.
 Json DescribeMotions(const PreparedScenario& scenario) {
   Json motions = DescribeClips(scenario.clips());
   if (scenario.setup().streams.empty()) return motions;
@@ -82,9 +82,11 @@ std::string DigestOf(const std::vector<std::string>& texts) {
   return digest.Hex();
 }
 
-/// Of the libraries of a process that draws, renderer and codecs among them, by their build IDs.
+/// The digest of all libraries that a worker may load, by their build IDs: those of the program, renderer and codecs, and
+/// of the genetic search.
 std::string DigestOfLibraries() {
-  static_cast<void>(LoadRenderer());  // where there is none, the digest tells that
+  static_cast<void>(LoadRenderer());  // where one is missing, the digest tells that
+  static_cast<void>(LoadGeneticSearch());
   std::vector<std::string> texts;
   for (const auto& [name, build] : LoadedLibraries()) texts.push_back(name + " " + build);
   return DigestOf(texts);

@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// What repeats the run: manifest.json. Its bytes do not depend on how or where it is run.
+/// Makes manifest.json, which repeats the run. Its bytes do not depend on how or where it is run.
 Json MakeManifest(const SuiteSetup& suite, std::span<const PreparedScenario> scenarios, const std::string& version);
 
 /// The suite that a manifest describes. Fails when it is of another schema.
@@ -28,7 +28,7 @@ struct PreparedRun {
 /// Makes ready what a manifest describes, with the very clips that it had then.
 Result<PreparedRun> PrepareRun(const std::filesystem::path& manifest);
 
-/// Where and how it was run: host.json.
+/// Makes host.json: where and how the run was made.
 Json DescribeHost(const std::string& command_line, int jobs, double seconds);
 
 /// A fingerprint of the program that is running: two builds have two.

@@ -5,7 +5,6 @@
 #include "bench/files/files.h"
 #include "bench/process/clock.h"
 #include "bench/results/folder.h"
-#include "bench/run/finish.h"
 #include "bench/run/journal.h"
 #include "bench/run/manifest.h"
 #include "bench/run/run.h"
@@ -47,7 +46,7 @@ Result<void> AddShard(const fs::path& folder, const std::string& build, Shards& 
   return {};
 }
 
-/// Which shards the folders hold, after checking that they are parts of one run, each there once.
+/// Finds which shards the folders hold, after checking that they are parts of one run, each there once.
 Result<Shards> FindShards(const std::vector<std::string>& folders) {
   ASSIGN_OR_RETURN(const auto build, BuildDigest());
   Shards shards;
@@ -66,7 +65,7 @@ Result<Shards> FindShards(const std::vector<std::string>& folders) {
   return shards;
 }
 
-/// What a shard lacks: "2/4 in DIR lacks 3 of 40 cells, the first ik/…", or "".
+/// Tells what a shard lacks: "2/4 in DIR lacks 3 of 40 cells, the first ik/…", or "".
 std::string WhatLacks(const Plan& plan, const Shard& shard, const fs::path& folder, const CellTable& cells) {
   std::size_t wanted = 0, lacking = 0;
   std::string first;

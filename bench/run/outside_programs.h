@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// How methods outside may be run.
+/// The rules by which methods outside may be run.
 struct OutsideRules {
   bool is_fenced = true;    ///< where the kernel allows it
   bool allow_exec = false;  ///< also those that a manifest or a pack names, which may come from anybody

@@ -8,7 +8,6 @@
 #include "bench/files/save_json.h"
 #include "bench/process/clock.h"
 #include "bench/results/folder.h"
-#include "bench/run/finish.h"
 #include "bench/run/journal.h"
 #include "bench/run/manifest.h"
 #include "bench/run/run_folder.h"
@@ -28,7 +27,7 @@ fs::path FolderFor(const RunOptions& options, const SuiteSetup& suite) {
   return fmt::format("out/{}-{}{}", suite.suite, suite.seed, part);
 }
 
-/// Whether the folder may be written into as the options want it.
+/// Fails unless the folder may be written into as the options want it.
 Result<FolderState> CheckFolder(const fs::path& folder, const RunOptions& options) {
   auto state = LookAtFolder(folder);
   if (!state || *state == FolderState::kFree || options.resume || options.overwrite) return state;

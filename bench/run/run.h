@@ -36,7 +36,7 @@ struct RunOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// How far a run has come: told before the first cell, and whenever more cells are safe on the disk.
+/// The progress of a run: told before the first cell, and whenever more cells are safe on the disk.
 struct Progress {
   std::size_t cells = 0;  ///< of this run or shard
   std::size_t cells_done = 0;

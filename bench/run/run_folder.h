@@ -1,8 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
+#include "bench/files/json.h"
+#include "bench/run/journal.h"
 #include "engine/base/result.h"
 
 namespace etude {
@@ -25,7 +28,7 @@ class RunFolder {
   RunFolder(RunFolder&& other) noexcept;
   ~RunFolder();
 
-  /// From now on there is something in it worth keeping.
+  /// Says that there is something in it worth keeping from now on.
   void Keep() { is_ours_ = false; }
 
  private:
@@ -35,5 +38,12 @@ class RunFolder {
   bool is_ours_;  ///< made by this run, and nothing in it yet that is worth keeping
   int lock_;      ///< the lock ends with the process, however that ends
 };
+
+/// Writes the results of a whole run into its folder: cells, series, recordings, summary, timings and, last,
+/// host.json. Then the journal, if any, is removed: without it a folder counts as finished. `cells` must be complete.
+/// Many are summed up by `jobs` processes. `goes_on` is told how many rows are written, every few thousand; when it
+/// says no, the folder stays unfinished. Gives whether it is finished.
+Result<bool> FinishRun(const std::filesystem::path& folder, const Plan& plan, CellTable& cells, const Json& host,
+                       int jobs, const std::function<bool(std::size_t rows)>& goes_on);
 
 }  // namespace etude

@@ -16,7 +16,7 @@ namespace etude {
 /// Of one run: where their rows stand is held in memory.
 inline constexpr std::size_t kMostCells = 10'000'000;
 
-/// All that is needed to make a scenario's worlds again, anywhere, beside the texts it stands in.
+/// The inputs of a scenario's worlds beside the texts that it stands in: enough to make them again anywhere.
 struct ScenarioSetup {
   std::string file;  ///< a key of SuiteSetup::sources
   std::string name;  ///< a file may hold several scenarios
@@ -36,7 +36,7 @@ struct ScoredMethod {
   bool alone = false;  ///< in the place of the scenarios' own methods, not beside them
 };
 
-/// What the manifest keeps, and what every worker is started with.
+/// The set-up of a suite, which the manifest keeps and every worker is started with.
 struct SuiteSetup {
   std::string suite;
   std::uint64_t seed = 1;
@@ -65,7 +65,7 @@ class PreparedScenario {
   const LabelledStreams* recordings() const { return recordings_.get(); }
   const Task& task(int condition) const { return *tasks_[condition]; }
 
-  /// What keys the dice of a trial.
+  /// The key of a trial's dice.
   WorldKey KeyOf(int trial) const { return {setup_.seed, scenario_.name, trial}; }
   /// A cell's row before anything is known about its result.
   Row IdentityOf(int condition, int trial, std::size_t method) const;
@@ -90,8 +90,8 @@ class PreparedScenario {
   std::vector<std::unique_ptr<Task>> tasks_;  ///< one per condition
 };
 
-/// How many people a scenario's recordings show; nothing where its worlds are not made of them. `texts` hold its
-/// labels.
+/// The number of people that a scenario's recordings show; nothing where its worlds are not made of them. `texts` hold
+/// its labels.
 Result<std::optional<int>> CountRecordedPeople(const ScenarioSetup& setup, const StreamSource& source,
                                                const SourceTexts& texts);
 

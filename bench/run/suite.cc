@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "bench/files/files.h"
-#include "bench/run/canonical_names.h"
 #include "bench/run/manifest.h"
 #include "bench/scenario/methods.h"
 #include "bench/tasks/base/fuzzy_key.h"
@@ -19,6 +18,15 @@
 
 namespace etude {
 namespace {
+
+namespace fs = std::filesystem;
+
+fs::path TopOf(const fs::path& folder) {
+  for (fs::path above = folder; above != above.parent_path(); above = above.parent_path()) {
+    if (std::error_code none; fs::exists(above / ".git", none)) return above;
+  }
+  return {};
+}
 
 namespace fs = std::filesystem;
 
@@ -39,8 +47,8 @@ Result<void> KeepText(const std::string& file, SourceTexts& texts) {
   return {};
 }
 
-/// Likewise of the fuzzy systems, sensor files, calibration files and taught moves that its conditions name. What is no
-/// text is refused when the tasks are made.
+/// Adds the texts of the fuzzy systems, sensor files, calibration files and taught moves that its conditions name. What
+/// is no text is refused when the tasks are made.
 Result<void> KeepNamedFiles(const Scenario& scenario, SourceTexts& texts) {
   for (const Condition& condition : scenario.conditions) {
     for (const auto& [key, is_file] : {std::pair{kFuzzyKey, &IsFuzzyFile}, std::pair{kSensorKey, &IsSensorFile},
@@ -74,7 +82,7 @@ Result<void> CheckThatUsed(const std::vector<std::string>& paths, const std::set
   return {};
 }
 
-/// Of "NAME=CLIPS" each; those of one name together.
+/// Reads "NAME=CLIPS" each; those of one name are put together.
 Result<std::vector<NamedClips>> ReadLibraryOptions(const std::vector<std::string>& options) {
   std::vector<NamedClips> libraries;
   for (const std::string& option : options) {
@@ -133,6 +141,22 @@ Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const s
 }
 
 }  // namespace
+
+std::map<std::string, std::string> CanonicalNames(const std::string& scenario_file,
+                                                  const std::vector<std::string>& sources) {
+  std::error_code error;
+  const fs::path given = fs::absolute(scenario_file, error).lexically_normal().parent_path();
+  const fs::path folder = fs::weakly_canonical(given, error);
+  const fs::path top = TopOf(folder);
+  std::map<std::string, std::string> names;
+  for (const std::string& source : sources) {
+    // As an include says it: from the scenario's folder, whatever links lead there.
+    const fs::path from_folder = fs::absolute(source, error).lexically_normal().lexically_relative(given);
+    const fs::path path = (folder / from_folder).lexically_normal();
+    names[source] = (top.empty() ? path : path.lexically_relative(top)).generic_string();
+  }
+  return names;
+}
 
 Result<std::vector<std::string>> FindScenarioFiles(const std::vector<std::string>& paths) {
   std::vector<std::string> files;

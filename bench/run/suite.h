@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,13 @@
 #include "bench/run/setup.h"
 
 namespace etude {
+
+/// The manifest's names of scenario files and those that they include, by the names in `sources`: the path from the top
+/// of the repository that holds the scenario (the nearest folder above it with `.git`), absolute where there is none.
+/// These names are the same wherever a run was started from, and in every checkout. Names stay such that includes find
+/// each other.
+std::map<std::string, std::string> CanonicalNames(const std::string& scenario_file,
+                                                  const std::vector<std::string>& sources);
 
 /// The scenario files behind paths: a file is itself, a folder its *.yaml, sorted by name.
 Result<std::vector<std::string>> FindScenarioFiles(const std::vector<std::string>& paths);

@@ -1,13 +1,142 @@
 #include "bench/run/sum_up.h"
 
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "bench/results/summary_json.h"
-#include "bench/run/forked.h"
 
 namespace etude {
 namespace {
+
+constexpr std::uint64_t kComplaint = ~std::uint64_t{0};
+
+/// A copy at work, and what of its answers has come: number, length, text; number, length, text; …
+struct Copy {
+  pid_t pid = -1;
+  int output = -1;
+  std::string said = {};
+};
+
+bool WriteAll(int file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(file, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return true;
+}
+
+bool Say(int file, std::uint64_t number, std::string_view text) {
+  const std::array<std::uint64_t, 2> head = {number, text.size()};
+  return WriteAll(file, {reinterpret_cast<const char*>(head.data()), sizeof head}) && WriteAll(file, text);
+}
+
+[[noreturn]] void Work(std::size_t first, std::size_t count, std::size_t step, int output, pid_t parent,
+                       const std::function<Result<std::string>(std::size_t)>& work) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);  // it died before the line above
+  for (std::size_t i = first; i < count; i += step) {
+    const auto text = work(i);
+    if (!text) Say(output, kComplaint, ToString(text.error()));
+    if (!text || !Say(output, i, *text)) ::_exit(1);
+  }
+  ::_exit(0);
+}
+
+/// Takes whole answers from what a copy has said, and counts them.
+Result<void> Take(Copy& copy, std::vector<std::string>& answers, std::size_t& taken) {
+  std::size_t at = 0;
+  std::array<std::uint64_t, 2> head{};
+  while (copy.said.size() - at >= sizeof head) {
+    std::memcpy(head.data(), copy.said.data() + at, sizeof head);
+    if (copy.said.size() - at - sizeof head < head[1]) break;
+    std::string text = copy.said.substr(at + sizeof head, head[1]);
+    at += sizeof head + head[1];
+    if (head[0] == kComplaint) return Fail({}, "{}", text);
+    answers[head[0]] = std::move(text);
+    ++taken;
+  }
+  copy.said.erase(0, at);
+  return {};
+}
+
+/// The copies, ended and reaped whatever happens.
+class Copies {
+ public:
+  ~Copies() {
+    for (Copy& copy : copies_) {
+      ::kill(copy.pid, SIGKILL);
+      End(copy);
+    }
+  }
+
+  Result<void> Start(std::size_t count, std::size_t jobs, const std::function<Result<std::string>(std::size_t)>& work) {
+    const pid_t parent = ::getpid();
+    for (std::size_t first = 0; first < jobs; ++first) {
+      std::array<int, 2> ends{};
+      if (::pipe2(ends.data(), O_CLOEXEC) != 0) return Fail({}, "no pipe can be made: {}", std::strerror(errno));
+      const pid_t pid = ::fork();
+      if (pid == 0) Work(first, count, jobs, ends[1], parent, work);
+      ::close(ends[1]);
+      if (pid < 0) {
+        ::close(ends[0]);
+        return Fail({}, "no process can be started: {}", std::strerror(errno));
+      }
+      copies_.push_back({pid, ends[0]});
+    }
+    return {};
+  }
+
+  Result<void> Listen(std::vector<std::string>& answers) {
+    std::size_t taken = 0;
+    while (!copies_.empty()) {
+      std::vector<pollfd> watched;
+      for (const Copy& copy : copies_) watched.push_back({copy.output, POLLIN, 0});
+      ::poll(watched.data(), watched.size(), -1);
+      for (std::size_t i = copies_.size(); i-- > 0;) {
+        if (watched[i].revents == 0) continue;
+        std::array<char, 1 << 16> chunk;
+        const ssize_t count = ::read(copies_[i].output, chunk.data(), chunk.size());
+        if (count < 0 && errno == EINTR) continue;
+        if (count > 0) {
+          copies_[i].said.append(chunk.data(), static_cast<std::size_t>(count));
+          RETURN_IF_ERROR(Take(copies_[i], answers, taken));
+          continue;
+        }
+        const bool went_well = End(copies_[i]);
+        copies_.erase(copies_.begin() + static_cast<std::ptrdiff_t>(i));
+        if (!went_well) return Fail({}, "a process that sums up ended before its work");
+      }
+    }
+    if (taken < answers.size()) return Fail({}, "a process that sums up ended before its work");
+    return {};
+  }
+
+ private:
+  /// True if it ended by itself, and well.
+  static bool End(Copy& copy) {
+    ::close(copy.output);
+    int status = 0;
+    while (::waitpid(copy.pid, &status, 0) < 0 && errno == EINTR) {
+    }
+    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  }
+
+  std::vector<Copy> copies_;
+};
 
 /// The findings of a condition as the summaries of two: the questions without failures, and with them. A question that
 /// has no answer with failures has one of no pairs there, which no other has.
@@ -50,6 +179,15 @@ Result<ConditionFindings> DecodeFindings(const std::string& text) {
 }
 
 }  // namespace
+
+Result<std::vector<std::string>> RunForked(std::size_t count, int jobs,
+                                           const std::function<Result<std::string>(std::size_t)>& work) {
+  std::vector<std::string> answers(count);
+  Copies copies;
+  RETURN_IF_ERROR(copies.Start(count, std::min<std::size_t>(static_cast<std::size_t>(jobs), count), work));
+  RETURN_IF_ERROR(copies.Listen(answers));
+  return answers;
+}
 
 Result<ScenarioSummary> SumUp(const Study& study, const ScenarioTable& table, std::uint64_t seed, int jobs) {
   constexpr std::size_t kWorthSharing = 20'000;  // rows; fewer are summed up before copies would be made

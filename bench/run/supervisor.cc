@@ -15,8 +15,8 @@
 
 #include "bench/process/child_process.h"
 #include "bench/process/clock.h"
-#include "bench/run/order_queue.h"
 #include "bench/run/outside_programs.h"
+#include "bench/run/plan.h"
 #include "bench/run/worker.h"
 
 namespace etude {
@@ -53,7 +53,7 @@ struct Worker {
   std::size_t condition = OrderQueue::kNowhere;
 };
 
-/// How long worlds of a scenario took, as this process saw it.
+/// The time that worlds of a scenario took, as this process saw it.
 struct Pace {
   double seconds = 0;
   int worlds = 0;

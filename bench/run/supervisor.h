@@ -42,7 +42,7 @@ using Deliver = std::function<Result<void>(const DeliveredCell& cell)>;
 Result<bool> RunOrders(const SuiteSetup& setup, const Plan& plan, std::vector<Order> orders,
                        const SupervisorOptions& options, const Deliver& deliver);
 
-/// How many workers `jobs` means: 0 is one per processor.
+/// The number of workers that `jobs` means: 0 is one per processor.
 int WorkerCount(int jobs);
 
 /// The program that is running, to be started again as a worker.

@@ -4,9 +4,9 @@
 
 namespace etude {
 
-/// What a worker says once its set-up is done, and before it is given a world.
+/// The line that a worker says once its set-up is done, before it is given a world.
 constexpr const char* kWorkerReady = "ready";
-/// What it says when an ordered world is built, before the cells of it.
+/// The line that it says when an ordered world is built, before the cells of it.
 constexpr const char* kWorldBuilt = "built";
 
 /// The whole life of a worker process (`etude worker`): one line of set-up,

@@ -69,7 +69,7 @@ bool CanFlipSigns(int units, int comparisons) {
   return SmallestP(units) * comparisons <= kAlpha && comparisons <= kMostDrawnComparisons;
 }
 
-/// Of an estimate whose error is zero the signs' smallest p: an error of no size is none that a t distribution knows.
+/// The t test of an estimate. Where its error is zero, which no t distribution knows, the p is the smallest of the signs.
 PairedTest StudentTest(double estimate, double error, int units, std::string how) {
   if (estimate == 0) return {1.0, std::move(how)};
   if (error <= 1e-12 * std::abs(estimate)) return {SmallestP(units), std::move(how)};

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/statistics/select.h"
+#include "bench/statistics/scenario_table.h"
 
 namespace etude {
 
@@ -14,17 +14,17 @@ struct UnitSample {
   std::vector<std::vector<int>> units;  ///< of each world one or more, indices of `names`
   std::vector<std::string> names;
 
-  /// Whether each world was drawn from one unit.
+  /// True if each world was drawn from one unit.
   bool IsOneWay() const;
 };
 
 /// The pairs of a condition by unit; worlds that name no unit are left out.
 UnitSample UnitsOf(const PairedWorlds& paired, const ConditionTable& table, const MetricInfo& metric);
 
-/// Fewer units than this have no verdict beyond them: no test of the signs of five can reach 5 %.
+/// The smallest number of units with a verdict beyond them: no test of the signs of five can reach 5 %.
 constexpr int kFewestUnits = 6;
 
-/// What the sample says about other units like its own, verdict left open.
+/// Estimates the difference for other units like the sample's; the verdict is left open.
 ///
 /// *One unit a world*: the estimate is the mean of the units' mean differences, its interval Student's over those
 /// means. The test flips the means' signs where that can reach 5 % among `comparisons` (2^(1 − units) × comparisons ≤
@@ -38,14 +38,15 @@ constexpr int kFewestUnits = 6;
 /// Below kFewestUnits the estimate and what leaving one out does, without interval or test.
 Beyond MeasureBeyond(const UnitSample& sample, int comparisons, std::uint64_t seed, const std::string& purpose);
 
-/// What the measured says, given its `p_holm`:
+/// The verdict that the estimate and its `p_holm` allow:
 ///   nothing          fewer than kFewestUnits units
 ///   no difference    the intervals of mean and median over units lie within ± threshold, and kFewestUnits differ
 ///   better / worse   p_holm ≤ alpha, the interval lies on one side of zero, the mean is at least the threshold
 ///   inconclusive     anything else
 std::optional<Verdict> VerdictBeyond(const Beyond& beyond, const MetricInfo& metric);
 
-/// Why there is no verdict, or it is inconclusive, in words; "" when it is clear. `comparisons` were made together.
+/// Explains in words why there is no verdict or an inconclusive one; "" when it is clear. `comparisons` were made
+/// together.
 std::string WhyOpenBeyond(const Beyond& beyond, const MetricInfo& metric, SamplingUnit unit, int comparisons);
 
 }  // namespace etude

@@ -51,7 +51,7 @@ double ResampledMean(std::span<const double> sorted, RandomStream& dice) {
   return sum / static_cast<double>(sorted.size());
 }
 
-/// Of a resample that drew each value so often; walking to the middle saves sorting it.
+/// The median of a resample that drew each value so often; walking to the middle saves sorting it.
 double MedianOfDrawn(std::span<const double> sorted, std::span<const int> counts) {
   const int low = static_cast<int>(sorted.size() - 1) / 2, high = static_cast<int>(sorted.size()) / 2;
   std::size_t index = 0;
@@ -98,7 +98,7 @@ double AtLevel(std::span<const double> sorted, double level) {
   return sorted[static_cast<std::size_t>(std::clamp(rank, 1.0, static_cast<double>(sorted.size()))) - 1];
 }
 
-/// By the normal approximation of the binomial: so many values lie below the median.
+/// The interval of the median by the normal approximation of the binomial: so many values lie below it.
 Interval OrderStatisticsInterval(std::span<const double> sorted, double confidence) {
   const double n = static_cast<double>(sorted.size());
   const double below = std::floor(0.5 * n - 0.5 * std::sqrt(n) * NormalQuantile(0.5 + confidence / 2));
@@ -121,7 +121,7 @@ std::vector<double> Sorted(std::span<const double> values) {
   return sorted;
 }
 
-/// Of a sample of one value all over, and of one too large to be resampled.
+/// The interval of a sample of one value all over, or of one too large to be resampled.
 std::optional<Interval> IntervalWithoutDice(std::span<const double> sorted, Aggregate aggregate, double confidence) {
   if (sorted.front() == sorted.back()) return Interval{sorted.front(), sorted.front(), IntervalKind::kPercentile};
   if (static_cast<int>(sorted.size()) <= kLargestResampled) return std::nullopt;

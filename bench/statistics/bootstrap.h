@@ -42,7 +42,7 @@ struct MedianAndMean {
   Interval median, mean;
 };
 
-/// Both BootstrapIntervals of the same values, to the bit, from dice that are thrown once.
+/// Gives the BootstrapIntervals of median and mean, to the bit, but draws the resamples once.
 std::optional<MedianAndMean> BootstrapMedianAndMean(std::span<const double> values, std::uint64_t seed,
                                                     const std::string& purpose, double confidence = kConfidence);
 

@@ -6,8 +6,8 @@
 
 #include "bench/statistics/bootstrap.h"
 #include "bench/statistics/distributions.h"
+#include "bench/statistics/interval.h"
 #include "bench/statistics/paired_tests.h"
-#include "bench/statistics/proportion.h"
 
 namespace etude {
 namespace {

@@ -15,7 +15,7 @@ struct Pair {
   double method = 0;
 };
 
-/// Whether all values are 0 or 1.
+/// True if all values are 0 or 1.
 bool AreShares(std::span<const Pair> pairs);
 
 /// method − baseline, without rounding: what differs in the last bits alone is a tie, of ranks as of values.
@@ -33,11 +33,11 @@ Comparison ComparePaired(std::span<const Pair> pairs, const MetricInfo& metric, 
 /// the median, of the sign flips where it is the mean.
 std::optional<double> DecidingP(const Comparison& comparison, const MetricInfo& metric);
 
-/// Whether a mean's bootstrap rests on too few differences to exclude rare large ones: of 8 worlds that are all equal
+/// True if a mean's bootstrap rests on too few differences to exclude rare large ones: of 8 worlds that are all equal
 /// it makes an interval of no width, and a difference in every tenth world goes unseen in 43 % of such samples.
 bool SeesTooFewDiffer(const Comparison& comparison, const MetricInfo& metric);
 
-/// What the interval, `p_holm` and the metric's practical threshold say, alpha = 1 − confidence:
+/// The verdict by interval, `p_holm` and the metric's practical threshold, alpha = 1 − confidence:
 ///   no difference    the intervals of the metric's own aggregate and of the mean both lie within ± threshold
 ///                    (equivalence; at 95 % stricter than two one-sided 5 % tests): a median alone hides behind ties;
 ///                    of a bootstrapped mean only when kSmallestSample pairs differ, for it can't see what is rare

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "bench/statistics/interval.h"
+
 namespace etude {
 
 double NormalCdf(double x) { return 0.5 * boost::math::erfc(-x / std::numbers::sqrt2); }
@@ -31,6 +33,12 @@ double KeepThirtyBits(double value) {
   int exponent = 0;
   const double mantissa = std::frexp(value, &exponent);
   return std::ldexp(std::round(std::ldexp(mantissa, 30)), exponent - 30);
+}
+
+double SmallestFinding(int count, int comparisons) {
+  constexpr double kPower = 0.8;
+  const double tail = kAlpha / (2 * comparisons);
+  return (StudentQuantile(1 - tail, count - 1) + StudentQuantile(kPower, count - 1)) / std::sqrt(count);
 }
 
 }  // namespace etude

@@ -48,7 +48,7 @@ std::vector<std::vector<Member>> FamiliesOf(const Study& study) {
   return members;
 }
 
-/// From the member with the fewest stages, each the smallest that holds the one before.
+/// The chain from the member with the fewest stages on, each the smallest that holds the one before.
 std::vector<Member> ChainOf(const std::vector<Member>& family) {
   std::vector<Member> chain;
   for (const Member& member : family) {
@@ -57,7 +57,7 @@ std::vector<Member> ChainOf(const std::vector<Member>& family) {
   return chain;
 }
 
-/// What the members' methods came to in the worlds where all of them have a value, by method.
+/// The values of the members' methods in the worlds where all of them have one, by method.
 std::map<std::string, std::vector<double>> ValuesOf(const std::vector<Member>& members, const ConditionTable& table,
                                                     const std::string& metric) {
   std::map<std::string, std::vector<double>> values;

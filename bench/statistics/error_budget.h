@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// What every stage costs in the final error, of all methods under one condition that differ in nothing but `oracle`:
+/// Splits the final error into what every stage costs, for methods under one condition that differ in `oracle` alone:
 /// one budget for each such family of two methods or more. Values are those of the worlds in which all of them have
 /// one; intervals are bootstrap intervals of the mean over these worlds.
 /// - Where every subset of the stages is among the methods, a stage's share is its Shapley value: what it saves,

@@ -32,8 +32,8 @@ PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate
 /// The smallest p that either test can reach with so many differences other than zero: 2 / 2ⁿ, at most 1.
 double SmallestP(int differing);
 
-/// How many differences other than zero a test needs to reach p ≤ alpha / comparisons, the first step of Holm's
-/// correction.
+/// The number of differences other than zero that a test needs to reach p ≤ alpha / comparisons, the first step of
+/// Holm's correction.
 int PairsNeeded(int comparisons, double alpha);
 
 }  // namespace etude

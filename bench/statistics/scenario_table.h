@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -7,11 +8,12 @@
 
 #include "bench/metrics/catalogue.h"
 #include "bench/model/study.h"
+#include "bench/statistics/compare.h"
 #include "engine/base/cyclic_lookup.h"
 
 namespace etude {
 
-/// What one method came to under one condition, trial by trial.
+/// The statuses and values of one method under one condition, trial by trial.
 class MethodColumns {
  public:
   MethodColumns(std::string name, int trials) : name_(std::move(name)), statuses_(static_cast<std::size_t>(trials)) {}
@@ -19,13 +21,13 @@ class MethodColumns {
   void Add(const Row& row);
 
   const std::string& name() const { return name_; }
-  /// How its cell ended; nothing where there is none.
+  /// The status of the trial's cell; nothing where there is none.
   std::optional<Status> StatusAt(int trial) const { return statuses_[static_cast<std::size_t>(trial)]; }
-  /// Nothing where its cell has no such value.
+  /// The trial's value of a metric; nothing where its cell has none.
   std::optional<double> ValueAt(const std::string& metric, int trial) const;
   /// All values of a metric in the order of trials; `missing` counts the cells without one.
   std::vector<double> ValuesOf(const std::string& metric, int& missing) const;
-  /// Whether some cell says anything of the metric, a value or why there is none.
+  /// True if some cell reports the metric, by a value or by the reason why there is none.
   bool Reports(const std::string& metric) const { return values_.Find(metric) != nullptr; }
 
  private:
@@ -62,5 +64,52 @@ class ScenarioTable {
   std::vector<ConditionTable> conditions_;
   std::size_t last_ = 0;  ///< rows of one condition come together
 };
+
+/// One metric of two methods in the worlds of a condition; a world that was skipped for both is in none of these.
+struct PairedWorlds {
+  std::vector<Pair> pairs;  ///< both have a value
+  std::vector<int> trials;  ///< of the pairs
+  int only_baseline = 0, only_method = 0, neither = 0;
+  /// Those trials of only_method and only_baseline where the other's cell failed, rather than having no such metric.
+  std::vector<int> baseline_failed, method_failed;
+};
+
+PairedWorlds PairsOf(const ConditionTable& table, const std::string& baseline, const std::string& method,
+                     const std::string& metric);
+
+/// Adds one world to `paired`.
+void AddWorld(const MethodColumns& baseline, const MethodColumns& method, const std::string& metric, int trial,
+              PairedWorlds& paired);
+
+/// Counts failures as losses in the same worlds: each in which one method alone failed counts as the largest
+/// difference among the pairs, or one that just matters, against the method that failed (worst ranks, Lachin 1999).
+/// Nothing when there is no such world, no pair, or no better direction.
+std::optional<PairedWorlds> WithFailures(const PairedWorlds& paired, const MetricInfo& metric);
+
+/// The text that keys the dice of a comparison, stable under adding methods, metrics or conditions.
+std::string PurposeOf(const std::string& scenario, const std::vector<SweptValue>& condition, const std::string& metric,
+                      const std::string& baseline, const std::string& method);
+
+/// A method's strongest rival.
+struct Rival {
+  std::array<std::string, 2> of_half;  ///< whom it meets in the worlds of even units, and in those of odd ones
+
+  std::string Name() const;  ///< "a", or "a or b" when the halves of the worlds chose differently
+  std::string Note() const;  ///< how they were chosen, in words; "" when both are the same
+};
+
+/// True if a method competes: one that no method is compared with and that is compared with none is a yardstick, and
+/// one with an oracle shows what could be.
+bool Competes(const Study& study, const ComparedMethod& method);
+
+/// The scenario's own rival, or the best other method that competes: by the first headline metric, of those that differ
+/// there by less than matters by the next one, and so on. It is chosen on other worlds than those it is judged on: on
+/// the worlds of odd units (trials where worlds are units, or of several units) for those of even ones, and the other
+/// way round. A cell that failed counts as the condition's worst value there. No rival for the rival itself.
+std::optional<Rival> FindRival(const Study& study, const ConditionTable& table, const std::string& method);
+
+/// One metric of `method` and of whom it meets, in all worlds of the condition.
+PairedWorlds WorldsAgainst(const Rival& rival, const ConditionTable& table, const std::string& method,
+                           const std::string& metric);
 
 }  // namespace etude

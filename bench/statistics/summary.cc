@@ -2,15 +2,12 @@
 
 #include <algorithm>
 
-#include "bench/statistics/across.h"
 #include "bench/statistics/beyond.h"
 #include "bench/statistics/bootstrap.h"
 #include "bench/statistics/error_budget.h"
-#include "bench/statistics/expectations.h"
-#include "bench/statistics/family.h"
-#include "bench/statistics/proportion.h"
-#include "bench/statistics/rival.h"
-#include "bench/statistics/select.h"
+#include "bench/statistics/interval.h"
+#include "bench/statistics/judging.h"
+#include "bench/statistics/scenario_table.h"
 
 namespace etude {
 namespace {
@@ -76,7 +73,7 @@ MethodSummary SummariseMethod(const MethodColumns& method, const ConditionTable&
   return summary;
 }
 
-/// What the comparisons of a scenario have in common.
+/// The inputs that all comparisons of a scenario share.
 struct Family {
   const Study& study;
   std::uint64_t seed = 1;

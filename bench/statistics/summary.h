@@ -3,15 +3,15 @@
 #include <vector>
 
 #include "bench/model/summary.h"
-#include "bench/statistics/family.h"
+#include "bench/statistics/judging.h"
 #include "bench/statistics/scenario_table.h"
 
 namespace etude {
 
-/// How many comparisons of methods with their baselines are judged together.
+/// The number of comparisons of methods with their baselines that are judged together.
 int CountComparisons(const Study& study);
 
-/// What the rows of one condition say, before its comparisons are judged together with those of all others.
+/// The summary of one condition and its comparisons, before these are judged together with those of all others.
 struct ConditionFindings {
   ConditionSummary summary;  ///< without comparisons
   std::vector<Question> against_baselines, against_rivals;
@@ -25,7 +25,7 @@ ScenarioSummary JudgeFindings(const Study& study, const ScenarioTable& table, st
 
 /// Sums up one study's rows: per condition and method the aggregate of every metric with its
 /// interval and its share of cells that are ok, every method against its baseline on the headline metrics, judged
-/// as one family, every method against the strongest other one (rival.h), judged as another, and the verdict on each
+/// as one family, every method against the strongest other one (FindRival), judged as another, and the verdict on each
 /// expectation. Seeded, so the same rows give the same bytes.
 ScenarioSummary Summarise(const Study& study, const ScenarioTable& table, std::uint64_t seed);
 

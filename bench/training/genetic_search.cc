@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <dlfcn.h>
 #include <numeric>
-#include <pagmo/algorithm.hpp>
-#include <pagmo/algorithms/sga.hpp>
-#include <pagmo/population.hpp>
-#include <pagmo/problem.hpp>
+#include <stdexcept>
 
 #include "bench/training/training_pairs.h"
 #include "sim/random/stream.h"
@@ -15,22 +13,19 @@
 namespace etude {
 namespace {
 
-constexpr double kCrossover = 0.9;
-constexpr double kSpreadIndex = 1;      // of a crossover that is not used
-constexpr double kMutation = 0.2;       // the chance of a gene
-constexpr double kMutationWidth = 0.1;  // standard deviation
-constexpr unsigned kTournament = 2;
+/// The module is found beside the program: by its run path (cli/CMakeLists.txt).
+Result<PagmoEvolve*> OpenModule() {
+  void* module = ::dlopen("etude_training_pagmo.so", RTLD_NOW | RTLD_LOCAL);
+  if (module == nullptr) return Fail({}, "the genetic algorithm cannot be loaded: {}", ::dlerror());
+  const void* symbol = ::dlsym(module, "etude_pagmo_evolve");
+  if (symbol == nullptr) return Fail({}, "etude_training_pagmo.so is no module of this program");
+  return *static_cast<PagmoEvolve* const*>(symbol);
+}
 
-/// The problem that Pagmo minimises.
-struct Problem {
-  const std::function<double(std::span<const double>)>* score = nullptr;
-  std::size_t genes = 0;
-
-  pagmo::vector_double fitness(const pagmo::vector_double& genome) const { return {-(*score)(genome)}; }
-  std::pair<pagmo::vector_double, pagmo::vector_double> get_bounds() const {
-    return {pagmo::vector_double(genes, 0.0), pagmo::vector_double(genes, 1.0)};
-  }
-};
+const Result<PagmoEvolve*>& Module() {
+  static const Result<PagmoEvolve*> loaded = OpenModule();
+  return loaded;
+}
 
 using enum Feature;
 /// The tuned features, each with the limb's other side, which is tuned along with it.
@@ -58,25 +53,22 @@ bool IsWithin(double breakpoint, const Universe& universe) {
 
 }  // namespace
 
+Result<void> LoadGeneticSearch() {
+  if (!Module()) return tl::unexpected(Module().error());
+  return {};
+}
+
 GeneticResult SearchGenetically(const std::function<double(std::span<const double>)>& score,
                                 std::span<const Genome> ancestors, const GeneticOptions& options) {
   assert(!ancestors.empty());
   RandomStream dice({.suite_seed = options.seed, .scenario = "training"}, "genetic-search");
   const auto draw_seed = [&dice] { return static_cast<unsigned>(dice.Bits()); };
 
-  pagmo::population population(pagmo::problem(Problem{&score, ancestors.front().size()}), 0u, draw_seed());
-  for (const Genome& ancestor : ancestors) population.push_back(ancestor);
-  while (population.size() < static_cast<std::size_t>(options.population))
-    population.push_back(population.random_decision_vector());
-
-  // One generation a call, so that progress can be told; the algorithm keeps its dice between the calls.
-  const pagmo::algorithm algorithm(pagmo::sga(1u, kCrossover, kSpreadIndex, kMutation, kMutationWidth, kTournament,
-                                              "binomial", "gaussian", "tournament", draw_seed()));
-  for (int generation = 1; generation <= options.generations; ++generation) {
-    population = algorithm.evolve(population);
-    if (options.progress) options.progress(generation, -population.champion_f()[0]);
-  }
-  return {population.champion_x(), -population.champion_f()[0], options.generations};
+  if (!Module()) throw std::runtime_error(Module().error().message);
+  const unsigned population_seed = draw_seed(), algorithm_seed = draw_seed();
+  GeneticResult result;
+  (*Module())(score, ancestors, options, population_seed, algorithm_seed, result);
+  return result;
 }
 
 std::optional<FeatureWeights> WeightsOfGenes(std::span<const double> genes) {

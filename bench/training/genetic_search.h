@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/result.h"
 #include "engine/fuzzy/membership.h"
 #include "engine/fuzzy/weights.h"
 
@@ -29,12 +30,22 @@ struct GeneticResult {
   int generations = 0;
 };
 
+/// Loads the library that searches, Pagmo, which stands in a module beside the program. Fails where the module is missing.
+Result<void> LoadGeneticSearch();
+
 /// Searches by a genetic algorithm (Holland; Pagmo's `sga`: tournaments of 2, binomial crossover, Gaussian mutation,
 /// the best of parents and children survive). It looks for the genome of the highest `score`, which must be finite and
 /// depend on the genome alone. The first population is `ancestors` (at least one, all of the same length), then random
 /// ones; so the answer scores no less than any ancestor. The same seed gives the same answer.
+/// Throws std::runtime_error where LoadGeneticSearch fails.
 GeneticResult SearchGenetically(const std::function<double(std::span<const double>)>& score,
                                 std::span<const Genome> ancestors, const GeneticOptions& options = {});
+
+/// The module's one function, to which its symbol `etude_pagmo_evolve` points: the search, by seeds of its random genomes
+/// and of its algorithm.
+using PagmoEvolve = void(const std::function<double(std::span<const double>)>& score,
+                         std::span<const Genome> ancestors, const GeneticOptions& options, unsigned population_seed,
+                         unsigned algorithm_seed, GeneticResult& result);
 
 /// The share of d² = 0.4² within which the genetic algorithms count a pair as let through in part (PairTable::SoftF1).
 /// Close pairs are so few that F1 itself moves in steps of single pairs: a search by it learns those by heart, and does

@@ -1,11 +1,10 @@
 #include "bench/training/training_pairs.h"
 
-#include <algorithm>
-#include <array>
-
-#include "bench/metrics/pose_distance.h"
+#include "bench/metrics/matching.h"
 #include "engine/transitions/alignment.h"
 #include "sim/choreography/move.h"
+#include <algorithm>
+#include <array>
 
 namespace etude {
 namespace {

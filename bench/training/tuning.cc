@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bench/metrics/detection.h"
+#include "bench/statistics/curves/curves.h"
 #include "bench/training/genetic_search.h"
 #include "bench/training/training_pairs.h"
 

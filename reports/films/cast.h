@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "bench/model/recording.h"
 #include "bench/model/run_data.h"
 #include "reports/transitions/transition_facts.h"
 

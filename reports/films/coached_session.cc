@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "bench/model/recording.h"
+
 namespace etude {
 namespace {
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/files/json.h"
+#include "bench/model/recording.h"
 #include "reports/films/cast.h"
 #include "reports/words/figures.h"
 

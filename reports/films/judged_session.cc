@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "bench/model/recording.h"
 #include "engine/fuzzy/features.h"
 #include "engine/recognition/key_pose.h"
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/model/run_data.h"
+#include "bench/statistics/curves/curves.h"
 
 namespace etude {
 
@@ -21,16 +22,10 @@ struct JudgedPerformance {
   std::optional<std::string> named = {};  ///< the move it was taken for, "" none; nothing where methods name no moves
 };
 
-/// How long a right performance waited to be called right.
-struct PraiseWait {
-  double seconds = 0;
-  bool is_over = false;  ///< else it waited for longer than that: nobody called it
-};
-
 /// What one method made of all performances under one condition.
 struct MethodVerdicts {
   std::vector<JudgedPerformance> performances;
-  std::vector<PraiseWait> waits;
+  std::vector<Wait> waits;  ///< of right performances, to be called right
 };
 
 /// By method, in the scenario's order, of those that judged something. Cells' series tell (`performance_…`).

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <set>
 
+#include "bench/statistics/curves/curves.h"
 #include "reports/plots/marks.h"
 #include "reports/plots/panel.h"
 #include "reports/words/escape.h"
@@ -29,40 +31,39 @@ struct Censored {
 constexpr std::array<Censored, 2> kCensored = {
     {{"iterations", "solved_practical", "worlds not yet solved"}, {"wait_s", "", "requests still waiting"}}};
 
-std::optional<Outcome> OutcomeOf(const Row& row, const Censored& rule) {
+/// How long the cell took until it was done; without end where it never was. Nothing of a cell that was skipped.
+std::optional<Wait> WaitOf(const Row& row, const Censored& rule) {
   if (row.result.status == Status::kSkipped) return std::nullopt;
   const auto took = ValueOf(row, rule.metric);
-  if (!took) return Outcome{};
-  return rule.done.empty() || ValueOf(row, rule.done) == 1 ? Outcome{took} : Outcome{};
+  const bool is_done = took && (rule.done.empty() || ValueOf(row, rule.done) == 1);
+  return is_done ? Wait{*took, true} : Wait{std::numeric_limits<double>::infinity(), false};
 }
 
 /// By method, in the scenario's order; of methods that never measure this nothing.
-std::vector<std::pair<std::size_t, std::vector<Outcome>>> OutcomesUnder(const RunData& run,
-                                                                        const ScenarioSummary& scenario,
-                                                                        const ConditionSummary& condition,
-                                                                        const Censored& rule) {
-  std::map<std::size_t, std::vector<Outcome>> outcomes;
+std::map<std::size_t, std::vector<Wait>> WaitsUnder(const RunData& run, const ScenarioSummary& scenario,
+                                                    const ConditionSummary& condition, const Censored& rule) {
+  std::map<std::size_t, std::vector<Wait>> waits;
   std::set<std::size_t> measured;
   for (const Row& row : run.rows) {
     if (row.scenario != scenario.name || row.condition != condition.condition) continue;
-    const auto outcome = OutcomeOf(row, rule);
-    if (!outcome) continue;
+    const auto wait = WaitOf(row, rule);
+    if (!wait) continue;
     const auto method =
         static_cast<std::size_t>(std::ranges::find(scenario.methods, row.method) - scenario.methods.begin());
-    outcomes[method].push_back(*outcome);
+    waits[method].push_back(*wait);
     if (ValueOf(row, rule.metric)) measured.insert(method);
   }
-  std::erase_if(outcomes, [&](const auto& entry) { return !measured.contains(entry.first); });
-  return {outcomes.begin(), outcomes.end()};
+  std::erase_if(waits, [&](const auto& entry) { return !measured.contains(entry.first); });
+  return waits;
 }
 
-std::string Line(std::size_t method, const std::vector<Outcome>& outcomes, const Axis& time, const Axis& share) {
+std::string Line(std::size_t method, const std::vector<Wait>& waits, const Axis& time, const Axis& share) {
   std::string path;
-  for (const auto& [at, left] : NotYetDone(outcomes)) {
+  for (const auto& [at, left] : SurvivalCurve(waits)) {
     if (path.empty()) {
-      path = fmt::format("M{:.1f} {:.1f}", time.from, share.At(left));
+      path = fmt::format("M{:.1f} {:.1f}", time.from, share.At(100 * left));
     } else {
-      path += fmt::format("H{:.1f}V{:.1f}", time.At(at), share.At(left));
+      path += fmt::format("H{:.1f}V{:.1f}", time.At(at), share.At(100 * left));
     }
   }
   return fmt::format("<path class=\"line\" style=\"stroke:var(--m{})\"{} d=\"{}H{:.1f}\"/>",
@@ -78,13 +79,13 @@ std::string KeyOf(std::size_t method, const std::string& name) {
 
 std::string PanelOf(const RunData& run, const ScenarioSummary& scenario, const ConditionSummary& condition,
                     const Censored& rule) {
-  const auto outcomes = OutcomesUnder(run, scenario, condition, rule);
+  const auto waits = WaitsUnder(run, scenario, condition, rule);
   std::vector<double> times;
   bool is_censored = false;
-  for (const auto& [method, of_method] : outcomes) {
-    for (const Outcome& outcome : of_method) {
-      is_censored |= !outcome.took;
-      if (outcome.took) times.push_back(*outcome.took);
+  for (const auto& [method, of_method] : waits) {
+    for (const Wait& wait : of_method) {
+      is_censored |= !wait.happened;
+      if (wait.happened) times.push_back(wait.seconds);
     }
   }
   if (times.empty() || !is_censored) return "";
@@ -93,10 +94,10 @@ std::string PanelOf(const RunData& run, const ScenarioSummary& scenario, const C
   if (!time.is_logarithmic) time.low = 0;
   time.from = kPanelLeft, time.to = kPanelRight;
   std::string lines, described;
-  for (const auto& [method, of_method] : outcomes) {
+  for (const auto& [method, of_method] : waits) {
     if (method >= kMostLines) continue;
     lines += Line(method, of_method, time, share);
-    described += fmt::format("{}: {:.0f} % never. ", scenario.methods[method], NotYetDone(of_method).back().second);
+    described += fmt::format("{}: {:.0f} % never. ", scenario.methods[method], 100 * SurvivalCurve(of_method).back().second);
   }
   const std::string condition_label = ConditionLabel(condition.condition);
   const MetricWords words = WordsFor(std::string(rule.metric));
@@ -123,21 +124,6 @@ std::string SectionOf(const RunData& run, const ScenarioSummary& scenario, const
 }
 
 }  // namespace
-
-std::vector<std::pair<double, double>> NotYetDone(const std::vector<Outcome>& outcomes) {
-  if (outcomes.empty()) return {};
-  std::map<double, int> done;
-  for (const Outcome& outcome : outcomes) {
-    if (outcome.took) ++done[*outcome.took];
-  }
-  std::vector<std::pair<double, double>> curve{{0, 100}};
-  std::size_t left = outcomes.size();
-  for (const auto& [at, count] : done) {
-    left -= static_cast<std::size_t>(count);
-    curve.emplace_back(at, 100.0 * static_cast<double>(left) / static_cast<double>(outcomes.size()));
-  }
-  return curve;
-}
 
 std::string SurvivalHtml(const RunData& run, const ScenarioSummary& scenario) {
   std::string html;

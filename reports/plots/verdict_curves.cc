@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 
+#include "bench/statistics/curves/curves.h"
 #include "bench/statistics/distributions.h"
 #include "reports/plots/marks.h"
 #include "reports/plots/panel.h"
@@ -131,26 +131,42 @@ struct Curves {
   std::string words, found_words, wait_words, keys;
 };
 
+/// The performances that are truly right or wrong, and who performed each; grey ones are none.
+struct PooledEvents {
+  std::vector<JudgedEvent> events;
+  std::vector<int> people;
+};
+
+PooledEvents PoolEvents(std::span<const JudgedPerformance> performances) {
+  PooledEvents pooled;
+  for (const JudgedPerformance& performance : performances) {
+    if (performance.truth == 0.5) continue;
+    pooled.events.push_back({performance.truth > 0.5, performance.is_called, performance.score});
+    pooled.people.push_back(performance.person);
+  }
+  return pooled;
+}
+
 void AddMethod(const ScenarioSummary& scenario, std::size_t method, const MethodVerdicts& verdicts, Curves& curves) {
-  const std::vector<JudgedPerformance>& performances = verdicts.performances;
+  const auto [events, people] = PoolEvents(verdicts.performances);
   const std::string& name = scenario.methods[method];
   std::string told;
-  if (const auto area = PooledArea(performances)) {
-    curves.rocs[method] = PooledRoc(performances);
+  if (const auto area = JackknifedAuc(events, people)) {
+    curves.rocs[method] = RocCurve(events);
     told += fmt::format("{:.3f} [{:.3f}, {:.3f}]", area->value, area->low, area->high);
     curves.words += fmt::format("{}: area {:.3f}. ", name, area->value);
   }
-  if (const auto at = OperatedAt(performances)) {
+  if (const auto at = OperatedAt(events)) {
     curves.operated[method] = *at;
     told += fmt::format("; praises {:.0f} % of the right and {:.0f} % of the wrong; best F1 of any threshold {:.2f}",
-                        100 * at->second, 100 * at->first, *BestF1(performances));
+                        100 * at->second, 100 * at->first, *BestF1(events));
   }
-  if (const SharePoints by_severity = FoundBySeverity(performances); by_severity.size() > 1) {
+  if (const SharePoints by_severity = FoundBySeverity(verdicts.performances); by_severity.size() > 1) {
     curves.found[method] = by_severity;
     if (const auto half = HalfFoundAt(by_severity)) told += fmt::format("; half found from severity {:.2f}", *half);
     curves.found_words += fmt::format("{}: {:.0f} % of the worst. ", name, 100 * by_severity.back().second);
   }
-  if (SharePoints waiting = StillWaiting(verdicts.waits); waiting.size() > 1) {
+  if (SharePoints waiting = SurvivalCurve(verdicts.waits); waiting.size() > 1) {
     curves.wait_words += fmt::format("{}: {:.0f} % never. ", name, 100 * waiting.back().second);
     curves.waiting[method] = std::move(waiting);
   }
@@ -191,82 +207,6 @@ std::string VerdictPanels(const RunData& run, const ScenarioSummary& scenario, c
 
 }  // namespace
 
-std::vector<std::pair<double, double>> PooledRoc(std::span<const JudgedPerformance> performances) {
-  std::vector<JudgedPerformance> sorted;
-  double right = 0, wrong = 0;
-  for (const JudgedPerformance& performance : performances) {
-    if (performance.truth == 0.5) continue;
-    sorted.push_back(performance);
-    (performance.truth > 0.5 ? right : wrong) += 1;
-  }
-  if (right == 0 || wrong == 0) return {};
-  std::ranges::stable_sort(sorted, std::ranges::greater{}, &JudgedPerformance::score);
-  SharePoints curve{{0, 0}};
-  double right_above = 0, wrong_above = 0;
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
-    (sorted[i].truth > 0.5 ? right_above : wrong_above) += 1;
-    const bool ends_tie = i + 1 == sorted.size() || sorted[i + 1].score != sorted[i].score;
-    if (ends_tie) curve.emplace_back(wrong_above / wrong, right_above / right);
-  }
-  return curve;
-}
-
-std::optional<std::pair<double, double>> OperatedAt(std::span<const JudgedPerformance> performances) {
-  double right = 0, wrong = 0, right_called = 0, wrong_called = 0;
-  for (const JudgedPerformance& performance : performances) {
-    if (performance.truth == 0.5) continue;
-    (performance.truth > 0.5 ? right : wrong) += 1;
-    (performance.truth > 0.5 ? right_called : wrong_called) += performance.is_called;
-  }
-  if (right == 0 || wrong == 0) return std::nullopt;
-  return std::pair(wrong_called / wrong, right_called / right);
-}
-
-std::optional<double> BestF1(std::span<const JudgedPerformance> performances) {
-  const SharePoints curve = PooledRoc(performances);
-  if (curve.empty()) return std::nullopt;
-  const auto right = static_cast<double>(std::ranges::count(performances, 1.0, &JudgedPerformance::truth)),
-             wrong = static_cast<double>(std::ranges::count(performances, 0.0, &JudgedPerformance::truth));
-  double best = 0;
-  for (const auto& [wrong_share, right_share] : curve) {
-    const double hits = right_share * right, called = hits + wrong_share * wrong;
-    best = std::max(best, 2 * hits / (called + right));
-  }
-  return best;
-}
-
-double AreaUnder(std::span<const std::pair<double, double>> curve) {
-  double area = 0;
-  for (std::size_t i = 1; i < curve.size(); ++i) {
-    area += (curve[i].first - curve[i - 1].first) * 0.5 * (curve[i].second + curve[i - 1].second);
-  }
-  return area;
-}
-
-std::optional<WithInterval> PooledArea(std::span<const JudgedPerformance> performances) {
-  const SharePoints all = PooledRoc(performances);
-  if (all.empty()) return std::nullopt;
-  std::map<int, std::vector<JudgedPerformance>> without;
-  for (const JudgedPerformance& performance : performances) without[performance.person];
-  for (auto& [person, others] : without) {
-    std::ranges::copy_if(performances, std::back_inserter(others),
-                         [person = person](const JudgedPerformance& each) { return each.person != person; });
-  }
-  std::vector<double> areas;
-  for (const auto& [person, others] : without) {
-    const SharePoints curve = PooledRoc(others);
-    if (curve.empty()) return std::nullopt;
-    areas.push_back(AreaUnder(curve));
-  }
-  double mean = 0, squares = 0;
-  for (double area : areas) mean += area / static_cast<double>(areas.size());
-  for (double area : areas) squares += (area - mean) * (area - mean);
-  const auto count = static_cast<double>(areas.size());
-  const double reach = 1.96 * std::sqrt((count - 1) / count * squares);
-  const double value = AreaUnder(all);
-  return WithInterval{value, std::max(0.0, value - reach), std::min(1.0, value + reach)};
-}
-
 std::vector<std::pair<double, double>> FoundBySeverity(std::span<const JudgedPerformance> performances) {
   constexpr std::size_t kFifths = 5;
   std::array<int, kFifths> all{}, found{};
@@ -291,25 +231,6 @@ std::optional<double> HalfFoundAt(std::span<const std::pair<double, double>> cur
     if (y0 < 0.5 && y1 >= 0.5) return x0 + (x1 - x0) * (0.5 - y0) / (y1 - y0);
   }
   return std::nullopt;
-}
-
-std::vector<std::pair<double, double>> StillWaiting(std::vector<PraiseWait> waits) {
-  if (waits.empty()) return {};
-  std::ranges::sort(waits, {}, &PraiseWait::seconds);
-  SharePoints curve{{waits.front().seconds, 1}};
-  double share = 1;
-  for (std::size_t i = 0; i < waits.size();) {
-    std::size_t end = i;
-    int over = 0;
-    while (end < waits.size() && waits[end].seconds == waits[i].seconds) over += waits[end++].is_over;
-    const auto at_risk = static_cast<double>(waits.size() - i);
-    if (over > 0) {
-      share *= 1 - over / at_risk;
-      curve.emplace_back(waits[i].seconds, share);
-    }
-    i = end;
-  }
-  return curve;
 }
 
 std::string VerdictCurvesHtml(const RunData& run, const ScenarioSummary& scenario) {

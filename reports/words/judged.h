@@ -22,7 +22,7 @@ struct Judged {
 std::vector<Judged> JudgedOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                              Against against);
 
-/// The methods that a comparison's baseline names: itself, or of a rival "a or b" both (bench/statistics/rival.h).
+/// The methods that a comparison's baseline names: itself, or of a rival "a or b" both (bench/statistics/scenario_table.h).
 std::vector<std::string> BaselinesOf(const Judged& judged);
 
 /// "“a”", or where conditions or halves of the worlds have other rivals "“a” or “b”"

@@ -178,18 +178,21 @@ void ReadTempoRange(Fields& fields, Move& move) {
   }
 }
 
-/// Makes the curves and the motion of a move from its poses, at its tempo.
-Result<Move> Perform(Move move, MoveCurves::Style style, const Place& place) {
+/// Makes the curves of a move from its poses, at its tempo.
+Result<Move> WithCurves(Move move, MoveCurves::Style style, const Place& place) {
   style.beat_seconds = 60 / move.tempo_bpm;
   RETURN_IF_ERROR(CheckJumps(move.poses, move.beats, style.beat_seconds, place));
   move.curves = MoveCurves(move.poses, move.beats, style);
-  move.motion = MotionOf(move);
   return move;
 }
 
-}  // namespace
+Result<Move> WithMotion(Result<Move> move) {
+  if (move) move->motion = MotionOf(*move);
+  return move;
+}
 
-Result<Move> ParseMove(std::string_view yaml, const std::string& file) {
+/// The move of a choreography file, without its motion.
+Result<Move> ParseCurves(std::string_view yaml, const std::string& file) {
   ASSIGN_OR_RETURN(const auto document, ParseYaml(yaml, file));
 
   Fields fields(document, "a choreography file");
@@ -219,13 +222,21 @@ Result<Move> ParseMove(std::string_view yaml, const std::string& file) {
     move.key_poses = std::move(targets);
   }
   move.poses = std::move(keys);
-  return Perform(std::move(move), style, document.place);
+  return WithCurves(std::move(move), style, document.place);
+}
+
+}  // namespace
+
+Result<Move> ParseMove(std::string_view yaml, const std::string& file) { return WithMotion(ParseCurves(yaml, file)); }
+
+Result<Move> CurvesAtTempo(const Move& move, double tempo_bpm, const Place& place) {
+  Move other = move;
+  other.tempo_bpm = tempo_bpm;
+  return WithCurves(std::move(other), move.curves.style(), place);
 }
 
 Result<Move> AtTempo(const Move& move, double tempo_bpm, const Place& place) {
-  Move other = move;
-  other.tempo_bpm = tempo_bpm;
-  return Perform(std::move(other), move.curves.style(), place);
+  return WithMotion(CurvesAtTempo(move, tempo_bpm, place));
 }
 
 BodyMotion MotionOf(const Move& move) {
@@ -234,6 +245,7 @@ BodyMotion MotionOf(const Move& move) {
   // The frame after a loop's last one is its first; what does not loop ends in its last pose.
   const int frames = move.loops ? steps : steps + 1;
   BodyMotion motion;
+  motion.poses.reserve(static_cast<std::size_t>(frames));
   for (int i = 0; i < frames; ++i) motion.poses.push_back(PoseOf(move.curves.At(move.beats * i / steps)));
   return motion;
 }
@@ -243,13 +255,18 @@ std::vector<std::string> BuiltinActNames() { return NamesOf(BuiltinActFiles(), S
 
 Result<Move> LoadBuiltinMove(const std::string& name) {
   const bool is_slow = name.starts_with(kSlowDemonstrationPrefix);
-  const std::string_view authored = std::string_view(name).substr(is_slow ? kSlowDemonstrationPrefix.size() : 0);
-  if (const EmbeddedText* file = FindByName(BuiltinMoveFiles(), authored, StemOf)) {
-    auto move = ParseMove(file->text, "scenarios/choreography/moves/" + std::string(file->name));
-    return move && is_slow ? SlowDemonstration(*move) : move;
+  const std::string authored = name.substr(is_slow ? kSlowDemonstrationPrefix.size() : 0);
+  if (!is_slow || FindByName(BuiltinMoveFiles(), authored, StemOf) == nullptr) return WithMotion(LoadBuiltinCurves(name));
+  const Result<Move> move = WithMotion(LoadBuiltinCurves(authored));
+  return move ? SlowDemonstration(*move) : move;
+}
+
+Result<Move> LoadBuiltinCurves(const std::string& name) {
+  if (const EmbeddedText* file = FindByName(BuiltinMoveFiles(), name, StemOf)) {
+    return ParseCurves(file->text, "scenarios/choreography/moves/" + std::string(file->name));
   }
   if (const EmbeddedText* file = FindByName(BuiltinActFiles(), name, StemOf)) {
-    return ParseMove(file->text, "scenarios/choreography/acts/" + std::string(file->name));
+    return ParseCurves(file->text, "scenarios/choreography/acts/" + std::string(file->name));
   }
   std::vector<std::string> known = BuiltinMoveNames();
   std::ranges::copy(BuiltinActNames(), std::back_inserter(known));

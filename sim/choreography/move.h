@@ -42,9 +42,14 @@ std::vector<std::string> BuiltinActNames();
 /// Loads the built-in move or act of that name, or a move's slow demonstration, "slow_clap" (slow_demonstration.h); the
 /// error lists the known ones.
 Result<Move> LoadBuiltinMove(const std::string& name);
+/// Loads the move or act of that name without its `motion`, which takes longer to make than all else. Knows no slow
+/// demonstrations.
+Result<Move> LoadBuiltinCurves(const std::string& name);
 /// Returns the move at another tempo: the beats are the same, while flights take as long as gravity has them. Fails at
 /// `place` when they do not fit into the beats any more. `move` has poses.
 Result<Move> AtTempo(const Move& move, double tempo_bpm, const Place& place);
+/// Returns the move at another tempo without its `motion`.
+Result<Move> CurvesAtTempo(const Move& move, double tempo_bpm, const Place& place);
 /// Samples one performance at 30 Hz: the value of `Move::motion`.
 BodyMotion MotionOf(const Move& move);
 /// Reads one move or act from the text of a choreography file.

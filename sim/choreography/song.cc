@@ -54,19 +54,19 @@ constexpr double kHalfTimePace = 0.5;
 
 double PaceOf(const SongPart& part) { return part.half_time ? kHalfTimePace : 1; }
 
-/// Returns the part's move at the music's tempo; fails when the tempo does not suit it.
+/// Returns the curves of the part's move at the music's tempo; fails when the tempo does not suit it.
 Result<Move> MoveOf(const SongPart& part, double tempo_bpm, const Place& place) {
   if (FindByName(BuiltinMoveFiles(), part.move, StemOf) == nullptr) {
     return Fail(place, "{}", UnknownName("move", part.move, BuiltinMoveNames()));
   }
-  auto move = LoadBuiltinMove(part.move);
+  auto move = LoadBuiltinCurves(part.move);
   if (!move) return move;
   const double danced_bpm = PaceOf(part) * tempo_bpm;
   if (danced_bpm < move->slowest_bpm || danced_bpm > move->fastest_bpm) {
     return Fail(place, "'{}' at {} beats a minute; it suits {} to {}{}", part.move, danced_bpm, move->slowest_bpm,
                 move->fastest_bpm, part.half_time ? "" : " ('half_time: true' halves it)");
   }
-  return AtTempo(*move, danced_bpm, place);
+  return CurvesAtTempo(*move, danced_bpm, place);
 }
 
 Result<SongPart> ReadPart(const Node& item) {
@@ -114,12 +114,18 @@ std::vector<Turn> TurnsOf(std::span<const SongPart> parts, std::span<const Move>
   return turns;
 }
 
-BodyMotion MotionOf(std::span<const Turn> turns, double tempo_bpm) {
-  const double last_beat = turns.back().start_beat + turns.back().beats;
-  const double beats_per_frame = tempo_bpm / 60 / kJudgedRateHz;
-  const auto steps = static_cast<std::size_t>(std::ceil(last_beat / beats_per_frame - 1e-9));
+double BeatsPerFrame(const Song& song) { return song.tempo_bpm / 60 / kJudgedRateHz; }
+
+/// The beat at which the song ends: the dancer stands again for `kLeadBeats` after the last part.
+double LastBeatOf(const Song& song) { return song.parts.back().start_beat + song.parts.back().beats + kLeadBeats; }
+
+BodyMotion MotionOf(const Song& song, std::span<const Turn> turns) {
+  const double last_beat = LastBeatOf(song);
+  const double beats_per_frame = BeatsPerFrame(song);
+  const std::size_t frames = song.CountFrames();
   BodyMotion motion;
-  for (std::size_t i = 0; i <= steps; ++i) {
+  motion.poses.reserve(frames);
+  for (std::size_t i = 0; i < frames; ++i) {
     const double beat = std::min(static_cast<double>(i) * beats_per_frame, last_beat);
     motion.poses.push_back(PoseOf(SequenceAt(turns, beat)));
   }
@@ -135,6 +141,36 @@ std::vector<MusicTag> TagsOf(const Song& song) {
     }
   }
   return tags;
+}
+
+/// Reads the song of a file without its tags and motion; `moves` gets the move of each part.
+Result<Song> ParseOutline(std::string_view yaml, const std::string& file, std::optional<double> tempo_bpm,
+                          std::vector<Move>& moves) {
+  ASSIGN_OR_RETURN(const auto document, ParseYaml(yaml, file));
+
+  Fields fields(document, "a song");
+  Song song;
+  song.name = fields.RequiredText("song");
+  song.tempo_bpm = fields.Number("tempo_bpm", 120, {40, 240});
+  if (tempo_bpm) song.tempo_bpm = *tempo_bpm;
+  const Node* parts = fields.Raw("parts");
+  RETURN_IF_ERROR(fields.Finish());
+  if (parts == nullptr || parts->kind != Node::Kind::kSequence) {
+    return Fail(parts ? parts->place : document.place, "'parts' must be a list of moves, found {}",
+                parts ? Describe(*parts) : "nothing");
+  }
+
+  ASSIGN_OR_RETURN(auto read, ReadParts(*parts, song.tempo_bpm, moves));
+  song.parts = std::move(read);
+  return song;
+}
+
+std::string PathOf(const EmbeddedText& file) { return "scenarios/choreography/songs/" + std::string(file.name); }
+
+Result<const EmbeddedText*> FindSongFile(const std::string& name) {
+  const EmbeddedText* file = FindByName(BuiltinSongFiles(), name, StemOf);
+  if (file == nullptr) return Fail({}, "{}", UnknownName("song", name, BuiltinSongNames()));
+  return file;
 }
 
 }  // namespace
@@ -162,25 +198,14 @@ Controls SequenceAt(std::span<const Turn> turns, double beat) {
   return mixed;
 }
 
+std::size_t Song::CountFrames() const {
+  return static_cast<std::size_t>(std::ceil(LastBeatOf(*this) / BeatsPerFrame(*this) - 1e-9)) + 1;
+}
+
 Result<Song> ParseSong(std::string_view yaml, const std::string& file, std::optional<double> tempo_bpm) {
-  ASSIGN_OR_RETURN(const auto document, ParseYaml(yaml, file));
-
-  Fields fields(document, "a song");
-  Song song;
-  song.name = fields.RequiredText("song");
-  song.tempo_bpm = fields.Number("tempo_bpm", 120, {40, 240});
-  if (tempo_bpm) song.tempo_bpm = *tempo_bpm;
-  const Node* parts = fields.Raw("parts");
-  RETURN_IF_ERROR(fields.Finish());
-  if (parts == nullptr || parts->kind != Node::Kind::kSequence) {
-    return Fail(parts ? parts->place : document.place, "'parts' must be a list of moves, found {}",
-                parts ? Describe(*parts) : "nothing");
-  }
-
   std::vector<Move> moves;
-  ASSIGN_OR_RETURN(auto read, ReadParts(*parts, song.tempo_bpm, moves));
-  song.parts = std::move(read);
-  song.motion = MotionOf(TurnsOf(song.parts, moves), song.tempo_bpm);
+  ASSIGN_OR_RETURN(Song song, ParseOutline(yaml, file, tempo_bpm, moves));
+  song.motion = MotionOf(song, TurnsOf(song.parts, moves));
   song.tags = TagsOf(song);
   return song;
 }
@@ -188,9 +213,14 @@ Result<Song> ParseSong(std::string_view yaml, const std::string& file, std::opti
 std::vector<std::string> BuiltinSongNames() { return NamesOf(BuiltinSongFiles(), StemOf); }
 
 Result<Song> LoadBuiltinSong(const std::string& name, std::optional<double> tempo_bpm) {
-  const EmbeddedText* file = FindByName(BuiltinSongFiles(), name, StemOf);
-  if (file == nullptr) return Fail({}, "{}", UnknownName("song", name, BuiltinSongNames()));
-  return ParseSong(file->text, "scenarios/choreography/songs/" + std::string(file->name), tempo_bpm);
+  ASSIGN_OR_RETURN(const EmbeddedText* file, FindSongFile(name));
+  return ParseSong(file->text, PathOf(*file), tempo_bpm);
+}
+
+Result<Song> LoadBuiltinSongOutline(const std::string& name) {
+  ASSIGN_OR_RETURN(const EmbeddedText* file, FindSongFile(name));
+  std::vector<Move> moves;
+  return ParseOutline(file->text, PathOf(*file), {}, moves);
 }
 
 }  // namespace etude

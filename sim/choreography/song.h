@@ -50,11 +50,16 @@ struct Song {
   std::vector<SongPart> parts;
   std::vector<MusicTag> tags;  ///< the frame nearest to the beginning of every repetition, in order
   BodyMotion motion;           ///< 30 Hz, from the ready stance to the ready stance, moves flowing into each other
+
+  /// How many frames `motion` has once it is made.
+  std::size_t CountFrames() const;
 };
 
 /// Reads a song whose moves are the built-in ones; it may last ten minutes. `tempo_bpm`: other than the file's.
 Result<Song> ParseSong(std::string_view yaml, const std::string& file, std::optional<double> tempo_bpm = {});
 std::vector<std::string> BuiltinSongNames();
 Result<Song> LoadBuiltinSong(const std::string& name, std::optional<double> tempo_bpm = {});
+/// The built-in song without its tags and its motion, which takes longer to make than all else.
+Result<Song> LoadBuiltinSongOutline(const std::string& name);
 
 }  // namespace etude

@@ -1,7 +1,9 @@
 """What the program is made of: the libraries that it loads, and how it is hardened."""
 
 import os
+import pathlib
 import re
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -15,7 +17,6 @@ LIBRARIES = {
     "libcairo": "draws sheets and films",
     "libtinygltf": "figures",
     "libxml2": "tags, calibrations", "libyaml-cpp": "scenarios",
-    "libpagmo": "tunes fuzzy systems",
     "libglog": "Ceres's", "libcholmod": "Ceres's", "libcxsparse": "Ceres's", "libspqr": "Ceres's",
     "liblapack": "Ceres's", "libblas": "Ceres's",
     "libhwy": "vectors", "libfmt": "text", "libxxhash": "digests",
@@ -51,6 +52,36 @@ class Program(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             self.assertFalse(loads_a_compiler("clip", "info", "builtin:clap"))
             self.assertTrue(loads_a_compiler("clip", "render", "builtin:clap", "-o", folder + "/clap.png"))
+
+    def test_the_genetic_search_is_loaded_by_those_who_train_alone(self):
+        """Its constructors take as long as all else that a start takes."""
+        def train(program, folder, method):
+            return subprocess.run([program, "train", "builtin:clap", "builtin:wave", "--hold-out", "0", "--method", method,
+                                   "--generations", "1", "--population", "5", "-o", folder + "/tuned.yaml", "--overwrite"],
+                                  capture_output=True, text=True)
+
+        self.assertNotIn("libpagmo", needed(sections("-d")))
+        with tempfile.TemporaryDirectory() as folder:
+            program = shutil.copy(ETUDE, folder)  # without the module beside it
+            adaptive, genetic = train(program, folder, "adaptive"), train(program, folder, "genetic")
+            self.assertEqual(genetic.returncode, 2)
+            self.assertIn("the genetic algorithm cannot be loaded: etude_training_pagmo.so", genetic.stderr)
+            self.assertNotIn("cannot be loaded", adaptive.stderr)
+            self.assertEqual(os.path.exists(folder + "/tuned.yaml"), adaptive.returncode == 0)
+            shutil.copy(pathlib.Path(ETUDE).parent / "etude_training_pagmo.so", folder)
+            self.assertNotIn("cannot be loaded", train(program, folder, "genetic").stderr)
+
+    def test_what_only_prints_starts_once(self):
+        """Who starts anew leaves no last word of the loader: the variable that asks for it is not passed on."""
+        def starts_once(*arguments):
+            told = subprocess.run([ETUDE, *arguments], capture_output=True, text=True, check=True,
+                                  env=os.environ | {"LD_DEBUG": "statistics"})
+            self.assertIn("startup time", told.stderr)
+            return "final number of relocations" in told.stderr
+
+        for arguments in (["--version"], ["list", "clips"], ["list", "metrics"], ["list", "keys"]):
+            self.assertTrue(starts_once(*arguments), arguments)
+        self.assertFalse(starts_once("clip", "info", "builtin:clap"), "what computes is pinned")
 
     def test_what_the_loader_has_put_into_place_stays(self):
         self.assertRegex(sections("-l"), r"GNU_RELRO")

@@ -4,7 +4,7 @@
 
 #include "bench/metrics/measurement.h"
 #include "bench/metrics/pose_error.h"
-#include "bench/metrics/share.h"
+#include "bench/statistics/curves/curves.h"
 #include "bench/tasks/capture/recording.h"
 #include "engine/base/digest.h"
 #include "engine/capture/adjust_take.h"

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bench/model/recording.h"
 #include "bench/tasks/base/pose_json.h"
 #include "bench/tasks/detection/score.h"
 
@@ -71,8 +72,8 @@ Recording RecordCoaching(const CoachStage& stage, const SessionLog& log) {
   extras["beats_s"] = log.beats_s;
   extras["joint_states"] = OrderedJson::array();
   for (const SensedFrame& frame : log.sensed.frames) extras["joint_states"].push_back(StateLetters(frame));
-  return {.tracks = {{"coach", log.coach}, {"truth", log.learner}, {"sensed", MotionOf(log.sensed)}},
-          .extras_json = extras.dump()};
+  return {{{"coach", log.coach}, {"truth", log.learner}, {"sensed", MotionOf(log.sensed)}},
+          extras.dump()};
 }
 
 }  // namespace etude

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "bench/metrics/coach.h"
-#include "bench/metrics/share.h"
 #include "bench/metrics/transition_smoothness.h"
+#include "bench/statistics/curves/curves.h"
 #include "engine/base/digest.h"
 
 namespace etude {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/model/cell_result.h"
+#include "bench/model/row.h"
 #include "bench/tasks/coach/session.h"
 #include "bench/tasks/coach/stage.h"
 #include "bench/tasks/coach/world.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "bench/metrics/action_points.h"
+#include "bench/metrics/detection.h"
 #include "engine/base/digest.h"
 
 namespace etude {
@@ -274,7 +274,7 @@ Recording RecordSession(const DetectionWorld& world, const SessionVerdict& verdi
   }
   extras["joint_states"] = nlohmann::ordered_json::array();
   for (const SensedFrame& frame : world.stream.frames) extras["joint_states"].push_back(StateLetters(frame));
-  return {.tracks = {{"truth", world.motion}, {"sensed", MotionOf(verdict.filtered)}}, .extras_json = extras.dump()};
+  return {{{"truth", world.motion}, {"sensed", MotionOf(verdict.filtered)}}, extras.dump()};
 }
 
 }  // namespace etude

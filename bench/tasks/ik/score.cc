@@ -4,7 +4,7 @@
 #include <array>
 #include <iterator>
 
-#include "bench/metrics/ik_cost.h"
+#include "bench/metrics/ik_error.h"
 #include "bench/tasks/base/tree_json.h"
 #include "bench/tasks/ik/recording.h"
 #include "bench/tasks/ik/series.h"

@@ -3,7 +3,7 @@
 #include <array>
 #include <cassert>
 
-#include "bench/metrics/pose_distance.h"
+#include "bench/metrics/matching.h"
 #include "engine/base/named.h"
 #include "engine/transitions/alignment.h"
 #include "engine/transitions/choices/pair_rows.h"

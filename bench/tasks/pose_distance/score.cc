@@ -1,9 +1,8 @@
 #include "bench/tasks/pose_distance/score.h"
 
-#include "bench/metrics/detection.h"
 #include "bench/metrics/matching.h"
-#include "bench/metrics/pose_distance.h"
 #include "bench/metrics/transition_smoothness.h"
+#include "bench/statistics/curves/curves.h"
 #include "engine/base/digest.h"
 
 namespace etude {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "bench/metrics/search.h"
+#include "bench/metrics/matching.h"
 #include "bench/tasks/search/options.h"
 #include "bench/tasks/search/world.h"
 

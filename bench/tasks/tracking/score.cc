@@ -4,8 +4,9 @@
 #include <cassert>
 #include <functional>
 
+#include "bench/metrics/ik_error.h"
 #include "bench/metrics/pose_error.h"
-#include "bench/metrics/tracking.h"
+#include "bench/model/recording.h"
 #include "bench/tasks/base/tree_json.h"
 #include "engine/base/digest.h"
 #include "engine/kinematics/solvers/ik_run.h"

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "bench/metrics/dimensionless_jerk.h"
-#include "bench/metrics/spectral_arc_length.h"
+#include "bench/metrics/speed_profile.h"
 #include "bench/metrics/transition_join.h"
 #include "bench/metrics/transition_smoothness.h"
 

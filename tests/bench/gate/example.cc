@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/finished_runs/finish_scenario.h"
+#include "bench/finished_runs/finished_runs.h"
 
 namespace etude {
 

@@ -7,7 +7,7 @@
 #include "bench/metrics/measurement.h"
 #include "bench/metrics/pose_error.h"
 #include "bench/metrics/segmentation.h"
-#include "bench/metrics/share.h"
+#include "bench/statistics/curves/curves.h"
 #include "tests/bench/metrics/evaluators.h"
 #include "tests/bench/metrics/vector_input.h"
 

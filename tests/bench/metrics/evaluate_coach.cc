@@ -4,8 +4,8 @@
 
 #include "bench/metrics/coach.h"
 #include "bench/metrics/percentile.h"
-#include "bench/metrics/share.h"
 #include "bench/metrics/transition_smoothness.h"
+#include "bench/statistics/curves/curves.h"
 #include "tests/bench/metrics/evaluators.h"
 
 namespace etude {

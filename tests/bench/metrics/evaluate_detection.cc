@@ -1,7 +1,6 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "bench/metrics/action_points.h"
 #include "bench/metrics/detection.h"
 #include "tests/bench/metrics/evaluators.h"
 

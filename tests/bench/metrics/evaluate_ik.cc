@@ -2,9 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "bench/metrics/ik_cost.h"
 #include "bench/metrics/ik_error.h"
-#include "bench/metrics/tracking.h"
 #include "engine/base/angles.h"
 #include "tests/bench/metrics/evaluators.h"
 #include "tests/bench/metrics/vector_input.h"

@@ -1,8 +1,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "bench/metrics/detection.h"
-#include "bench/metrics/pose_distance.h"
+#include "bench/metrics/matching.h"
+#include "bench/statistics/curves/curves.h"
 #include "tests/bench/metrics/evaluators.h"
 #include "tests/bench/metrics/vector_input.h"
 

@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "bench/metrics/search.h"
+#include "bench/metrics/matching.h"
 #include "tests/bench/metrics/evaluators.h"
 
 namespace etude {

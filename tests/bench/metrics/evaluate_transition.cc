@@ -2,9 +2,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "bench/metrics/dimensionless_jerk.h"
 #include "bench/metrics/matching.h"
-#include "bench/metrics/spectral_arc_length.h"
+#include "bench/metrics/speed_profile.h"
 #include "bench/metrics/transition_join.h"
 #include "bench/metrics/transition_smoothness.h"
 #include "engine/fuzzy/distance.h"

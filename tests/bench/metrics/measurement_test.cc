@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/metrics/ik_cost.h"
+#include "bench/metrics/ik_error.h"
 
 namespace etude {
 namespace {

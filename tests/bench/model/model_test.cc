@@ -4,6 +4,7 @@
 #include <set>
 
 #include "bench/model/payload.h"
+#include "bench/model/recording.h"
 #include "bench/model/row.h"
 #include "bench/model/summary.h"
 #include "bench/model/unit.h"

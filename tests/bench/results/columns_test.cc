@@ -1,3 +1,5 @@
+#include "bench/results/columns.h"
+
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -5,7 +7,6 @@
 
 #include "bench/files/files.h"
 #include "bench/files/temporary_folder.h"
-#include "bench/results/column_writer.h"
 #include "bench/results/folder.h"
 #include "bench/results/row_json.h"
 #include "bench/results/seal.h"
@@ -13,8 +14,9 @@
 namespace etude {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::HasSubstr;
+
+namespace fs = std::filesystem;
 
 /// Two scenarios whose cells end in every way that one can; the second is of clips.
 std::vector<Study> Studies() {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/files/files.h"
+#include "bench/model/recording.h"
 #include "bench/results/folder.h"
 #include "bench/results/row_json.h"
 #include "bench/results/seal.h"

@@ -1,3 +1,4 @@
+#include "bench/model/recording.h"
 #include "bench/run/cell_line.h"
 
 #include <gmock/gmock.h>

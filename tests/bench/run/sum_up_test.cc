@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/results/summary_json.h"
-#include "bench/run/forked.h"
 #include "sim/random/stream.h"
 
 namespace etude {

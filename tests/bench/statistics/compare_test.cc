@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "bench/statistics/proportion.h"
+#include "bench/statistics/interval.h"
 #include "sim/random/stream.h"
 
 namespace etude {

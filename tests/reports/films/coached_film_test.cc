@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "bench/model/recording.h"
 #include "reports/films/coached_scene.h"
 #include "reports/films/coached_session.h"
 #include "reports/films/forest.h"
@@ -80,7 +81,7 @@ Recording SessionRecording() {
       {"corrections", {150}},
       {"transitions", {152, 250}},
       {"beats_s", {0.5, 1.0, 4.5, 9.9}}};
-  return {.tracks = {{"coach", motion}, {"truth", motion}, {"sensed", motion}}, .extras_json = extras.dump()};
+  return {{{"coach", motion}, {"truth", motion}, {"sensed", motion}}, extras.dump()};
 }
 
 /// A recorded cell that stays where it is.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "bench/model/recording.h"
 #include "bench/recordings/capture_extras.h"
 #include "reports/films/canvas.h"
 #include "reports/films/capture_panel.h"

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bench/model/recording.h"
 #include "reports/films/judged_scene.h"
 #include "reports/films/judged_session.h"
 #include "sim/choreography/move.h"
@@ -46,7 +47,7 @@ Recording SessionRecording(bool calls_right) {
   if (calls_right) first["called_frame"] = end - 10;
   extras["events"] = {first, second};
   extras["alarms"] = {{{"move", "sway"}, {"frame", 20}}};
-  return {.tracks = {{"truth", motion}, {"sensed", motion}}, .extras_json = extras.dump()};
+  return {{{"truth", motion}, {"sensed", motion}}, extras.dump()};
 }
 
 /// Two methods in one world; the first is right about both.

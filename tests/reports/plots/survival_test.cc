@@ -8,31 +8,7 @@
 namespace etude {
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::Pair;
-
-TEST(NotYetDone, FallsAtEachTimeAndKeepsWhatNeverIs) {
-  EXPECT_THAT(NotYetDone({{3}, {1}, {}, {3}}), ElementsAre(Pair(0, 100), Pair(1, 75), Pair(3, 25)));
-  EXPECT_THAT(NotYetDone({{}, {}}), ElementsAre(Pair(0, 100)));
-  EXPECT_TRUE(NotYetDone({}).empty());
-}
-
-// Kaplan and Meier's product over times, with censoring at a common limit: a second implementation.
-TEST(NotYetDone, IsKaplanAndMeiersCurveWhereAllAreCensoredAtOneLimit) {
-  const std::vector<Outcome> outcomes{{2}, {2}, {5}, {7}, {7}, {7}, {9}, {}, {}, {}};
-  double share = 1;
-  for (const auto& [at, left] : NotYetDone(outcomes)) {
-    if (at == 0) continue;
-    int at_risk = 0, done = 0;
-    for (const Outcome& o : outcomes) {
-      at_risk += !o.took || *o.took >= at;
-      done += o.took == at;
-    }
-    share *= 1 - static_cast<double>(done) / at_risk;
-    EXPECT_NEAR(left, 100 * share, 1e-9);
-  }
-}
 
 RunData Solvers() {
   RunData run;

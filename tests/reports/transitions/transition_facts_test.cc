@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "bench/model/recording.h"
 #include "reports/transitions/recorded_requests.h"
 #include "tests/reports/support/example_run.h"
 #include "tests/support/gtest_printers.h"

@@ -1,0 +1,194 @@
+#include "bench/finished_runs/finished_runs.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <vector>
+
+#include "bench/files/files.h"
+#include "bench/metrics/catalogue.h"
+#include "bench/run/cell_runner.h"
+#include "bench/run/outside_programs.h"
+#include "bench/scenario/study_of.h"
+#include "engine/base/digest.h"
+
+namespace etude {
+namespace {
+
+void AddNode(Digest& digest, const Node& node) {
+  digest.Add(static_cast<std::int64_t>(node.kind)).Add(std::string_view(node.scalar)).Add(std::string_view("\0", 1));
+  digest.Add(static_cast<std::int64_t>(node.items.size() + node.entries.size()));
+  for (const Node& item : node.items) AddNode(digest, item);
+  for (const Node::Entry& entry : node.entries) {
+    digest.Add(std::string_view(entry.key)).Add(std::string_view("\0", 1));
+    AddNode(digest, entry.value);
+  }
+}
+
+bool IsCommonKey(const std::string& key) {
+  const auto keys = CommonScenarioKeys();
+  return std::any_of(keys.begin(), keys.end(), [&](const KeyInfo& known) { return known.key == key; });
+}
+
+/// The digest of all that shapes the worlds of a condition: its task, the task's own keys, the clips.
+std::string WorldDigest(const std::string& task, const Node& condition, std::span<const std::string> clip_digests) {
+  Digest digest;
+  digest.Add(std::string_view(task));
+  std::vector<const Node::Entry*> own;
+  for (const Node::Entry& entry : condition.entries) {
+    if (!IsCommonKey(entry.key)) own.push_back(&entry);
+  }
+  std::sort(own.begin(), own.end(), [](const auto* a, const auto* b) { return a->key < b->key; });  // keys are unique
+  for (const Node::Entry* entry : own) {
+    digest.Add(std::string_view(entry->key)).Add(std::string_view("\0", 1));
+    AddNode(digest, entry->value);
+  }
+  for (const std::string& clip : clip_digests) digest.Add(std::string_view(clip));
+  return digest.Hex();
+}
+
+std::string MethodDigest(const MethodEntry& method) {
+  Digest digest;
+  AddNode(digest, method.node);
+  for (const std::string& argument : method.exec) digest.Add(std::string_view(argument)).Add(std::string_view("\0", 1));
+  digest.Add(std::string_view(method.options_json));
+  return digest.Hex();
+}
+
+constexpr const char* kBuiltInName = "built in";
+
+// Fast, with metrics of every kind: medians, a share, a count. The changes are real ones, from hardly any to a
+// large one: joints may not turn further from a start that is 15° (standard deviation) off.
+constexpr const char* kBuiltInScenario = R"(
+scenario: gate-self-test
+question: Does the gate see what it should, and nothing else?
+task: ik
+trials: 30
+sweep: {joint_noise_deg: [5, 15]}
+max_sweeps: 60
+methods:
+  - {name: reference,     solver: damped-least-squares}
+  - {name: within-40-deg, solver: damped-least-squares, tolerance_deg: 40}
+  - {name: within-36-deg, solver: damped-least-squares, tolerance_deg: 36}
+  - {name: within-30-deg, solver: damped-least-squares, tolerance_deg: 30}
+metrics: [orientation_error_deg, position_error_cm, hidden_angle_error_deg, solved_practical, iterations]
+)";
+
+namespace fs = std::filesystem;
+
+/// Values of two versions of a metric never mix.
+Result<void> CheckMetricVersions(const Json& manifest, const Place& place) {
+  const Json versions = manifest.value("metrics", Json::object());
+  for (const auto& [id, version] : versions.items()) {
+    const MetricInfo* metric = FindMetric(id);
+    if (metric != nullptr && version != metric->version) {
+      return Fail(place, "was measured with version {} of {}; this program has version {}: run it anew", version.dump(),
+                  id, metric->version);
+    }
+  }
+  return {};
+}
+
+/// The scenarios of manifest.json, read from the texts that it keeps.
+Result<std::vector<FinishedScenario>> LoadScenarios(const fs::path& path) {
+  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
+  ASSIGN_OR_RETURN(const auto manifest, ReadJson(text, path.string()));
+  const Place place{path.string(), 0, 0};
+  ASSIGN_OR_RETURN(const auto suite, DecodeSetup(manifest, place));
+  RETURN_IF_ERROR(CheckMetricVersions(manifest, place));
+  std::vector<FinishedScenario> finished;
+  for (std::size_t s = 0; s < suite.scenarios.size(); ++s) {
+    const ScenarioSetup& setup = suite.scenarios[s];
+    ASSIGN_OR_RETURN(auto parsed, ParseScenarios(setup.file, suite.sources));
+    const auto named = std::ranges::find(parsed, setup.name, &Scenario::name);
+    if (named == parsed.end()) return Fail(place, "'{}' holds no scenario '{}'", setup.file, setup.name);
+    named->trials = setup.trials;
+    AddLibraries(setup.libraries, *named);
+    if (suite.scored) {
+      RETURN_IF_ERROR(AddScoredMethod(*suite.scored, *named));
+    }
+    std::vector<std::string> clip_digests;
+    try {
+      for (const Json& clip : manifest.at("scenarios").at(s).at("loaded_clips")) {
+        clip_digests.push_back(clip.at("digest").get<std::string>());
+      }
+    } catch (const Json::exception& error) {
+      return Fail(place, "not a manifest: {}", error.what());
+    }
+    finished.push_back(FinishScenario(*named, setup, clip_digests));
+  }
+  return finished;
+}
+
+bool WantsTimes(const FinishedScenario& scenario) { return !scenario.study.gate.time_ratios.empty(); }
+
+}  // namespace
+
+FinishedScenario FinishScenario(const Scenario& scenario, const ScenarioSetup& setup,
+                                std::span<const std::string> clip_digests) {
+  FinishedScenario finished{.study = StudyOf(scenario), .seed = setup.seed, .worlds = {}, .methods = {}};
+  for (const Condition& condition : scenario.conditions) {
+    finished.worlds.emplace_back(CompactLabel(condition.swept),
+                                 WorldDigest(scenario.task, condition.node, clip_digests));
+  }
+  for (const MethodEntry& method : scenario.methods) finished.methods.emplace_back(method.name, MethodDigest(method));
+  return finished;
+}
+
+Result<Rehearsal> ReadRehearsal(const std::string& file, std::optional<int> trials) {
+  Rehearsal rehearsal;
+  rehearsal.setup.file = file.empty() ? kBuiltInName : file;
+  if (file.empty()) {
+    rehearsal.sources[kBuiltInName] = kBuiltInScenario;
+  } else if (auto read = ReadSources(file, rehearsal.sources); !read) {
+    return tl::unexpected(read.error());
+  }
+  ASSIGN_OR_RETURN(const auto scenarios, ParseScenarios(rehearsal.setup.file, rehearsal.sources));
+  const Scenario& scenario = scenarios.front();
+  rehearsal.setup.name = scenario.name;
+  rehearsal.setup.trials = trials.value_or(scenario.trials);
+  rehearsal.setup.clips = scenario.clips;
+  rehearsal.setup.libraries = scenario.libraries;
+  return rehearsal;
+}
+
+Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed) {
+  ScenarioSetup setup = rehearsal.setup;
+  setup.seed = seed;
+  ASSIGN_OR_RETURN(
+      const auto prepared,
+      Prepare(SuiteSetup{.suite = "", .seed = seed, .sources = rehearsal.sources, .scenarios = {}, .scored = {}},
+              setup));
+  const Scenario& scenario = prepared.scenario();
+  FinishedRun run;
+  run.data.suite = scenario.name;
+  run.data.seed = seed;
+  run.scenarios.push_back(FinishScenario(scenario, setup, {}));
+  CellRunner runner(prepared, "", FenceFor({&prepared, 1}, {}, ""));
+  for (int condition = 0; condition < static_cast<int>(scenario.conditions.size()); ++condition) {
+    for (int trial = 0; trial < scenario.trials; ++trial) {
+      runner.Open(condition, trial);
+      for (std::size_t m = 0; m < scenario.methods.size(); ++m) run.data.rows.push_back(runner.Run(m).row);
+    }
+  }
+  return run;
+}
+
+Result<FinishedRun> LoadFinishedRun(const fs::path& folder, Sealing sealing) {
+  FinishedRun run;
+  std::error_code none;
+  if (fs::exists(folder / kJournalFile, none)) {
+    run.incomplete.push_back(
+        fmt::format("the run did not come to its end, or is still under way ({} is there)", kJournalFile));
+    return run;
+  }
+  ASSIGN_OR_RETURN(run.data, LoadRun(folder, sealing));
+  ASSIGN_OR_RETURN(run.scenarios, LoadScenarios(folder / "manifest.json"));
+  RETURN_IF_ERROR(CheckRows(run, {(folder / "cells.jsonl").string(), 0, 0}));
+  if (run.data.cpu_seconds.empty() && std::any_of(run.scenarios.begin(), run.scenarios.end(), WantsTimes)) {
+    return Fail({(folder / "timings.jsonl").string(), 0, 0}, "tells no times, which a gate of this run needs");
+  }
+  return run;
+}
+
+}  // namespace etude

@@ -1,0 +1,324 @@
+#include "bench/statistics/judging.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "bench/statistics/beyond.h"
+#include "bench/statistics/bootstrap.h"
+#include "bench/statistics/compare.h"
+#include "bench/statistics/paired_tests.h"
+#include "bench/statistics/scenario_table.h"
+
+namespace etude {
+namespace {
+
+/// Whoever gives up on hard worlds is compared on the easy ones alone.
+std::string NoteOnMissing(const Comparison& c) {
+  const int without = c.only_baseline + c.only_method + c.neither;
+  if (without == 0) return "";
+  std::string who;
+  const auto add = [&](const std::string& name, int worlds) {
+    if (worlds > 0) who += fmt::format("{}{} in {}", who.empty() ? "" : ", ", name, worlds);
+  };
+  add(fmt::format("only “{}” has a value", c.baseline), c.only_baseline);
+  add(fmt::format("only “{}” has a value", c.method), c.only_method);
+  add("neither has one", c.neither);
+  return fmt::format("{} of {} worlds are not in the difference: {}{}", without, c.pairs + without, who,
+                     c.pairs > 0 && c.only_baseline + c.only_method > 0 ? " (survivorship)" : "");
+}
+
+std::string NotWithFailures(Verdict of_pairs) {
+  return fmt::format("“{}” where both have a value, but not when failing counts as losing", VerdictName(of_pairs));
+}
+
+/// A median does not see what happens in fewer than half of the worlds.
+std::string WhatTheMedianHides(const Comparison& c) {
+  const int tied = c.pairs - c.differing;
+  const long better = std::lround(c.share_better * c.pairs - 0.5 * tied);  // ties count half
+  const std::string ties = 2 * tied > c.pairs ? "in most worlds the same, " : "";
+  return fmt::format("the median lies within what matters, but the mean may not: {}in {} of {} better, in {} worse",
+                     ties, better, c.pairs, c.differing - better);
+}
+
+/// Explains why the verdict is open: the first reason that holds, in the order in which one would ask.
+std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int comparisons) {
+  if (c.verdict != Verdict::kInconclusive) return "";
+  if (c.pairs == 0) return "no world gave both a value";
+  const int needed = PairsNeeded(comparisons, kAlpha);
+  if (SeesTooFewDiffer(c, metric) && c.ci_low && *c.ci_low >= -metric.practical && *c.ci_high <= metric.practical) {
+    return fmt::format("{} of {} pairs differ: too few to exclude rare differences that would move the mean",
+                       c.differing, c.pairs);
+  }
+  const bool within = c.ci_low && *c.ci_low >= -metric.practical && *c.ci_high <= metric.practical;
+  if (within && metric.aggregate == Aggregate::kMedian) return WhatTheMedianHides(c);
+  if (c.differing == 0 && c.ci_low) {
+    return fmt::format("no pair differs, but {} worlds are too few to exclude a difference that matters", c.pairs);
+  }
+  if (*c.p_holm > kAlpha && c.differing < needed) {
+    return fmt::format("too few worlds: {} of {} pairs differ, so p ≥ {:.2g}; {} needs at least {}", c.differing,
+                       c.pairs, SmallestP(c.differing),
+                       comparisons == 1 ? "one comparison" : fmt::format("one of {} comparisons (Holm)", comparisons),
+                       needed);
+  }
+  if (!c.ci_low) return fmt::format("too few worlds: no interval below {}", kSmallestSample);
+  const bool beyond_zero = *c.ci_low > 0 || *c.ci_high < 0;
+  if (!beyond_zero && *c.p_holm > kAlpha) return "the interval holds zero, and differences that matter";
+  if (!beyond_zero) {
+    return fmt::format("the test finds a difference (p = {:.2g} among {}), but the interval of its {} reaches zero",
+                       *c.p_holm, comparisons, metric.aggregate == Aggregate::kMedian ? "median" : "mean");
+  }
+  const double p = *DecidingP(c, metric);
+  if (*c.p_holm > kAlpha) {
+    if (p > kAlpha) return fmt::format("the interval excludes zero, but the test does not confirm it (p = {:.2g})", p);
+    return fmt::format("p = {:.2g} alone, but not among {} comparisons (Holm)", p, comparisons);
+  }
+  if (std::abs(*c.difference) < metric.practical) return "it differs, but whether by as much as matters is open";
+  return "it differs, but neither way is better";
+}
+
+/// A median is blind to what happens in fewer than half of the worlds.
+std::string NoteOnMean(const Comparison& c, const MetricInfo& metric) {
+  if (metric.aggregate != Aggregate::kMedian || !c.mean_low) return "";
+  const bool up = *c.mean_low > metric.practical, down = *c.mean_high < -metric.practical;
+  if (!up && !down) return "";
+  const bool agrees = up ? *c.difference > metric.practical : *c.difference < -metric.practical;
+  if (agrees) return "";
+  const auto amount = [&](double value) {
+    const std::string text = fmt::format("{:.3g}", value);
+    return text.starts_with('-') ? "−" + text.substr(1) : text;
+  };
+  const std::string unit = metric.unit.empty() ? "" : " " + metric.unit;
+  return fmt::format("the mean differs by {}{} (95 % CI {} to {}), which the median does not show", amount(*c.mean),
+                     unit, amount(*c.mean_low), amount(*c.mean_high));
+}
+
+void JudgeOnTheseWorlds(std::span<Question* const> family) {
+  std::vector<std::optional<double>> pairs_alone, all_worlds;
+  for (const Question* question : family) {
+    const MetricInfo& metric = *FindMetric(question->comparison.metric);
+    pairs_alone.push_back(DecidingP(question->comparison, metric));
+    all_worlds.push_back(question->with_failures ? DecidingP(*question->with_failures, metric) : pairs_alone.back());
+  }
+  const auto corrected_alone = HolmCorrected(pairs_alone), corrected = HolmCorrected(all_worlds);
+  for (std::size_t i = 0; i < family.size(); ++i) {
+    Comparison& comparison = family[i]->comparison;
+    const MetricInfo& metric = *FindMetric(comparison.metric);
+    comparison.p_holm = corrected_alone[i];
+    if (family[i]->with_failures) family[i]->with_failures->p_holm = corrected[i];
+    const Verdict of_pairs = JudgeBothWays(comparison, family[i]->with_failures, metric);
+    if (comparison.verdict == of_pairs) {
+      comparison.why_open = WhyOpen(comparison, metric, static_cast<int>(family.size()));
+    } else if (comparison.verdict == Verdict::kInconclusive) {
+      comparison.why_open = NotWithFailures(of_pairs);
+    }
+    for (const std::string& note : {NoteOnMissing(comparison), NoteOnMean(comparison, metric)}) {
+      if (!note.empty()) comparison.notes.push_back(note);
+    }
+  }
+}
+
+/// Copies the findings on these worlds to `beyond`, where every world is its own unit.
+void SayTheSameBeyond(Comparison& comparison) {
+  Beyond& beyond = comparison.beyond;
+  beyond.units = comparison.pairs;
+  beyond.differing = comparison.differing;
+  beyond.difference = comparison.difference;
+  beyond.low = comparison.ci_low;
+  beyond.high = comparison.ci_high;
+  const MetricInfo& metric = *FindMetric(comparison.metric);
+  beyond.test = metric.aggregate == Aggregate::kMedian ? comparison.signed_rank : comparison.sign_flip;
+  beyond.p_holm = comparison.p_holm;
+  if (comparison.pairs >= kSmallestSample) beyond.verdict = comparison.verdict;
+  beyond.why_open = comparison.why_open;
+}
+
+void JudgeBeyond(std::span<Question* const> family, SamplingUnit unit) {
+  std::vector<std::optional<double>> pairs_alone, all_worlds;
+  for (const Question* question : family) {
+    pairs_alone.push_back(question->comparison.beyond.test.p);
+    all_worlds.push_back(question->with_failures ? question->with_failures->beyond.test.p : pairs_alone.back());
+  }
+  const auto corrected_alone = HolmCorrected(pairs_alone), corrected = HolmCorrected(all_worlds);
+  const int comparisons = static_cast<int>(family.size());
+  for (std::size_t i = 0; i < family.size(); ++i) {
+    Beyond& beyond = family[i]->comparison.beyond;
+    const MetricInfo& metric = *FindMetric(family[i]->comparison.metric);
+    beyond.p_holm = corrected_alone[i];
+    beyond.verdict = VerdictBeyond(beyond, metric);
+    beyond.why_open = WhyOpenBeyond(beyond, metric, unit, comparisons);
+    if (!family[i]->with_failures || !beyond.verdict) continue;
+    Beyond& with_failures = family[i]->with_failures->beyond;
+    with_failures.p_holm = beyond.p_holm = corrected[i];
+    const Verdict of_pairs = *beyond.verdict;
+    const auto with_their_p = VerdictBeyond(beyond, metric);
+    if (with_their_p == of_pairs && VerdictBeyond(with_failures, metric) == of_pairs) continue;
+    beyond.verdict = Verdict::kInconclusive;
+    if (of_pairs != Verdict::kInconclusive) beyond.why_open = NotWithFailures(of_pairs);
+  }
+}
+
+/// A condition in two parts: the values that a verdict must hold for, and the rest.
+struct SplitCondition {
+  std::vector<SweptValue> across, rest;
+};
+
+SplitCondition Split(const Study& study, const std::vector<SweptValue>& condition) {
+  SplitCondition split;
+  for (const SweptValue& value : condition) {
+    const bool named = std::ranges::find(study.across, value.key) != study.across.end();
+    (named ? split.across : split.rest).push_back(value);
+  }
+  return split;
+}
+
+bool IsSameQuestion(const AcrossVerdict& verdict, const std::vector<SweptValue>& rest, const Comparison& comparison) {
+  return verdict.condition == rest && verdict.metric == comparison.metric && verdict.method == comparison.method &&
+         verdict.baseline == comparison.baseline;
+}
+
+bool Matches(const std::vector<SweptValue>& condition, const std::vector<SweptValue>& where) {
+  return std::all_of(where.begin(), where.end(), [&](const SweptValue& wanted) {
+    return std::any_of(condition.begin(), condition.end(),
+                       [&](const SweptValue& swept) { return swept.key == wanted.key && swept.value == wanted.value; });
+  });
+}
+
+std::string Claim(const Expectation& expectation) {
+  const MetricInfo& metric = *FindMetric(expectation.metric);
+  std::string text = metric.label + " of " + expectation.of;
+  if (!expectation.below.empty()) text += " below that of " + expectation.below;
+  if (!expectation.above.empty()) text += " above that of " + expectation.above;
+  const auto bound = [&](std::string_view words, double value) {
+    const std::string unit = metric.unit.empty() ? "" : " " + metric.unit;
+    return fmt::format("{} {} of {} {} {}{}", expectation.statistic, metric.label, expectation.of, words, value, unit);
+  };
+  if (expectation.at_most) text = bound("at most", *expectation.at_most);
+  if (expectation.at_least) text = bound("at least", *expectation.at_least);
+  if (!expectation.where.empty()) text += " where " + ConditionLabel(expectation.where);
+  return text;
+}
+
+struct Finding {
+  Ruling ruling;
+  std::string detail;
+};
+
+Finding JudgeComparison(const Expectation& expectation, const ConditionTable& table, const std::string& other,
+                        bool wants_lower, std::uint64_t seed, const std::string& purpose) {
+  MetricInfo metric = *FindMetric(expectation.metric);
+  metric.direction = wants_lower ? Direction::kLowerIsBetter : Direction::kHigherIsBetter;
+  const PairedWorlds worlds = PairsOf(table, other, expectation.of, expectation.metric);
+  Comparison found = ComparePaired(worlds.pairs, metric, seed, purpose, expectation.confidence);
+  std::optional<Comparison> with_failures;
+  if (const auto all = WithFailures(worlds, metric)) {
+    with_failures = ComparePaired(all->pairs, metric, seed, purpose + "/failures", expectation.confidence);
+  }
+  const Verdict of_pairs = JudgeBothWays(found, with_failures, metric, expectation.confidence);
+  const int without = worlds.only_baseline + worlds.only_method + worlds.neither;
+  const std::string missing = without == 0 ? "" : fmt::format(", {} more have no pair of values", without);
+  if (!found.ci_low)
+    return {Ruling::kUndecided, fmt::format("only {} worlds have both values{}", found.pairs, missing)};
+  const Ruling ruling = found.verdict == Verdict::kBetter         ? Ruling::kMet
+                        : found.verdict == Verdict::kInconclusive ? Ruling::kUndecided
+                                                                  : Ruling::kUnmet;
+  std::string detail = fmt::format("difference {:.4g} ({:.4g} % interval {:.4g} to {:.4g}, p = {:.2g}) on {} worlds{}",
+                                   *found.difference, 100 * expectation.confidence, *found.ci_low, *found.ci_high,
+                                   *found.p_holm, found.pairs, missing);
+  if (found.verdict != of_pairs) return {ruling, detail + "; it does not hold when failing counts as losing"};
+  const double alpha = 1 - expectation.confidence;
+  if (ruling == Ruling::kUndecided && SmallestP(found.differing) > alpha) {
+    detail += fmt::format("; {} of them differ, and {:.4g} % needs at least {}", found.differing,
+                          100 * expectation.confidence, PairsNeeded(1, alpha));
+  }
+  return {ruling, detail};
+}
+
+Finding JudgeBound(const Expectation& expectation, const ConditionTable& table) {
+  int missing = 0;
+  const std::vector<double> values = table.Of(expectation.of).ValuesOf(expectation.metric, missing);
+  if (values.empty()) return {Ruling::kUndecided, "no cell has a value"};
+  const double value = expectation.statistic == "mean"  ? Mean(values)
+                       : expectation.statistic == "p95" ? Quantile(values, 0.95)
+                                                        : Quantile(values, 0.5);
+  const bool met = expectation.at_most ? value <= *expectation.at_most : value >= *expectation.at_least;
+  std::string detail = fmt::format("{:.4g} over {} worlds", value, values.size());
+  if (missing > 0) detail += fmt::format(", {} more have no value", missing);
+  if (met && missing > 0) return {Ruling::kUndecided, detail};
+  return {met ? Ruling::kMet : Ruling::kUnmet, detail};
+}
+
+}  // namespace
+
+std::vector<std::optional<double>> HolmCorrected(std::span<const std::optional<double>> p_values) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < p_values.size(); ++i) {
+    if (p_values[i]) order.push_back(i);
+  }
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return *p_values[a] != *p_values[b] ? *p_values[a] < *p_values[b] : a < b;
+  });
+  std::vector<std::optional<double>> corrected(p_values.size());
+  double largest = 0;
+  for (std::size_t rank = 0; rank < order.size(); ++rank) {
+    const double factor = static_cast<double>(p_values.size() - rank);
+    largest = std::max(largest, std::min(1.0, factor * *p_values[order[rank]]));
+    corrected[order[rank]] = largest;
+  }
+  return corrected;
+}
+
+void JudgeFamily(std::span<Question* const> family, SamplingUnit unit) {
+  JudgeOnTheseWorlds(family);
+  if (!IsEveryWorldItsOwn(unit)) return JudgeBeyond(family, unit);
+  for (Question* question : family) SayTheSameBeyond(question->comparison);
+}
+
+std::vector<AcrossVerdict> JudgeAcross(const Study& study, const std::vector<ConditionSummary>& conditions) {
+  std::vector<AcrossVerdict> verdicts;
+  if (study.across.empty()) return verdicts;
+  for (const ConditionSummary& condition : conditions) {
+    const SplitCondition split = Split(study, condition.condition);
+    for (const Comparison& comparison : condition.comparisons) {
+      auto found = std::ranges::find_if(
+          verdicts, [&](const AcrossVerdict& verdict) { return IsSameQuestion(verdict, split.rest, comparison); });
+      if (found == verdicts.end()) {
+        found = verdicts.insert(found, {.condition = split.rest,
+                                        .metric = comparison.metric,
+                                        .baseline = comparison.baseline,
+                                        .method = comparison.method,
+                                        .each = {},
+                                        .verdict = comparison.verdict});
+      }
+      found->each.push_back({ConditionLabel(split.across), comparison.verdict, comparison.difference});
+      if (found->verdict != comparison.verdict) found->verdict = Verdict::kInconclusive;
+    }
+  }
+  return verdicts;
+}
+
+ExpectationResult JudgeExpectation(const Expectation& expectation, const Study& study, const ScenarioTable& table,
+                                   std::uint64_t seed) {
+  ExpectationResult result{Claim(expectation), Ruling::kMet, ""};
+  const bool wants_lower = !expectation.below.empty();
+  const std::string& other = wants_lower ? expectation.below : expectation.above;
+  for (const ConditionTable& condition : table.conditions()) {
+    if (!Matches(condition.condition, expectation.where)) continue;
+    const std::string purpose =
+        PurposeOf(study.scenario, condition.condition, expectation.metric, other, expectation.of);
+    const Finding finding = other.empty() ? JudgeBound(expectation, condition)
+                                          : JudgeComparison(expectation, condition, other, wants_lower, seed, purpose);
+    const std::string label = ConditionLabel(condition.condition);
+    if (!result.detail.empty()) result.detail += "; ";
+    result.detail += label.empty() ? finding.detail : label + ": " + finding.detail;
+    // One condition that fails decides; else one that is undecided does.
+    if (finding.ruling == Ruling::kUnmet) result.ruling = Ruling::kUnmet;
+    if (finding.ruling == Ruling::kUndecided && result.ruling == Ruling::kMet) result.ruling = finding.ruling;
+  }
+  return result;
+}
+
+}  // namespace etude

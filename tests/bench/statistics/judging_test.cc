@@ -1,0 +1,263 @@
+#include "bench/statistics/judging.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "bench/statistics/compare.h"
+#include "bench/statistics/scenario_table.h"
+#include "sim/random/stream.h"
+
+namespace etude {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+std::vector<std::optional<double>> Corrected(std::vector<std::optional<double>> p_values) {
+  return HolmCorrected(p_values);
+}
+
+TEST(Holm, AgreesWithR) {
+  // p.adjust(c(0.01, 0.02, 0.03, 0.04, 0.05), "holm") and p.adjust(c(0.04, 0.001, 0.03), "holm")
+  const auto rising = Corrected({0.01, 0.02, 0.03, 0.04, 0.05});
+  const double expected[] = {0.05, 0.08, 0.09, 0.09, 0.09};
+  for (int i = 0; i < 5; ++i) EXPECT_DOUBLE_EQ(*rising[i], expected[i]);
+  const auto mixed = Corrected({0.04, 0.001, 0.03});
+  EXPECT_DOUBLE_EQ(*mixed[0], 0.06);
+  EXPECT_DOUBLE_EQ(*mixed[1], 0.003);
+  EXPECT_DOUBLE_EQ(*mixed[2], 0.06);
+}
+
+TEST(Holm, NeverExceedsOneNorForgetsAQuestion) {
+  const auto corrected = Corrected({0.9, std::nullopt, 0.02});
+  EXPECT_EQ(*corrected[0], 1);
+  EXPECT_FALSE(corrected[1]);
+  EXPECT_DOUBLE_EQ(*corrected[2], 0.06);  // times three, not two
+  EXPECT_TRUE(Corrected({}).empty());
+}
+
+
+Comparison Compared(const std::vector<double>& differences, const char* metric = "position_error_cm") {
+  std::vector<Pair> pairs;
+  for (double difference : differences) pairs.push_back({0, difference});
+  Comparison comparison = ComparePaired(pairs, *FindMetric(metric), 1, "x");
+  comparison.baseline = "fixed";
+  comparison.method = "adaptive";
+  return comparison;
+}
+
+std::vector<double> Falling(int count) {
+  std::vector<double> differences;
+  for (int i = 1; i <= count; ++i) differences.push_back(-1 - 0.01 * i);
+  return differences;
+}
+
+void Judge(std::vector<Question>& questions) {
+  std::vector<Question*> family;
+  for (Question& question : questions) family.push_back(&question);
+  JudgeFamily(family);
+}
+
+/// The first of `count` comparisons of which all others show nothing.
+Comparison JudgedAmong(int count, const Comparison& first, const std::optional<Comparison>& with_failures = {}) {
+  std::vector<Question> all(count, Question{Compared(std::vector<double>(20, 0.0)), {}});
+  all[0] = {first, with_failures};
+  Judge(all);
+  return all[0].comparison;
+}
+
+TEST(JudgeFamily, TakesBackWhatManyQuestionsWouldFindByChance) {
+  const Comparison seven = Compared(Falling(7));  // p = 2 / 128
+  EXPECT_EQ(JudgedAmong(1, seven).verdict, Verdict::kBetter);
+  EXPECT_EQ(JudgedAmong(3, seven).verdict, Verdict::kBetter);
+  EXPECT_EQ(JudgedAmong(4, seven).verdict, Verdict::kInconclusive);
+  EXPECT_DOUBLE_EQ(*JudgedAmong(4, seven).p_holm, 8.0 / 128);
+}
+
+TEST(JudgeFamily, SaysHowManyPairsItTakes) {
+  EXPECT_EQ(JudgedAmong(12, Compared(Falling(8))).why_open,
+            "too few worlds: 8 of 8 pairs differ, so p ≥ 0.0078; one of 12 comparisons (Holm) needs at least 9");
+  EXPECT_EQ(JudgedAmong(12, Compared(Falling(9))).verdict, Verdict::kBetter);
+  EXPECT_THAT(JudgedAmong(12, Compared(Falling(9))).why_open, IsEmpty());
+  EXPECT_THAT(JudgedAmong(1, Compared(Falling(5))).why_open, HasSubstr("one comparison needs at least 6"));
+  EXPECT_THAT(JudgedAmong(1, Compared({})).why_open, HasSubstr("no world"));
+}
+
+TEST(JudgeFamily, SaysWhyADifferenceIsNotYetAVerdict) {
+  std::vector<double> mostly_lower = Falling(20);
+  for (int rank : {5, 9, 13, 15}) mostly_lower[rank - 1] *= -1;
+  const Comparison noisy = Compared(mostly_lower);
+  ASSERT_LT(*noisy.signed_rank.p, 0.05);
+  ASSERT_LT(*noisy.ci_high, 0);
+  EXPECT_THAT(JudgedAmong(40, noisy).why_open, HasSubstr("but not among 40 comparisons (Holm)"));
+  // Of a jump 1 cm matters: these differ for certain, by 0.9 cm or more.
+  RandomStream dice({.suite_seed = 4, .scenario = "small", .trial = 0}, "x");
+  std::vector<double> small(40);
+  for (double& difference : small) difference = dice.Normal(-0.95, 0.6);
+  const Comparison open = JudgedAmong(1, Compared(small, "jump_cm"));
+  EXPECT_EQ(open.verdict, Verdict::kInconclusive);
+  EXPECT_EQ(open.why_open, "it differs, but whether by as much as matters is open");
+}
+
+TEST(JudgeFamily, TellsATestThatFoundSomethingFromOneThatDidNot) {
+  // A share of equal worlds and many small wins: the ranks are clear, the median stays at the equal ones.
+  std::vector<double> steps(24, 0.0);
+  for (int i = 0; i < 13; ++i) steps[i] = -1 - 0.01 * i;
+  const Comparison found = JudgedAmong(2, Compared(steps));
+  EXPECT_EQ(found.verdict, Verdict::kInconclusive);
+  EXPECT_THAT(found.why_open, HasSubstr("the test finds a difference (p = 0.00049 among 2), but the interval of its "
+                                        "median reaches zero"));
+  // A share of twelve equal worlds: nothing differs, and the interval is wide all the same.
+  std::vector<Pair> equal(12, Pair{1, 1});
+  Comparison same = ComparePaired(equal, *FindMetric("solved_practical"), 1, "x");
+  EXPECT_EQ(JudgedAmong(1, same).why_open,
+            "no pair differs, but 12 worlds are too few to exclude a difference that matters");
+}
+
+TEST(JudgeFamily, WarnsOfWorldsThatOnlyOneSurvived) {
+  Comparison lossy = Compared(Falling(20));
+  lossy.only_baseline = 7;
+  lossy.neither = 1;
+  EXPECT_THAT(
+      JudgedAmong(1, lossy).notes,
+      ElementsAre("8 of 28 worlds are not in the difference: only “fixed” has a value in 7, neither has one in 1 "
+                  "(survivorship)"));
+  lossy.only_baseline = 0;
+  EXPECT_THAT(JudgedAmong(1, lossy).notes,
+              ElementsAre("1 of 21 worlds are not in the difference: neither has one in 1"));
+}
+
+TEST(JudgeFamily, FindsNobodyBetterWhoFailsWhereTheOtherDoesNot) {
+  PairedWorlds pairs;
+  for (double difference : Falling(20)) pairs.pairs.push_back({0, difference});
+  pairs.trials.resize(20);
+  const MetricInfo& metric = *FindMetric("position_error_cm");
+  const auto judged = [&](std::size_t baseline_failed, std::size_t method_failed) {
+    PairedWorlds worlds = pairs;
+    worlds.baseline_failed.resize(baseline_failed);
+    worlds.method_failed.resize(method_failed);
+    return JudgedAmong(1, Compared(Falling(20)), ComparePaired(WithFailures(worlds, metric)->pairs, metric, 1, "x"));
+  };
+  // A few failures don't turn twenty wins, as many as the wins do; those of the other speak for the method.
+  EXPECT_EQ(judged(0, 2).verdict, Verdict::kBetter);
+  EXPECT_EQ(judged(20, 0).verdict, Verdict::kBetter);
+  const Comparison open = judged(0, 12);
+  EXPECT_EQ(open.verdict, Verdict::kInconclusive);
+  EXPECT_EQ(open.why_open, "“better” where both have a value, but not when failing counts as losing");
+  EXPECT_GT(*open.p_holm, 0.05);
+  EXPECT_DOUBLE_EQ(*open.difference, *Compared(Falling(20)).difference);
+}
+
+TEST(JudgeFamily, CallsAMeanEqualOnlyWhenEnoughPairsDiffer) {
+  std::vector<double> steps(40, 0.0);
+  for (int i = 0; i < 5; ++i) steps[i] = 2;
+  const Comparison few = JudgedAmong(1, Compared(steps, "iterations_par2"));
+  EXPECT_EQ(few.verdict, Verdict::kInconclusive);
+  EXPECT_EQ(few.why_open, "5 of 40 pairs differ: too few to exclude rare differences that would move the mean");
+  steps[5] = 2;
+  EXPECT_EQ(JudgedAmong(1, Compared(steps, "iterations_par2")).verdict, Verdict::kNoDifference);
+  EXPECT_EQ(JudgedAmong(1, Compared(std::vector<double>(40, 0.0), "iterations")).verdict, Verdict::kNoDifference);
+}
+
+TEST(JudgeFamily, CallsNothingEqualOfWhichTheMedianHidesWhatFewWorldsShow) {
+  std::vector<double> rare(40, 0.0);
+  for (int i = 0; i < 12; ++i) rare[i] = 50 + i;
+  const Comparison judged = JudgedAmong(1, Compared(rare));
+  EXPECT_EQ(judged.verdict, Verdict::kInconclusive);
+  EXPECT_EQ(*judged.ci_high, 0);
+  EXPECT_THAT(judged.why_open, HasSubstr("in most worlds the same, in 0 of 40 better, in 12 worse"));
+  EXPECT_THAT(judged.notes, ElementsAre(HasSubstr("which the median does not show")));
+  // The control: the same ties, and differences that matter to neither.
+  for (double& difference : rare) difference *= 1e-4;
+  EXPECT_EQ(JudgedAmong(1, Compared(rare)).verdict, Verdict::kNoDifference);
+}
+
+/// Scenarios of twelve comparisons each: how often does one of them find what is not there?
+int FalseAlarms(double effect, bool corrected) {
+  int alarms = 0;
+  for (int scenario = 0; scenario < 100; ++scenario) {
+    std::vector<Question> all;
+    for (int c = 0; c < 12; ++c) {
+      RandomStream dice({.suite_seed = 4, .scenario = "family", .trial = scenario * 12 + c}, "x");
+      std::vector<double> differences(20);
+      for (double& difference : differences) difference = dice.Normal(effect, 1);
+      all.push_back({Compared(differences), {}});
+    }
+    if (corrected) Judge(all);
+    const auto is_clear = [](const Question& question) {
+      return question.comparison.verdict == Verdict::kBetter || question.comparison.verdict == Verdict::kWorse;
+    };
+    const bool alarm = std::any_of(all.begin(), all.end(), is_clear);
+    alarms += alarm;
+  }
+  return alarms;
+}
+
+TEST(JudgeFamily, RaisesAFalseAlarmInOneScenarioOfTwenty) {
+  EXPECT_LE(FalseAlarms(0, true), 10);
+  // The controls: without the correction every other scenario has one; a true effect is found.
+  EXPECT_GE(FalseAlarms(0, false), 25);
+  EXPECT_GE(FalseAlarms(-1, true), 95);
+}
+
+/// "a" against "base" under one law and one noise.
+ConditionSummary Under(const std::string& law, const std::string& noise, Verdict verdict, double difference) {
+  ConditionSummary condition;
+  condition.condition = {{"learning", law}, {"noise", noise}};
+  Comparison comparison;
+  comparison.metric = "retention";
+  comparison.baseline = "base";
+  comparison.method = "a";
+  comparison.verdict = verdict;
+  comparison.difference = difference;
+  condition.comparisons.push_back(comparison);
+  return condition;
+}
+
+Study Asking(std::vector<std::string> across) {
+  Study study;
+  study.across = std::move(across);
+  return study;
+}
+
+TEST(Across, AVerdictHoldsWhereItIsTheSameUnderEveryValue) {
+  const auto verdicts =
+      JudgeAcross(Asking({"learning"}),
+                  {Under("power", "0", Verdict::kBetter, 0.1), Under("power", "1", Verdict::kBetter, 0.1),
+                   Under("two-rate", "0", Verdict::kBetter, 0.2), Under("two-rate", "1", Verdict::kWorse, -0.2)});
+  ASSERT_EQ(verdicts.size(), 2u);  // one per noise
+  EXPECT_EQ(verdicts[0].condition, (std::vector<SweptValue>{{"noise", "0"}}));
+  EXPECT_EQ(verdicts[0].verdict, Verdict::kBetter);
+  EXPECT_TRUE(verdicts[0].Holds());
+  ASSERT_EQ(verdicts[0].each.size(), 2u);
+  EXPECT_EQ(verdicts[0].each[1].value, "learning=two-rate");
+  EXPECT_EQ(verdicts[0].each[1].difference, 0.2);
+  EXPECT_FALSE(verdicts[1].Holds());  // better under one law, worse under the other
+}
+
+TEST(Across, OneLawThatSaysNothingIsEnoughToSayNothing) {
+  const auto verdicts = JudgeAcross(Asking({"learning"}), {Under("power", "0", Verdict::kBetter, 0.1),
+                                                           Under("two-rate", "0", Verdict::kInconclusive, 0.0),
+                                                           Under("exponential", "0", Verdict::kBetter, 0.1)});
+  ASSERT_EQ(verdicts.size(), 1u);
+  EXPECT_EQ(verdicts[0].verdict, Verdict::kInconclusive);
+}
+
+TEST(Across, NoDifferenceHoldsToo) {
+  const auto verdicts = JudgeAcross(Asking({"learning"}), {Under("power", "0", Verdict::kNoDifference, 0),
+                                                           Under("two-rate", "0", Verdict::kNoDifference, 0)});
+  ASSERT_EQ(verdicts.size(), 1u);
+  EXPECT_TRUE(verdicts[0].Holds());
+}
+
+TEST(Across, AStudyThatAsksForNothingGetsNothing) {
+  EXPECT_TRUE(JudgeAcross(Asking({}), {Under("power", "0", Verdict::kBetter, 0.1)}).empty());
+}
+
+}  // namespace
+}  // namespace etude
