@@ -9,7 +9,7 @@
 #include "cli/progress_bar.h"
 #include "engine/transitions/tags_file/compare_tags.h"
 #include "engine/transitions/tags_file/tags_file.h"
-#include "reports/bridges/bridge_summary.h"
+#include "reports/clips/bridge_summary.h"
 
 namespace etude {
 namespace {

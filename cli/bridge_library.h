@@ -2,7 +2,7 @@
 
 #include "cli/bridge_command.h"
 #include "engine/base/result.h"
-#include "reports/bridges/bridge_summary.h"
+#include "reports/clips/bridge_summary.h"
 
 namespace etude {
 

@@ -15,7 +15,7 @@
 #include "engine/keypoints/agreement.h"
 #include "engine/keypoints/recover_person.h"
 #include "engine/keypoints/synchronise_people.h"
-#include "reports/captures/overlay_film.h"
+#include "reports/films/overlay_film.h"
 
 namespace etude {
 namespace {

@@ -11,8 +11,8 @@
 #include "cli/progress_bar.h"
 #include "engine/keypoints/agreement.h"
 #include "engine/unmarked/recover_unmarked.h"
-#include "reports/captures/overlay_film.h"
-#include "reports/captures/reduced_film.h"
+#include "reports/films/overlay_film.h"
+#include "reports/films/reduced_film.h"
 
 namespace etude {
 namespace {

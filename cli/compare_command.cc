@@ -7,7 +7,7 @@
 #include "cli/commands.h"
 #include "cli/move_table.h"
 #include "reports/gate_table.h"
-#include "reports/words/beyond.h"
+#include "reports/words/judged.h"
 
 namespace etude {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cli/interrupt.h"
-#include "reports/films/film_watch.h"
+#include "reports/films/film.h"
 
 namespace etude {
 

@@ -12,7 +12,6 @@
 #include "cli/move_table.h"
 #include "reports/gate_report.h"
 #include "reports/gate_table.h"
-#include "reports/gate_tail.h"
 
 namespace etude {
 namespace {

@@ -3,7 +3,7 @@
 #include "cli/commands.h"
 #include "cli/output_file.h"
 #include "cli/sensor_commands.h"
-#include "reports/sensors/sensor_sheet.h"
+#include "reports/clips/contact_sheet.h"
 
 namespace etude {
 namespace {

@@ -11,7 +11,7 @@
 #include "reports/words/cell_series.h"
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"
-#include "reports/words/yardstick.h"
+#include "reports/words/judged.h"
 
 namespace etude {
 namespace {

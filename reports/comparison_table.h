@@ -23,4 +23,11 @@ std::string ComparisonTableMarkdown(const ScenarioSummary& scenario);
 /// The same as CSV: full precision, both tests, empty fields for values that do not exist.
 std::string ComparisonTableCsv(const ScenarioSummary& scenario);
 
+/// What holds under every value of the parameters that verdicts must hold for (`across`), a row per comparison: the
+/// common verdict, or what differs. "" where nothing was asked to.
+std::string AcrossTableHtml(const ScenarioSummary& scenario);
+
+/// The same as a Markdown table.
+std::string AcrossTableMarkdown(const ScenarioSummary& scenario);
+
 }  // namespace etude

@@ -5,17 +5,14 @@
 #include <algorithm>
 #include <span>
 
-#include "reports/across_table.h"
 #include "reports/comparison_table.h"
 #include "reports/overview_table.h"
-#include "reports/paper/paper_a_section.h"
+#include "reports/paper/paper_a.h"
 #include "reports/paper/paper_b_section.h"
-#include "reports/pose_pairs.h"
 #include "reports/transitions/transition_section.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"
-#include "reports/words/left_out.h"
 
 namespace etude {
 namespace {

@@ -7,8 +7,7 @@
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"
-#include "reports/words/left_out.h"
-#include "reports/words/yardstick.h"
+#include "reports/words/judged.h"
 
 namespace etude {
 namespace {

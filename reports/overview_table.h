@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "bench/model/run_data.h"
 #include "bench/model/summary.h"
 
 namespace etude {
@@ -10,5 +11,10 @@ namespace etude {
 /// baseline. Where something is swept, a row per method and condition. "" when there is but one metric, or no method.
 std::string OverviewTableHtml(const ScenarioSummary& scenario);
 std::string OverviewTableMarkdown(const ScenarioSummary& scenario);
+
+/// Of a scenario of the task `pose-distance` whose worlds are single named pairs of poses: pair by pair how far the
+/// poses are apart, and what each method says. "" for any other.
+std::string PosePairsHtml(const RunData& run, const ScenarioSummary& scenario);
+std::string PosePairsMarkdown(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

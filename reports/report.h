@@ -6,7 +6,7 @@
 #include "bench/model/run_data.h"
 #include "bench/real_takes/real_take.h"
 #include "engine/base/result.h"
-#include "reports/films/film_watch.h"
+#include "reports/films/film.h"
 
 namespace etude {
 

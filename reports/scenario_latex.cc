@@ -6,13 +6,12 @@
 #include <cmath>
 
 #include "reports/comparison_table.h"
-#include "reports/paper/paper_a_section.h"
+#include "reports/paper/paper_a.h"
 #include "reports/paper/paper_b_section.h"
-#include "reports/words/beyond.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"
-#include "reports/words/yardstick.h"
+#include "reports/words/judged.h"
 
 namespace etude {
 namespace {

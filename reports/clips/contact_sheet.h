@@ -3,8 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "bench/model/sensor_sheet.h"
 #include "engine/base/result.h"
-#include "reports/clips/shot.h"
+#include "reports/clips/clip_film.h"
 #include "sim/render/renderer.h"
 
 namespace etude {
@@ -23,5 +24,9 @@ constexpr int kLargestSheet = 16'000;
 /// Draws clips below each other, each as pictures evenly spread over its time, all at one scale. The bytes of a PNG
 /// file.
 Result<std::string> DrawContactSheet(std::vector<ClipActor> actors, const SheetOptions& options, Renderer& renderer);
+
+/// Draws the rows below each other, all pictures at one width. The bytes of a PNG file. Fails for a sheet that is
+/// larger than any picture may be, or has nothing to show.
+Result<std::string> DrawSensorSheet(const SensorSheet& sheet);
 
 }  // namespace etude

@@ -7,7 +7,7 @@
 #include "bench/recordings/capture_extras.h"
 #include "reports/films/canvas.h"
 #include "reports/films/cast.h"
-#include "reports/films/media.h"
+#include "reports/films/film.h"
 #include "sim/camera/lens.h"
 #include "sim/render/renderer.h"
 #include "sim/stage/stage.h"

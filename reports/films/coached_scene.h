@@ -3,13 +3,21 @@
 #include <string>
 #include <vector>
 
+#include "engine/motion/body.h"
 #include "engine/motion/character.h"
 #include "reports/films/coached_session.h"
 #include "reports/films/film.h"
-#include "reports/films/session_timeline.h"
+#include "reports/films/session_parts.h"
 #include "sim/render/renderer.h"
 
 namespace etude {
+
+/// Paper A's scene, generated: a meadow before a forest's edge and the sky. Stands behind z = −1, and hides the room's
+/// wall and floor from a camera that looks at the origin from +Z.
+Figure ForestFigure();
+
+/// A soft dark spot on the meadow below a body: the forest is drawn without shadows.
+Surface SpotBelow(const BodyPose& pose);
 
 /// A coached session: the bear in its forest and the learner beside it, the learner's skeleton as the sensor saw it,
 /// the hint with the picture of its key pose, and a timeline of truth, judgements and transitions. A beat is a click.

@@ -4,7 +4,7 @@
 
 #include "reports/films/film.h"
 #include "reports/films/judged_session.h"
-#include "reports/films/session_timeline.h"
+#include "reports/films/session_parts.h"
 
 namespace etude {
 

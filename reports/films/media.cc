@@ -7,7 +7,7 @@
 #include <memory>
 #include <optional>
 
-#include "reports/films/capture_plate.h"
+#include "reports/films/capture_stills.h"
 #include "reports/films/cast.h"
 #include "reports/films/coached_scene.h"
 #include "reports/films/coached_session.h"
@@ -15,11 +15,10 @@
 #include "reports/films/film.h"
 #include "reports/films/judged_scene.h"
 #include "reports/films/judged_session.h"
-#include "reports/films/picture_strip.h"
 #include "reports/films/stage_scene.h"
 #include "reports/films/transition_race.h"
 #include "reports/films/transition_scene.h"
-#include "reports/words/file_name.h"
+#include "reports/words/escape.h"
 
 namespace etude {
 namespace {

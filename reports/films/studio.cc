@@ -41,6 +41,8 @@ Rgb8 ToPixel(const glm::dvec3& paint) {
           static_cast<std::uint8_t>(rounded.z)};
 }
 
+constexpr double kFreeRoom = 0.45;
+
 }  // namespace
 
 Figure Placed(Figure figure, const FloorMove& move) {
@@ -143,6 +145,26 @@ glm::dvec2 Studio::PixelOf(const Box& box, const glm::dvec3& point) const {
   const glm::dvec2 seen = Project(MatrixOf(camera_), point).value_or(glm::dvec2(0));
   return {box.x + seen.x * box.width / camera_.intrinsics.width,
           box.y + seen.y * box.height / camera_.intrinsics.height};
+}
+
+std::vector<glm::dvec3> FollowedWay(const BodyMotion& motion, int smoothing) {
+  const int count = static_cast<int>(motion.poses.size());
+  glm::dvec3 low = motion.poses.front()[Role::kHipCentre], high = low;
+  for (const BodyPose& pose : motion.poses) {
+    low = glm::min(low, pose[Role::kHipCentre]);
+    high = glm::max(high, pose[Role::kHipCentre]);
+  }
+  const glm::dvec3 half = (high - low) / 2.0;
+  if (half.x < kFreeRoom && half.z < kFreeRoom) return std::vector(motion.poses.size(), low + half);
+  std::vector<glm::dvec3> way;
+  for (int frame = 0; frame < count; ++frame) {
+    glm::dvec3 sum{0};
+    for (int k = -smoothing; k <= smoothing; ++k) {
+      sum += motion.poses[static_cast<std::size_t>(std::clamp(frame + k, 0, count - 1))][Role::kHipCentre];
+    }
+    way.push_back(sum / (2.0 * smoothing + 1));
+  }
+  return way;
 }
 
 }  // namespace etude

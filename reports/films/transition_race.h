@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bench/model/run_data.h"
+#include "reports/films/film.h"
 #include "reports/transitions/recorded_requests.h"
 
 namespace etude {
@@ -40,5 +41,30 @@ constexpr std::size_t kMostTransitionPaths = 4;
 /// The first world that kept recordings of the most methods (at most kMostTransitionPaths, the scenario's first): never
 /// the prettiest one. Fails, saying why, when no world kept those of two.
 Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSummary& scenario);
+
+/// Which moment of a request is seen at which frame of a film, the same for every method: from a second before the
+/// request until after the last transition, and then all once more, slower. Times are frames after the request.
+class TransitionClock {
+ public:
+  static constexpr int kSlowness = 4;
+
+  explicit TransitionClock(const TransitionRace& race);
+
+  int First() const { return first_; }
+  int Last() const { return last_; }
+  int Frames() const { return Run() + kRest + kSlowness * (slow_last_ - slow_first_ + 1) + kRest; }
+  int TimeAt(int frame) const;
+  bool IsSlow(int frame) const { return frame >= Run() + kRest; }
+  /// The frame of the film that first shows this moment.
+  int FrameOf(int time) const;
+
+ private:
+  static constexpr int kRest = kFilmRate / 2;
+
+  int Run() const { return last_ - first_ + 1; }
+
+  int first_, last_;
+  int slow_first_, slow_last_;
+};
 
 }  // namespace etude

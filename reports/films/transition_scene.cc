@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "reports/films/look.h"
-#include "reports/transitions/distance_table.h"
+#include "reports/transitions/transition_section.h"
 #include "reports/words/figures.h"
 
 namespace etude {

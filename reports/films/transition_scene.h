@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "reports/films/film.h"
-#include "reports/films/transition_clock.h"
 #include "reports/films/transition_panel.h"
+#include "reports/films/transition_race.h"
 
 namespace etude {
 

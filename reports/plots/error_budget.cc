@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "reports/plots/axis.h"
 #include "reports/plots/panel.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"

@@ -1,10 +1,33 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "reports/plots/paired_worlds.h"
+#include "bench/model/run_data.h"
+#include "bench/model/summary.h"
+#include "reports/words/judged.h"
 
 namespace etude {
+
+/// A world in which both methods of a comparison have a value, as shown: shares are per cent already.
+struct PairedWorld {
+  int trial = 0;
+  std::size_t unit = 0;  ///< index of PairedDots::units; of several units (clip left × clip entered) the first
+  double baseline = 0, method = 0;
+
+  double Difference() const { return method - baseline; }
+};
+
+/// The worlds behind one comparison, at most kMostWorlds of them.
+struct PairedDots {
+  std::vector<PairedWorld> worlds;  ///< in the order of trials
+  std::vector<std::string> units;   ///< in the order of their names; empty where worlds are units
+  std::size_t total = 0;            ///< of which `worlds` are every so manyeth
+};
+inline constexpr std::size_t kMostWorlds = 400;
+
+/// Empty when no world has both, or the other is no single method (a rival that half of the worlds chose).
+PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, const Judged& judged);
 
 /// One comparison as an estimation plot (after Gardner & Altman 1986; paired as in Ho et al. 2019): a panel with every
 /// world a dot under both methods, joined, and one with the paired differences on an axis of their own: dots, the
@@ -14,5 +37,12 @@ std::string EstimationHtml(const ScenarioSummary& scenario, const Judged& judged
 
 /// Names the units' colours; "" where worlds are units.
 std::string UnitLegendHtml(const PairedDots& pairs);
+
+/// What leaving one unit out does to a comparison, in words: the range, the unit that matters most, and whether it alone
+/// carries the difference, or hides one. "" where worlds are units.
+std::string WithoutEachUnit(const Comparison& comparison, SamplingUnit unit);
+
+/// The same as a strip: the mean difference without each unit, against what matters; words beneath.
+std::string LeftOutStripHtml(const Comparison& comparison, SamplingUnit unit);
 
 }  // namespace etude

@@ -9,11 +9,9 @@
 
 #include "reports/plots/marks.h"
 #include "reports/plots/panel.h"
-#include "reports/plots/swarm.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
-#include "reports/words/left_out.h"
-#include "reports/words/yardstick.h"
+#include "reports/words/judged.h"
 
 namespace etude {
 namespace {

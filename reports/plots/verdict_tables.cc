@@ -8,7 +8,6 @@
 #include "reports/words/answer.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
-#include "reports/words/left_out.h"
 
 namespace etude {
 namespace {

@@ -1,10 +1,28 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "reports/words/findings.h"
+#include "reports/words/judged.h"
 
 namespace etude {
+
+/// How a method did against another, over all its conditions, in a sentence with the figures that carry it. The
+/// verdict it names is the one on these worlds, and it says so. `judged` must not be empty.
+std::string SentenceOf(const std::vector<Judged>& judged, SamplingUnit unit);
+
+/// A scenario's first line: how `method` did against its baseline, and against the strongest other method: "better than
+/// “fixed”; needs 140 × the solver steps of “gauss-newton”". Where a cost is at least twice the other's, the ratio says
+/// it, else the verdict. Without rivals the first half alone. Where nothing is known beyond these worlds it says so.
+std::string HeadlineOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric);
+
+/// How often `method` takes what another takes, of a metric that is never negative and better when lower, where that is
+/// at least twice, or nothing. Under several conditions the smallest and largest.
+struct CostRatio {
+  double least = 0, most = 0;
+};
+std::optional<CostRatio> CostRatioOf(const std::vector<Judged>& judged);
 
 /// Puts into words how `method` did by `metric` against its baseline, or the strongest other method, over all
 /// conditions.

@@ -23,4 +23,8 @@ std::string EscapeLatex(std::string_view text);
 /// A field of a CSV file (RFC 4180), quoted when it must be.
 std::string EscapeCsv(std::string_view text);
 
+/// The name that the files of a run's scenario number `index` get, without an ending. A scenario's name comes from a
+/// file of the user: only harmless characters reach a path, and no two scenarios of a run share a name.
+std::string FileNameOf(const std::string& scenario, std::size_t index);
+
 }  // namespace etude

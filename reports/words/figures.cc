@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "reports/words/escape.h"
+
 namespace etude {
 namespace {
 
@@ -123,6 +125,17 @@ std::string FormatP(std::optional<double> p) {
 
 std::string Plural(long long count, std::string_view singular) {
   return fmt::format("{} {}{}", FormatCount(count), singular, count == 1 ? "" : "s");
+}
+
+std::string LeftOutWords(std::size_t total, std::size_t shown, std::string_view things, std::string_view where) {
+  if (total <= shown) return "";
+  return fmt::format("{} more {} are left out here; {} has all.", FormatCount(static_cast<long long>(total - shown)),
+                     things, where);
+}
+
+std::string LeftOutHtml(std::size_t total, std::size_t shown, std::string_view things, std::string_view where) {
+  const std::string words = LeftOutWords(total, shown, things, where);
+  return words.empty() ? "" : fmt::format("<p class=\"quiet legend\">{}</p>", EscapeMarkup(words));
 }
 
 }  // namespace etude

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -47,5 +48,15 @@ std::string FormatInterval(std::optional<double> low, std::optional<double> high
 std::string FormatP(std::optional<double> p);
 /// "1 world", "3 worlds"
 std::string Plural(long long count, std::string_view singular);
+
+/// As many entries of a list, and rows of a table, as a reader may want to see: hundreds of methods and conditions
+/// would make a page that no browser scrolls. The files beside it hold all.
+constexpr std::size_t kMostListed = 40;
+constexpr std::size_t kMostTableRows = 400;
+
+/// "60 more reasons are left out here; cells.jsonl has all." "" when `total` does not exceed `shown`.
+std::string LeftOutWords(std::size_t total, std::size_t shown, std::string_view things, std::string_view where);
+/// The same as a paragraph of the page.
+std::string LeftOutHtml(std::size_t total, std::size_t shown, std::string_view things, std::string_view where);
 
 }  // namespace etude

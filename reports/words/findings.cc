@@ -8,8 +8,7 @@
 
 #include "reports/words/answer.h"
 #include "reports/words/figures.h"
-#include "reports/words/headline.h"
-#include "reports/words/yardstick.h"
+#include "reports/words/judged.h"
 
 namespace etude {
 namespace {

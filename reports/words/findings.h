@@ -9,7 +9,7 @@
 #include <fmt/core.h>
 
 #include "bench/model/run_data.h"
-#include "reports/words/beyond.h"
+#include "reports/words/judged.h"
 
 namespace etude {
 

@@ -149,24 +149,20 @@ MAY_INCLUDE = {
         "bench/metrics",
     # reports/
     "reports":
-        "engine/base bench/files bench/gate bench/model bench/real_takes bench/recordings reports/assets reports/films reports/growth "
+        "engine/base bench/files bench/gate bench/model bench/real_takes bench/recordings reports/assets reports/films "
         "reports/paper reports/plots reports/transitions reports/words",
     "reports/assets": "",
-    "reports/bridges":
-        "engine/base engine/fuzzy engine/transitions/bridge_frames engine/transitions/library bench/files",
-    "reports/captures": "engine/base engine/cameras engine/keypoints engine/motion bench/films reports/films",
     "reports/clips":
-        "engine/base engine/cameras engine/motion engine/retargeting engine/transitions/joins sim/body sim/character "
-        "sim/choreography sim/render bench/clips bench/files bench/films reports/films reports/words",
+        "engine/base engine/cameras engine/fuzzy engine/motion engine/retargeting engine/transitions/bridge_frames "
+        "engine/transitions/joins engine/transitions/library sim/body sim/character sim/choreography sim/render "
+        "bench/clips bench/files bench/films bench/model reports/films reports/plots reports/words",
     "reports/coach": "engine/base engine/coaching bench/files",
     "reports/films":
-        "engine/base engine/cameras engine/formats engine/fuzzy engine/kinematics engine/motion engine/recognition sim/body "
+        "engine/base engine/cameras engine/formats engine/fuzzy engine/keypoints engine/kinematics engine/motion engine/recognition sim/body "
         "sim/camera sim/character sim/music "
         "sim/render sim/sensors sim/stage bench/files bench/films bench/metrics bench/model bench/recordings reports/plots reports/transitions reports/words",
-    "reports/growth": "bench/model reports/paper reports/words",
     "reports/paper": "engine/fuzzy engine/kinematics bench/model reports/plots reports/words",
     "reports/plots": "bench/model bench/statistics reports/words",
-    "reports/sensors": "engine/base bench/model reports/films",
     "reports/transitions": "engine/base engine/fuzzy bench/files bench/model reports/words",
     "reports/words": "bench/metrics bench/model",
     # cli/
@@ -184,6 +180,6 @@ NEVER_INCLUDES = [
     ("bench/model", "bench/metrics bench/results bench/statistics bench/gate bench/recordings reports"),
     ("bench/model bench/recordings bench/results bench/statistics bench/metrics bench/gate reports", TASKS),
     ("bench/model bench/recordings bench/results bench/statistics bench/metrics bench/gate", MATERIAL),
-    ("reports/words reports/growth reports/transitions reports/paper", "bench/clips engine/retargeting sim"),
+    ("reports/words reports/transitions reports/paper", "bench/clips engine/retargeting sim"),
     ("reports/films", "bench/clips"),
 ]

@@ -1,4 +1,4 @@
-#include "reports/across_table.h"
+#include "reports/comparison_table.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "reports/pose_pairs.h"
+#include "reports/overview_table.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

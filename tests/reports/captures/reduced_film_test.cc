@@ -1,4 +1,4 @@
-#include "reports/captures/reduced_film.h"
+#include "reports/films/reduced_film.h"
 
 #include <gtest/gtest.h>
 

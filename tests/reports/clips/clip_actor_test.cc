@@ -1,4 +1,4 @@
-#include "reports/clips/clip_actor.h"
+#include "reports/clips/clip_film.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "reports/clips/shot.h"
+#include "reports/clips/clip_film.h"
 
 #include <gmock/gmock.h>
 

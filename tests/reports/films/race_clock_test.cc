@@ -1,4 +1,4 @@
-#include "reports/films/race_clock.h"
+#include "reports/films/error_plot.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "reports/growth/growth_section.h"
+#include "reports/plots/growth.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "reports/growth/growth_curves.h"
-#include "reports/growth/growth_plot.h"
+#include "reports/plots/growth.h"
 
 namespace etude {
 namespace {

@@ -1,4 +1,4 @@
-#include "reports/paper/curve_plot.h"
+#include "reports/plots/curve_plot.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,12 +1,11 @@
-#include "reports/paper/paper_a_section.h"
+#include "reports/paper/paper_a.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string_view>
 
-#include "reports/paper/membership_plot.h"
-#include "reports/paper/paper_a_figures.h"
+#include "reports/paper/paper_a.h"
 #include "tests/reports/support/count_of.h"
 
 namespace etude {

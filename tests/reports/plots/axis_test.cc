@@ -1,11 +1,11 @@
-#include "reports/plots/axis.h"
+#include "reports/plots/panel.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "reports/plots/swarm.h"
+#include "reports/plots/marks.h"
 
 namespace etude {
 namespace {

@@ -1,4 +1,4 @@
-#include "reports/plots/left_out_strip.h"
+#include "reports/plots/estimation.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "reports/sensors/sensor_sheet.h"
+#include "reports/clips/contact_sheet.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "reports/transitions/distance_table.h"
+#include "reports/transitions/transition_section.h"
 #include "tests/reports/support/example_run.h"
 
 namespace etude {

@@ -1,4 +1,4 @@
-#include "reports/words/beyond.h"
+#include "reports/words/judged.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "reports/words/headline.h"
+#include "reports/words/answer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
-#include "reports/words/yardstick.h"
+#include "reports/words/judged.h"
 
 #include <gtest/gtest.h>
 
+#include "reports/words/figures.h"
 #include "reports/words/findings.h"
-#include "reports/words/left_out.h"
 #include "tests/reports/support/example_run.h"
 
 namespace etude {

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "reports/films/canvas.h"
+#include "reports/films/transition_race.h"
+#include "reports/transitions/transition_facts.h"
+
+namespace etude {
+
+/// How jerky a path is along time, the largest second difference of any joint, with nature's limit where it is known;
+/// beneath it which clip plays: left, in-between, wanted. Time is marked from the request on.
+class JumpStrip {
+ public:
+  /// Shows the moments `first` … `last`, in frames after the request. Values up to `highest_cm` > 0 fit.
+  JumpStrip(int first, int last, double highest_cm) : first_(first), last_(last), highest_cm_(highest_cm) {}
+
+  void Draw(Canvas& canvas, const Box& box, const TransitionPath& path, int time) const;
+
+ private:
+  struct Frame;
+  void DrawClips(Canvas& canvas, const Frame& frame, const TransitionPath& path) const;
+  void DrawCurve(Canvas& canvas, const Frame& frame, const TransitionPath& path, int until, const Paint& paint) const;
+
+  int first_, last_;
+  double highest_cm_;
+};
+
+/// The colour of what plays after so many of a path's transition points: the clip left, an in-between, or the clip
+/// wanted.
+const Paint& PaintOfSegment(const TransitionFacts& facts, std::size_t points_before);
+
+/// How high the bars are, in pixels, with their heading.
+constexpr double kDistanceBarsHeight = 120;
+
+/// The ten partial distances of the two frames of a transition point, by the features' names, under a line that tells
+/// d, the threshold and the branch. A full bar alone reaches the threshold. `point` counts from 0; before the first
+/// transition point, and where the recording tells no distances, the bars are empty. The box is kDistanceBarsHeight
+/// high.
+void DrawDistanceBars(Canvas& canvas, const Box& box, const TransitionFacts& facts, std::optional<std::size_t> point);
+
+/// "d 0.384 < 0.4 · front half"; of one of two points "1 of 2 · d 0.21 < 0.4 · in-between".
+std::string PointWords(const TransitionFacts& facts, std::size_t point);
+
+}  // namespace etude
