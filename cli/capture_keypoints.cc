@@ -8,9 +8,9 @@
 
 #include "bench/files/files.h"
 #include "bench/keypoints/read_people.h"
-#include "cli/capture_views.h"
-#include "cli/film_watch.h"
+#include "cli/capture.h"
 #include "cli/output_file.h"
+#include "cli/progress_bar.h"
 #include "engine/formats/trc.h"
 #include "engine/keypoints/agreement.h"
 #include "engine/keypoints/recover_person.h"

@@ -5,8 +5,7 @@
 #include <optional>
 
 #include "bench/keypoints/read_people.h"
-#include "cli/capture_views.h"
-#include "cli/film_watch.h"
+#include "cli/capture.h"
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "engine/keypoints/agreement.h"

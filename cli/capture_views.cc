@@ -1,5 +1,3 @@
-#include "cli/capture_views.h"
-
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 
 #include "bench/files/files.h"
 #include "bench/real_takes/real_take.h"
+#include "cli/capture.h"
 #include "cli/output_file.h"
 #include "engine/formats/bvh.h"
 #include "engine/formats/gltf/gltf.h"

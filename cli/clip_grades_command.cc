@@ -1,10 +1,11 @@
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <memory>
 
 #include "bench/clips/clip_library.h"
 #include "bench/files/files.h"
-#include "cli/clip_commands.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
 #include "cli/output_file.h"
@@ -13,6 +14,14 @@
 
 namespace etude {
 namespace {
+
+struct ClipGradesOptions {
+  std::vector<std::string> clips;
+  std::string output;                   ///< a CSV file of one clip, "" = none
+  std::string fuzzy = "builtin:paper";  ///< builtin:NAME or a file (docs/fuzzy-system.md)
+  bool overwrite = false;
+  ClipReading reading;
+};
 
 /// A line per frame: ten features, 24 grades, ten tags, the pose.
 std::string GradesCsv(const FuzzyMotion& motion) {
@@ -59,8 +68,6 @@ void PrintSimilarities(const ClipLibrary& clips, const std::vector<FuzzyMotion>&
   }
 }
 
-}  // namespace
-
 int ClipGradesCommand(const ClipGradesOptions& options) {
   if (!options.output.empty()) {
     if (auto free = CheckOutput(options.output, options.overwrite); !free) return Complain(free.error());
@@ -88,6 +95,20 @@ int ClipGradesCommand(const ClipGradesOptions& options) {
   }
   TellWritten(options.output);
   return kSuccess;
+}
+
+}  // namespace
+
+void DefineGrades(CLI::App& clip, Action& action) {
+  auto options = std::make_shared<ClipGradesOptions>();
+  CLI::App* command =
+      clip.add_subcommand("grades", "Fuzzy features, grades, tags and poses of every frame; how alike clips are");
+  command->add_option("clips", options->clips, "Clips")->required();
+  command->add_option("-o,--output", options->output, "A table (.csv) of one clip, a line per frame");
+  command->add_option("--fuzzy", options->fuzzy, "Fuzzy system: builtin:NAME or a file")->capture_default_str();
+  AddOverwrite(*command, options->overwrite);
+  AddClipReading(*command, options->reading);
+  command->callback([=, &action] { action = [=] { return ClipGradesCommand(*options); }; });
 }
 
 }  // namespace etude

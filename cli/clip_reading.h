@@ -6,11 +6,24 @@
 
 #include "bench/clips/convert.h"
 #include "bench/clips/open_clip.h"
-#include "cli/clip_commands.h"
 #include "engine/base/result.h"
 #include "engine/fuzzy/fuzzy_system.h"
 
+namespace CLI {
+class App;
+}
+
 namespace etude {
+
+/// What is told about files that cannot tell it themselves; "" = found out.
+struct ClipReading {
+  std::string joint_map;  ///< a joint-map file
+  std::string unit;       ///< "m", "cm", … or metres per unit as a number
+  std::string up;         ///< "y" or "z"
+};
+
+/// Adds --joint-map, --unit and --up, of every command that opens clips by themselves.
+void AddClipReading(CLI::App& command, ClipReading& reading);
 
 /// --joint-map, --unit and --up.
 Result<OpenOptions> ReadOptions(const ClipReading& reading);

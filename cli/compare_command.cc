@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <memory>
 
 #include "bench/finished_runs/load.h"
 #include "bench/gate/comparison.h"
@@ -30,8 +32,6 @@ std::string ScopeSentence(const FinishedRun& run) {
   return fmt::format("All on these worlds; nothing is said about {}.", fmt::join(others, ", "));
 }
 
-}  // namespace
-
 int CompareCommand(const std::string& a, const std::string& b, Sealing sealing) {
   const auto run_a = LoadWholeRun(a, sealing);
   if (!run_a) return Complain(run_a.error());
@@ -48,6 +48,18 @@ int CompareCommand(const std::string& a, const std::string& b, Sealing sealing) 
   fmt::print("{}\n", CompareSentence(comparison));
   if (!comparison.moves.empty()) fmt::print("{}\n", ScopeSentence(*run_b));
   return kSuccess;
+}
+
+}  // namespace
+
+void DefineCompare(CLI::App& app, Action& action) {
+  auto a = std::make_shared<std::string>(), b = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("compare", "What differs between two runs of the same worlds");
+  command->add_option("a", *a, "A result folder")->required();
+  command->add_option("b", *b, "Another")->required();
+  auto sealing = std::make_shared<Sealing>();
+  AddUnsealed(*command, *sealing);
+  command->callback([=, &action] { action = [=] { return CompareCommand(*a, *b, *sealing); }; });
 }
 
 }  // namespace etude

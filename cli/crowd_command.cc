@@ -1,15 +1,17 @@
-#include "cli/crowd_command.h"
-
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <string>
 
 #include "bench/files/files.h"
 #include "bench/films/encoder.h"
+#include "bench/tasks/tracking/crowd.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
@@ -18,6 +20,15 @@
 
 namespace etude {
 namespace {
+
+struct CrowdCommandOptions {
+  CrowdOptions crowd;
+  double seconds = 2;
+  int steps = 100;  ///< a frame, at most: who is lost begins anew with so many
+  bool in_float = false;
+  std::string output;  ///< a film, "" = only told
+  bool overwrite = false;
+};
 
 constexpr int kWidth = 1280, kHeight = 720;
 constexpr double kFilmRateHz = 30;  // at most: every second frame of 60 Hz
@@ -112,8 +123,6 @@ Result<bool> FollowCrowd(const CrowdCommandOptions& options) {
   return true;
 }
 
-}  // namespace
-
 int CrowdCommand(const CrowdCommandOptions& given) {
   CrowdCommandOptions options = given;
   options.crowd.frames = static_cast<int>(std::lround(options.seconds * options.crowd.rate_hz));
@@ -133,6 +142,30 @@ int CrowdCommand(const CrowdCommandOptions& given) {
   if (!*whole) return TellStopped();
   if (!options.output.empty()) TellWritten(options.output);
   return kSuccess;
+}
+
+}  // namespace
+
+void DefineCrowd(CLI::App& app, Action& action) {
+  auto options = std::make_shared<CrowdCommandOptions>();
+  CLI::App* command = app.add_subcommand("crowd", "Follow a crowd's motions at once, and film it");
+  command->add_option("--characters", options->crowd.characters, "How many, each after a motion of its own")
+      ->check(CLI::Range(1, 10'000))
+      ->capture_default_str();
+  command->add_option("--seconds", options->seconds, "How long")
+      ->check(NumberWithin(0.01, 60, "time in s"))
+      ->capture_default_str();
+  command->add_option("--rate", options->crowd.rate_hz, "Frames per second")
+      ->check(NumberWithin(1, 1000, "rate in Hz"))
+      ->capture_default_str();
+  command->add_option("--steps", options->steps, "Of gauss-newton, at most, for a character's frame")
+      ->check(CLI::Range(1, 10'000))
+      ->capture_default_str();
+  AddSeed(*command, options->crowd.seed, "Of the motions' dice");
+  command->add_flag("--float", options->in_float, "Batches of floats, not of doubles");
+  command->add_option("-o,--output", options->output, "A film of the crowd (.mp4)");
+  AddOverwrite(*command, options->overwrite);
+  command->callback([=, &action] { action = [=] { return CrowdCommand(*options); }; });
 }
 
 }  // namespace etude

@@ -1,13 +1,19 @@
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
+#include <memory>
 
+#include "bench/calibration/verdict_rates.h"
 #include "bench/files/files.h"
 #include "bench/finished_runs/in_process_run.h"
 #include "bench/finished_runs/load.h"
 #include "bench/gate/baseline_file.h"
 #include "bench/gate/gate.h"
 #include "bench/gate/self_test.h"
+#include "bench/results/folder.h"
 #include "cli/commands.h"
 #include "cli/move_table.h"
 #include "reports/gate_report.h"
@@ -15,6 +21,18 @@
 
 namespace etude {
 namespace {
+
+/// What `etude gate` is asked.
+struct GateOptions {
+  std::string target;         ///< a result folder; of a self-test a scenario file, "" = the built-in one
+  std::string baseline;       ///< a baseline file, "" = none
+  bool update = false;        ///< write the baseline from the run, and show what moved
+  bool self_test = false;     ///< measure the gate's own false alarms and power
+  int repetitions = 40;       ///< of the self-test: pairs of seeds
+  std::optional<int> trials;  ///< of the self-test: worlds per condition, else the scenario's
+  bool verdicts = false;      ///< of the self-test: measure the verdicts beyond a run's worlds instead
+  Sealing sealing = Sealing::kRequired;
+};
 
 namespace fs = std::filesystem;
 
@@ -153,7 +171,20 @@ int SelfTest(const GateOptions& options) {
   return report->Holds() ? kSuccess : kRegression;
 }
 
-}  // namespace
+int VerdictsCommand(int repetitions) {
+  const std::vector<SampleDesign> designs = PublishedDesigns();
+  const auto tell = [&](std::size_t done) { fmt::print(stderr, "\r{} of {} designs", done, designs.size()); };
+  const auto rates = MeasureAll(designs, {repetitions, std::max(repetitions / 5, 1)}, tell);
+  std::fputs("\n\n", stderr);
+  fmt::print("{}\n", VerdictRatesMarkdown(rates));
+  const auto broken = std::count_if(rates.begin(), rates.end(), [](const auto& one) { return !KeepsPromise(one); });
+  fmt::print(
+      "{} of {} designs keep the promise: false alarms at most 5 % (upper end of the 95 % interval 6.5 %), intervals "
+      "that hold "
+      "the truth in at least 93 %.\n",
+      rates.size() - static_cast<std::size_t>(broken), rates.size());
+  return broken == 0 ? kSuccess : kRegression;
+}
 
 int GateCommand(const GateOptions& options) {
   if (options.verdicts) return VerdictsCommand(options.repetitions);
@@ -162,6 +193,36 @@ int GateCommand(const GateOptions& options) {
   if (!run) return Complain(run.error());
   TellUnsealed(run->data);
   return options.update ? Update(options, *run) : Judge(options, *run);
+}
+
+}  // namespace
+
+void DefineGate(CLI::App& app, Action& action) {
+  auto options = std::make_shared<GateOptions>();
+  CLI::App* command = app.add_subcommand("gate", "Pass or fail a run, for a CI server");
+  command->add_option("folder", options->target, "A result folder (with --self-test: a scenario file, or nothing)");
+  CLI::Option* baseline = command->add_option("--baseline", options->baseline, "What the run is held against");
+  command->add_flag("--update", options->update, "Write the baseline from this run, and show what moved")
+      ->needs(baseline);
+  CLI::Option* self_test =
+      command->add_flag("--self-test", options->self_test, "Measure the gate's own false alarms and power")
+          ->excludes(baseline);
+  command->add_flag("--verdicts", options->verdicts, "Self-test: of the verdicts beyond a run's worlds instead")
+      ->needs(self_test);
+  command->add_option("--repetitions", options->repetitions, "Self-test: pairs of seeds, or samples of each design")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str()
+      ->needs(self_test);
+  command->add_option("--trials", options->trials, "Self-test: worlds per condition (default: the scenario's)")
+      ->check(CLI::Range(1, 1000000))
+      ->needs(self_test);
+  AddUnsealed(*command, options->sealing);
+  command->callback([=, &action] {
+    action = [=] {
+      if (options->target.empty() && !options->self_test) return Complain({{}, "etude gate needs a result folder"});
+      return GateCommand(*options);
+    };
+  });
 }
 
 }  // namespace etude

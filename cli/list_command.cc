@@ -1,17 +1,27 @@
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "bench/metrics/catalogue.h"
+#include "bench/metrics/export.h"
 #include "bench/run/suite.h"
 #include "bench/scenario/keys.h"
 #include "bench/scenario/scenario.h"
 #include "bench/tasks/registry.h"
 #include "cli/commands.h"
-#include "cli/solver_list.h"
 #include "engine/base/names.h"
+#include "engine/kinematics/solvers/ik_solver.h"
 #include "sim/choreography/move.h"
 #include "sim/choreography/song.h"
 
 namespace etude {
 namespace {
+
+void PrintSolvers() {
+  fmt::print("Solvers of inverse kinematics:\n");
+  for (const IkSolver& solver : AllIkSolvers()) fmt::print("  {:<20}  {}\n", solver.name, solver.description);
+}
 
 void ListTasks() {
   for (const TaskKind& kind : AllTaskKinds()) {
@@ -64,7 +74,26 @@ int ListScenarios(const std::string& folder) {
   return kSuccess;
 }
 
-}  // namespace
+enum class Listing { kMethods, kScenarios, kClips };
+
+int ListCommand(Listing what, const std::string& scenario_folder) {
+  switch (what) {
+    case Listing::kMethods:
+      ListTasks();
+      return kSuccess;
+    case Listing::kClips:
+      return ListClips();
+    case Listing::kScenarios:
+      break;
+  }
+  return ListScenarios(scenario_folder);
+}
+
+enum class KeysFormat {
+  kText,      ///< for people at a terminal
+  kMarkdown,  ///< docs/keys.md
+  kSchema,    ///< docs/schemas/scenario.schema.json
+};
 
 int ListKeysCommand(KeysFormat format) {
   if (format != KeysFormat::kText) {
@@ -83,17 +112,59 @@ int ListKeysCommand(KeysFormat format) {
   return kSuccess;
 }
 
-int ListCommand(Listing what, const std::string& scenario_folder) {
-  switch (what) {
-    case Listing::kMethods:
-      ListTasks();
-      return kSuccess;
-    case Listing::kClips:
-      return ListClips();
-    case Listing::kScenarios:
-      break;
+enum class MetricsFormat {
+  kTable,     ///< a line each, for people at a terminal
+  kJson,      ///< everything, with the test vectors (docs/schemas/metrics.schema.json)
+  kMarkdown,  ///< docs/metrics.md
+};
+
+int PrintTable() {
+  for (const MetricInfo& metric : AllMetrics()) {
+    fmt::print("{:<26} v{}  {:<16}  {}\n", metric.id, metric.version, DirectionWords(metric.direction),
+               metric.definition);
   }
-  return ListScenarios(scenario_folder);
+  return kSuccess;
+}
+
+int ListMetricsCommand(MetricsFormat format) {
+  if (format == MetricsFormat::kTable) return PrintTable();
+  fmt::print("{}", format == MetricsFormat::kJson ? MetricsJson() + "\n" : MetricsPage());
+  return kSuccess;
+}
+
+}  // namespace
+
+void DefineList(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("list", "List what a scenario can name");
+  command->require_subcommand(1);
+  const auto list = [&](const char* name, const char* help, Listing what) {
+    command->add_subcommand(name, help)->callback([=, &action] { action = [=] { return ListCommand(what, ""); }; });
+  };
+  list("methods", "Tasks, what their methods are made of, and solvers", Listing::kMethods);
+  list("clips", "Built-in clips", Listing::kClips);
+  auto json = std::make_shared<bool>(false), markdown = std::make_shared<bool>(false);
+  CLI::App* metrics = command->add_subcommand("metrics", "Metrics with their definitions");
+  CLI::Option* as_json = metrics->add_flag("--json", *json, "Everything, with the test vectors, for other programs");
+  metrics->add_flag("--markdown", *markdown, "The page docs/metrics.md")->excludes(as_json);
+  metrics->callback([=, &action] {
+    const MetricsFormat format = *json       ? MetricsFormat::kJson
+                                 : *markdown ? MetricsFormat::kMarkdown
+                                             : MetricsFormat::kTable;
+    action = [=] { return ListMetricsCommand(format); };
+  });
+  auto as_page = std::make_shared<bool>(false), as_schema = std::make_shared<bool>(false);
+  CLI::App* keys = command->add_subcommand("keys", "Every key of a scenario file");
+  CLI::Option* page = keys->add_flag("--markdown", *as_page, "The page docs/keys.md");
+  keys->add_flag("--schema", *as_schema, "The JSON Schema docs/schemas/scenario.schema.json, for editors")
+      ->excludes(page);
+  keys->callback([=, &action] {
+    const KeysFormat format = *as_schema ? KeysFormat::kSchema : *as_page ? KeysFormat::kMarkdown : KeysFormat::kText;
+    action = [=] { return ListKeysCommand(format); };
+  });
+  auto folder = std::make_shared<std::string>("scenarios/quick");
+  CLI::App* scenarios = command->add_subcommand("scenarios", "Scenarios of a folder");
+  scenarios->add_option("folder", *folder, "Folder of scenarios")->capture_default_str();
+  scenarios->callback([=, &action] { action = [=] { return ListCommand(Listing::kScenarios, *folder); }; });
 }
 
 }  // namespace etude

@@ -48,10 +48,4 @@ void PrintMoves(const SnapshotComparison& comparison, const std::string& before,
   if (rows.size() > most) fmt::print("  … and {} more\n", rows.size() - most);
 }
 
-void PrintList(const std::string& title, const std::vector<std::string>& lines) {
-  if (lines.empty()) return;
-  fmt::print("{}\n", title);
-  for (const std::string& line : lines) fmt::print("  {}\n", line);
-}
-
 }  // namespace etude

@@ -4,7 +4,9 @@
 
 #include "bench/process/clock.h"
 #include "bench/run/run.h"
+#include "cli/interrupt.h"
 #include "engine/base/progress.h"
+#include "reports/films/film.h"
 
 namespace etude {
 
@@ -33,5 +35,8 @@ class ProgressBar {
 
 /// Tells how far some work has come ("12/300 clips"), when it takes long.
 OnProgress TellOf(std::string what);
+
+/// Tells of each film how many of its frames are drawn; Ctrl-C ends them.
+FilmWatch WatchFilms(const Interrupt& interrupt);
 
 }  // namespace etude

@@ -1,22 +1,52 @@
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cstdio>
 #include <iostream>
 #include <map>
+#include <memory>
 
 #include "bench/files/files.h"
 #include "bench/streams/label_scores.h"
 #include "bench/streams/leave_one_out.h"
 #include "cli/commands.h"
-#include "cli/stream_commands.h"
+#include "cli/stream_reading.h"
 #include "engine/base/named.h"
 #include "engine/base/names.h"
+#include "engine/recognition/filters.h"
+#include "engine/recognition/recognisers.h"
 #include "engine/streams/live_stream.h"
 #include "engine/teaching/moves_file.h"
 
 namespace etude {
 namespace {
+
+struct RecogniseCommandOptions {
+  std::vector<std::string> streams;  ///< one "-" = standard input, live
+  std::string moves;
+  std::string labels;
+  std::string recogniser;  ///< "" = key-pose
+  std::string filter = "none", weights = "fixed";
+  std::optional<double> threshold;
+  std::vector<std::string> settings;  ///< "tolerance_scale=1.2"
+  bool leave_one_person_out = false;
+  bool as_json = false;
+  StreamArguments reading;
+};
+
+constexpr const char* kRecogniseExamples =
+    "\nPrints what is spotted as it comes, a line of JSON each. With labels also how well: performances called right "
+    "or\n"
+    "wrong, action points within 333 ms. With --leave-one-person-out each person is recognised by what the others\n"
+    "taught. Recordings and devices: Kinect v1 and v2 rows, MSRC-12, UTKinect, NTU, Azure Kinect, CSV, TRC; rows and "
+    "CSV\n"
+    "also live (docs/streams.md).\n\n"
+    "Try:\n"
+    "  etude recognise take.txt --moves moves.yaml\n"
+    "  my-kinect-reader | etude recognise - --moves moves.yaml\n"
+    "  etude recognise take.txt --moves moves.yaml --labels labels.csv\n"
+    "  etude recognise joints/ --labels actionLabel.txt --leave-one-person-out --recogniser dtw";
 
 /// "tolerance_scale=1.2" of each setting, the rest by default.
 Result<std::vector<double>> ReadSettings(const RecogniserKind& kind, const std::vector<std::string>& given) {
@@ -196,8 +226,6 @@ Result<void> RecogniseLeavingOneOut(const RecogniseCommandOptions& options, cons
   return {};
 }
 
-}  // namespace
-
 int RecogniseCommand(const RecogniseCommandOptions& options) {
   const auto watch = OptionsOf(options);
   if (!watch) return Complain(watch.error());
@@ -215,6 +243,39 @@ int RecogniseCommand(const RecogniseCommandOptions& options) {
   if (is_live) return RecogniseLive(options, *taught, *watch);
   const auto done = RecogniseFiles(options, *taught, *watch);
   return done ? kSuccess : Complain(done.error());
+}
+
+}  // namespace
+
+void DefineRecognise(CLI::App& app, Action& action) {
+  auto options = std::make_shared<RecogniseCommandOptions>();
+  CLI::App* command = app.add_subcommand("recognise", "Which moves a recording or a live stream shows");
+  command->add_option("streams", options->streams, "Recordings, patterns, folders; - is standard input, live")
+      ->required();
+  auto* moves = command->add_option("--moves", options->moves, "What was taught (etude teach)");
+  auto* labels = command->add_option("--labels", options->labels, "Score by these: a file, or a folder of tag streams");
+  command
+      ->add_flag("--leave-one-person-out", options->leave_one_person_out,
+                 "Teach from the labels of all other people, person by person")
+      ->excludes(moves);
+  command->add_option("--recogniser", options->recogniser, "How (default: key-pose)")
+      ->check(CLI::IsMember(RecogniserNames()));
+  command->add_option("--filter", options->filter, "How joints are smoothed first")
+      ->check(CLI::IsMember(FilterNames()))
+      ->capture_default_str();
+  command->add_option("--weights", options->weights, "How much an angle counts: all alike, or by how well it is seen")
+      ->check(CLI::IsMember({"fixed", "adaptive"}))
+      ->capture_default_str();
+  command
+      ->add_option("--threshold", options->threshold,
+                   "Evidence from which on a move is called (default: the recogniser's)")
+      ->check(NumberWithin(0.001, 1, "threshold"));
+  command->add_option("--set", options->settings, "A setting of the recogniser: tolerance_scale=1.2")
+      ->allow_extra_args(false);
+  command->add_flag("--json", options->as_json, "Scores as JSON, too")->needs(labels);
+  AddStreamReading(*command, options->reading);
+  command->footer(kRecogniseExamples);
+  command->callback([=, &action] { action = [=] { return RecogniseCommand(*options); }; });
 }
 
 }  // namespace etude

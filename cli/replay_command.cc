@@ -1,15 +1,31 @@
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 
 #include "bench/replay/replay.h"
+#include "bench/results/folder.h"
+#include "bench/run/outside_programs.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
 
 namespace etude {
 namespace {
+
+/// What `etude replay` is asked.
+struct ReplayCommandOptions {
+  std::string target;              ///< a result folder, or a packed cell
+  std::vector<std::string> cells;  ///< by name; none: all
+  std::size_t sample = 0;          ///< this many of them, drawn by the run's seed; 0 = all
+  std::string pack_file;           ///< into which the one cell is packed instead, "" = none
+  bool overwrite = false;
+  int jobs = 0;
+  OutsideRules outside;
+  Sealing sealing = Sealing::kRequired;
+};
 
 void PrintDifference(const CellCheck& check) {
   fmt::print("differs: {}\n  first at {}: {} then, {} now\n", check.cell, check.stage, check.then, check.now);
@@ -36,8 +52,6 @@ int Pack(const ReplayCommandOptions& options) {
   return kSuccess;
 }
 
-}  // namespace
-
 int ReplayCommand(const ReplayCommandOptions& options) {
   const Interrupt interrupt;
   std::error_code error;
@@ -63,6 +77,24 @@ int ReplayCommand(const ReplayCommandOptions& options) {
   fmt::print("{} of {} cells came out the same\n", same, checks->size());
   if (*interrupt.requested()) return kInterrupted;
   return static_cast<std::size_t>(same) == checks->size() ? kSuccess : kNothingWorked;
+}
+
+}  // namespace
+
+void DefineReplay(CLI::App& app, Action& action) {
+  auto options = std::make_shared<ReplayCommandOptions>();
+  CLI::App* command = app.add_subcommand("replay", "Run cells again and compare them stage by stage");
+  command->add_option("target", options->target, "A result folder, or a file that --pack has written")->required();
+  CLI::Option* cell = command->add_option("--cell", options->cells, "These cells, as cells.jsonl names them");
+  command->add_option("--sample", options->sample, "This many cells, drawn by the run's seed (default: all)")
+      ->check(CLI::Range(1, 10'000'000))
+      ->excludes(cell);
+  AddUnsealed(*command, options->sealing);
+  AddOutsideRules(*command, options->outside);
+  command->add_option("--pack", options->pack_file, "Write the cell, with its scenario and clips, into this one file");
+  AddOverwrite(*command, options->overwrite);
+  AddJobs(*command, options->jobs);
+  command->callback([=, &action] { action = [=] { return ReplayCommand(*options); }; });
 }
 
 }  // namespace etude

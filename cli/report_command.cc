@@ -1,16 +1,17 @@
+#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 
 #include "bench/files/files.h"
 #include "bench/results/folder.h"
 #include "cli/commands.h"
-#include "cli/film_watch.h"
 #include "cli/output_file.h"
+#include "cli/progress_bar.h"
 #include "reports/report.h"
 
 namespace etude {
-
 namespace {
 
 Result<std::vector<RealTake>> ReadRealTakes(const std::vector<std::string>& files) {
@@ -21,8 +22,6 @@ Result<std::vector<RealTake>> ReadRealTakes(const std::vector<std::string>& file
   }
   return takes;
 }
-
-}  // namespace
 
 int ReportCommand(const std::string& folder, const std::vector<std::string>& real, const ReportOptions& given,
                   Sealing sealing) {
@@ -60,6 +59,40 @@ int RowsCommand(const std::string& folder, const std::string& file, bool overwri
   if (const auto written = write(); !written) return Complain(written.error());
   TellWritten(file);
   return kSuccess;
+}
+
+}  // namespace
+
+void DefineReport(CLI::App& app, Action& action) {
+  auto folder = std::make_shared<std::string>();
+  auto no_video = std::make_shared<bool>(false);
+  auto whole_sessions = std::make_shared<bool>(false);
+  CLI::App* command = app.add_subcommand("report", "Write the page, tables, JUnit and video of a run");
+  command->add_option("folder", *folder, "A result folder")->required();
+  command->add_flag("--no-video", *no_video, "Leave the video out");
+  command->add_flag("--whole-sessions", *whole_sessions, "Film coached sessions whole, not around a correction");
+  auto real = std::make_shared<std::vector<std::string>>();
+  command->add_option("--real", *real,
+                      "Beside it, captures of real films: files that `etude capture --distances` wrote");
+  auto sealing = std::make_shared<Sealing>();
+  AddUnsealed(*command, *sealing);
+  command->callback([=, &action] {
+    action = [=] {
+      return ReportCommand(*folder, *real, {.pictures = !*no_video, .whole_sessions = *whole_sessions}, *sealing);
+    };
+  });
+}
+
+void DefineRows(CLI::App& app, Action& action) {
+  auto folder = std::make_shared<std::string>(), file = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("rows", "The rows of a run as lines of text, as cells.jsonl has them");
+  command->add_option("folder", *folder, "A result folder, also one of columns")->required();
+  command->add_option("-o,--output", *file, "Into this file (default: to standard output)");
+  auto sealing = std::make_shared<Sealing>();
+  AddUnsealed(*command, *sealing);
+  auto overwrite = std::make_shared<bool>(false);
+  AddOverwrite(*command, *overwrite);
+  command->callback([=, &action] { action = [=] { return RowsCommand(*folder, *file, *overwrite, *sealing); }; });
 }
 
 }  // namespace etude

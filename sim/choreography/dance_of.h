@@ -5,6 +5,7 @@
 
 #include "engine/base/result.h"
 #include "engine/coaching/dance.h"
+#include "engine/recognition/taught_move.h"
 #include "sim/choreography/song.h"
 
 namespace etude {
@@ -19,5 +20,8 @@ Result<std::vector<Move>> MovesOf(const Song& song);
 /// A move's key poses in words, as the person's own sides: "left arm up, right elbow bent". What both sides share is
 /// said once: "both arms up".
 std::string HintOf(const Move& move);
+
+/// A move as recognisers are taught it: its key poses, and the motion itself as an example.
+TaughtMove TaughtOf(const Move& move);
 
 }  // namespace etude

@@ -59,7 +59,7 @@ MAY_INCLUDE = {
     "sim/camera": "engine/base engine/cameras sim/random sim/render",
     "sim/character": "engine/base engine/motion engine/retargeting sim/body sim/choreography sim/render",
     "sim/choreography":
-        "engine/base engine/coaching engine/document engine/fuzzy engine/motion sim/random",
+        "engine/base engine/coaching engine/document engine/fuzzy engine/motion engine/recognition sim/random",
     "sim/depth_camera": "engine/base engine/cameras sim/random sim/sensors sim/skeleton_sensor",
     "sim/music": "engine/base engine/motion sim/random",
     "sim/performer": "engine/base engine/motion sim/choreography sim/random",
@@ -106,7 +106,8 @@ MAY_INCLUDE = {
         "engine/base engine/document engine/formats engine/recognition sim/random sim/skeleton_sensor",
     "bench/statistics": "engine/base sim/random bench/metrics bench/model",
     "bench/streams":
-        "engine/base engine/recognition engine/streams engine/teaching bench/clips bench/files bench/metrics",
+        "engine/base engine/coaching engine/recognition engine/streams engine/teaching bench/clips bench/files bench/metrics "
+        "bench/process",
     "bench/tasks":
         "engine/base bench/tasks/base bench/tasks/capture bench/tasks/coach bench/tasks/detection bench/tasks/ik "
         "bench/tasks/pose_distance bench/tasks/search bench/tasks/tracking bench/tasks/transition",
@@ -156,7 +157,6 @@ MAY_INCLUDE = {
         "engine/base engine/cameras engine/fuzzy engine/motion engine/retargeting engine/transitions/bridge_frames "
         "engine/transitions/joins engine/transitions/library sim/body sim/character sim/choreography sim/render "
         "bench/clips bench/files bench/films bench/model reports/films reports/plots reports/words",
-    "reports/coach": "engine/base engine/coaching bench/files",
     "reports/films":
         "engine/base engine/cameras engine/formats engine/fuzzy engine/keypoints engine/kinematics engine/motion engine/recognition sim/body "
         "sim/camera sim/character sim/music "

@@ -5,7 +5,6 @@
 
 #include <string_view>
 
-#include "reports/paper/paper_a.h"
 #include "tests/reports/support/count_of.h"
 
 namespace etude {

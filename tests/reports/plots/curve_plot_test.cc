@@ -27,25 +27,25 @@ std::vector<std::pair<double, double>> PointsOf(const std::string& svg) {
 
 TEST(AxesFor, HoldEveryCurveInWholeDecades) {
   const PlotCurve a{0, false, {50, 2}}, b{1, false, {7, 0.03, 0.02, 0.0}};
-  const PlotAxes axes = AxesFor({&a, &b});
-  EXPECT_EQ(axes.high_decade, 2);
-  EXPECT_EQ(axes.low_decade, -2);
-  EXPECT_EQ(axes.last_step, 3);
+  const CurveAxes axes = AxesFor({&a, &b});
+  EXPECT_DOUBLE_EQ(axes.up.high, 1e2);
+  EXPECT_DOUBLE_EQ(axes.up.low, 1e-2);
+  EXPECT_EQ(axes.across.high, 3);
 }
 
 TEST(AxesFor, HaveWidthAndHeightWhateverTheyAreGiven) {
   const PlotCurve none{0, false, {}}, zeros{0, false, {0, 0}}, one{0, false, {10}}, far{0, false, {1, 1e-300}};
   for (const PlotCurve* curve : {&none, &zeros, &one, &far}) {
-    const PlotAxes axes = AxesFor({curve});
-    EXPECT_GT(axes.high_decade, axes.low_decade);
-    EXPECT_LE(axes.high_decade - axes.low_decade, 8);
-    EXPECT_GE(axes.last_step, 1);
+    const CurveAxes axes = AxesFor({curve});
+    EXPECT_GT(axes.up.high, axes.up.low);
+    EXPECT_LE(axes.up.high / axes.up.low, 1.0001e8);
+    EXPECT_GE(axes.across.high, 1);
   }
 }
 
 TEST(CurvePlot, DrawsEqualRatiosAsEqualDistances) {
   const PlotCurve curve{0, false, {100, 10, 1, 0}};
-  const auto points = PointsOf(CurvePlotSvg({curve}, {0, 2, 3}, ""));
+  const auto points = PointsOf(CurvePlotSvg({curve}, AxesFor({&curve}), ""));
   ASSERT_EQ(points.size(), 4u);
   EXPECT_NEAR(points[1].second - points[0].second, points[2].second - points[1].second, 0.11);
   EXPECT_EQ(points[3].second, points[2].second);  // zero lies on the lower end
@@ -55,14 +55,15 @@ TEST(CurvePlot, DrawsEqualRatiosAsEqualDistances) {
 TEST(CurvePlot, StaysLightAndStillTellsWhereALongCurveEnds) {
   PlotCurve curve{0, false, std::vector<double>(5000, 1.0)};
   curve.values.back() = 100;
-  const auto points = PointsOf(CurvePlotSvg({curve}, {0, 2, 4999}, ""));
+  const auto points = PointsOf(CurvePlotSvg({curve}, AxesFor({&curve}), ""));
   EXPECT_LE(points.size(), 80u);
   EXPECT_LT(points.back().second, points.front().second);
   EXPECT_EQ(points.back().first, std::ranges::max(points).first);
 }
 
 TEST(CurvePlot, TellsMethodsApartByColourAndDashes) {
-  const std::string svg = CurvePlotSvg({{0, false, {1, 2}}, {4, true, {1, 2}}}, {0, 1, 1}, "<me>");
+  const PlotCurve first{0, false, {1, 2}}, second{4, true, {1, 2}};
+  const std::string svg = CurvePlotSvg({first, second}, AxesFor({&first, &second}), "<me>");
   EXPECT_THAT(svg, HasSubstr("class=\"c0\" points"));
   EXPECT_THAT(svg, HasSubstr("class=\"c4 faint\" stroke-dasharray"));
   EXPECT_THAT(svg, Not(HasSubstr("<me>")));

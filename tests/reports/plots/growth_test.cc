@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "reports/plots/growth.h"
-
 namespace etude {
 namespace {
 
