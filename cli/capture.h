@@ -40,7 +40,7 @@ struct CaptureCommandOptions {
   bool overwrite = false;
 };
 
-/// One camera's part of a session.
+/// One film of a session, and the camera of the rig that took it.
 struct FilmedView {
   std::filesystem::path path;
   FilmFacts facts;
@@ -48,8 +48,9 @@ struct FilmedView {
   PixelFit fit;  ///< from the rig's pixels to the film's
 };
 
-/// The films with their cameras of the rig. Fails for fewer than two, for cameras that are missing or named twice,
-/// sizes that `--fit` does not explain, and films of different rates, or of different lengths without `--sync`.
+/// Opens the films with their cameras of the rig. Fails for fewer than two, for cameras that are missing or named
+/// twice, for sizes that `--fit` does not explain, and for films of different rates, or of different lengths without
+/// `--sync`.
 Result<std::vector<FilmedView>> OpenFilms(const CaptureCommandOptions& options);
 
 /// Writes a clip, and the same as twenty joints, in the format that the file's name tells.
@@ -57,7 +58,7 @@ Result<void> WriteMotion(const std::string& path, Clip clip, const BodyMotion& m
 
 constexpr char kLost = '!';
 
-/// Some cameras' column of a table: how near what they tell comes to a reference.
+/// A column of the table that compares with a reference: how near some of the cameras come to it.
 struct ComparedColumn {
   std::string heading;  ///< the cameras, and `kLost` where they gave no motion
   std::vector<MarkerAgreement> markers;
@@ -65,21 +66,21 @@ struct ComparedColumn {
 };
 ComparedColumn CompareColumn(std::string heading, const MarkerMotion& markers, const MarkerMotion& reference);
 
-/// Medians, a row for each marker of the first column, one for all, and their 95th percentile. `words` say what it is.
-/// Then the file of `--distances`, if there shall be one.
+/// Prints medians, a row for each marker of the first column and one for all, and their 95th percentile, under `words`,
+/// which say what they are; writes the file of `--distances`, if there shall be one.
 Result<void> TellColumns(const std::string& words, const std::vector<ComparedColumn>& columns,
                          const std::vector<FilmedView>& views, const CaptureCommandOptions& options);
 
-/// Two of the films, and what a column of theirs is called.
+/// Two of the films, with the heading of their column.
 struct CameraPair {
   std::size_t first = 0, second = 0;
   std::string heading;
 };
-/// Every two of more than two films: of two there is nothing to compare.
+/// Gives every two of more than two films; of two there is nothing to compare.
 std::vector<CameraPair> PairsOf(std::size_t films);
 
-/// What `etude capture` does with films and keypoints or marks, and with films alone: the motion of the only person who
-/// moves in them, by nothing but outlines. `reference`: what to compare it with.
+/// Captures from keypoints or marks, or from the films alone: then the motion of the only person who moves in them, by
+/// outlines. Compares it with `reference`, if there is one. False when it was interrupted.
 Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
                               const std::optional<MarkerMotion>& reference);
 Result<bool> CaptureUnmarked(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,

@@ -15,7 +15,7 @@ class App;
 
 namespace etude {
 
-/// What is told about files that cannot tell it themselves; "" = found out.
+/// The facts about files that cannot tell them themselves; "" = found out.
 struct ClipReading {
   std::string joint_map;  ///< a joint-map file
   std::string unit;       ///< "m", "cm", … or metres per unit as a number
@@ -25,16 +25,16 @@ struct ClipReading {
 /// Adds --joint-map, --unit and --up, of every command that opens clips by themselves.
 void AddClipReading(CLI::App& command, ClipReading& reading);
 
-/// --joint-map, --unit and --up.
+/// Reads --joint-map, --unit and --up.
 Result<OpenOptions> ReadOptions(const ClipReading& reading);
 
-/// --trim; nothing without it.
+/// Reads --trim; nothing without it.
 Result<std::optional<TimeSpan>> ReadTrim(const std::string& text);
 
-/// What all references stand for, in order.
+/// Expands all references to single clips, in order.
 Result<std::vector<std::string>> ExpandAll(const std::vector<std::string>& references);
 
-/// --fuzzy: builtin:NAME or a file; "" = paper A's.
+/// Reads --fuzzy: builtin:NAME or a file; "" is paper A's system.
 Result<FuzzySystem> ReadFuzzy(const std::string& reference);
 
 }  // namespace etude

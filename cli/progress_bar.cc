@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-constexpr int kWidth = 32;
+constexpr int kBarWidth = 32;
 
 std::string Remaining(const Progress& progress) {
   const std::size_t here = progress.cells_done - progress.cells_before;
@@ -44,8 +44,8 @@ void ProgressBar::Show(double share, const std::string& what, const std::string&
   if (IsTooSoon(share)) return;
   is_shown_ = true;
   if (is_terminal_) {
-    const int filled = static_cast<int>(share * kWidth);
-    const std::string bar = std::string(filled, '#') + std::string(kWidth - filled, '.');
+    const int filled = static_cast<int>(share * kBarWidth);
+    const std::string bar = std::string(filled, '#') + std::string(kBarWidth - filled, '.');
     Print(fmt::format("\r\033[K[{}] {}{}{}", bar, what, remaining, share >= 1 ? "\n" : ""));
   } else if (const int tenths = static_cast<int>(share * 10); tenths > tenths_shown_) {
     tenths_shown_ = tenths;

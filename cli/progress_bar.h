@@ -20,7 +20,7 @@ class ProgressBar {
   };
   explicit ProgressBar(Begins begins = Begins::kAtOnce);
   void Show(const Progress& progress);
-  /// `share` of the way, 0 … 1; `remaining` is told where there is somebody who waits.
+  /// Shows how far the work is: `share` is 0…1, `remaining` is shown on a terminal only.
   void Show(double share, const std::string& what, const std::string& remaining = "");
 
  private:
@@ -33,10 +33,10 @@ class ProgressBar {
   int tenths_shown_ = -1;
 };
 
-/// Tells how far some work has come ("12/300 clips"), when it takes long.
+/// Makes a callback that shows how far some work is ("12/300 clips") once it takes long.
 OnProgress TellOf(std::string what);
 
-/// Tells of each film how many of its frames are drawn; Ctrl-C ends them.
+/// Makes a watch that shows of each film how many of its frames are drawn, and that Ctrl-C stops.
 FilmWatch WatchFilms(const Interrupt& interrupt);
 
 }  // namespace etude

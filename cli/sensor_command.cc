@@ -183,8 +183,8 @@ void PrintComparison(const char* title, const char* real_name, const RealRecordi
 /// Fits one half and compares on the other; nothing but a remark when a half is too short.
 void PrintHalves(const RealRecording& real, const SensorFitOptions& options) {
   const std::size_t frames = real.recording.frames.size();
-  const auto first = MakeRealRecording(Part(real.recording, 0, frames / 2), real.twin);
-  const auto second = MakeRealRecording(Part(real.recording, frames / 2, frames), real.twin);
+  const auto first = MakeRealRecording(PartOf(real.recording, 0, frames / 2), real.twin);
+  const auto second = MakeRealRecording(PartOf(real.recording, frames / 2, frames), real.twin);
   if (!first || !second) {
     fmt::print("\nThe halves are too short to be fitted by themselves.\n");
     return;

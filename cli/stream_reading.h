@@ -12,7 +12,7 @@ class App;
 
 namespace etude {
 
-/// How recordings are read: --format, --rate, --body, --level, --reflect.
+/// The options that say how recordings are read: --format, --rate, --body, --level, --reflect.
 struct StreamArguments {
   std::string format;  ///< "" = told by content
   std::string level = "auto";

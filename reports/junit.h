@@ -21,12 +21,12 @@ struct JunitSuite {
   std::vector<JunitCase> cases;
 };
 
-/// JUnit XML as CI systems read it, its counts made from the cases.
+/// Writes JUnit XML as CI systems read it, its counts made from the cases.
 std::string WriteJunitXml(const std::string& name, const std::vector<JunitSuite>& suites);
 
-/// The run as JUnit XML, for CI systems: a suite per scenario; in it a case per expectation (failed when
-/// unmet, skipped when it could not be decided), one that holds when every cell has its row, and one that
-/// holds when no cell crashed, failed, ran out of time or answered badly.
+/// Writes the run as JUnit XML: a suite per scenario; in it a case per expectation (failed when unmet, skipped when it
+/// could not be decided), one that holds when every cell has its row, and one that holds when no cell crashed, failed,
+/// ran out of time or answered badly.
 std::string WriteJunit(const RunData& run);
 
 }  // namespace etude

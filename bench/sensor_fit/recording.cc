@@ -148,7 +148,7 @@ Result<TwinMotion> ReadTwinMotion(std::string_view text, const std::string& file
   return twin;
 }
 
-JointRecording Part(const JointRecording& recording, std::size_t begin, std::size_t end) {
+JointRecording PartOf(const JointRecording& recording, std::size_t begin, std::size_t end) {
   JointRecording part{.rate_hz = recording.rate_hz, .frames = {}, .sensor_at = recording.sensor_at};
   for (std::size_t t = begin; t < std::min(end, recording.frames.size()); ++t) {
     part.frames.push_back(recording.frames[t]);

@@ -51,7 +51,7 @@ Result<TwinMotion> ReadTwinMotion(std::string_view text, const std::string& file
                                   double seconds);
 
 /// The frames [begin, end) alone.
-JointRecording Part(const JointRecording& recording, std::size_t begin, std::size_t end);
+JointRecording PartOf(const JointRecording& recording, std::size_t begin, std::size_t end);
 
 /// What a stream says, as a recording: joints that are not tracked are absent.
 JointRecording RecordingOf(const SkeletonStream& stream, const glm::dvec3& sensor_at);

@@ -21,10 +21,12 @@ struct BridgeLibrary {
   std::vector<int> corrective;       ///< the clips that every other one must lead into
 };
 
-/// Candidates, reachability and the ways into the corrective clips, for people at a terminal.
+/// Writes candidates, reachability and the ways into the corrective clips, for people at a terminal. A matrix wider
+/// than 24 clips is left to the JSON.
 std::string BridgeSummaryAsText(const BridgeLibrary& loaded, const Coverage& coverage, double wait_s);
 
-/// The same for programs (docs/schemas/bridge-summary.schema.json), one line.
+/// Writes the same as one line of JSON (docs/schemas/bridge-summary.schema.json). Shares of a clip are means over the
+/// other clips; a clip that leads nowhere has no worst wait.
 Result<std::string> BridgeSummaryAsJson(const BridgeLibrary& loaded, const Coverage& coverage, double wait_s);
 
 }  // namespace etude

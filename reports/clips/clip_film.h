@@ -17,7 +17,7 @@
 
 namespace etude {
 
-/// Who is seen performing a clip.
+/// The figure that is seen performing a clip.
 enum class ActorKind {
   kOwn,        ///< the file's own meshes
   kMannequin,  ///< in the actor's own proportions
@@ -28,12 +28,12 @@ enum class ActorKind {
 /// A clip with the figure that performs it, frame by frame at the body's rate.
 class ClipActor {
  public:
-  /// Without a kind: the file's own figure, if it has one; the bear for built-in clips; else the mannequin. Refused:
-  /// the own figure of a file without meshes.
+  /// Chooses, without a kind, the file's own figure if it has one, the bear for built-in clips, else the mannequin.
+  /// Refused: the own figure of a file without meshes.
   static Result<ClipActor> Make(OpenedClip clip, std::optional<ActorKind> kind);
 
   const OpenedClip& clip() const { return clip_; }
-  /// Of whom is seen: the bear's joints are not where the actor's are.
+  /// Gives the motion of the figure that is seen: the bear's joints are not where the actor's are.
   const BodyMotion& motion() const { return motion_; }
   Figure FigureAt(std::size_t frame) const;
 
@@ -47,13 +47,13 @@ class ClipActor {
   std::shared_ptr<const Character> character_;  // of kMannequin, kBear
 };
 
-/// From where a clip is seen: as its first frame faces the camera, or turned by a half-right angle, or to the side.
+/// The side that a clip is seen from: as its first frame faces the camera, turned by 40 degrees, or from the side.
 enum class Viewpoint { kFront, kThreeQuarter, kSide };
 
-/// A clip before the camera: who is seen, and where it is put in every frame.
+/// A clip before the camera: its figure, and where it is put in every frame.
 class Shot {
  public:
-  /// `smoothing` as for FollowedWay: 0 keeps a walker in the middle of every picture.
+  /// Puts the clip before the camera; `smoothing` is FollowedWay's: 0 keeps a walker in the middle of every picture.
   Shot(ClipActor actor, Viewpoint from, int smoothing);
 
   const ClipActor& actor() const { return actor_; }
@@ -63,7 +63,7 @@ class Shot {
   const FloorMove& PlacementAt(int frame) const { return placements_[static_cast<std::size_t>(frame)]; }
   Figure PlacedFigure(int frame) const;
 
-  /// Makes `sight` hold these frames' figures.
+  /// Widens `sight` so that it holds these frames' figures.
   void Include(const std::vector<int>& frames, Sight& sight) const;
   /// Draws a frame, with a dot on the left hand and the left foot.
   void Draw(Canvas& canvas, const Box& box, const Studio& studio, Renderer& renderer, int frame) const;
@@ -73,10 +73,10 @@ class Shot {
   std::vector<FloorMove> placements_;
 };
 
-/// `count` frames evenly over a shot, first and last among them; fewer when it has fewer.
+/// Gives `count` frames spread evenly over a shot, first and last among them; fewer when it has fewer.
 std::vector<int> SpreadFrames(const Shot& shot, int count);
 
-/// Says what the dots of Shot::Draw mean; `right` is where the words end.
+/// Draws the legend of Shot::Draw's dots; `right` is where the words end.
 void DrawLegend(Canvas& canvas, double right, double baseline);
 
 struct FilmOptions {

@@ -25,9 +25,9 @@ struct CurvePanel {
   double plant = 0, lift = 0;
 };
 
-class Picture {
+class ContactPicture {
  public:
-  explicit Picture(const BodyMotion& motion)
+  explicit ContactPicture(const BodyMotion& motion)
       : rate_hz_(motion.rate_hz),
         frames_{.low = 0,
                 .high = static_cast<double>(std::max<std::size_t>(motion.poses.size(), 2) - 1),
@@ -96,7 +96,7 @@ class Picture {
 
 std::string ContactIndexSvg(const std::string& name, const BodyMotion& motion, const ContactRules& rules) {
   const FootContacts contacts = FindFootContacts(motion.poses, motion.rate_hz, rules);
-  Picture picture(motion);
+  ContactPicture picture(motion);
   std::string title = name;
   for (std::size_t side = 0; side < kLegs.size(); ++side) {
     CurvePanel height{.label = fmt::format("{}: height of the toe tip", kSides[side]),

@@ -39,11 +39,10 @@ void DrawPictures(Canvas& canvas, const Shot& shot, const std::vector<int>& fram
   }
 }
 
-constexpr double kPictureWidth = 260, kPictureHeight = 195;
-constexpr double kMargin = 16, kGap = 6, kHead = 40, kRowTitle = 26, kCaption = 20;
+constexpr double kSensorWidth = 260, kSensorHeight = 195;
+constexpr double kHead = 40, kRowTitle = 26, kCaption = 20;
 constexpr double kTitleSize = 18, kRowSize = 14, kCaptionSize = 12.5;
-constexpr double kLargestSheet = 16'000;
-constexpr double kRowHeight = kRowTitle + kPictureHeight + kCaption + kGap;
+constexpr double kRowHeight = kRowTitle + kSensorHeight + kCaption + kGap;
 
 Paint PaintOf(const Rgb8& colour) { return {colour.r / 255.0, colour.g / 255.0, colour.b / 255.0, 1}; }
 
@@ -75,11 +74,11 @@ void DrawRow(Canvas& canvas, const SheetRow& row, double y) {
   canvas.DrawText({kMargin, y + 17}, row.title, kRowSize, kInk, canvas.width() - 2 * kMargin, true);
   double x = kMargin;
   for (const SheetPicture& shown : row.pictures) {
-    const Box box = Inside(shown.picture, {x, y + kRowTitle, kPictureWidth, kPictureHeight});
+    const Box box = Inside(shown.picture, {x, y + kRowTitle, kSensorWidth, kSensorHeight});
     canvas.DrawImage(shown.picture, box);
     DrawMarks(canvas, shown, box);
-    canvas.DrawText({x, y + kRowTitle + kPictureHeight + 15}, shown.caption, kCaptionSize, kSoftInk, kPictureWidth);
-    x += kPictureWidth + kGap;
+    canvas.DrawText({x, y + kRowTitle + kSensorHeight + 15}, shown.caption, kCaptionSize, kSoftInk, kSensorWidth);
+    x += kSensorWidth + kGap;
   }
 }
 
@@ -123,10 +122,10 @@ Result<std::string> DrawSensorSheet(const SensorSheet& sheet) {
   std::size_t columns = 0;
   for (const SheetRow& row : sheet.rows) columns = std::max(columns, row.pictures.size());
   if (columns == 0) return Fail({}, "there is no picture to show");
-  const double width = 2 * kMargin + static_cast<double>(columns) * (kPictureWidth + kGap) - kGap;
+  const double width = 2 * kMargin + static_cast<double>(columns) * (kSensorWidth + kGap) - kGap;
   const double height = kHead + static_cast<double>(sheet.rows.size()) * kRowHeight + kMargin;
   if (width > kLargestSheet || height > kLargestSheet) {
-    return Fail({}, "the sheet would have {:g} × {:g} pixels; allowed: {:g} a side", width, height, kLargestSheet);
+    return Fail({}, "the sheet would have {:g} × {:g} pixels; allowed: {} a side", width, height, kLargestSheet);
   }
   Canvas canvas(static_cast<int>(width), static_cast<int>(height));
   canvas.FillBox({0, 0, width, height}, kBackdrop);

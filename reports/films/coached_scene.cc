@@ -17,7 +17,7 @@
 namespace etude {
 namespace {
 
-constexpr Rgb8 kSky{176, 212, 232}, kHills{122, 160, 138}, kMeadow{126, 168, 92}, kTrunk{112, 84, 60};
+constexpr Rgb8 kSky{176, 212, 232}, kHills{122, 160, 138}, kGrass{126, 168, 92}, kTrunk{112, 84, 60};
 constexpr std::array<Rgb8, 3> kCrowns = {{{66, 118, 72}, {82, 136, 78}, {52, 100, 68}}};
 
 /// A flat piece, seen from +Z or from above; corners in order.
@@ -123,7 +123,7 @@ Figure ForestFigure() {
     forest.surfaces.push_back(Sheet({{x, 0, z}, {end, 0, z}, {end, hill(end), z}, {x, hill(x), z}}, {0, 0, 1}, kHills));
   }
   forest.surfaces.push_back(Sheet(
-      {{-kFar, 0.004, kNear}, {kFar, 0.004, kNear}, {kFar, 0.004, kBack}, {-kFar, 0.004, kBack}}, {0, 1, 0}, kMeadow));
+      {{-kFar, 0.004, kNear}, {kFar, 0.004, kNear}, {kFar, 0.004, kBack}, {-kFar, 0.004, kBack}}, {0, 1, 0}, kGrass));
   // Where trees stand and how high they are: thrown once by hand, the middle left free for the dancers.
   constexpr std::array<glm::dvec3, 12> kTrees = {{{-5.6, 3.0, -2.1},
                                                   {-4.7, 2.3, -1.8},

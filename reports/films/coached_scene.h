@@ -12,11 +12,11 @@
 
 namespace etude {
 
-/// Paper A's scene, generated: a meadow before a forest's edge and the sky. Stands behind z = −1, and hides the room's
+/// Makes paper A's scene: a meadow before a forest's edge and the sky. It stands behind z = −1, and hides the room's
 /// wall and floor from a camera that looks at the origin from +Z.
 Figure ForestFigure();
 
-/// A soft dark spot on the meadow below a body: the forest is drawn without shadows.
+/// Makes a soft dark spot on the meadow below a body: the forest is drawn without shadows.
 Surface SpotBelow(const BodyPose& pose);
 
 /// A coached session: the bear in its forest and the learner beside it, the learner's skeleton as the sensor saw it,
@@ -33,13 +33,13 @@ class CoachedScene : public Scene {
   std::vector<double> Beats() const override;
 
  private:
-  /// The stage without anybody, drawn once: everybody stands before it.
+  /// Gives the stage without anybody, which is drawn once.
   const ColourImage& Backdrop(const Camera& camera);
   void DrawStage(Canvas& canvas, int frame);
   void DrawSkeletonInset(Canvas& canvas, int frame) const;
   void DrawHint(Canvas& canvas, int frame) const;
   void DrawTimeline(Canvas& canvas, int now) const;
-  /// The frames of the session that the timeline shows at one of them.
+  /// Gives the frames of the session that the timeline shows at one of them.
   FrameSpan TimelineAt(int now) const;
 
   CoachedSessionFacts facts_;

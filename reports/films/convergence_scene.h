@@ -15,10 +15,10 @@ namespace etude {
 /// ghost. Words have room on the left.
 class ConvergenceStage {
  public:
-  /// For pictures of this size.
+  /// Sets the stage for pictures of this size.
   ConvergenceStage(const IkRace& race, Renderer& renderer, int width, int height);
 
-  /// A body of that colour over the ghost. Rings mark its end effectors' targets, dots where the effectors are.
+  /// Draws a body of that colour over the ghost. Rings mark its end effectors' targets, dots where the effectors are.
   ColourImage Picture(Renderer& renderer, const BodyPose& pose, const Paint& colour) const;
 
  private:
@@ -35,13 +35,13 @@ class ConvergenceStage {
   Mask ghost_, rim_;
 };
 
-/// One half of the convergence film: what a method has reached at a moment, as a picture and in numbers.
+/// One half of the convergence film: a method's state at a moment, as a picture and in numbers.
 class ConvergencePanel {
  public:
   /// Both must outlive the panel.
   ConvergencePanel(const IkPath& path, const ConvergenceStage& stage, const Paint& colour);
 
-  /// `panel` has the size of the stage's pictures.
+  /// Draws the state at `iteration`; `panel` has the size of the stage's pictures.
   void Draw(Canvas& canvas, const Box& panel, Renderer& renderer, double iteration);
 
  private:
@@ -66,7 +66,7 @@ class ConvergenceScene : public Scene {
   ConvergenceScene& operator=(const ConvergenceScene&) = delete;
 
   int Frames() const override { return clock_.Frames(); }
-  /// The last: both curves whole, both methods at their end.
+  /// Gives the last frame: both curves whole, both methods at their end.
   int PosterFrame() const override { return Frames() - 1; }
   std::string Words() const override;
   Canvas Draw(int frame) override;

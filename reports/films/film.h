@@ -52,13 +52,13 @@ class Scene {
  public:
   virtual ~Scene() = default;
   virtual int Frames() const = 0;
-  /// The frame that tells most by itself.
+  /// Gives the frame that tells most by itself.
   virtual int PosterFrame() const = 0;
   /// Describes in words what is to be seen.
   virtual std::string Words() const = 0;
   /// Gives a canvas of kFilmWidth × kFilmHeight. Frames are asked for in order, the poster's before them.
   virtual Canvas Draw(int frame) = 0;
-  /// The times at which a beat clicks, seconds since the film began, ascending; none in a silent film.
+  /// Gives the times at which a beat clicks, seconds since the film began, ascending; none in a silent film.
   virtual std::vector<double> Beats() const { return {}; }
 };
 

@@ -15,7 +15,7 @@
 
 namespace etude {
 
-/// One camera's film, and what is drawn over it.
+/// One camera's film, and the keypoints that are drawn over it.
 struct OverlayView {
   std::string name;
   std::filesystem::path film;

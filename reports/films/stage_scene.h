@@ -26,9 +26,9 @@ class CoachPanel {
   static Result<CoachPanel> Make(const CastCell& cell, int longest);
 
   int Frames() const { return static_cast<int>(motion_.poses.size()); }
-  /// The first frame after the change (after the first change, when it goes through an in-between clip).
+  /// Gives the first frame after the change (after the first change, when it goes through an in-between clip).
   int FirstPoint() const { return facts_.transition_frames.front(); }
-  /// "clap → side kick, by fuzzy-bridge"
+  /// Gives the title: "clap → side kick, by fuzzy-bridge".
   std::string Title() const;
   void Draw(Canvas& canvas, const Box& panel, Renderer& renderer, int frame, bool shown_before) const;
 
@@ -47,14 +47,14 @@ class CoachPanel {
   std::string method_;
 };
 
-/// The run's film: the coach changes moves; beside it a performer, as two cameras saw and recovered the body. Of which
-/// there is one alone, it has the frame.
+/// The run's film: the coach changes moves; beside it a performer, as two cameras saw and recovered the body. One of
+/// the two alone has the whole frame.
 class StageScene : public Scene {
  public:
-  /// The longest coach's motion that is shown, frames.
+  /// The most frames of a coach's motion that are shown.
   static constexpr int kLongest = 7 * kFilmRate;
 
-  /// At least one of the two is there.
+  /// Shows the coach, the capture, or both; at least one is there.
   StageScene(Renderer& renderer, std::optional<CoachPanel> coach, std::optional<CapturePanel> capture);
 
   int Frames() const override;

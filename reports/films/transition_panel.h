@@ -12,13 +12,13 @@
 
 namespace etude {
 
-/// The place where all methods of a race are seen: one camera that stands still, everyone facing it at the request.
+/// The stage on which all methods of a race are seen: one camera that stands still, everyone facing it at the request.
 class TransitionStage {
  public:
-  /// For pictures of this size that show the moments `first` … `last`, in frames after the request.
+  /// Sets the stage for pictures of this size that show the moments `first` … `last`, in frames after the request.
   TransitionStage(const TransitionRace& race, int first, int last, int width, int height);
 
-  /// A path's frame; `ghost`, another frame of it, shimmers behind.
+  /// Draws a path's frame; `ghost`, another frame of it, shimmers behind.
   ColourImage Picture(Renderer& renderer, const TransitionPath& path, std::size_t index, int frame,
                       std::optional<int> ghost) const;
 
@@ -31,7 +31,7 @@ class TransitionStage {
   Studio studio_;
 };
 
-/// "side kick in 0.34 s" from the request until the wanted clip plays, "waited 0.57 s" then; "" before.
+/// Counts down: "side kick in 0.34 s" from the request until the wanted clip plays, "waited 0.57 s" then; "" before.
 /// `time` and `last_point` are frames after the request.
 std::string CountdownWords(const std::string& wanted, int time, int last_point, double rate_hz);
 
@@ -45,7 +45,7 @@ class TransitionPanel {
   TransitionPanel(const TransitionPath& path, std::size_t index, const TransitionStage& stage, const JumpStrip& strip)
       : path_(path), index_(index), stage_(stage), strip_(strip) {}
 
-  /// The part of a column of the film that shows the performer; its caption is beneath.
+  /// Gives the part of a column of the film that shows the performer; its caption is beneath.
   static Box BodyBox(const Box& column);
   void Draw(Canvas& canvas, const Box& column, Renderer& renderer, int time);
 

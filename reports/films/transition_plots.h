@@ -6,8 +6,8 @@
 
 namespace etude {
 
-/// How jerky a path is along time, the largest second difference of any joint, with nature's limit where it is known;
-/// beneath it which clip plays: left, in-between, wanted. Time is marked from the request on.
+/// A strip that shows how jerky a path is along time: the largest second difference of any joint, with nature's limit
+/// where it is known; beneath it the clip that plays: left, in-between, wanted. Time is marked from the request on.
 class JumpStrip {
  public:
   /// Shows the moments `first` … `last`, in frames after the request. Values up to `highest_cm` > 0 fit.
@@ -24,20 +24,20 @@ class JumpStrip {
   double highest_cm_;
 };
 
-/// The colour of what plays after so many of a path's transition points: the clip left, an in-between, or the clip
-/// wanted.
+/// Gives the colour of the clip that plays after so many of a path's transition points: the clip left, an in-between,
+/// or the clip wanted.
 const Paint& PaintOfSegment(const TransitionFacts& facts, std::size_t points_before);
 
-/// How high the bars are, in pixels, with their heading.
+/// The height of the bars with their heading, pixels.
 constexpr double kDistanceBarsHeight = 120;
 
-/// The ten partial distances of the two frames of a transition point, by the features' names, under a line that tells
-/// d, the threshold and the branch. A full bar alone reaches the threshold. `point` counts from 0; before the first
-/// transition point, and where the recording tells no distances, the bars are empty. The box is kDistanceBarsHeight
-/// high.
+/// Draws the ten partial distances of the two frames of a transition point as bars with the features' names, under a
+/// line that tells d, the threshold and the branch. A full bar alone reaches the threshold. `point` counts from 0;
+/// before the first transition point, and where the recording tells no distances, the bars are empty. The box is
+/// kDistanceBarsHeight high.
 void DrawDistanceBars(Canvas& canvas, const Box& box, const TransitionFacts& facts, std::optional<std::size_t> point);
 
-/// "d 0.384 < 0.4 · front half"; of one of two points "1 of 2 · d 0.21 < 0.4 · in-between".
+/// Tells a point in words: "d 0.384 < 0.4 · front half"; of one of two points "1 of 2 · d 0.21 < 0.4 · in-between".
 std::string PointWords(const TransitionFacts& facts, std::size_t point);
 
 }  // namespace etude

@@ -9,7 +9,8 @@
 
 namespace etude {
 
-/// One request under two to four methods side by side: who changes when, how smoothly, and by which distances.
+/// The film of one request under two to four methods side by side: when each changes, how smoothly, and by which
+/// distances.
 class TransitionScene : public Scene {
  public:
   /// The renderer must outlive the scene.
@@ -18,7 +19,7 @@ class TransitionScene : public Scene {
   TransitionScene& operator=(const TransitionScene&) = delete;
 
   int Frames() const override { return clock_.Frames(); }
-  /// Just after everyone has changed.
+  /// Gives a frame just after everyone has changed.
   int PosterFrame() const override;
   std::string Words() const override;
   Canvas Draw(int frame) override;

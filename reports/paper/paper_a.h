@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// What stands under one of paper A's figures 5 to 10.
+/// The text under one of paper A's figures 5 to 10.
 struct PaperAFigure {
   int number;
   Feature feature;  ///< of the right side; the left one's functions are the same
@@ -21,24 +21,24 @@ struct PaperAFigure {
 };
 const std::vector<PaperAFigure>& PaperAFigures();
 
-/// What going through the grades and back costs: the mean difference between an input and what a method makes of its
-/// grades, over inputs spread evenly over the universe.
+/// Computes the cost of going through the grades and back: the mean difference between an input and what a method makes
+/// of its grades, over inputs spread evenly over the universe.
 double MeanRoundTripError(Feature feature, const Memberships& memberships, Defuzzification method);
 
-/// The membership functions of one feature over its universe as an SVG element of the page: drawn from GradeOf, each
+/// Draws the membership functions of one feature over its universe as an SVG element of the page: from GradeOf, each
 /// term named at its peak, the axis marked where a straight-sided function bends.
 std::string MembershipPlotSvg(Feature feature, const Memberships& memberships, const std::string& title);
 
-/// Whether this scenario is paper A's own (task transition, named `paper-bridging`), or sweeps the key `fuzzy`.
+/// Is true of paper A's own scenario (task transition, named `paper-bridging`) and of those that sweep the key `fuzzy`.
 bool ShowsPaperA(const ScenarioSummary& scenario);
 
-/// Figures 5 to 10 of paper A, drawn from the functions that grade poses, with what defuzzification makes of their
-/// grades; beside them the program's other fuzzy systems, where the scenario sweeps them. "" where ShowsPaperA is
+/// Writes figures 5 to 10 of paper A, drawn from the functions that grade poses, with what defuzzification makes of
+/// their grades; beside them the program's other fuzzy systems, where the scenario sweeps them. "" where ShowsPaperA is
 /// false.
 std::string PaperAHtml(const ScenarioSummary& scenario);
-/// The functions as a table, folded away.
+/// Writes the functions as a table, folded away.
 std::string PaperAMarkdown(const ScenarioSummary& scenario);
-/// The same as a float of the package booktabs.
+/// Writes them as a float of the package booktabs.
 std::string PaperALatex(const ScenarioSummary& scenario);
 
 }  // namespace etude

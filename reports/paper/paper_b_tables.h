@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// What paper B's tables are made of: its rows, in its order and under its names.
+/// A row of paper B's tables of errors, in its order and under its name.
 struct PaperBEffector {
   const char* label;        ///< "R_hand"
   const char* name;         ///< of the tree's effector
@@ -41,12 +41,12 @@ inline constexpr std::array<PaperBJoint, 14> kPaperBJoints{{{"R_shoulder", kTree
                                                             {"L_knee", kTreeLeftKnee},
                                                             {"L_ankle", kTreeLeftAnkle}}};
 
-/// The heads of an effector's six columns, and of a joint's three.
+/// Gives the heads of an effector's six columns, and of a joint's three.
 std::vector<PaperColumns> PaperBErrorColumns();
 std::vector<PaperColumns> PaperBAngleColumns();
 
-/// Tables 5.1 (a)–(c) and 5.2 (b), (d), (e) as the paper prints them, of its one pose. 5.2 (a) and (c) repeat 5.1 (a)
-/// and (c).
+/// Gives tables 5.1 (a)–(c) and 5.2 (b), (d), (e) as the paper prints them, of its one pose. 5.2 (a) and (c) repeat 5.1
+/// (a) and (c).
 std::vector<PaperTable> PaperBPrintedErrors();
 std::vector<PaperTable> PaperBPrintedAngles();
 
@@ -66,12 +66,13 @@ struct PaperBCondition {
   std::vector<PaperBSet> sets;  ///< the first trial; then, when there are several, all
 };
 
-/// Whether any cell of this scenario keeps what the tables are made of: its task is `ik`, and it asks to
-/// `record: [effector_errors]`.
+/// Is true when any cell of this scenario keeps the errors that the tables are made of: its task is `ik`, and it asks
+/// to `record: [effector_errors]`.
 bool HasPaperBTables(const RunData& run, const ScenarioSummary& scenario);
 
-/// One entry per condition whose cells keep effectors' errors; empty for other scenarios. A method without such figures
-/// has no table, and its line in `outcomes` says why.
+/// Fills the tables, one entry per condition whose cells keep effectors' errors; empty for other scenarios. A method
+/// without such figures has no table, and its line in `outcomes` says why. Position errors have signs; over all trials
+/// they are medians of absolute values.
 std::vector<PaperBCondition> PaperBTables(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

@@ -13,8 +13,8 @@ namespace {
 constexpr std::size_t kMostPoints = 80;
 
 // The panel in its own units; the page scales it.
-constexpr double kWidth = 240, kHeight = 150;
-constexpr double kLeft = 38, kRight = 8, kTop = 8, kBottom = 20;
+constexpr double kSmallWidth = 240, kSmallHeight = 150;
+constexpr double kSmallLeft = 38, kSmallRight = 8, kSmallTop = 8, kSmallBottom = 20;
 
 /// The attributes that give a line its colour and dashes: `class="c2" stroke-dasharray="6 4"`.
 std::string CurveStyle(std::size_t style, bool faint = false) {
@@ -48,11 +48,11 @@ std::string CurveLine(const PlotCurve& curve, const Axis& across, const Axis& up
 }
 
 std::string CurvePlotSvg(const std::vector<PlotCurve>& curves, CurveAxes axes, const std::string& title) {
-  axes.across.from = kLeft, axes.across.to = kWidth - kRight;
-  axes.up.from = kHeight - kBottom, axes.up.to = kTop;
-  std::string svg = BeginPanel(kHeight, title, kWidth, "panel") + UprightGrid(axes.up, kLeft, kWidth - kRight) +
-                    PanelText(kLeft, kHeight - 5, "0", "start") +
-                    PanelText(kWidth - kRight, kHeight - 5, fmt::format("{}", axes.across.high), "end");
+  axes.across.from = kSmallLeft, axes.across.to = kSmallWidth - kSmallRight;
+  axes.up.from = kSmallHeight - kSmallBottom, axes.up.to = kSmallTop;
+  std::string svg = BeginPanel(kSmallHeight, title, kSmallWidth, "panel") + UprightGrid(axes.up, kSmallLeft, kSmallWidth - kSmallRight) +
+                    PanelText(kSmallLeft, kSmallHeight - 5, "0", "start") +
+                    PanelText(kSmallWidth - kSmallRight, kSmallHeight - 5, fmt::format("{}", axes.across.high), "end");
   for (const PlotCurve& curve : curves) {
     if (!curve.values.empty()) svg += CurveLine(curve, axes.across, axes.up);
   }

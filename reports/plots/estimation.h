@@ -26,11 +26,12 @@ struct PairedDots {
 };
 inline constexpr std::size_t kMostWorlds = 400;
 
-/// Empty when no world has both, or the other is no single method (a rival that half of the worlds chose).
+/// Pairs the worlds of a comparison. Empty when no world has both values, or the other is no single method (a rival
+/// that half of the worlds chose).
 PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, const Judged& judged);
 
-/// One comparison as an estimation plot (after Gardner & Altman 1986; paired as in Ho et al. 2019): a panel with every
-/// world a dot under both methods, joined, and one with the paired differences on an axis of their own: dots, the
+/// Draws one comparison as an estimation plot (after Gardner & Altman 1986; paired as in Ho et al. 2019): a panel with
+/// every world a dot under both methods, joined, and one with the paired differences on an axis of their own: dots, the
 /// aggregate with its 95 % interval, the units' means with theirs, and shaded what does not matter. Dots are coloured
 /// by unit, or by method where worlds are units. "" without worlds.
 std::string EstimationHtml(const ScenarioSummary& scenario, const Judged& judged, const PairedDots& pairs);
@@ -38,11 +39,11 @@ std::string EstimationHtml(const ScenarioSummary& scenario, const Judged& judged
 /// Names the units' colours; "" where worlds are units.
 std::string UnitLegendHtml(const PairedDots& pairs);
 
-/// What leaving one unit out does to a comparison, in words: the range, the unit that matters most, and whether it alone
-/// carries the difference, or hides one. "" where worlds are units.
+/// Tells in words what leaving one unit out does to a comparison: the range, the unit that matters most, and whether it
+/// alone carries the difference, or hides one. "" where worlds are units.
 std::string WithoutEachUnit(const Comparison& comparison, SamplingUnit unit);
 
-/// The same as a strip: the mean difference without each unit, against what matters; words beneath.
+/// Draws the same as a strip: the mean difference without each unit, against what matters; words beneath.
 std::string LeftOutStripHtml(const Comparison& comparison, SamplingUnit unit);
 
 }  // namespace etude

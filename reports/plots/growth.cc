@@ -55,8 +55,8 @@ void SortByFrames(std::vector<GrowthCurve>& curves) {
 }
 
 // The panel in its own units; the page scales it.
-constexpr double kWidth = 420, kHeight = 260;
-constexpr double kLeft = 44, kRight = 14, kTop = 10, kBottom = 34;
+constexpr double kGrowthWidth = 420, kGrowthHeight = 260;
+constexpr double kGrowthLeft = 44, kGrowthRight = 14, kGrowthTop = 10, kGrowthBottom = 34;
 
 Axis DecadesOf(const std::vector<GrowthCurve>& curves, double GrowthPoint::*part) {
   std::vector<double> values;
@@ -162,11 +162,11 @@ std::vector<Growth> ComputeGrowth(const RunData& run, const ScenarioSummary& sce
 std::string GrowthPlotSvg(const std::vector<GrowthCurve>& curves, const std::string& title) {
   if (std::ranges::all_of(curves, [](const GrowthCurve& curve) { return curve.points.empty(); })) return "";
   Axis frames = DecadesOf(curves, &GrowthPoint::frames), values = DecadesOf(curves, &GrowthPoint::value);
-  frames.from = kLeft, frames.to = kWidth - kRight;
-  values.from = kHeight - kBottom, values.to = kTop;
-  std::string svg = BeginPanel(kHeight, title, kWidth, "panel") + UprightGrid(values, kLeft, kWidth - kRight) +
-                    LyingGrid(frames, kTop, kHeight - kBottom) +
-                    PanelText(kWidth - kRight, kHeight - 4, "frames in the library", "end");
+  frames.from = kGrowthLeft, frames.to = kGrowthWidth - kGrowthRight;
+  values.from = kGrowthHeight - kGrowthBottom, values.to = kGrowthTop;
+  std::string svg = BeginPanel(kGrowthHeight, title, kGrowthWidth, "panel") + UprightGrid(values, kGrowthLeft, kGrowthWidth - kGrowthRight) +
+                    LyingGrid(frames, kGrowthTop, kGrowthHeight - kGrowthBottom) +
+                    PanelText(kGrowthWidth - kGrowthRight, kGrowthHeight - 4, "frames in the library", "end");
   for (const GrowthCurve& curve : curves) {
     if (!curve.points.empty()) svg += Line(curve, frames, values);
   }

@@ -6,9 +6,9 @@
 
 namespace etude {
 
-/// A scenario's pictures of worlds by its first headline metric: every method's values, what is censored, and the
+/// Draws a scenario's pictures of worlds by its first headline metric: every method's values, what is censored, and the
 /// method in question against its baseline and against the strongest other one as estimation plots, with what leaving
-/// one unit out does. The other methods' plots are folded away, at most so many; "" when no cell has a value.
+/// one unit out does. Some of the other methods' plots follow, folded away; "" when no cell has a value.
 std::string PlotSectionHtml(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

@@ -8,17 +8,17 @@
 
 namespace etude {
 
-/// How a method did against another, over all its conditions, in a sentence with the figures that carry it. The
-/// verdict it names is the one on these worlds, and it says so. `judged` must not be empty.
+/// Writes how a method did against another, over all its conditions, in a sentence with the figures that carry it and
+/// the verdict on these worlds. `judged` must not be empty.
 std::string SentenceOf(const std::vector<Judged>& judged, SamplingUnit unit);
 
-/// A scenario's first line: how `method` did against its baseline, and against the strongest other method: "better than
-/// “fixed”; needs 140 × the solver steps of “gauss-newton”". Where a cost is at least twice the other's, the ratio says
-/// it, else the verdict. Without rivals the first half alone. Where nothing is known beyond these worlds it says so.
+/// Writes a scenario's first line: how `method` did against its baseline, and against the strongest other method:
+/// "better than “fixed”; needs 140 × the solver steps of “gauss-newton”". Where a cost is at least twice the other's,
+/// the ratio says it, else the verdict. Without rivals it is the first half alone. Where nothing is known beyond these
+/// worlds it says so.
 std::string HeadlineOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric);
 
-/// How often `method` takes what another takes, of a metric that is never negative and better when lower, where that is
-/// at least twice, or nothing. Under several conditions the smallest and largest.
+/// The ratio of a cost to another's; under several conditions the smallest and largest.
 struct CostRatio {
   double least = 0, most = 0;
 };
@@ -29,7 +29,7 @@ std::optional<CostRatio> CostRatioOf(const std::vector<Judged>& judged);
 MethodFinding CompareInWords(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                              Against against);
 
-/// The method that the scenario's question is about, its second one (docs/scenarios.md); "" where only one ran.
+/// Gives the method that the scenario's question is about, its second one (docs/scenarios.md); "" where only one ran.
 std::string MethodInQuestion(const ScenarioSummary& scenario);
 
 }  // namespace etude

@@ -67,7 +67,7 @@ TEST(AlignTwin, SaysNothingOfRecordingsThatShareTooLittle) {
     for (std::size_t j = 2; j < kRoleCount; ++j) places[j].reset();
   }
   EXPECT_FALSE(AlignTwin(few, twin));
-  EXPECT_FALSE(AlignTwin(Part(PerfectRecording(twin, 7, {}), 0, 20), twin));
+  EXPECT_FALSE(AlignTwin(PartOf(PerfectRecording(twin, 7, {}), 0, 20), twin));
   EXPECT_FALSE(AlignTwin({}, twin));
   EXPECT_FALSE(AlignTwin(PerfectRecording(twin, 7, {}), {}));
 }
