@@ -14,7 +14,7 @@
 namespace etude {
 namespace {
 
-/// An empty value is most often a variable that nobody has set: no option of a command takes one.
+/// Refuses empty values of all options: most often a variable that nobody has set.
 void RefuseEmptyValues(CLI::App& command) {
   const CLI::Validator not_empty([](std::string& text) { return text.empty() ? "must not be empty" : ""; }, "");
   for (CLI::Option* option : command.get_options()) {
@@ -23,7 +23,7 @@ void RefuseEmptyValues(CLI::App& command) {
   for (CLI::App* inner : command.get_subcommands([](CLI::App*) { return true; })) RefuseEmptyValues(*inner);
 }
 
-/// Whole numbers up to 2^53 are exact wherever JSON is read.
+/// The seeds that are exact wherever JSON is read: whole numbers up to 2^53.
 const CLI::Range& SeedRange() {
   static const CLI::Range range(std::uint64_t{0}, std::uint64_t{1} << 53);
   return range;

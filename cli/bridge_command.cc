@@ -44,14 +44,15 @@ constexpr const char* kBridgeExamples =
     "  etude bridge 'mocap/*.bvh' --threshold 0.6 --json      everything, for another program\n"
     "  etude bridge --check tags.xml 'mocap/*.bvh'            is the file valid, and does it fit these clips?";
 
-/// Paper A, section 3.3: shaking the head, waving, a slow demonstration; and the puzzled act.
+/// Is true of the clips by which a coach corrects (paper A, section 3.3): shaking the head, waving, a slow
+/// demonstration; and the puzzled act.
 bool IsCorrective(const std::string& source) {
   const std::string slow = "builtin:" + std::string(kSlowDemonstrationPrefix);
   const bool is_act = source == "builtin:head_shake" || source == "builtin:wave" || source == "builtin:puzzled";
   return is_act || source.starts_with(slow);
 }
 
-/// Clips in the order of their first mention, each once.
+/// Expands references into clips, each once, in the order of their first mention.
 Result<std::vector<std::string>> ListReferences(const std::vector<std::string>& named) {
   auto all = ExpandAll(named);
   if (!all) return all;
@@ -60,12 +61,12 @@ Result<std::vector<std::string>> ListReferences(const std::vector<std::string>& 
   return all;
 }
 
-/// Whether a reference stands for the clip; that of a glTF file stands for all its animations.
+/// Is true when a reference names the clip; that of a glTF file names all its animations.
 bool Names(const std::string& reference, const LibraryClip& clip) {
   return clip.source == reference || clip.source.starts_with(reference + "#");
 }
 
-/// Files of the same name in several folders are told apart by their folders.
+/// Names the clips; files of the same name are told apart by their folders.
 std::vector<std::string> UniqueNames(const std::vector<LibraryClip>& clips) {
   std::vector<std::string> names;
   for (const LibraryClip& clip : clips) {
@@ -112,7 +113,7 @@ BridgeTags TagsOf(const BridgeLibrary& loaded) {
   return CollectTags(loaded.library, loaded.sources, loaded.system, loaded.tag_rules, loaded.match_rules);
 }
 
-/// The file's own rules, so that its clips are tagged as they were.
+/// Takes over the rules of a tags file, so that its clips are tagged as they were.
 BridgeCommandOptions OptionsOf(const BridgeTags& tags, BridgeCommandOptions options) {
   options.threshold = tags.threshold;
   options.within_class = tags.within_class;
@@ -125,32 +126,28 @@ BridgeCommandOptions OptionsOf(const BridgeTags& tags, BridgeCommandOptions opti
   return options;
 }
 
-int CheckTags(const BridgeCommandOptions& options) {
+Result<int> CheckTags(const BridgeCommandOptions& options) {
   if (options.clips.empty() && !options.fuzzy.empty()) {
-    return Complain({{"--fuzzy", 0, 0}, "is for tagging clips again; name those that the file should fit"});
+    return Fail({"--fuzzy"}, "is for tagging clips again; name those that the file should fit");
   }
-  const auto text = ReadWholeFile(options.check);
-  if (!text) return Complain(text.error());
-  const auto tags = ReadTagsFile(*text, options.check);
-  if (!tags) return Complain(tags.error());
+  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(options.check));
+  ASSIGN_OR_RETURN(const auto tags, ReadTagsFile(text, options.check));
   std::size_t bridge_frames = 0;
-  for (const ClipTags& clip : tags->clips) bridge_frames += clip.bridge_frames.size();
+  for (const ClipTags& clip : tags.clips) bridge_frames += clip.bridge_frames.size();
   if (options.clips.empty()) {
-    fmt::print("{}: {} clips, {} bridge frames, {} key poses; valid\n", options.check, tags->clips.size(),
-               bridge_frames, tags->keys.size());
+    fmt::print("{}: {} clips, {} bridge frames, {} key poses; valid\n", options.check, tags.clips.size(), bridge_frames,
+               tags.keys.size());
     return kSuccess;
   }
-  const auto loaded = LoadBridgeLibrary(OptionsOf(*tags, options));
-  if (!loaded) return Complain(loaded.error());
-  const TagsComparison comparison = CompareTags(*tags, TagsOf(*loaded));
+  ASSIGN_OR_RETURN(const auto loaded, LoadBridgeLibrary(OptionsOf(tags, options)));
+  const TagsComparison comparison = CompareTags(tags, TagsOf(loaded));
   if (!comparison.differences.empty()) {
     const std::size_t count = comparison.differences.size();
     const std::string rest = count == 1 ? "" : fmt::format("; {} differences in all", count);
-    return Complain(
-        {{options.check, 0, 0}, fmt::format("does not fit the clips: {}{}", comparison.differences.front(), rest)});
+    return Fail({options.check}, "does not fit the clips: {}{}", comparison.differences.front(), rest);
   }
   fmt::print("{}: {} clips, {} bridge frames, {} key poses; valid, and fits the clips\n", options.check,
-             comparison.clips, comparison.bridge_frames, tags->keys.size());
+             comparison.clips, comparison.bridge_frames, tags.keys.size());
   return kSuccess;
 }
 
@@ -163,24 +160,18 @@ Result<void> WriteTags(const BridgeLibrary& loaded, const std::string& path) {
   return WriteFileAtomically(path, text);
 }
 
-int BridgeCommand(const BridgeCommandOptions& options) {
+Result<int> BridgeCommand(const BridgeCommandOptions& options) {
   if (!options.check.empty()) return CheckTags(options);
-  if (options.clips.empty()) return Complain({{}, "etude bridge needs clips, or --check a tags file"});
-  if (!options.output.empty()) {
-    if (auto free = CheckOutput(options.output, options.overwrite); !free) return Complain(free.error());
-  }
-  const auto loaded = LoadBridgeLibrary(options);
-  if (!loaded) return Complain(loaded.error());
-  if (!options.output.empty()) {
-    if (auto written = WriteTags(*loaded, options.output); !written) return Complain(written.error());
-  }
-  const Coverage coverage(loaded->library.tagged, loaded->match_rules, options.wait_s, TellOf("comparisons of a clip"));
+  if (options.clips.empty()) return Fail({}, "etude bridge needs clips, or --check a tags file");
+  if (!options.output.empty()) RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
+  ASSIGN_OR_RETURN(const auto loaded, LoadBridgeLibrary(options));
+  if (!options.output.empty()) RETURN_IF_ERROR(WriteTags(loaded, options.output));
+  const Coverage coverage(loaded.library.tagged, loaded.match_rules, options.wait_s, TellOf("comparisons of a clip"));
   if (options.as_json) {
-    const auto json = BridgeSummaryAsJson(*loaded, coverage, options.wait_s);
-    if (!json) return Complain(json.error());
-    fmt::print("{}\n", *json);
+    ASSIGN_OR_RETURN(const auto json, BridgeSummaryAsJson(loaded, coverage, options.wait_s));
+    fmt::print("{}\n", json);
   } else {
-    fmt::print("{}", BridgeSummaryAsText(*loaded, coverage, options.wait_s));
+    fmt::print("{}", BridgeSummaryAsText(loaded, coverage, options.wait_s));
   }
   if (!options.output.empty()) TellWritten(options.output, options.as_json ? stderr : stdout);
   return kSuccess;
@@ -222,7 +213,7 @@ void DefineBridge(CLI::App& app, Action& action) {
   AddOverwrite(*command, options->overwrite);
   AddClipReading(*command, options->reading);
   command->footer(kBridgeExamples);
-  command->callback([=, &action] { action = [=] { return BridgeCommand(*options); }; });
+  command->callback([=, &action] { action = [=] { return Finish(BridgeCommand(*options)); }; });
 }
 
 }  // namespace etude

@@ -44,8 +44,7 @@ constexpr const char* kCaptureExamples =
     "                -o motion.trc --points keypoints.trc --film overlay.mp4 --smooth 6\n"
     "  etude capture --rig rig.yaml cam1.mp4 cam2.mp4 --silhouettes --stature 1.8 -o motion.bvh --film overlay.mp4";
 
-/// False when it was interrupted.
-Result<bool> Capture(const CaptureCommandOptions& options) {
+Result<int> CaptureCommand(const CaptureCommandOptions& options) {
   for (const std::string* path : {&options.output, &options.points, &options.film, &options.distances}) {
     if (!path->empty()) RETURN_IF_ERROR(CheckOutput(*path, options.overwrite));
   }
@@ -64,13 +63,9 @@ Result<bool> Capture(const CaptureCommandOptions& options) {
     return Fail({options.reference}, "{:g} frames a second, the films {:g}", reference->rate_hz, facts.rate_hz);
   }
   fmt::print("{} films, {} frames at {:g} Hz\n", views.size(), facts.frames, facts.rate_hz);
-  return options.silhouettes ? CaptureUnmarked(options, views, reference) : CaptureKeypoints(options, views, reference);
-}
-
-int CaptureCommand(const CaptureCommandOptions& options) {
-  const auto is_whole = Capture(options);
-  if (!is_whole) return Complain(is_whole.error());
-  return *is_whole ? kSuccess : TellStopped({{options.film}, "stopped; there is no film"});
+  ASSIGN_OR_RETURN(const bool is_whole, options.silhouettes ? CaptureUnmarked(options, views, reference)
+                                                            : CaptureKeypoints(options, views, reference));
+  return is_whole ? kSuccess : TellStopped({{options.film}, "stopped; there is no film"});
 }
 
 }  // namespace
@@ -134,7 +129,7 @@ void DefineCapture(CLI::App& app, Action& action) {
       ->capture_default_str();
   AddOverwrite(*command, options->overwrite, "Replace files that are there");
   command->footer(kCaptureExamples);
-  command->callback([=, &action] { action = [=] { return CaptureCommand(*options); }; });
+  command->callback([=, &action] { action = [=] { return Finish(CaptureCommand(*options)); }; });
 }
 
 }  // namespace etude

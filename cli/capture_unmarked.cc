@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostPictures = 4000;  // small ones, of all films together: they are held in memory, 2 GB
 
-/// What the films show, small and without their lenses.
+/// The pictures of all films, small and without their lenses.
 struct ReducedTake {
   std::vector<Camera> cameras;
   std::vector<std::vector<ColourImage>> pictures;
@@ -81,8 +81,8 @@ ReducedTake PairOf(const ReducedTake& take, const CameraPair& pair) {
   return two;
 }
 
-/// The joints that a reference tells of: by their own names, or as an estimator's landmarks show them. What these leave
-/// to rules of thumb is no reference.
+/// Gives the joints of a reference, by their own names, or as an estimator's landmarks show them; joints that landmarks
+/// leave to rules of thumb are left out.
 MarkerMotion JointsOfReference(const MarkerMotion& reference) {
   const bool has_landmarks =
       std::ranges::any_of(reference.names, [](const std::string& name) { return FindLandmark(name).has_value(); });
@@ -118,7 +118,7 @@ Result<std::vector<ComparedColumn>> CompareWithReference(const MarkerMotion& ref
   return columns;
 }
 
-/// False when it was interrupted.
+/// Writes the skeleton drawn over the films. False when it was interrupted.
 Result<bool> WriteFilm(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
                        const BodyMotion& motion) {
   std::vector<OverlayView> overlays;

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Letters and digits alone, small: cam_01 and Cam01 are one name.
+/// Reduces a name to its letters and digits in lower case: cam_01 and Cam01 are one name.
 std::string Bare(std::string_view name) {
   std::string bare;
   for (const char c : name) {

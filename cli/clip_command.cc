@@ -35,22 +35,20 @@ struct ClipInfoOptions {
   ClipReading reading;
 };
 
-int ClipInfoCommand(const ClipInfoOptions& options) {
-  const auto reading = ReadOptions(options.reading);
-  if (!reading) return Complain(reading.error());
-  const auto references = ExpandAll(options.clips);
-  if (!references) return Complain(references.error());
+/// Prints the facts of all clips. Exit 2 when one is not understood; the others are told all the same.
+Result<int> ClipInfoCommand(const ClipInfoOptions& options) {
+  ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
+  ASSIGN_OR_RETURN(const auto references, ExpandAll(options.clips));
   std::vector<ClipFacts> all;
-  for (const std::string& reference : *references) {
-    for (ClipFacts& facts : FactsOf(reference, *reading)) {
+  for (const std::string& reference : references) {
+    for (ClipFacts& facts : FactsOf(reference, reading)) {
       if (!options.as_json && facts.format) fmt::print("{}", FactsAsText(facts, all.empty() ? nullptr : &all.back()));
       all.push_back(std::move(facts));
     }
   }
   if (options.as_json) {
-    const auto json = FactsAsJson(all);
-    if (!json) return Complain(json.error());
-    fmt::print("{}\n", *json);
+    ASSIGN_OR_RETURN(const auto json, FactsAsJson(all));
+    fmt::print("{}\n", json);
   }
   int code = kSuccess;
   for (const ClipFacts& facts : all) {
@@ -65,7 +63,7 @@ void DefineInfo(CLI::App& clip, Action& action) {
   command->add_option("clips", options->clips, "Clips")->required();
   command->add_flag("--json", options->as_json, "For programs (docs/schemas/clip-info.schema.json)");
   AddClipReading(*command, options->reading);
-  command->callback([=, &action] { action = [=] { return ClipInfoCommand(*options); }; });
+  command->callback([=, &action] { action = [=] { return Finish(ClipInfoCommand(*options)); }; });
 }
 
 struct ClipConvertOptions {
@@ -83,7 +81,7 @@ Performer PerformerNamed(const std::string& name) {
   return name == "none" ? Performer::kNone : Performer::kFile;
 }
 
-Result<std::string> Convert(const ClipConvertOptions& given) {
+Result<int> ClipConvertCommand(const ClipConvertOptions& given) {
   RETURN_IF_ERROR(CheckOutput(given.output, given.overwrite));
   ASSIGN_OR_RETURN(const auto format, FormatOfName(given.output));
   ASSIGN_OR_RETURN(auto reading, ReadOptions(given.reading));
@@ -104,14 +102,8 @@ Result<std::string> Convert(const ClipConvertOptions& given) {
   if (given.rate_hz > 0) options.rate_hz = given.rate_hz;
   ASSIGN_OR_RETURN(const auto converted, ConvertClips(std::move(clips), format, options));
   RETURN_IF_ERROR(WriteFileAtomically(given.output, converted.bytes));
-  return converted.note;
-}
-
-int ClipConvertCommand(const ClipConvertOptions& options) {
-  const auto note = Convert(options);
-  if (!note) return Complain(note.error());
-  fmt::print("{}\n", *note);
-  TellWritten(options.output);
+  fmt::print("{}\n", converted.note);
+  TellWritten(given.output);
   return kSuccess;
 }
 
@@ -136,7 +128,7 @@ void DefineConvert(CLI::App& clip, Action& action) {
       "\nWithout --ground, --retarget or --character a file keeps its own skeleton, unit and axes (GLB: metres, Y "
       "up).\n"
       "TRC and CSV hold the twenty joints of the body.");
-  command->callback([=, &action] { action = [=] { return ClipConvertCommand(*options); }; });
+  command->callback([=, &action] { action = [=] { return Finish(ClipConvertCommand(*options)); }; });
 }
 
 struct ClipContactsOptions {
@@ -146,7 +138,7 @@ struct ClipContactsOptions {
   ClipReading reading;
 };
 
-Result<void> WriteContacts(const ClipContactsOptions& options) {
+Result<int> ClipContactsCommand(const ClipContactsOptions& options) {
   RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
   ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
   ASSIGN_OR_RETURN(const auto clips, LoadClips({options.clip}, {}, reading));
@@ -154,12 +146,7 @@ Result<void> WriteContacts(const ClipContactsOptions& options) {
     return Fail({}, "'{}' stands for {} clips; the contacts of one are drawn at a time", options.clip,
                 clips.clips.size());
   }
-  return WriteFileAtomically(options.output, ContactIndexSvg(clips.clips[0].name, clips.clips[0].motion));
-}
-
-int ClipContactsCommand(const ClipContactsOptions& options) {
-  const auto written = WriteContacts(options);
-  if (!written) return Complain(written.error());
+  RETURN_IF_ERROR(WriteFileAtomically(options.output, ContactIndexSvg(clips.clips[0].name, clips.clips[0].motion)));
   TellWritten(options.output);
   return kSuccess;
 }
@@ -171,7 +158,7 @@ void DefineContacts(CLI::App& clip, Action& action) {
   command->add_option("-o,--output", options->output, "The picture: .svg")->required();
   AddOverwrite(*command, options->overwrite);
   AddClipReading(*command, options->reading);
-  command->callback([=, &action] { action = [=] { return ClipContactsCommand(*options); }; });
+  command->callback([=, &action] { action = [=] { return Finish(ClipContactsCommand(*options)); }; });
 }
 
 struct ClipMapOptions {
@@ -199,7 +186,8 @@ std::vector<std::string> UnusedJoints(const Skeleton& skeleton, const JointMap& 
   return unused;
 }
 
-/// For a skeleton whose roles were not found: every role to be filled in, and the names to choose from.
+/// Writes a map file for a skeleton whose roles were not found: every role to be filled in, and the names to choose
+/// from.
 std::string EmptyMapFile(const Skeleton& skeleton) {
   std::string text = "# Write the joint behind each role. Roles that are found anyway may be left out.\nroles:\n";
   for (const Role role : AllRoles()) text += fmt::format("  # {}:\n", RoleName(role));
@@ -208,35 +196,28 @@ std::string EmptyMapFile(const Skeleton& skeleton) {
   return text;
 }
 
-Result<void> Save(const ClipMapOptions& options, const std::string& text) {
-  return options.output.empty() ? Result<void>() : WriteFileAtomically(options.output, text);
-}
-
-int ClipMapCommand(const ClipMapOptions& options) {
-  if (!options.output.empty()) {
-    if (auto free = CheckOutput(options.output, options.overwrite); !free) return Complain(free.error());
-  }
-  const auto reading = ReadOptions({.joint_map = options.joint_map, .unit = "", .up = ""});
-  if (!reading) return Complain(reading.error());
+Result<int> ClipMapCommand(const ClipMapOptions& options) {
+  const bool writes = !options.output.empty();
+  if (writes) RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
+  ASSIGN_OR_RETURN(const auto reading, ReadOptions({.joint_map = options.joint_map, .unit = "", .up = ""}));
   // All animations of a file move the same skeleton: the first one shows it.
-  const auto clips = ReadClips(options.clip);
-  if (!clips) return Complain(clips.error());
-  const SourceClip& clip = clips->front();
-  const Skeleton& skeleton = clip.clip.skeleton;
-  const auto map = FindJointMap(skeleton, options.clip, reading->roles ? &*reading->roles : nullptr);
+  ASSIGN_OR_RETURN(const auto clips, ReadClips(options.clip));
+  const Skeleton& skeleton = clips.front().clip.skeleton;
+  const auto map = FindJointMap(skeleton, options.clip, reading.roles ? &*reading.roles : nullptr);
   if (!map) {
-    // Who has a map already mends that one, which may be the very file that would be written.
-    if (options.joint_map.empty() && !options.output.empty()) {
-      if (auto saved = Save(options, EmptyMapFile(skeleton)); !saved) return Complain(saved.error());
+    // A map that is there already is mended, and may be the very file that would be written.
+    if (options.joint_map.empty() && writes) {
+      RETURN_IF_ERROR(WriteFileAtomically(options.output, EmptyMapFile(skeleton)));
       TellWritten(options.output);
       fmt::print("Next: fill it in, then --joint-map {}\n", options.output);
     }
-    return Complain(map.error());
+    return tl::unexpected(map.error());
   }
   PrintRoles(skeleton, *map);
   PrintList("joints without a role:", UnusedJoints(skeleton, *map));
-  if (auto saved = Save(options, WriteJointMapFile(skeleton, *map)); !saved) return Complain(saved.error());
-  if (!options.output.empty()) TellWritten(options.output);
+  if (!writes) return kSuccess;
+  RETURN_IF_ERROR(WriteFileAtomically(options.output, WriteJointMapFile(skeleton, *map)));
+  TellWritten(options.output);
   return kSuccess;
 }
 
@@ -248,7 +229,7 @@ void DefineMap(CLI::App& clip, Action& action) {
                       "Write it as a joint-map file, to be edited; also when roles are missing");
   command->add_option("--joint-map", options->joint_map, "Roles that are taught already");
   AddOverwrite(*command, options->overwrite);
-  command->callback([=, &action] { action = [=] { return ClipMapCommand(*options); }; });
+  command->callback([=, &action] { action = [=] { return Finish(ClipMapCommand(*options)); }; });
 }
 
 }  // namespace

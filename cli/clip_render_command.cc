@@ -31,7 +31,7 @@ struct Size {
   int height = 0;
 };
 
-/// "200x260"; `otherwise` without one.
+/// Reads a size such as "200x260"; gives `otherwise` without one.
 Result<Size> ReadSize(const std::string& text, const Size& otherwise) {
   if (text.empty()) return otherwise;
   constexpr int kSmallest = 16, kLargest = 2048;  // drawn twice as large, and shrunk
@@ -88,7 +88,7 @@ Result<void> WriteSheet(const ClipRenderOptions& options) {
   return WriteFileAtomically(options.output, png);
 }
 
-/// False when Ctrl-C came.
+/// Films one clip. False when Ctrl-C came.
 Result<bool> WriteFilm(const ClipRenderOptions& options) {
   ASSIGN_OR_RETURN(const auto size, ReadSize(options.size, {720, 720}));
   if (size.width % 2 != 0 || size.height % 2 != 0) return Fail({}, "--size: films need even numbers of pixels");
@@ -102,18 +102,17 @@ Result<bool> WriteFilm(const ClipRenderOptions& options) {
   return UnlessInterrupted(FilmClip(std::move(actors.front()), film, options.output, *renderer), interrupt);
 }
 
-int ClipRenderCommand(const ClipRenderOptions& options) {
+Result<int> ClipRenderCommand(const ClipRenderOptions& options) {
   const std::string extension = std::filesystem::path(options.output).extension().string();
   if (extension != ".png" && extension != ".mp4") {
-    return Complain({{options.output, 0, 0}, "is no picture's name; allowed: .png (a contact sheet), .mp4 (a film)"});
+    return Fail({options.output}, "is no picture's name; allowed: .png (a contact sheet), .mp4 (a film)");
   }
-  if (auto free = CheckOutput(options.output, options.overwrite); !free) return Complain(free.error());
+  RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
   if (extension == ".png") {
-    if (auto written = WriteSheet(options); !written) return Complain(written.error());
+    RETURN_IF_ERROR(WriteSheet(options));
   } else {
-    const auto whole = WriteFilm(options);
-    if (!whole) return Complain(whole.error());
-    if (!*whole) return TellStopped();
+    ASSIGN_OR_RETURN(const bool is_whole, WriteFilm(options));
+    if (!is_whole) return TellStopped();
   }
   TellWritten(options.output);
   return kSuccess;
@@ -141,7 +140,7 @@ void DefineRender(CLI::App& clip, Action& action) {
   command->add_option("--trim", options->trim, "Only this part, seconds: FROM:TO, such as 1.5:4 or 2:");
   AddOverwrite(*command, options->overwrite);
   AddClipReading(*command, options->reading);
-  command->callback([=, &action] { action = [=] { return ClipRenderCommand(*options); }; });
+  command->callback([=, &action] { action = [=] { return Finish(ClipRenderCommand(*options)); }; });
 }
 
 }  // namespace etude

@@ -83,7 +83,7 @@ Result<Song> LoadSong(const std::string& name, std::optional<double> tempo_bpm) 
   return ParseSong(text, name, tempo_bpm);
 }
 
-/// Has a moves file say what those of the dance's moves look like that it teaches.
+/// Replaces moves by those of a moves file, each of which the dance must have.
 Result<void> TeachMoves(const std::string& path, std::vector<TaughtMove>& taught) {
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
   ASSIGN_OR_RETURN(auto moves, ReadMoves(text, path));
@@ -144,7 +144,7 @@ void PrintLine(const std::string& line) {
   std::fflush(stdout);
 }
 
-Result<void> RunCoach(const CoachCommandOptions& options) {
+Result<int> CoachCommand(const CoachCommandOptions& options) {
   ASSIGN_OR_RETURN(auto lesson, LoadLesson(options));
   RETURN_IF_ERROR(WriteClicks(options, lesson.dance));
   const RecogniserKind* kind = FindRecogniser(options.recogniser);
@@ -172,12 +172,7 @@ Result<void> RunCoach(const CoachCommandOptions& options) {
   LiveCoach live(transitions, *recogniser, coach, PrintLine);
   RETURN_IF_ERROR(live.Follow(is_live ? std::cin : file, stream));
   if (options.timing) TellTiming(live.times_ms());
-  return {};
-}
-
-int CoachCommand(const CoachCommandOptions& options) {
-  const auto done = RunCoach(options);
-  return done ? kSuccess : Complain(done.error());
+  return kSuccess;
 }
 
 }  // namespace
@@ -223,7 +218,7 @@ void DefineCoach(CLI::App& app, Action& action) {
   command->add_flag("--reflect", options->reflect, "The stream's X axis runs the other way");
   AddOverwrite(*command, options->overwrite);
   command->footer(kCoachExamples);
-  command->callback([=, &action] { action = [=] { return CoachCommand(*options); }; });
+  command->callback([=, &action] { action = [=] { return Finish(CoachCommand(*options)); }; });
 }
 
 }  // namespace etude

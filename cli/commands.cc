@@ -13,6 +13,8 @@ int Complain(const Error& error) {
   return kUnusableInput;
 }
 
+int Finish(const Result<int>& code) { return code ? *code : Complain(code.error()); }
+
 int TellStopped(const Error& what_is_left) {
   Complain(what_is_left);
   return kInterrupted;

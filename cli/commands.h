@@ -20,6 +20,8 @@ constexpr int kInterrupted = 130;
 
 /// Prints a complaint the one way Etude does, and gives kUnusableInput.
 int Complain(const Error& error);
+/// Gives a command's exit code; without one prints its complaint and gives kUnusableInput.
+int Finish(const Result<int>& code);
 /// Says that Ctrl-C came and what it left, and gives kInterrupted.
 int TellStopped(const Error& what_is_left = {{}, "stopped; nothing is kept"});
 /// Says on standard error that a run was read although its folder is not as it was written.

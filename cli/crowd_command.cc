@@ -96,7 +96,7 @@ void Tell(const CrowdCommandOptions& options, Told told) {
       1000 / options.crowd.rate_hz, at(0.5), at(0.99), told.times_ms.back(), first);
 }
 
-/// False when Ctrl-C came.
+/// Follows the crowd frame by frame. False when Ctrl-C came.
 Result<bool> FollowCrowd(const CrowdCommandOptions& options) {
   ASSIGN_OR_RETURN(const auto worlds, MakeCrowd(options.crowd));
   std::optional<CrowdFilm> film;
@@ -123,23 +123,21 @@ Result<bool> FollowCrowd(const CrowdCommandOptions& options) {
   return true;
 }
 
-int CrowdCommand(const CrowdCommandOptions& given) {
+Result<int> CrowdCommand(const CrowdCommandOptions& given) {
   CrowdCommandOptions options = given;
   options.crowd.frames = static_cast<int>(std::lround(options.seconds * options.crowd.rate_hz));
   if (options.crowd.frames < kFewestTrackedFrames) {
-    return Complain({{},
-                     fmt::format("--seconds: {:g} s at {:g} Hz are {} frames; allowed: {} or more", options.seconds,
-                                 options.crowd.rate_hz, options.crowd.frames, kFewestTrackedFrames)});
+    return Fail({}, "--seconds: {:g} s at {:g} Hz are {} frames; allowed: {} or more", options.seconds,
+                options.crowd.rate_hz, options.crowd.frames, kFewestTrackedFrames);
   }
   if (!options.output.empty()) {
     if (std::filesystem::path(options.output).extension() != ".mp4") {
-      return Complain({{options.output, 0, 0}, "is no film's name; allowed: .mp4"});
+      return Fail({options.output}, "is no film's name; allowed: .mp4");
     }
-    if (auto free = CheckOutput(options.output, options.overwrite); !free) return Complain(free.error());
+    RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
   }
-  const auto whole = FollowCrowd(options);
-  if (!whole) return Complain(whole.error());
-  if (!*whole) return TellStopped();
+  ASSIGN_OR_RETURN(const bool is_whole, FollowCrowd(options));
+  if (!is_whole) return TellStopped();
   if (!options.output.empty()) TellWritten(options.output);
   return kSuccess;
 }
@@ -165,7 +163,7 @@ void DefineCrowd(CLI::App& app, Action& action) {
   command->add_flag("--float", options->in_float, "Batches of floats, not of doubles");
   command->add_option("-o,--output", options->output, "A film of the crowd (.mp4)");
   AddOverwrite(*command, options->overwrite);
-  command->callback([=, &action] { action = [=] { return CrowdCommand(*options); }; });
+  command->callback([=, &action] { action = [=] { return Finish(CrowdCommand(*options)); }; });
 }
 
 }  // namespace etude

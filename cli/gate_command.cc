@@ -22,7 +22,6 @@
 namespace etude {
 namespace {
 
-/// What `etude gate` is asked.
 struct GateOptions {
   std::string target;         ///< a result folder; of a self-test a scenario file, "" = the built-in one
   std::string baseline;       ///< a baseline file, "" = none
@@ -51,7 +50,7 @@ int ExitCode(GateVerdict verdict) {
   return kIncomplete;
 }
 
-/// Each world in two lines: what became of it, and the command that runs it again.
+/// Prints each world in two lines: its difference, and the command that runs it again.
 void PrintWorlds(const std::string& title, const std::vector<TailLine>& lines) {
   std::vector<std::string> text;
   for (const TailLine& line : lines) {
@@ -80,28 +79,21 @@ void PrintReport(const GateReport& report) {
   fmt::print("Gate: {}\n", GateVerdictWords(GateVerdictOf(report)));
 }
 
-int Judge(const GateOptions& options, const FinishedRun& run) {
+Result<int> Judge(const GateOptions& options, const FinishedRun& run) {
   std::optional<Snapshot> baseline;
   if (!options.baseline.empty()) {
-    auto loaded = LoadBaseline(options.baseline);
-    if (!loaded) return Complain(loaded.error());
-    baseline = std::move(*loaded);
+    ASSIGN_OR_RETURN(baseline, LoadBaseline(options.baseline));
   }
-  auto report = JudgeRun(run, baseline ? &*baseline : nullptr, options.baseline);
-  if (!report) return Complain(report.error());
-  report->run_folder = options.target;
+  ASSIGN_OR_RETURN(auto report, JudgeRun(run, baseline ? &*baseline : nullptr, options.baseline));
+  report.run_folder = options.target;
   const fs::path folder = fs::path(options.target) / "report";
-  if (auto saved = WriteFileAtomically(folder / "gate.md", WriteGateMarkdown(*report)); !saved) {
-    return Complain(saved.error());
-  }
-  if (auto saved = WriteFileAtomically(folder / "gate.xml", WriteGateJunit(*report)); !saved) {
-    return Complain(saved.error());
-  }
-  PrintReport(*report);
-  return ExitCode(GateVerdictOf(*report));
+  RETURN_IF_ERROR(WriteFileAtomically(folder / "gate.md", WriteGateMarkdown(report)));
+  RETURN_IF_ERROR(WriteFileAtomically(folder / "gate.xml", WriteGateJunit(report)));
+  PrintReport(report);
+  return ExitCode(GateVerdictOf(report));
 }
 
-/// What moved from an old baseline to a new one, as far as their worlds are the same.
+/// Prints what moved from an old baseline to a new one, as far as their worlds are the same.
 void PrintDifference(Snapshot before, Snapshot after, const FinishedRun& run) {
   PrintList("Made anew:", DropIncomparable(before, after));
   const SnapshotComparison comparison = CompareSnapshots(before, after, ExactScenarios(run), TailRulesOf(run));
@@ -110,7 +102,7 @@ void PrintDifference(Snapshot before, Snapshot after, const FinishedRun& run) {
   PrintList("New:", comparison.only_after);
 }
 
-int Update(const GateOptions& options, const FinishedRun& run) {
+Result<int> Update(const GateOptions& options, const FinishedRun& run) {
   std::vector<std::string> incomplete = run.incomplete;
   for (const std::string& ends : DescribeMachineEnds(run)) incomplete.push_back(ends);
   if (!incomplete.empty()) {
@@ -118,18 +110,15 @@ int Update(const GateOptions& options, const FinishedRun& run) {
     return kIncomplete;
   }
   const Snapshot now = TakeSnapshot(run);
-  const auto text = WriteBaseline(now);
-  if (!text) return Complain(text.error());
-  if (const auto read = ReadBaseline(*text, options.target); !read) return Complain(read.error());  // e.g. all failed
+  ASSIGN_OR_RETURN(const auto text, WriteBaseline(now));
+  RETURN_IF_ERROR(ReadBaseline(text, options.target));  // e.g. all failed
   std::optional<Snapshot> before;
   if (std::error_code none; fs::exists(options.baseline, none)) {
-    auto loaded = LoadBaseline(options.baseline);  // what is no baseline is not written over
-    if (!loaded) return Complain(loaded.error());
-    before = std::move(*loaded);
+    ASSIGN_OR_RETURN(before, LoadBaseline(options.baseline));  // what is no baseline is not written over
   }
-  if (auto saved = WriteFileAtomically(options.baseline, *text); !saved) return Complain(saved.error());
+  RETURN_IF_ERROR(WriteFileAtomically(options.baseline, text));
   if (before) PrintDifference(std::move(*before), now, run);
-  fmt::print("{}: {}, {} bytes\n", options.baseline, before ? "updated" : "made", text->size());
+  fmt::print("{}: {}, {} bytes\n", options.baseline, before ? "updated" : "made", text.size());
   return kSuccess;
 }
 
@@ -138,7 +127,7 @@ std::string RateText(const Rate& rate) {
                      rate.of == 0 ? 0.0 : 100.0 * rate.count / rate.of, 100 * rate.low, 100 * rate.high);
 }
 
-/// No alarm among few gates proves nothing.
+/// Says whether the promise is kept; no alarm among few gates proves nothing.
 const char* PromiseSentence(const SelfTestReport& report) {
   if (!report.Holds()) return "The gate does not keep its promise.";
   if (report.false_alarms.high > kFalseAlarmLimit) {
@@ -147,28 +136,26 @@ const char* PromiseSentence(const SelfTestReport& report) {
   return "The gate keeps its promise.";
 }
 
-int SelfTest(const GateOptions& options) {
-  const auto rehearsal = ReadRehearsal(options.target, options.trials);
-  if (!rehearsal) return Complain(rehearsal.error());
-  const auto report =
-      RunSelfTest([&](std::uint64_t seed) { return RunInProcess(*rehearsal, seed); }, options.repetitions);
-  if (!report) return Complain(report.error());
-  fmt::print("{} ({}), {} worlds per condition, {} comparisons per gate\n\n", rehearsal->setup.name,
-             rehearsal->setup.file, rehearsal->setup.trials, report->comparisons);
+Result<int> SelfTest(const GateOptions& options) {
+  ASSIGN_OR_RETURN(const auto rehearsal, ReadRehearsal(options.target, options.trials));
+  ASSIGN_OR_RETURN(const auto report, RunSelfTest([&](std::uint64_t seed) { return RunInProcess(rehearsal, seed); },
+                                                  options.repetitions));
+  fmt::print("{} ({}), {} worlds per condition, {} comparisons per gate\n\n", rehearsal.setup.name,
+             rehearsal.setup.file, rehearsal.setup.trials, report.comparisons);
   fmt::print("Alarms although nothing changed\n");
-  fmt::print("  reruns of the same seed, rule exact: {}\n", RateText(report->rerun_alarms));
-  fmt::print("  reruns of the same seed, tail rule:  {}\n", RateText(report->tail_rerun_alarms));
-  fmt::print("  gates between two seeds:             {}; at most {:.0f} % by design\n", RateText(report->false_alarms),
+  fmt::print("  reruns of the same seed, rule exact: {}\n", RateText(report.rerun_alarms));
+  fmt::print("  reruns of the same seed, tail rule:  {}\n", RateText(report.tail_rerun_alarms));
+  fmt::print("  gates between two seeds:             {}; at most {:.0f} % by design\n", RateText(report.false_alarms),
              100 * kFalseAlarmLimit);
-  fmt::print("  single comparisons of these gates:   {}\n", RateText(report->false_alarm_comparisons));
+  fmt::print("  single comparisons of these gates:   {}\n", RateText(report.false_alarm_comparisons));
   for (const auto& [title, results] :
-       {std::pair{"Injected differences found", &report->injected}, std::pair{"Far worse worlds found", &report->tails},
-        std::pair{"Real changes found", &report->real}}) {
+       {std::pair{"Injected differences found", &report.injected}, std::pair{"Far worse worlds found", &report.tails},
+        std::pair{"Real changes found", &report.real}}) {
     if (!results->empty()) fmt::print("{}\n", title);
     for (const PowerResult& result : *results) fmt::print("  {}: {}\n", result.change, RateText(result.found));
   }
-  fmt::print("\n{}\n", PromiseSentence(*report));
-  return report->Holds() ? kSuccess : kRegression;
+  fmt::print("\n{}\n", PromiseSentence(report));
+  return report.Holds() ? kSuccess : kRegression;
 }
 
 int VerdictsCommand(int repetitions) {
@@ -186,13 +173,13 @@ int VerdictsCommand(int repetitions) {
   return broken == 0 ? kSuccess : kRegression;
 }
 
-int GateCommand(const GateOptions& options) {
+Result<int> GateCommand(const GateOptions& options) {
+  if (options.target.empty() && !options.self_test) return Fail({}, "etude gate needs a result folder");
   if (options.verdicts) return VerdictsCommand(options.repetitions);
   if (options.self_test) return SelfTest(options);
-  const auto run = LoadFinishedRun(options.target, options.sealing);
-  if (!run) return Complain(run.error());
-  TellUnsealed(run->data);
-  return options.update ? Update(options, *run) : Judge(options, *run);
+  ASSIGN_OR_RETURN(const auto run, LoadFinishedRun(options.target, options.sealing));
+  TellUnsealed(run.data);
+  return options.update ? Update(options, run) : Judge(options, run);
 }
 
 }  // namespace
@@ -217,12 +204,7 @@ void DefineGate(CLI::App& app, Action& action) {
       ->check(CLI::Range(1, 1000000))
       ->needs(self_test);
   AddUnsealed(*command, options->sealing);
-  command->callback([=, &action] {
-    action = [=] {
-      if (options->target.empty() && !options->self_test) return Complain({{}, "etude gate needs a result folder"});
-      return GateCommand(*options);
-    };
-  });
+  command->callback([=, &action] { action = [=] { return Finish(GateCommand(*options)); }; });
 }
 
 }  // namespace etude

@@ -31,42 +31,37 @@ void ListTasks() {
   PrintSolvers();
 }
 
-int ListClips() {
+Result<int> ListClips() {
   fmt::print("Moves (builtin:*):\n");
   for (const std::string& name : BuiltinMoveNames()) {
-    const auto move = LoadBuiltinMove(name);
-    if (!move) return Complain(move.error());
+    ASSIGN_OR_RETURN(const auto move, LoadBuiltinMove(name));
     fmt::print("  builtin:{:<14} {:g} beats at {:g} ({:g}…{:g}) per minute, {:.1f} s, {} key poses\n", name,
-               move->beats, move->tempo_bpm, move->slowest_bpm, move->fastest_bpm, move->motion.DurationSeconds(),
-               move->key_poses.size());
+               move.beats, move.tempo_bpm, move.slowest_bpm, move.fastest_bpm, move.motion.DurationSeconds(),
+               move.key_poses.size());
   }
   fmt::print("Acts of the coach (builtin:acts); builtin:slow_MOVE is a move shown slowly:\n");
   for (const std::string& name : BuiltinActNames()) {
-    const auto act = LoadBuiltinMove(name);
-    if (!act) return Complain(act.error());
-    fmt::print("  builtin:{:<14} {:.1f} s{}\n", name, act->motion.DurationSeconds(), act->loops ? "" : ", once");
+    ASSIGN_OR_RETURN(const auto act, LoadBuiltinMove(name));
+    fmt::print("  builtin:{:<14} {:.1f} s{}\n", name, act.motion.DurationSeconds(), act.loops ? "" : ", once");
   }
   fmt::print("Songs (builtin:songs):\n");
   for (const std::string& name : BuiltinSongNames()) {
-    const auto song = LoadBuiltinSong(name);
-    if (!song) return Complain(song.error());
-    fmt::print("  builtin:{:<14} {} moves at {:g} per minute, {:.0f} s\n", name, song->parts.size(), song->tempo_bpm,
-               song->motion.DurationSeconds());
+    ASSIGN_OR_RETURN(const auto song, LoadBuiltinSong(name));
+    fmt::print("  builtin:{:<14} {} moves at {:g} per minute, {:.0f} s\n", name, song.parts.size(), song.tempo_bpm,
+               song.motion.DurationSeconds());
   }
   fmt::print("Your own: BVH, glTF and DeepMimic files, 'dance.glb#Jump', patterns such as '~/mocap/*.bvh' (docs/clips.md).\n");
   return kSuccess;
 }
 
-int ListScenarios(const std::string& folder) {
-  const auto files = FindScenarioFiles({folder});
-  if (!files) return Complain(files.error());
-  for (const std::string& file : *files) {
+Result<int> ListScenarios(const std::string& folder) {
+  ASSIGN_OR_RETURN(const auto files, FindScenarioFiles({folder}));
+  for (const std::string& file : files) {
     SourceTexts texts;
-    if (auto read = ReadSources(file, texts); !read) return Complain(read.error());
-    const auto scenarios = ParseScenarios(file, texts);
-    if (!scenarios) return Complain(scenarios.error());
+    RETURN_IF_ERROR(ReadSources(file, texts));
+    ASSIGN_OR_RETURN(const auto scenarios, ParseScenarios(file, texts));
     fmt::print("{}\n", file);
-    for (const Scenario& scenario : *scenarios) {
+    for (const Scenario& scenario : scenarios) {
       fmt::print("  {} ({}): {}\n  {} trials × {} conditions × methods {}\n", scenario.name, scenario.task,
                  scenario.question, scenario.trials, scenario.conditions.size(), Join(MethodNames(scenario)));
     }
@@ -76,7 +71,7 @@ int ListScenarios(const std::string& folder) {
 
 enum class Listing { kMethods, kScenarios, kClips };
 
-int ListCommand(Listing what, const std::string& scenario_folder) {
+Result<int> ListCommand(Listing what, const std::string& scenario_folder) {
   switch (what) {
     case Listing::kMethods:
       ListTasks();
@@ -138,7 +133,7 @@ void DefineList(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("list", "List what a scenario can name");
   command->require_subcommand(1);
   const auto list = [&](const char* name, const char* help, Listing what) {
-    command->add_subcommand(name, help)->callback([=, &action] { action = [=] { return ListCommand(what, ""); }; });
+    command->add_subcommand(name, help)->callback([=, &action] { action = [=] { return Finish(ListCommand(what, "")); }; });
   };
   list("methods", "Tasks, what their methods are made of, and solvers", Listing::kMethods);
   list("clips", "Built-in clips", Listing::kClips);
@@ -164,7 +159,7 @@ void DefineList(CLI::App& app, Action& action) {
   auto folder = std::make_shared<std::string>("scenarios/quick");
   CLI::App* scenarios = command->add_subcommand("scenarios", "Scenarios of a folder");
   scenarios->add_option("folder", *folder, "Folder of scenarios")->capture_default_str();
-  scenarios->callback([=, &action] { action = [=] { return ListCommand(Listing::kScenarios, *folder); }; });
+  scenarios->callback([=, &action] { action = [=] { return Finish(ListCommand(Listing::kScenarios, *folder)); }; });
 }
 
 }  // namespace etude

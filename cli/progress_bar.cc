@@ -18,7 +18,7 @@ std::string Remaining(const Progress& progress) {
   return fmt::format(", about {:.0f} s to go", each * static_cast<double>(progress.cells - progress.cells_done));
 }
 
-/// fmt::print throws when nobody listens any more; that must not end a run.
+/// Prints without a throw when nobody listens any more (fmt::print throws): that must not end a run.
 void Print(const std::string& text) { std::fputs(text.c_str(), stderr); }
 
 }  // namespace

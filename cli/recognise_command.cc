@@ -48,7 +48,7 @@ constexpr const char* kRecogniseExamples =
     "  etude recognise take.txt --moves moves.yaml --labels labels.csv\n"
     "  etude recognise joints/ --labels actionLabel.txt --leave-one-person-out --recogniser dtw";
 
-/// "tolerance_scale=1.2" of each setting, the rest by default.
+/// Reads settings such as "tolerance_scale=1.2"; the others keep their defaults.
 Result<std::vector<double>> ReadSettings(const RecogniserKind& kind, const std::vector<std::string>& given) {
   std::vector<double> values;
   std::vector<std::string> names;
@@ -106,8 +106,8 @@ void PrintSpotting(const Spotting& spotting, const Taught& taught, double rate_h
   std::fflush(stdout);
 }
 
-/// Standard input, line by line, until it ends.
-int RecogniseLive(const RecogniseCommandOptions& options, const Taught& taught, const WatchOptions& watch) {
+/// Recognises in standard input, line by line, until it ends.
+Result<int> RecogniseLive(const RecogniseCommandOptions& options, const Taught& taught, const WatchOptions& watch) {
   const StreamOptions making = options.reading.Options();
   LiveStream live("standard input", options.reading.Reading(), making);
   StreamWatcher watcher(*taught.recogniser, taught.moves.size(), watch, making.rate_hz);
@@ -122,12 +122,13 @@ int RecogniseLive(const RecogniseCommandOptions& options, const Taught& taught, 
     std::vector<SensedFrame> frames;
     const auto taken = live.Take(line, frames);
     take(frames);
-    if (!taken) return Complain(taken.error());
+    RETURN_IF_ERROR(taken);
   }
   std::vector<SensedFrame> frames;
   const auto finished = live.Finish(frames);
   take(frames);
-  return finished ? kSuccess : Complain(finished.error());
+  RETURN_IF_ERROR(finished);
+  return kSuccess;
 }
 
 std::string Percent(const std::optional<double>& share) {
@@ -167,7 +168,7 @@ Result<std::vector<LabelledPart>> PartsOf(const RecogniseCommandOptions& options
   return MatchLabels(labels, options.labels, loaded.streams);
 }
 
-Result<void> RecogniseFiles(const RecogniseCommandOptions& options, const Taught& taught, const WatchOptions& watch) {
+Result<int> RecogniseFiles(const RecogniseCommandOptions& options, const Taught& taught, const WatchOptions& watch) {
   ASSIGN_OR_RETURN(const LoadedStreams loaded, Load(options));
   std::vector<LabelledPart> parts;
   if (!options.labels.empty()) {
@@ -185,10 +186,10 @@ Result<void> RecogniseFiles(const RecogniseCommandOptions& options, const Taught
     scores.Add(stream, own, spottings);
   }
   if (!options.labels.empty()) Print(scores, options.as_json);
-  return {};
+  return kSuccess;
 }
 
-/// Which moves are taken for which, the commonest mistakes first.
+/// Prints which moves are taken for which, the commonest mistakes first.
 void PrintMistakes(std::span<const Classified> verdicts) {
   std::map<std::pair<std::string, std::string>, int> mistakes;
   for (const Classified& verdict : verdicts) {
@@ -203,7 +204,7 @@ void PrintMistakes(std::span<const Classified> verdicts) {
   }
 }
 
-Result<void> RecogniseLeavingOneOut(const RecogniseCommandOptions& options, const WatchOptions& watch) {
+Result<int> RecogniseLeavingOneOut(const RecogniseCommandOptions& options, const WatchOptions& watch) {
   ASSIGN_OR_RETURN(const LoadedStreams loaded, Load(options));
   ASSIGN_OR_RETURN(const auto parts, PartsOf(options, loaded));
   ASSIGN_OR_RETURN(
@@ -223,26 +224,19 @@ Result<void> RecogniseLeavingOneOut(const RecogniseCommandOptions& options, cons
                1000 * kActionPointTolerance, Percent(f_score));
   }
   if (options.as_json) fmt::print("{}\n", ScoresLine(out));
-  return {};
+  return kSuccess;
 }
 
-int RecogniseCommand(const RecogniseCommandOptions& options) {
-  const auto watch = OptionsOf(options);
-  if (!watch) return Complain(watch.error());
-  if (options.leave_one_person_out) {
-    const auto done = RecogniseLeavingOneOut(options, *watch);
-    return done ? kSuccess : Complain(done.error());
-  }
-  if (options.moves.empty()) return Complain({{"--moves", 0, 0}, "needed: a moves file (etude teach writes one)"});
-  const auto taught = LoadTaught(options.moves, *watch);
-  if (!taught) return Complain(taught.error());
+Result<int> RecogniseCommand(const RecogniseCommandOptions& options) {
+  ASSIGN_OR_RETURN(const auto watch, OptionsOf(options));
+  if (options.leave_one_person_out) return RecogniseLeavingOneOut(options, watch);
+  if (options.moves.empty()) return Fail({"--moves"}, "needed: a moves file (etude teach writes one)");
+  ASSIGN_OR_RETURN(const auto taught, LoadTaught(options.moves, watch));
   const bool is_live = std::ranges::find(options.streams, "-") != options.streams.end();
   if (is_live && (options.streams.size() > 1 || !options.labels.empty())) {
-    return Complain({{"-", 0, 0}, "standard input goes alone, and without labels"});
+    return Fail({"-"}, "standard input goes alone, and without labels");
   }
-  if (is_live) return RecogniseLive(options, *taught, *watch);
-  const auto done = RecogniseFiles(options, *taught, *watch);
-  return done ? kSuccess : Complain(done.error());
+  return is_live ? RecogniseLive(options, taught, watch) : RecogniseFiles(options, taught, watch);
 }
 
 }  // namespace
@@ -275,7 +269,7 @@ void DefineRecognise(CLI::App& app, Action& action) {
   command->add_flag("--json", options->as_json, "Scores as JSON, too")->needs(labels);
   AddStreamReading(*command, options->reading);
   command->footer(kRecogniseExamples);
-  command->callback([=, &action] { action = [=] { return RecogniseCommand(*options); }; });
+  command->callback([=, &action] { action = [=] { return Finish(RecogniseCommand(*options)); }; });
 }
 
 }  // namespace etude

@@ -23,40 +23,32 @@ Result<std::vector<RealTake>> ReadRealTakes(const std::vector<std::string>& file
   return takes;
 }
 
-int ReportCommand(const std::string& folder, const std::vector<std::string>& real, const ReportOptions& given,
-                  Sealing sealing) {
-  auto takes = ReadRealTakes(real);
-  if (!takes) return Complain(takes.error());
-  const auto run = LoadRun(folder, sealing);
-  if (!run) return Complain(run.error());
-  TellUnsealed(*run);
-  if (auto whole = CheckRowsAgainstSummary(folder, *run); !whole) return Complain(whole.error());
+Result<int> ReportCommand(const std::string& folder, const std::vector<std::string>& real, ReportOptions options,
+                          Sealing sealing) {
+  ASSIGN_OR_RETURN(options.real, ReadRealTakes(real));
+  ASSIGN_OR_RETURN(const auto run, LoadRun(folder, sealing));
+  TellUnsealed(run);
+  RETURN_IF_ERROR(CheckRowsAgainstSummary(folder, run));
   const Interrupt interrupt;
-  ReportOptions options = given;
   options.watch = WatchFilms(interrupt);
-  options.real = std::move(*takes);
-  const auto written = WriteReport(*run, folder, options);
-  if (!written) return Complain(written.error());
-  if (!*written) return TellStopped({{folder, 0, 0}, "stopped; the tables are written, the page is not"});
+  ASSIGN_OR_RETURN(const bool is_whole, WriteReport(run, folder, options));
+  if (!is_whole) return TellStopped({{folder, 0, 0}, "stopped; the tables are written, the page is not"});
   TellWritten(folder + "/report/index.html");
   return kSuccess;
 }
 
-int RowsCommand(const std::string& folder, const std::string& file, bool overwrite, Sealing sealing) {
+Result<int> RowsCommand(const std::string& folder, const std::string& file, bool overwrite, Sealing sealing) {
   if (file.empty()) {
-    const auto written = WriteRows(folder, sealing, [](std::string_view line) -> Result<void> {
+    RETURN_IF_ERROR(WriteRows(folder, sealing, [](std::string_view line) -> Result<void> {
       if (std::fwrite(line.data(), 1, line.size(), stdout) == line.size()) return {};
       return Fail({"standard output"}, "cannot be written: {}", std::strerror(errno));
-    });
-    return written ? kSuccess : Complain(written.error());
+    }));
+    return kSuccess;
   }
-  const auto write = [&]() -> Result<void> {
-    RETURN_IF_ERROR(CheckOutput(file, overwrite));
-    ASSIGN_OR_RETURN(auto out, AtomicFile::Begin(file));
-    RETURN_IF_ERROR(WriteRows(folder, sealing, [&](std::string_view line) { return out.Write(line); }));
-    return out.Finish();
-  };
-  if (const auto written = write(); !written) return Complain(written.error());
+  RETURN_IF_ERROR(CheckOutput(file, overwrite));
+  ASSIGN_OR_RETURN(auto out, AtomicFile::Begin(file));
+  RETURN_IF_ERROR(WriteRows(folder, sealing, [&](std::string_view line) { return out.Write(line); }));
+  RETURN_IF_ERROR(out.Finish());
   TellWritten(file);
   return kSuccess;
 }
@@ -78,7 +70,7 @@ void DefineReport(CLI::App& app, Action& action) {
   AddUnsealed(*command, *sealing);
   command->callback([=, &action] {
     action = [=] {
-      return ReportCommand(*folder, *real, {.pictures = !*no_video, .whole_sessions = *whole_sessions}, *sealing);
+      return Finish(ReportCommand(*folder, *real, {.pictures = !*no_video, .whole_sessions = *whole_sessions}, *sealing));
     };
   });
 }
@@ -92,7 +84,7 @@ void DefineRows(CLI::App& app, Action& action) {
   AddUnsealed(*command, *sealing);
   auto overwrite = std::make_shared<bool>(false);
   AddOverwrite(*command, *overwrite);
-  command->callback([=, &action] { action = [=] { return RowsCommand(*folder, *file, *overwrite, *sealing); }; });
+  command->callback([=, &action] { action = [=] { return Finish(RowsCommand(*folder, *file, *overwrite, *sealing)); }; });
 }
 
 }  // namespace etude

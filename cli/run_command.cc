@@ -35,7 +35,7 @@ bool IsSkipped(const ConditionSummary& condition) {
   });
 }
 
-/// Why nothing was measured under a condition of which every cell was skipped; else "".
+/// Gives the reason when every cell of a condition was skipped; else "".
 std::string WhySkipped(const ConditionSummary& condition, const std::string& scenario, const std::vector<Row>& rows) {
   if (!IsSkipped(condition)) return "";
   const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& other) {
@@ -44,7 +44,7 @@ std::string WhySkipped(const ConditionSummary& condition, const std::string& sce
   return row == rows.end() ? "" : row->result.reason;
 }
 
-/// One small table per condition: methods down, headline metrics across.
+/// Prints one small table per condition: methods down, headline metrics across.
 void PrintTables(const ScenarioSummary& scenario, const std::vector<Row>& rows) {
   constexpr std::size_t kShownMetrics = 4;
   std::vector<const MetricInfo*> metrics;

@@ -29,7 +29,7 @@ constexpr const char* kSensorExamples =
     "  etude sensor stats kinect.txt --reference vicon.txt --simulate v2    real beside simulated\n"
     "  etude sensor fit kinect.txt --reference vicon.txt -o sensor.yaml     then `sensor: sensor.yaml` in a scenario";
 
-/// What is told about recordings that cannot tell it themselves.
+/// The facts about recordings that cannot tell them themselves.
 struct SensorReading {
   std::string reference;                 ///< the same motion by an optical system, "" = none
   std::optional<double> rate_hz;         ///< of the recordings
@@ -98,7 +98,7 @@ std::string ShortName(const std::string& path, std::size_t longest) {
   return std::filesystem::path(path).stem().string().substr(0, longest);
 }
 
-/// Recordings by themselves, a column each.
+/// Computes the statistics of recordings by themselves, a column each.
 Result<Columns> PlainColumns(const SensorStatsOptions& options) {
   Columns columns;
   for (const std::string& file : options.files) {
@@ -109,7 +109,7 @@ Result<Columns> PlainColumns(const SensorStatsOptions& options) {
   return columns;
 }
 
-/// A recording against its reference, and the simulated sensor on the reference's motion.
+/// Computes those of a recording against its reference, and of the simulated sensor on the reference's motion.
 Result<Columns> ComparedColumns(const SensorStatsOptions& options) {
   const std::string& file = options.files.front();
   if (options.files.size() > 1) {
@@ -129,16 +129,15 @@ Result<Columns> ComparedColumns(const SensorStatsOptions& options) {
   return columns;
 }
 
-int SensorStatsCommand(const SensorStatsOptions& options) {
+Result<int> SensorStatsCommand(const SensorStatsOptions& options) {
   const bool compares = !options.reading.reference.empty();
   if (!compares && !options.simulate.empty()) {
-    return Complain({{"--simulate", 0, 0}, "needs --reference: the simulated sensor sees the reference's motion"});
+    return Fail({"--simulate"}, "needs --reference: the simulated sensor sees the reference's motion");
   }
-  const auto columns = compares ? ComparedColumns(options) : PlainColumns(options);
-  if (!columns) return Complain(columns.error());
-  fmt::print("\n{}", StatisticsTable(*columns, compares));
-  if (columns->size() < 2 || !compares) return kSuccess;
-  const Agreement agreement = AgreementOf(columns->front().second, (*columns)[1].second);
+  ASSIGN_OR_RETURN(const auto columns, compares ? ComparedColumns(options) : PlainColumns(options));
+  fmt::print("\n{}", StatisticsTable(columns, compares));
+  if (columns.size() < 2 || !compares) return kSuccess;
+  const Agreement agreement = AgreementOf(columns.front().second, columns[1].second);
   fmt::print("\n{} of {} within {:.0f} % (correlations: {:.2f}); ! marks the others\n", agreement.within,
              agreement.compared, 100 * kSizeTolerance, kCorrelationTolerance);
   return kSuccess;
@@ -154,7 +153,7 @@ void DefineStats(CLI::App& sensor, Action& action) {
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   AddSensorReading(*command, options->reading);
-  command->callback([=, &action] { action = [=] { return SensorStatsCommand(*options); }; });
+  command->callback([=, &action] { action = [=] { return Finish(SensorStatsCommand(*options)); }; });
 }
 
 struct SensorFitCommandOptions {
@@ -180,7 +179,7 @@ void PrintComparison(const char* title, const char* real_name, const RealRecordi
              100 * kSizeTolerance, kCorrelationTolerance);
 }
 
-/// Fits one half and compares on the other; nothing but a remark when a half is too short.
+/// Fits each half and compares it with the other; prints only a remark when a half is too short.
 void PrintHalves(const RealRecording& real, const SensorFitOptions& options) {
   const std::size_t frames = real.recording.frames.size();
   const auto first = MakeRealRecording(PartOf(real.recording, 0, frames / 2), real.twin);
@@ -197,24 +196,22 @@ void PrintHalves(const RealRecording& real, const SensorFitOptions& options) {
                   FitSensor(*second, options));
 }
 
-int SensorFitCommand(const SensorFitCommandOptions& options) {
-  if (auto checked = CheckOutput(options.output, options.overwrite); !checked) return Complain(checked.error());
-  const auto base = LoadSensor(options.base);
-  if (!base) return Complain(base.error());
-  const auto real = LoadRealRecording(options.file, options.reading);
-  if (!real) return Complain(real.error());
-  fmt::print("{}: {}\n", options.file, DescribeRecording(real->recording));
-  fmt::print("{}: {}\n", options.reading.reference, DescribeMatch(*real));
+Result<int> SensorFitCommand(const SensorFitCommandOptions& options) {
+  RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
+  ASSIGN_OR_RETURN(const auto base, LoadSensor(options.base));
+  ASSIGN_OR_RETURN(const auto real, LoadRealRecording(options.file, options.reading));
+  fmt::print("{}: {}\n", options.file, DescribeRecording(real.recording));
+  fmt::print("{}: {}\n", options.reading.reference, DescribeMatch(real));
 
-  const SensorFitOptions fit{.start = *base, .worlds = options.worlds, .steps = options.steps, .progress = {}};
-  const SkeletonSensorOptions sensor = FitSensor(*real, fit);
+  const SensorFitOptions fit{.start = base, .worlds = options.worlds, .steps = options.steps, .progress = {}};
+  const SkeletonSensorOptions sensor = FitSensor(real, fit);
   const std::string preset = FindSensorPreset(options.base) ? options.base : "v2";
   const std::string text = fmt::format("# Fitted by `etude sensor fit` to {:.1f} s, {} frames\n",
-                                       real->recording.DurationSeconds(), real->recording.frames.size()) +
+                                       real.recording.DurationSeconds(), real.recording.frames.size()) +
                            WriteSensorFile(sensor, preset);
-  if (auto written = WriteFileAtomically(options.output, text); !written) return Complain(written.error());
-  PrintComparison("Fitted to all of it, compared with other dice:", "real", *real, sensor);
-  PrintHalves(*real, fit);
+  RETURN_IF_ERROR(WriteFileAtomically(options.output, text));
+  PrintComparison("Fitted to all of it, compared with other dice:", "real", real, sensor);
+  PrintHalves(real, fit);
   fmt::print("\n");
   TellWritten(options.output);
   return kSuccess;
@@ -237,7 +234,7 @@ void DefineFit(CLI::App& sensor, Action& action) {
       ->capture_default_str();
   AddOverwrite(*command, options->overwrite);
   AddSensorReading(*command, options->reading);
-  command->callback([=, &action] { action = [=] { return SensorFitCommand(*options); }; });
+  command->callback([=, &action] { action = [=] { return Finish(SensorFitCommand(*options)); }; });
 }
 
 }  // namespace

@@ -38,12 +38,10 @@ Result<void> WriteSheet(const SensorSheetOptions& options) {
   return WriteFileAtomically(options.output, png);
 }
 
-int SensorSheetCommand(const SensorSheetOptions& options) {
-  if (!options.output.ends_with(".png")) {
-    return Complain({{options.output, 0, 0}, "is no picture's name; allowed: .png"});
-  }
-  if (auto free = CheckOutput(options.output, options.overwrite); !free) return Complain(free.error());
-  if (auto written = WriteSheet(options); !written) return Complain(written.error());
+Result<int> SensorSheetCommand(const SensorSheetOptions& options) {
+  if (!options.output.ends_with(".png")) return Fail({options.output}, "is no picture's name; allowed: .png");
+  RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
+  RETURN_IF_ERROR(WriteSheet(options));
   TellWritten(options.output);
   return kSuccess;
 }
@@ -59,7 +57,7 @@ void DefineSheet(CLI::App& sensor, Action& action) {
   AddSeed(*command, options->seed, "Seed of the world (default: the scenario's, else 1)");
   command->add_option("--clips", options->clips, "Clips instead of the scenario's own");
   AddOverwrite(*command, options->overwrite);
-  command->callback([=, &action] { action = [=] { return SensorSheetCommand(*options); }; });
+  command->callback([=, &action] { action = [=] { return Finish(SensorSheetCommand(*options)); }; });
 }
 
 }  // namespace etude

@@ -55,14 +55,13 @@ std::string TargetsText(const TaughtPose& pose) {
   return Join(targets);
 }
 
-int TeachCommand(const TeachCommandOptions& options) {
-  if (auto checked = CheckOutput(options.output, options.overwrite); !checked) return Complain(checked.error());
-  const auto moves = Teach(options);
-  if (!moves) return Complain(moves.error());
-  const std::string text = "# Learnt by `etude teach`\n" + WriteMoves(*moves);
-  if (auto read_back = ReadMoves(text, options.output); !read_back) return Complain(read_back.error());
-  if (auto written = WriteFileAtomically(options.output, text); !written) return Complain(written.error());
-  for (const TaughtMove& move : *moves) {
+Result<int> TeachCommand(const TeachCommandOptions& options) {
+  RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
+  ASSIGN_OR_RETURN(const auto moves, Teach(options));
+  const std::string text = "# Learnt by `etude teach`\n" + WriteMoves(moves);
+  RETURN_IF_ERROR(ReadMoves(text, options.output));  // what cannot be read back is not written
+  RETURN_IF_ERROR(WriteFileAtomically(options.output, text));
+  for (const TaughtMove& move : moves) {
     fmt::print("{}: {} right, {} wrong, up to {:.1f} s\n", move.name, move.examples.size(),
                move.counter_examples.size(), move.span_s);
     for (const TaughtPose& pose : move.poses) fmt::print("  {}\n", TargetsText(pose));
@@ -82,7 +81,7 @@ void DefineTeach(CLI::App& app, Action& action) {
   AddOverwrite(*command, options->overwrite);
   AddStreamReading(*command, options->reading);
   command->footer(kTeachExamples);
-  command->callback([=, &action] { action = [=] { return TeachCommand(*options); }; });
+  command->callback([=, &action] { action = [=] { return Finish(TeachCommand(*options)); }; });
 }
 
 }  // namespace etude

@@ -78,7 +78,7 @@ std::optional<double> ReadShare(const std::string& text) {
   return share;
 }
 
-/// Which of the clips to hold out.
+/// Chooses the clips that are held out.
 Result<std::vector<bool>> ChooseHeldOut(const std::vector<std::string>& names, const TrainOptions& options) {
   std::vector<bool> held_out(names.size(), false);
   const auto share = ReadShare(options.hold_out);
@@ -141,7 +141,7 @@ std::string ScoreLine(const char* what, ClipFrames clips, const FuzzySystem& sys
                      matches.close_matched);
 }
 
-/// How the two systems do, a line each.
+/// Scores the paper's system and the tuned one, a line each.
 std::vector<std::string> CompareSystems(const Split& split, const FuzzySystem& tuned) {
   const FuzzySystem paper;
   return {
@@ -169,7 +169,7 @@ Tuning TuningOf(const TrainOptions& options) {
   return options.memberships ? Tuning::kGeneticMemberships : Tuning::kGenetic;
 }
 
-/// Every tenth of the way, as a run's progress bar does off a terminal.
+/// Sets the genetic algorithm's options; it tells its progress at every tenth of the way.
 GeneticOptions GeneticOptionsOf(const TrainOptions& options) {
   const int tenth = std::max(1, options.generations / 10);
   return {.population = options.population,
@@ -200,21 +200,18 @@ std::string WhyNothing(WeightFitStatus status) {
   }
 }
 
-int TrainCommand(const TrainOptions& options) {
-  if (auto checked = CheckOptions(options); !checked) return Complain(checked.error());
-  const auto split = LoadSplit(options);
-  if (!split) return Complain(split.error());
-  TunedSystem tuned = TuneSystem(split->learnt, TuningOf(options), GeneticOptionsOf(options));
-  if (tuned.status != WeightFitStatus::kFitted) {
-    return Complain({{}, "nothing was learnt: " + WhyNothing(tuned.status)});
-  }
+Result<int> TrainCommand(const TrainOptions& options) {
+  RETURN_IF_ERROR(CheckOptions(options));
+  ASSIGN_OR_RETURN(const auto split, LoadSplit(options));
+  TunedSystem tuned = TuneSystem(split.learnt, TuningOf(options), GeneticOptionsOf(options));
+  if (tuned.status != WeightFitStatus::kFitted) return Fail({}, "nothing was learnt: {}", WhyNothing(tuned.status));
   tuned.system.name = options.method;
-  const std::vector<std::string> comparison = CompareSystems(*split, tuned.system);
-  const std::string text = HeaderOf(options, *split, tuned, comparison) + WriteFuzzySystem(tuned.system);
-  if (auto read_back = ReadFuzzySystem(text, options.output); !read_back) return Complain(read_back.error());
-  if (auto written = WriteFileAtomically(options.output, text); !written) return Complain(written.error());
+  const std::vector<std::string> comparison = CompareSystems(split, tuned.system);
+  const std::string text = HeaderOf(options, split, tuned, comparison) + WriteFuzzySystem(tuned.system);
+  RETURN_IF_ERROR(ReadFuzzySystem(text, options.output));  // what cannot be read back is not written
+  RETURN_IF_ERROR(WriteFileAtomically(options.output, text));
   fmt::print("{} clips learnt from, {} held out; how well d < 0.4 tells pairs of frames that look alike:\n",
-             split->learnt.size(), split->held_out.size());
+             split.learnt.size(), split.held_out.size());
   for (const std::string& line : comparison) fmt::print("{}\n", line);
   TellWritten(options.output);
   return kSuccess;
@@ -252,15 +249,10 @@ Result<Trained> TrainCoachedOf(const TrainOptions& options) {
                  fmt::format(kHeader, "coached", "coached", training.sessions, training.seed, Join(options.clips))};
 }
 
-Result<void> TrainIntoFile(const TrainOptions& options) {
+Result<int> TrainRecogniserCommand(const TrainOptions& options) {
   RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
   ASSIGN_OR_RETURN(const Trained trained, options.coached ? TrainCoachedOf(options) : TrainLearnt(options));
-  return WriteFileAtomically(options.output, trained.header + WriteLearntModel(trained.model));
-}
-
-int TrainRecogniserCommand(const TrainOptions& options) {
-  const auto done = TrainIntoFile(options);
-  if (!done) return Complain(done.error());
+  RETURN_IF_ERROR(WriteFileAtomically(options.output, trained.header + WriteLearntModel(trained.model)));
   TellWritten(options.output);
   return kSuccess;
 }
@@ -304,7 +296,7 @@ void DefineTrain(CLI::App& app, Action& action) {
   command->footer(kTrainExamples);
   command->callback([=, &action] {
     action = [=] {
-      return options->recogniser || options->coached ? TrainRecogniserCommand(*options) : TrainCommand(*options);
+      return Finish(options->recogniser || options->coached ? TrainRecogniserCommand(*options) : TrainCommand(*options));
     };
   });
 }

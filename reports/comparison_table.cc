@@ -62,7 +62,7 @@ Line LineOf(const ConditionSummary& condition, const Comparison& c, SamplingUnit
   return line;
 }
 
-/// The figures, and below them over the whole width what to mind.
+/// Writes the figures as a row, and below them over the whole width the notes.
 std::string RowHtml(const Line& line, const Comparison& c, bool swept, int columns) {
   std::string html =
       fmt::format("<tr{}><td>{}</td>", line.notes.empty() ? "" : " class=\"noted\"", EscapeMarkup(line.methods));
@@ -101,7 +101,7 @@ std::string BeyondCsv(const Beyond& beyond) {
                      beyond.verdict ? VerdictName(*beyond.verdict) : "", EscapeCsv(beyond.why_open));
 }
 
-/// Every condition's comparisons with baselines, then those with the strongest other method.
+/// Visits every condition's comparisons with baselines, then those with the strongest other method.
 template <typename Visit>
 void ForEachComparison(const ScenarioSummary& scenario, Visit visit) {
   for (const ConditionSummary& condition : scenario.conditions) {
@@ -118,7 +118,7 @@ std::size_t CountOf(const ScenarioSummary& scenario) {
   return count;
 }
 
-/// "holds", or why no verdict counts: where it says something else, or nothing.
+/// Says "holds", or why no common verdict counts.
 std::string WhatHolds(const AcrossVerdict& across) {
   if (across.Holds()) return "holds";
   std::vector<Verdict> said;
@@ -132,7 +132,7 @@ std::string WhatHolds(const AcrossVerdict& across) {
 
 std::string MethodsOf(const AcrossVerdict& across) { return across.method + " − " + across.baseline; }
 
-/// "3.10 pp better"
+/// Writes one condition's difference: "3.10 pp better".
 std::string EachText(const AcrossVerdict& across, const AcrossVerdict::Each& each) {
   if (!each.difference) return std::string(VerdictName(each.verdict));
   const MetricWords words = WordsFor(across.metric);

@@ -41,7 +41,7 @@ std::string List(std::string_view title, const std::vector<std::string>& lines) 
   return text;
 }
 
-/// What a shell would take, to be copied; where a name would break out of the code span, as plain text.
+/// Writes a command as code, to be copied; as plain text where a name would break out of the code span.
 std::string CommandText(const std::string& command) {
   const bool plain = command.find_first_of("`\n\r") == std::string::npos;
   return plain ? "`" + command + "`" : EscapeMarkdown(command);
@@ -56,7 +56,7 @@ std::string WorldList(std::string_view title, const std::vector<TailLine>& lines
   return text;
 }
 
-/// Expectations and time rules that are not met, or could not be decided.
+/// Lists the expectations and time rules that have this ruling.
 std::vector<std::string> ClaimsThatAre(const GateReport& report, Ruling ruling) {
   std::vector<std::string> lines;
   for (const GateExpectation& e : report.expectations) {

@@ -34,7 +34,7 @@ std::string WorldsText(const MetricMove& move) {
   return text;
 }
 
-/// "2 worse, 3 better, 165 same", zeros left out.
+/// Counts the movements: "2 worse, 3 better, 165 same", zeros left out.
 std::string MovementCounts(const std::vector<MetricMove>& moves) {
   std::string text;
   for (Movement movement : {Movement::kWorse, Movement::kChanged, Movement::kBetter, Movement::kUnclear,
@@ -47,7 +47,7 @@ std::string MovementCounts(const std::vector<MetricMove>& moves) {
   return text;
 }
 
-/// "12 expectations: 11 met, 1 unmet", zeros left out; "" when there is none.
+/// Counts the rulings: "12 expectations: 11 met, 1 unmet", zeros left out; "" when there is none.
 template <typename Items, typename RulingOf>
 std::string RulingCounts(const Items& items, std::string_view what, RulingOf ruling_of) {
   std::string text;
@@ -67,7 +67,7 @@ std::string VerdictText(const MetricMove& move) {
 
 constexpr const char* kTo = " → ";
 
-/// A word of a command line, in quotes when a shell would take it apart.
+/// Writes a word of a command line, in quotes when a shell would take it apart.
 std::string ShellWord(const std::string& text) {
   constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=,:@%+-";
   if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;

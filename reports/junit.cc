@@ -50,7 +50,7 @@ JunitCase NoCellBroke(const ScenarioFindings& findings) {
   return {"no cell broke", MetWhen(broken == 0), std::move(detail)};
 }
 
-/// What the scenario came to: nothing that could fail, but what a reader of CI wants to know, with what it is about.
+/// Makes a case that cannot fail, but tells readers of CI the answer.
 JunitCase TheAnswer(const ScenarioFindings& findings) {
   std::string said = findings.headline + (findings.headline.empty() ? "" : ".\n") + findings.answer.sentence;
   if (findings.rival.is_compared) said += "\n" + findings.rival.sentence;

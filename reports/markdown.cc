@@ -17,13 +17,13 @@
 namespace etude {
 namespace {
 
-/// "better on these clips, inconclusive for other clips"
+/// Writes both verdicts: "better on these clips, inconclusive for other clips".
 std::string BothVerdicts(const MethodFinding& finding) {
   if (!finding.is_compared || finding.beyond.on_these_only) return finding.Words();
   return fmt::format("{}, {} for {}", finding.Words(), VerdictWords(finding.beyond.verdict), OtherUnits(finding.unit));
 }
 
-/// The answer in a line, then with its figures.
+/// Writes the answer in a line, then with its figures.
 std::string AnswerText(const ScenarioFindings& findings) {
   std::string text;
   if (!findings.headline.empty()) text += fmt::format("**{}**\n\n", EscapeMarkdown(findings.headline));

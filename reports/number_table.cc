@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-/// How a share reads that is no metric of the catalogue.
+/// The words of a share that is no metric of the catalogue.
 const MetricWords kShare{.label = "", .suffix = " %", .difference_suffix = "", .scale = 100, .is_share = true};
 
 std::string Cell(std::string_view html) { return fmt::format("<td>{}</td>", html); }

@@ -32,7 +32,7 @@ std::string Row(std::string_view style, const std::array<std::string, 5>& cells)
 
 std::string Millimetres(std::optional<double> mm) { return mm ? FormatNumber(*mm) : std::string(kNoValue); }
 
-/// What keypoints tell is error only where the reference was not made of the same ones.
+/// Names what a take measures: error, or agreement when its reference may have been made of the same keypoints.
 std::string MeasureOf(const RealTake& take) { return take.recovery == "keypoints" ? "agreement" : "error"; }
 
 std::string RealRows(const RealTake& take) {
@@ -46,7 +46,7 @@ std::string RealRows(const RealTake& take) {
   return html;
 }
 
-/// `rows` counts on from scenario to scenario.
+/// Writes the rows of simulated takes; `rows` counts on from scenario to scenario.
 std::string SimulatedRows(const ScenarioSummary& scenario, std::size_t& rows) {
   std::string html;
   for (const ConditionSummary& condition : scenario.conditions) {
@@ -115,7 +115,7 @@ from it, and with fewer than six clips there is no such verdict.</p>
 failed is counted and named; a missing value is shown as —, never as zero.</p></section>
 )";
 
-/// What of a large run the pictures show.
+/// Says how much of a large run the pictures show.
 std::string LeftOutSentence(const RunData& run) {
   if (!run.source) return "";
   return fmt::format(

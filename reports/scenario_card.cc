@@ -110,7 +110,7 @@ std::string StatusBar(const ScenarioFindings& findings) {
   return html + "</div>";
 }
 
-/// The cells of a scenario that kept a recording, as a JSON list: what the page tells of a dot.
+/// Lists the cells of a scenario that kept a recording, as JSON for the page's script.
 std::string RecordedCells(const RunData& run, const ScenarioSummary& scenario) {
   Json cells = Json::array();
   for (const CellRecording& recorded : run.recordings) {
@@ -119,7 +119,7 @@ std::string RecordedCells(const RunData& run, const ScenarioSummary& scenario) {
   return cells.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// The answer in a line, then with its figures: against the baseline, and against the strongest other method.
+/// Writes the answer in a line, then with its figures: against the baseline, and against the strongest other method.
 std::string Answer(const ScenarioFindings& findings) {
   std::string html;
   if (!findings.headline.empty()) html += fmt::format("<p class=\"headline\">{}</p>", EscapeMarkup(findings.headline));

@@ -13,10 +13,10 @@
 namespace etude {
 namespace {
 
-/// Wider matrices do not fit a terminal; --json has them.
+/// The widest matrix that fits a terminal; --json has wider ones.
 constexpr int kWidestMatrix = 24;
 
-/// What a clip's row of the table holds.
+/// A clip's row of the table.
 struct ClipSummary {
   int frames = 0, bridge_frames = 0;
   int poses = 0;           ///< different combinations of tags among its bridge frames
@@ -104,7 +104,7 @@ std::string ClipsAsText(const BridgeLibrary& loaded, const std::vector<ClipSumma
   return text;
 }
 
-/// Percent of the row's bridge frames that match one of the column; "." is none at all.
+/// Writes the percentage of the row's bridge frames that match one of the column; "." is none at all.
 std::string MatrixAsText(const BridgeLibrary& loaded, const Coverage& coverage) {
   std::string text;
   const int count = coverage.ClipCount(), width = NameWidth(loaded.library);

@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-/// "Fur", or "Fur (texture of 1024 x 1024)".
+/// Names a material: "Fur", or "Fur (texture of 1024 x 1024)".
 std::string NameOf(const Material& material) {
   if (!material.texture) return material.name;
   const ColourImage& picture = material.texture->picture;
@@ -64,7 +64,7 @@ BodyFacts FactsOfBody(const OpenedClip& clip) {
   return facts;
 }
 
-/// A file that gives no clip: what can be said of it all the same.
+/// Collects what can be told of a file that gives no clip.
 ClipFacts FactsWithoutClip(const std::string& reference, Error complaint) {
   ClipFacts facts;
   facts.name = facts.source = reference;
@@ -124,7 +124,7 @@ constexpr std::size_t kLineWidth = 110;
 
 std::string Line(const std::string& title, const std::string& text) { return fmt::format("  {:<8} {}\n", title, text); }
 
-/// Items behind each other, in as many lines as they need.
+/// Writes items one after the other, in as many lines as they need.
 std::string WrappedLine(const std::string& title, const std::vector<std::string>& items) {
   std::string lines, line;
   for (const std::string& item : items) {

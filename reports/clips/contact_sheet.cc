@@ -25,7 +25,7 @@ void DrawTitle(Canvas& canvas, const ClipFacts& facts, double y, double room) {
   canvas.DrawText({kMargin, y + 37}, FactsAsLine(facts), kFactsSize, kSoftInk, room);
 }
 
-/// A clip's pictures, in rows of `columns`, from `y` downwards.
+/// Draws a clip's pictures in rows of `columns`, from `y` downwards.
 void DrawPictures(Canvas& canvas, const Shot& shot, const std::vector<int>& frames, const SheetOptions& options,
                   double y, const Studio& studio, Renderer& renderer) {
   for (int k = 0; k < static_cast<int>(frames.size()); ++k) {

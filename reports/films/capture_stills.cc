@@ -25,7 +25,7 @@ constexpr double kRowTitleSize = 14, kSmallSize = 12;
 constexpr double kPlateRowHeight = kTitleRoom + kPictureHeight + kCaptionRoom;
 constexpr Paint kVeil{0.04, 0.05, 0.06, 0.55};
 
-/// What the picture lies in so that its part about the person fills a canvas of kPictureWidth × kPictureHeight.
+/// Gives the box of the whole picture whose part about the person fills a canvas of kPictureWidth × kPictureHeight.
 Box PanelOf(const CapturePanel& capture, std::size_t camera) {
   const Box& crop = capture.CropOf(camera);
   const Intrinsics& in = capture.CameraOf(camera).intrinsics;
@@ -92,7 +92,7 @@ void DrawMoment(const CapturePanel& capture, Renderer& renderer, const CaptureEx
                [&](Canvas& canvas) { DrawSkeleton(canvas, capture.Recovered(frame), seen_by, panel); });
 }
 
-/// Frames evenly spread over the motion.
+/// Gives frames evenly spread over the motion.
 std::array<int, kPlateColumns> SequenceOf(const CapturePanel& capture) {
   std::array<int, kPlateColumns> frames{};
   for (std::size_t i = 0; i < kPlateColumns; ++i) {

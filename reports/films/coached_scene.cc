@@ -20,7 +20,7 @@ namespace {
 constexpr Rgb8 kSky{176, 212, 232}, kHills{122, 160, 138}, kGrass{126, 168, 92}, kTrunk{112, 84, 60};
 constexpr std::array<Rgb8, 3> kCrowns = {{{66, 118, 72}, {82, 136, 78}, {52, 100, 68}}};
 
-/// A flat piece, seen from +Z or from above; corners in order.
+/// Makes a flat piece, seen from +Z or from above; corners in order.
 Surface Sheet(const std::vector<glm::dvec3>& corners, const glm::dvec3& normal, Rgb8 colour) {
   Surface sheet;
   sheet.positions = corners;
@@ -31,7 +31,7 @@ Surface Sheet(const std::vector<glm::dvec3>& corners, const glm::dvec3& normal, 
   return sheet;
 }
 
-/// A frustum about the vertical: a trunk, or, with no width at its top, a crown.
+/// Makes a frustum about the vertical: a trunk, or, with no width at its top, a crown.
 Surface Cone(const glm::dvec3& foot, double height, double foot_radius, double top_radius, Rgb8 colour) {
   constexpr int kSides = 10;
   Surface cone;
@@ -73,7 +73,7 @@ constexpr double kSessionEyeHeight = 1.35, kSessionDistance = 5.2, kSessionLookA
 
 constexpr int kBeforeCorrection = 3 * kFilmRate;
 
-/// What the timeline shows at most; of a longer film what is around the present.
+/// The most frames that the timeline shows: of a longer film those around the present.
 constexpr int kTimelineFrames = 24 * kFilmRate;
 
 const Room kMeadow{.casts_shadows = false};
@@ -86,7 +86,7 @@ Paint PaintOfMode(const std::string& mode) {
   return kUndecidedPaint;
 }
 
-/// What is in force at a frame: the last that began.
+/// Gives the span that began last before a frame.
 template <typename Span>
 const Span& InForce(const std::vector<Span>& spans, int frame) {
   const auto after = std::ranges::upper_bound(spans, frame, {}, &Span::begin_frame);

@@ -41,7 +41,7 @@ double RaceClock::ShareOf(double iteration) const {
   return last_ == 0 ? 0 : std::clamp(std::log1p(iteration) / std::log1p(last_), 0.0, 1.0);
 }
 
-/// The inside of the axes, and where a value lies in it.
+/// The inside of the axes, which gives the place of a value in it.
 struct ErrorPlot::Frame {
   Box box;
   const ErrorPlot& plot;

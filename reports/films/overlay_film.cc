@@ -20,7 +20,7 @@ Paint PaintOf(Role role) {
   return name.starts_with("left_") ? kLeftLimb : name.starts_with("right_") ? kRightLimb : kMiddleLimb;
 }
 
-/// Where each film stands in the frame.
+/// Lays the films out side by side.
 std::vector<Box> Layout(std::span<const OverlayView> views, int& width, int& height) {
   double sum = 0;
   for (const OverlayView& view : views) sum += static_cast<double>(view.facts.width) / view.facts.height;
@@ -62,7 +62,7 @@ class ViewPainter {
   glm::dvec2 OnCanvas(const glm::dvec2& film) const {
     return {box_.x + film.x * box_.width / view_.facts.width, box_.y + film.y * box_.height / view_.facts.height};
   }
-  /// Nothing outside the film.
+  /// Gives the pixel of a place; nothing outside the film.
   std::optional<glm::dvec2> PixelOf(const glm::dvec3& place) const {
     const auto rig = Project(view_.camera, place);
     if (!rig || !IsInside(view_.fit.ToFilm(*rig))) return std::nullopt;
@@ -81,7 +81,7 @@ class FilmRoll {
     return FilmRoll(view, std::move(decoder));
   }
 
-  /// The picture nearest to that frame of the motion, which is no earlier than the one before.
+  /// Gives the picture nearest to that frame of the motion, which is no earlier than the one before.
   Result<const ColourImage*> At(std::size_t frame) {
     const long wanted = std::clamp(std::lround(static_cast<double>(frame) - view_->offset), 0l,
                                    static_cast<long>(view_->facts.frames) - 1);

@@ -27,7 +27,7 @@ constexpr double kGhostStrength = 0.34;
 
 Camera CameraOf(const Intrinsics& inside) { return LookAt(inside, kEye, kTarget); }
 
-/// How much of a pixel is covered by the lines of the grid across one axis.
+/// Gives the share of a pixel that the lines of the grid across one axis cover.
 double LineCover(double x, double footprint) {
   const double nearest = std::abs(x - kGridSpacing * std::round(x / kGridSpacing));
   const double half = kGridLine / 2;

@@ -59,7 +59,7 @@ void DrawBar(Canvas& canvas, const Box& row, std::string_view label, std::option
 
 }  // namespace
 
-/// The inside of the axes, and where a value lies in it.
+/// The inside of the axes, which gives the place of a value in it.
 struct JumpStrip::Frame {
   Box box;
   const JumpStrip& strip;

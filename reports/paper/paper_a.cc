@@ -56,7 +56,7 @@ class MembershipPanel {
     return PanelText(inputs_.At(peak), kPanelTop - 8, name, anchor);
   }
 
-  /// Numbers along the axis; one too near to its neighbour stands a row lower.
+  /// Writes numbers along the axis; one too near to its neighbour stands a row lower.
   std::string Numbers(std::vector<double> marks) const {
     marks.insert(marks.end(), {universe_.low, universe_.high});
     std::ranges::sort(marks);
@@ -75,7 +75,7 @@ class MembershipPanel {
     return svg;
   }
 
-  /// Where a straight-sided function bends, within the universe.
+  /// Gives the places where a straight-sided function bends, within the universe.
   std::vector<double> Bends(const Shape& shape) const {
     std::vector<double> bends;
     for (double grade : {1.0, 0.0}) {
@@ -94,7 +94,8 @@ class MembershipPanel {
 
 constexpr std::string_view kFuzzyKey = "fuzzy", kBuiltin = "builtin:";
 
-/// The paper's, then those of the program's own that the scenario sweeps. A file's functions are not in the results.
+/// Gives the paper's system, then those of the program's own that the scenario sweeps. A file's functions are not in
+/// the results.
 std::vector<FuzzySystem> ShownSystems(const ScenarioSummary& scenario) {
   std::vector<FuzzySystem> systems = {FuzzySystem{}};
   for (const ConditionSummary& condition : scenario.conditions) {
@@ -149,7 +150,7 @@ std::string RoundTripHtml(const FuzzySystem& system) {
   return html + "</tbody></table>";
 }
 
-/// One line per term: figure, feature, term, shape, equation.
+/// Gives one line per term: figure, feature, term, shape, equation.
 std::vector<std::array<std::string, 5>> PaperLines() {
   std::vector<std::array<std::string, 5>> lines;
   for (const PaperAFigure& figure : PaperAFigures()) {

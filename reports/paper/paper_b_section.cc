@@ -32,7 +32,7 @@ struct Panel {
   std::vector<PlotCurve> curves;
 };
 
-/// The first trial's curve of each method, and the median of all trials when there are several.
+/// Gives the first trial's curve of each method, and the median of all trials when there are several.
 std::vector<PlotCurve> CurvesOf(const CellSeriesIndex& series, const std::vector<const Row*>& rows,
                                 const std::vector<std::string>& methods, const std::string& name) {
   std::vector<PlotCurve> singles, medians;
@@ -66,7 +66,7 @@ std::vector<Panel> PanelsOf(const CellSeriesIndex& series, const std::vector<con
   return panels;
 }
 
-/// Positions share their axes, and so do angles.
+/// Makes the axes that all positions share, or all angles.
 CurveAxes SharedAxes(const std::vector<Panel>& panels, bool of_positions) {
   std::vector<const PlotCurve*> curves;
   for (const Panel& panel : panels) {
@@ -154,7 +154,7 @@ std::string PrintedHtml(bool with_angles) {
   return html + "</details>";
 }
 
-/// Floats of at most `most` tables each, the note beneath the first.
+/// Writes floats of at most `most` tables each, the note beneath the first.
 std::string FloatsLatex(const std::vector<PaperTable>& tables, std::size_t most, const std::string& caption,
                         const std::string& note) {
   std::string text;

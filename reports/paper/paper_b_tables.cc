@@ -99,7 +99,7 @@ constexpr std::string_view kErrorSeries = "position_error_x_cm";
 constexpr std::string_view kNoAxis = "a — stands where the joint has no such axis.";
 
 using Rows = std::vector<const Row*>;
-/// What several trials' values of one figure become.
+/// Sums up several trials' values of one figure.
 using Aggregator = std::function<double(std::vector<double>)>;
 
 double First(const std::vector<double>& values) { return values.front(); }
@@ -115,7 +115,7 @@ double RootMeanSquare(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// A figure over those of `rows` that have it, or nothing.
+/// Sums up a figure over those of `rows` that have it; nothing when none has.
 std::optional<double> Figure(const CellSeriesIndex& series, std::span<const Row* const> rows, const std::string& name,
                              std::size_t index, const Aggregator& aggregate) {
   std::vector<double> values;

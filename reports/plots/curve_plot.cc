@@ -16,7 +16,7 @@ constexpr std::size_t kMostPoints = 80;
 constexpr double kSmallWidth = 240, kSmallHeight = 150;
 constexpr double kSmallLeft = 38, kSmallRight = 8, kSmallTop = 8, kSmallBottom = 20;
 
-/// The attributes that give a line its colour and dashes: `class="c2" stroke-dasharray="6 4"`.
+/// Gives the attributes of a line's colour and dashes: `class="c2" stroke-dasharray="6 4"`.
 std::string CurveStyle(std::size_t style, bool faint = false) {
   return fmt::format("class=\"c{}{}\"{}", style % 8, faint ? " faint" : "", MarkDashes(style));
 }

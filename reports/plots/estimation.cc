@@ -34,7 +34,7 @@ constexpr double kHeight = 250, kTop = 8, kBottom = 212;
 constexpr double kSwarm = 26;  // how far dots spread to either side
 constexpr std::size_t kMostNamed = 16;
 
-/// Which method is drawn how.
+/// The indices of both methods in the scenario, by which they are drawn.
 struct Cast {
   std::size_t baseline = 0, method = 0;
 };
@@ -135,7 +135,7 @@ class Plot {
     return MarkUse(shape, ShowsUnits() ? world.unit : shape, x, y, Attributes(world.trial), title);
   }
 
-  /// A bar from low to high with a dot for the estimate. All in the metric's unit.
+  /// Draws a bar from low to high with a dot for the estimate, all in the metric's unit.
   std::string Interval(const Axis& axis, double x, const std::optional<double>& estimate,
                        const std::optional<double>& low, const std::optional<double>& high) const {
     if (!estimate) return "";
@@ -145,7 +145,7 @@ class Plot {
     return svg + fmt::format("<circle class=\"estimate\" cx=\"{}\" cy=\"{:.1f}\" r=\"4.5\"/>", x, at(*estimate));
   }
 
-  /// Each unit's mean difference beside the interval that counts units.
+  /// Draws each unit's mean difference beside the interval that counts units.
   std::string Units(const Axis& axis) const {
     if (!ShowsUnits()) return "";
     // A world of two clips belongs to both: no clip has a mean of its own.
@@ -209,8 +209,8 @@ std::string Caption(const ScenarioSummary& scenario, const Judged& judged, const
 
 constexpr double kStripHeight = 58, kStripTop = 6, kStripBottom = 36;
 
-/// The unit that matters most: of a difference that matters the one without which least of it is left, else the one
-/// without which most would be there.
+/// Gives the unit that matters most: when the difference matters, the one without which least of it is left, else the
+/// one without which it would be largest.
 const LeftOut& Extreme(const Beyond& beyond, double practical) {
   const double all = *beyond.difference;
   const bool matters = std::abs(all) >= practical;

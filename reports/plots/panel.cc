@@ -29,7 +29,7 @@ Axis WithMargin(double low, double high) {
   return {.low = low - kMargin * width, .high = high + kMargin * width};
 }
 
-/// At most so many characters, an ellipsis counting as one; never within a character.
+/// Cuts a text to at most so many characters, an ellipsis counting as one; never within a character.
 std::string Cut(std::string_view text, std::size_t most) {
   std::size_t characters = 0, end = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {

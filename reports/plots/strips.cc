@@ -24,7 +24,7 @@ struct Dot {
   double value = 0;
 };
 
-/// The dots of one method, and of all its values what sums them up.
+/// The dots of one method, with quartiles and typical value of all its values.
 struct StripRow {
   std::size_t method = 0;  ///< index in the scenario
   std::vector<Dot> dots = {};

@@ -14,7 +14,7 @@
 namespace etude {
 namespace {
 
-/// What share of the threshold's square this feature alone takes up; a full bar is all of it.
+/// Draws a bar of the share of the threshold's square that this feature alone takes up.
 std::string Bar(double partial, double full, bool has_threshold) {
   const double share = full > 0 ? std::clamp(partial / full, 0.0, 1.0) : 0;
   const bool alone = has_threshold && partial >= full;
@@ -41,7 +41,7 @@ std::span<const RecordedTransition> Shown(const RecordedRequest& world) {
   return std::span(world.transitions).first(std::min(world.transitions.size(), kMostMethods));
 }
 
-/// "clap 41 → in-between 0 … in-between 12 → side kick 3"
+/// Writes the way through the clips: "clap 41 → in-between 0 … in-between 12 → side kick 3".
 std::string WayOf(const TransitionFacts& facts) {
   std::string text;
   for (const PointFacts& point : facts.points) {
@@ -52,7 +52,7 @@ std::string WayOf(const TransitionFacts& facts) {
   return text.empty() ? std::string(kNoValue) : text;
 }
 
-/// The largest distance of the frames that met: what the threshold is about.
+/// Gives the largest distance of the frames that met, which the threshold is about.
 std::optional<double> WorstDistance(const TransitionFacts& facts) {
   std::optional<double> worst;
   for (const PointFacts& point : facts.points) {
@@ -100,12 +100,13 @@ std::string Distances(const RecordedRequest& world) {
   return table.Html();
 }
 
-/// "clap 28", or the frame alone
+/// Writes a frame: "clap 28", or the frame alone.
 std::string FrameIn(const std::string& clip, int frame) {
   return clip.empty() ? std::to_string(frame) : fmt::format("{} {}", EscapeMarkup(clip), frame);
 }
 
-/// Through an in-between two pairs of clips meet, each with candidates of its own. Clips unknown are not named.
+/// Gives the transition point that a candidate was looked at for: through an in-between there are two. Its clips are
+/// empty when unknown.
 PointFacts PointOf(const CandidateFacts& candidate, const TransitionFacts& facts) {
   const int point = candidate.point.value_or(facts.points.size() == 1 ? 0 : -1);
   const bool is_told = point >= 0 && point < static_cast<int>(facts.points.size());
@@ -126,7 +127,7 @@ std::string CandidateRow(const CandidateFacts& candidate, const TransitionFacts&
          fmt::format("<td>{}</td></tr>", candidate.partials ? MostlyBy(*candidate.partials) : std::string(kNoValue));
 }
 
-/// The record holds but a few of all the pairs.
+/// Says how many of all pairs of frames are listed.
 std::string HowMany(const TransitionFacts& facts) {
   const auto listed = static_cast<long long>(facts.candidates.size());
   if (!facts.pairs_seen || *facts.pairs_seen <= listed) return "";
@@ -153,7 +154,7 @@ std::string CandidatesTable(const std::string& methods, const TransitionFacts& f
   return html + "</tbody></table></div>" + LeftOutHtml(facts.candidates.size(), shown, "candidates", "the recording");
 }
 
-/// Methods that differ in the join alone look at the same candidates: these are shown once.
+/// Writes the candidates of all methods; those that differ in the join alone share theirs.
 std::string AllCandidates(const RecordedRequest& world) {
   std::string html;
   std::vector<bool> told(world.transitions.size());

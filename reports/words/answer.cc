@@ -51,7 +51,7 @@ std::string ClearSentence(const Comparison& c, const std::string& other, const M
                      FormatInterval(low, high, words), other, worlds, VerdictName(c.verdict));
 }
 
-/// Without its end: on which worlds, and why it is open.
+/// Writes the sentence without its end: on which worlds, and why it is open.
 std::string SentenceFor(const Comparison& c, const std::string& other, const MetricWords& words) {
   if (c.pairs == 0 || !c.difference) {
     return fmt::format("“{}” could not be compared with {} by {}: no world gave both a value — inconclusive",
@@ -142,7 +142,7 @@ std::string RatioText(const CostRatio& ratio) {
   return least == most ? least : fmt::format("{} to {}", least, most);
 }
 
-/// Steps and passes are needed, errors are had.
+/// Gives the verb of a cost: steps are needed, errors are had.
 std::string_view VerbOf(const Comparison& c) {
   const MetricInfo* info = FindMetric(c.metric);
   return info != nullptr && info->unit.empty() && info->practical >= 1 ? "needs" : "has";
@@ -175,8 +175,7 @@ std::string PhraseOf(const std::vector<Judged>& judged) {
   return ratio ? fmt::format("{} of {}", CostPhrase(judged, *ratio), OthersOf(judged)) : VerdictPhrase(judged);
 }
 
-/// Where the rival's lead is not in the metric that the question is about, in another headline metric: the largest
-/// ratio. "" without any.
+/// Finds the largest ratio by which the rival leads in another headline metric; "" without any.
 std::string CostElsewhere(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                           const std::string& rival) {
   std::string phrase;

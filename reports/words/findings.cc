@@ -35,7 +35,7 @@ std::string ExpectationsSentence(const RunFindings& f) {
   return text + ".";
 }
 
-/// Measured is not reached: success has shares of its own.
+/// Says how many cells were measured; success has shares of its own.
 std::string MeasuredSentence(const RunFindings& f) {
   if (f.cells == 0) return " No cell ran.";
   const int measured = f.ok + f.unsolved;

@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-/// "mean over 12 clips −4.50 mm, 95 % CI −6.00 to −3.00"
+/// Writes the figures: "mean over 12 clips −4.50 mm, 95 % CI −6.00 to −3.00".
 std::string FiguresOf(const Beyond& beyond, const MetricWords& words, SamplingUnit unit) {
   if (!beyond.difference) return CountUnits(beyond.units, unit);
   std::string text = fmt::format("mean over {} {}{}", CountUnits(beyond.units, unit),
@@ -18,7 +18,7 @@ std::string FiguresOf(const Beyond& beyond, const MetricWords& words, SamplingUn
   return text;
 }
 
-/// Why no condition has a verdict beyond its worlds; the first reason given speaks for all.
+/// Says why no condition has a verdict beyond its worlds; the first reason given speaks for all.
 std::string WhyNone(const std::vector<Judged>& judged, SamplingUnit unit) {
   for (const Judged& j : judged) {
     const Beyond& beyond = j.comparison->beyond;
