@@ -11,6 +11,17 @@
 namespace etude {
 namespace {
 
+/// Gives the words for a metric, also for kOkShare.
+MetricWords GateWordsFor(const std::string& metric) {
+  if (metric != kOkShare) return WordsFor(metric);
+  return {.label = "cells that ended ok",
+          .suffix = " %",
+          .difference_suffix = " percentage points",
+          .scale = 100,
+          .is_share = true,
+          .direction = Direction::kHigherIsBetter};
+}
+
 std::string DifferenceText(const MetricMove& move, const MetricWords& words) {
   const Comparison& found = move.comparison;
   const auto difference = move.by_mean ? found.mean : found.difference;
@@ -88,16 +99,6 @@ std::string ValuesText(const TailWorld& world, const std::string& metric) {
 }
 
 }  // namespace
-
-MetricWords GateWordsFor(const std::string& metric) {
-  if (metric != kOkShare) return WordsFor(metric);
-  return {.label = "cells that ended ok",
-          .suffix = " %",
-          .difference_suffix = " percentage points",
-          .scale = 100,
-          .is_share = true,
-          .direction = Direction::kHigherIsBetter};
-}
 
 GateTableRow TableRow(const MetricMove& move) {
   const MetricWords words = GateWordsFor(move.identity.metric);

@@ -19,9 +19,6 @@ struct GateTableRow {
   bool fails = false;
 };
 
-/// Gives the words for a metric, also for kOkShare.
-MetricWords GateWordsFor(const std::string& metric);
-
 /// Gives one row per move that is not kSame: regressions first, each group in the order of the run.
 std::vector<GateTableRow> MovedRows(const SnapshotComparison& comparison);
 GateTableRow TableRow(const MetricMove& move);

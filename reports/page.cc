@@ -142,8 +142,7 @@ std::string Footer(const RunData& run) {
   return html + ".</p></footer>";
 }
 
-}  // namespace
-
+/// Writes captures of real films beside the simulated takes of a run, as a section of its page; "" when there are none.
 std::string RealTakesSection(const RunData& run, std::span<const RealTake> takes) {
   if (takes.empty()) return "";
   std::string html =
@@ -164,6 +163,8 @@ std::string RealTakesSection(const RunData& run, std::span<const RealTake> takes
   return html + "</tbody></table></div>" + LeftOutHtml(rows, kMostTableRows, "rows", "the CSV files in report/tables") +
          "</section>\n";
 }
+
+}  // namespace
 
 std::string WritePage(const RunData& run, const Media& media, std::span<const RealTake> real) {
   std::vector<ScenarioFindings> findings;

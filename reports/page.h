@@ -9,9 +9,6 @@
 
 namespace etude {
 
-/// Writes captures of real films beside the simulated takes of a run, as a section of its page; "" when there are none.
-std::string RealTakesSection(const RunData& run, std::span<const RealTake> takes);
-
 /// Writes the page that shows a run to people: verdict first, plain words, pictures; numbers folded away. It holds
 /// everything it needs, and forbids itself the network. `real`: captures of real films, shown beside the simulated
 /// ones.

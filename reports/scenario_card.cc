@@ -29,6 +29,19 @@ std::string DataUri(std::string_view type, const std::string& bytes) {
   return fmt::format("data:{};base64,{}", type, Base64(bytes));
 }
 
+/// Writes an <img> with the picture inside the page.
+std::string ImageElement(const Picture& picture) {
+  return fmt::format("<img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\">", picture.width, picture.height,
+                     EscapeMarkup(picture.caption), DataUri("image/png", picture.png));
+}
+
+/// Writes a <figure> with the still and its caption.
+std::string StillElement(const Still& still) {
+  return fmt::format(
+      "<figure><img alt=\"{0}\" src=\"data:image/jpeg;base64,{1}\"><figcaption>{0}</figcaption></figure>",
+      EscapeMarkup(still.caption), still.jpeg_base64);
+}
+
 // The data is embedded as a JSON element beside the canvas, which the browser never runs.
 std::string ChartFigure(const Chart& chart, const std::string& id) {
   return fmt::format(
@@ -160,17 +173,6 @@ std::string Plates(const ScenarioSummary& scenario, const Media& media) {
 }
 
 }  // namespace
-
-std::string ImageElement(const Picture& picture) {
-  return fmt::format("<img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\">", picture.width, picture.height,
-                     EscapeMarkup(picture.caption), DataUri("image/png", picture.png));
-}
-
-std::string StillElement(const Still& still) {
-  return fmt::format(
-      "<figure><img alt=\"{0}\" src=\"data:image/jpeg;base64,{1}\"><figcaption>{0}</figcaption></figure>",
-      EscapeMarkup(still.caption), still.jpeg_base64);
-}
 
 std::string FilmElement(const Film& film, bool plays_at_once) {
   const Picture& poster = film.poster;

@@ -7,12 +7,6 @@
 
 namespace etude {
 
-/// Writes an <img> with the picture inside the page.
-std::string ImageElement(const Picture& picture);
-
-/// Writes a <figure> with the still and its caption.
-std::string StillElement(const Still& still);
-
 /// Writes a film inside the page with its caption: a <figure> with <video>, else its poster and why there is no film,
 /// else that reason alone, if there is any.
 std::string FilmElement(const Film& film, bool plays_at_once);

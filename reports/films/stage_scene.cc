@@ -7,7 +7,6 @@
 
 #include "reports/films/look.h"
 #include "reports/films/studio.h"
-#include "reports/films/transition_panel.h"
 #include "reports/films/transition_plots.h"
 #include "sim/character/characters.h"
 #include "sim/character/posed.h"

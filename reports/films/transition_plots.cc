@@ -169,4 +169,10 @@ void DrawDistanceBars(Canvas& canvas, const Box& box, const TransitionFacts& fac
   }
 }
 
+std::string CountdownWords(const std::string& wanted, int time, int last_point, double rate_hz) {
+  if (time < 0) return "";
+  if (time <= last_point) return fmt::format("{} in {} s", wanted, FormatFixed((last_point - time) / rate_hz, 2));
+  return fmt::format("waited {} s", FormatFixed(last_point / rate_hz, 2));
+}
+
 }  // namespace etude

@@ -40,4 +40,8 @@ void DrawDistanceBars(Canvas& canvas, const Box& box, const TransitionFacts& fac
 /// Tells a point in words: "d 0.384 < 0.4 · front half"; of one of two points "1 of 2 · d 0.21 < 0.4 · in-between".
 std::string PointWords(const TransitionFacts& facts, std::size_t point);
 
+/// Counts down: "side kick in 0.34 s" from the request until the wanted clip plays, "waited 0.57 s" then; "" before.
+/// `time` and `last_point` are frames after the request.
+std::string CountdownWords(const std::string& wanted, int time, int last_point, double rate_hz);
+
 }  // namespace etude

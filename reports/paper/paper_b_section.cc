@@ -169,12 +169,15 @@ std::string FloatsLatex(const std::vector<PaperTable>& tables, std::size_t most,
   return text;
 }
 
-}  // namespace
-
+/// Is true when any cell of this scenario keeps such curves: its task is `ik`, and it asks to `record:
+/// [effector_curves]`.
 bool HasEffectorCurves(const RunData& run, const ScenarioSummary& scenario) {
   return scenario.task == "ik" && KeepsSeries(run, scenario, "head_position_error_cm");
 }
 
+/// Draws paper B's figure 5.2: how each end effector's position error and the errors of its three axes fall from
+/// iteration to iteration, all methods in one small panel each, on a logarithmic axis; thin the first trial, thick the
+/// median of all. One folding figure per condition; "" for a scenario whose cells keep no such curves.
 std::string EffectorCurvesHtml(const RunData& run, const ScenarioSummary& scenario) {
   if (!HasEffectorCurves(run, scenario)) return "";
   const CellSeriesIndex series(run);
@@ -191,6 +194,8 @@ std::string EffectorCurvesHtml(const RunData& run, const ScenarioSummary& scenar
   }
   return html;
 }
+
+}  // namespace
 
 bool ShowsPaperB(const RunData& run, const ScenarioSummary& scenario) {
   return HasPaperBTables(run, scenario) || HasEffectorCurves(run, scenario);

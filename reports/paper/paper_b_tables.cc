@@ -77,6 +77,13 @@ constexpr AngleFigures kBoundAngles{{
 }};
 // clang-format on
 
+/// Gives the heads of an effector's six columns, and of a joint's three.
+std::vector<PaperColumns> PaperBErrorColumns() {
+  return {{"position error (cm)", {"X", "Y", "Z"}}, {"orientation error (degrees)", {"X", "Y", "Z"}}};
+}
+
+std::vector<PaperColumns> PaperBAngleColumns() { return {{"rotation difference (degrees)", {"X", "Y", "Z"}}}; }
+
 PaperTable ErrorTable(const char* caption, const ErrorFigures& figures) {
   PaperTable table{caption, PaperBErrorColumns(), {}};
   for (std::size_t i = 0; i < figures.size(); ++i) {
@@ -292,12 +299,6 @@ class Study {
 };
 
 }  // namespace
-
-std::vector<PaperColumns> PaperBErrorColumns() {
-  return {{"position error (cm)", {"X", "Y", "Z"}}, {"orientation error (degrees)", {"X", "Y", "Z"}}};
-}
-
-std::vector<PaperColumns> PaperBAngleColumns() { return {{"rotation difference (degrees)", {"X", "Y", "Z"}}}; }
 
 std::vector<PaperTable> PaperBPrintedErrors() {
   return {ErrorTable("Table 5.1 (a), 5.2 (a): before", kBefore),

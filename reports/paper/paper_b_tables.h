@@ -41,10 +41,6 @@ inline constexpr std::array<PaperBJoint, 14> kPaperBJoints{{{"R_shoulder", kTree
                                                             {"L_knee", kTreeLeftKnee},
                                                             {"L_ankle", kTreeLeftAnkle}}};
 
-/// Gives the heads of an effector's six columns, and of a joint's three.
-std::vector<PaperColumns> PaperBErrorColumns();
-std::vector<PaperColumns> PaperBAngleColumns();
-
 /// Gives tables 5.1 (a)–(c) and 5.2 (b), (d), (e) as the paper prints them, of its one pose. 5.2 (a) and (c) repeat 5.1
 /// (a) and (c).
 std::vector<PaperTable> PaperBPrintedErrors();

@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "reports/plots/error_budget.h"
 #include "reports/plots/estimation.h"
-#include "reports/plots/strips.h"
 #include "reports/plots/survival.h"
 #include "reports/plots/verdict_curves.h"
 #include "reports/plots/verdict_tables.h"

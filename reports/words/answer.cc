@@ -208,8 +208,8 @@ std::string AgainstRival(const ScenarioSummary& scenario, const std::string& met
   return "; " + (elsewhere.empty() ? phrase : is_led ? phrase + " and " + elsewhere : phrase + ", but " + elsewhere);
 }
 
-}  // namespace
-
+/// Writes how a method did against another, over all its conditions, in a sentence with the figures that carry it and
+/// the verdict on these worlds. `judged` must not be empty.
 std::string SentenceOf(const std::vector<Judged>& judged, SamplingUnit unit) {
   const Comparison& first = *judged.front().comparison;
   const MetricWords words = WordsFor(first.metric);
@@ -221,6 +221,8 @@ std::string SentenceOf(const std::vector<Judged>& judged, SamplingUnit unit) {
   beyond.front() = beyond.front() == 'o' ? 'O' : 'F';
   return fmt::format("{} on {}{}. {}.{}", sentence, TheseUnits(unit), why, beyond, UnpairedWords(judged));
 }
+
+}  // namespace
 
 std::optional<CostRatio> CostRatioOf(const std::vector<Judged>& judged) {
   std::optional<CostRatio> range;

@@ -8,10 +8,6 @@
 
 namespace etude {
 
-/// Writes how a method did against another, over all its conditions, in a sentence with the figures that carry it and
-/// the verdict on these worlds. `judged` must not be empty.
-std::string SentenceOf(const std::vector<Judged>& judged, SamplingUnit unit);
-
 /// Writes a scenario's first line: how `method` did against its baseline, and against the strongest other method:
 /// "better than “fixed”; needs 140 × the solver steps of “gauss-newton”". Where a cost is at least twice the other's,
 /// the ratio says it, else the verdict. Without rivals it is the first half alone. Where nothing is known beyond these

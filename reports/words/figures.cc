@@ -41,6 +41,15 @@ std::string GroupThousands(std::string digits) {
   return digits;
 }
 
+/// Gives the digits behind the point that show about three significant digits of `value`.
+int DecimalsFor(double value) {
+  const double size = std::abs(value);
+  if (size == 0 || size >= 100) return 0;
+  if (size >= 10) return 1;
+  if (size >= 1) return 2;
+  return size >= 0.1 ? 3 : 4;
+}
+
 }  // namespace
 
 MetricWords WordsFor(const std::string& metric_id) {
@@ -68,14 +77,6 @@ std::optional<double> TypicalValue(const MetricSummary& summary, const MetricWor
 std::string FormatValue(std::optional<double> value, const MetricWords& words) {
   if (!value || !std::isfinite(*value)) return std::string(kNoValue);
   return FormatNumber(*value * words.scale) + words.suffix;
-}
-
-int DecimalsFor(double value) {
-  const double size = std::abs(value);
-  if (size == 0 || size >= 100) return 0;
-  if (size >= 10) return 1;
-  if (size >= 1) return 2;
-  return size >= 0.1 ? 3 : 4;
 }
 
 std::string FormatFixed(double value, int decimals) {

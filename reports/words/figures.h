@@ -32,8 +32,6 @@ std::optional<double> TypicalValue(const MetricSummary& summary, const MetricWor
 /// Writes a value: "12.3°", "98 %"; kNoValue without one.
 std::string FormatValue(std::optional<double> value, const MetricWords& words);
 
-/// Gives the digits behind the point that show about three significant digits of `value`.
-int DecimalsFor(double value);
 /// Writes a number: "12.3", "1,284", "0.0021", "3.1e-06"; kNoValue when not finite.
 std::string FormatNumber(double value);
 /// Writes a number with the given digits behind the point, for figures that stand beside each other.

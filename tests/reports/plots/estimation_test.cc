@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "reports/plots/plot_section.h"
-#include "reports/plots/strips.h"
 #include "tests/reports/support/count_of.h"
 #include "tests/reports/support/unit_run.h"
 
