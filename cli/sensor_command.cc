@@ -1,7 +1,6 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>

@@ -1,6 +1,5 @@
 #include "reports/comparison_table.h"
 
-#include <fmt/core.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +8,6 @@
 
 #include "reports/badge.h"
 #include "reports/words/escape.h"
-#include "reports/words/figures.h"
 #include "reports/words/judged.h"
 
 namespace etude {

@@ -5,9 +5,6 @@
 #include <algorithm>
 #include <array>
 
-#include "bench/model/row.h"
-#include "reports/words/figures.h"
-
 namespace etude {
 namespace {
 

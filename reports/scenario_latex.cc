@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "reports/comparison_table.h"
 #include "reports/paper/paper_a.h"

@@ -1,6 +1,5 @@
 #include "reports/clips/clip_facts.h"
 
-#include <fmt/core.h>
 #include <fmt/format.h>
 
 #include <algorithm>

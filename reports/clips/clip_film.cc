@@ -10,7 +10,6 @@
 #include "engine/retargeting/proportions.h"
 #include "reports/clips/clip_facts.h"
 #include "reports/films/look.h"
-#include "reports/films/studio.h"
 #include "sim/body/shape.h"
 #include "sim/character/characters.h"
 #include "sim/character/posed.h"

@@ -6,7 +6,6 @@
 #include <array>
 
 #include "bench/files/files.h"
-#include "reports/films/film.h"
 #include "reports/films/look.h"
 #include "sim/sensors/image_files.h"
 

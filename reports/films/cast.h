@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "bench/model/run_data.h"
 #include "reports/transitions/transition_facts.h"

@@ -9,7 +9,6 @@
 
 #include "engine/base/angles.h"
 #include "reports/films/look.h"
-#include "reports/films/session_parts.h"
 #include "reports/words/figures.h"
 #include "sim/character/characters.h"
 #include "sim/character/posed.h"

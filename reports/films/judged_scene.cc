@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "reports/films/look.h"
-#include "reports/films/session_parts.h"
 #include "reports/words/figures.h"
 
 namespace etude {

@@ -12,7 +12,6 @@
 #include "reports/films/coached_scene.h"
 #include "reports/films/coached_session.h"
 #include "reports/films/convergence_scene.h"
-#include "reports/films/film.h"
 #include "reports/films/judged_scene.h"
 #include "reports/films/judged_session.h"
 #include "reports/films/stage_scene.h"

@@ -5,10 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reports/films/film.h"
 #include "reports/films/look.h"
-#include "reports/films/studio.h"
-#include "reports/films/transition_plots.h"
 #include "reports/transitions/transition_section.h"
 #include "reports/words/figures.h"
 #include "sim/character/characters.h"

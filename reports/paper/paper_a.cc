@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include "engine/fuzzy/fuzzy_system.h"
 #include "engine/fuzzy/shape_text.h"

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "reports/words/escape.h"
-#include "reports/words/figures.h"
 
 namespace etude {
 namespace {

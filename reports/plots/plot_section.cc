@@ -10,7 +10,6 @@
 #include "reports/plots/verdict_curves.h"
 #include "reports/plots/verdict_tables.h"
 #include "reports/words/answer.h"
-#include "reports/words/escape.h"
 #include "reports/words/figures.h"
 
 namespace etude {

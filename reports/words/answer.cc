@@ -6,8 +6,6 @@
 #include <cmath>
 
 #include "reports/words/figures.h"
-#include "reports/words/findings.h"
-#include "reports/words/judged.h"
 
 namespace etude {
 namespace {

@@ -1,14 +1,11 @@
 #include "reports/words/findings.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <map>
 #include <tuple>
 
 #include "reports/words/answer.h"
 #include "reports/words/figures.h"
-#include "reports/words/judged.h"
 
 namespace etude {
 namespace {
