@@ -107,7 +107,7 @@ Result<std::vector<ComparedColumn>> CompareWithReference(const MarkerMotion& ref
   const MarkerMotion joints = JointsOfReference(reference);
   std::vector<ComparedColumn> columns{CompareColumn("all", JointMarkers(person.motion), joints)};
   const std::vector<CameraPair> pairs = PairsOf(take.cameras.size());
-  const OnProgress tell = TellOf("pairs of cameras");
+  const OnProgress tell = ProgressOf("pairs of cameras");
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     tell(i, pairs.size());
     const auto pair = Recover(PairOf(take, pairs[i]), options, reference.rate_hz);

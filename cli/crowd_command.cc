@@ -74,26 +74,26 @@ class CrowdFilm {
 
 double ProcessorTimeMs() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-struct Told {
+struct Timings {
   std::int64_t met = 0, steps = 0;
   std::vector<double> times_ms;  ///< of each frame
 };
 
-void Tell(const CrowdCommandOptions& options, Told told) {
+void Tell(const CrowdCommandOptions& options, Timings timings) {
   const double count = static_cast<double>(options.crowd.characters) * options.crowd.frames;
   fmt::print("{} characters, {} frames at {:g} Hz, gauss-newton in batches of {}\n", options.crowd.characters,
              options.crowd.frames, options.crowd.rate_hz, options.in_float ? "floats" : "doubles");
   fmt::print("{:.2f} % of all poses meet their targets, after {:.2f} steps\n",
-             100 * static_cast<double>(told.met) / count, static_cast<double>(told.steps) / count);
-  const double first = told.times_ms.front();
-  std::sort(told.times_ms.begin() + 1, told.times_ms.end());
+             100 * static_cast<double>(timings.met) / count, static_cast<double>(timings.steps) / count);
+  const double first = timings.times_ms.front();
+  std::sort(timings.times_ms.begin() + 1, timings.times_ms.end());
   const auto at = [&](double share) {
-    return told.times_ms[1 + static_cast<std::size_t>(share * static_cast<double>(told.times_ms.size() - 2))];
+    return timings.times_ms[1 + static_cast<std::size_t>(share * static_cast<double>(timings.times_ms.size() - 2))];
   };
   fmt::print(
       "ms of one core a frame, of {:.1f} that there are: median {:.2f}, p99 {:.2f}, largest {:.2f}; the standing "
       "start {:.2f}\n",
-      1000 / options.crowd.rate_hz, at(0.5), at(0.99), told.times_ms.back(), first);
+      1000 / options.crowd.rate_hz, at(0.5), at(0.99), timings.times_ms.back(), first);
 }
 
 /// Follows the crowd frame by frame. False when Ctrl-C came.
@@ -106,20 +106,20 @@ Result<bool> FollowCrowd(const CrowdCommandOptions& options) {
   }
   const Interrupt interrupt;
   Crowd crowd(worlds);
-  Told told;
+  Timings timings;
   IkOptions ik;
   ik.max_iterations = options.steps;
   for (int frame = 0; frame < options.crowd.frames; ++frame) {
     if (*interrupt.requested()) return false;
     const double begin = ProcessorTimeMs();
     const auto [met, steps] = crowd.FollowNext(ik, options.in_float ? Precision::kFloat : Precision::kDouble);
-    told.times_ms.push_back(ProcessorTimeMs() - begin);
-    told.met += met;
-    told.steps += steps;
+    timings.times_ms.push_back(ProcessorTimeMs() - begin);
+    timings.met += met;
+    timings.steps += steps;
     if (film) RETURN_IF_ERROR(film->Add(frame, worlds[0].tree, crowd, met));
   }
   if (film) RETURN_IF_ERROR(film->Finish());
-  Tell(options, std::move(told));
+  Tell(options, std::move(timings));
   return true;
 }
 

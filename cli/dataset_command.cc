@@ -41,7 +41,7 @@ int ExportCommand(const ExportOptions& given) {
   const Interrupt interrupt;
   ExportOptions options = given;
   options.stop = interrupt.requested();
-  const auto outcome = ExportSuite(options, TellOf("worlds"));
+  const auto outcome = ExportSuite(options, ProgressOf("worlds"));
   if (!outcome) return Complain(outcome.error());
   if (outcome->stopped) return TellStopped();
   fmt::print("{} problems in {}{}\nNext: give away {}/inputs, then etude score {} PREDICTIONS -o RESULT\n",

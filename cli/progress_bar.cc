@@ -52,7 +52,7 @@ void ProgressBar::Show(double share, const std::string& what, const std::string&
   }
 }
 
-OnProgress TellOf(std::string what) {
+OnProgress ProgressOf(std::string what) {
   return [=, bar = ProgressBar(ProgressBar::Begins::kWhenItTakesLong)](std::size_t done, std::size_t all) mutable {
     bar.Show(all == 0 ? 1 : static_cast<double>(done) / static_cast<double>(all),
              fmt::format("{}/{} {}", done, all, what));
@@ -62,7 +62,7 @@ OnProgress TellOf(std::string what) {
 FilmWatch WatchFilms(const Interrupt& interrupt) {
   const auto tell = [of = std::string(), tell = OnProgress()](const std::string& file, std::size_t done,
                                                               std::size_t frames) mutable {
-    if (file != of) tell = TellOf("frames of " + file);
+    if (file != of) tell = ProgressOf("frames of " + file);
     of = file;
     tell(done, frames);
   };

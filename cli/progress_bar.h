@@ -34,7 +34,7 @@ class ProgressBar {
 };
 
 /// Makes a callback that shows how far some work is ("12/300 clips") once it takes long.
-OnProgress TellOf(std::string what);
+OnProgress ProgressOf(std::string what);
 
 /// Makes a watch that shows of each film how many of its frames are drawn, and that Ctrl-C stops.
 FilmWatch WatchFilms(const Interrupt& interrupt);

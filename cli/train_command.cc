@@ -107,7 +107,7 @@ Result<std::vector<bool>> ChooseHeldOut(const std::vector<std::string>& names, c
 Result<Split> LoadSplit(const TrainOptions& options) {
   ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
   ASSIGN_OR_RETURN(const auto references, ExpandAll(options.clips));
-  ASSIGN_OR_RETURN(auto library, LoadClips(references, {}, reading, TellOf("clips read")));
+  ASSIGN_OR_RETURN(auto library, LoadClips(references, {}, reading, ProgressOf("clips read")));
   std::vector<std::string> names;
   std::vector<BodyMotion> motions;
   for (LibraryClip& clip : library.clips) {
@@ -230,19 +230,19 @@ constexpr const char* kHeader =
 Result<Trained> TrainLearnt(const TrainOptions& options) {
   ASSIGN_OR_RETURN(const auto references, ExpandAll(options.clips));
   ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
-  ASSIGN_OR_RETURN(const ClipLibrary library, LoadClips(references, {}, reading, TellOf("clips read")));
+  ASSIGN_OR_RETURN(const ClipLibrary library, LoadClips(references, {}, reading, ProgressOf("clips read")));
   const Repertoire repertoire = RepertoireOf(library);
   if (repertoire.taught.size() < 2) {
     return Fail({}, "{} labelled clips; a recogniser learns from two at least", repertoire.taught.size());
   }
-  RecogniserTraining training{.seed = options.seed, .progress = TellOf("sessions")};
+  RecogniserTraining training{.seed = options.seed, .progress = ProgressOf("sessions")};
   training.sessions = options.sessions.value_or(training.sessions);
   return Trained{TrainRecogniser(repertoire, training), fmt::format(kHeader, "learnt", "recogniser", training.sessions,
                                                                     training.seed, Join(NamesOf(repertoire.taught)))};
 }
 
 Result<Trained> TrainCoachedOf(const TrainOptions& options) {
-  CoachedTraining training{.seed = options.seed, .progress = TellOf("sessions")};
+  CoachedTraining training{.seed = options.seed, .progress = ProgressOf("sessions")};
   training.sessions = options.sessions.value_or(training.sessions);
   ASSIGN_OR_RETURN(LearntModel model, TrainCoached(options.clips, training));
   return Trained{std::move(model),

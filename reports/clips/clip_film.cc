@@ -96,7 +96,7 @@ Figure ClipActor::FigureAt(std::size_t frame) const {
 Shot::Shot(ClipActor actor, Viewpoint from, int smoothing) : actor_(std::move(actor)) {
   const BodyMotion& motion = actor_.motion();
   const FloorMove turn{TurnFor(from) - Heading(motion.poses.front()), 0, 0};
-  for (const glm::dvec3& followed : FollowedWay(motion, smoothing)) {
+  for (const glm::dvec3& followed : CameraPath(motion, smoothing)) {
     const glm::dvec3 turned = turn.Apply(followed);
     placements_.push_back({turn.yaw, -turned.x, -turned.z});
   }
@@ -106,8 +106,8 @@ Figure Shot::PlacedFigure(int frame) const {
   return Placed(actor_.FigureAt(static_cast<std::size_t>(frame)), PlacementAt(frame));
 }
 
-void Shot::Include(const std::vector<int>& frames, Sight& sight) const {
-  for (const int frame : frames) Studio::Include(PlacedFigure(frame), sight);
+void Shot::Include(const std::vector<int>& frames, ViewBounds& bounds) const {
+  for (const int frame : frames) Studio::Include(PlacedFigure(frame), bounds);
 }
 
 void Shot::Draw(Canvas& canvas, const Box& box, const Studio& studio, Renderer& renderer, int frame) const {
@@ -141,9 +141,9 @@ Result<bool> FilmClip(ClipActor actor, const FilmOptions& options, const std::fi
                       Renderer& renderer) {
   const ClipFacts facts = FactsOf(actor.clip());
   const Shot shot(std::move(actor), options.from, kSmoothing);
-  Sight sight;
-  shot.Include(SpreadFrames(shot, kLookedAt), sight);
-  const Studio studio(options.width, options.height, kDetail, sight);
+  ViewBounds bounds;
+  shot.Include(SpreadFrames(shot, kLookedAt), bounds);
+  const Studio studio(options.width, options.height, kDetail, bounds);
   const auto rate = static_cast<int>(std::lround(shot.actor().motion().rate_hz));
   ASSIGN_OR_RETURN(auto encoder, Encoder::Start(path, options.width, options.height, rate));
   const Box whole{0, 0, static_cast<double>(options.width), static_cast<double>(options.height)};

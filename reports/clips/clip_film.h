@@ -53,7 +53,7 @@ enum class Viewpoint { kFront, kThreeQuarter, kSide };
 /// A clip before the camera: its figure, and where it is put in every frame.
 class Shot {
  public:
-  /// Puts the clip before the camera; `smoothing` is FollowedWay's: 0 keeps a walker in the middle of every picture.
+  /// Puts the clip before the camera; `smoothing` is CameraPath's: 0 keeps a walker in the middle of every picture.
   Shot(ClipActor actor, Viewpoint from, int smoothing);
 
   const ClipActor& actor() const { return actor_; }
@@ -63,8 +63,8 @@ class Shot {
   const FloorMove& PlacementAt(int frame) const { return placements_[static_cast<std::size_t>(frame)]; }
   Figure PlacedFigure(int frame) const;
 
-  /// Widens `sight` so that it holds these frames' figures.
-  void Include(const std::vector<int>& frames, Sight& sight) const;
+  /// Widens `bounds` so that it holds these frames' figures.
+  void Include(const std::vector<int>& frames, ViewBounds& bounds) const;
   /// Draws a frame, with a dot on the left hand and the left foot.
   void Draw(Canvas& canvas, const Box& box, const Studio& studio, Renderer& renderer, int frame) const;
 

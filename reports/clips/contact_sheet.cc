@@ -100,9 +100,9 @@ Result<std::string> DrawContactSheet(std::vector<ClipActor> actors, const SheetO
     return Fail({}, "the sheet would have {} × {} pixels; allowed: {} a side: fewer clips, fewer or smaller pictures",
                 width, height, kLargestSheet);
   }
-  Sight sight;
-  for (std::size_t i = 0; i < shots.size(); ++i) shots[i].Include(frames[i], sight);
-  const Studio studio(options.width, options.height, kSheetDetail, sight);
+  ViewBounds bounds;
+  for (std::size_t i = 0; i < shots.size(); ++i) shots[i].Include(frames[i], bounds);
+  const Studio studio(options.width, options.height, kSheetDetail, bounds);
 
   Canvas canvas(width, height);
   canvas.FillBox({0, 0, static_cast<double>(width), static_cast<double>(height)}, kBackdrop);

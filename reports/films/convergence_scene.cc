@@ -96,7 +96,7 @@ ConvergenceStage::ConvergenceStage(const IkRace& race, Renderer& renderer, int w
       lift_(-LowestPoint(race)),
       truth_(Placed(race.truth)),
       targets_(race.targets),
-      studio_(width, height, kDetail, SightOf(race)),
+      studio_(width, height, kDetail, BoundsOf(race)),
       ghost_(studio_.Silhouette(renderer, BodyOf(truth_, kInk))),
       rim_(OutlineOf(ghost_)) {}
 
@@ -110,24 +110,24 @@ BodyPose ConvergenceStage::Placed(const BodyPose& pose) const {
   return placed;
 }
 
-Sight ConvergenceStage::SightOf(const IkRace& race) const {
-  Sight sight;
-  Studio::Include(BodyOf(truth_, kInk), sight);
+ViewBounds ConvergenceStage::BoundsOf(const IkRace& race) const {
+  ViewBounds bounds;
+  Studio::Include(BodyOf(truth_, kInk), bounds);
   for (const IkPath& path : race.paths) {
-    for (const BodyPose& pose : path.poses) Studio::Include(BodyOf(Placed(pose), kInk), sight);
+    for (const BodyPose& pose : path.poses) Studio::Include(BodyOf(Placed(pose), kInk), bounds);
   }
   for (const auto& target : targets_) {
     constexpr double kMargin = 0.05;  // metres, for the ring
-    if (target) Studio::Include({{{Part::kHead, Placed(*target), Placed(*target), kMargin}}}, sight);
+    if (target) Studio::Include({{{Part::kHead, Placed(*target), Placed(*target), kMargin}}}, bounds);
   }
   // The bodies are centred in the space beside the text.
   const double left_over = box_.width * (1 - kWordsShare) / box_.height;
-  const glm::dvec2 extent = sight.high - sight.low;
+  const glm::dvec2 extent = bounds.high - bounds.low;
   const double width = std::max(extent.x, extent.y * left_over);
-  const double middle = (sight.low.x + sight.high.x) / 2;
-  sight.high.x = middle + width / 2;
-  sight.low.x = sight.high.x - width / (1 - kWordsShare);
-  return sight;
+  const double middle = (bounds.low.x + bounds.high.x) / 2;
+  bounds.high.x = middle + width / 2;
+  bounds.low.x = bounds.high.x - width / (1 - kWordsShare);
+  return bounds;
 }
 
 ColourImage ConvergenceStage::Picture(Renderer& renderer, const BodyPose& pose, const Paint& colour) const {

@@ -24,7 +24,7 @@ class ConvergenceStage {
  private:
   glm::dvec3 Placed(const glm::dvec3& point) const;
   BodyPose Placed(const BodyPose& pose) const;
-  Sight SightOf(const IkRace& race) const;
+  ViewBounds BoundsOf(const IkRace& race) const;
 
   Box box_;
   FloorMove move_;

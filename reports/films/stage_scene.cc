@@ -80,7 +80,7 @@ Result<CoachPanel> CoachPanel::Make(const CastCell& cell, int longest) {
   panel.motion_ = *FindTrack(*cell.recording, "coach");
   panel.CutTo(longest);
   PutOnStage(panel.motion_, panel.FirstPoint());
-  panel.followed_ = FollowedWay(panel.motion_, kCoachFollowFrames);
+  panel.followed_ = CameraPath(panel.motion_, kCoachFollowFrames);
   return panel;
 }
 

@@ -11,8 +11,8 @@
 
 namespace etude {
 
-/// The part of the camera's sight that has to be shown: tangents to the right and downwards of its axis.
-struct Sight {
+/// The part of the camera's view that has to be shown: tangents to the right and downwards of its axis.
+struct ViewBounds {
   glm::dvec2 low{1e9};
   glm::dvec2 high{-1e9};
 };
@@ -21,12 +21,12 @@ struct Sight {
 /// put there (FloorMove) instead of moving the camera: the grid passes below a walker.
 class Studio {
  public:
-  /// Widens `sight` so that it holds a figure that was put in place.
-  static void Include(const Figure& placed, Sight& sight);
+  /// Widens `bounds` so that it holds a figure that was put in place.
+  static void Include(const Figure& placed, ViewBounds& bounds);
 
-  /// Makes a studio for pictures of this size that show `sight`, as large as it fits. They are drawn `detail` times as
+  /// Makes a studio for pictures of this size that show `bounds`, as large as it fits. They are drawn `detail` times as
   /// large and shrunk: 2 makes edges smooth, less is faster.
-  Studio(int width, int height, double detail, const Sight& sight);
+  Studio(int width, int height, double detail, const ViewBounds& bounds);
 
   /// Draws a figure that `placement` has put in place; the grid moves with it. `ghost` (null = none), a Silhouette of
   /// another figure, shimmers behind this one.
@@ -54,6 +54,6 @@ Figure Placed(Figure figure, const FloorMove& move);
 /// Computes the way that a camera follows, for every frame: that of the hips, averaged over `smoothing` frames to
 /// either side. It stands still, which is calmer, when the whole motion stays within 45 cm of its middle. Needs at
 /// least one frame.
-std::vector<glm::dvec3> FollowedWay(const BodyMotion& motion, int smoothing);
+std::vector<glm::dvec3> CameraPath(const BodyMotion& motion, int smoothing);
 
 }  // namespace etude

@@ -24,7 +24,7 @@ std::vector<FloorMove> PlacementsOf(const TransitionPath& path) {
   const double yaw = -Heading(path.motion.poses[static_cast<std::size_t>(path.FrameAt(0))]);
   const FloorMove turn{yaw, 0, 0};
   std::vector<FloorMove> placements;
-  for (const glm::dvec3& followed : FollowedWay(path.motion, kFollowFrames)) {
+  for (const glm::dvec3& followed : CameraPath(path.motion, kFollowFrames)) {
     const glm::dvec3 turned = turn.Apply(followed);
     placements.push_back({yaw, -turned.x, -turned.z});
   }
@@ -75,17 +75,17 @@ TransitionStage::TransitionStage(const TransitionRace& race, int first, int last
       height_(height),
       bear_(BearCharacter()),
       placements_(AllPlacements(race)),
-      studio_(width, height, kStageDetail, SightOf(race, first, last)) {}
+      studio_(width, height, kStageDetail, BoundsOf(race, first, last)) {}
 
-Sight TransitionStage::SightOf(const TransitionRace& race, int first, int last) const {
-  Sight sight;
+ViewBounds TransitionStage::BoundsOf(const TransitionRace& race, int first, int last) const {
+  ViewBounds bounds;
   for (std::size_t i = 0; i < race.paths.size(); ++i) {
     for (int time = first; time <= last; time += kLookedAtEvery) {
       const auto frame = static_cast<std::size_t>(race.paths[i].FrameAt(time));
-      Studio::Include(Placed(PosedFigure(bear_, race.paths[i].motion.poses[frame]), placements_[i][frame]), sight);
+      Studio::Include(Placed(PosedFigure(bear_, race.paths[i].motion.poses[frame]), placements_[i][frame]), bounds);
     }
   }
-  return sight;
+  return bounds;
 }
 
 ColourImage TransitionStage::Picture(Renderer& renderer, const TransitionPath& path, std::size_t index, int frame,

@@ -24,7 +24,7 @@ class TransitionStage {
                       std::optional<int> ghost) const;
 
  private:
-  Sight SightOf(const TransitionRace& race, int first, int last) const;
+  ViewBounds BoundsOf(const TransitionRace& race, int first, int last) const;
 
   int width_, height_;
   Character bear_;

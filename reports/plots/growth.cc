@@ -23,7 +23,7 @@ struct SizedCondition {
   std::vector<SweptValue> rest;
 };
 
-std::optional<SizedCondition> TakeApart(const std::vector<SweptValue>& condition) {
+std::optional<SizedCondition> SplitCondition(const std::vector<SweptValue>& condition) {
   SizedCondition taken;
   for (const SweptValue& swept : condition) {
     if (swept.key != kFrames) {
@@ -132,7 +132,7 @@ std::vector<Growth> ComputeGrowth(const RunData& run, const ScenarioSummary& sce
   const CellSeriesIndex series(run);
   std::vector<Growth> all;
   for (const ConditionSummary& condition : scenario.conditions) {
-    const auto sized = TakeApart(condition.condition);
+    const auto sized = SplitCondition(condition.condition);
     if (!sized) continue;
     const std::string label = ConditionLabel(sized->rest);
     auto growth = std::ranges::find(all, label, &Growth::label);

@@ -106,9 +106,9 @@ TEST(ShotTest, WhoeverWalksStaysInThePicture) {
   for (const Viewpoint from : {Viewpoint::kFront, Viewpoint::kThreeQuarter, Viewpoint::kSide}) {
     const Shot shot(actor, from, 0);
     const std::vector<int> frames = SpreadFrames(shot, 9);
-    Sight sight;
-    shot.Include(frames, sight);
-    const Studio studio(100, 140, 1, sight);
+    ViewBounds bounds;
+    shot.Include(frames, bounds);
+    const Studio studio(100, 140, 1, bounds);
     for (const int frame : frames) EXPECT_TRUE(IsInside(studio, shot.PlacedFigure(frame))) << frame;
     // The control: not followed, it leaves.
     EXPECT_FALSE(IsInside(studio, Placed(actor.FigureAt(farthest - poses.begin()), shot.PlacementAt(0))));
@@ -117,10 +117,10 @@ TEST(ShotTest, WhoeverWalksStaysInThePicture) {
 
 TEST(ShotTest, FromTheFrontLeftIsSeenOnTheRightAndTheSideShowsTheProfile) {
   const ClipActor actor = ActorOf("builtin:clap", ActorKind::kBody);
-  Sight sight;
+  ViewBounds bounds;
   const Shot front(actor, Viewpoint::kFront, 0), side(actor, Viewpoint::kSide, 0);
-  front.Include({0}, sight);
-  const Studio studio(100, 140, 1, sight);
+  front.Include({0}, bounds);
+  const Studio studio(100, 140, 1, bounds);
   const auto seen = [&](const Shot& shot, Role role) {
     return studio.PixelOf(kBox, shot.PlacementAt(0).Apply(actor.motion().poses[0][role]));
   };
