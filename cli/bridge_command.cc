@@ -166,7 +166,8 @@ Result<int> BridgeCommand(const BridgeCommandOptions& options) {
   if (!options.output.empty()) RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
   ASSIGN_OR_RETURN(const auto loaded, LoadBridgeLibrary(options));
   if (!options.output.empty()) RETURN_IF_ERROR(WriteTags(loaded, options.output));
-  const Coverage coverage(loaded.library.tagged, loaded.match_rules, options.wait_s, ProgressOf("comparisons of a clip"));
+  const Coverage coverage(loaded.library.tagged, loaded.match_rules, options.wait_s,
+                          ProgressOf("comparisons of a clip"));
   if (options.as_json) {
     ASSIGN_OR_RETURN(const auto json, BridgeSummaryAsJson(loaded, coverage, options.wait_s));
     fmt::print("{}\n", json);
