@@ -19,7 +19,8 @@ namespace etude {
 namespace {
 
 constexpr const char* kClipExamples =
-    "\nA clip is a BVH or DeepMimic file, an animation of a glTF file (dance.glb#Jump; without # all of them), a pattern of files\n"
+    "\nA clip is a BVH or DeepMimic file, an animation of a glTF file (dance.glb#Jump; without # all of them), a "
+    "pattern of files\n"
     "('mocap/*.bvh'), or builtin:NAME (builtin:* all moves, builtin:acts, builtin:songs). docs/clips.md tells more.\n\n"
     "Try:\n"
     "  etude clip info 'mocap/*.bvh'                          what is in these files, and are they understood?\n"

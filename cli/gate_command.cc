@@ -138,8 +138,8 @@ const char* PromiseSentence(const SelfTestReport& report) {
 
 Result<int> SelfTest(const GateOptions& options) {
   ASSIGN_OR_RETURN(const auto rehearsal, ReadRehearsal(options.target, options.trials));
-  ASSIGN_OR_RETURN(const auto report, RunSelfTest([&](std::uint64_t seed) { return RunInProcess(rehearsal, seed); },
-                                                  options.repetitions));
+  ASSIGN_OR_RETURN(const auto report,
+                   RunSelfTest([&](std::uint64_t seed) { return RunInProcess(rehearsal, seed); }, options.repetitions));
   fmt::print("{} ({}), {} worlds per condition, {} comparisons per gate\n\n", rehearsal.setup.name,
              rehearsal.setup.file, rehearsal.setup.trials, report.comparisons);
   fmt::print("Alarms although nothing changed\n");

@@ -35,8 +35,8 @@ Result<int> ListClips() {
   fmt::print("Moves (builtin:*):\n");
   for (const std::string& name : BuiltinMoveNames()) {
     ASSIGN_OR_RETURN(const auto move, LoadBuiltinMove(name));
-    fmt::print("  builtin:{:<14} {:g} beats at {:g} ({:g}…{:g}) per minute, {:.1f} s, {} key poses\n", name,
-               move.beats, move.tempo_bpm, move.slowest_bpm, move.fastest_bpm, move.motion.DurationSeconds(),
+    fmt::print("  builtin:{:<14} {:g} beats at {:g} ({:g}…{:g}) per minute, {:.1f} s, {} key poses\n", name, move.beats,
+               move.tempo_bpm, move.slowest_bpm, move.fastest_bpm, move.motion.DurationSeconds(),
                move.key_poses.size());
   }
   fmt::print("Acts of the coach (builtin:acts); builtin:slow_MOVE is a move shown slowly:\n");
@@ -50,7 +50,8 @@ Result<int> ListClips() {
     fmt::print("  builtin:{:<14} {} moves at {:g} per minute, {:.0f} s\n", name, song.parts.size(), song.tempo_bpm,
                song.motion.DurationSeconds());
   }
-  fmt::print("Your own: BVH, glTF and DeepMimic files, 'dance.glb#Jump', patterns such as '~/mocap/*.bvh' (docs/clips.md).\n");
+  fmt::print(
+      "Your own: BVH, glTF and DeepMimic files, 'dance.glb#Jump', patterns such as '~/mocap/*.bvh' (docs/clips.md).\n");
   return kSuccess;
 }
 
@@ -133,7 +134,9 @@ void DefineList(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("list", "List what a scenario can name");
   command->require_subcommand(1);
   const auto list = [&](const char* name, const char* help, Listing what) {
-    command->add_subcommand(name, help)->callback([=, &action] { action = [=] { return Finish(ListCommand(what, "")); }; });
+    command->add_subcommand(name, help)->callback([=, &action] {
+      action = [=] { return Finish(ListCommand(what, "")); };
+    });
   };
   list("methods", "Tasks, what their methods are made of, and solvers", Listing::kMethods);
   list("clips", "Built-in clips", Listing::kClips);

@@ -60,12 +60,12 @@ Result<int> ReplayCommand(const ReplayCommandOptions& options) {
   }
   if (!options.pack_file.empty()) return Pack(options);
   ASSIGN_OR_RETURN(const auto checks, ReplayRun({.folder = options.target,
-                                 .cells = options.cells,
-                                 .sample = options.sample,
-                                 .jobs = options.jobs,
-                                 .outside = options.outside,
-                                 .sealing = options.sealing,
-                                 .stop = interrupt.requested()}));
+                                                 .cells = options.cells,
+                                                 .sample = options.sample,
+                                                 .jobs = options.jobs,
+                                                 .outside = options.outside,
+                                                 .sealing = options.sealing,
+                                                 .stop = interrupt.requested()}));
   const auto same = std::ranges::count(checks, true, &CellCheck::same);
   for (const CellCheck& check : checks) {
     if (!check.same) PrintDifference(check);

@@ -70,7 +70,8 @@ void DefineReport(CLI::App& app, Action& action) {
   AddUnsealed(*command, *sealing);
   command->callback([=, &action] {
     action = [=] {
-      return Finish(ReportCommand(*folder, *real, {.pictures = !*no_video, .whole_sessions = *whole_sessions}, *sealing));
+      return Finish(
+          ReportCommand(*folder, *real, {.pictures = !*no_video, .whole_sessions = *whole_sessions}, *sealing));
     };
   });
 }
@@ -84,7 +85,8 @@ void DefineRows(CLI::App& app, Action& action) {
   AddUnsealed(*command, *sealing);
   auto overwrite = std::make_shared<bool>(false);
   AddOverwrite(*command, *overwrite);
-  command->callback([=, &action] { action = [=] { return Finish(RowsCommand(*folder, *file, *overwrite, *sealing)); }; });
+  command->callback(
+      [=, &action] { action = [=] { return Finish(RowsCommand(*folder, *file, *overwrite, *sealing)); }; });
 }
 
 }  // namespace etude

@@ -195,7 +195,8 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   command->add_option("scenarios", options->scenarios, "Scenario files, or folders of them");
   command->add_option("-o,--output", options->output, "Result folder (default: out/<suite>-<seed>)");
   AddJobs(*command, options->jobs);
-  const auto world_options = AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map);
+  const auto world_options =
+      AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map);
   CLI::Option* shard_option =
       command->add_option("--shard", *shard, "Run part i of n, as i/n; etude merge makes one run of all parts");
   CLI::Option* overwrite = AddOverwrite(*command, options->overwrite, "Replace a folder that already holds a run");

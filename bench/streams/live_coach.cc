@@ -102,10 +102,7 @@ Result<void> MusicPosition::Take(std::string_view line, int number) {
 
 LiveCoach::LiveCoach(const DanceTransitions& transitions, const Recogniser& recogniser, LiveCoachOptions options,
                      OnLine on_line)
-    : transitions_(transitions),
-      recogniser_(recogniser),
-      options_(std::move(options)),
-      on_line_(std::move(on_line)) {}
+    : transitions_(transitions), recogniser_(recogniser), options_(std::move(options)), on_line_(std::move(on_line)) {}
 
 Result<void> LiveCoach::Follow(std::istream& stream, LiveStream& live) {
   std::vector<SensedFrame> frames;

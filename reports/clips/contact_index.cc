@@ -42,8 +42,8 @@ class ContactPicture {
       body_ += fmt::format(
           R"(<line x1="{}" x2="{}" y1="{:.1f}" y2="{:.1f}" class="threshold"/><text x="{}" y="{:.1f}" class="tick">{:g}</text>)"
           "\n",
-          kLabelWidth, kPictureWidth - kRightEdge, axis.At(threshold), axis.At(threshold), kLabelWidth - 6, axis.At(threshold) + 4,
-          threshold);
+          kLabelWidth, kPictureWidth - kRightEdge, axis.At(threshold), axis.At(threshold), kLabelWidth - 6,
+          axis.At(threshold) + 4, threshold);
     }
     std::string points;
     for (std::size_t f = 0; f < panel.values.size(); ++f) {
@@ -73,8 +73,8 @@ class ContactPicture {
   std::string Svg(const std::string& title) {
     const double seconds = frames_.high / rate_hz_, step = std::max(1.0, std::ceil(seconds / 12));
     for (double second = 0; second <= seconds; second += step) {
-      body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" class=\"time\">{:g} s</text>\n", frames_.At(second * rate_hz_), y_,
-                           second);
+      body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" class=\"time\">{:g} s</text>\n",
+                           frames_.At(second * rate_hz_), y_, second);
     }
     return fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1:.0f}\" viewBox=\"0 0 {0} {1:.0f}\">\n"

@@ -50,7 +50,8 @@ std::string CurveLine(const PlotCurve& curve, const Axis& across, const Axis& up
 std::string CurvePlotSvg(const std::vector<PlotCurve>& curves, CurveAxes axes, const std::string& title) {
   axes.across.from = kSmallLeft, axes.across.to = kSmallWidth - kSmallRight;
   axes.up.from = kSmallHeight - kSmallBottom, axes.up.to = kSmallTop;
-  std::string svg = BeginPanel(kSmallHeight, title, kSmallWidth, "panel") + UprightGrid(axes.up, kSmallLeft, kSmallWidth - kSmallRight) +
+  std::string svg = BeginPanel(kSmallHeight, title, kSmallWidth, "panel") +
+                    UprightGrid(axes.up, kSmallLeft, kSmallWidth - kSmallRight) +
                     PanelText(kSmallLeft, kSmallHeight - 5, "0", "start") +
                     PanelText(kSmallWidth - kSmallRight, kSmallHeight - 5, fmt::format("{}", axes.across.high), "end");
   for (const PlotCurve& curve : curves) {

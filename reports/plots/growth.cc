@@ -164,7 +164,8 @@ std::string GrowthPlotSvg(const std::vector<GrowthCurve>& curves, const std::str
   Axis frames = DecadesOf(curves, &GrowthPoint::frames), values = DecadesOf(curves, &GrowthPoint::value);
   frames.from = kGrowthLeft, frames.to = kGrowthWidth - kGrowthRight;
   values.from = kGrowthHeight - kGrowthBottom, values.to = kGrowthTop;
-  std::string svg = BeginPanel(kGrowthHeight, title, kGrowthWidth, "panel") + UprightGrid(values, kGrowthLeft, kGrowthWidth - kGrowthRight) +
+  std::string svg = BeginPanel(kGrowthHeight, title, kGrowthWidth, "panel") +
+                    UprightGrid(values, kGrowthLeft, kGrowthWidth - kGrowthRight) +
                     LyingGrid(frames, kGrowthTop, kGrowthHeight - kGrowthBottom) +
                     PanelText(kGrowthWidth - kGrowthRight, kGrowthHeight - 4, "frames in the library", "end");
   for (const GrowthCurve& curve : curves) {

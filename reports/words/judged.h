@@ -59,10 +59,10 @@ std::string_view OtherUnits(SamplingUnit unit);
 
 /// The finding of comparisons beyond their worlds, over all conditions.
 struct BeyondFinding {
-  bool on_these_only = true;       ///< under no condition is there a verdict beyond these worlds
-  bool as_on_these = false;        ///< under every condition there is one, the same as on these worlds
+  bool on_these_only = true;            ///< under no condition is there a verdict beyond these worlds
+  bool as_on_these = false;             ///< under every condition there is one, the same as on these worlds
   std::optional<Verdict> verdict = {};  ///< that all conditions with a verdict agree in
-  std::string words = {};          ///< "for other clips: worse", "on these clips only (4 clips, 6 are needed)"
+  std::string words = {};               ///< "for other clips: worse", "on these clips only (4 clips, 6 are needed)"
 };
 BeyondFinding BeyondInWords(const std::vector<Judged>& judged, SamplingUnit unit);
 
