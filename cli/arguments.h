@@ -1,19 +1,50 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace etude {
 
-/// What the command line asked for; gives the exit code.
+struct OutsideRules;
+enum class Sealing;
+
+/// The command that a command line asks for; gives the exit code.
 using Action = std::function<int()>;
 
 /// Defines every command with its options. Parsing a command line with `app` then leaves the chosen one in `action`.
 /// `command_line` is kept in host.json.
 void DefineCommands(CLI::App& app, const std::string& command_line, Action& action);
+
+// Options that several commands have.
+
+/// Adds --seed; without a value of its own `seed` keeps its default, which the help tells.
+CLI::Option* AddSeed(CLI::App& command, std::uint64_t& seed, const std::string& help);
+/// Adds --seed where nothing stands for what a scenario, or the program, has by default.
+CLI::Option* AddSeed(CLI::App& command, std::optional<std::uint64_t>& seed, const std::string& help);
+/// Adds -j, --jobs.
+CLI::Option* AddJobs(CLI::App& command, int& jobs);
+/// Adds --overwrite.
+CLI::Option* AddOverwrite(CLI::App& command, bool& overwrite, const std::string& help = "Replace a file that is there");
+/// Adds --seed, --trials, --clips and --joint-map, of every command that makes worlds of scenarios.
+std::array<CLI::Option*, 4> AddWorldOptions(CLI::App& command, std::optional<std::uint64_t>& seed,
+                                            std::optional<int>& trials, std::vector<std::string>& clips,
+                                            std::string& joint_map);
+/// Adds --unsealed, of every command that reads a run.
+void AddUnsealed(CLI::App& command, Sealing& sealing);
+/// Adds --no-fence and --allow-exec, of every command that runs methods outside.
+void AddOutsideRules(CLI::App& command, OutsideRules& rules);
+
+/// Checks an option's text: gives "" for a number from `low` to `high`, else the complaint. CLI::Range would let NaN
+/// through. `kind` says what the number is: "rate in Hz".
+std::function<std::string(const std::string& text)> NumberWithin(double low, double high, const std::string& kind);
 
 }  // namespace etude

@@ -1,23 +1,118 @@
-#include "cli/bridge_command.h"
-
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "bench/clips/clip_library.h"
 #include "bench/files/files.h"
-#include "cli/bridge_library.h"
+#include "bench/tasks/transition/stage.h"
+#include "cli/clip_reading.h"
 #include "cli/commands.h"
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "engine/transitions/tags_file/tags_file.h"
-#include "reports/bridges/bridge_summary.h"
+#include "reports/clips/bridge_summary.h"
+#include "sim/choreography/slow_demonstration.h"
 
 namespace etude {
 namespace {
+
+struct BridgeCommandOptions {
+  std::vector<std::string> clips;
+  std::vector<std::string> to;  ///< corrective clips; none = the coach's own among `clips`
+  std::string output;           ///< a tags file, "" = only the summary
+  std::string check;            ///< a tags file to be checked instead
+  std::string fuzzy;            ///< builtin:NAME or a file, "" = paper A's (of a check: as the file names it)
+  double threshold = 0.4, wait_s = 1;
+  int min_clips = 2, most_per_class = 0;
+  bool within_class = false, as_json = false, overwrite = false;
+  ClipReading reading;
+};
+
+constexpr const char* kBridgeExamples =
+    "\nA bridge frame is a frame fit for a transition: its pose occurs in several clips, its head is quiet. Two of\n"
+    "them match when their fuzzy distance is below the threshold. Clips are named as in etude clip --help;\n"
+    "docs/bridge-frames.md tells more.\n\n"
+    "Try:\n"
+    "  etude bridge 'builtin:*' builtin:acts -o tags.xml      the bear's moves and acts\n"
+    "  etude bridge 'mocap/*.bvh' --to wave.bvh               from which clips is there a way into wave.bvh?\n"
+    "  etude bridge 'mocap/*.bvh' --threshold 0.6 --json      everything, for another program\n"
+    "  etude bridge --check tags.xml 'mocap/*.bvh'            is the file valid, and does it fit these clips?";
+
+/// Is true of the clips by which a coach corrects (paper A, section 3.3): shaking the head, waving, a slow
+/// demonstration; and the puzzled act.
+bool IsCorrective(const std::string& source) {
+  const std::string slow = "builtin:" + std::string(kSlowDemonstrationPrefix);
+  const bool is_act = source == "builtin:head_shake" || source == "builtin:wave" || source == "builtin:puzzled";
+  return is_act || source.starts_with(slow);
+}
+
+/// Expands references into clips, each once, in the order of their first mention.
+Result<std::vector<std::string>> ListReferences(const std::vector<std::string>& named) {
+  auto all = ExpandAll(named);
+  if (!all) return all;
+  std::set<std::string> seen;
+  std::erase_if(*all, [&](const std::string& reference) { return !seen.insert(reference).second; });
+  return all;
+}
+
+/// Is true when a reference names the clip; that of a glTF file names all its animations.
+bool Names(const std::string& reference, const LibraryClip& clip) {
+  return clip.source == reference || clip.source.starts_with(reference + "#");
+}
+
+/// Names the clips; files of the same name are told apart by their folders.
+std::vector<std::string> UniqueNames(const std::vector<LibraryClip>& clips) {
+  std::vector<std::string> names;
+  for (const LibraryClip& clip : clips) {
+    const auto has_name = [&](const LibraryClip& other) { return other.name == clip.name; };
+    names.push_back(std::count_if(clips.begin(), clips.end(), has_name) > 1 ? clip.source : clip.name);
+  }
+  return names;
+}
+
+Result<BridgeLibrary> LoadBridgeLibrary(const BridgeCommandOptions& options) {
+  BridgeLibrary loaded;
+  ASSIGN_OR_RETURN(loaded.system, ReadFuzzy(options.fuzzy));
+  ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
+  ASSIGN_OR_RETURN(const auto wanted, ListReferences(options.to));
+  std::vector<std::string> named = options.clips;
+  named.insert(named.end(), wanted.begin(), wanted.end());
+  ASSIGN_OR_RETURN(const auto references, ListReferences(named));
+  ASSIGN_OR_RETURN(const auto clips, LoadClips(references, {}, reading, ProgressOf("clips read")));
+
+  std::vector<BodyMotion> motions;
+  for (const LibraryClip& clip : clips.clips) {
+    const bool is_wanted =
+        std::any_of(wanted.begin(), wanted.end(), [&](const std::string& reference) { return Names(reference, clip); });
+    if (wanted.empty() ? IsCorrective(clip.source) : is_wanted)
+      loaded.corrective.push_back(static_cast<int>(motions.size()));
+    motions.push_back(clip.motion);
+    loaded.sources.push_back(clip.source);
+  }
+  loaded.tag_rules.memberships = loaded.system.memberships;
+  loaded.tag_rules.weights = loaded.system.weights;
+  loaded.tag_rules.min_clips = options.min_clips;
+  loaded.tag_rules.most_per_class = options.most_per_class;
+  loaded.match_rules = {.weights = loaded.system.weights,
+                        .threshold = options.threshold,
+                        .pick = Pick::kFirst,
+                        .within_class = options.within_class};
+  loaded.library = MakeLibrary(UniqueNames(clips.clips), motions, JudgedProportions(), loaded.tag_rules);
+  loaded.library.in_betweens = BuildInBetweens(
+      loaded.library.tagged, {.weights = loaded.system.weights, .threshold = options.threshold, .tween = {}});
+  return loaded;
+}
 
 BridgeTags TagsOf(const BridgeLibrary& loaded) {
   return CollectTags(loaded.library, loaded.sources, loaded.system, loaded.tag_rules, loaded.match_rules);
 }
 
-/// The file's own rules, so that its clips are tagged as they were.
+/// Takes over the rules of a tags file, so that its clips are tagged as they were.
 BridgeCommandOptions OptionsOf(const BridgeTags& tags, BridgeCommandOptions options) {
   options.threshold = tags.threshold;
   options.within_class = tags.within_class;
@@ -30,32 +125,28 @@ BridgeCommandOptions OptionsOf(const BridgeTags& tags, BridgeCommandOptions opti
   return options;
 }
 
-int CheckTags(const BridgeCommandOptions& options) {
+Result<int> CheckTags(const BridgeCommandOptions& options) {
   if (options.clips.empty() && !options.fuzzy.empty()) {
-    return Complain({{"--fuzzy", 0, 0}, "is for tagging clips again; name those that the file should fit"});
+    return Fail({"--fuzzy"}, "is for tagging clips again; name those that the file should fit");
   }
-  const auto text = ReadWholeFile(options.check);
-  if (!text) return Complain(text.error());
-  const auto tags = ReadTagsFile(*text, options.check);
-  if (!tags) return Complain(tags.error());
+  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(options.check));
+  ASSIGN_OR_RETURN(const auto tags, ReadTagsFile(text, options.check));
   std::size_t bridge_frames = 0;
-  for (const ClipTags& clip : tags->clips) bridge_frames += clip.bridge_frames.size();
+  for (const ClipTags& clip : tags.clips) bridge_frames += clip.bridge_frames.size();
   if (options.clips.empty()) {
-    fmt::print("{}: {} clips, {} bridge frames, {} key poses; valid\n", options.check, tags->clips.size(),
-               bridge_frames, tags->keys.size());
+    fmt::print("{}: {} clips, {} bridge frames, {} key poses; valid\n", options.check, tags.clips.size(), bridge_frames,
+               tags.keys.size());
     return kSuccess;
   }
-  const auto loaded = LoadBridgeLibrary(OptionsOf(*tags, options));
-  if (!loaded) return Complain(loaded.error());
-  const TagsComparison comparison = CompareTags(*tags, TagsOf(*loaded));
+  ASSIGN_OR_RETURN(const auto loaded, LoadBridgeLibrary(OptionsOf(tags, options)));
+  const TagsComparison comparison = CompareTags(tags, TagsOf(loaded));
   if (!comparison.differences.empty()) {
     const std::size_t count = comparison.differences.size();
     const std::string rest = count == 1 ? "" : fmt::format("; {} differences in all", count);
-    return Complain(
-        {{options.check, 0, 0}, fmt::format("does not fit the clips: {}{}", comparison.differences.front(), rest)});
+    return Fail({options.check}, "does not fit the clips: {}{}", comparison.differences.front(), rest);
   }
   fmt::print("{}: {} clips, {} bridge frames, {} key poses; valid, and fits the clips\n", options.check,
-             comparison.clips, comparison.bridge_frames, tags->keys.size());
+             comparison.clips, comparison.bridge_frames, tags.keys.size());
   return kSuccess;
 }
 
@@ -68,29 +159,61 @@ Result<void> WriteTags(const BridgeLibrary& loaded, const std::string& path) {
   return WriteFileAtomically(path, text);
 }
 
-}  // namespace
-
-int BridgeCommand(const BridgeCommandOptions& options) {
+Result<int> BridgeCommand(const BridgeCommandOptions& options) {
   if (!options.check.empty()) return CheckTags(options);
-  if (options.clips.empty()) return Complain({{}, "etude bridge needs clips, or --check a tags file"});
-  if (!options.output.empty()) {
-    if (auto free = CheckOutput(options.output, options.overwrite); !free) return Complain(free.error());
-  }
-  const auto loaded = LoadBridgeLibrary(options);
-  if (!loaded) return Complain(loaded.error());
-  if (!options.output.empty()) {
-    if (auto written = WriteTags(*loaded, options.output); !written) return Complain(written.error());
-  }
-  const Coverage coverage(loaded->library.tagged, loaded->match_rules, options.wait_s, TellOf("comparisons of a clip"));
+  if (options.clips.empty()) return Fail({}, "etude bridge needs clips, or --check a tags file");
+  if (!options.output.empty()) RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
+  ASSIGN_OR_RETURN(const auto loaded, LoadBridgeLibrary(options));
+  if (!options.output.empty()) RETURN_IF_ERROR(WriteTags(loaded, options.output));
+  const Coverage coverage(loaded.library.tagged, loaded.match_rules, options.wait_s,
+                          ProgressOf("comparisons of a clip"));
   if (options.as_json) {
-    const auto json = BridgeSummaryAsJson(*loaded, coverage, options.wait_s);
-    if (!json) return Complain(json.error());
-    fmt::print("{}\n", *json);
+    ASSIGN_OR_RETURN(const auto json, BridgeSummaryAsJson(loaded, coverage, options.wait_s));
+    fmt::print("{}\n", json);
   } else {
-    fmt::print("{}", BridgeSummaryAsText(*loaded, coverage, options.wait_s));
+    fmt::print("{}", BridgeSummaryAsText(loaded, coverage, options.wait_s));
   }
   if (!options.output.empty()) TellWritten(options.output, options.as_json ? stderr : stdout);
   return kSuccess;
+}
+
+}  // namespace
+
+void DefineBridge(CLI::App& app, Action& action) {
+  auto options = std::make_shared<BridgeCommandOptions>();
+  CLI::App* command =
+      app.add_subcommand("bridge", "Find the frames at which one clip can lead into another, and tag them");
+  command->add_option("clips", options->clips, "The clips of one library");
+  CLI::Option* output = command->add_option("-o,--output", options->output, "The tags file to write (XML)");
+  CLI::Option* check =
+      command->add_option("--check", options->check, "A tags file to be checked, against clips if any");
+  check->excludes(output);
+  const auto add = [&](CLI::Option* option) { check->excludes(option); };
+  add(command->add_option("--to", options->to,
+                          "Clips that every other one must lead into; they join the library (default: head_shake,\n"
+                          "wave, puzzled and slow demonstrations, where they are among the clips)"));
+  add(command->add_option("--threshold", options->threshold, "Frames nearer than this match")
+          ->check(NumberWithin(1e-6, 6, "threshold"))
+          ->capture_default_str());
+  add(command->add_flag("--within-class", options->within_class, "Compare only frames with the same ten tags"));
+  add(command->add_option("--min-clips", options->min_clips, "In so many clips a bridge frame's tags occur at least")
+          ->check(CLI::Range(1, 1000))
+          ->capture_default_str());
+  add(command
+          ->add_option("--most-per-class", options->most_per_class,
+                       "Keep so many bridge frames per clip and pose, those most like other clips' (0: all)")
+          ->check(CLI::Range(0, 1000000))
+          ->capture_default_str());
+  add(command->add_option("--wait", options->wait_s, "How long a transition may wait, seconds")
+          ->check(NumberWithin(0, 3600, "time in seconds"))
+          ->capture_default_str());
+  command->add_option("--fuzzy", options->fuzzy, "Fuzzy system: builtin:NAME or a file (default: builtin:paper)");
+  add(command->add_flag("--json", options->as_json,
+                        "The summary for programs (docs/schemas/bridge-summary.schema.json)"));
+  AddOverwrite(*command, options->overwrite);
+  AddClipReading(*command, options->reading);
+  command->footer(kBridgeExamples);
+  command->callback([=, &action] { action = [=] { return Finish(BridgeCommand(*options)); }; });
 }
 
 }  // namespace etude

@@ -1,8 +1,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "cli/arguments.h"
 #include "cli/calibrate_command.h"
-#include "cli/common_arguments.h"
 #include "engine/cameras/dlt.h"
 
 namespace etude {

@@ -21,7 +21,7 @@ struct CalibrateOptions {
   bool overwrite = false;
 };
 
-/// `etude calibrate`: the cameras of a rig from point pairs or from pictures of boards, or (`print`) a board.
+/// `etude calibrate`: finds the cameras of a rig from point pairs or pictures of boards, or (`print`) draws a board.
 int CalibrateCommand(const CalibrateOptions& options);
 
 /// Defines `etude calibrate`.

@@ -1,22 +1,50 @@
-#include "cli/capture_command.h"
-
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include "bench/files/files.h"
-#include "cli/capture_views.h"
+#include "cli/capture.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
 #include "cli/output_file.h"
 #include "engine/formats/trc.h"
+#include "engine/keypoints/landmarks.h"
 
 namespace etude {
 namespace {
 
-/// False when it was interrupted.
-Result<bool> Capture(const CaptureCommandOptions& options) {
+constexpr const char* kCaptureExamples =
+    "\nTwo or more calibrated cameras film a person at the same time; this command says how the person moved. What "
+    "the\n"
+    "pictures show is told by keypoints of an estimator (--keypoints: a folder with, for each film, a folder of\n"
+    "OpenPose's JSON or a COCO keypoint file), by marks drawn by hand (--marks: a folder of annotation\n"
+    "pictures for each film), or by the films alone (--silhouettes: an adult's body is fitted to the outline of the\n"
+    "person who moves; --rooms has pictures of the empty room, else it is estimated from the films). Each entry's\n"
+    "name begins with its film's: cam01.mp4, cam01_json/, cam01.png.\n\n"
+    "Lenses are undone; persons are matched over cameras and time; each point comes from all cameras that agree on "
+    "it,\n"
+    "weighed by confidence; gaps up to --longest-gap are bridged; bones are as long as in the median of what was\n"
+    "seen; inverse kinematics brings all joints as near to their points as the bones allow, and a table tells how "
+    "near.\n"
+    "--person 2 asks for the one seen second most. Films that did not begin at the same moment are set in time by how\n"
+    "their keypoints move: --sync 1 looks up to a second either way, to fractions of a frame.\n\n"
+    "The rig is what `etude calibrate` wrote, or a calibration of OpenCV, Pose2Sim, Anipose or Qualisys. Films are\n"
+    "matched to its cameras by name (cam01.mp4 is cam_01), or in the order of --cameras. Films of other sizes than "
+    "the\n"
+    "rig's are refused until --fit says what was done to them: letterbox (scaled, bars added), stretch, crop.\n\n"
+    "With --reference FILE.trc a table tells how far the triangulated keypoints are from it, for all cameras and\n"
+    "every pair. Made of the same keypoints, that is agreement, not error. With --silhouettes it is the joints'\n"
+    "distance, and error; every pair of cameras is then captured by itself, which takes its time.\n\n"
+    "Try:\n"
+    "  etude capture --rig rig.yaml cam1.mp4 cam2.mp4 --keypoints json/ -o motion.bvh\n"
+    "  etude capture --rig Calib.toml cam*.mp4 --keypoints openpose/ --layout body_25b --fit letterbox \\\n"
+    "                -o motion.trc --points keypoints.trc --film overlay.mp4 --smooth 6\n"
+    "  etude capture --rig rig.yaml cam1.mp4 cam2.mp4 --silhouettes --stature 1.8 -o motion.bvh --film overlay.mp4";
+
+Result<int> CaptureCommand(const CaptureCommandOptions& options) {
   for (const std::string* path : {&options.output, &options.points, &options.film, &options.distances}) {
     if (!path->empty()) RETURN_IF_ERROR(CheckOutput(*path, options.overwrite));
   }
@@ -35,15 +63,73 @@ Result<bool> Capture(const CaptureCommandOptions& options) {
     return Fail({options.reference}, "{:g} frames a second, the films {:g}", reference->rate_hz, facts.rate_hz);
   }
   fmt::print("{} films, {} frames at {:g} Hz\n", views.size(), facts.frames, facts.rate_hz);
-  return options.silhouettes ? CaptureUnmarked(options, views, reference) : CaptureKeypoints(options, views, reference);
+  ASSIGN_OR_RETURN(const bool is_whole, options.silhouettes ? CaptureUnmarked(options, views, reference)
+                                                            : CaptureKeypoints(options, views, reference));
+  return is_whole ? kSuccess : TellStopped({{options.film}, "stopped; there is no film"});
 }
 
 }  // namespace
 
-int CaptureCommand(const CaptureCommandOptions& options) {
-  const auto is_whole = Capture(options);
-  if (!is_whole) return Complain(is_whole.error());
-  return *is_whole ? kSuccess : TellStopped({{options.film}, "stopped; there is no film"});
+void DefineCapture(CLI::App& app, Action& action) {
+  auto options = std::make_shared<CaptureCommandOptions>();
+  CLI::App* command = app.add_subcommand("capture", "The motion of a person out of films by several cameras");
+  command->add_option("films", options->films, "A film of each camera, all begun at the same moment (else: --sync)")
+      ->required();
+  command->add_option("--rig", options->rig, "The calibrated cameras")->required();
+  command->add_option("--cameras", options->cameras, "The rig's cameras in the order of the films: left,right")
+      ->delimiter(',')
+      ->allow_extra_args(false);  // films may follow
+  auto* keypoints = command->add_option("--keypoints", options->keypoints, "A folder with keypoints for each film");
+  auto* marks = command->add_option("--marks", options->marks, "A folder with annotation pictures for each film")
+                    ->excludes(keypoints);
+  auto* silhouettes =
+      command
+          ->add_flag("--silhouettes", options->silhouettes,
+                     "Neither: the outlines of the one person who moves before cameras that stand still")
+          ->excludes(keypoints)
+          ->excludes(marks);
+  command->add_option("--rooms", options->rooms, "A folder with a picture of the empty room for each film")
+      ->needs(silhouettes);
+  command->add_option("--stature", options->stature_m, "How tall the person is, m (0: found from the outlines)")
+      ->needs(silhouettes)
+      ->check(NumberWithin(0, 2.5, "stature in m"))
+      ->capture_default_str();
+  command->add_option("--layout", options->layout, "The order of keypoints, where their count does not tell it")
+      ->check(CLI::IsMember(KeypointLayoutNames()));
+  command->add_option("-o,--output", options->output, "The motion to write: .bvh, .glb, .trc or .csv")->required();
+  command->add_option("--points", options->points, "Write the triangulated keypoints, too (.trc)");
+  command->add_option("--film", options->film, "Write the skeleton drawn over the films, too (.mp4)");
+  auto* reference = command->add_option("--reference", options->reference,
+                                        "Compare the triangulated keypoints with these markers (.trc)");
+  command
+      ->add_option("--distances", options->distances, "Write that comparison, too, for `etude report --real` (.json)")
+      ->needs(reference);
+  command->add_option("--fit", options->fit, "How films of another size than the rig's came of its pictures")
+      ->check(CLI::IsMember({"none", "letterbox", "stretch", "crop"}))
+      ->capture_default_str();
+  command->add_option("--person", options->person, "Which person, the one seen most first")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  command->add_option("--smooth", options->smooth_hz, "Smooth places below this frequency, Hz (0: not at all)")
+      ->check(NumberWithin(0, 1000, "frequency in Hz"))
+      ->capture_default_str();
+  command->add_option("--longest-gap", options->longest_gap_s, "Gaps up to this are bridged, s")
+      ->check(NumberWithin(0, 60, "gap in s"))
+      ->capture_default_str();
+  command
+      ->add_option("--outlier", options->outlier_px,
+                   "A keypoint further than this from where the others say is left out, px (0: 3 % of the picture)")
+      ->check(NumberWithin(0, 10000, "distance in px"))
+      ->capture_default_str();
+  command
+      ->add_option("--sync", options->sync_s,
+                   "The films' clocks may differ by this much, s: how much is found from the keypoints (0: they agree)")
+      ->excludes(silhouettes)
+      ->check(NumberWithin(0, 60, "time in s"))
+      ->capture_default_str();
+  AddOverwrite(*command, options->overwrite, "Replace files that are there");
+  command->footer(kCaptureExamples);
+  command->callback([=, &action] { action = [=] { return Finish(CaptureCommand(*options)); }; });
 }
 
 }  // namespace etude

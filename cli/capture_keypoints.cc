@@ -8,21 +8,21 @@
 
 #include "bench/files/files.h"
 #include "bench/keypoints/read_people.h"
-#include "cli/capture_views.h"
-#include "cli/film_watch.h"
+#include "cli/capture.h"
 #include "cli/output_file.h"
+#include "cli/progress_bar.h"
 #include "engine/formats/trc.h"
 #include "engine/keypoints/agreement.h"
 #include "engine/keypoints/recover_person.h"
 #include "engine/keypoints/synchronise_people.h"
-#include "reports/captures/overlay_film.h"
+#include "reports/films/overlay_film.h"
 
 namespace etude {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// People of a film, moved into the rig's pixels.
+/// Reads the people of a film, moved into the rig's pixels.
 Result<SeenPeople> ReadPeople(const CaptureCommandOptions& options, const FilmedView& view) {
   const bool is_marks = !options.marks.empty();
   ASSIGN_OR_RETURN(const fs::path entry,
@@ -58,14 +58,14 @@ RecoverPersonOptions RecoverOptionsOf(const CaptureCommandOptions& options, cons
   return recover;
 }
 
-/// What of the session a person is recovered from.
+/// The cameras and people from which a person is recovered.
 struct SeenFilms {
   std::vector<ProjectionMatrix> cameras;  ///< without their lenses, as are the people
   std::vector<SeenPeople> people;         ///< at the first film's times
   std::vector<double> offsets;            ///< of each film, frames (`EstimateOffsets`)
 };
 
-/// Finds the films' clocks, says them, and brings everybody to the first one's time.
+/// Finds the films' clocks, prints them, and brings all people to the first one's time.
 void Synchronise(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
                  const RecoverPersonOptions& recover, SeenFilms& films) {
   const double rate = recover.rate_hz;
@@ -128,7 +128,7 @@ void PrintReport(const RecoveredPerson& person, const std::vector<FilmedView>& v
   if (held > 0) fmt::print("{} frames show too little and hold the last pose\n", held);
 }
 
-/// How far the joints of what is written are from the points that they were fitted to.
+/// Prints how far the joints of the written motion are from the points that they were fitted to.
 void PrintFit(const RecoveredPerson& person) {
   const MarkerMotion skeleton = JointMarkers(person.motion);
   const MarkerMotion points = JointMarkers(person.landmarks, person.motion.rate_hz);
@@ -141,7 +141,8 @@ void PrintFit(const RecoveredPerson& person) {
   }
 }
 
-/// The pairs' own points are found among the same persons by themselves, as if there were no other camera.
+/// Compares the person with a reference. Points of a pair of cameras are found among the same persons as if there were
+/// no other camera.
 std::vector<ComparedColumn> CompareWithReference(const MarkerMotion& reference, const RecoveredPerson& person,
                                                  const SeenFilms& films, const RecoverPersonOptions& options) {
   const auto column = [&](std::string heading, const RecoveredPerson& of) {
@@ -157,7 +158,7 @@ std::vector<ComparedColumn> CompareWithReference(const MarkerMotion& reference, 
   return columns;
 }
 
-/// False when it was interrupted.
+/// Writes the skeleton drawn over the films. False when it was interrupted.
 Result<bool> WriteFilm(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
                        const RecoveredPerson& person, std::size_t chosen, const std::vector<double>& offsets) {
   std::vector<OverlayView> overlays;
@@ -180,7 +181,7 @@ Result<bool> WriteFilm(const CaptureCommandOptions& options, const std::vector<F
   return is_whole;
 }
 
-/// The place of the person asked for among all that were found.
+/// Gives the place of the person asked for among all that were found.
 std::size_t ChosenOf(const RecoveredPerson& person, std::size_t number) {
   for (std::size_t i = 0; i < person.people.size(); ++i) {
     if (person.people[i].cameras >= 2 && number-- == 0) return i;

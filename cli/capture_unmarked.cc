@@ -5,14 +5,13 @@
 #include <optional>
 
 #include "bench/keypoints/read_people.h"
-#include "cli/capture_views.h"
-#include "cli/film_watch.h"
+#include "cli/capture.h"
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "engine/keypoints/agreement.h"
 #include "engine/unmarked/recover_unmarked.h"
-#include "reports/captures/overlay_film.h"
-#include "reports/captures/reduced_film.h"
+#include "reports/films/overlay_film.h"
+#include "reports/films/reduced_film.h"
 
 namespace etude {
 namespace {
@@ -21,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostPictures = 4000;  // small ones, of all films together: they are held in memory, 2 GB
 
-/// What the films show, small and without their lenses.
+/// The pictures of all films, small and without their lenses.
 struct ReducedTake {
   std::vector<Camera> cameras;
   std::vector<std::vector<ColourImage>> pictures;
@@ -82,8 +81,8 @@ ReducedTake PairOf(const ReducedTake& take, const CameraPair& pair) {
   return two;
 }
 
-/// The joints that a reference tells of: by their own names, or as an estimator's landmarks show them. What these leave
-/// to rules of thumb is no reference.
+/// Gives the joints of a reference, by their own names, or as an estimator's landmarks show them; joints that landmarks
+/// leave to rules of thumb are left out.
 MarkerMotion JointsOfReference(const MarkerMotion& reference) {
   const bool has_landmarks =
       std::ranges::any_of(reference.names, [](const std::string& name) { return FindLandmark(name).has_value(); });
@@ -108,7 +107,7 @@ Result<std::vector<ComparedColumn>> CompareWithReference(const MarkerMotion& ref
   const MarkerMotion joints = JointsOfReference(reference);
   std::vector<ComparedColumn> columns{CompareColumn("all", JointMarkers(person.motion), joints)};
   const std::vector<CameraPair> pairs = PairsOf(take.cameras.size());
-  const OnProgress tell = TellOf("pairs of cameras");
+  const OnProgress tell = ProgressOf("pairs of cameras");
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     tell(i, pairs.size());
     const auto pair = Recover(PairOf(take, pairs[i]), options, reference.rate_hz);
@@ -119,7 +118,7 @@ Result<std::vector<ComparedColumn>> CompareWithReference(const MarkerMotion& ref
   return columns;
 }
 
-/// False when it was interrupted.
+/// Writes the skeleton drawn over the films. False when it was interrupted.
 Result<bool> WriteFilm(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
                        const BodyMotion& motion) {
   std::vector<OverlayView> overlays;

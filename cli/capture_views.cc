@@ -1,5 +1,3 @@
-#include "cli/capture_views.h"
-
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 
 #include "bench/files/files.h"
 #include "bench/real_takes/real_take.h"
+#include "cli/capture.h"
 #include "cli/output_file.h"
 #include "engine/formats/bvh.h"
 #include "engine/formats/gltf/gltf.h"
@@ -19,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Letters and digits alone, small: cam_01 and Cam01 are one name.
+/// Reduces a name to its letters and digits in lower case: cam_01 and Cam01 are one name.
 std::string Bare(std::string_view name) {
   std::string bare;
   for (const char c : name) {

@@ -1,10 +1,17 @@
-#include <fmt/core.h>
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
 
 #include "bench/outside/conformance.h"
+#include "bench/outside/outside_method.h"
 #include "bench/process/child_process.h"
+#include "bench/tasks/registry.h"
 #include "cli/commands.h"
+#include "engine/base/names.h"
 
 namespace etude {
+namespace {
 
 int CheckMethodCommand(OutsideOptions options, const std::string& seat, bool is_fenced) {
   AdoptOrphans();
@@ -21,6 +28,43 @@ int CheckMethodCommand(OutsideOptions options, const std::string& seat, bool is_
   fmt::print("{} of {} checks passed{}\n", passed, checks,
              *all_passed ? "" : "; docs/outside-methods.md tells what a method has to do");
   return *all_passed ? kSuccess : kNothingWorked;
+}
+
+}  // namespace
+
+void DefineCheckMethod(CLI::App& app, Action& action) {
+  struct Options {
+    std::vector<std::string> command;
+    std::string task, seat;
+    double time_s = 10, memory_mb = 4096;
+    bool is_fenced = true;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("check-method", "Test whether a program speaks the protocol of methods");
+  command->add_option("command", options->command, "The program and its arguments, after --")->required();
+  std::vector<std::string> tasks, seats;
+  for (const TaskKind& kind : AllTaskKinds()) {
+    tasks.push_back(kind.name);
+    if (!kind.seats.empty()) seats.push_back(fmt::format("of task {}: {}", kind.name, Join(kind.seats)));
+  }
+  command->add_option("--task", options->task, "One of: " + Join(tasks))->required();
+  command->add_option("--seat", options->seat, "The program's place in a loop: " + Join(seats, "; "));
+  command->add_option("--time", options->time_s, "Seconds per problem, or per step of a session")
+      ->check(NumberWithin(0.001, 1e6, "time in seconds"))
+      ->capture_default_str();
+  command->add_option("--memory", options->memory_mb, "MB of memory")
+      ->check(NumberWithin(1, 1e6, "size in MB"))
+      ->capture_default_str();
+  command->add_flag("!--no-fence", options->is_fenced, "Run it without a fence, to debug it");
+  command->callback([=, &action] {
+    action = [=] {
+      return CheckMethodCommand({.command = options->command,
+                                 .task = options->task,
+                                 .time_s = options->time_s,
+                                 .memory_mb = options->memory_mb},
+                                options->seat, options->is_fenced);
+    };
+  });
 }
 
 }  // namespace etude

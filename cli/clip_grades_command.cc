@@ -1,10 +1,11 @@
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <memory>
 
 #include "bench/clips/clip_library.h"
 #include "bench/files/files.h"
-#include "cli/clip_commands.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
 #include "cli/output_file.h"
@@ -13,7 +14,15 @@
 namespace etude {
 namespace {
 
-/// A line per frame: ten features, 24 grades, ten tags, the pose.
+struct ClipGradesOptions {
+  std::vector<std::string> clips;
+  std::string output;                   ///< a CSV file of one clip, "" = none
+  std::string fuzzy = "builtin:paper";  ///< builtin:NAME or a file (docs/fuzzy-system.md)
+  bool overwrite = false;
+  ClipReading reading;
+};
+
+/// Writes a line per frame: ten features, 24 grades, ten tags, the pose.
 std::string GradesCsv(const FuzzyMotion& motion) {
   std::string csv = "frame,time_s";
   for (Feature feature : AllFeatures()) csv += fmt::format(",{}", FeatureName(feature));
@@ -30,7 +39,7 @@ std::string GradesCsv(const FuzzyMotion& motion) {
   return csv;
 }
 
-/// "at rest 62 %, arms up 20 %, no rule holds 18 %", the commonest first.
+/// Sums up the poses, the commonest first: "at rest 62 %, arms up 20 %, no rule holds 18 %".
 std::string PoseShares(const FuzzyMotion& motion, const RuleBase& rules) {
   std::vector<std::pair<std::size_t, std::string>> counts;
   for (const std::string& pose : rules.poses) {
@@ -58,35 +67,39 @@ void PrintSimilarities(const ClipLibrary& clips, const std::vector<FuzzyMotion>&
   }
 }
 
-}  // namespace
-
-int ClipGradesCommand(const ClipGradesOptions& options) {
-  if (!options.output.empty()) {
-    if (auto free = CheckOutput(options.output, options.overwrite); !free) return Complain(free.error());
-  }
-  const auto system = ReadFuzzy(options.fuzzy);
-  if (!system) return Complain(system.error());
-  const auto reading = ReadOptions(options.reading);
-  if (!reading) return Complain(reading.error());
-  const auto clips = LoadClips(options.clips, {}, *reading);
-  if (!clips) return Complain(clips.error());
-  if (!options.output.empty() && clips->clips.size() != 1) {
-    return Complain(
-        {{options.output, 0, 0}, fmt::format("holds the grades of one clip, found {}", clips->clips.size())});
+Result<int> ClipGradesCommand(const ClipGradesOptions& options) {
+  if (!options.output.empty()) RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
+  ASSIGN_OR_RETURN(const auto system, ReadFuzzy(options.fuzzy));
+  ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
+  ASSIGN_OR_RETURN(const auto clips, LoadClips(options.clips, {}, reading));
+  if (!options.output.empty() && clips.clips.size() != 1) {
+    return Fail({options.output}, "holds the grades of one clip, found {}", clips.clips.size());
   }
   std::vector<FuzzyMotion> motions;
-  for (const LibraryClip& clip : clips->clips) {
-    motions.push_back(FuzzifyMotion(clip.motion, StandingHipHeight(clip.motion.poses.front()), *system));
+  for (const LibraryClip& clip : clips.clips) {
+    motions.push_back(FuzzifyMotion(clip.motion, StandingHipHeight(clip.motion.poses.front()), system));
     fmt::print("{}: {} frames; {}\n", clip.name, motions.back().grades.size(),
-               PoseShares(motions.back(), system->rules));
+               PoseShares(motions.back(), system.rules));
   }
-  if (motions.size() > 1) PrintSimilarities(*clips, motions, system->weights);
+  if (motions.size() > 1) PrintSimilarities(clips, motions, system.weights);
   if (options.output.empty()) return kSuccess;
-  if (auto saved = WriteFileAtomically(options.output, GradesCsv(motions.front())); !saved) {
-    return Complain(saved.error());
-  }
+  RETURN_IF_ERROR(WriteFileAtomically(options.output, GradesCsv(motions.front())));
   TellWritten(options.output);
   return kSuccess;
+}
+
+}  // namespace
+
+void DefineGrades(CLI::App& clip, Action& action) {
+  auto options = std::make_shared<ClipGradesOptions>();
+  CLI::App* command =
+      clip.add_subcommand("grades", "Fuzzy features, grades, tags and poses of every frame; how alike clips are");
+  command->add_option("clips", options->clips, "Clips")->required();
+  command->add_option("-o,--output", options->output, "A table (.csv) of one clip, a line per frame");
+  command->add_option("--fuzzy", options->fuzzy, "Fuzzy system: builtin:NAME or a file")->capture_default_str();
+  AddOverwrite(*command, options->overwrite);
+  AddClipReading(*command, options->reading);
+  command->callback([=, &action] { action = [=] { return Finish(ClipGradesCommand(*options)); }; });
 }
 
 }  // namespace etude

@@ -1,5 +1,6 @@
 #include "cli/clip_reading.h"
 
+#include <CLI/CLI.hpp>
 #include <charconv>
 #include <utility>
 
@@ -28,6 +29,14 @@ Result<double> ReadUnit(const std::string& text) {
 }
 
 }  // namespace
+
+void AddClipReading(CLI::App& command, ClipReading& reading) {
+  command.add_option("--joint-map", reading.joint_map, "Which joints play which roles (etude clip map writes one)");
+  command.add_option("--unit", reading.unit,
+                     "Unit of the file: m, cm, mm, in, ft, cmu, or metres per unit (default: found by the stature)");
+  command.add_option("--up", reading.up, "Axis of the file that points up: y or z (default: found)")
+      ->check(CLI::IsMember({"y", "z"}));
+}
 
 Result<OpenOptions> ReadOptions(const ClipReading& reading) {
   OpenOptions options;

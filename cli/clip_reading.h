@@ -6,22 +6,35 @@
 
 #include "bench/clips/convert.h"
 #include "bench/clips/open_clip.h"
-#include "cli/clip_commands.h"
 #include "engine/base/result.h"
 #include "engine/fuzzy/fuzzy_system.h"
 
+namespace CLI {
+class App;
+}
+
 namespace etude {
 
-/// --joint-map, --unit and --up.
+/// The facts about files that cannot tell them themselves; "" = found out.
+struct ClipReading {
+  std::string joint_map;  ///< a joint-map file
+  std::string unit;       ///< "m", "cm", … or metres per unit as a number
+  std::string up;         ///< "y" or "z"
+};
+
+/// Adds --joint-map, --unit and --up, of every command that opens clips by themselves.
+void AddClipReading(CLI::App& command, ClipReading& reading);
+
+/// Reads --joint-map, --unit and --up.
 Result<OpenOptions> ReadOptions(const ClipReading& reading);
 
-/// --trim; nothing without it.
+/// Reads --trim; nothing without it.
 Result<std::optional<TimeSpan>> ReadTrim(const std::string& text);
 
-/// What all references stand for, in order.
+/// Expands all references to single clips, in order.
 Result<std::vector<std::string>> ExpandAll(const std::vector<std::string>& references);
 
-/// --fuzzy: builtin:NAME or a file; "" = paper A's.
+/// Reads --fuzzy: builtin:NAME or a file; "" is paper A's system.
 Result<FuzzySystem> ReadFuzzy(const std::string& reference);
 
 }  // namespace etude

@@ -1,23 +1,37 @@
+#include <CLI/CLI.hpp>
 #include <filesystem>
+#include <memory>
 
 #include "bench/files/files.h"
-#include "cli/clip_commands.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
-#include "cli/film_watch.h"
 #include "cli/output_file.h"
+#include "cli/progress_bar.h"
 #include "reports/clips/clip_film.h"
 #include "reports/clips/contact_sheet.h"
 
 namespace etude {
 namespace {
 
+struct ClipRenderOptions {
+  std::vector<std::string> clips;
+  std::string output;
+  std::string trim;
+  std::string character;  ///< "" = chosen for each clip
+  std::string view = "three-quarter";
+  std::string size;  ///< "200x260", "" = 200 × 260 for pictures of a sheet, 720 × 720 for films
+  int frames = 0;    ///< per clip; 0 = 12 of one clip, 8 of several
+  int columns = 0;   ///< 0 = 6 of one clip, a line each of several
+  bool overwrite = false;
+  ClipReading reading;
+};
+
 struct Size {
   int width = 0;
   int height = 0;
 };
 
-/// "200x260"; `otherwise` without one.
+/// Reads a size such as "200x260"; gives `otherwise` without one.
 Result<Size> ReadSize(const std::string& text, const Size& otherwise) {
   if (text.empty()) return otherwise;
   constexpr int kSmallest = 16, kLargest = 2048;  // drawn twice as large, and shrunk
@@ -74,7 +88,7 @@ Result<void> WriteSheet(const ClipRenderOptions& options) {
   return WriteFileAtomically(options.output, png);
 }
 
-/// False when Ctrl-C came.
+/// Films one clip. False when Ctrl-C came.
 Result<bool> WriteFilm(const ClipRenderOptions& options) {
   ASSIGN_OR_RETURN(const auto size, ReadSize(options.size, {720, 720}));
   if (size.width % 2 != 0 || size.height % 2 != 0) return Fail({}, "--size: films need even numbers of pixels");
@@ -88,23 +102,45 @@ Result<bool> WriteFilm(const ClipRenderOptions& options) {
   return UnlessInterrupted(FilmClip(std::move(actors.front()), film, options.output, *renderer), interrupt);
 }
 
-}  // namespace
-
-int ClipRenderCommand(const ClipRenderOptions& options) {
+Result<int> ClipRenderCommand(const ClipRenderOptions& options) {
   const std::string extension = std::filesystem::path(options.output).extension().string();
   if (extension != ".png" && extension != ".mp4") {
-    return Complain({{options.output, 0, 0}, "is no picture's name; allowed: .png (a contact sheet), .mp4 (a film)"});
+    return Fail({options.output}, "is no picture's name; allowed: .png (a contact sheet), .mp4 (a film)");
   }
-  if (auto free = CheckOutput(options.output, options.overwrite); !free) return Complain(free.error());
+  RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
   if (extension == ".png") {
-    if (auto written = WriteSheet(options); !written) return Complain(written.error());
+    RETURN_IF_ERROR(WriteSheet(options));
   } else {
-    const auto whole = WriteFilm(options);
-    if (!whole) return Complain(whole.error());
-    if (!*whole) return TellStopped();
+    ASSIGN_OR_RETURN(const bool is_whole, WriteFilm(options));
+    if (!is_whole) return TellStopped();
   }
   TellWritten(options.output);
   return kSuccess;
+}
+
+}  // namespace
+
+void DefineRender(CLI::App& clip, Action& action) {
+  auto options = std::make_shared<ClipRenderOptions>();
+  CLI::App* command = clip.add_subcommand("render", "A contact sheet (PNG) of clips, or a film (MP4) of one");
+  command->add_option("clips", options->clips, "Clips")->required();
+  command->add_option("-o,--output", options->output, "The picture: .png or .mp4")->required();
+  command
+      ->add_option("--character", options->character,
+                   "own: the file's meshes; mannequin; bear; body: capsules, left blue and right orange\n"
+                   "(default: own if there are any, else mannequin; bear for built-in clips)")
+      ->check(CLI::IsMember({"own", "mannequin", "bear", "body"}));
+  command->add_option("--view", options->view, "front, three-quarter or side, of how the clip begins")
+      ->check(CLI::IsMember({"front", "three-quarter", "side"}))
+      ->capture_default_str();
+  command->add_option("--size", options->size, "Of the film, or of each picture of a sheet (720x720, 200x260)");
+  command->add_option("--frames", options->frames, "Sheet: pictures of each clip (default: 12 of one, 8 of several)")
+      ->check(CLI::Range(1, 1000));
+  command->add_option("--columns", options->columns, "Sheet: pictures beside each other")->check(CLI::Range(1, 100));
+  command->add_option("--trim", options->trim, "Only this part, seconds: FROM:TO, such as 1.5:4 or 2:");
+  AddOverwrite(*command, options->overwrite);
+  AddClipReading(*command, options->reading);
+  command->callback([=, &action] { action = [=] { return Finish(ClipRenderCommand(*options)); }; });
 }
 
 }  // namespace etude

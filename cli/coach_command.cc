@@ -1,33 +1,74 @@
-#include "cli/coach_command.h"
-
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "bench/files/files.h"
-#include "bench/process/clock.h"
-#include "bench/tasks/detection/world.h"
+#include "bench/streams/live_coach.h"
 #include "cli/commands.h"
 #include "cli/output_file.h"
-#include "engine/coaching/session.h"
+#include "engine/coaching/policy.h"
 #include "engine/formats/wav.h"
+#include "engine/recognition/filters.h"
 #include "engine/recognition/recognisers.h"
-#include "engine/streams/live_stream.h"
+#include "engine/streams/recording.h"
 #include "engine/teaching/moves_file.h"
-#include "reports/coach/coach_lines.h"
+#include "engine/transitions/choices/choice.h"
+#include "engine/transitions/joins/join.h"
 #include "sim/choreography/dance_of.h"
 #include "sim/music/music.h"
 
 namespace etude {
 namespace {
+
+struct CoachCommandOptions {
+  std::string song;               ///< a built-in song's name, or a song file
+  std::string stream;             ///< a file of skeleton rows; "-": standard input
+  std::string moves;              ///< a moves file: what recognisers are taught of the song's moves, "" = built in
+  std::string beats;              ///< a file of the music's beats, "" = even ones at the song's tempo
+  std::string click;              ///< a WAV to write, "" = none
+  std::string format;             ///< of the stream, "" = told by content
+  std::optional<double> rate_hz;  ///< of streams without a clock
+  std::string recogniser = "key-pose";  ///< RecogniserNames()
+  std::optional<double> right_from;     ///< of the evidence; else the recogniser's own
+  std::string policy = "at-first-mistake";
+  std::string choice = "played";
+  std::string join = "planted-feet";
+  std::string filter = "none";
+  bool mirror = false;   ///< players dance as in a mirror
+  bool reflect = false;  ///< the stream's X runs the other way
+  bool now = false;      ///< begins dancing without a clap
+  bool brief = false;    ///< frames in which nothing was decided are left out
+  bool timing = false;   ///< tells at the end how long frames took
+  bool overwrite = false;
+};
+
+constexpr const char* kCoachExamples =
+    "\nA device's skeletons go in line by line, what to show comes out line by line: JSON, a head that tells the "
+    "song,\n"
+    "its moves and their key poses, then an object for each frame (docs/coach.md tells all keys). The coach waits for "
+    "a\n"
+    "clap, dances, judges every performance, and by --policy interrupts: it shakes its head, waves or is puzzled, "
+    "shows\n"
+    "the move slowly, and goes back to it. It is the program that scenarios of `task: coach` judge.\n\n"
+    "Rows are what `etude clip convert` writes as CSV, or a Kinect's (docs/streams.md). Music is yours to play: a\n"
+    "frame's \"music\" says from where, and when to stop; a line '#music 12.34' in the stream tells the coach where "
+    "it\n"
+    "really is, so that moves are slowed and hurried to stay with it.\n\n"
+    "Try:\n"
+    "  etude coach warm_up --stream take.csv --brief          what would the coach have said to this recording?\n"
+    "  my_sensor | etude coach groove --stream - | my_stage   live\n"
+    "  etude coach my_song.yaml --beats my_song.txt --click clicks.wav --stream - --policy after-n\n"
+    "  etude teach clap.csv jump.csv -o mine.yaml && etude coach groove --moves mine.yaml --recogniser dtw --stream -\n"
+    "  etude clip convert builtin:warm_up me.csv && etude coach warm_up --now --brief --stream me.csv";
 
 /// The dance, and the moves that recognisers are taught, in its order.
 struct Lesson {
@@ -41,7 +82,7 @@ Result<Song> LoadSong(const std::string& name, std::optional<double> tempo_bpm) 
   return ParseSong(text, name, tempo_bpm);
 }
 
-/// Has a moves file say what those of the dance's moves look like that it teaches.
+/// Replaces moves by those of a moves file, each of which the dance must have.
 Result<void> TeachMoves(const std::string& path, std::vector<TaughtMove>& taught) {
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
   ASSIGN_OR_RETURN(auto moves, ReadMoves(text, path));
@@ -87,146 +128,96 @@ Result<void> WriteClicks(const CoachCommandOptions& options, const Dance& dance)
   return {};
 }
 
-/// Where the music is: as a line '#music 12.34' of the stream tells, else as it was told to play.
-class MusicHeard {
- public:
-  void Follow(const MusicCommand& command) {
-    if (command.kind == MusicCommand::Kind::kPause) now_s_.reset();
-    if (command.kind == MusicCommand::Kind::kPlayFrom) now_s_ = command.music_s;
-  }
-  void Tick() {
-    if (now_s_) *now_s_ += 1 / kJudgedRateHz;
-  }
-  std::optional<double> Now() const { return now_s_; }
-
-  /// True when the line is about music.
-  Result<bool> Take(std::string_view line, int number) {
-    constexpr std::string_view kWord = "#music";
-    if (!line.starts_with(kWord)) return false;
-    line.remove_prefix(std::min(line.find_first_not_of(" \t", kWord.size()), line.size()));
-    double seconds = 0;
-    const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), seconds);
-    if (error != std::errc() || !(seconds >= 0 && seconds < 1e6)) {
-      return Fail({"the stream", number, 1}, "'#music' tells seconds into the song, as '#music 12.34'");
-    }
-    if (now_s_) now_s_ = seconds;
-    return true;
-  }
-
- private:
-  std::optional<double> now_s_;  // nothing while it is silent
-};
-
-/// A session fed frame by frame: begins with the first one, when it is known where its sensor stands.
-class LiveCoach {
- public:
-  LiveCoach(const CoachCommandOptions& options, const DanceTransitions& transitions, const Recogniser& recogniser,
-            const CoachOptions& coach_options)
-      : options_(options), transitions_(transitions), recogniser_(recogniser), coach_options_(coach_options) {}
-
-  Result<void> Take(const SensedFrame& frame, const StreamRecording& meaning) {
-    if (!session_) Begin(meaning);
-    const auto begin = Clock::now();
-    music_.Tick();
-    const CoachOutput output = session_->Next(frame, {.music_s = music_.Now()});
-    music_.Follow(output.music);
-    const bool is_news = !output.records.empty() || output.music.kind != MusicCommand::Kind::kNone;
-    if (!options_.brief || is_news) {
-      ASSIGN_OR_RETURN(const auto line, CoachLine(output, frame_, transitions_.dance(), options_.brief));
-      fmt::print("{}\n", line);
-      std::fflush(stdout);
-    }
-    ++frame_;
-    times_ms_.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
-    return {};
-  }
-
-  MusicHeard& music() { return music_; }
-
-  void TellTiming() {
-    if (times_ms_.empty()) return;
-    std::ranges::sort(times_ms_);
-    const auto at = [&](double share) {
-      return times_ms_[static_cast<std::size_t>(share * static_cast<double>(times_ms_.size() - 1))];
-    };
-    fmt::print(stderr, "{} frames; ms a frame: median {:.3f}, p99 {:.3f}, largest {:.3f}\n", times_ms_.size(), at(0.5),
-               at(0.99), times_ms_.back());
-  }
-
- private:
-  void Begin(const StreamRecording& meaning) {
-    // A device's space begins where it stands; Etude's own does not tell.
-    if (!meaning.is_level) coach_options_.sensor = {0, 0, 0};
-    coach_ =
-        std::make_unique<Coach>(transitions_, coach_options_, Coach::PolicyChoice{FindPolicy(options_.policy), {}});
-    if (options_.stream == "-") coach_->PlanAhead();
-    session_.emplace(
-        CoachSession::Parts{
-            .coach = coach_.get(), .recogniser = &recogniser_, .filter = {.kind = FilterOf(options_.filter)}},
-        options_.now ? coach_->BeginDancing() : coach_->Begin());
-  }
-
-  const CoachCommandOptions& options_;
-  const DanceTransitions& transitions_;
-  const Recogniser& recogniser_;
-  CoachOptions coach_options_;
-  std::unique_ptr<Coach> coach_;
-  std::optional<CoachSession> session_;
-  MusicHeard music_;
-  std::int64_t frame_ = 0;
-  std::vector<double> times_ms_;
-};
-
-/// Reads the stream to its end.
-Result<void> Follow(std::istream& stream, const CoachCommandOptions& options, LiveCoach& coach) {
-  StreamReading reading;
-  if (!options.format.empty()) reading.format = FindStreamFormat(options.format);
-  reading.rate_hz = options.rate_hz;
-  LiveStream live(options.stream == "-" ? "the stream" : options.stream, reading, {.reflects = options.reflect});
-  std::vector<SensedFrame> frames;
-  std::string line;
-  const auto pass_on = [&]() -> Result<void> {
-    for (const SensedFrame& frame : frames) RETURN_IF_ERROR(coach.Take(frame, *live.Meaning()));
-    frames.clear();
-    return {};
+void TellTiming(std::vector<double> times_ms) {
+  if (times_ms.empty()) return;
+  std::ranges::sort(times_ms);
+  const auto at = [&](double share) {
+    return times_ms[static_cast<std::size_t>(share * static_cast<double>(times_ms.size() - 1))];
   };
-  for (int number = 1; std::getline(stream, line); ++number) {
-    RETURN_IF_ERROR(coach.music().Take(line, number));
-    RETURN_IF_ERROR(live.Take(line, frames));
-    RETURN_IF_ERROR(pass_on());
-  }
-  RETURN_IF_ERROR(live.Finish(frames));
-  return pass_on();
+  fmt::print(stderr, "{} frames; ms a frame: median {:.3f}, p99 {:.3f}, largest {:.3f}\n", times_ms.size(), at(0.5),
+             at(0.99), times_ms.back());
 }
 
-Result<void> RunCoach(const CoachCommandOptions& options) {
+void PrintLine(const std::string& line) {
+  fmt::print("{}\n", line);
+  std::fflush(stdout);
+}
+
+Result<int> CoachCommand(const CoachCommandOptions& options) {
   ASSIGN_OR_RETURN(auto lesson, LoadLesson(options));
   RETURN_IF_ERROR(WriteClicks(options, lesson.dance));
   const RecogniserKind* kind = FindRecogniser(options.recogniser);
   ASSIGN_OR_RETURN(const auto recogniser, MakeRecogniser({.kind = kind}, lesson.taught));
   ASSIGN_OR_RETURN(const auto library, DanceLibrary::Make(std::move(lesson.dance)));
   const DanceTransitions transitions(library, {.choice = FindChoice(options.choice), .join = FindJoin(options.join)});
-  CoachOptions coach_options;
-  coach_options.right_from = options.right_from.value_or(kind->threshold);
-  coach_options.player_mirrors = options.mirror;
+  const bool is_live = options.stream == "-";
+  LiveCoachOptions coach{.policy = options.policy,
+                         .filter = options.filter,
+                         .dances_at_once = options.now,
+                         .plans_ahead = is_live,
+                         .brief = options.brief};
+  coach.coach.right_from = options.right_from.value_or(kind->threshold);
+  coach.coach.player_mirrors = options.mirror;
   std::ifstream file;
-  if (options.stream != "-") {
+  if (!is_live) {
     file.open(options.stream);
     if (!file || std::filesystem::is_directory(options.stream)) return Fail({options.stream}, "cannot be read");
   }
   ASSIGN_OR_RETURN(const auto head, CoachHead(library.dance()));
   fmt::print("{}\n", head);
-  LiveCoach live(options, transitions, *recogniser, coach_options);
-  RETURN_IF_ERROR(Follow(options.stream == "-" ? std::cin : file, options, live));
-  if (options.timing) live.TellTiming();
-  return {};
+  StreamReading reading{.rate_hz = options.rate_hz};
+  if (!options.format.empty()) reading.format = FindStreamFormat(options.format);
+  LiveStream stream(is_live ? "the stream" : options.stream, reading, {.reflects = options.reflect});
+  LiveCoach live(transitions, *recogniser, coach, PrintLine);
+  RETURN_IF_ERROR(live.Follow(is_live ? std::cin : file, stream));
+  if (options.timing) TellTiming(live.times_ms());
+  return kSuccess;
 }
 
 }  // namespace
 
-int CoachCommand(const CoachCommandOptions& options) {
-  const auto done = RunCoach(options);
-  return done ? kSuccess : Complain(done.error());
+void DefineCoach(CLI::App& app, Action& action) {
+  auto options = std::make_shared<CoachCommandOptions>();
+  CLI::App* command = app.add_subcommand("coach", "Coach a dance live: skeletons in, what to show out");
+  command->add_option("song", options->song, "A song: a built-in one (etude list clips), or a file (.yaml)")
+      ->required();
+  command->add_option("--stream", options->stream, "A file of skeleton rows; -: standard input, as they come")
+      ->required();
+  command->add_option("--moves", options->moves,
+                      "A moves file (etude teach): what the song's moves look like when they are right");
+  command->add_option("--beats", options->beats, "When the music's beats sound: a text file, seconds, one a line");
+  command->add_option("--click", options->click, "Write a click for every beat, too (.wav)");
+  command->add_option("--recogniser", options->recogniser, "How performances are recognised")
+      ->check(CLI::IsMember(RecogniserNames()))
+      ->capture_default_str();
+  command
+      ->add_option("--right-from", options->right_from,
+                   "From which evidence on a performance is right (default: the recogniser's own)")
+      ->check(NumberWithin(0.001, 1, "evidence"));
+  command->add_option("--policy", options->policy, "When the coach interrupts")
+      ->check(CLI::IsMember(LivePolicyNames()))
+      ->capture_default_str();
+  command->add_option("--choice", options->choice, "Where clips are left and entered")
+      ->check(CLI::IsMember(ChoiceNames()))
+      ->capture_default_str();
+  command->add_option("--join", options->join, "How they are put together there")
+      ->check(CLI::IsMember(JoinNames()))
+      ->capture_default_str();
+  command->add_option("--filter", options->filter, "Smooths the skeletons")
+      ->check(CLI::IsMember(FilterNames()))
+      ->capture_default_str();
+  command->add_flag("--mirror", options->mirror, "Players dance as in a mirror: the coach's left is their right");
+  command->add_flag("--now", options->now, "Dance at once, without a clap");
+  command->add_flag("--brief", options->brief, "Leave out frames in which nothing was decided, and bodies");
+  command->add_flag("--timing", options->timing, "Tell at the end how long frames took");
+  command->add_option("--format", options->format, "Of the stream (default: told by content)")
+      ->check(CLI::IsMember(StreamFormatNames()));
+  command->add_option("--rate", options->rate_hz, "Of a stream without a clock, Hz (default: 30)")
+      ->check(NumberWithin(1, 1000, "rate in Hz"));
+  command->add_flag("--reflect", options->reflect, "The stream's X axis runs the other way");
+  AddOverwrite(*command, options->overwrite);
+  command->footer(kCoachExamples);
+  command->callback([=, &action] { action = [=] { return Finish(CoachCommand(*options)); }; });
 }
 
 }  // namespace etude

@@ -1,19 +1,16 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "bench/dataset/export.h"
-#include "bench/dataset/score.h"
-#include "bench/outside/outside_method.h"
-#include "bench/results/folder.h"
-#include "bench/run/run.h"
-#include "reports/report.h"
+#include "cli/arguments.h"
+#include "engine/base/result.h"
 
 namespace etude {
 
-/// Exit codes of every command.
+struct RunData;
+
+// Exit codes of every command.
 constexpr int kSuccess = 0;
 constexpr int kNothingWorked = 1;
 constexpr int kRegression = 1;
@@ -21,83 +18,66 @@ constexpr int kUnusableInput = 2;
 constexpr int kIncomplete = 3;
 constexpr int kInterrupted = 130;
 
-/// `etude run`: runs scenarios with a progress bar and prints the verdicts.
-int RunCommand(const RunOptions& options);
-/// `etude run --dry-run`: what a run would take and could show; writes nothing.
-int DryRunCommand(const RunOptions& options);
-/// `etude merge DIR… -o DIR`: makes one run of its shards.
-int MergeCommand(const MergeOptions& options);
-/// What `etude replay` is asked.
-struct ReplayCommandOptions {
-  std::string target;              ///< a result folder, or a packed cell
-  std::vector<std::string> cells;  ///< by name; none: all
-  std::size_t sample = 0;          ///< this many of them, drawn by the run's seed; 0 = all
-  std::string pack_file;           ///< into which the one cell is packed instead, "" = none
-  bool overwrite = false;
-  int jobs = 0;
-  OutsideRules outside;
-  Sealing sealing = Sealing::kRequired;
-};
-/// `etude replay DIR|FILE`: runs cells again and compares them stage by stage (exit 1 when one differs), or packs one.
-int ReplayCommand(const ReplayCommandOptions& options);
-/// What `etude gate` is asked.
-struct GateOptions {
-  std::string target;         ///< a result folder; of a self-test a scenario file, "" = the built-in one
-  std::string baseline;       ///< a baseline file, "" = none
-  bool update = false;        ///< write the baseline from the run, and show what moved
-  bool self_test = false;     ///< measure the gate's own false alarms and power
-  int repetitions = 40;       ///< of the self-test: pairs of seeds
-  std::optional<int> trials;  ///< of the self-test: worlds per condition, else the scenario's
-  bool verdicts = false;      ///< of the self-test: measure the verdicts beyond a run's worlds instead
-  Sealing sealing = Sealing::kRequired;
-};
-/// `etude gate --self-test --verdicts`: the table of docs/results.md from so many samples of each design (exit 1 when a
-/// promise is broken).
-int VerdictsCommand(int repetitions);
-/// `etude gate`: exit 0 pass, 1 regression or unmet expectation, 2 bad input, 3 incomplete.
-int GateCommand(const GateOptions& options);
-/// `etude compare A B`: what differs between two runs of the same worlds.
-int CompareCommand(const std::string& a, const std::string& b, Sealing sealing);
-/// `etude check-method [--task T] [--time S] [--memory MB] -- CMD…`: whether a program speaks the protocol of methods
-/// outside; exit 1 when it does not.
-int CheckMethodCommand(OutsideOptions options, const std::string& seat, bool is_fenced);
-/// `etude export`: writes problems, and their truth apart.
-int ExportCommand(const ExportOptions& options);
-/// `etude score`: scores a folder of answers into a result folder.
-int ScoreCommand(const ScoreOptions& options);
-/// `etude rows DIR`: writes the rows as lines of text into `file`, "" = to standard output.
-int RowsCommand(const std::string& folder, const std::string& file, bool overwrite, Sealing sealing);
-/// `etude report DIR`: writes DIR/report and DIR/video.
-/// `real`: files that `etude capture --distances` wrote.
-int ReportCommand(const std::string& folder, const std::vector<std::string>& real, const ReportOptions& options,
-                  Sealing sealing);
-
-enum class Listing { kMethods, kScenarios, kClips };
-/// `etude list …`: what can be named in a scenario.
-int ListCommand(Listing what, const std::string& scenario_folder);
-
-enum class KeysFormat {
-  kText,      ///< for people at a terminal
-  kMarkdown,  ///< docs/keys.md
-  kSchema,    ///< docs/schemas/scenario.schema.json
-};
-/// `etude list keys`: every key of a scenario file.
-int ListKeysCommand(KeysFormat format);
-
-enum class MetricsFormat {
-  kTable,     ///< a line each, for people at a terminal
-  kJson,      ///< everything, with the test vectors (docs/schemas/metrics.schema.json)
-  kMarkdown,  ///< docs/metrics.md
-};
-/// `etude list metrics`.
-int ListMetricsCommand(MetricsFormat format);
-
-/// Says on standard error that a run was read although its folder is not as it was written.
-void TellUnsealed(const RunData& run);
-
 /// Prints a complaint the one way Etude does, and gives kUnusableInput.
 int Complain(const Error& error);
+/// Gives a command's exit code; without one prints its complaint and gives kUnusableInput.
+int Finish(const Result<int>& code);
 /// Says that Ctrl-C came and what it left, and gives kInterrupted.
 int TellStopped(const Error& what_is_left = {{}, "stopped; nothing is kept"});
+/// Says on standard error that a run was read although its folder is not as it was written.
+void TellUnsealed(const RunData& run);
+/// Prints a title and indented lines, or nothing without lines.
+void PrintList(const std::string& title, const std::vector<std::string>& lines);
+
+// Each command stands in a file of its name, and defines itself. `command_line` is kept in host.json.
+
+/// `etude run`: runs scenarios with a progress bar and prints the verdicts; with --dry-run tells what it would take.
+void DefineRun(CLI::App& app, const std::string& command_line, Action& action);
+/// `etude merge DIR… -o DIR`: makes one run of its shards.
+void DefineMerge(CLI::App& app, const std::string& command_line, Action& action);
+/// `etude report DIR`: writes DIR/report and DIR/video.
+void DefineReport(CLI::App& app, Action& action);
+/// `etude rows DIR`: writes the rows as lines of text.
+void DefineRows(CLI::App& app, Action& action);
+/// `etude replay DIR|FILE`: runs cells again and compares them stage by stage (exit 1 when one differs), or packs one.
+void DefineReplay(CLI::App& app, Action& action);
+/// `etude gate`: exit 0 pass, 1 regression or unmet expectation, 2 bad input, 3 incomplete.
+void DefineGate(CLI::App& app, Action& action);
+/// `etude compare A B`: tells what differs between two runs of the same worlds.
+void DefineCompare(CLI::App& app, Action& action);
+/// `etude export`: writes problems, and their truth apart.
+void DefineExport(CLI::App& app, Action& action);
+/// `etude score`: scores a folder of answers into a result folder.
+void DefineScore(CLI::App& app, const std::string& command_line, Action& action);
+/// `etude check-method … -- CMD…`: tests whether a program speaks the protocol of methods outside; exit 1 when not.
+void DefineCheckMethod(CLI::App& app, Action& action);
+/// `etude list …`: lists what can be named in a scenario.
+void DefineList(CLI::App& app, Action& action);
+/// `etude clip info|convert|render|contacts|map|grades`
+void DefineClip(CLI::App& app, Action& action);
+/// `etude clip render`: draws a contact sheet of any clips, or a film of one.
+void DefineRender(CLI::App& clip, Action& action);
+/// `etude clip grades`: tells what paper A's fuzzy system sees in clips, and how alike they are.
+void DefineGrades(CLI::App& clip, Action& action);
+/// `etude bridge`: finds bridge frames of clips, for a tags file and a summary; or checks a tags file (exit 2).
+void DefineBridge(CLI::App& app, Action& action);
+/// `etude train`: learns a fuzzy system or a recogniser from clips, and prints what it knows of clips held out.
+void DefineTrain(CLI::App& app, Action& action);
+/// `etude teach`: learns moves from recordings.
+void DefineTeach(CLI::App& app, Action& action);
+/// `etude recognise`: tells events as JSON Lines; with labels the scores.
+void DefineRecognise(CLI::App& app, Action& action);
+/// `etude sensor stats|fit|sheet`
+void DefineSensor(CLI::App& app, Action& action);
+/// `etude sensor sheet`: draws a contact sheet of the scenario's first world.
+void DefineSheet(CLI::App& sensor, Action& action);
+/// `etude calibrate`: finds the cameras of a rig from point pairs or pictures of boards, or prints a board.
+void DefineCalibrate(CLI::App& app, Action& action);
+/// `etude capture`: finds the motion of a person in films by several cameras.
+void DefineCapture(CLI::App& app, Action& action);
+/// `etude coach`: coaches a song live from a skeleton stream.
+void DefineCoach(CLI::App& app, Action& action);
+/// `etude crowd`: follows a crowd on one core, tells how long its frames take, and films it.
+void DefineCrowd(CLI::App& app, Action& action);
 
 }  // namespace etude

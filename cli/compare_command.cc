@@ -1,18 +1,20 @@
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <memory>
 
 #include "bench/finished_runs/finished_runs.h"
 #include "bench/gate/comparison.h"
 #include "cli/commands.h"
 #include "cli/move_table.h"
 #include "reports/gate_table.h"
-#include "reports/words/beyond.h"
+#include "reports/words/judged.h"
 
 namespace etude {
 namespace {
 
-/// A whole run; one that is not whole cannot be paired world by world.
+/// Loads a whole run; one that is not whole cannot be paired world by world.
 Result<FinishedRun> LoadWholeRun(const std::string& folder, Sealing sealing) {
   ASSIGN_OR_RETURN(auto run, LoadFinishedRun(folder, sealing));
   TellUnsealed(run.data);
@@ -20,7 +22,7 @@ Result<FinishedRun> LoadWholeRun(const std::string& folder, Sealing sealing) {
   return run;
 }
 
-/// What the verdicts say nothing about: two runs of the same worlds show what changed in the code.
+/// Says what the verdicts say nothing about: two runs of the same worlds show what changed in the code.
 std::string ScopeSentence(const FinishedRun& run) {
   std::vector<std::string_view> others;
   for (const FinishedScenario& scenario : run.scenarios) {
@@ -30,14 +32,10 @@ std::string ScopeSentence(const FinishedRun& run) {
   return fmt::format("All on these worlds; nothing is said about {}.", fmt::join(others, ", "));
 }
 
-}  // namespace
-
-int CompareCommand(const std::string& a, const std::string& b, Sealing sealing) {
-  const auto run_a = LoadWholeRun(a, sealing);
-  if (!run_a) return Complain(run_a.error());
-  const auto run_b = LoadWholeRun(b, sealing);
-  if (!run_b) return Complain(run_b.error());
-  Snapshot before = TakeSnapshot(*run_a), after = TakeSnapshot(*run_b);
+Result<int> CompareCommand(const std::string& a, const std::string& b, Sealing sealing) {
+  ASSIGN_OR_RETURN(const auto run_a, LoadWholeRun(a, sealing));
+  ASSIGN_OR_RETURN(const auto run_b, LoadWholeRun(b, sealing));
+  Snapshot before = TakeSnapshot(run_a), after = TakeSnapshot(run_b);
   const std::vector<std::string> incomparable = DropIncomparable(before, after);
   const SnapshotComparison comparison = CompareSnapshots(before, after, {});
   PrintMoves(comparison, "A", "B", comparison.moves.size());
@@ -46,8 +44,20 @@ int CompareCommand(const std::string& a, const std::string& b, Sealing sealing) 
   PrintList("Not comparable, for the worlds are not the same:", incomparable);
   PrintList("Methods with other settings:", comparison.settings_changed);
   fmt::print("{}\n", CompareSentence(comparison));
-  if (!comparison.moves.empty()) fmt::print("{}\n", ScopeSentence(*run_b));
+  if (!comparison.moves.empty()) fmt::print("{}\n", ScopeSentence(run_b));
   return kSuccess;
+}
+
+}  // namespace
+
+void DefineCompare(CLI::App& app, Action& action) {
+  auto a = std::make_shared<std::string>(), b = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("compare", "What differs between two runs of the same worlds");
+  command->add_option("a", *a, "A result folder")->required();
+  command->add_option("b", *b, "Another")->required();
+  auto sealing = std::make_shared<Sealing>();
+  AddUnsealed(*command, *sealing);
+  command->callback([=, &action] { action = [=] { return Finish(CompareCommand(*a, *b, *sealing)); }; });
 }
 
 }  // namespace etude

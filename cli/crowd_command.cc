@@ -1,15 +1,17 @@
-#include "cli/crowd_command.h"
-
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <string>
 
 #include "bench/files/files.h"
 #include "bench/films/encoder.h"
+#include "bench/tasks/tracking/crowd.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
@@ -18,6 +20,15 @@
 
 namespace etude {
 namespace {
+
+struct CrowdCommandOptions {
+  CrowdOptions crowd;
+  double seconds = 2;
+  int steps = 100;  ///< a frame, at most: who is lost begins anew with so many
+  bool in_float = false;
+  std::string output;  ///< a film, "" = only told
+  bool overwrite = false;
+};
 
 constexpr int kWidth = 1280, kHeight = 720;
 constexpr double kFilmRateHz = 30;  // at most: every second frame of 60 Hz
@@ -63,29 +74,29 @@ class CrowdFilm {
 
 double ProcessorTimeMs() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-struct Told {
+struct Timings {
   std::int64_t met = 0, steps = 0;
   std::vector<double> times_ms;  ///< of each frame
 };
 
-void Tell(const CrowdCommandOptions& options, Told told) {
+void Tell(const CrowdCommandOptions& options, Timings timings) {
   const double count = static_cast<double>(options.crowd.characters) * options.crowd.frames;
   fmt::print("{} characters, {} frames at {:g} Hz, gauss-newton in batches of {}\n", options.crowd.characters,
              options.crowd.frames, options.crowd.rate_hz, options.in_float ? "floats" : "doubles");
   fmt::print("{:.2f} % of all poses meet their targets, after {:.2f} steps\n",
-             100 * static_cast<double>(told.met) / count, static_cast<double>(told.steps) / count);
-  const double first = told.times_ms.front();
-  std::sort(told.times_ms.begin() + 1, told.times_ms.end());
+             100 * static_cast<double>(timings.met) / count, static_cast<double>(timings.steps) / count);
+  const double first = timings.times_ms.front();
+  std::sort(timings.times_ms.begin() + 1, timings.times_ms.end());
   const auto at = [&](double share) {
-    return told.times_ms[1 + static_cast<std::size_t>(share * static_cast<double>(told.times_ms.size() - 2))];
+    return timings.times_ms[1 + static_cast<std::size_t>(share * static_cast<double>(timings.times_ms.size() - 2))];
   };
   fmt::print(
       "ms of one core a frame, of {:.1f} that there are: median {:.2f}, p99 {:.2f}, largest {:.2f}; the standing "
       "start {:.2f}\n",
-      1000 / options.crowd.rate_hz, at(0.5), at(0.99), told.times_ms.back(), first);
+      1000 / options.crowd.rate_hz, at(0.5), at(0.99), timings.times_ms.back(), first);
 }
 
-/// False when Ctrl-C came.
+/// Follows the crowd frame by frame. False when Ctrl-C came.
 Result<bool> FollowCrowd(const CrowdCommandOptions& options) {
   ASSIGN_OR_RETURN(const auto worlds, MakeCrowd(options.crowd));
   std::optional<CrowdFilm> film;
@@ -95,44 +106,64 @@ Result<bool> FollowCrowd(const CrowdCommandOptions& options) {
   }
   const Interrupt interrupt;
   Crowd crowd(worlds);
-  Told told;
+  Timings timings;
   IkOptions ik;
   ik.max_iterations = options.steps;
   for (int frame = 0; frame < options.crowd.frames; ++frame) {
     if (*interrupt.requested()) return false;
     const double begin = ProcessorTimeMs();
     const auto [met, steps] = crowd.FollowNext(ik, options.in_float ? Precision::kFloat : Precision::kDouble);
-    told.times_ms.push_back(ProcessorTimeMs() - begin);
-    told.met += met;
-    told.steps += steps;
+    timings.times_ms.push_back(ProcessorTimeMs() - begin);
+    timings.met += met;
+    timings.steps += steps;
     if (film) RETURN_IF_ERROR(film->Add(frame, worlds[0].tree, crowd, met));
   }
   if (film) RETURN_IF_ERROR(film->Finish());
-  Tell(options, std::move(told));
+  Tell(options, std::move(timings));
   return true;
+}
+
+Result<int> CrowdCommand(const CrowdCommandOptions& given) {
+  CrowdCommandOptions options = given;
+  options.crowd.frames = static_cast<int>(std::lround(options.seconds * options.crowd.rate_hz));
+  if (options.crowd.frames < kFewestTrackedFrames) {
+    return Fail({}, "--seconds: {:g} s at {:g} Hz are {} frames; allowed: {} or more", options.seconds,
+                options.crowd.rate_hz, options.crowd.frames, kFewestTrackedFrames);
+  }
+  if (!options.output.empty()) {
+    if (std::filesystem::path(options.output).extension() != ".mp4") {
+      return Fail({options.output}, "is no film's name; allowed: .mp4");
+    }
+    RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
+  }
+  ASSIGN_OR_RETURN(const bool is_whole, FollowCrowd(options));
+  if (!is_whole) return TellStopped();
+  if (!options.output.empty()) TellWritten(options.output);
+  return kSuccess;
 }
 
 }  // namespace
 
-int CrowdCommand(const CrowdCommandOptions& given) {
-  CrowdCommandOptions options = given;
-  options.crowd.frames = static_cast<int>(std::lround(options.seconds * options.crowd.rate_hz));
-  if (options.crowd.frames < kFewestTrackedFrames) {
-    return Complain({{},
-                     fmt::format("--seconds: {:g} s at {:g} Hz are {} frames; allowed: {} or more", options.seconds,
-                                 options.crowd.rate_hz, options.crowd.frames, kFewestTrackedFrames)});
-  }
-  if (!options.output.empty()) {
-    if (std::filesystem::path(options.output).extension() != ".mp4") {
-      return Complain({{options.output, 0, 0}, "is no film's name; allowed: .mp4"});
-    }
-    if (auto free = CheckOutput(options.output, options.overwrite); !free) return Complain(free.error());
-  }
-  const auto whole = FollowCrowd(options);
-  if (!whole) return Complain(whole.error());
-  if (!*whole) return TellStopped();
-  if (!options.output.empty()) TellWritten(options.output);
-  return kSuccess;
+void DefineCrowd(CLI::App& app, Action& action) {
+  auto options = std::make_shared<CrowdCommandOptions>();
+  CLI::App* command = app.add_subcommand("crowd", "Follow a crowd's motions at once, and film it");
+  command->add_option("--characters", options->crowd.characters, "How many, each after a motion of its own")
+      ->check(CLI::Range(1, 10'000))
+      ->capture_default_str();
+  command->add_option("--seconds", options->seconds, "How long")
+      ->check(NumberWithin(0.01, 60, "time in s"))
+      ->capture_default_str();
+  command->add_option("--rate", options->crowd.rate_hz, "Frames per second")
+      ->check(NumberWithin(1, 1000, "rate in Hz"))
+      ->capture_default_str();
+  command->add_option("--steps", options->steps, "Of gauss-newton, at most, for a character's frame")
+      ->check(CLI::Range(1, 10'000))
+      ->capture_default_str();
+  AddSeed(*command, options->crowd.seed, "Of the motions' dice");
+  command->add_flag("--float", options->in_float, "Batches of floats, not of doubles");
+  command->add_option("-o,--output", options->output, "A film of the crowd (.mp4)");
+  AddOverwrite(*command, options->overwrite);
+  command->callback([=, &action] { action = [=] { return Finish(CrowdCommand(*options)); }; });
 }
 
 }  // namespace etude

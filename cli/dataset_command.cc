@@ -1,10 +1,13 @@
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 
 #include "bench/dataset/export.h"
 #include "bench/dataset/score.h"
+#include "bench/run/run.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
@@ -34,13 +37,11 @@ int ComplainOfFaults(const ScoreOptions& options, const PredictionFaults& faults
                    only_missing ? "; --allow-missing counts a missing one as a failure" : "")});
 }
 
-}  // namespace
-
 int ExportCommand(const ExportOptions& given) {
   const Interrupt interrupt;
   ExportOptions options = given;
   options.stop = interrupt.requested();
-  const auto outcome = ExportSuite(options, TellOf("worlds"));
+  const auto outcome = ExportSuite(options, ProgressOf("worlds"));
   if (!outcome) return Complain(outcome.error());
   if (outcome->stopped) return TellStopped();
   fmt::print("{} problems in {}{}\nNext: give away {}/inputs, then etude score {} PREDICTIONS -o RESULT\n",
@@ -62,6 +63,36 @@ int ScoreCommand(const ScoreOptions& given) {
   fmt::print("{} of {} cells ok in {:.1f} s: {}\nNext: etude report {}\n", outcome->run.cells_ok, outcome->run.cells,
              outcome->run.seconds, options.output, options.output);
   return outcome->run.cells_ok > 0 ? kSuccess : kNothingWorked;
+}
+
+}  // namespace
+
+void DefineExport(CLI::App& app, Action& action) {
+  auto options = std::make_shared<ExportOptions>();
+  options->program_version = ETUDE_VERSION;
+  CLI::App* command = app.add_subcommand("export", "Write the problems of scenarios as files, the truth apart");
+  command->add_option("scenarios", options->scenarios, "Scenario files, or folders of them")->required();
+  command->add_option("-o,--output", options->output, "Folder of the data set")->required();
+  command->add_flag("--films", options->films, "Each camera's take as an MP4, too, beside its pictures");
+  AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map);
+  command->callback([=, &action] { action = [=] { return ExportCommand(*options); }; });
+}
+
+void DefineScore(CLI::App& app, const std::string& command_line, Action& action) {
+  auto options = std::make_shared<ScoreOptions>();
+  options->program_version = ETUDE_VERSION;
+  options->command_line = command_line;
+  CLI::App* command = app.add_subcommand("score", "Score a folder of answers into a result folder");
+  command->add_option("target", options->target, "An exported data set, or its scenario files")->required();
+  command->add_option("predictions", options->predictions, "Folder of answers")->required();
+  command->add_option("-o,--output", options->output, "Result folder")->required();
+  command->add_option("--name", options->name, "What to call the method")->capture_default_str();
+  AddOutsideRules(*command, options->outside);
+  command->add_flag("--alone", options->alone, "Do not run the scenarios' own methods beside it");
+  command->add_flag("--allow-missing", options->allow_missing, "A world without answer is a failed cell");
+  AddJobs(*command, options->jobs);
+  AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map);
+  command->callback([=, &action] { action = [=] { return ScoreCommand(*options); }; });
 }
 
 }  // namespace etude

@@ -1,20 +1,36 @@
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
+#include <memory>
 
+#include "bench/calibration/verdict_rates.h"
 #include "bench/files/files.h"
 #include "bench/finished_runs/finished_runs.h"
 #include "bench/gate/baseline_file.h"
 #include "bench/gate/gate.h"
 #include "bench/gate/self_test.h"
+#include "bench/results/folder.h"
 #include "cli/commands.h"
 #include "cli/move_table.h"
 #include "reports/gate_report.h"
 #include "reports/gate_table.h"
-#include "reports/gate_tail.h"
 
 namespace etude {
 namespace {
+
+struct GateOptions {
+  std::string target;         ///< a result folder; of a self-test a scenario file, "" = the built-in one
+  std::string baseline;       ///< a baseline file, "" = none
+  bool update = false;        ///< write the baseline from the run, and show what moved
+  bool self_test = false;     ///< measure the gate's own false alarms and power
+  int repetitions = 40;       ///< of the self-test: pairs of seeds
+  std::optional<int> trials;  ///< of the self-test: worlds per condition, else the scenario's
+  bool verdicts = false;      ///< of the self-test: measure the verdicts beyond a run's worlds instead
+  Sealing sealing = Sealing::kRequired;
+};
 
 namespace fs = std::filesystem;
 
@@ -33,7 +49,7 @@ int ExitCode(GateVerdict verdict) {
   return kIncomplete;
 }
 
-/// Each world in two lines: what became of it, and the command that runs it again.
+/// Prints each world in two lines: its difference, and the command that runs it again.
 void PrintWorlds(const std::string& title, const std::vector<TailLine>& lines) {
   std::vector<std::string> text;
   for (const TailLine& line : lines) {
@@ -62,28 +78,21 @@ void PrintReport(const GateReport& report) {
   fmt::print("Gate: {}\n", GateVerdictWords(GateVerdictOf(report)));
 }
 
-int Judge(const GateOptions& options, const FinishedRun& run) {
+Result<int> Judge(const GateOptions& options, const FinishedRun& run) {
   std::optional<Snapshot> baseline;
   if (!options.baseline.empty()) {
-    auto loaded = LoadBaseline(options.baseline);
-    if (!loaded) return Complain(loaded.error());
-    baseline = std::move(*loaded);
+    ASSIGN_OR_RETURN(baseline, LoadBaseline(options.baseline));
   }
-  auto report = JudgeRun(run, baseline ? &*baseline : nullptr, options.baseline);
-  if (!report) return Complain(report.error());
-  report->run_folder = options.target;
+  ASSIGN_OR_RETURN(auto report, JudgeRun(run, baseline ? &*baseline : nullptr, options.baseline));
+  report.run_folder = options.target;
   const fs::path folder = fs::path(options.target) / "report";
-  if (auto saved = WriteFileAtomically(folder / "gate.md", WriteGateMarkdown(*report)); !saved) {
-    return Complain(saved.error());
-  }
-  if (auto saved = WriteFileAtomically(folder / "gate.xml", WriteGateJunit(*report)); !saved) {
-    return Complain(saved.error());
-  }
-  PrintReport(*report);
-  return ExitCode(GateVerdictOf(*report));
+  RETURN_IF_ERROR(WriteFileAtomically(folder / "gate.md", WriteGateMarkdown(report)));
+  RETURN_IF_ERROR(WriteFileAtomically(folder / "gate.xml", WriteGateJunit(report)));
+  PrintReport(report);
+  return ExitCode(GateVerdictOf(report));
 }
 
-/// What moved from an old baseline to a new one, as far as their worlds are the same.
+/// Prints what moved from an old baseline to a new one, as far as their worlds are the same.
 void PrintDifference(Snapshot before, Snapshot after, const FinishedRun& run) {
   PrintList("Made anew:", DropIncomparable(before, after));
   const SnapshotComparison comparison = CompareSnapshots(before, after, ExactScenarios(run), TailRulesOf(run));
@@ -92,7 +101,7 @@ void PrintDifference(Snapshot before, Snapshot after, const FinishedRun& run) {
   PrintList("New:", comparison.only_after);
 }
 
-int Update(const GateOptions& options, const FinishedRun& run) {
+Result<int> Update(const GateOptions& options, const FinishedRun& run) {
   std::vector<std::string> incomplete = run.incomplete;
   for (const std::string& ends : DescribeMachineEnds(run)) incomplete.push_back(ends);
   if (!incomplete.empty()) {
@@ -100,18 +109,15 @@ int Update(const GateOptions& options, const FinishedRun& run) {
     return kIncomplete;
   }
   const Snapshot now = TakeSnapshot(run);
-  const auto text = WriteBaseline(now);
-  if (!text) return Complain(text.error());
-  if (const auto read = ReadBaseline(*text, options.target); !read) return Complain(read.error());  // e.g. all failed
+  ASSIGN_OR_RETURN(const auto text, WriteBaseline(now));
+  RETURN_IF_ERROR(ReadBaseline(text, options.target));  // e.g. all failed
   std::optional<Snapshot> before;
   if (std::error_code none; fs::exists(options.baseline, none)) {
-    auto loaded = LoadBaseline(options.baseline);  // what is no baseline is not written over
-    if (!loaded) return Complain(loaded.error());
-    before = std::move(*loaded);
+    ASSIGN_OR_RETURN(before, LoadBaseline(options.baseline));  // what is no baseline is not written over
   }
-  if (auto saved = WriteFileAtomically(options.baseline, *text); !saved) return Complain(saved.error());
+  RETURN_IF_ERROR(WriteFileAtomically(options.baseline, text));
   if (before) PrintDifference(std::move(*before), now, run);
-  fmt::print("{}: {}, {} bytes\n", options.baseline, before ? "updated" : "made", text->size());
+  fmt::print("{}: {}, {} bytes\n", options.baseline, before ? "updated" : "made", text.size());
   return kSuccess;
 }
 
@@ -120,7 +126,7 @@ std::string RateText(const Rate& rate) {
                      rate.of == 0 ? 0.0 : 100.0 * rate.count / rate.of, 100 * rate.low, 100 * rate.high);
 }
 
-/// No alarm among few gates proves nothing.
+/// Says whether the promise is kept; no alarm among few gates proves nothing.
 const char* PromiseSentence(const SelfTestReport& report) {
   if (!report.Holds()) return "The gate does not keep its promise.";
   if (report.false_alarms.high > kFalseAlarmLimit) {
@@ -129,39 +135,75 @@ const char* PromiseSentence(const SelfTestReport& report) {
   return "The gate keeps its promise.";
 }
 
-int SelfTest(const GateOptions& options) {
-  const auto rehearsal = ReadRehearsal(options.target, options.trials);
-  if (!rehearsal) return Complain(rehearsal.error());
-  const auto report =
-      RunSelfTest([&](std::uint64_t seed) { return RunInProcess(*rehearsal, seed); }, options.repetitions);
-  if (!report) return Complain(report.error());
-  fmt::print("{} ({}), {} worlds per condition, {} comparisons per gate\n\n", rehearsal->setup.name,
-             rehearsal->setup.file, rehearsal->setup.trials, report->comparisons);
+Result<int> SelfTest(const GateOptions& options) {
+  ASSIGN_OR_RETURN(const auto rehearsal, ReadRehearsal(options.target, options.trials));
+  ASSIGN_OR_RETURN(const auto report,
+                   RunSelfTest([&](std::uint64_t seed) { return RunInProcess(rehearsal, seed); }, options.repetitions));
+  fmt::print("{} ({}), {} worlds per condition, {} comparisons per gate\n\n", rehearsal.setup.name,
+             rehearsal.setup.file, rehearsal.setup.trials, report.comparisons);
   fmt::print("Alarms although nothing changed\n");
-  fmt::print("  reruns of the same seed, rule exact: {}\n", RateText(report->rerun_alarms));
-  fmt::print("  reruns of the same seed, tail rule:  {}\n", RateText(report->tail_rerun_alarms));
-  fmt::print("  gates between two seeds:             {}; at most {:.0f} % by design\n", RateText(report->false_alarms),
+  fmt::print("  reruns of the same seed, rule exact: {}\n", RateText(report.rerun_alarms));
+  fmt::print("  reruns of the same seed, tail rule:  {}\n", RateText(report.tail_rerun_alarms));
+  fmt::print("  gates between two seeds:             {}; at most {:.0f} % by design\n", RateText(report.false_alarms),
              100 * kFalseAlarmLimit);
-  fmt::print("  single comparisons of these gates:   {}\n", RateText(report->false_alarm_comparisons));
+  fmt::print("  single comparisons of these gates:   {}\n", RateText(report.false_alarm_comparisons));
   for (const auto& [title, results] :
-       {std::pair{"Injected differences found", &report->injected}, std::pair{"Far worse worlds found", &report->tails},
-        std::pair{"Real changes found", &report->real}}) {
+       {std::pair{"Injected differences found", &report.injected}, std::pair{"Far worse worlds found", &report.tails},
+        std::pair{"Real changes found", &report.real}}) {
     if (!results->empty()) fmt::print("{}\n", title);
     for (const PowerResult& result : *results) fmt::print("  {}: {}\n", result.change, RateText(result.found));
   }
-  fmt::print("\n{}\n", PromiseSentence(*report));
-  return report->Holds() ? kSuccess : kRegression;
+  fmt::print("\n{}\n", PromiseSentence(report));
+  return report.Holds() ? kSuccess : kRegression;
+}
+
+int VerdictsCommand(int repetitions) {
+  const std::vector<SampleDesign> designs = PublishedDesigns();
+  const auto tell = [&](std::size_t done) { fmt::print(stderr, "\r{} of {} designs", done, designs.size()); };
+  const auto rates = MeasureAll(designs, {repetitions, std::max(repetitions / 5, 1)}, tell);
+  std::fputs("\n\n", stderr);
+  fmt::print("{}\n", VerdictRatesMarkdown(rates));
+  const auto broken = std::count_if(rates.begin(), rates.end(), [](const auto& one) { return !KeepsPromise(one); });
+  fmt::print(
+      "{} of {} designs keep the promise: false alarms at most 5 % (upper end of the 95 % interval 6.5 %), intervals "
+      "that hold "
+      "the truth in at least 93 %.\n",
+      rates.size() - static_cast<std::size_t>(broken), rates.size());
+  return broken == 0 ? kSuccess : kRegression;
+}
+
+Result<int> GateCommand(const GateOptions& options) {
+  if (options.target.empty() && !options.self_test) return Fail({}, "etude gate needs a result folder");
+  if (options.verdicts) return VerdictsCommand(options.repetitions);
+  if (options.self_test) return SelfTest(options);
+  ASSIGN_OR_RETURN(const auto run, LoadFinishedRun(options.target, options.sealing));
+  TellUnsealed(run.data);
+  return options.update ? Update(options, run) : Judge(options, run);
 }
 
 }  // namespace
 
-int GateCommand(const GateOptions& options) {
-  if (options.verdicts) return VerdictsCommand(options.repetitions);
-  if (options.self_test) return SelfTest(options);
-  const auto run = LoadFinishedRun(options.target, options.sealing);
-  if (!run) return Complain(run.error());
-  TellUnsealed(run->data);
-  return options.update ? Update(options, *run) : Judge(options, *run);
+void DefineGate(CLI::App& app, Action& action) {
+  auto options = std::make_shared<GateOptions>();
+  CLI::App* command = app.add_subcommand("gate", "Pass or fail a run, for a CI server");
+  command->add_option("folder", options->target, "A result folder (with --self-test: a scenario file, or nothing)");
+  CLI::Option* baseline = command->add_option("--baseline", options->baseline, "What the run is held against");
+  command->add_flag("--update", options->update, "Write the baseline from this run, and show what moved")
+      ->needs(baseline);
+  CLI::Option* self_test =
+      command->add_flag("--self-test", options->self_test, "Measure the gate's own false alarms and power")
+          ->excludes(baseline);
+  command->add_flag("--verdicts", options->verdicts, "Self-test: of the verdicts beyond a run's worlds instead")
+      ->needs(self_test);
+  command->add_option("--repetitions", options->repetitions, "Self-test: pairs of seeds, or samples of each design")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str()
+      ->needs(self_test);
+  command->add_option("--trials", options->trials, "Self-test: worlds per condition (default: the scenario's)")
+      ->check(CLI::Range(1, 1000000))
+      ->needs(self_test);
+  AddUnsealed(*command, options->sealing);
+  command->callback([=, &action] { action = [=] { return Finish(GateCommand(*options)); }; });
 }
 
 }  // namespace etude

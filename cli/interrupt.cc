@@ -17,7 +17,7 @@ void RequestStop(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
-/// Only system calls are safe in here.
+/// Ends the program at once. Only system calls are safe in a signal handler.
 void End(int) {
   constexpr std::string_view kLine = "etude: stopped; nothing half done is kept\n";
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kLine.data(), kLine.size());

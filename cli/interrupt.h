@@ -6,12 +6,12 @@
 
 namespace etude {
 
-/// From now on Ctrl-C (and SIGTERM) ends the program at once, with a line that says so and exit code 130. For work that
-/// leaves nothing anywhere until it is done; other work has an Interrupt.
+/// Lets Ctrl-C (and SIGTERM) end the program at once from now on, with a line that says so and exit code 130. It is for
+/// work that leaves nothing anywhere until it is done; other work has an Interrupt.
 void EndWhenInterrupted();
 
-/// While it lives, Ctrl-C (and SIGTERM) asks to stop instead of ending the program, the second one ends it at once,
-/// and a child that died is no reason to die ourselves.
+/// A guard for work that can be stopped: while it lives, Ctrl-C (and SIGTERM) asks to stop, the second one ends the
+/// program at once, and a child that died does not end the program.
 class Interrupt {
  public:
   Interrupt();
@@ -25,8 +25,8 @@ class Interrupt {
   void (*piped_)(int);
 };
 
-/// What came of writing a film: false when Ctrl-C came, whichever was noticed first, that or the end of the encoder,
-/// which it reaches, too.
+/// Gives the outcome of writing a film, but false when Ctrl-C came: it reaches the encoder, too, whose end may be
+/// noticed first.
 Result<bool> UnlessInterrupted(Result<bool> is_whole, const Interrupt& interrupt);
 
 }  // namespace etude

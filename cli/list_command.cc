@@ -1,17 +1,27 @@
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "bench/metrics/catalogue.h"
+#include "bench/metrics/export.h"
 #include "bench/run/suite.h"
 #include "bench/scenario/keys.h"
 #include "bench/scenario/scenario.h"
 #include "bench/tasks/registry.h"
 #include "cli/commands.h"
-#include "cli/solver_list.h"
 #include "engine/base/names.h"
+#include "engine/kinematics/solvers/ik_solver.h"
 #include "sim/choreography/move.h"
 #include "sim/choreography/song.h"
 
 namespace etude {
 namespace {
+
+void PrintSolvers() {
+  fmt::print("Solvers of inverse kinematics:\n");
+  for (const IkSolver& solver : AllIkSolvers()) fmt::print("  {:<20}  {}\n", solver.name, solver.description);
+}
 
 void ListTasks() {
   for (const TaskKind& kind : AllTaskKinds()) {
@@ -21,42 +31,38 @@ void ListTasks() {
   PrintSolvers();
 }
 
-int ListClips() {
+Result<int> ListClips() {
   fmt::print("Moves (builtin:*):\n");
   for (const std::string& name : BuiltinMoveNames()) {
-    const auto move = LoadBuiltinMove(name);
-    if (!move) return Complain(move.error());
-    fmt::print("  builtin:{:<14} {:g} beats at {:g} ({:g}…{:g}) per minute, {:.1f} s, {} key poses\n", name,
-               move->beats, move->tempo_bpm, move->slowest_bpm, move->fastest_bpm, move->motion.DurationSeconds(),
-               move->key_poses.size());
+    ASSIGN_OR_RETURN(const auto move, LoadBuiltinMove(name));
+    fmt::print("  builtin:{:<14} {:g} beats at {:g} ({:g}…{:g}) per minute, {:.1f} s, {} key poses\n", name, move.beats,
+               move.tempo_bpm, move.slowest_bpm, move.fastest_bpm, move.motion.DurationSeconds(),
+               move.key_poses.size());
   }
   fmt::print("Acts of the coach (builtin:acts); builtin:slow_MOVE is a move shown slowly:\n");
   for (const std::string& name : BuiltinActNames()) {
-    const auto act = LoadBuiltinMove(name);
-    if (!act) return Complain(act.error());
-    fmt::print("  builtin:{:<14} {:.1f} s{}\n", name, act->motion.DurationSeconds(), act->loops ? "" : ", once");
+    ASSIGN_OR_RETURN(const auto act, LoadBuiltinMove(name));
+    fmt::print("  builtin:{:<14} {:.1f} s{}\n", name, act.motion.DurationSeconds(), act.loops ? "" : ", once");
   }
   fmt::print("Songs (builtin:songs):\n");
   for (const std::string& name : BuiltinSongNames()) {
-    const auto song = LoadBuiltinSongOutline(name);
-    if (!song) return Complain(song.error());
-    fmt::print("  builtin:{:<14} {} moves at {:g} per minute, {:.0f} s\n", name, song->parts.size(), song->tempo_bpm,
-               static_cast<double>(song->CountFrames()) / kJudgedRateHz);
+    ASSIGN_OR_RETURN(const auto song, LoadBuiltinSongOutline(name));
+    fmt::print("  builtin:{:<14} {} moves at {:g} per minute, {:.0f} s\n", name, song.parts.size(), song.tempo_bpm,
+               static_cast<double>(song.CountFrames()) / kJudgedRateHz);
   }
-  fmt::print("Your own: BVH, glTF and DeepMimic files, 'dance.glb#Jump', patterns such as '~/mocap/*.bvh' (docs/clips.md).\n");
+  fmt::print(
+      "Your own: BVH, glTF and DeepMimic files, 'dance.glb#Jump', patterns such as '~/mocap/*.bvh' (docs/clips.md).\n");
   return kSuccess;
 }
 
-int ListScenarios(const std::string& folder) {
-  const auto files = FindScenarioFiles({folder});
-  if (!files) return Complain(files.error());
-  for (const std::string& file : *files) {
+Result<int> ListScenarios(const std::string& folder) {
+  ASSIGN_OR_RETURN(const auto files, FindScenarioFiles({folder}));
+  for (const std::string& file : files) {
     SourceTexts texts;
-    if (auto read = ReadSources(file, texts); !read) return Complain(read.error());
-    const auto scenarios = ParseScenarios(file, texts);
-    if (!scenarios) return Complain(scenarios.error());
+    RETURN_IF_ERROR(ReadSources(file, texts));
+    ASSIGN_OR_RETURN(const auto scenarios, ParseScenarios(file, texts));
     fmt::print("{}\n", file);
-    for (const Scenario& scenario : *scenarios) {
+    for (const Scenario& scenario : scenarios) {
       fmt::print("  {} ({}): {}\n  {} trials × {} conditions × methods {}\n", scenario.name, scenario.task,
                  scenario.question, scenario.trials, scenario.conditions.size(), Join(MethodNames(scenario)));
     }
@@ -64,7 +70,26 @@ int ListScenarios(const std::string& folder) {
   return kSuccess;
 }
 
-}  // namespace
+enum class Listing { kMethods, kScenarios, kClips };
+
+Result<int> ListCommand(Listing what, const std::string& scenario_folder) {
+  switch (what) {
+    case Listing::kMethods:
+      ListTasks();
+      return kSuccess;
+    case Listing::kClips:
+      return ListClips();
+    case Listing::kScenarios:
+      break;
+  }
+  return ListScenarios(scenario_folder);
+}
+
+enum class KeysFormat {
+  kText,      ///< for people at a terminal
+  kMarkdown,  ///< docs/keys.md
+  kSchema,    ///< docs/schemas/scenario.schema.json
+};
 
 int ListKeysCommand(KeysFormat format) {
   if (format != KeysFormat::kText) {
@@ -83,17 +108,61 @@ int ListKeysCommand(KeysFormat format) {
   return kSuccess;
 }
 
-int ListCommand(Listing what, const std::string& scenario_folder) {
-  switch (what) {
-    case Listing::kMethods:
-      ListTasks();
-      return kSuccess;
-    case Listing::kClips:
-      return ListClips();
-    case Listing::kScenarios:
-      break;
+enum class MetricsFormat {
+  kTable,     ///< a line each, for people at a terminal
+  kJson,      ///< everything, with the test vectors (docs/schemas/metrics.schema.json)
+  kMarkdown,  ///< docs/metrics.md
+};
+
+int PrintTable() {
+  for (const MetricInfo& metric : AllMetrics()) {
+    fmt::print("{:<26} v{}  {:<16}  {}\n", metric.id, metric.version, DirectionWords(metric.direction),
+               metric.definition);
   }
-  return ListScenarios(scenario_folder);
+  return kSuccess;
+}
+
+int ListMetricsCommand(MetricsFormat format) {
+  if (format == MetricsFormat::kTable) return PrintTable();
+  fmt::print("{}", format == MetricsFormat::kJson ? MetricsJson() + "\n" : MetricsPage());
+  return kSuccess;
+}
+
+}  // namespace
+
+void DefineList(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("list", "List what a scenario can name");
+  command->require_subcommand(1);
+  const auto list = [&](const char* name, const char* help, Listing what) {
+    command->add_subcommand(name, help)->callback([=, &action] {
+      action = [=] { return Finish(ListCommand(what, "")); };
+    });
+  };
+  list("methods", "Tasks, what their methods are made of, and solvers", Listing::kMethods);
+  list("clips", "Built-in clips", Listing::kClips);
+  auto json = std::make_shared<bool>(false), markdown = std::make_shared<bool>(false);
+  CLI::App* metrics = command->add_subcommand("metrics", "Metrics with their definitions");
+  CLI::Option* as_json = metrics->add_flag("--json", *json, "Everything, with the test vectors, for other programs");
+  metrics->add_flag("--markdown", *markdown, "The page docs/metrics.md")->excludes(as_json);
+  metrics->callback([=, &action] {
+    const MetricsFormat format = *json       ? MetricsFormat::kJson
+                                 : *markdown ? MetricsFormat::kMarkdown
+                                             : MetricsFormat::kTable;
+    action = [=] { return ListMetricsCommand(format); };
+  });
+  auto as_page = std::make_shared<bool>(false), as_schema = std::make_shared<bool>(false);
+  CLI::App* keys = command->add_subcommand("keys", "Every key of a scenario file");
+  CLI::Option* page = keys->add_flag("--markdown", *as_page, "The page docs/keys.md");
+  keys->add_flag("--schema", *as_schema, "The JSON Schema docs/schemas/scenario.schema.json, for editors")
+      ->excludes(page);
+  keys->callback([=, &action] {
+    const KeysFormat format = *as_schema ? KeysFormat::kSchema : *as_page ? KeysFormat::kMarkdown : KeysFormat::kText;
+    action = [=] { return ListKeysCommand(format); };
+  });
+  auto folder = std::make_shared<std::string>("scenarios/quick");
+  CLI::App* scenarios = command->add_subcommand("scenarios", "Scenarios of a folder");
+  scenarios->add_option("folder", *folder, "Folder of scenarios")->capture_default_str();
+  scenarios->callback([=, &action] { action = [=] { return Finish(ListCommand(Listing::kScenarios, *folder)); }; });
 }
 
 }  // namespace etude

@@ -42,7 +42,7 @@ constexpr const char* kExamples =
     "Exit codes: 0 fine, 1 no cell was ok (gate: regression; replay: a difference), 2 bad input (nothing is\n"
     "written), 3 incomplete, 130 interrupted.";
 
-/// The options and subcommands that could have been meant at this point of the command line.
+/// Lists the options and subcommands that could have been meant at this point of the command line.
 std::vector<std::string> KnownWords(const CLI::App& app) {
   std::vector<std::string> known;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App* sub) { return !sub->get_name().empty(); })) {
@@ -71,15 +71,15 @@ int ComplainOfArguments(const CLI::App& app, const CLI::ParseError& error) {
   return Complain(Error{{}, fmt::format("{} (etude {}--help explains)", message, words)});
 }
 
-/// Whether the command computes nothing that must come out the same on any machine: it prints what is known or written,
-/// or draws pages, sheets and films, as fast as this machine can.
+/// Is true of commands that compute nothing that must come out the same on any machine: they print what is known or written,
+/// or draw pages, sheets and films, as fast as this machine can.
 bool RunsUnpinned(const CLI::App& app) {
   if (app.got_subcommand("list") || app.got_subcommand("rows") || app.got_subcommand("report")) return true;
   return app.got_subcommand("clip") && app.get_subcommand("clip")->got_subcommand("render");
 }
 
-/// A standard stream that was closed by whoever started us would lend its number to the next file opened,
-/// and what is printed would land in there.
+/// Opens standard streams that the parent has closed: else the next file opened would get the number of one, and what
+/// is printed would land in it.
 void OpenStandardStreams() {
   for (int descriptor = ::open("/dev/null", O_RDWR); descriptor >= 0; descriptor = ::dup(descriptor)) {
     if (descriptor <= STDERR_FILENO) continue;

@@ -21,7 +21,7 @@ Line LineOf(const GateTableRow& row) {
           row.worlds};
 }
 
-/// Columns that people see, not bytes: continuation bytes of UTF-8 take none.
+/// Counts the columns that people see, not bytes: continuation bytes of UTF-8 take none.
 std::size_t WidthOf(const std::string& text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
@@ -46,12 +46,6 @@ void PrintMoves(const SnapshotComparison& comparison, const std::string& before,
     fmt::print("{}\n", text.substr(0, text.find_last_not_of(' ') + 1));
   }
   if (rows.size() > most) fmt::print("  … and {} more\n", rows.size() - most);
-}
-
-void PrintList(const std::string& title, const std::vector<std::string>& lines) {
-  if (lines.empty()) return;
-  fmt::print("{}\n", title);
-  for (const std::string& line : lines) fmt::print("  {}\n", line);
 }
 
 }  // namespace etude

@@ -7,8 +7,8 @@
 
 namespace etude {
 
-/// Prints a table of what moved, with what the two sides are called in its head; at most `most` rows, and how many
-/// were left out.
+/// Prints a table of the metrics that moved, with `before` and `after` as the heads of its two sides; at most `most`
+/// rows, and how many were left out.
 void PrintMoves(const SnapshotComparison& comparison, const std::string& before, const std::string& after,
                 std::size_t most);
 

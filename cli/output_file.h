@@ -7,10 +7,10 @@
 
 namespace etude {
 
-/// Refuses to write over what is there already.
+/// Refuses a path that names a folder or a device, and without `overwrite` one at which there is a file already.
 Result<void> CheckOutput(const std::string& path, bool overwrite);
 
-/// Says that a file is there now: on standard output, unless that is for programs.
+/// Says that a file was written: on standard output, unless that is for programs.
 void TellWritten(const std::string& path, std::FILE* stream = stdout);
 
 }  // namespace etude

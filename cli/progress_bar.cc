@@ -4,12 +4,11 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <string>
 
 namespace etude {
 namespace {
 
-constexpr int kWidth = 32;
+constexpr int kBarWidth = 32;
 
 std::string Remaining(const Progress& progress) {
   const std::size_t here = progress.cells_done - progress.cells_before;
@@ -18,7 +17,7 @@ std::string Remaining(const Progress& progress) {
   return fmt::format(", about {:.0f} s to go", each * static_cast<double>(progress.cells - progress.cells_done));
 }
 
-/// fmt::print throws when nobody listens any more; that must not end a run.
+/// Prints without a throw when nobody listens any more (fmt::print throws): that must not end a run.
 void Print(const std::string& text) { std::fputs(text.c_str(), stderr); }
 
 }  // namespace
@@ -44,8 +43,8 @@ void ProgressBar::Show(double share, const std::string& what, const std::string&
   if (IsTooSoon(share)) return;
   is_shown_ = true;
   if (is_terminal_) {
-    const int filled = static_cast<int>(share * kWidth);
-    const std::string bar = std::string(filled, '#') + std::string(kWidth - filled, '.');
+    const int filled = static_cast<int>(share * kBarWidth);
+    const std::string bar = std::string(filled, '#') + std::string(kBarWidth - filled, '.');
     Print(fmt::format("\r\033[K[{}] {}{}{}", bar, what, remaining, share >= 1 ? "\n" : ""));
   } else if (const int tenths = static_cast<int>(share * 10); tenths > tenths_shown_) {
     tenths_shown_ = tenths;
@@ -53,11 +52,21 @@ void ProgressBar::Show(double share, const std::string& what, const std::string&
   }
 }
 
-OnProgress TellOf(std::string what) {
+OnProgress ProgressOf(std::string what) {
   return [=, bar = ProgressBar(ProgressBar::Begins::kWhenItTakesLong)](std::size_t done, std::size_t all) mutable {
     bar.Show(all == 0 ? 1 : static_cast<double>(done) / static_cast<double>(all),
              fmt::format("{}/{} {}", done, all, what));
   };
+}
+
+FilmWatch WatchFilms(const Interrupt& interrupt) {
+  const auto tell = [of = std::string(), tell = OnProgress()](const std::string& file, std::size_t done,
+                                                              std::size_t frames) mutable {
+    if (file != of) tell = ProgressOf("frames of " + file);
+    of = file;
+    tell(done, frames);
+  };
+  return {.progress = tell, .stop = interrupt.requested()};
 }
 
 }  // namespace etude

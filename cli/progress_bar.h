@@ -4,7 +4,9 @@
 
 #include "bench/process/clock.h"
 #include "bench/run/run.h"
+#include "cli/interrupt.h"
 #include "engine/base/progress.h"
+#include "reports/films/film.h"
 
 namespace etude {
 
@@ -18,7 +20,7 @@ class ProgressBar {
   };
   explicit ProgressBar(Begins begins = Begins::kAtOnce);
   void Show(const Progress& progress);
-  /// `share` of the way, 0 … 1; `remaining` is told where there is somebody who waits.
+  /// Shows how far the work is: `share` is 0…1, `remaining` is shown on a terminal only.
   void Show(double share, const std::string& what, const std::string& remaining = "");
 
  private:
@@ -31,7 +33,10 @@ class ProgressBar {
   int tenths_shown_ = -1;
 };
 
-/// Tells how far some work has come ("12/300 clips"), when it takes long.
-OnProgress TellOf(std::string what);
+/// Makes a callback that shows how far some work is ("12/300 clips") once it takes long.
+OnProgress ProgressOf(std::string what);
+
+/// Makes a watch that shows of each film how many of its frames are drawn, and that Ctrl-C stops.
+FilmWatch WatchFilms(const Interrupt& interrupt);
 
 }  // namespace etude

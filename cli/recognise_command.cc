@@ -1,24 +1,54 @@
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <iostream>
 #include <map>
+#include <memory>
 
 #include "bench/files/files.h"
 #include "bench/streams/label_scores.h"
 #include "cli/commands.h"
-#include "cli/stream_commands.h"
+#include "cli/stream_reading.h"
 #include "engine/base/named.h"
 #include "engine/base/names.h"
+#include "engine/recognition/filters.h"
+#include "engine/recognition/recognisers.h"
 #include "engine/streams/live_stream.h"
 #include "engine/teaching/moves_file.h"
 
 namespace etude {
 namespace {
 
-/// "tolerance_scale=1.2" of each setting, the rest by default.
+struct RecogniseCommandOptions {
+  std::vector<std::string> streams;  ///< one "-" = standard input, live
+  std::string moves;
+  std::string labels;
+  std::string recogniser;  ///< "" = key-pose
+  std::string filter = "none", weights = "fixed";
+  std::optional<double> threshold;
+  std::vector<std::string> settings;  ///< "tolerance_scale=1.2"
+  bool leave_one_person_out = false;
+  bool as_json = false;
+  StreamArguments reading;
+};
+
+constexpr const char* kRecogniseExamples =
+    "\nPrints what is spotted as it comes, a line of JSON each. With labels also how well: performances called right "
+    "or\n"
+    "wrong, action points within 333 ms. With --leave-one-person-out each person is recognised by what the others\n"
+    "taught. Recordings and devices: Kinect v1 and v2 rows, MSRC-12, UTKinect, NTU, Azure Kinect, CSV, TRC; rows and "
+    "CSV\n"
+    "also live (docs/streams.md).\n\n"
+    "Try:\n"
+    "  etude recognise take.txt --moves moves.yaml\n"
+    "  my-kinect-reader | etude recognise - --moves moves.yaml\n"
+    "  etude recognise take.txt --moves moves.yaml --labels labels.csv\n"
+    "  etude recognise joints/ --labels actionLabel.txt --leave-one-person-out --recogniser dtw";
+
+/// Reads settings such as "tolerance_scale=1.2"; the others keep their defaults.
 Result<std::vector<double>> ReadSettings(const RecogniserKind& kind, const std::vector<std::string>& given) {
   std::vector<double> values;
   std::vector<std::string> names;
@@ -76,8 +106,8 @@ void PrintSpotting(const Spotting& spotting, const Taught& taught, double rate_h
   std::fflush(stdout);
 }
 
-/// Standard input, line by line, until it ends.
-int RecogniseLive(const RecogniseCommandOptions& options, const Taught& taught, const WatchOptions& watch) {
+/// Recognises in standard input, line by line, until it ends.
+Result<int> RecogniseLive(const RecogniseCommandOptions& options, const Taught& taught, const WatchOptions& watch) {
   const StreamOptions making = options.reading.Options();
   LiveStream live("standard input", options.reading.Reading(), making);
   StreamWatcher watcher(*taught.recogniser, taught.moves.size(), watch, making.rate_hz);
@@ -92,12 +122,13 @@ int RecogniseLive(const RecogniseCommandOptions& options, const Taught& taught, 
     std::vector<SensedFrame> frames;
     const auto taken = live.Take(line, frames);
     take(frames);
-    if (!taken) return Complain(taken.error());
+    RETURN_IF_ERROR(taken);
   }
   std::vector<SensedFrame> frames;
   const auto finished = live.Finish(frames);
   take(frames);
-  return finished ? kSuccess : Complain(finished.error());
+  RETURN_IF_ERROR(finished);
+  return kSuccess;
 }
 
 std::string Percent(const std::optional<double>& share) {
@@ -137,7 +168,7 @@ Result<std::vector<LabelledPart>> PartsOf(const RecogniseCommandOptions& options
   return MatchLabels(labels, options.labels, loaded.streams);
 }
 
-Result<void> RecogniseFiles(const RecogniseCommandOptions& options, const Taught& taught, const WatchOptions& watch) {
+Result<int> RecogniseFiles(const RecogniseCommandOptions& options, const Taught& taught, const WatchOptions& watch) {
   ASSIGN_OR_RETURN(const LoadedStreams loaded, Load(options));
   std::vector<LabelledPart> parts;
   if (!options.labels.empty()) {
@@ -155,10 +186,10 @@ Result<void> RecogniseFiles(const RecogniseCommandOptions& options, const Taught
     scores.Add(stream, own, spottings);
   }
   if (!options.labels.empty()) Print(scores, options.as_json);
-  return {};
+  return kSuccess;
 }
 
-/// Which moves are taken for which, the commonest mistakes first.
+/// Prints which moves are taken for which, the commonest mistakes first.
 void PrintMistakes(std::span<const Classified> verdicts) {
   std::map<std::pair<std::string, std::string>, int> mistakes;
   for (const Classified& verdict : verdicts) {
@@ -173,7 +204,7 @@ void PrintMistakes(std::span<const Classified> verdicts) {
   }
 }
 
-Result<void> RecogniseLeavingOneOut(const RecogniseCommandOptions& options, const WatchOptions& watch) {
+Result<int> RecogniseLeavingOneOut(const RecogniseCommandOptions& options, const WatchOptions& watch) {
   ASSIGN_OR_RETURN(const LoadedStreams loaded, Load(options));
   ASSIGN_OR_RETURN(const auto parts, PartsOf(options, loaded));
   ASSIGN_OR_RETURN(
@@ -193,28 +224,52 @@ Result<void> RecogniseLeavingOneOut(const RecogniseCommandOptions& options, cons
                1000 * kActionPointTolerance, Percent(f_score));
   }
   if (options.as_json) fmt::print("{}\n", ScoresLine(out));
-  return {};
+  return kSuccess;
+}
+
+Result<int> RecogniseCommand(const RecogniseCommandOptions& options) {
+  ASSIGN_OR_RETURN(const auto watch, OptionsOf(options));
+  if (options.leave_one_person_out) return RecogniseLeavingOneOut(options, watch);
+  if (options.moves.empty()) return Fail({"--moves"}, "needed: a moves file (etude teach writes one)");
+  ASSIGN_OR_RETURN(const auto taught, LoadTaught(options.moves, watch));
+  const bool is_live = std::ranges::find(options.streams, "-") != options.streams.end();
+  if (is_live && (options.streams.size() > 1 || !options.labels.empty())) {
+    return Fail({"-"}, "standard input goes alone, and without labels");
+  }
+  return is_live ? RecogniseLive(options, taught, watch) : RecogniseFiles(options, taught, watch);
 }
 
 }  // namespace
 
-int RecogniseCommand(const RecogniseCommandOptions& options) {
-  const auto watch = OptionsOf(options);
-  if (!watch) return Complain(watch.error());
-  if (options.leave_one_person_out) {
-    const auto done = RecogniseLeavingOneOut(options, *watch);
-    return done ? kSuccess : Complain(done.error());
-  }
-  if (options.moves.empty()) return Complain({{"--moves", 0, 0}, "needed: a moves file (etude teach writes one)"});
-  const auto taught = LoadTaught(options.moves, *watch);
-  if (!taught) return Complain(taught.error());
-  const bool is_live = std::ranges::find(options.streams, "-") != options.streams.end();
-  if (is_live && (options.streams.size() > 1 || !options.labels.empty())) {
-    return Complain({{"-", 0, 0}, "standard input goes alone, and without labels"});
-  }
-  if (is_live) return RecogniseLive(options, *taught, *watch);
-  const auto done = RecogniseFiles(options, *taught, *watch);
-  return done ? kSuccess : Complain(done.error());
+void DefineRecognise(CLI::App& app, Action& action) {
+  auto options = std::make_shared<RecogniseCommandOptions>();
+  CLI::App* command = app.add_subcommand("recognise", "Which moves a recording or a live stream shows");
+  command->add_option("streams", options->streams, "Recordings, patterns, folders; - is standard input, live")
+      ->required();
+  auto* moves = command->add_option("--moves", options->moves, "What was taught (etude teach)");
+  auto* labels = command->add_option("--labels", options->labels, "Score by these: a file, or a folder of tag streams");
+  command
+      ->add_flag("--leave-one-person-out", options->leave_one_person_out,
+                 "Teach from the labels of all other people, person by person")
+      ->excludes(moves);
+  command->add_option("--recogniser", options->recogniser, "How (default: key-pose)")
+      ->check(CLI::IsMember(RecogniserNames()));
+  command->add_option("--filter", options->filter, "How joints are smoothed first")
+      ->check(CLI::IsMember(FilterNames()))
+      ->capture_default_str();
+  command->add_option("--weights", options->weights, "How much an angle counts: all alike, or by how well it is seen")
+      ->check(CLI::IsMember({"fixed", "adaptive"}))
+      ->capture_default_str();
+  command
+      ->add_option("--threshold", options->threshold,
+                   "Evidence from which on a move is called (default: the recogniser's)")
+      ->check(NumberWithin(0.001, 1, "threshold"));
+  command->add_option("--set", options->settings, "A setting of the recogniser: tolerance_scale=1.2")
+      ->allow_extra_args(false);
+  command->add_flag("--json", options->as_json, "Scores as JSON, too")->needs(labels);
+  AddStreamReading(*command, options->reading);
+  command->footer(kRecogniseExamples);
+  command->callback([=, &action] { action = [=] { return Finish(RecogniseCommand(*options)); }; });
 }
 
 }  // namespace etude

@@ -1,9 +1,13 @@
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 
 #include "bench/replay/replay.h"
+#include "bench/results/folder.h"
+#include "bench/run/outside_programs.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
@@ -11,58 +15,82 @@
 namespace etude {
 namespace {
 
+struct ReplayCommandOptions {
+  std::string target;              ///< a result folder, or a packed cell
+  std::vector<std::string> cells;  ///< by name; none: all
+  std::size_t sample = 0;          ///< this many of them, drawn by the run's seed; 0 = all
+  std::string pack_file;           ///< into which the one cell is packed instead, "" = none
+  bool overwrite = false;
+  int jobs = 0;
+  OutsideRules outside;
+  Sealing sealing = Sealing::kRequired;
+};
+
 void PrintDifference(const CellCheck& check) {
   fmt::print("differs: {}\n  first at {}: {} then, {} now\n", check.cell, check.stage, check.then, check.now);
 }
 
-int ReplayFile(const std::string& file, const OutsideRules& outside) {
-  const auto check = ReplayPack(file, outside);
-  if (!check) return Complain(check.error());
-  if (!check->same) {
-    PrintDifference(*check);
+Result<int> ReplayFile(const std::string& file, const OutsideRules& outside) {
+  ASSIGN_OR_RETURN(const auto check, ReplayPack(file, outside));
+  if (!check.same) {
+    PrintDifference(check);
     return kNothingWorked;
   }
-  fmt::print("{}: the same, stage by stage\n", check->cell);
+  fmt::print("{}: the same, stage by stage\n", check.cell);
   return kSuccess;
 }
 
-int Pack(const ReplayCommandOptions& options) {
-  if (options.cells.size() != 1) return Complain({{}, "--pack packs one cell: name it with --cell"});
-  if (auto free = CheckOutput(options.pack_file, options.overwrite); !free) return Complain(free.error());
-  const auto packed = PackCell(options.target, options.cells.front(), options.pack_file, options.sealing);
-  if (!packed) return Complain(packed.error());
+Result<int> Pack(const ReplayCommandOptions& options) {
+  if (options.cells.size() != 1) return Fail({}, "--pack packs one cell: name it with --cell");
+  RETURN_IF_ERROR(CheckOutput(options.pack_file, options.overwrite));
+  RETURN_IF_ERROR(PackCell(options.target, options.cells.front(), options.pack_file, options.sealing));
   TellWritten(options.pack_file);
   fmt::print("Next, anywhere: etude replay {}\n", options.pack_file);
   return kSuccess;
 }
 
-}  // namespace
-
-int ReplayCommand(const ReplayCommandOptions& options) {
+Result<int> ReplayCommand(const ReplayCommandOptions& options) {
   const Interrupt interrupt;
   std::error_code error;
   if (!std::filesystem::is_directory(options.target, error)) {
     if (!options.cells.empty() || !options.pack_file.empty() || options.sample > 0) {
-      return Complain({{options.target, 0, 0}, "is no result folder; --cell, --sample and --pack need one"});
+      return Fail({options.target}, "is no result folder; --cell, --sample and --pack need one");
     }
     return ReplayFile(options.target, options.outside);
   }
   if (!options.pack_file.empty()) return Pack(options);
-  const auto checks = ReplayRun({.folder = options.target,
-                                 .cells = options.cells,
-                                 .sample = options.sample,
-                                 .jobs = options.jobs,
-                                 .outside = options.outside,
-                                 .sealing = options.sealing,
-                                 .stop = interrupt.requested()});
-  if (!checks) return Complain(checks.error());
-  const auto same = std::count_if(checks->begin(), checks->end(), [](const CellCheck& check) { return check.same; });
-  for (const CellCheck& check : *checks) {
+  ASSIGN_OR_RETURN(const auto checks, ReplayRun({.folder = options.target,
+                                                 .cells = options.cells,
+                                                 .sample = options.sample,
+                                                 .jobs = options.jobs,
+                                                 .outside = options.outside,
+                                                 .sealing = options.sealing,
+                                                 .stop = interrupt.requested()}));
+  const auto same = std::ranges::count(checks, true, &CellCheck::same);
+  for (const CellCheck& check : checks) {
     if (!check.same) PrintDifference(check);
   }
-  fmt::print("{} of {} cells came out the same\n", same, checks->size());
+  fmt::print("{} of {} cells came out the same\n", same, checks.size());
   if (*interrupt.requested()) return kInterrupted;
-  return static_cast<std::size_t>(same) == checks->size() ? kSuccess : kNothingWorked;
+  return static_cast<std::size_t>(same) == checks.size() ? kSuccess : kNothingWorked;
+}
+
+}  // namespace
+
+void DefineReplay(CLI::App& app, Action& action) {
+  auto options = std::make_shared<ReplayCommandOptions>();
+  CLI::App* command = app.add_subcommand("replay", "Run cells again and compare them stage by stage");
+  command->add_option("target", options->target, "A result folder, or a file that --pack has written")->required();
+  CLI::Option* cell = command->add_option("--cell", options->cells, "These cells, as cells.jsonl names them");
+  command->add_option("--sample", options->sample, "This many cells, drawn by the run's seed (default: all)")
+      ->check(CLI::Range(1, 10'000'000))
+      ->excludes(cell);
+  AddUnsealed(*command, options->sealing);
+  AddOutsideRules(*command, options->outside);
+  command->add_option("--pack", options->pack_file, "Write the cell, with its scenario and clips, into this one file");
+  AddOverwrite(*command, options->overwrite);
+  AddJobs(*command, options->jobs);
+  command->callback([=, &action] { action = [=] { return Finish(ReplayCommand(*options)); }; });
 }
 
 }  // namespace etude

@@ -1,16 +1,17 @@
+#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 
 #include "bench/files/files.h"
 #include "bench/results/folder.h"
 #include "cli/commands.h"
-#include "cli/film_watch.h"
 #include "cli/output_file.h"
+#include "cli/progress_bar.h"
 #include "reports/report.h"
 
 namespace etude {
-
 namespace {
 
 Result<std::vector<RealTake>> ReadRealTakes(const std::vector<std::string>& files) {
@@ -22,44 +23,70 @@ Result<std::vector<RealTake>> ReadRealTakes(const std::vector<std::string>& file
   return takes;
 }
 
-}  // namespace
-
-int ReportCommand(const std::string& folder, const std::vector<std::string>& real, const ReportOptions& given,
-                  Sealing sealing) {
-  auto takes = ReadRealTakes(real);
-  if (!takes) return Complain(takes.error());
-  const auto run = LoadRun(folder, sealing);
-  if (!run) return Complain(run.error());
-  TellUnsealed(*run);
-  if (auto whole = CheckRowsAgainstSummary(folder, *run); !whole) return Complain(whole.error());
+Result<int> ReportCommand(const std::string& folder, const std::vector<std::string>& real, ReportOptions options,
+                          Sealing sealing) {
+  ASSIGN_OR_RETURN(options.real, ReadRealTakes(real));
+  ASSIGN_OR_RETURN(const auto run, LoadRun(folder, sealing));
+  TellUnsealed(run);
+  RETURN_IF_ERROR(CheckRowsAgainstSummary(folder, run));
   const Interrupt interrupt;
-  ReportOptions options = given;
   options.watch = WatchFilms(interrupt);
-  options.real = std::move(*takes);
-  const auto written = WriteReport(*run, folder, options);
-  if (!written) return Complain(written.error());
-  if (!*written) return TellStopped({{folder, 0, 0}, "stopped; the tables are written, the page is not"});
+  ASSIGN_OR_RETURN(const bool is_whole, WriteReport(run, folder, options));
+  if (!is_whole) return TellStopped({{folder, 0, 0}, "stopped; the tables are written, the page is not"});
   TellWritten(folder + "/report/index.html");
   return kSuccess;
 }
 
-int RowsCommand(const std::string& folder, const std::string& file, bool overwrite, Sealing sealing) {
+Result<int> RowsCommand(const std::string& folder, const std::string& file, bool overwrite, Sealing sealing) {
   if (file.empty()) {
-    const auto written = WriteRows(folder, sealing, [](std::string_view line) -> Result<void> {
+    RETURN_IF_ERROR(WriteRows(folder, sealing, [](std::string_view line) -> Result<void> {
       if (std::fwrite(line.data(), 1, line.size(), stdout) == line.size()) return {};
       return Fail({"standard output"}, "cannot be written: {}", std::strerror(errno));
-    });
-    return written ? kSuccess : Complain(written.error());
+    }));
+    return kSuccess;
   }
-  const auto write = [&]() -> Result<void> {
-    RETURN_IF_ERROR(CheckOutput(file, overwrite));
-    ASSIGN_OR_RETURN(auto out, AtomicFile::Begin(file));
-    RETURN_IF_ERROR(WriteRows(folder, sealing, [&](std::string_view line) { return out.Write(line); }));
-    return out.Finish();
-  };
-  if (const auto written = write(); !written) return Complain(written.error());
+  RETURN_IF_ERROR(CheckOutput(file, overwrite));
+  ASSIGN_OR_RETURN(auto out, AtomicFile::Begin(file));
+  RETURN_IF_ERROR(WriteRows(folder, sealing, [&](std::string_view line) { return out.Write(line); }));
+  RETURN_IF_ERROR(out.Finish());
   TellWritten(file);
   return kSuccess;
+}
+
+}  // namespace
+
+void DefineReport(CLI::App& app, Action& action) {
+  auto folder = std::make_shared<std::string>();
+  auto no_video = std::make_shared<bool>(false);
+  auto whole_sessions = std::make_shared<bool>(false);
+  CLI::App* command = app.add_subcommand("report", "Write the page, tables, JUnit and video of a run");
+  command->add_option("folder", *folder, "A result folder")->required();
+  command->add_flag("--no-video", *no_video, "Leave the video out");
+  command->add_flag("--whole-sessions", *whole_sessions, "Film coached sessions whole, not around a correction");
+  auto real = std::make_shared<std::vector<std::string>>();
+  command->add_option("--real", *real,
+                      "Beside it, captures of real films: files that `etude capture --distances` wrote");
+  auto sealing = std::make_shared<Sealing>();
+  AddUnsealed(*command, *sealing);
+  command->callback([=, &action] {
+    action = [=] {
+      return Finish(
+          ReportCommand(*folder, *real, {.pictures = !*no_video, .whole_sessions = *whole_sessions}, *sealing));
+    };
+  });
+}
+
+void DefineRows(CLI::App& app, Action& action) {
+  auto folder = std::make_shared<std::string>(), file = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("rows", "The rows of a run as lines of text, as cells.jsonl has them");
+  command->add_option("folder", *folder, "A result folder, also one of columns")->required();
+  command->add_option("-o,--output", *file, "Into this file (default: to standard output)");
+  auto sealing = std::make_shared<Sealing>();
+  AddUnsealed(*command, *sealing);
+  auto overwrite = std::make_shared<bool>(false);
+  AddOverwrite(*command, *overwrite);
+  command->callback(
+      [=, &action] { action = [=] { return Finish(RowsCommand(*folder, *file, *overwrite, *sealing)); }; });
 }
 
 }  // namespace etude

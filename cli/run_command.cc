@@ -1,11 +1,17 @@
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
+#include <memory>
 #include <optional>
 
 #include "bench/metrics/catalogue.h"
 #include "bench/results/folder.h"
+#include "bench/run/dry_run.h"
+#include "bench/run/run.h"
+#include "bench/statistics/beyond.h"
+#include "bench/statistics/bootstrap.h"
+#include "bench/statistics/power.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
@@ -28,7 +34,7 @@ bool IsSkipped(const ConditionSummary& condition) {
   });
 }
 
-/// Why nothing was measured under a condition of which every cell was skipped; else "".
+/// Gives the reason when every cell of a condition was skipped; else "".
 std::string WhySkipped(const ConditionSummary& condition, const std::string& scenario, const std::vector<Row>& rows) {
   if (!IsSkipped(condition)) return "";
   const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& other) {
@@ -37,7 +43,7 @@ std::string WhySkipped(const ConditionSummary& condition, const std::string& sce
   return row == rows.end() ? "" : row->result.reason;
 }
 
-/// One small table per condition: methods down, headline metrics across.
+/// Prints one small table per condition: methods down, headline metrics across.
 void PrintTables(const ScenarioSummary& scenario, const std::vector<Row>& rows) {
   constexpr std::size_t kShownMetrics = 4;
   std::vector<const MetricInfo*> metrics;
@@ -87,22 +93,6 @@ int ShowOutcome(const RunOutcome& outcome) {
   return outcome.cells_ok > 0 ? kSuccess : kNothingWorked;
 }
 
-}  // namespace
-
-int Complain(const Error& error) {
-  std::fputs(("etude: " + ToString(error) + "\n").c_str(), stderr);
-  return kUnusableInput;
-}
-
-int TellStopped(const Error& what_is_left) {
-  Complain(what_is_left);
-  return kInterrupted;
-}
-
-void TellUnsealed(const RunData& run) {
-  if (!run.unsealed.empty()) std::fputs(("etude: read unsealed: " + run.unsealed + "\n").c_str(), stderr);
-}
-
 int RunCommand(const RunOptions& given) {
   RunOptions options = given;
   std::optional<Interrupt> interrupt(std::in_place);
@@ -142,6 +132,120 @@ int MergeCommand(const MergeOptions& given) {
   if (!outcome) return Complain(outcome.error());
   if (!outcome->stopped) return ShowOutcome(*outcome);
   return TellStopped({{}, "stopped; the shards are as they were, and there is no merged run"});
+}
+
+constexpr double kSampleSeconds = 10;
+
+std::string Duration(double seconds) {
+  if (seconds < 100) return fmt::format("{:.0f} s", std::max(seconds, 1.0));
+  if (seconds < 6000) return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+std::string CountOf(std::size_t count, std::string_view what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+void Print(const ScenarioForecast& one) {
+  fmt::print("{} ({}): {} × {} × {} = {} cells, {:.2g} s a world\n", one.name, one.task,
+             CountOf(one.conditions, "condition"), CountOf(one.worlds, "world"), CountOf(one.methods, "method"),
+             one.conditions * one.worlds * one.methods, one.seconds_per_world);
+  if (one.comparisons == 0) return;
+  const int worlds = static_cast<int>(one.worlds);
+  const std::string among = one.comparisons == 1 ? "1 comparison" : fmt::format("{} comparisons", one.comparisons);
+  if (worlds < kSmallestSample) {
+    fmt::print("  on these worlds: no verdict; at least {} are needed\n", kSmallestSample);
+  } else {
+    fmt::print(
+        "  on these worlds: {} {} a mean difference from {:.2f} standard deviations of the worlds' "
+        "differences\n",
+        among, one.comparisons == 1 ? "shows" : "show", SmallestFinding(worlds, one.comparisons));
+  }
+  if (IsEveryWorldItsOwn(one.unit)) return;
+  if (one.units < kFewestUnits) {
+    fmt::print("  beyond them: no verdict: {}; at least {} are needed\n", CountUnits(one.units, one.unit),
+               kFewestUnits);
+    return;
+  }
+  fmt::print("  beyond them: from {:.2f} standard deviations of the mean differences of {}\n",
+             SmallestFinding(one.units, one.comparisons), CountUnits(one.units, one.unit));
+}
+
+int DryRunCommand(const RunOptions& options) {
+  const auto forecast = DryRun(options, kSampleSeconds);
+  if (!forecast) return Complain(forecast.error());
+  std::size_t cells = 0;
+  for (const ScenarioForecast& one : forecast->scenarios) {
+    Print(one);
+    cells += one.conditions * one.worlds * one.methods;
+  }
+  fmt::print("{} cells, about {} on {}. Differences that are found with a chance of 80 %. Nothing was written.\n",
+             cells, Duration(forecast->seconds), CountOf(static_cast<std::size_t>(forecast->workers), "worker"));
+  return kSuccess;
+}
+
+}  // namespace
+
+void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
+  auto options = std::make_shared<RunOptions>();
+  auto shard = std::make_shared<std::string>();
+  options->program_version = ETUDE_VERSION;
+  options->command_line = command_line;
+  CLI::App* command = app.add_subcommand("run", "Run scenarios into a result folder");
+  command->add_option("scenarios", options->scenarios, "Scenario files, or folders of them");
+  command->add_option("-o,--output", options->output, "Result folder (default: out/<suite>-<seed>)");
+  AddJobs(*command, options->jobs);
+  const auto world_options =
+      AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map);
+  CLI::Option* shard_option =
+      command->add_option("--shard", *shard, "Run part i of n, as i/n; etude merge makes one run of all parts");
+  CLI::Option* overwrite = AddOverwrite(*command, options->overwrite, "Replace a folder that already holds a run");
+  CLI::Option* resume =
+      command->add_flag("--resume", options->resume, "Go on with the run that the folder holds")->excludes(overwrite);
+  AddOutsideRules(*command, options->outside);
+  command->add_option("--sync-seconds", options->sync.seconds, "What is done is on the disk after so long at most")
+      ->check(NumberWithin(0, 3600, "time in s"))
+      ->capture_default_str();
+  command->add_option("--sync-mebibytes", options->sync.mebibytes, "… and after so much at most")
+      ->check(NumberWithin(0, 1024, "size in MiB"))
+      ->capture_default_str();
+  auto dry_run = std::make_shared<bool>(false);
+  command->add_flag("--dry-run", *dry_run, "Only tell how long it would take, and what differences it could show")
+      ->excludes(shard_option, overwrite, resume);
+  CLI::Option* from = command->add_option("--from", options->from, "Repeat the run that this manifest.json describes");
+  for (CLI::Option* option : world_options) from->excludes(option);
+  from->excludes(command->add_option("--library", options->libraries,
+                                     "NAME=CLIPS: a library beside the scenarios', every condition once more for it"));
+  CLI::Option* streams = command->add_option(
+      "--streams", options->streams,
+      "Recordings of skeletons in the place of simulated people: files, patterns, folders (docs/streams.md)");
+  streams->excludes(from, world_options[2]);
+  from->excludes(command->add_option("--labels", options->labels,
+                                     "Who did what when in --streams or --clips: a file, or a folder of tag streams"));
+  command->callback([=, &action] {
+    action = [=] {
+      if (options->scenarios.empty() == options->from.empty()) {
+        return Complain({{}, "etude run needs scenario files or folders, or --from a manifest.json (one of the two)"});
+      }
+      if (!shard->empty()) {
+        const auto part = ParseShard(*shard);
+        if (!part) return Complain({{}, "--shard: " + part.error().message});
+        options->shard = *part;
+      }
+      return *dry_run ? DryRunCommand(*options) : RunCommand(*options);
+    };
+  });
+}
+
+void DefineMerge(CLI::App& app, const std::string& command_line, Action& action) {
+  auto options = std::make_shared<MergeOptions>();
+  options->program_version = ETUDE_VERSION;
+  options->command_line = command_line;
+  CLI::App* command = app.add_subcommand("merge", "Make one run of its shards");
+  command->add_option("folders", options->folders, "The folders of all shards, in any order")->required();
+  command->add_option("-o,--output", options->output, "Result folder")->required();
+  AddOverwrite(*command, options->overwrite, "Replace a folder that already holds a run");
+  command->callback([=, &action] { action = [=] { return MergeCommand(*options); }; });
 }
 
 }  // namespace etude

@@ -1,12 +1,25 @@
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "bench/files/files.h"
 #include "bench/run/suite.h"
 #include "cli/commands.h"
 #include "cli/output_file.h"
-#include "cli/sensor_commands.h"
-#include "reports/sensors/sensor_sheet.h"
+#include "reports/clips/contact_sheet.h"
 
 namespace etude {
 namespace {
+
+struct SensorSheetOptions {
+  std::string scenario, output;
+  std::optional<std::uint64_t> seed;
+  std::vector<std::string> clips;  ///< replaces the scenario's when not empty
+  bool overwrite = false;
+};
 
 Result<void> WriteSheet(const SensorSheetOptions& options) {
   RunOptions run;
@@ -25,16 +38,26 @@ Result<void> WriteSheet(const SensorSheetOptions& options) {
   return WriteFileAtomically(options.output, png);
 }
 
-}  // namespace
-
-int SensorSheetCommand(const SensorSheetOptions& options) {
-  if (!options.output.ends_with(".png")) {
-    return Complain({{options.output, 0, 0}, "is no picture's name; allowed: .png"});
-  }
-  if (auto free = CheckOutput(options.output, options.overwrite); !free) return Complain(free.error());
-  if (auto written = WriteSheet(options); !written) return Complain(written.error());
+Result<int> SensorSheetCommand(const SensorSheetOptions& options) {
+  if (!options.output.ends_with(".png")) return Fail({options.output}, "is no picture's name; allowed: .png");
+  RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
+  RETURN_IF_ERROR(WriteSheet(options));
   TellWritten(options.output);
   return kSuccess;
+}
+
+}  // namespace
+
+void DefineSheet(CLI::App& sensor, Action& action) {
+  auto options = std::make_shared<SensorSheetOptions>();
+  CLI::App* command = sensor.add_subcommand(
+      "sheet", "A contact sheet of the first world: both cameras, every effect at three strengths");
+  command->add_option("scenario", options->scenario, "A scenario file")->required();
+  command->add_option("-o,--output", options->output, "The picture to write (.png)")->required();
+  AddSeed(*command, options->seed, "Seed of the world (default: the scenario's, else 1)");
+  command->add_option("--clips", options->clips, "Clips instead of the scenario's own");
+  AddOverwrite(*command, options->overwrite);
+  command->callback([=, &action] { action = [=] { return Finish(SensorSheetCommand(*options)); }; });
 }
 
 }  // namespace etude

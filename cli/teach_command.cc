@@ -1,15 +1,36 @@
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
+#include <memory>
+
 #include "bench/files/files.h"
 #include "bench/streams/teach.h"
 #include "cli/commands.h"
 #include "cli/output_file.h"
-#include "cli/stream_commands.h"
+#include "cli/stream_reading.h"
 #include "engine/base/names.h"
 #include "engine/teaching/moves_file.h"
 
 namespace etude {
 namespace {
+
+struct TeachCommandOptions {
+  std::vector<std::string> streams;
+  std::string labels;  ///< "" = one file is one move
+  std::string output;
+  bool overwrite = false;
+  StreamArguments reading;
+};
+
+constexpr const char* kTeachExamples =
+    "\nFinds what recognisers are told of a move: key poses with tolerances, and the performances themselves.\n"
+    "Without labels one file is one move, called by the file's name. Labels are a CSV (clip,from_s,to_s,move,truth "
+    "and,\n"
+    "where it matters, person), MSRC-12's tag streams or UTKinect's action labels: docs/streams.md.\n\n"
+    "Try:\n"
+    "  etude teach wave.csv clap.csv -o moves.yaml\n"
+    "  etude teach kinect/*.txt --labels labels.csv -o moves.yaml\n"
+    "  etude recognise new.txt --moves moves.yaml";
 
 Result<std::vector<TaughtMove>> Teach(const TeachCommandOptions& options) {
   ASSIGN_OR_RETURN(const auto loaded,
@@ -34,22 +55,33 @@ std::string TargetsText(const TaughtPose& pose) {
   return Join(targets);
 }
 
-}  // namespace
-
-int TeachCommand(const TeachCommandOptions& options) {
-  if (auto checked = CheckOutput(options.output, options.overwrite); !checked) return Complain(checked.error());
-  const auto moves = Teach(options);
-  if (!moves) return Complain(moves.error());
-  const std::string text = "# Learnt by `etude teach`\n" + WriteMoves(*moves);
-  if (auto read_back = ReadMoves(text, options.output); !read_back) return Complain(read_back.error());
-  if (auto written = WriteFileAtomically(options.output, text); !written) return Complain(written.error());
-  for (const TaughtMove& move : *moves) {
+Result<int> TeachCommand(const TeachCommandOptions& options) {
+  RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
+  ASSIGN_OR_RETURN(const auto moves, Teach(options));
+  const std::string text = "# Learnt by `etude teach`\n" + WriteMoves(moves);
+  RETURN_IF_ERROR(ReadMoves(text, options.output));  // what cannot be read back is not written
+  RETURN_IF_ERROR(WriteFileAtomically(options.output, text));
+  for (const TaughtMove& move : moves) {
     fmt::print("{}: {} right, {} wrong, up to {:.1f} s\n", move.name, move.examples.size(),
                move.counter_examples.size(), move.span_s);
     for (const TaughtPose& pose : move.poses) fmt::print("  {}\n", TargetsText(pose));
   }
   TellWritten(options.output);
   return kSuccess;
+}
+
+}  // namespace
+
+void DefineTeach(CLI::App& app, Action& action) {
+  auto options = std::make_shared<TeachCommandOptions>();
+  CLI::App* command = app.add_subcommand("teach", "Learn moves from recordings and clips");
+  command->add_option("streams", options->streams, "Recordings, clips, patterns, folders")->required();
+  command->add_option("--labels", options->labels, "Who did what when: a file, or a folder of tag streams");
+  command->add_option("-o,--output", options->output, "The moves file to write (YAML)")->required();
+  AddOverwrite(*command, options->overwrite);
+  AddStreamReading(*command, options->reading);
+  command->footer(kTeachExamples);
+  command->callback([=, &action] { action = [=] { return Finish(TeachCommand(*options)); }; });
 }
 
 }  // namespace etude

@@ -1,26 +1,67 @@
-#include "cli/train_command.h"
-
 #include <fmt/core.h>
 #include <fnmatch.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <memory>
 #include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "bench/clips/clip_library.h"
 #include "bench/files/files.h"
+#include "bench/tasks/coach/train_coached.h"
+#include "bench/tasks/detection/train_recogniser.h"
 #include "bench/training/tuning.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
+#include "engine/base/named.h"
 #include "engine/base/names.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/random/stream.h"
 
 namespace etude {
 namespace {
+
+struct TrainOptions {
+  std::vector<std::string> clips;
+  std::string output;              ///< a fuzzy system file
+  std::string method = "genetic";  ///< or "adaptive"
+  bool memberships = false;        ///< tune the membership functions, too
+  std::uint64_t seed = 1;
+  int population = 40, generations = 60;
+  bool recogniser = false;       ///< learn the recogniser `learnt` instead, from simulated people who dance the clips
+  bool coached = false;          ///< learn the recogniser `coached` instead; `clips` are songs
+  std::optional<int> sessions;   ///< of those people, with `recogniser` or `coached`; else as many as the built-in had
+  std::string hold_out = "0.3";  ///< a share of the clips, or a pattern of their names
+  bool overwrite = false;
+  ClipReading reading;
+};
+
+constexpr const char* kTrainExamples =
+    "\nPaper A's distance says that two frames match when d < 0.4. How much each of its ten features\n"
+    "counts (S), and where its membership functions bend, were chosen by hand. This command learns them: it takes\n"
+    "frames of every clip, two clips at a time, calls a pair close when its worst joint is less than 15 cm off\n"
+    "(after turning and moving one onto the other on the floor), and looks for the system by which d < 0.4 tells\n"
+    "the close pairs best. Clips held out are never learnt from: only what is known about them counts.\n\n"
+    "A scenario uses the file by `fuzzy: tuned.yaml`; docs/fuzzy-system.md tells what is in it.\n\n"
+    "With --recogniser it makes the model of the recogniser `learnt` anew (docs/detection.md): simulated people dance\n"
+    "the labelled clips, right and wrong, and the model learns to tell which. With --coached that of `coached`: they\n"
+    "dance songs along with a coach (docs/coach.md).\n\n"
+    "Try:\n"
+    "  etude train 'builtin:*' -o tuned.yaml                           S, by a genetic algorithm\n"
+    "  etude train 'builtin:*' -o tuned.yaml --memberships             the membership functions, too\n"
+    "  etude train 'builtin:*' -o tuned.yaml --method adaptive         S, by logistic regression\n"
+    "  etude train 'builtin:*' 'mocap/*.bvh' -o tuned.yaml --hold-out 'mass_*'    judge by these\n"
+    "  etude train 'builtin:*' -o learnt.yaml --recogniser             what recogniser learnt knows\n"
+    "  etude train groove sprint warm_up -o coached.yaml --coached     what recogniser coached knows";
 
 constexpr std::size_t kMostClipsToTrainOn = 150;
 
@@ -37,7 +78,7 @@ std::optional<double> ReadShare(const std::string& text) {
   return share;
 }
 
-/// Which of the clips to hold out.
+/// Chooses the clips that are held out.
 Result<std::vector<bool>> ChooseHeldOut(const std::vector<std::string>& names, const TrainOptions& options) {
   std::vector<bool> held_out(names.size(), false);
   const auto share = ReadShare(options.hold_out);
@@ -66,7 +107,7 @@ Result<std::vector<bool>> ChooseHeldOut(const std::vector<std::string>& names, c
 Result<Split> LoadSplit(const TrainOptions& options) {
   ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
   ASSIGN_OR_RETURN(const auto references, ExpandAll(options.clips));
-  ASSIGN_OR_RETURN(auto library, LoadClips(references, {}, reading, TellOf("clips read")));
+  ASSIGN_OR_RETURN(auto library, LoadClips(references, {}, reading, ProgressOf("clips read")));
   std::vector<std::string> names;
   std::vector<BodyMotion> motions;
   for (LibraryClip& clip : library.clips) {
@@ -100,7 +141,7 @@ std::string ScoreLine(const char* what, ClipFrames clips, const FuzzySystem& sys
                      matches.close_matched);
 }
 
-/// How the two systems do, a line each.
+/// Scores the paper's system and the tuned one, a line each.
 std::vector<std::string> CompareSystems(const Split& split, const FuzzySystem& tuned) {
   const FuzzySystem paper;
   return {
@@ -128,7 +169,7 @@ Tuning TuningOf(const TrainOptions& options) {
   return options.memberships ? Tuning::kGeneticMemberships : Tuning::kGenetic;
 }
 
-/// Every tenth of the way, as a run's progress bar does off a terminal.
+/// Sets the genetic algorithm's options; it tells its progress at every tenth of the way.
 GeneticOptions GeneticOptionsOf(const TrainOptions& options) {
   const int tenth = std::max(1, options.generations / 10);
   return {.population = options.population,
@@ -160,26 +201,105 @@ std::string WhyNothing(WeightFitStatus status) {
   }
 }
 
-}  // namespace
-
-int TrainCommand(const TrainOptions& options) {
-  if (auto checked = CheckOptions(options); !checked) return Complain(checked.error());
-  const auto split = LoadSplit(options);
-  if (!split) return Complain(split.error());
-  TunedSystem tuned = TuneSystem(split->learnt, TuningOf(options), GeneticOptionsOf(options));
-  if (tuned.status != WeightFitStatus::kFitted) {
-    return Complain({{}, "nothing was learnt: " + WhyNothing(tuned.status)});
-  }
+Result<int> TrainCommand(const TrainOptions& options) {
+  RETURN_IF_ERROR(CheckOptions(options));
+  ASSIGN_OR_RETURN(const auto split, LoadSplit(options));
+  TunedSystem tuned = TuneSystem(split.learnt, TuningOf(options), GeneticOptionsOf(options));
+  if (tuned.status != WeightFitStatus::kFitted) return Fail({}, "nothing was learnt: {}", WhyNothing(tuned.status));
   tuned.system.name = options.method;
-  const std::vector<std::string> comparison = CompareSystems(*split, tuned.system);
-  const std::string text = HeaderOf(options, *split, tuned, comparison) + WriteFuzzySystem(tuned.system);
-  if (auto read_back = ReadFuzzySystem(text, options.output); !read_back) return Complain(read_back.error());
-  if (auto written = WriteFileAtomically(options.output, text); !written) return Complain(written.error());
+  const std::vector<std::string> comparison = CompareSystems(split, tuned.system);
+  const std::string text = HeaderOf(options, split, tuned, comparison) + WriteFuzzySystem(tuned.system);
+  RETURN_IF_ERROR(ReadFuzzySystem(text, options.output));  // what cannot be read back is not written
+  RETURN_IF_ERROR(WriteFileAtomically(options.output, text));
   fmt::print("{} clips learnt from, {} held out; how well d < 0.4 tells pairs of frames that look alike:\n",
-             split->learnt.size(), split->held_out.size());
+             split.learnt.size(), split.held_out.size());
   for (const std::string& line : comparison) fmt::print("{}\n", line);
   TellWritten(options.output);
   return kSuccess;
+}
+
+/// A model, and what made it.
+struct Trained {
+  LearntModel model;
+  std::string header;
+};
+
+constexpr const char* kHeader =
+    "# What the recogniser `{}` knows, by `etude train --{} --sessions {} --seed {}` of\n#   {}\n"
+    "# Trees: measure and limit of each question, then what the answers add to the log-odds of \"right\".\n";
+
+Result<Trained> TrainLearnt(const TrainOptions& options) {
+  ASSIGN_OR_RETURN(const auto references, ExpandAll(options.clips));
+  ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
+  ASSIGN_OR_RETURN(const ClipLibrary library, LoadClips(references, {}, reading, ProgressOf("clips read")));
+  const Repertoire repertoire = RepertoireOf(library);
+  if (repertoire.taught.size() < 2) {
+    return Fail({}, "{} labelled clips; a recogniser learns from two at least", repertoire.taught.size());
+  }
+  RecogniserTraining training{.seed = options.seed, .progress = ProgressOf("sessions")};
+  training.sessions = options.sessions.value_or(training.sessions);
+  return Trained{TrainRecogniser(repertoire, training), fmt::format(kHeader, "learnt", "recogniser", training.sessions,
+                                                                    training.seed, Join(NamesOf(repertoire.taught)))};
+}
+
+Result<Trained> TrainCoachedOf(const TrainOptions& options) {
+  CoachedTraining training{.seed = options.seed, .progress = ProgressOf("sessions")};
+  training.sessions = options.sessions.value_or(training.sessions);
+  ASSIGN_OR_RETURN(LearntModel model, TrainCoached(options.clips, training));
+  return Trained{std::move(model),
+                 fmt::format(kHeader, "coached", "coached", training.sessions, training.seed, Join(options.clips))};
+}
+
+Result<int> TrainRecogniserCommand(const TrainOptions& options) {
+  RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
+  ASSIGN_OR_RETURN(const Trained trained, options.coached ? TrainCoachedOf(options) : TrainLearnt(options));
+  RETURN_IF_ERROR(WriteFileAtomically(options.output, trained.header + WriteLearntModel(trained.model)));
+  TellWritten(options.output);
+  return kSuccess;
+}
+
+}  // namespace
+
+void DefineTrain(CLI::App& app, Action& action) {
+  auto options = std::make_shared<TrainOptions>();
+  CLI::App* command = app.add_subcommand("train", "Learn a fuzzy system or a recogniser from clips");
+  command->add_option("clips", options->clips, "Clips to learn from, and to judge by")->required();
+  command->add_option("-o,--output", options->output, "The file to write (YAML)")->required();
+  command->add_option("--method", options->method, "How to learn")
+      ->check(CLI::IsMember({"adaptive", "genetic"}))
+      ->capture_default_str();
+  command->add_flag("--memberships", options->memberships, "Tune the membership functions, too (genetic)");
+  command
+      ->add_option("--hold-out", options->hold_out,
+                   "Clips to judge by: a share of them (0: none), drawn by the seed, or a pattern of names")
+      ->capture_default_str();
+  AddSeed(*command, options->seed, "Seed of all dice");
+  command->add_option("--population", options->population, "Genomes of a generation")
+      ->check(CLI::Range(5, 1000))
+      ->capture_default_str();
+  command->add_option("--generations", options->generations, "How long the genetic algorithm searches")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  command->add_flag("--recogniser", options->recogniser, "Learn the recogniser `learnt`");
+  command->add_flag("--coached", options->coached, "Learn the recogniser `coached`: CLIPS are built-in songs")
+      ->excludes("--recogniser");
+  command
+      ->add_option(
+          "--sessions", options->sessions,
+          "Of simulated people: 16 performances each (recogniser, 400), three minutes before a coach (coached, "
+          "300)")
+      ->check(CLI::Range(10, 10000));
+  for (const char* other : {"--method", "--memberships", "--hold-out", "--population", "--generations"}) {
+    command->get_option(other)->excludes("--recogniser")->excludes("--coached");
+  }
+  AddOverwrite(*command, options->overwrite);
+  AddClipReading(*command, options->reading);
+  command->footer(kTrainExamples);
+  command->callback([=, &action] {
+    action = [=] {
+      return Finish(options->recogniser || options->coached ? TrainRecogniserCommand(*options) : TrainCommand(*options));
+    };
+  });
 }
 
 }  // namespace etude

@@ -22,7 +22,7 @@ std::string_view VerdictClass(const std::optional<Verdict>& verdict) {
   return "open";
 }
 
-/// Whether a verdict is clear on these worlds, and not the same beyond them.
+/// Is true of a verdict that is clear on these worlds, and not the same beyond them.
 bool HoldsHereOnly(const Comparison& c) { return c.verdict != Verdict::kInconclusive && c.beyond.verdict != c.verdict; }
 
 }  // namespace

@@ -9,22 +9,22 @@
 
 namespace etude {
 
-/// A verdict as a coloured label of HTML: sign and word, so that colour says nothing alone. Without a verdict "it
-/// depends" on the condition.
+/// Writes a verdict as a coloured label of HTML, sign and word, so that colour says nothing alone. Nothing stands for
+/// "it depends" on the condition.
 std::string VerdictBadge(const std::optional<Verdict>& verdict);
 
-/// Both verdicts of a finding as such labels: on these worlds, and for others like them. Where every world is its own
-/// unit and both agree, one label says so.
+/// Writes both verdicts of a finding as such labels: on these worlds, and for others like them. Where every world is
+/// its own unit and both agree, one label says so.
 std::string VerdictBadges(const MethodFinding& finding);
 
-/// The sign alone: "▲", "▼", "=", "?"; "±" when it depends.
+/// Gives the sign alone: "▲", "▼", "=", "?"; "±" when it depends.
 std::string_view VerdictSign(const std::optional<Verdict>& verdict);
 
-/// The sign of a comparison: in brackets where it holds on these worlds only, "(▲)".
+/// Gives the sign of a comparison, in brackets where it holds on these worlds only: "(▲)".
 std::string ComparisonSign(const Comparison& comparison);
-/// The same as HTML in the label's colour; its words are for who cannot see it.
+/// Writes the sign of a comparison as HTML in the label's colour, with words for screen readers.
 std::string ComparisonMark(const Comparison& comparison, SamplingUnit unit);
-/// The sign of a finding over all its conditions, likewise, as a label with `words` behind it; "" when not compared.
+/// Writes the sign of a finding over all its conditions as a label with `words` behind it; "" when not compared.
 std::string FindingBadge(const MethodFinding& finding, std::string_view words);
 
 }  // namespace etude

@@ -15,9 +15,9 @@ struct Chart {
   bool is_wide = false;     ///< needs all the page's width
 };
 
-/// What becomes of a method's errors with time: the median over its cells of their curves along iterations, or, of
-/// motions that it follows, along the frames of the first condition (others may have other frames); nothing when the
-/// run kept no such curves.
+/// Makes the chart of a method's errors over time: the median over its cells of their curves along iterations, or along
+/// the frames of the first condition where methods follow a motion (others may have other frames). Nothing when the run
+/// kept no such curves.
 std::optional<Chart> CurveChart(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

@@ -1,14 +1,14 @@
 #include "reports/comparison_table.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "reports/badge.h"
-#include "reports/words/beyond.h"
 #include "reports/words/escape.h"
-#include "reports/words/figures.h"
-#include "reports/words/left_out.h"
+#include "reports/words/judged.h"
 
 namespace etude {
 namespace {
@@ -60,7 +60,7 @@ Line LineOf(const ConditionSummary& condition, const Comparison& c, SamplingUnit
   return line;
 }
 
-/// The figures, and below them over the whole width what to mind.
+/// Writes the figures as a row, and below them over the whole width the notes.
 std::string RowHtml(const Line& line, const Comparison& c, bool swept, int columns) {
   std::string html =
       fmt::format("<tr{}><td>{}</td>", line.notes.empty() ? "" : " class=\"noted\"", EscapeMarkup(line.methods));
@@ -99,7 +99,7 @@ std::string BeyondCsv(const Beyond& beyond) {
                      beyond.verdict ? VerdictName(*beyond.verdict) : "", EscapeCsv(beyond.why_open));
 }
 
-/// Every condition's comparisons with baselines, then those with the strongest other method.
+/// Visits every condition's comparisons with baselines, then those with the strongest other method.
 template <typename Visit>
 void ForEachComparison(const ScenarioSummary& scenario, Visit visit) {
   for (const ConditionSummary& condition : scenario.conditions) {
@@ -114,6 +114,40 @@ std::size_t CountOf(const ScenarioSummary& scenario) {
     count += condition.comparisons.size() + condition.rivals.size();
   }
   return count;
+}
+
+/// Says "holds", or why no common verdict counts.
+std::string WhatHolds(const AcrossVerdict& across) {
+  if (across.Holds()) return "holds";
+  std::vector<Verdict> said;
+  for (const AcrossVerdict::Each& each : across.each) {
+    if (std::ranges::find(said, each.verdict) == said.end()) said.push_back(each.verdict);
+  }
+  if (said.size() == 1) return "inconclusive everywhere";
+  const auto says = [&](Verdict verdict) { return std::ranges::find(said, verdict) != said.end(); };
+  return says(Verdict::kBetter) && says(Verdict::kWorse) ? "turns round" : "does not hold everywhere";
+}
+
+std::string MethodsOf(const AcrossVerdict& across) { return across.method + " − " + across.baseline; }
+
+/// Writes one condition's difference: "3.10 pp better".
+std::string EachText(const AcrossVerdict& across, const AcrossVerdict::Each& each) {
+  if (!each.difference) return std::string(VerdictName(each.verdict));
+  const MetricWords words = WordsFor(across.metric);
+  return fmt::format("{} {}", ShortDifference(*each.difference, words), VerdictName(each.verdict));
+}
+
+std::vector<std::string> HeadingsOf(const ScenarioSummary& scenario) {
+  std::vector<std::string> headings = {"metric", "methods", "condition"};
+  for (const AcrossVerdict::Each& each : scenario.across.front().each) headings.push_back(each.value);
+  headings.emplace_back("under all");
+  return headings;
+}
+
+std::vector<std::string> CellsOf(const AcrossVerdict& across) {
+  std::vector<std::string> cells = {across.metric, MethodsOf(across), ConditionLabel(across.condition)};
+  for (const AcrossVerdict::Each& each : across.each) cells.push_back(EachText(across, each));
+  return cells;
 }
 
 }  // namespace
@@ -212,6 +246,39 @@ std::string ComparisonTableCsv(const ScenarioSummary& scenario) {
     csv += BeyondCsv(c.beyond);
   });
   return csv;
+}
+
+std::string AcrossTableHtml(const ScenarioSummary& scenario) {
+  if (scenario.across.empty()) return "";
+  std::string html =
+      "<h3>What holds under all of them</h3><div class=\"scroll\" tabindex=\"0\" role=\"region\" "
+      "aria-label=\"What holds under all\"><table><thead><tr>";
+  for (const std::string& heading : HeadingsOf(scenario)) {
+    html += fmt::format("<th scope=\"col\">{}</th>", EscapeMarkup(heading));
+  }
+  html += "</tr></thead><tbody>";
+  for (const AcrossVerdict& across : scenario.across) {
+    html += "<tr>";
+    for (const std::string& cell : CellsOf(across)) html += fmt::format("<td>{}</td>", EscapeMarkup(cell));
+    html += fmt::format("<td>{} {}</td></tr>", VerdictBadge(across.verdict), WhatHolds(across));
+  }
+  return html + "</tbody></table></div>";
+}
+
+std::string AcrossTableMarkdown(const ScenarioSummary& scenario) {
+  if (scenario.across.empty()) return "";
+  std::string text = "\nA verdict counts only when it is the same under all of them:\n\n|", rule = "\n|";
+  for (const std::string& heading : HeadingsOf(scenario)) {
+    text += fmt::format(" {} |", EscapeMarkdown(heading));
+    rule += "---|";
+  }
+  text += rule + '\n';
+  for (const AcrossVerdict& across : scenario.across) {
+    text += "|";
+    for (const std::string& cell : CellsOf(across)) text += fmt::format(" {} |", EscapeMarkdown(cell));
+    text += fmt::format(" {}: {} |\n", VerdictName(across.verdict), WhatHolds(across));
+  }
+  return text;
 }
 
 }  // namespace etude

@@ -7,20 +7,27 @@
 
 namespace etude {
 
-/// What a group of rows is about: "orientation error (lower is better, 0.1° matters)".
+/// Writes the heading of a group of rows: "orientation error (lower is better, 0.1° matters)".
 std::string MetricHeading(const std::string& metric);
 
-/// A difference with its unit, short: tables have no room for "percentage points".
+/// Writes a difference with its unit, short: tables have no room for "percentage points".
 std::string ShortDifference(double difference, const MetricWords& words);
 
-/// Every comparison of one scenario, a row each: pairs, difference with its interval, corrected p, effect size,
-/// verdict, and what to know before believing it. "" when nothing is compared.
+/// Writes every comparison of one scenario as a table, a row each: pairs, difference with its interval, corrected p,
+/// effect size, verdict, and what to know before believing it. "" when nothing is compared.
 std::string ComparisonTableHtml(const ScenarioSummary& scenario);
 
-/// The same as a Markdown table that is folded away until it is asked for.
+/// Writes the same as a Markdown table that is folded away.
 std::string ComparisonTableMarkdown(const ScenarioSummary& scenario);
 
-/// The same as CSV: full precision, both tests, empty fields for values that do not exist.
+/// Writes the same as CSV: full precision, both tests, empty fields for values that do not exist.
 std::string ComparisonTableCsv(const ScenarioSummary& scenario);
+
+/// Writes the verdicts that must hold under every value of some parameters (`across`) as a table, a row per comparison:
+/// the common verdict, or what differs. "" where nothing was asked to.
+std::string AcrossTableHtml(const ScenarioSummary& scenario);
+
+/// Writes the same as a Markdown table.
+std::string AcrossTableMarkdown(const ScenarioSummary& scenario);
 
 }  // namespace etude

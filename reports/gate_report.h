@@ -6,11 +6,11 @@
 
 namespace etude {
 
-/// What a gate found, as a comment on a pull request: the verdict, what fails, what else moved, what could not be
+/// Writes what a gate found as a comment on a pull request: the verdict, what fails, what else moved, what could not be
 /// compared.
 std::string WriteGateMarkdown(const GateReport& report);
 
-/// The same as JUnit XML: a suite per scenario, in it a case per expectation, time rule and comparison; an
+/// Writes the same as JUnit XML: a suite per scenario, in it a case per expectation, time rule and comparison; an
 /// incomplete run fails a case of the suite "gate".
 std::string WriteGateJunit(const GateReport& report);
 

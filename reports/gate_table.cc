@@ -1,12 +1,23 @@
 #include "reports/gate_table.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 
-#include "reports/words/figures.h"
-
 namespace etude {
 namespace {
+
+/// Gives the words for a metric, also for kOkShare.
+MetricWords GateWordsFor(const std::string& metric) {
+  if (metric != kOkShare) return WordsFor(metric);
+  return {.label = "cells that ended ok",
+          .suffix = " %",
+          .difference_suffix = " percentage points",
+          .scale = 100,
+          .is_share = true,
+          .direction = Direction::kHigherIsBetter};
+}
 
 std::string DifferenceText(const MetricMove& move, const MetricWords& words) {
   const Comparison& found = move.comparison;
@@ -31,7 +42,7 @@ std::string WorldsText(const MetricMove& move) {
   return text;
 }
 
-/// "2 worse, 3 better, 165 same", zeros left out.
+/// Counts the movements: "2 worse, 3 better, 165 same", zeros left out.
 std::string MovementCounts(const std::vector<MetricMove>& moves) {
   std::string text;
   for (Movement movement : {Movement::kWorse, Movement::kChanged, Movement::kBetter, Movement::kUnclear,
@@ -44,7 +55,7 @@ std::string MovementCounts(const std::vector<MetricMove>& moves) {
   return text;
 }
 
-/// "12 expectations: 11 met, 1 unmet", zeros left out; "" when there is none.
+/// Counts the rulings: "12 expectations: 11 met, 1 unmet", zeros left out; "" when there is none.
 template <typename Items, typename RulingOf>
 std::string RulingCounts(const Items& items, std::string_view what, RulingOf ruling_of) {
   std::string text;
@@ -62,17 +73,29 @@ std::string VerdictText(const MetricMove& move) {
   return move.by_tail ? fmt::format("{} in {}", words, Plural(std::ssize(move.tail), "world")) : words;
 }
 
-}  // namespace
+constexpr const char* kTo = " → ";
 
-MetricWords GateWordsFor(const std::string& metric) {
-  if (metric != kOkShare) return WordsFor(metric);
-  return {.label = "cells that ended ok",
-          .suffix = " %",
-          .difference_suffix = " percentage points",
-          .scale = 100,
-          .is_share = true,
-          .direction = Direction::kHigherIsBetter};
+/// Writes a word of a command line, in quotes when a shell would take it apart.
+std::string ShellWord(const std::string& text) {
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=,:@%+-";
+  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string quoted = "'";
+  for (char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
 }
+
+std::string ValuesText(const TailWorld& world, const std::string& metric) {
+  const std::string ended_before(StatusName(StatusOf(world.ended_before)));
+  const std::string ended_after(StatusName(StatusOf(world.ended_after)));
+  if (metric == kOkShare) return ended_before + kTo + ended_after;
+  const MetricWords words = GateWordsFor(metric);
+  const std::string before = FormatValue(world.before, words), after = FormatValue(world.after, words);
+  if (!world.after) return fmt::format("{}{}no value ({})", before, kTo, ended_after);
+  if (before != after) return before + kTo + after;
+  return fmt::format("{}{}{}", *world.before, kTo, *world.after);  // far apart only beside what matters
+}
+
+}  // namespace
 
 GateTableRow TableRow(const MetricMove& move) {
   const MetricWords words = GateWordsFor(move.identity.metric);
@@ -142,6 +165,44 @@ std::vector<std::string> GateSentences(const GateReport& report) {
   }
   std::erase(sentences, "");
   return sentences;
+}
+
+std::vector<TailLine> TailLines(const MetricMove& move, const std::string& run_folder, std::size_t most) {
+  const MoveIdentity& identity = move.identity;
+  const std::string folder = run_folder.empty() ? "RUN" : ShellWord(run_folder);
+  const std::string about = identity.scenario + (identity.condition == "-" ? "" : ", " + identity.condition);
+  const std::string label = GateWordsFor(identity.metric).label;
+  std::vector<TailLine> lines;
+  for (std::size_t i = 0; i < std::min(most, move.tail.size()); ++i) {
+    const TailWorld& world = move.tail[i];
+    const std::string cell =
+        fmt::format("{}/{}/{:03}/{}", identity.scenario, identity.condition, world.trial, identity.method);
+    lines.push_back({fmt::format("{}, trial {}, {}: {} {}", about, world.trial, identity.method, label,
+                                 ValuesText(world, identity.metric)),
+                     fmt::format("etude replay {} --cell {}", folder, ShellWord(cell))});
+  }
+  if (move.tail.size() > most) {
+    lines.push_back(
+        {fmt::format("… and {} of {}, {}, {}", Plural(std::ssize(move.tail) - std::ssize(lines), "more world"), about,
+                     identity.method, label),
+         ""});
+  }
+  return lines;
+}
+
+std::vector<TailLine> TailLines(const GateReport& report, bool failing, std::size_t most_each, std::size_t most) {
+  std::vector<TailLine> lines;
+  long long left_out = 0;
+  for (const MetricMove& move : report.comparison.moves) {
+    if (move.tail.empty() || IsRegression(move) != failing) continue;
+    if (lines.size() >= most) {
+      left_out += std::ssize(move.tail);
+      continue;
+    }
+    for (TailLine& line : TailLines(move, report.run_folder, most_each)) lines.push_back(std::move(line));
+  }
+  if (left_out > 0) lines.push_back({fmt::format("… and {} of other comparisons", Plural(left_out, "more world")), ""});
+  return lines;
 }
 
 }  // namespace etude

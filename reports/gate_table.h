@@ -19,22 +19,33 @@ struct GateTableRow {
   bool fails = false;
 };
 
-/// The words for a metric, also for kOkShare.
-MetricWords GateWordsFor(const std::string& metric);
-
-/// One row per move that is not kSame: regressions first, each group in the order of the run.
+/// Gives one row per move that is not kSame: regressions first, each group in the order of the run.
 std::vector<GateTableRow> MovedRows(const SnapshotComparison& comparison);
 GateTableRow TableRow(const MetricMove& move);
 
-/// "iterations of fixed over …": how a time rule reads, and what was found.
+/// Writes how a time rule reads: "processor time of fixed over …".
 std::string RatioClaim(const RatioResult& ratio);
 std::string RatioDetail(const RatioResult& ratio);
 
-/// "pass", "regression", "incomplete"
+/// Names a verdict: "pass", "regression", "incomplete".
 std::string_view GateVerdictWords(GateVerdict verdict);
-/// "170 comparisons with the baseline: 2 worse, 3 better, 165 same", and likewise of all else that was judged.
+/// Writes what was judged, a sentence each: "12 expectations: 11 met, 1 unmet", "against the baseline, 170 comparisons:
+/// 2 worse, 168 same".
 std::vector<std::string> GateSentences(const GateReport& report);
-/// "170 comparisons: 2 worse, 3 better, 165 same"
+/// Counts the moves: "170 comparisons: 2 worse, 3 better, 165 same".
 std::string CompareSentence(const SnapshotComparison& comparison);
+
+/// A world that is far worse, in words.
+struct TailLine {
+  std::string world;   ///< "ik-weights, joint_noise_deg=5, trial 7, fixed: orientation error 0.05° → 60.1°"
+  std::string replay;  ///< "etude replay out/now --cell …", fit for a shell; "" for a line that only counts the rest
+};
+
+/// Writes one line for each of the first `most` far worse worlds of a move, the worst first, and one for how many more
+/// there are. `run_folder` is where its cells can be replayed; "" puts `RUN` there.
+std::vector<TailLine> TailLines(const MetricMove& move, const std::string& run_folder, std::size_t most);
+
+/// Writes the lines of the moves that fail, or of those that do not: `most_each` worlds of one and `most` lines in all.
+std::vector<TailLine> TailLines(const GateReport& report, bool failing, std::size_t most_each, std::size_t most);
 
 }  // namespace etude

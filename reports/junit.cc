@@ -4,11 +4,22 @@
 
 #include <set>
 
-#include "reports/junit_xml.h"
+#include "reports/words/escape.h"
 #include "reports/words/findings.h"
 
 namespace etude {
 namespace {
+
+std::string CaseXml(const std::string& suite, const JunitCase& c) {
+  const std::string head =
+      fmt::format("    <testcase classname=\"etude.{}\" name=\"{}\"", EscapeMarkup(suite), EscapeMarkup(c.name));
+  const std::string detail = EscapeMarkup(c.detail);
+  std::string body;
+  if (c.ruling == Ruling::kUnmet) body = fmt::format("<failure message=\"not met\">{}</failure>", detail);
+  if (c.ruling == Ruling::kUndecided) body = fmt::format("<skipped message=\"{}\"/>", detail);
+  if (!c.said.empty()) body += fmt::format("<system-out>{}</system-out>", EscapeMarkup(c.said));
+  return body.empty() ? head + "/>\n" : head + fmt::format(">{}</testcase>\n", body);
+}
 
 Ruling MetWhen(bool holds) { return holds ? Ruling::kMet : Ruling::kUnmet; }
 
@@ -39,7 +50,7 @@ JunitCase NoCellBroke(const ScenarioFindings& findings) {
   return {"no cell broke", MetWhen(broken == 0), std::move(detail)};
 }
 
-/// What the scenario came to: nothing that could fail, but what a reader of CI wants to know, with what it is about.
+/// Makes a case that cannot fail, but tells readers of CI the answer.
 JunitCase TheAnswer(const ScenarioFindings& findings) {
   std::string said = findings.headline + (findings.headline.empty() ? "" : ".\n") + findings.answer.sentence;
   if (findings.rival.is_compared) said += "\n" + findings.rival.sentence;
@@ -57,6 +68,30 @@ std::vector<JunitCase> CasesOf(const RunData& run, const ScenarioSummary& scenar
 }
 
 }  // namespace
+
+std::string WriteJunitXml(const std::string& name, const std::vector<JunitSuite>& suites) {
+  std::string body;
+  std::size_t all = 0, all_failed = 0, all_skipped = 0;
+  for (const JunitSuite& suite : suites) {
+    std::size_t failed = 0, skipped = 0;
+    std::string cases;
+    for (const JunitCase& c : suite.cases) {
+      failed += c.ruling == Ruling::kUnmet;
+      skipped += c.ruling == Ruling::kUndecided;
+      cases += CaseXml(suite.name, c);
+    }
+    body += fmt::format(
+        "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\">\n{}  </testsuite>\n",
+        EscapeMarkup(suite.name), suite.cases.size(), failed, skipped, cases);
+    all += suite.cases.size();
+    all_failed += failed;
+    all_skipped += skipped;
+  }
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" "
+      "skipped=\"{}\">\n{}</testsuites>\n",
+      EscapeMarkup(name), all, all_failed, all_skipped, body);
+}
 
 std::string WriteJunit(const RunData& run) {
   std::vector<JunitSuite> suites;

@@ -5,28 +5,25 @@
 #include <algorithm>
 #include <span>
 
-#include "reports/across_table.h"
 #include "reports/comparison_table.h"
 #include "reports/overview_table.h"
-#include "reports/paper/paper_a_section.h"
+#include "reports/paper/paper_a.h"
 #include "reports/paper/paper_b_section.h"
-#include "reports/pose_pairs.h"
 #include "reports/transitions/transition_section.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"
-#include "reports/words/left_out.h"
 
 namespace etude {
 namespace {
 
-/// "better on these clips, inconclusive for other clips"
+/// Writes both verdicts: "better on these clips, inconclusive for other clips".
 std::string BothVerdicts(const MethodFinding& finding) {
   if (!finding.is_compared || finding.beyond.on_these_only) return finding.Words();
   return fmt::format("{}, {} for {}", finding.Words(), VerdictWords(finding.beyond.verdict), OtherUnits(finding.unit));
 }
 
-/// The answer in a line, then with its figures.
+/// Writes the answer in a line, then with its figures.
 std::string AnswerText(const ScenarioFindings& findings) {
   std::string text;
   if (!findings.headline.empty()) text += fmt::format("**{}**\n\n", EscapeMarkdown(findings.headline));

@@ -6,7 +6,7 @@
 
 namespace etude {
 
-/// The page's verdicts as a short Markdown text, for a pull request or a closing note.
+/// Writes the page's verdicts as a short Markdown text, for a pull request or a closing note.
 std::string WriteMarkdown(const RunData& run);
 
 }  // namespace etude

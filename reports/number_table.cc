@@ -7,13 +7,12 @@
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"
-#include "reports/words/left_out.h"
-#include "reports/words/yardstick.h"
+#include "reports/words/judged.h"
 
 namespace etude {
 namespace {
 
-/// How a share reads that is no metric of the catalogue.
+/// The words of a share that is no metric of the catalogue.
 const MetricWords kShare{.label = "", .suffix = " %", .difference_suffix = "", .scale = 100, .is_share = true};
 
 std::string Cell(std::string_view html) { return fmt::format("<td>{}</td>", html); }

@@ -9,9 +9,9 @@
 
 namespace etude {
 
-/// The page that shows a run to people: verdict first, plain words, pictures; numbers folded away. It
-/// holds everything it needs, and forbids itself the network.
-/// `real`: captures of real films, shown beside the simulated ones.
+/// Writes the page that shows a run to people: verdict first, plain words, pictures; numbers folded away. It holds
+/// everything it needs, and forbids itself the network. `real`: captures of real films, shown beside the simulated
+/// ones.
 std::string WritePage(const RunData& run, const Media& media, std::span<const RealTake> real = {});
 
 }  // namespace etude

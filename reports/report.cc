@@ -12,7 +12,7 @@
 #include "reports/page.h"
 #include "reports/paper/paper_b_section.h"
 #include "reports/scenario_latex.h"
-#include "reports/words/file_name.h"
+#include "reports/words/escape.h"
 
 namespace etude {
 namespace {

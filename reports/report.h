@@ -6,13 +6,13 @@
 #include "bench/model/run_data.h"
 #include "bench/real_takes/real_take.h"
 #include "engine/base/result.h"
-#include "reports/films/film_watch.h"
+#include "reports/films/film.h"
 
 namespace etude {
 
 struct ReportOptions {
-  /// Draw the film and the picture strip. They take most of a report's time; without them the page
-  /// says that none was asked for.
+  /// Draws the film and the picture strip. They take most of a report's time; without them the page says that none was
+  /// asked for.
   bool pictures = true;
   /// Films show coached sessions from their first frame to their last, not around a correction.
   bool whole_sessions = false;
@@ -20,11 +20,11 @@ struct ReportOptions {
   std::vector<RealTake> real = {};  ///< captures of real films, shown beside the run's own
 };
 
-/// Writes what people and other programs read of a run: `report/index.html` (self-contained),
-/// `report/summary.md`, `report/junit.xml`, `report/tables/*.{csv,tex}`, and, as far as the run kept recordings,
-/// `report/motions/*.bvh`, `report/pictures/*.exr` and `video/*.mp4`. Each file appears whole or not at all. Fails,
-/// naming the path, when a file cannot be written; a film that cannot be made is no failure: the page says why.
-/// False when whoever waits for films had enough: there is no new page then.
+/// Writes the report of a run: `report/index.html` (self-contained), `report/summary.md`, `report/junit.xml`,
+/// `report/tables/*.{csv,tex}`, and, as far as the run kept recordings, `report/motions/*.bvh`, `report/pictures/*.exr`
+/// and `video/*.mp4`. Each file appears whole or not at all. Fails, naming the path, when a file cannot be written; a
+/// film that cannot be made is no failure: the page says why. False when the films were stopped: there is no new page
+/// then.
 Result<bool> WriteReport(const RunData& run, const std::filesystem::path& run_folder, const ReportOptions& options);
 
 }  // namespace etude

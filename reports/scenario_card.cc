@@ -5,27 +5,42 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <string_view>
 
 #include "bench/files/json.h"
-#include "reports/across_table.h"
+#include "engine/base/base64.h"
 #include "reports/badge.h"
 #include "reports/charts.h"
 #include "reports/comparison_table.h"
-#include "reports/film_element.h"
-#include "reports/growth/growth_section.h"
 #include "reports/number_table.h"
 #include "reports/overview_table.h"
-#include "reports/paper/paper_a_section.h"
+#include "reports/paper/paper_a.h"
 #include "reports/paper/paper_b_section.h"
+#include "reports/plots/growth.h"
 #include "reports/plots/plot_section.h"
-#include "reports/pose_pairs.h"
 #include "reports/transitions/transition_section.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
-#include "reports/words/left_out.h"
 
 namespace etude {
 namespace {
+
+std::string DataUri(std::string_view type, const std::string& bytes) {
+  return fmt::format("data:{};base64,{}", type, Base64(bytes));
+}
+
+/// Writes an <img> with the picture inside the page.
+std::string ImageElement(const Picture& picture) {
+  return fmt::format("<img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\">", picture.width, picture.height,
+                     EscapeMarkup(picture.caption), DataUri("image/png", picture.png));
+}
+
+/// Writes a <figure> with the still and its caption.
+std::string StillElement(const Still& still) {
+  return fmt::format(
+      "<figure><img alt=\"{0}\" src=\"data:image/jpeg;base64,{1}\"><figcaption>{0}</figcaption></figure>",
+      EscapeMarkup(still.caption), still.jpeg_base64);
+}
 
 // The data is embedded as a JSON element beside the canvas, which the browser never runs.
 std::string ChartFigure(const Chart& chart, const std::string& id) {
@@ -108,7 +123,7 @@ std::string StatusBar(const ScenarioFindings& findings) {
   return html + "</div>";
 }
 
-/// The cells of a scenario that kept a recording, as a JSON list: what the page tells of a dot.
+/// Lists the cells of a scenario that kept a recording, as JSON for the page's script.
 std::string RecordedCells(const RunData& run, const ScenarioSummary& scenario) {
   Json cells = Json::array();
   for (const CellRecording& recorded : run.recordings) {
@@ -117,7 +132,7 @@ std::string RecordedCells(const RunData& run, const ScenarioSummary& scenario) {
   return cells.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// The answer in a line, then with its figures: against the baseline, and against the strongest other method.
+/// Writes the answer in a line, then with its figures: against the baseline, and against the strongest other method.
 std::string Answer(const ScenarioFindings& findings) {
   std::string html;
   if (!findings.headline.empty()) html += fmt::format("<p class=\"headline\">{}</p>", EscapeMarkup(findings.headline));
@@ -158,6 +173,23 @@ std::string Plates(const ScenarioSummary& scenario, const Media& media) {
 }
 
 }  // namespace
+
+std::string FilmElement(const Film& film, bool plays_at_once) {
+  const Picture& poster = film.poster;
+  if (film.mp4.empty() && poster.png.empty()) {
+    return film.why_not.empty() ? "" : fmt::format("<p class=\"quiet\">{}</p>", EscapeMarkup(film.why_not));
+  }
+  const std::string caption = EscapeMarkup(poster.caption);
+  if (film.mp4.empty()) {
+    return fmt::format("<figure class=\"film\">{}<figcaption>{} {}</figcaption></figure>", ImageElement(poster),
+                       caption, EscapeMarkup(film.why_not));
+  }
+  return fmt::format(
+      "<figure class=\"film\"><video controls loop muted playsinline{} width=\"{}\" height=\"{}\" poster=\"{}\" "
+      "src=\"{}\" aria-label=\"{}\"></video><figcaption>{} <code>video/{}</code></figcaption></figure>",
+      plays_at_once ? " autoplay" : "", poster.width, poster.height, DataUri("image/png", poster.png),
+      DataUri("video/mp4", film.mp4), caption, caption, EscapeMarkup(film.file));
+}
 
 std::string CardAnchor(std::size_t index) { return fmt::format("scenario-{}", index + 1); }
 

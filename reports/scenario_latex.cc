@@ -3,16 +3,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "reports/comparison_table.h"
-#include "reports/paper/paper_a_section.h"
+#include "reports/paper/paper_a.h"
 #include "reports/paper/paper_b_section.h"
-#include "reports/words/beyond.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"
-#include "reports/words/yardstick.h"
+#include "reports/words/judged.h"
 
 namespace etude {
 namespace {
@@ -31,7 +29,7 @@ struct Group {
   int rows = 0;
 };
 
-/// How many pairs of figures would differ as much if there were nothing to find.
+/// Marks a p value with stars.
 std::string_view Stars(const Comparison& c) {
   if (!c.p_holm || *c.p_holm > 0.05) return "";
   return *c.p_holm <= 0.001 ? "$^{***}$" : *c.p_holm <= 0.01 ? "$^{**}$" : "$^{*}$";
@@ -75,7 +73,7 @@ std::string ComparisonCells(const Comparison& c, const MetricWords& words) {
                      VerdictName(c.verdict), c.beyond.verdict ? VerdictName(*c.beyond.verdict) : "--");
 }
 
-/// With its baselines, then with the strongest other method where that is none of them.
+/// Gives the comparisons with baselines, then with the strongest other method where that is none of them.
 std::vector<const Comparison*> ComparisonsOf(const ConditionSummary& condition, const std::string& method,
                                              const std::string& metric) {
   std::vector<const Comparison*> found;
@@ -139,7 +137,7 @@ std::string Float(const std::string& caption, const std::string& heads, const st
       caption, heads, rows);
 }
 
-/// As many floats as the rows of this condition need.
+/// Writes as many floats as the rows of this condition need.
 std::string ConditionFloats(const ScenarioSummary& scenario, const ConditionSummary& condition) {
   std::vector<Group> groups{EndedOk(scenario, condition)};
   for (const std::string& metric : scenario.headline_metrics) groups.push_back(OfMetric(scenario, condition, metric));

@@ -8,9 +8,9 @@ namespace etude {
 std::string_view ChartJs();
 std::string_view ReportCss();
 std::string_view ReportJs();
-/// Only for pages that show what paper_b_section.h makes.
+/// Gives the styles of pages that show curves of the papers or of growth.
 std::string_view PaperCss();
-/// Only for pages that show what reports/transitions makes.
+/// Gives the styles of pages that show what reports/transitions makes.
 std::string_view TransitionsCss();
 
 }  // namespace etude

@@ -3,11 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "bench/files/json.h"
+#include "engine/base/names.h"
+#include "reports/words/figures.h"
 
 namespace etude {
 namespace {
 
-/// "Fur", or "Fur (texture of 1024 x 1024)".
+/// Names a material: "Fur", or "Fur (texture of 1024 x 1024)".
 std::string NameOf(const Material& material) {
   if (!material.texture) return material.name;
   const ColourImage& picture = material.texture->picture;
@@ -58,7 +63,7 @@ BodyFacts FactsOfBody(const OpenedClip& clip) {
   return facts;
 }
 
-/// A file that gives no clip: what can be said of it all the same.
+/// Collects what can be told of a file that gives no clip.
 ClipFacts FactsWithoutClip(const std::string& reference, Error complaint) {
   ClipFacts facts;
   facts.name = facts.source = reference;
@@ -69,6 +74,106 @@ ClipFacts FactsWithoutClip(const std::string& reference, Error complaint) {
   CountJoints(file->figure.skeleton, facts);
   facts.figure = FactsOfFigure(file->figure);
   return facts;
+}
+
+Json JsonOf(const BodyFacts& body) {
+  Json roles = Json::object();
+  for (const Role role : AllRoles()) {
+    const bool composed = std::ranges::find(body.composed, role) != body.composed.end();
+    roles[std::string(RoleName(role))] = {{"joint", body.joints[Index(role)]}, {"composed", composed}};
+  }
+  const MotionStatistics& motion = body.motion;
+  return {{"unit", body.unit},
+          {"metres_per_unit", body.metres_per_unit},
+          {"up", body.up == UpAxis::kY ? "y" : "z"},
+          {"floor_units", body.floor},
+          {"dropped_t_pose", body.dropped_t_pose},
+          {"note", body.note},
+          {"stature_m", motion.stature_m},
+          {"travelled_m", motion.travelled_m},
+          {"speed_median_m_s", motion.speed_median_m_s},
+          {"speed_p95_m_s", motion.speed_p95_m_s},
+          {"speed_peak_m_s", motion.speed_peak_m_s},
+          {"fastest", RoleName(motion.fastest)},
+          {"foot_slide_m_s", motion.foot_slide_m_s},
+          {"lowest_foot_m", motion.lowest_foot_m},
+          {"roles", std::move(roles)}};
+}
+
+Json JsonOf(const ClipFacts& facts) {
+  const bool is_read = facts.format.has_value();
+  Json json = {{"name", facts.name},
+               {"source", facts.source},
+               {"format", is_read ? Json(FormatName(*facts.format)) : Json()},
+               {"complaint", facts.complaint ? Json(ToString(*facts.complaint)) : Json()}};
+  if (!is_read) return json;
+  json["frames"] = facts.frames;
+  json["rate_hz"] = facts.frames > 0 ? Json(facts.rate_hz) : Json();
+  json["duration_s"] = facts.duration_s;
+  json["joints"] = facts.joints;
+  json["end_sites"] = facts.end_sites;
+  json["meshes"] = facts.figure.meshes;
+  json["triangles"] = facts.figure.triangles;
+  json["materials"] = facts.figure.materials;
+  json["body"] = facts.body ? JsonOf(*facts.body) : Json();
+  return json;
+}
+
+constexpr std::size_t kLineWidth = 110;
+
+std::string Line(const std::string& title, const std::string& text) { return fmt::format("  {:<8} {}\n", title, text); }
+
+/// Writes items one after the other, in as many lines as they need.
+std::string WrappedLine(const std::string& title, const std::vector<std::string>& items) {
+  std::string lines, line;
+  for (const std::string& item : items) {
+    if (!line.empty() && line.size() + 2 + item.size() > kLineWidth) {
+      lines += Line(lines.empty() ? title : "", line + ",");
+      line.clear();
+    }
+    line += (line.empty() ? "" : ", ") + item;
+  }
+  return lines + Line(lines.empty() ? title : "", line);
+}
+
+std::string FileLine(const ClipFacts& facts) {
+  std::string text(FormatName(*facts.format));
+  if (facts.frames > 0) {
+    text += fmt::format(", {} at {:.6g} Hz, {:.2f} s", Plural(static_cast<long long>(facts.frames), "frame"),
+                        facts.rate_hz, facts.duration_s);
+  }
+  text += "; " + Plural(static_cast<long long>(facts.joints), "joint");
+  if (facts.end_sites > 0) text += ", " + Plural(static_cast<long long>(facts.end_sites), "end site");
+  return Line("file", text);
+}
+
+std::string FigureLine(const FigureFacts& figure) {
+  if (figure.meshes == 0) return "";
+  const bool one = figure.meshes == 1;
+  return Line("figure", fmt::format("{} mesh{}, {}; materials: {}", figure.meshes, one ? "" : "es",
+                                    Plural(static_cast<long long>(figure.triangles), "triangle"),
+                                    figure.materials.empty() ? std::string(kNoValue) : Join(figure.materials)));
+}
+
+std::string BodyLines(const BodyFacts& body) {
+  const MotionStatistics& motion = body.motion;
+  return Line("body",
+              fmt::format("{:.2f} m tall; {}; {} up", motion.stature_m, body.note, body.up == UpAxis::kY ? "Y" : "Z")) +
+         Line("motion",
+              fmt::format("travels {:.1f} m; fastest joint: median {:.2f}, 95 % {:.2f}, peak {:.2f} m/s ({}); "
+                          "feet slide {:.1f} cm/s",
+                          motion.travelled_m, motion.speed_median_m_s, motion.speed_p95_m_s, motion.speed_peak_m_s,
+                          RoleName(motion.fastest), 100 * motion.foot_slide_m_s));
+}
+
+std::vector<std::string> RoleItems(const BodyFacts& body) {
+  std::vector<std::string> items;
+  for (const Role role : AllRoles()) {
+    const bool composed = std::ranges::find(body.composed, role) != body.composed.end();
+    items.push_back(
+        fmt::format("{} {}{}", RoleName(role), composed ? "composed on " : "= ", Quote(body.joints[Index(role)])));
+  }
+  return items;
 }
 
 }  // namespace
@@ -94,6 +199,33 @@ ClipFacts FactsOf(const OpenedClip& clip) {
   ClipFacts facts = FactsOfSource(clip.source);
   facts.body = FactsOfBody(clip);
   return facts;
+}
+
+Result<std::string> FactsAsJson(const std::vector<ClipFacts>& facts) {
+  Json clips = Json::array();
+  for (const ClipFacts& clip : facts) clips.push_back(JsonOf(clip));
+  return WriteJson({{"schema_version", 1}, {"clips", std::move(clips)}});
+}
+
+std::string FactsAsText(const ClipFacts& facts, const ClipFacts* before) {
+  std::string text = facts.name == facts.source ? facts.name : fmt::format("{}  ({})", facts.name, facts.source);
+  text += "\n";
+  if (facts.format) text += FileLine(facts) + FigureLine(facts.figure);
+  if (facts.body) {
+    text += BodyLines(*facts.body);
+    const bool as_before = before != nullptr && before->body && before->body->joints == facts.body->joints;
+    text += as_before ? Line("roles", "as above") : WrappedLine("roles", RoleItems(*facts.body));
+  }
+  if (facts.complaint) text += Line("but", facts.complaint->message);
+  return text;
+}
+
+std::string FactsAsLine(const ClipFacts& facts) {
+  std::string text = fmt::format("{} · {:.1f} s at {:.4g} Hz · {}", FormatName(*facts.format), facts.duration_s,
+                                 facts.rate_hz, Plural(static_cast<long long>(facts.joints), "joint"));
+  if (!facts.body) return text;
+  return text + fmt::format(" · {:.2f} m tall · feet slide {:.1f} cm/s · {}", facts.body->motion.stature_m,
+                            100 * facts.body->motion.foot_slide_m_s, facts.body->note);
 }
 
 }  // namespace etude

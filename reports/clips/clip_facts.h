@@ -18,7 +18,7 @@ struct FigureFacts {
   std::vector<std::string> materials;
 };
 
-/// What the twenty joints of a clip tell.
+/// The facts that a clip's twenty joints tell.
 struct BodyFacts {
   std::array<std::string, kRoleCount> joints;  ///< by Index(role): who plays it
   std::vector<Role> composed;                  ///< roles that only ride on that joint
@@ -31,7 +31,7 @@ struct BodyFacts {
   MotionStatistics motion;
 };
 
-/// What `etude clip info` says of a clip; what cannot be known is left out, with the complaint.
+/// The facts of a clip, as `etude clip info` tells them; what cannot be known is left out, with the complaint.
 struct ClipFacts {
   std::string name;
   std::string source;
@@ -46,18 +46,18 @@ struct ClipFacts {
   std::optional<Error> complaint;
 };
 
-/// The facts of every clip behind a reference (as ExpandReference gives them). Never empty: a file without a clip is
-/// told of as well, and one that cannot be read by its complaint alone.
+/// Collects the facts of every clip behind a reference (as ExpandReference gives them). Never empty: a file without a
+/// clip gives facts as well, and one that cannot be read its complaint alone.
 std::vector<ClipFacts> FactsOf(const std::string& reference, const OpenOptions& options);
-/// Of a clip that is understood.
+/// Collects the facts of a clip that is understood.
 ClipFacts FactsOf(const OpenedClip& clip);
 
-/// A paragraph for people. Roles that `before` had as well are not told again.
+/// Writes the facts as a paragraph for people. Roles that `before` had as well are not told again.
 std::string FactsAsText(const ClipFacts& facts, const ClipFacts* before = nullptr);
-/// One line under a picture: "BVH · 22.9 s at 120 Hz · 31 joints · 1.59 m tall · feet slide 0.6 cm/s · 1 unit = 5.644
-/// cm (CMU)".
+/// Writes the facts as a line under a picture: "BVH · 22.9 s at 120 Hz · 31 joints · 1.59 m tall · feet slide 0.6 cm/s
+/// · 1 unit = 5.644 cm (CMU)".
 std::string FactsAsLine(const ClipFacts& facts);
-/// docs/schemas/clip-info.schema.json, one line.
+/// Writes the facts as one line of JSON (docs/schemas/clip-info.schema.json).
 Result<std::string> FactsAsJson(const std::vector<ClipFacts>& facts);
 
 }  // namespace etude

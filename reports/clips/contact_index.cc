@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "reports/plots/panel.h"
 #include "reports/words/escape.h"
 
 namespace etude {
@@ -24,26 +25,29 @@ struct CurvePanel {
   double plant = 0, lift = 0;
 };
 
-class Picture {
+class ContactPicture {
  public:
-  explicit Picture(const BodyMotion& motion)
-      : seconds_(static_cast<double>(std::max<std::size_t>(motion.poses.size(), 2) - 1) / motion.rate_hz),
-        rate_hz_(motion.rate_hz) {}
+  explicit ContactPicture(const BodyMotion& motion)
+      : rate_hz_(motion.rate_hz),
+        frames_{.low = 0,
+                .high = static_cast<double>(std::max<std::size_t>(motion.poses.size(), 2) - 1),
+                .from = kLabelWidth,
+                .to = kPictureWidth - kRightEdge} {}
 
   void Add(const CurvePanel& panel) {
     // Beyond three times what lifts a foot it does not matter how far: what matters stays large.
     const double top = std::clamp(*std::ranges::max_element(panel.values), 1.2 * panel.lift, 3 * panel.lift);
-    const auto y = [&](double value) { return y_ + kPanelHeight * (1 - std::clamp(value / top, 0.0, 1.0)); };
+    const Axis axis{.low = 0, .high = top, .from = y_ + kPanelHeight, .to = y_};
     for (double threshold : {panel.plant, panel.lift}) {
       body_ += fmt::format(
           R"(<line x1="{}" x2="{}" y1="{:.1f}" y2="{:.1f}" class="threshold"/><text x="{}" y="{:.1f}" class="tick">{:g}</text>)"
           "\n",
-          kLabelWidth, kPictureWidth - kRightEdge, y(threshold), y(threshold), kLabelWidth - 6, y(threshold) + 4,
-          threshold);
+          kLabelWidth, kPictureWidth - kRightEdge, axis.At(threshold), axis.At(threshold), kLabelWidth - 6,
+          axis.At(threshold) + 4, threshold);
     }
     std::string points;
     for (std::size_t f = 0; f < panel.values.size(); ++f) {
-      points += fmt::format("{:.1f},{:.1f} ", X(static_cast<double>(f)), y(panel.values[f]));
+      points += fmt::format("{:.1f},{:.1f} ", frames_.At(static_cast<double>(f)), axis.At(panel.values[f]));
     }
     body_ += fmt::format("<polyline points=\"{}\"/>\n<text x=\"{}\" y=\"{:.1f}\">{}, {}</text>\n", points, kLabelWidth,
                          y_ - 4, panel.label, panel.unit);
@@ -56,7 +60,8 @@ class Picture {
       std::size_t end = first;
       while (end < stands.size() && stands[end] == stands[first]) ++end;
       if (stands[first]) {
-        const double x = X(static_cast<double>(first)), to = X(static_cast<double>(std::min(end, stands.size() - 1)));
+        const double x = frames_.At(static_cast<double>(first)),
+                     to = frames_.At(static_cast<double>(std::min(end, stands.size() - 1)));
         body_ += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{}\"/>\n", x, y_,
                              std::max(to - x, 1.0), kBarHeight);
       }
@@ -66,10 +71,10 @@ class Picture {
   }
 
   std::string Svg(const std::string& title) {
-    const double step = std::max(1.0, std::ceil(seconds_ / 12));
-    for (double second = 0; second <= seconds_; second += step) {
-      body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" class=\"time\">{:g} s</text>\n", X(second * rate_hz_), y_,
-                           second);
+    const double seconds = frames_.high / rate_hz_, step = std::max(1.0, std::ceil(seconds / 12));
+    for (double second = 0; second <= seconds; second += step) {
+      body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" class=\"time\">{:g} s</text>\n",
+                           frames_.At(second * rate_hz_), y_, second);
     }
     return fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1:.0f}\" viewBox=\"0 0 {0} {1:.0f}\">\n"
@@ -81,11 +86,8 @@ class Picture {
   }
 
  private:
-  double X(double frame) const {
-    return kLabelWidth + (kPictureWidth - kLabelWidth - kRightEdge) * frame / (seconds_ * rate_hz_);
-  }
-
-  const double seconds_, rate_hz_;
+  const double rate_hz_;
+  const Axis frames_;
   double y_ = kTitleHeight;
   std::string body_;
 };
@@ -94,7 +96,7 @@ class Picture {
 
 std::string ContactIndexSvg(const std::string& name, const BodyMotion& motion, const ContactRules& rules) {
   const FootContacts contacts = FindFootContacts(motion.poses, motion.rate_hz, rules);
-  Picture picture(motion);
+  ContactPicture picture(motion);
   std::string title = name;
   for (std::size_t side = 0; side < kLegs.size(); ++side) {
     CurvePanel height{.label = fmt::format("{}: height of the toe tip", kSides[side]),

@@ -3,8 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "bench/model/sensor_sheet.h"
 #include "engine/base/result.h"
-#include "reports/clips/shot.h"
+#include "reports/clips/clip_film.h"
 #include "sim/render/renderer.h"
 
 namespace etude {
@@ -17,11 +18,15 @@ struct SheetOptions {
   int columns = 12;  ///< pictures beside each other
 };
 
-/// Larger sheets are refused, pixels a side.
+/// The largest side of a sheet, pixels; larger sheets are refused.
 constexpr int kLargestSheet = 16'000;
 
-/// Draws clips below each other, each as pictures evenly spread over its time, all at one scale. The bytes of a PNG
-/// file.
+/// Draws clips below each other, each as pictures evenly spread over its time, all at one scale. Gives the bytes of a
+/// PNG file.
 Result<std::string> DrawContactSheet(std::vector<ClipActor> actors, const SheetOptions& options, Renderer& renderer);
+
+/// Draws what sensors see, row below row, all pictures at one width. Gives the bytes of a PNG file. Fails for a sheet
+/// that is too large or has nothing to show.
+Result<std::string> DrawSensorSheet(const SensorSheet& sheet);
 
 }  // namespace etude

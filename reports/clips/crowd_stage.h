@@ -13,15 +13,15 @@ namespace etude {
 /// Draws a crowd: so many bodies in rows on a square, each about its own place, all before one camera.
 class CrowdStage {
  public:
-  /// `width` and `height` in pixels; `renderer` must outlive this.
+  /// Sets the stage for pictures of this size in pixels; `renderer` must outlive it.
   CrowdStage(int characters, int width, int height, Renderer& renderer);
 
-  /// One of them: a pose about the floor's origin, and whether it shall stand out, all of one pale colour.
+  /// A character: a pose about the floor's origin; who stands out is all of one pale colour.
   struct Character {
     BodyPose pose;
     bool stands_out = false;
   };
-  /// With a caption of two lines. At most as many as there are places.
+  /// Draws a crowd, at most as many as there are places, with a caption of two lines.
   ColourImage Draw(std::span<const Character> crowd, const std::string& strong, const std::string& soft);
 
  private:

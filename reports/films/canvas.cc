@@ -2,10 +2,8 @@
 
 #include <cairo.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <vector>
 
 #include "engine/base/angles.h"
 

@@ -32,23 +32,23 @@ class Canvas {
   int height() const;
 
   void FillBox(const Box& box, const Paint& paint, double radius = 0);
-  /// From `top` at the box's upper edge to `bottom` at its lower one.
+  /// Fills a box with a shade from `top` at its upper edge to `bottom` at its lower one.
   void FillShade(const Box& box, const Paint& top, const Paint& bottom);
   void DrawImage(const ColourImage& image, const Box& box, double radius = 0);
   /// Paints where the mask is set, the mask stretched over the box.
   void DrawMask(const Mask& mask, const Box& box, const Paint& paint);
   void DrawLine(const glm::dvec2& from, const glm::dvec2& to, double width, const Paint& paint);
-  /// Straight lines from point to point, at least one.
+  /// Draws straight lines from point to point, at least one.
   void DrawPath(std::span<const glm::dvec2> points, double width, const Paint& paint);
   void DrawDot(const glm::dvec2& centre, double radius, const Paint& paint);
   void DrawRing(const glm::dvec2& centre, double radius, double width, const Paint& paint);
-  /// `origin` is the left end of the baseline. Text wider than `room` pixels is cut and ends in "…".
+  /// Draws text from `origin`, the left end of its baseline. Text wider than `room` pixels is cut and ends in "…".
   void DrawText(const glm::dvec2& origin, const std::string& text, double size, const Paint& paint, double room,
                 bool bold = false);
   double TextWidth(const std::string& text, double size, bool bold = false) const;
 
   ColourImage Pixels() const;
-  /// The picture as the bytes of a PNG file.
+  /// Gives the picture as the bytes of a PNG file.
   std::string Png() const;
 
  private:

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "reports/films/look.h"
 #include "reports/transitions/transition_facts.h"
 
 namespace etude {

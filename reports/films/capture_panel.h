@@ -7,15 +7,15 @@
 #include "bench/recordings/capture_extras.h"
 #include "reports/films/canvas.h"
 #include "reports/films/cast.h"
-#include "reports/films/media.h"
+#include "reports/films/film.h"
 #include "sim/camera/lens.h"
 #include "sim/render/renderer.h"
 #include "sim/stage/stage.h"
 
 namespace etude {
 
-/// The right half of the film: what the two cameras saw, the person as found in the pictures (tinted,
-/// outlined) and the skeleton as recovered from both.
+/// The right half of the film: the views of two cameras, the person as found in the pictures (tinted, outlined) and the
+/// skeleton as recovered from both.
 class CapturePanel {
  public:
   /// Fails when the recording's facts cannot be read, or do not belong to its tracks.
@@ -24,30 +24,30 @@ class CapturePanel {
   int Frames() const { return static_cast<int>(truth_.poses.size()); }
   double RateHz() const { return truth_.rate_hz; }
   std::size_t Cameras() const { return extras_.views.size(); }
-  /// "left camera"
+  /// Names a camera: "First camera".
   std::string CameraName(std::size_t camera) const;
-  /// "adaptive on clap"
+  /// Gives the title: "adaptive on clap".
   std::string Title() const;
-  /// What each camera really took in the middle of the motion.
+  /// Gives a picture of each camera as it was taken in the middle of the motion.
   std::vector<Still> Stills() const;
-  /// "adaptive · joints 43 mm off in this frame, 51 mm on the whole"
+  /// Tells the error: "adaptive · per-joint error 43 mm now, 51 mm on average".
   std::string ErrorWords(int frame) const;
 
-  /// What one camera saw, without noise.
+  /// Renders one camera's view, without noise.
   View Seen(Renderer& renderer, std::size_t camera, int frame, Targets targets) const;
 
-  /// The moments that the recording keeps (`CaptureExtras::moments`).
+  /// Gives the moments that the recording keeps (`CaptureExtras::moments`).
   const std::vector<CaptureExtras::Moment>& Moments() const { return extras_.moments; }
   const Mask& MaskOf(std::size_t camera, int frame) const {
     return extras_.views[camera].masks[static_cast<std::size_t>(frame)];
   }
   const BodyPose& Recovered(int frame) const { return recovered_.poses[static_cast<std::size_t>(frame)]; }
   const Camera& CameraOf(std::size_t camera) const { return extras_.views[camera].truth; }
-  /// The part of the camera's pictures that holds the person in every frame, pixels.
+  /// Gives the part of the camera's pictures that holds the person in every frame, pixels.
   const Box& CropOf(std::size_t camera) const { return crops_[camera]; }
 
-  /// The part of one camera's picture around the person, with mask and skeleton over it, without words;
-  /// it fills the whole canvas. The same canvas size asks for the same picture, so callers may keep it.
+  /// Draws the part of one camera's picture around the person, with mask and skeleton over it, without words, over the
+  /// whole canvas. The same canvas size gives the same picture, so callers may keep it.
   void Draw(Canvas& canvas, Renderer& renderer, std::size_t camera, int frame) const;
 
  private:
@@ -61,10 +61,10 @@ class CapturePanel {
   std::string method_, clip_;
 };
 
-/// The body's bones and joints as the camera sees them; `panel` is where its whole picture lies.
+/// Draws the body's bones and joints as the camera sees them; `panel` is where its whole picture lies.
 void DrawSkeleton(Canvas& canvas, const BodyPose& pose, const Camera& camera, const Box& panel);
 
-/// The pixels of the mask that touch something outside it.
+/// Gives the pixels of the mask that touch something outside it.
 Mask OutlineOf(const Mask& mask);
 
 }  // namespace etude

@@ -3,13 +3,21 @@
 #include <string>
 #include <vector>
 
+#include "engine/motion/body.h"
 #include "engine/motion/character.h"
 #include "reports/films/coached_session.h"
 #include "reports/films/film.h"
-#include "reports/films/session_timeline.h"
+#include "reports/films/session_parts.h"
 #include "sim/render/renderer.h"
 
 namespace etude {
+
+/// Makes paper A's scene: a meadow before a forest's edge and the sky. It stands behind z = −1, and hides the room's
+/// wall and floor from a camera that looks at the origin from +Z.
+Figure ForestFigure();
+
+/// Makes a soft dark spot on the meadow below a body: the forest is drawn without shadows.
+Surface SpotBelow(const BodyPose& pose);
 
 /// A coached session: the bear in its forest and the learner beside it, the learner's skeleton as the sensor saw it,
 /// the hint with the picture of its key pose, and a timeline of truth, judgements and transitions. A beat is a click.
@@ -25,13 +33,13 @@ class CoachedScene : public Scene {
   std::vector<double> Beats() const override;
 
  private:
-  /// The stage without anybody, drawn once: everybody stands before it.
+  /// Gives the stage without anybody, which is drawn once.
   const ColourImage& Backdrop(const Camera& camera);
   void DrawStage(Canvas& canvas, int frame);
   void DrawSkeletonInset(Canvas& canvas, int frame) const;
   void DrawHint(Canvas& canvas, int frame) const;
   void DrawTimeline(Canvas& canvas, int now) const;
-  /// The frames of the session that the timeline shows at one of them.
+  /// Gives the frames of the session that the timeline shows at one of them.
   FrameSpan TimelineAt(int now) const;
 
   CoachedSessionFacts facts_;

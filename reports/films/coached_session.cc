@@ -10,14 +10,14 @@
 namespace etude {
 namespace {
 
-using Json = nlohmann::json;
+using SessionJson = nlohmann::json;
 
 /// Within the session, whatever the file says.
-int FrameIn(const Json& json, const char* key, int frames) {
+int FrameIn(const SessionJson& json, const char* key, int frames) {
   return std::clamp(json.at(key).get<int>(), 0, std::max(0, frames - 1));
 }
 
-std::optional<BodyPose> KeyPoseIn(const Json& words) {
+std::optional<BodyPose> KeyPoseIn(const SessionJson& words) {
   if (!words.contains("picture")) return std::nullopt;
   const auto numbers = words.at("picture").get<std::vector<double>>();
   if (numbers.size() != 3 * kRoleCount) return std::nullopt;
@@ -28,29 +28,29 @@ std::optional<BodyPose> KeyPoseIn(const Json& words) {
   return pose;
 }
 
-void Fill(const Json& extras, CoachedSessionFacts& facts) {
+void Fill(const SessionJson& extras, CoachedSessionFacts& facts) {
   const int frames = facts.Frames();
   facts.song = extras.at("song").get<std::string>();
-  for (const Json& mode : extras.at("modes")) {
+  for (const SessionJson& mode : extras.at("modes")) {
     facts.modes.push_back({mode.at("mode").get<std::string>(), FrameIn(mode, "begin_frame", frames)});
   }
-  for (const Json& told : extras.at("performances")) {
+  for (const SessionJson& told : extras.at("performances")) {
     facts.performances.push_back({told.at("move").get<std::string>(), told.at("truth").get<std::string>(),
                                   told.at("called").get<std::string>(), FrameIn(told, "begin_frame", frames),
                                   FrameIn(told, "end_frame", frames)});
   }
-  for (const Json& words : extras.at("words")) {
+  for (const SessionJson& words : extras.at("words")) {
     facts.words.push_back({FrameIn(words, "begin_frame", frames), words.at("say").get<std::string>(),
                            words.at("hint").get<std::string>(), KeyPoseIn(words)});
   }
-  for (const Json& told : extras.at("decisions")) {
+  for (const SessionJson& told : extras.at("decisions")) {
     facts.decisions.push_back(
         {FrameIn(told, "frame", frames), told.at("event").get<std::string>(), told.at("why").get<std::string>()});
   }
-  for (const Json& frame : extras.at("corrections")) {
+  for (const SessionJson& frame : extras.at("corrections")) {
     facts.corrections.push_back(std::clamp(frame.get<int>(), 0, frames - 1));
   }
-  for (const Json& frame : extras.at("transitions")) {
+  for (const SessionJson& frame : extras.at("transitions")) {
     facts.transitions.push_back(std::clamp(frame.get<int>(), 0, frames - 1));
   }
   facts.beats_s = extras.at("beats_s").get<std::vector<double>>();
@@ -71,8 +71,8 @@ Result<CoachedSessionFacts> ReadCoachedSession(const CastCell& cell) {
     return Fail(place, "its tracks are not of one length");
   }
   try {
-    Fill(Json::parse(cell.recording->extras_json), facts);
-  } catch (const Json::exception& error) {
+    Fill(SessionJson::parse(cell.recording->extras_json), facts);
+  } catch (const SessionJson::exception& error) {
     return Fail(place, "its extras are no coached session's: {}", error.what());
   }
   if (facts.modes.empty() || facts.words.empty()) return Fail(place, "its extras tell of no mode or words");

@@ -3,12 +3,75 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "engine/base/angles.h"
+#include "reports/films/capture_panel.h"
 #include "reports/films/look.h"
 #include "reports/words/figures.h"
+#include "sim/body/shape.h"
 
 namespace etude {
 namespace {
+
+// Drawn this much larger and shrunk, which smooths edges.
+constexpr double kDetail = 1.5;
+// The share of the panel's width, on its left, that the text gets.
+constexpr double kWordsShare = 0.34;
+// From the front, turned far enough to tell near from far.
+constexpr double kTurn = Radians(25);
+// Metres, a tenth of a pixel: the last iterations often move less, and need no new picture.
+constexpr double kVisible = 0.0005;
+constexpr Paint kGhostRim{0.90, 0.93, 0.95, 0.55};
+constexpr Paint kMarkShadow{0.05, 0.06, 0.07, 0.8};
+constexpr Paint kWarn{0.98, 0.52, 0.45, 1};
+constexpr Paint kGood{0.60, 0.86, 0.54, 1};
+
+Rgb8 ToRgb8(const Paint& paint, double brightness) {
+  const auto channel = [&](double share) { return static_cast<std::uint8_t>(std::lround(255 * share * brightness)); };
+  return {channel(paint.r), channel(paint.g), channel(paint.b)};
+}
+
+Figure BodyOf(const BodyPose& pose, const Paint& paint) {
+  Figure figure{BodyCapsules(pose)};
+  figure.colours.fill(ToRgb8(paint, 0.85));
+  return figure;
+}
+
+double LowestPoint(const IkRace& race) {
+  double lowest = std::numeric_limits<double>::max();
+  const auto include = [&](const BodyPose& pose) {
+    for (const Capsule& capsule : BodyCapsules(pose)) {
+      lowest = std::min(lowest, std::min(capsule.a.y, capsule.b.y) - capsule.radius);
+    }
+  };
+  include(race.truth);
+  for (const IkPath& path : race.paths) std::ranges::for_each(path.poses, include);
+  return lowest;
+}
+
+void DrawMarks(Canvas& canvas, const std::vector<std::pair<glm::dvec2, glm::dvec2>>& marks, const Paint& colour) {
+  for (const auto& [end, target] : marks) canvas.DrawLine(end, target, 2, kInk);
+  for (const auto& [end, target] : marks) {
+    canvas.DrawRing(target, 9, 5, kMarkShadow);
+    canvas.DrawRing(target, 9, 2.5, kInk);
+    canvas.DrawDot(end, 6.5, kMarkShadow);
+    canvas.DrawDot(end, 5, colour);
+  }
+}
+
+// Errors far below the goal are drawn alike.
+std::string ShortNumber(double value) { return value < 0.001 ? "< 0.001" : FormatNumber(value); }
+
+double LargestShift(const BodyPose& a, const BodyPose& b) {
+  double largest = 0;
+  for (const Role role : AllRoles()) largest = std::max(largest, glm::distance(a[role], b[role]));
+  return largest;
+}
 
 constexpr int kPanelWidth = 622, kPanelHeight = 400;
 constexpr Box kPanels[] = {{12, 52, kPanelWidth, kPanelHeight}, {646, 52, kPanelWidth, kPanelHeight}};
@@ -26,6 +89,96 @@ ErrorPlot PlotOf(const IkRace& race, std::vector<double> IkPath::*values, std::s
 }
 
 }  // namespace
+
+ConvergenceStage::ConvergenceStage(const IkRace& race, Renderer& renderer, int width, int height)
+    : box_{0, 0, static_cast<double>(width), static_cast<double>(height)},
+      move_(ToOrigin(race.truth)),
+      lift_(-LowestPoint(race)),
+      truth_(Placed(race.truth)),
+      targets_(race.targets),
+      studio_(width, height, kDetail, BoundsOf(race)),
+      ghost_(studio_.Silhouette(renderer, BodyOf(truth_, kInk))),
+      rim_(OutlineOf(ghost_)) {}
+
+glm::dvec3 ConvergenceStage::Placed(const glm::dvec3& point) const {
+  return FloorMove{kTurn, 0, 0}.Apply(move_.Apply(point)) + glm::dvec3(0, lift_, 0);
+}
+
+BodyPose ConvergenceStage::Placed(const BodyPose& pose) const {
+  BodyPose placed = pose;
+  for (glm::dvec3& joint : placed.joints) joint = Placed(joint);
+  return placed;
+}
+
+ViewBounds ConvergenceStage::BoundsOf(const IkRace& race) const {
+  ViewBounds bounds;
+  Studio::Include(BodyOf(truth_, kInk), bounds);
+  for (const IkPath& path : race.paths) {
+    for (const BodyPose& pose : path.poses) Studio::Include(BodyOf(Placed(pose), kInk), bounds);
+  }
+  for (const auto& target : targets_) {
+    constexpr double kMargin = 0.05;  // metres, for the ring
+    if (target) Studio::Include({{{Part::kHead, Placed(*target), Placed(*target), kMargin}}}, bounds);
+  }
+  // The bodies are centred in the space beside the text.
+  const double left_over = box_.width * (1 - kWordsShare) / box_.height;
+  const glm::dvec2 extent = bounds.high - bounds.low;
+  const double width = std::max(extent.x, extent.y * left_over);
+  const double middle = (bounds.low.x + bounds.high.x) / 2;
+  bounds.high.x = middle + width / 2;
+  bounds.low.x = bounds.high.x - width / (1 - kWordsShare);
+  return bounds;
+}
+
+ColourImage ConvergenceStage::Picture(Renderer& renderer, const BodyPose& pose, const Paint& colour) const {
+  const BodyPose body = Placed(pose);
+  Canvas canvas(static_cast<int>(box_.width), static_cast<int>(box_.height));
+  studio_.Draw(canvas, box_, renderer, BodyOf(body, colour), {}, &ghost_);
+  canvas.DrawMask(rim_, box_, kGhostRim);
+  std::vector<std::pair<glm::dvec2, glm::dvec2>> marks;
+  for (std::size_t i = 0; i < kIkEnds.size(); ++i) {
+    if (!targets_[i]) continue;
+    marks.emplace_back(studio_.PixelOf(box_, body[kIkEnds[i]]), studio_.PixelOf(box_, Placed(*targets_[i])));
+  }
+  DrawMarks(canvas, marks, colour);
+  return canvas.Pixels();
+}
+
+ConvergencePanel::ConvergencePanel(const IkPath& path, const ConvergenceStage& stage, const Paint& colour)
+    : path_(path), stage_(stage), colour_(colour) {}
+
+void ConvergencePanel::Draw(Canvas& canvas, const Box& panel, Renderer& renderer, double iteration) {
+  const std::size_t entry = path_.EntryAt(iteration);
+  const BodyPose& pose = path_.poses[entry];
+  if (!drawn_ || LargestShift(drawn_->pose, pose) > kVisible) drawn_ = {pose, stage_.Picture(renderer, pose, colour_)};
+  canvas.DrawImage(drawn_->picture, panel, kPanelRadius);
+
+  const double x = panel.x + 18, room = panel.width * kWordsShare - 18;
+  const auto figure = [&](double y, const std::string& label, const std::string& value, const Paint& paint) {
+    canvas.DrawText({x, panel.y + y}, label, 17, kSoftInk, room);
+    canvas.DrawText({x, panel.y + y + 34}, value, 32, paint, panel.width - 36, true);
+  };
+  const auto error = [&](double y, const std::string& label, const std::vector<double>& errors, double goal,
+                         const std::string& suffix) {
+    const double now = errors[entry];
+    if (!IsAskedFor(errors)) return figure(y, label, "not asked", kSoftInk);
+    figure(y, label, ShortNumber(now) + suffix, now < goal ? kGood : kInk);
+  };
+  canvas.DrawText({x, panel.y + 36}, path_.method, 25, colour_, panel.width - 36, true);
+  // The iteration that the shared clock shows, not the latest that was recorded.
+  const int reached = std::min(static_cast<int>(iteration), path_.iterations.back());
+  figure(84, "iteration", FormatCount(reached), kInk);
+  error(164, "worst position error", path_.position_cm, kGoalCm, " cm");
+  error(244, "worst orientation error", path_.orientation_deg, kGoalDeg, "°");
+  // A method that has ended says so and keeps its last pose until the other has ended.
+  if (entry + 1 == path_.poses.size()) {
+    const Paint& paint = path_.solved_at ? kGood : kWarn;
+    canvas.DrawText({x, panel.y + 342}, path_.ending, 25, paint, panel.width - 36, true);
+    const std::string detail =
+        path_.solved_at ? fmt::format("at iteration {}", FormatCount(*path_.solved_at)) : path_.reason;
+    canvas.DrawText({x, panel.y + 366}, detail, 17, paint, panel.width - 36);
+  }
+}
 
 ConvergenceScene::ConvergenceScene(IkRace race, std::string scenario, Renderer& renderer)
     : race_(std::move(race)),

@@ -1,13 +1,60 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
-#include "reports/films/convergence_panel.h"
+#include "reports/films/canvas.h"
 #include "reports/films/error_plot.h"
 #include "reports/films/film.h"
 #include "reports/films/ik_race.h"
+#include "reports/films/studio.h"
 
 namespace etude {
+
+/// The place where both methods of a race are seen: one camera that holds every pose of either, the true pose as a
+/// ghost. Words have room on the left.
+class ConvergenceStage {
+ public:
+  /// Sets the stage for pictures of this size.
+  ConvergenceStage(const IkRace& race, Renderer& renderer, int width, int height);
+
+  /// Draws a body of that colour over the ghost. Rings mark its end effectors' targets, dots where the effectors are.
+  ColourImage Picture(Renderer& renderer, const BodyPose& pose, const Paint& colour) const;
+
+ private:
+  glm::dvec3 Placed(const glm::dvec3& point) const;
+  BodyPose Placed(const BodyPose& pose) const;
+  ViewBounds BoundsOf(const IkRace& race) const;
+
+  Box box_;
+  FloorMove move_;
+  double lift_;  ///< metres, so that nobody is below the floor
+  BodyPose truth_;
+  IkTargets targets_;
+  Studio studio_;
+  Mask ghost_, rim_;
+};
+
+/// One half of the convergence film: a method's state at a moment, as a picture and in numbers.
+class ConvergencePanel {
+ public:
+  /// Both must outlive the panel.
+  ConvergencePanel(const IkPath& path, const ConvergenceStage& stage, const Paint& colour);
+
+  /// Draws the state at `iteration`; `panel` has the size of the stage's pictures.
+  void Draw(Canvas& canvas, const Box& panel, Renderer& renderer, double iteration);
+
+ private:
+  struct Drawn {
+    BodyPose pose;
+    ColourImage picture;
+  };
+
+  const IkPath& path_;
+  const ConvergenceStage& stage_;
+  Paint colour_;
+  std::optional<Drawn> drawn_;  ///< time only goes forward: the latest picture is the one that is needed again
+};
 
 /// Paper B's figures 5.1 and 5.2 in motion: a body settling under two methods side by side, and their errors drawing
 /// themselves beneath.
@@ -19,7 +66,7 @@ class ConvergenceScene : public Scene {
   ConvergenceScene& operator=(const ConvergenceScene&) = delete;
 
   int Frames() const override { return clock_.Frames(); }
-  /// The last: both curves whole, both methods at their end.
+  /// Gives the last frame: both curves whole, both methods at their end.
   int PosterFrame() const override { return Frames() - 1; }
   std::string Words() const override;
   Canvas Draw(int frame) override;

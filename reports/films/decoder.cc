@@ -60,7 +60,7 @@ int WaitFor(pid_t pid) {
   return status;
 }
 
-/// The first line of what a program said, which names the cause.
+/// Gives the first line that a program wrote to its log, which names the cause.
 std::string FirstLineOf(std::FILE* log) {
   std::string words(400, '\0');
   std::rewind(log);
@@ -69,7 +69,7 @@ std::string FirstLineOf(std::FILE* log) {
   return words;
 }
 
-/// The lines "key=value" of a text; of several the first.
+/// Reads lines "key=value"; of several with one key the first.
 std::map<std::string, std::string> ReadKeys(std::FILE* file) {
   std::map<std::string, std::string> keys;
   std::array<char, 256> line;
@@ -89,7 +89,7 @@ double NumberOf(const std::string& text) {
   return value;
 }
 
-/// "60/1"; 0 of what is none.
+/// Reads a ratio such as "60/1"; 0 when it is none.
 double RatioOf(const std::string& text) {
   const std::size_t slash = text.find('/');
   const double low = slash == std::string::npos ? 1 : NumberOf(text.substr(slash + 1));

@@ -12,7 +12,7 @@
 
 namespace etude {
 
-/// What is to be known of a film before its frames are read.
+/// The facts of a film that are needed before its frames are read.
 struct FilmFacts {
   int width = 0;  ///< as shown: a film that a telephone turned is told turned
   int height = 0;
@@ -35,7 +35,7 @@ class Decoder {
   Decoder(Decoder&& other) noexcept;
   Decoder& operator=(Decoder&&) = delete;
 
-  /// The next frame, or false behind the last. Fails when ffmpeg has given up; its last words come with the error.
+  /// Reads the next frame; false behind the last. Fails when ffmpeg has given up, with its last words.
   Result<bool> Next(ColourImage& frame);
 
  private:

@@ -11,6 +11,9 @@
 namespace etude {
 namespace {
 
+constexpr double kSecondsPerDoubling = 0.7;
+constexpr double kShortestRace = 4, kLongest = 8;  // seconds
+
 constexpr Paint kGrid{0.24, 0.27, 0.29, 1};
 constexpr Paint kGoal{0.55, 0.82, 0.50, 1};
 constexpr Paint kTime{0.95, 0.955, 0.96, 0.35};
@@ -23,7 +26,22 @@ constexpr int kMostDecadesBelowGoal = 2;
 
 }  // namespace
 
-/// The inside of the axes, and where a value lies in it.
+RaceClock::RaceClock(int last_iteration) : last_(last_iteration) {
+  const double seconds = std::clamp(kSecondsPerDoubling * std::log2(1.0 + last_), kShortestRace, kLongest);
+  run_ = static_cast<int>(std::lround(seconds * kFilmRate));
+}
+
+double RaceClock::IterationAt(int frame) const {
+  if (frame >= kOpening + run_) return last_;
+  const double share = std::max(frame - kOpening, 0) / static_cast<double>(run_);
+  return std::min(std::expm1(share * std::log1p(last_)), static_cast<double>(last_));
+}
+
+double RaceClock::ShareOf(double iteration) const {
+  return last_ == 0 ? 0 : std::clamp(std::log1p(iteration) / std::log1p(last_), 0.0, 1.0);
+}
+
+/// The inside of the axes, which gives the place of a value in it.
 struct ErrorPlot::Frame {
   Box box;
   const ErrorPlot& plot;

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "reports/films/look.h"
-#include "reports/films/stick_figure.h"
 #include "reports/words/figures.h"
 
 namespace etude {
@@ -20,7 +19,7 @@ constexpr double kHighestAngle = 180;
 
 Paint WithOpacity(const Paint& paint, double a) { return {paint.r, paint.g, paint.b, a}; }
 
-/// The angles that any of the poses tells, in their order.
+/// Gives the angles that any of the poses tells, in their order.
 std::vector<Feature> FeaturesOf(const std::vector<TaughtPose>& poses) {
   std::vector<Feature> features;
   for (const TaughtPose& pose : poses) {

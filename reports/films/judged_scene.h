@@ -4,13 +4,13 @@
 
 #include "reports/films/film.h"
 #include "reports/films/judged_session.h"
-#include "reports/films/session_timeline.h"
+#include "reports/films/session_parts.h"
 
 namespace etude {
 
-/// A session before the sensor: the skeleton as the sensor saw it over the body as it moved; the angles of the key
-/// poses asked for, as they come, each pose ticked off when it is reached; the evidence; and a timeline of truth, of
-/// what every method took it for, and of false alarms.
+/// The film of a session before the sensor: the skeleton as the sensor saw it over the body as it moved; the angles of
+/// the key poses asked for, each pose ticked off when it is reached; the evidence; and a timeline of truth, of the
+/// verdicts of every method, and of false alarms.
 class JudgedScene : public Scene {
  public:
   /// Shows at most `longest` frames, from just before the performance that precedes the first misjudged one.
@@ -24,9 +24,9 @@ class JudgedScene : public Scene {
  private:
   using Performance = JudgedSessionFacts::Performance;
 
-  /// The one asked for, or the last that was; before the first, the first.
+  /// Gives the performance asked for, or the last that was; before the first, the first.
   std::size_t CurrentAt(int frame) const;
-  /// "right" or "wrong" once it is known, else nothing.
+  /// Gives "right" or "wrong" once it is known, else "".
   std::string CalledAt(std::size_t judge, std::size_t performance, int frame) const;
   bool IsMisjudged(std::size_t performance) const;
   void DrawSkeleton(Canvas& canvas, int now) const;

@@ -1,7 +1,6 @@
 #include "reports/films/look.h"
 
 #include <algorithm>
-#include <string>
 
 #include "reports/plots/marks.h"
 

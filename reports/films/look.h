@@ -6,7 +6,7 @@
 
 namespace etude {
 
-/// The film's few colours and how a caption lies on a picture: one place, so that panels look alike.
+/// The colours of films, in one place so that panels look alike.
 inline constexpr Paint kBackdrop{0.078, 0.090, 0.102, 1};
 inline constexpr Paint kInk{0.95, 0.955, 0.96, 1};
 inline constexpr Paint kSoftInk{0.80, 0.83, 0.85, 1};
@@ -14,16 +14,16 @@ inline constexpr Paint kAccent{0.42, 0.76, 0.80, 1};
 inline constexpr Paint kWarm{0.96, 0.68, 0.33, 1};
 inline constexpr double kPanelRadius = 10;
 
-/// The colour that a method has on the page too, by its index in the scenario (reports/plots/marks.h).
+/// Gives the colour that a method has on the page too, by its index in the scenario (reports/plots/marks.h).
 Paint MethodPaint(std::size_t method);
 
-/// A small label in the upper left corner: what this picture is. It leaves `free` pixels on its right.
+/// Draws a small label in the upper left corner: what this picture is. It leaves `free` pixels on its right.
 void DrawTag(Canvas& canvas, const Box& panel, const std::string& text, double free = 0);
 
-/// A small bright label in the upper right corner: something has just happened.
+/// Draws a small bright label in the upper right corner: something has just happened.
 void DrawMark(Canvas& canvas, const Box& panel, const std::string& text);
 
-/// One or two lines in the lower left corner over a soft shade; `strong` may be empty.
+/// Draws one or two lines in the lower left corner over a soft shade; `strong` may be empty.
 void DrawCaption(Canvas& canvas, const Box& panel, const std::string& strong, const std::string& soft, double lift = 0);
 
 }  // namespace etude

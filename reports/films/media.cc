@@ -7,19 +7,17 @@
 #include <memory>
 #include <optional>
 
-#include "reports/films/capture_plate.h"
+#include "reports/films/capture_stills.h"
 #include "reports/films/cast.h"
 #include "reports/films/coached_scene.h"
 #include "reports/films/coached_session.h"
 #include "reports/films/convergence_scene.h"
-#include "reports/films/film.h"
 #include "reports/films/judged_scene.h"
 #include "reports/films/judged_session.h"
-#include "reports/films/picture_strip.h"
 #include "reports/films/stage_scene.h"
 #include "reports/films/transition_race.h"
 #include "reports/films/transition_scene.h"
-#include "reports/words/file_name.h"
+#include "reports/words/escape.h"
 
 namespace etude {
 namespace {
@@ -103,7 +101,7 @@ void MakePlates(const RunData& run, LazyRenderer& lazy, Media& media) {
   }
 }
 
-/// Methods side by side in one world; or, in words, why there is no film of `what`.
+/// Films methods side by side in one world; else says why there is no film of `what`.
 template <typename SideBySide, typename Race>
 Film MakeComparingFilm(Result<Race> race, const std::string& scenario, std::string_view what,
                        const std::filesystem::path& path, const FilmWatch& watch, LazyRenderer& lazy) {
@@ -122,14 +120,14 @@ Film MakeComparingFilm(Result<Race> race, const std::string& scenario, std::stri
   return Shoot(scene, path, watch);
 }
 
-/// "convergence.mp4", or, of several scenarios of one task, "convergence-SCENARIO.mp4".
+/// Names a film: "convergence.mp4", or, of several scenarios of one task, "convergence-SCENARIO.mp4".
 std::string FilmName(const RunData& run, std::size_t index, std::string_view what) {
   const ScenarioSummary& scenario = run.scenarios[index];
   const bool alone = std::ranges::count(run.scenarios, scenario.task, &ScenarioSummary::task) == 1;
   return alone ? fmt::format("{}.mp4", what) : fmt::format("{}-{}.mp4", what, FileNameOf(scenario.name, index));
 }
 
-/// A coached session, around a correction unless whole ones are wanted; or, in words, why there is no film of it.
+/// Films a coached session, around a correction unless whole ones are wanted; else says why there is none.
 Film MakeSessionFilm(const std::optional<CastCell>& cell, const std::string& which, const std::filesystem::path& path,
                      const MediaOptions& options, LazyRenderer& lazy) {
   Film film;
@@ -150,7 +148,7 @@ Film MakeSessionFilm(const std::optional<CastCell>& cell, const std::string& whi
   return Shoot(scene, path, options.watch);
 }
 
-/// A typical session, and the worst where that is another learner's or another coach's.
+/// Films a typical session, and the worst where that is another learner's or another coach's.
 void MakeSessionFilms(const RunData& run, std::size_t index, const MediaPaths& paths, const MediaOptions& options,
                       LazyRenderer& lazy, Media& media) {
   const ScenarioSummary& scenario = run.scenarios[index];
@@ -167,7 +165,7 @@ void MakeSessionFilms(const RunData& run, std::size_t index, const MediaPaths& p
   add(worst, "the worst session", "worst-session");
 }
 
-/// A typical session before the sensor; nothing where no motion of one was kept, which scenarios need not.
+/// Films a typical session before the sensor; nothing where no motion of one was kept, which scenarios need not.
 std::optional<Film> MakeJudgedFilm(const RunData& run, std::size_t index, const MediaPaths& paths,
                                    const MediaOptions& options) {
   const ScenarioSummary& scenario = run.scenarios[index];

@@ -5,31 +5,9 @@
 #include <vector>
 
 #include "bench/model/run_data.h"
-#include "reports/films/film_watch.h"
+#include "reports/films/film.h"
 
 namespace etude {
-
-/// One picture with the words that tell what it shows.
-struct Picture {
-  std::string png;  ///< bytes of a PNG file
-  int width = 0;
-  int height = 0;
-  std::string caption;
-};
-
-/// A picture as a camera of the run took it, with its caption.
-struct Still {
-  std::string jpeg_base64;  ///< nothing but letters of that alphabet
-  std::string caption;
-};
-
-/// A film as the page shows it.
-struct Film {
-  std::string file;     ///< its name in the run's folder `video`
-  std::string mp4;      ///< bytes of the file; empty when there is none
-  std::string why_not;  ///< plain words for what could not be made
-  Picture poster;       ///< png empty when nothing could be drawn; its caption is the film's
-};
 
 /// A film that belongs to one scenario's card.
 struct ScenarioFilm {
@@ -43,18 +21,17 @@ struct ScenarioPicture {
   Picture picture;
 };
 
-/// What the recordings gave to look at, and plain words for what they did not.
+/// All pictures and films made from a run's recordings, with plain words for those that could not be made.
 struct Media {
   Film film;  ///< of the run: coach and cameras; empty for tasks without either, and where a scenario's film shows all
   std::vector<Picture> strip;           ///< moments of the capture: stereo pictures, mask, recovered skeleton
   std::vector<Still> stills;            ///< the same capture's middle frame as its cameras took it
-  std::string strip_scenario;           ///< whose card shows the strip and the stills
+  std::string strip_scenario;           ///< the scenario whose card shows the strip and the stills
   std::vector<ScenarioPicture> plates;  ///< of captures: every stage of some moments
-  std::vector<ScenarioFilm>
-      scenario_films;  ///< methods side by side: inverse kinematics settling, transitions from clip to clip
+  std::vector<ScenarioFilm> scenario_films;  ///< of single scenarios: methods side by side, sessions
 };
 
-/// Where files go that stand beside the page.
+/// The folders that files go to which stand beside the page.
 struct MediaPaths {
   std::filesystem::path films;     ///< a folder: the MP4s
   std::filesystem::path pictures;  ///< a folder: colour, depth and labels of the strip's moments, as EXR

@@ -6,9 +6,44 @@
 #include <array>
 
 #include "reports/films/look.h"
+#include "reports/films/studio.h"
+#include "reports/films/transition_plots.h"
+#include "sim/character/characters.h"
+#include "sim/character/posed.h"
 
 namespace etude {
 namespace {
+
+// A person with raised arms, and some floor, fills the picture.
+constexpr double kSeenHeight = 2.65;
+constexpr double kDistance = 4.2;
+constexpr double kEyeHeight = 1.45;
+constexpr double kLookAtHeight = 0.94;
+// Drawn this much larger and shrunk, which smooths edges at half the price of RenderSmooth.
+constexpr double kCoachDetail = 1.5;
+// The camera follows slowly: a second to either side. Standing still also spares drawing the room anew.
+constexpr int kCoachFollowFrames = 30;
+// How close to the room's wall the hips may come.
+constexpr double kNearestToWall = 1.0;
+// How long the change stays marked after the transition point, and how long its distances are shown around it.
+constexpr int kCoachMarkFrames = 15;
+constexpr int kBarsBefore = 15, kBarsAfter = 60;
+// Beside the feet, above the time line.
+constexpr double kBarsWidth = 320, kBarsLift = 34;
+
+// Turned to face the camera at the transition point, in the middle of the room, never behind its wall.
+void PutOnStage(BodyMotion& motion, int point) {
+  const FloorMove move = ToOrigin(motion.poses[static_cast<std::size_t>(point)]);
+  double backmost = 0;
+  for (BodyPose& pose : motion.poses) {
+    pose = move.Apply(pose);
+    backmost = std::min(backmost, pose[Role::kHipCentre].z);
+  }
+  const FloorMove forward{0, 0, std::max(0.0, kWallZ + kNearestToWall - backmost)};
+  for (BodyPose& pose : motion.poses) pose = forward.Apply(pose);
+}
+
+Paint Faded(const Paint& paint) { return {paint.r, paint.g, paint.b, 0.55}; }
 
 // Long enough to watch one change of moves; kLongest is short enough to be made in seconds.
 constexpr int kShortestScene = 5 * kFilmRate;
@@ -32,6 +67,102 @@ Shown ShownAt(int film_frame, int length) {
 }
 
 }  // namespace
+
+Result<CoachPanel> CoachPanel::Make(const CastCell& cell, int longest) {
+  ASSIGN_OR_RETURN(auto facts, ReadTransitionFacts(*cell.recording, cell.row->Id()));
+  if (facts.transition_frames.empty()) {
+    return Fail({.file = "recording " + cell.row->Id()}, "its extras lack a whole transition_frame within the motion");
+  }
+  CoachPanel panel;
+  panel.bear_ = BearCharacter();
+  panel.facts_ = std::move(facts);
+  panel.method_ = cell.row->method;
+  panel.motion_ = *FindTrack(*cell.recording, "coach");
+  panel.CutTo(longest);
+  PutOnStage(panel.motion_, panel.FirstPoint());
+  panel.followed_ = CameraPath(panel.motion_, kCoachFollowFrames);
+  return panel;
+}
+
+void CoachPanel::CutTo(int longest) {
+  auto& poses = motion_.poses;
+  const int count = static_cast<int>(poses.size());
+  if (count <= longest) return;
+  const int first = std::clamp(FirstPoint() - longest / 2, 0, count - longest);
+  poses = {poses.begin() + first, poses.begin() + first + longest};
+  for (int& point : facts_.transition_frames) point -= first;
+  std::erase_if(facts_.transition_frames, [&](int point) { return point >= longest; });
+  if (facts_.request_frame) *facts_.request_frame -= first;
+}
+
+std::string CoachPanel::Title() const { return fmt::format("{} → {}, by {}", facts_.from, facts_.to, method_); }
+
+Camera CoachPanel::CameraAt(int frame, double width, double height) const {
+  Intrinsics inside;
+  inside.width = static_cast<int>(width);
+  inside.height = static_cast<int>(height);
+  inside.fx = inside.fy = height * kDistance / kSeenHeight;
+  inside.cx = width / 2;
+  inside.cy = height / 2;
+  const glm::dvec3 hips = followed_[static_cast<std::size_t>(frame)];
+  const glm::dvec3 target{hips.x, kLookAtHeight, hips.z};
+  return LookAt(inside, target + glm::dvec3{0, kEyeHeight - kLookAtHeight, kDistance}, target);
+}
+
+void CoachPanel::Draw(Canvas& canvas, const Box& panel, Renderer& renderer, int frame, bool shown_before) const {
+  const BodyPose& pose = motion_.poses[static_cast<std::size_t>(frame)];
+  const std::vector<Figure> coach{PosedFigure(bear_, pose)};
+  const Camera camera = CameraAt(frame, panel.width * kCoachDetail, panel.height * kCoachDetail);
+  canvas.DrawImage(renderer.Render(Room{}, coach, camera, Targets::kColour).colour, panel, kPanelRadius);
+  DrawTag(canvas, panel, shown_before ? "The coach · shown again" : "The coach");
+  const std::string how = facts_.branch.empty() ? method_ : fmt::format("{} · {}", method_, facts_.branch);
+  const std::string countdown = CountdownAt(frame);
+  DrawCaption(canvas, panel, fmt::format("{}  →  {}", facts_.from, facts_.to),
+              fmt::format("changes moves by {}{}{}", how, countdown.empty() ? "" : " · ", countdown), 18);
+  DrawTimeline(canvas, panel, frame);
+  DrawDistances(canvas, panel, frame);
+}
+
+std::string CoachPanel::CountdownAt(int frame) const {
+  if (!facts_.request_frame) return "";
+  const int request = *facts_.request_frame;
+  return CountdownWords(facts_.to, frame - request, facts_.transition_frames.back() - request, motion_.rate_hz);
+}
+
+void CoachPanel::DrawTimeline(Canvas& canvas, const Box& panel, int frame) const {
+  const double left = panel.x + 16, width = panel.width - 32, y = panel.y + panel.height - 18;
+  const double last = std::max(1, Frames() - 1);
+  const auto place = [&](int at) { return left + width * at / last; };
+  const std::vector<int>& points = facts_.transition_frames;
+  double from = left;
+  for (std::size_t segment = 0; segment <= points.size(); ++segment) {
+    const double to = segment < points.size() ? place(points[segment]) : left + width;
+    canvas.DrawLine({from, y}, {to, y}, 4, Faded(PaintOfSegment(facts_, segment)));
+    from = to;
+  }
+  for (const int point : points) canvas.DrawLine({place(point), y - 8}, {place(point), y + 8}, 2, kInk);
+  if (facts_.request_frame && *facts_.request_frame >= 0) {
+    canvas.DrawRing({place(std::min(*facts_.request_frame, Frames() - 1)), y}, 5, 2, kInk);
+  }
+  const auto passed =
+      static_cast<std::size_t>(std::ranges::count_if(points, [&](int point) { return point <= frame; }));
+  canvas.DrawDot({place(frame), y}, 6, PaintOfSegment(facts_, passed));
+}
+
+void CoachPanel::DrawDistances(Canvas& canvas, const Box& panel, int frame) const {
+  const std::vector<int>& points = facts_.transition_frames;
+  const auto is_near = [&](int point) { return frame >= point - kBarsBefore && frame < point + kBarsAfter; };
+  const auto near = std::ranges::find_if(points.rbegin(), points.rend(), is_near);
+  if (near == points.rend()) return;
+  const auto point = static_cast<std::size_t>(points.rend() - near) - 1;
+  const Box bars{panel.x + panel.width - kBarsWidth - 12, panel.y + panel.height - kBarsLift - kDistanceBarsHeight,
+                 kBarsWidth, kDistanceBarsHeight};
+  if (point < facts_.points.size() && facts_.points[point].partials) {
+    canvas.FillBox(bars, {0.05, 0.06, 0.07, 0.78}, kPanelRadius);
+    DrawDistanceBars(canvas, bars, facts_, point);
+  }
+  if (frame >= *near && frame < *near + kCoachMarkFrames) DrawMark(canvas, panel, "change");
+}
 
 StageScene::StageScene(Renderer& renderer, std::optional<CoachPanel> coach, std::optional<CapturePanel> capture)
     : renderer_(renderer), coach_(std::move(coach)), capture_(std::move(capture)) {}

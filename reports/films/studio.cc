@@ -27,7 +27,7 @@ constexpr double kGhostStrength = 0.34;
 
 Camera CameraOf(const Intrinsics& inside) { return LookAt(inside, kEye, kTarget); }
 
-/// How much of a pixel is covered by the lines of the grid across one axis.
+/// Gives the share of a pixel that the lines of the grid across one axis cover.
 double LineCover(double x, double footprint) {
   const double nearest = std::abs(x - kGridSpacing * std::round(x / kGridSpacing));
   const double half = kGridLine / 2;
@@ -40,6 +40,8 @@ Rgb8 ToPixel(const glm::dvec3& paint) {
   return {static_cast<std::uint8_t>(rounded.x), static_cast<std::uint8_t>(rounded.y),
           static_cast<std::uint8_t>(rounded.z)};
 }
+
+constexpr double kFreeRoom = 0.45;
 
 }  // namespace
 
@@ -56,15 +58,15 @@ Figure Placed(Figure figure, const FloorMove& move) {
   return figure;
 }
 
-void Studio::Include(const Figure& placed, Sight& sight) {
+void Studio::Include(const Figure& placed, ViewBounds& bounds) {
   const Camera camera = CameraOf({});
   const auto include = [&](const glm::dvec3& point, double radius) {
     constexpr double kNearest = 0.5;  // metres before the camera; who comes nearer is cut off
     const glm::dvec3 seen = camera.R_CW * (point - camera.p_WC);
     const double distance = std::max(seen.z, kNearest);
     const glm::dvec2 tangents(seen.x / distance, seen.y / distance);
-    sight.low = glm::min(sight.low, tangents - radius / distance);
-    sight.high = glm::max(sight.high, tangents + radius / distance);
+    bounds.low = glm::min(bounds.low, tangents - radius / distance);
+    bounds.high = glm::max(bounds.high, tangents + radius / distance);
   };
   for (const Capsule& capsule : placed.shape) {
     include(capsule.a, capsule.radius);
@@ -75,17 +77,17 @@ void Studio::Include(const Figure& placed, Sight& sight) {
   }
 }
 
-Studio::Studio(int width, int height, double detail, const Sight& sight) {
+Studio::Studio(int width, int height, double detail, const ViewBounds& bounds) {
   Intrinsics inside;
   inside.width = static_cast<int>(width * detail);
   inside.height = static_cast<int>(height * detail);
   const glm::dvec2 room = (1 - 2 * kBorder) * glm::dvec2(inside.width, inside.height);
-  const glm::dvec2 extent = glm::max(sight.high - sight.low, 0.05);
+  const glm::dvec2 extent = glm::max(bounds.high - bounds.low, 0.05);
   inside.fx = inside.fy = std::min(room.x / extent.x, room.y / extent.y);
-  const glm::dvec2 middle = 0.5 * (sight.low + sight.high);
+  const glm::dvec2 middle = 0.5 * (bounds.low + bounds.high);
   inside.cx = inside.width / 2.0 - inside.fx * middle.x;
   // What is left over goes above the head.
-  inside.cy = inside.height * (1 - kBorder) - inside.fy * sight.high.y;
+  inside.cy = inside.height * (1 - kBorder) - inside.fy * bounds.high.y;
   camera_ = CameraOf(inside);
 
   rays_.reserve(static_cast<std::size_t>(inside.width) * inside.height);
@@ -143,6 +145,26 @@ glm::dvec2 Studio::PixelOf(const Box& box, const glm::dvec3& point) const {
   const glm::dvec2 seen = Project(MatrixOf(camera_), point).value_or(glm::dvec2(0));
   return {box.x + seen.x * box.width / camera_.intrinsics.width,
           box.y + seen.y * box.height / camera_.intrinsics.height};
+}
+
+std::vector<glm::dvec3> CameraPath(const BodyMotion& motion, int smoothing) {
+  const int count = static_cast<int>(motion.poses.size());
+  glm::dvec3 low = motion.poses.front()[Role::kHipCentre], high = low;
+  for (const BodyPose& pose : motion.poses) {
+    low = glm::min(low, pose[Role::kHipCentre]);
+    high = glm::max(high, pose[Role::kHipCentre]);
+  }
+  const glm::dvec3 half = (high - low) / 2.0;
+  if (half.x < kFreeRoom && half.z < kFreeRoom) return std::vector(motion.poses.size(), low + half);
+  std::vector<glm::dvec3> way;
+  for (int frame = 0; frame < count; ++frame) {
+    glm::dvec3 sum{0};
+    for (int k = -smoothing; k <= smoothing; ++k) {
+      sum += motion.poses[static_cast<std::size_t>(std::clamp(frame + k, 0, count - 1))][Role::kHipCentre];
+    }
+    way.push_back(sum / (2.0 * smoothing + 1));
+  }
+  return way;
 }
 
 }  // namespace etude

@@ -11,30 +11,30 @@
 
 namespace etude {
 
-/// The part of the camera's sight that has to be shown: tangents to the right and downwards of its axis.
-struct Sight {
+/// The part of the camera's view that has to be shown: tangents to the right and downwards of its axis.
+struct ViewBounds {
   glm::dvec2 low{1e9};
   glm::dvec2 high{-1e9};
 };
 
-/// An endless floor with a grid of half metres, seen by a camera that stands still before the origin, at +Z. Bodies
-/// are put there (FloorMove) instead of moving the camera: whoever walks is followed, and the grid passes below.
+/// An endless floor with a grid of half metres, seen by a camera that stands still before the origin, at +Z. Bodies are
+/// put there (FloorMove) instead of moving the camera: the grid passes below a walker.
 class Studio {
  public:
-  /// Makes `sight` hold what is seen of a figure that was put in place.
-  static void Include(const Figure& placed, Sight& sight);
+  /// Widens `bounds` so that it holds a figure that was put in place.
+  static void Include(const Figure& placed, ViewBounds& bounds);
 
-  /// For pictures of this size that show `sight`, as large as it fits. They are drawn `detail` times as large and
-  /// shrunk: 2 makes edges smooth, less is faster.
-  Studio(int width, int height, double detail, const Sight& sight);
+  /// Makes a studio for pictures of this size that show `bounds`, as large as it fits. They are drawn `detail` times as
+  /// large and shrunk: 2 makes edges smooth, less is faster.
+  Studio(int width, int height, double detail, const ViewBounds& bounds);
 
-  /// `placement` has put the figure in place: it moves the grid as well.
-  /// `ghost` (null = none), a Silhouette of another figure, shimmers behind this one.
+  /// Draws a figure that `placement` has put in place; the grid moves with it. `ghost` (null = none), a Silhouette of
+  /// another figure, shimmers behind this one.
   void Draw(Canvas& canvas, const Box& box, Renderer& renderer, const Figure& placed, const FloorMove& placement,
             const Mask* ghost = nullptr) const;
-  /// The pixels, as fine as the studio draws, where a figure that was put in place is seen.
+  /// Gives the pixels, as fine as the studio draws, where a figure that was put in place is seen.
   Mask Silhouette(Renderer& renderer, const Figure& placed) const;
-  /// Where in the box a point is seen.
+  /// Gives the place in the box where a point is seen.
   glm::dvec2 PixelOf(const Box& box, const glm::dvec3& point) const;
 
  private:
@@ -48,7 +48,12 @@ class Studio {
   std::vector<Ray> rays_;
 };
 
-/// A figure turned about the vertical axis and shifted on the floor.
+/// Turns a figure about the vertical axis and shifts it on the floor.
 Figure Placed(Figure figure, const FloorMove& move);
+
+/// Computes the way that a camera follows, for every frame: that of the hips, averaged over `smoothing` frames to
+/// either side. It stands still, which is calmer, when the whole motion stays within 45 cm of its middle. Needs at
+/// least one frame.
+std::vector<glm::dvec3> CameraPath(const BodyMotion& motion, int smoothing);
 
 }  // namespace etude

@@ -4,11 +4,12 @@
 #include <vector>
 
 #include "bench/model/run_data.h"
+#include "reports/films/film.h"
 #include "reports/transitions/recorded_requests.h"
 
 namespace etude {
 
-/// What one method did with a request, frame by frame from the request on.
+/// The path of one method through a request, frame by frame from the request on.
 struct TransitionPath {
   std::string method;
   std::size_t method_index = 0;  ///< in the scenario: its colour
@@ -17,12 +18,12 @@ struct TransitionPath {
   std::vector<double> jumps_cm;  ///< largest second difference of any joint, one per frame
   int request = 0;               ///< index into `motion` of the frame shown at the request; may lie outside of it
 
-  /// The frame shown so many frames after the request; before the recording the first, after it the last.
+  /// Gives the frame shown so many frames after the request; before the recording the first, after it the last.
   int FrameAt(int time) const;
   bool IsRecordedAt(int time) const;
-  /// The same, of a frame of the motion, as time after the request.
+  /// Gives the time after the request of a frame of the motion.
   int TimeOf(int frame) const { return frame - request; }
-  /// How many transition points lie before the frame shown at that time.
+  /// Counts the transition points before the frame shown at that time.
   std::size_t PointsBefore(int time) const;
   int FirstPoint() const { return TimeOf(facts.transition_frames.front()); }
   int LastPoint() const { return TimeOf(facts.transition_frames.back()); }
@@ -37,8 +38,34 @@ struct TransitionRace {
 };
 constexpr std::size_t kMostTransitionPaths = 4;
 
-/// The first world that kept recordings of the most methods (at most kMostTransitionPaths, the scenario's first): never
-/// the prettiest one. Fails, saying why, when no world kept those of two.
+/// Finds the first world that kept recordings of the most methods (at most kMostTransitionPaths, the scenario's first).
+/// Fails, saying why, when no world kept those of two.
 Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSummary& scenario);
+
+/// A clock that says which moment of a request is seen at which frame of a film, the same for every method: from a
+/// second before the request until after the last transition, and then all once more, slower. Times are frames after
+/// the request.
+class TransitionClock {
+ public:
+  static constexpr int kSlowness = 4;
+
+  explicit TransitionClock(const TransitionRace& race);
+
+  int First() const { return first_; }
+  int Last() const { return last_; }
+  int Frames() const { return Run() + kRest + kSlowness * (slow_last_ - slow_first_ + 1) + kRest; }
+  int TimeAt(int frame) const;
+  bool IsSlow(int frame) const { return frame >= Run() + kRest; }
+  /// Gives the frame of the film that first shows this moment.
+  int FrameOf(int time) const;
+
+ private:
+  static constexpr int kRest = kFilmRate / 2;
+
+  int Run() const { return last_ - first_ + 1; }
+
+  int first_, last_;
+  int slow_first_, slow_last_;
+};
 
 }  // namespace etude

@@ -1,15 +1,70 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/motion/character.h"
+#include "reports/films/canvas.h"
 #include "reports/films/film.h"
-#include "reports/films/transition_clock.h"
-#include "reports/films/transition_panel.h"
+#include "reports/films/studio.h"
+#include "reports/films/transition_plots.h"
+#include "reports/films/transition_race.h"
 
 namespace etude {
 
-/// One request under two to four methods side by side: who changes when, how smoothly, and by which distances.
+/// The stage on which all methods of a race are seen: one camera that stands still, everyone facing it at the request.
+class TransitionStage {
+ public:
+  /// Sets the stage for pictures of this size that show the moments `first` … `last`, in frames after the request.
+  TransitionStage(const TransitionRace& race, int first, int last, int width, int height);
+
+  /// Draws a path's frame; `ghost`, another frame of it, shimmers behind.
+  ColourImage Picture(Renderer& renderer, const TransitionPath& path, std::size_t index, int frame,
+                      std::optional<int> ghost) const;
+
+ private:
+  ViewBounds BoundsOf(const TransitionRace& race, int first, int last) const;
+
+  int width_, height_;
+  Character bear_;
+  std::vector<std::vector<FloorMove>> placements_;  ///< by path and frame
+  Studio studio_;
+};
+
+/// One method's column of the film that compares transitions: the performer, how jerky it is, and the distances at its
+/// transition points.
+class TransitionPanel {
+ public:
+  static constexpr double kCaptionHeight = 52, kStripHeight = 132, kGap = 8;
+
+  /// All must outlive the panel; `index` is the path's place in the race that the stage was made for.
+  TransitionPanel(const TransitionPath& path, std::size_t index, const TransitionStage& stage, const JumpStrip& strip)
+      : path_(path), index_(index), stage_(stage), strip_(strip) {}
+
+  /// Gives the part of a column of the film that shows the performer; its caption is beneath.
+  static Box BodyBox(const Box& column);
+  void Draw(Canvas& canvas, const Box& column, Renderer& renderer, int time);
+
+ private:
+  struct Drawn {
+    int frame;
+    std::optional<int> ghost;
+    ColourImage picture;
+  };
+  void DrawBody(Canvas& canvas, const Box& box, Renderer& renderer, int time);
+  void DrawWords(Canvas& canvas, const Box& box, int time) const;
+  std::string ClipAt(int time) const;
+
+  const TransitionPath& path_;
+  std::size_t index_;
+  const TransitionStage& stage_;
+  const JumpStrip& strip_;
+  std::optional<Drawn> drawn_;  ///< slow moments show one picture several times
+};
+
+/// The film of one request under two to four methods side by side: when each changes, how smoothly, and by which
+/// distances.
 class TransitionScene : public Scene {
  public:
   /// The renderer must outlive the scene.
@@ -18,7 +73,7 @@ class TransitionScene : public Scene {
   TransitionScene& operator=(const TransitionScene&) = delete;
 
   int Frames() const override { return clock_.Frames(); }
-  /// Just after everyone has changed.
+  /// Gives a frame just after everyone has changed.
   int PosterFrame() const override;
   std::string Words() const override;
   Canvas Draw(int frame) override;

@@ -6,17 +6,18 @@
 
 namespace etude {
 
-/// Whether any cell of this scenario keeps what the following are made of (`record` of the task ik).
+/// Is true when any cell of this scenario keeps the curves or errors that these pictures and tables are made of
+/// (`record` of the task ik).
 bool ShowsPaperB(const RunData& run, const ScenarioSummary& scenario);
 
-/// What a scenario's cells keep of single effectors and joints, as paper B shows it: the curves of its figure 5.2, its
-/// tables 5.1 and 5.2 filled from the run, and beside them what the paper prints. "" for a scenario that keeps none.
+/// Shows single effectors and joints as paper B does: the curves of its figure 5.2, its tables 5.1 and 5.2 filled from
+/// the run, and beside them what the paper prints. "" for a scenario whose cells keep none.
 std::string PaperBHtml(const RunData& run, const ScenarioSummary& scenario);
-/// The tables alone, folded away.
+/// Writes the tables alone, folded away.
 std::string PaperBMarkdown(const RunData& run, const ScenarioSummary& scenario);
-/// Floats of the package booktabs.
+/// Writes the tables as floats of the package booktabs.
 std::string PaperBLatex(const RunData& run, const ScenarioSummary& scenario);
-/// A line per figure, full precision, with a header line.
+/// Writes a line per figure, full precision, with a header line.
 std::string PaperBCsv(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

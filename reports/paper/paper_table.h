@@ -25,18 +25,18 @@ struct PaperTable {
   std::vector<PaperRow> rows;
 };
 
-/// "(a)", "(b)", …, "(z)", "(27)", …
+/// Gives "(a)", "(b)", …, "(z)", "(27)", …
 std::string PaperLetter(std::size_t index);
 
 std::string PaperTableHtml(const PaperTable& table);
 
 std::string PaperTableMarkdown(const PaperTable& table);
 
-/// A caption line and a tabular of the package booktabs, without a float around them.
+/// Writes a caption line and a tabular of the package booktabs, without a float around them.
 std::string PaperTableLatex(const PaperTable& table);
 
-/// A line per figure, full precision: caption, row, columns' head, column, value. No header line.
-/// `prefix` stands before each line.
+/// Writes a line per figure, full precision: caption, row, columns' head, column, value. No header line; `prefix`
+/// stands before each line.
 std::string PaperTableCsv(const PaperTable& table, const std::string& prefix);
 
 }  // namespace etude

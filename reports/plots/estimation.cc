@@ -3,23 +3,37 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <optional>
+#include <set>
 
 #include "reports/plots/marks.h"
 #include "reports/plots/panel.h"
-#include "reports/plots/swarm.h"
-#include "reports/words/beyond.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 
 namespace etude {
 namespace {
 
+struct Found {
+  const Row* row = nullptr;
+  std::optional<double> baseline, method;
+};
+
+std::vector<std::string> UnitNames(const std::map<int, Found>& found) {
+  std::set<std::string> names;
+  for (const auto& [trial, world] : found) {
+    if (!world.row->units.empty()) names.insert(world.row->units.front());
+  }
+  return {names.begin(), names.end()};
+}
+
 constexpr double kHeight = 250, kTop = 8, kBottom = 212;
 constexpr double kSwarm = 26;  // how far dots spread to either side
 constexpr std::size_t kMostNamed = 16;
 
-/// Which method is drawn how.
+/// The indices of both methods in the scenario, by which they are drawn.
 struct Cast {
   std::size_t baseline = 0, method = 0;
 };
@@ -120,7 +134,7 @@ class Plot {
     return MarkUse(shape, ShowsUnits() ? world.unit : shape, x, y, Attributes(world.trial), title);
   }
 
-  /// A bar from low to high with a dot for the estimate. All in the metric's unit.
+  /// Draws a bar from low to high with a dot for the estimate, all in the metric's unit.
   std::string Interval(const Axis& axis, double x, const std::optional<double>& estimate,
                        const std::optional<double>& low, const std::optional<double>& high) const {
     if (!estimate) return "";
@@ -130,7 +144,7 @@ class Plot {
     return svg + fmt::format("<circle class=\"estimate\" cx=\"{}\" cy=\"{:.1f}\" r=\"4.5\"/>", x, at(*estimate));
   }
 
-  /// Each unit's mean difference beside the interval that counts units.
+  /// Draws each unit's mean difference beside the interval that counts units.
   std::string Units(const Axis& axis) const {
     if (!ShowsUnits()) return "";
     // A world of two clips belongs to both: no clip has a mean of its own.
@@ -192,7 +206,74 @@ std::string Caption(const ScenarioSummary& scenario, const Judged& judged, const
                      OtherUnits(scenario.unit), ShortBeyond(c, scenario.unit));
 }
 
+constexpr double kStripHeight = 58, kStripTop = 6, kStripBottom = 36;
+
+/// Gives the unit that matters most: when the difference matters, the one without which least of it is left, else the
+/// one without which it would be largest.
+const LeftOut& Extreme(const Beyond& beyond, double practical) {
+  const double all = *beyond.difference;
+  const bool matters = std::abs(all) >= practical;
+  return *std::ranges::min_element(beyond.left_out, {}, [&](const LeftOut& left) {
+    return matters ? std::copysign(1.0, all) * left.difference : -std::abs(left.difference);
+  });
+}
+
+std::string_view OneOf(SamplingUnit unit) { return unit == SamplingUnit::kLibrary ? "library" : "clip"; }
+
+std::string Amount(double difference, const MetricWords& words) {
+  return FormatNumber(difference * words.scale) + words.difference_suffix;
+}
+
+std::string WhatItDoes(const Beyond& beyond, const LeftOut& extreme, double practical, SamplingUnit unit) {
+  const double all = *beyond.difference;
+  const bool matters = std::abs(all) >= practical;
+  const bool still = std::abs(extreme.difference) >= practical && (extreme.difference < 0) == (all < 0);
+  if (matters && !still) return fmt::format("then it no longer matters: this {} carries it", OneOf(unit));
+  if (!matters && std::abs(extreme.difference) >= practical) {
+    return fmt::format("then it would matter: this {} hides it", OneOf(unit));
+  }
+  return fmt::format("no single {} carries it", OneOf(unit));
+}
+
+double PracticalOf(const Comparison& c) {
+  const MetricInfo* info = FindMetric(c.metric);
+  return info == nullptr ? 0 : info->practical;
+}
+
 }  // namespace
+
+PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, const Judged& judged) {
+  const Comparison& c = *judged.comparison;
+  const double scale = WordsFor(c.metric).scale;
+  std::map<int, Found> found;
+  for (const Row& row : run.rows) {
+    if (row.scenario != scenario.name || row.condition != judged.condition->condition) continue;
+    if (row.method != c.baseline && row.method != c.method) continue;
+    const auto value = ValueOf(row, c.metric);
+    if (!value || !std::isfinite(*value)) continue;
+    Found& world = found[row.trial];
+    world.row = &row;
+    (row.method == c.method ? world.method : world.baseline) = scale * *value;
+  }
+  std::erase_if(found, [](const auto& entry) { return !entry.second.baseline || !entry.second.method; });
+
+  PairedDots pairs;
+  pairs.total = found.size();
+  pairs.units = UnitNames(found);
+  const std::size_t stride = StrideFor(found.size(), kMostWorlds);
+  std::size_t index = 0;
+  for (const auto& [trial, world] : found) {
+    if (index++ % stride != 0) continue;
+    PairedWorld& pair = pairs.worlds.emplace_back();
+    pair.trial = trial;
+    pair.baseline = *world.baseline;
+    pair.method = *world.method;
+    if (world.row->units.empty()) continue;
+    pair.unit =
+        static_cast<std::size_t>(std::ranges::lower_bound(pairs.units, world.row->units.front()) - pairs.units.begin());
+  }
+  return pairs;
+}
 
 std::string EstimationHtml(const ScenarioSummary& scenario, const Judged& judged, const PairedDots& pairs) {
   if (pairs.worlds.empty()) return "";
@@ -214,6 +295,44 @@ std::string UnitLegendHtml(const PairedDots& pairs) {
   }
   if (pairs.units.size() > kMostNamed) html += fmt::format("and {} more", pairs.units.size() - kMostNamed);
   return html + "</p>";
+}
+
+std::string WithoutEachUnit(const Comparison& c, SamplingUnit unit) {
+  const Beyond& beyond = c.beyond;
+  if (beyond.left_out.empty() || !beyond.difference) return "";
+  const MetricWords words = WordsFor(c.metric);
+  const auto [low, high] = std::ranges::minmax_element(beyond.left_out, {}, &LeftOut::difference);
+  const LeftOut& extreme = Extreme(beyond, PracticalOf(c));
+  return fmt::format("“{}” against “{}”, mean difference without each {}: {} to {}. Without “{}” {}: {}.", c.method,
+                     c.baseline, OneOf(unit), Amount(low->difference, words), Amount(high->difference, words),
+                     extreme.unit, Amount(extreme.difference, words),
+                     WhatItDoes(beyond, extreme, PracticalOf(c), unit));
+}
+
+std::string LeftOutStripHtml(const Comparison& c, SamplingUnit unit) {
+  const std::string text = WithoutEachUnit(c, unit);
+  if (text.empty()) return "";
+  const MetricWords words = WordsFor(c.metric);
+  const double practical = PracticalOf(c) * words.scale;
+  std::vector<double> values{practical, -practical, *c.beyond.difference * words.scale};
+  for (const LeftOut& left : c.beyond.left_out) values.push_back(left.difference * words.scale);
+  Axis axis = AxisAroundZero(values);
+  axis.from = 12, axis.to = kPanelRight;
+  std::string svg = BeginPanel(kStripHeight, text) +
+                    fmt::format("<rect class=\"band\" x=\"{:.1f}\" y=\"{}\" width=\"{:.1f}\" height=\"{}\"/>",
+                                axis.At(-practical), kStripTop, std::max(1.0, axis.At(practical) - axis.At(-practical)),
+                                kStripBottom - kStripTop) +
+                    LyingGrid(axis, kStripTop, kStripBottom) +
+                    fmt::format("<path class=\"zero\" d=\"M{:.1f} {}V{}\"/>", axis.At(0), kStripTop, kStripBottom);
+  const LeftOut& extreme = Extreme(c.beyond, PracticalOf(c));
+  for (const LeftOut& left : c.beyond.left_out) {
+    svg += fmt::format("<path class=\"left{}\" d=\"M{:.1f} {}V{}\"><title>{}</title></path>",
+                       &left == &extreme ? " extreme" : "", axis.At(left.difference * words.scale), kStripTop + 6,
+                       kStripBottom - 6, EscapeMarkup(fmt::format("without {}: {}", left.unit, Amount(left.difference, words))));
+  }
+  svg += fmt::format("<circle class=\"estimate\" cx=\"{:.1f}\" cy=\"{}\" r=\"4.5\"/></svg>",
+                     axis.At(*c.beyond.difference * words.scale), (kStripTop + kStripBottom) / 2);
+  return fmt::format("<figure class=\"left-out\">{}<figcaption>{}</figcaption></figure>", svg, EscapeMarkup(text));
 }
 
 }  // namespace etude

@@ -1,18 +1,49 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "reports/plots/paired_worlds.h"
+#include "bench/model/run_data.h"
+#include "bench/model/summary.h"
+#include "reports/words/judged.h"
 
 namespace etude {
 
-/// One comparison as an estimation plot (after Gardner & Altman 1986; paired as in Ho et al. 2019): a panel with every
-/// world a dot under both methods, joined, and one with the paired differences on an axis of their own: dots, the
+/// A world in which both methods of a comparison have a value, as shown: shares are per cent already.
+struct PairedWorld {
+  int trial = 0;
+  std::size_t unit = 0;  ///< index of PairedDots::units; of several units (clip left × clip entered) the first
+  double baseline = 0, method = 0;
+
+  double Difference() const { return method - baseline; }
+};
+
+/// The worlds behind one comparison, at most kMostWorlds of them.
+struct PairedDots {
+  std::vector<PairedWorld> worlds;  ///< in the order of trials
+  std::vector<std::string> units;   ///< in the order of their names; empty where worlds are units
+  std::size_t total = 0;            ///< of which `worlds` are every so manyeth
+};
+inline constexpr std::size_t kMostWorlds = 400;
+
+/// Pairs the worlds of a comparison. Empty when no world has both values, or the other is no single method (a rival
+/// that half of the worlds chose).
+PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, const Judged& judged);
+
+/// Draws one comparison as an estimation plot (after Gardner & Altman 1986; paired as in Ho et al. 2019): a panel with
+/// every world a dot under both methods, joined, and one with the paired differences on an axis of their own: dots, the
 /// aggregate with its 95 % interval, the units' means with theirs, and shaded what does not matter. Dots are coloured
 /// by unit, or by method where worlds are units. "" without worlds.
 std::string EstimationHtml(const ScenarioSummary& scenario, const Judged& judged, const PairedDots& pairs);
 
 /// Names the units' colours; "" where worlds are units.
 std::string UnitLegendHtml(const PairedDots& pairs);
+
+/// Tells in words what leaving one unit out does to a comparison: the range, the unit that matters most, and whether it
+/// alone carries the difference, or hides one. "" where worlds are units.
+std::string WithoutEachUnit(const Comparison& comparison, SamplingUnit unit);
+
+/// Draws the same as a strip: the mean difference without each unit, against what matters; words beneath.
+std::string LeftOutStripHtml(const Comparison& comparison, SamplingUnit unit);
 
 }  // namespace etude

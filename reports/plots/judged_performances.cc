@@ -6,7 +6,7 @@
 namespace etude {
 namespace {
 
-/// Series of one length; null where the cell has none of that name, or of another length.
+/// The series of a cell that have one length; null where it has none of that name, or of another length.
 class Columns {
  public:
   Columns(const CellSeries& cell, std::size_t count) : cell_(cell), count_(count) {}
@@ -16,7 +16,7 @@ class Columns {
     return found == cell_.series.end() || found->values.size() != count_ ? nullptr : &*found;
   }
 
-  /// What the series counts there; "" for −1 and for what it has no name for.
+  /// Names the value of a series; "" for −1 and for values without a name.
   static std::string Name(const Series* series, std::size_t i) {
     if (series == nullptr || !(series->values[i] >= 0)) return "";
     const auto place = static_cast<std::size_t>(std::lround(series->values[i]));

@@ -22,13 +22,14 @@ struct JudgedPerformance {
   std::optional<std::string> named = {};  ///< the move it was taken for, "" none; nothing where methods name no moves
 };
 
-/// What one method made of all performances under one condition.
+/// The verdicts of one method on all performances under one condition.
 struct MethodVerdicts {
   std::vector<JudgedPerformance> performances;
   std::vector<Wait> waits;  ///< of right performances, to be called right
 };
 
-/// By method, in the scenario's order, of those that judged something. Cells' series tell (`performance_…`).
+/// Collects the verdicts under one condition by method, in the scenario's order, of those that judged something; cells'
+/// series tell them (`performance_…`).
 std::map<std::size_t, MethodVerdicts> VerdictsUnder(const RunData& run, const ScenarioSummary& scenario,
                                                     const ConditionSummary& condition);
 

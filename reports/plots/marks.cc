@@ -2,6 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
+#include <map>
+
 #include "reports/words/escape.h"
 
 namespace etude {
@@ -23,6 +27,8 @@ std::string Variables(std::string_view PlotColour::*scheme) {
   for (std::size_t i = 0; i < kPlotColours.size(); ++i) css += fmt::format("--m{}:{};", i, kPlotColours[i].*scheme);
   return css + "}";
 }
+
+constexpr double kMarkSize = 5;
 
 }  // namespace
 
@@ -57,5 +63,23 @@ std::string_view MarkDashes(std::size_t method) {
 std::string MarkKeySvg(std::size_t shape, std::size_t colour) {
   return "<svg class=\"key\" viewBox=\"-6 -6 12 12\" aria-hidden=\"true\">" + MarkUse(shape, colour, 0, 0) + "</svg>";
 }
+
+std::vector<double> SwarmOffsets(const std::vector<double>& places, double most) {
+  std::map<long, std::vector<std::size_t>> bins;
+  for (std::size_t i = 0; i < places.size(); ++i) bins[std::lround(places[i] / kMarkSize)].push_back(i);
+  std::vector<double> offsets(places.size(), 0);
+  for (const auto& [bin, members] : bins) {
+    // One in the middle, then alternately to either side; closer together where there are many.
+    const double sides = std::max<double>(1, static_cast<double>(members.size() / 2));
+    const double step = std::min(kMarkSize, most / sides);
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      const double rank = static_cast<double>((k + 1) / 2);
+      offsets[members[k]] = (k % 2 == 0 ? -1 : 1) * rank * step;
+    }
+  }
+  return offsets;
+}
+
+std::size_t StrideFor(std::size_t count, std::size_t most) { return std::max<std::size_t>(1, (count + most - 1) / most); }
 
 }  // namespace etude

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace etude {
 
@@ -12,8 +13,8 @@ struct PlotColour {
   std::string_view light, dark;
 };
 
-/// The colours of methods, by their index in the scenario; after eight they begin again. Told apart with protanopia,
-/// deuteranopia and tritanopia, and from both backgrounds (marks_test.cc).
+/// The colours of methods, by their index in the scenario; after eight they begin again. They are told apart with
+/// protanopia, deuteranopia and tritanopia, and from both backgrounds (marks_test.cc).
 inline constexpr std::array<PlotColour, 8> kPlotColours = {{{"#41464b", "#969ca1"},
                                                             {"#1ea194", "#9ff5d4"},
                                                             {"#9c5201", "#f97341"},
@@ -23,21 +24,28 @@ inline constexpr std::array<PlotColour, 8> kPlotColours = {{{"#41464b", "#969ca1
                                                             {"#470014", "#b35e52"},
                                                             {"#02175b", "#a8c4d6"}}};
 
-/// The page's variables --m0 … --m7 for both colour schemes.
+/// Writes the page's variables --m0 … --m7 for both colour schemes.
 std::string MarksCss();
 
-/// The marks' shapes, once per page: what MarkUse points to.
+/// Writes the marks' shapes, once per page: what MarkUse points to.
 std::string MarkDefsSvg();
 
-/// A mark at a place, as an SVG element: the shape of the method of index `shape` in the colour of index `colour`.
-/// `rest` is what else the element says: attributes.
+/// Draws a mark at a place as an SVG element: the shape of the method of index `shape` in the colour of index `colour`.
+/// `rest` holds more attributes.
 std::string MarkUse(std::size_t shape, std::size_t colour, double x, double y, std::string_view rest = "",
                     std::string_view title = "");
 
-/// A line's dashes, by its method: an attribute with a space before it, or "".
+/// Gives a line's dashes, by its method: an attribute with a space before it, or "".
 std::string_view MarkDashes(std::size_t method);
 
-/// A mark alone, for a legend.
+/// Draws a mark alone, for a legend.
 std::string MarkKeySvg(std::size_t shape, std::size_t colour);
+
+/// Computes how far each mark of a row is moved aside, so that marks at neighbouring places can be told apart: `places`
+/// along the row, in the panel's units; at most `most` to either side. The same places give the same swarm.
+std::vector<double> SwarmOffsets(const std::vector<double>& places, double most);
+
+/// Gives the stride at which `count` marks are drawn, so that no more than `most` are.
+std::size_t StrideFor(std::size_t count, std::size_t most);
 
 }  // namespace etude

@@ -5,16 +5,12 @@
 #include <algorithm>
 #include <vector>
 
-#include "reports/plots/error_budget.h"
 #include "reports/plots/estimation.h"
-#include "reports/plots/left_out_strip.h"
-#include "reports/plots/strips.h"
 #include "reports/plots/survival.h"
 #include "reports/plots/verdict_curves.h"
 #include "reports/plots/verdict_tables.h"
 #include "reports/words/answer.h"
-#include "reports/words/escape.h"
-#include "reports/words/left_out.h"
+#include "reports/words/figures.h"
 
 namespace etude {
 namespace {

@@ -6,9 +6,20 @@
 
 namespace etude {
 
-/// A scenario's pictures of worlds by its first headline metric: every method's values, what is censored, and the
+/// Draws a scenario's pictures of worlds by its first headline metric: every method's values, what is censored, and the
 /// method in question against its baseline and against the strongest other one as estimation plots, with what leaving
-/// one unit out does. The other methods' plots are folded away, at most so many; "" when no cell has a value.
+/// one unit out does. Some of the other methods' plots follow, folded away; "" when no cell has a value.
 std::string PlotSectionHtml(const RunData& run, const ScenarioSummary& scenario);
+
+// The pictures that it is made of, besides those with a header of their own.
+
+/// Draws every method's values of a metric under one condition, a row of dots each with its median (or mean) and
+/// quartiles: whole distributions on one axis. "" when no cell has a value.
+std::string StripsHtml(const RunData& run, const ScenarioSummary& scenario, const ConditionSummary& condition,
+                       const std::string& metric);
+
+/// Draws the cost of each stage as a waterfall with intervals: from the method's error down to what is left when all
+/// stages are true. Says whether the shares depend on an order. `condition` is in words and may be empty.
+std::string ErrorBudgetHtml(const ErrorBudget& budget, const std::string& condition);
 
 }  // namespace etude

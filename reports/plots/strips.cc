@@ -1,19 +1,16 @@
-#include "reports/plots/strips.h"
+#include "reports/plots/plot_section.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <span>
 
 #include "reports/plots/marks.h"
 #include "reports/plots/panel.h"
-#include "reports/plots/swarm.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
-#include "reports/words/left_out.h"
-#include "reports/words/yardstick.h"
+#include "reports/words/judged.h"
 
 namespace etude {
 namespace {
@@ -26,7 +23,7 @@ struct Dot {
   double value = 0;
 };
 
-/// The dots of one method, and of all its values what sums them up.
+/// The dots of one method, with quartiles and typical value of all its values.
 struct StripRow {
   std::size_t method = 0;  ///< index in the scenario
   std::vector<Dot> dots = {};

@@ -13,7 +13,7 @@
 #include "reports/plots/panel.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
-#include "reports/words/yardstick.h"
+#include "reports/words/judged.h"
 
 namespace etude {
 namespace {

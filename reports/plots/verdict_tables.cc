@@ -8,7 +8,6 @@
 #include "reports/words/answer.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
-#include "reports/words/left_out.h"
 
 namespace etude {
 namespace {
@@ -65,7 +64,7 @@ std::string FaultTable(const ScenarioSummary& scenario, const std::string& prefi
       head, body);
 }
 
-/// Who performed in a trial: a recorded person's name, else the trial's number.
+/// Names the session of a trial: a recorded person's name, else the trial's number.
 std::string SessionName(const RunData& run, const ScenarioSummary& scenario, int trial) {
   for (const Row& row : run.rows) {
     if (row.scenario == scenario.name && row.trial == trial && !row.clip.empty()) return row.clip;

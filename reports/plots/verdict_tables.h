@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// Of performances in which a move was danced: how often each was taken for which, "" for none.
+/// Counts how often each move danced was taken for which, "" for none.
 struct MoveConfusion {
   std::vector<std::string> moves;                             ///< danced or named, sorted
   std::map<std::pair<std::string, std::string>, int> counts;  ///< (danced, named)
@@ -19,11 +19,11 @@ struct MoveConfusion {
 };
 MoveConfusion ConfusionOf(std::span<const JudgedPerformance> performances);
 
-/// Of faulty performances, how many there were and how many were not called right.
+/// Counts faulty performances, and those of them that were not called right.
 struct FaultCount {
   int all = 0, found = 0;
 };
-/// By the worst fault's name: slight ones (severity to ½), and bad ones.
+/// Counts by the worst fault's name: slight ones (severity to ½), and bad ones.
 std::map<std::string, std::pair<FaultCount, FaultCount>> FoundByFault(std::span<const JudgedPerformance> performances);
 
 /// A person's session, by its mistakes: right performances not called so, wrong ones called right.
@@ -32,12 +32,12 @@ struct SessionMistakes {
 
   double Share() const { return static_cast<double>(missed + praised) / (right + wrong); }
 };
-/// The worst first, by the share of mistakes; sessions with none, and those without performances that are right or
-/// wrong, left out.
+/// Gives the sessions with the worst first, by the share of mistakes; those without a mistake, and those without
+/// performances that are right or wrong, are left out.
 std::vector<SessionMistakes> WorstSessions(std::span<const JudgedPerformance> performances);
 
-/// Per condition: which faults are found, the worst sessions of the method in question, and what moves are taken for.
-/// "" where methods judge no performances.
+/// Writes per condition which faults are found, the worst sessions of the method in question, and what moves are taken
+/// for. "" where methods judge no performances.
 std::string VerdictTablesHtml(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

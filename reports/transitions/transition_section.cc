@@ -4,16 +4,29 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <span>
 
-#include "reports/transitions/distance_table.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
-#include "reports/words/left_out.h"
 
 namespace etude {
 namespace {
+
+/// Draws a bar of the share of the threshold's square that this feature alone takes up.
+std::string Bar(double partial, double full, bool has_threshold) {
+  const double share = full > 0 ? std::clamp(partial / full, 0.0, 1.0) : 0;
+  const bool alone = has_threshold && partial >= full;
+  return fmt::format("<td class=\"n\">{}<i class=\"{}\" style=\"width:{:.0f}%\"></i></td>",
+                     partial < kLeastShown ? "0" : FormatFixed(partial, 3), alone ? "over" : "", 100 * share);
+}
+
+std::string DistanceWords(double distance, std::optional<double> threshold) {
+  if (!threshold) return FormatFixed(distance, 3);
+  return fmt::format("{} {} {}", FormatFixed(distance, 3), distance < *threshold ? "&lt;" : "≥",
+                     fmt::format("{:g}", *threshold));
+}
 
 // More than a reader takes in; the recordings hold them all.
 constexpr std::size_t kMostWorlds = 6;
@@ -28,7 +41,7 @@ std::span<const RecordedTransition> Shown(const RecordedRequest& world) {
   return std::span(world.transitions).first(std::min(world.transitions.size(), kMostMethods));
 }
 
-/// "clap 41 → in-between 0 … in-between 12 → side kick 3"
+/// Writes the way through the clips: "clap 41 → in-between 0 … in-between 12 → side kick 3".
 std::string WayOf(const TransitionFacts& facts) {
   std::string text;
   for (const PointFacts& point : facts.points) {
@@ -39,7 +52,7 @@ std::string WayOf(const TransitionFacts& facts) {
   return text.empty() ? std::string(kNoValue) : text;
 }
 
-/// The largest distance of the frames that met: what the threshold is about.
+/// Gives the largest distance of the frames that met, which the threshold is about.
 std::optional<double> WorstDistance(const TransitionFacts& facts) {
   std::optional<double> worst;
   for (const PointFacts& point : facts.points) {
@@ -87,12 +100,13 @@ std::string Distances(const RecordedRequest& world) {
   return table.Html();
 }
 
-/// "clap 28", or the frame alone
+/// Writes a frame: "clap 28", or the frame alone.
 std::string FrameIn(const std::string& clip, int frame) {
   return clip.empty() ? std::to_string(frame) : fmt::format("{} {}", EscapeMarkup(clip), frame);
 }
 
-/// Through an in-between two pairs of clips meet, each with candidates of its own. Clips unknown are not named.
+/// Gives the transition point that a candidate was looked at for: through an in-between there are two. Its clips are
+/// empty when unknown.
 PointFacts PointOf(const CandidateFacts& candidate, const TransitionFacts& facts) {
   const int point = candidate.point.value_or(facts.points.size() == 1 ? 0 : -1);
   const bool is_told = point >= 0 && point < static_cast<int>(facts.points.size());
@@ -113,7 +127,7 @@ std::string CandidateRow(const CandidateFacts& candidate, const TransitionFacts&
          fmt::format("<td>{}</td></tr>", candidate.partials ? MostlyBy(*candidate.partials) : std::string(kNoValue));
 }
 
-/// The record holds but a few of all the pairs.
+/// Says how many of all pairs of frames are listed.
 std::string HowMany(const TransitionFacts& facts) {
   const auto listed = static_cast<long long>(facts.candidates.size());
   if (!facts.pairs_seen || *facts.pairs_seen <= listed) return "";
@@ -140,7 +154,7 @@ std::string CandidatesTable(const std::string& methods, const TransitionFacts& f
   return html + "</tbody></table></div>" + LeftOutHtml(facts.candidates.size(), shown, "candidates", "the recording");
 }
 
-/// Methods that differ in the join alone look at the same candidates: these are shown once.
+/// Writes the candidates of all methods; those that differ in the join alone share theirs.
 std::string AllCandidates(const RecordedRequest& world) {
   std::string html;
   std::vector<bool> told(world.transitions.size());
@@ -187,6 +201,52 @@ std::string WorldMarkdown(const RecordedRequest& world) {
 }
 
 }  // namespace
+
+void DistanceTable::AddWeights(const std::string& method, const FeatureWeights& weights) {
+  const auto known = std::ranges::find(weights_, weights, &std::pair<std::string, FeatureWeights>::second);
+  if (known == weights_.end()) {
+    weights_.emplace_back(method, weights);
+  } else {
+    known->first += ", " + method;
+  }
+}
+
+void DistanceTable::AddPoint(const std::string& method, const PointFacts& point, std::optional<double> threshold) {
+  points_.push_back({method, point, threshold});
+}
+
+std::string DistanceTable::Html() const {
+  if (points_.empty()) return "";
+  std::string html =
+      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Partial distances\"><table class=\"partials\">"
+      "<thead><tr><th scope=\"col\">Partial distances S·Δ²</th>";
+  for (const Feature feature : AllFeatures()) {
+    html += fmt::format("<th scope=\"col\" class=\"n\">{}</th>", FeatureName(feature));
+  }
+  html += "<th scope=\"col\" class=\"n\">Sum d²</th><th scope=\"col\" class=\"n\">d</th></tr></thead><tbody>";
+  for (const auto& [methods, weights] : weights_) {
+    const bool shared_by_all = weights_.size() == 1;
+    html +=
+        fmt::format("<tr class=\"weights\"><td>weight S{}</td>", shared_by_all ? "" : EscapeMarkup(" of " + methods));
+    for (const double weight : weights) html += fmt::format("<td class=\"n\">{:.3g}</td>", weight);
+    html += fmt::format("<td class=\"n\">{}</td><td></td></tr>",
+                        fmt::format("{:.3g}", std::accumulate(weights.begin(), weights.end(), 0.0)));
+  }
+  for (const Point& point : points_) {
+    const PerFeature& partials = *point.facts.partials;
+    const double sum = std::accumulate(partials.begin(), partials.end(), 0.0);
+    const double full = point.threshold ? *point.threshold * *point.threshold : std::ranges::max(partials);
+    const std::string clips = point.facts.from.empty() ? "" : fmt::format("{} → {}", point.facts.from, point.facts.to);
+    html += fmt::format("<tr><td>{}<small>{}</small></td>", EscapeMarkup(point.method), EscapeMarkup(clips));
+    for (const double partial : partials) html += Bar(partial, full, point.threshold.has_value());
+    html += fmt::format("<td class=\"n\">{}</td><td class=\"n\">{}</td></tr>", FormatFixed(sum, 3),
+                        DistanceWords(point.facts.distance.value_or(std::sqrt(sum)), point.threshold));
+  }
+  return html + fmt::format(
+                    "</tbody></table></div><p class=\"quiet legend\">They sum to d². A full bar alone reaches the "
+                    "threshold; without one, it is the largest of its row. {}</p>",
+                    EscapeMarkup(std::string(kFeatureLegend)));
+}
 
 std::string MostlyBy(const PerFeature& partials) {
   constexpr std::size_t kNamed = 3;

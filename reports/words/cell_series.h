@@ -1,7 +1,6 @@
 #pragma once
 
 #include <map>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,25 +13,25 @@ class CellSeriesIndex {
  public:
   explicit CellSeriesIndex(const RunData& run);
 
-  /// Null when this cell keeps none of that name.
+  /// Finds a series of a cell; null when it keeps none of that name.
   const std::vector<double>* Find(const Row& row, std::string_view name) const;
 
  private:
   std::map<const Row*, const std::vector<Series>*> cells_;
 };
 
-/// Whether any cell of this scenario keeps a series of that name.
+/// Is true when any cell of this scenario keeps a series of that name.
 bool KeepsSeries(const RunData& run, const ScenarioSummary& scenario, std::string_view name);
 
-/// The rows of a scenario under one condition, in order.
+/// Gives the rows of a scenario under one condition, in order.
 std::vector<const Row*> RowsUnder(const RunData& run, const ScenarioSummary& scenario,
                                   const std::vector<SweptValue>& condition);
 
-/// The middle value, or the mean of the middle two. `values` must not be empty.
+/// Computes the middle value, or the mean of the middle two. `values` must not be empty.
 double Median(std::vector<double> values);
 
-/// The median of each step over several curves of different lengths: a curve that ended keeps its last
-/// value, as a solver that stopped keeps its answer.
+/// Computes the median of each step over several curves of different lengths: a curve that ended keeps its last value,
+/// as a solver that stopped keeps its answer.
 std::vector<double> MedianCurve(const std::vector<const std::vector<double>*>& curves);
 
 }  // namespace etude

@@ -2,7 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstddef>
 #include <utility>
 
@@ -176,6 +178,13 @@ std::string EscapeCsv(std::string_view text) {
     out += c;
   }
   return out + '"';
+}
+
+std::string FileNameOf(const std::string& scenario, std::size_t index) {
+  std::string name = scenario;
+  std::ranges::replace_if(
+      name, [](unsigned char c) { return std::isalnum(c) == 0 && c != '-' && c != '_'; }, '_');
+  return name == scenario ? name : fmt::format("{}-{}", name, index + 1);
 }
 
 }  // namespace etude

@@ -1,26 +1,29 @@
 #pragma once
 
-#include <span>
 #include <string>
 #include <string_view>
 
 namespace etude {
 
-/// `text` made safe inside HTML or XML, in content and in quoted attributes. Control characters that XML
-/// forbids become U+FFFD, and so does every byte that is not UTF-8: a hostile name cannot break a file.
+/// Makes text safe inside HTML or XML, in content and in quoted attributes. Control characters that XML forbids become
+/// U+FFFD, and so does every byte that is not UTF-8: a hostile name cannot break a file.
 std::string EscapeMarkup(std::string_view text);
 
-/// JSON text made safe inside a <script> element: no "<" survives, so nothing in it can end the element.
+/// Makes JSON safe inside a <script> element: no "<" survives, so nothing in it can end the element.
 std::string EscapeScriptJson(std::string_view json);
 
-/// `text` made safe in a line or table cell of Markdown.
+/// Makes text safe in a line or table cell of Markdown.
 std::string EscapeMarkdown(std::string_view text);
 
-/// `text` made safe in LaTeX outside of mathematics, for pdflatex without packages. A character beyond what its fonts
+/// Makes text safe in LaTeX outside of mathematics, for pdflatex without packages. A character beyond what its fonts
 /// hold becomes its number, "[U+4E2D]": a table with a foreign name still compiles.
 std::string EscapeLatex(std::string_view text);
 
-/// A field of a CSV file (RFC 4180), quoted when it must be.
+/// Writes a field of a CSV file (RFC 4180), quoted when it must be.
 std::string EscapeCsv(std::string_view text);
+
+/// Gives the name, without an ending, of the files of a run's scenario number `index`. A scenario's name comes from a
+/// file of the user: only harmless characters reach a path, and no two scenarios of a run share a name.
+std::string FileNameOf(const std::string& scenario, std::size_t index);
 
 }  // namespace etude

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "reports/words/escape.h"
+
 namespace etude {
 namespace {
 
@@ -39,6 +41,15 @@ std::string GroupThousands(std::string digits) {
   return digits;
 }
 
+/// Gives the digits behind the point that show about three significant digits of `value`.
+int DecimalsFor(double value) {
+  const double size = std::abs(value);
+  if (size == 0 || size >= 100) return 0;
+  if (size >= 10) return 1;
+  if (size >= 1) return 2;
+  return size >= 0.1 ? 3 : 4;
+}
+
 }  // namespace
 
 MetricWords WordsFor(const std::string& metric_id) {
@@ -66,14 +77,6 @@ std::optional<double> TypicalValue(const MetricSummary& summary, const MetricWor
 std::string FormatValue(std::optional<double> value, const MetricWords& words) {
   if (!value || !std::isfinite(*value)) return std::string(kNoValue);
   return FormatNumber(*value * words.scale) + words.suffix;
-}
-
-int DecimalsFor(double value) {
-  const double size = std::abs(value);
-  if (size == 0 || size >= 100) return 0;
-  if (size >= 10) return 1;
-  if (size >= 1) return 2;
-  return size >= 0.1 ? 3 : 4;
 }
 
 std::string FormatFixed(double value, int decimals) {
@@ -123,6 +126,17 @@ std::string FormatP(std::optional<double> p) {
 
 std::string Plural(long long count, std::string_view singular) {
   return fmt::format("{} {}{}", FormatCount(count), singular, count == 1 ? "" : "s");
+}
+
+std::string LeftOutWords(std::size_t total, std::size_t shown, std::string_view things, std::string_view where) {
+  if (total <= shown) return "";
+  return fmt::format("{} more {} are left out here; {} has all.", FormatCount(static_cast<long long>(total - shown)),
+                     things, where);
+}
+
+std::string LeftOutHtml(std::size_t total, std::size_t shown, std::string_view things, std::string_view where) {
+  const std::string words = LeftOutWords(total, shown, things, where);
+  return words.empty() ? "" : fmt::format("<p class=\"quiet legend\">{}</p>", EscapeMarkup(words));
 }
 
 }  // namespace etude

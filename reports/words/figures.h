@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,11 +10,11 @@
 
 namespace etude {
 
-/// What stands in the place of a value that does not exist. Never a zero.
+/// The sign in the place of a value that does not exist, never a zero.
 inline constexpr std::string_view kNoValue = "—";
 
-/// How people read a metric: its words from the catalogue, or its id when it is not listed there. Shares and scores are
-/// shown in per cent, and their differences in percentage points.
+/// The words of a metric, from the catalogue, or its id when it is not listed there. Shares and scores are shown in per
+/// cent, and their differences in percentage points.
 struct MetricWords {
   std::string label;              ///< "orientation error"; "share “solved”", "mean F1"
   std::string suffix;             ///< put behind a value: "°", " cm", " %", ""
@@ -26,26 +27,35 @@ struct MetricWords {
 };
 MetricWords WordsFor(const std::string& metric_id);
 
-/// The one number that stands for all cells, the metric's own aggregate: median or mean. In the metric's unit.
+/// Gives the one number that stands for all cells, the metric's own aggregate, median or mean, in the metric's unit.
 std::optional<double> TypicalValue(const MetricSummary& summary, const MetricWords& words);
-/// "12.3°", "98 %"; kNoValue without a value.
+/// Writes a value: "12.3°", "98 %"; kNoValue without one.
 std::string FormatValue(std::optional<double> value, const MetricWords& words);
 
-/// Digits behind the point that show about three significant digits of `value`.
-int DecimalsFor(double value);
-/// "12.3", "1,284", "0.0021", "3.1e-06"; kNoValue when not finite.
+/// Writes a number: "12.3", "1,284", "0.0021", "3.1e-06"; kNoValue when not finite.
 std::string FormatNumber(double value);
-/// With the given digits behind the point, for figures that stand beside each other.
+/// Writes a number with the given digits behind the point, for figures that stand beside each other.
 std::string FormatFixed(double value, int decimals);
-/// "1,284"
+/// Writes a count: "1,284".
 std::string FormatCount(long long count);
-/// "98 %"; never rounded up to 100 % or down to 0 % when something is missing from it.
+/// Writes a share: "98 %"; never rounded up to 100 % or down to 0 % when something is missing from it.
 std::string FormatShare(long long part, long long whole);
-/// "10.1–14.0", both ends with the same digits, or "−1.2 to 0.4"; kNoValue without an interval.
+/// Writes an interval: "10.1–14.0", both ends with the same digits, or "−1.2 to 0.4"; kNoValue without one.
 std::string FormatInterval(std::optional<double> low, std::optional<double> high, const MetricWords& words);
-/// "0.42", "0.013", "< 0.001"; kNoValue without a p.
+/// Writes a p value: "0.42", "0.013", "< 0.001"; kNoValue without one.
 std::string FormatP(std::optional<double> p);
-/// "1 world", "3 worlds"
+/// Writes a count of things: "1 world", "3 worlds".
 std::string Plural(long long count, std::string_view singular);
+
+/// The most entries of a list, and rows of a table, that are shown: hundreds of methods and conditions would make a
+/// page that no browser scrolls. The files beside it hold all.
+constexpr std::size_t kMostListed = 40;
+constexpr std::size_t kMostTableRows = 400;
+
+/// Says what is left out: "60 more reasons are left out here; cells.jsonl has all."; "" when `total` does not exceed
+/// `shown`.
+std::string LeftOutWords(std::size_t total, std::size_t shown, std::string_view things, std::string_view where);
+/// Writes the same as a paragraph of the page.
+std::string LeftOutHtml(std::size_t total, std::size_t shown, std::string_view things, std::string_view where);
 
 }  // namespace etude

@@ -1,15 +1,11 @@
 #include "reports/words/findings.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <map>
 #include <tuple>
 
 #include "reports/words/answer.h"
 #include "reports/words/figures.h"
-#include "reports/words/headline.h"
-#include "reports/words/yardstick.h"
 
 namespace etude {
 namespace {
@@ -36,7 +32,7 @@ std::string ExpectationsSentence(const RunFindings& f) {
   return text + ".";
 }
 
-/// Measured is not reached: success has shares of its own.
+/// Says how many cells were measured; success has shares of its own.
 std::string MeasuredSentence(const RunFindings& f) {
   if (f.cells == 0) return " No cell ran.";
   const int measured = f.ok + f.unsolved;

@@ -9,16 +9,16 @@
 #include <fmt/core.h>
 
 #include "bench/model/run_data.h"
-#include "reports/words/beyond.h"
+#include "reports/words/judged.h"
 
 namespace etude {
 
-/// A verdict's words, or "it depends" when there are several.
+/// Gives a verdict's words, or "it depends" when there are several.
 inline std::string_view VerdictWords(const std::optional<Verdict>& verdict) {
   return verdict ? VerdictName(*verdict) : "it depends";
 }
 
-/// One method against another, over all conditions, by one metric.
+/// The finding on one method against another, over all conditions, by one metric.
 struct MethodFinding {
   std::string method;
   std::string baseline;  ///< whom it was compared with; the strongest other one may be another under each condition
@@ -28,11 +28,11 @@ struct MethodFinding {
   BeyondFinding beyond = {};       ///< for others like them
   std::string sentence = {};       ///< plain words with the figures that carry them, and both verdicts
 
-  /// "better on these clips"
+  /// Writes the verdict in words: "better on these clips".
   std::string Words() const { return fmt::format("{} on {}", VerdictWords(verdict), TheseUnits(unit)); }
 };
 
-/// How many cells ended in one way for one reason.
+/// The count of cells that ended in one way for one reason.
 struct ReasonCount {
   Status status;
   std::string method;
@@ -40,13 +40,14 @@ struct ReasonCount {
   int cells = 0;
 };
 
-/// How far the methods reached what their task is about, by one metric. Status ok says only that a cell was measured.
+/// The finding on how far the methods reached what their task is about, by one metric. Status ok says only that a cell
+/// was measured.
 struct SuccessFinding {
   std::string metric;
   std::vector<std::pair<std::string, double>> shares;  ///< by method: mean over all its cells that have a value, 0…1
 };
 
-/// What is to be said of one scenario, in words; the page and the Markdown say the same.
+/// All findings on one scenario, in words; the page and the Markdown say the same.
 struct ScenarioFindings {
   std::string metric;  ///< the first headline metric, which the answer is about; "" without any
   std::string headline;  ///< the answer in one line: against the baseline, and against the strongest other method
@@ -73,17 +74,18 @@ struct RunFindings {
 };
 RunFindings FindingsOf(const RunData& run);
 
-/// "Reached (share “as smooth as nature”): fuzzy 0 %, natural 98.3 %."; of many methods the least and the most.
+/// Writes a finding on success: "Reached (share “as smooth as nature”): fuzzy 0 %, natural 98.3 %."; of many methods
+/// the least and the most.
 std::string SuccessSentence(const SuccessFinding& finding);
 
-/// "480 cells: 470 ok, 8 unsolved, 2 failed"
+/// Counts the statuses: "480 cells: 470 ok, 8 unsolved, 2 failed".
 std::string StatusSentence(const ScenarioFindings& findings);
 
-/// Why values of this metric are missing in these cells: "2 × no effector seen; 1 × timeout".
+/// Says why values of this metric are missing in these cells: "2 × no effector seen; 1 × timeout".
 std::string MissingReasons(const RunData& run, const std::string& scenario, const std::vector<SweptValue>& condition,
                            const std::string& method, const std::string& metric);
 
-/// The summary of a metric, or null when the method has none of that name.
+/// Finds the summary of a metric; null when the method has none of that name.
 const MetricSummary* FindSummary(const MethodSummary& method, const std::string& metric);
 
 }  // namespace etude

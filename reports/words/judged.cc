@@ -4,7 +4,53 @@
 
 #include <algorithm>
 
+#include "reports/words/figures.h"
+
 namespace etude {
+namespace {
+
+/// Writes the figures: "mean over 12 clips −4.50 mm, 95 % CI −6.00 to −3.00".
+std::string FiguresOf(const Beyond& beyond, const MetricWords& words, SamplingUnit unit) {
+  if (!beyond.difference) return CountUnits(beyond.units, unit);
+  std::string text = fmt::format("mean over {} {}{}", CountUnits(beyond.units, unit),
+                                 FormatNumber(*beyond.difference * words.scale), words.difference_suffix);
+  if (beyond.low) text += ", 95 % CI " + FormatInterval(beyond.low, beyond.high, words);
+  return text;
+}
+
+/// Says why no condition has a verdict beyond its worlds; the first reason given speaks for all.
+std::string WhyNone(const std::vector<Judged>& judged, SamplingUnit unit) {
+  for (const Judged& j : judged) {
+    const Beyond& beyond = j.comparison->beyond;
+    if (!beyond.why_open.empty()) return beyond.why_open;
+    if (beyond.units > 0) return "there are " + CountUnits(beyond.units, unit);
+  }
+  return "";
+}
+
+std::vector<Verdict> BeyondVerdictsOf(const std::vector<Judged>& judged) {
+  std::vector<Verdict> verdicts;
+  for (const Judged& j : judged) {
+    if (j.comparison->beyond.verdict) verdicts.push_back(*j.comparison->beyond.verdict);
+  }
+  return verdicts;
+}
+
+std::string VerdictsInWords(const std::vector<Judged>& judged, const std::vector<Verdict>& verdicts,
+                            SamplingUnit unit) {
+  if (judged.size() > 1) {
+    std::string text = CountVerdicts(verdicts, judged.size());
+    const std::size_t without = judged.size() - verdicts.size();
+    return without == 0 ? text : fmt::format("{}, no verdict under {} of {}", text, without, judged.size());
+  }
+  const Beyond& beyond = judged.front().comparison->beyond;
+  const std::string why = beyond.verdict == Verdict::kInconclusive && !beyond.why_open.empty() ? ": " + beyond.why_open
+                                                                                                : std::string();
+  return fmt::format("{} ({}){}", VerdictName(*beyond.verdict),
+                     FiguresOf(beyond, WordsFor(judged.front().comparison->metric), unit), why);
+}
+
+}  // namespace
 
 std::vector<Judged> JudgedOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                              Against against) {
@@ -71,6 +117,71 @@ std::vector<Verdict> VerdictsOf(const std::vector<Judged>& judged) {
   std::vector<Verdict> verdicts;
   for (const Judged& j : judged) verdicts.push_back(j.comparison->verdict);
   return verdicts;
+}
+
+bool IsComparedWithNone(const ScenarioSummary& scenario, const std::string& method) {
+  // A scenario without metrics compares no method; that says nothing about this one.
+  if (scenario.methods.empty() || method == scenario.methods.front()) return false;
+  if (scenario.headline_metrics.empty() || scenario.conditions.empty()) return false;
+  // A method that is compared at all is compared under every condition.
+  const std::vector<Comparison>& comparisons = scenario.conditions.front().comparisons;
+  return std::ranges::find(comparisons, method, &Comparison::method) == comparisons.end();
+}
+
+bool IsYardstick(const ScenarioSummary& scenario, const std::string& method) {
+  if (!IsComparedWithNone(scenario, method)) return false;
+  const std::vector<Comparison>& comparisons = scenario.conditions.front().comparisons;
+  return std::ranges::find(comparisons, method, &Comparison::baseline) == comparisons.end();
+}
+
+std::string MethodLabel(const ScenarioSummary& scenario, const std::string& method) {
+  return IsYardstick(scenario, method) ? method + " (yardstick)" : method;
+}
+
+std::string_view TheseUnits(SamplingUnit unit) {
+  switch (unit) {
+    case SamplingUnit::kPerson:
+      return "these people";
+    case SamplingUnit::kClip:
+    case SamplingUnit::kClipPair:
+      return "these clips";
+    case SamplingUnit::kLibrary:
+      return "these libraries";
+    case SamplingUnit::kWorld:
+      break;
+  }
+  return "these worlds";
+}
+
+std::string_view OtherUnits(SamplingUnit unit) {
+  const std::string_view these = TheseUnits(unit);
+  if (these == "these people") return "other people";
+  if (these == "these clips") return "other clips";
+  return these == "these libraries" ? "other libraries" : "other worlds";
+}
+
+BeyondFinding BeyondInWords(const std::vector<Judged>& judged, SamplingUnit unit) {
+  BeyondFinding finding;
+  const std::vector<Verdict> verdicts = BeyondVerdictsOf(judged);
+  if (verdicts.empty()) {
+    const std::string why = WhyNone(judged, unit);
+    finding.words = fmt::format("on {} only{}", TheseUnits(unit), why.empty() ? "" : fmt::format(" ({})", why));
+    return finding;
+  }
+  finding.on_these_only = false;
+  if (std::ranges::all_of(verdicts, [&](Verdict v) { return v == verdicts.front(); })) finding.verdict = verdicts[0];
+  finding.as_on_these = verdicts == VerdictsOf(judged);
+  finding.words = IsEveryWorldItsOwn(unit) && finding.as_on_these
+                      ? fmt::format("for {} drawn alike: the same", OtherUnits(unit))
+                      : fmt::format("for {}: {}", OtherUnits(unit), VerdictsInWords(judged, verdicts, unit));
+  return finding;
+}
+
+std::string ShortBeyond(const Comparison& comparison, SamplingUnit unit) {
+  const Beyond& beyond = comparison.beyond;
+  if (beyond.verdict) return std::string(VerdictName(*beyond.verdict));
+  return fmt::format("on {} only{}", TheseUnits(unit),
+                     beyond.units > 0 ? fmt::format(" ({})", CountUnits(beyond.units, unit)) : "");
 }
 
 }  // namespace etude

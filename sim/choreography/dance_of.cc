@@ -228,4 +228,20 @@ Result<Dance> ToBeats(Dance dance, const std::vector<double>& beats_s) {
   return dance;
 }
 
+TaughtMove TaughtOf(const Move& move) {
+  constexpr double kForTheSlow = 0.5;  // seconds beyond one performance at the taught tempo
+  TaughtMove taught{.name = move.name,
+                    .span_s = 60.0 * move.beats / move.tempo_bpm + kForTheSlow,
+                    .examples = {StreamOf(move.motion)}};
+  for (const KeyPose& key_pose : move.key_poses) {
+    TaughtPose& pose = taught.poses.emplace_back();
+    for (const KeyPose::Target& target : key_pose.targets) {
+      const Feature* feature = FindFeature(target.feature);
+      assert(feature != nullptr);  // checked where choreography files are read
+      pose.targets.push_back({*feature, target.degrees, target.tolerance_deg});
+    }
+  }
+  return taught;
+}
+
 }  // namespace etude

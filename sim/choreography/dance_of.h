@@ -6,6 +6,7 @@
 
 #include "engine/base/result.h"
 #include "engine/coaching/dance.h"
+#include "engine/recognition/taught_move.h"
 #include "sim/choreography/song.h"
 
 namespace etude {
@@ -33,5 +34,8 @@ double TempoOf(const std::vector<double>& beats_s);
 /// Moves the dance of a song to given beats: tag by tag it belongs to the moment at which its beat sounds. Fails where
 /// the dance takes more beats than there are.
 Result<Dance> ToBeats(Dance dance, const std::vector<double>& beats_s);
+
+/// A move as recognisers are taught it: its key poses, and the motion itself as an example.
+TaughtMove TaughtOf(const Move& move);
 
 }  // namespace etude

@@ -2,6 +2,7 @@
 import json
 import math
 import re
+import shutil
 import subprocess
 import unittest
 
@@ -56,32 +57,42 @@ def body(t):
     return points
 
 
+def make_film(path, size=f"{WIDTH}x{HEIGHT}", rate=RATE, frames=FRAMES, what="testsrc=", coding=("-pix_fmt", "yuv420p")):
+    subprocess.run(["ffmpeg", "-v", "error", "-y", "-f", "lavfi", "-i", f"{what}size={size}:rate={rate}", "-frames:v",
+                    str(frames), *coding, str(path)], check=True, timeout=60)
+    return str(path)
+
+
 class Capture(EtudeCase):
-    def setUp(self):
-        super().setUp()
+    @classmethod
+    def setUpClass(cls):
+        """Point pairs, keypoints, films and the rig, made once; every test has a copy."""
+        cls.shared = cls.shared_folder()
         lines = ["camera,x,y,z,u,v"]
         for camera in PLACES:
             for i in range(30):
                 point = (math.sin(1.7 * i), 1 + 0.9 * math.cos(2.3 * i), math.sin(0.9 * i + 1))
                 lines.append(f"{camera},{','.join(f'{v:.9f}' for v in point + project(camera, point))}")
-        self.pairs = self.write("pairs.csv", "\n".join(lines) + "\n")
-        self.rig = str(self.folder / "rig.yaml")
-        self.keypoints = self.folder / "keypoints"
+        (cls.shared / "pairs.csv").write_text("\n".join(lines) + "\n")
         for camera in PLACES:
-            folder = self.keypoints / f"{camera}_json"
+            folder = cls.shared / "keypoints" / f"{camera}_json"
             folder.mkdir(parents=True)
             for k in range(FRAMES):
                 flat = [v for point in body(k / RATE) for v in (*project(camera, point), 0.9)]
                 (folder / f"{camera}_{k}.json").write_text(json.dumps({"people": [{"pose_keypoints_2d": flat}]}))
-            subprocess.run(["ffmpeg", "-v", "error", "-f", "lavfi", "-i",
-                            f"testsrc=size={WIDTH}x{HEIGHT}:rate={RATE}", "-frames:v", str(FRAMES), "-pix_fmt", "yuv420p",
-                            str(self.folder / f"{camera}.mp4")], check=True, timeout=60)
-        self.films = [str(self.folder / f"{camera}.mp4") for camera in PLACES]
+        make_film(cls.shared / "left.mp4")
+        for camera in ("middle", "right"):
+            shutil.copy(cls.shared / "left.mp4", cls.shared / f"{camera}.mp4")
+        calibrated = cls.etude("calibrate", cls.shared / "pairs.csv", "--size", f"{WIDTH}x{HEIGHT}", "--lens", "none", "-o",
+                               cls.shared / "rig.yaml")
+        assert calibrated.returncode == 0, calibrated.stderr
+        cls.calibrated = calibrated.stdout
 
-    def calibrate(self):
-        result = self.etude("calibrate", self.pairs, "--size", f"{WIDTH}x{HEIGHT}", "--lens", "none", "-o", self.rig)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return result.stdout
+    def setUp(self):
+        super().setUp()
+        shutil.copytree(self.shared, self.folder, dirs_exist_ok=True)
+        self.pairs, self.rig, self.keypoints = (self.folder / name for name in ("pairs.csv", "rig.yaml", "keypoints"))
+        self.films = [str(self.folder / f"{camera}.mp4") for camera in PLACES]
 
     def refusal(self, *arguments):
         result = self.etude(*arguments)
@@ -93,7 +104,7 @@ class Capture(EtudeCase):
         return ["capture", "--rig", self.rig, *(films or self.films), "--keypoints", self.keypoints, *arguments]
 
     def test_calibrates_by_measured_points(self):
-        told = self.calibrate()
+        told = self.calibrated
         self.assertIn("middle: reprojection error 0.000 px RMS over 30 points", told)
         self.assertIn("stands at        0.300, 2.200, 3.900 m", told)
         self.assertRegex(told, r"focal lengths    260\.00 ± 0\.00, 260\.00")
@@ -104,6 +115,7 @@ class Capture(EtudeCase):
         self.assertTrue(text.startswith('%YAML:1.0\n---\ncameras: [ "left", "middle", "right" ]\nleft:\n   image_width: 320'))
 
     def test_refuses_what_is_no_calibration(self):
+        self.rig.unlink()
         self.assertIn("--size ''; needed", self.refusal("calibrate", self.pairs, "-o", self.rig))
         five = self.write("five.csv", "camera,x,y,z,u,v\n" + "a,1,2,3,4,5\n" * 5)
         self.assertIn("camera a: cannot calibrate a camera: 5 point pairs; at least 6",
@@ -122,7 +134,6 @@ class Capture(EtudeCase):
         self.assertEqual(board.read_bytes()[:4], b"\x89PNG")
 
     def test_captures_a_motion_into_every_format(self):
-        self.calibrate()
         trc = self.folder / "points.trc"
         result = self.etude(*self.capture("-o", self.folder / "m.bvh", "--points", trc))
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -158,15 +169,13 @@ class Capture(EtudeCase):
         self.assertRegex(result.stdout, r"\nall +0\.0 +0\.[0-9]\n")
 
     def test_sets_clocks_by_keypoints(self):
-        self.calibrate()
         late = self.keypoints / "right_json"
         for k in range(FRAMES):  # what the camera sees four frames later
             flat = [v for point in body((k + 4) / RATE) for v in (*project("right", point), 0.9)]
             (late / f"right_{k}.json").write_text(json.dumps({"people": [{"pose_keypoints_2d": flat}]}))
         for k in range(FRAMES - 2, FRAMES):
             (late / f"right_{k}.json").unlink()
-        subprocess.run(["ffmpeg", "-v", "error", "-y", "-f", "lavfi", "-i", f"testsrc=size={WIDTH}x{HEIGHT}:rate={RATE}",
-                        "-frames:v", str(FRAMES - 2), "-pix_fmt", "yuv420p", self.films[2]], check=True, timeout=60)
+        make_film(self.films[2], frames=FRAMES - 2)
         out = self.folder / "m.csv"
         self.assertIn("let keypoints tell the time (--sync)", self.refusal(*self.capture("-o", out)))
         self.assertIn("--silhouettes excludes --sync", self.refusal(
@@ -179,7 +188,6 @@ class Capture(EtudeCase):
         self.assertEqual(out.read_text().count("\n"), 1 + FRAMES)
 
     def test_names_cameras_before_or_after_the_films(self):
-        self.calibrate()
         for i, arguments in enumerate((["--cameras", "left,middle,right", *self.films],
                                        [*self.films, "--cameras", "left,middle,right"])):
             result = self.etude("capture", "--rig", self.rig, *arguments, "--keypoints", self.keypoints, "-o",
@@ -187,12 +195,8 @@ class Capture(EtudeCase):
             self.assertEqual(result.returncode, 0, result.stderr)
 
     def test_needs_somebody_who_moves_where_nothing_is_marked(self):
-        self.calibrate()
-        still = []
-        for camera in PLACES:
-            still.append(str(self.folder / f"{camera}.avi"))
-            subprocess.run(["ffmpeg", "-v", "error", "-f", "lavfi", "-i", f"color=c=gray:size={WIDTH}x{HEIGHT}:rate=10",
-                            "-frames:v", "4", "-c:v", "ffv1", still[-1]], check=True, timeout=60)
+        still = [make_film(self.folder / f"{camera}.avi", rate=10, frames=4, what="color=c=gray:", coding=("-c:v", "ffv1"))
+                 for camera in PLACES]
         alone = ["capture", "--rig", self.rig, *still, "--silhouettes", "-o", self.folder / "m.bvh"]
         self.assertIn("in no frame do two films show anybody who moves", self.refusal(*alone))
         self.assertIn("no keypoints to write", self.refusal(*alone, "--points", self.folder / "p.trc"))
@@ -206,7 +210,6 @@ class Capture(EtudeCase):
         self.assertFalse((self.folder / "m.bvh").exists(), "nothing is written")
 
     def test_draws_the_skeleton_over_the_films(self):
-        self.calibrate()
         film = self.folder / "overlay.mp4"
         result = self.etude(*self.capture("-o", self.folder / "m.csv", "--film", film))
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -216,7 +219,6 @@ class Capture(EtudeCase):
         self.assertEqual(told, "1920,480,20")
 
     def test_refuses_films_that_do_not_fit(self):
-        self.calibrate()
         out = self.folder / "m.bvh"
         self.assertIn("1 film; allowed: 2 to 64", self.refusal(*self.capture("-o", out, films=self.films[:1])))
         self.assertIn("none.yaml: no such file", self.refusal("capture", "--rig", "none.yaml", *self.films, "--keypoints",
@@ -224,11 +226,8 @@ class Capture(EtudeCase):
         self.assertIn("allowed: --keypoints DIR, --marks DIR or --silhouettes", self.refusal("capture", "--rig", self.rig, *self.films, "-o", out))
 
         def film(name, size, rate, frames):
-            path = self.folder / name / "left.mp4"
-            path.parent.mkdir()
-            subprocess.run(["ffmpeg", "-v", "error", "-f", "lavfi", "-i", f"testsrc=size={size}:rate={rate}", "-frames:v",
-                            str(frames), str(path)], check=True, timeout=60)
-            return [str(path), *self.films[1:]]
+            (self.folder / name).mkdir()
+            return [make_film(self.folder / name / "left.mp4", size, rate, frames, coding=()), *self.films[1:]]
 
         small = self.refusal(*self.capture("-o", out, films=film("small", "160x120", RATE, FRAMES)))
         self.assertIn("160 x 120 pixels, the rig's camera 320 x 240; tell how they were fitted (--fit)", small)

@@ -6,38 +6,50 @@ import unittest
 
 from etude_case import IK, EtudeCase, png_size
 
-CAPTURE = """scenario: film
+FILM = """scenario: film
 question: Can others read it?
 task: capture
 clips: ['builtin:boxing']
-duration_s: 0.1
+duration_s: 0.2
 trials: 1
 methods:
-  - {name: dls, solver: damped-least-squares}
+  - {name: keypoints, recovery: keypoints}
 """
 
 
-AS_KEYPOINTS = CAPTURE.replace("duration_s: 0.1", "duration_s: 0.5").replace(
-    "{name: dls, solver: damped-least-squares}", "{name: keypoints, recovery: keypoints}")
-
-
 class DataSets(EtudeCase):
-    def export(self, text, name="ik.yaml"):
-        """An exported scenario, and its truth turned into a folder of answers."""
-        data, answers = self.folder / "data", self.folder / "answers"
-        result = self.etude("export", self.write(name, text), "-o", data)
-        self.assertEqual(result.returncode, 0, result.stderr)
+    @classmethod
+    def setUpClass(cls):
+        """One export of each scenario, and its truth turned into a folder of answers, for all tests to copy."""
+        cls.shared = cls.shared_folder()
+        cls.index = cls.export("ik", IK)
+        cls.export("film", FILM, "--films")
+
+    @classmethod
+    def export(cls, name, text, *more):
+        folder = cls.shared / name
+        folder.mkdir()
+        (folder / f"{name}.yaml").write_text(text)
+        result = cls.etude("export", folder / f"{name}.yaml", *more, "-o", folder / "data")
+        assert result.returncode == 0, result.stderr
+        data, answers = folder / "data", folder / "answers"
         with open(data / "inputs" / "index.csv", newline="") as file:
-            self.index = list(csv.DictReader(file))
-        for line in self.index:
-            self.assertTrue((data / "inputs" / line["problem"]).exists(), line)
+            index = list(csv.DictReader(file))
+        for line in index:
+            assert (data / "inputs" / line["problem"]).exists(), line
             world = line["prediction"].removesuffix(".json")
             truth = json.loads((data / "truth" / world / "truth.json").read_text())
             truth.pop("labels", None)
             path = answers / line["prediction"]
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(json.dumps(truth))
-        return data, answers
+        return index
+
+    def exported(self, name="ik"):
+        """The data set of a scenario, and the answers to it that may be changed."""
+        shutil.copy(self.shared / name / f"{name}.yaml", self.folder)
+        shutil.copytree(self.shared / name / "answers", self.folder / "answers")
+        return self.shared / name / "data", self.folder / "answers"
 
     def score(self, data, answers, *more, code=0):
         result = self.etude("score", data, answers, "-o", self.out, *more)
@@ -48,7 +60,7 @@ class DataSets(EtudeCase):
         return [json.loads(line) for line in (self.out / "cells.jsonl").read_text().splitlines()]
 
     def test_the_truth_scores_perfectly_beside_the_very_rows_of_a_run(self):
-        data, answers = self.export(IK)
+        data, answers = self.exported()
         self.assertEqual(len(self.index), 8)
         rows = self.score(data, answers, "--name", "oracle")
         mine = [row for row in rows if row["method"] == "oracle"]
@@ -67,7 +79,7 @@ class DataSets(EtudeCase):
         self.assertEqual(self.etude("report", self.out, "--no-video").returncode, 0)
 
     def test_what_was_scored_is_a_result_folder_like_any_other(self):
-        data, answers = self.export(IK)
+        data, answers = self.exported()
         rows = self.score(data, answers, "--name", "oracle")
         baseline = self.folder / "baseline.json"
         self.assertEqual(self.etude("gate", self.out, "--baseline", baseline, "--update").returncode, 0)
@@ -84,7 +96,7 @@ class DataSets(EtudeCase):
             self.assertIn("scored", refused.stderr)
 
     def test_worse_answers_score_worse(self):
-        data, answers = self.export(IK)
+        data, answers = self.exported()
         for path in answers.rglob("*.json"):
             truth = json.loads(path.read_text())
             truth["angles_deg"] = [angle + 1 for angle in truth["angles_deg"]]
@@ -97,7 +109,7 @@ class DataSets(EtudeCase):
             self.assertEqual(row["solved_practical"], 0)
 
     def test_what_is_missing_extra_duplicate_or_broken_is_listed_and_nothing_is_scored(self):
-        data, answers = self.export(IK)
+        data, answers = self.exported()
         first = answers / "ik" / "joint_noise_deg=2"
         (first / "001.json").unlink()
         (first / "4.json").write_text("{}")
@@ -112,12 +124,12 @@ class DataSets(EtudeCase):
         self.assertIn("broken", self.score(data, answers, "--allow-missing", code=2))
 
     def test_a_method_needs_a_name_of_its_own(self):
-        data, answers = self.export(IK)
+        data, answers = self.exported()
         self.assertIn("has a method named 'fixed' already", self.score(data, answers, "--name", "fixed", code=2))
         self.assertIn("'a/b' is no name", self.score(data, answers, "--name", "a/b", code=2))
 
     def test_a_missing_answer_may_be_a_failure_instead(self):
-        data, answers = self.export(IK)
+        data, answers = self.exported()
         (answers / "ik" / "joint_noise_deg=2" / "001.json").unlink()
         self.assertIn("--allow-missing", self.score(data, answers, code=2))
         rows = [row for row in self.score(data, answers, "--allow-missing", "--alone")]
@@ -130,15 +142,15 @@ class DataSets(EtudeCase):
         self.assertIsNone(failed[0]["position_error_cm"])
 
     def test_an_export_is_whole_or_not_there_and_the_same_again(self):
-        data, _ = self.export(IK)
+        data, _ = self.exported()
         again = self.folder / "again"
         again.mkdir()
-        self.assertEqual(self.etude("export", self.folder / "ik.yaml", "-o", again).returncode, 0)
+        self.assertEqual(self.etude("export", self.shared / "ik/ik.yaml", "-o", again).returncode, 0)
         files = sorted(path.relative_to(data) for path in data.rglob("*") if path.is_file())
         self.assertGreater(len(files), 16)
         for file in files:
             self.assertEqual((data / file).read_bytes(), (again / file).read_bytes(), file)
-        refused = self.etude("export", self.folder / "ik.yaml", "-o", data)
+        refused = self.etude("export", self.shared / "ik/ik.yaml", "-o", data)
         self.assertEqual(refused.returncode, 2)
         self.assertIn("is not empty", refused.stderr)
         nothing = self.etude("export", self.write("bad.yaml", IK.replace("ccd", "cdc")), "-o", self.folder / "bad")
@@ -146,16 +158,14 @@ class DataSets(EtudeCase):
         self.assertEqual([path.name for path in self.folder.iterdir() if path.name.startswith("bad")], ["bad.yaml"])
 
     def test_the_inputs_tell_neither_seed_nor_truth(self):
-        data, _ = self.export(IK)
+        data, _ = self.exported()
         truth = json.loads((data / "truth/ik/joint_noise_deg=2/000/truth.json").read_text())
         told = "".join(path.read_text() for path in (data / "inputs").rglob("*") if path.is_file())
         self.assertNotIn(json.dumps(truth["angles_deg"][3]), told)
         self.assertNotIn("seed", told)
 
     def test_an_exported_take_is_captured_as_well_as_in_the_bench(self):
-        scenario, data, answers = self.write("film.yaml", AS_KEYPOINTS), self.folder / "data", self.folder / "answers"
-        result = self.etude("export", scenario, "--films", "-o", data)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        data, answers = self.exported("film")
         take, marks, rig = data / "inputs/film/all/000", self.folder / "marks", self.folder / "rig.yaml"
         marks.mkdir()
         for camera in (1, 2):
@@ -167,14 +177,13 @@ class DataSets(EtudeCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         with open(self.folder / "motion.csv", newline="") as file:
             poses = [[float(number) for number in row[2:]] for row in list(csv.reader(file))[1:]]
-        (answers / "film/all").mkdir(parents=True)
         (answers / "film/all/000.json").write_text(json.dumps({"poses": poses}))
         rows = {row["method"]: row["mpjpe_mm"] for row in self.score(data, answers)}
         self.assertGreater(rows["keypoints"], 1)
         self.assertAlmostEqual(rows["predictions"], rows["keypoints"], places=3)
 
     def test_a_film_comes_in_formats_that_others_read(self):
-        data, answers = self.export(CAPTURE, "film.yaml")
+        data, answers = self.exported("film")
         inputs, truth = data / "inputs/film/all", data / "truth/film/all/000"
         problem = json.loads((inputs / "000/problem.json").read_text())
         for camera in problem["cameras"]:

@@ -2,6 +2,7 @@
 import json
 import os
 import re
+import shutil
 import unittest
 import xml.etree.ElementTree
 
@@ -20,6 +21,17 @@ WORSE = SCENARIO.replace("weights: fixed-tuned", "weights: fixed")
 
 
 class Gate(EtudeCase):
+    @classmethod
+    def setUpClass(cls):
+        """A run, its baseline, and a run that is worse, made once; tests have copies."""
+        cls.shared = cls.shared_folder()
+        for name, text in ("run", SCENARIO), ("worse", WORSE):
+            (cls.shared / "ik.yaml").write_text(text)
+            made = cls.etude("run", cls.shared / "ik.yaml", "-o", cls.shared / name)
+            assert made.returncode == 0, made.stderr
+        made = cls.etude("gate", cls.shared / "run", "--baseline", cls.shared / "ik.json", "--update")
+        assert made.returncode == 0, made.stderr
+
     def setUp(self):
         super().setUp()
         self.baseline = self.folder / "baselines" / "ik.json"
@@ -32,9 +44,18 @@ class Gate(EtudeCase):
             self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
         return result.stdout + result.stderr
 
-    def make_baseline(self, text=SCENARIO):
-        self.run_suite(self.write("ik.yaml", text))
-        return self.gate(self.out, "--baseline", self.baseline, "--update", expect=0)
+    def make_baseline(self, text=None):
+        """A run in `self.out` and its baseline: of SCENARIO, or of another text."""
+        if text:
+            self.run_suite(self.write("ik.yaml", text))
+            self.gate(self.out, "--baseline", self.baseline, "--update", expect=0)
+            return
+        shutil.copytree(self.shared / "run", self.out)
+        self.baseline.parent.mkdir()
+        shutil.copy(self.shared / "ik.json", self.baseline)
+
+    def be_worse(self):
+        shutil.copytree(self.shared / "worse", self.now)
 
     def run_now(self, text, *arguments):
         return self.run_suite(self.write("ik.yaml", text), *arguments, out=self.now)
@@ -48,7 +69,7 @@ class Gate(EtudeCase):
 
     def test_a_regression_fails_and_is_shown_to_people_and_to_ci(self):
         self.make_baseline()
-        self.run_now(WORSE)
+        self.be_worse()
         text = self.gate(self.now, "--baseline", self.baseline, expect=1)
         self.assertRegex(text, r"worse +ik joint_noise_deg=2 +fixed")
         self.assertIn("ik, fixed", text)  # its settings changed
@@ -92,7 +113,7 @@ class Gate(EtudeCase):
     def test_an_update_shows_what_moved_and_is_the_new_standard(self):
         self.make_baseline()
         before = self.baseline.read_text().splitlines()
-        self.run_now(WORSE)
+        self.be_worse()
         text = self.gate(self.now, "--baseline", self.baseline, "--update", expect=0)
         self.assertRegex(text, r"worse +ik joint_noise_deg=2 +fixed")
         after = self.baseline.read_text().splitlines()
@@ -102,7 +123,7 @@ class Gate(EtudeCase):
         self.gate(self.now, "--baseline", self.baseline, expect=0)
 
     def test_an_unmet_expectation_fails_without_a_baseline(self):
-        self.run_suite(self.write("ik.yaml", SCENARIO))
+        self.make_baseline()
         self.assertIn("no baseline was given", self.gate(self.out, expect=0))
         self.run_now(SCENARIO + "expect: [{metric: iterations, of: fixed, at_most: 0}]\n")
         self.assertIn("unmet: ik: ", self.gate(self.now, expect=1))
@@ -153,7 +174,7 @@ class Gate(EtudeCase):
         self.assertIn("ik: seed 1 and 2; ik: trials 12 and 11", text)
 
     def test_comparing_two_runs_lists_what_only_one_holds(self):
-        self.run_suite(self.write("ik.yaml", SCENARIO))
+        self.make_baseline()
         self.run_now(SCENARIO.replace("[2, 5]", "[2, 7]"))
         same = self.etude("compare", self.out, self.out)
         self.assertEqual(same.returncode, 0, same.stderr)

@@ -19,6 +19,10 @@ class Survival(EtudeCase):
     @classmethod
     def setUpClass(cls):
         cls.scenario, cls.made = cls.run_once(LONGER)
+        cls.made_shards = [cls.made.parent / f"shard-{index}-of-3" for index in (1, 2, 3)]
+        for index, folder in enumerate(cls.made_shards, 1):
+            result = cls.etude("run", cls.scenario, "-o", folder, "--shard", f"{index}/3")
+            assert result.returncode == 0, result.stderr
 
     def setUp(self):
         super().setUp()
@@ -101,12 +105,9 @@ class Survival(EtudeCase):
         self.resume()
         self.assert_same_results(self.whole, self.out)
 
-    def shards(self, count):
-        folders = [self.folder / f"shard-{index}-of-{count}" for index in range(1, count + 1)]
-        for index, folder in enumerate(folders, 1):
-            result = self.etude("run", self.scenario, "-o", folder, "--shard", f"{index}/{count}")
-            self.assertEqual(result.returncode, 0, result.stderr)
-        return folders
+    def shards(self):
+        """Copies of the run's three shards."""
+        return [shutil.copytree(made, self.folder / made.name) for made in self.made_shards]
 
     def test_shards_started_in_different_folders_merge(self):
         (self.folder / "shared").mkdir()
@@ -136,7 +137,7 @@ class Survival(EtudeCase):
         self.assertIn("is a shard of another run", refused.stderr)
 
     def test_shards_merge_to_the_same_bytes_in_any_order(self):
-        folders = self.shards(3)
+        folders = self.shards()
         host = (folders[0] / "host.json").read_bytes()
         again = self.etude("run", self.scenario, "-o", folders[0], "--shard", "1/3", "--resume")
         self.assertEqual((again.returncode, (folders[0] / "host.json").read_bytes()), (0, host))
@@ -182,7 +183,7 @@ class Survival(EtudeCase):
         self.assert_same_results(self.whole, self.out)
 
     def test_shards_that_do_not_belong_together_are_refused(self):
-        folders = self.shards(3)
+        folders = self.shards()
         other = self.folder / "other"
         self.etude("run", self.scenario, "-o", other, "--shard", "3/3", "--seed", "2")
         for shards, complaint in ((folders[:2], "not all 3 shards are there and finished (etude run --shard i/3 --resume goes on): 3/3"),

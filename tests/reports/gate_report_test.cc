@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "reports/gate_table.h"
-#include "reports/gate_tail.h"
 
 namespace etude {
 namespace {

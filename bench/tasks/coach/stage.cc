@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "bench/metrics/transition_smoothness.h"
-#include "bench/tasks/detection/world.h"
 #include "sim/choreography/dance_of.h"
 #include "sim/choreography/song.h"
 

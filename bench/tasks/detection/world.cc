@@ -9,24 +9,10 @@
 #include "bench/tasks/sensing/camera_stream.h"
 #include "engine/base/angles.h"
 #include "engine/base/named.h"
+#include "sim/choreography/dance_of.h"
 #include "sim/skeleton_sensor/skeleton_sensor.h"
 
 namespace etude {
-TaughtMove TaughtOf(const Move& move) {
-  constexpr double kForTheSlow = 0.5;  // seconds beyond one performance at the taught tempo
-  TaughtMove taught{.name = move.name,
-                    .span_s = 60.0 * move.beats / move.tempo_bpm + kForTheSlow,
-                    .examples = {StreamOf(move.motion)}};
-  for (const KeyPose& key_pose : move.key_poses) {
-    TaughtPose& pose = taught.poses.emplace_back();
-    for (const KeyPose::Target& target : key_pose.targets) {
-      const Feature* feature = FindFeature(target.feature);
-      assert(feature != nullptr);  // checked where choreography files are read
-      pose.targets.push_back({*feature, target.degrees, target.tolerance_deg});
-    }
-  }
-  return taught;
-}
 
 Repertoire RepertoireOf(const ClipLibrary& library) {
   Repertoire repertoire;

@@ -29,9 +29,6 @@ struct Repertoire {
 /// The labelled clips of the library, each move once. Empty when there are none.
 Repertoire RepertoireOf(const ClipLibrary& library);
 
-/// What recognisers are taught of a move.
-TaughtMove TaughtOf(const Move& move);
-
 class CameraTake;
 
 /// A performance that was asked for, and what is true of it. All times are seconds from the world's first frame.

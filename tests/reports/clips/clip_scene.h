@@ -5,7 +5,7 @@
 #include <string>
 
 #include "bench/clips/open_clip.h"
-#include "reports/clips/clip_actor.h"
+#include "reports/clips/clip_film.h"
 
 namespace etude {
 

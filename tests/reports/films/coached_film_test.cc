@@ -7,7 +7,6 @@
 #include "bench/model/recording.h"
 #include "reports/films/coached_scene.h"
 #include "reports/films/coached_session.h"
-#include "reports/films/forest.h"
 #include "sim/choreography/move.h"
 #include "tests/support/gtest_printers.h"
 

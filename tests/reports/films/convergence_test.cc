@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "reports/film_element.h"
 #include "reports/films/convergence_scene.h"
 #include "reports/films/error_plot.h"
 #include "reports/films/ik_race.h"
 #include "reports/films/media.h"
+#include "reports/scenario_card.h"
 #include "tests/reports/films/race_run.h"
 #include "tests/support/gtest_printers.h"
 

@@ -4,9 +4,8 @@
 #include <algorithm>
 
 #include "bench/metrics/transition_smoothness.h"
-#include "reports/films/distance_bars.h"
 #include "reports/films/look.h"
-#include "reports/films/transition_clock.h"
+#include "reports/films/transition_plots.h"
 #include "reports/films/transition_race.h"
 #include "reports/films/transition_scene.h"
 #include "tests/reports/support/example_run.h"

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reports/paper/paper_b_figures.h"
 #include "tests/reports/support/effector_run.h"
 #include "tests/reports/support/example_run.h"
 

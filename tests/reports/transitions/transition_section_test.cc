@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "reports/transitions/distance_table.h"
 #include "tests/reports/support/example_run.h"
 
 namespace etude {

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/clips/convert.h"
+#include "engine/base/result.h"
+#include "engine/cameras/rig_file.h"
+#include "engine/keypoints/agreement.h"
+#include "engine/keypoints/pixel_fit.h"
+#include "engine/motion/body.h"
+#include "engine/motion/clip.h"
+#include "reports/films/decoder.h"
+
+namespace etude {
+
+struct CaptureCommandOptions {
+  std::vector<std::string> films;
+  std::string rig;                   ///< a calibration that ReadRig knows
+  std::string keypoints;             ///< a folder with an entry for each film
+  std::string marks;                 ///< likewise, of annotation pictures
+  bool silhouettes = false;          ///< neither: the films alone tell
+  std::string rooms;                 ///< of silhouettes: a folder with a picture of each film's empty room, "" = none
+  double stature_m = 0;              ///< of silhouettes: the person's, 0 = found
+  std::string output;                ///< BVH, GLB, TRC or CSV by its ending
+  std::string points;                ///< a TRC of the triangulated keypoints, "" = none
+  std::string film;                  ///< an MP4 of the skeleton over the films, "" = none
+  std::string reference;             ///< a TRC to compare the triangulated keypoints with, "" = none
+  std::string distances;             ///< a file of these comparisons, "" = none
+  std::string layout;                ///< a name of KeypointLayouts(), "" = by the count
+  std::string fit = "none";          ///< letterbox, stretch, crop
+  std::vector<std::string> cameras;  ///< of the rig, one for each film; empty: by the films' names
+  int person = 1;
+  double smooth_hz = 0;
+  double longest_gap_s = 0.5;
+  double outlier_px = 0;  ///< 0: 3 % of the picture's longer side
+  double sync_s = 0;      ///< the films' clocks may differ by this; 0: they agree
+  bool overwrite = false;
+};
+
+/// One film of a session, and the camera of the rig that took it.
+struct FilmedView {
+  std::filesystem::path path;
+  FilmFacts facts;
+  NamedCamera camera;
+  PixelFit fit;  ///< from the rig's pixels to the film's
+};
+
+/// Opens the films with their cameras of the rig. Fails for fewer than two, for cameras that are missing or named
+/// twice, for sizes that `--fit` does not explain, and for films of different rates, or of different lengths without
+/// `--sync`.
+Result<std::vector<FilmedView>> OpenFilms(const CaptureCommandOptions& options);
+
+/// Writes a clip, and the same as twenty joints, in the format that the file's name tells.
+Result<void> WriteMotion(const std::string& path, Clip clip, const BodyMotion& motion);
+
+constexpr char kLost = '!';
+
+/// A column of the table that compares with a reference: how near some of the cameras come to it.
+struct ComparedColumn {
+  std::string heading;  ///< the cameras, and `kLost` where they gave no motion
+  std::vector<MarkerAgreement> markers;
+  MarkerAgreement all;
+};
+ComparedColumn CompareColumn(std::string heading, const MarkerMotion& markers, const MarkerMotion& reference);
+
+/// Prints medians, a row for each marker of the first column and one for all, and their 95th percentile, under `words`,
+/// which say what they are; writes the file of `--distances`, if there shall be one.
+Result<void> TellColumns(const std::string& words, const std::vector<ComparedColumn>& columns,
+                         const std::vector<FilmedView>& views, const CaptureCommandOptions& options);
+
+/// Two of the films, with the heading of their column.
+struct CameraPair {
+  std::size_t first = 0, second = 0;
+  std::string heading;
+};
+/// Gives every two of more than two films; of two there is nothing to compare.
+std::vector<CameraPair> PairsOf(std::size_t films);
+
+/// Captures from keypoints or marks, or from the films alone: then the motion of the only person who moves in them, by
+/// outlines. Compares it with `reference`, if there is one. False when it was interrupted.
+Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+                              const std::optional<MarkerMotion>& reference);
+Result<bool> CaptureUnmarked(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+                             const std::optional<MarkerMotion>& reference);
+
+}  // namespace etude

@@ -1,0 +1,250 @@
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+
+#include "bench/clips/clip_library.h"
+#include "bench/clips/convert.h"
+#include "bench/files/files.h"
+#include "cli/clip_reading.h"
+#include "cli/commands.h"
+#include "cli/move_table.h"
+#include "cli/output_file.h"
+#include "engine/base/names.h"
+#include "reports/clips/clip_facts.h"
+#include "reports/clips/contact_index.h"
+
+namespace etude {
+namespace {
+
+constexpr const char* kClipExamples =
+    "\nA clip is a BVH or DeepMimic file, an animation of a glTF file (dance.glb#Jump; without # all of them), a "
+    "pattern of files\n"
+    "('mocap/*.bvh'), or builtin:NAME (builtin:* all moves, builtin:acts, builtin:songs). docs/clips.md tells more.\n\n"
+    "Try:\n"
+    "  etude clip info 'mocap/*.bvh'                          what is in these files, and are they understood?\n"
+    "  etude clip render dance.bvh -o dance.png               a contact sheet\n"
+    "  etude clip render builtin:clap -o clap.mp4             the bear, as a film\n"
+    "  etude clip convert dance.bvh bear.glb --character bear a file for other viewers\n"
+    "  etude clip contacts dance.bvh -o contacts.svg          when its feet stand\n"
+    "  etude clip map odd.bvh -o odd.yaml                     to teach names: edit it, then --joint-map odd.yaml";
+
+struct ClipInfoOptions {
+  std::vector<std::string> clips;
+  bool as_json = false;
+  ClipReading reading;
+};
+
+/// Prints the facts of all clips. Exit 2 when one is not understood; the others are told all the same.
+Result<int> ClipInfoCommand(const ClipInfoOptions& options) {
+  ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
+  ASSIGN_OR_RETURN(const auto references, ExpandAll(options.clips));
+  std::vector<ClipFacts> all;
+  for (const std::string& reference : references) {
+    for (ClipFacts& facts : FactsOf(reference, reading)) {
+      if (!options.as_json && facts.format) fmt::print("{}", FactsAsText(facts, all.empty() ? nullptr : &all.back()));
+      all.push_back(std::move(facts));
+    }
+  }
+  if (options.as_json) {
+    ASSIGN_OR_RETURN(const auto json, FactsAsJson(all));
+    fmt::print("{}\n", json);
+  }
+  int code = kSuccess;
+  for (const ClipFacts& facts : all) {
+    if (facts.complaint) code = Complain(*facts.complaint);
+  }
+  return code;
+}
+
+void DefineInfo(CLI::App& clip, Action& action) {
+  auto options = std::make_shared<ClipInfoOptions>();
+  CLI::App* command = clip.add_subcommand("info", "Frames, joints, roles, unit, speeds, foot slide");
+  command->add_option("clips", options->clips, "Clips")->required();
+  command->add_flag("--json", options->as_json, "For programs (docs/schemas/clip-info.schema.json)");
+  AddClipReading(*command, options->reading);
+  command->callback([=, &action] { action = [=] { return Finish(ClipInfoCommand(*options)); }; });
+}
+
+struct ClipConvertOptions {
+  std::string input, output;
+  double rate_hz = 0;  ///< 0 = the clip's own, or 30 Hz of a body
+  std::string trim;    ///< "1.5:4", "" = all of it
+  std::string character;
+  bool mirror = false, retarget = false, ground = false, overwrite = false;
+  ClipReading reading;
+};
+
+Performer PerformerNamed(const std::string& name) {
+  if (name == "bear") return Performer::kBear;
+  if (name == "mannequin") return Performer::kMannequin;
+  return name == "none" ? Performer::kNone : Performer::kFile;
+}
+
+Result<int> ClipConvertCommand(const ClipConvertOptions& given) {
+  RETURN_IF_ERROR(CheckOutput(given.output, given.overwrite));
+  ASSIGN_OR_RETURN(const auto format, FormatOfName(given.output));
+  ASSIGN_OR_RETURN(auto reading, ReadOptions(given.reading));
+  ASSIGN_OR_RETURN(const auto trim, ReadTrim(given.trim));
+  ASSIGN_OR_RETURN(const auto references, ExpandAll({given.input}));
+  if (references.size() > 1) {
+    return Fail({}, "'{}' stands for {} clips; one file is converted at a time", given.input, references.size());
+  }
+  ASSIGN_OR_RETURN(auto clips, ReadClips(references.front(), reading));
+
+  ConvertOptions options{.trim = trim,
+                         .rate_hz = std::nullopt,
+                         .mirror = given.mirror,
+                         .ground = given.ground,
+                         .retarget = given.retarget,
+                         .performer = PerformerNamed(given.character),
+                         .open = std::move(reading)};
+  if (given.rate_hz > 0) options.rate_hz = given.rate_hz;
+  ASSIGN_OR_RETURN(const auto converted, ConvertClips(std::move(clips), format, options));
+  RETURN_IF_ERROR(WriteFileAtomically(given.output, converted.bytes));
+  fmt::print("{}\n", converted.note);
+  TellWritten(given.output);
+  return kSuccess;
+}
+
+void DefineConvert(CLI::App& clip, Action& action) {
+  auto options = std::make_shared<ClipConvertOptions>();
+  CLI::App* command = clip.add_subcommand("convert", "To BVH, GLB, TRC or CSV");
+  command->add_option("input", options->input, "A clip")->required();
+  command->add_option("output", options->output, "The file to write: .bvh, .glb, .trc (OpenSim) or .csv")->required();
+  command->add_option("--trim", options->trim, "Only this part, seconds: FROM:TO, such as 1.5:4 or 2:");
+  command->add_option("--rate", options->rate_hz, "Frames per second (default: the clip's; of bodies 30)")
+      ->check(NumberWithin(1, 1000, "rate in Hz"));
+  command->add_flag("--mirror", options->mirror, "Left becomes right");
+  command->add_flag("--ground", options->ground, "As a body: twenty joints, metres, Y up, feet on the floor");
+  command->add_flag("--retarget", options->retarget, "As a body of the canonical proportions, 1.70 m tall");
+  command
+      ->add_option("--character", options->character,
+                   "Put on the bear or the mannequin, retargeted (GLB only); none leaves the file's meshes out")
+      ->check(CLI::IsMember({"bear", "mannequin", "none"}));
+  AddOverwrite(*command, options->overwrite);
+  AddClipReading(*command, options->reading);
+  command->footer(
+      "\nWithout --ground, --retarget or --character a file keeps its own skeleton, unit and axes (GLB: metres, Y "
+      "up).\n"
+      "TRC and CSV hold the twenty joints of the body.");
+  command->callback([=, &action] { action = [=] { return Finish(ClipConvertCommand(*options)); }; });
+}
+
+struct ClipContactsOptions {
+  std::string clip;
+  std::string output;  ///< an SVG picture
+  bool overwrite = false;
+  ClipReading reading;
+};
+
+Result<int> ClipContactsCommand(const ClipContactsOptions& options) {
+  RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
+  ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
+  ASSIGN_OR_RETURN(const auto clips, LoadClips({options.clip}, {}, reading));
+  if (clips.clips.size() != 1) {
+    return Fail({}, "'{}' stands for {} clips; the contacts of one are drawn at a time", options.clip,
+                clips.clips.size());
+  }
+  RETURN_IF_ERROR(WriteFileAtomically(options.output, ContactIndexSvg(clips.clips[0].name, clips.clips[0].motion)));
+  TellWritten(options.output);
+  return kSuccess;
+}
+
+void DefineContacts(CLI::App& clip, Action& action) {
+  auto options = std::make_shared<ClipContactsOptions>();
+  CLI::App* command = clip.add_subcommand("contacts", "When the feet stand: their heights, speeds and contacts (SVG)");
+  command->add_option("clip", options->clip, "A clip")->required();
+  command->add_option("-o,--output", options->output, "The picture: .svg")->required();
+  AddOverwrite(*command, options->overwrite);
+  AddClipReading(*command, options->reading);
+  command->callback([=, &action] { action = [=] { return Finish(ClipContactsCommand(*options)); }; });
+}
+
+struct ClipMapOptions {
+  std::string clip;
+  std::string output;  ///< a joint-map file, "" = only printed
+  bool overwrite = false;
+  std::string joint_map;
+};
+
+void PrintRoles(const Skeleton& skeleton, const JointMap& map) {
+  for (const Role role : AllRoles()) {
+    const bool composed = std::ranges::find(map.composed, role) != map.composed.end();
+    fmt::print("{:<16} {}{}\n", RoleName(role), Quote(skeleton.joints[map[role].joint].name),
+               composed ? " (composed: no joint plays it, a point that rides on this one does)" : "");
+  }
+}
+
+std::vector<std::string> UnusedJoints(const Skeleton& skeleton, const JointMap& map) {
+  std::vector<std::string> unused;
+  for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
+    const auto plays = [&](const RolePoint& point) { return point.joint == static_cast<int>(i); };
+    const Joint& joint = skeleton.joints[i];
+    if (!joint.is_end_site && std::ranges::none_of(map.points, plays)) unused.push_back(Quote(joint.name));
+  }
+  return unused;
+}
+
+/// Writes a map file for a skeleton whose roles were not found: every role to be filled in, and the names to choose
+/// from.
+std::string EmptyMapFile(const Skeleton& skeleton) {
+  std::string text = "# Write the joint behind each role. Roles that are found anyway may be left out.\nroles:\n";
+  for (const Role role : AllRoles()) text += fmt::format("  # {}:\n", RoleName(role));
+  text += "# The joints of the file:\n";
+  for (const Joint& joint : skeleton.joints) text += fmt::format("#   {}\n", Quote(joint.name));
+  return text;
+}
+
+Result<int> ClipMapCommand(const ClipMapOptions& options) {
+  const bool writes = !options.output.empty();
+  if (writes) RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
+  ASSIGN_OR_RETURN(const auto reading, ReadOptions({.joint_map = options.joint_map, .unit = "", .up = ""}));
+  // All animations of a file move the same skeleton: the first one shows it.
+  ASSIGN_OR_RETURN(const auto clips, ReadClips(options.clip));
+  const Skeleton& skeleton = clips.front().clip.skeleton;
+  const auto map = FindJointMap(skeleton, options.clip, reading.roles ? &*reading.roles : nullptr);
+  if (!map) {
+    // A map that is there already is mended, and may be the very file that would be written.
+    if (options.joint_map.empty() && writes) {
+      RETURN_IF_ERROR(WriteFileAtomically(options.output, EmptyMapFile(skeleton)));
+      TellWritten(options.output);
+      fmt::print("Next: fill it in, then --joint-map {}\n", options.output);
+    }
+    return tl::unexpected(map.error());
+  }
+  PrintRoles(skeleton, *map);
+  PrintList("joints without a role:", UnusedJoints(skeleton, *map));
+  if (!writes) return kSuccess;
+  RETURN_IF_ERROR(WriteFileAtomically(options.output, WriteJointMapFile(skeleton, *map)));
+  TellWritten(options.output);
+  return kSuccess;
+}
+
+void DefineMap(CLI::App& clip, Action& action) {
+  auto options = std::make_shared<ClipMapOptions>();
+  CLI::App* command = clip.add_subcommand("map", "Which joint plays which role");
+  command->add_option("clip", options->clip, "A BVH or glTF file")->required();
+  command->add_option("-o,--output", options->output,
+                      "Write it as a joint-map file, to be edited; also when roles are missing");
+  command->add_option("--joint-map", options->joint_map, "Roles that are taught already");
+  AddOverwrite(*command, options->overwrite);
+  command->callback([=, &action] { action = [=] { return Finish(ClipMapCommand(*options)); }; });
+}
+
+}  // namespace
+
+void DefineClip(CLI::App& app, Action& action) {
+  CLI::App* clip = app.add_subcommand("clip", "Look at motion clips, convert and render them");
+  clip->footer(kClipExamples);
+  clip->require_subcommand(1);
+  DefineInfo(*clip, action);
+  DefineConvert(*clip, action);
+  DefineRender(*clip, action);
+  DefineContacts(*clip, action);
+  DefineMap(*clip, action);
+  DefineGrades(*clip, action);
+}
+
+}  // namespace etude

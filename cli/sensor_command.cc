@@ -1,0 +1,250 @@
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/files/files.h"
+#include "bench/sensor_fit/fit.h"
+#include "bench/sensor_fit/simulated.h"
+#include "bench/sensor_fit/table.h"
+#include "cli/commands.h"
+#include "cli/output_file.h"
+#include "sim/skeleton_sensor/sensor_file.h"
+
+namespace etude {
+namespace {
+
+constexpr const char* kSensorExamples =
+    "\nA recording is a Kinect v2's text (25 joints a line: x y z, or x y z and a quaternion) or joint CSV (etude "
+    "clip\n"
+    "convert writes such files). A reference is the same motion by a system that can be trusted: 17 rigid targets of\n"
+    "an optical system a line, or joint CSV. docs/sensor.md tells the formats, and what each statistic is.\n\n"
+    "Try:\n"
+    "  etude sensor stats kinect.txt                                        what it says by itself\n"
+    "  etude sensor stats kinect.txt --reference vicon.txt --simulate v2    real beside simulated\n"
+    "  etude sensor fit kinect.txt --reference vicon.txt -o sensor.yaml     then `sensor: sensor.yaml` in a scenario";
+
+/// The facts about recordings that cannot tell them themselves.
+struct SensorReading {
+  std::string reference;                 ///< the same motion by an optical system, "" = none
+  std::optional<double> rate_hz;         ///< of the recordings
+  std::optional<double> reference_rate;  ///< Hz
+};
+
+void AddSensorReading(CLI::App& command, SensorReading& reading) {
+  command.add_option("--rate", reading.rate_hz, "Of the recording (default: its own times, else 30 Hz)")
+      ->check(NumberWithin(1, 1000, "rate in Hz"));
+  command
+      .add_option("--reference-rate", reading.reference_rate,
+                  "Of the reference (default: its own times, else the usual rate that gives the same length)")
+      ->check(NumberWithin(1, 10000, "rate in Hz"));
+}
+
+Result<JointRecording> LoadJointRecording(const std::string& path, const SensorReading& reading) {
+  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
+  return ReadJointRecording(text, path, reading.rate_hz);
+}
+
+Result<RealRecording> LoadRealRecording(const std::string& path, const SensorReading& reading) {
+  ASSIGN_OR_RETURN(auto recording, LoadJointRecording(path, reading));
+  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(reading.reference));
+  ASSIGN_OR_RETURN(auto twin,
+                   ReadTwinMotion(text, reading.reference, reading.reference_rate, recording.DurationSeconds()));
+  auto real = MakeRealRecording(std::move(recording), std::move(twin));
+  if (real) return *std::move(real);
+  return Fail({path}, "does not go together with {}: they need a second of at least three joints in common",
+              reading.reference);
+}
+
+Result<SkeletonSensorOptions> LoadSensor(const std::string& reference) {
+  if (const auto preset = FindSensorPreset(reference)) return *preset;
+  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(reference));
+  return ReadSensorFile(text, reference);
+}
+
+std::string DescribeRecording(const JointRecording& recording) {
+  std::size_t missing = 0;
+  for (const RolePlaces& frame : recording.frames) {
+    for (const auto& place : frame) missing += !place.has_value();
+  }
+  const double all = static_cast<double>(recording.frames.size() * kRoleCount);
+  return fmt::format("{} frames at {:g} Hz, {:.1f} s; {:.1f} % of the joints missing", recording.frames.size(),
+                     recording.rate_hz, recording.DurationSeconds(),
+                     all > 0 ? 100 * static_cast<double>(missing) / all : 0);
+}
+
+std::string DescribeMatch(const RealRecording& real) {
+  const TwinAlignment& alignment = real.match.alignment;
+  return fmt::format("{} frames at {:g} Hz, {:.1f} s; begins {:+.3f} s from the recording; {:.1f} mm RMS left",
+                     real.twin.frames.size(), real.twin.rate_hz, real.twin.DurationSeconds(), -alignment.shift_s,
+                     1000 * alignment.rms_m);
+}
+
+struct SensorStatsOptions {
+  std::vector<std::string> files;
+  SensorReading reading;
+  std::string simulate;  ///< v1, v2 or a sensor file; "" = no simulated column
+  int worlds = 64;
+};
+
+using Columns = std::vector<std::pair<std::string, SensorStatistics>>;
+
+std::string ShortName(const std::string& path, std::size_t longest) {
+  return std::filesystem::path(path).stem().string().substr(0, longest);
+}
+
+/// Computes the statistics of recordings by themselves, a column each.
+Result<Columns> PlainColumns(const SensorStatsOptions& options) {
+  Columns columns;
+  for (const std::string& file : options.files) {
+    ASSIGN_OR_RETURN(const auto recording, LoadJointRecording(file, options.reading));
+    fmt::print("{}: {}\n", file, DescribeRecording(recording));
+    columns.emplace_back(ShortName(file, 12), StatisticsOf(recording, nullptr));
+  }
+  return columns;
+}
+
+/// Computes those of a recording against its reference, and of the simulated sensor on the reference's motion.
+Result<Columns> ComparedColumns(const SensorStatsOptions& options) {
+  const std::string& file = options.files.front();
+  if (options.files.size() > 1) {
+    return Fail({"--reference", 0, 0}, "goes with one recording, found {}", options.files.size());
+  }
+  ASSIGN_OR_RETURN(const auto real, LoadRealRecording(file, options.reading));
+  fmt::print("{}: {}\n", file, DescribeRecording(real.recording));
+  fmt::print("{}: {}\n", options.reading.reference, DescribeMatch(real));
+  Columns columns = {{"real", StatisticsOf(real)}};
+  if (options.simulate.empty()) return columns;
+  ASSIGN_OR_RETURN(const auto sensor, LoadSensor(options.simulate));
+  const WorldKey worlds{.suite_seed = 1, .scenario = "sensor-stats", .trial = 0};
+  fmt::print("simulated: {} worlds of {}\n", options.worlds, options.simulate);
+  const SensorStatisticsSummary simulated = SimulatedStatistics(real, sensor, options.worlds, worlds);
+  columns.emplace_back("simulated", simulated.mean);
+  columns.emplace_back("+-", simulated.deviation);
+  return columns;
+}
+
+Result<int> SensorStatsCommand(const SensorStatsOptions& options) {
+  const bool compares = !options.reading.reference.empty();
+  if (!compares && !options.simulate.empty()) {
+    return Fail({"--simulate"}, "needs --reference: the simulated sensor sees the reference's motion");
+  }
+  ASSIGN_OR_RETURN(const auto columns, compares ? ComparedColumns(options) : PlainColumns(options));
+  fmt::print("\n{}", StatisticsTable(columns, compares));
+  if (columns.size() < 2 || !compares) return kSuccess;
+  const Agreement agreement = AgreementOf(columns.front().second, columns[1].second);
+  fmt::print("\n{} of {} within {:.0f} % (correlations: {:.2f}); ! marks the others\n", agreement.within,
+             agreement.compared, 100 * kSizeTolerance, kCorrelationTolerance);
+  return kSuccess;
+}
+
+void DefineStats(CLI::App& sensor, Action& action) {
+  auto options = std::make_shared<SensorStatsOptions>();
+  CLI::App* command = sensor.add_subcommand("stats", "The statistics of a sensor's recordings");
+  command->add_option("files", options->files, "Recordings")->required();
+  command->add_option("--reference", options->reading.reference, "The same motion by a system that can be trusted");
+  command->add_option("--simulate", options->simulate, "Beside it, what this sensor says: v1, v2 or a sensor file");
+  command->add_option("--worlds", options->worlds, "How many simulated recordings")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  AddSensorReading(*command, options->reading);
+  command->callback([=, &action] { action = [=] { return Finish(SensorStatsCommand(*options)); }; });
+}
+
+struct SensorFitCommandOptions {
+  std::string file, output;
+  SensorReading reading;
+  std::string base = "v2";  ///< a preset or file for what is not fitted
+  int worlds = 96;
+  int steps = 10;
+  bool overwrite = false;
+};
+
+constexpr int kCheckWorlds = 64;
+
+void PrintComparison(const char* title, const char* real_name, const RealRecording& real,
+                     const SkeletonSensorOptions& sensor) {
+  // Dice that the fit never saw.
+  const WorldKey worlds{.suite_seed = 1, .scenario = "sensor-check", .trial = 0};
+  const SensorStatistics measured = StatisticsOf(real);
+  const SensorStatistics simulated = SimulatedStatistics(real, sensor, kCheckWorlds, worlds).mean;
+  const Agreement agreement = AgreementOf(measured, simulated);
+  fmt::print("\n{}\n{}", title, StatisticsTable({{real_name, measured}, {"simulated", simulated}}, true));
+  fmt::print("{} of {} within {:.0f} % (correlations: {:.2f})\n", agreement.within, agreement.compared,
+             100 * kSizeTolerance, kCorrelationTolerance);
+}
+
+/// Fits each half and compares it with the other; prints only a remark when a half is too short.
+void PrintHalves(const RealRecording& real, const SensorFitOptions& options) {
+  const std::size_t frames = real.recording.frames.size();
+  const auto first = MakeRealRecording(Excerpt(real.recording, 0, frames / 2), real.twin);
+  const auto second = MakeRealRecording(Excerpt(real.recording, frames / 2, frames), real.twin);
+  if (!first || !second) {
+    fmt::print("\nThe halves are too short to be fitted by themselves.\n");
+    return;
+  }
+  fmt::print("\nHow the halves of the recording differ:\n{}",
+             StatisticsTable({{"first half", StatisticsOf(*first)}, {"second half", StatisticsOf(*second)}}, true));
+  PrintComparison("Fitted to the first half, compared on the second:", "second half", *second,
+                  FitSensor(*first, options));
+  PrintComparison("Fitted to the second half, compared on the first:", "first half", *first,
+                  FitSensor(*second, options));
+}
+
+Result<int> SensorFitCommand(const SensorFitCommandOptions& options) {
+  RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
+  ASSIGN_OR_RETURN(const auto base, LoadSensor(options.base));
+  ASSIGN_OR_RETURN(const auto real, LoadRealRecording(options.file, options.reading));
+  fmt::print("{}: {}\n", options.file, DescribeRecording(real.recording));
+  fmt::print("{}: {}\n", options.reading.reference, DescribeMatch(real));
+
+  const SensorFitOptions fit{.start = base, .worlds = options.worlds, .steps = options.steps, .progress = {}};
+  const SkeletonSensorOptions sensor = FitSensor(real, fit);
+  const std::string preset = FindSensorPreset(options.base) ? options.base : "v2";
+  const std::string text = fmt::format("# Fitted by `etude sensor fit` to {:.1f} s, {} frames\n",
+                                       real.recording.DurationSeconds(), real.recording.frames.size()) +
+                           WriteSensorFile(sensor, preset);
+  RETURN_IF_ERROR(WriteFileAtomically(options.output, text));
+  PrintComparison("Fitted to all of it, compared with other dice:", "real", real, sensor);
+  PrintHalves(real, fit);
+  fmt::print("\n");
+  TellWritten(options.output);
+  return kSuccess;
+}
+
+void DefineFit(CLI::App& sensor, Action& action) {
+  auto options = std::make_shared<SensorFitCommandOptions>();
+  CLI::App* command = sensor.add_subcommand("fit", "A sensor file for scenarios, fitted to a recording");
+  command->add_option("file", options->file, "A recording")->required();
+  command->add_option("--reference", options->reading.reference, "The same motion by a system that can be trusted")
+      ->required();
+  command->add_option("-o,--output", options->output, "The sensor file to write (YAML)")->required();
+  command->add_option("--base", options->base, "What is not fitted is as here: v1, v2 or a sensor file")
+      ->capture_default_str();
+  command->add_option("--worlds", options->worlds, "Simulated recordings per step")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  command->add_option("--steps", options->steps, "Steps of simulate, compare, correct")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  AddOverwrite(*command, options->overwrite);
+  AddSensorReading(*command, options->reading);
+  command->callback([=, &action] { action = [=] { return Finish(SensorFitCommand(*options)); }; });
+}
+
+}  // namespace
+
+void DefineSensor(CLI::App& app, Action& action) {
+  CLI::App* sensor = app.add_subcommand("sensor", "What sensors see, how they err, and sensors fitted to recordings");
+  sensor->require_subcommand(1);
+  sensor->footer(kSensorExamples);
+  DefineStats(*sensor, action);
+  DefineFit(*sensor, action);
+  DefineSheet(*sensor, action);
+}
+
+}  // namespace etude

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+
+#include "engine/motion/body.h"
+#include "reports/films/canvas.h"
+
+namespace etude {
+
+/// Draws the body from the front as lines, feet near the lower edge of a box that is `tall` metres high.
+void DrawStickFigure(Canvas& canvas, const BodyPose& pose, const Box& box, double tall, const Paint& paint);
+
+/// Gives the place of a joint in that box.
+glm::dvec2 StickJoint(const BodyPose& pose, Role role, const Box& box, double tall);
+
+/// Frames [begin, end) of a session.
+struct FrameSpan {
+  int begin = 0, end = 0;
+};
+
+inline constexpr Paint kRightPaint{0.36, 0.74, 0.46, 1}, kWrongPaint{0.88, 0.36, 0.32, 1};
+inline constexpr Paint kUndecidedPaint{0.55, 0.58, 0.60, 1};
+
+/// Gives the colour of "right" and "wrong"; any other word has the undecided one.
+Paint PaintOfWord(const std::string& word);
+
+/// The strip below a film of a session: rows of bars over the frames shown, and a line at the present.
+class SessionTimeline {
+ public:
+  static constexpr Box kBox{12, 584, 1256, 124};
+
+  /// Draws the strip's ground.
+  SessionTimeline(Canvas& canvas, const FrameSpan& shown);
+
+  void Label(int row, const std::string& text);
+  /// Draws a bar over frames [begin, end); the part that is not shown is cut off.
+  void Bar(int row, int begin, int end, const Paint& paint);
+  /// Writes a text on a bar, cut to it.
+  void Text(int row, int begin, int end, const std::string& text);
+  /// Draws a line through these rows.
+  void Tick(int frame, int first_row, int last_row, const Paint& paint);
+  bool Shows(int frame) const { return frame >= shown_.begin && frame < shown_.end; }
+
+ private:
+  double PlaceOf(int frame) const;
+
+  Canvas& canvas_;
+  FrameSpan shown_;
+};
+
+}  // namespace etude

@@ -1,0 +1,277 @@
+#include "reports/paper/paper_a.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/fuzzy/fuzzy_system.h"
+#include "engine/fuzzy/shape_text.h"
+#include "reports/plots/panel.h"
+#include "reports/words/escape.h"
+
+namespace etude {
+namespace {
+
+// The panel in its own units; the page scales it. Above the curves stand the terms, below the axis two rows of numbers.
+constexpr double kPanelWide = 240, kPanelHeight = 150, kPanelTop = 22, kBase = 118;
+constexpr double kPanelMargin = 24, kPanelRim = 10;
+constexpr Axis kGrades{.low = 0, .high = 1, .from = kBase, .to = kPanelTop};
+
+class MembershipPanel {
+ public:
+  explicit MembershipPanel(const Universe& universe)
+      : universe_(universe),
+        inputs_{.low = universe.low, .high = universe.high, .from = kPanelMargin, .to = kPanelWide - kPanelRim} {}
+
+  std::string Grid() const {
+    std::string svg;
+    for (const double grade : {0.0, 0.5, 1.0}) {
+      svg += fmt::format("<path d=\"M{} {:.1f}H{}\"/>", inputs_.from, kGrades.At(grade), inputs_.to) +
+             PanelText(inputs_.from - 5, kGrades.At(grade) + 4, TickText(grade), "end");
+    }
+    return svg;
+  }
+
+  std::string Curve(const Shape& shape, std::size_t style) const {
+    constexpr int kSteps = 120;
+    std::vector<double> inputs = Bends(shape);
+    for (int i = 0; i <= kSteps; ++i) {
+      inputs.push_back(universe_.low + (universe_.high - universe_.low) * i / kSteps);
+    }
+    std::ranges::sort(inputs);
+    std::string points;
+    for (double x : inputs) points += fmt::format("{:.1f},{:.1f} ", inputs_.At(x), kGrades.At(GradeOf(shape, x)));
+    points.pop_back();
+    return fmt::format("<polyline class=\"c{}\" points=\"{}\"/>", style % 8, points);
+  }
+
+  std::string Label(const Shape& shape, std::string_view name) const {
+    const Cut top = CutOf(shape, 1);
+    const double peak = 0.5 * (std::max(top.low, universe_.low) + std::min(top.high, universe_.high));
+    const double room = 0.15 * (universe_.high - universe_.low);  // a middle name there would leave the panel
+    const char* anchor = peak < universe_.low + room ? "start" : peak > universe_.high - room ? "end" : "middle";
+    return PanelText(inputs_.At(peak), kPanelTop - 8, name, anchor);
+  }
+
+  /// Writes numbers along the axis; one too near to its neighbour stands a row lower.
+  std::string Numbers(std::vector<double> marks) const {
+    marks.insert(marks.end(), {universe_.low, universe_.high});
+    std::ranges::sort(marks);
+    marks.erase(std::unique(marks.begin(), marks.end()), marks.end());
+    constexpr double kNear = 22;
+    std::string svg;
+    std::array<double, 2> last = {-kNear, -kNear};  // where the rows' last numbers stand
+    for (double mark : marks) {
+      const double x = inputs_.At(mark);
+      const std::size_t row = x - last[0] < kNear ? 1 : 0;
+      if (x - last[row] < kNear) continue;  // no room in either
+      last[row] = x;
+      svg += fmt::format("<path d=\"M{:.1f} {}v4\"/>", x, kBase) +
+             PanelText(x, kBase + 14 + 13 * static_cast<double>(row), TickText(mark), "middle");
+    }
+    return svg;
+  }
+
+  /// Gives the places where a straight-sided function bends, within the universe.
+  std::vector<double> Bends(const Shape& shape) const {
+    std::vector<double> bends;
+    for (double grade : {1.0, 0.0}) {
+      if (grade == 0 && std::holds_alternative<Gaussian>(shape)) continue;  // has no foot
+      const Cut cut = CutOf(shape, grade);
+      bends.insert(bends.end(), {cut.low, cut.high});
+    }
+    std::erase_if(bends, [&](double x) { return x < universe_.low || x > universe_.high; });
+    return bends;
+  }
+
+ private:
+  Universe universe_;
+  Axis inputs_;
+};
+
+constexpr std::string_view kFuzzyKey = "fuzzy", kBuiltin = "builtin:";
+
+/// Gives the paper's system, then those of the program's own that the scenario sweeps. A file's functions are not in
+/// the results.
+std::vector<FuzzySystem> ShownSystems(const ScenarioSummary& scenario) {
+  std::vector<FuzzySystem> systems = {FuzzySystem{}};
+  for (const ConditionSummary& condition : scenario.conditions) {
+    for (const SweptValue& swept : condition.condition) {
+      if (swept.key != kFuzzyKey || !swept.value.starts_with(kBuiltin)) continue;
+      auto system = LoadBuiltinFuzzySystem(swept.value.substr(kBuiltin.size()), {});
+      if (system && std::ranges::find(systems, system->name, &FuzzySystem::name) == systems.end()) {
+        systems.push_back(*std::move(system));
+      }
+    }
+  }
+  return systems;
+}
+
+std::string FeatureNames(Feature right) {
+  const std::string name(FeatureName(right));
+  return name.front() == 'R' ? fmt::format("{}, L{}", name, name.substr(1)) : name;
+}
+
+std::string EquationWords(const PaperAFigure& figure) {
+  const auto [first, last] = std::ranges::minmax(figure.equations);
+  return fmt::format("equations {} {} {}", first, last - first == 1 ? "and" : "to", last);
+}
+
+std::string FigureHtml(const PaperAFigure& figure, const FuzzySystem& system, bool is_paper) {
+  const std::string what = fmt::format("{}: {}", FeatureNames(figure.feature), figure.title);
+  const std::string caption = is_paper
+                                  ? fmt::format("<b>Figure {}</b>. {} ({}), {}. {}", figure.number, EscapeMarkup(what),
+                                                EscapeMarkup(figure.input), EquationWords(figure), figure.repaired)
+                                  : fmt::format("{} ({}).", EscapeMarkup(what), EscapeMarkup(figure.input));
+  return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>",
+                     MembershipPlotSvg(figure.feature, system.memberships, "Membership functions of " + what), caption);
+}
+
+std::string RoundTripHtml(const FuzzySystem& system) {
+  std::string html =
+      "<p class=\"quiet legend\">Back from the grades: the mean difference between what went in and what each method "
+      "of "
+      "defuzzification gives back, over the whole axis.</p><table class=\"printed\"><thead><tr><th>feature</th>";
+  for (Defuzzification method : AllDefuzzifications()) {
+    html += fmt::format("<th class=\"n\">{}</th>", DefuzzificationName(method));
+  }
+  html += "</tr></thead><tbody>";
+  for (const PaperAFigure& figure : PaperAFigures()) {
+    html += fmt::format("<tr><th>{}</th>", FeatureNames(figure.feature));
+    for (Defuzzification method : AllDefuzzifications()) {
+      html +=
+          fmt::format("<td class=\"n\">{:.1f}</td>", MeanRoundTripError(figure.feature, system.memberships, method));
+    }
+    html += "</tr>";
+  }
+  return html + "</tbody></table>";
+}
+
+/// Gives one line per term: figure, feature, term, shape, equation.
+std::vector<std::array<std::string, 5>> PaperLines() {
+  std::vector<std::array<std::string, 5>> lines;
+  for (const PaperAFigure& figure : PaperAFigures()) {
+    std::size_t t = 0;
+    for (const Term& term : TermsOf(figure.feature)) {
+      const Shape& shape = PaperMemberships().shapes[FirstTermOf(figure.feature) + t];
+      std::string words = WriteShape(shape);
+      words = words.substr(1, words.size() - 2);  // without braces
+      lines.push_back({fmt::format("{}", figure.number), FeatureNames(figure.feature), std::string(term.name), words,
+                       fmt::format("{}", figure.equations[t++])});
+    }
+  }
+  return lines;
+}
+
+constexpr std::string_view kMisprints =
+    "Repaired misprints: equation 9 (printed a second “sit”, meant is “stand”); the distance is equation 1 (the text "
+    "says 7); “hands (RF, LF, RFK, LFK)” are RH, LH, RHE, LHE.";
+
+}  // namespace
+
+const std::vector<PaperAFigure>& PaperAFigures() {
+  using enum Feature;
+  static const std::vector<PaperAFigure> figures = {
+      {5, kRH, "arm raise", "degrees between upper arm and down", {2, 3, 4}, ""},
+      {6,
+       kRHE,
+       "elbow bent",
+       "degrees between upper arm and forearm",
+       {5, 6},
+       "The grades do not sum to 1: so printed."},
+      {7,
+       kPosture,
+       "lying to jumping",
+       "height of the body's centre, standing = 80",
+       {7, 8, 9, 10},
+       "Equation 9 is printed as a second “sit”; “stand” is meant."},
+      {8, kTrunk, "trunk bent", "180 degrees less the lean", {12, 11}, "The grades do not sum to 1: so printed."},
+      {9, kRF, "leg spread", "degrees between thigh and down", {13, 14}, ""},
+      {10, kRFK, "knee bent", "degrees inside the knee", {16, 15}, "The grades do not sum to 1: so printed."},
+  };
+  return figures;
+}
+
+double MeanRoundTripError(Feature feature, const Memberships& memberships, Defuzzification method) {
+  constexpr int kSteps = 120;
+  const Universe& universe = memberships.universes[static_cast<std::size_t>(feature)];
+  double sum = 0;
+  int count = 0;
+  for (int i = 0; i <= kSteps; ++i) {
+    PoseFeatures pose;
+    pose[feature] = universe.low + (universe.high - universe.low) * i / kSteps;
+    const auto back = DefuzzifyFeature(Fuzzify(pose, memberships), feature, memberships, method);
+    if (!back) continue;  // no grade at all says nothing to go back to
+    sum += std::abs(*back - pose[feature]);
+    ++count;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+std::string MembershipPlotSvg(Feature feature, const Memberships& memberships, const std::string& title) {
+  const MembershipPanel panel(memberships.universes[static_cast<std::size_t>(feature)]);
+  std::string svg = BeginPanel(kPanelHeight, title, kPanelWide, "panel") + panel.Grid();
+  std::vector<double> marks;
+  std::string curves, labels;
+  for (std::size_t t = 0; t < TermsOf(feature).size(); ++t) {
+    const Shape& shape = memberships.shapes[FirstTermOf(feature) + t];
+    std::ranges::copy(panel.Bends(shape), std::back_inserter(marks));
+    curves += panel.Curve(shape, t);
+    labels += panel.Label(shape, TermsOf(feature)[t].name);
+  }
+  return svg + panel.Numbers(marks) + curves + labels + "</svg>";
+}
+
+bool ShowsPaperA(const ScenarioSummary& scenario) {
+  if (scenario.task == "transition" && scenario.name == "paper-bridging") return true;
+  return std::ranges::any_of(scenario.conditions, [](const ConditionSummary& condition) {
+    return std::ranges::find(condition.condition, kFuzzyKey, &SweptValue::key) != condition.condition.end();
+  });
+}
+
+std::string PaperAHtml(const ScenarioSummary& scenario) {
+  if (!ShowsPaperA(scenario)) return "";
+  std::string html;
+  for (const FuzzySystem& system : ShownSystems(scenario)) {
+    const bool is_paper = html.empty();
+    html += fmt::format("<details{}><summary>{}</summary><p class=\"quiet legend\">{}</p><div class=\"memberships\">",
+                        is_paper ? " open" : "",
+                        is_paper ? "Paper A’s figures 5 to 10: how far a pose belongs to a term"
+                                 : fmt::format("The same features in the system {}", EscapeMarkup(system.name)),
+                        is_paper ? EscapeMarkup(std::string(kMisprints)) : "");
+    for (const PaperAFigure& figure : PaperAFigures()) html += FigureHtml(figure, system, is_paper);
+    html += "</div>" + RoundTripHtml(system) + "</details>";
+  }
+  return html;
+}
+
+std::string PaperAMarkdown(const ScenarioSummary& scenario) {
+  if (!ShowsPaperA(scenario)) return "";
+  std::string text = fmt::format(
+      "\n<details><summary>Paper A's figures 5 to 10: membership functions</summary>\n\n{}\n\n"
+      "| figure | feature | term | shape | equation |\n|---|---|---|---|---|\n",
+      EscapeMarkdown(std::string(kMisprints)));
+  for (const auto& line : PaperLines()) {
+    for (const std::string& cell : line) text += fmt::format("| {} ", EscapeMarkdown(cell));
+    text += "|\n";
+  }
+  return text + "\n</details>\n";
+}
+
+std::string PaperALatex(const ScenarioSummary& scenario) {
+  if (!ShowsPaperA(scenario)) return "";
+  std::string text = fmt::format(
+      "\n\\begin{{table}}[!htbp]\n\\centering\\small\n\\caption{{{}. {}}}\n\\begin{{tabular}}{{rlllr}}\n\\toprule\n"
+      "figure & feature & term & shape & equation \\\\\n\\midrule\n",
+      EscapeLatex("Membership functions of paper A's figures 5 to 10"), EscapeLatex(std::string(kMisprints)));
+  for (const auto& line : PaperLines()) {
+    std::string cells;
+    for (const std::string& cell : line) cells += (cells.empty() ? "" : " & ") + EscapeLatex(cell);
+    text += cells + " \\\\\n";
+  }
+  return text + "\\bottomrule\n\\end{tabular}\n\\end{table}\n";
+}
+
+}  // namespace etude

@@ -1,0 +1,150 @@
+#include "reports/words/answer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace etude {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Comparison Compared(const std::string& metric, const std::string& baseline, Verdict verdict) {
+  Comparison c;
+  c.metric = metric;
+  c.method = "adaptive";
+  c.baseline = baseline;
+  c.pairs = c.differing = 20;
+  c.difference = c.mean = verdict == Verdict::kBetter ? -1 : 1;
+  c.verdict = verdict;
+  c.beyond.verdict = verdict;
+  c.beyond.units = 20;
+  return c;
+}
+
+MethodSummary Method(const std::string& name, double error_deg, double iterations) {
+  MethodSummary method;
+  method.method = name;
+  for (const auto& [id, value] : {std::pair("orientation_error_deg", error_deg), std::pair("iterations", iterations)}) {
+    MetricSummary& summary = method.metrics.emplace_back();
+    summary.id = id;
+    summary.median = summary.mean = value;
+  }
+  return method;
+}
+
+/// Better than its baseline; as exact as gauss-newton, which takes 4 steps where it takes 560.
+ScenarioSummary Solvers() {
+  ScenarioSummary scenario;
+  scenario.methods = {"fixed", "adaptive", "gauss-newton"};
+  scenario.headline_metrics = {"orientation_error_deg", "iterations"};
+  ConditionSummary condition;
+  condition.methods = {Method("fixed", 8.8, 600), Method("adaptive", 0.06, 560), Method("gauss-newton", 0.05, 4)};
+  condition.comparisons = {Compared("orientation_error_deg", "fixed", Verdict::kBetter),
+                           Compared("iterations", "fixed", Verdict::kNoDifference)};
+  condition.rivals = {Compared("orientation_error_deg", "gauss-newton", Verdict::kNoDifference),
+                      Compared("iterations", "gauss-newton", Verdict::kWorse)};
+  scenario.conditions = {condition};
+  return scenario;
+}
+
+std::string HeadlineOfSolvers(const ScenarioSummary& scenario) {
+  return HeadlineOf(scenario, "adaptive", "orientation_error_deg");
+}
+
+TEST(Headline, AnswersAgainstTheBaselineAndAgainstTheBestOther) {
+  EXPECT_EQ(HeadlineOfSolvers(Solvers()),
+            "“adaptive”: better than “fixed”; no different from “gauss-newton” in the effector orientation error, but "
+            "needs 140 × the solver steps");
+}
+
+TEST(Headline, NamesTheRatioWhereTheRivalIsBetterByTheQuestionsMetric) {
+  ScenarioSummary scenario = Solvers();
+  scenario.conditions[0].rivals = {Compared("iterations", "gauss-newton", Verdict::kWorse)};
+  scenario.headline_metrics = {"iterations"};
+  EXPECT_EQ(
+      HeadlineOf(scenario, "adaptive", "iterations"),
+      "“adaptive”: no different from “fixed” in the solver steps; needs 140 × the solver steps of “gauss-newton”");
+}
+
+TEST(Headline, GivesTheRangeOfRatiosOverConditions) {
+  ScenarioSummary scenario = Solvers();
+  scenario.conditions.push_back(scenario.conditions.front());
+  scenario.conditions[1].methods[2] = Method("gauss-newton", 0.05, 8);
+  EXPECT_THAT(HeadlineOfSolvers(scenario), HasSubstr("needs 70.0 to 140 × the solver steps"));
+}
+
+TEST(Headline, SaysThatNothingIsDecided) {
+  ScenarioSummary scenario = Solvers();
+  scenario.conditions[0].rivals = {Compared("orientation_error_deg", "gauss-newton", Verdict::kInconclusive)};
+  const std::string headline = HeadlineOfSolvers(scenario);
+  EXPECT_THAT(headline, HasSubstr("; undecided against “gauss-newton”"));
+  EXPECT_THAT(headline, Not(HasSubstr("no different")));
+}
+
+TEST(Headline, SaysWhereItIsAboutTheseClipsOnly) {
+  ScenarioSummary scenario = Solvers();
+  scenario.unit = SamplingUnit::kClip;
+  EXPECT_THAT(HeadlineOfSolvers(scenario), Not(HasSubstr("on these clips")));
+  scenario.conditions[0].comparisons[0].beyond.verdict = std::nullopt;
+  EXPECT_THAT(HeadlineOfSolvers(scenario), ::testing::EndsWith(", on these clips"));
+}
+
+TEST(Headline, NamesBothRivalsWhereHalvesOfTheWorldsChoseDifferently) {
+  ScenarioSummary scenario = Solvers();
+  scenario.headline_metrics = {"iterations"};
+  scenario.conditions[0].methods[0] = Method("fixed", 8.8, 8);
+  scenario.conditions[0].rivals = {Compared("iterations", "fixed or gauss-newton", Verdict::kWorse)};
+  EXPECT_THAT(HeadlineOf(scenario, "adaptive", "iterations"),
+              HasSubstr("needs 70.0 to 140 × the solver steps of “fixed” or “gauss-newton”"));
+  // A method may be called so itself.
+  scenario.conditions[0].methods[2].method = "fixed or gauss-newton";
+  EXPECT_THAT(HeadlineOf(scenario, "adaptive", "iterations"), HasSubstr("needs 140 × the solver steps of “fixed or "));
+}
+
+TEST(Headline, SaysBetterTwiceInOneBreath) {
+  ScenarioSummary scenario = Solvers();
+  scenario.conditions[0].rivals = {Compared("orientation_error_deg", "gauss-newton", Verdict::kBetter)};
+  EXPECT_EQ(HeadlineOfSolvers(scenario),
+            "“adaptive”: better than “fixed”; better than the strongest other one too, “gauss-newton”");
+}
+
+TEST(Headline, NamesABaselineThatIsTheBestOtherOnce) {
+  ScenarioSummary scenario = Solvers();
+  scenario.conditions[0].rivals = {Compared("orientation_error_deg", "fixed", Verdict::kBetter)};
+  EXPECT_EQ(HeadlineOfSolvers(scenario), "“adaptive”: better than “fixed”, the strongest other method");
+}
+
+TEST(Headline, OfARunWithoutRivalsAnswersOnce) {
+  ScenarioSummary scenario = Solvers();
+  scenario.conditions[0].rivals.clear();
+  EXPECT_EQ(HeadlineOfSolvers(scenario), "“adaptive”: better than “fixed”");
+  scenario.conditions[0].comparisons.clear();
+  EXPECT_EQ(HeadlineOfSolvers(scenario), "");
+}
+
+TEST(CostRatio, IsOfCostsThatAreAtLeastTwiceAsLargeAndNotOfNothing) {
+  ScenarioSummary scenario = Solvers();
+  const auto ratio = [&] {
+    const auto found = CostRatioOf(JudgedOf(scenario, "adaptive", "iterations", Against::kRival));
+    return found ? found->least : 0;
+  };
+  EXPECT_DOUBLE_EQ(ratio(), 140);
+  auto& theirs = scenario.conditions[0].methods[2].metrics[1].median;
+  theirs = 280.0;
+  EXPECT_DOUBLE_EQ(ratio(), 2);
+  theirs = 281.0;
+  EXPECT_DOUBLE_EQ(ratio(), 0);
+  theirs = 1e-9;  // as good as zero: a ratio would be of rounding errors
+  EXPECT_DOUBLE_EQ(ratio(), 0);
+}
+
+TEST(CostRatio, IsNeverOfAShare) {
+  ScenarioSummary scenario = Solvers();
+  for (auto& method : scenario.conditions[0].methods) method.metrics[1].id = "false_smooth";
+  scenario.conditions[0].rivals[1].metric = "false_smooth";
+  EXPECT_FALSE(CostRatioOf(JudgedOf(scenario, "adaptive", "false_smooth", Against::kRival)).has_value());
+}
+
+}  // namespace
+}  // namespace etude
