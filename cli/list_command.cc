@@ -43,7 +43,8 @@ int ListClips() {
     fmt::print("  builtin:{:<14} {} moves at {:g} per minute, {:.0f} s\n", name, song->parts.size(), song->tempo_bpm,
                song->motion.DurationSeconds());
   }
-  fmt::print("Your own: BVH, glTF and DeepMimic files, 'dance.glb#Jump', patterns such as '~/mocap/*.bvh' (docs/clips.md).\n");
+  fmt::print(
+      "Your own: BVH, glTF and DeepMimic files, 'dance.glb#Jump', patterns such as '~/mocap/*.bvh' (docs/clips.md).\n");
   return kSuccess;
 }
 
@@ -52,8 +53,7 @@ int ListScenarios(const std::string& folder) {
   if (!files) return Complain(files.error());
   for (const std::string& file : *files) {
     SourceTexts texts;
-    if (auto read = ReadSources(file, texts); !read) return Complain(read.error());
-    const auto scenarios = ParseScenarios(file, texts);
+    const auto scenarios = ReadScenarios(file, texts);
     if (!scenarios) return Complain(scenarios.error());
     fmt::print("{}\n", file);
     for (const Scenario& scenario : *scenarios) {

@@ -31,17 +31,16 @@ metrics: [orientation_error_deg, position_error_cm, hidden_angle_error_deg, solv
 Result<Rehearsal> ReadRehearsal(const std::string& file, std::optional<int> trials) {
   Rehearsal rehearsal;
   rehearsal.setup.file = file.empty() ? kBuiltInName : file;
-  if (file.empty()) {
-    rehearsal.sources[kBuiltInName] = kBuiltInScenario;
-  } else if (auto read = ReadSources(file, rehearsal.sources); !read) {
-    return tl::unexpected(read.error());
-  }
-  ASSIGN_OR_RETURN(const auto scenarios, ParseScenarios(rehearsal.setup.file, rehearsal.sources));
-  const Scenario& scenario = scenarios.front();
+  if (file.empty()) rehearsal.sources[kBuiltInName] = kBuiltInScenario;
+  ASSIGN_OR_RETURN(auto scenarios, file.empty() ? ParseScenarios(kBuiltInName, rehearsal.sources)
+                                                : ReadScenarios(file, rehearsal.sources));
+  Scenario& scenario = scenarios.front();
   rehearsal.setup.name = scenario.name;
   rehearsal.setup.trials = trials.value_or(scenario.trials);
   rehearsal.setup.clips = scenario.clips;
   rehearsal.setup.libraries = scenario.libraries;
+  scenario.trials = rehearsal.setup.trials;
+  rehearsal.scenario = std::move(scenario);
   return rehearsal;
 }
 
@@ -50,8 +49,8 @@ Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed)
   setup.seed = seed;
   ASSIGN_OR_RETURN(
       const auto prepared,
-      Prepare(SuiteSetup{.suite = "", .seed = seed, .sources = rehearsal.sources, .scenarios = {}, .scored = {}},
-              setup));
+      Prepare(SuiteSetup{.suite = "", .seed = seed, .sources = rehearsal.sources, .scenarios = {}, .scored = {}}, setup,
+              rehearsal.scenario));
   const Scenario& scenario = prepared.scenario();
   FinishedRun run;
   run.data.suite = scenario.name;

@@ -13,6 +13,7 @@ namespace etude {
 struct Rehearsal {
   SourceTexts sources;
   ScenarioSetup setup;
+  Scenario scenario;
 };
 
 /// Reads the first scenario of a file; "" = a small one of task ik that is built in. `trials` replaces its own.

@@ -33,15 +33,12 @@ Result<std::vector<FinishedScenario>> LoadScenarios(const fs::path& path) {
   ASSIGN_OR_RETURN(const auto suite, DecodeSetup(manifest, place));
   RETURN_IF_ERROR(CheckMetricVersions(manifest, place));
   std::vector<FinishedScenario> finished;
+  ParsedSuite parsed(suite);
   for (std::size_t s = 0; s < suite.scenarios.size(); ++s) {
     const ScenarioSetup& setup = suite.scenarios[s];
-    ASSIGN_OR_RETURN(auto parsed, ParseScenarios(setup.file, suite.sources));
-    const auto named = std::ranges::find(parsed, setup.name, &Scenario::name);
-    if (named == parsed.end()) return Fail(place, "'{}' holds no scenario '{}'", setup.file, setup.name);
-    named->trials = setup.trials;
-    AddLibraries(setup.libraries, *named);
+    ASSIGN_OR_RETURN(auto scenario, parsed.Find(setup));
     if (suite.scored) {
-      RETURN_IF_ERROR(AddScoredMethod(*suite.scored, *named));
+      RETURN_IF_ERROR(AddScoredMethod(*suite.scored, scenario));
     }
     std::vector<std::string> clip_digests;
     try {
@@ -51,7 +48,7 @@ Result<std::vector<FinishedScenario>> LoadScenarios(const fs::path& path) {
     } catch (const Json::exception& error) {
       return Fail(place, "not a manifest: {}", error.what());
     }
-    finished.push_back(FinishScenario(*named, setup, clip_digests));
+    finished.push_back(FinishScenario(scenario, setup, clip_digests));
   }
   return finished;
 }

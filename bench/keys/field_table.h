@@ -15,6 +15,14 @@
 
 namespace etude {
 
+/// Access to a member within members: `Path(&Method::filter, &FilterOptions::kind)(method)` is `method.filter.kind`.
+template <typename... Members>
+constexpr auto Path(Members... members) {
+  // clang-format off
+  return [=](auto& options) -> auto& { return (options .* ... .* members); };
+  // clang-format on
+}
+
 /// Values by the names that files call them.
 template <typename Value>
 using NamedValues = std::vector<std::pair<std::string, Value>>;
@@ -41,8 +49,7 @@ std::vector<std::string> ReadNames(Fields& fields, const std::string& key, const
 std::span<const Node> ReadItems(Fields& fields, const std::string& key);
 
 /// One key of a mapping that is read into `Options`: declared once, for the reader, the page of keys and the schema. A
-/// `member` is a pointer to one, or a function that gives one ([](auto& o) -> auto& { return o.noise.position_cm; });
-/// what it holds in `Options{}` is the default.
+/// `member` is a pointer to one, or a Path to one further in; what it holds in `Options{}` is the default.
 template <typename Options>
 struct Field {
   KeyInfo info;

@@ -50,6 +50,12 @@ ValueKind TextKind(std::string allowed, const std::string& pattern) {
   return {std::move(allowed), schema.dump()};
 }
 
+ValueKind FileKind(std::string allowed, bool (*names_file)(std::string_view value)) {
+  ValueKind kind = TextKind(std::move(allowed));
+  kind.names_file = names_file != nullptr ? names_file : [](std::string_view) { return true; };
+  return kind;
+}
+
 ValueKind NameKind(std::span<const std::string> names) {
   return {Join(names), Json{{"enum", std::vector(names.begin(), names.end())}}.dump()};
 }

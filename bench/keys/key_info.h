@@ -16,11 +16,15 @@ struct KeyInfo;
 struct ValueKind {
   std::string allowed;  ///< "ccd, ccd-hinges", "0…180 (degrees)", "a list of texts"
   std::string schema;   ///< JSON
+  /// Tells whether a value that is not empty names a file, whose text the key's reader is given. Null: no value does.
+  bool (*names_file)(std::string_view value) = nullptr;
 };
 ValueKind NumberKind(Range range, bool is_whole = false);
 ValueKind FlagKind();
 /// A text; `pattern` is a regular expression, empty = any.
 ValueKind TextKind(std::string allowed, const std::string& pattern = "");
+/// A text that names a file; `names_file` tells names of something built in from files, null: there are none.
+ValueKind FileKind(std::string allowed, bool (*names_file)(std::string_view value) = nullptr);
 /// One of these texts.
 ValueKind NameKind(std::span<const std::string> names);
 /// How many values a list may have.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/files/files.h"
 #include "bench/scenario/judging.h"
 #include "bench/scenario/methods.h"
 #include "bench/scenario/sources.h"
@@ -99,22 +100,19 @@ const FieldTable<StreamSource>& ReadingFields() {
   NamedValues<std::optional<StreamFormat>> formats;
   for (const std::string& name : StreamFormatNames()) formats.emplace_back(name, FindStreamFormat(name));
   static const FieldTable<StreamSource> table{
-      {Key::Name(
-           "format", [](auto& s) -> auto& { return s.reading.format; }, formats, "Of the files.")
+      {Key::Name("format", Path(&StreamSource::reading, &StreamReading::format), formats, "Of the files.")
            .WhenAbsent("(told by content)"),
-       Key::Number(
-           "rate_hz", [](auto& s) -> auto& { return s.reading.rate_hz; }, {1, 1000}, "Of files without a clock.")
+       Key::Number("rate_hz", Path(&StreamSource::reading, &StreamReading::rate_hz), {1, 1000},
+                   "Of files without a clock.")
            .WhenAbsent("30"),
        {{"body", NumberKind(kBodies, true), "(the one seen longest)", "Which of several bodies, by first appearance."},
         [](Fields& fields, StreamSource& s) {
           if (const auto body = fields.OptionalWhole("body", kBodies)) s.reading.body = static_cast<int>(*body);
         }},
-       Key::Flag(
-           "levels", [](auto& s) -> auto& { return s.making.levels; },
-           "Whether up and the floor are estimated; else they are the file's."),
-       Key::Flag(
-           "reflects", [](auto& s) -> auto& { return s.making.reflects; },
-           "Whether X is negated: of recordings that are mirrored.")}};
+       Key::Flag("levels", Path(&StreamSource::making, &StreamOptions::levels),
+                 "Whether up and the floor are estimated; else they are the file's."),
+       Key::Flag("reflects", Path(&StreamSource::making, &StreamOptions::reflects),
+                 "Whether X is negated: of recordings that are mirrored.")}};
   return table;
 }
 
@@ -155,15 +153,14 @@ const FieldTable<Scenario>& ScenarioFields() {
        Key::Texts("clips", &Scenario::clips, "a list of `builtin:NAME`, `builtin:*`, BVH and glTF files, patterns",
                   "What worlds are made of; trials go through them in turn."),
        Key::Texts(
-           "streams", [](auto& s) -> auto& { return s.streams.files; },
+           "streams", Path(&Scenario::streams, &StreamSource::files),
            "a list of recordings of skeletons, patterns and folders (docs/streams.md)",
            "In place of `clips` and simulated people: the recorded ones, a trial each; `etude run --streams` names "
            "others."),
-       Key::Text(
-           "labels", [](auto& s) -> auto& { return s.streams.labels; }, "a file, or a folder of tag streams",
-           "Who did what when in `streams`, or in `clips`, whose people are then sensed and judged in place of "
-           "simulated "
-           "ones.")
+       Key::Text("labels", Path(&Scenario::streams, &StreamSource::labels), "a file, or a folder of tag streams",
+                 "Who did what when in `streams`, or in `clips`, whose people are then sensed and judged in place of "
+                 "simulated "
+                 "ones.")
            .WhenAbsent("(a recording is one performance, called by its name)"),
        {{"reading", MappingKind("a mapping", ReadingFields().Describe()), "{}", "How `streams` are read."},
         [](Fields& fields, Scenario& s) { ReadNested(fields, "reading", ReadingFields(), s.streams); }},
@@ -260,6 +257,16 @@ void AddLibraries(std::span<const NamedClips> libraries, Scenario& scenario) {
   }
 }
 
+std::vector<NamedFile> FilesNamedBy(const Condition& condition, const TaskKind& kind) {
+  std::vector<NamedFile> named;
+  for (const KeyInfo& key : kind.condition_keys) {
+    const Node* node = key.value.names_file == nullptr ? nullptr : condition.node.Find(key.key);
+    if (node == nullptr || node->kind != Node::Kind::kScalar || node->scalar.empty()) continue;
+    if (key.value.names_file(node->scalar)) named.push_back({key.key, node});
+  }
+  return named;
+}
+
 bool RecordingSelection::KeepsTrial(int trial) const {
   return std::find(trials.begin(), trials.end(), trial) != trials.end();
 }
@@ -288,15 +295,8 @@ Result<Scenario> ParseScenario(const Node& node, const std::string& file) {
   return scenario;
 }
 
-}  // namespace
-
-Result<std::vector<Scenario>> ParseScenarios(const std::string& file, const SourceTexts& texts) {
-  const auto from_texts = [&](const std::string& path, const Place& asked_at) -> Result<std::string> {
-    const auto text = texts.find(path);
-    if (text == texts.end()) return Fail(asked_at, "the text of '{}' is missing", path);
-    return text->second;
-  };
-  ASSIGN_OR_RETURN(const auto nodes, CollectScenarios(file, from_texts));
+Result<std::vector<Scenario>> ParseAll(const std::string& file, const TextOf& text_of) {
+  ASSIGN_OR_RETURN(const auto nodes, CollectScenarios(file, text_of));
   std::vector<Scenario> scenarios;
   std::size_t values = 0;
   for (const Node& node : nodes) {
@@ -312,6 +312,25 @@ Result<std::vector<Scenario>> ParseScenarios(const std::string& file, const Sour
     scenarios.push_back(std::move(scenario));
   }
   return scenarios;
+}
+
+}  // namespace
+
+Result<std::vector<Scenario>> ReadScenarios(const std::string& file, SourceTexts& texts) {
+  return ParseAll(file, [&](const std::string& path, const Place& asked_at) -> Result<std::string> {
+    auto text = ReadWholeFile(path);
+    if (text) return texts[path] = *std::move(text);
+    if (asked_at.line == 0) return text;
+    return Fail(asked_at, "{}", ToString(text.error()));
+  });
+}
+
+Result<std::vector<Scenario>> ParseScenarios(const std::string& file, const SourceTexts& texts) {
+  return ParseAll(file, [&](const std::string& path, const Place& asked_at) -> Result<std::string> {
+    const auto text = texts.find(path);
+    if (text == texts.end()) return Fail(asked_at, "the text of '{}' is missing", path);
+    return text->second;
+  });
 }
 
 }  // namespace etude

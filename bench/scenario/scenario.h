@@ -36,6 +36,14 @@ struct Condition {
   std::string library = {};  ///< whose clips its worlds are made of; "" = the scenario's
 };
 
+/// A value of a condition that names a file.
+struct NamedFile {
+  std::string key;
+  const Node* node = nullptr;  ///< its scalar is the file, within the condition
+};
+/// The values by which `condition` names files, in the order of the task's keys (ValueKind::names_file).
+std::vector<NamedFile> FilesNamedBy(const Condition& condition, const TaskKind& kind);
+
 /// Which cells keep their motions for videos.
 struct RecordingSelection {
   std::vector<std::string> methods;
@@ -99,8 +107,8 @@ void AddLibraries(std::span<const NamedClips> libraries, Scenario& scenario);
 /// The texts of scenario files and of all that they include, by path: what a manifest keeps of them.
 using SourceTexts = std::map<std::string, std::string>;
 
-/// Reads a scenario file and the files it includes into `texts`.
-Result<void> ReadSources(const std::string& file, SourceTexts& texts);
+/// The scenarios of a file on disk, as ParseScenarios; the texts that it and what it includes hold go into `texts`.
+Result<std::vector<Scenario>> ReadScenarios(const std::string& file, SourceTexts& texts);
 
 /// All scenarios of one file, in order. Everything is checked here but the values of the tasks' own keys, which the
 /// tasks read (`bench/run`). A key that is not documented (bench/scenario/keys.h) is refused.

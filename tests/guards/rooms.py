@@ -90,7 +90,7 @@ MAY_INCLUDE = {
         "sim/camera sim/character sim/choreography sim/random sim/render sim/stage bench/clips "
         "bench/tasks/coach bench/tasks/ik bench/tasks/tracking",
     "bench/model": "engine/base engine/motion bench/files",
-    "bench/outside": "engine/base engine/document bench/files bench/model bench/process bench/tasks bench/tasks/base",
+    "bench/outside": "engine/base engine/document bench/clips bench/files bench/model bench/process bench/tasks bench/tasks/base",
     "bench/process": "engine/base",
     "bench/recordings": "engine/base engine/cameras engine/motion",
     "bench/replay": "engine/base sim/random bench/clips bench/files bench/model bench/results bench/run",
@@ -112,7 +112,7 @@ MAY_INCLUDE = {
         "bench/tasks/pose_distance bench/tasks/search bench/tasks/tracking bench/tasks/transition",
     "bench/tasks/base":
         "engine/base engine/document engine/fuzzy engine/kinematics engine/kinematics/solvers engine/motion "
-        "sim/random bench/clips bench/files bench/keys bench/model",
+        "sim/random bench/files bench/keys bench/model",
     "bench/tasks/capture":
         "engine/base engine/boards engine/cameras engine/capture engine/formats engine/keypoints engine/kinematics engine/motion "
         "engine/silhouettes engine/vision sim/annotator sim/body sim/camera sim/character sim/depth_camera sim/random sim/render sim/rig "

@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/clips/clip_library.h"
 #include "bench/files/json.h"
 #include "bench/keys/key_info.h"
 #include "bench/model/cell_result.h"
@@ -16,7 +15,6 @@
 #include "bench/model/sensor_sheet.h"
 #include "bench/model/unit.h"
 #include "engine/document/fields.h"
-#include "engine/fuzzy/fuzzy_system.h"
 #include "sim/random/stream.h"
 
 namespace etude {
@@ -86,6 +84,7 @@ class Task {
   virtual std::optional<double> ValueOfFailure(std::string_view /*metric*/) const { return std::nullopt; }
 };
 
+struct ClipLibrary;
 struct LabelledStreams;
 
 /// What a scenario gives a task to make itself from.
@@ -93,8 +92,7 @@ struct TaskInput {
   Fields& condition;              ///< the scenario's mapping, swept keys replaced; the task reads its own keys
   std::span<const Node> methods;  ///< each a mapping with at least `name`
   const ClipLibrary& clips;
-  FuzzySystem fuzzy = {};  ///< what the condition's key `fuzzy` names, paper A's when it has none (fuzzy_key.h)
-  /// Of the other files that its keys name, by key (sensor_key.h, rig_key.h, moves_key.h).
+  /// The texts of the files that the condition names, by key (ValueKind::names_file).
   std::map<std::string, std::string> texts = {};
   /// In place of simulated people, where the scenario has `streams` or `labels` (bench/streams); outlives the task.
   const LabelledStreams* recordings = nullptr;

@@ -4,8 +4,7 @@ namespace etude {
 namespace {
 
 Field<StudioOptions> Effect(const std::string& key, double CameraEffects::*effect, Range range, std::string meaning) {
-  const auto member = [effect](auto& options) -> auto& { return options.camera.*effect; };
-  return Field<StudioOptions>::Number(key, member, range, std::move(meaning));
+  return Field<StudioOptions>::Number(key, Path(&StudioOptions::camera, effect), range, std::move(meaning));
 }
 
 }  // namespace

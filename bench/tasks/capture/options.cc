@@ -1,20 +1,10 @@
 #include "bench/tasks/capture/options.h"
 
-#include "bench/tasks/base/rig_key.h"
 #include "bench/tasks/capture/camera_fields.h"
+#include "bench/tasks/capture/own_cameras.h"
 
 namespace etude {
 namespace {
-
-template <bool Oracle::*kStage>
-bool& OracleOf(CaptureMethod& method) {
-  return method.oracle.*kStage;
-}
-
-template <auto kMember>
-auto& InRig(StudioOptions& options) {
-  return options.rig.*kMember;
-}
 
 void CheckStudio(Fields& fields, StudioOptions& options) {
   const RigOptions& rig = options.rig;
@@ -31,7 +21,7 @@ FieldTable<StudioOptions> MakeConditionFields() {
   FieldTable<Options> made{
       {Key::Number("duration_s", &Options::duration_s, {0.1, 60}, "Length of the filmed window."),
        Key::Name(
-           "rig", InRig<&RigOptions::shape>,
+           "rig", Path(&Options::rig, &RigOptions::shape),
            {{"angles", RigShape::kAngles},
             {"stereo", RigShape::kStereo},
             {"ring", RigShape::kRing},
@@ -39,22 +29,25 @@ FieldTable<StudioOptions> MakeConditionFields() {
             {"file", RigShape::kFile}},
            "How the cameras stand about the performer: at given angles, side by side in front, evenly around, in four "
            "corners, or as your own were calibrated."),
-       Key{{kRigFileKey, TextKind("a calibration file"), "(none)",
+       Key{{kRigFileKey, FileKind("a calibration file"), "(none)",
             "Your own cameras, two to eight: what `etude calibrate` writes, OpenCV's YAML, Pose2Sim's or Anipose's "
             "TOML, "
             "Qualisys' XML. The rig is moved as a whole to where the performer is."},
            [](Fields& condition, Options&) { condition.Raw(kRigFileKey); }}
            .With("rig", {"file"}),
-       Key::Numbers("camera_angles_deg", InRig<&RigOptions::angles_deg>, {2, kMostCameras}, "two to eight of -180…180",
-                    {-180, 180}, "Where they stand: 0 = in front, positive = to the performer's left.")
+       Key::Numbers("camera_angles_deg", Path(&Options::rig, &RigOptions::angles_deg), {2, kMostCameras},
+                    "two to eight of -180…180", {-180, 180},
+                    "Where they stand: 0 = in front, positive = to the performer's left.")
            .With("rig", {"angles"}),
-       Key::Number("camera_baseline_m", InRig<&RigOptions::baseline_m>, {0.05, 3}, "From one to the other.")
+       Key::Number("camera_baseline_m", Path(&Options::rig, &RigOptions::baseline_m), {0.05, 3},
+                   "From one to the other.")
            .With("rig", {"stereo"}),
-       Key::Number("cameras", InRig<&RigOptions::cameras>, {2, kMostCameras}, "How many stand around.")
+       Key::Number("cameras", Path(&Options::rig, &RigOptions::cameras), {2, kMostCameras}, "How many stand around.")
            .With("rig", {"ring"}),
-       Key::Numbers("camera_heights_m", InRig<&RigOptions::heights_m>, {1, kMostCameras}, "one to eight of 0.2…5",
-                    {0.2, 5}, "How high they stand: one for each angle; in other rigs the cameras take them in turn."),
-       Key::Number("camera_distance_m", InRig<&RigOptions::distance_m>, {2, 10},
+       Key::Numbers("camera_heights_m", Path(&Options::rig, &RigOptions::heights_m), {1, kMostCameras},
+                    "one to eight of 0.2…5", {0.2, 5},
+                    "How high they stand: one for each angle; in other rigs the cameras take them in turn."),
+       Key::Number("camera_distance_m", Path(&Options::rig, &RigOptions::distance_m), {2, 10},
                    "From the middle of where the performer moves, as far as the room allows."),
        Key::Name(
            "figure", &Options::figure, {{"staged", PerformerFigure::kStaged}, {"own", PerformerFigure::kOwn}},
@@ -200,14 +193,14 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
          ToleranceField(&Method::ik, "How far an angle may leave the one seen in the images.").With("recovery", {"ik"}),
          SweepsField(&Method::ik, "The solver's steps per frame, at most.").With("recovery", {"ik"}),
          Key::Flags("oracle",
-                    {{"calibration", OracleOf<&Oracle::calibration>},
-                     {"segmentation", OracleOf<&Oracle::segmentation>},
-                     {"marks", OracleOf<&Oracle::marks>},
-                     {"directions", OracleOf<&Oracle::directions>},
-                     {"points", OracleOf<&Oracle::points>},
-                     {"lengths", OracleOf<&Oracle::lengths>},
-                     {"start", OracleOf<&Oracle::start>},
-                     {"ik", OracleOf<&Oracle::ik>}},
+                    {{"calibration", Path(&Method::oracle, &Oracle::calibration)},
+                     {"segmentation", Path(&Method::oracle, &Oracle::segmentation)},
+                     {"marks", Path(&Method::oracle, &Oracle::marks)},
+                     {"directions", Path(&Method::oracle, &Oracle::directions)},
+                     {"points", Path(&Method::oracle, &Oracle::points)},
+                     {"lengths", Path(&Method::oracle, &Oracle::lengths)},
+                     {"start", Path(&Method::oracle, &Oracle::start)},
+                     {"ik", Path(&Method::oracle, &Oracle::ik)}},
                     "Stages replaced by the truth.")},
         CheckMethod};
     std::vector<Key> solver = IkSolverFields(&Method::solver, &Method::ik);

@@ -1,6 +1,5 @@
 #include "bench/tasks/capture/own_cameras.h"
 
-#include "bench/tasks/base/rig_key.h"
 #include "engine/cameras/rig_file.h"
 
 namespace etude {

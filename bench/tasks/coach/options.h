@@ -31,7 +31,6 @@ struct CoachCondition {
   double session_s = 180;
   LearnerOptions learner;
   std::optional<CoachOperatingPoint> operating_point;  ///< sets the thresholds of methods that say none
-  int test_after = 20;  ///< so many performances' time after the session what was kept is tested
   MusicClockOptions music;
   DetectionOptions sight;  ///< who is there and how they are seen: its session's script is not read
 };

@@ -22,8 +22,7 @@ CoachWorld MakeCoachWorld(const CoachCondition& condition, const WorldKey& key) 
                    .occluders = {},
                    .music = condition.music,
                    .frames = static_cast<int>(std::lround(condition.session_s * kJudgedRateHz)),
-                   .learner = condition.learner,
-                   .test_after = condition.test_after};
+                   .learner = condition.learner};
   if (sight.has_cameras) world.cameras = sight.cameras.studio;
   world.errors.strength = sight.noise;
   world.occluders = MakeOccluders(sight.occluder, place, static_cast<std::size_t>(world.frames));

@@ -23,7 +23,7 @@ struct CoachWorld {
   MusicClockOptions music;
   int frames = 0;  ///< of the session
   LearnerOptions learner;
-  int test_after = 0;  ///< performances
+  int test_after = 20;  ///< this many performances' time after the session, what was kept is tested
 };
 
 /// `key`'s scenario must outlive the world.

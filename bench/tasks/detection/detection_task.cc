@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/tasks/base/moves_key.h"
 #include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/detection/exchange.h"
 #include "bench/tasks/detection/operating_point.h"

@@ -20,6 +20,9 @@
 
 namespace etude {
 
+/// The key of a condition that names a file of taught moves (`etude teach`).
+constexpr const char* kMovesKey = "moves";
+
 /// What stands between sensor and performer (`MakeOccluders`).
 enum class OccluderKind { kNone, kTable, kChair, kPerson };
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <map>
 
-#include "bench/tasks/base/moves_key.h"
 #include "bench/tasks/detection/exchange.h"
 #include "bench/tasks/detection/recorded.h"
 #include "bench/tasks/detection/session_world.h"

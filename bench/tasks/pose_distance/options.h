@@ -16,7 +16,7 @@ const FieldTable<PairOptions>& PoseDistanceConditionFields();
 /// Of methods such as
 ///
 ///     - {name: fuzzy, distance: fuzzy, weights: adaptive, threshold: 0.4}
-///     - {name: joints, distance: joint-positions, threshold_cm: 8}
+///     - {name: joints, distance: joint-positions}
 const FieldTable<PoseDistanceMethod>& PoseDistanceMethodFields();
 
 }  // namespace etude

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/tasks/base/fuzzy_key.h"
 #include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/pose_distance/blind_spots.h"
 #include "bench/tasks/pose_distance/exchange.h"
@@ -80,9 +81,10 @@ Result<std::unique_ptr<Task>> MakePoseDistanceTask(TaskInput& input) {
                 "'pairs: frames' of task pose-distance needs 'clips', two different ones at least, such as "
                 "['builtin:*']");
   }
+  ASSIGN_OR_RETURN(const auto fuzzy, FuzzySystemOf(input));
   ASSIGN_OR_RETURN(auto training, GatherTrainingClips(clips.motions, clips.identities, clips.proportions));
-  return std::make_unique<PoseDistanceTask>(PairStudy{options, std::move(methods), std::move(clips), input.fuzzy,
-                                                      LearntWeights(std::move(training), input.fuzzy)});
+  return std::make_unique<PoseDistanceTask>(
+      PairStudy{options, std::move(methods), std::move(clips), fuzzy, LearntWeights(std::move(training), fuzzy)});
 }
 
 }  // namespace

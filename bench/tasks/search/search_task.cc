@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "bench/tasks/base/fuzzy_key.h"
 #include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/search/exchange.h"
 #include "bench/tasks/search/options.h"
@@ -100,7 +101,8 @@ Result<void> CheckClips(const ClipLibrary& clips, const Place& place) {
 }
 
 Result<std::unique_ptr<Task>> MakeSearchTask(TaskInput& input) {
-  SearchStudy study{.options = {}, .methods = {}, .fuzzy = input.fuzzy};
+  ASSIGN_OR_RETURN(auto fuzzy, FuzzySystemOf(input));
+  SearchStudy study{.options = {}, .methods = {}, .fuzzy = std::move(fuzzy)};
   SearchConditionFields().Read(input.condition, study.options);
   SearchMethod start;
   start.question = study.options.question;

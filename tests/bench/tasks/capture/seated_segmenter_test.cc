@@ -9,6 +9,7 @@
 #include <optional>
 #include <sstream>
 
+#include "bench/clips/clip_library.h"
 #include "bench/tasks/capture/capture_task.h"
 #include "engine/document/node.h"
 #include "engine/vision/change_detection.h"

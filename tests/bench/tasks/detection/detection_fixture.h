@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/clips/clip_library.h"
 #include "bench/tasks/detection/detection_task.h"
 #include "tests/bench/tasks/base/cell_values.h"
 #include "tests/support/run_world.h"

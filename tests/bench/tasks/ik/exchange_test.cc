@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bench/clips/clip_library.h"
 #include "bench/tasks/ik/ik_task.h"
 #include "bench/tasks/ik/run.h"
 #include "bench/tasks/ik/score.h"

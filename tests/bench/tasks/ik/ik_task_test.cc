@@ -1,3 +1,4 @@
+#include "bench/clips/clip_library.h"
 #include "bench/tasks/ik/ik_task.h"
 
 #include <gmock/gmock.h>

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "bench/clips/clip_library.h"
 #include "bench/tasks/search/search_task.h"
 #include "engine/document/node.h"
 
