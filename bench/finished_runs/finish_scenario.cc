@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/scenario/study_of.h"
+#include "bench/scenario/scenario.h"
 #include "engine/base/digest.h"
 
 namespace etude {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +13,7 @@
 
 #include "bench/keys/key_info.h"
 #include "engine/base/angles.h"
+#include "engine/base/settings.h"
 #include "engine/document/fields.h"
 
 namespace etude {
@@ -268,6 +271,61 @@ std::vector<Value> ReadListed(Fields& fields, const std::string& key, const std:
     }
   }
   return values;
+}
+
+enum class Keep { kThese, kOthers };
+
+/// Those fields of another table, or all but those, read into a part of `Options`: a key that two tasks have is told
+/// once. `part` is a member, or a function that gives one.
+template <typename Options, typename Part, typename Member>
+std::vector<Field<Options>> FieldsOf(const FieldTable<Part>& table, Member part, Keep keep,
+                                     const std::vector<std::string>& keys) {
+  std::vector<Field<Options>> fields;
+  for (const Field<Part>& field : table.fields) {
+    const bool named = std::ranges::find(keys, field.info.key) != keys.end();
+    if (named != (keep == Keep::kThese)) continue;
+    fields.push_back({field.info, [field, part](Fields& mapping, Options& options) {
+                        field.read(mapping, std::invoke(part, options));
+                      }});
+  }
+  return fields;
+}
+
+template <typename Options>
+void Append(std::vector<Field<Options>> more, std::vector<Field<Options>>& fields) {
+  std::ranges::move(more, std::back_inserter(fields));
+}
+
+/// What the methods of a registry (solvers, choices, joins) can be set by, as fields that go with the key `chooser`. A
+/// row of the registry has a `name` and `settings`; the values are read into a vector of doubles, which `member` gives:
+/// all settings of the method that was chosen, in its order, as soon as one is written. Two methods may have settings
+/// of one name.
+template <typename Options, typename Registry, typename Member>
+std::vector<Field<Options>> SettingFields(const std::string& chooser, const Registry& registry, Member member) {
+  std::vector<Field<Options>> fields;
+  for (const auto& method : registry) {
+    const std::vector<NumberSetting>& settings = method.settings;
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+      const NumberSetting& setting = settings[i];
+      const Range range{setting.lowest, setting.largest};
+      fields.push_back({{setting.key,
+                         NumberKind(range, setting.is_whole),
+                         NumberText(setting.fallback),
+                         setting.meaning,
+                         {chooser, {method.name}}},
+                        [=](Fields& mapping, Options& options) {
+                          const auto written = setting.is_whole ? mapping.OptionalWhole(setting.key, range)
+                                                                : mapping.OptionalNumber(setting.key, range);
+                          if (!written) return;
+                          std::vector<double>& values = std::invoke(member, options);
+                          if (values.empty()) {
+                            for (const NumberSetting& each : settings) values.push_back(each.fallback);
+                          }
+                          values[i] = *written;
+                        }});
+    }
+  }
+  return fields;
 }
 
 }  // namespace etude

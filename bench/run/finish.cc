@@ -7,7 +7,7 @@
 #include "bench/results/folder.h"
 #include "bench/results/seal.h"
 #include "bench/run/sum_up.h"
-#include "bench/scenario/study_of.h"
+#include "bench/scenario/scenario.h"
 
 namespace etude {
 

@@ -4,7 +4,6 @@
 
 #include "bench/scenario/judging.h"
 #include "bench/scenario/methods.h"
-#include "bench/scenario/ranges.h"
 #include "bench/scenario/scenario.h"
 #include "bench/scenario/sources.h"
 #include "bench/scenario/sweep.h"

@@ -121,4 +121,7 @@ const FieldTable<StreamSource>& ReadingFields();
 /// Names methods of `scenario`, which must outlive it.
 FieldTable<RecordingSelection> VideoFields(const Scenario& scenario);
 
+/// What judging a scenario's rows takes of it.
+Study StudyOf(const Scenario& scenario);
+
 }  // namespace etude

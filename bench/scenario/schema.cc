@@ -5,7 +5,6 @@
 #include "bench/scenario/judging.h"
 #include "bench/scenario/keys.h"
 #include "bench/scenario/methods.h"
-#include "bench/scenario/ranges.h"
 #include "bench/scenario/scenario.h"
 #include "bench/scenario/sources.h"
 #include "bench/scenario/sweep.h"

@@ -107,9 +107,7 @@ MAY_INCLUDE = {
     "bench/statistics": "engine/base sim/random bench/metrics bench/model",
     "bench/streams":
         "engine/base engine/recognition engine/streams engine/teaching bench/clips bench/files bench/metrics",
-    "bench/tasks":
-        "engine/base bench/tasks/base bench/tasks/capture bench/tasks/coach bench/tasks/detection bench/tasks/ik "
-        "bench/tasks/pose_distance bench/tasks/search bench/tasks/tracking bench/tasks/transition",
+    "bench/tasks": "engine/base bench/tasks/base",
     "bench/tasks/base":
         "engine/base engine/document engine/fuzzy engine/kinematics engine/kinematics/solvers engine/motion "
         "sim/random bench/files bench/keys bench/model",

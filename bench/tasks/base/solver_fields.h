@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "bench/keys/setting_fields.h"
+#include "bench/keys/field_table.h"
 #include "engine/kinematics/solvers/ik_solver.h"
 
 namespace etude {

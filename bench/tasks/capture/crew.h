@@ -6,7 +6,6 @@
 
 #include "bench/tasks/capture/marking.h"
 #include "bench/tasks/capture/options.h"
-#include "bench/tasks/capture/person_source.h"
 #include "bench/tasks/capture/shooting.h"
 #include "bench/tasks/capture/world.h"
 #include "engine/vision/person_finder.h"

@@ -4,7 +4,7 @@
 
 #include "bench/recordings/capture_extras.h"
 #include "bench/tasks/capture/nearest_poses.h"
-#include "bench/tasks/capture/recovery.h"
+#include "bench/tasks/capture/run.h"
 #include "engine/capture/agreeing_marks.h"
 #include "engine/capture/calibrate_cameras.h"
 

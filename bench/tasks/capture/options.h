@@ -1,15 +1,22 @@
 #pragma once
 
+#include <compare>
 #include <string>
 #include <vector>
 
+#include "bench/keys/field_table.h"
 #include "bench/tasks/base/solver_fields.h"
+#include "bench/tasks/base/task.h"
+#include "engine/base/result.h"
 #include "engine/cameras/dlt.h"
 #include "engine/vision/change_detection.h"
 #include "sim/camera/camera_effects.h"
 #include "sim/rig/rig.h"
 
 namespace etude {
+
+/// The keys of what the cameras do to the light: one per effect of CameraEffects, in their order.
+std::vector<Field<StudioOptions>> CameraFields();
 
 enum class Clothes {
   kStudio,    ///< "studio": colours that stand apart from the room's, as one would dress for it
@@ -173,5 +180,29 @@ const FieldTable<CaptureMethod>& SeatedCaptureMethodFields();
 
 /// Refuses a method, written at `place`, that reads colours which nobody wears in this studio.
 Result<void> CheckMarks(const StudioOptions& options, const CaptureMethod& method, const Place& place);
+
+/// How the person was cut out of the pictures, by a segmenter or by the truth, and who marks what is left.
+struct PersonSource {
+  Segmenter segmenter = Segmenter::kHue;
+  PersonPieces pieces = PersonPieces::kLargest;
+  bool is_truth = false;
+  /// Cut out for methods that read silhouettes alone: masks are kept, and nobody marks the pictures.
+  bool for_silhouettes = false;
+  SeatedSegmenter* program = nullptr;  ///< cuts out in the segmenter's place
+  bool has_true_marks = false;      ///< drawn by someone who knows where the joints are, where the picture shows them
+  bool has_coloured_marks = false;  ///< nobody marks: the colours of the suit tell limbs apart
+  auto operator<=>(const PersonSource&) const = default;
+};
+
+/// How the method cuts out the person.
+PersonSource PersonSourceOf(const CaptureMethod& method);
+/// Each source once: methods that cut out alike see the same marks.
+void AddSource(const PersonSource& source, std::vector<PersonSource>& sources);
+
+/// The key of a condition that names a file of somebody's own cameras (`ReadRig`).
+constexpr const char* kRigFileKey = "rig_file";
+
+/// With `rig: file` the cameras of the calibration file that the condition names are `options.rig.own`.
+Result<void> OpenOwnCameras(const TaskInput& input, StudioOptions& options);
 
 }  // namespace etude

@@ -1,5 +1,3 @@
-#include "bench/tasks/coach/coach_task.h"
-
 #include <cstdint>
 #include <map>
 #include <string>
@@ -7,13 +5,12 @@
 #include <vector>
 
 #include "bench/tasks/base/read_methods.h"
+#include "bench/tasks/base/task_kinds.h"
 #include "bench/tasks/coach/exchange.h"
 #include "bench/tasks/coach/operating_point.h"
 #include "bench/tasks/coach/options.h"
 #include "bench/tasks/coach/recording.h"
 #include "bench/tasks/coach/run.h"
-#include "bench/tasks/coach/score.h"
-#include "bench/tasks/coach/stage.h"
 #include "bench/tasks/coach/world.h"
 
 namespace etude {

@@ -1,7 +1,6 @@
 #include "bench/tasks/coach/options.h"
 
-#include "bench/keys/part_fields.h"
-#include "bench/keys/setting_fields.h"
+#include "bench/keys/field_table.h"
 #include "sim/choreography/song.h"
 
 namespace etude {

@@ -2,12 +2,15 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "bench/model/cell_result.h"
 #include "bench/tasks/base/task.h"
 #include "bench/tasks/coach/options.h"
 #include "bench/tasks/coach/session.h"
-#include "bench/tasks/coach/stage.h"
 #include "bench/tasks/coach/world.h"
 
 namespace etude {
@@ -29,5 +32,10 @@ Result<std::vector<ReadyCoach>> MakeReady(std::vector<CoachMethod> methods, cons
 /// Fails when it answers in the wrong shape.
 Result<SessionLog> RunMethod(const ReadyCoach& ready, const CoachCondition& condition, const CoachStage& stage,
                              const CoachWorld& world, LiveProgram* program);
+
+/// Every metric of a session, or why it has no value; digests of what was danced, sensed, decided and shown; and
+/// curves.
+void ScoreCoaching(const CoachWorld& world, const CoachStage& stage, const SessionLog& log, CellResult& result);
+std::vector<std::string> CoachMetrics();
 
 }  // namespace etude

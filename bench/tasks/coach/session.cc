@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "bench/tasks/sensing/camera_sensor.h"
+#include "bench/tasks/sensing/camera_stream.h"
 #include "engine/coaching/session.h"
 #include "sim/music/music_clock.h"
 

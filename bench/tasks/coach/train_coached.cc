@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "bench/tasks/coach/followed_session.h"
 #include "bench/tasks/coach/learner_player.h"
+#include "bench/tasks/coach/operating_point.h"
 #include "bench/tasks/coach/run.h"
 #include "engine/recognition/measuring_recogniser.h"
 

@@ -1,7 +1,6 @@
 #include "bench/tasks/detection/options.h"
 
-#include "bench/keys/part_fields.h"
-#include "bench/keys/setting_fields.h"
+#include "bench/keys/field_table.h"
 #include "sim/skeleton_sensor/sensor_file.h"
 
 namespace etude {

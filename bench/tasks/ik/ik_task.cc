@@ -1,9 +1,7 @@
-#include "bench/tasks/ik/ik_task.h"
-
+#include "bench/tasks/base/task_kinds.h"
 #include "bench/tasks/ik/exchange.h"
 #include "bench/tasks/ik/options.h"
 #include "bench/tasks/ik/run.h"
-#include "bench/tasks/ik/score.h"
 #include "bench/tasks/ik/world.h"
 #include "engine/kinematics/body_tree.h"
 

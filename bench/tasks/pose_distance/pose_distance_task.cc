@@ -1,13 +1,12 @@
-#include "bench/tasks/pose_distance/pose_distance_task.h"
-
 #include <fmt/format.h>
 
 #include "bench/tasks/base/fuzzy_key.h"
 #include "bench/tasks/base/read_methods.h"
-#include "bench/tasks/pose_distance/blind_spots.h"
+#include "bench/tasks/base/task_kinds.h"
 #include "bench/tasks/pose_distance/exchange.h"
 #include "bench/tasks/pose_distance/options.h"
-#include "bench/tasks/pose_distance/score.h"
+#include "bench/tasks/pose_distance/run.h"
+#include "bench/tasks/pose_distance/world.h"
 #include "bench/training/training_clips.h"
 
 namespace etude {

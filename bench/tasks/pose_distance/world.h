@@ -1,15 +1,28 @@
 #pragma once
 
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "bench/clips/clip_library.h"
 #include "engine/fuzzy/features.h"
 #include "engine/transitions/library/body_proportions.h"
+#include "sim/choreography/controls.h"
 #include "sim/random/stream.h"
 
 namespace etude {
+
+/// Two poses that anyone tells apart, and paper A's distance hardly does: its features know how far a limb is raised,
+/// not in which direction, and their membership functions are flat where nothing was thought to happen.
+struct BlindSpot {
+  std::string_view name;  ///< "arm forward or sideways"
+  Controls a, b;          ///< performed by the body of the built-in moves
+};
+
+/// Eight of them.
+std::span<const BlindSpot> BlindSpots();
 
 /// A pose and what the fuzzy side sees of it.
 struct SeenPose {

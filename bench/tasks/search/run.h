@@ -5,9 +5,12 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/metrics/search.h"
+#include "bench/tasks/base/task.h"
 #include "bench/tasks/search/options.h"
 #include "bench/tasks/search/world.h"
 
@@ -39,5 +42,16 @@ SearchAnswer FindByBruteForce(const SearchProblem& problem, std::span<const Grad
 std::map<SearchQuestion, std::vector<FoundFrames>> FindPlainly(const SearchProblem& problem,
                                                                std::span<const Grades> queries,
                                                                const std::set<SearchQuestion>& questions);
+
+/// Measures an answer, whoever gave it: `ok` when every query is answered right, else `unsolved` with how many are not
+/// and the first of them. Series along the queries: how many frames were found and, where it is told, looked at.
+CellResult ScoreSearch(const SearchLibrary& library, std::span<const Grades> queries, const SearchAnswer& answer,
+                       const std::vector<FoundFrames>& truth);
+
+/// The ids of all metrics that a cell reports, a value or a reason for each.
+std::vector<std::string> SearchMetrics();
+
+/// What a cell without an answer is credited with: no right answer.
+std::optional<double> SearchFailureValue(std::string_view metric);
 
 }  // namespace etude

@@ -1,14 +1,12 @@
-#include "bench/tasks/search/search_task.h"
-
 #include <map>
 #include <set>
 
 #include "bench/tasks/base/fuzzy_key.h"
 #include "bench/tasks/base/read_methods.h"
+#include "bench/tasks/base/task_kinds.h"
 #include "bench/tasks/search/exchange.h"
 #include "bench/tasks/search/options.h"
 #include "bench/tasks/search/run.h"
-#include "bench/tasks/search/score.h"
 #include "bench/tasks/search/world.h"
 
 namespace etude {

@@ -1,6 +1,6 @@
 #include "bench/tasks/transition/options.h"
 
-#include "bench/keys/setting_fields.h"
+#include "bench/keys/field_table.h"
 #include "bench/tasks/base/fuzzy_key.h"
 
 namespace etude {

@@ -1,7 +1,6 @@
-#include "bench/tasks/transition/transition_task.h"
-
 #include "bench/tasks/base/fuzzy_key.h"
 #include "bench/tasks/base/read_methods.h"
+#include "bench/tasks/base/task_kinds.h"
 #include "bench/tasks/transition/exchange.h"
 #include "bench/tasks/transition/run.h"
 #include "bench/training/training_clips.h"

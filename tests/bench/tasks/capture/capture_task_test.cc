@@ -1,9 +1,8 @@
-#include "bench/tasks/capture/capture_task.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "bench/recordings/capture_extras.h"
+#include "bench/tasks/base/task_kinds.h"
 #include "bench/tasks/capture/score.h"
 #include "engine/cameras/pose2sim_file.h"
 #include "engine/document/node.h"

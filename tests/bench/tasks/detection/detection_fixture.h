@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/clips/clip_library.h"
-#include "bench/tasks/detection/detection_task.h"
+#include "bench/tasks/base/task_kinds.h"
 #include "tests/bench/tasks/base/cell_values.h"
 #include "tests/support/run_world.h"
 

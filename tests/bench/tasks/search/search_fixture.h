@@ -6,7 +6,7 @@
 #include <string>
 
 #include "bench/clips/clip_library.h"
-#include "bench/tasks/search/search_task.h"
+#include "bench/tasks/base/task_kinds.h"
 #include "engine/document/node.h"
 
 namespace etude {

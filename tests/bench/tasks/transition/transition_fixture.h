@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench/clips/clip_library.h"
-#include "bench/tasks/transition/transition_task.h"
+#include "bench/tasks/base/task_kinds.h"
 #include "engine/document/node.h"
 #include "sim/choreography/move.h"
 #include "tests/support/run_world.h"
