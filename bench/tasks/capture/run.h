@@ -12,6 +12,17 @@
 
 namespace etude {
 
+/// What every stage of a built-in method made of a world. References lead into the CaptureStages that it was run on.
+struct CaptureRun {
+  const CaptureMethod& method;
+  const CalibratedCameras& cameras;
+  const Take& take;
+  const Observation& observation;
+  const MeasuredTake& measured;
+  CaptureBody body;  ///< of `frames`
+  std::vector<std::optional<RecoveredFrame>> frames;
+};
+
 RecoverOptions RecoverOptionsOf(const CaptureMethod& method);
 
 /// Of a live method, whose frames are the marked ones alone: the same times as those of a take marked throughout.
@@ -24,17 +35,6 @@ Result<CaptureBody> BodyFor(CaptureStages& stages, const CaptureRun& run);
 /// Fills the run's frames as its method recovers and smooths them; bundle adjustment of paper B's body with measured
 /// lengths goes on measuring them.
 Result<void> Recover(CaptureStages& stages, CaptureRun& run);
-
-/// What every stage of a built-in method made of a world. References lead into the CaptureStages that it was run on.
-struct CaptureRun {
-  const CaptureMethod& method;
-  const CalibratedCameras& cameras;
-  const Take& take;
-  const Observation& observation;
-  const MeasuredTake& measured;
-  CaptureBody body;  ///< of `frames`
-  std::vector<std::optional<RecoveredFrame>> frames;
-};
 
 /// Runs one method in one world. Fails, saying why, when a camera cannot be calibrated, there is no renderer, or no
 /// body can be made or measured.
