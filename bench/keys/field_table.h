@@ -134,7 +134,7 @@ struct Field {
             }};
   }
 
-  /// Likewise; `find` gives the value of a name, or something that points to it.
+  /// One of several values by its name; `find` gives the value of a name, or something that points to it.
   template <typename Member, typename Find>
   static Field Name(const std::string& key, Member member, const std::vector<std::string>& names, Find find,
                     std::string meaning) {
@@ -172,13 +172,13 @@ struct Field {
     field.info.value.allowed += " (" + unit + ")";
     return field;
   }
-  /// What else is to be said of its values.
+  /// Adds a remark on the values that it may have.
   Field And(const std::string& words) const {
     Field field = *this;
     field.info.value.allowed += "; " + words;
     return field;
   }
-  /// What an absent key means, when that is no value: "(the scenario's)".
+  /// Says what an absent key means, when that is no value: "(the scenario's)".
   Field WhenAbsent(const std::string& words) const {
     Field field = *this;
     field.info.fallback = words;
@@ -216,7 +216,7 @@ struct FieldTable {
     RefuseMisplacedKeys(mapping, keys);
   }
 
-  /// Likewise, and checks what was read.
+  /// Reads the keys, then checks the values together.
   void Read(Fields& mapping, Options& options) const {
     ReadKeys(mapping, options);
     if (check && mapping.ok()) check(mapping, options);
@@ -275,8 +275,8 @@ std::vector<Value> ReadListed(Fields& fields, const std::string& key, const std:
 
 enum class Keep { kThese, kOthers };
 
-/// Those fields of another table, or all but those, read into a part of `Options`: a key that two tasks have is told
-/// once. `part` is a member, or a function that gives one.
+/// The fields of another table that `keys` name, or all others, read into a part of `Options`: a key that two tasks
+/// have is told once. `part` is a member, or a Path to one.
 template <typename Options, typename Part, typename Member>
 std::vector<Field<Options>> FieldsOf(const FieldTable<Part>& table, Member part, Keep keep,
                                      const std::vector<std::string>& keys) {
@@ -296,7 +296,7 @@ void Append(std::vector<Field<Options>> more, std::vector<Field<Options>>& field
   std::ranges::move(more, std::back_inserter(fields));
 }
 
-/// What the methods of a registry (solvers, choices, joins) can be set by, as fields that go with the key `chooser`. A
+/// The settings of a registry's methods (solvers, choices, joins), as fields that go with the key `chooser`. A
 /// row of the registry has a `name` and `settings`; the values are read into a vector of doubles, which `member` gives:
 /// all settings of the method that was chosen, in its order, as soon as one is written. Two methods may have settings
 /// of one name.

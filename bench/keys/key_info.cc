@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-/// What `mapping` says under `key`, or what the absent key means.
+/// The value of `key` in `mapping`, or what the absent key means.
 std::string ValueOf(const std::string& key, std::span<const KeyInfo> keys, const Node& mapping) {
   const Node* value = mapping.Find(key);
   if (value != nullptr) return value->scalar;

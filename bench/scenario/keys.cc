@@ -79,7 +79,7 @@ namespace {
 
 Json Ref(const std::string& definition) { return {{"$ref", "#/definitions/" + definition}}; }
 Json ListOf(Json item) { return {{"type", "array"}, {"items", std::move(item)}}; }
-/// Where `key` has this value.
+/// The condition that `key` has this value.
 Json Says(const std::string& key, const std::string& value) {
   return {{"properties", {{key, {{"const", value}}}}}, {"required", {key}}};
 }
@@ -131,7 +131,7 @@ Json MethodSchema(const TaskKind& kind) {
   return {{"if", std::move(asked_whole)}, {"then", Ref("outside-method")}, {"else", MappingSchema(keys)}};
 }
 
-/// What a scenario of this task says beside the keys of every scenario.
+/// The keys that a scenario of this task has beside those of every scenario.
 Json TaskSchema(const TaskKind& kind) {
   Json properties = Json::object();
   for (const KeyInfo& key : kind.condition_keys) properties[key.key] = KeySchema(key);
@@ -147,7 +147,7 @@ Json TaskSchema(const TaskKind& kind) {
           {"dependencies", ConditionSchemas(kind.condition_keys, false)}};
 }
 
-/// What every scenario may say, and, once its task is known, what that task has.
+/// The keys of every scenario and, once its task is known, those of the task.
 Json AnyScenarioSchema() {
   Json schema = MappingSchema(CommonScenarioKeys());
   schema.erase("required");              // defaults may say it

@@ -67,7 +67,7 @@ std::vector<NamedClips> ReadLibraries(Fields& fields, const TaskKind& kind) {
   return read;
 }
 
-/// What stands at `key`; none if that is nothing, as by default: `streams: []`.
+/// The value of `key`; null when it is absent or empty, as by default: `streams: []`.
 const Node* FindFilled(Fields& fields, const char* key) {
   const Node* node = fields.Raw(key);
   const bool is_empty =
@@ -75,7 +75,7 @@ const Node* FindFilled(Fields& fields, const char* key) {
   return is_empty ? nullptr : node;
 }
 
-/// What people did is read off recordings, or off clips that have labels.
+/// Checks that recordings and labels stand only where the task can read what people did from them.
 void CheckStreams(Fields& fields, const Scenario& scenario, const TaskKind& kind) {
   for (const char* key : {"streams", "labels", "reading"}) {
     const Node* named = FindFilled(fields, key);
@@ -345,7 +345,7 @@ std::vector<std::string> StagesOf(const Node* oracle) {
   return stages;
 }
 
-/// Of a built-in method: what its entry says but for its name and its oracle.
+/// The settings of a built-in method: its entry without its name and its oracle.
 std::string SettingsOf(const MethodEntry& method) {
   if (!method.exec.empty()) return "";  // what a program is, nobody knows
   Node settings = method.node;

@@ -44,7 +44,7 @@ struct NamedFile {
 /// The values by which `condition` names files, in the order of the task's keys (ValueKind::names_file).
 std::vector<NamedFile> FilesNamedBy(const Condition& condition, const TaskKind& kind);
 
-/// Which cells keep their motions for videos.
+/// The cells that keep their motions for videos.
 struct RecordingSelection {
   std::vector<std::string> methods;
   std::vector<int> trials;
@@ -63,11 +63,11 @@ struct MethodEntry {
   std::optional<double> time_s;   ///< a method outside: its own limit per problem or step, instead of Limits::time_s
   std::string seat = {};          ///< a method outside: its seat in the task's loop; "" = it is asked once a world
 
-  /// Whether its task runs it, wholly or around its seat.
+  /// True when its task runs it, wholly or around its seat.
   bool RunsInTask() const { return exec.empty() || !seat.empty(); }
 };
 
-/// What one cell, or the building of one world, may take before it is ended.
+/// The time and memory that one cell, or the building of one world, may take before it is ended.
 struct Limits {
   double time_s = 300;
   double memory_mb = 4096;  ///< resident, of the worker and of the methods outside that it has started, each
@@ -121,7 +121,7 @@ const FieldTable<StreamSource>& ReadingFields();
 /// Names methods of `scenario`, which must outlive it.
 FieldTable<RecordingSelection> VideoFields(const Scenario& scenario);
 
-/// What judging a scenario's rows takes of it.
+/// The part of a scenario by which its rows are judged.
 Study StudyOf(const Scenario& scenario);
 
 }  // namespace etude

@@ -93,7 +93,7 @@ class Collector {
     return ParseYaml(text, file);
   }
 
-  /// What `include` and `defaults` of a file give to its scenarios.
+  /// The keys that `include` and `defaults` of a file give to its scenarios.
   Result<Entries> DefaultsOf(const Node& top, const std::string& file) {
     Entries found;
     if (const Node* list = top.Find("include")) {

@@ -16,7 +16,7 @@ namespace etude {
 /// 0.1 + 2 × 0.1 reads 0.3; all stand where the range stands. At least one, at most `most`.
 Result<std::vector<Node>> SweptValues(const Node::Entry& swept, std::size_t most);
 
-/// What a range says.
+/// The keys of a range of values.
 struct RangeWords {
   double from = 0, to = 0;
   std::optional<double> step;
@@ -26,7 +26,7 @@ struct RangeWords {
 /// The keys of a range of at most so many values.
 FieldTable<RangeWords> RangeFields(std::size_t most);
 
-/// How many values the mappings of a file's scenarios and of their conditions may hold: each is a copy.
+/// The number of values that the mappings of a file's scenarios and of their conditions may hold: each is a copy.
 constexpr std::size_t kMostValues = 300'000;
 constexpr std::size_t kMostConditions = 1000;
 

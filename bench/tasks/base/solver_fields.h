@@ -7,7 +7,7 @@
 
 namespace etude {
 
-/// What a method has that names none: gauss-newton.
+/// The solver of a method that names none: gauss-newton.
 const IkSolver* DefaultIkSolver();
 
 /// The defaults of a solver, but at most so many steps.

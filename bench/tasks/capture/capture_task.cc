@@ -14,7 +14,7 @@
 namespace etude {
 namespace {
 
-/// Everything that the worlds of one condition have in common.
+/// The data that all worlds of one condition share.
 struct CaptureStudy {
   StudioOptions options;
   std::vector<CaptureMethod> methods;

@@ -44,7 +44,7 @@ class PosedFrames {
   const PoseFitter fitter_;
 };
 
-/// What marks alone tell of each frame, none of them later ones; frames without marks show the last skeleton.
+/// Recovers each frame from the marks up to it alone; frames without marks show the last skeleton.
 void RecoverLive(const CaptureStages& stages, const NearestPoses* nearest, CaptureRun& run) {
   LiveRecovery live(run.body, RecoverOptionsOf(run.method), LiveBridgeOptions(stages.options()));
   for (std::size_t k = 0; k < run.measured.frames.size(); ++k) {

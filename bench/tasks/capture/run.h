@@ -12,7 +12,8 @@
 
 namespace etude {
 
-/// What every stage of a built-in method made of a world. References lead into the CaptureStages that it was run on.
+/// The results of every stage of a built-in method in a world. References lead into the CaptureStages that it was run
+/// on.
 struct CaptureRun {
   const CaptureMethod& method;
   const CalibratedCameras& cameras;
@@ -25,7 +26,8 @@ struct CaptureRun {
 
 RecoverOptions RecoverOptionsOf(const CaptureMethod& method);
 
-/// Of a live method, whose frames are the marked ones alone: the same times as those of a take marked throughout.
+/// The limits on gaps for a live method, whose frames are the marked ones alone: the same times as in a take that is
+/// marked throughout.
 BridgeOptions LiveBridgeOptions(const StudioOptions& options);
 
 /// The body that a method begins with: known, or of limb lengths that are measured from what it sees. Fails, saying

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kMetresPerMm = 0.001;
 
-/// How far a click is off, in deviations. Upwards is thrown first.
+/// The error of a click, in standard deviations. Upwards is thrown first.
 glm::dvec2 ThrowMiss(RandomStream& hand) {
   const double y = hand.Normal(), x = hand.Normal();
   return {x, y};
@@ -169,7 +169,7 @@ Result<CalibratedCameras> MakeCameras(const CaptureWorld& world, const Calibrati
   return cameras;
 }
 
-/// What a method with these oracles is told of the frames that the annotator marks.
+/// The truth that a method with these oracles is told of the frames that the annotator marks.
 std::vector<KnownMeasurement> Tell(const CaptureWorld& world, const Oracle& oracle, const std::vector<bool>& marked) {
   std::vector<KnownMeasurement> known(world.truth.size());
   for (std::size_t k = 0; k < known.size(); ++k) {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kOnlyLive = "a session answers back: it has no problem that could be told beforehand";
 
-/// Everything that the worlds of a condition share.
+/// The data that all worlds of one condition share.
 struct Rehearsal {
   CoachCondition condition;
   CoachStage stage;

@@ -27,9 +27,9 @@ struct ReadyCoach {
 /// `stage` must outlive what is made. Fails where a method's recogniser cannot be taught.
 Result<std::vector<ReadyCoach>> MakeReady(std::vector<CoachMethod> methods, const CoachStage& stage);
 
-/// What a method's coach and this world's learner come to. A yoked method first runs its partner's session, of another
-/// person drawn alike, and then corrects at the same frames. `program`: takes the method's seat; null = there is none.
-/// Fails when it answers in the wrong shape.
+/// Runs a session of a method's coach with this world's learner. A yoked method first runs its partner's session, of
+/// another person drawn alike, and then corrects at the same frames. `program`: takes the method's seat; null = there
+/// is none. Fails when it answers in the wrong shape.
 Result<SessionLog> RunMethod(const ReadyCoach& ready, const CoachCondition& condition, const CoachStage& stage,
                              const CoachWorld& world, LiveProgram* program);
 

@@ -39,7 +39,7 @@ CoachCondition ThrowCondition(const WorldKey& key) {
   return condition;
 }
 
-/// What was measured in each window, the nearest first and not more than can matter; grey ones left out.
+/// The measures of each window, the nearest first and not more than can matter; grey ones left out.
 void AddSession(const Lesson& lesson, const SessionLog& log, Weighting weighting, std::vector<LabelledBag>& bags) {
   constexpr std::size_t kMost = 12;
   const auto& names = MeasureNames();

@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-/// How fast the song has this move danced, beats of the move per minute.
+/// The tempo at which the song has this move danced, beats of the move per minute.
 double TempoOf(const Song& song, const std::string& move) {
   const auto part = std::ranges::find(song.parts, move, &SongPart::move);
   return part->half_time ? song.tempo_bpm / 2 : song.tempo_bpm;

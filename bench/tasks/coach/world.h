@@ -16,7 +16,7 @@
 
 namespace etude {
 
-/// What all worlds of a condition share: the song as a dance, and its moves.
+/// The data that all worlds of a condition share: the song as a dance, and its moves.
 struct CoachStage {
   std::vector<Move> moves;                   ///< of the dance, in its order, at the song's tempo
   std::vector<TaughtMove> taught;            ///< the same, as recognisers are taught them
@@ -27,11 +27,11 @@ struct CoachStage {
   const Dance& dance() const { return library->dance(); }
 };
 
-/// Of a built-in song.
+/// Sets the stage for a built-in song.
 Result<CoachStage> SetCoachStage(const std::string& song);
 
 /// One trial: who learns, and where the sensor stands. All else that is true of a session is thrown while it runs, by
-/// dice that are keyed by what happens (a move's how manieth performance) and by the frame, so that every coach meets
+/// dice that are keyed by what happens (the n-th performance of a move) and by the frame, so that every coach meets
 /// the same luck.
 struct CoachWorld {
   WorldKey key;

@@ -15,7 +15,7 @@ using MethodKey = Field<Method>;
 
 bool IsSensorFile(std::string_view reference) { return !FindSensorPreset(reference) && reference != kCameraSensor; }
 
-/// What the filters can be set by.
+/// The settings of the filters.
 std::vector<MethodKey> FilterFields() {
   const auto holt = [](const std::string& key, double HoltOptions::*member, Range range, const std::string& meaning) {
     const auto value = Path(&Method::filter, &FilterOptions::holt, member);

@@ -170,7 +170,7 @@ class RecordedTask final : public Task {
  private:
   const std::string& NameOf(std::size_t person) const { return set_.people[person].name; }
 
-  /// What is known when this person is judged.
+  /// The fold in which this person is judged: what all others taught.
   const Result<Fold>& FoldOf(std::size_t person) const {
     const std::size_t index = taught_ ? 0 : person;  // what was taught beforehand is the same for all
     const auto known = folds_.find(index);

@@ -14,7 +14,7 @@
 
 namespace etude {
 
-/// Everything that was recorded of one person, one recording after another, with what its labels say. Clips are sensed
+/// The recordings of one person, one recording after another, with what its labels say. Clips are sensed
 /// under the condition; a sensor's recordings are what they are. A performance is judged until half a second after its
 /// end, but not beyond the next one's beginning; where labels overlap, the earlier is judged as far as that.
 DetectionWorld MakeRecordedWorld(const LabelledStreams& set, std::size_t person, const DetectionOptions& options,
@@ -24,7 +24,7 @@ DetectionWorld MakeRecordedWorld(const LabelledStreams& set, std::size_t person,
 /// person, or recordings of which nobody says who they show.
 Result<void> CheckRecordings(const LabelledStreams& set, bool are_taught);
 
-/// What recognisers know when people are left out: what the others did.
+/// The knowledge of recognisers when people are left out: what the others did.
 struct Fold {
   Repertoire repertoire;
   std::vector<ReadyMethod> methods;

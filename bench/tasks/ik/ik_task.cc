@@ -8,7 +8,7 @@
 namespace etude {
 namespace {
 
-/// Everything that the worlds of one condition have in common.
+/// The data that all worlds of one condition share.
 struct IkStudy {
   KinematicTree tree = MakeBodyTree({});  ///< with the condition's limits
   IkCondition condition;

@@ -20,7 +20,8 @@ std::string DigestOf(const IkSolution& solution) {
   return digest.Hex();
 }
 
-/// The same words for all cells that ended alike, so that a report can count them; how far each came is in its metrics.
+/// The reason why the solver stopped, in the same words for all cells that ended alike, so that a report can count
+/// them.
 std::string WhyItStopped(const IkMethod& method, const IkSolution& solution, const IkAsked& asked) {
   if (asked.axes && !method.solver->uses_axes) return "the solver sees positions only, and axes are asked for";
   switch (solution.status) {

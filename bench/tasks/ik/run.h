@@ -18,10 +18,10 @@ namespace etude {
 /// `records` asks for. The reason of a cell that is not solved says why the solver stopped.
 CellResult RunIkCell(const KinematicTree& tree, const IkWorld& world, const IkMethod& method, const IkRecords& records);
 
-/// What all targets of a world ask for.
+/// The parts that the targets of a world ask for: positions, axes or both.
 IkAsked AskedOf(const IkProblem& problem);
 
-/// What a method says of its answer.
+/// The account that a method gives of its answer.
 struct IkAccount {
   std::optional<int> iterations, fk_evaluations;  ///< empty where it says nothing
   int max_steps = 0;
@@ -42,7 +42,8 @@ CellResult ScoreIkAnswer(const KinematicTree& tree, const IkWorld& world, const 
 /// The ids of all metrics that a cell reports, a value or a reason for each.
 std::vector<std::string> IkMetrics();
 
-/// What a cell without an answer is credited with (PAR-2): 0 for solved shares, twice the limit for penalised costs.
+/// The value of a metric for a cell without an answer (PAR-2): 0 for solved shares, twice the limit for penalised
+/// costs.
 std::optional<double> IkValueOfFailure(std::string_view metric, int max_steps);
 
 }  // namespace etude

@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-/// What the worlds of a condition share.
+/// The data that all worlds of one condition share.
 struct PairStudy {
   PairOptions options;
   std::vector<PoseDistanceMethod> methods;

@@ -62,7 +62,7 @@ namespace {
 constexpr const char* kManyPairs = "the world has several pairs";
 constexpr const char* kNotCalledAlike = "the method did not call the poses alike";
 
-/// What a pair by itself shows.
+/// The metrics of a single pair.
 void MeasurePair(const SeenPair& pair, double said, bool alike, const PoseDistance* distance, CellResult& result) {
   const auto own = [&](const char* id, bool is_its, const char* why_not) {
     is_its ? result.Measure(id, said) : result.Missing(id, why_not);

@@ -31,7 +31,7 @@ struct PoseDistanceMethod {
   double threshold = kPaperThreshold;           ///< two poses are called alike below it; of the others, centimetres
 };
 
-/// What a method says of a world's pairs, in their order.
+/// The verdicts of a method on a world's pairs, in their order.
 struct PairVerdict {
   std::vector<double> distances;  ///< the larger, the more unlike; on any scale
   std::vector<bool> alike;

@@ -42,7 +42,7 @@ struct PairWorld {
   std::vector<SeenPair> pairs;  ///< one or more
 };
 
-/// Which pairs a world is made of.
+/// The pairs that a world is made of.
 enum class PairSource {
   kBlindSpots,  ///< trial i shows the (i mod 8)th of BlindSpots
   kFrames,      ///< any frames of two different clips
@@ -59,7 +59,7 @@ struct DancedClips {
 /// The clips are retargeted to the body of the built-in moves.
 DancedClips DanceClips(const ClipLibrary& library);
 
-/// Whether there are clips of two different identities.
+/// True when there are clips of two different identities.
 bool HoldsTwoDances(const DancedClips& clips);
 
 PairWorld ShowBlindSpot(int trial);

@@ -85,7 +85,7 @@ FoundFrames Scan(const SearchProblem& problem, const Grades& query, SearchQuesti
   return ScanForNearest(problem, query, static_cast<std::size_t>(FramesAskedFor(question)), seen);
 }
 
-/// Of all frames with their distances, those that are the answer.
+/// The frames that are the answer, of all frames with their distances.
 FoundFrames Choose(const std::vector<Neighbour>& all, SearchQuestion question, double threshold) {
   std::vector<Neighbour> chosen;
   if (question == SearchQuestion::kNearest || question == SearchQuestion::kNearest10) {

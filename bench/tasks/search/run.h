@@ -16,7 +16,7 @@
 
 namespace etude {
 
-/// What a method found, one entry per query in all that there is.
+/// The frames that a method found, one entry per query.
 struct SearchAnswer {
   SearchQuestion question = SearchQuestion::kNearest;
   std::vector<FoundFrames> found;
@@ -24,7 +24,7 @@ struct SearchAnswer {
   std::optional<std::vector<std::int64_t>> boxes;      ///< looked at; nothing where there are none
 };
 
-/// What all queries of a world have in common.
+/// The data that all queries of a world share.
 struct SearchProblem {
   const SearchLibrary& library;
   FeatureWeights weights;
@@ -34,7 +34,7 @@ struct SearchProblem {
 /// Through the index.
 SearchAnswer FindByIndex(const SearchProblem& problem, std::span<const Grades> queries, SearchQuestion question);
 
-/// By looking at every frame, without looking longer than it must: `first` ends at the first match, and the sum of a
+/// Looks at every frame, without looking longer than it must: `first` ends at the first match, and the sum of a
 /// distance ends where it is too large already.
 SearchAnswer FindByBruteForce(const SearchProblem& problem, std::span<const Grades> queries, SearchQuestion question);
 
@@ -51,7 +51,7 @@ CellResult ScoreSearch(const SearchLibrary& library, std::span<const Grades> que
 /// The ids of all metrics that a cell reports, a value or a reason for each.
 std::vector<std::string> SearchMetrics();
 
-/// What a cell without an answer is credited with: no right answer.
+/// The value of a metric for a cell without an answer: no right answer.
 std::optional<double> SearchFailureValue(std::string_view metric);
 
 }  // namespace etude

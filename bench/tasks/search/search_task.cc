@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-/// Everything that the worlds of one condition have in common.
+/// The data that all worlds of one condition share.
 struct SearchStudy {
   SearchOptions options;
   std::vector<SearchMethod> methods;

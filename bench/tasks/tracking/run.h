@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// What a method makes of a motion, one entry per frame.
+/// A motion as a method followed it, one entry per frame.
 struct TrackingAnswer {
   std::vector<std::vector<double>> angles;  ///< radians
   std::optional<std::vector<int>> iterations;
@@ -30,7 +30,7 @@ CellResult ScoreTracking(const TrackingWorld& world, double rate_hz, const Track
 /// The ids of all metrics that a cell reports, a value or a reason for each.
 std::vector<std::string> TrackingMetrics();
 
-/// What a cell without an answer is credited with: 0 for shares of frames.
+/// The value of a metric for a cell without an answer: 0 for shares of frames.
 std::optional<double> TrackingValueOfFailure(std::string_view metric);
 
 }  // namespace etude

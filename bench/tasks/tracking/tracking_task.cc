@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// Everything that the worlds of one condition have in common.
+/// The data that all worlds of one condition share.
 struct TrackingStudy {
   TrackingOptions options;
   std::vector<TrackingMethod> methods;

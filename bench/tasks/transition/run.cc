@@ -58,7 +58,7 @@ constexpr std::array kTransitionMetrics = {"jump_cm",
                                            "clean_share"};
 constexpr std::array kMatchingMetrics = {"direct_match", "matching_share", "false_smooth_share"};
 
-/// What played from the request on, until the wanted clip did.
+/// The segments that played from the request on, until the wanted clip did.
 std::vector<Stay> StaysOf(const TransitionRecord& record) {
   std::vector<Stay> stays;
   for (std::size_t i = 0; i + 1 < record.segments.size(); ++i)
@@ -72,7 +72,7 @@ std::vector<int> PointFrames(const Splice& splice) {
   return frames;
 }
 
-/// What is measured at the transition points. Returns whether the transition is natural there.
+/// Measures the transition points. Returns whether the transition is natural there.
 bool ScorePoints(const TransitionOutcome& outcome, const Stage& stage, CellResult& result) {
   const Splice& splice = outcome.splice;
   const TransitionSmoothness smoothness = MeasureTransitions(splice.motion, PointFrames(splice));
@@ -123,7 +123,7 @@ JoinView ViewOf(const TransitionOutcome& outcome, const Stage& stage) {
           .rate_hz = splice.motion.rate_hz};
 }
 
-/// What is measured over the whole join.
+/// Measures the whole join.
 void ScoreJoin(const TransitionOutcome& outcome, const Stage& stage, bool natural, CellResult& result) {
   const JoinView view = ViewOf(outcome, stage);
   const double limit = CalmerLimitCm(stage, outcome.request.from, outcome.request.to);

@@ -17,7 +17,7 @@
 
 namespace etude {
 
-/// What the rules of a fuzzy choice make of all pairs of frames that it may take.
+/// Counts the pairs of frames that a fuzzy choice may take, and those that its rules match.
 MatchTally TallyMatches(const Stage& stage, const TransitionRequest& request, const TransitionWay& way);
 
 /// The metrics of a transition that has a way (docs/metrics.md), the worst transition point counting where an
@@ -27,19 +27,19 @@ void ScoreTransition(const TransitionOutcome& outcome, const Stage& stage, CellR
 /// The metrics of the pairs that a transition could have used; nothing for a method without a threshold.
 void ScoreMatching(const std::optional<MatchTally>& tally, CellResult& result);
 
-/// The ids of all of them, in the order in which they are measured.
+/// The ids of all metrics, in the order in which they are measured.
 std::vector<std::string> TransitionMetrics();
 
-/// What a method without a transition is credited with (Task::ValueOfFailure): 0 of `natural_share` and the other
+/// The value of a metric for a method without a transition (Task::ValueOfFailure): 0 of `natural_share` and the other
 /// shares of all cells. A transition that never came was not natural; left out of the count, a method could raise its
 /// share by giving up where it is hard. Nothing for the rest: no number of centimetres stands for a jump that was not
 /// made, and 0 of `false_smooth` would be praise.
 std::optional<double> TransitionFailureValue(std::string_view metric);
 
-/// Those of ScoreTransition in a world in which no way was found.
+/// Measures the metrics of ScoreTransition in a world in which no way was found.
 void MeasureNoWay(CellResult& result);
 
-/// What the runs of a task share; all of it must outlive them.
+/// The data that the runs of a task share; all of it must outlive them.
 struct TransitionBasis {
   const std::vector<TransitionMethod>& methods;
   const Stage& stage;
