@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/metrics/segmentation.h"
-#include "bench/tasks/capture/crew.h"
+#include "bench/tasks/capture/take_cameras.h"
 #include "bench/tasks/capture/world.h"
 #include "engine/vision/strokes.h"
 #include "sim/render/renderer.h"
@@ -16,8 +16,7 @@
 namespace etude {
 
 /// The result of one way of cutting out the person from a take. Indices: [camera][frame], or where that is said by
-/// picture
-/// ([camera][picture]: those of `StudioOptions::picture_every` alone).
+/// picture ([camera][picture]: those of `StudioOptions::picture_every` alone).
 struct Observation {
   PersonSource source;
   std::vector<std::vector<Marks>> marks;  ///< nothing marked in frames that the annotator did not see
