@@ -59,8 +59,7 @@ Result<int> ListScenarios(const std::string& folder) {
   ASSIGN_OR_RETURN(const auto files, FindScenarioFiles({folder}));
   for (const std::string& file : files) {
     SourceTexts texts;
-    RETURN_IF_ERROR(ReadSources(file, texts));
-    ASSIGN_OR_RETURN(const auto scenarios, ParseScenarios(file, texts));
+    ASSIGN_OR_RETURN(const auto scenarios, ReadScenarios(file, texts));
     fmt::print("{}\n", file);
     for (const Scenario& scenario : scenarios) {
       fmt::print("  {} ({}): {}\n  {} trials × {} conditions × methods {}\n", scenario.name, scenario.task,

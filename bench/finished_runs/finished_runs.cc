@@ -97,15 +97,12 @@ Result<std::vector<FinishedScenario>> LoadScenarios(const fs::path& path) {
   ASSIGN_OR_RETURN(const auto suite, DecodeSetup(manifest, place));
   RETURN_IF_ERROR(CheckMetricVersions(manifest, place));
   std::vector<FinishedScenario> finished;
+  ParsedSuite parsed(suite);
   for (std::size_t s = 0; s < suite.scenarios.size(); ++s) {
     const ScenarioSetup& setup = suite.scenarios[s];
-    ASSIGN_OR_RETURN(auto parsed, ParseScenarios(setup.file, suite.sources));
-    const auto named = std::ranges::find(parsed, setup.name, &Scenario::name);
-    if (named == parsed.end()) return Fail(place, "'{}' holds no scenario '{}'", setup.file, setup.name);
-    named->trials = setup.trials;
-    AddLibraries(setup.libraries, *named);
+    ASSIGN_OR_RETURN(auto scenario, parsed.Find(setup));
     if (suite.scored) {
-      RETURN_IF_ERROR(AddScoredMethod(*suite.scored, *named));
+      RETURN_IF_ERROR(AddScoredMethod(*suite.scored, scenario));
     }
     std::vector<std::string> clip_digests;
     try {
@@ -115,7 +112,7 @@ Result<std::vector<FinishedScenario>> LoadScenarios(const fs::path& path) {
     } catch (const Json::exception& error) {
       return Fail(place, "not a manifest: {}", error.what());
     }
-    finished.push_back(FinishScenario(*named, setup, clip_digests));
+    finished.push_back(FinishScenario(scenario, setup, clip_digests));
   }
   return finished;
 }
@@ -138,17 +135,16 @@ FinishedScenario FinishScenario(const Scenario& scenario, const ScenarioSetup& s
 Result<Rehearsal> ReadRehearsal(const std::string& file, std::optional<int> trials) {
   Rehearsal rehearsal;
   rehearsal.setup.file = file.empty() ? kBuiltInName : file;
-  if (file.empty()) {
-    rehearsal.sources[kBuiltInName] = kBuiltInScenario;
-  } else if (auto read = ReadSources(file, rehearsal.sources); !read) {
-    return tl::unexpected(read.error());
-  }
-  ASSIGN_OR_RETURN(const auto scenarios, ParseScenarios(rehearsal.setup.file, rehearsal.sources));
-  const Scenario& scenario = scenarios.front();
+  if (file.empty()) rehearsal.sources[kBuiltInName] = kBuiltInScenario;
+  ASSIGN_OR_RETURN(auto scenarios, file.empty() ? ParseScenarios(kBuiltInName, rehearsal.sources)
+                                                : ReadScenarios(file, rehearsal.sources));
+  Scenario& scenario = scenarios.front();
   rehearsal.setup.name = scenario.name;
   rehearsal.setup.trials = trials.value_or(scenario.trials);
   rehearsal.setup.clips = scenario.clips;
   rehearsal.setup.libraries = scenario.libraries;
+  scenario.trials = rehearsal.setup.trials;
+  rehearsal.scenario = std::move(scenario);
   return rehearsal;
 }
 
@@ -157,8 +153,8 @@ Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed)
   setup.seed = seed;
   ASSIGN_OR_RETURN(
       const auto prepared,
-      Prepare(SuiteSetup{.suite = "", .seed = seed, .sources = rehearsal.sources, .scenarios = {}, .scored = {}},
-              setup));
+      Prepare(SuiteSetup{.suite = "", .seed = seed, .sources = rehearsal.sources, .scenarios = {}, .scored = {}}, setup,
+              rehearsal.scenario));
   const Scenario& scenario = prepared.scenario();
   FinishedRun run;
   run.data.suite = scenario.name;

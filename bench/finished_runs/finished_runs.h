@@ -23,6 +23,7 @@ FinishedScenario FinishScenario(const Scenario& scenario, const ScenarioSetup& s
 struct Rehearsal {
   SourceTexts sources;
   ScenarioSetup setup;
+  Scenario scenario;
 };
 
 /// Reads the first scenario of a file; "" = a small one of task ik that is built in. `trials` replaces its own.

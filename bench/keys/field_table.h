@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,9 +13,18 @@
 
 #include "bench/keys/key_info.h"
 #include "engine/base/angles.h"
+#include "engine/base/settings.h"
 #include "engine/document/fields.h"
 
 namespace etude {
+
+/// Access to a member within members: `Path(&Method::filter, &FilterOptions::kind)(method)` is `method.filter.kind`.
+template <typename... Members>
+constexpr auto Path(Members... members) {
+  // clang-format off
+  return [=](auto& options) -> auto& { return (options .* ... .* members); };
+  // clang-format on
+}
 
 /// Values by the names that files call them.
 template <typename Value>
@@ -41,8 +52,7 @@ std::vector<std::string> ReadNames(Fields& fields, const std::string& key, const
 std::span<const Node> ReadItems(Fields& fields, const std::string& key);
 
 /// One key of a mapping that is read into `Options`: declared once, for the reader, the page of keys and the schema. A
-/// `member` is a pointer to one, or a function that gives one ([](auto& o) -> auto& { return o.noise.position_cm; });
-/// what it holds in `Options{}` is the default.
+/// `member` is a pointer to one, or a Path to one further in; what it holds in `Options{}` is the default.
 template <typename Options>
 struct Field {
   KeyInfo info;
@@ -124,7 +134,7 @@ struct Field {
             }};
   }
 
-  /// Likewise; `find` gives the value of a name, or something that points to it.
+  /// One of several values by its name; `find` gives the value of a name, or something that points to it.
   template <typename Member, typename Find>
   static Field Name(const std::string& key, Member member, const std::vector<std::string>& names, Find find,
                     std::string meaning) {
@@ -162,13 +172,13 @@ struct Field {
     field.info.value.allowed += " (" + unit + ")";
     return field;
   }
-  /// What else is to be said of its values.
+  /// Adds a remark on the values that it may have.
   Field And(const std::string& words) const {
     Field field = *this;
     field.info.value.allowed += "; " + words;
     return field;
   }
-  /// What an absent key means, when that is no value: "(the scenario's)".
+  /// Says what an absent key means, when that is no value: "(the scenario's)".
   Field WhenAbsent(const std::string& words) const {
     Field field = *this;
     field.info.fallback = words;
@@ -206,7 +216,7 @@ struct FieldTable {
     RefuseMisplacedKeys(mapping, keys);
   }
 
-  /// Likewise, and checks what was read.
+  /// Reads the keys, then checks the values together.
   void Read(Fields& mapping, Options& options) const {
     ReadKeys(mapping, options);
     if (check && mapping.ok()) check(mapping, options);
@@ -261,6 +271,61 @@ std::vector<Value> ReadListed(Fields& fields, const std::string& key, const std:
     }
   }
   return values;
+}
+
+enum class Keep { kThese, kOthers };
+
+/// The fields of another table that `keys` name, or all others, read into a part of `Options`: a key that two tasks
+/// have is told once. `part` is a member, or a Path to one.
+template <typename Options, typename Part, typename Member>
+std::vector<Field<Options>> FieldsOf(const FieldTable<Part>& table, Member part, Keep keep,
+                                     const std::vector<std::string>& keys) {
+  std::vector<Field<Options>> fields;
+  for (const Field<Part>& field : table.fields) {
+    const bool named = std::ranges::find(keys, field.info.key) != keys.end();
+    if (named != (keep == Keep::kThese)) continue;
+    fields.push_back({field.info, [field, part](Fields& mapping, Options& options) {
+                        field.read(mapping, std::invoke(part, options));
+                      }});
+  }
+  return fields;
+}
+
+template <typename Options>
+void Append(std::vector<Field<Options>> more, std::vector<Field<Options>>& fields) {
+  std::ranges::move(more, std::back_inserter(fields));
+}
+
+/// The settings of a registry's methods (solvers, choices, joins), as fields that go with the key `chooser`. A
+/// row of the registry has a `name` and `settings`; the values are read into a vector of doubles, which `member` gives:
+/// all settings of the method that was chosen, in its order, as soon as one is written. Two methods may have settings
+/// of one name.
+template <typename Options, typename Registry, typename Member>
+std::vector<Field<Options>> SettingFields(const std::string& chooser, const Registry& registry, Member member) {
+  std::vector<Field<Options>> fields;
+  for (const auto& method : registry) {
+    const std::vector<NumberSetting>& settings = method.settings;
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+      const NumberSetting& setting = settings[i];
+      const Range range{setting.lowest, setting.largest};
+      fields.push_back({{setting.key,
+                         NumberKind(range, setting.is_whole),
+                         NumberText(setting.fallback),
+                         setting.meaning,
+                         {chooser, {method.name}}},
+                        [=](Fields& mapping, Options& options) {
+                          const auto written = setting.is_whole ? mapping.OptionalWhole(setting.key, range)
+                                                                : mapping.OptionalNumber(setting.key, range);
+                          if (!written) return;
+                          std::vector<double>& values = std::invoke(member, options);
+                          if (values.empty()) {
+                            for (const NumberSetting& each : settings) values.push_back(each.fallback);
+                          }
+                          values[i] = *written;
+                        }});
+    }
+  }
+  return fields;
 }
 
 }  // namespace etude

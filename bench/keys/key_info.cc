@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-/// What `mapping` says under `key`, or what the absent key means.
+/// The value of `key` in `mapping`, or what the absent key means.
 std::string ValueOf(const std::string& key, std::span<const KeyInfo> keys, const Node& mapping) {
   const Node* value = mapping.Find(key);
   if (value != nullptr) return value->scalar;
@@ -48,6 +48,12 @@ ValueKind TextKind(std::string allowed, const std::string& pattern) {
   Json schema{{"type", {"string", "number"}}};  // what reads as a number is a text, too
   if (!pattern.empty()) schema["pattern"] = pattern;
   return {std::move(allowed), schema.dump()};
+}
+
+ValueKind FileKind(std::string allowed, bool (*names_file)(std::string_view value)) {
+  ValueKind kind = TextKind(std::move(allowed));
+  kind.names_file = names_file != nullptr ? names_file : [](std::string_view) { return true; };
+  return kind;
 }
 
 ValueKind NameKind(std::span<const std::string> names) {

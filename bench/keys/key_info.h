@@ -12,18 +12,22 @@ namespace etude {
 
 struct KeyInfo;
 
-/// What the value of a key may be: for people, and as JSON Schema.
+/// The values that a key may have, for people and as JSON Schema.
 struct ValueKind {
   std::string allowed;  ///< "ccd, ccd-hinges", "0…180 (degrees)", "a list of texts"
   std::string schema;   ///< JSON
+  /// Tells whether a value that is not empty names a file, whose text the key's reader is given. Null: no value does.
+  bool (*names_file)(std::string_view value) = nullptr;
 };
 ValueKind NumberKind(Range range, bool is_whole = false);
 ValueKind FlagKind();
 /// A text; `pattern` is a regular expression, empty = any.
 ValueKind TextKind(std::string allowed, const std::string& pattern = "");
+/// A text that names a file; `names_file` tells names of something built in from files, null: there are none.
+ValueKind FileKind(std::string allowed, bool (*names_file)(std::string_view value) = nullptr);
 /// One of these texts.
 ValueKind NameKind(std::span<const std::string> names);
-/// How many values a list may have.
+/// The number of values that a list may have.
 struct Count {
   std::size_t fewest = 0;
   std::size_t most = 0;
@@ -33,7 +37,7 @@ ValueKind ListKind(std::string allowed, const ValueKind& item, std::optional<Cou
 /// A mapping with these keys.
 ValueKind MappingKind(std::string allowed, std::span<const KeyInfo> keys);
 
-/// What another key of the same mapping must say for a key to be allowed beside it.
+/// The values of another key of the same mapping with which a key is allowed.
 struct KeyCondition {
   std::string key;                  ///< "solver"; empty: no condition
   std::vector<std::string> values;  ///< any of these
@@ -48,7 +52,7 @@ struct KeyInfo {
   std::string meaning;  ///< one sentence
   KeyCondition only_with = {};
 
-  /// What is allowed, and what it goes with: "0…1; with `weights: adaptive`".
+  /// The allowed values and the condition: "0…1; with `weights: adaptive`".
   std::string AllowedWhere() const;
   bool IsRequired() const { return fallback.empty(); }
   bool HasDefaultValue() const { return !fallback.empty() && fallback.front() != '('; }
@@ -60,7 +64,7 @@ std::string NumberText(double number);
 /// Keys that differ in their conditions only, as one.
 std::vector<KeyInfo> MergeAlike(std::vector<KeyInfo> keys);
 
-/// Whether the values of `mapping` allow `key` in it; `keys` are all that it may have, and their defaults count as
+/// True when the values of `mapping` allow `key` in it; `keys` are all that it may have, and their defaults count as
 /// said. A key may not stand where the one that decides about it may not.
 bool MayStand(const KeyInfo& key, std::span<const KeyInfo> keys, const Node& mapping);
 

@@ -34,7 +34,7 @@ Json AnyOf(std::vector<Json> schemas) {
   return {{"anyOf", std::move(schemas)}};
 }
 
-/// What must be said beside a key with a condition.
+/// The schema of a mapping that holds a key with a condition.
 Json ConditionSchema(const KeyInfo& key, std::span<const KeyInfo> keys, bool says_all) {
   const KeyCondition& condition = key.only_with;
   Json schema{

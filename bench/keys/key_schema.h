@@ -12,14 +12,15 @@ namespace etude {
 /// is one, even in quotes.
 Json ToJson(const Node& node);
 
-/// What JSON Schema (draft 7, which editors know best) says of the value of a key, with description and default.
+/// The JSON Schema (draft 7, which editors know best) of a key's value, with description and default.
 Json KeySchema(const KeyInfo& key);
 
-/// Likewise of a mapping with such keys and no others. A key may stand there several times, with other conditions each.
+/// The JSON Schema of a mapping with these keys and no others. A key may stand there several times, with other
+/// conditions each.
 Json MappingSchema(std::span<const KeyInfo> keys);
 
-/// Which keys go with which values of others, as `dependencies`. `says_all`: an absent key has its default; else
-/// another part of the file may say it.
+/// The conditions between keys and the values of others, as `dependencies`. `says_all`: an absent key has its default;
+/// else another part of the file may say it.
 Json ConditionSchemas(std::span<const KeyInfo> keys, bool says_all);
 
 }  // namespace etude

@@ -9,7 +9,6 @@
 
 #include "bench/tasks/coach/learner_player.h"
 #include "bench/tasks/coach/run.h"
-#include "bench/tasks/coach/score.h"
 #include "engine/recognition/recognisers.h"
 #include "engine/recognition/sight.h"
 

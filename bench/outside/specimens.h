@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/clips/clip_library.h"
 #include "bench/tasks/base/task.h"
 
 namespace etude {

@@ -6,7 +6,7 @@
 #include "bench/run/cell_runner.h"
 #include "bench/run/suite.h"
 #include "bench/run/supervisor.h"
-#include "bench/scenario/study_of.h"
+#include "bench/scenario/scenario.h"
 #include "bench/statistics/summary.h"
 
 namespace etude {

@@ -9,39 +9,19 @@
 #include <set>
 
 #include "bench/scenario/methods.h"
-#include "bench/tasks/base/fuzzy_key.h"
-#include "bench/tasks/base/moves_key.h"
-#include "bench/tasks/base/rig_key.h"
-#include "bench/tasks/base/sensor_key.h"
 #include "bench/tasks/registry.h"
 
 namespace etude {
 namespace {
 
-/// The fuzzy system that a condition names, from the suite's texts.
-Result<FuzzySystem> FuzzySystemOf(const Condition& condition, const SourceTexts& texts) {
-  const Node* named = condition.node.Find(kFuzzyKey);
-  if (named == nullptr) return FuzzySystem{};
-  if (named->kind != Node::Kind::kScalar || named->scalar.empty()) {
-    return Fail(named->place, "'{}' must be builtin:NAME or a file, found {}", kFuzzyKey, Describe(*named));
-  }
-  return OpenFuzzySystem(named->scalar, named->place, [&](const std::string& file) -> Result<std::string> {
-    const auto text = texts.find(file);
-    if (text == texts.end()) return Fail(named->place, "the text of '{}' is missing", file);
-    return text->second;
-  });
-}
-
-/// The texts of the sensor file, the calibration file and the file of taught moves that a condition names, by key.
-Result<std::map<std::string, std::string>> NamedTextsOf(const Condition& condition, const SourceTexts& texts) {
+/// The texts of the files that a condition names, by key.
+Result<std::map<std::string, std::string>> NamedTextsOf(const Condition& condition, const TaskKind& kind,
+                                                        const SourceTexts& texts) {
   std::map<std::string, std::string> named_texts;
-  for (const auto& [key, is_file] :
-       {std::pair{kSensorKey, &IsSensorFile}, std::pair{kRigFileKey, &IsRigFile}, std::pair{kMovesKey, &IsMovesFile}}) {
-    const Node* named = condition.node.Find(key);
-    if (named == nullptr || named->kind != Node::Kind::kScalar || !is_file(named->scalar)) continue;
-    const auto text = texts.find(named->scalar);
-    if (text == texts.end()) return Fail(named->place, "the text of '{}' is missing", named->scalar);
-    named_texts[key] = text->second;
+  for (const NamedFile& file : FilesNamedBy(condition, kind)) {
+    const auto text = texts.find(file.node->scalar);
+    if (text == texts.end()) return Fail(file.node->place, "the text of '{}' is missing", file.node->scalar);
+    named_texts[file.key] = text->second;
   }
   return named_texts;
 }
@@ -55,14 +35,14 @@ Result<std::vector<std::unique_ptr<Task>>> MakeTasks(
   for (const MethodEntry& method : scenario.methods) {
     if (method.RunsInTask()) built_in.push_back(method.node);
   }
+  const TaskKind& kind = *FindTaskKind(scenario.task);
   std::vector<std::unique_ptr<Task>> tasks;
   for (const Condition& condition : scenario.conditions) {
     Fields fields(condition.node, "a scenario of task " + scenario.task);
     for (const KeyInfo& key : CommonScenarioKeys()) fields.Raw(key.key);
-    ASSIGN_OR_RETURN(auto fuzzy, FuzzySystemOf(condition, texts));
-    ASSIGN_OR_RETURN(auto named_texts, NamedTextsOf(condition, texts));
-    TaskInput input{fields, built_in, clips_of(condition), std::move(fuzzy), std::move(named_texts), recordings};
-    ASSIGN_OR_RETURN(auto task, FindTaskKind(scenario.task)->make(input));
+    ASSIGN_OR_RETURN(auto named_texts, NamedTextsOf(condition, kind, texts));
+    TaskInput input{fields, built_in, clips_of(condition), std::move(named_texts), recordings};
+    ASSIGN_OR_RETURN(auto task, kind.make(input));
     RETURN_IF_ERROR(fields.Finish());
     tasks.push_back(std::move(task));
   }
@@ -198,15 +178,26 @@ Result<std::optional<int>> CountRecordedPeople(const ScenarioSetup& setup, const
   return static_cast<int>(recordings->people.size());
 }
 
-Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& setup) {
-  ASSIGN_OR_RETURN(auto scenarios, ParseScenarios(setup.file, suite.sources));
-  const auto named = std::find_if(scenarios.begin(), scenarios.end(),
-                                  [&](const Scenario& scenario) { return scenario.name == setup.name; });
-  if (named == scenarios.end()) return Fail({setup.file, 0, 0}, "holds no scenario named '{}'", setup.name);
+Result<Scenario> ParsedSuite::Find(const ScenarioSetup& setup) {
+  auto file = suite_.parsed.find(setup.file);
+  if (file == suite_.parsed.end()) {
+    file = parsed_.find(setup.file);
+    if (file == parsed_.end()) {
+      ASSIGN_OR_RETURN(auto scenarios, ParseScenarios(setup.file, suite_.sources));
+      file = parsed_.emplace(setup.file, std::move(scenarios)).first;
+    }
+  }
+  const auto named = std::ranges::find(file->second, setup.name, &Scenario::name);
+  if (named == file->second.end()) return Fail({setup.file, 0, 0}, "holds no scenario named '{}'", setup.name);
+  Scenario scenario = *named;
+  scenario.trials = setup.trials;
+  AddLibraries(setup.libraries, scenario);
+  return scenario;
+}
+
+Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& setup, Scenario scenario) {
   PreparedScenario prepared;
-  prepared.scenario_ = std::move(*named);
-  prepared.scenario_.trials = setup.trials;
-  AddLibraries(setup.libraries, prepared.scenario_);
+  prepared.scenario_ = std::move(scenario);
   ASSIGN_OR_RETURN(const auto how, OpenOptionsOf(setup, suite.sources));
   ASSIGN_OR_RETURN(auto clips, LoadClips(setup.clips, {setup.file, 0, 0}, how));
   for (const NamedClips& library : setup.libraries) {
@@ -230,8 +221,10 @@ Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& s
 Result<std::vector<PreparedScenario>> PrepareAll(const SuiteSetup& suite) {
   std::vector<PreparedScenario> scenarios;
   std::size_t cells = 0;
+  ParsedSuite parsed(suite);
   for (const ScenarioSetup& setup : suite.scenarios) {
-    ASSIGN_OR_RETURN(auto prepared, Prepare(suite, setup));
+    ASSIGN_OR_RETURN(auto found, parsed.Find(setup));
+    ASSIGN_OR_RETURN(auto prepared, Prepare(suite, setup, std::move(found)));
     const Scenario& scenario = prepared.scenario();
     cells += scenario.conditions.size() * scenario.methods.size() * static_cast<std::size_t>(setup.trials);
     if (cells > kMostCells) return Fail({setup.file, 0, 0}, "makes more than {} cells in one run", kMostCells);

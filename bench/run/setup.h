@@ -46,6 +46,8 @@ struct SuiteSetup {
   /// What the manifest calls `sources` that are known by other names here (CanonicalNames); for people, names stay as
   /// they were given.
   std::map<std::string, std::string> canonical = {};
+  /// The scenarios of those files of `sources` that were parsed already, as they stand there.
+  std::map<std::string, std::vector<Scenario>> parsed = {};
 };
 
 Json EncodeSetup(const SuiteSetup& setup);
@@ -76,7 +78,7 @@ class PreparedScenario {
   void CompleteMetrics(int condition, Row& row) const;
 
  private:
-  friend Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& setup);
+  friend Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& setup, Scenario scenario);
 
   const ClipLibrary& ClipsOf(const Condition& condition) const {
     return condition.library.empty() ? *clips_ : libraries_.at(condition.library);
@@ -95,9 +97,22 @@ class PreparedScenario {
 Result<std::optional<int>> CountRecordedPeople(const ScenarioSetup& setup, const StreamSource& source,
                                                const SourceTexts& texts);
 
-/// Reads the scenario, loads its clips and makes its tasks; every complaint about a scenario, its
-/// methods or its clips comes from here.
-Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& setup);
+/// Finds the scenarios of a suite, which must outlive it; each file is parsed once.
+class ParsedSuite {
+ public:
+  explicit ParsedSuite(const SuiteSetup& suite) : suite_(suite) {}
+  /// The scenario of `setup`, with its trials and libraries. Fails where the suite's texts do not hold it.
+  Result<Scenario> Find(const ScenarioSetup& setup);
+
+ private:
+  const SuiteSetup& suite_;
+  std::map<std::string, std::vector<Scenario>> parsed_;  ///< by file
+};
+
+/// Loads the clips of a scenario (ParsedSuite::Find) and makes its tasks; every complaint about its methods' keys or
+/// its clips comes from here.
+Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& setup, Scenario scenario);
+/// Prepares all scenarios of a suite. Refuses more than kMostCells cells.
 Result<std::vector<PreparedScenario>> PrepareAll(const SuiteSetup& suite);
 
 /// Puts the method behind those of the file, compared with the first, or in their place, with nothing expected. Fails

@@ -9,10 +9,6 @@
 #include "bench/files/files.h"
 #include "bench/run/manifest.h"
 #include "bench/scenario/methods.h"
-#include "bench/tasks/base/fuzzy_key.h"
-#include "bench/tasks/base/moves_key.h"
-#include "bench/tasks/base/rig_key.h"
-#include "bench/tasks/base/sensor_key.h"
 #include "bench/tasks/registry.h"
 #include "engine/base/digest.h"
 
@@ -47,16 +43,13 @@ Result<void> KeepText(const std::string& file, SourceTexts& texts) {
   return {};
 }
 
-/// Adds the texts of the fuzzy systems, sensor files, calibration files and taught moves that its conditions name. What
-/// is no text is refused when the tasks are made.
+/// Keeps the texts of the files that a scenario's conditions name among the sources. A file that is no text is refused when the
+/// tasks are made.
 Result<void> KeepNamedFiles(const Scenario& scenario, SourceTexts& texts) {
   for (const Condition& condition : scenario.conditions) {
-    for (const auto& [key, is_file] : {std::pair{kFuzzyKey, &IsFuzzyFile}, std::pair{kSensorKey, &IsSensorFile},
-                                       std::pair{kRigFileKey, &IsRigFile}, std::pair{kMovesKey, &IsMovesFile}}) {
-      const Node* named = condition.node.Find(key);
-      if (named == nullptr || named->kind != Node::Kind::kScalar || !is_file(named->scalar)) continue;
-      if (auto kept = KeepText(named->scalar, texts); !kept) {
-        return Fail(named->place, "{}", ToString(kept.error()));
+    for (const NamedFile& file : FilesNamedBy(condition, *FindTaskKind(scenario.task))) {
+      if (auto kept = KeepText(file.node->scalar, texts); !kept) {
+        return Fail(file.node->place, "{}", ToString(kept.error()));
       }
     }
   }
@@ -192,8 +185,8 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
   std::size_t cells = 0;
   for (const std::string& file : files) {
     SourceTexts texts;
-    RETURN_IF_ERROR(ReadSources(file, texts));
-    ASSIGN_OR_RETURN(auto scenarios, ParseScenarios(file, texts));
+    ASSIGN_OR_RETURN(auto scenarios, ReadScenarios(file, texts));
+    suite.parsed[file] = scenarios;
     std::vector<std::string> names;
     for (const auto& [name, text] : texts) names.push_back(name);
     const auto canonical = CanonicalNames(file, names);

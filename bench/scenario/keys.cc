@@ -2,9 +2,12 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "bench/keys/key_schema.h"
 #include "bench/scenario/judging.h"
 #include "bench/scenario/methods.h"
-#include "bench/scenario/ranges.h"
 #include "bench/scenario/scenario.h"
 #include "bench/scenario/sources.h"
 #include "bench/scenario/sweep.h"
@@ -70,6 +73,156 @@ std::string KeysAsMarkdown() {
     }
   }
   return page;
+}
+
+namespace {
+
+Json Ref(const std::string& definition) { return {{"$ref", "#/definitions/" + definition}}; }
+Json ListOf(Json item) { return {{"type", "array"}, {"items", std::move(item)}}; }
+/// The condition that `key` has this value.
+Json Says(const std::string& key, const std::string& value) {
+  return {{"properties", {{key, {{"const", value}}}}}, {"required", {key}}};
+}
+Json Has(const char* key) { return {{"required", {key}}}; }
+Json If(Json condition, Json then) { return {{"if", std::move(condition)}, {"then", std::move(then)}}; }
+
+std::vector<std::string> NamesOf(std::span<const KeyInfo> keys) {
+  std::vector<std::string> names;
+  for (const KeyInfo& key : keys) names.push_back(key.key);
+  return names;
+}
+
+/// A scenario's keys by name: those of every task, of files, and `own`.
+Json Names(std::span<const KeyInfo> own) {
+  std::vector<std::string> names = NamesOf(CommonScenarioKeys());
+  for (const std::vector<std::string>& more : {NamesOf(FileKeys()), NamesOf(own)}) {
+    names.insert(names.end(), more.begin(), more.end());
+  }
+  return {{"enum", names}};
+}
+
+/// The parameters of a task, each with what it may be swept over; lists and mappings cannot be swept.
+Json SweepSchema(const TaskKind& kind) {
+  Json parameters = Json::object();
+  for (const KeyInfo& key : kind.condition_keys) {
+    const Json schema = Json::parse(key.value.schema);
+    if (schema.value("type", Json()) == "array") continue;
+    Json values = ListOf(Ref(kind.name + "/properties/" + key.key));
+    values["minItems"] = 1;
+    const bool is_name = schema.contains("enum") || schema.value("type", Json()) == "boolean";
+    parameters[key.key] = is_name ? values : Json{{"anyOf", {values, Ref("range")}}};
+  }
+  const Json group{
+      {"type", "object"}, {"minProperties", 2}, {"properties", parameters}, {"additionalProperties", false}};
+  parameters["together"] = {{"anyOf", {group, ListOf(group)}}};
+  return {{"type", "object"}, {"properties", std::move(parameters)}, {"additionalProperties", false}};
+}
+
+/// A method with `exec` is a program; any other has the keys of its task. A program in a seat has both.
+Json MethodSchema(const TaskKind& kind) {
+  std::vector<KeyInfo> keys;
+  for (const KeyInfo& common : OutsideMethodFields().Describe()) {
+    if (!kind.seats.empty() || common.key == "name" || common.key == "against") keys.push_back(common);
+  }
+  keys.insert(keys.end(), kind.method_keys.begin(), kind.method_keys.end());
+  if (!kind.has_problems) return MappingSchema(keys);
+  Json asked_whole = Has("exec");
+  if (!kind.seats.empty()) asked_whole["not"] = Has("seat");
+  return {{"if", std::move(asked_whole)}, {"then", Ref("outside-method")}, {"else", MappingSchema(keys)}};
+}
+
+/// The keys that a scenario of this task has beside those of every scenario.
+Json TaskSchema(const TaskKind& kind) {
+  Json properties = Json::object();
+  for (const KeyInfo& key : kind.condition_keys) properties[key.key] = KeySchema(key);
+  const Json metric{{"enum", MetricsOf(kind)}}, metrics = {{"properties", {{"metrics", ListOf(metric)}}}};
+  properties["sweep"] = SweepSchema(kind);
+  properties["methods"] = ListOf(Ref(kind.name + "-method"));
+  properties["metrics"] = ListOf(metric);
+  properties["expect"] = ListOf({{"properties", {{"metric", metric}}}});
+  properties["gate"] = metrics;
+  return {{"description", kind.question},
+          {"properties", std::move(properties)},
+          {"propertyNames", Names(kind.condition_keys)},
+          {"dependencies", ConditionSchemas(kind.condition_keys, false)}};
+}
+
+/// The keys of every scenario and, once its task is known, those of the task.
+Json AnyScenarioSchema() {
+  Json schema = MappingSchema(CommonScenarioKeys());
+  schema.erase("required");              // defaults may say it
+  schema.erase("additionalProperties");  // each task has its own
+  std::vector<KeyInfo> of_any_task;
+  Json branches = Json::array();
+  for (const TaskKind& kind : AllTaskKinds()) {
+    branches.push_back(If(Says("task", kind.name), Ref(kind.name)));
+    of_any_task.insert(of_any_task.end(), kind.condition_keys.begin(), kind.condition_keys.end());
+  }
+  std::vector<KeyInfo> distinct;
+  for (const KeyInfo& key : of_any_task) {
+    if (std::ranges::find(distinct, key.key, &KeyInfo::key) == distinct.end()) distinct.push_back(key);
+  }
+  branches.push_back({{"if", Has("task")}, {"else", {{"propertyNames", Names(distinct)}}}});
+  schema["allOf"] = std::move(branches);
+  return schema;
+}
+
+/// A file's scenario, or one of its list; what is required may come from defaults, or from another file.
+Json ScenarioSchema() {
+  std::vector<std::string> required;
+  for (const KeyInfo& key : CommonScenarioKeys()) {
+    if (key.IsRequired()) required.push_back(key.key);
+  }
+  const Json has_defaults{{"anyOf", {Has("defaults"), Has("include")}}};
+  Json listed{{"allOf", {Ref("scenario"), Has("scenario")}}, {"properties", Json::object()}};
+  Json tops = Json::array();
+  for (const KeyInfo& key : FileKeys()) listed["properties"][key.key] = false;
+  for (const TaskKind& kind : AllTaskKinds()) {  // a task that all scenarios of the file have
+    Json in_list = ListOf({{"if", {{"not", Has("task")}}}, {"then", Ref(kind.name)}});
+    tops.push_back(If({{"properties", {{"defaults", Says("task", kind.name)}}}, {"required", {"defaults"}}},
+                      {{"properties", {{"scenarios", std::move(in_list)}}}}));
+  }
+  for (const std::string& key : required) {
+    const Json default_says{{"properties", {{"defaults", {{"required", {key}}}}}}, {"required", {"defaults"}}};
+    tops.push_back({{"if", {{"anyOf", {default_says, Has("include")}}}},
+                    {"else", {{"properties", {{"scenarios", ListOf({{"required", {key}}})}}}}}});
+  }
+  Json of_list = MappingSchema(FileKeys());
+  of_list["properties"]["scenarios"]["items"] = std::move(listed);
+  of_list["properties"]["defaults"] = {{"allOf", {Ref("scenario")}}, {"properties", {{"scenario", false}}}};
+  of_list["allOf"] = std::move(tops);
+  Json only_defaults = of_list;  // a file that others include
+  for (const char* key : {"required", "allOf"}) only_defaults.erase(key);
+  only_defaults["properties"].erase("scenarios");
+  Json single{{"allOf", {Ref("scenario"), {{"if", has_defaults}, {"else", {{"required", required}}}}, Has("scenario")}},
+              {"properties", only_defaults["properties"]}};
+  const Json is_included{{"not", {{"anyOf", {Has("scenario"), Has("question"), Has("task"), Has("methods")}}}},
+                         {"anyOf", {Has("defaults"), Has("include")}}};
+  return {{"type", "object"},
+          {"if", Has("scenarios")},
+          {"then", std::move(of_list)},
+          {"else", {{"if", is_included}, {"then", std::move(only_defaults)}, {"else", std::move(single)}}}};
+}
+
+}  // namespace
+
+std::string KeysAsSchema() {
+  Json definitions{{"scenario", AnyScenarioSchema()},
+                   {"outside-method", MappingSchema(OutsideMethodFields().Describe())},
+                   {"range", MappingSchema(RangeFields(kMostConditions).Describe())}};
+  for (const TaskKind& kind : AllTaskKinds()) {
+    definitions[kind.name] = TaskSchema(kind);
+    definitions[kind.name + "-method"] = MethodSchema(kind);
+  }
+  Json schema{
+      {"$schema", "http://json-schema.org/draft-07/schema#"},
+      {"title", "A scenario file of Etude"},
+      {"description",
+       "Written by `etude list keys --schema`. What it accepts may still be refused: the program also knows which "
+       "methods, conditions and files there are."}};
+  schema.update(ScenarioSchema());
+  schema["definitions"] = std::move(definitions);
+  return schema.dump(1) + "\n";
 }
 
 }  // namespace etude

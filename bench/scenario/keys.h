@@ -19,7 +19,8 @@ std::vector<KeyGroup> AllKeyGroups();
 
 /// AllKeyGroups as the reference page docs/keys.md.
 std::string KeysAsMarkdown();
-/// As the JSON Schema docs/schemas/scenario.schema.json, by which editors complete and check scenario files.
+/// AllKeyGroups as the JSON Schema docs/schemas/scenario.schema.json, by which editors complete and check scenario
+/// files.
 std::string KeysAsSchema();
 
 }  // namespace etude

@@ -5,10 +5,10 @@
 
 namespace etude {
 
-/// Whether a name can be part of a cell's identity and of a file's name: letters, digits, '-', '_' and '.', at most 80,
-/// not beginning with a dot.
+/// True when a name can be part of a cell's identity and of a file's name: letters, digits, '-', '_' and '.', at most
+/// 80, not beginning with a dot.
 bool IsPlainName(const std::string& name);
-/// As the value of a key.
+/// A plain name as the value of a key.
 ValueKind PlainNameKind();
 /// Reads such a name.
 std::string ReadPlainName(Fields& fields, std::string_view key);

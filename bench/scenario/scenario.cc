@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
+#include "bench/files/files.h"
+#include "bench/files/json.h"
+#include "bench/keys/key_schema.h"
 #include "bench/scenario/judging.h"
 #include "bench/scenario/methods.h"
 #include "bench/scenario/sources.h"
@@ -63,7 +67,7 @@ std::vector<NamedClips> ReadLibraries(Fields& fields, const TaskKind& kind) {
   return read;
 }
 
-/// What stands at `key`; none if that is nothing, as by default: `streams: []`.
+/// The value of `key`; null when it is absent or empty, as by default: `streams: []`.
 const Node* FindFilled(Fields& fields, const char* key) {
   const Node* node = fields.Raw(key);
   const bool is_empty =
@@ -71,7 +75,7 @@ const Node* FindFilled(Fields& fields, const char* key) {
   return is_empty ? nullptr : node;
 }
 
-/// What people did is read off recordings, or off clips that have labels.
+/// Checks that recordings and labels stand only where the task can read what people did from them.
 void CheckStreams(Fields& fields, const Scenario& scenario, const TaskKind& kind) {
   for (const char* key : {"streams", "labels", "reading"}) {
     const Node* named = FindFilled(fields, key);
@@ -99,22 +103,19 @@ const FieldTable<StreamSource>& ReadingFields() {
   NamedValues<std::optional<StreamFormat>> formats;
   for (const std::string& name : StreamFormatNames()) formats.emplace_back(name, FindStreamFormat(name));
   static const FieldTable<StreamSource> table{
-      {Key::Name(
-           "format", [](auto& s) -> auto& { return s.reading.format; }, formats, "Of the files.")
+      {Key::Name("format", Path(&StreamSource::reading, &StreamReading::format), formats, "Of the files.")
            .WhenAbsent("(told by content)"),
-       Key::Number(
-           "rate_hz", [](auto& s) -> auto& { return s.reading.rate_hz; }, {1, 1000}, "Of files without a clock.")
+       Key::Number("rate_hz", Path(&StreamSource::reading, &StreamReading::rate_hz), {1, 1000},
+                   "Of files without a clock.")
            .WhenAbsent("30"),
        {{"body", NumberKind(kBodies, true), "(the one seen longest)", "Which of several bodies, by first appearance."},
         [](Fields& fields, StreamSource& s) {
           if (const auto body = fields.OptionalWhole("body", kBodies)) s.reading.body = static_cast<int>(*body);
         }},
-       Key::Flag(
-           "levels", [](auto& s) -> auto& { return s.making.levels; },
-           "Whether up and the floor are estimated; else they are the file's."),
-       Key::Flag(
-           "reflects", [](auto& s) -> auto& { return s.making.reflects; },
-           "Whether X is negated: of recordings that are mirrored.")}};
+       Key::Flag("levels", Path(&StreamSource::making, &StreamOptions::levels),
+                 "Whether up and the floor are estimated; else they are the file's."),
+       Key::Flag("reflects", Path(&StreamSource::making, &StreamOptions::reflects),
+                 "Whether X is negated: of recordings that are mirrored.")}};
   return table;
 }
 
@@ -155,15 +156,14 @@ const FieldTable<Scenario>& ScenarioFields() {
        Key::Texts("clips", &Scenario::clips, "a list of `builtin:NAME`, `builtin:*`, BVH and glTF files, patterns",
                   "What worlds are made of; trials go through them in turn."),
        Key::Texts(
-           "streams", [](auto& s) -> auto& { return s.streams.files; },
+           "streams", Path(&Scenario::streams, &StreamSource::files),
            "a list of recordings of skeletons, patterns and folders (docs/streams.md)",
            "In place of `clips` and simulated people: the recorded ones, a trial each; `etude run --streams` names "
            "others."),
-       Key::Text(
-           "labels", [](auto& s) -> auto& { return s.streams.labels; }, "a file, or a folder of tag streams",
-           "Who did what when in `streams`, or in `clips`, whose people are then sensed and judged in place of "
-           "simulated "
-           "ones.")
+       Key::Text("labels", Path(&Scenario::streams, &StreamSource::labels), "a file, or a folder of tag streams",
+                 "Who did what when in `streams`, or in `clips`, whose people are then sensed and judged in place of "
+                 "simulated "
+                 "ones.")
            .WhenAbsent("(a recording is one performance, called by its name)"),
        {{"reading", MappingKind("a mapping", ReadingFields().Describe()), "{}", "How `streams` are read."},
         [](Fields& fields, Scenario& s) { ReadNested(fields, "reading", ReadingFields(), s.streams); }},
@@ -260,6 +260,16 @@ void AddLibraries(std::span<const NamedClips> libraries, Scenario& scenario) {
   }
 }
 
+std::vector<NamedFile> FilesNamedBy(const Condition& condition, const TaskKind& kind) {
+  std::vector<NamedFile> named;
+  for (const KeyInfo& key : kind.condition_keys) {
+    const Node* node = key.value.names_file == nullptr ? nullptr : condition.node.Find(key.key);
+    if (node == nullptr || node->kind != Node::Kind::kScalar || node->scalar.empty()) continue;
+    if (key.value.names_file(node->scalar)) named.push_back({key.key, node});
+  }
+  return named;
+}
+
 bool RecordingSelection::KeepsTrial(int trial) const {
   return std::find(trials.begin(), trials.end(), trial) != trials.end();
 }
@@ -288,15 +298,8 @@ Result<Scenario> ParseScenario(const Node& node, const std::string& file) {
   return scenario;
 }
 
-}  // namespace
-
-Result<std::vector<Scenario>> ParseScenarios(const std::string& file, const SourceTexts& texts) {
-  const auto from_texts = [&](const std::string& path, const Place& asked_at) -> Result<std::string> {
-    const auto text = texts.find(path);
-    if (text == texts.end()) return Fail(asked_at, "the text of '{}' is missing", path);
-    return text->second;
-  };
-  ASSIGN_OR_RETURN(const auto nodes, CollectScenarios(file, from_texts));
+Result<std::vector<Scenario>> ParseAll(const std::string& file, const TextOf& text_of) {
+  ASSIGN_OR_RETURN(const auto nodes, CollectScenarios(file, text_of));
   std::vector<Scenario> scenarios;
   std::size_t values = 0;
   for (const Node& node : nodes) {
@@ -312,6 +315,68 @@ Result<std::vector<Scenario>> ParseScenarios(const std::string& file, const Sour
     scenarios.push_back(std::move(scenario));
   }
   return scenarios;
+}
+
+}  // namespace
+
+Result<std::vector<Scenario>> ReadScenarios(const std::string& file, SourceTexts& texts) {
+  return ParseAll(file, [&](const std::string& path, const Place& asked_at) -> Result<std::string> {
+    auto text = ReadWholeFile(path);
+    if (text) return texts[path] = *std::move(text);
+    if (asked_at.line == 0) return text;
+    return Fail(asked_at, "{}", ToString(text.error()));
+  });
+}
+
+Result<std::vector<Scenario>> ParseScenarios(const std::string& file, const SourceTexts& texts) {
+  return ParseAll(file, [&](const std::string& path, const Place& asked_at) -> Result<std::string> {
+    const auto text = texts.find(path);
+    if (text == texts.end()) return Fail(asked_at, "the text of '{}' is missing", path);
+    return text->second;
+  });
+}
+
+namespace {
+
+std::vector<std::string> StagesOf(const Node* oracle) {
+  std::vector<std::string> stages;
+  if (oracle == nullptr || oracle->kind != Node::Kind::kSequence) return stages;
+  for (const Node& stage : oracle->items) stages.push_back(stage.scalar);
+  return stages;
+}
+
+/// The settings of a built-in method: its entry without its name and its oracle.
+std::string SettingsOf(const MethodEntry& method) {
+  if (!method.exec.empty()) return "";  // what a program is, nobody knows
+  Node settings = method.node;
+  std::erase_if(settings.entries,
+                [](const Node::Entry& entry) { return entry.key == "name" || entry.key == "oracle"; });
+  const auto text = WriteJson(ToJson(settings));
+  return text ? *text : "";
+}
+
+}  // namespace
+
+Study StudyOf(const Scenario& scenario) {
+  Study study{.scenario = scenario.name,
+              .task = scenario.task,
+              .question = scenario.question,
+              .unit = scenario.unit,
+              .trials = scenario.trials,
+              .methods = {},
+              .conditions = {},
+              .metrics = scenario.metrics,
+              .across = scenario.across,
+              .rival = scenario.rival,
+              .expectations = scenario.expectations,
+              .gate = scenario.gate};
+  for (const MethodEntry& method : scenario.methods) {
+    const Node* oracle = method.node.Find("oracle");
+    const bool has_oracle = oracle != nullptr && (oracle->kind != Node::Kind::kSequence || !oracle->items.empty());
+    study.methods.push_back({method.name, method.against, has_oracle, StagesOf(oracle), SettingsOf(method)});
+  }
+  for (const Condition& condition : scenario.conditions) study.conditions.push_back(condition.swept);
+  return study;
 }
 
 }  // namespace etude

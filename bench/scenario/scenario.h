@@ -36,7 +36,15 @@ struct Condition {
   std::string library = {};  ///< whose clips its worlds are made of; "" = the scenario's
 };
 
-/// Which cells keep their motions for videos.
+/// A value of a condition that names a file.
+struct NamedFile {
+  std::string key;
+  const Node* node = nullptr;  ///< its scalar is the file, within the condition
+};
+/// The values by which `condition` names files, in the order of the task's keys (ValueKind::names_file).
+std::vector<NamedFile> FilesNamedBy(const Condition& condition, const TaskKind& kind);
+
+/// The cells that keep their motions for videos.
 struct RecordingSelection {
   std::vector<std::string> methods;
   std::vector<int> trials;
@@ -55,11 +63,11 @@ struct MethodEntry {
   std::optional<double> time_s;   ///< a method outside: its own limit per problem or step, instead of Limits::time_s
   std::string seat = {};          ///< a method outside: its seat in the task's loop; "" = it is asked once a world
 
-  /// Whether its task runs it, wholly or around its seat.
+  /// True when its task runs it, wholly or around its seat.
   bool RunsInTask() const { return exec.empty() || !seat.empty(); }
 };
 
-/// What one cell, or the building of one world, may take before it is ended.
+/// The time and memory that one cell, or the building of one world, may take before it is ended.
 struct Limits {
   double time_s = 300;
   double memory_mb = 4096;  ///< resident, of the worker and of the methods outside that it has started, each
@@ -99,8 +107,8 @@ void AddLibraries(std::span<const NamedClips> libraries, Scenario& scenario);
 /// The texts of scenario files and of all that they include, by path: what a manifest keeps of them.
 using SourceTexts = std::map<std::string, std::string>;
 
-/// Reads a scenario file and the files it includes into `texts`.
-Result<void> ReadSources(const std::string& file, SourceTexts& texts);
+/// The scenarios of a file on disk, as ParseScenarios; the texts that it and what it includes hold go into `texts`.
+Result<std::vector<Scenario>> ReadScenarios(const std::string& file, SourceTexts& texts);
 
 /// All scenarios of one file, in order. Everything is checked here but the values of the tasks' own keys, which the
 /// tasks read (`bench/run`). A key that is not documented (bench/scenario/keys.h) is refused.
@@ -112,5 +120,8 @@ const FieldTable<Limits>& LimitFields();
 const FieldTable<StreamSource>& ReadingFields();
 /// Names methods of `scenario`, which must outlive it.
 FieldTable<RecordingSelection> VideoFields(const Scenario& scenario);
+
+/// The part of a scenario by which its rows are judged.
+Study StudyOf(const Scenario& scenario);
 
 }  // namespace etude

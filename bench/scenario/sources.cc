@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "bench/files/files.h"
-#include "bench/scenario/scenario.h"
 #include "bench/scenario/sweep.h"
 #include "engine/document/fields.h"
 
@@ -95,7 +93,7 @@ class Collector {
     return ParseYaml(text, file);
   }
 
-  /// What `include` and `defaults` of a file give to its scenarios.
+  /// The keys that `include` and `defaults` of a file give to its scenarios.
   Result<Entries> DefaultsOf(const Node& top, const std::string& file) {
     Entries found;
     if (const Node* list = top.Find("include")) {
@@ -162,17 +160,6 @@ std::span<const KeyInfo> FileKeys() {
 
 Result<std::vector<Node>> CollectScenarios(const std::string& file, const TextOf& text_of) {
   return Collector(text_of).Scenarios(file);
-}
-
-Result<void> ReadSources(const std::string& file, SourceTexts& texts) {
-  const auto from_disk = [&](const std::string& path, const Place& asked_at) -> Result<std::string> {
-    auto text = ReadWholeFile(path);
-    if (text) return texts[path] = *std::move(text);
-    if (asked_at.line == 0) return text;
-    return Fail(asked_at, "{}", ToString(text.error()));
-  };
-  RETURN_IF_ERROR(CollectScenarios(file, from_disk));
-  return {};
 }
 
 }  // namespace etude

@@ -1,11 +1,32 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "bench/keys/field_table.h"
 #include "bench/scenario/scenario.h"
 #include "engine/document/fields.h"
+#include "engine/document/node.h"
 
 namespace etude {
 
-/// How many values the mappings of a file's scenarios and of their conditions may hold: each is a copy.
+/// The values of a swept parameter: those of a list, or of a range: `{from: 5, to: 20, step: 5}`,
+/// `{from: 1, to: 100, count: 5, scale: log}`. A range's values are written with at most 12 digits, so that
+/// 0.1 + 2 × 0.1 reads 0.3; all stand where the range stands. At least one, at most `most`.
+Result<std::vector<Node>> SweptValues(const Node::Entry& swept, std::size_t most);
+
+/// The keys of a range of values.
+struct RangeWords {
+  double from = 0, to = 0;
+  std::optional<double> step;
+  std::optional<std::uint64_t> count;
+  bool is_logarithmic = false;
+};
+/// The keys of a range of at most so many values.
+FieldTable<RangeWords> RangeFields(std::size_t most);
+
+/// The number of values that the mappings of a file's scenarios and of their conditions may hold: each is a copy.
 constexpr std::size_t kMostValues = 300'000;
 constexpr std::size_t kMostConditions = 1000;
 

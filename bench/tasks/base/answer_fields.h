@@ -19,9 +19,9 @@ class AnswerFields {
   /// `path` is where the object stands in the answer: "" = it is the answer. `json` must outlive this.
   explicit AnswerFields(const Json& json, std::string path = "");
 
-  /// Whether the key is there; marks it as known.
+  /// True when the key is there; marks it as known.
   bool Has(std::string_view key);
-  /// What stands under the key, whatever its type; null when it is absent.
+  /// The value of the key, whatever its type; null when it is absent.
   const Json* Raw(std::string_view key);
   int Integer(std::string_view key, int lowest, int highest);
   /// Null means nothing; the key must be there.
@@ -57,7 +57,7 @@ class AnswerFields {
   std::optional<Error> error_;
 };
 
-/// How complaints show a value of an answer: its JSON, shortened.
+/// A value of an answer as complaints show it: its JSON, shortened.
 std::string ShowJson(const Json& json);
 
 /// Refused, naming `path`: whatever is not a whole number in range.

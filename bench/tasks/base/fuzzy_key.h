@@ -5,21 +5,22 @@
 #include <string_view>
 
 #include "bench/keys/field_table.h"
+#include "bench/tasks/base/task.h"
 #include "engine/fuzzy/fuzzy_system.h"
 
 namespace etude {
 
 constexpr const char* kFuzzyKey = "fuzzy";
 
-/// The key `fuzzy` of a task that grades poses by TaskInput::fuzzy. Whoever makes the task opens what it names.
+/// The key `fuzzy` of a task that grades poses: `builtin:NAME` or a file.
 KeyInfo FuzzyKey();
 template <typename Options>
 Field<Options> FuzzyField() {
   return {FuzzyKey(), [](Fields& condition, Options&) { condition.Raw(kFuzzyKey); }};
 }
 
-/// Whether a reference names a file, and not `builtin:NAME`.
-bool IsFuzzyFile(std::string_view reference);
+/// The fuzzy system that the condition names, paper A's when it names none.
+Result<FuzzySystem> FuzzySystemOf(const TaskInput& input);
 
 /// Gives the text of a file that `fuzzy` names.
 using FuzzyTextOf = std::function<Result<std::string>(const std::string& file)>;

@@ -13,10 +13,10 @@ namespace etude {
 /// Targets that `state` meets exactly: the places and axes of its end effectors.
 std::vector<EffectorTarget> TargetsMetBy(const KinematicTree& tree, const TreeState& state);
 
-/// What fingerprints of worlds take in of their targets: places and axes.
+/// Adds the places and axes of targets to the fingerprint of a world.
 void AddTo(Digest& digest, std::span<const EffectorTarget> targets);
 
-/// How far targets are from where the body's ends really are.
+/// The errors of targets: their distance from where the body's ends really are.
 struct TargetNoise {
   double position_cm = 0;      ///< standard deviation along each of the world's axes
   double orientation_deg = 0;  ///< standard deviation of the rotation vector, likewise

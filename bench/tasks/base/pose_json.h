@@ -15,7 +15,8 @@ Json EncodePose(const BodyPose& pose);
 /// One pose per frame.
 Json EncodePoses(std::span<const BodyPose> poses);
 
-/// What the sixty numbers are: {"joints": [twenty names], "parents": [null, "hip_centre", …]}.
+/// The names of the joints that the sixty numbers are of: {"joints": [twenty names], "parents": [null, "hip_centre",
+/// …]}.
 Json DescribeBody();
 
 /// Refused, naming `path` ("between[3]"): another count than sixty, and coordinates that are no finite numbers or

@@ -2,12 +2,12 @@
 
 #include <vector>
 
-#include "bench/keys/setting_fields.h"
+#include "bench/keys/field_table.h"
 #include "engine/kinematics/solvers/ik_solver.h"
 
 namespace etude {
 
-/// What a method has that names none: gauss-newton.
+/// The solver of a method that names none: gauss-newton.
 const IkSolver* DefaultIkSolver();
 
 /// The defaults of a solver, but at most so many steps.
@@ -23,21 +23,18 @@ void RefuseFormerName(Fields& method);
 template <typename Method>
 std::vector<Field<Method>> IkSolverFields(const IkSolver* Method::*solver, IkOptions Method::*options) {
   using Key = Field<Method>;
-  std::vector<Key> rows = {
-      Key::Name("solver", solver, IkSolverNames(), FindIkSolver, "How the angles are found."),
-      Key::Name(
-          "weights", [=](Method & m) -> auto& { return (m.*options).weights; }, WeightRuleNames(), FindWeightRule,
-          "How an effector's position counts against its axes.")
-          .With("solver", WeighingSolvers()),
-      Key::Name(
-          "refresh", [=](Method & m) -> auto& { return (m.*options).refresh; }, WeightRefreshNames(), FindWeightRefresh,
-          "When errors are measured anew for weights that follow them.")
-          .With("solver", WeighingSolvers())};
+  std::vector<Key> rows = {Key::Name("solver", solver, IkSolverNames(), FindIkSolver, "How the angles are found."),
+                           Key::Name("weights", Path(options, &IkOptions::weights), WeightRuleNames(), FindWeightRule,
+                                     "How an effector's position counts against its axes.")
+                               .With("solver", WeighingSolvers()),
+                           Key::Name("refresh", Path(options, &IkOptions::refresh), WeightRefreshNames(),
+                                     FindWeightRefresh, "When errors are measured anew for weights that follow them.")
+                               .With("solver", WeighingSolvers())};
   rows.front().read = [read = rows.front().read](Fields& fields, Method& method) {
     RefuseFormerName(fields);
     read(fields, method);
   };
-  const auto settings = [=](Method & m) -> auto& { return (m.*options).solver_settings; };
+  const auto settings = Path(options, &IkOptions::solver_settings);
   for (const auto& setting : SettingFields<Method>("solver", AllIkSolvers(), settings)) rows.push_back(setting);
   return rows;
 }
@@ -45,18 +42,16 @@ std::vector<Field<Method>> IkSolverFields(const IkSolver* Method::*solver, IkOpt
 /// A method's `tolerance_deg`; `meaning` says from where.
 template <typename Method>
 Field<Method> ToleranceField(IkOptions Method::*options, std::string meaning) {
-  return Field<Method>::Angle(
-             "tolerance_deg", [=](Method & m) -> auto& { return (m.*options).angle_change_tolerance; }, {0, 360},
-             std::move(meaning))
+  return Field<Method>::Angle("tolerance_deg", Path(options, &IkOptions::angle_change_tolerance), {0, 360},
+                              std::move(meaning))
       .WhenAbsent("(no bound)");
 }
 
 /// The limit of a solver's steps.
 template <typename Options>
 Field<Options> SweepsField(IkOptions Options::*options, std::string meaning) {
-  return Field<Options>::Number(
-      "max_sweeps", [=](Options & o) -> auto& { return (o.*options).max_iterations; }, {1, 100'000},
-      std::move(meaning));
+  return Field<Options>::Number("max_sweeps", Path(options, &IkOptions::max_iterations), {1, 100'000},
+                                std::move(meaning));
 }
 
 /// Reads `stop_at`, practical by default.

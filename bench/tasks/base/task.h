@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/clips/clip_library.h"
 #include "bench/files/json.h"
 #include "bench/keys/key_info.h"
 #include "bench/model/payload.h"
@@ -17,7 +16,6 @@
 #include "bench/model/sensor_sheet.h"
 #include "bench/model/unit.h"
 #include "engine/document/fields.h"
-#include "engine/fuzzy/fuzzy_system.h"
 #include "sim/random/stream.h"
 
 namespace etude {
@@ -28,8 +26,8 @@ class LiveProgram {
   virtual ~LiveProgram() = default;
   /// A session begins; false when the program has failed.
   virtual bool Begin(const Payload& session) = 0;
-  /// What it answers to the next step: an object whose numbers are finite. Null when it has failed, or gave no answer:
-  /// then the session is over, and whoever called the world's Run knows why.
+  /// Asks the next step; returns the answer: an object whose numbers are finite. Null when it has failed, or gave no
+  /// answer: then the session is over, and whoever called the world's Run knows why.
   virtual JsonPtr Step(const Payload& step) = 0;
 };
 
@@ -47,21 +45,21 @@ class TaskWorld {
 
   /// Runs a built-in method: its index in TaskInput::methods.
   virtual CellResult Run(std::size_t method) = 0;
-  /// Likewise, with `program` in the seat that the method leaves to it (TaskKind::seats). What the program says in the
-  /// wrong shape, size or range is an Error, as of Judge. What is told when the program has failed is thrown away.
+  /// Runs a method with `program` in the seat that the method leaves to it (TaskKind::seats). What the program says in
+  /// the wrong shape, size or range is an Error, as of Judge. What is told when the program has failed is thrown away.
   virtual Result<CellResult> RunWith(LiveProgram& /*program*/, std::size_t /*method*/) {
     return Fail({}, "worlds of this task have no loop");
   }
 
-  /// What a method outside is asked here, beside Task::Setting.
+  /// The question put to methods outside in this world, beside Task::Setting.
   virtual Result<Payload> MakeProblem() = 0;
-  /// What `etude export` writes apart from the problem.
+  /// The truth of this world, which `etude export` writes apart from the problem.
   virtual Result<Payload> MakeTruth() = 0;
   /// Scores an answer as if a built-in method had given it. An answer of the wrong shape, size or range is
   /// an Error that names where in the answer (e.g. "angles[3]"), what was found, and what is allowed.
   virtual Result<CellResult> Judge(const Json& answer) = 0;
 
-  /// What the sensors see, and what each effect of theirs does to it.
+  /// Pictures of what the sensors see, and of what each of their effects does to it.
   virtual Result<SensorSheet> MakeSensorSheet() { return Fail({}, "worlds of this task hold no pictures"); }
 };
 
@@ -78,26 +76,27 @@ class Task {
   /// where a world is made of no clip, or of all of them.
   virtual std::vector<std::string> ClipsOf(const WorldKey& key) const = 0;
 
-  /// What all problems of this condition share (the body's tree, the library of clips, …): told to methods
+  /// The data that all problems of this condition share (the body's tree, the library of clips, …): told to methods
   /// outside once, before their first problem.
   virtual Result<Payload> Setting() const = 0;
 
-  /// What a method that gave no answer is credited with, where failing has a value: 0 for a solved share, twice
+  /// The value of a metric for a method that gave no answer, where failing has one: 0 for a solved share, twice
   /// the limit for a penalised cost (PAR-2). Nothing for every other metric: its value is missing.
   virtual std::optional<double> ValueOfFailure(std::string_view /*metric*/) const { return std::nullopt; }
 };
 
+struct ClipLibrary;
 struct LabelledStreams;
 
-/// What a scenario gives a task to make itself from.
+/// The parts of a scenario that a task is made from.
 struct TaskInput {
   Fields& condition;              ///< the scenario's mapping, swept keys replaced; the task reads its own keys
   std::span<const Node> methods;  ///< each a mapping with at least `name`
   const ClipLibrary& clips;
-  FuzzySystem fuzzy = {};  ///< what the condition's key `fuzzy` names, paper A's when it has none (fuzzy_key.h)
-  /// Of the other files that its keys name, by key (sensor_key.h, rig_key.h, moves_key.h).
+  /// The texts of the files that the condition names, by key (ValueKind::names_file).
   std::map<std::string, std::string> texts = {};
-  /// In place of simulated people, where the scenario has `streams` or `labels` (bench/streams); outlives the task.
+  /// The recordings that stand in place of simulated people, where the scenario has `streams` or `labels`
+  /// (bench/streams); outlives the task.
   const LabelledStreams* recordings = nullptr;
 };
 
@@ -116,9 +115,9 @@ struct TaskKind {
   bool has_problems = true;      ///< whether a program may also be asked one question a world, without a seat
   bool uses_clips = true;        ///< whether its worlds are made of a scenario's `clips`
   bool uses_recordings = false;  ///< … or of its `streams`
-  /// What its worlds are drawn from, and what else a scenario may say they are; at least one.
+  /// The units that its worlds are drawn from: its own first, then others that a scenario may name; at least one.
   std::vector<SamplingUnit> units = {SamplingUnit::kWorld};
-  /// What its bytes depend on beside the build, for the manifest: "4.5 (Core Profile) Mesa 22.3.6".
+  /// Tells what its bytes depend on beside the build, for the manifest: "4.5 (Core Profile) Mesa 22.3.6".
   std::string (*platform)() = nullptr;
 };
 

@@ -1,11 +1,9 @@
-#include "bench/tasks/capture/capture_task.h"
-
 #include <algorithm>
 
 #include "bench/tasks/base/read_methods.h"
+#include "bench/tasks/base/task_kinds.h"
 #include "bench/tasks/capture/exchange.h"
 #include "bench/tasks/capture/options.h"
-#include "bench/tasks/capture/own_cameras.h"
 #include "bench/tasks/capture/run.h"
 #include "bench/tasks/capture/score.h"
 #include "bench/tasks/capture/seated_segmenter.h"
@@ -16,7 +14,7 @@
 namespace etude {
 namespace {
 
-/// Everything that the worlds of one condition have in common.
+/// The data that all worlds of one condition share.
 struct CaptureStudy {
   StudioOptions options;
   std::vector<CaptureMethod> methods;

@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-/// What COCO and Halpe call the keypoints of the layout "halpe_26_hands".
+/// COCO's and Halpe's names of the keypoints of the layout "halpe_26_hands".
 constexpr std::array kNames = {
     "nose",           "left_eye",   "right_eye",    "left_ear",      "right_ear",      "left_shoulder",
     "right_shoulder", "left_elbow", "right_elbow",  "left_wrist",    "right_wrist",    "left_hip",

@@ -28,14 +28,14 @@ void AddMarks(const Marks& marks, Digest& digest) {
 
 Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key,
           std::span<const PersonSource> sources, bool wants_masks, Renderer& renderer, const PictureSink& sink) {
-  Crew crew(world, options, key, sources, renderer);
+  TakeCameras cameras(world, options, key, sources, renderer);
   Digest pictures;
   const auto show = [&](std::size_t camera, std::optional<std::size_t> frame, const ColourImage& picture) {
     AddPicture(picture, pictures);
     if (sink) sink(camera, frame, picture);
   };
   for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
-    show(camera, std::nullopt, crew.backgrounds()[camera]);
+    show(camera, std::nullopt, cameras.backgrounds()[camera]);
   }
   Take take;
   std::vector<Digest> masks(sources.size()), marks(sources.size());
@@ -52,13 +52,13 @@ Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKe
   }
 
   for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
-    Crew::Station station = crew.At(camera);
+    TakeCameras::Feed feed = cameras.FeedOf(camera);
     for (std::size_t frame = 0; frame < world.truth.size(); ++frame) {
       if (!options.IsPictured(frame)) {
         for (Observation& observation : take.observations) observation.marks[camera].emplace_back();
         continue;
       }
-      const Crew::Picture picture = station.See(frame);
+      const TakeCameras::Picture picture = feed.Next(frame);
       show(camera, frame, picture.colour);
       if (wants_masks && frame == world.truth.size() / 2) take.stills.push_back(picture.colour);
       for (std::size_t i = 0; i < sources.size(); ++i) {
@@ -77,8 +77,8 @@ Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKe
     take.observations[i].score = MeanScore(scores[i]);
     take.observations[i].masks_digest = masks[i].Hex();
     take.observations[i].marks_digest = marks[i].Hex();
-    take.observations[i].annotator_distance_px = AnnotatorDistancePx(crew.marking()[i].joints());
-    take.observations[i].annotator_overlap = AnnotatorOverlap(crew.marking()[i].limbs());
+    take.observations[i].annotator_distance_px = AnnotatorDistancePx(cameras.marking()[i].joints());
+    take.observations[i].annotator_overlap = AnnotatorOverlap(cameras.marking()[i].limbs());
   }
   return take;
 }

@@ -8,22 +8,22 @@
 #include <vector>
 
 #include "bench/metrics/segmentation.h"
-#include "bench/tasks/capture/crew.h"
+#include "bench/tasks/capture/take_cameras.h"
 #include "bench/tasks/capture/world.h"
 #include "engine/vision/strokes.h"
 #include "sim/render/renderer.h"
 
 namespace etude {
 
-/// What one way of cutting out the person makes of a take. Indices: [camera][frame], or where that is said by picture
-/// ([camera][picture]: those of `StudioOptions::picture_every` alone).
+/// The result of one way of cutting out the person from a take. Indices: [camera][frame], or where that is said by
+/// picture ([camera][picture]: those of `StudioOptions::picture_every` alone).
 struct Observation {
   PersonSource source;
   std::vector<std::vector<Marks>> marks;  ///< nothing marked in frames that the annotator did not see
   std::vector<std::vector<Mask>>
       masks;        ///< by picture, half size; only when asked for, or for silhouettes (`kMostSilhouettes`)
   MaskScore score;  ///< mean over all pictures
-  /// How two annotators agree, over all pictures; nothing when one marks alone.
+  /// The agreement of two annotators over all pictures; empty when one marks alone.
   std::optional<double> annotator_distance_px, annotator_overlap;
   std::string masks_digest;
   std::string marks_digest;

@@ -4,7 +4,7 @@
 
 #include "bench/recordings/capture_extras.h"
 #include "bench/tasks/capture/nearest_poses.h"
-#include "bench/tasks/capture/recovery.h"
+#include "bench/tasks/capture/run.h"
 #include "engine/capture/calibrate_cameras.h"
 #include "engine/capture/measure_frames.h"
 
@@ -37,17 +37,17 @@ Result<void> LiveCapture::Prepare() {
 std::optional<RecoveredFrame> LiveCapture::Next() {
   const std::size_t frame = frame_++;
   assert(frame < stages_.world().truth.size());
-  if (!crew_) {
-    crew_.emplace(stages_.world(), options_, key_, sources_, *renderer_);
-    for (std::size_t camera = 0; camera < cameras_->matrices.size(); ++camera) stations_.push_back(crew_->At(camera));
+  if (!take_) {
+    take_.emplace(stages_.world(), options_, key_, sources_, *renderer_);
+    for (std::size_t camera = 0; camera < cameras_->matrices.size(); ++camera) feeds_.push_back(take_->FeedOf(camera));
   }
   if (options_.IsPictured(frame)) latest_ = Recover(frame);
   return latest_;
 }
 
 std::optional<RecoveredFrame> LiveCapture::Recover(std::size_t frame) {
-  std::vector<Crew::Picture> pictures;
-  for (Crew::Station& station : stations_) pictures.push_back(station.See(frame));
+  std::vector<TakeCameras::Picture> pictures;
+  for (TakeCameras::Feed& feed : feeds_) pictures.push_back(feed.Next(frame));
   if (method_.recovery == Recovery::kIk) return stages_.marked()[frame] ? RecoverByMarks(frame, pictures) : latest_;
   if (!silhouettes_) {
     silhouettes_.emplace(SilhouetteInputs{.first = stages_.world().truth.front(),
@@ -58,12 +58,12 @@ std::optional<RecoveredFrame> LiveCapture::Recover(std::size_t frame) {
                                           .picture_every = options_.picture_every});
   }
   std::vector<Mask> masks;
-  for (const Crew::Picture& picture : pictures) masks.push_back(HalveMask(picture.found.front()));
+  for (const TakeCameras::Picture& picture : pictures) masks.push_back(HalveMask(picture.found.front()));
   return silhouettes_->Next(masks);
 }
 
 std::optional<RecoveredFrame> LiveCapture::RecoverByMarks(std::size_t frame,
-                                                          const std::vector<Crew::Picture>& pictures) {
+                                                          const std::vector<TakeCameras::Picture>& pictures) {
   if (!marks_) marks_.emplace(*body_, RecoverOptionsOf(method_), LiveBridgeOptions(options_));
   const BodyPose& truth = stages_.world().truth[frame];
   std::vector<std::vector<Marks>> marks;

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "bench/tasks/capture/crew.h"
 #include "bench/tasks/capture/silhouettes.h"
 #include "bench/tasks/capture/stages.h"
+#include "bench/tasks/capture/take_cameras.h"
 #include "engine/capture/recover_frames.h"
 
 namespace etude {
@@ -33,7 +33,7 @@ class LiveCapture {
   LiveCapture(const StudioOptions& options, const CaptureMethod& method, const Booking& booking, const WorldKey& key);
   Result<void> Prepare();
   std::optional<RecoveredFrame> Recover(std::size_t frame);
-  std::optional<RecoveredFrame> RecoverByMarks(std::size_t frame, const std::vector<Crew::Picture>& pictures);
+  std::optional<RecoveredFrame> RecoverByMarks(std::size_t frame, const std::vector<TakeCameras::Picture>& pictures);
 
   const StudioOptions options_;
   const CaptureMethod method_;
@@ -43,8 +43,8 @@ class LiveCapture {
   const CalibratedCameras* cameras_ = nullptr;  ///< of `stages_`, as are the next two
   const CaptureBody* body_ = nullptr;
   Renderer* renderer_ = nullptr;
-  std::optional<Crew> crew_;
-  std::vector<Crew::Station> stations_;
+  std::optional<TakeCameras> take_;
+  std::vector<TakeCameras::Feed> feeds_;
   std::optional<LiveRecovery> marks_;
   std::optional<LiveSilhouettes> silhouettes_;
   std::size_t frame_ = 0;  ///< the next one

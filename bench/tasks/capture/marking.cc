@@ -44,7 +44,7 @@ std::optional<glm::dvec2> MiddleOf(const std::optional<PixelSegment>& stroke) {
   return 0.5 * (stroke->a + stroke->b);
 }
 
-/// What the performer wears, by stroke.
+/// The clothes of the performer, by stroke.
 LimbColours SuitOf(const PartColours& colours) {
   const auto of = [&](Part part) { return colours[static_cast<std::size_t>(part)]; };
   LimbColours suit{.trunk = of(Part::kTrunk), .limbs = {}};

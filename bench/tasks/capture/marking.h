@@ -22,19 +22,19 @@ class Marking {
   /// performs: where joints lie in its limbs, which point of the head is meant.
   Marking(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key);
 
-  /// What methods are told of one picture: of a stroke or disc that both annotators drew, the mean; else the one
-  /// there is. Nothing in frames that nobody is asked to mark. A camera's frames come in order.
+  /// The marks of one picture as methods are told them: of a stroke or disc that both annotators drew, the mean; else
+  /// the one there is. Nothing in frames that nobody is asked to mark. A camera's frames come in order.
   Marks Mark(std::size_t camera, std::size_t frame, const AnnotatedPicture& picture);
 
-  /// The same by someone who knows where the joints of `pose` are: what the picture shows of limbs and ends, marked
+  /// The marks of someone who knows where the joints of `pose` are: what the picture shows of limbs and ends, marked
   /// exactly, and not drawn. Throws no dice.
   Marks MarkTrueJoints(std::size_t frame, const AnnotatedPicture& picture, const Camera& camera,
                        const BodyPose& pose) const;
 
-  /// What the suit's colours tell, of a performer who wears the coded one. Throws no dice.
+  /// The marks that the colours of the coded suit give, of a performer who wears it. Throws no dice.
   Marks ReadColours(std::size_t frame, const AnnotatedPicture& picture) const;
 
-  /// What two annotators made of each joint and each limb of all pictures marked so far; empty when one marks alone.
+  /// The marks of two annotators of each joint and each limb in all pictures marked so far; empty when one marks alone.
   const std::vector<MarkedTwice>& joints() const { return joints_; }
   const std::vector<MarkedTwice>& limbs() const { return limbs_; }
 

@@ -1,20 +1,51 @@
 #include "bench/tasks/capture/options.h"
 
-#include "bench/tasks/base/rig_key.h"
-#include "bench/tasks/capture/camera_fields.h"
+#include <algorithm>
+
+#include "engine/cameras/rig_file.h"
 
 namespace etude {
 namespace {
 
-template <bool Oracle::*kStage>
-bool& OracleOf(CaptureMethod& method) {
-  return method.oracle.*kStage;
+Field<StudioOptions> Effect(const std::string& key, double CameraEffects::*effect, Range range, std::string meaning) {
+  return Field<StudioOptions>::Number(key, Path(&StudioOptions::camera, effect), range, std::move(meaning));
 }
 
-template <auto kMember>
-auto& InRig(StudioOptions& options) {
-  return options.rig.*kMember;
+}  // namespace
+
+std::vector<Field<StudioOptions>> CameraFields() {
+  using E = CameraEffects;
+  return {
+      Effect("sync_offset_ms", &E::sync_offset_ms, {0, 500},
+             "How far the clocks of all cameras but the first stand off, either way."),
+      Effect("clock_drift_ppm", &E::clock_drift_ppm, {0, 50000},
+             "How much faster or slower those clocks run, millionths."),
+      Effect("rolling_shutter_ms", &E::rolling_shutter_ms, {0, 66},
+             "From the reading of a picture's first row to that of its last."),
+      Effect("motion_blur", &E::motion_blur, {0, 1},
+             "How long the shutter is open, as a share of the time between frames."),
+      Effect("radial_distortion", &E::radial_distortion, {-0.12, 0.25},
+             "How far the lens moves the picture's corner, of its distance from the middle; below 0 a barrel."),
+      Effect("tangential_distortion", &E::tangential_distortion, {0, 0.05},
+             "Likewise, of a lens that is not parallel to the sensor."),
+      Effect("defocus_px", &E::defocus_px, {0, 10}, "Standard deviation of the Gaussian that a point is spread to."),
+      Effect("vignette", &E::vignette, {0, 4},
+             "Darkness of the corners: 1 is natural, the cosine of the angle from the axis to the fourth power."),
+      Effect("dust", &E::dust, {0, 1}, "The share of the light that a speck of dust keeps away, in its middle."),
+      Effect("exposure_ev", &E::exposure_ev, {-4, 4}, "Stops by which pictures are too bright."),
+      Effect("exposure_drift_ev", &E::exposure_drift_ev, {0, 2},
+             "How far an automatic exposure wanders, stops at most."),
+      Effect("gain_db", &E::gain_db, {0, 36}, "Amplification: as bright a picture of less light, with more noise."),
+      Effect("white_balance_ev", &E::white_balance_ev, {-2, 2}, "Stops of red against blue: above 0 too warm."),
+      Effect("white_balance_drift_ev", &E::white_balance_drift_ev, {0, 2},
+             "How far an automatic white balance wanders, stops at most."),
+      Effect("bayer", &E::bayer, {0, 1},
+             "1: each pixel measures one colour, the others are interpolated; between, a mix of both pictures."),
+      Effect("camera_noise", &E::noise, {0, 20}, "Multiplies the camera's usual noise."),
+      Effect("jpeg_loss", &E::jpeg_loss, {0, 99}, "100 less the quality of the JPEG file; 0 is no JPEG.")};
 }
+
+namespace {
 
 void CheckStudio(Fields& fields, StudioOptions& options) {
   const RigOptions& rig = options.rig;
@@ -31,7 +62,7 @@ FieldTable<StudioOptions> MakeConditionFields() {
   FieldTable<Options> made{
       {Key::Number("duration_s", &Options::duration_s, {0.1, 60}, "Length of the filmed window."),
        Key::Name(
-           "rig", InRig<&RigOptions::shape>,
+           "rig", Path(&Options::rig, &RigOptions::shape),
            {{"angles", RigShape::kAngles},
             {"stereo", RigShape::kStereo},
             {"ring", RigShape::kRing},
@@ -39,22 +70,25 @@ FieldTable<StudioOptions> MakeConditionFields() {
             {"file", RigShape::kFile}},
            "How the cameras stand about the performer: at given angles, side by side in front, evenly around, in four "
            "corners, or as your own were calibrated."),
-       Key{{kRigFileKey, TextKind("a calibration file"), "(none)",
+       Key{{kRigFileKey, FileKind("a calibration file"), "(none)",
             "Your own cameras, two to eight: what `etude calibrate` writes, OpenCV's YAML, Pose2Sim's or Anipose's "
             "TOML, "
             "Qualisys' XML. The rig is moved as a whole to where the performer is."},
            [](Fields& condition, Options&) { condition.Raw(kRigFileKey); }}
            .With("rig", {"file"}),
-       Key::Numbers("camera_angles_deg", InRig<&RigOptions::angles_deg>, {2, kMostCameras}, "two to eight of -180…180",
-                    {-180, 180}, "Where they stand: 0 = in front, positive = to the performer's left.")
+       Key::Numbers("camera_angles_deg", Path(&Options::rig, &RigOptions::angles_deg), {2, kMostCameras},
+                    "two to eight of -180…180", {-180, 180},
+                    "Where they stand: 0 = in front, positive = to the performer's left.")
            .With("rig", {"angles"}),
-       Key::Number("camera_baseline_m", InRig<&RigOptions::baseline_m>, {0.05, 3}, "From one to the other.")
+       Key::Number("camera_baseline_m", Path(&Options::rig, &RigOptions::baseline_m), {0.05, 3},
+                   "From one to the other.")
            .With("rig", {"stereo"}),
-       Key::Number("cameras", InRig<&RigOptions::cameras>, {2, kMostCameras}, "How many stand around.")
+       Key::Number("cameras", Path(&Options::rig, &RigOptions::cameras), {2, kMostCameras}, "How many stand around.")
            .With("rig", {"ring"}),
-       Key::Numbers("camera_heights_m", InRig<&RigOptions::heights_m>, {1, kMostCameras}, "one to eight of 0.2…5",
-                    {0.2, 5}, "How high they stand: one for each angle; in other rigs the cameras take them in turn."),
-       Key::Number("camera_distance_m", InRig<&RigOptions::distance_m>, {2, 10},
+       Key::Numbers("camera_heights_m", Path(&Options::rig, &RigOptions::heights_m), {1, kMostCameras},
+                    "one to eight of 0.2…5", {0.2, 5},
+                    "How high they stand: one for each angle; in other rigs the cameras take them in turn."),
+       Key::Number("camera_distance_m", Path(&Options::rig, &RigOptions::distance_m), {2, 10},
                    "From the middle of where the performer moves, as far as the room allows."),
        Key::Name(
            "figure", &Options::figure, {{"staged", PerformerFigure::kStaged}, {"own", PerformerFigure::kOwn}},
@@ -200,14 +234,14 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
          ToleranceField(&Method::ik, "How far an angle may leave the one seen in the images.").With("recovery", {"ik"}),
          SweepsField(&Method::ik, "The solver's steps per frame, at most.").With("recovery", {"ik"}),
          Key::Flags("oracle",
-                    {{"calibration", OracleOf<&Oracle::calibration>},
-                     {"segmentation", OracleOf<&Oracle::segmentation>},
-                     {"marks", OracleOf<&Oracle::marks>},
-                     {"directions", OracleOf<&Oracle::directions>},
-                     {"points", OracleOf<&Oracle::points>},
-                     {"lengths", OracleOf<&Oracle::lengths>},
-                     {"start", OracleOf<&Oracle::start>},
-                     {"ik", OracleOf<&Oracle::ik>}},
+                    {{"calibration", Path(&Method::oracle, &Oracle::calibration)},
+                     {"segmentation", Path(&Method::oracle, &Oracle::segmentation)},
+                     {"marks", Path(&Method::oracle, &Oracle::marks)},
+                     {"directions", Path(&Method::oracle, &Oracle::directions)},
+                     {"points", Path(&Method::oracle, &Oracle::points)},
+                     {"lengths", Path(&Method::oracle, &Oracle::lengths)},
+                     {"start", Path(&Method::oracle, &Oracle::start)},
+                     {"ik", Path(&Method::oracle, &Oracle::ik)}},
                     "Stages replaced by the truth.")},
         CheckMethod};
     std::vector<Key> solver = IkSolverFields(&Method::solver, &Method::ik);
@@ -244,6 +278,52 @@ Result<void> CheckMarks(const StudioOptions& options, const CaptureMethod& metho
   }
   if (options.clothes == Clothes::kCoded) return {};
   return Fail(place, "'marks: colours' reads the colours of a suit; allowed with clothes: coded");
+}
+
+PersonSource PersonSourceOf(const CaptureMethod& method) {
+  const bool for_silhouettes = method.recovery == Recovery::kSilhouettes;
+  PersonSource source{.segmenter = method.segmenter,
+                      .pieces = for_silhouettes ? PersonPieces::kLarge : method.pieces,
+                      .is_truth = false,
+                      .for_silhouettes = for_silhouettes,
+                      .program = method.program,
+                      .has_true_marks = method.oracle.marks,
+                      .has_coloured_marks = method.marks == MarkSource::kColours};
+  if (method.oracle.segmentation) {
+    source.segmenter = Segmenter::kHue;
+    source.pieces = PersonPieces::kLargest;
+    source.is_truth = true;
+  }
+  return source;
+}
+
+void AddSource(const PersonSource& source, std::vector<PersonSource>& sources) {
+  if (std::ranges::find(sources, source) == sources.end()) sources.push_back(source);
+}
+
+Result<void> OpenOwnCameras(const TaskInput& input, StudioOptions& options) {
+  if (options.rig.shape != RigShape::kFile) return {};
+  const Node& condition = input.condition.node();
+  const Node* named = condition.Find(kRigFileKey);
+  const auto text = input.texts.find(kRigFileKey);
+  if (named == nullptr || text == input.texts.end()) {
+    return Fail((named != nullptr ? *named : condition).place, "'rig: file' needs '{}', a calibration file",
+                kRigFileKey);
+  }
+  ASSIGN_OR_RETURN(const auto cameras, ReadRig(text->second, named->scalar));
+  if (cameras.size() < 2 || cameras.size() > kMostCameras) {
+    return Fail(named->place, "'{}' has {} cameras; allowed: 2 to {}", named->scalar, cameras.size(), kMostCameras);
+  }
+  std::vector<Camera>& own = options.rig.own;
+  for (const NamedCamera& camera : cameras) {
+    const Intrinsics& in = camera.camera.intrinsics;
+    if (in.width < 1 || in.height < 1 || in.width > kLargestPicture || in.height > kLargestPicture) {
+      return Fail(named->place, "camera '{}' of '{}' takes pictures of {} × {} pixels; allowed: 1 to {} a side",
+                  camera.name, named->scalar, in.width, in.height, kLargestPicture);
+    }
+    own.push_back(camera.camera);
+  }
+  return {};
 }
 
 }  // namespace etude

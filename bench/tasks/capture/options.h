@@ -1,9 +1,13 @@
 #pragma once
 
+#include <compare>
 #include <string>
 #include <vector>
 
+#include "bench/keys/field_table.h"
 #include "bench/tasks/base/solver_fields.h"
+#include "bench/tasks/base/task.h"
+#include "engine/base/result.h"
 #include "engine/cameras/dlt.h"
 #include "engine/vision/change_detection.h"
 #include "sim/camera/camera_effects.h"
@@ -11,19 +15,22 @@
 
 namespace etude {
 
+/// The keys of what the cameras do to the light: one per effect of CameraEffects, in their order.
+std::vector<Field<StudioOptions>> CameraFields();
+
 enum class Clothes {
   kStudio,    ///< "studio": colours that stand apart from the room's, as one would dress for it
   kEveryday,  ///< "everyday": a grey shirt and dark blue trousers, in a room with a bluish floor
   kCoded,     ///< "coded": a suit of which every limb has a colour of its own
 };
 
-/// Who is drawn.
+/// The figure that is drawn.
 enum class PerformerFigure {
   kStaged,  ///< "staged": the stage's own people, dressed as `clothes` and `scene` say
   kOwn,     ///< "own": the meshes and textures that the clip's file brings
 };
 
-/// What the cameras are calibrated with.
+/// The target that the cameras are calibrated with.
 enum class CalibrationTargetKind {
   kPoints,  ///< "points": marked on planes, and clicked in the picture (paper B)
   kMarks,   ///< "marks": discs on planes, pointed at and then found in the picture
@@ -53,12 +60,12 @@ struct StudioOptions {
   int picture_every = 1;
 
   bool IsPictured(std::size_t frame) const { return frame % static_cast<std::size_t>(picture_every) == 0; }
-  /// How many pictures a camera takes of so many frames.
+  /// The number of pictures that a camera takes of so many frames.
   std::size_t PicturesOf(std::size_t frames) const {
     const auto every = static_cast<std::size_t>(picture_every);
     return (frames + every - 1) / every;
   }
-  /// Which frames are pictured and marked.
+  /// True for frames that are pictured and marked.
   bool IsMarked(std::size_t frame) const {
     return IsPictured(frame) && frame % static_cast<std::size_t>(mark_every) == 0;
   }
@@ -70,10 +77,10 @@ enum class BodyKind {
   kPaper,   ///< "paper": paper B's 29 degrees of freedom, with the performer's limb lengths
 };
 
-/// Whether a camera that disagrees with the others is left out.
+/// The rule for a camera that disagrees with the others.
 enum class OutlierRule { kKeep, kReject };
 
-/// Where the times of pictures come from.
+/// The source of the times of pictures.
 enum class Sync {
   kAssumed,    ///< "assumed": frames of one number are taken at one time
   kEstimated,  ///< "estimated": from how marks move
@@ -95,7 +102,7 @@ struct Oracle {
   bool operator==(const Oracle&) const = default;
 };
 
-/// How pictures become the poses of a body.
+/// The way from pictures to the poses of a body.
 enum class Recovery {
   kIk,      ///< "ik": limb directions and ends, lengths fixed, inverse kinematics (paper B)
   kEnds,    ///< "ends": every joint triangulated from the strokes that end there; no body, no inverse kinematics
@@ -107,31 +114,31 @@ enum class Recovery {
   kSilhouettes,
 };
 
-/// What is done to the joints of a whole take.
+/// The smoothing of the joints of a whole take.
 enum class Smoothing {
   kNone,  ///< "none"
   kRts,   ///< "rts": each joint's track by itself (Rauch, Tung and Striebel)
 };
 
-/// Where the limb lengths come from.
+/// The source of the limb lengths.
 enum class LengthSource {
   kKnown,     ///< "known": measured on the performer beforehand (paper B)
   kMeasured,  ///< "measured": from the marks of a few frames
 };
 
-/// What a method that follows silhouettes begins with.
+/// The start of a method that follows silhouettes.
 enum class SilhouetteStart {
   kCold,  ///< "cold": the pictures alone
   kNear,  ///< "near": the first frame's true pose, every angle wrong by up to 10°: as if agreed on beforehand
 };
 
-/// Who marks the pictures.
+/// The source of the marks in the pictures.
 enum class MarkSource {
   kAnnotator,  ///< "annotator": a person, by hand (paper B)
   kColours,    ///< "colours": nobody; limbs are told by the colours of a coded suit (engine/vision/limb_colours)
 };
 
-/// What a program does of a method's work.
+/// The part of a method's work that a program does.
 enum class CaptureSeat {
   kNone,
   kSegmenter,  ///< "segmenter": it cuts the person out of the pictures
@@ -168,10 +175,34 @@ struct CaptureMethod {
 
 const FieldTable<StudioOptions>& CaptureConditionFields();
 const FieldTable<CaptureMethod>& CaptureMethodFields();
-/// The same with `seat`: where the pictures are the task's own, and no sensor of another's.
+/// CaptureMethodFields with `seat`, for pictures that are the task's own and no other task's sensor.
 const FieldTable<CaptureMethod>& SeatedCaptureMethodFields();
 
 /// Refuses a method, written at `place`, that reads colours which nobody wears in this studio.
 Result<void> CheckMarks(const StudioOptions& options, const CaptureMethod& method, const Place& place);
+
+/// The way of cutting the person out of the pictures, by a segmenter or by the truth, and the source of marks.
+struct PersonSource {
+  Segmenter segmenter = Segmenter::kHue;
+  PersonPieces pieces = PersonPieces::kLargest;
+  bool is_truth = false;
+  /// Cut out for methods that read silhouettes alone: masks are kept, and nobody marks the pictures.
+  bool for_silhouettes = false;
+  SeatedSegmenter* program = nullptr;  ///< cuts out in the segmenter's place
+  bool has_true_marks = false;      ///< drawn by someone who knows where the joints are, where the picture shows them
+  bool has_coloured_marks = false;  ///< nobody marks: the colours of the suit tell limbs apart
+  auto operator<=>(const PersonSource&) const = default;
+};
+
+/// The method's way of cutting out the person.
+PersonSource PersonSourceOf(const CaptureMethod& method);
+/// Each source once: methods that cut out alike see the same marks.
+void AddSource(const PersonSource& source, std::vector<PersonSource>& sources);
+
+/// The key of a condition that names a file of somebody's own cameras (`ReadRig`).
+constexpr const char* kRigFileKey = "rig_file";
+
+/// Reads the calibration file that a condition with `rig: file` names into `options.rig.own`.
+Result<void> OpenOwnCameras(const TaskInput& input, StudioOptions& options);
 
 }  // namespace etude

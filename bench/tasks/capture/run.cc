@@ -1,10 +1,233 @@
 #include "bench/tasks/capture/run.h"
 
 #include <algorithm>
+#include <numeric>
 
-#include "bench/tasks/capture/recovery.h"
+#include "bench/tasks/capture/film.h"
+#include "bench/tasks/capture/silhouettes.h"
+#include "engine/capture/adjust_take.h"
+#include "engine/capture/fit_pose.h"
+#include "engine/capture/live_recovery.h"
+#include "engine/capture/measure_lengths.h"
+#include "engine/keypoints/marked_person.h"
+#include "engine/keypoints/recover_person.h"
+#include "engine/kinematics/capture_body.h"
+#include "engine/kinematics/start_angles.h"
+#include "engine/motion/rest_body.h"
 
 namespace etude {
+namespace {
+
+MeasureInputs PicturesOf(const CaptureRun& run) {
+  return {.cameras = run.cameras.matrices, .marks = run.measured.marks};
+}
+
+/// The joints of every frame, of some or none in frames before anything was seen.
+std::vector<SomeJoints> JointsOf(const CaptureRun& run) {
+  if (run.method.smoothing == Smoothing::kRts) return SmoothJoints(run.measured.joints, kJudgedRateHz);
+  return BridgeJoints(run.measured.joints);
+}
+
+/// Frames whose pose comes first, and the tree's state after it: as near to it as start angles come.
+class PosedFrames {
+ public:
+  explicit PosedFrames(const CaptureBody& body) : body_(body), fitter_(body) {}
+
+  RecoveredFrame At(const BodyPose& pose, const TreeState& last) const {
+    const auto state =
+        body_.is_paper ? FindStartState(body_.tree, pose, body_.tree.limits) : fitter_.Fit(TargetsAt(pose));
+    return {pose, state.value_or(last), pose, {}};
+  }
+
+ private:
+  const CaptureBody& body_;
+  const PoseFitter fitter_;
+};
+
+/// Recovers each frame from the marks up to it alone; frames without marks show the last skeleton.
+void RecoverLive(const CaptureStages& stages, const NearestPoses* nearest, CaptureRun& run) {
+  LiveRecovery live(run.body, RecoverOptionsOf(run.method), LiveBridgeOptions(stages.options()));
+  for (std::size_t k = 0; k < run.measured.frames.size(); ++k) {
+    if (stages.marked()[k]) {
+      KnownAngles known;
+      if (run.method.oracle.start) known.start = (*nearest)[k];
+      if (run.method.oracle.ik) known.pose = (*nearest)[k];
+      run.frames.push_back(live.Next(run.measured.frames[k], known));
+    } else {
+      run.frames.push_back(k == 0 ? std::nullopt : run.frames.back());
+    }
+  }
+}
+
+Result<void> RecoverByIk(CaptureStages& stages, CaptureRun& run) {
+  const NearestPoses* nearest = nullptr;
+  if (run.method.oracle.start || run.method.oracle.ik) {
+    ASSIGN_OR_RETURN(nearest, stages.GetNearestPoses(run.method));
+  }
+  if (run.method.causal) {
+    RecoverLive(stages, nearest, run);
+    return {};
+  }
+  RecoverInputs inputs{.body = run.body, .seen = run.measured.seen, .marked = stages.marked()};
+  if (run.method.oracle.start) inputs.known_starts = *nearest;
+  if (run.method.oracle.ik) inputs.known_poses = *nearest;
+  run.frames = RecoverFrames(inputs, RecoverOptionsOf(run.method));
+  return {};
+}
+
+void RecoverEnds(CaptureRun& run) {
+  TreeState last = StandingState(run.body.tree);
+  const BodyPose standing = ToBodyPose(run.body, last);
+  const PosedFrames frames(run.body);
+  for (const SomeJoints& joints : JointsOf(run)) {
+    const auto pose = CompleteJoints(joints, standing);
+    run.frames.push_back(pose ? std::optional(frames.At(*pose, last)) : std::nullopt);
+    if (pose) last = run.frames.back()->state;
+  }
+}
+
+void RecoverBundle(CaptureRun& run) {
+  const std::vector<SomeJoints> start = BridgeJoints(run.measured.joints);
+  AdjustTakeOptions options;
+  options.bundle.smoothness = SmoothnessOf(MakeTakeBody(run.body.lengths), kJudgedRateHz);
+  options.bundle.adjusts_lengths = run.method.lengths == LengthSource::kMeasured;
+  const AdjustedTake take =
+      AdjustTake({.pictures = PicturesOf(run), .lengths = run.body.lengths, .start = start}, options);
+  run.frames.resize(start.size());
+  if (!take.is_solved) return;
+  run.body = take.body;
+  for (std::size_t k = 0; k < take.states.size(); ++k) {
+    const BodyPose pose = ToBodyPose(run.body, take.states[k]);
+    run.frames[k] = RecoveredFrame{pose, take.states[k], pose, {}};
+  }
+}
+
+/// As `etude capture` does with the same marks.
+void RecoverByKeypoints(const CaptureStages& stages, CaptureRun& run) {
+  std::vector<SeenPeople> people;
+  double longer_side = 0;
+  for (const std::vector<Marks>& of_camera : run.measured.marks) {
+    const Intrinsics& in = stages.world().cameras[people.size()].intrinsics;
+    longer_side = std::max<double>(longer_side, std::max(in.width, in.height));
+    SeenPeople& seen = people.emplace_back();
+    for (const Marks& marks : of_camera) {
+      const SeenPerson person = PersonOf(marks);
+      seen.emplace_back();
+      if (HeightPx(person) > 0) seen.back().push_back(person);
+    }
+  }
+  run.frames.resize(stages.world().truth.size());
+  const auto person = RecoverPerson(run.cameras.matrices, people, UsualRecovery(kJudgedRateHz, longer_side));
+  if (!person) return;
+  run.body = person->body;
+  TreeState last = StandingState(run.body.tree);
+  const PosedFrames frames(run.body);
+  for (std::size_t k = 0; k < run.frames.size(); ++k) {
+    if (person->is_held[k]) continue;
+    run.frames[k] = frames.At(person->motion.poses[k], last);
+    last = run.frames[k]->state;
+  }
+}
+
+Result<void> RecoverFromSilhouettes(CaptureStages& stages, CaptureRun& run) {
+  const StudioOptions& options = stages.options();
+  const std::vector<BodyPose>& truth = stages.world().truth;
+  const std::vector<std::vector<Mask>>& masks = run.observation.masks;
+  const std::size_t cameras = run.cameras.matrices.size(), pictures = options.PicturesOf(truth.size());
+  if (cameras * pictures > kMostSilhouettes) {
+    return Fail({}, "silhouettes of {} pictures; at most {} are held in memory, that is {:g} s", cameras * pictures,
+                kMostSilhouettes,
+                static_cast<double>(kMostSilhouettes / cameras) * options.picture_every / kJudgedRateHz);
+  }
+  const SilhouetteInputs inputs{.first = truth.front(),
+                                .key = stages.key(),
+                                .body = run.body,
+                                .cameras = run.cameras.matrices,
+                                .start = run.method.start,
+                                .picture_every = options.picture_every};
+  std::vector<std::optional<RecoveredFrame>> found;
+  if (run.method.causal) {
+    LiveSilhouettes live(inputs);
+    for (std::size_t picture = 0; picture < pictures; ++picture) {
+      std::vector<Mask> of_moment;
+      for (const std::vector<Mask>& of_camera : masks) of_moment.push_back(of_camera[picture]);
+      found.push_back(live.Next(of_moment));
+    }
+  } else {
+    found = FollowSilhouettes(inputs, masks);
+  }
+  for (std::size_t k = 0; k < truth.size(); ++k) {  // between pictures the last skeleton stands
+    run.frames.push_back(found[k / static_cast<std::size_t>(options.picture_every)]);
+  }
+  return {};
+}
+
+/// Each joint of recovered frames smoothed by itself; frames without a skeleton are filled.
+void SmoothFrames(CaptureRun& run) {
+  std::vector<std::optional<BodyPose>> poses;
+  for (const auto& frame : run.frames) poses.push_back(frame ? std::optional(frame->pose) : std::nullopt);
+  const auto first = std::ranges::find_if(run.frames, [](const auto& frame) { return frame.has_value(); });
+  if (first == run.frames.end()) return;
+  RecoveredFrame last = **first;
+  const PosedFrames posed(run.body);
+  const std::vector<BodyPose> smooth = SmoothPoses(poses, run.measured.joints, kJudgedRateHz);
+  for (std::size_t k = 0; k < run.frames.size(); ++k) {
+    if (run.frames[k]) last = *run.frames[k];
+    RecoveredFrame frame = posed.At(smooth[k], last.state);
+    frame.fixed = last.fixed;
+    if (run.frames[k]) frame.errors = last.errors;
+    run.frames[k] = std::move(frame);
+  }
+}
+
+}  // namespace
+
+RecoverOptions RecoverOptionsOf(const CaptureMethod& method) { return {.solver = method.solver, .ik = method.ik}; }
+
+BridgeOptions LiveBridgeOptions(const StudioOptions& options) {
+  const int frames = std::lcm(options.mark_every, options.picture_every);
+  BridgeOptions bridge;
+  bridge.longest_gap = std::max(1, bridge.longest_gap / frames);
+  bridge.turn_per_frame *= frames;
+  return bridge;
+}
+
+Result<CaptureBody> BodyFor(CaptureStages& stages, const CaptureRun& run) {
+  if (run.method.recovery == Recovery::kKeypoints) return PaperBody({});  // until the points tell another
+  if (run.method.lengths == LengthSource::kKnown) {
+    ASSIGN_OR_RETURN(const CaptureBody* body, stages.GetKnownBody(run.method));
+    return *body;
+  }
+  const bool is_paper = run.method.recovery != Recovery::kIk || run.method.body == BodyKind::kPaper;
+  const auto lengths = MeasureLengths(PicturesOf(run), run.measured.joints);
+  if (!lengths) return Fail({}, "no limb lengths: no frame shows enough of a body in two pictures to measure them");
+  const CaptureBody paper = PaperBody(*lengths);
+  if (is_paper) return paper;
+  const BodyPose standing = ToBodyPose(paper, StandingState(paper.tree));
+  return FittedBody(RestBodyOf({&standing, 1}));
+}
+
+Result<void> Recover(CaptureStages& stages, CaptureRun& run) {
+  switch (run.method.recovery) {
+    case Recovery::kIk:
+      RETURN_IF_ERROR(RecoverByIk(stages, run));
+      break;
+    case Recovery::kEnds:
+      RecoverEnds(run);
+      return {};  // smoothed already, each place with its own uncertainty
+    case Recovery::kBundle:
+      RecoverBundle(run);
+      break;
+    case Recovery::kKeypoints:
+      RecoverByKeypoints(stages, run);
+      return {};
+    case Recovery::kSilhouettes:
+      return RecoverFromSilhouettes(stages, run);
+  }
+  if (run.method.smoothing == Smoothing::kRts) SmoothFrames(run);
+  return {};
+}
+
 namespace {
 
 const Observation& ObservationBy(const Take& take, const PersonSource& source) {

@@ -116,7 +116,7 @@ void ReportJerk(const CaptureWorld& world, const std::vector<BodyPose>& poses, C
                  "no four successive frames are in view");
 }
 
-/// Those of one value per frame in which the performer was in view: no others are judged.
+/// The values, one per frame, of frames in which the performer was in view: no others are judged.
 template <typename Value>
 std::vector<Value> InView(const CaptureWorld& world, const std::vector<Value>& values) {
   std::vector<Value> kept;
@@ -131,7 +131,8 @@ PoseErrors JudgePoses(const CaptureWorld& world, const std::vector<BodyPose>& po
   return ComparePoses(InView(world, poses), InView(world, world.truth));
 }
 
-/// From the end effectors to where they were seen, mean over the frames in which they were; nothing if in none.
+/// The distance from the end effectors to where they were seen, mean over the frames in which they were; empty when in
+/// none.
 std::optional<double> MeanEffectorErrorCm(const std::vector<RecoveredFrame>& frames) {
   constexpr double kCmPerMetre = 100;
   double of_frames = 0;
@@ -231,7 +232,7 @@ void FailWithoutPoses(const std::string& reason, CellResult& cell) {
   for (const char* id : kPoseMetrics) cell.Missing(id, "no frame was recovered");
 }
 
-/// As HoldFrames: where there is no pose, the last one before it, or the first.
+/// Fills frames without a pose as HoldFrames does: with the last pose before them, or the first.
 std::vector<BodyPose> HoldPoses(const CaptureAnswer& answer) {
   std::vector<BodyPose> held;
   const auto first = std::find_if(answer.begin(), answer.end(), [](const auto& pose) { return pose.has_value(); });

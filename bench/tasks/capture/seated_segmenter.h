@@ -16,11 +16,11 @@ class SeatedSegmenter {
 
   /// The next pictures are this camera's, of that empty room.
   void Begin(std::size_t camera, const ColourImage& background);
-  /// What the program says has changed in the next one. All zero when it has failed, or complained: then nothing more
-  /// is asked.
+  /// The mask of what the program says has changed in the next picture. All zero when it has failed, or complained:
+  /// then nothing more is asked.
   Mask Detect(const ColourImage& picture);
 
-  /// What was wrong with an answer; success when nothing was.
+  /// The complaint about an answer; success when there was none.
   const Result<void>& complaint() const { return complaint_; }
 
  private:

@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-/// How an effect is looked at.
+/// A view of one effect.
 enum class Look {
   kWhole,     ///< the whole picture
   kDetail,    ///< the head, enlarged: what happens from pixel to pixel

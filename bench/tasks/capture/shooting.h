@@ -14,7 +14,7 @@ namespace etude {
 /// that nothing jumps; exactly poses[k] at k; beyond the ends the first or the last.
 BodyPose PoseAt(std::span<const BodyPose> poses, double frame);
 
-/// Who is seen at such a time.
+/// Gives the pose that is seen at a time.
 Figure PerformerAt(const CaptureWorld& world, double frame);
 
 /// Where and when cameras look, and nothing that harms what they see: what is left of the effects for pictures of the
@@ -32,7 +32,7 @@ class Shooting {
   /// none for the background picture.
   ColourImage ShootStage(std::size_t camera, const std::vector<Figure>& props = {});
 
-  /// Who is seen in a frame: the pose at the time of the picture's middle row.
+  /// The pose that is seen in a frame: that at the time of the picture's middle row.
   BodyPose SeenPose(std::size_t camera, std::size_t frame) const;
 
   const CameraModel& camera(std::size_t index) const { return cameras_[index]; }

@@ -14,7 +14,7 @@
 
 namespace etude {
 
-/// What is known beforehand of who is followed by silhouettes.
+/// The prior knowledge of a person who is followed by silhouettes.
 struct SilhouetteInputs {
   const BodyPose& first;  ///< the first true pose, used when the start is `kNear`, and for nothing else
   const WorldKey& key;
@@ -29,7 +29,7 @@ struct SilhouetteInputs {
 std::vector<std::optional<RecoveredFrame>> FollowSilhouettes(const SilhouetteInputs& inputs,
                                                              std::span<const std::vector<Mask>> masks);
 
-/// The same picture by picture, each pose from those up to it alone.
+/// Follows silhouettes picture by picture, each pose from the pictures up to it alone.
 class LiveSilhouettes {
  public:
   /// `inputs.body` must outlive this.

@@ -7,16 +7,35 @@
 #include <string>
 #include <vector>
 
-#include "bench/tasks/capture/calibration.h"
 #include "bench/tasks/capture/film.h"
 #include "bench/tasks/capture/options.h"
 #include "bench/tasks/capture/world.h"
+#include "engine/cameras/dlt.h"
 #include "engine/capture/bridge_gaps.h"
 #include "engine/capture/measure_frames.h"
 #include "engine/capture/measure_joints.h"
 #include "engine/kinematics/capture_body.h"
+#include "sim/render/renderer.h"
 
 namespace etude {
+
+/// The calibration target of each camera: places of the world, as they were measured, and where its picture shows them.
+using CalibrationPairs = std::vector<std::vector<PointPair>>;
+
+/// Points stuck on three walls of a box about the stage (paper B, section 2.2: "on different planes"), clicked by a
+/// human with an error of `calibration_noise_px`, and measured with one of `calibration_measure_mm`.
+CalibrationPairs ClickedPoints(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key);
+
+/// The discs of a cube (sim/rig/calibration_target.h), found in a picture that each camera takes of it with all that
+/// its optics and sensor do: where a human has pointed, with an error of `calibration_noise_px`. Each is measured by
+/// itself. Discs seen from more than 70° aside are left alone, as are those that are not found.
+CalibrationPairs FoundMarks(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key,
+                            Renderer& renderer);
+
+/// The corners of a cube of boards (sim/rig/calibration_target.h), found in a picture that each camera takes of it with
+/// all that its optics and sensor do. A board is measured as a whole: all its corners are off alike.
+CalibrationPairs FoundCorners(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key,
+                              Renderer& renderer);
 
 /// All cameras of a world, calibrated one way.
 struct CalibratedCameras {
@@ -26,7 +45,7 @@ struct CalibratedCameras {
   std::string digest = {};
 };
 
-/// What the marks of a whole take say about space.
+/// The measurements in space that the marks of a whole take give.
 struct MeasuredTake {
   /// `marks[camera][frame]`: what was drawn, without what lenses do, and as the method wants it in time and without
   /// those that disagree. Whatever recovers a motion sees these.
@@ -52,7 +71,7 @@ class CaptureStages {
   const StudioOptions& options() const { return options_; }
   const CaptureWorld& world() const { return world_; }
   const WorldKey& key() const { return key_; }
-  /// Which frames the annotator marks.
+  /// True for the frames that the annotator marks.
   const std::vector<bool>& marked() const { return marked_; }
   /// Live: the next pose of who is filmed.
   void Add(const BodyPose& pose);
@@ -68,24 +87,24 @@ class CaptureStages {
   Result<const CaptureBody*> GetBody(const CaptureMethod& method);
   /// The body of `method` where its limbs are known.
   Result<const CaptureBody*> GetKnownBody(const CaptureMethod& method);
-  /// In the body of `method`.
+  /// The poses nearest to the truth in the body of `method`.
   Result<const NearestPoses*> GetNearestPoses(const CaptureMethod& method);
 
  private:
-  /// What decides about the matrices of a method's cameras.
+  /// The options that decide about the matrices of a method's cameras.
   struct CameraChoice {
     bool is_truth = false;
     Calibration calibration = Calibration::kDlt;
     auto operator<=>(const CameraChoice&) const = default;
   };
-  /// What decides about a method's body.
+  /// The options that decide about a method's body.
   struct BodyChoice {
     BodyKind kind = BodyKind::kFitted;
     bool true_lengths = false;
     auto operator<=>(const BodyChoice&) const = default;
   };
   static BodyChoice BodyChoiceOf(const CaptureMethod& method);
-  /// What decides about a method's measurements.
+  /// The options that decide about a method's measurements.
   struct MeasureChoice {
     CameraChoice cameras;
     PersonSource person;
@@ -110,7 +129,7 @@ class CaptureStages {
   std::map<BodyChoice, NearestPoses> nearest_;
 };
 
-/// What somebody who knows the truth of a frame tells a method with these oracles of it.
+/// The truth of a frame that a method with these oracles is told.
 KnownMeasurement ToldOf(const BodyPose& truth, const Oracle& oracle);
 
 }  // namespace etude

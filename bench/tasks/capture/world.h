@@ -21,7 +21,7 @@
 
 namespace etude {
 
-/// How long somebody's limbs are: as paper B counts them, and joint by joint.
+/// The limb lengths of a person: as paper B counts them, and joint by joint.
 struct PersonalLimbs {
   LimbLengths lengths;
   RestBody body;
@@ -34,7 +34,7 @@ struct OwnFigure {
   FloorMove move;
 };
 
-/// Everything true about one take: who moves how in front of which cameras under which light.
+/// The truth of one take: who moves how in front of which cameras under which light.
 struct CaptureWorld {
   std::vector<BodyPose> truth;     ///< 30 Hz, about the floor's origin, facing +Z in its middle frame
   PersonalLimbs person;            ///< who moves
@@ -50,7 +50,7 @@ struct CaptureWorld {
   std::vector<double> brightness;  ///< of each frame
 };
 
-/// Who is to be filmed, and for how long.
+/// The person to be filmed, and for how long.
 struct Booking {
   std::span<const BodyPose> poses;  ///< about where they will be: cameras and furniture are set up around
   RestBody body;
@@ -69,7 +69,7 @@ CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& c
 /// The lens that a camera of the world has under those effects.
 Distortion LensOf(const CameraEffects& effects, const Camera& camera, std::size_t index, const WorldKey& key);
 
-/// What faultless marks and cameras would measure of a frame.
+/// The measurements that faultless marks and cameras would give of a frame.
 FrameMeasurement TrueMeasurement(const BodyPose& truth);
 
 }  // namespace etude

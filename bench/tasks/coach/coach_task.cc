@@ -1,5 +1,3 @@
-#include "bench/tasks/coach/coach_task.h"
-
 #include <cstdint>
 #include <map>
 #include <string>
@@ -7,13 +5,12 @@
 #include <vector>
 
 #include "bench/tasks/base/read_methods.h"
+#include "bench/tasks/base/task_kinds.h"
 #include "bench/tasks/coach/exchange.h"
 #include "bench/tasks/coach/operating_point.h"
 #include "bench/tasks/coach/options.h"
 #include "bench/tasks/coach/recording.h"
 #include "bench/tasks/coach/run.h"
-#include "bench/tasks/coach/score.h"
-#include "bench/tasks/coach/stage.h"
 #include "bench/tasks/coach/world.h"
 
 namespace etude {
@@ -21,7 +18,7 @@ namespace {
 
 constexpr const char* kOnlyLive = "a session answers back: it has no problem that could be told beforehand";
 
-/// Everything that the worlds of a condition share.
+/// The data that all worlds of one condition share.
 struct Rehearsal {
   CoachCondition condition;
   CoachStage stage;

@@ -6,9 +6,8 @@
 
 #include "bench/tasks/base/task.h"
 #include "bench/tasks/coach/options.h"
-#include "bench/tasks/coach/player.h"
 #include "bench/tasks/coach/session.h"
-#include "bench/tasks/coach/stage.h"
+#include "bench/tasks/coach/world.h"
 
 namespace etude {
 

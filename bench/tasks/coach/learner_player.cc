@@ -45,7 +45,7 @@ Shown LearnerPlayer::SeenOf(const CoachOutput& shown) {
   return seen;
 }
 
-/// Where the dance will be when the pose that is asked for is taken, if it goes on as it does.
+/// Finds where the dance will be when the pose that is asked for is taken, if it goes on as it does.
 void LearnerPlayer::SeeDance(const CoachOutput& shown, Shown& seen) {
   const double rate = last_frame_ ? std::clamp(shown.clip_frame - *last_frame_, 0.0, 2.0) : 1;
   last_frame_ = shown.clip_frame;

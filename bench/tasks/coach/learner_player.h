@@ -3,8 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "bench/tasks/coach/player.h"
-#include "bench/tasks/coach/stage.h"
+#include "bench/tasks/coach/session.h"
 #include "bench/tasks/coach/world.h"
 #include "sim/performer/learner.h"
 

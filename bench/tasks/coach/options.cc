@@ -1,7 +1,6 @@
 #include "bench/tasks/coach/options.h"
 
-#include "bench/keys/part_fields.h"
-#include "bench/keys/setting_fields.h"
+#include "bench/keys/field_table.h"
 #include "sim/choreography/song.h"
 
 namespace etude {
@@ -24,29 +23,18 @@ const FieldTable<CoachOperatingPoint>& OperatingPointFieldsOfCoach() {
 
 std::vector<Field<Method>> CoachFields() {
   using Key = Field<Method>;
-  return {Key::Number(
-              "reaction_s", [](auto& m) -> auto& { return m.coach.reaction_s; }, {0, 2},
-              "Windows open and close so much after the coach's own performance: a learner follows with a lag."),
-          Key::Number(
-              "most_corrections", [](auto& m) -> auto& { return m.coach.most_corrections; }, {0, 100},
-              "How often at most one performance is corrected before the dance goes on."),
-          Key::Number(
-              "puzzled_after", [](auto& m) -> auto& { return m.coach.puzzled_after; }, {1, 100},
-              "From so many mistakes in a row on the coach is puzzled instead of shaking its head."),
-          Key::Flag(
-              "follows_tags", [](auto& m) -> auto& { return m.coach.follows_tags; },
-              "Whether music-time tags slow and hurry the dance.")};
+  return {Key::Number("most_corrections", Path(&Method::coach, &CoachOptions::most_corrections), {0, 100},
+                      "How often at most one performance is corrected before the dance goes on."),
+          Key::Flag("follows_tags", Path(&Method::coach, &CoachOptions::follows_tags),
+                    "Whether music-time tags slow and hurry the dance.")};
 }
 
 /// `policy`, its settings, and what goes with them.
 std::vector<Field<Method>> PolicyFields() {
   using Key = Field<Method>;
-  std::vector<Key> fields = {Key::Name(
-      "policy", [](auto& m) -> auto& { return m.policy.policy; }, PolicyNames(), FindPolicy,
-      "When the coach interrupts.")};
-  Append(SettingFields<Method>(
-             "policy", AllPolicies(), [](auto& m) -> auto& { return m.policy.settings; }),
-         fields);
+  std::vector<Key> fields = {Key::Name("policy", Path(&Method::policy, &Coach::PolicyChoice::policy), PolicyNames(),
+                                       FindPolicy, "When the coach interrupts.")};
+  Append(SettingFields<Method>("policy", AllPolicies(), Path(&Method::policy, &Coach::PolicyChoice::settings)), fields);
   fields.push_back(Key::Name("partner", &Method::partner, PolicyNames(), FindPolicy,
                              "Whose moments it corrects at: this policy's, in another person's session.")
                        .With("policy", {"yoked"}));
@@ -87,31 +75,23 @@ const FieldTable<CoachCondition>& CoachConditionFields() {
     std::vector<Key> fields = {
         Key::Name("song", &Condition::song, songs, "What is danced; it begins anew when it is over."),
         Key::Number("session_s", &Condition::session_s, {10, 1800}, "How long a session lasts.").Unit("seconds"),
-        Key::Name(
-            "learning", [](auto& c) -> auto& { return c.learner.law; }, LearningLawNames(), FindLearningLaw,
-            "The law by which the learner learns and forgets."),
+        Key::Name("learning", Path(&Condition::learner, &LearnerOptions::law), LearningLawNames(), FindLearningLaw,
+                  "The law by which the learner learns and forgets."),
         Key::Number(
-            "guidance", [](auto& c) -> auto& { return c.learner.guidance; }, kShare,
+            "guidance", Path(&Condition::learner, &LearnerOptions::guidance), kShare,
             "How much frequent feedback costs: 0 nothing; at 1 what is taught after every performance does not last."),
-        Key::Number(
-            "skill", [](auto& c) -> auto& { return c.learner.skill; }, kShare, "Where every skill starts.")
+        Key::Number("skill", Path(&Condition::learner, &LearnerOptions::skill), kShare, "Where every skill starts.")
             .WhenAbsent("(by the kind of people)"),
-        Key::Number(
-            "severity", [](auto& c) -> auto& { return c.learner.severity; }, kShare,
-            "How bad every fault is that happens: 1 is a full mistake, as bad as that fault gets.")
+        Key::Number("severity", Path(&Condition::learner, &LearnerOptions::severity), kShare,
+                    "How bad every fault is that happens: 1 is a full mistake, as bad as that fault gets.")
             .WhenAbsent("(thrown evenly from 0.35 to 1 for each)"),
-        Key::Flag(
-            "gives_up", [](auto& c) -> auto& { return c.learner.gives_up; }, "Whether the learner's patience ends."),
-        Key::Number("test_after", &Condition::test_after, {0, 10000},
-                    "So many performances' time after the session what was kept is tested, without a coach."),
-        Key::Number(
-            "music_drift", [](auto& c) -> auto& { return c.music.drift; }, {-0.2, 0.2},
-            "The music plays so much faster than its clock: 0.02 is 2 %."),
-        Key::Number(
-            "stutters_per_min", [](auto& c) -> auto& { return c.music.stutters_per_min; }, {0, 60},
-            "How often the music stands still."),
-        Key::Number(
-            "stutter_s", [](auto& c) -> auto& { return c.music.stutter_s; }, {0, 5}, "For how long.")
+        Key::Flag("gives_up", Path(&Condition::learner, &LearnerOptions::gives_up),
+                  "Whether the learner's patience ends."),
+        Key::Number("music_drift", Path(&Condition::music, &MusicClockOptions::drift), {-0.2, 0.2},
+                    "The music plays so much faster than its clock: 0.02 is 2 %."),
+        Key::Number("stutters_per_min", Path(&Condition::music, &MusicClockOptions::stutters_per_min), {0, 60},
+                    "How often the music stands still."),
+        Key::Number("stutter_s", Path(&Condition::music, &MusicClockOptions::stutter_s), {0, 5}, "For how long.")
             .Unit("seconds")};
     std::vector<std::string> sight = {"people",     "noise",           "turn_deg", "sensor",
                                       "distance_m", "sensor_height_m", "occluder", "threshold"};
@@ -142,8 +122,7 @@ const FieldTable<CoachMethod>& CoachMethodFields() {
     std::vector<Key> fields =
         FieldsOf<Method>(DetectionMethodFields(), &Method::sight, Keep::kOthers, {"refractory_s", "oracle"});
     fields.push_back(Key::Flags(
-        "oracle",
-        {{"stream", [](Method& m) -> bool& { return m.sight.sees_truth; }}, {"judgement", &Method::knows_truth}},
+        "oracle", {{"stream", Path(&Method::sight, &DetectionMethod::sees_truth)}, {"judgement", &Method::knows_truth}},
         "What is replaced by the truth: the skeletons as danced instead of as sensed, or what is "
         "said of every performance (policy `oracle`)."));
     Append(PolicyFields(), fields);

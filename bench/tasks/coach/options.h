@@ -12,8 +12,8 @@
 
 namespace etude {
 
-/// Where coaches are compared: each with the evidence from which on a performance is right that takes so many right
-/// ones a minute for mistakes, of other people under the same condition.
+/// The point at which coaches are compared: each with the evidence from which on a performance is right that takes so
+/// many right ones a minute for mistakes, of other people under the same condition.
 struct CoachOperatingPoint {
   double needless_per_min = 0.2;
   int sessions = 24;  ///< of those people, one each
@@ -31,12 +31,11 @@ struct CoachCondition {
   double session_s = 180;
   LearnerOptions learner;
   std::optional<CoachOperatingPoint> operating_point;  ///< sets the thresholds of methods that say none
-  int test_after = 20;  ///< so many performances' time after the session what was kept is tested
   MusicClockOptions music;
   DetectionOptions sight;  ///< who is there and how they are seen: its session's script is not read
 };
 
-/// Which part of the loop a program outside takes.
+/// The part of the loop that a program outside takes.
 enum class Seat { kNone, kRecogniser, kPolicy, kLearner };
 /// "recogniser", "policy", "learner".
 const std::vector<std::string>& SeatNames();

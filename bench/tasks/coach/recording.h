@@ -2,7 +2,7 @@
 
 #include "bench/model/recording.h"
 #include "bench/tasks/coach/session.h"
-#include "bench/tasks/coach/stage.h"
+#include "bench/tasks/coach/world.h"
 
 namespace etude {
 

@@ -6,8 +6,12 @@
 #include <string>
 #include <utility>
 
+#include "bench/metrics/coach.h"
+#include "bench/metrics/share.h"
+#include "bench/metrics/transition_smoothness.h"
 #include "bench/tasks/coach/exchange.h"
 #include "bench/tasks/coach/learner_player.h"
+#include "engine/base/digest.h"
 
 namespace etude {
 namespace {
@@ -96,6 +100,142 @@ Result<SessionLog> RunMethod(const ReadyCoach& ready, const CoachCondition& cond
   ASSIGN_OR_RETURN(SessionLog log, RunSession(parts, world, *player, moments.get()));
   if (complaint.error()) return tl::unexpected(*complaint.error());
   return log;
+}
+
+namespace {
+
+CoachedSession SessionOf(const SessionLog& log) {
+  CoachedSession session{.rate_hz = kJudgedRateHz, .frames = log.Frames(), .performances = {}, .corrections = {}};
+  for (const LoggedPerformance& performance : log.performances) session.performances.push_back(performance.judged);
+  session.corrections = log.corrections;
+  return session;
+}
+
+/// Per move of the dance what its performances were.
+std::vector<std::vector<PerformanceTruth>> TruthsByMove(const SessionLog& log, std::size_t moves) {
+  std::vector<std::vector<PerformanceTruth>> truths(moves);
+  for (const LoggedPerformance& performance : log.performances) {
+    truths[static_cast<std::size_t>(performance.move)].push_back(performance.judged.truth);
+  }
+  return truths;
+}
+
+/// The jump of every transition that the session has seen to its end.
+std::vector<double> JumpsOf(const SessionLog& log) {
+  const std::vector<double> jumps = SecondDifferencesCm(log.coach);
+  std::vector<double> worst;
+  for (const LoggedTransition& transition : log.transitions) {
+    double jump = -1;
+    for (const int seam : transition.seams) {
+      const int first = std::max(0, seam - kWindowReach), last = seam + kWindowReach;
+      if (last >= log.Frames()) continue;
+      for (int frame = first; frame <= last; ++frame) jump = std::max(jump, jumps[static_cast<std::size_t>(frame)]);
+    }
+    if (jump >= 0) worst.push_back(jump);
+  }
+  return worst;
+}
+
+void MeasureCorrections(const CoachedSession& session, CellResult& result) {
+  const CorrectionTally tally = TallyCorrections(session);
+  const std::string no_mistake = "no performance was wrong";
+  result.MeasureOr("answered_share", AnsweredShare(tally), no_mistake);
+  result.Measure("corrections_due_per_min", tally.due / session.Minutes());
+  result.Measure("corrections_given_per_min", tally.given / session.Minutes());
+  result.Measure("corrections_missed_per_min", tally.missed / session.Minutes());
+  result.Measure("corrections_unneeded_per_min", tally.unneeded / session.Minutes());
+  result.Measure("wrong_praise_per_min", tally.wrong_praise / session.Minutes());
+  result.MeasureOr("decision_delay_s", DecisionDelaySeconds(session),
+                   tally.due == 0 ? no_mistake : "fewer than half of the mistakes were called so");
+  result.MeasureOr("feedback_delay_s", FeedbackDelaySeconds(session),
+                   tally.given == 0 ? "nothing was corrected" : "fewer than half of the acts began");
+  result.MeasureOr("feedback_delay_max_s", LongestFeedbackDelaySeconds(session),
+                   tally.given == 0 ? "nothing was corrected" : "no act began");
+}
+
+void AddMotion(const BodyMotion& motion, Digest& digest) {
+  for (const BodyPose& pose : motion.poses) {
+    for (const glm::dvec3& joint : pose.joints) digest.Add(joint.x).Add(joint.y).Add(joint.z);
+  }
+}
+
+std::string MotionDigest(const BodyMotion& motion) {
+  Digest digest;
+  AddMotion(motion, digest);
+  return digest.Hex();
+}
+
+std::string DecisionDigest(const SessionLog& log) {
+  Digest digest;
+  for (const CoachRecord& record : log.records) {
+    digest.Add(EventName(record.event)).Add(record.frame).Add(std::int64_t{record.repetition}).Add(record.evidence);
+  }
+  for (const LoggedPerformance& performance : log.performances) {
+    digest.Add(std::int64_t{performance.repetition}).Add(static_cast<std::int64_t>(performance.judged.truth));
+  }
+  return digest.Hex();
+}
+
+/// 1, ½ and 0: right, grey and wrong, per performance.
+Series TruthSeries(const SessionLog& log) {
+  Series series{.name = "right", .axis = "performance", .values = {}};
+  for (const LoggedPerformance& performance : log.performances) {
+    const PerformanceTruth truth = performance.judged.truth;
+    series.values.push_back(truth == PerformanceTruth::kRight ? 1 : truth == PerformanceTruth::kGrey ? 0.5 : 0);
+  }
+  return series;
+}
+
+}  // namespace
+
+void ScoreCoaching(const CoachWorld& world, const CoachStage& stage, const SessionLog& log, CellResult& result) {
+  result.MeasureOr("retention", Retention(log.test), "nothing in the test was right or wrong");
+  const CoachedSession session = SessionOf(log);
+  MeasureCorrections(session, result);
+  result.MeasureOr("repetitions_until_right", RepetitionsUntilRight(TruthsByMove(log, stage.moves.size())),
+                   "no move began wrong, or fewer than half became right");
+  const auto danced = std::ranges::count(log.modes, CoachMode::kDance);
+  result.Measure("danced_share", static_cast<double>(danced) / world.frames);
+  result.Measure("gave_up", log.given_up_at ? 1 : 0);
+  result.MeasureOr("beat_error_ms", BeatErrorMs(log.beat_errors_s), "nothing was danced to music");
+  const auto bridged = std::ranges::count_if(log.transitions, &LoggedTransition::is_bridged);
+  result.MeasureOr("switch_bridged_share", Share(bridged, static_cast<std::int64_t>(log.transitions.size())),
+                   "there was no transition");
+  const std::vector<double> jumps = JumpsOf(log);
+  result.MeasureOr("switch_jump_cm", MedianOf(jumps), "there was no transition");
+  result.MeasureOr("switch_natural_share", NaturalShare(jumps, stage.natural_jumps_cm), "there was no transition");
+
+  Digest sensed;
+  for (const SensedFrame& frame : log.sensed.frames) {
+    for (const SensedJoint& joint : frame.joints) {
+      sensed.Add(joint.position.x).Add(joint.position.y).Add(joint.position.z).Add(std::int64_t(joint.state));
+    }
+  }
+  result.digests = {{"danced", MotionDigest(log.learner)},
+                    {"sensed", sensed.Hex()},
+                    {"decided", DecisionDigest(log)},
+                    {"shown", MotionDigest(log.coach)}};
+  result.series.push_back(TruthSeries(log));
+}
+
+std::vector<std::string> CoachMetrics() {
+  return {"retention",
+          "answered_share",
+          "corrections_unneeded_per_min",
+          "corrections_due_per_min",
+          "corrections_given_per_min",
+          "corrections_missed_per_min",
+          "wrong_praise_per_min",
+          "decision_delay_s",
+          "feedback_delay_s",
+          "feedback_delay_max_s",
+          "repetitions_until_right",
+          "danced_share",
+          "gave_up",
+          "beat_error_ms",
+          "switch_jump_cm",
+          "switch_natural_share",
+          "switch_bridged_share"};
 }
 
 }  // namespace etude

@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "bench/tasks/sensing/camera_sensor.h"
+#include "bench/tasks/sensing/camera_stream.h"
 #include "engine/coaching/session.h"
 #include "sim/music/music.h"
 
@@ -137,7 +137,7 @@ class Loop {
         log_.corrections.push_back({.decided_frame = frame_, .act_frame = {}});
         break;
       case CoachEvent::kTransition:
-        if (record.transition) log_.transitions.push_back({SeamsOf(*record.transition), IsBridged(*record.transition)});
+        if (record.transition) log_.transitions.push_back({TransitionPointsOf(*record.transition), IsBridged(*record.transition)});
         break;
       default:
         break;
@@ -181,7 +181,7 @@ class Loop {
   }
 
   /// The last frames before the transition points of a transition asked for in this frame.
-  std::vector<int> SeamsOf(const TransitionRecord& record) const {
+  std::vector<int> TransitionPointsOf(const TransitionRecord& record) const {
     std::vector<int> seams;
     double frame = frame_;
     const double rate = coach_->state().rate;

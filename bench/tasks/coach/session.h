@@ -6,13 +6,36 @@
 #include <vector>
 
 #include "bench/metrics/coach.h"
-#include "bench/tasks/coach/player.h"
 #include "bench/tasks/coach/world.h"
 #include "engine/coaching/coach.h"
+#include "engine/motion/body.h"
 #include "engine/recognition/filters.h"
 #include "engine/recognition/recogniser.h"
 
 namespace etude {
+
+/// A performance as its player knows it.
+struct PlayedPerformance {
+  PerformanceTruth truth = PerformanceTruth::kRight;
+  std::string faults = "none";  ///< "amplitude+late"
+};
+
+/// The dancer before the coach.
+class Player {
+ public:
+  virtual ~Player() = default;
+
+  /// The body's next pose, now that the coach shows this: SkeletonSensor::kAhead frames ahead of what is shown, for
+  /// nobody acts at once on what is seen (0.23 s; a simple reaction to something seen takes 0.2 to 0.25 s).
+  virtual BodyPose Next(const CoachOutput& shown) = 0;
+  /// The latest performance of this repetition of the dance; none when it was not begun.
+  virtual std::optional<PlayedPerformance> PerformanceOf(int repetition) const = 0;
+  /// True when the player's patience has run out.
+  virtual bool HasGivenUp() const = 0;
+  /// The test without a coach, so many performances' time after the session: for every move of the dance the chance to
+  /// dance it without a fault; of a player who cannot say, 1 or 0, and no entry for what is neither.
+  virtual std::vector<double> TakeTest(int performances_later) = 0;
+};
 
 /// A performance that was asked for, as the player danced it and as the coach judged it.
 struct LoggedPerformance {
@@ -28,14 +51,14 @@ struct LoggedTransition {
   bool is_bridged = false;  ///< bridge frames carry it, directly or through in-betweens made of such
 };
 
-/// What is written on the screen from a frame on.
+/// The words on the screen from a frame on.
 struct LoggedWords {
   int begin_frame = 0;
   std::string say, hint;
   std::optional<BodyPose> picture;  ///< the key pose that the hint is about
 };
 
-/// All that a session came to.
+/// The log of a session.
 struct SessionLog {
   std::vector<CoachMode> modes;  ///< per frame
   std::vector<LoggedPerformance> performances;
@@ -54,7 +77,7 @@ struct SessionLog {
   int Frames() const { return static_cast<int>(modes.size()); }
 };
 
-/// Who takes part in a session; all must outlive it.
+/// The parts of a session; all must outlive it.
 struct SessionParts {
   const Coach& coach;
   const Recogniser& recogniser;
@@ -63,7 +86,7 @@ struct SessionParts {
   CaptureMethod capture = {};  ///< before cameras: how they make skeletons, causally
 };
 
-/// What a session is asked from frame to frame by someone else than the coach's own policy: whether to correct now.
+/// Decides from frame to frame, in place of the coach's own policy, when to correct.
 class MomentSource {
  public:
   virtual ~MomentSource() = default;

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "bench/tasks/coach/followed_session.h"
 #include "bench/tasks/coach/learner_player.h"
+#include "bench/tasks/coach/operating_point.h"
 #include "bench/tasks/coach/run.h"
 #include "engine/recognition/measuring_recogniser.h"
 
@@ -39,7 +39,7 @@ CoachCondition ThrowCondition(const WorldKey& key) {
   return condition;
 }
 
-/// What was measured in each window, the nearest first and not more than can matter; grey ones left out.
+/// The measures of each window, the nearest first and not more than can matter; grey ones left out.
 void AddSession(const Lesson& lesson, const SessionLog& log, Weighting weighting, std::vector<LabelledBag>& bags) {
   constexpr std::size_t kMost = 12;
   const auto& names = MeasureNames();

@@ -17,7 +17,7 @@ struct CoachedTraining {
   OnProgress progress = {};  ///< told of sessions
 };
 
-/// What `coached` knows: simulated people of all kinds and skills dance these songs along with a coach who never
+/// Trains what `coached` knows: simulated people of all kinds and skills dance these songs along with a coach who never
 /// interrupts, before both sensors and at many noises; the program that is judged measures every performance in its
 /// window, and the model is fitted to what was truly danced. Grey performances teach nothing. The worlds are keyed
 /// apart from those of every scenario, so nobody judged is among them. `asked` alone is fitted. Refuses songs that are

@@ -1,17 +1,37 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bench/tasks/coach/options.h"
+#include "engine/coaching/dance_library.h"
+#include "engine/recognition/taught_move.h"
+#include "sim/choreography/move.h"
 #include "sim/performer/person.h"
+#include "sim/performer/rendition.h"
 #include "sim/random/stream.h"
 #include "sim/skeleton_sensor/skeleton_sensor.h"
 
 namespace etude {
 
+/// The data that all worlds of a condition share: the song as a dance, and its moves.
+struct CoachStage {
+  std::vector<Move> moves;                   ///< of the dance, in its order, at the song's tempo
+  std::vector<TaughtMove> taught;            ///< the same, as recognisers are taught them
+  std::unique_ptr<ShowableFaults> showable;  ///< what can go wrong with each of them; never null
+  std::unique_ptr<DanceLibrary> library;     ///< never null
+  std::vector<double> natural_jumps_cm;      ///< of the unbroken dance
+
+  const Dance& dance() const { return library->dance(); }
+};
+
+/// Sets the stage for a built-in song.
+Result<CoachStage> SetCoachStage(const std::string& song);
+
 /// One trial: who learns, and where the sensor stands. All else that is true of a session is thrown while it runs, by
-/// dice that are keyed by what happens (a move's how manieth performance) and by the frame, so that every coach meets
+/// dice that are keyed by what happens (the n-th performance of a move) and by the frame, so that every coach meets
 /// the same luck.
 struct CoachWorld {
   WorldKey key;
@@ -23,7 +43,7 @@ struct CoachWorld {
   MusicClockOptions music;
   int frames = 0;  ///< of the session
   LearnerOptions learner;
-  int test_after = 0;  ///< performances
+  int test_after = 20;  ///< this many performances' time after the session, what was kept is tested
 };
 
 /// `key`'s scenario must outlive the world.

@@ -1,12 +1,10 @@
-#include "bench/tasks/detection/detection_task.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "bench/tasks/base/moves_key.h"
 #include "bench/tasks/base/read_methods.h"
+#include "bench/tasks/base/task_kinds.h"
 #include "bench/tasks/detection/exchange.h"
 #include "bench/tasks/detection/operating_point.h"
 #include "bench/tasks/detection/options.h"

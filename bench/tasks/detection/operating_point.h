@@ -34,7 +34,8 @@ struct AlarmTrial {
 /// least one trial, none without frames.
 double ThresholdAt(std::span<const AlarmTrial> trials, double false_alarms_per_min, double refractory_s);
 
-/// What a method saw of other people: all that it may take for a move, and what was asked for, judged at no threshold.
+/// The evidence that a method saw of other people: all that it may take for a move, and what was asked for, judged at
+/// no threshold.
 struct MethodTrials {
   std::vector<AlarmTrial> alarms;
   std::vector<JudgedEvent> events;
@@ -45,13 +46,13 @@ using TrialsOfMethods = std::vector<MethodTrials>;
 void AddTrials(const std::shared_ptr<const DetectionWorld>& world, std::span<const ReadyMethod> methods,
                const Repertoire& repertoire, TrialsOfMethods& trials);
 
-/// What each method decides by: its own threshold, else those of the operating point on its trials, when there is an
+/// The thresholds of each method: its own, else those of the operating point on its trials, when there is an
 /// operating point. Where nobody was right, the threshold of spotting serves for judging, too. `trials`: everybody's
 /// but those of the person judged.
 std::vector<MethodDecision> DecideBy(std::span<const ReadyMethod> methods, const TrialsOfMethods& trials,
                                      const std::optional<OperatingPoint>& point);
 
-/// What each method of a scenario of simulated people decides by. With an operating point, thresholds that methods do
+/// The thresholds of each method of a scenario of simulated people. With an operating point, thresholds that methods do
 /// not say themselves are set the first time they are asked for, on sessions of people that are keyed apart from those
 /// judged; of a mixture every kind has its share.
 class MethodDecisions {

@@ -1,8 +1,6 @@
 #include "bench/tasks/detection/options.h"
 
-#include "bench/keys/part_fields.h"
-#include "bench/keys/setting_fields.h"
-#include "bench/tasks/base/moves_key.h"
+#include "bench/keys/field_table.h"
 #include "sim/skeleton_sensor/options.h"
 
 namespace etude {
@@ -15,15 +13,17 @@ constexpr Range kLengths{0, 1};        // metres
 using Method = DetectionMethod;
 using MethodKey = Field<Method>;
 
-/// What the filters can be set by.
+bool IsSensorFile(std::string_view reference) { return !FindSensorPreset(reference) && reference != kCameraSensor; }
+
+/// The settings of the filters.
 std::vector<MethodKey> FilterFields() {
   const auto holt = [](const std::string& key, double HoltOptions::*member, Range range, const std::string& meaning) {
-    const auto value = [member](auto& m) -> auto& { return m.filter.holt.*member; };
+    const auto value = Path(&Method::filter, &FilterOptions::holt, member);
     return MethodKey::Number(key, value, range, meaning).With("filter", {"holt"});
   };
   const auto one_euro = [](const std::string& key, double OneEuroOptions::*member, Range range,
                            const std::string& meaning) {
-    const auto value = [member](auto& m) -> auto& { return m.filter.one_euro.*member; };
+    const auto value = Path(&Method::filter, &FilterOptions::one_euro, member);
     return MethodKey::Number(key, value, range, meaning).With("filter", {"one-euro"});
   };
   return {holt("smoothing", &HoltOptions::smoothing, kShare, "0 follows the raw data; more is calmer and later."),
@@ -71,18 +71,15 @@ FieldTable<DetectionOptions> MakeConditionFields() {
   using Options = DetectionOptions;
   using Key = Field<Options>;
   FieldTable<Options> made{
-      {Key{{kMovesKey, TextKind("a file that `etude teach` wrote"), "(each person is judged by what the others teach)",
+      {Key{{kMovesKey, FileKind("a file that `etude teach` wrote"), "(each person is judged by what the others teach)",
             "What recognisers are taught, where people were recorded."},
            [](Fields& condition, Options& o) { o.moves = condition.Text(kMovesKey, ""); }},
-       Key::Number(
-           "events", [](auto& o) -> auto& { return o.session.events; }, {1, 200},
-           "How many performances a session holds."),
-       Key::Number(
-           "fault_share", [](auto& o) -> auto& { return o.session.fault_share; }, kShare,
-           "Which share of them has a fault; whether it is wrong is up to how bad the fault is."),
-       Key::Number(
-           "severity", [](auto& o) -> auto& { return o.session.severity; }, kShare,
-           "How bad every fault is: 0 changes nothing, 1 is as bad as it gets.")
+       Key::Number("events", Path(&Options::session, &SessionOptions::events), {1, 200},
+                   "How many performances a session holds."),
+       Key::Number("fault_share", Path(&Options::session, &SessionOptions::fault_share), kShare,
+                   "Which share of them has a fault; whether it is wrong is up to how bad the fault is."),
+       Key::Number("severity", Path(&Options::session, &SessionOptions::severity), kShare,
+                   "How bad every fault is: 0 changes nothing, 1 is as bad as it gets.")
            .WhenAbsent("(thrown evenly for each)"),
        Key{{"faults", ListKind("a list of: " + NameKind(FaultNameList()).allowed, NameKind(FaultNameList())), "[]",
             "The faults that may happen; none named: all."},
@@ -91,16 +88,14 @@ FieldTable<DetectionOptions> MakeConditionFields() {
                if (const auto fault = FindFault(name)) o.session.faults.push_back(*fault);
              }
            }},
-       Key::Number(
-           "two_faults", [](auto& o) -> auto& { return o.session.two_faults; }, kShare,
-           "The chance that a performance with a fault has a second one."),
-       Key::Name(
-           "people", [](auto& o) -> auto& { return o.session.people; }, PeopleNames(), FindPeople,
-           "Who dances, another person in every trial; `mixed`: toddlers, school children, adults and experts."),
+       Key::Number("two_faults", Path(&Options::session, &SessionOptions::two_faults), kShare,
+                   "The chance that a performance with a fault has a second one."),
+       Key::Name("people", Path(&Options::session, &SessionOptions::people), PeopleNames(), FindPeople,
+                 "Who dances, another person in every trial; `mixed`: toddlers, school children, adults and experts."),
        Key::Number("noise", &Options::noise, {0, 10}, "Times the measured errors of a Kinect-like sensor."),
        Key::Number("turn_deg", &Options::turn_deg, {-180, 180}, "How far the performer is turned away from the sensor.")
            .Unit("degrees"),
-       Key{{kSensorKey, TextKind("`v1`, `v2`, a sensor file, `cameras`"), "v2",
+       Key{{kSensorKey, FileKind("`v1`, `v2`, a sensor file, `cameras`", IsSensorFile), "v2",
             "Who sees the skeletons: Kinect v1 as published, v2 as recorded, one of `etude sensor fit`, or cameras, "
             "with the keys of `task: capture` and each method's own `capture`."},
            [](Fields& condition, Options& o) {
@@ -132,7 +127,7 @@ FieldTable<DetectionOptions> MakeConditionFields() {
         condition.Complain(condition.Raw("threshold")->place,
                            "'threshold' and 'operating_point' both set thresholds; allowed: one of them");
       }};
-  const auto studio = [](auto& o) -> auto& { return o.cameras.studio; };
+  const auto studio = Path(&DetectionOptions::cameras, &CameraSensing::studio);
   Append(FieldsOf<Options>(CameraSensingFields(), studio, Keep::kOthers, {}), made.fields);
   return made;
 }
@@ -168,33 +163,29 @@ std::span<const std::string_view> SensingKeys() {
 
 const FieldTable<DetectionMethod>& DetectionMethodFields() {
   static const FieldTable<Method> table = [] {
-    std::vector<MethodKey> fields = {MethodKey::Name(
-        "filter", [](auto& m) -> auto& { return m.filter.kind; }, FilterNames(), FilterOf,
-        "How the sensed joints are smoothed first.")};
+    std::vector<MethodKey> fields = {MethodKey::Name("filter", Path(&Method::filter, &FilterOptions::kind),
+                                                     FilterNames(), FilterOf,
+                                                     "How the sensed joints are smoothed first.")};
     for (MethodKey& field : FilterFields()) fields.push_back(std::move(field));
     fields.push_back(MethodKey::Flags("oracle", {{"stream", &Method::sees_truth}},
                                       "What is replaced by the truth: the skeletons as performed instead of as sensed, "
                                       "so what the sensor costs."));
     fields.push_back(CaptureField<Method>(&Method::capture));
-    fields.push_back(MethodKey::Name(
-        "recogniser", [](auto& m) -> auto& { return m.recogniser.kind; }, RecogniserNames(), FindRecogniser,
-        "How a move is recognised."));
-    const auto settings = [](auto& m) -> auto& { return m.recogniser.settings; };
+    fields.push_back(MethodKey::Name("recogniser", Path(&Method::recogniser, &RecogniserOptions::kind),
+                                     RecogniserNames(), FindRecogniser, "How a move is recognised."));
+    const auto settings = Path(&Method::recogniser, &RecogniserOptions::settings);
     for (auto& field : SettingFields<Method>("recogniser", AllRecognisers(), settings)) {
       fields.push_back(std::move(field));
     }
-    fields.push_back(MethodKey::Name(
-        "weights", [](auto& m) -> auto& { return m.recogniser.weights.weighting; },
-        {{"fixed", Weighting::kFixed}, {"adaptive", Weighting::kAdaptive}},
-        "How much what is seen counts: all alike, or by how well its joints are seen."));
-    fields.push_back(MethodKey::Number(
-                         "inferred_weight", [](auto& m) -> auto& { return m.recogniser.weights.inferred_weight; },
-                         kShare, "What counts that needs an inferred joint; a tracked one is 1.")
-                         .With("weights", {"adaptive"}));
-    fields.push_back(MethodKey::Number(
-                         "not_tracked_weight", [](auto& m) -> auto& { return m.recogniser.weights.not_tracked_weight; },
-                         kShare, "What counts that needs a joint that is not tracked.")
-                         .With("weights", {"adaptive"}));
+    fields.push_back(MethodKey::Name("weights",
+                                     Path(&Method::recogniser, &RecogniserOptions::weights, &SightWeights::weighting),
+                                     {{"fixed", Weighting::kFixed}, {"adaptive", Weighting::kAdaptive}},
+                                     "How much what is seen counts: all alike, or by how well its joints are seen."));
+    fields.push_back(
+        MethodKey::Number("inferred_weight",
+                          Path(&Method::recogniser, &RecogniserOptions::weights, &SightWeights::inferred_weight),
+                          kShare, "What counts that needs an inferred joint; a tracked one is 1.")
+            .With("weights", {"adaptive"}));
     fields.push_back(MethodKey::Number("threshold", &Method::threshold, kThresholds,
                                        "The evidence from which on a move counts as performed.")
                          .WhenAbsent("(the scenario's, else the recogniser's own)"));

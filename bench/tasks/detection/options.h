@@ -9,8 +9,7 @@
 #include "bench/keys/field_table.h"
 #include "bench/tasks/base/sensor_key.h"
 #include "bench/tasks/base/task.h"
-#include "bench/tasks/capture/own_cameras.h"
-#include "bench/tasks/capture/person_source.h"
+#include "bench/tasks/capture/options.h"
 #include "bench/tasks/sensing/options.h"
 #include "engine/recognition/filters.h"
 #include "engine/recognition/recognise.h"
@@ -20,12 +19,15 @@
 
 namespace etude {
 
-/// What stands between sensor and performer (`MakeOccluders`).
+/// The key of a condition that names a file of taught moves (`etude teach`).
+constexpr const char* kMovesKey = "moves";
+
+/// The object between sensor and performer (`MakeOccluders`).
 enum class OccluderKind { kNone, kTable, kChair, kPerson };
 
-/// Where methods are compared, set on other people under the same condition, who err as people do (half of their
-/// performances, as badly as it comes), however the condition says those judged err: each method spots moves at the
-/// threshold that gives so many false alarms, and judges what was asked for at the one that praises so many of the
+/// The point at which methods are compared, set on other people under the same condition, who err as people do (half of
+/// their performances, as badly as it comes), however the condition says those judged err: each method spots moves at
+/// the threshold that gives so many false alarms, and judges what was asked for at the one that praises so many of the
 /// right performances: none is better only because it says yes, or no, more often.
 struct OperatingPoint {
   double false_alarms_per_min = 1;
@@ -33,8 +35,8 @@ struct OperatingPoint {
   int sessions = 24;    ///< of those people, one each
 };
 
-/// What a method decides by. Two questions, each with its own threshold: whether a move that nobody need have asked for
-/// was performed, of all moves at any time, and whether the one performance that was asked for is right.
+/// The thresholds of a method for its two questions: whether a move that nobody need have
+/// asked for was performed, of all moves at any time, and whether the one performance that was asked for is right.
 struct MethodDecision {
   DecisionOptions spotting;
   double judging = 0.5;  ///< the evidence from which on a performance asked for is called right

@@ -1,13 +1,40 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "bench/streams/load.h"
 #include "bench/tasks/base/task.h"
+#include "bench/tasks/detection/operating_point.h"
 #include "bench/tasks/detection/options.h"
+#include "bench/tasks/detection/world.h"
 
 namespace etude {
+
+/// The recordings of one person, one recording after another, with what its labels say. Clips are sensed
+/// under the condition; a sensor's recordings are what they are. A performance is judged until half a second after its
+/// end, but not beyond the next one's beginning; where labels overlap, the earlier is judged as far as that.
+DetectionWorld MakeRecordedWorld(const LabelledStreams& set, std::size_t person, const DetectionOptions& options,
+                                 const WorldKey& key);
+
+/// Refuses labels by which nothing can be judged: two performances that begin at once, and, without `are_taught`, one
+/// person, or recordings of which nobody says who they show.
+Result<void> CheckRecordings(const LabelledStreams& set, bool are_taught);
+
+/// The knowledge of recognisers when people are left out: what the others did.
+struct Fold {
+  Repertoire repertoire;
+  std::vector<ReadyMethod> methods;
+};
+
+/// `taught`: by whom and whatever; nothing: all moves by everybody but those left out, right performances as examples
+/// and wrong ones as counter-examples. A move that nobody else did right stays untaught. Fails when there is none, and
+/// where a method needs more of a move than it has.
+Result<Fold> MakeFold(const LabelledStreams& set, const std::optional<std::vector<TaughtMove>>& taught,
+                      const std::set<std::string>& left_out, const std::vector<DetectionMethod>& methods);
 
 /// A task whose worlds are recorded people, a trial each by their names' order: judged by what the file of taught moves
 /// says that the condition names, else by what all others did. The task keeps the set's address.

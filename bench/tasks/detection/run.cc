@@ -69,8 +69,8 @@ std::optional<std::size_t> MoveNamedIn(const FrameInterval& window, const Eviden
   return named;
 }
 
-/// Which move was seen most in a performance: of a recording's, cut out as its label says, as the papers of such sets
-/// have it; of a session's in its window, as it goes on.
+/// The move that was seen most in a performance: of a recording's, cut out as its label says, as the papers of such
+/// sets have it; of a session's in its window, as it goes on.
 std::optional<std::size_t> NameOf(const DetectionEvent& event, const DetectionWorld& world, const SeenStream& seen,
                                   const Repertoire& repertoire, const Recogniser& recogniser,
                                   const FrameInterval& window, const EvidenceTrace& trace) {

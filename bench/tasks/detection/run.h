@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// What a method made of one session.
+/// The result of a method in one session.
 struct SessionVerdict {
   SkeletonStream filtered;
   std::vector<Judgement> events;  ///< one per event; frames count from its window's first
@@ -34,7 +34,7 @@ std::vector<EvidenceTrace> FollowSession(const DetectionWorld& world, const Seen
 std::vector<Judgement> JudgeEvents(const DetectionWorld& world, std::span<const EvidenceTrace> traces,
                                    double threshold);
 
-/// What that evidence comes to: a judgement of every performance asked for, and the false alarms. `seen` must be what
+/// Decides on that evidence: a judgement of every performance asked for, and the false alarms. `seen` must be what
 /// the method sees of the world.
 SessionVerdict JudgeSession(const DetectionWorld& world, const SeenStream& seen, const Repertoire& repertoire,
                             const Recogniser& recogniser, const MethodDecision& decision);

@@ -21,7 +21,7 @@ std::vector<JudgedEvent> JudgedEvents(const DetectionWorld& world, std::span<con
 
 namespace {
 
-/// Whether each performance of which `is_meant` holds was called right.
+/// For each performance of which `is_meant` holds, true when it was called right.
 template <typename IsMeant>
 std::vector<bool> CalledRight(const DetectionWorld& world, const SessionVerdict& verdict, IsMeant is_meant) {
   std::vector<bool> called;
@@ -58,7 +58,7 @@ std::optional<double> ShareSpotted(const DetectionWorld& world, const SessionVer
   return RightSpotted(right, calls);
 }
 
-/// How long each right performance had to wait for its praise; a miss waited in vain until its window closed.
+/// The time that each right performance had to wait for its praise; a miss waited in vain until its window closed.
 std::vector<Wait> WaitsOf(const DetectionWorld& world, const SessionVerdict& verdict) {
   std::vector<Wait> waits;
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
@@ -72,7 +72,7 @@ std::vector<Wait> WaitsOf(const DetectionWorld& world, const SessionVerdict& ver
   return waits;
 }
 
-/// Of labelled recordings: how well what was spotted at all agrees with their action points.
+/// Measures how well the spotted moves of labelled recordings agree with their action points.
 std::optional<double> PointFScore(const DetectionWorld& world, const SessionVerdict& verdict,
                                   const Repertoire& repertoire) {
   const double rate = world.stream.rate_hz;

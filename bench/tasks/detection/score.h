@@ -22,10 +22,10 @@ void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, co
 /// The ids of all of them, in the order in which they are measured.
 std::vector<std::string> DetectionMetrics();
 
-/// What a method without an answer is credited with (Task::ValueOfFailure): a coach that says nothing praises nobody,
-/// so every right performance is missed: `recall` and `f1` are 0, if some were right. The rest is missing: nothing was
-/// called right (precision), nothing was ranked (roc_auc), no praise came (latency), and no false alarm either, which
-/// is no merit.
+/// The value of a metric for a method without an answer (Task::ValueOfFailure): a coach that says nothing praises
+/// nobody, so every right performance is missed: `recall` and `f1` are 0, if some were right. The rest is missing:
+/// nothing was called right (precision), nothing was ranked (roc_auc), no praise came (latency), and no false alarm
+/// either, which is no merit.
 std::optional<double> DetectionFailureValue(std::string_view metric, bool some_are_right);
 
 using StageDigests = std::vector<std::pair<std::string, std::string>>;

@@ -15,7 +15,7 @@ namespace etude {
 /// One session, and the methods run and judged in it.
 class SessionWorld final : public TaskWorld {
  public:
-  /// What the methods decide by; may be costly the first time.
+  /// The thresholds of the methods; may be costly the first time.
   using Decide = std::function<const std::vector<MethodDecision>&()>;
 
   /// Methods and repertoire must outlive this.

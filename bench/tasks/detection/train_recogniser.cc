@@ -57,7 +57,7 @@ DetectionOptions ThrowCondition(const WorldKey& key) {
   return options;
 }
 
-/// Everything that was measured while the session was followed.
+/// The measures taken while the session was followed.
 std::vector<Measured> MeasureSession(const DetectionWorld& world, const Repertoire& repertoire,
                                      const SightWeights& weights) {
   std::vector<Measured> measured;

@@ -15,9 +15,10 @@ struct RecogniserTraining {
   OnProgress progress = {};  ///< told of sessions
 };
 
-/// What `learnt` knows: simulated people perform the repertoire's moves before both sensors, at many noises, turns and
-/// distances; the program that is judged measures what it sees, and the model is fitted to what they truly did. Grey
-/// performances teach nothing. The worlds are keyed apart from those of every scenario, so nobody judged is among them.
+/// Trains what `learnt` knows: simulated people perform the repertoire's moves before both sensors, at many noises,
+/// turns and distances; the program that is judged measures what it sees, and the model is fitted to what they truly
+/// did. Grey performances teach nothing. The worlds are keyed apart from those of every scenario, so nobody judged is
+/// among them.
 LearntModel TrainRecogniser(const Repertoire& repertoire, const RecogniserTraining& training);
 
 }  // namespace etude

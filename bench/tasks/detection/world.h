@@ -11,16 +11,22 @@
 #include "engine/recognition/recognise.h"
 #include "engine/recognition/taught_move.h"
 #include "sim/performer/session.h"
+#include "sim/skeleton_sensor/skeleton_sensor.h"
 
 namespace etude {
 
-/// What may be performed, and what recognisers were taught of it.
+/// The occluders between the sensor and a performer at the origin who moves for so many frames: nothing; a desk with a
+/// closed front, 75 cm high, 80 cm before the performer; a chair a little to the side, 90 cm high; a second person who
+/// sways 1.2 m before the performer, beside the line to the sensor (all ours).
+Occluders MakeOccluders(OccluderKind kind, const SensorPlace& sensor, std::size_t frames);
+
+/// The moves that may be performed, and what recognisers were taught of them.
 struct Repertoire {
   std::vector<Move> moves;         ///< as authored; none where recordings are all there is
   std::vector<TaughtMove> taught;  ///< sorted by name
   std::vector<std::string> names;  ///< of all moves that may be asked for or taught, sorted
 
-  /// Of the move's name among `names`, which must hold it.
+  /// The index of the move's name among `names`, which must hold it.
   std::size_t IndexOf(std::string_view move) const;
   /// The taught move of that name; nothing where nobody could teach it.
   std::optional<std::size_t> TaughtIndexOf(std::string_view move) const;
@@ -41,7 +47,7 @@ struct DetectionEvent {
   FrameInterval performed;               ///< the same in frames
   FrameInterval window;                  ///< in which it is judged; none overlaps another
   Truth truth = Truth::kRight;
-  /// When it had truly passed through every key pose asked for; of right ones alone.
+  /// The time at which it had truly passed through every key pose asked for; of right ones alone.
   std::optional<double> first_right_s = {};
 
   bool IsRight() const { return truth == Truth::kRight; }
@@ -67,7 +73,7 @@ struct DetectionWorld {
   std::shared_ptr<CameraTake> cameras = {};  ///< null: there are none
   std::vector<int> starts = {};              ///< the first frames of all recordings but the first
 
-  /// What is followed in one go: each recording.
+  /// The stretches that are followed in one go: each recording.
   std::vector<FrameInterval> Takes() const;
   bool IsRecorded() const { return !person.empty(); }
 };
@@ -78,10 +84,10 @@ DetectionWorld MakeDetectionWorld(const Repertoire& repertoire, const DetectionO
 /// The event of a session that `stream` shows.
 DetectionEvent EventOf(const SessionEvent& event, const SkeletonStream& stream);
 
-/// What a sensor before this performer sees, under this condition.
+/// The skeletons that a sensor before this performer sees under this condition.
 SkeletonStream Sense(const BodyMotion& motion, const DetectionOptions& options, const WorldKey& key);
 
-/// Whether a recogniser that takes `move` for performed at this frame is not wrong: it was asked for or performed
+/// True when a recogniser that takes `move` for performed at this frame is not wrong: it was asked for or performed
 /// there.
 bool IsPerformance(std::string_view move, int frame, const DetectionWorld& world);
 

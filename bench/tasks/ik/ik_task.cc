@@ -1,16 +1,14 @@
-#include "bench/tasks/ik/ik_task.h"
-
+#include "bench/tasks/base/task_kinds.h"
 #include "bench/tasks/ik/exchange.h"
 #include "bench/tasks/ik/options.h"
 #include "bench/tasks/ik/run.h"
-#include "bench/tasks/ik/score.h"
 #include "bench/tasks/ik/world.h"
 #include "engine/kinematics/body_tree.h"
 
 namespace etude {
 namespace {
 
-/// Everything that the worlds of one condition have in common.
+/// The data that all worlds of one condition share.
 struct IkStudy {
   KinematicTree tree = MakeBodyTree({});  ///< with the condition's limits
   IkCondition condition;

@@ -53,64 +53,45 @@ void CheckMethod(Fields& method, IkMethod& options) {
 const FieldTable<IkCondition>& IkConditionFields() {
   using Key = Field<IkCondition>;
   static const FieldTable<IkCondition> table{
-      {Key::Name(
-           "limit_set", [](auto& o) -> auto& {
-    return o.trial.limit_set; }, LimitSetNames(), FindLimitSet,
-           "How far joints may turn: Etude's adult, or paper B's table 3.1."),
+      {Key::Name("limit_set", Path(&IkCondition::trial, &IkTrialOptions::limit_set), LimitSetNames(), FindLimitSet,
+                 "How far joints may turn: Etude's adult, or paper B's table 3.1."),
        Key{PosesKey(), ReadPoses},
        Key::Name(
-           "start", [](auto& o) -> auto& {
-    return o.trial.start; },
+           "start", Path(&IkCondition::trial, &IkTrialOptions::start),
            {{"disturbed", IkStart::kDisturbed}, {"middle", IkStart::kMiddle}, {"stretched", IkStart::kStretched}},
            "Solvers begin at the disturbed truth, in the middle of every joint's range, or standing with stretched "
            "arms that the hands' targets lie along (paper B, figure 3.8)."),
-       Key::Number(
-           "joint_noise_deg", [](auto& o) -> auto& {
-    return o.trial.joint_noise_deg; }, {0, 180},
-           "How far every angle of the start is from the truth.")
+       Key::Number("joint_noise_deg", Path(&IkCondition::trial, &IkTrialOptions::joint_noise_deg), {0, 180},
+                   "How far every angle of the start is from the truth.")
            .Unit("degrees")
            .With("start", {"disturbed"}),
-       Key::Name(
-           "noise", [](auto& o) -> auto& {
-    return o.trial.noise; },
-           {{"gaussian", NoiseKind::kGaussian}, {"uniform", NoiseKind::kUniform}},
-           "`joint_noise_deg` is the standard deviation, or the largest deviation to either side.")
+       Key::Name("noise", Path(&IkCondition::trial, &IkTrialOptions::noise),
+                 {{"gaussian", NoiseKind::kGaussian}, {"uniform", NoiseKind::kUniform}},
+                 "`joint_noise_deg` is the standard deviation, or the largest deviation to either side.")
            .With("start", {"disturbed"}),
-       Key::Number(
-           "target_noise_cm", [](auto& o) -> auto& {
-    return o.trial.target_noise.position_cm; }, {0, 100},
-           "Standard deviation of every target's place, along each axis.")
+       Key::Number("target_noise_cm",
+                   Path(&IkCondition::trial, &IkTrialOptions::target_noise, &TargetNoise::position_cm), {0, 100},
+                   "Standard deviation of every target's place, along each axis.")
            .With("start", {"disturbed", "middle"}),
-       Key::Number(
-           "target_noise_deg", [](auto& o) -> auto& {
-    return o.trial.target_noise.orientation_deg; }, {0, 180},
-           "Standard deviation of every target's rotation vector.")
+       Key::Number("target_noise_deg",
+                   Path(&IkCondition::trial, &IkTrialOptions::target_noise, &TargetNoise::orientation_deg), {0, 180},
+                   "Standard deviation of every target's rotation vector.")
            .With("start", {"disturbed", "middle"}),
-       Key::Number(
-           "unreachable_cm", [](auto& o) -> auto& {
-    return o.trial.unreachable_cm; }, {0, 1000},
-           "One target is pulled away from the root, this far beyond where all limbs together are too short.")
+       Key::Number("unreachable_cm", Path(&IkCondition::trial, &IkTrialOptions::unreachable_cm), {0, 1000},
+                   "One target is pulled away from the root, this far beyond where all limbs together are too short.")
            .With("start", {"disturbed", "middle"}),
        Key{{"targets", NameKind(std::vector<std::string>{"both", "position", "orientation"}), "both",
             "What effectors are to meet of their targets; a world is solved when they meet that."},
            ReadTargets},
        Key::Flags("record",
-                  {{"effector_errors", [](auto& o) -> auto& { return o.records.effector_errors; }},
-                   {"angle_changes", [](auto& o) -> auto& { return o.records.angle_changes;
-}
-}  // namespace etude
-, {
-  "effector_curves", [](auto& o) -> auto& { return o.records.effector_curves; }
-}
-},
+                  {{"effector_errors", Path(&IkCondition::records, &IkRecords::effector_errors)},
+                   {"angle_changes", Path(&IkCondition::records, &IkRecords::angle_changes)},
+                   {"effector_curves", Path(&IkCondition::records, &IkRecords::effector_curves)}},
                   "Which series a cell keeps for the report: every effector's errors, every angle's change, curves of "
                   "every effector."),
-       SweepsField(&IkCondition::common, "The limit of a solver's steps."), GoalsField(&IkCondition::common)
-}
-, CheckCondition
-}
-;
-return table;
+       SweepsField(&IkCondition::common, "The limit of a solver's steps."), GoalsField(&IkCondition::common)},
+      CheckCondition};
+  return table;
 }
 
 const FieldTable<IkMethod>& IkMethodFields() {
@@ -118,8 +99,7 @@ const FieldTable<IkMethod>& IkMethodFields() {
   static const FieldTable<IkMethod> table = [] {
     FieldTable<IkMethod> made{IkSolverFields(&IkMethod::solver, &IkMethod::options), CheckMethod};
     const std::vector<Key> own = {
-        Key::Flag(
-            "limits", [](auto& m) -> auto& { return m.options.limits; }, "Whether joint limits are kept."),
+        Key::Flag("limits", Path(&IkMethod::options, &IkOptions::limits), "Whether joint limits are kept."),
         ToleranceField(&IkMethod::options, "How far an angle may leave its start."),
         Key::Number("tolerance_times_noise", &IkMethod::tolerance_times_noise, {0, 100},
                     "The same in multiples of joint_noise_deg; paper B's reading: 1.2.")

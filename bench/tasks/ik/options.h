@@ -17,14 +17,14 @@ enum class NoiseKind {
   kUniform,   ///< within ± joint_noise_deg
 };
 
-/// Where solvers begin.
+/// The pose at which solvers begin.
 enum class IkStart {
   kDisturbed,  ///< at the truth, disturbed
   kMiddle,     ///< cold: in the middle of every joint's range
   kStretched,  ///< paper B, figure 3.8: with stretched limbs, which the targets lie along
 };
 
-/// One condition of an ik scenario: how hard the trials are.
+/// The difficulty of the trials of a condition.
 struct IkTrialOptions {
   LimitSet limit_set = LimitSet::kAdult;
   double pose_range = 0.5;  ///< the true pose is uniform in this share of every joint's range, about its middle
@@ -37,7 +37,7 @@ struct IkTrialOptions {
   bool asks_axes = true;
 };
 
-/// What is kept of a cell beside its metrics and the curves of its worst errors.
+/// The series and the recording that a cell keeps beside its metrics and the curves of its worst errors.
 struct IkRecords {
   bool effector_errors = false;
   bool angle_changes = false;
@@ -45,7 +45,7 @@ struct IkRecords {
   bool motion = false;
 };
 
-/// All that a condition says.
+/// A condition of an ik scenario.
 struct IkCondition {
   IkTrialOptions trial;
   IkRecords records;

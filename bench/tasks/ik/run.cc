@@ -1,12 +1,15 @@
 #include "bench/tasks/ik/run.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
+#include "bench/metrics/ik_cost.h"
+#include "bench/tasks/base/tree_json.h"
 #include "bench/tasks/ik/recording.h"
-#include "bench/tasks/ik/score.h"
 #include "bench/tasks/ik/series.h"
 #include "engine/base/digest.h"
+#include "engine/kinematics/solvers/ik_run.h"
 
 namespace etude {
 namespace {
@@ -17,7 +20,8 @@ std::string DigestOf(const IkSolution& solution) {
   return digest.Hex();
 }
 
-/// The same words for all cells that ended alike, so that a report can count them; how far each came is in its metrics.
+/// The reason why the solver stopped, in the same words for all cells that ended alike, so that a report can count
+/// them.
 std::string WhyItStopped(const IkMethod& method, const IkSolution& solution, const IkAsked& asked) {
   if (asked.axes && !method.solver->uses_axes) return "the solver sees positions only, and axes are asked for";
   switch (solution.status) {
@@ -59,6 +63,94 @@ CellResult RunIkCell(const KinematicTree& tree, const IkWorld& world, const IkMe
   }
   if (records.motion) cell.recording = RecordIk(tree, world, StepsOf(solution.trace));
   return cell;
+}
+
+namespace {
+
+/// Every solver here makes one pass of forward kinematics before its first step and one in each.
+double LargestFkCount(int max_steps) { return max_steps + 1; }
+
+void AddCost(const char* id, const char* penalised_id, const std::optional<int>& spent, double limit, bool solved,
+             CellResult& cell) {
+  if (spent) {
+    cell.Measure(id, *spent);
+    cell.Measure(penalised_id, PenalisedCost(*spent, limit, solved && *spent <= limit));
+  } else {
+    for (const char* missing : {id, penalised_id}) cell.Missing(missing, "the method did not say what it took");
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> IkMetrics() {
+  return {"position_error_cm",      "position_error_max_cm",
+          "orientation_error_deg",  "orientation_error_max_deg",
+          "hidden_angle_error_deg", "hidden_angle_change_deg",
+          "solved_practical",       "solved_tight",
+          "limit_violations",       "iterations",
+          "iterations_par2",        "fk_evaluations",
+          "fk_evaluations_par2"};
+}
+
+IkAsked AskedOf(const IkProblem& problem) {
+  const EffectorTarget& target = problem.targets.front();
+  return {.positions = target.position_weight > 0, .axes = target.axis_weights != glm::dvec3(0)};
+}
+
+CellResult ScoreAngles(const KinematicTree& tree, const IkWorld& world, std::span<const double> angles,
+                       std::span<const EffectorError> effector_errors, const IkAccount& account,
+                       const IkRecords& records) {
+  const IkErrorSummary errors = SummariseIkErrors(effector_errors);
+  const IkAsked asked = AskedOf(world.problem);
+  const std::string broken_limits = DescribeBrokenLimits(tree, angles, "angles_deg");
+  const bool keeps_limits = broken_limits.empty(), solved = keeps_limits && IsSolvedPractically(errors, asked);
+  CellResult cell;
+  cell.Measure("position_error_cm", errors.position_cm);
+  cell.Measure("position_error_max_cm", errors.position_max_cm);
+  cell.Measure("orientation_error_deg", errors.orientation_deg);
+  cell.Measure("orientation_error_max_deg", errors.orientation_max_deg);
+  cell.Measure("hidden_angle_error_deg", HiddenAngleDifferenceDeg(angles, world.truth.angles));
+  cell.Measure("hidden_angle_change_deg", HiddenAngleDifferenceDeg(angles, world.problem.start.angles));
+  cell.Measure("solved_practical", solved ? 1 : 0);
+  cell.Measure("solved_tight", keeps_limits && IsSolvedTightly(errors, asked) ? 1 : 0);
+  cell.Measure("limit_violations", CountLimitViolations(angles, tree.limits));
+  AddCost("iterations", "iterations_par2", account.iterations, account.max_steps, solved, cell);
+  AddCost("fk_evaluations", "fk_evaluations_par2", account.fk_evaluations, LargestFkCount(account.max_steps), solved,
+          cell);
+  if (records.effector_errors) cell.series = EffectorErrors(tree, world.problem, angles);
+  if (records.angle_changes) std::ranges::move(AngleChanges(world, angles), std::back_inserter(cell.series));
+  cell.status = solved ? Status::kOk : Status::kUnsolved;
+  cell.reason = solved ? "" : !keeps_limits ? broken_limits : account.why_not_met;
+  return cell;
+}
+
+CellResult ScoreIkAnswer(const KinematicTree& tree, const IkWorld& world, const IkAnswer& answer, int max_steps,
+                         const IkRecords& records) {
+  TreeState state = world.problem.start;
+  std::vector<EffectorError> begun, ended;
+  MeasureErrors(ComputeFrames(tree, state), world.problem.targets, begun);
+  state.angles = answer.angles;
+  MeasureErrors(ComputeFrames(tree, state), world.problem.targets, ended);
+  const IkAccount account{answer.iterations, answer.fk_evaluations, max_steps, "the targets are not met"};
+  CellResult cell = ScoreAngles(tree, world, answer.angles, ended, account, records);
+  cell.digests = {{"world", DigestOf(world)}, {"solution", Digest().Add(answer.angles).Hex()}};
+  if (records.motion) {
+    const auto step = [&](int iteration, const std::vector<double>& angles, std::span<const EffectorError> errors) {
+      const IkErrorSummary worst = SummariseIkErrors(errors);
+      return IkRecordedStep{iteration, angles, worst.position_max_cm, worst.orientation_max_deg, worst.axis_max_deg};
+    };
+    cell.recording = RecordIk(tree, world,
+                              std::array{step(0, world.problem.start.angles, begun),
+                                         step(answer.iterations.value_or(1), answer.angles, ended)});
+  }
+  return cell;
+}
+
+std::optional<double> IkValueOfFailure(std::string_view metric, int max_steps) {
+  if (metric == "solved_practical" || metric == "solved_tight") return 0;
+  if (metric == "iterations_par2") return PenalisedCost(0, max_steps, false);
+  if (metric == "fk_evaluations_par2") return PenalisedCost(0, LargestFkCount(max_steps), false);
+  return std::nullopt;
 }
 
 }  // namespace etude

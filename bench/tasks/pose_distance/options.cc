@@ -7,8 +7,11 @@ namespace {
 
 /// Ours: of any frames of two clips the joints' mean lets through about as many pairs below it (0.4 %) as paper A's d
 /// does below 0.4 (0.5 %).
-constexpr double kDefaultThresholdCm = 6;
-constexpr Range kThresholdsCm{0, 1000};
+constexpr double kThresholdCm = 6;
+
+void SetThreshold(Fields& /*method*/, PoseDistanceMethod& options) {
+  if (options.distance != PoseDistance::kFuzzy) options.threshold = kThresholdCm;
+}
 
 }  // namespace
 
@@ -39,14 +42,8 @@ const FieldTable<PoseDistanceMethod>& PoseDistanceMethodFields() {
            .With("distance", {"fuzzy"}),
        // Grades lie in [0, 1] and S sums to 8, so no distance exceeds sqrt(8 · 4).
        Key::Number("threshold", &Method::threshold, {0, 6}, "Poses are called alike when d is below it.")
-           .With("distance", {"fuzzy"}),
-       Key{{"threshold_cm", NumberKind(kThresholdsCm), NumberText(kDefaultThresholdCm),
-            "Poses are called alike when their distance is below it."},
-           [](Fields& method, Method& m) {
-             m.threshold = method.Number("threshold_cm", kDefaultThresholdCm, kThresholdsCm);
-           }}
-           .Unit("cm")
-           .With("distance", {"point-cloud", "joint-positions"})}};
+           .With("distance", {"fuzzy"})},
+      SetThreshold};
   return table;
 }
 

@@ -5,7 +5,7 @@
 
 namespace etude {
 
-/// What a scenario of task pose-distance says of its worlds.
+/// A condition of task pose-distance.
 struct PairOptions {
   PairSource source = PairSource::kBlindSpots;
   int pairs_per_world = 500;  ///< of frames
@@ -13,10 +13,10 @@ struct PairOptions {
 
 const FieldTable<PairOptions>& PoseDistanceConditionFields();
 
-/// Of methods such as
+/// The keys of methods such as
 ///
 ///     - {name: fuzzy, distance: fuzzy, weights: adaptive, threshold: 0.4}
-///     - {name: joints, distance: joint-positions, threshold_cm: 8}
+///     - {name: joints, distance: joint-positions}
 const FieldTable<PoseDistanceMethod>& PoseDistanceMethodFields();
 
 }  // namespace etude

@@ -1,18 +1,18 @@
-#include "bench/tasks/pose_distance/pose_distance_task.h"
-
 #include <fmt/format.h>
 
+#include "bench/tasks/base/fuzzy_key.h"
 #include "bench/tasks/base/read_methods.h"
-#include "bench/tasks/pose_distance/blind_spots.h"
+#include "bench/tasks/base/task_kinds.h"
 #include "bench/tasks/pose_distance/exchange.h"
 #include "bench/tasks/pose_distance/options.h"
-#include "bench/tasks/pose_distance/score.h"
+#include "bench/tasks/pose_distance/run.h"
+#include "bench/tasks/pose_distance/world.h"
 #include "bench/training/training_pairs.h"
 
 namespace etude {
 namespace {
 
-/// What the worlds of a condition share.
+/// The data that all worlds of one condition share.
 struct PairStudy {
   PairOptions options;
   std::vector<PoseDistanceMethod> methods;
@@ -80,9 +80,10 @@ Result<std::unique_ptr<Task>> MakePoseDistanceTask(TaskInput& input) {
                 "'pairs: frames' of task pose-distance needs 'clips', two different ones at least, such as "
                 "['builtin:*']");
   }
+  ASSIGN_OR_RETURN(const auto fuzzy, FuzzySystemOf(input));
   ASSIGN_OR_RETURN(auto training, GatherTrainingClips(clips.motions, clips.identities, clips.proportions));
-  return std::make_unique<PoseDistanceTask>(PairStudy{options, std::move(methods), std::move(clips), input.fuzzy,
-                                                      LearntWeights(std::move(training), input.fuzzy)});
+  return std::make_unique<PoseDistanceTask>(
+      PairStudy{options, std::move(methods), std::move(clips), fuzzy, LearntWeights(std::move(training), fuzzy)});
 }
 
 }  // namespace

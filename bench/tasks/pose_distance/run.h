@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/tasks/base/task.h"
 #include "bench/tasks/pose_distance/world.h"
 #include "bench/training/learnt_weights.h"
 #include "engine/fuzzy/fuzzy_system.h"
@@ -30,7 +31,7 @@ struct PoseDistanceMethod {
   double threshold = kPaperThreshold;           ///< two poses are called alike below it; of the others, centimetres
 };
 
-/// What a method says of a world's pairs, in their order.
+/// The verdicts of a method on a world's pairs, in their order.
 struct PairVerdict {
   std::vector<double> distances;  ///< the larger, the more unlike; on any scale
   std::vector<bool> alike;
@@ -39,5 +40,12 @@ struct PairVerdict {
 /// `weights` are S of the fuzzy distance; the others have none.
 PairVerdict TellPairs(const PairWorld& world, const PoseDistanceMethod& method, const Memberships& memberships,
                       const FeatureWeights& weights);
+
+/// The ids of all metrics, in the order in which they are measured.
+std::vector<std::string> PoseDistanceMetrics();
+
+/// Measures a verdict. `distance` is the built-in one that was asked, whose own number a pair has; null for a method
+/// outside, whose scale nobody knows.
+CellResult ScorePairs(const PairWorld& world, const PairVerdict& verdict, const PoseDistance* distance);
 
 }  // namespace etude

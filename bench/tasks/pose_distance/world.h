@@ -1,15 +1,28 @@
 #pragma once
 
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "bench/clips/clip_library.h"
 #include "engine/fuzzy/features.h"
 #include "engine/transitions/library/body_proportions.h"
+#include "sim/choreography/controls.h"
 #include "sim/random/stream.h"
 
 namespace etude {
+
+/// Two poses that anyone tells apart, and paper A's distance hardly does: its features know how far a limb is raised,
+/// not in which direction, and their membership functions are flat where nothing was thought to happen.
+struct BlindSpot {
+  std::string_view name;  ///< "arm forward or sideways"
+  Controls a, b;          ///< performed by the body of the built-in moves
+};
+
+/// Eight of them.
+std::span<const BlindSpot> BlindSpots();
 
 /// A pose and what the fuzzy side sees of it.
 struct SeenPose {
@@ -29,7 +42,7 @@ struct PairWorld {
   std::vector<SeenPair> pairs;  ///< one or more
 };
 
-/// Which pairs a world is made of.
+/// The pairs that a world is made of.
 enum class PairSource {
   kBlindSpots,  ///< trial i shows the (i mod 8)th of BlindSpots
   kFrames,      ///< any frames of two different clips
@@ -46,7 +59,7 @@ struct DancedClips {
 /// The clips are retargeted to the body of the built-in moves.
 DancedClips DanceClips(const ClipLibrary& library);
 
-/// Whether there are clips of two different identities.
+/// True when there are clips of two different identities.
 bool HoldsTwoDances(const DancedClips& clips);
 
 PairWorld ShowBlindSpot(int trial);

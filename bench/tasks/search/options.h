@@ -7,12 +7,12 @@
 
 namespace etude {
 
-/// What is asked about a frame: the first of those that match it, all of them, or those that are most like it.
+/// A question about a frame: the first of those that match it, all of them, or those that are most like it.
 enum class SearchQuestion { kFirst, kWithin, kNearest, kNearest10 };
 /// "first", "within", "nearest", "nearest-10".
 std::string_view QuestionName(SearchQuestion question);
 
-/// How many frames `nearest` and `nearest-10` ask for; needs one of these two.
+/// The number of frames that `nearest` and `nearest-10` ask for; needs one of these two.
 int FramesAskedFor(SearchQuestion question);
 
 /// One condition of a search scenario.
@@ -24,7 +24,7 @@ struct SearchOptions {
 };
 constexpr int kMostLibraryFrames = 1'000'000;
 
-/// How frames are found.
+/// The way in which frames are found.
 enum class SearchWay { kIndex, kBruteForce };
 
 struct SearchMethod {

@@ -1,19 +1,18 @@
-#include "bench/tasks/search/search_task.h"
-
 #include <map>
 #include <set>
 
+#include "bench/tasks/base/fuzzy_key.h"
 #include "bench/tasks/base/read_methods.h"
+#include "bench/tasks/base/task_kinds.h"
 #include "bench/tasks/search/exchange.h"
 #include "bench/tasks/search/options.h"
 #include "bench/tasks/search/run.h"
-#include "bench/tasks/search/score.h"
 #include "bench/tasks/search/world.h"
 
 namespace etude {
 namespace {
 
-/// Everything that the worlds of one condition have in common.
+/// The data that all worlds of one condition share.
 struct SearchStudy {
   SearchOptions options;
   std::vector<SearchMethod> methods;
@@ -100,7 +99,8 @@ Result<void> CheckClips(const ClipLibrary& clips, const Place& place) {
 }
 
 Result<std::unique_ptr<Task>> MakeSearchTask(TaskInput& input) {
-  SearchStudy study{.options = {}, .methods = {}, .fuzzy = input.fuzzy};
+  ASSIGN_OR_RETURN(auto fuzzy, FuzzySystemOf(input));
+  SearchStudy study{.options = {}, .methods = {}, .fuzzy = std::move(fuzzy)};
   SearchConditionFields().Read(input.condition, study.options);
   SearchMethod start;
   start.question = study.options.question;

@@ -13,7 +13,7 @@
 
 namespace etude {
 
-/// What is searched, and what may be asked about it.
+/// The frames that are searched, and those that may be asked about.
 struct SearchLibrary {
   std::vector<Grades> frames;    ///< in time order
   std::vector<Grades> held_out;  ///< of further performances of the same clips
@@ -21,7 +21,7 @@ struct SearchLibrary {
   std::string digest;  ///< of the frames
 };
 
-/// Of all grades, in their order.
+/// The digest of all grades, in their order.
 std::string DigestOf(std::span<const Grades> frames);
 
 /// `frames` frames of the clips, performed by dancers whose tempo and amplitude vary (sim/choreography's VariedLibrary;

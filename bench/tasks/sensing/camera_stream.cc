@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "bench/tasks/capture/run.h"
 
@@ -59,6 +60,20 @@ const Result<SkeletonStream>& CameraTake::See(const CaptureMethod& method) {
     stream.frames.push_back(SensedOf(frame, stream.frames.empty() ? SensedFrame{} : stream.frames.back()));
   }
   return seen_.emplace_back(method, std::move(stream)).second;
+}
+
+Result<std::unique_ptr<LiveSensor>> CameraSensor::Make(const StudioOptions& studio, const CaptureMethod& method,
+                                                       const BodyPose& first, std::size_t frames, const WorldKey& key) {
+  const std::vector<BodyPose> places = PlacesAround(first);
+  ASSIGN_OR_RETURN(auto capture, LiveCapture::Begin(studio, method, BookFor(places, first, frames), key));
+  return std::unique_ptr<LiveSensor>(new CameraSensor(std::move(capture)));
+}
+
+std::optional<SensedFrame> CameraSensor::Update(const BodyPose& pose) {
+  capture_->Add(pose);
+  if (++poses_ <= kAhead) return std::nullopt;
+  last_ = SensedOf(capture_->Next(), last_);
+  return last_;
 }
 
 }  // namespace etude

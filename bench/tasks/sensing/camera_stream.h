@@ -1,18 +1,22 @@
 #pragma once
 
 #include <deque>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "bench/tasks/capture/live_capture.h"
 #include "bench/tasks/capture/stages.h"
 #include "bench/tasks/capture/world.h"
 #include "bench/tasks/sensing/options.h"
+#include "engine/base/result.h"
 #include "engine/capture/recover_frames.h"
 #include "engine/motion/body.h"
 #include "engine/recognition/skeleton_stream.h"
 #include "sim/random/stream.h"
+#include "sim/skeleton_sensor/live_sensor.h"
 
 namespace etude {
 
@@ -41,6 +45,24 @@ class CameraTake {
  private:
   CaptureStages stages_;
   std::deque<std::pair<CaptureMethod, Result<SkeletonStream>>> seen_;
+};
+
+/// Cameras as the sensor of a loop: a causal way of capturing who moves, frame by frame. It computes in no time.
+class CameraSensor final : public LiveSensor {
+ public:
+  /// Set up for somebody who stands as in `first`, for so many frames. `key` must outlive this; `method.causal`. Fails,
+  /// saying why, as `LiveCapture` does.
+  static Result<std::unique_ptr<LiveSensor>> Make(const StudioOptions& studio, const CaptureMethod& method,
+                                                  const BodyPose& first, std::size_t frames, const WorldKey& key);
+
+  std::optional<SensedFrame> Update(const BodyPose& pose) override;
+
+ private:
+  explicit CameraSensor(std::unique_ptr<LiveCapture> capture) : capture_(std::move(capture)) {}
+
+  const std::unique_ptr<LiveCapture> capture_;
+  std::size_t poses_ = 0;
+  SensedFrame last_;
 };
 
 }  // namespace etude

@@ -4,7 +4,6 @@
 
 #include "bench/keys/field_table.h"
 #include "bench/tasks/capture/options.h"
-#include "bench/tasks/capture/person_source.h"
 
 namespace etude {
 

@@ -23,11 +23,10 @@ const FieldTable<TrackingOptions>& TrackingConditionFields() {
       {Key::Number("duration_s", &Options::duration_s, {0.1, 60}, "Length of the window of the clip that is followed."),
        Key::Number("rate_hz", &Options::rate_hz, {1, kJudgedRateHz},
                    "Frames a second: the fewer, the farther from one to the next."),
+       Key::Number("target_noise_cm", Path(&Options::target_noise, &TargetNoise::position_cm), {0, 100},
+                   "How far targets are from the body's ends: standard deviation per axis, anew in every frame."),
        Key::Number(
-           "target_noise_cm", [](auto& o) -> auto& { return o.target_noise.position_cm; }, {0, 100},
-           "How far targets are from the body's ends: standard deviation per axis, anew in every frame."),
-       Key::Number(
-           "target_noise_deg", [](auto& o) -> auto& { return o.target_noise.orientation_deg; }, {0, 180},
+           "target_noise_deg", Path(&Options::target_noise, &TargetNoise::orientation_deg), {0, 180},
            "How far their axes are turned: standard deviation of the rotation vector per axis, anew in every frame."),
        Key::Number("joint_noise_deg", &Options::joint_noise_deg, {0, 180},
                    "How far from the truth every angle is that the first frame starts with: standard deviation.")

@@ -18,12 +18,12 @@ struct TrackingOptions {
   double duration_s = 5;
   double rate_hz = kJudgedRateHz;
   TargetNoise target_noise = {};
-  /// How far the first frame's start is from its truth, standard deviation; empty: it is the standing pose.
+  /// The standard deviation of the first frame's start from its truth; empty: the start is the standing pose.
   std::optional<double> joint_noise_deg = {};
   IkOptions common = IkBudget(20);  ///< what all methods share
 };
 
-/// Where a solver begins at every frame but the first.
+/// The start of a solver at every frame but the first.
 enum class FrameStart {
   kWarm,  ///< "warm": at its answer to the frame before
   kCold,  ///< "cold": where it began at the first frame

@@ -1,5 +1,16 @@
 #include "bench/tasks/tracking/run.h"
 
+#include <algorithm>
+#include <cassert>
+#include <functional>
+
+#include "bench/metrics/pose_error.h"
+#include "bench/metrics/tracking.h"
+#include "bench/tasks/base/tree_json.h"
+#include "engine/base/digest.h"
+#include "engine/kinematics/solvers/ik_run.h"
+#include "engine/kinematics/tree_to_body.h"
+
 namespace etude {
 namespace {
 
@@ -43,6 +54,144 @@ Result<TrackingAnswer> Follow(const TrackingWorld& world, const TrackingMethod& 
     RETURN_IF_ERROR(Take(std::move(solution), problem, world, method, answer));
   }
   return answer;
+}
+
+namespace {
+
+using Angles = std::vector<std::vector<double>>;  // [frame][angle]
+
+/// What the answer looks like, frame by frame.
+struct Outcome {
+  std::vector<TrackedFrame> frames;
+  BodyMotion truth, found;
+  std::string first_broken_limit;
+};
+
+Outcome Look(const TrackingWorld& world, double rate_hz, const Angles& angles) {
+  Outcome outcome{{}, {rate_hz, {}}, {rate_hz, {}}, ""};
+  std::vector<EffectorError> errors;
+  for (std::size_t k = 0; k < angles.size(); ++k) {
+    TreeState state = world.truth[k];
+    outcome.truth.poses.push_back(ToBodyPose(world.tree, state));
+    state.angles = angles[k];
+    outcome.found.poses.push_back(ToBodyPose(world.tree, state));
+    MeasureErrors(ComputeFrames(world.tree, state), world.targets[k], errors);
+    const std::string broken = DescribeBrokenLimits(world.tree, angles[k], fmt::format("angles_deg[{}]", k));
+    outcome.frames.push_back({SummariseIkErrors(errors), broken.empty()});
+    if (outcome.first_broken_limit.empty()) outcome.first_broken_limit = broken;
+  }
+  return outcome;
+}
+
+Angles TrueAngles(const TrackingWorld& world) {
+  Angles angles;
+  for (const TreeState& state : world.truth) angles.push_back(state.angles);
+  return angles;
+}
+
+std::vector<double> Together(const Angles& frames) {
+  std::vector<double> all;
+  for (const std::vector<double>& angles : frames) all.insert(all.end(), angles.begin(), angles.end());
+  return all;
+}
+
+std::string DigestOf(const TrackingWorld& world) {
+  Digest digest;
+  digest.Add(world.first_angles);
+  for (std::size_t k = 0; k < world.truth.size(); ++k) {
+    digest.Add(world.truth[k].angles);
+    AddTo(digest, world.targets[k]);
+  }
+  return digest.Hex();
+}
+
+std::string DigestOf(const TrackingAnswer& answer) {
+  Digest digest;
+  for (const std::vector<double>& angles : answer.angles) digest.Add(angles);
+  if (answer.iterations) {
+    for (const int count : *answer.iterations) digest.Add(static_cast<std::int64_t>(count));
+  }
+  return digest.Hex();
+}
+
+template <class ValueOf>
+Series AlongFrames(std::string name, std::span<const TrackedFrame> frames, ValueOf value_of) {
+  Series series{std::move(name), "frame", {}};
+  for (const TrackedFrame& frame : frames) series.values.push_back(value_of(frame));
+  return series;
+}
+
+double MeanOf(const Series& series) {
+  double sum = 0;
+  for (const double value : series.values) sum += value;
+  return sum / static_cast<double>(series.values.size());
+}
+
+void AddIterations(const std::optional<std::vector<int>>& iterations, CellResult& cell) {
+  if (iterations) {
+    const FrameIterations spent = SummariseIterations(*iterations);
+    cell.Measure("iterations_per_frame", spent.mean);
+    cell.Measure("iterations_per_frame_p95", spent.p95);
+    cell.series.push_back({"iterations", "frame", {iterations->begin(), iterations->end()}});
+  } else {
+    for (const char* id : {"iterations_per_frame", "iterations_per_frame_p95"}) {
+      cell.Missing(id, "the method did not say what it took");
+    }
+  }
+}
+
+/// "12 of 150 frames not solved; in the first of them, 0, worst effector 3.1 cm, 4°", or nothing.
+std::string DescribeFailure(const Outcome& outcome) {
+  const auto unsolved = std::count_if(outcome.frames.begin(), outcome.frames.end(), std::not_fn(IsFrameSolved));
+  if (unsolved == 0) return "";
+  if (!outcome.first_broken_limit.empty()) return outcome.first_broken_limit;
+  const auto first = std::find_if_not(outcome.frames.begin(), outcome.frames.end(), IsFrameSolved);
+  return fmt::format("{} of {} frames not solved; in the first of them, {}, worst effector {:.2g} cm, {:.2g}°",
+                     unsolved, outcome.frames.size(), first - outcome.frames.begin(), first->errors.position_max_cm,
+                     first->errors.orientation_max_deg);
+}
+
+}  // namespace
+
+std::vector<std::string> TrackingMetrics() {
+  return {"frames_solved",         "frames_solved_tight",    "position_error_cm",
+          "orientation_error_deg", "hidden_angle_error_deg", "mpjpe_mm",
+          "angle_jerk_ratio",      "iterations_per_frame",   "iterations_per_frame_p95"};
+}
+
+CellResult ScoreTracking(const TrackingWorld& world, double rate_hz, const TrackingAnswer& answer, bool keeps_motion) {
+  assert(answer.angles.size() == world.truth.size());
+  Outcome outcome = Look(world, rate_hz, answer.angles);
+  const Angles truth = TrueAngles(world);
+  const PoseErrors poses = ComparePoses(outcome.found.poses, outcome.truth.poses);
+  const Series position = AlongFrames("position_error_cm", outcome.frames,
+                                      [](const TrackedFrame& frame) { return frame.errors.position_cm; });
+  const Series orientation = AlongFrames("orientation_error_deg", outcome.frames,
+                                         [](const TrackedFrame& frame) { return frame.errors.orientation_deg; });
+  CellResult cell;
+  cell.digests = {{"world", DigestOf(world)}, {"solution", DigestOf(answer)}};
+  cell.Measure("frames_solved", ShareSolvedPractically(outcome.frames));
+  cell.Measure("frames_solved_tight", ShareSolvedTightly(outcome.frames));
+  cell.Measure("position_error_cm", MeanOf(position));
+  cell.Measure("orientation_error_deg", MeanOf(orientation));
+  cell.Measure("hidden_angle_error_deg", HiddenAngleDifferenceDeg(Together(answer.angles), Together(truth)));
+  cell.Measure("mpjpe_mm", poses.mpjpe_mm);
+  cell.MeasureOr("angle_jerk_ratio", AngleJerkRatio(answer.angles, truth), "the true angles have no jerk");
+  cell.series = {
+      AlongFrames("solved_practical", outcome.frames, [](const auto& frame) { return IsFrameSolved(frame); }), position,
+      orientation, Series{"mpjpe_mm", "frame", poses.frame_mpjpe_mm}};
+  AddIterations(answer.iterations, cell);
+  if (keeps_motion) {
+    cell.recording = Recording{{{"truth", std::move(outcome.truth)}, {"solution", std::move(outcome.found)}}, "{}"};
+  }
+  cell.reason = DescribeFailure(outcome);
+  cell.status = cell.reason.empty() ? Status::kOk : Status::kUnsolved;
+  return cell;
+}
+
+std::optional<double> TrackingValueOfFailure(std::string_view metric) {
+  if (metric == "frames_solved" || metric == "frames_solved_tight") return 0;
+  return std::nullopt;
 }
 
 }  // namespace etude

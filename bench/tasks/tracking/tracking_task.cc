@@ -1,10 +1,8 @@
-#include "bench/tasks/tracking/tracking_task.h"
-
 #include "bench/tasks/base/read_methods.h"
+#include "bench/tasks/base/task_kinds.h"
 #include "bench/tasks/tracking/exchange.h"
 #include "bench/tasks/tracking/options.h"
 #include "bench/tasks/tracking/run.h"
-#include "bench/tasks/tracking/score.h"
 #include "bench/tasks/tracking/world.h"
 #include "engine/formats/bvh.h"
 #include "engine/kinematics/tree_to_body.h"
@@ -12,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// Everything that the worlds of one condition have in common.
+/// The data that all worlds of one condition share.
 struct TrackingStudy {
   TrackingOptions options;
   std::vector<TrackingMethod> methods;

@@ -24,7 +24,7 @@ BodyPose PoseAt(const std::vector<BodyPose>& poses, double frame) {
   return pose;
 }
 
-/// What of the clip is followed, its middle frame at the floor's origin.
+/// The window of the clip that is followed, its middle frame at the floor's origin.
 std::vector<BodyPose> ChooseWindow(const TrackingOptions& options, const LibraryClip& clip, const WorldKey& key) {
   RandomStream dice(key, "tracking/window");
   const std::vector<BodyPose>& poses = clip.motion.poses;

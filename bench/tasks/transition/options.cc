@@ -1,6 +1,6 @@
 #include "bench/tasks/transition/options.h"
 
-#include "bench/keys/setting_fields.h"
+#include "bench/keys/field_table.h"
 #include "bench/tasks/base/fuzzy_key.h"
 
 namespace etude {
@@ -42,34 +42,23 @@ const FieldTable<TransitionCondition>& TransitionConditionFields() {
            "Whether every cell keeps the ten partial distances of its transition points and its candidates, as series; "
            "filmed cells are explained in the report anyway."),
        Key::Name(
-           "asked_for", [](auto& o) -> auto& { return o.stage.asks_for_acts; }, {{"any", false}, {"acts", true}},
+           "asked_for", Path(&Options::stage, &StageRules::asks_for_acts), {{"any", false}, {"acts", true}},
            "Which clips are asked for: any other one, or, while the other clips play, the coach's acts, where there "
            "are any."),
+       Key::Number("min_clips", Path(&Options::stage, &StageRules::min_clips), {1, 1000},
+                   "In how many clips a bridge frame's ten tags occur together at least."),
        Key::Number(
-           "min_clips", [](auto& o) -> auto& { return o.stage.min_clips; }, {1, 1000},
-           "In how many clips a bridge frame's ten tags occur together at least."),
-       Key::Number(
-           "most_per_class", [](auto& o) -> auto& { return o.stage.most_per_class; }, {0, 100000},
+           "most_per_class", Path(&Options::stage, &StageRules::most_per_class), {0, 100000},
            "Of each clip's frames with the same ten tags, only so many are bridge frames: those most alike to other "
            "clips'; 0: all."),
-       Key::Angle(
-           "head_bend_deg", [](auto& o) -> auto& { return o.stage.head.max_bend; }, {0, 180},
-           "A bridge frame's neck is bent by no more."),
-       Key::Angle(
-           "head_turn_dps", [](auto& o) -> auto& { return o.stage.head.max_turn_speed; }, {0, 10000},
-           "A bridge frame's neck turns no faster.")
+       Key::Angle("head_bend_deg", Path(&Options::stage, &StageRules::head, &HeadRule::max_bend), {0, 180},
+                  "A bridge frame's neck is bent by no more."),
+       Key::Angle("head_turn_dps", Path(&Options::stage, &StageRules::head, &HeadRule::max_turn_speed), {0, 10000},
+                  "A bridge frame's neck turns no faster.")
            .Unit("degrees per second"),
-       Key::Angle(
-           "tween_dps", [](auto& o) -> auto& { return o.stage.tween.turn_speed; }, {10, 10000},
-           "The fastest that any limb turns in an in-between.")
-           .Unit("degrees per second"),
-       Key::Number(
-           "tween_s", [](auto& o) -> auto& { return o.stage.tween.shortest_s; }, {0, 10},
-           "An in-between takes at least this, however little there is to do.")
+       Key::Number("tween_s", Path(&Options::stage, &StageRules::tween, &TweenRules::shortest_s), {0, 10},
+                   "An in-between takes at least this, however little there is to do.")
            .Unit("seconds"),
-       Key::Angle(
-           "tween_deg", [](auto& o) -> auto& { return o.stage.tween.widest_turn; }, {0, 180},
-           "An in-between that would turn a limb by more goes by way of the most frequent pose."),
        FuzzyField<Options>()}};
   return table;
 }
@@ -79,36 +68,34 @@ const FieldTable<TransitionMethod>& TransitionMethodFields() {
   static const FieldTable<TransitionMethod> table = [] {
     FieldTable<TransitionMethod> made{
         {Key::Name(
-             "choice", [](auto& m) -> auto& { return m.way.choice; }, ChoiceNames(), FindChoice,
+             "choice", Path(&TransitionMethod::way, &TransitionWay::choice), ChoiceNames(), FindChoice,
              "Which frames a transition takes, and when: paper A's bridge frames, or what one would use otherwise."),
          Key::Name(
-             "join", [](auto& m) -> auto& { return m.way.join; }, JoinNames(), FindJoin,
+             "join", Path(&TransitionMethod::way, &TransitionWay::join), JoinNames(), FindJoin,
              "How the clips are put together: the next frame is the new clip's, or what was off dies away smoothly."),
          Key::Name("weights", &TransitionMethod::weights, WeightSourceNames(), FindWeightSource,
                    "How much each fuzzy feature counts: as the fuzzy system says, or learnt on all clips but the two "
                    "judged, by a logistic regression or a genetic algorithm."),
-         Key::Number(
-             "threshold", [](auto& m) -> auto& { return m.way.rules.threshold; }, kThresholds,
-             "The distance below which two frames match.")
+         Key::Number("threshold", Path(&TransitionMethod::way, &TransitionWay::rules, &MatchRules::threshold),
+                     kThresholds, "The distance below which two frames match.")
              .WhenAbsent("(the scenario's)")
              .With("choice", FuzzyChoices()),
-         Key::Flag(
-             "within_class", [](auto& m) -> auto& { return m.way.rules.within_class; },
-             "Whether only frames with the same ten tags are compared.")
+         Key::Flag("within_class", Path(&TransitionMethod::way, &TransitionWay::rules, &MatchRules::within_class),
+                   "Whether only frames with the same ten tags are compared.")
              .With("choice", FuzzyChoices()),
-         Key::Name(
-             "pick", [](auto& m) -> auto& { return m.way.rules.pick; },
-             {{"first", Pick::kFirst}, {"smallest", Pick::kSmallest}}, "Which of several matching pairs is taken.")
+         Key::Name("pick", Path(&TransitionMethod::way, &TransitionWay::rules, &MatchRules::pick),
+                   {{"first", Pick::kFirst}, {"smallest", Pick::kSmallest}},
+                   "Which of several matching pairs is taken.")
              .With("choice", {"fuzzy-bridge"}),
          Key::Number("wait_s", &TransitionMethod::wait_s, kWaits_s, "How long after the request a transition may come.")
              .Unit("seconds")
              .WhenAbsent("(the scenario's)")}};
     for (const Key& key : SettingFields<TransitionMethod>(
-             "choice", AllChoices(), [](auto& m) -> auto& { return m.way.choice_settings; })) {
+             "choice", AllChoices(), Path(&TransitionMethod::way, &TransitionWay::choice_settings))) {
       made.fields.push_back(key);
     }
     for (const Key& key : SettingFields<TransitionMethod>(
-             "join", AllJoins(), [](auto& m) -> auto& { return m.way.join_settings; })) {
+             "join", AllJoins(), Path(&TransitionMethod::way, &TransitionWay::join_settings))) {
       made.fields.push_back(key);
     }
     return made;

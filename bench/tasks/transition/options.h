@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// Paper A's.
+/// Paper A's choice and join.
 TransitionWay DefaultWay();
 
 /// One method, as a scenario names it.
@@ -23,7 +23,7 @@ struct TransitionMethod {
   double wait_s = 1;  ///< the budget of its requests
 };
 
-/// What a condition says.
+/// A condition of a transition scenario.
 struct TransitionCondition {
   double threshold = kPaperThreshold;  ///< of methods that do not say otherwise
   double wait_s = 1;                   ///< likewise

@@ -13,7 +13,7 @@ Grades GradesAt(const Segment& segment, int frame, const Stage& stage) {
                  stage.fuzzy.memberships);
 }
 
-/// As a built-in choice would have told it.
+/// The record of the answer, as a built-in choice would have told it.
 TransitionRecord RecordOf(const TransitionAnswer& answer, const Stage& stage, const TransitionRequest& request) {
   TransitionRecord record;
   record.request_frame = request.request_frame;

@@ -9,7 +9,7 @@ namespace etude {
 struct Stage;
 struct TransitionAnswer;
 
-/// What one method did in one world.
+/// The transition of one method in one world.
 struct TransitionOutcome {
   TransitionRequest request;
   bool matched = false;  ///< it chose the frames left and entered because they are alike

@@ -1,6 +1,6 @@
-#include "bench/tasks/transition/transition_task.h"
-
+#include "bench/tasks/base/fuzzy_key.h"
 #include "bench/tasks/base/read_methods.h"
+#include "bench/tasks/base/task_kinds.h"
 #include "bench/tasks/transition/exchange.h"
 #include "bench/tasks/transition/run.h"
 #include "bench/training/training_pairs.h"
@@ -49,7 +49,7 @@ class TransitionTask final : public Task {
 Result<std::unique_ptr<Task>> MakeTransitionTask(TaskInput& input) {
   TransitionCondition condition;
   TransitionConditionFields().Read(input.condition, condition);
-  condition.stage.fuzzy = input.fuzzy;
+  ASSIGN_OR_RETURN(condition.stage.fuzzy, FuzzySystemOf(input));
   TransitionMethod start;
   start.way.rules.threshold = condition.threshold;
   start.wait_s = condition.wait_s;

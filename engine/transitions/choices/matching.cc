@@ -136,10 +136,7 @@ typename SettingTable<Options>::Row LeastPlay() {
 }  // namespace
 
 const SettingTable<PointCloudOptions>& PointCloudSettings() {
-  static const SettingTable<PointCloudOptions> kSettings(
-      {{"window_s", &PointCloudOptions::window_s, 0, 2,
-        "Seconds of motion that the point clouds hold, half of them after the frame."},
-       LeastPlay<PointCloudOptions>()});
+  static const SettingTable<PointCloudOptions> kSettings({LeastPlay<PointCloudOptions>()});
   return kSettings;
 }
 
@@ -168,10 +165,7 @@ TransitionRecord PlanMotionMatching(const MotionLibrary& library, const Transiti
 }
 
 const SettingTable<FuzzyWindowOptions>& FuzzyWindowSettings() {
-  static const SettingTable<FuzzyWindowOptions> kSettings(
-      {{"reach_s", &FuzzyWindowOptions::reach_s, 0, 2,
-        "Seconds before and after the frame over which distances are averaged."},
-       LeastPlay<FuzzyWindowOptions>()});
+  static const SettingTable<FuzzyWindowOptions> kSettings({LeastPlay<FuzzyWindowOptions>()});
   return kSettings;
 }
 

@@ -48,13 +48,6 @@ BodyPose Inertialiser::Apply(const BodyPose& target, double seconds) const {
   return pose;
 }
 
-const SettingTable<SpringOptions>& SpringSettings() {
-  static const SettingTable<SpringOptions> kSettings({{"half_life_s", &SpringOptions::half_life_s, 0.001, 5,
-                                                       "Seconds until about half of what was off at the transition "
-                                                       "point is gone."}});
-  return kSettings;
-}
-
 glm::dvec3 SpringDecay(const Offset& offset, double seconds, const SpringOptions& options) {
   const double y = 2.0 * std::numbers::ln2 / options.half_life_s;
   return std::exp(-y * seconds) * (offset.value + (offset.velocity + y * offset.value) * seconds);

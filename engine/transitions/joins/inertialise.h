@@ -39,7 +39,6 @@ struct SpringOptions {
   /// Seconds until about half an offset is gone. Ours. Longer ones are smoother, and further from both clips' poses.
   double half_life_s = 0.1;
 };
-const SettingTable<SpringOptions>& SpringSettings();
 
 /// Computes a critically damped spring that halves an offset in about `half_life_s` (Holden 2020, "Spring-It-On"). An
 /// offset that is still growing goes on to do so for a while: velocities are continuous.

@@ -15,6 +15,8 @@ Blend CutOver(const JoinInput& /*input*/, std::span<const double> /*values*/) {
   return [](const BodyPose& target, int /*frames*/) { return target; };
 }
 
+Blend SpringDefaults(const JoinInput& input, std::span<const double> /*values*/) { return InertialiseSpring(input); }
+
 /// A row's `begin`: makes the join's own options of the values.
 template <auto Begin, auto Settings>
 Blend BeginWith(const JoinInput& input, std::span<const double> values) {
@@ -35,8 +37,7 @@ std::span<const Join> Table() {
            .begin = BeginWith<InertialiseQuintic, QuinticSettings>},
       Join{.name = "inertialised-spring",
            .description = "what was off dies away like a critically damped spring (Holden 2020)",
-           .settings = SpringSettings().Describe(),
-           .begin = BeginWith<InertialiseSpring, SpringSettings>},
+           .begin = SpringDefaults},
       Join{.name = "minimum-jerk",
            .description = "what was off dies away along the quintic of least jerk, whatever its velocity",
            .settings = MinimumJerkSettings().Describe(),

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/keys/key_schema.h"
-#include "bench/keys/setting_fields.h"
 
 namespace etude {
 namespace {

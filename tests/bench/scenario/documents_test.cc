@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "bench/clips/clip_library.h"
 #include "bench/files/files.h"
 #include "bench/scenario/keys.h"
 #include "bench/tasks/registry.h"

@@ -1,3 +1,4 @@
+#include "bench/clips/clip_library.h"
 #include "bench/scenario/keys.h"
 #include "bench/tasks/registry.h"
 #include "engine/kinematics/solvers/ik_solver.h"

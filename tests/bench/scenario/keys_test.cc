@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "bench/clips/clip_library.h"
 #include "bench/tasks/registry.h"
 #include "engine/base/names.h"
 #include "tests/bench/scenario/parse.h"

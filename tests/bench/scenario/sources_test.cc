@@ -130,12 +130,14 @@ TEST(Sources, ReadsFilesAndAllThatTheyInclude) {
   const std::string main = (folder / "main.yaml").string();
   write("main.yaml", kTwo);
   SourceTexts texts;
-  const auto missing = ReadSources(main, texts);
+  const auto missing = ReadScenarios(main, texts);
   ASSERT_FALSE(missing);
   EXPECT_THAT(ToString(missing.error()), HasSubstr("main.yaml:1:11: "));
   EXPECT_THAT(ToString(missing.error()), HasSubstr("all.yaml"));
   for (const auto& [name, text] : kIncluded) write(name, text);
-  ASSERT_TRUE(ReadSources(main, texts));
+  const auto read = ReadScenarios(main, texts);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->size(), 2u);
   EXPECT_EQ(texts.size(), 4u);
   EXPECT_EQ(texts.count((folder / "shared/deep.yaml").string()), 1u);
   EXPECT_EQ(ParseScenarios(main, texts)->size(), 2u);

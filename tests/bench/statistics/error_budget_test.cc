@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "bench/scenario/study_of.h"
+#include "bench/scenario/scenario.h"
 #include "tests/bench/scenario/parse.h"
 
 namespace etude {

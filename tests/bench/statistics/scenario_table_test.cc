@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bench/scenario/study_of.h"
+#include "bench/scenario/scenario.h"
 #include "bench/statistics/summary.h"
 #include "tests/bench/scenario/parse.h"
 

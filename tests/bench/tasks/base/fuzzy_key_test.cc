@@ -20,7 +20,8 @@ TEST(FuzzyKey, ReadsAFileUnderItsOwnName) {
   FuzzySystem mine;
   mine.name = "mine";
   const auto text = [&](const std::string&) -> Result<std::string> { return WriteFuzzySystem(mine); };
-  EXPECT_TRUE(IsFuzzyFile("mine.yaml"));
+  EXPECT_TRUE(FuzzyKey().value.names_file("mine.yaml"));
+  EXPECT_FALSE(FuzzyKey().value.names_file("builtin:gaussian"));
   EXPECT_EQ(OpenFuzzySystem("mine.yaml", {}, text)->name, "mine");
   const auto broken = OpenFuzzySystem("mine.yaml", {"s.yaml", 4, 8}, [](const std::string&) -> Result<std::string> {
     return "system: x\nfeature: 1\n";

@@ -1,9 +1,8 @@
-#include "bench/tasks/capture/capture_task.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "bench/recordings/capture_extras.h"
+#include "bench/tasks/base/task_kinds.h"
 #include "bench/tasks/capture/score.h"
 #include "engine/cameras/pose2sim_file.h"
 #include "engine/document/node.h"
@@ -23,7 +22,7 @@ Result<std::unique_ptr<Task>> Make(const std::string& yaml, const std::map<std::
   ASSIGN_OR_RETURN(const auto node, ParseYaml(yaml, "test.yaml"));
   ASSIGN_OR_RETURN(const auto clips, LoadClips({"builtin:boxing"}, {}));
   Fields condition(node, "a test");
-  TaskInput input{condition, node.Find("methods")->items, clips, {}, texts};
+  TaskInput input{condition, node.Find("methods")->items, clips, texts};
   auto task = MakeCaptureTaskKind().make(input);
   if (task && !condition.ok()) return tl::unexpected(condition.Finish().error());
   return task;

@@ -11,7 +11,7 @@
 #include "bench/metrics/measurement.h"
 #include "bench/recordings/capture_extras.h"
 #include "bench/tasks/base/pose_json.h"
-#include "bench/tasks/capture/capture_task.h"
+#include "bench/tasks/base/task_kinds.h"
 #include "engine/document/node.h"
 #include "engine/formats/bvh.h"
 #include "sim/sensors/image_files.h"

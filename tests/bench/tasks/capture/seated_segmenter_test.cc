@@ -9,7 +9,8 @@
 #include <optional>
 #include <sstream>
 
-#include "bench/tasks/capture/capture_task.h"
+#include "bench/clips/clip_library.h"
+#include "bench/tasks/base/task_kinds.h"
 #include "engine/document/node.h"
 #include "engine/vision/change_detection.h"
 #include "tests/bench/tasks/base/cell_values.h"

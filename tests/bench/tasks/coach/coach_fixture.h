@@ -8,10 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "bench/tasks/coach/player.h"
 #include "bench/tasks/coach/run.h"
 #include "bench/tasks/coach/session.h"
-#include "bench/tasks/coach/stage.h"
 #include "bench/tasks/coach/world.h"
 
 namespace etude {

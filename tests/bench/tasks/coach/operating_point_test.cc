@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "bench/tasks/coach/followed_session.h"
 #include "bench/tasks/coach/learner_player.h"
 #include "tests/bench/tasks/coach/coach_fixture.h"
 

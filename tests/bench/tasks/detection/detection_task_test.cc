@@ -1,7 +1,6 @@
-#include "bench/tasks/detection/detection_task.h"
-
 #include <nlohmann/json.hpp>
 
+#include "bench/tasks/base/task_kinds.h"
 #include "tests/bench/tasks/detection/detection_fixture.h"
 #include "tests/support/run_world.h"
 

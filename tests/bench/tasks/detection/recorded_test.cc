@@ -1,10 +1,9 @@
-#include "bench/tasks/detection/recorded.h"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 
 #include "bench/streams/label_scores.h"
+#include "bench/tasks/detection/recorded_task.h"
 #include "tests/bench/streams/record_people.h"
 #include "tests/bench/tasks/detection/detection_fixture.h"
 #include "tests/support/run_world.h"

@@ -5,9 +5,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/tasks/ik/ik_task.h"
+#include "bench/clips/clip_library.h"
+#include "bench/tasks/base/task_kinds.h"
 #include "bench/tasks/ik/run.h"
-#include "bench/tasks/ik/score.h"
 #include "engine/base/angles.h"
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/ik_solver.h"

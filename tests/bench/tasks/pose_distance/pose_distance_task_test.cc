@@ -1,13 +1,12 @@
-#include "bench/tasks/pose_distance/pose_distance_task.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
+#include "bench/tasks/base/task_kinds.h"
 #include "bench/tasks/pose_distance/exchange.h"
 #include "bench/tasks/pose_distance/options.h"
-#include "bench/tasks/pose_distance/score.h"
+#include "bench/tasks/pose_distance/run.h"
 #include "engine/document/node.h"
 #include "sim/choreography/move.h"
 #include "tests/support/run_world.h"

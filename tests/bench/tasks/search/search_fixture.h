@@ -5,7 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "bench/tasks/search/search_task.h"
+#include "bench/clips/clip_library.h"
+#include "bench/tasks/base/task_kinds.h"
 #include "engine/document/node.h"
 
 namespace etude {

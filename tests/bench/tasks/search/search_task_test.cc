@@ -1,8 +1,7 @@
-#include "bench/tasks/search/search_task.h"
-
 #include <gmock/gmock.h>
 
 #include "bench/metrics/catalogue.h"
+#include "bench/tasks/base/task_kinds.h"
 #include "tests/bench/tasks/base/cell_values.h"
 #include "tests/bench/tasks/search/search_fixture.h"
 #include "tests/support/run_world.h"

@@ -1,4 +1,3 @@
-#include "bench/tasks/sensing/camera_sensor.h"
 
 #include <gtest/gtest.h>
 

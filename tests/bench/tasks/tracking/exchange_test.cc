@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/tasks/tracking/score.h"
-#include "bench/tasks/tracking/tracking_task.h"
+#include "bench/tasks/base/task_kinds.h"
+#include "bench/tasks/tracking/run.h"
 #include "engine/base/angles.h"
 #include "engine/kinematics/body_tree.h"
 #include "tests/bench/tasks/base/cell_values.h"

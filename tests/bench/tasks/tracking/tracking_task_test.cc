@@ -1,11 +1,9 @@
-#include "bench/tasks/tracking/tracking_task.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "bench/metrics/catalogue.h"
+#include "bench/tasks/base/task_kinds.h"
 #include "bench/tasks/tracking/run.h"
-#include "bench/tasks/tracking/score.h"
 #include "engine/base/angles.h"
 #include "engine/kinematics/body_tree.h"
 #include "tests/bench/tasks/base/cell_values.h"

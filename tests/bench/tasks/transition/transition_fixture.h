@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/tasks/base/fuzzy_key.h"
-#include "bench/tasks/transition/transition_task.h"
+#include "bench/clips/clip_library.h"
+#include "bench/tasks/base/task_kinds.h"
 #include "engine/document/node.h"
 #include "sim/choreography/move.h"
 #include "tests/support/run_world.h"
@@ -46,11 +46,6 @@ methods:
     EXPECT_TRUE(node);
     Fields condition(*node, "a scenario");
     TaskInput input{condition, node->Find("methods")->items, library};
-    if (const Node* fuzzy = node->Find(kFuzzyKey)) {
-      auto system = OpenFuzzySystem(fuzzy->scalar, fuzzy->place, {});
-      EXPECT_TRUE(system);
-      input.fuzzy = *std::move(system);
-    }
     return MakeTransitionTaskKind().make(input);
   }
 

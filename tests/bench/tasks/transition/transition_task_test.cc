@@ -1,5 +1,3 @@
-#include "bench/tasks/transition/transition_task.h"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +5,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bench/tasks/base/task_kinds.h"
+#include "bench/tasks/transition/run.h"
 #include "bench/tasks/transition/stage.h"
-#include "bench/tasks/transition/tally.h"
 #include "bench/tasks/transition/world.h"
 #include "engine/transitions/choices/choice.h"
 #include "tests/bench/tasks/transition/transition_fixture.h"

@@ -6,7 +6,6 @@
 
 #include "bench/tasks/capture/marking.h"
 #include "bench/tasks/capture/options.h"
-#include "bench/tasks/capture/person_source.h"
 #include "bench/tasks/capture/shooting.h"
 #include "bench/tasks/capture/world.h"
 #include "engine/vision/person_finder.h"
@@ -15,13 +14,13 @@
 
 namespace etude {
 
-/// The camera crew of a take: everything that all its pictures share.
-class Crew {
+/// The cameras of a take, and all that its pictures share: backgrounds, clocks, annotators.
+class TakeCameras {
  public:
   /// References must outlive this. The world has its first pose; later ones may follow, as long as they are there when
   /// a frame is shot.
-  Crew(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key,
-       std::span<const PersonSource> sources, Renderer& renderer);
+  TakeCameras(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key,
+              std::span<const PersonSource> sources, Renderer& renderer);
 
   /// One picture, and what each source makes of it.
   struct Picture {
@@ -31,23 +30,23 @@ class Crew {
     std::vector<Marks> marks;  ///< none of silhouettes
   };
 
-  /// One camera at work. The crew must outlive it.
-  class Station {
+  /// The pictures of one camera. Its TakeCameras must outlive it.
+  class Feed {
    public:
     /// A camera's frames come in order.
-    Picture See(std::size_t frame);
+    Picture Next(std::size_t frame);
 
    private:
-    friend class Crew;
-    Station(Crew& crew, std::size_t camera);
+    friend class TakeCameras;
+    Feed(TakeCameras& cameras, std::size_t camera);
     Mask Find(std::size_t source, const Picture& picture);
     Marks Mark(std::size_t source, std::size_t frame, const AnnotatedPicture& picture);
 
-    Crew& crew_;
+    TakeCameras& cameras_;
     std::size_t camera_;
     std::vector<PersonFinder> finders_;  // of each source
   };
-  Station At(std::size_t camera) { return Station(*this, camera); }
+  Feed FeedOf(std::size_t camera) { return Feed(*this, camera); }
 
   const std::vector<ColourImage>& backgrounds() const { return backgrounds_; }
   /// Of each source.

@@ -1,4 +1,4 @@
-#include "bench/tasks/capture/crew.h"
+#include "bench/tasks/capture/take_cameras.h"
 
 #include <algorithm>
 
@@ -21,8 +21,8 @@ PersonOptions OptionsOf(const PersonSource& source) {
 
 }  // namespace
 
-Crew::Crew(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key,
-           std::span<const PersonSource> sources, Renderer& renderer)
+TakeCameras::TakeCameras(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key,
+                         std::span<const PersonSource> sources, Renderer& renderer)
     : world_(world),
       sources_(sources),
       shooting_(world, options.camera, key, renderer),
@@ -32,31 +32,31 @@ Crew::Crew(const CaptureWorld& world, const StudioOptions& options, const WorldK
   }
 }
 
-Crew::Station::Station(Crew& crew, std::size_t camera) : crew_(crew), camera_(camera) {
-  for (const PersonSource& source : crew.sources_) {
-    if (source.program != nullptr) source.program->Begin(camera, crew.backgrounds_[camera]);
-    finders_.emplace_back(crew.backgrounds_[camera], OptionsOf(source));
+TakeCameras::Feed::Feed(TakeCameras& cameras, std::size_t camera) : cameras_(cameras), camera_(camera) {
+  for (const PersonSource& source : cameras.sources_) {
+    if (source.program != nullptr) source.program->Begin(camera, cameras.backgrounds_[camera]);
+    finders_.emplace_back(cameras.backgrounds_[camera], OptionsOf(source));
   }
 }
 
-Mask Crew::Station::Find(std::size_t source, const Picture& picture) {
-  const PersonSource& by = crew_.sources_[source];
+Mask TakeCameras::Feed::Find(std::size_t source, const Picture& picture) {
+  const PersonSource& by = cameras_.sources_[source];
   if (by.is_truth) return picture.person;
   if (by.program == nullptr) return finders_[source].Find(picture.colour);
   return PersonAmong(by.program->Detect(picture.colour), OptionsOf(by));
 }
 
-Marks Crew::Station::Mark(std::size_t source, std::size_t frame, const AnnotatedPicture& picture) {
-  Marking& marking = crew_.marking_[source];
-  if (crew_.sources_[source].for_silhouettes) return {};
-  if (crew_.sources_[source].has_coloured_marks) return marking.ReadColours(frame, picture);
-  if (!crew_.sources_[source].has_true_marks) return marking.Mark(camera_, frame, picture);
-  return marking.MarkTrueJoints(frame, picture, crew_.world_.cameras[camera_],
-                                crew_.shooting_.SeenPose(camera_, frame));
+Marks TakeCameras::Feed::Mark(std::size_t source, std::size_t frame, const AnnotatedPicture& picture) {
+  Marking& marking = cameras_.marking_[source];
+  if (cameras_.sources_[source].for_silhouettes) return {};
+  if (cameras_.sources_[source].has_coloured_marks) return marking.ReadColours(frame, picture);
+  if (!cameras_.sources_[source].has_true_marks) return marking.Mark(camera_, frame, picture);
+  return marking.MarkTrueJoints(frame, picture, cameras_.world_.cameras[camera_],
+                                cameras_.shooting_.SeenPose(camera_, frame));
 }
 
-Crew::Picture Crew::Station::See(std::size_t frame) {
-  View view = crew_.shooting_.Shoot(camera_, frame, Targets::kColourAndLabels);
+TakeCameras::Picture TakeCameras::Feed::Next(std::size_t frame) {
+  View view = cameras_.shooting_.Shoot(camera_, frame, Targets::kColourAndLabels);
   const auto is_shadow = [](std::uint32_t label) { return label == static_cast<std::uint32_t>(Part::kShadow); };
   Picture picture{.colour = std::move(view.colour),
                   .person = MaskWhere(view.labels, IsPerformer),

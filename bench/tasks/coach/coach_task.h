@@ -1,9 +1,0 @@
-#pragma once
-
-#include "bench/tasks/base/task.h"
-
-namespace etude {
-
-TaskKind MakeCoachTaskKind();
-
-}  // namespace etude
