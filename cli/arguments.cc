@@ -282,6 +282,7 @@ void DefineList(CLI::App& app, Action& action) {
   };
   list("methods", "Tasks, what their methods are made of, and solvers", Listing::kMethods);
   list("clips", "Built-in clips", Listing::kClips);
+  list("recordings", "The page docs/recordings.md: what recordings hold beside motions", Listing::kRecordings);
   auto json = Keep<bool>(false), markdown = Keep<bool>(false);
   CLI::App* metrics = command->add_subcommand("metrics", "Metrics with their definitions");
   CLI::Option* as_json = metrics->add_flag("--json", *json, "Everything, with the test vectors, for other programs");

@@ -72,8 +72,8 @@ int RowsCommand(const std::string& folder, const std::string& file, bool overwri
 int ReportCommand(const std::string& folder, const std::vector<std::string>& real, const ReportOptions& options,
                   Sealing sealing);
 
-enum class Listing { kMethods, kScenarios, kClips };
-/// `etude list …`: what can be named in a scenario.
+enum class Listing { kMethods, kScenarios, kClips, kRecordings };
+/// `etude list …`: what can be named in a scenario, and the page docs/recordings.md.
 int ListCommand(Listing what, const std::string& scenario_folder);
 
 enum class KeysFormat {

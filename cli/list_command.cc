@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include "bench/recordings/task_extras.h"
 #include "bench/run/suite.h"
 #include "bench/scenario/keys.h"
 #include "bench/scenario/scenario.h"
@@ -90,6 +91,9 @@ int ListCommand(Listing what, const std::string& scenario_folder) {
       return kSuccess;
     case Listing::kClips:
       return ListClips();
+    case Listing::kRecordings:
+      fmt::print("{}", RecordingsAsMarkdown());
+      return kSuccess;
     case Listing::kScenarios:
       break;
   }

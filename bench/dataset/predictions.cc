@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The trial that a file name stands for: "7.json", "007.json" and "007.JSON" are trial 7.
+/// Finds the trial that a file name stands for: "7.json", "007.json" and "007.JSON" are trial 7.
 std::optional<int> TrialOf(const fs::path& name) {
   std::string extension = name.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -24,7 +24,7 @@ std::optional<int> TrialOf(const fs::path& name) {
   return trial;
 }
 
-/// All files below `folder`, in order of their names, relative to it.
+/// Lists all files below `folder`, in order of their names, relative to it.
 Result<std::vector<fs::path>> FilesBelow(const fs::path& folder) {
   const Place place{folder.string(), 0, 0};
   std::error_code error;

@@ -19,7 +19,7 @@ struct PredictionFaults {
   bool empty() const { return missing.empty() && extra.empty() && duplicate.empty() && broken.empty(); }
 };
 
-/// Which file answers which world of a plan; nothing where there is none.
+/// The file that answers each world of a plan; nothing where there is none.
 using PredictionFiles = std::vector<std::optional<std::filesystem::path>>;
 
 /// Finds SCENARIO/CONDITION/TRIAL.json (layout.h) in `folder`: a trial is its number, with or without leading zeros.

@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/files/durable.h"
-#include "bench/files/save_json.h"
+#include "bench/files/files.h"
+#include "bench/files/json.h"
 #include "bench/results/folder.h"
 #include "bench/results/seal.h"
 #include "bench/run/sum_up.h"

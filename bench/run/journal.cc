@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "bench/files/durable.h"
+#include "bench/files/files.h"
 #include "bench/results/folder.h"
 
 namespace etude {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "engine/recognition/recogniser.h"
 #include "engine/recognition/taught_move.h"
@@ -35,5 +37,10 @@ double MatchOf(const FeatureFrame& frame, const TaughtPose& pose, const SightWei
 /// Its evidence passes ½ where A's crisp rule is met.
 std::unique_ptr<Recogniser> MakeKeyPoseRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
                                                   const KeyPoseOptions& options);
+
+/// Finds for each of a move's key poses the first of `frames`, counted from their beginning, in which it and all poses
+/// before it have been reached in their order by A's crisp rule; nothing where that never happened.
+std::vector<std::optional<int>> WhenReached(std::span<const TaughtPose> poses, std::span<const FeatureFrame> frames,
+                                            const SightWeights& weights, const KeyPoseOptions& options);
 
 }  // namespace etude

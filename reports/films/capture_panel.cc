@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "reports/films/look.h"
-#include "reports/transitions/transition_facts.h"
+#include "reports/transitions/recorded_requests.h"
 
 namespace etude {
 namespace {

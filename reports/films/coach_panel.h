@@ -7,7 +7,7 @@
 #include "engine/motion/character.h"
 #include "reports/films/canvas.h"
 #include "reports/films/cast.h"
-#include "reports/transitions/transition_facts.h"
+#include "reports/transitions/recorded_requests.h"
 #include "sim/render/renderer.h"
 
 namespace etude {

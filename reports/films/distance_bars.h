@@ -1,7 +1,7 @@
 #pragma once
 
 #include "reports/films/canvas.h"
-#include "reports/transitions/transition_facts.h"
+#include "reports/transitions/recorded_requests.h"
 
 namespace etude {
 

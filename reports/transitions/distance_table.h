@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "reports/transitions/transition_facts.h"
+#include "reports/transitions/recorded_requests.h"
 
 namespace etude {
 

@@ -92,7 +92,7 @@ MAY_INCLUDE = {
     "bench/model": "engine/base engine/motion bench/files",
     "bench/outside": "engine/base engine/document bench/files bench/model bench/process bench/tasks bench/tasks/base",
     "bench/process": "engine/base",
-    "bench/recordings": "engine/base engine/cameras engine/motion",
+    "bench/recordings": "engine/base engine/cameras engine/fuzzy engine/motion bench/files",
     "bench/replay": "engine/base sim/random bench/clips bench/files bench/model bench/results bench/run",
     "bench/results": "engine/base bench/files bench/metrics bench/model",
     "bench/run":
@@ -120,14 +120,14 @@ MAY_INCLUDE = {
     "bench/tasks/coach":
         "engine/base engine/coaching engine/motion engine/recognition "
         "sim/choreography sim/music sim/performer sim/random sim/skeleton_sensor bench/keys bench/metrics bench/model "
-        "bench/tasks/base bench/tasks/detection bench/tasks/sensing bench/tasks/transition",
+        "bench/recordings bench/tasks/base bench/tasks/detection bench/tasks/sensing bench/tasks/transition",
     "bench/tasks/detection":
         "engine/base engine/formats engine/motion engine/recognition engine/teaching sim/choreography sim/performer "
-        "sim/skeleton_sensor bench/clips bench/keys bench/metrics bench/streams bench/tasks/base bench/tasks/capture "
+        "sim/skeleton_sensor bench/clips bench/keys bench/metrics bench/recordings bench/streams bench/tasks/base bench/tasks/capture "
         "bench/tasks/sensing",
     "bench/tasks/ik":
-        "engine/base engine/kinematics engine/kinematics/solvers sim/random bench/files bench/metrics "
-        "bench/tasks/base",
+        "engine/base engine/kinematics engine/kinematics/solvers sim/random bench/metrics "
+        "bench/recordings bench/tasks/base",
     "bench/tasks/pose_distance":
         "engine/base engine/fuzzy engine/transitions/base engine/transitions/choices engine/transitions/library "
         "sim/choreography sim/random bench/clips bench/keys bench/metrics bench/tasks/base bench/training",
@@ -143,7 +143,7 @@ MAY_INCLUDE = {
     "bench/tasks/transition":
         "engine/base engine/formats engine/fuzzy engine/motion engine/transitions engine/transitions/base "
         "engine/transitions/bridge_frames engine/transitions/joins engine/transitions/library sim/choreography "
-        "sim/random bench/clips bench/keys bench/metrics bench/tasks/base bench/training",
+        "sim/random bench/clips bench/keys bench/metrics bench/recordings bench/tasks/base bench/training",
     "bench/training":
         "engine/base engine/fuzzy engine/transitions/base engine/transitions/library sim/choreography sim/random "
         "bench/metrics",
@@ -160,14 +160,14 @@ MAY_INCLUDE = {
         "sim/choreography sim/render bench/clips bench/files bench/films reports/films reports/words",
     "reports/coach": "engine/base engine/coaching bench/files",
     "reports/films":
-        "engine/base engine/cameras engine/formats engine/fuzzy engine/kinematics engine/motion engine/recognition sim/body "
+        "engine/base engine/cameras engine/formats engine/kinematics engine/motion engine/recognition sim/body "
         "sim/camera sim/character sim/music "
         "sim/render sim/sensors sim/stage bench/files bench/films bench/metrics bench/model bench/recordings reports/plots reports/transitions reports/words",
     "reports/growth": "bench/model reports/paper reports/words",
     "reports/paper": "engine/fuzzy engine/kinematics bench/model reports/plots reports/words",
     "reports/plots": "bench/model bench/statistics reports/words",
     "reports/sensors": "engine/base bench/model reports/films",
-    "reports/transitions": "engine/base engine/fuzzy bench/files bench/model reports/words",
+    "reports/transitions": "engine/base bench/model bench/recordings reports/words",
     "reports/words": "bench/metrics bench/model",
     # cli/
     "cli": "any",

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "bench/tasks/ik/recording.h"
+#include "bench/tasks/ik/exchange.h"
 #include "bench/tasks/ik/score.h"
 #include "bench/tasks/ik/series.h"
 #include "engine/base/digest.h"

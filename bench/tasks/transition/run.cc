@@ -5,7 +5,6 @@
 
 #include "bench/tasks/transition/exchange.h"
 #include "bench/tasks/transition/outcome.h"
-#include "bench/tasks/transition/recording.h"
 #include "bench/tasks/transition/tally.h"
 #include "engine/base/digest.h"
 
