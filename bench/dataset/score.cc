@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/dataset/layout.h"
 #include "bench/files/files.h"
 #include "bench/files/json.h"
 #include "bench/process/clock.h"
