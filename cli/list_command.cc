@@ -5,6 +5,7 @@
 
 #include "bench/metrics/catalogue.h"
 #include "bench/metrics/export.h"
+#include "bench/recordings/task_extras.h"
 #include "bench/run/suite.h"
 #include "bench/scenario/keys.h"
 #include "bench/scenario/scenario.h"
@@ -69,7 +70,7 @@ Result<int> ListScenarios(const std::string& folder) {
   return kSuccess;
 }
 
-enum class Listing { kMethods, kScenarios, kClips };
+enum class Listing { kMethods, kScenarios, kClips, kRecordings };
 
 Result<int> ListCommand(Listing what, const std::string& scenario_folder) {
   switch (what) {
@@ -78,6 +79,9 @@ Result<int> ListCommand(Listing what, const std::string& scenario_folder) {
       return kSuccess;
     case Listing::kClips:
       return ListClips();
+    case Listing::kRecordings:
+      fmt::print("{}", RecordingsAsMarkdown());
+      return kSuccess;
     case Listing::kScenarios:
       break;
   }
@@ -139,6 +143,7 @@ void DefineList(CLI::App& app, Action& action) {
   };
   list("methods", "Tasks, what their methods are made of, and solvers", Listing::kMethods);
   list("clips", "Built-in clips", Listing::kClips);
+  list("recordings", "The page docs/recordings.md: what recordings hold beside motions", Listing::kRecordings);
   auto json = std::make_shared<bool>(false), markdown = std::make_shared<bool>(false);
   CLI::App* metrics = command->add_subcommand("metrics", "Metrics with their definitions");
   CLI::Option* as_json = metrics->add_flag("--json", *json, "Everything, with the test vectors, for other programs");

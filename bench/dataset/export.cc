@@ -5,7 +5,7 @@
 
 #include "bench/dataset/layout.h"
 #include "bench/files/files.h"
-#include "bench/files/save_json.h"
+#include "bench/files/json.h"
 #include "bench/films/encoder.h"
 #include "bench/run/manifest.h"
 #include "bench/run/plan.h"
@@ -80,7 +80,7 @@ Result<void> SavePayload(const Payload& payload, const fs::path& folder, const c
   return {};
 }
 
-/// A field of a CSV file: quoted where it must be.
+/// Writes a field of a CSV file, quoted where it must be.
 std::string Quoted(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -127,7 +127,7 @@ class Exporter {
   }
 
  private:
-  /// At the rate that the setting tells; a task without one has no pictures.
+  /// Films at the rate that the setting tells; a task without one has no pictures.
   Result<void> SaveFilms(const Payload& problem, int condition, const std::string& path) const {
     const auto setting = scenario_.task(condition).Setting();
     if (!setting) return About(path, setting.error());

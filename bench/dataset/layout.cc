@@ -3,16 +3,52 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <map>
 #include <string_view>
 
 namespace etude {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestName = 120;  // bytes; file systems take 255
 
 bool IsPlain(char c) {
   const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
   return is_letter || (c >= '0' && c <= '9') || std::string_view("._=,+-").find(c) != std::string_view::npos;
+}
+
+/// Finds the trial that a file name stands for: "7.json", "007.json" and "007.JSON" are trial 7.
+std::optional<int> TrialOf(const fs::path& name) {
+  std::string extension = name.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const std::string stem = name.stem().string();
+  int trial = 0;
+  const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), trial);
+  const bool is_number = error == std::errc() && end == stem.data() + stem.size() && trial >= 0;
+  if (extension != ".json" || !is_number) return std::nullopt;
+  return trial;
+}
+
+/// Lists all files below `folder`, in order of their names, relative to it.
+Result<std::vector<fs::path>> FilesBelow(const fs::path& folder) {
+  const Place place{folder.string(), 0, 0};
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return Fail(place, "no such folder of predictions");
+  std::vector<fs::path> files;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const bool is_folder = entry->is_directory(error);
+    if (entry->path().filename().string().starts_with('.')) {
+      if (is_folder) entry.disable_recursion_pending();
+    } else if (!is_folder) {
+      files.push_back(entry->path().lexically_relative(folder));
+    }
+  }
+  if (error) return Fail(place, "cannot be read: {}", error.message());
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 }  // namespace
@@ -33,5 +69,30 @@ std::vector<std::string> ConditionFolders(const Scenario& scenario) {
 }
 
 std::string TrialName(int trial) { return fmt::format("{:03}", trial); }
+
+Result<PredictionFiles> FindPredictions(const fs::path& folder, const Plan& plan, PredictionFaults& faults) {
+  ASSIGN_OR_RETURN(const auto files, FilesBelow(folder));
+  // By "SCENARIO/CONDITION" and trial.
+  std::map<std::pair<std::string, int>, std::size_t> worlds;
+  for (std::size_t w = 0; w < plan.world_count(); ++w) {
+    const Scenario& scenario = plan.scenario_of(w).scenario();
+    const World& world = plan.world(w);
+    worlds[{scenario.name + "/" + ConditionFolders(scenario)[world.condition], world.trial}] = w;
+  }
+  PredictionFiles found(plan.world_count());
+  for (const fs::path& file : files) {
+    const std::optional<int> trial = TrialOf(file.filename());
+    const auto world = trial ? worlds.find({file.parent_path().generic_string(), *trial}) : worlds.end();
+    if (world == worlds.end()) {
+      faults.extra.push_back(file.generic_string());
+    } else if (auto& place = found[world->second]) {
+      faults.duplicate.push_back(
+          fmt::format("{} (as {})", file.generic_string(), place->lexically_relative(folder).generic_string()));
+    } else {
+      place = folder / file;
+    }
+  }
+  return found;
+}
 
 }  // namespace etude

@@ -1,21 +1,41 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "bench/run/plan.h"
 #include "bench/scenario/scenario.h"
 
 namespace etude {
 
-/// Where things stand in an exported data set and in a folder of predictions: SCENARIO/CONDITION/TRIAL, as names that
-/// every file system takes.
+/// Names the folders of a scenario's conditions in an exported data set and in a folder of predictions, where worlds
+/// stand as SCENARIO/CONDITION/TRIAL, by names that every file system takes.
 ///
 /// A condition is "all" when nothing is swept, else "joint_noise_deg=5,noise=uniform"; what is no letter, digit or one
 /// of "._=,+-" becomes "_", and conditions that would then be one get "~2", "~3", … in order.
 std::vector<std::string> ConditionFolders(const Scenario& scenario);
 
-/// "007"
+/// Names a trial: "007".
 std::string TrialName(int trial);
+
+/// What is wrong with a folder of predictions: each entry names a file or a world.
+struct PredictionFaults {
+  std::vector<std::string> missing;    ///< worlds without an answer
+  std::vector<std::string> extra;      ///< files that answer no world
+  std::vector<std::string> duplicate;  ///< files that answer a world that another file answers already
+  std::vector<std::string> broken;     ///< answers that cannot be read, or are of the wrong size or shape, and why
+
+  bool empty() const { return missing.empty() && extra.empty() && duplicate.empty() && broken.empty(); }
+};
+
+/// The file that answers each world of a plan; nothing where there is none.
+using PredictionFiles = std::vector<std::optional<std::filesystem::path>>;
+
+/// Finds SCENARIO/CONDITION/TRIAL.json in `folder`: a trial is its number, with or without leading zeros.
+/// Everything else in there is noted as extra, but what begins with a dot. Fails when the folder cannot be read.
+Result<PredictionFiles> FindPredictions(const std::filesystem::path& folder, const Plan& plan,
+                                        PredictionFaults& faults);
 
 }  // namespace etude

@@ -2,9 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/dataset/layout.h"
 #include "bench/files/files.h"
-#include "bench/files/save_json.h"
+#include "bench/files/json.h"
 #include "bench/process/clock.h"
 #include "bench/run/cell_runner.h"
 #include "bench/run/manifest.h"
@@ -49,7 +48,7 @@ Result<std::vector<PreparedScenario>> PrepareTarget(const SuiteSetup& suite, con
   return scenarios;
 }
 
-/// "ik/joint_noise_deg=5/007"
+/// Names a world: "ik/joint_noise_deg=5/007".
 std::string NameOf(const Plan& plan, std::size_t w) {
   const Scenario& scenario = plan.scenario_of(w).scenario();
   const World& world = plan.world(w);
@@ -71,7 +70,7 @@ Result<CellResult> JudgeFile(TaskWorld& world, const fs::path& file) {
   return judged;
 }
 
-/// The row of the answer in `file` to world `w`; what is wrong with it goes into `faults`.
+/// Judges the answer in `file` to world `w`; what is wrong with it goes into `faults`.
 Row JudgeWorld(const Plan& plan, std::size_t w, const std::optional<fs::path>& file, PredictionFaults& faults) {
   const PreparedScenario& scenario = plan.scenario_of(w);
   const World& world = plan.world(w);
@@ -100,7 +99,7 @@ Row JudgeWorld(const Plan& plan, std::size_t w, const std::optional<fs::path>& f
   return row;
 }
 
-/// How far scoring has come.
+/// Counts how far scoring has come.
 class Meter {
  public:
   Meter(std::size_t cells, const std::function<void(const Progress&)>& on_progress) : on_progress_(on_progress) {
@@ -135,7 +134,7 @@ Result<bool> JudgeAll(const Plan& plan, const ScoreOptions& options, CellTable& 
   return true;
 }
 
-/// What beside the manifest of a run repeats this one: the answers, by their fingerprint.
+/// Describes what repeats this run beside the manifest: the answers, by their fingerprint.
 Result<Json> DescribeAnswers(const Plan& plan, CellTable& cells) {
   Digest digest;
   std::size_t answers = 0;

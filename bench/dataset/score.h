@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/dataset/predictions.h"
+#include "bench/dataset/layout.h"
 #include "bench/run/run.h"
 
 namespace etude {

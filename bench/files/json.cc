@@ -1,5 +1,7 @@
 #include "bench/files/json.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -12,7 +14,7 @@ namespace {
 
 constexpr int kDeepest = 100;  // what walks over values recurses
 
-/// The path to the first number that JSON cannot hold.
+/// Finds the path to the first number that JSON cannot hold.
 std::optional<std::string> FindNonFinite(const Json& json) {
   if (json.is_number_float()) return std::isfinite(json.get<double>()) ? std::nullopt : std::optional<std::string>("");
   if (!json.is_structured()) return std::nullopt;
@@ -25,8 +27,9 @@ std::optional<std::string> FindNonFinite(const Json& json) {
   return std::nullopt;
 }
 
-/// Whether a CBOR value is one that Json::to_cbor may have written and nests no deeper than allowed: Json::from_cbor
-/// recurses as deep as its input says, in lists and in texts of no told length. What is cut short, it finds out itself.
+/// Tells whether a CBOR value is one that Json::to_cbor may have written and nests no deeper than allowed:
+/// Json::from_cbor recurses as deep as its input says, in lists and in texts of no told length. What is cut short, it
+/// finds out itself.
 bool IsShallowCbor(std::string_view bytes) {
   std::vector<std::uint64_t> open = {1};  // values still to come, of each list that has begun
   for (std::size_t at = 0; at < bytes.size() && !open.empty();) {
@@ -58,6 +61,15 @@ void DeleteJson::operator()(Json* json) const { delete json; }
 Result<std::string> WriteJson(const Json& json) {
   if (const auto path = FindNonFinite(json)) return Fail({}, "{} is not a finite number", *path);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string ShowJson(const Json& json) {
+  if (json.is_number_float() && !std::isfinite(json.get<double>())) return fmt::format("{}", json.get<double>());
+  if (json.is_array()) return fmt::format("a list of {}", json.size());
+  if (json.is_object()) return "an object";
+  constexpr std::size_t kLongest = 40;
+  std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);  // ASCII, so that it may be cut
+  return text.size() <= kLongest ? text : text.substr(0, kLongest) + "…";
 }
 
 int NestingOf(std::string_view text) {

@@ -19,11 +19,14 @@ struct DeleteJson {
 };
 using JsonPtr = std::unique_ptr<Json, DeleteJson>;
 
-/// The one way JSON leaves Etude: one line, keys in the order given, shortest digits that read back the
-/// same. Refuses NaN and infinity, which nlohmann would silently write as null, naming their path.
+/// Writes JSON in the one way in which it leaves Etude: one line, keys in the order given, shortest digits that read
+/// back the same. Refuses NaN and infinity, which nlohmann would silently write as null, naming their path.
 Result<std::string> WriteJson(const Json& json);
 
-/// How deep brackets nest, whether or not the rest is JSON.
+/// Shows a value in a complaint: its JSON, cut after forty characters; a list by its length.
+std::string ShowJson(const Json& json);
+
+/// Counts how deep brackets nest, whether or not the rest is JSON.
 int NestingOf(std::string_view text);
 
 /// Reads one JSON value, nested at most 100 deep; complains with the file and `line` (0 = a file of one value).

@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kPrefix = "etude-temporary-";  // nobody calls a folder of results so
 
-/// A lock on a folder, which ends with us; -1 when another process has it, or the folder is not ours.
+/// Locks a folder until we end; -1 when another process has it, or the folder is not ours.
 int Lock(const fs::path& folder) {
   const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   struct stat status {};

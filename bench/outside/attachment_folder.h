@@ -12,16 +12,16 @@ namespace etude {
 /// A folder that holds attachments, and goes away with all that is in it.
 class AttachmentFolder {
  public:
-  /// None yet.
+  /// Holds no folder yet.
   AttachmentFolder() = default;
-  /// Makes it in `attachment_root`. No folder when there are no files.
+  /// Makes a folder in `attachment_root` that holds the files; none when there are no files.
   static Result<AttachmentFolder> Write(const std::filesystem::path& attachment_root,
                                         std::span<const Attachment> files);
   AttachmentFolder(AttachmentFolder&& other) noexcept;
   AttachmentFolder& operator=(AttachmentFolder&& other) noexcept;
   ~AttachmentFolder();
 
-  /// "" when there is none.
+  /// The folder's path; "" when there is none.
   std::string path() const { return path_.string(); }
 
  private:

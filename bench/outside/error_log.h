@@ -8,20 +8,20 @@ namespace etude {
 /// twins in other workers, and saved to a file that they share.
 class ErrorLog {
  public:
-  /// Of the file, and of what is collected between two calls of Save.
+  /// Bytes of the file, and of what is collected between two calls of Save.
   static constexpr long kLargest = 1 << 20;
 
-  /// `file`: where Save appends; "" = nothing is collected.
+  /// Collects for Save, which appends to `file`; "" collects nothing.
   explicit ErrorLog(std::string file);
   ErrorLog(const ErrorLog&) = delete;
   ErrorLog& operator=(const ErrorLog&) = delete;
   ~ErrorLog();
 
-  /// What the program's standard error is to be opened as; "" = it shares ours.
+  /// Names the file that the program's standard error is to be opened as; "" when it shares ours.
   std::string path() const;
   /// Forgets what has been said beyond the limit.
   void Trim();
-  /// The last line that is not empty, of what was said since the last Save; "" when there is none.
+  /// Gives the last line that is not empty of what was said since the last Save; "" when there is none.
   std::string LastLine() const;
   /// Appends what was said to the file, up to its limit, and forgets it. Makes the folder that the file is in.
   void Save();

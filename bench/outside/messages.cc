@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kLongestName = 200;
 
-/// An object with a text `type`.
+/// Reads an object with a text `type`.
 Result<Json> ReadMessage(const std::string& line) {
   if (NestingOf(line) > kDeepestReply) {
     return Fail({}, "said something nested more than {} deep: {}", kDeepestReply, Printable(line));
@@ -33,7 +33,7 @@ Result<Json> ReadMessage(const std::string& line) {
   return message;
 }
 
-/// A text that must be there.
+/// Reads a text that must be there.
 Result<std::string> TextOf(const Json& message, const char* key, const std::string& line) {
   if (message.contains(key) && message[key].is_string()) return message[key].get<std::string>();
   return Fail({}, "its '{}' has no text \"{}\": {}", message["type"].get<std::string>(), key, Printable(line));

@@ -44,7 +44,7 @@ tl::unexpected<Failure> Failed(Status status, std::string reason) {
 
 Failure TooLong(double seconds) { return {Status::kTimeout, fmt::format("took longer than {:g} s", seconds)}; }
 
-/// What a program said is its fault; what cannot be said to it is not.
+/// Blames a program for what it said; OurFailure is for what cannot be said to it.
 tl::unexpected<Failure> BadOutput(const Error& error) { return Failed(Status::kBadOutput, error.message); }
 tl::unexpected<Failure> OurFailure(const Error& error) { return Failed(Status::kFailed, ToString(error)); }
 
@@ -120,7 +120,7 @@ Outcome<void> OutsideMethod::State::Attempt(const std::string& what, Act act) {
   return tl::unexpected(failed.last);
 }
 
-/// Runs, and knows the setting.
+/// Makes the program run and know the setting.
 Outcome<void> OutsideMethod::State::MakeReady(const std::string& setting_id, const Payload& setting) {
   EndSession();
   if (!child) {
@@ -240,8 +240,8 @@ auto OutsideMethod::State::Exchange(const std::string& line, double seconds, Rea
   }
 }
 
-/// Whether a line answers what has an answer. When it comes must not matter: it may come with the first answer, or only
-/// after the next question.
+/// Tells whether a line answers what has an answer. When it comes must not matter: it may come with the first answer,
+/// or only after the next question.
 bool OutsideMethod::State::IsRepeated(const std::string& line) const {
   const Answered about = QuestionAnsweredBy(line);
   if (session && about.id == session->id) return about.step && *about.step < session->steps - 1;
@@ -285,7 +285,7 @@ Outcome<void> OutsideMethod::State::Look() {
   return Failed(Status::kOutOfMemory, fmt::format("held more than {} processes", ProgramLimits::kProcesses));
 }
 
-/// Of a program from which no whole line will come any more.
+/// Says how a program ended from which no whole line will come any more.
 Failure OutsideMethod::State::HowItEnded() {
   const std::string part(child->PartOfLine().substr(0, 100));
   if (child->PartOfLine().size() > kLongestReply) {
@@ -301,7 +301,7 @@ Failure OutsideMethod::State::HowItEnded() {
   return {Status::kCrashed, std::move(reason)};
 }
 
-/// Its answers become those to a question asked before.
+/// Ends the session: what the program says of it counts as said again.
 void OutsideMethod::State::EndSession() {
   if (session) answered.insert(session->id);
   session.reset();

@@ -26,10 +26,10 @@ struct OutsideOptions {
   Fence fence = {};  ///< that it runs in
 };
 
-/// How long Ask may take at most, with the start_s above: handshake, setting, problem, and the clearing away.
+/// Seconds that Ask may take at most, with the start_s above: handshake, setting, problem, and the clearing away.
 double LongestAskSeconds(double time_s);
 
-/// What came of one problem.
+/// The outcome of one problem.
 struct OutsideReply {
   Status status = Status::kFailed;  ///< kOk: `answer` is what it said; else it gave none, and why
   std::string reason;
@@ -58,11 +58,11 @@ class OutsideMethod {
   /// step from then on. kOk: it goes on.
   OutsideReply Begin(const std::string& setting_id, const Payload& setting, const std::string& session_id,
                      const Payload& session);
-  /// The next step of the session. Any reply but kOk ends it, and the program is started anew for the next one, unless
-  /// it merely gave no answer (kUnsolved). Only while a session goes on.
+  /// Puts the next step of the session. Any reply but kOk ends it, and the program is started anew for the next one,
+  /// unless it merely gave no answer (kUnsolved). Only while a session goes on.
   OutsideReply Step(const Payload& step);
 
-  /// What the program calls itself: "name version"; "" before its first handshake.
+  /// Tells what the program calls itself: "name version"; "" before its first handshake.
   std::string ProgramName() const;
   /// Ends its input, waits, and says how it ended: "exit code 0", "signal 9 (Killed)" when it had to be killed, "not
   /// running". The next problem starts it anew.

@@ -12,18 +12,18 @@ namespace etude {
 /// A method outside in a seat of a world's loop. Once it has failed it is asked no more.
 class SeatedProgram : public LiveProgram {
  public:
-  /// `method` and `setting` must outlive this. `id` names its sessions.
+  /// Makes one whose sessions are named by `id`. `method` and `setting` must outlive it.
   SeatedProgram(OutsideMethod& method, std::string setting_id, const Payload& setting, std::string id);
 
   bool Begin(const Payload& session) override;
   JsonPtr Step(const Payload& step) override;
 
-  /// How it failed, if it has.
+  /// Tells how it failed, if it has.
   const std::optional<CellResult>& failure() const { return failure_; }
   double cpu_s() const { return cpu_s_; }
   double peak_mb() const { return peak_mb_; }
   int repeated() const { return repeated_; }
-  /// Of all that it has answered.
+  /// The digest of all that it has answered.
   std::string AnswersDigest() const { return answers_.Hex(); }
 
  private:

@@ -6,22 +6,22 @@
 namespace etude {
 namespace {
 
-using Json = nlohmann::json;
+using SortedJson = nlohmann::json;  // keys by the alphabet
 
 constexpr const char* kFormat = "etude-capture";
 constexpr int kVersion = 1;
 constexpr int kLargestSide = 4096;  // pixels
 
-Json ToJson(const CaptureExtras::View& view) {
+SortedJson ToJson(const CaptureExtras::View& view) {
   const Intrinsics& in = view.truth.intrinsics;
-  Json rotation = Json::array();
+  SortedJson rotation = SortedJson::array();
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) rotation.push_back(view.truth.R_CW[column][row]);
   }
-  Json masks = Json::array();
+  SortedJson masks = SortedJson::array();
   for (const Mask& mask : view.masks) masks.push_back(EncodeMask(mask));
   const glm::dvec3& p = view.truth.p_WC;
-  Json json = {{"width", in.width},
+  SortedJson json = {{"width", in.width},
                {"height", in.height},
                {"fx", in.fx},
                {"fy", in.fy},
@@ -39,11 +39,11 @@ Json ToJson(const CaptureExtras::View& view) {
   return json;
 }
 
-Json ToJson(const CaptureExtras::Moment& moment) {
-  Json fixed = Json::array(), marks = Json::array();
+SortedJson ToJson(const CaptureExtras::Moment& moment) {
+  SortedJson fixed = SortedJson::array(), marks = SortedJson::array();
   for (const glm::dvec3& p : moment.fixed.joints) fixed.push_back({p.x, p.y, p.z});
   for (const std::vector<CaptureExtras::Mark>& drawn : moment.marks) {
-    Json of_camera = Json::array();
+    SortedJson of_camera = SortedJson::array();
     for (const CaptureExtras::Mark& mark : drawn) {
       of_camera.push_back({mark.a.x, mark.a.y, mark.b.x, mark.b.y, mark.colour.r, mark.colour.g, mark.colour.b});
     }
@@ -52,16 +52,16 @@ Json ToJson(const CaptureExtras::Moment& moment) {
   return {{"frame", moment.frame}, {"fixed", std::move(fixed)}, {"marks", std::move(marks)}};
 }
 
-CaptureExtras::Moment ToMoment(const Json& json) {
+CaptureExtras::Moment ToMoment(const SortedJson& json) {
   CaptureExtras::Moment moment;
   moment.frame = json.at("frame");
   for (std::size_t i = 0; i < moment.fixed.joints.size(); ++i) {
-    const Json& p = json.at("fixed").at(i);
+    const SortedJson& p = json.at("fixed").at(i);
     moment.fixed.joints[i] = {p.at(0), p.at(1), p.at(2)};
   }
-  for (const Json& of_camera : json.at("marks")) {
+  for (const SortedJson& of_camera : json.at("marks")) {
     std::vector<CaptureExtras::Mark>& drawn = moment.marks.emplace_back();
-    for (const Json& mark : of_camera) {
+    for (const SortedJson& mark : of_camera) {
       drawn.push_back({{mark.at(0), mark.at(1)}, {mark.at(2), mark.at(3)}, {mark.at(4), mark.at(5), mark.at(6)}});
     }
   }
@@ -72,7 +72,7 @@ bool IsBase64(std::string_view text) {
   return text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/=") == text.npos;
 }
 
-Result<CaptureExtras::View> ToView(const Json& json) {
+Result<CaptureExtras::View> ToView(const SortedJson& json) {
   CaptureExtras::View view;
   Intrinsics& in = view.truth.intrinsics;
   in = {json.at("width"), json.at("height"), json.at("fx"),  json.at("fy"),
@@ -80,7 +80,7 @@ Result<CaptureExtras::View> ToView(const Json& json) {
   for (int i = 0; i < 9; ++i) view.truth.R_CW[i % 3][i / 3] = json.at("R_CW").at(i);
   for (int i = 0; i < 3; ++i) view.truth.p_WC[i] = json.at("p_WC").at(i);
   if (json.contains("distortion")) {
-    const Json& d = json.at("distortion");
+    const SortedJson& d = json.at("distortion");
     view.truth.distortion = {d.at(0), d.at(1), d.at(2), d.at(3), d.at(4)};
   }
   if (json.contains("still")) {
@@ -88,14 +88,14 @@ Result<CaptureExtras::View> ToView(const Json& json) {
     if (!IsBase64(view.still_jpeg_base64)) return Fail({}, "a capture recording whose 'still' is no base64");
   }
   const int width = json.at("mask_width"), height = json.at("mask_height");
-  for (const Json& text : json.at("masks")) {
+  for (const SortedJson& text : json.at("masks")) {
     ASSIGN_OR_RETURN(auto mask, DecodeMask(text.get_ref<const std::string&>(), width, height));
     view.masks.push_back(std::move(mask));
   }
   return view;
 }
 
-Result<CaptureExtras> ToExtras(const Json& json) {
+Result<CaptureExtras> ToExtras(const SortedJson& json) {
   if (json.at("format") != kFormat || json.at("version") != kVersion) {
     return Fail({}, "a capture recording of format {} version {}; this program reads {} version {}",
                 json.at("format").dump(), json.at("version").dump(), kFormat, kVersion);
@@ -104,18 +104,18 @@ Result<CaptureExtras> ToExtras(const Json& json) {
   extras.texture_seed = json.at("room").at("texture_seed");
   extras.casts_shadows = json.at("room").at("casts_shadows");
   if (json.contains("stage")) {
-    const Json& stage = json.at("stage");
+    const SortedJson& stage = json.at("stage");
     extras.stage_seed = stage.at("seed");
     extras.scene = stage.at("scene");
     extras.wears_everyday = stage.at("everyday");
     extras.wears_coded = stage.value("coded", false);
   }
   for (std::size_t i = 0; i < extras.colours.size(); ++i) {
-    const Json& colour = json.at("colours").at(i);
+    const SortedJson& colour = json.at("colours").at(i);
     extras.colours[i] = {colour.at(0), colour.at(1), colour.at(2)};
   }
   extras.brightness = json.at("brightness").get<std::vector<double>>();
-  for (const Json& camera : json.at("cameras")) {
+  for (const SortedJson& camera : json.at("cameras")) {
     ASSIGN_OR_RETURN(auto view, ToView(camera));
     if (view.masks.size() != extras.brightness.size()) {
       return Fail({}, "a capture recording with {} frames of light and {} masks", extras.brightness.size(),
@@ -123,7 +123,7 @@ Result<CaptureExtras> ToExtras(const Json& json) {
     }
     extras.views.push_back(std::move(view));
   }
-  for (const Json& json_moment : json.value("moments", Json::array())) {
+  for (const SortedJson& json_moment : json.value("moments", SortedJson::array())) {
     extras.moments.push_back(ToMoment(json_moment));
     const CaptureExtras::Moment& moment = extras.moments.back();
     if (moment.frame >= extras.brightness.size() || moment.marks.size() != extras.views.size()) {
@@ -137,11 +137,11 @@ Result<CaptureExtras> ToExtras(const Json& json) {
 }  // namespace
 
 std::string WriteCaptureExtras(const CaptureExtras& extras) {
-  Json colours = Json::array();
+  SortedJson colours = SortedJson::array();
   for (const Rgb8& colour : extras.colours) colours.push_back({colour.r, colour.g, colour.b});
-  Json cameras = Json::array();
+  SortedJson cameras = SortedJson::array();
   for (const CaptureExtras::View& view : extras.views) cameras.push_back(ToJson(view));
-  Json json = {{"format", kFormat},
+  SortedJson json = {{"format", kFormat},
                {"version", kVersion},
                {"room", {{"texture_seed", extras.texture_seed}, {"casts_shadows", extras.casts_shadows}}},
                {"colours", std::move(colours)},
@@ -153,7 +153,7 @@ std::string WriteCaptureExtras(const CaptureExtras& extras) {
     if (extras.wears_coded) json["stage"]["coded"] = true;
   }
   if (!extras.moments.empty()) {
-    Json moments = Json::array();
+    SortedJson moments = SortedJson::array();
     for (const CaptureExtras::Moment& moment : extras.moments) moments.push_back(ToJson(moment));
     json["moments"] = std::move(moments);
   }
@@ -163,8 +163,8 @@ std::string WriteCaptureExtras(const CaptureExtras& extras) {
 Result<CaptureExtras> ReadCaptureExtras(std::string_view text) {
   if (text.find('\0') != std::string_view::npos) return Fail({}, "no readable capture recording: a zero byte");
   try {
-    return ToExtras(Json::parse(text));
-  } catch (const Json::exception& error) {
+    return ToExtras(SortedJson::parse(text));
+  } catch (const SortedJson::exception& error) {
     return Fail({}, "no readable capture recording: {}", error.what());
   }
 }

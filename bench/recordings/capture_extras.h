@@ -13,11 +13,10 @@
 
 namespace etude {
 
-/// What a recording of the `capture` task holds beside its tracks "truth" and "recovered" (both at
-/// 30 Hz, frame k of the tracks belongs to frame k here): enough to draw the stereo views again.
-/// To show frame k of camera c: render the truth, dressed in `colours` (or as its stage dresses it), in
-/// Room{texture_seed, brightness[k], casts_shadows} as seen by cameras[c].truth, lay masks[k] over it, and project the
-/// recovered joints with MatrixOf(cameras[c].truth).
+/// The extras of task `capture`: what a recording holds beside its tracks "truth" and "recovered" (both at 30 Hz, frame
+/// k of the tracks belongs to frame k here): enough to draw the stereo views again. To show frame k of camera c: render
+/// the truth, dressed in `colours` (or as its stage dresses it), in Room{texture_seed, brightness[k], casts_shadows} as
+/// seen by cameras[c].truth, lay masks[k] over it, and project the recovered joints with MatrixOf(cameras[c].truth).
 ///
 /// As JSON (what `Recording::extras_json` holds):
 ///
@@ -70,15 +69,15 @@ struct CaptureExtras {
 };
 
 std::string WriteCaptureExtras(const CaptureExtras& extras);
-/// Fails when `json` is not what WriteCaptureExtras writes, naming what is missing or wrong.
+/// Reads what WriteCaptureExtras writes. Fails, naming what is missing or wrong, when `json` is something else.
 Result<CaptureExtras> ReadCaptureExtras(std::string_view json);
 
-/// Run lengths in scan order, separated by blanks: that many 0s, then that many 1s, then 0s, … The last
-/// run of 0s is left out, so an empty mask is the empty text.
+/// Writes a mask as run lengths in scan order, separated by blanks: that many 0s, then that many 1s, then 0s, … The
+/// last run of 0s is left out, so an empty mask is the empty text.
 std::string EncodeMask(const Mask& mask);
 Result<Mask> DecodeMask(std::string_view text, int width, int height);
 
-/// Half the size: a pixel is set when at least two of its four are.
+/// Halves a mask's size: a pixel is set when at least two of its four are.
 Mask HalveMask(const Mask& mask);
 
 }  // namespace etude

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "bench/files/files.h"
-#include "bench/files/save_json.h"
+#include "bench/files/json.h"
 #include "bench/results/columns.h"
 #include "bench/results/row_json.h"
 #include "bench/results/seal.h"

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/files/atomic_file.h"
+#include "bench/files/files.h"
 #include "bench/files/json.h"
 #include "bench/model/run_data.h"
 #include "bench/model/study.h"

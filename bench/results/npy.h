@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/files/atomic_file.h"
+#include "bench/files/files.h"
 
 namespace etude {
 

@@ -8,7 +8,6 @@
 
 #include "bench/files/files.h"
 #include "bench/files/json.h"
-#include "bench/files/save_json.h"
 #include "bench/results/folder.h"
 #include "engine/base/digest.h"
 

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "bench/files/durable.h"
+#include "bench/files/files.h"
 #include "bench/results/folder.h"
 
 namespace etude {

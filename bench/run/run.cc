@@ -3,9 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "bench/files/durable.h"
 #include "bench/files/files.h"
-#include "bench/files/save_json.h"
+#include "bench/files/json.h"
 #include "bench/process/clock.h"
 #include "bench/results/folder.h"
 #include "bench/run/journal.h"

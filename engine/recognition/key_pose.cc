@@ -205,4 +205,24 @@ std::unique_ptr<Recogniser> MakeFuzzyRulesRecogniser(std::span<const TaughtMove>
                                     });
 }
 
+std::vector<std::optional<int>> WhenReached(std::span<const TaughtPose> poses, std::span<const FeatureFrame> frames,
+                                            const SightWeights& weights, const KeyPoseOptions& options) {
+  constexpr double kMet = 0.5;
+  std::vector<std::optional<int>> reached;
+  for (std::size_t count = 1; count <= poses.size(); ++count) {
+    PoseSequence sequence(count, options.hold_frames, 0);
+    sequence.Open();
+    auto& when = reached.emplace_back();
+    for (std::size_t frame = 0; frame < frames.size() && !when; ++frame) {
+      std::vector<double> matches;
+      for (std::size_t k = 0; k < count && frames[frame].body_seen; ++k) {
+        matches.push_back(MatchOf(frames[frame], poses[k], weights, options));
+      }
+      sequence.Update(matches);
+      if (sequence.Asked() >= kMet) when = static_cast<int>(frame);
+    }
+  }
+  return reached;
+}
+
 }  // namespace etude

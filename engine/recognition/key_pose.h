@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -94,5 +95,10 @@ double RuleStrength(const FeatureFrame& frame, const TaughtPose& pose, const Sig
 /// then that, within one performance", again by the minimum. Knows table 1's terms, not the key poses' tolerances.
 std::unique_ptr<Recogniser> MakeFuzzyRulesRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
                                                      const FuzzyRulesOptions& options);
+
+/// Finds for each of a move's key poses the first of `frames`, counted from their beginning, in which it and all poses
+/// before it have been reached in their order by A's crisp rule; nothing where that never happened.
+std::vector<std::optional<int>> WhenReached(std::span<const TaughtPose> poses, std::span<const FeatureFrame> frames,
+                                            const SightWeights& weights, const KeyPoseOptions& options);
 
 }  // namespace etude

@@ -7,7 +7,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "reports/transitions/transition_facts.h"
+#include "reports/films/look.h"
+#include "reports/transitions/recorded_requests.h"
 
 namespace etude {
 namespace {

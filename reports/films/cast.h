@@ -4,7 +4,7 @@
 
 #include "bench/model/recording.h"
 #include "bench/model/run_data.h"
-#include "reports/transitions/transition_facts.h"
+#include "reports/transitions/recorded_requests.h"
 
 namespace etude {
 

@@ -1,65 +1,32 @@
 #include "reports/films/coached_session.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "bench/model/recording.h"
 
 namespace etude {
 namespace {
 
-using SessionJson = nlohmann::json;
-
-/// Within the session, whatever the file says.
-int FrameIn(const SessionJson& json, const char* key, int frames) {
-  return std::clamp(json.at(key).get<int>(), 0, std::max(0, frames - 1));
-}
-
-std::optional<BodyPose> KeyPoseIn(const SessionJson& words) {
-  if (!words.contains("picture")) return std::nullopt;
-  const auto numbers = words.at("picture").get<std::vector<double>>();
-  if (numbers.size() != 3 * kRoleCount) return std::nullopt;
-  BodyPose pose;
-  for (std::size_t j = 0; j < kRoleCount; ++j) {
-    pose.joints[j] = {numbers[3 * j], numbers[3 * j + 1], numbers[3 * j + 2]};
+/// Moves every frame that a recording tells into the session.
+void KeepWithin(CoachedSessionFacts& facts) {
+  const int last = facts.Frames() - 1;
+  const auto keep = [&](int& frame) { frame = std::clamp(frame, 0, last); };
+  for (auto& mode : facts.modes) keep(mode.begin_frame);
+  for (auto& performance : facts.performances) {
+    keep(performance.begin_frame);
+    keep(performance.end_frame);
   }
-  return pose;
-}
-
-void Fill(const SessionJson& extras, CoachedSessionFacts& facts) {
-  const int frames = facts.Frames();
-  facts.song = extras.at("song").get<std::string>();
-  for (const SessionJson& mode : extras.at("modes")) {
-    facts.modes.push_back({mode.at("mode").get<std::string>(), FrameIn(mode, "begin_frame", frames)});
-  }
-  for (const SessionJson& told : extras.at("performances")) {
-    facts.performances.push_back({told.at("move").get<std::string>(), told.at("truth").get<std::string>(),
-                                  told.at("called").get<std::string>(), FrameIn(told, "begin_frame", frames),
-                                  FrameIn(told, "end_frame", frames)});
-  }
-  for (const SessionJson& words : extras.at("words")) {
-    facts.words.push_back({FrameIn(words, "begin_frame", frames), words.at("say").get<std::string>(),
-                           words.at("hint").get<std::string>(), KeyPoseIn(words)});
-  }
-  for (const SessionJson& told : extras.at("decisions")) {
-    facts.decisions.push_back(
-        {FrameIn(told, "frame", frames), told.at("event").get<std::string>(), told.at("why").get<std::string>()});
-  }
-  for (const SessionJson& frame : extras.at("corrections")) {
-    facts.corrections.push_back(std::clamp(frame.get<int>(), 0, frames - 1));
-  }
-  for (const SessionJson& frame : extras.at("transitions")) {
-    facts.transitions.push_back(std::clamp(frame.get<int>(), 0, frames - 1));
-  }
-  facts.beats_s = extras.at("beats_s").get<std::vector<double>>();
+  for (auto& words : facts.words) keep(words.begin_frame);
+  for (auto& decision : facts.decisions) keep(decision.frame);
+  for (std::vector<int>* frames : {&facts.corrections, &facts.transitions}) std::ranges::for_each(*frames, keep);
 }
 
 }  // namespace
 
 Result<CoachedSessionFacts> ReadCoachedSession(const CastCell& cell) {
   const Place place{.file = "recording " + cell.row->Id()};
+  auto extras = ReadCoachExtras(cell.recording->extras_json);
   CoachedSessionFacts facts;
   for (const auto& [name, motion] :
        {std::pair{"coach", &facts.coach}, std::pair{"truth", &facts.learner}, std::pair{"sensed", &facts.sensed}}) {
@@ -70,11 +37,9 @@ Result<CoachedSessionFacts> ReadCoachedSession(const CastCell& cell) {
   if (facts.learner.poses.size() != facts.coach.poses.size() || facts.sensed.poses.size() != facts.coach.poses.size()) {
     return Fail(place, "its tracks are not of one length");
   }
-  try {
-    Fill(SessionJson::parse(cell.recording->extras_json), facts);
-  } catch (const SessionJson::exception& error) {
-    return Fail(place, "its extras are no coached session's: {}", error.what());
-  }
+  if (!extras) return Fail(place, "its extras are no coached session's: {}", extras.error().message);
+  static_cast<CoachExtras&>(facts) = *std::move(extras);
+  KeepWithin(facts);
   if (facts.modes.empty() || facts.words.empty()) return Fail(place, "its extras tell of no mode or words");
   return facts;
 }

@@ -3,12 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "bench/files/json.h"
 #include "bench/model/recording.h"
+#include "bench/recordings/task_extras.h"
 #include "reports/films/cast.h"
 #include "reports/words/figures.h"
 
@@ -29,7 +29,7 @@ struct RecordedCell {
   }
 };
 
-/// In the run's order: by condition, trial, method.
+/// Lists a scenario's recorded cells in the run's order: by condition, trial, method.
 std::vector<RecordedCell> RecordedCells(const RunData& run, const ScenarioSummary& scenario) {
   std::vector<RecordedCell> cells;
   for (const Row& row : run.rows) {
@@ -48,44 +48,27 @@ std::vector<std::string> MethodsOf(const std::vector<RecordedCell>& cells, const
   return methods;
 }
 
-/// Whole numbers from 0 on that never fall.
-bool RisesFromZero(const std::vector<double>& values) {
-  constexpr double kMost = 1e9;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const bool follows = i == 0 ? values[i] == 0 : values[i] >= values[i - 1];
-    if (!follows || values[i] != std::floor(values[i]) || values[i] > kMost) return false;
-  }
-  return true;
+bool AreErrors(const std::vector<double>& values, std::size_t count) {
+  return values.size() == count && std::ranges::all_of(values, [](double value) { return value >= 0; });
 }
 
-/// Numbers of zero or more, `count` of them.
-Result<std::vector<double>> ReadNumbers(const Json& extras, const char* key, std::size_t count, const Place& place) {
-  std::vector<double> values;
-  const Json list = extras.value(key, Json());
-  for (const Json& value : list) {
-    if (!value.is_number() || value.get<double>() < 0) break;
-    values.push_back(value.get<double>());
+Result<IkExtras> ReadExtras(const Row& row, const Recording& recording) {
+  const Place place{.file = "recording " + row.Id()};
+  const BodyMotion* motion = FindTrack(recording, "solution");
+  if (motion == nullptr || motion->poses.empty()) return Fail(place, "it lacks the track solution");
+  auto extras = ReadIkExtras(recording.extras_json);
+  if (!extras) return Fail(place, "its extras are {}", extras.error().message);
+  const std::size_t count = motion->poses.size();
+  const std::vector<int>& iterations = extras->iterations;
+  if (iterations.size() != count || iterations.front() != 0 || !std::ranges::is_sorted(iterations)) {
+    return Fail(place, "its extras' iterations is no list of {} numbers rising from 0, whole and one per pose", count);
   }
-  if (!list.is_array() || values.size() != count || list.size() != count) {
+  for (const auto& [key, errors] : {std::pair{"position_error_max_cm", &extras->position_error_max_cm},
+                                    std::pair{"axis_error_max_deg", &extras->axis_error_max_deg}}) {
+    if (AreErrors(*errors, count)) continue;
     return Fail(place, "its extras' {} is no list of {} numbers of at least 0, one per pose", key, count);
   }
-  return values;
-}
-
-Result<IkTargets> ReadTargets(const Row& row, const Recording& recording) {
-  const Json list = Json::parse(recording.extras_json, nullptr, false).value("targets_m", Json());
-  const auto is_place = [](const Json& place) {
-    return place.is_null() || (place.is_array() && place.size() == 3 &&
-                               std::ranges::all_of(place, [](const Json& number) { return number.is_number(); }));
-  };
-  IkTargets targets;
-  if (!list.is_array() || list.size() != targets.size() || !std::ranges::all_of(list, is_place)) {
-    return Fail({.file = "recording " + row.Id()}, "its extras' targets_m is no list of {} places", targets.size());
-  }
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    if (!list[i].is_null()) targets[i] = glm::dvec3(list[i][0], list[i][1], list[i][2]);
-  }
-  return targets;
+  return extras;
 }
 
 std::optional<int> FindSolved(const IkPath& path) {
@@ -97,27 +80,13 @@ std::optional<int> FindSolved(const IkPath& path) {
   return since;
 }
 
-Result<IkPath> ReadPath(const Row& row, const Recording& recording) {
-  const Place place{.file = "recording " + row.Id()};
-  const BodyMotion* motion = FindTrack(recording, "solution");
-  if (motion == nullptr || motion->poses.empty()) return Fail(place, "it lacks the track solution");
-  const Json extras = Json::parse(recording.extras_json, nullptr, false);
-  if (!extras.is_object()) return Fail(place, "its extras are no JSON object");
-  const std::size_t count = motion->poses.size();
-  auto iterations = ReadNumbers(extras, "iterations", count, place);
-  auto position = ReadNumbers(extras, "position_error_max_cm", count, place);
-  auto orientation = ReadNumbers(extras, "axis_error_max_deg", count, place);
-  for (const auto* list : {&iterations, &position, &orientation}) {
-    if (!*list) return tl::unexpected(list->error());
-  }
-  if (!RisesFromZero(*iterations)) return Fail(place, "its extras' iterations are no whole numbers rising from 0");
-
+IkPath PathOf(const Row& row, const Recording& recording, IkExtras extras) {
   IkPath path;
   path.method = row.method;
-  path.poses = motion->poses;
-  path.iterations.assign(iterations->begin(), iterations->end());
-  path.position_cm = std::move(*position);
-  path.orientation_deg = std::move(*orientation);
+  path.poses = FindTrack(recording, "solution")->poses;
+  path.iterations = std::move(extras.iterations);
+  path.position_cm = std::move(extras.position_error_max_cm);
+  path.orientation_deg = std::move(extras.axis_error_max_deg);
   if (row.result.status == Status::kOk) {
     path.solved_at = FindSolved(path).value_or(path.iterations.back());
     path.ending = "solved";
@@ -136,16 +105,21 @@ Result<IkRace> MakeRace(const std::array<RecordedCell, 2>& cells) {
     return Fail({.file = "recording " + cells[0].row->Id()}, "it lacks the track truth");
   }
   race.truth = truth->poses.front();
+  std::vector<std::optional<glm::dvec3>> targets;  // of both, as their world is the same
   for (std::size_t i = 0; i < 2; ++i) {
-    ASSIGN_OR_RETURN(auto path, ReadPath(*cells[i].row, *cells[i].recording));
-    race.paths[i] = std::move(path);
+    ASSIGN_OR_RETURN(auto extras, ReadExtras(*cells[i].row, *cells[i].recording));
+    if (i == 0) targets = extras.targets_m;
+    race.paths[i] = PathOf(*cells[i].row, *cells[i].recording, std::move(extras));
   }
-  ASSIGN_OR_RETURN(auto targets, ReadTargets(*cells[0].row, *cells[0].recording));
-  race.targets = targets;
+  if (targets.size() != race.targets.size()) {
+    return Fail({.file = "recording " + cells[0].row->Id()}, "its extras' targets_m is no list of {} places",
+                race.targets.size());
+  }
+  std::ranges::copy(targets, race.targets.begin());
   return race;
 }
 
-/// Why this world cannot be shown: "trial 3 (adaptive: crashed)".
+/// Says why this world cannot be shown: "trial 3 (adaptive: crashed)".
 std::string WhyPassedOver(const RunData& run, const RecordedCell& cell, const std::string& missing) {
   const auto row = std::ranges::find_if(
       run.rows, [&](const Row& other) { return other.method == missing && cell.SharesWorld(other); });

@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// What "solved" means on every picture: the worst effector and the worst axis below these.
+/// "Solved" means on every picture that the worst effector and the worst axis are below these.
 inline const double kGoalCm = 100 * IkOptions{}.position_goal;
 inline const double kGoalDeg = Degrees(IkOptions{}.axis_goal);
 
@@ -27,16 +27,17 @@ struct IkPath {
   std::string ending;                   ///< "solved", "not solved", or the status
   std::string reason;                   ///< why it is not solved; empty when it is
 
-  /// The entry that shows the state at that moment: the last recorded iteration that is over.
+  /// Finds the entry that shows the state at that moment: the last recorded iteration that is over.
   std::size_t EntryAt(double iteration) const;
 };
 
-/// Whether positions, or orientations, were asked for at all: without targets of that kind all their errors are zero.
+/// Tells whether positions, or orientations, were asked for at all: without targets of that kind all their errors are
+/// zero.
 bool IsAskedFor(const std::vector<double>& errors);
 
-/// Which of the body's ends have targets, in the order of the tree's effectors.
+/// The ends of the body that have targets, in the order of the tree's effectors.
 inline constexpr std::array kIkEnds{Role::kRightFoot, Role::kLeftHand, Role::kRightHand, Role::kHead};
-/// Where each should be; nothing when it has no place to be at.
+/// The place of each target; nothing where no position is asked for.
 using IkTargets = std::array<std::optional<glm::dvec3>, kIkEnds.size()>;
 
 /// Two methods of inverse kinematics in the same world.
@@ -50,8 +51,8 @@ struct IkRace {
   int LastIteration() const;
 };
 
-/// The first two methods that kept recordings, in the scenario's order, in the first world in which both did: never the
-/// prettiest one. Fails, saying why, when there is no such world or its recordings cannot be read.
+/// Finds the first two methods that kept recordings, in the scenario's order, in the first world in which both did,
+/// never the prettiest one. Fails, saying why, when there is no such world or its recordings cannot be read.
 Result<IkRace> FindIkRace(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

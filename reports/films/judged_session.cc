@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
-#include <stdexcept>
+#include <span>
+#include <utility>
 
 #include "bench/model/recording.h"
 #include "engine/fuzzy/features.h"
@@ -12,7 +12,6 @@
 namespace etude {
 namespace {
 
-using SessionJson = nlohmann::json;
 using Facts = JudgedSessionFacts;
 
 TrackingState StateOf(char letter) {
@@ -20,103 +19,90 @@ TrackingState StateOf(char letter) {
   return letter == 'i' ? TrackingState::kInferred : TrackingState::kNotTracked;
 }
 
-SkeletonStream StreamOf(const BodyMotion& motion, const SessionJson& states) {
+Result<SkeletonStream> StreamOf(const BodyMotion& motion, const std::vector<std::string>& states, const Place& place) {
+  if (states.size() < motion.poses.size()) {
+    return Fail(place, "its extras are no judged session's: joint_states of {} frames; the motion has {}", states.size(),
+                motion.poses.size());
+  }
   SkeletonStream stream{.rate_hz = motion.rate_hz, .frames = {}};
   for (std::size_t frame = 0; frame < motion.poses.size(); ++frame) {
-    const auto letters = states.at(frame).get<std::string>();
+    const std::string& letters = states[frame];
+    if (letters.size() < kRoleCount) {
+      return Fail(place, "its extras are no judged session's: joint_states[{}] tells of {} joints, not {}", frame,
+                  letters.size(), kRoleCount);
+    }
     SensedFrame& sensed = stream.frames.emplace_back();
     for (std::size_t j = 0; j < kRoleCount; ++j) {
-      sensed.joints[j] = {motion.poses[frame].joints[j], StateOf(letters.at(j))};
+      sensed.joints[j] = {motion.poses[frame].joints[j], StateOf(letters[j])};
     }
     sensed.body_seen = letters.find_first_not_of('n') != std::string::npos;
   }
   return stream;
 }
 
-std::map<std::string, std::vector<TaughtPose>> KeyPosesIn(const SessionJson& moves) {
+std::map<std::string, std::vector<TaughtPose>> KeyPosesIn(const std::vector<DetectionExtras::Move>& moves) {
   std::map<std::string, std::vector<TaughtPose>> all;
-  for (const SessionJson& move : moves) {
-    std::vector<TaughtPose>& poses = all[move.at("name").get<std::string>()];
-    for (const SessionJson& told : move.at("key_poses")) {
-      TaughtPose& pose = poses.emplace_back();
-      for (const SessionJson& target : told) {
-        const Feature* feature = FindFeature(target.at("feature").get<std::string>());
-        if (feature == nullptr) continue;
-        pose.targets.push_back(
-            {*feature, target.at("degrees").get<double>(), target.at("tolerance_deg").get<double>()});
+  for (const DetectionExtras::Move& move : moves) {
+    for (const auto& targets : move.key_poses) {
+      TaughtPose& pose = all[move.name].emplace_back();
+      for (const DetectionExtras::Target& target : targets) {
+        const Feature* feature = FindFeature(target.feature);
+        if (feature != nullptr) pose.targets.push_back({*feature, target.degrees, target.tolerance_deg});
       }
     }
   }
   return all;
 }
 
-/// By paper A's crisp rule, in their order: the first frame at which the poses so far were all passed.
-std::vector<std::optional<int>> WhenReached(const Facts::Performance& performance, const SeenStream& seen) {
-  constexpr double kMet = 0.5;
-  const KeyPoseOptions options;
-  std::vector<std::optional<int>> reached;
-  for (std::size_t count = 1; count <= performance.poses.size(); ++count) {
-    PoseSequence sequence(count, options.hold_frames, 0);
-    sequence.Open();
-    auto& when = reached.emplace_back();
-    for (int frame = performance.begin_frame; frame < performance.end_frame && !when; ++frame) {
-      const FeatureFrame& features = seen.frames[static_cast<std::size_t>(frame)];
-      std::vector<double> matches;
-      for (std::size_t k = 0; k < count && features.body_seen; ++k) {
-        matches.push_back(MatchOf(features, performance.poses[k], {}, options));
-      }
-      sequence.Update(matches);
-      if (sequence.Asked() >= kMet) when = frame;
-    }
-  }
-  return reached;
-}
-
-std::vector<Facts::Performance> PerformancesIn(const SessionJson& extras, const SeenStream& seen) {
-  const auto poses = KeyPosesIn(extras.at("moves"));
+std::vector<Facts::Performance> PerformancesIn(const DetectionExtras& extras, const SeenStream& seen) {
+  const auto poses = KeyPosesIn(extras.moves);
   const int frames = static_cast<int>(seen.frames.size());
   std::vector<Facts::Performance> performances;
-  for (const SessionJson& event : extras.at("events")) {
+  for (const DetectionExtras::Event& event : extras.events) {
     Facts::Performance& performance = performances.emplace_back();
-    performance.move = event.at("move").get<std::string>();
-    performance.truth = event.at("truth").get<std::string>();
-    performance.fault = event.at("fault").get<std::string>();
-    performance.begin_frame = std::clamp(event.at("begin_frame").get<int>(), 0, frames);
-    performance.end_frame = std::clamp(event.at("end_frame").get<int>(), performance.begin_frame, frames);
+    performance.move = event.move;
+    performance.truth = event.truth;
+    performance.fault = event.fault;
+    performance.begin_frame = std::clamp(event.begin_frame, 0, frames);
+    performance.end_frame = std::clamp(event.end_frame, performance.begin_frame, frames);
     if (const auto known = poses.find(performance.move); known != poses.end()) performance.poses = known->second;
-    performance.reached = WhenReached(performance, seen);
+    const auto window = std::span(seen.frames).subspan(
+        static_cast<std::size_t>(performance.begin_frame),
+        static_cast<std::size_t>(performance.end_frame - performance.begin_frame));
+    performance.reached = WhenReached(performance.poses, window, {}, {});
+    for (auto& when : performance.reached) {
+      if (when) *when += performance.begin_frame;
+    }
   }
   return performances;
 }
 
-Facts::Judge JudgeIn(const SessionJson& extras, const std::string& method) {
-  Facts::Judge judge{.method = method, .called_right = {}, .alarms = {}};
-  for (const SessionJson& event : extras.at("events")) {
-    auto& called = judge.called_right.emplace_back();
-    if (event.contains("called_frame")) called = event.at("called_frame").get<int>();
-  }
-  for (const SessionJson& alarm : extras.at("alarms")) {
-    judge.alarms.push_back({alarm.at("move").get<std::string>(), alarm.at("frame").get<int>()});
-  }
+Facts::Judge JudgeIn(const DetectionExtras& extras, const std::string& method) {
+  Facts::Judge judge{.method = method, .called_right = {}, .alarms = extras.alarms};
+  for (const DetectionExtras::Event& event : extras.events) judge.called_right.push_back(event.called_frame);
   return judge;
 }
 
-void Fill(const RunData& run, const CastCell& cell, const BodyMotion& sensed, Facts& facts) {
-  const SessionJson extras = SessionJson::parse(cell.recording->extras_json);
-  facts.seen = SeeStream(StreamOf(sensed, extras.at("joint_states")), {});
-  facts.performances = PerformancesIn(extras, facts.seen);
-  facts.judges.push_back(JudgeIn(extras, cell.row->method));
-  if (extras.contains("threshold")) facts.threshold = extras.at("threshold").get<double>();
-  constexpr std::size_t kMostJudges = 2;  // as many as the timeline has rows for
+Result<DetectionExtras> ExtrasOf(const Recording& recording, const Place& place) {
+  auto extras = ReadDetectionExtras(recording.extras_json);
+  if (!extras) return Fail(place, "its extras are no judged session's: {}", extras.error().message);
+  return extras;
+}
+
+/// Adds the other methods in the same world, as many as the timeline has rows for.
+Result<void> AddOtherJudges(const RunData& run, const CastCell& cell, Facts& facts) {
+  constexpr std::size_t kMostJudges = 2;
   for (const CellRecording& recorded : run.recordings) {
     const auto row = std::ranges::find_if(run.rows, [&](const Row& each) { return each.Id() == recorded.cell; });
     if (row == run.rows.end() || facts.judges.size() == kMostJudges) continue;
     const bool same_world = row->scenario == cell.row->scenario && row->condition == cell.row->condition &&
                             row->trial == cell.row->trial && row->method != cell.row->method;
     if (!same_world) continue;
-    Facts::Judge other = JudgeIn(SessionJson::parse(recorded.recording.extras_json), row->method);
+    ASSIGN_OR_RETURN(const auto extras, ExtrasOf(recorded.recording, {.file = "recording " + recorded.cell}));
+    Facts::Judge other = JudgeIn(extras, row->method);
     if (other.called_right.size() == facts.performances.size()) facts.judges.push_back(std::move(other));
   }
+  return {};
 }
 
 }  // namespace
@@ -129,15 +115,15 @@ Result<JudgedSessionFacts> ReadJudgedSession(const RunData& run, const CastCell&
     return Fail(place, "has no tracks 'truth' and 'sensed'");
   }
   if (truth->poses.size() != sensed->poses.size()) return Fail(place, "its tracks are not of one length");
+  ASSIGN_OR_RETURN(const auto extras, ExtrasOf(*cell.recording, place));
+  ASSIGN_OR_RETURN(const auto stream, StreamOf(*sensed, extras.joint_states, place));
   JudgedSessionFacts facts;
   facts.truth = *truth;
-  try {
-    Fill(run, cell, *sensed, facts);
-  } catch (const SessionJson::exception& error) {
-    return Fail(place, "its extras are no judged session's: {}", error.what());
-  } catch (const std::out_of_range&) {
-    return Fail(place, "its extras are no judged session's: a frame tells too few joints");
-  }
+  facts.seen = SeeStream(stream, {});
+  facts.threshold = extras.threshold;
+  facts.performances = PerformancesIn(extras, facts.seen);
+  facts.judges.push_back(JudgeIn(extras, cell.row->method));
+  RETURN_IF_ERROR(AddOtherJudges(run, cell, facts));
   if (facts.performances.empty()) return Fail(place, "nothing was asked for");
   const Series* score = FindSeries(run, *cell.row, "score");
   if (score != nullptr && score->values.size() == sensed->poses.size()) facts.evidence = score->values;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/recordings/task_extras.h"
 #include "engine/base/result.h"
 #include "engine/motion/body.h"
 #include "engine/recognition/sight.h"
@@ -21,14 +22,10 @@ struct JudgedSessionFacts {
     std::vector<TaughtPose> poses;            ///< none: of the move no key pose is known
     std::vector<std::optional<int>> reached;  ///< per pose: when it and all before it were first seen, in the window
   };
-  struct Alarm {
-    std::string move;
-    int frame = 0;
-  };
   struct Judge {
     std::string method;
     std::vector<std::optional<int>> called_right;  ///< per performance: the frame; nothing: called wrong
-    std::vector<Alarm> alarms;                     ///< false ones
+    std::vector<DetectionExtras::Alarm> alarms;    ///< false ones
   };
 
   std::vector<Performance> performances;  ///< in order of time

@@ -8,6 +8,37 @@
 
 namespace etude {
 
+Result<TransitionFacts> ReadTransitionFacts(const Recording& recording, const std::string& cell) {
+  auto facts = ReadTransitionExtras(recording.extras_json);
+  if (!facts) return Fail({.file = "recording " + cell}, "its extras are {}", facts.error().message);
+  const BodyMotion* coach = FindTrack(recording, "coach");
+  const int frames = coach == nullptr ? 0 : static_cast<int>(coach->poses.size());
+  const auto is_outside = [&](int frame) { return frame < 0 || frame >= frames; };
+  std::erase_if(facts->transition_frames, is_outside);
+  if (facts->transition_frames.empty() && facts->transition_frame && !is_outside(*facts->transition_frame)) {
+    facts->transition_frames.push_back(*facts->transition_frame);
+  }
+  std::ranges::sort(facts->transition_frames);
+  facts->from = ClipInWords(facts->from);
+  facts->to = ClipInWords(facts->to);
+  for (PointFacts& point : facts->points) {
+    point.from = ClipInWords(point.from);
+    point.to = ClipInWords(point.to);
+  }
+  if (facts->points.empty()) {
+    facts->points.push_back(
+        {.from = facts->from, .to = facts->to, .distance = facts->distance, .partials = facts->partials});
+  }
+  return facts;
+}
+
+std::string ClipInWords(std::string name) {
+  constexpr std::string_view kBuiltin = "builtin:";
+  if (name.starts_with(kBuiltin)) name.erase(0, kBuiltin.size());
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
 std::string RecordedRequest::Name() const {
   const Row& row = *transitions.front().row;
   const std::string condition = ConditionLabel(row.condition);

@@ -11,15 +11,21 @@ import zlib
 
 ETUDE = os.environ["ETUDE"]
 
-IK = """scenario: ik
-question: Does it run?
+
+def ik_scenario(trials, question="Does it run?", weights="fixed"):
+    """A scenario of two solvers under two conditions, quick to run."""
+    return f"""scenario: ik
+question: {question}
 task: ik
-trials: 4
-sweep: {joint_noise_deg: [2, 5]}
+trials: {trials}
+sweep: {{joint_noise_deg: [2, 5]}}
 methods:
-  - {name: fixed, solver: ccd, weights: fixed}
-  - {name: least-squares, solver: damped-least-squares}
+  - {{name: fixed, solver: ccd, weights: {weights}}}
+  - {{name: least-squares, solver: damped-least-squares}}
 """
+
+
+IK = ik_scenario(trials=4)
 
 
 # What a run promises to be the same bytes, however it came about.

@@ -6,17 +6,9 @@ import shutil
 import unittest
 import xml.etree.ElementTree
 
-from etude_case import EtudeCase
+from etude_case import EtudeCase, ik_scenario
 
-SCENARIO = """scenario: ik
-question: Does the gate see it?
-task: ik
-trials: 12
-sweep: {joint_noise_deg: [2, 5]}
-methods:
-  - {name: fixed, solver: ccd, weights: fixed-tuned}
-  - {name: least-squares, solver: damped-least-squares}
-"""
+SCENARIO = ik_scenario(trials=12, question="Does the gate see it?", weights="fixed-tuned")
 WORSE = SCENARIO.replace("weights: fixed-tuned", "weights: fixed")
 
 

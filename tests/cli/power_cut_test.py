@@ -9,19 +9,10 @@ import shutil
 import subprocess
 import unittest
 
-from etude_case import ETUDE, EtudeCase
+from etude_case import ETUDE, EtudeCase, ik_scenario
 
 CUTS = int(os.environ.get("ETUDE_CUTS", "10"))
-SCENARIO = """scenario: ik
-question: Does it survive?
-task: ik
-trials: 6
-sweep: {joint_noise_deg: [2, 5]}
-methods:
-  - {name: fixed, solver: ccd, weights: fixed}
-  - {name: least-squares, solver: damped-least-squares}
-video: {compare: [fixed], trials: [0]}
-"""
+SCENARIO = ik_scenario(trials=6, question="Does it survive?") + "video: {compare: [fixed], trials: [0]}\n"
 CALLS = "openat,creat,write,pwrite64,writev,ftruncate,fsync,fdatasync,rename,renameat,renameat2,unlink,unlinkat,mkdir,mkdirat,rmdir,close"
 LINE = re.compile(r"^(\d+) +(\w+)\((.*)\) += (-?\d+)")
 

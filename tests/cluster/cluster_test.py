@@ -11,21 +11,16 @@ import tempfile
 import time
 import unittest
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+from etude_case import ik_scenario  # noqa: E402
+
 ETUDE = os.environ["ETUDE"]
 SCRIPTS = pathlib.Path("scripts").resolve()
 SUITE = "scenarios/quick/ik.yaml"
 SHARDS = 4
 CPUS = min(2, len(os.sched_getaffinity(0)))
 
-FEW_WORLDS = """scenario: ik
-question: Does it run?
-task: ik
-trials: 12
-sweep: {joint_noise_deg: [2, 5]}
-methods:
-  - {name: fixed, solver: ccd, weights: fixed}
-  - {name: least-squares, solver: damped-least-squares}
-"""
+FEW_WORLDS = ik_scenario(trials=12)
 
 
 def run(*command, **options):

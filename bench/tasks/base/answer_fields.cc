@@ -20,7 +20,7 @@ bool IsIn(double value, const Range& range) { return range.lowest <= value && va
 
 std::string ShowRange(const Range& range) { return fmt::format("{:g}…{:g}", range.lowest, range.highest); }
 
-/// Why this is not a number within the range, or nothing.
+/// Says why this is no number within the range; nothing when it is one.
 std::optional<std::string> NumberComplaint(const Json& json, const Range& range) {
   if (!json.is_number() || !std::isfinite(json.get<double>())) {
     return fmt::format("{} is not a finite number", ShowJson(json));
@@ -42,15 +42,6 @@ std::optional<std::string> IntegerComplaint(const Json& json, int lowest, int hi
 }
 
 }  // namespace
-
-std::string ShowJson(const Json& json) {
-  if (json.is_number_float() && !std::isfinite(json.get<double>())) return fmt::format("{}", json.get<double>());
-  if (json.is_array()) return fmt::format("a list of {}", json.size());
-  if (json.is_object()) return "an object";
-  constexpr std::size_t kLongest = 40;
-  std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);  // ASCII, so that it may be cut
-  return text.size() <= kLongest ? text : text.substr(0, kLongest) + "…";
-}
 
 AnswerFields::AnswerFields(const Json& json, std::string path) : json_(json), path_(std::move(path)) {
   if (!json.is_object()) Complain("", fmt::format("{} is not an object", ShowJson(json)));

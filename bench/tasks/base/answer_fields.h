@@ -16,33 +16,34 @@ namespace etude {
 /// answer: "events[2].score: \"high\" is not a number".
 class AnswerFields {
  public:
-  /// `path` is where the object stands in the answer: "" = it is the answer. `json` must outlive this.
+  /// Reads the object `json`, which must outlive this. `path` is where it stands in the answer; "" is the answer
+  /// itself.
   explicit AnswerFields(const Json& json, std::string path = "");
 
-  /// True when the key is there; marks it as known.
+  /// Tells whether the key is there, and marks it as known.
   bool Has(std::string_view key);
-  /// The value of the key, whatever its type; null when it is absent.
+  /// Gives what stands under the key, whatever its type; null when it is absent.
   const Json* Raw(std::string_view key);
   int Integer(std::string_view key, int lowest, int highest);
-  /// Null means nothing; the key must be there.
+  /// Reads a whole number, or nothing where null stands. The key must be there.
   std::optional<int> NullableInteger(std::string_view key, int lowest, int highest);
   double Number(std::string_view key, Range range);
   bool Boolean(std::string_view key, bool fallback);
-  /// Not empty, at most `longest` bytes.
+  /// Reads a text that is not empty and has at most `longest` bytes.
   std::string Text(std::string_view key, std::size_t longest);
   std::string Choice(std::string_view key, const std::vector<std::string>& allowed, std::string_view fallback);
   std::string RequiredChoice(std::string_view key, const std::vector<std::string>& allowed);
-  /// The array under `key`, of a length within the range; an empty one when the key is absent and `fewest` is 0.
+  /// Reads the array under `key`, of a length within the range; it is empty when the key is absent and `fewest` is 0.
   const Json& List(std::string_view key, std::size_t fewest, std::size_t most);
 
-  /// "events[2].score"
+  /// Names a key within the answer: "events[2].score".
   std::string PathOf(std::string_view key) const;
-  /// "events[2]": of an element of the list under `key`.
+  /// Names an element of the list under `key`: "events[2]".
   std::string PathOf(std::string_view key, std::size_t index) const;
 
   /// Notes an error of the caller's own; only the first one is kept.
   void Note(const Error& error);
-  /// The first complaint, or an unknown key, or success.
+  /// Gives the first complaint, or names an unknown key, or succeeds.
   Result<void> Finish();
 
  private:
@@ -57,13 +58,13 @@ class AnswerFields {
   std::optional<Error> error_;
 };
 
-/// A value of an answer as complaints show it: its JSON, shortened.
+/// Shows a value of an answer as complaints do: its JSON, shortened.
 std::string ShowJson(const Json& json);
 
-/// Refused, naming `path`: whatever is not a whole number in range.
+/// Reads a whole number within the range. Refuses anything else, naming `path`.
 Result<int> ReadInteger(const Json& json, const std::string& path, int lowest, int highest);
-/// The numbers of an array, all within `range`. Refused, naming `path`: another count than `count`, whatever is not
-/// a finite number in range.
+/// Reads the numbers of an array. Refuses, naming `path`, another count than `count`, and whatever is not a finite
+/// number within `range`.
 Result<std::vector<double>> ReadNumbers(const Json& json, const std::string& path, std::size_t count, Range range);
 
 }  // namespace etude

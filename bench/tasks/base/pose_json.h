@@ -9,18 +9,18 @@
 
 namespace etude {
 
-/// A pose as it is told to and by methods outside the program: x, y, z of the twenty joints in the order of
+/// Writes a pose as it is told to and by methods outside the program: x, y, z of the twenty joints in the order of
 /// AllRoles, sixty numbers, metres, Y up. Every digit is kept, so they see what built-in methods see.
 Json EncodePose(const BodyPose& pose);
-/// One pose per frame.
+/// Writes a list of poses, one per frame.
 Json EncodePoses(std::span<const BodyPose> poses);
 
-/// The names of the joints that the sixty numbers are of: {"joints": [twenty names], "parents": [null, "hip_centre",
+/// Names the joints of the sixty numbers, and their parents: {"joints": [twenty names], "parents": [null, "hip_centre",
 /// …]}.
 Json DescribeBody();
 
-/// Refused, naming `path` ("between[3]"): another count than sixty, and coordinates that are no finite numbers or
-/// farther than a kilometre away.
+/// Reads a pose. Refuses, naming `path` ("between[3]"), another count than sixty, and coordinates that are no finite
+/// numbers or farther than a kilometre away.
 Result<BodyPose> ReadPose(const Json& json, const std::string& path);
 
 }  // namespace etude

@@ -7,19 +7,19 @@
 
 namespace etude {
 
-/// The solver of a method that names none: gauss-newton.
+/// Gives the solver of a method that names none: gauss-newton.
 const IkSolver* DefaultIkSolver();
 
-/// The defaults of a solver, but at most so many steps.
+/// Gives the solvers' defaults, but at most so many steps.
 IkOptions IkBudget(int most_steps);
 
-/// The names of the solvers that have `weights` and `refresh`.
+/// Names the solvers that have `weights` and `refresh`.
 std::vector<std::string> WeighingSolvers();
 
-/// Complains of a solver that has another name now, and says which.
+/// Refuses the former name of a solver, and says what it is called now.
 void RefuseFormerName(Fields& method);
 
-/// A method's `solver` and what that solver can be set by: `weights`, `refresh`, its own settings.
+/// Declares a method's `solver` and what that solver can be set by: `weights`, `refresh` and its own settings.
 template <typename Method>
 std::vector<Field<Method>> IkSolverFields(const IkSolver* Method::*solver, IkOptions Method::*options) {
   using Key = Field<Method>;
@@ -39,7 +39,7 @@ std::vector<Field<Method>> IkSolverFields(const IkSolver* Method::*solver, IkOpt
   return rows;
 }
 
-/// A method's `tolerance_deg`; `meaning` says from where.
+/// Declares a method's `tolerance_deg`; `meaning` says from where it counts.
 template <typename Method>
 Field<Method> ToleranceField(IkOptions Method::*options, std::string meaning) {
   return Field<Method>::Angle("tolerance_deg", Path(options, &IkOptions::angle_change_tolerance), {0, 360},
@@ -47,14 +47,14 @@ Field<Method> ToleranceField(IkOptions Method::*options, std::string meaning) {
       .WhenAbsent("(no bound)");
 }
 
-/// The limit of a solver's steps.
+/// Declares `max_sweeps`, the limit of a solver's steps.
 template <typename Options>
 Field<Options> SweepsField(IkOptions Options::*options, std::string meaning) {
   return Field<Options>::Number("max_sweeps", Path(options, &IkOptions::max_iterations), {1, 100'000},
                                 std::move(meaning));
 }
 
-/// Reads `stop_at`, practical by default.
+/// Reads `stop_at`: what a solver must reach, practical by default.
 void ReadIkGoals(Fields& condition, IkOptions& options);
 template <typename Options>
 Field<Options> GoalsField(IkOptions Options::*options) {

@@ -10,8 +10,8 @@
 
 namespace etude {
 
-/// How methods outside the program are told about inverse kinematics. Metres, degrees, Y up, right-handed; a rotation
-/// is a list of its three rows, and turns vectors of the frame below into the frame above.
+/// Describes a body to methods outside the program, for inverse kinematics. Metres, degrees, Y up, right-handed; a
+/// rotation is a list of its three rows, and turns vectors of the frame below into the frame above.
 ///
 /// The body as a kinematic tree:
 ///
@@ -34,23 +34,24 @@ namespace etude {
 /// rotation is R_i.
 Json DescribeBodyTree(const KinematicTree& tree);
 
-/// {"max_steps": 200, "position_goal_cm": 0.1, "orientation_goal_deg": 0.1}: what built-in solvers stop at,
-/// the latter for every single axis of an effector.
+/// Tells what built-in solvers stop at: {"max_steps": 200, "position_goal_cm": 0.1, "orientation_goal_deg": 0.1}, the
+/// latter for every single axis of an effector.
 Json DescribeGoals(const IkOptions& options);
 
-/// {"position_m": [0, 0, 0], "rotation": [[…], […], […]]}
+/// Tells where the root is: {"position_m": [0, 0, 0], "rotation": [[…], […], […]]}.
 Json DescribeRoot(const TreeState& state);
 
-/// [{"effector": "right_foot", "position_m": [x, y, z], "rotation": [[…], […], […]]}, …], in the tree's order.
+/// Lists the targets in the tree's order: [{"effector": "right_foot", "position_m": [x, y, z], "rotation": [[…], […],
+/// […]]}, …].
 Json DescribeTargets(const KinematicTree& tree, std::span<const EffectorTarget> targets);
 
-/// Radians as a list of degrees, and back: `count` numbers of at most a million degrees, else an error that names
-/// `path`.
+/// Writes radians as a list of degrees; ReadDegrees reads one of `count` numbers back, and refuses, naming `path`,
+/// another count or more than a million degrees.
 Json InDegrees(std::span<const double> angles);
 Result<std::vector<double>> ReadDegrees(const Json& json, const std::string& path, std::size_t count);
 
-/// "2 angles outside the limits, angles_deg[4] the farthest, by 3.2°", or nothing: 10⁻⁶ degrees are rounding. `path`
-/// is where the angles stand: "angles_deg".
+/// Says which limits angles break: "2 angles outside the limits, angles_deg[4] the farthest, by 3.2°", or nothing. 10⁻⁶
+/// degrees are rounding. `path` is where the angles stand: "angles_deg".
 std::string DescribeBrokenLimits(const KinematicTree& tree, std::span<const double> angles, std::string_view path);
 
 }  // namespace etude

@@ -2,10 +2,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bench/recordings/capture_extras.h"
 #include "bench/tasks/base/answer_fields.h"
 #include "bench/tasks/base/pose_json.h"
 #include "bench/tasks/capture/coco.h"
 #include "bench/tasks/capture/shooting.h"
+#include "engine/base/base64.h"
 #include "engine/cameras/opencv_file.h"
 #include "engine/cameras/pose2sim_file.h"
 #include "engine/formats/bvh.h"
@@ -13,6 +15,7 @@
 #include "engine/formats/trc.h"
 #include "engine/motion/from_body.h"
 #include "engine/vision/strokes.h"
+#include "sim/camera/jpeg.h"
 #include "sim/depth_camera/depth_camera.h"
 #include "sim/sensors/image_files.h"
 
@@ -35,7 +38,7 @@ Json ToJson(const LimbLengths& lengths) {
           {"hand", lengths.hand}};
 }
 
-/// As `ReadPointPairs` reads them.
+/// Writes the pairs as the YAML file that `ReadPointPairs` reads.
 std::string PairsFile(const CaptureWorld& world, const std::vector<std::vector<PointPair>>& pairs) {
   constexpr double kOurPixelCentre = 0.5;
   std::string text;
@@ -65,7 +68,7 @@ Json ToJson(const Marks& marks) {
   return {{"strokes", std::move(strokes)}, {"discs", std::move(discs)}};
 }
 
-/// [camera][frame]
+/// Writes the marks by [camera][frame].
 Json ToJson(const Observation& observation, const std::vector<bool>& marked) {
   Json cameras = Json::array();
   for (const std::vector<Marks>& frames : observation.marks) {
@@ -75,13 +78,13 @@ Json ToJson(const Observation& observation, const std::vector<bool>& marked) {
   return cameras;
 }
 
-/// "camera-1-0042.png"; people count cameras from one.
+/// Names a picture's file: "camera-1-0042.png"; people count cameras from one.
 std::string PictureName(std::size_t camera, std::optional<std::size_t> frame, const char* extension) {
   if (!frame) return fmt::format("camera-{}-background.{}", camera + 1, extension);
   return fmt::format("camera-{}-{:04}.{}", camera + 1, *frame, extension);
 }
 
-/// What depth cameras would have measured in this one's place.
+/// Measures what depth cameras would have seen in a camera's place.
 class DepthCameras {
  public:
   DepthCameras(const WorldKey& key, std::size_t camera)
@@ -97,7 +100,7 @@ class DepthCameras {
   RandomStream v1_, v2_;
 };
 
-/// A take's pictures are held in memory.
+/// Refuses takes of too many pictures, which are held in memory.
 Result<void> CheckSize(const CaptureWorld& world) {
   const std::size_t pictures = world.cameras.size() * world.truth.size();
   if (pictures <= kMostPictures) return {};
@@ -114,6 +117,27 @@ Json PartNumbers() {
   Json numbers = Json::object();
   for (std::size_t part = 0; part < kPartNames.size(); ++part) numbers[kPartNames[part]] = part;
   return numbers;
+}
+
+CaptureExtras DescribeStage(const CaptureWorld& world) {
+  CaptureExtras extras;
+  extras.texture_seed = world.room.texture_seed;
+  extras.casts_shadows = world.room.casts_shadows;
+  extras.stage_seed = world.stage_options.seed;
+  extras.scene = world.stage_options.scene;
+  extras.wears_everyday = world.stage_options.wardrobe == Wardrobe::kEveryday;
+  extras.wears_coded = world.stage_options.wardrobe == Wardrobe::kCoded;
+  extras.colours = world.colours;
+  extras.brightness = world.brightness;
+  return extras;
+}
+
+std::vector<CaptureExtras::Mark> StrokesOf(const Marks& marks) {
+  std::vector<CaptureExtras::Mark> strokes;
+  for (std::size_t i = 0; i < kStrokeCount; ++i) {
+    if (const auto& stroke = marks.strokes[i]) strokes.push_back({stroke->a, stroke->b, StrokeMarks()[i].first_half});
+  }
+  return strokes;
 }
 
 }  // namespace
@@ -216,6 +240,39 @@ Result<CaptureAnswer> ReadCaptureAnswer(const Json& json, std::size_t frames) {
     answer.emplace_back(pose);
   }
   return answer;
+}
+
+Recording MakeRecording(const CaptureWorld& world, const Take& take, const Observation& observation,
+                        const CaptureBody& body, const std::vector<RecoveredFrame>& frames, const std::string& name,
+                        std::span<const double> moments) {
+  Track truth{"truth", {kJudgedRateHz, world.truth}}, recovered{"recovered", {kJudgedRateHz, {}}};
+  for (const RecoveredFrame& frame : frames) recovered.motion.poses.push_back(frame.pose);
+  CaptureExtras extras = DescribeStage(world);
+  for (std::size_t i = 0; i < world.cameras.size(); ++i) {
+    constexpr int kStillQuality = 85;
+    const std::string still = EncodeJpeg(take.stills[i], kStillQuality);
+    extras.views.push_back({world.cameras[i], observation.masks[i], Base64(still)});
+  }
+  for (const double number : moments) {
+    const auto frame = static_cast<std::size_t>(number) - 1;
+    if (frame >= frames.size()) continue;
+    CaptureExtras::Moment& moment = extras.moments.emplace_back();
+    moment = {frame, frames[frame].fixed, {}};
+    for (const std::vector<Marks>& marks : observation.marks) moment.marks.push_back(StrokesOf(marks[frame]));
+  }
+  extras.bvh = WriteBvh(ToClip(body, frames, kJudgedRateHz, name));
+  return {{std::move(truth), std::move(recovered)}, WriteCaptureExtras(extras)};
+}
+
+Recording MakeRecording(const CaptureWorld& world, const std::vector<BodyPose>& poses) {
+  const BodyMotion found{kJudgedRateHz, poses};
+  CaptureExtras extras = DescribeStage(world);
+  for (const Camera& camera : world.cameras) {
+    const Mask nothing(camera.intrinsics.width / 2, camera.intrinsics.height / 2);
+    extras.views.push_back({camera, std::vector<Mask>(poses.size(), nothing)});
+  }
+  extras.bvh = WriteBvh(ToClip(found, "recovered"));
+  return {{{"truth", {kJudgedRateHz, world.truth}}, {"recovered", found}}, WriteCaptureExtras(extras)};
 }
 
 }  // namespace etude

@@ -1,14 +1,17 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "bench/tasks/base/task.h"
 #include "bench/tasks/capture/stages.h"
+#include "engine/capture/recover_frames.h"
 
 namespace etude {
 
-/// What methods outside the program are told about a take of two cameras, and what they answer. Metres, Y up,
+/// Describes the studio to methods outside the program, which are told about takes of two cameras. Metres, Y up,
 /// right-handed; a pose is sixty numbers (EncodePose). Pixels: u right, v down, (0, 0) is the top left corner of the
 /// picture, the centre of its first pixel is (0.5, 0.5).
 ///
@@ -21,8 +24,8 @@ namespace etude {
 /// `strokes` are the thirteen limbs that the annotator marks with a line, `discs` the five ends marked with a point.
 Payload DescribeStudio();
 
-/// Problem: who is filmed, and per camera its calibration points (a place in the world and the pixel clicked on for
-/// it), the empty stage, and a picture per frame; pictures are files that lie beside.
+/// Makes the problem of a take: who is filmed, and per camera its calibration points (a place in the world and the
+/// pixel clicked on for it), the empty stage, and a picture per frame; pictures are files that lie beside.
 ///
 ///     {"frames": 150, "limb_lengths_m": {"foot": 0.18, "shank": 0.42, …},
 ///      "cameras": [{"calibration": [{"world_m": [x, y, z], "pixel": [u, v]}, …],
@@ -42,17 +45,17 @@ Payload DescribeStudio();
 Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey& key, CaptureStages& stages);
 constexpr std::size_t kMostPictures = 1200;
 
-/// Truth: the poses, themselves a perfect answer; beside it `truth.bvh`, `truth.trc` and `truth.csv` (the same for
-/// other programs), `camera-1.yaml`… (OpenCV's calibration file), `calibration.toml` (all of them as Pose2Sim's), and
-/// per frame `camera-1-0000.exr`: `label`, `Z` (depth along the viewing axis, metres), `N.X`, `N.Y`, `N.Z` (normals in
-/// the world), and `R`, `G`, `B`, linear light as a camera would see it that has this one's lens and clock, and no
-/// other faults. Further `Z_measured.v1` and `.v2`: what the first and the second Kinect's depth camera would measure
-/// in its place (sim/depth_camera); infinity where nothing.
+/// Makes the truth of a take: the poses, themselves a perfect answer; beside it `truth.bvh`, `truth.trc` and
+/// `truth.csv` (the same for other programs), `camera-1.yaml`… (OpenCV's calibration file), `calibration.toml` (all of
+/// them as Pose2Sim's), and per frame `camera-1-0000.exr`: `label`, `Z` (depth along the viewing axis, metres), `N.X`,
+/// `N.Y`, `N.Z` (normals in the world), and `R`, `G`, `B`, linear light as a camera would see it that has this one's
+/// lens and clock, and no other faults. Further `Z_measured.v1` and `.v2`: what the first and the second Kinect's depth
+/// camera would measure in its place (sim/depth_camera); infinity where nothing.
 ///
 ///     {"poses": [[sixty numbers], …], "labels": {"background": 0, "shadow": 1, "trunk": 2, …}}
 Result<Payload> MakeCaptureTruth(const StudioOptions& options, const WorldKey& key, CaptureStages& stages);
 
-/// What a method outside answers, one entry per frame, null where it has no pose:
+/// The answer of a method outside, one entry per frame, null where it has no pose:
 ///
 ///     {"poses": [[sixty numbers], null, …]}
 ///
@@ -61,5 +64,15 @@ Result<Payload> MakeCaptureTruth(const StudioOptions& options, const WorldKey& k
 /// missing.
 using CaptureAnswer = std::vector<std::optional<BodyPose>>;
 Result<CaptureAnswer> ReadCaptureAnswer(const Json& answer, std::size_t frames);
+
+/// Records a built-in method's motion with its masks, as CaptureExtras. `name` is its BVH clip's. The frames numbered
+/// `moments`, counted from 1, keep their marks and the skeleton before inverse kinematics, too; frames that there are
+/// not are ignored.
+Recording MakeRecording(const CaptureWorld& world, const Take& take, const Observation& observation,
+                        const CaptureBody& body, const std::vector<RecoveredFrame>& frames, const std::string& name,
+                        std::span<const double> moments);
+
+/// Records what an answer alone can show: nothing is cut out, and no joint of its BVH clip turns.
+Recording MakeRecording(const CaptureWorld& world, const std::vector<BodyPose>& poses);
 
 }  // namespace etude

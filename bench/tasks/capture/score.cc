@@ -5,7 +5,6 @@
 #include "bench/metrics/measurement.h"
 #include "bench/metrics/pose_error.h"
 #include "bench/statistics/curves/curves.h"
-#include "bench/tasks/capture/recording.h"
 #include "engine/base/digest.h"
 #include "engine/capture/adjust_take.h"
 #include "engine/kinematics/limb_lengths.h"

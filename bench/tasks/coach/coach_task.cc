@@ -9,7 +9,6 @@
 #include "bench/tasks/coach/exchange.h"
 #include "bench/tasks/coach/operating_point.h"
 #include "bench/tasks/coach/options.h"
-#include "bench/tasks/coach/recording.h"
 #include "bench/tasks/coach/run.h"
 #include "bench/tasks/coach/world.h"
 

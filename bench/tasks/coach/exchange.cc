@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "bench/recordings/task_extras.h"
 #include "bench/tasks/base/answer_fields.h"
 #include "bench/tasks/base/pose_json.h"
 #include "bench/tasks/detection/exchange.h"
-#include "bench/tasks/detection/score.h"
 
 namespace etude {
 namespace {
@@ -17,7 +17,7 @@ Json NameOf(const CoachStage& stage, int move) {
   return move < 0 ? Json(nullptr) : Json(stage.dance().moves[static_cast<std::size_t>(move)].name);
 }
 
-/// What is on the screen, for whoever sees no picture.
+/// Tells what is on the screen, for whoever sees no picture.
 Json DescribeShown(const CoachStage& stage, const CoachOutput& shown) {
   const int move =
       shown.repetition < 0 ? -1 : stage.dance().repetitions[static_cast<std::size_t>(shown.repetition)].move;
@@ -182,6 +182,22 @@ class SeatedLearner final : public Player {
   bool given_up_ = false;
 };
 
+std::string_view TruthName(PerformanceTruth truth) {
+  if (truth == PerformanceTruth::kGrey) return "grey";
+  return truth == PerformanceTruth::kRight ? "right" : "wrong";
+}
+
+/// Lists the stretches of frames in one mode.
+std::vector<CoachExtras::Mode> ModesOf(const SessionLog& log) {
+  std::vector<CoachExtras::Mode> modes;
+  for (int frame = 0; frame < log.Frames(); ++frame) {
+    const CoachMode mode = log.modes[static_cast<std::size_t>(frame)];
+    const bool begins = frame == 0 || log.modes[static_cast<std::size_t>(frame) - 1] != mode;
+    if (begins) modes.push_back({std::string(ModeName(mode)), frame});
+  }
+  return modes;
+}
+
 }  // namespace
 
 Payload DancePayload(const CoachStage& stage) {
@@ -214,6 +230,36 @@ std::unique_ptr<MomentSource> MakeSeatedPolicy(LiveProgram& program, const Coach
 
 std::unique_ptr<Player> MakeSeatedLearner(LiveProgram& program, const CoachStage& stage, SeatComplaint& complaint) {
   return std::make_unique<SeatedLearner>(program, stage, complaint);
+}
+
+Recording RecordCoaching(const CoachStage& stage, const SessionLog& log) {
+  CoachExtras extras;
+  extras.song = stage.dance().title;
+  extras.modes = ModesOf(log);
+  for (const LoggedPerformance& performance : log.performances) {
+    const CoachedPerformance& judged = performance.judged;
+    extras.performances.push_back({.move = stage.moves[static_cast<std::size_t>(performance.move)].name,
+                                   .truth = std::string(TruthName(judged.truth)),
+                                   .called = judged.called_right   ? "right"
+                                             : judged.called_wrong ? "wrong"
+                                                                   : "unjudged",
+                                   .begin_frame = judged.begin_frame,
+                                   .end_frame = judged.end_frame,
+                                   .faults = performance.faults});
+  }
+  for (const LoggedWords& words : log.words) {
+    extras.words.push_back({words.begin_frame, words.say, words.hint, words.picture});
+  }
+  for (const CoachRecord& record : log.records) {
+    extras.decisions.push_back({record.frame, std::string(EventName(record.event)), record.why});
+  }
+  for (const GivenCorrection& correction : log.corrections) extras.corrections.push_back(correction.decided_frame);
+  for (const LoggedTransition& transition : log.transitions) {
+    extras.transitions.insert(extras.transitions.end(), transition.seams.begin(), transition.seams.end());
+  }
+  extras.beats_s = log.beats_s;
+  for (const SensedFrame& frame : log.sensed.frames) extras.joint_states.push_back(StateLetters(frame));
+  return {{{"coach", log.coach}, {"truth", log.learner}, {"sensed", MotionOf(log.sensed)}}, WriteCoachExtras(extras)};
 }
 
 }  // namespace etude

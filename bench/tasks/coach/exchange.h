@@ -11,18 +11,18 @@
 
 namespace etude {
 
-/// What programs in a seat of the loop are told, and what they answer, step by step; a step is a frame at 30 Hz. A pose
-/// is sixty numbers (EncodePose).
+/// Describes the dance to programs in a seat of the loop, which are told and answer step by step; a step is a frame at
+/// 30 Hz. A pose is sixty numbers (EncodePose).
 ///
 /// Setting, whatever the seat: the moves of the dance as recognisers are taught them (detection's setting), and
 ///
 ///     "dance": {"title": "groove", "tempo_bpm": 112, "rate_hz": 30, "repetitions": [{"move": "clap"}, …]}
 Payload DancePayload(const CoachStage& stage);
 
-/// The beginning of a session: {"seat": "recogniser"}.
+/// Makes the beginning of a session: {"seat": "recogniser"}.
 Payload SessionBeginPayload(Seat seat);
 
-/// What was wrong with a program's answers: the first complaint, if any.
+/// Keeps the first complaint about a program's answers.
 class SeatComplaint {
  public:
   void Note(const Result<void>& read) {
@@ -34,8 +34,8 @@ class SeatComplaint {
   std::optional<Error> error_;
 };
 
-/// A recogniser. Step: what the sensor reports, and, where a window opens or closes, what is asked for from this frame
-/// on:
+/// Makes a recogniser that a program plays. Step: what the sensor reports, and, where a window opens or closes, what is
+/// asked for from this frame on:
 ///
 ///     {"pose": [x, y, z, …], "states": "tttiii…", "body_seen": true, "ask": {"move": "clap"}}     or "move": null
 ///
@@ -48,7 +48,8 @@ class SeatComplaint {
 std::unique_ptr<Recogniser> MakeSeatedRecogniser(LiveProgram& program, const CoachStage& stage,
                                                  SeatComplaint& complaint);
 
-/// A policy. Step: what the coach showed in the frame before, and what it made of the windows that closed in it:
+/// Makes a policy that a program plays. Step: what the coach showed in the frame before, and what it made of the
+/// windows that closed in it:
 ///
 ///     {"mode": "dance", "move": "clap", "repetition": 3,
 ///      "verdicts": [{"move": "clap", "repetition": 2, "verdict": "wrong", "mistake": "not reached", "evidence": 0.3}]}
@@ -56,7 +57,7 @@ std::unique_ptr<Recogniser> MakeSeatedRecogniser(LiveProgram& program, const Coa
 /// Answer: {"correct": true} interrupts the dance now, or as soon as there is one.
 std::unique_ptr<MomentSource> MakeSeatedPolicy(LiveProgram& program, const CoachStage& stage, SeatComplaint& complaint);
 
-/// A learner. Step: what is on the screen and what was decided in this frame:
+/// Makes a learner that a program plays. Step: what is on the screen and what was decided in this frame:
 ///
 ///     {"pose": [x, y, z, …], "mode": "dance", "clip": "dance", "clip_frame": 120, "move": "clap", "repetition": 3,
 ///      "say": "Watch!", "hint": "both arms up", "events": ["wrong", "corrects"]}
@@ -69,5 +70,9 @@ std::unique_ptr<MomentSource> MakeSeatedPolicy(LiveProgram& program, const Coach
 /// After the session, for every move: {"test": {"move": "clap", "after": 20}}, so many performances' time later,
 /// answered by {"right": true}.
 std::unique_ptr<Player> MakeSeatedLearner(LiveProgram& program, const CoachStage& stage, SeatComplaint& complaint);
+
+/// Records what a film of a session shows: tracks "coach", "truth" (the learner as danced) and "sensed", and
+/// CoachExtras.
+Recording RecordCoaching(const CoachStage& stage, const SessionLog& log);
 
 }  // namespace etude

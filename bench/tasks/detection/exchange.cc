@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "bench/recordings/task_extras.h"
 #include "bench/tasks/base/answer_fields.h"
 #include "bench/tasks/base/pose_json.h"
-#include "bench/tasks/detection/score.h"
 #include "engine/base/named.h"
 #include "engine/formats/bvh.h"
 #include "engine/formats/trc.h"
@@ -139,6 +139,48 @@ Result<SessionVerdict> ReadSessionAnswer(const Json& answer, const DetectionWorl
 
   RETURN_IF_ERROR(fields.Finish());
   return verdict;
+}
+
+std::string StateLetters(const SensedFrame& frame) {
+  std::string letters;
+  for (const SensedJoint& joint : frame.joints) {
+    const bool tracked = joint.state == TrackingState::kTracked, inferred = joint.state == TrackingState::kInferred;
+    letters += tracked ? 't' : inferred ? 'i' : 'n';
+  }
+  return letters;
+}
+
+Recording RecordSession(const DetectionWorld& world, const SessionVerdict& verdict, const Repertoire& repertoire) {
+  DetectionExtras extras;
+  extras.threshold = verdict.threshold;
+  for (const TaughtMove& move : repertoire.taught) {
+    DetectionExtras::Move& told = extras.moves.emplace_back();
+    told.name = move.name;
+    for (const TaughtPose& pose : move.poses) {
+      auto& targets = told.key_poses.emplace_back();
+      for (const PoseTarget& target : pose.targets) {
+        targets.push_back({std::string(FeatureName(target.feature)), target.degrees, target.tolerance_deg});
+      }
+    }
+  }
+  for (std::size_t i = 0; i < verdict.events.size(); ++i) {
+    const DetectionEvent& event = world.events[i];
+    const Judgement& judgement = verdict.events[i];
+    const FrameInterval& window = event.window;
+    DetectionExtras::Event& told = extras.events.emplace_back();
+    told = {.move = event.move,
+            .truth = std::string(TruthName(event.truth)),
+            .fault = event.FaultText(),
+            .danced = event.danced,
+            .begin_frame = window.begin,
+            .end_frame = window.end,
+            .called_right = judgement.recognised_at.has_value(),
+            .score = judgement.score};
+    if (judgement.recognised_at) told.called_frame = window.begin + *judgement.recognised_at;
+  }
+  for (const Detection& alarm : verdict.alarms) extras.alarms.push_back({repertoire.taught[alarm.move].name, alarm.frame});
+  for (const SensedFrame& frame : world.stream.frames) extras.joint_states.push_back(StateLetters(frame));
+  return {{{"truth", world.motion}, {"sensed", MotionOf(verdict.filtered)}}, WriteDetectionExtras(extras)};
 }
 
 }  // namespace etude

@@ -1,7 +1,6 @@
 #include "bench/tasks/detection/score.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "bench/metrics/detection.h"
 #include "engine/base/digest.h"
@@ -164,15 +163,6 @@ StageDigests VerdictDigests(const SessionVerdict& verdict, const Repertoire& rep
   return {{"filtered", StreamDigest(verdict.filtered)}, {"events", EventsDigest(verdict, repertoire)}};
 }
 
-std::string StateLetters(const SensedFrame& frame) {
-  std::string letters;
-  for (const SensedJoint& joint : frame.joints) {
-    const bool tracked = joint.state == TrackingState::kTracked, inferred = joint.state == TrackingState::kInferred;
-    letters += tracked ? 't' : inferred ? 'i' : 'n';
-  }
-  return letters;
-}
-
 Series ScoreSeries(const DetectionWorld& world, const SessionVerdict& verdict) {
   Series series{.name = "score", .axis = "frame", .values = std::vector<double>(world.stream.frames.size(), 0.0)};
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
@@ -226,55 +216,6 @@ std::vector<Series> PerformanceSeries(const DetectionWorld& world, const Session
           {"performance_named", "performance", std::move(named), repertoire.names},
           {"right_wait_s", "right performance", std::move(waited)},
           {"right_answered", "right performance", std::move(answered)}};
-}
-
-namespace {
-
-nlohmann::ordered_json KeyPosesOf(const TaughtMove& move) {
-  nlohmann::ordered_json poses = nlohmann::ordered_json::array();
-  for (const TaughtPose& pose : move.poses) {
-    nlohmann::ordered_json& told = poses.emplace_back(nlohmann::ordered_json::array());
-    for (const PoseTarget& target : pose.targets) {
-      told.push_back({{"feature", FeatureName(target.feature)},
-                      {"degrees", target.degrees},
-                      {"tolerance_deg", target.tolerance_deg}});
-    }
-  }
-  return poses;
-}
-
-}  // namespace
-
-Recording RecordSession(const DetectionWorld& world, const SessionVerdict& verdict, const Repertoire& repertoire) {
-  nlohmann::ordered_json extras = {{"format", "etude-detection"}, {"version", 1}};
-  if (verdict.threshold) extras["threshold"] = *verdict.threshold;
-  extras["moves"] = nlohmann::ordered_json::array();
-  for (const TaughtMove& move : repertoire.taught) {
-    extras["moves"].push_back({{"name", move.name}, {"key_poses", KeyPosesOf(move)}});
-  }
-  extras["events"] = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < verdict.events.size(); ++i) {
-    const DetectionEvent& event = world.events[i];
-    const Judgement& judgement = verdict.events[i];
-    const FrameInterval& window = event.window;
-    nlohmann::ordered_json told = {{"move", event.move},
-                                   {"truth", TruthName(event.truth)},
-                                   {"fault", event.FaultText()},
-                                   {"danced", event.danced},
-                                   {"begin_frame", window.begin},
-                                   {"end_frame", window.end},
-                                   {"called_right", judgement.recognised_at.has_value()},
-                                   {"score", judgement.score}};
-    if (judgement.recognised_at) told["called_frame"] = window.begin + *judgement.recognised_at;
-    extras["events"].push_back(std::move(told));
-  }
-  extras["alarms"] = nlohmann::ordered_json::array();
-  for (const Detection& alarm : verdict.alarms) {
-    extras["alarms"].push_back({{"move", repertoire.taught[alarm.move].name}, {"frame", alarm.frame}});
-  }
-  extras["joint_states"] = nlohmann::ordered_json::array();
-  for (const SensedFrame& frame : world.stream.frames) extras["joint_states"].push_back(StateLetters(frame));
-  return {{{"truth", world.motion}, {"sensed", MotionOf(verdict.filtered)}}, extras.dump()};
 }
 
 }  // namespace etude

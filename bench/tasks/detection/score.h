@@ -35,9 +35,6 @@ StageDigests WorldDigests(const DetectionWorld& world);
 /// Fingerprints of the filtered stream and of the verdicts.
 StageDigests VerdictDigests(const SessionVerdict& verdict, const Repertoire& repertoire);
 
-/// One letter per joint: tracked, inferred, not tracked.
-std::string StateLetters(const SensedFrame& frame);
-
 /// Per frame, how well the move asked for was seen to be performed so far in its window; 0 between windows.
 Series ScoreSeries(const DetectionWorld& world, const SessionVerdict& verdict);
 
@@ -47,19 +44,5 @@ Series ScoreSeries(const DetectionWorld& world, const SessionVerdict& verdict);
 /// how long they waited to be called right, and `right_answered`, 1 when they were.
 std::vector<Series> PerformanceSeries(const DetectionWorld& world, const SessionVerdict& verdict,
                                       const Repertoire& repertoire);
-
-/// The session: tracks "truth" and "sensed" (as the recogniser saw it), and in `extras_json`
-///
-///     {"format": "etude-detection", "version": 1,
-///      "threshold": 0.4,                                  of judging; absent: an answer from outside
-///      "moves": [{"name": "clap", "key_poses": [[{"feature": "RH", "degrees": 90, "tolerance_deg": 20}, …], …]}, …],
-///      "events": [{"move": "clap", "truth": "right", "fault": "none", "danced": "clap", "begin_frame": 30,
-///      "end_frame": 120,
-///                  "called_right": true, "called_frame": 88, "score": 0.83}, …],
-///      "alarms": [{"move": "sway", "frame": 215}, …],
-///      "joint_states": ["tttttttttttttttiiiii", …]}   one letter per joint and frame: tracked, inferred, not tracked
-///
-/// `called_frame` is absent when the move was not recognised.
-Recording RecordSession(const DetectionWorld& world, const SessionVerdict& verdict, const Repertoire& repertoire);
 
 }  // namespace etude

@@ -1,12 +1,27 @@
 #include "bench/tasks/ik/exchange.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "bench/recordings/task_extras.h"
 #include "bench/tasks/base/answer_fields.h"
 #include "bench/tasks/base/tree_json.h"
+#include "engine/base/angles.h"
+#include "engine/kinematics/tree_to_body.h"
 
 namespace etude {
 namespace {
+
+constexpr std::size_t kMostFrames = 150;
+constexpr int kEveryUpTo = 60;
+
+/// Lists every iteration up to kEveryUpTo, then each 1/`share` later than the one before, and the last.
+std::vector<int> Growing(int last, int share) {
+  std::vector<int> iterations;
+  for (int i = 0; i < last; i += i < kEveryUpTo ? 1 : std::max(1, i / share)) iterations.push_back(i);
+  iterations.push_back(last);
+  return iterations;
+}
 
 std::optional<int> ReadCount(AnswerFields& fields, const char* key) {
   constexpr int kMost = 1'000'000'000;
@@ -43,6 +58,46 @@ Result<IkAnswer> ReadIkAnswer(const Json& json, const KinematicTree& tree) {
   ASSIGN_OR_RETURN(auto angles, ReadDegrees(degrees, "angles_deg", tree.limits.size()));
   answer.angles = std::move(angles);
   return answer;
+}
+
+std::vector<int> RecordedIterations(int last) {
+  for (int share = 2 * kEveryUpTo;; share /= 2) {
+    std::vector<int> iterations = Growing(last, share);
+    if (iterations.size() <= kMostFrames || share == 1) return iterations;  // at 1 they double: never too many
+  }
+}
+
+std::vector<IkRecordedStep> StepsOf(std::span<const IkTraceEntry> trace) {
+  std::vector<IkRecordedStep> steps;
+  for (const int iteration : RecordedIterations(static_cast<int>(trace.size()) - 1)) {
+    const IkTraceEntry& entry = trace[static_cast<std::size_t>(iteration)];
+    steps.push_back({iteration, entry.angles, 100 * entry.worst_position, Degrees(entry.worst_mean_axis),
+                     Degrees(entry.worst_axis)});
+  }
+  return steps;
+}
+
+Recording RecordIk(const KinematicTree& tree, const IkWorld& world, std::span<const IkRecordedStep> steps) {
+  Track truth{"truth", {}}, start{"start", {}}, solution{"solution", {}};
+  TreeState state = world.problem.start;
+  const BodyPose true_pose = ToBodyPose(tree, world.truth), start_pose = ToBodyPose(tree, state);
+  IkExtras extras;
+  for (const IkRecordedStep& step : steps) {
+    state.angles = step.angles;
+    truth.motion.poses.push_back(true_pose);
+    start.motion.poses.push_back(start_pose);
+    solution.motion.poses.push_back(ToBodyPose(tree, state));
+    extras.iterations.push_back(step.iteration);
+    extras.position_error_max_cm.push_back(step.position_error_max_cm);
+    extras.orientation_error_max_deg.push_back(step.orientation_error_max_deg);
+    extras.axis_error_max_deg.push_back(step.axis_error_max_deg);
+  }
+  // Noise may have moved them away from the true pose.
+  for (const EffectorTarget& target : world.problem.targets) {
+    auto& place = extras.targets_m.emplace_back();
+    if (target.position_weight > 0) place = target.position;
+  }
+  return {{std::move(truth), std::move(start), std::move(solution)}, WriteIkExtras(extras)};
 }
 
 }  // namespace etude

@@ -1,15 +1,15 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
-#include "bench/files/json.h"
+#include "bench/tasks/base/task.h"
 #include "bench/tasks/ik/world.h"
 
 namespace etude {
 
-/// What methods outside the program are told about inverse kinematics, and what they answer, in the words of
-/// tree_json.h.
+/// Describes inverse kinematics to methods outside the program, in the words of tree_json.h.
 ///
 /// Setting: the body's tree, and what built-in solvers stop at:
 ///
@@ -20,7 +20,7 @@ namespace etude {
 /// `asked` is what effectors are to meet of their targets, one of them or both; the answer is judged by that alone.
 Payload DescribeIkSetting(const KinematicTree& tree, const IkOptions& options, const IkTrialOptions& trial);
 
-/// Problem: where the root is, where to begin, and where each effector shall be, in the setting's order:
+/// Makes a problem: where the root is, where to begin, and where each effector shall be, in the setting's order:
 ///
 ///     {"root": {"position_m": [0, 0, 0], "rotation": [[…], […], […]]},
 ///      "start_angles_deg": [twenty-nine numbers, all within their limits],
@@ -31,13 +31,13 @@ Payload DescribeIkSetting(const KinematicTree& tree, const IkOptions& options, c
 /// below `orientation_goal_deg`.
 Payload DescribeProblem(const KinematicTree& tree, const IkProblem& problem);
 
-/// Truth: the angles that the targets were made with; itself a perfect answer, unless the scenario disturbs the targets
-/// or pulls them out of reach.
+/// Makes the truth: the angles that the targets were made with; itself a perfect answer, unless the scenario disturbs
+/// the targets or pulls them out of reach.
 ///
 ///     {"angles_deg": [twenty-nine numbers]}
 Payload DescribeTruth(const IkWorld& world);
 
-/// What a method outside answers:
+/// The answer of a method outside:
 ///
 ///     {"angles_deg": [twenty-nine numbers], "iterations": 12, "fk_evaluations": 13}
 ///
@@ -50,7 +50,26 @@ struct IkAnswer {
   std::optional<int> fk_evaluations;
 };
 
-/// Refuses what is not as told above, and angles of more than a million degrees.
+/// Reads an answer. Refuses what is not as told above, and angles of more than a million degrees.
 Result<IkAnswer> ReadIkAnswer(const Json& answer, const KinematicTree& tree);
+
+/// The state after one iteration, as a film shows it.
+struct IkRecordedStep {
+  int iteration = 0;
+  std::vector<double> angles;
+  double position_error_max_cm = 0;
+  double orientation_error_max_deg = 0;
+  double axis_error_max_deg = 0;  ///< of the worst single axis, which "solved" is judged by
+};
+
+/// Chooses which of the iterations 0…`last` a recording shows: every one up to 60, then growing steps up to the last;
+/// at most 150.
+std::vector<int> RecordedIterations(int last);
+
+/// Picks the steps of a trace at the recorded iterations.
+std::vector<IkRecordedStep> StepsOf(std::span<const IkTraceEntry> trace);
+
+/// Records tracks "truth", "start" and, step by step, "solution", and IkExtras.
+Recording RecordIk(const KinematicTree& tree, const IkWorld& world, std::span<const IkRecordedStep> steps);
 
 }  // namespace etude

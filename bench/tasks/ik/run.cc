@@ -4,9 +4,8 @@
 #include <array>
 #include <iterator>
 
-#include "bench/metrics/ik_cost.h"
 #include "bench/tasks/base/tree_json.h"
-#include "bench/tasks/ik/recording.h"
+#include "bench/tasks/ik/exchange.h"
 #include "bench/tasks/ik/series.h"
 #include "engine/base/digest.h"
 #include "engine/kinematics/solvers/ik_run.h"

@@ -21,7 +21,7 @@ Series Curve(std::string name, std::span<const IkTraceEntry> trace, const ValueO
   return curve;
 }
 
-/// `prefix` + "position_error_x_cm", …: six series.
+/// Appends six series, named `prefix` + "position_error_x_cm", ….
 void AppendErrors(const KinematicTree& tree, const IkProblem& problem, std::span<const double> angles,
                   std::string_view prefix, std::vector<Series>& series) {
   TreeState state = problem.start;

@@ -5,7 +5,7 @@
 
 namespace etude {
 
-/// What methods outside the program are told about pairs of poses, and what they answer. A pose is sixty numbers
+/// Describes the body to methods outside the program, which are told about pairs of poses. A pose is sixty numbers
 /// (EncodePose).
 ///
 /// Setting: the body.
@@ -13,18 +13,18 @@ namespace etude {
 ///     {"joints": ["hip_centre", …], "parents": [null, "hip_centre", …]}
 Payload BodyPayload();
 
-/// Problem: poses, two by two.
+/// Makes the problem: poses, two by two.
 ///
 ///     {"pairs": [{"a": [x, y, z, …], "b": [x, y, z, …]}, …]}
 Payload PairsPayload(const PairWorld& world);
 
-/// Truth: how far the worst joint is off once heading and hips agree.
+/// Makes the truth: how far the worst joint is off once heading and hips agree.
 ///
 ///     {"name": "arm forward or sideways", "pose_gap_cm": [103.2, …]}
 Payload GapsPayload(const PairWorld& world);
 
-/// Answer: how unlike the two poses of each pair are, larger = more unlike, on any scale from 0 up; and whether a
-/// transition from the one to the other would go unnoticed.
+/// Reads an answer: how unlike the two poses of each pair are, larger = more unlike, on any scale from 0 up; and
+/// whether a transition from the one to the other would go unnoticed.
 ///
 ///     {"distances": [0.31, …], "alike": [true, …]}
 ///

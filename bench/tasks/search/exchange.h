@@ -5,7 +5,7 @@
 
 namespace etude {
 
-/// What methods outside the program are told about a library to search, and what they answer.
+/// Describes a library to search to methods outside the program.
 ///
 /// Setting; the library lies beside it as `library.f64`: `frames` times 24 numbers, frame by frame in time order, the
 /// grades of paper A's terms in the order of `terms`, each a little-endian IEEE 754 number of 64 bits:
@@ -16,7 +16,7 @@ namespace etude {
 /// The distance of two frames is √(Σ weight · (difference of the grades)²) over the terms (paper A, equation 1).
 Payload LibraryPayload(const SearchProblem& problem, SearchQuestion question);
 
-/// Problem: the frames asked about, as their grades.
+/// Makes the problem: the frames asked about, as their grades.
 ///
 ///     {"queries": [[twenty-four numbers], …]}
 ///
@@ -25,13 +25,13 @@ Payload LibraryPayload(const SearchProblem& problem, SearchQuestion question);
 /// `nearest-10` the one, or ten, of smallest distance, by distance, those of equal distance by number.
 Payload DescribeQueries(std::span<const Grades> queries);
 
-/// Truth, and itself a perfect answer; also what a method outside answers:
+/// Makes the truth, itself a perfect answer; a method outside answers the same:
 ///
 ///     {"found": [[4711], …]}
 Payload DescribeFound(const std::vector<FoundFrames>& found);
 
-/// Refuses what is not as told above: another number of lists, and frames that the library does not have or that stand
-/// twice in a list.
+/// Reads an answer. Refuses what is not as told above: another number of lists, and frames that the library does not
+/// have or that stand twice in a list.
 Result<SearchAnswer> ReadSearchAnswer(const Json& answer, const SearchProblem& problem, std::size_t queries,
                                       SearchQuestion question);
 

@@ -7,15 +7,14 @@
 
 namespace etude {
 
-/// What methods outside the program are told about a motion to follow, and what they answer, in the words of
-/// tree_json.h.
+/// Describes what following a motion demands to methods outside the program, in the words of tree_json.h.
 ///
 /// Setting, what built-in solvers stop at in each frame, and how far frames are apart:
 ///
 ///     {"rate_hz": 30, "max_steps": 20, "position_goal_cm": 0.1, "orientation_goal_deg": 0.1}
 Payload DescribeTrackingSetting(const TrackingOptions& options, const IkOptions& common);
 
-/// Problem: the body, where to begin, and per frame its root and targets:
+/// Makes the problem: the body, where to begin, and per frame its root and targets:
 ///
 ///     {"joints": […], "angles": […], "effectors": […], "start_angles_deg": [twenty-nine numbers],
 ///      "frames": [{"root": {"position_m": […], "rotation": […]}, "targets": [{"effector": "right_foot", …}, …]}, …]}
@@ -24,13 +23,13 @@ Payload DescribeTrackingSetting(const TrackingOptions& options, const IkOptions&
 /// its author's honesty.
 Payload DescribeMotion(const TrackingWorld& world);
 
-/// Truth: the angles of the motion, per frame; itself a perfect answer unless targets are disturbed. Beside it lies
-/// `truth.bvh`, the same for other programs.
+/// Makes the truth: the angles of the motion, per frame; itself a perfect answer unless targets are disturbed. Beside
+/// it lies `truth.bvh`, the same for other programs.
 ///
 ///     {"angles_deg": [[twenty-nine numbers], …]}
 Payload DescribeTrueAngles(const TrackingWorld& world);
 
-/// What a method outside answers, one entry per frame:
+/// Reads the answer of a method outside, one entry per frame:
 ///
 ///     {"angles_deg": [[twenty-nine numbers], …], "iterations": [4, 2, …]}
 ///

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/metrics/transition_smoothness.h"
+#include "bench/recordings/task_extras.h"
 #include "bench/tasks/base/answer_fields.h"
 #include "bench/tasks/base/pose_json.h"
 #include "engine/formats/bvh.h"
@@ -31,7 +32,7 @@ Result<void> CheckLimbs(const BodyPose& pose, const BodyProportions& character, 
   return {};
 }
 
-/// A pose that the character can take; complaints go to `fields`.
+/// Reads a pose that the character can take; complaints go to `fields`.
 BodyPose ReadOwnPose(const Json& json, const std::string& path, const BodyProportions& character,
                      AnswerFields& fields) {
   const auto pose = ReadPose(json, path);
@@ -40,7 +41,8 @@ BodyPose ReadOwnPose(const Json& json, const std::string& path, const BodyPropor
   return pose.value_or(BodyPose{});
 }
 
-/// Frames of the method's own making. Frame 0 of the segment is its version of the frame left, which is not shown.
+/// Reads frames of the method's own making. Frame 0 of the segment is its version of the frame left, which is not
+/// shown.
 std::optional<Segment> ReadBetween(AnswerFields& fields, const BodyProportions& character) {
   const Json& entries = fields.List("between", 0, kMostBetween);
   Segment segment{.first = 0, .last = static_cast<int>(entries.size()), .own = {BodyPose{}}, .in_place = true};
@@ -58,7 +60,7 @@ std::optional<Segment> ReadBetween(AnswerFields& fields, const BodyProportions& 
   return segment;
 }
 
-/// The clips played on the way.
+/// Reads the clips played on the way.
 void ReadThrough(AnswerFields& fields, const Stage& stage, std::vector<Segment>& segments) {
   const Json& entries = fields.List("through", 0, kMostThrough);
   for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -91,6 +93,10 @@ TransitionAnswer ReadTransition(AnswerFields& fields, const Stage& stage, const 
   }
   answer.matched = fields.Boolean("matched", false);
   return answer;
+}
+
+std::string NameOf(const Segment& segment, const Stage& stage) {
+  return segment.clip == Segment::kOwnFrames ? "in-between" : stage.library.names[segment.clip];
 }
 
 }  // namespace
@@ -130,6 +136,81 @@ Result<TransitionAnswer> ReadTransitionAnswer(const Json& answer, const Stage& s
   }
   RETURN_IF_ERROR(fields.Finish());
   return read;
+}
+
+Series JumpSeries(const TransitionOutcome& outcome) {
+  const FrameWindow window = AroundPoints(outcome.splice, 1);
+  const std::vector<double> all = SecondDifferencesCm(outcome.splice.motion);
+  return {"second_difference_cm", "frame", {all.begin() + window.first, all.begin() + window.last + 1}};
+}
+
+std::vector<Series> ExplanationOf(const TransitionRecord& record) {
+  const auto append = [](std::vector<double>& all, const PerFeature& ten) {
+    all.insert(all.end(), ten.begin(), ten.end());
+  };
+  Series points{"point_partials", "feature", {}}, partials{"candidate_partials", "feature", {}};
+  for (const FuzzyDistance& distance : record.distances) append(points.values, distance.partials);
+  for (const Candidate& candidate : record.candidates) append(partials.values, candidate.distance.partials);
+  const auto each = [&](const char* name, auto&& value) {
+    Series series{name, "candidate", {}};
+    for (const Candidate& candidate : record.candidates) series.values.push_back(static_cast<double>(value(candidate)));
+    return series;
+  };
+  return {std::move(points),
+          each("candidate_point", [](const Candidate& c) { return c.point; }),
+          each("candidate_from_frame", [](const Candidate& c) { return c.from_frame; }),
+          each("candidate_to_frame", [](const Candidate& c) { return c.to_frame; }),
+          each("candidate_distance", [](const Candidate& c) { return c.distance.value; }),
+          each("candidate_outcome", [](const Candidate& c) { return static_cast<int>(c.outcome); }),
+          std::move(partials)};
+}
+
+Recording RecordTransition(const TransitionOutcome& outcome, const Stage& stage) {
+  constexpr double kSeconds = 2.5;
+  const FrameWindow window = AroundPoints(outcome.splice, kSeconds);
+  const std::vector<BodyPose>& all = outcome.splice.motion.poses;
+  Track coach{"coach", {outcome.splice.motion.rate_hz, {all.begin() + window.first, all.begin() + window.last + 1}}};
+
+  const TransitionRecord& record = outcome.record;
+  const FuzzyDistance& worst = WorstDistance(record);
+  TransitionExtras extras;
+  for (const PlacedPoint& point : outcome.splice.points) {
+    extras.transition_frames.push_back(point.frame - window.first);
+  }
+  extras.transition_frame = extras.transition_frames.front();
+  extras.from = NameOf(record.segments.front(), stage);
+  extras.to = NameOf(record.segments.back(), stage);
+  extras.branch = BranchName(record.branch);
+  extras.why = record.why;
+  extras.request_frame = record.request_frame - window.first;
+  extras.wait_s = record.wait_s;
+  extras.threshold = outcome.rules.threshold;
+  extras.natural_limit_cm = NaturalLimitCm(NaturalJumpsOf(stage, outcome.request.from, outcome.request.to));
+  extras.distance = worst.value;
+  extras.weights = outcome.rules.weights;
+  extras.partials = worst.partials;
+  extras.pairs_seen = record.pairs_seen;
+  extras.pairs_matched = record.pairs_matched;
+  for (std::size_t i = 0; i < record.distances.size(); ++i) {
+    const Segment &old = record.segments[i], &next = record.segments[i + 1];
+    extras.points.push_back({.from = NameOf(old, stage),
+                             .to = NameOf(next, stage),
+                             .from_frame = old.last,
+                             .to_frame = next.first,
+                             .distance = record.distances[i].value,
+                             .partials = record.distances[i].partials});
+  }
+  extras.cost_unit = record.cost_unit;
+  for (const Candidate& candidate : record.candidates) {
+    extras.candidates.push_back({.point = candidate.point,
+                                 .from_frame = candidate.from_frame,
+                                 .to_frame = candidate.to_frame,
+                                 .distance = candidate.distance.value,
+                                 .partials = candidate.distance.partials,
+                                 .cost = candidate.cost,
+                                 .outcome = std::string(OutcomeName(candidate.outcome))});
+  }
+  return {{std::move(coach)}, WriteTransitionExtras(extras)};
 }
 
 }  // namespace etude

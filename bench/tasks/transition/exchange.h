@@ -5,14 +5,15 @@
 #include <vector>
 
 #include "bench/tasks/base/task.h"
+#include "bench/tasks/transition/outcome.h"
 #include "bench/tasks/transition/stage.h"
 #include "bench/tasks/transition/world.h"
 #include "engine/transitions/joins/splice.h"
 
 namespace etude {
 
-/// What methods outside the program are told about transitions, and what they answer. Clips are named by their
-/// index in the setting, frames by theirs in the clip; a pose is sixty numbers (EncodePose).
+/// Describes the stage to methods outside the program, which are asked for transitions. Clips are named by their index
+/// in the setting, frames by theirs in the clip; a pose is sixty numbers (EncodePose).
 ///
 /// Setting, the clips as built-in methods see them, performed by one body:
 ///
@@ -22,7 +23,7 @@ namespace etude {
 /// The files hold the same poses, for other tools.
 Payload StagePayload(const Stage& stage);
 
-/// Problem: clip `from` shows its frame `request_frame` when clip `to` is asked for.
+/// Makes the problem: clip `from` shows its frame `request_frame` when clip `to` is asked for.
 ///
 ///     {"from": 0, "to": 3, "request_frame": 41, "max_wait_s": 1}
 ///
@@ -30,12 +31,12 @@ Payload StagePayload(const Stage& stage);
 /// allowed and costs `wait_s`, as that of the built-in `wait-for-end` does.
 Payload RequestPayload(const TransitionRequest& request, double max_wait_s);
 
-/// Truth: the largest jump that still counts in `natural_share`.
+/// Makes the truth: the largest jump that still counts in `natural_share`.
 ///
 ///     {"natural_limit_cm": 3.1}
 Payload NaturePayload(const Stage& stage, const TransitionRequest& request);
 
-/// How a method outside gets from one clip into the other:
+/// The answer of a method outside, how it gets from one clip into the other:
 ///
 ///     {"leave_frame": 52, "enter_frame": 10}
 ///
@@ -64,7 +65,20 @@ struct TransitionAnswer {
   bool matched = false;
 };
 
-/// Refuses what is not as told above, naming where in the answer.
+/// Reads an answer. Refuses what is not as told above, naming where in it.
 Result<TransitionAnswer> ReadTransitionAnswer(const Json& answer, const Stage& stage, const TransitionRequest& request);
+
+/// Makes the curve of largest second differences from one second before the first transition point to one second after
+/// the last.
+Series JumpSeries(const TransitionOutcome& outcome);
+
+/// Explains a transition in numbers, for every cell that is asked to keep them: `point_partials`, ten for each
+/// transition point (axis "feature"), and one value for each candidate (axis "candidate"): `candidate_point`,
+/// `candidate_from_frame`, `candidate_to_frame`, `candidate_distance`, `candidate_outcome` (0 taken, 1 too far, 2
+/// later, 3 worse), and its ten `candidate_partials` (axis "feature").
+std::vector<Series> ExplanationOf(const TransitionRecord& record);
+
+/// Records the transition, which must have a way, with 2.5 s before and after it: track "coach", and TransitionExtras.
+Recording RecordTransition(const TransitionOutcome& outcome, const Stage& stage);
 
 }  // namespace etude

@@ -10,7 +10,6 @@
 #include "bench/metrics/transition_smoothness.h"
 #include "bench/tasks/transition/exchange.h"
 #include "bench/tasks/transition/outcome.h"
-#include "bench/tasks/transition/recording.h"
 #include "engine/base/digest.h"
 #include "engine/transitions/base/alignment.h"
 #include "engine/transitions/bridge_frames/transition_points.h"

@@ -3,10 +3,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
+#include "bench/files/temporary_folder.h"
+#include "bench/run/suite.h"
+
 namespace etude {
 namespace {
 
+namespace fs = std::filesystem;
 using testing::ElementsAre;
+using testing::IsEmpty;
 
 Scenario Swept(std::initializer_list<std::vector<SweptValue>> conditions) {
   Scenario scenario;
@@ -32,6 +39,78 @@ TEST(Layout, GivesConditionsOneNameEachThatCannotLeaveTheirFolder) {
 TEST(Layout, NumbersTrialsInThreeDigitsOrMore) {
   EXPECT_EQ(TrialName(7), "007");
   EXPECT_EQ(TrialName(12345), "12345");
+}
+
+constexpr char kScenario[] = R"(
+scenario: ik
+question: Which answers are there?
+task: ik
+trials: 2
+sweep: {joint_noise_deg: [2, 5]}
+methods: [{name: today, solver: damped-least-squares}]
+)";
+
+/// Four worlds, and a folder of predictions beside.
+class Predictions : public testing::Test {
+ protected:
+  Predictions() : folder_(*TemporaryFolder::Make("predictions-test")) {
+    Write("ik.yaml", kScenario);
+    RunOptions options;
+    options.scenarios = {(folder_.path() / "ik.yaml").string()};
+    const auto suite = ReadSuite(options);
+    EXPECT_TRUE(suite) << ToString(suite.error());
+    scenarios_ = *PrepareAll(*suite);
+  }
+
+  void Write(const std::string& name, const std::string& text) {
+    fs::create_directories((folder_.path() / name).parent_path());
+    std::ofstream(folder_.path() / name) << text;
+  }
+
+  /// Puts empty answers into files of `answers/` and looks for them.
+  Result<PredictionFiles> Find(const std::vector<std::string>& files) {
+    fs::create_directories(folder_.path() / "answers");
+    for (const std::string& file : files) Write("answers/" + file, "{}");
+    return FindPredictions(folder_.path() / "answers", Plan(scenarios_), faults_);
+  }
+
+  const TemporaryFolder folder_;
+  std::vector<PreparedScenario> scenarios_;
+  PredictionFaults faults_;
+};
+
+TEST_F(Predictions, AreFoundUnderTheNamesOfTheirWorlds) {
+  const auto files = Find({"ik/joint_noise_deg=2/000.json", "ik/joint_noise_deg=2/1.json",
+                           "ik/joint_noise_deg=5/001.JSON", ".DS_Store", ".git/config"});
+  ASSERT_TRUE(files) << ToString(files.error());
+  ASSERT_EQ(files->size(), 4u);
+  EXPECT_EQ((*files)[0]->filename(), "000.json");
+  EXPECT_EQ((*files)[1]->filename(), "1.json");
+  EXPECT_FALSE((*files)[2]);
+  EXPECT_EQ((*files)[3]->filename(), "001.JSON");
+  EXPECT_TRUE(faults_.empty());
+}
+
+TEST_F(Predictions, ThatAnswerNoWorldAreExtra) {
+  const auto files =
+      Find({"ik/joint_noise_deg=2/002.json", "ik/joint_noise_deg=9/000.json", "kk/joint_noise_deg=2/0.json",
+            "ik/joint_noise_deg=2/-1.json", "ik/joint_noise_deg=2/000.txt", "ik/000.json",
+            "ik/joint_noise_deg=2/0x1.json", "ik/joint_noise_deg=2/99999999999999999999.json"});
+  ASSERT_TRUE(files);
+  EXPECT_EQ(faults_.extra.size(), 8u);
+  EXPECT_THAT(faults_.duplicate, IsEmpty());
+  EXPECT_FALSE((*files)[0]);
+}
+
+TEST_F(Predictions, ThatAnswerAWorldTwiceAreDuplicates) {
+  ASSERT_TRUE(Find({"ik/joint_noise_deg=2/0.json", "ik/joint_noise_deg=2/000.json", "ik/joint_noise_deg=2/000.JSON"}));
+  EXPECT_THAT(faults_.duplicate, ElementsAre("ik/joint_noise_deg=2/000.JSON (as ik/joint_noise_deg=2/0.json)",
+                                             "ik/joint_noise_deg=2/000.json (as ik/joint_noise_deg=2/0.json)"));
+}
+
+TEST_F(Predictions, NeedAFolder) {
+  EXPECT_FALSE(FindPredictions(folder_.path() / "nowhere", Plan(scenarios_), faults_));
+  EXPECT_FALSE(FindPredictions(folder_.path() / "ik.yaml", Plan(scenarios_), faults_));
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "bench/outside/specimens.h"
 #include "bench/tasks/registry.h"
 
 namespace etude {

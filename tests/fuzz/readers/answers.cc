@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
+#include "bench/outside/conformance.h"
 #include "bench/outside/messages.h"
-#include "bench/outside/specimens.h"
 #include "tests/fuzz/readers/target.h"
 
 namespace etude::fuzz {

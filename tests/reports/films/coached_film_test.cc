@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "bench/model/recording.h"
 #include "reports/films/coached_scene.h"
@@ -67,20 +66,17 @@ Recording SessionRecording() {
   const BodyMotion dance = LoadBuiltinMove("clap")->motion;
   BodyMotion motion{.rate_hz = kJudgedRateHz, .poses = {}};
   for (std::size_t frame = 0; frame < 300; ++frame) motion.poses.push_back(dance.poses[frame % dance.poses.size()]);
-  const nlohmann::json extras = {
-      {"song", "groove"},
-      {"modes",
-       {{{"mode", "dance"}, {"begin_frame", 0}},
-        {{"mode", "correct"}, {"begin_frame", 152}},
-        {{"mode", "dance"}, {"begin_frame", 250}}}},
-      {"performances",
-       {{{"move", "clap"}, {"truth", "wrong"}, {"called", "right"}, {"begin_frame", 60}, {"end_frame", 150}}}},
-      {"words", {{{"begin_frame", 0}, {"say", ""}, {"hint", "both arms up"}}}},
-      {"decisions", {{{"frame", 150}, {"event", "wrong"}, {"why", "not reached"}}}},
-      {"corrections", {150}},
-      {"transitions", {152, 250}},
-      {"beats_s", {0.5, 1.0, 4.5, 9.9}}};
-  return {{{"coach", motion}, {"truth", motion}, {"sensed", motion}}, extras.dump()};
+  CoachExtras extras;
+  extras.song = "groove";
+  extras.modes = {{"dance", 0}, {"correct", 152}, {"dance", 250}};
+  extras.performances = {
+      {.move = "clap", .truth = "wrong", .called = "right", .begin_frame = 60, .end_frame = 150, .faults = "skipped"}};
+  extras.words = {{.begin_frame = 0, .say = "", .hint = "both arms up", .picture = {}}};
+  extras.decisions = {{150, "wrong", "not reached"}};
+  extras.corrections = {150};
+  extras.transitions = {152, 250};
+  extras.beats_s = {0.5, 1.0, 4.5, 9.9};
+  return {{{"coach", motion}, {"truth", motion}, {"sensed", motion}}, WriteCoachExtras(extras)};
 }
 
 /// A recorded cell that stays where it is.

@@ -1,9 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include "bench/model/recording.h"
+#include <nlohmann/json.hpp>
 #include "reports/films/judged_scene.h"
 #include "reports/films/judged_session.h"
 #include "sim/choreography/move.h"
@@ -28,26 +27,25 @@ Recording SessionRecording(bool calls_right) {
     const bool dances = frame >= 30 && frame < end;
     motion.poses.push_back(dance.poses[dances ? static_cast<std::size_t>(frame - 30) : 0]);
   }
-  nlohmann::json extras = {
-      {"moves", nlohmann::json::array()}, {"threshold", 0.5}, {"joint_states", nlohmann::json::array()}};
-  nlohmann::json poses = nlohmann::json::array();
+  DetectionExtras extras;
+  extras.threshold = 0.5;
+  DetectionExtras::Move& taught = extras.moves.emplace_back();
+  taught.name = "clap";
   for (const KeyPose& pose : Clap().key_poses) {
-    nlohmann::json& told = poses.emplace_back(nlohmann::json::array());
+    auto& told = taught.key_poses.emplace_back();
     for (const KeyPose::Target& target : pose.targets) {
-      told.push_back(
-          {{"feature", target.feature}, {"degrees", target.degrees}, {"tolerance_deg", target.tolerance_deg}});
+      told.push_back({std::string(target.feature), target.degrees, target.tolerance_deg});
     }
   }
-  extras["moves"].push_back({{"name", "clap"}, {"key_poses", poses}});
-  for (int frame = 0; frame < 300; ++frame) extras["joint_states"].push_back(std::string(kRoleCount, 't'));
-  nlohmann::json first = {
-      {"move", "clap"}, {"truth", "right"}, {"fault", "none"}, {"begin_frame", 30}, {"end_frame", end}};
-  nlohmann::json second = {
-      {"move", "clap"}, {"truth", "wrong"}, {"fault", "skipped"}, {"begin_frame", end}, {"end_frame", 290}};
-  if (calls_right) first["called_frame"] = end - 10;
-  extras["events"] = {first, second};
-  extras["alarms"] = {{{"move", "sway"}, {"frame", 20}}};
-  return {{{"truth", motion}, {"sensed", motion}}, extras.dump()};
+  extras.joint_states.assign(300, std::string(kRoleCount, 't'));
+  extras.events = {{.move = "clap", .truth = "right", .fault = "none", .danced = "clap"},
+                   {.move = "clap", .truth = "wrong", .fault = "skipped", .danced = ""}};
+  extras.events[0].begin_frame = 30;
+  extras.events[0].end_frame = extras.events[1].begin_frame = end;
+  extras.events[1].end_frame = 290;
+  if (calls_right) extras.events[0].called_frame = end - 10;
+  extras.alarms = {{"sway", 20}};
+  return {{{"truth", motion}, {"sensed", motion}}, WriteDetectionExtras(extras)};
 }
 
 /// Two methods in one world; the first is right about both.

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "bench/files/json.h"
+#include "bench/recordings/task_extras.h"
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/tree_to_body.h"
 
@@ -16,7 +15,8 @@ Recording RecordSettling(const Settling& cell) {
   TreeState state = StandingState(tree);
   const BodyPose truth = ToBodyPose(tree, state);
   Track truths{"truth", {}}, starts{"start", {}}, solutions{"solution", {}};
-  Json position = Json::array(), orientation = Json::array();
+  IkExtras extras;
+  extras.iterations = cell.iterations;
   for (const int iteration : cell.iterations) {
     const double left = std::exp(-cell.rate * iteration);
     for (std::size_t i = 0; i < state.angles.size(); ++i)
@@ -24,19 +24,13 @@ Recording RecordSettling(const Settling& cell) {
     truths.motion.poses.push_back(truth);
     solutions.motion.poses.push_back(ToBodyPose(tree, state));
     starts.motion.poses.push_back(solutions.motion.poses.front());
-    position.push_back(20 * left);
-    orientation.push_back(40 * left);
+    extras.position_error_max_cm.push_back(20 * left);
+    extras.axis_error_max_deg.push_back(40 * left);
   }
-  Json targets = Json::array();
   for (const Effector& effector : tree.effectors) {
-    const glm::dvec3& at = truth[BodyTreeLimbs()[effector.joint].to];
-    targets.push_back({at.x, at.y, at.z});
+    extras.targets_m.emplace_back(truth[BodyTreeLimbs()[effector.joint].to]);
   }
-  const Json extras = {{"iterations", cell.iterations},
-                       {"position_error_max_cm", position},
-                       {"axis_error_max_deg", orientation},
-                       {"targets_m", targets}};
-  return {{truths, starts, solutions}, extras.dump()};
+  return {{truths, starts, solutions}, WriteIkExtras(extras)};
 }
 
 }  // namespace

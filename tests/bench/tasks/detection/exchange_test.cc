@@ -8,7 +8,7 @@
 #include "bench/tasks/base/pose_json.h"
 #include "bench/tasks/detection/score.h"
 #include "engine/base/named.h"
-#include "tests/bench/tasks/base/mutate_json.h"
+#include "tests/bench/tasks/base/exchange_checks.h"
 #include "tests/bench/tasks/detection/detection_fixture.h"
 
 namespace etude {
@@ -29,11 +29,6 @@ class DetectionExchange : public DetectionFixture {
       answer["events"].push_back({{"right_at_frame", right_at}, {"score", event["score"]}});
     }
     return answer;
-  }
-
-  static std::string ComplaintAbout(TaskWorld& world, const Json& answer) {
-    const auto judged = world.Judge(answer);
-    return judged ? "no complaint" : judged.error().message;
   }
 };
 
@@ -170,9 +165,7 @@ TEST_F(DetectionExchange, RefusesAWrongAnswerAndNamesThePlace) {
   ASSERT_EQ(ComplaintAbout(*world, good), "no complaint");  // the control
   const Json asked = (*world->MakeProblem()->json)["events"][2];
   const auto complaint = [&](const char* pointer, const Json& value) {
-    Json bad = good;
-    bad[Json::json_pointer(pointer)] = value;
-    return ComplaintAbout(*world, bad);
+    return ComplaintWith(*world, good, pointer, value);
   };
   EXPECT_EQ(complaint("/events", Json::array()), "events: 0 entries, not 6");
   EXPECT_EQ(complaint("/events/2/score", "high"), "events[2].score: \"high\" is not a finite number");
@@ -194,17 +187,7 @@ TEST_F(DetectionExchange, RefusesAWrongAnswerAndNamesThePlace) {
 TEST_F(DetectionExchange, RefusesOrScoresWhateverIsSaid) {
   const auto world = task_->MakeWorld(World(0), true);
   const Json good = AnswerOf(world->Run(0));
-  RandomStream dice(World(0), "mutations");
-  int refused = 0, scored = 0;
-  for (int i = 0; i < 200; ++i) {
-    const Json answer = Mutated(good, dice);
-    const auto judged = world->Judge(answer);
-    judged ? ++scored : ++refused;
-    if (!judged) continue;
-    for (const MetricValue& metric : judged->metrics) {
-      EXPECT_TRUE(std::isfinite(metric.value.value_or(0))) << metric.id << " of " << answer;
-    }
-  }
+  const auto [refused, scored] = JudgeMutations(*world, {good}, 200, RandomStream(World(0), "mutations"));
   EXPECT_GT(refused, 50);
   EXPECT_GT(scored, 10);
 }

@@ -12,6 +12,7 @@
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/ik_solver.h"
 #include "tests/bench/tasks/base/cell_values.h"
+#include "tests/bench/tasks/base/exchange_checks.h"
 
 namespace etude {
 namespace {
@@ -200,13 +201,8 @@ TEST(IkExchange, RefusesWhatIsNoAnswerNamingThePlaceInIt) {
   const auto task = MakeTask();
   const auto world = task->MakeWorld(kExchangeWorld, false);
   const Json good = *world->MakeTruth()->json;
-  const auto complaint = [&](auto change) {
-    Json answer = good;
-    change(answer);
-    const auto cell = world->Judge(answer);
-    return cell ? std::string() : ToString(cell.error());
-  };
-  EXPECT_EQ(complaint([](Json&) {}), "");
+  const auto complaint = [&](auto change) { return ComplaintAfter(*world, good, change); };
+  EXPECT_EQ(complaint([](Json&) {}), "no complaint");
   EXPECT_THAT(complaint([](Json& a) { a = 3; }), HasSubstr("not an object"));
   EXPECT_THAT(complaint([](Json& a) { a.erase("angles_deg"); }), HasSubstr("angles_deg"));
   EXPECT_THAT(complaint([](Json& a) { a["angles_deg"].push_back(0); }), HasSubstr("30 entries, not 29"));

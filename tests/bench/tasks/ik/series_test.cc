@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/tasks/ik/recording.h"
+#include "bench/tasks/ik/exchange.h"
 #include "engine/base/angles.h"
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/ik_solver.h"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/bench/tasks/base/cell_values.h"
-#include "tests/bench/tasks/base/mutate_json.h"
+#include "tests/bench/tasks/base/exchange_checks.h"
 #include "tests/bench/tasks/search/search_fixture.h"
 
 namespace etude {
@@ -82,14 +82,9 @@ TEST(SearchExchange, RefusesWhatIsNoAnswerNamingThePlaceInIt) {
   const auto task = MakeTask();
   const auto world = task->MakeWorld(kSearchWorld, false);
   const Json good = *world->MakeTruth()->json;
-  const auto complaint = [&](auto change) {
-    Json answer = good;
-    change(answer);
-    const auto cell = world->Judge(answer);
-    return cell ? std::string() : ToString(cell.error());
-  };
-  EXPECT_EQ(complaint([](Json&) {}), "");
-  EXPECT_EQ(complaint([](Json& a) { a["found"][1] = Json::array(); }), "") << "wrong, but an answer";
+  const auto complaint = [&](auto change) { return ComplaintAfter(*world, good, change); };
+  EXPECT_EQ(complaint([](Json&) {}), "no complaint");
+  EXPECT_EQ(complaint([](Json& a) { a["found"][1] = Json::array(); }), "no complaint") << "wrong, but an answer";
   EXPECT_THAT(complaint([](Json& a) { a = 3; }), HasSubstr("not an object"));
   EXPECT_THAT(complaint([](Json& a) { a.erase("found"); }), HasSubstr("found"));
   EXPECT_THAT(complaint([](Json& a) { a["found"].erase(2); }), HasSubstr("found"));
@@ -104,16 +99,9 @@ TEST(SearchExchange, ScoresOrRefusesWhateverIsSaid) {
   const auto task = MakeTask();
   const auto world = task->MakeWorld(kSearchWorld, false);
   const Json good = *world->MakeTruth()->json;
-  RandomStream dice(kSearchWorld, "mutations");
-  int refused = 0;
-  for (int i = 0; i < 300; ++i) {
-    const auto cell = world->Judge(Mutated(good, dice));
-    refused += !cell;
-    if (!cell) continue;
-    for (const MetricValue& metric : cell->metrics) EXPECT_TRUE(std::isfinite(metric.value.value_or(0))) << metric.id;
-  }
-  EXPECT_GT(refused, 50);
-  EXPECT_LT(refused, 300);
+  const Judgements judged = JudgeMutations(*world, {good}, 300, RandomStream(kSearchWorld, "mutations"));
+  EXPECT_GT(judged.refused, 50);
+  EXPECT_LT(judged.refused, 300);
 }
 
 TEST(SearchExchange, CreditsNoAnswerWithNoAgreement) {

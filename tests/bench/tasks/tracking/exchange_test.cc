@@ -10,7 +10,7 @@
 #include "engine/base/angles.h"
 #include "engine/kinematics/body_tree.h"
 #include "tests/bench/tasks/base/cell_values.h"
-#include "tests/bench/tasks/base/mutate_json.h"
+#include "tests/bench/tasks/base/exchange_checks.h"
 #include "tests/bench/tasks/tracking/some_clips.h"
 
 namespace etude {
@@ -110,13 +110,8 @@ TEST(TrackingExchange, RefusesWhatIsNoAnswerNamingThePlaceInIt) {
   const auto task = MakeTask();
   const auto world = task->MakeWorld(kTrackedWorld, false);
   const Json good = *world->MakeTruth()->json;
-  const auto complaint = [&](auto change) {
-    Json answer = good;
-    change(answer);
-    const auto cell = world->Judge(answer);
-    return cell ? std::string() : ToString(cell.error());
-  };
-  EXPECT_EQ(complaint([](Json&) {}), "");
+  const auto complaint = [&](auto change) { return ComplaintAfter(*world, good, change); };
+  EXPECT_EQ(complaint([](Json&) {}), "no complaint");
   EXPECT_THAT(complaint([](Json& a) { a = 3; }), HasSubstr("not an object"));
   EXPECT_THAT(complaint([](Json& a) { a.erase("angles_deg"); }), HasSubstr("angles_deg"));
   EXPECT_THAT(complaint([](Json& a) { a["angles_deg"].erase(2); }), HasSubstr("14 entries, not 15"));
@@ -133,18 +128,9 @@ TEST(TrackingExchange, ScoresOrRefusesWhateverIsSaid) {
   const auto task = MakeTask("{duration_s: 0.2}");
   const auto world = task->MakeWorld(kTrackedWorld, false);
   const Json good = *world->MakeTruth()->json;
-  RandomStream dice(kTrackedWorld, "mutations");
-  int refused = 0;
-  for (int i = 0; i < 300; ++i) {
-    const auto cell = world->Judge(Mutated(good, dice));
-    refused += !cell;
-    if (!cell) continue;
-    for (const MetricValue& metric : cell->metrics) {
-      EXPECT_TRUE(std::isfinite(metric.value.value_or(0))) << metric.id;
-    }
-  }
-  EXPECT_GT(refused, 50);
-  EXPECT_LT(refused, 300);
+  const Judgements judged = JudgeMutations(*world, {good}, 300, RandomStream(kTrackedWorld, "mutations"));
+  EXPECT_GT(judged.refused, 50);
+  EXPECT_LT(judged.refused, 300);
 }
 
 TEST(TrackingExchange, CreditsNoAnswerWithAFailure) {

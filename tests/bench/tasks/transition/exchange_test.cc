@@ -11,7 +11,7 @@
 #include "bench/tasks/transition/outcome.h"
 #include "engine/transitions/alignment.h"
 #include "engine/transitions/choices/choice.h"
-#include "tests/bench/tasks/base/mutate_json.h"
+#include "tests/bench/tasks/base/exchange_checks.h"
 #include "tests/bench/tasks/transition/transition_fixture.h"
 
 namespace etude {
@@ -77,11 +77,6 @@ class TransitionExchange : public TransitionFixture {
   /// Judged after a way through text, as from a program.
   static Result<CellResult> JudgeText(TaskWorld& world, const Json& answer) {
     return world.Judge(*ReadJson(*WriteJson(answer), "answer"));
-  }
-
-  static std::string ComplaintAbout(TaskWorld& world, const Json& answer) {
-    const auto judged = world.Judge(answer);
-    return judged ? "no complaint" : judged.error().message;
   }
 };
 
@@ -221,9 +216,7 @@ TEST_F(TransitionExchange, RefusesAWrongAnswerAndNamesThePlace) {
   const Json good = {{"leave_frame", request}, {"enter_frame", 3}, {"between", {clip[request], clip[request]}}};
   ASSERT_EQ(ComplaintAbout(*world, good), "no complaint");  // the control
   const auto complaint = [&](const char* pointer, const Json& value) {
-    Json bad = good;
-    bad[Json::json_pointer(pointer)] = value;
-    return ComplaintAbout(*world, bad);
+    return ComplaintWith(*world, good, pointer, value);
   };
   EXPECT_EQ(complaint("/leave_frame", 100000),
             "leave_frame: 100000; allowed: " + std::to_string(request) + "…" + std::to_string(clip.size() - 1));
@@ -268,20 +261,7 @@ TEST_F(TransitionExchange, RefusesOrScoresWhateverIsSaid) {
       {{"leave_frame", leave},
        {"enter_frame", 3},
        {"through", {{{"clip", 3}, {"enter_frame", 0}, {"leave_frame", 9}}}}}};
-  RandomStream dice(Trial(0), "mutations");
-  int refused = 0, scored = 0;
-  for (int i = 0; i < 600; ++i) {
-    const Json answer = Mutated(good[i % good.size()], dice);
-    const auto judged = world->Judge(answer);
-    judged ? ++scored : ++refused;
-    if (!judged) {
-      EXPECT_FALSE(judged.error().message.empty());
-      continue;
-    }
-    for (const MetricValue& metric : judged->metrics) {
-      EXPECT_TRUE(std::isfinite(metric.value.value_or(0))) << metric.id << " of " << answer;
-    }
-  }
+  const auto [refused, scored] = JudgeMutations(*world, good, 600, RandomStream(Trial(0), "mutations"));
   EXPECT_GT(refused, 100);
   EXPECT_GT(scored, 10);
 }

@@ -1,13 +1,16 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "bench/files/json.h"
+#include "bench/tasks/base/task.h"
 #include "sim/random/stream.h"
 
 namespace etude {
@@ -44,6 +47,47 @@ inline Json Mutated(Json json, RandomStream& dice) {
   ListPlaces(json, Json::json_pointer(), places);
   json[places[dice.IndexBelow(places.size())]] = said[dice.IndexBelow(said.size())];
   return json;
+}
+
+/// Why an answer is refused, or "no complaint".
+inline std::string ComplaintAbout(TaskWorld& world, const Json& answer) {
+  const auto judged = world.Judge(answer);
+  return judged ? "no complaint" : judged.error().message;
+}
+
+/// Why a good answer is refused once `change` was done to it, or "no complaint".
+template <typename Change>
+std::string ComplaintAfter(TaskWorld& world, Json answer, Change change) {
+  change(answer);
+  return ComplaintAbout(world, answer);
+}
+
+/// The same once `value` stands at a place of it ("/events/2/score").
+inline std::string ComplaintWith(TaskWorld& world, Json answer, const char* pointer, const Json& value) {
+  answer[Json::json_pointer(pointer)] = value;
+  return ComplaintAbout(world, answer);
+}
+
+struct Judgements {
+  int refused = 0, scored = 0;
+};
+
+/// Judges `count` answers, each one of the good ones Mutated: all are refused with a reason or scored with numbers.
+inline Judgements JudgeMutations(TaskWorld& world, const std::vector<Json>& good, int count, RandomStream dice) {
+  Judgements judgements;
+  for (int i = 0; i < count; ++i) {
+    const Json answer = Mutated(good[static_cast<std::size_t>(i) % good.size()], dice);
+    const auto judged = world.Judge(answer);
+    judged ? ++judgements.scored : ++judgements.refused;
+    if (!judged) {
+      EXPECT_FALSE(judged.error().message.empty()) << answer;
+      continue;
+    }
+    for (const MetricValue& metric : judged->metrics) {
+      EXPECT_TRUE(std::isfinite(metric.value.value_or(0))) << metric.id << " of " << answer;
+    }
+  }
+  return judgements;
 }
 
 }  // namespace etude

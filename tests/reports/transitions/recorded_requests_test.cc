@@ -1,4 +1,3 @@
-#include "reports/transitions/transition_facts.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

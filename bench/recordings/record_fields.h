@@ -1,0 +1,190 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "bench/files/json.h"
+#include "engine/base/result.h"
+
+namespace etude {
+
+/// Writes one value of a recording as JSON. Instantiated for truth values, numbers, texts, points (three numbers), poses
+/// (sixty numbers), one number per feature (an object by FeatureName), lists of these, and optional ones, which are null
+/// when they hold nothing.
+template <typename Value>
+void EncodeValue(const Value& value, Json& json);
+
+/// Reads what EncodeValue writes. A complaint says what was found and what is allowed; it begins with a colon, or with
+/// the index of the entry that it is about.
+template <typename Value>
+Result<void> DecodeValue(const Json& json, Value& value);
+
+/// The keys of one JSON object of a recording. Each format is declared once, as a function `Describe(RecordFields&,
+/// Record&)` that names every key, the member that holds its value and what it means, in the order of writing; the same
+/// function then writes a record, reads one, and makes the page about it. Keys that it does not name are ignored when a
+/// record is read.
+class RecordFields {
+ public:
+  /// The record as JSON on one line.
+  template <typename Record>
+  static std::string Write(Record record) {
+    const JsonPtr json = NewObject();
+    RecordFields fields(json.get(), nullptr, nullptr);
+    Describe(fields, record);
+    return TextOf(*json);
+  }
+
+  /// Complaints name the place within the object: "events[2].score: \"high\" is no number (how right it looked)".
+  template <typename Record>
+  static Result<Record> Read(const std::string& text) {
+    Record record;
+    RETURN_IF_ERROR(ReadObject(text, [&](RecordFields& fields) { Describe(fields, record); }));
+    return record;
+  }
+
+  /// The keys of a record and of the objects in it, as a list in Markdown.
+  template <typename Record>
+  static std::string Page() {
+    std::string page;
+    Record record;
+    RecordFields fields(nullptr, nullptr, &page);
+    Describe(fields, record);
+    return page;
+  }
+
+  /// Two keys, "format" and "version", which must hold these values.
+  void Format(std::string_view name, int version);
+
+  /// A value that must be there.
+  template <typename Value>
+  void Required(const char* key, Value& value, const char* meaning) {
+    Tell(key, meaning);
+    if (written_ != nullptr) EncodeValue(value, Added(key));
+    if (const Json* found = Find(key, /*must=*/true, meaning)) Note(key, DecodeValue(*found, value), meaning);
+  }
+
+  /// A value whose key is absent when there is none.
+  template <typename Value>
+  void Optional(const char* key, std::optional<Value>& value, const char* meaning) {
+    Tell(key, meaning);
+    if (written_ != nullptr && value) EncodeValue(*value, Added(key));
+    if (const Json* found = Find(key)) Note(key, DecodeValue(*found, value.emplace()), meaning);
+  }
+
+  /// A value that keeps its default where the key is absent or holds something else.
+  template <typename Value>
+  void Tolerated(const char* key, Value& value, const char* meaning) {
+    Tell(key, meaning);
+    if (written_ != nullptr) EncodeValue(value, Added(key));
+    Value read{};
+    if (const Json* found = Find(key); found != nullptr && DecodeValue(*found, read)) value = std::move(read);
+  }
+
+  /// A list that must be there, of objects, of lists of them, or of values.
+  template <typename Entry>
+  void List(const char* key, std::vector<Entry>& entries, const char* meaning) {
+    Tell(key, meaning);
+    if (written_ != nullptr) {
+      Json& list = Added(key);
+      WriteEntry(entries, list);
+    }
+    if (const Json* found = Find(key, /*must=*/true, meaning)) Note(key, ReadEntry(*found, entries), "");
+    TellEntry<Entry>();
+  }
+
+  /// A list that may be absent, and of which entries that are not as they should be are left out.
+  template <typename Entry>
+  void ToleratedList(const char* key, std::vector<Entry>& entries, const char* meaning) {
+    Tell(key, meaning);
+    if (written_ != nullptr) {
+      Json& list = Added(key);
+      WriteEntry(entries, list);
+    }
+    if (const Json* found = Find(key)) {
+      const auto append = [&](const Json& json) {
+        if (Entry entry{}; ReadEntry(json, entry)) entries.push_back(std::move(entry));
+        return Result<void>();
+      };
+      [[maybe_unused]] const auto no_list = ReadEach(*found, append);
+    }
+    TellEntry<Entry>();
+  }
+
+ private:
+  template <typename Type>
+  struct IsList : std::false_type {};
+  template <typename Entry>
+  struct IsList<std::vector<Entry>> : std::true_type {};
+  template <typename Type>
+  static constexpr bool kIsRecord = requires(RecordFields& fields, Type& record) { Describe(fields, record); };
+
+  RecordFields(Json* written, const Json* read, std::string* page) : written_(written), read_(read), page_(page) {}
+
+  template <typename Entry>
+  static void WriteEntry(Entry& entry, Json& json) {
+    if constexpr (IsList<Entry>::value) {
+      MakeList(json);
+      for (auto& inner : entry) {
+        Json& added = Append(json);
+        WriteEntry(inner, added);
+      }
+    } else if constexpr (kIsRecord<Entry>) {
+      RecordFields fields(&json, nullptr, nullptr);
+      Describe(fields, entry);
+    } else {
+      EncodeValue(entry, json);
+    }
+  }
+
+  template <typename Entry>
+  static Result<void> ReadEntry(const Json& json, Entry& entry) {
+    if constexpr (IsList<Entry>::value) {
+      return ReadEach(json, [&](const Json& inner) { return ReadEntry(inner, entry.emplace_back()); });
+    } else if constexpr (kIsRecord<Entry>) {
+      RecordFields fields(nullptr, &json, nullptr);
+      Describe(fields, entry);
+      return fields.Finish();
+    } else {
+      return DecodeValue(json, entry);
+    }
+  }
+
+  template <typename Entry>
+  void TellEntry() {
+    if (page_ == nullptr) return;
+    if constexpr (IsList<Entry>::value) {
+      TellEntry<typename Entry::value_type>();
+    } else if constexpr (kIsRecord<Entry>) {
+      RecordFields fields(nullptr, nullptr, page_);
+      fields.depth_ = depth_ + 1;
+      Entry entry;
+      Describe(fields, entry);
+    }
+  }
+
+  static JsonPtr NewObject();
+  static std::string TextOf(const Json& json);
+  static Result<void> ReadObject(const std::string& text, const std::function<void(RecordFields&)>& describe);
+  static void MakeList(Json& json);
+  static Json& Append(Json& list);
+  static Result<void> ReadEach(const Json& list, const std::function<Result<void>(const Json&)>& read);
+
+  Json& Added(const char* key);
+  void Tell(const char* key, const char* meaning);
+  /// The value under the key when a record is read. Complains when it must be there and is not.
+  const Json* Find(const char* key, bool must = false, const char* meaning = "");
+  void Note(const char* key, const Result<void>& read, const char* meaning);
+  Result<void> Finish();
+
+  Json* written_;               ///< the object, when a record is written
+  const Json* read_;            ///< the object, when one is read
+  std::string* page_;           ///< the page, when the format is told
+  int depth_ = 0;               ///< of the page's list
+  std::optional<Error> error_;  ///< the first complaint
+};
+
+}  // namespace etude

@@ -1,0 +1,168 @@
+#include "bench/recordings/task_extras.h"
+
+#include "bench/recordings/record_fields.h"
+
+namespace etude {
+
+// Found by RecordFields through their arguments, so in no unnamed namespace; a record's parts come before it.
+
+static void Describe(RecordFields& fields, IkExtras& extras) {
+  fields.Tolerated("iterations", extras.iterations, "the iteration that each frame shows, from 0 on, never falling");
+  fields.Tolerated("position_error_max_cm", extras.position_error_max_cm, "per frame, of the worst end effector");
+  fields.Tolerated("orientation_error_max_deg", extras.orientation_error_max_deg,
+                   "per frame, of the worst end effector, the mean of its axes");
+  fields.Tolerated("axis_error_max_deg", extras.axis_error_max_deg, "per frame, of the worst single axis");
+  fields.Tolerated("targets_m", extras.targets_m,
+                   "[x, y, z] of each end effector's target, in the tree's order; null where no position is asked for");
+}
+
+static void Describe(RecordFields& fields, TransitionExtras::Point& point) {
+  fields.Tolerated("from", point.from, "the clip left; `in-between` is frames of the method's own");
+  fields.Tolerated("from_frame", point.from_frame, "of that clip, the last one shown");
+  fields.Tolerated("to", point.to, "the clip entered");
+  fields.Tolerated("to_frame", point.to_frame, "of that clip, the one that lies on `from_frame`");
+  fields.Tolerated("distance", point.distance, "fuzzy distance of the two frames");
+  fields.Tolerated("partials", point.partials, "by feature, S_k Δ_k², which sum to the distance's square");
+}
+
+static void Describe(RecordFields& fields, TransitionExtras::Candidate& candidate) {
+  fields.Tolerated("point", candidate.point, "for which transition point it was looked at, from 0");
+  fields.Required("from_frame", candidate.from_frame, "of the clip left at that point");
+  fields.Required("to_frame", candidate.to_frame, "of the clip entered there");
+  fields.Required("distance", candidate.distance, "fuzzy distance of the two frames");
+  fields.Tolerated("partials", candidate.partials, "as those of a transition point");
+  fields.Tolerated("cost", candidate.cost, "what the choice ranks by; null where that is the distance");
+  fields.Tolerated("outcome", candidate.outcome, "`taken`, `too far`, `later` or `worse`");
+}
+
+static void Describe(RecordFields& fields, TransitionExtras& extras) {
+  fields.Tolerated("transition_frame", extras.transition_frame, "the first of `transition_frames`");
+  fields.ToleratedList("transition_frames", extras.transition_frames, "of the recording, the last ones before a change");
+  fields.Tolerated("from", extras.from, "the clip left");
+  fields.Tolerated("to", extras.to, "the clip wanted");
+  fields.Tolerated("branch", extras.branch, "which way was taken: `front half`, `in-between`, …");
+  fields.Tolerated("why", extras.why, "why this way won, one sentence");
+  fields.Tolerated("request_frame", extras.request_frame, "of the recording; negative: before it begins");
+  fields.Tolerated("wait_s", extras.wait_s, "from the request until the wanted clip plays");
+  fields.Tolerated("threshold", extras.threshold, "frames match whose distance is below it");
+  fields.Tolerated("natural_limit_cm", extras.natural_limit_cm, "the largest jump that counts as natural");
+  fields.Tolerated("distance", extras.distance, "of the worst transition point");
+  fields.Tolerated("weights", extras.weights, "by feature, S_k");
+  fields.Tolerated("partials", extras.partials, "by feature, of the worst transition point");
+  fields.Tolerated("pairs_seen", extras.pairs_seen, "pairs of frames that the budget allowed");
+  fields.Tolerated("pairs_matched", extras.pairs_matched, "those of them that match");
+  fields.ToleratedList("transition_points", extras.points, "where the motion changed clips, in order");
+  fields.Tolerated("cost_unit", extras.cost_unit, "of the candidates' `cost`; empty when there is none");
+  fields.ToleratedList("candidates", extras.candidates, "pairs of frames: the taken, and the best of the others");
+}
+
+static void Describe(RecordFields& fields, DetectionExtras::Target& target) {
+  fields.Required("feature", target.feature, "one of paper A's ten");
+  fields.Required("degrees", target.degrees, "the angle wanted");
+  fields.Required("tolerance_deg", target.tolerance_deg, "how far from it still counts");
+}
+
+static void Describe(RecordFields& fields, DetectionExtras::Move& move) {
+  fields.Required("name", move.name, "of a move that was taught");
+  fields.List("key_poses", move.key_poses, "in their order, each a list of angles");
+}
+
+static void Describe(RecordFields& fields, DetectionExtras::Event& event) {
+  fields.Required("move", event.move, "the one asked for");
+  fields.Required("truth", event.truth, "`right`, `grey` or `wrong`");
+  fields.Required("fault", event.fault, "`none`, or names");
+  fields.Required("danced", event.danced, "the move danced; empty when that was none");
+  fields.Required("begin_frame", event.begin_frame, "the first of its window");
+  fields.Required("end_frame", event.end_frame, "the first after its window");
+  fields.Required("called_right", event.called_right, "whether the method praised it");
+  fields.Required("score", event.score, "how right it looked to the method");
+  fields.Optional("called_frame", event.called_frame, "when it was praised; absent when it was not");
+}
+
+static void Describe(RecordFields& fields, DetectionExtras::Alarm& alarm) {
+  fields.Required("move", alarm.move, "the one that was seen");
+  fields.Required("frame", alarm.frame, "when");
+}
+
+static void Describe(RecordFields& fields, DetectionExtras& extras) {
+  fields.Format("etude-detection", 1);
+  fields.Optional("threshold", extras.threshold, "of judging; absent for an answer from outside");
+  fields.List("moves", extras.moves, "those that may be asked for");
+  fields.List("events", extras.events, "the performances asked for, in order of time");
+  fields.List("alarms", extras.alarms, "moves seen that nobody danced");
+  fields.List("joint_states", extras.joint_states,
+              "one text a frame, one letter a joint: `t` tracked, `i` inferred, `n` not tracked");
+}
+
+static void Describe(RecordFields& fields, CoachExtras::Mode& mode) {
+  fields.Required("mode", mode.mode, "`dance`, `correct`, …");
+  fields.Required("begin_frame", mode.begin_frame, "it lasts until the next begins");
+}
+
+static void Describe(RecordFields& fields, CoachExtras::Performance& performance) {
+  fields.Required("move", performance.move, "the one asked for");
+  fields.Required("begin_frame", performance.begin_frame, "the first of its window");
+  fields.Required("end_frame", performance.end_frame, "the first after its window");
+  fields.Required("truth", performance.truth, "`right`, `grey` or `wrong`");
+  fields.Required("faults", performance.faults, "`none`, or names");
+  fields.Required("called", performance.called, "`right`, `wrong` or `unjudged`, by the coach");
+}
+
+static void Describe(RecordFields& fields, CoachExtras::Words& words) {
+  fields.Required("begin_frame", words.begin_frame, "they stand until the next");
+  fields.Required("say", words.say, "a short word to the learner");
+  fields.Required("hint", words.hint, "what to do better");
+  fields.Optional("picture", words.picture, "the key pose that the hint is about, sixty numbers; absent without one");
+}
+
+static void Describe(RecordFields& fields, CoachExtras::Decision& decision) {
+  fields.Required("frame", decision.frame, "when");
+  fields.Required("event", decision.event, "`right`, `wrong`, `corrects`, …");
+  fields.Required("why", decision.why, "in words");
+}
+
+static void Describe(RecordFields& fields, CoachExtras& extras) {
+  fields.Format("etude-coach", 1);
+  fields.Required("song", extras.song, "the dance's title");
+  fields.List("modes", extras.modes, "what the coach did, from the first frame on");
+  fields.List("performances", extras.performances, "those that were asked for");
+  fields.List("words", extras.words, "what stands on the screen, whenever it changes");
+  fields.List("decisions", extras.decisions, "of the coach's policy");
+  fields.List("corrections", extras.corrections, "frames in which one was decided on");
+  fields.List("transitions", extras.transitions, "the last frames before the coach changes clips");
+  fields.List("beats_s", extras.beats_s, "when the music's beats sounded, seconds since the first frame");
+  fields.List("joint_states", extras.joint_states, "as those of `detection`");
+}
+
+std::string RecordingsAsMarkdown() {
+  return "# What recordings hold beside their motions\n\n"
+         "Written by `etude list recordings`; a test compares the two. A file of `recordings/` holds a cell's motions by\n"
+         "name, `tracks`, and in `extras` an object by the task's kind. Frames count from the first of the recording unless\n"
+         "said otherwise. What `capture` keeps stands in `bench/recordings/capture_extras.h`.\n\n"
+         "## ik\n\nTracks `truth`, `start` and, step by step, `solution`.\n\n" +
+         RecordFields::Page<IkExtras>() +
+         "\n## transition\n\nTrack `coach`: some seconds before and after the transition.\n\n" +
+         RecordFields::Page<TransitionExtras>() +
+         "\n## detection\n\nTracks `truth` and `sensed`, as the recogniser saw it.\n\n" +
+         RecordFields::Page<DetectionExtras>() +
+         "\n## coach\n\nTracks `coach`, `truth` (the learner as danced) and `sensed`.\n\n" +
+         RecordFields::Page<CoachExtras>();
+}
+
+std::string WriteIkExtras(const IkExtras& extras) { return RecordFields::Write(extras); }
+Result<IkExtras> ReadIkExtras(const std::string& json) { return RecordFields::Read<IkExtras>(json); }
+
+std::string WriteTransitionExtras(const TransitionExtras& extras) { return RecordFields::Write(extras); }
+Result<TransitionExtras> ReadTransitionExtras(const std::string& json) {
+  return RecordFields::Read<TransitionExtras>(json);
+}
+
+std::string WriteDetectionExtras(const DetectionExtras& extras) { return RecordFields::Write(extras); }
+Result<DetectionExtras> ReadDetectionExtras(const std::string& json) {
+  return RecordFields::Read<DetectionExtras>(json);
+}
+
+std::string WriteCoachExtras(const CoachExtras& extras) { return RecordFields::Write(extras); }
+Result<CoachExtras> ReadCoachExtras(const std::string& json) { return RecordFields::Read<CoachExtras>(json); }
+
+}  // namespace etude

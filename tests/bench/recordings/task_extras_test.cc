@@ -1,0 +1,149 @@
+#include "bench/recordings/task_extras.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bench/files/files.h"
+#include "tests/support/gtest_printers.h"
+
+namespace etude {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+template <typename Extras>
+std::string Complaint(Result<Extras> (*read)(const std::string&), const std::string& json) {
+  const auto extras = read(json);
+  return extras ? "none" : ToString(extras.error());
+}
+
+DetectionExtras Session() {
+  DetectionExtras extras;
+  extras.moves = {{"clap", {{{"RH", 90, 20.5}}, {{"LH", 10, 5}, {"Trunk", 0, 5}}}}};
+  extras.events = {{.move = "clap", .truth = "right", .fault = "none", .danced = "clap", .begin_frame = 3, .end_frame = 9,
+                    .called_right = true, .score = 0.25, .called_frame = 7}};
+  extras.events.push_back(extras.events.front());
+  extras.events[1].called_right = false;
+  extras.events[1].called_frame.reset();
+  extras.alarms = {{"sway", 4}};
+  extras.joint_states = {"tin"};
+  return extras;
+}
+
+TEST(DetectionExtras, AreWrittenInTheOrderOfTheirKeys) {
+  DetectionExtras extras = Session();
+  extras.events.pop_back();
+  EXPECT_EQ(WriteDetectionExtras(extras),
+            R"({"format":"etude-detection","version":1,"moves":[{"name":"clap","key_poses":[[{"feature":"RH",)"
+            R"("degrees":90.0,"tolerance_deg":20.5}],[{"feature":"LH","degrees":10.0,"tolerance_deg":5.0},)"
+            R"({"feature":"Trunk","degrees":0.0,"tolerance_deg":5.0}]]}],"events":[{"move":"clap","truth":"right",)"
+            R"("fault":"none","danced":"clap","begin_frame":3,"end_frame":9,"called_right":true,"score":0.25,)"
+            R"("called_frame":7}],"alarms":[{"move":"sway","frame":4}],"joint_states":["tin"]})");
+}
+
+TEST(DetectionExtras, SurviveWritingAndReading) {
+  DetectionExtras extras = Session();
+  extras.threshold = 0.4;
+  const std::string text = WriteDetectionExtras(extras);
+  const auto read = ReadDetectionExtras(text);
+  ASSERT_TRUE(read) << ToString(read.error());
+  EXPECT_EQ(read->threshold, 0.4);
+  EXPECT_EQ(read->moves[0].key_poses[1][1].feature, "Trunk");
+  EXPECT_EQ(read->events[0].called_frame, 7);
+  EXPECT_FALSE(read->events[1].called_frame.has_value());
+  EXPECT_EQ(WriteDetectionExtras(*read), text);
+}
+
+TEST(DetectionExtras, AreRefusedNamingThePlaceWhatWasFoundAndWhatItMeans) {
+  const std::string good = WriteDetectionExtras(Session());
+  const auto with = [&](const std::string& old, const std::string& now) {
+    std::string text = good;
+    text.replace(text.rfind(old), old.size(), now);
+    return Complaint(ReadDetectionExtras, text);
+  };
+  EXPECT_EQ(with("0.25", "0.25"), "none") << "a control";
+  EXPECT_EQ(with("0.25", R"("high")"), R"(events[1].score: "high" is no number (how right it looked to the method))");
+  EXPECT_EQ(with("20.5", "null"),
+            "moves[0].key_poses[0][0].tolerance_deg: null is no number (how far from it still counts)");
+  EXPECT_THAT(with(R"("end_frame":9)", R"("end":9)"), HasSubstr("events[1].end_frame: it is missing (the first after"));
+  EXPECT_THAT(with(R"("end_frame":9)", R"("end_frame":9.5)"), HasSubstr("events[1].end_frame: 9.5 is no whole number"));
+  EXPECT_THAT(with(R"("end_frame":9)", R"("end_frame":9e12)"), HasSubstr("allowed: -1000000000…1000000000"));
+  EXPECT_EQ(with(R"(["tin"])", "7"), "joint_states: 7 is no list");
+  EXPECT_EQ(with(R"({"move":"sway","frame":4})", "7"), "alarms[0]: 7 is no object");
+  EXPECT_THAT(with(R"("version":1)", R"("version":2)"), HasSubstr("version: 2; allowed: 1"));
+  EXPECT_THAT(with("etude-detection", "etude-coach"), HasSubstr(R"(format: "etude-coach"; allowed: "etude-detection")"));
+  EXPECT_EQ(Complaint(ReadDetectionExtras, "[1]"), "no JSON object, but a list of 1");
+  EXPECT_THAT(Complaint(ReadDetectionExtras, "{"), HasSubstr("no JSON object: not valid JSON"));
+}
+
+TEST(CoachExtras, SurviveWritingAndReading) {
+  CoachExtras extras;
+  extras.song = "groove";
+  extras.modes = {{"dance", 0}};
+  extras.performances = {{.move = "clap", .truth = "grey", .called = "unjudged", .end_frame = 8, .faults = "none"}};
+  extras.words = {{.begin_frame = 2, .say = "Watch!", .hint = "up", .picture = BodyPose{}}, {.begin_frame = 5}};
+  extras.words[0].picture->joints[19] = {1, 2, 3.5};
+  extras.decisions = {{8, "wrong", "not reached"}};
+  extras.corrections = {8};
+  extras.transitions = {9, 12};
+  extras.beats_s = {0.5};
+  const std::string text = WriteCoachExtras(extras);
+  EXPECT_THAT(text, HasSubstr(R"(1.0,2.0,3.5]},{"begin_frame":5,"say":"","hint":""}],"decisions")"));
+  EXPECT_THAT(text, HasSubstr(R"([{"move":"clap","begin_frame":0,"end_frame":8,"truth":"grey","faults":"none",)"));
+  const auto read = ReadCoachExtras(text);
+  ASSERT_TRUE(read) << ToString(read.error());
+  EXPECT_EQ(read->words[0].picture->joints, extras.words[0].picture->joints);
+  EXPECT_FALSE(read->words[1].picture.has_value());
+  EXPECT_THAT(read->transitions, ElementsAre(9, 12));
+  EXPECT_EQ(WriteCoachExtras(*read), text);
+}
+
+TEST(IkExtras, TellNullWhereNoPositionIsAskedFor) {
+  IkExtras extras;
+  extras.iterations = {0, 1};
+  extras.axis_error_max_deg = {3, 0.5};
+  extras.targets_m = {glm::dvec3(0, 1, 2), std::nullopt};
+  const std::string text = WriteIkExtras(extras);
+  EXPECT_EQ(text, R"({"iterations":[0,1],"position_error_max_cm":[],"orientation_error_max_deg":[],)"
+                  R"("axis_error_max_deg":[3.0,0.5],"targets_m":[[0.0,1.0,2.0],null]})");
+  EXPECT_EQ(WriteIkExtras(*ReadIkExtras(text)), text);
+}
+
+TEST(IkExtras, LeaveEmptyWhateverIsNotWhatItShouldBe) {
+  const auto read = ReadIkExtras(R"({"iterations": [0, "1"], "axis_error_max_deg": [1, 2], "targets_m": [[1, 2]]})");
+  ASSERT_TRUE(read) << ToString(read.error());
+  EXPECT_TRUE(read->iterations.empty() && read->targets_m.empty());
+  EXPECT_THAT(read->axis_error_max_deg, ElementsAre(1, 2));
+  EXPECT_THAT(Complaint(ReadIkExtras, "3"), HasSubstr("no JSON object"));
+}
+
+TEST(TransitionExtras, SurviveWritingAndReading) {
+  TransitionExtras extras;
+  extras.transition_frames = {4, 9};
+  extras.points = {{.from = "clap", .to = "in-between", .from_frame = 4, .to_frame = 0, .distance = 0.25, .partials = {}}};
+  extras.points[0].partials.emplace()[9] = 0.0625;
+  extras.candidates = {{.point = 0, .from_frame = 4, .to_frame = 2, .distance = 0.5, .partials = {}, .cost = {},
+                        .outcome = "taken"}};
+  extras.pairs_seen = 900;
+  const std::string text = WriteTransitionExtras(extras);
+  EXPECT_THAT(text, HasSubstr(R"("distance":0.25,"partials":{"RH":0.0,"LH":0.0,)"));
+  EXPECT_THAT(text, HasSubstr(R"("pairs_seen":900,"pairs_matched":null)"));
+  EXPECT_THAT(text, HasSubstr(R"("partials":null,"cost":null,"outcome":"taken"}]})"));
+  const auto read = ReadTransitionExtras(text);
+  ASSERT_TRUE(read) << ToString(read.error());
+  EXPECT_EQ((*read->points[0].partials)[9], 0.0625);
+  EXPECT_EQ(read->candidates, extras.candidates);
+  EXPECT_EQ(WriteTransitionExtras(*read), text);
+}
+
+TEST(TaskExtras, AreTheOnesThatThePageTellsOf) {
+  const auto page = ReadWholeFile("docs/recordings.md");
+  ASSERT_TRUE(page) << ToString(page.error());
+  EXPECT_EQ(*page, RecordingsAsMarkdown()) << "write it anew: etude list recordings > docs/recordings.md";
+  EXPECT_THAT(*page, HasSubstr("- `moves`: those that may be asked for\n  - `name`: of a move that was taught\n"));
+  EXPECT_THAT(*page, HasSubstr("- `version`: always 1\n"));
+}
+
+}  // namespace
+}  // namespace etude
