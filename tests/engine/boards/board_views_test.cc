@@ -44,7 +44,7 @@ ColourImage Photograph(const Camera& camera, const Placed& board) {
   return picture;
 }
 
-Placed Turned(double yaw, double pitch) {
+Placed Tilted(double yaw, double pitch) {
   const glm::dvec3 right(std::cos(yaw), 0, std::sin(yaw));
   const glm::dvec3 down(std::sin(pitch) * -std::sin(yaw), -std::cos(pitch), std::sin(pitch) * std::cos(yaw));
   return {-0.45 * right - 0.375 * down, right, down};
@@ -53,7 +53,7 @@ Placed Turned(double yaw, double pitch) {
 /// The first board hangs straight on a wall, so that a rig told by it can be compared with the truth.
 TEST(BoardViews, PicturesOfBoardsGiveTwoCamerasBack) {
   const std::vector<Camera> cameras{LookingAt({0.2, 0.3, 1.9}), LookingAt({1.1, 0.2, 1.6})};
-  const Placed boards[] = {Turned(0, 0), Turned(0.4, 0.3), Turned(-0.3, 0.4), Turned(0.2, -0.4), Turned(0.5, -0.2)};
+  const Placed boards[] = {Tilted(0, 0), Tilted(0.4, 0.3), Tilted(-0.3, 0.4), Tilted(0.2, -0.4), Tilted(0.5, -0.2)};
   BoardViews views({kBoard});
   for (std::size_t moment = 0; moment < std::size(boards); ++moment) {
     for (std::size_t c = 0; c < 2; ++c) {
