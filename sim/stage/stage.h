@@ -75,6 +75,7 @@ class StagedRoom {
 
   /// Returns the interior, or null for the studio. It lives as long as this.
   const Interior* interior() const { return furnished_ ? &furnished_->interior : nullptr; }
+  bool IsPerformerDressed() const { return performer_.has_value(); }
   /// Returns the dressed performer; at scene 0 the capsules in `studio` colours.
   Figure PerformerAt(const BodyPose& pose, const PartColours& studio) const;
   /// Returns what moves in the room, `seconds` after the take's start (less than 0: before).

@@ -21,7 +21,7 @@ inline void ExpectNear(const glm::dvec3& actual, const glm::dvec3& expected, dou
       << "(" << actual.x << ", " << actual.y << ", " << actual.z << ")";
 }
 
-/// Where PersonSkeleton has the twenty roles at rest, `scale` units to a centimetre.
+/// Expects the twenty roles where PersonSkeleton has them at rest, `scale` units to a centimetre.
 inline void ExpectThePersonsPlaces(const BodyPose& body, double scale = 1, double tolerance = 1e-12) {
   using enum Role;
   const auto expect = [&](Role role, const glm::dvec3& place) {
@@ -46,7 +46,7 @@ inline void ExpectThePersonsPlaces(const BodyPose& body, double scale = 1, doubl
   }
 }
 
-/// All roles are played by joints of a skeleton that is PersonSkeleton under other names.
+/// Expects all roles to be played by joints of a skeleton that is PersonSkeleton under other names.
 inline void ExpectThePerson(const Skeleton& skeleton) {
   const auto map = FindJointMap(skeleton, "person.bvh");
   ASSERT_TRUE(map) << ToString(map.error());

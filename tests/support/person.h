@@ -36,7 +36,7 @@ inline Skeleton PersonSkeleton() {
   return person;
 }
 
-/// `count` frames of the rest pose.
+/// Returns a clip of `count` frames of the rest pose.
 inline Clip AtRest(const Skeleton& skeleton, int count = 1, double rate_hz = 30) {
   const LocalPose rest = RestPose(skeleton);
   return {.name = "person", .skeleton = skeleton, .rate_hz = rate_hz, .frames = std::vector<LocalPose>(count, rest)};

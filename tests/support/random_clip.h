@@ -19,7 +19,7 @@ class Dice {
     state_ = state_ * 6364136223846793005u + 1442695040888963407u;
     return static_cast<std::uint32_t>((state_ >> 33) % limit);
   }
-  /// In [−1, 1), in steps of 2⁻³⁰.
+  /// Draws a number in [−1, 1), in steps of 2⁻³⁰.
   double Signed() { return Below(std::size_t{1} << 31) / 1073741824.0 - 1; }
   glm::dvec3 Vector() {
     const double x = Signed(), y = Signed();

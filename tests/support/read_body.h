@@ -8,13 +8,13 @@
 
 namespace etude::testing {
 
-/// From the skeleton's names to the body: FindJointMap and ToBodyMotion.
+/// Converts a clip to a body by the skeleton's names: FindJointMap and ToBodyMotion.
 inline Result<BodyConversion> ToBody(const Clip& clip, const std::string& file, const BodyOptions& options = {}) {
   ASSIGN_OR_RETURN(const auto map, FindJointMap(clip.skeleton, file));
   return ToBodyMotion(clip, map, file, options);
 }
 
-/// The same from the bytes of a BVH file.
+/// Reads a body from the bytes of a BVH file likewise.
 inline Result<BodyConversion> ReadBody(std::string_view bytes, const std::string& file) {
   ASSIGN_OR_RETURN(const auto clip, ReadBvh(bytes, file));
   return ToBody(clip, file);

@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// What every method of a world did in it, in order; those of a world to be skipped are.
+/// Runs every method of a world, in order, and returns their cells; a world to be skipped gives skipped cells.
 inline std::vector<CellResult> RunWorld(const Task& task, const WorldKey& key, std::size_t methods,
                                         bool keeps_motion = false) {
   const std::unique_ptr<TaskWorld> world = task.MakeWorld(key, keeps_motion);

@@ -65,7 +65,7 @@ inline std::string GltfWithAnimations(const std::string& uri) {
                   animation + R"(}, {"name": "Armature|Walk", )" + animation + "}]");
 }
 
-/// What the animations' buffer holds: times 0 and 1, positions (0, 0, 0) and (0, 1, 0).
+/// The content of the animations' buffer: times 0 and 1, positions (0, 0, 0) and (0, 1, 0).
 inline std::string AnimationBytes() {
   const float numbers[] = {0, 1, 0, 0, 0, 0, 1, 0};
   return {reinterpret_cast<const char*>(numbers), sizeof(numbers)};

@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// How a sensor's space lies to an optical system's, for recordings made up by tests.
+/// The pose of a sensor's space in an optical system's, for recordings made up by tests.
 struct MadeUp {
   glm::dquat rotation = glm::normalize(glm::dquat(0.3, 0.5, -0.7, 0.2));
   glm::dvec3 translation{0.4, -0.3, 2.9};
@@ -38,13 +38,13 @@ inline TwinMotion DancingTwin(double seconds, double tempo = 1,
   return twin;
 }
 
-/// Where each joint sits in its carrier.
+/// Returns the place of each joint in its carrier.
 inline glm::dvec3 OffsetOf(std::size_t joint) {
   const auto j = static_cast<double>(joint);
   return {0.02 * std::sin(j), 0.03 * std::cos(2 * j), 0.01 * std::sin(3 * j)};
 }
 
-/// What a perfect sensor at 30 Hz says of it, in its own space.
+/// Returns the recording of a perfect sensor at 30 Hz, in its own space.
 inline JointRecording PerfectRecording(const TwinMotion& twin, double seconds, const MadeUp& made) {
   JointRecording recording{.rate_hz = 30, .frames = {}, .sensor_at = glm::dvec3(0)};
   for (double t = 0; t < seconds; t += 1.0 / 30) {

@@ -17,7 +17,7 @@ PictureEvidence See(const BodyPose& pose, const Camera& camera) {
   return SeePicture(Shown(LabelsOf(BodyCapsules(pose), camera)).picture());
 }
 
-/// How far the evidence may lie from the true joint centre, pixels: limbs' ends are exact but for rasters and
+/// The largest distance of the evidence from the true joint centre, pixels: limbs' ends are exact but for rasters and
 /// perspective, joints inside the trunk are guessed from outside.
 double LargestBias(Role role) {
   if (role == kLeftHip || role == kRightHip || role == kLeftShoulder || role == kRightShoulder) return 7;

@@ -109,7 +109,7 @@ Painter MovingEdge(const std::function<double(double)>& edge) {
   return [edge](int x, int, double frame) { return x + 0.5 < edge(frame) ? Rgb8{230, 230, 230} : Rgb8{30, 30, 30}; };
 }
 
-/// Where the edge stands in a row: as many pixels as there is light.
+/// Finds the edge in a row: it has as many pixels as there is light.
 double EdgeInRow(const ColourImage& picture, int y) {
   const double dark = LightOfCodes()[30], bright = LightOfCodes()[230];
   double sum = 0;

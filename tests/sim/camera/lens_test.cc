@@ -33,7 +33,7 @@ Painter Stripes(const CameraModel& model, bool upright) {
   };
 }
 
-/// Where light passes its middle along rows (upright stripes) or columns, followed from row to row.
+/// Finds where light passes its middle along rows (upright stripes) or columns, followed from row to row.
 std::vector<Curve> FindEdges(const ColourImage& picture, bool upright) {
   constexpr double kMiddle = 0.35;
   const int along = upright ? picture.height : picture.width, across = upright ? picture.width : picture.height;

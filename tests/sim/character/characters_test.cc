@@ -188,7 +188,7 @@ TEST(FiguresStretch, IsSeenWhereSkinTears) {
   EXPECT_GT(most, 3);
 }
 
-/// To the micrometre, so that a last bit of a library's sine is not seen.
+/// Rounds to the micrometre, so that a last bit of a library's sine is not seen.
 std::string DigestOf(const Character& character) {
   const auto micro = [](double value) { return static_cast<std::int64_t>(std::llround(1e6 * value)); };
   Digest digest;

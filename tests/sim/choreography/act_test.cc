@@ -46,7 +46,7 @@ double Nearest(const Move& move, Role a, Role b) {
   return nearest;
 }
 
-/// How often `role` changes its direction from side to side by more than 2 cm, seen from the hips.
+/// Counts how often `role` changes its direction from side to side by more than 2 cm, seen from the hips.
 int SideToSide(const Move& move, Role role) {
   int turns = 0, direction = 0;
   double extreme = 0;

@@ -15,7 +15,7 @@ glm::dvec3 CentreOfMass(const BodyPose& pose);
 /// heel is up, nothing when it is in the air.
 std::vector<glm::dvec2> Sole(const BodyPose& pose, Side side);
 
-/// How far `point` lies outside the convex hull of `corners` (at least three, not in a line); 0 inside.
+/// Returns how far `point` lies outside the convex hull of `corners` (at least three, not in a line); 0 inside.
 double DistanceOutside(const glm::dvec2& point, std::vector<glm::dvec2> corners);
 
 }  // namespace etude

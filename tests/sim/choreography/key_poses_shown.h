@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// Whether the frame shows the key pose: every target's feature (engine/fuzzy) within its tolerance.
+/// Tells whether the frame shows the key pose: every target's feature (engine/fuzzy) within its tolerance.
 inline bool ShowsKeyPose(const KeyPose& key_pose, const BodyPose& pose, double standing_hip_height) {
   const PoseFeatures features = ComputeFeatures(pose, standing_hip_height);
   return std::ranges::all_of(key_pose.targets, [&](const KeyPose::Target& target) {

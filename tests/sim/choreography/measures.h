@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// How far apart two poses are, metres: the joint that differs most.
+/// Returns how far apart two poses are, metres: the distance of the joint that differs most.
 inline double WorstJointDistance(const BodyPose& a, const BodyPose& b) {
   double worst = 0;
   for (std::size_t i = 0; i < kRoleCount; ++i) worst = std::max(worst, glm::distance(a.joints[i], b.joints[i]));

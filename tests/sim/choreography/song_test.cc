@@ -127,8 +127,8 @@ TEST(BuiltinSongs, DanceTheirMovesAsTheyAreBetweenTheJoins) {
   }
 }
 
-/// How much a join may jerk: as much as all but the quickest twentieth of the dancing itself, or hardly more than one
-/// of both moves does around its own beginning.
+/// The most that a join may jerk: as much as all but the quickest twentieth of the dancing itself, or hardly more than
+/// one of both moves does around its own beginning.
 double AllowedJump(std::vector<double> within, double of_neighbours) {
   std::ranges::sort(within);
   return std::max(within[within.size() * 95 / 100], 1.05 * of_neighbours);

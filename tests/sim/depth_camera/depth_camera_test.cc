@@ -43,7 +43,7 @@ DepthImage TurnedWall(double z, double angle) {
   return depth;
 }
 
-/// Of a kind, with a single fault of strength 1.
+/// Makes a camera of a kind with a single fault of strength 1.
 DepthCameraOptions Only(const DepthCameraOptions& kind, double DepthCameraOptions::*fault) {
   DepthCameraOptions options = WithStrength(kind, 0);
   options.*fault = 1;
@@ -172,7 +172,7 @@ TEST(DepthCamera, WhatIsSeenAtASlantIsLost) {
   EXPECT_FALSE(lost_at(86, 0));
 }
 
-/// Of pixels whose middle is so far on the far side of a step edge, the share that shows what is near.
+/// Returns the share of pixels that show what is near, of those whose middle is so far on the far side of a step edge.
 double ShareOfNear(const DepthCameraOptions& options, int pixels_away) {
   int shown = 0, all = 0;
   for (int trial = 0; trial < 8; ++trial) {

@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// Every built-in move.
+/// Returns every built-in move.
 inline const std::vector<Move>& AllMoves() {
   static const std::vector<Move> moves = [] {
     std::vector<Move> loaded;

@@ -18,7 +18,7 @@ struct PerformedClip {
   double duration_s = 0;
 };
 
-/// Every move once, by one person, as they mean it.
+/// Performs every move once, by one person, as they mean it.
 inline std::vector<PerformedClip> EveryMoveOf(int number, People people) {
   const WorldKey key{11, "fidelity", number};
   const Person person = DrawPerson(key, people);
@@ -38,7 +38,8 @@ inline std::vector<PerformedClip> EveryMoveOf(int number, People people) {
   return clips;
 }
 
-/// What one-nearest-neighbour makes of everybody's moves, taught by one clip of each move by one other person.
+/// The scores of a one-nearest-neighbour classifier on everybody's moves, taught by one clip of each move by one other
+/// person.
 struct Neighbours {
   double found = 0;                               ///< share of clips nearest to their own move
   std::vector<double> same_cm, nearest_other_cm;  ///< sorted
@@ -49,7 +50,7 @@ struct Neighbours {
   }
 };
 
-/// `count` people; each learns from `teachers` others.
+/// Scores `count` people; each is classified by `teachers` others.
 inline Neighbours MeasureNeighbours(People people, int count, int teachers) {
   std::vector<std::vector<PerformedClip>> crowd;
   for (int i = 0; i < count; ++i) crowd.push_back(EveryMoveOf(i, people));

@@ -111,7 +111,7 @@ LimbLengths LengthsOf(const BodyDimensions& body) {
           .hand = body.hand};
 }
 
-/// How far a joint's angles go beyond an adult's limits.
+/// The distance by which a joint's angles go beyond an adult's limits.
 struct BeyondLimits {
   int angles = 0, beyond = 0;  // by more than a degree
   double worst = 0;            // radians
@@ -128,7 +128,7 @@ bool IsTwistOfAStraightArm(const KinematicTree& tree, const TreeState& state, in
   return false;
 }
 
-/// Of every angle, in every move of some people; `wrung` turns the left arm in further than it can.
+/// Collects the excess of every angle, in every move of some people; `wrung` turns the left arm in further than it can.
 std::map<int, BeyondLimits> Beyond(double wrung) {
   std::map<int, BeyondLimits> found;
   for (int trial = 0; trial < 12; ++trial) {

@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// What one viewing ray meets first.
+/// The first thing that a viewing ray meets.
 struct Sight {
   std::uint32_t label = 0;
   double depth = std::numeric_limits<double>::infinity();
@@ -59,7 +59,7 @@ class RayCaster {
     return sight;
   }
 
-  /// Whether the label is the same all around (u, v), `margin` pixels away: false on outlines.
+  /// Tells whether the label is the same all around (u, v), `margin` pixels away: false on outlines.
   bool IsClear(double u, double v, double margin) const {
     const std::uint32_t label = Cast(u, v).label;
     for (const double du : {-margin, 0.0, margin}) {
@@ -120,7 +120,7 @@ struct Comparison {
   double worst_depth = 0;  // metres, away from outlines
 };
 
-/// Every third pixel of every third row. An outline within a 20th of a pixel excuses a difference.
+/// Compares every third pixel of every third row. An outline within a 20th of a pixel excuses a difference.
 inline Comparison Compare(const View& view, const RayCaster& caster) {
   constexpr double kMargin = 0.05;
   Comparison result;

@@ -41,7 +41,7 @@ inline Surface Tessellate(const Capsule& capsule, Rgb8 colour, int around) {
   return surface;
 }
 
-/// Every capsule of a body.
+/// Tessellates every capsule of a body.
 inline std::vector<Surface> Tessellate(const std::vector<Capsule>& shape, const PartColours& colours, int around) {
   std::vector<Surface> surfaces;
   for (const Capsule& capsule : shape) {

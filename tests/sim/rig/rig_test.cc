@@ -88,7 +88,7 @@ TEST(SetUpCameras, NeverPutsOneInTheWall) {
   }
 }
 
-/// Whether every joint of every frame is in the picture: project, and look.
+/// Tells whether every joint of every frame is in the picture, by projecting it.
 bool HoldsAll(const Camera& camera, const std::vector<BodyPose>& motion) {
   return std::ranges::all_of(motion, [&](const BodyPose& pose) { return IsInPicture(camera, pose); });
 }

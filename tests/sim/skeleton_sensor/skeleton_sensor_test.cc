@@ -63,7 +63,7 @@ double Covariance(const JointErrors& errors, const std::array<Role, N>& roles, s
   return sum / (3.0 * N * static_cast<double>(errors.size() - lag));
 }
 
-/// What a process "slow wander + white" is made of, told from its covariance at lags 0, 5 and 10.
+/// The parts of a process "slow wander + white", from its covariance at lags 0, 5 and 10.
 struct Wander {
   double slow_mm, white_mm, time_constant_s;
 };
