@@ -11,7 +11,7 @@
 #include "cli/commands.h"
 #include "cli/output_file.h"
 #include "engine/formats/trc.h"
-#include "engine/keypoints/landmarks.h"
+#include "engine/keypoints/people.h"
 
 namespace etude {
 namespace {

@@ -11,7 +11,7 @@
 #include "bench/run/run.h"
 #include "bench/statistics/beyond.h"
 #include "bench/statistics/bootstrap.h"
-#include "bench/statistics/power.h"
+#include "bench/statistics/distributions.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"

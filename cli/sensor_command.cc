@@ -9,11 +9,10 @@
 
 #include "bench/files/files.h"
 #include "bench/sensor_fit/fit.h"
-#include "bench/sensor_fit/simulated.h"
-#include "bench/sensor_fit/table.h"
+#include "bench/sensor_fit/statistics.h"
 #include "cli/commands.h"
 #include "cli/output_file.h"
-#include "sim/skeleton_sensor/sensor_file.h"
+#include "sim/skeleton_sensor/options.h"
 
 namespace etude {
 namespace {

@@ -47,8 +47,7 @@ function(etude_folder)
     set(scope INTERFACE)
   endif()
   if(ARG_HARDENED AND ETUDE_HARDENING)
-    target_compile_options(${target} PRIVATE ${ETUDE_HARDENING})
-    set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)  # which are compiled without
+    etude_compile_options(${ETUDE_HARDENING})
   endif()
   target_include_directories(${target} ${scope} "${CMAKE_SOURCE_DIR}")
   target_link_libraries(${target} ${scope} glm::glm tl::expected ${ARG_LIBRARIES})
@@ -81,6 +80,20 @@ function(etude_unity TARGET)
   endforeach()
   if(ETUDE_HEADERS)
     target_precompile_headers(${TARGET} REUSE_FROM ${ETUDE_HEADERS})
+  endif()
+endfunction()
+
+# etude_compile_options(<option>... FILES <file>...): options of the current folder's library, or of some of its files alone,
+# which are then compiled without the headers of etude_headers: those belong to other options.
+function(etude_compile_options)
+  cmake_parse_arguments(ARG "" "" "FILES" ${ARGN})
+  if(ARG_FILES)
+    set_source_files_properties(${ARG_FILES} PROPERTIES COMPILE_OPTIONS "${ARG_UNPARSED_ARGUMENTS}"
+      SKIP_PRECOMPILE_HEADERS ON)
+  else()
+    etude_target_name("${CMAKE_CURRENT_SOURCE_DIR}" target)
+    target_compile_options(${target} PRIVATE ${ARG_UNPARSED_ARGUMENTS})
+    set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
   endif()
 endfunction()
 

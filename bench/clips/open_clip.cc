@@ -7,7 +7,7 @@
 #include "bench/files/files.h"
 #include "engine/base/names.h"
 #include "engine/formats/bvh.h"
-#include "engine/formats/deepmimic/deepmimic.h"
+#include "engine/formats/deepmimic.h"
 #include "engine/formats/gltf/gltf.h"
 #include "engine/formats/text_scanner.h"
 #include "engine/motion/edit.h"

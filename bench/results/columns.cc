@@ -11,7 +11,6 @@
 
 #include "bench/files/files.h"
 #include "bench/files/json.h"
-#include "bench/files/save_json.h"
 
 namespace etude {
 namespace {

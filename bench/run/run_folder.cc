@@ -8,15 +8,12 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <utility>
-
-#include "bench/files/durable.h"
 #include "bench/files/files.h"
-#include "bench/files/save_json.h"
 #include "bench/results/columns.h"
 #include "bench/results/folder.h"
 #include "bench/results/seal.h"
 #include "bench/run/sum_up.h"
-#include "bench/scenario/study_of.h"
+#include "bench/scenario/scenario.h"
 
 namespace etude {
 namespace {

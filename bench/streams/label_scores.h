@@ -4,8 +4,6 @@
 #include <span>
 #include <string>
 #include <vector>
-
-#include "bench/metrics/action_points.h"
 #include "bench/metrics/detection.h"
 #include "bench/streams/teach.h"
 #include "bench/streams/watch.h"

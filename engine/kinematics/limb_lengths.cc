@@ -6,7 +6,7 @@
 #include <initializer_list>
 
 #include "engine/base/euler.h"
-#include "engine/base/unit_vector.h"
+#include "engine/base/directions.h"
 
 namespace etude {
 namespace {

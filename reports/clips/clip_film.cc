@@ -13,7 +13,7 @@
 #include "sim/body/shape.h"
 #include "sim/character/characters.h"
 #include "sim/character/posed.h"
-#include "sim/choreography/stance.h"
+#include "sim/choreography/canonical_body.h"
 
 namespace etude {
 namespace {

@@ -12,7 +12,7 @@
 #include "reports/films/canvas.h"
 #include "reports/films/film.h"
 #include "reports/films/studio.h"
-#include "sim/character/recorded_figure.h"
+#include "sim/character/posed.h"
 #include "sim/render/renderer.h"
 
 namespace etude {

@@ -12,7 +12,7 @@
 #include "reports/films/capture_panel.h"
 #include "reports/films/cast.h"
 #include "reports/films/film.h"
-#include "reports/transitions/transition_facts.h"
+#include "reports/transitions/recorded_requests.h"
 #include "sim/render/renderer.h"
 
 namespace etude {

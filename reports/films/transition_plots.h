@@ -2,7 +2,7 @@
 
 #include "reports/films/canvas.h"
 #include "reports/films/transition_race.h"
-#include "reports/transitions/transition_facts.h"
+#include "reports/transitions/recorded_requests.h"
 
 namespace etude {
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "reports/transitions/recorded_requests.h"
-#include "reports/transitions/transition_facts.h"
 
 namespace etude {
 

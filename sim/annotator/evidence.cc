@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/vision/near_person.h"
+#include "engine/vision/limb_regions.h"
 
 namespace etude {
 namespace {

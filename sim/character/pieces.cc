@@ -6,7 +6,7 @@
 
 #include "engine/base/angles.h"
 #include "engine/base/smoothstep.h"
-#include "engine/base/srgb.h"
+#include "engine/base/image.h"
 #include "engine/motion/from_body.h"
 #include "sim/choreography/rotations.h"
 

@@ -3,7 +3,7 @@
 #include <initializer_list>
 #include <vector>
 
-#include "engine/base/texture.h"
+#include "engine/base/image.h"
 #include "sim/render/gl_context.h"
 #include "sim/render/scene.h"
 

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "engine/base/image.h"
-#include "engine/base/texture.h"
 #include "sim/body/shape.h"
 
 namespace etude {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "bench/metrics/coach.h"
-#include "bench/metrics/share.h"
+#include "bench/statistics/curves/curves.h"
 #include "bench/metrics/transition_smoothness.h"
 #include "bench/tasks/coach/exchange.h"
 #include "bench/tasks/coach/learner_player.h"

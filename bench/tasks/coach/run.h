@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/model/cell_result.h"
+#include "bench/model/row.h"
 #include "bench/tasks/base/task.h"
 #include "bench/tasks/coach/options.h"
 #include "bench/tasks/coach/session.h"

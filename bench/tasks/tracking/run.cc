@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "bench/metrics/pose_error.h"
-#include "bench/metrics/tracking.h"
+#include "bench/metrics/ik_error.h"
 #include "bench/tasks/base/tree_json.h"
 #include "engine/base/digest.h"
 #include "engine/kinematics/solvers/ik_run.h"

@@ -4,15 +4,14 @@
 #include <array>
 #include <iterator>
 
-#include "bench/metrics/dimensionless_jerk.h"
-#include "bench/metrics/spectral_arc_length.h"
+#include "bench/metrics/speed_profile.h"
 #include "bench/metrics/transition_join.h"
 #include "bench/metrics/transition_smoothness.h"
 #include "bench/tasks/transition/exchange.h"
 #include "bench/tasks/transition/outcome.h"
 #include "engine/base/digest.h"
-#include "engine/transitions/base/alignment.h"
-#include "engine/transitions/bridge_frames/transition_points.h"
+#include "engine/transitions/alignment.h"
+#include "engine/transitions/library/transition_points.h"
 
 namespace etude {
 

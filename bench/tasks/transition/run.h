@@ -13,7 +13,7 @@
 #include "bench/tasks/transition/stage.h"
 #include "bench/tasks/transition/world.h"
 #include "bench/training/learnt_weights.h"
-#include "engine/transitions/transition.h"
+#include "engine/transitions/choices/choice.h"
 
 namespace etude {
 

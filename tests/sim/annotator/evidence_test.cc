@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "engine/base/angles.h"
-#include "engine/vision/middle_line.h"
+#include "engine/vision/limb_regions.h"
 #include "tests/sim/annotator/annotated_body.h"
 
 namespace etude {
