@@ -6,7 +6,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const std::string kTransitions = "scenario: s\nquestion: q\ntask: transition\nmethods: [{name: a}]\n";
+const std::string kOfLibraries = "scenario: s\nquestion: q\ntask: transition\nmethods: [{name: a}]\n";
 
 std::vector<std::string> Labels(const Scenario& scenario) {
   std::vector<std::string> labels;
@@ -15,7 +15,7 @@ std::vector<std::string> Labels(const Scenario& scenario) {
 }
 
 TEST(Libraries, HaveEveryConditionOnceEach) {
-  const Scenario scenario = ParseOne(kTransitions +
+  const Scenario scenario = ParseOne(kOfLibraries +
                                      "sweep: {threshold: [0.3, 0.4]}\n"
                                      "libraries: {moves: ['builtin:*'], mine: [a.bvh, b.bvh]}\n");
   EXPECT_THAT(Labels(scenario), ElementsAre("library=moves, threshold=0.3", "library=moves, threshold=0.4",
@@ -26,20 +26,20 @@ TEST(Libraries, HaveEveryConditionOnceEach) {
 
 TEST(Libraries, CanBeAddedOnceToThoseOfTheScenarioAndToNone) {
   const NamedClips extra[] = {{"mine", {"a.bvh"}}};
-  Scenario with = ParseOne(kTransitions + "libraries: {moves: ['builtin:*']}\n");
+  Scenario with = ParseOne(kOfLibraries + "libraries: {moves: ['builtin:*']}\n");
   for (int again = 0; again < 2; ++again) AddLibraries(extra, with);
   EXPECT_THAT(Labels(with), ElementsAre("library=moves", "library=mine"));
-  Scenario without = ParseOne(kTransitions + "clips: ['builtin:*']\nsweep: {threshold: [0.3, 0.4]}\n");
+  Scenario without = ParseOne(kOfLibraries + "clips: ['builtin:*']\nsweep: {threshold: [0.3, 0.4]}\n");
   AddLibraries(extra, without);
   EXPECT_THAT(Labels(without), ElementsAre("library=mine, threshold=0.3", "library=mine, threshold=0.4"));
 }
 
 TEST(Libraries, AreRefusedWhereTheyMakeNoSense) {
-  EXPECT_THAT(Complaint(kTransitions + "libraries: [a.bvh]\n"), HasSubstr("'libraries' must map names"));
-  EXPECT_THAT(Complaint(kTransitions + "libraries: {}\n"), HasSubstr("'libraries' must map names"));
-  EXPECT_THAT(Complaint(kTransitions + "clips: [a.bvh]\nlibraries: {mine: [a.bvh]}\n"),
+  EXPECT_THAT(Complaint(kOfLibraries + "libraries: [a.bvh]\n"), HasSubstr("'libraries' must map names"));
+  EXPECT_THAT(Complaint(kOfLibraries + "libraries: {}\n"), HasSubstr("'libraries' must map names"));
+  EXPECT_THAT(Complaint(kOfLibraries + "clips: [a.bvh]\nlibraries: {mine: [a.bvh]}\n"),
               HasSubstr("stands in the place of 'clips'"));
-  EXPECT_THAT(Complaint(kTransitions + "libraries: {'my own': [a.bvh]}\n"), HasSubstr("no plain name"));
+  EXPECT_THAT(Complaint(kOfLibraries + "libraries: {'my own': [a.bvh]}\n"), HasSubstr("no plain name"));
   EXPECT_THAT(Complaint(kHead + kMethods + "libraries: {mine: [a.bvh]}\n"), HasSubstr("has no use in task ik"));
 }
 

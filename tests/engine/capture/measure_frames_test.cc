@@ -18,7 +18,7 @@ FrameMeasurement MeasureFrame(const std::vector<ProjectionMatrix>& cameras, cons
   return MeasureFrames({.cameras = cameras, .marks = marks}, options).at(0);
 }
 
-std::vector<ProjectionMatrix> TwoCameras() { return {ThreeCameras()[0], ThreeCameras()[1]}; }
+std::vector<ProjectionMatrix> MeasuringCameras() { return {ThreeCameras()[0], ThreeCameras()[1]}; }
 
 /// Expects every direction found to be the pose's; gives their number.
 int CountTrueDirections(const FrameMeasurement& found, const BodyPose& pose) {
@@ -48,7 +48,7 @@ TEST(Strokes, AreThoseOfTheLimbsThatTheSkeletonNeeds) {
 }
 
 TEST(MeasureFrames, FindsTheTruthInExactMarksOfTwoCamerasOrThree) {
-  for (const auto& cameras : {TwoCameras(), ThreeCameras()}) {
+  for (const auto& cameras : {MeasuringCameras(), ThreeCameras()}) {
     for (double phase : {0.0, 1.0, 2.0, 3.0}) {
       const BodyPose pose = ModelPose(phase);
       const FrameMeasurement found = MeasureFrame(cameras, ExactMarks({pose}, cameras));
@@ -77,13 +77,14 @@ TEST(MeasureFrames, FindsSomethingElseWhenTheCamerasAreMixedUp) {
 
 TEST(MeasureFrames, NeedsTwoPicturesThatShowAMark) {
   const BodyPose pose = ModelPose();
-  TakeMarks two = ExactMarks({pose}, TwoCameras()), three = ExactMarks({pose}, ThreeCameras());
+  TakeMarks two = ExactMarks({pose}, MeasuringCameras()), three = ExactMarks({pose}, ThreeCameras());
   for (TakeMarks* marks : {&two, &three}) {
     (*marks)[0][0].effectors[0].reset();
     (*marks)[0][0].strokes[0].reset();
   }
   const Role end = EffectorMarks()[0].role, limb = StrokeMarks()[0].to;
-  const FrameMeasurement one_left = MeasureFrame(TwoCameras(), two), two_left = MeasureFrame(ThreeCameras(), three);
+  const FrameMeasurement one_left = MeasureFrame(MeasuringCameras(), two),
+                         two_left = MeasureFrame(ThreeCameras(), three);
   EXPECT_FALSE(one_left.ends[Index(end)]);
   EXPECT_FALSE(one_left.directions[Index(limb)]);
   EXPECT_TRUE(one_left.ends[Index(EffectorMarks()[1].role)]);
@@ -150,7 +151,7 @@ TEST(MeasureFrames, ComesNearerToTheTruthWithAThirdCameraWhenMarksAreCareless) {
       for (auto& stroke : of_camera[0].strokes) stroke = PixelSegment{stroke->a + slip(), stroke->b + slip()};
     }
     const FrameMeasurement three = MeasureFrame(ThreeCameras(), marks);
-    const FrameMeasurement two = MeasureFrame(TwoCameras(), {marks[0], marks[1]});
+    const FrameMeasurement two = MeasureFrame(MeasuringCameras(), {marks[0], marks[1]});
     for (const EffectorMark& mark : EffectorMarks()) {
       two_errors += glm::distance(*two.ends[Index(mark.role)], pose[mark.role]);
       three_errors += glm::distance(*three.ends[Index(mark.role)], pose[mark.role]);
@@ -167,7 +168,7 @@ TEST(MeasureFrames, ComesNearerToTheTruthWithAThirdCameraWhenMarksAreCareless) {
 }
 
 TEST(MeasureFrames, UsesNoStrokeThatIsTooShortAndNoPlanesThatAreTooNear) {
-  const auto cameras = TwoCameras();
+  const auto cameras = MeasuringCameras();
   const BodyPose pose = ModelPose();
   const TakeMarks marks = ExactMarks({pose}, cameras);
   const std::size_t i = StrokeTo(Role::kLeftKnee);
@@ -186,11 +187,11 @@ TEST(MeasureFrames, UsesNoStrokeThatIsTooShortAndNoPlanesThatAreTooNear) {
 
 TEST(MeasureFrames, KeepsWhatOnePictureTellsOfALimbOrAnEnd) {
   const BodyPose pose = ModelPose();
-  TakeMarks marks = ExactMarks({pose}, TwoCameras());
+  TakeMarks marks = ExactMarks({pose}, MeasuringCameras());
   const Role end = EffectorMarks()[0].role, limb = StrokeMarks()[0].to;
   marks[0][0].effectors[0].reset();
   marks[0][0].strokes[0].reset();
-  const FrameMeasurement found = MeasureFrame(TwoCameras(), marks);
+  const FrameMeasurement found = MeasureFrame(MeasuringCameras(), marks);
   const auto& planes = found.planes[Index(limb)];
   ASSERT_EQ(planes.size(), 1u);
   EXPECT_NEAR(glm::dot(planes[0].normal_W, LimbOf(pose, StrokeMarks()[0])), 0, 1e-9) << "the limb lies in its plane";
@@ -206,7 +207,7 @@ TEST(MeasureFrames, KeepsWhatOnePictureTellsOfALimbOrAnEnd) {
 }
 
 TEST(MeasureFrames, TakesWhatIsKnownInsteadOfMarks) {
-  const auto cameras = TwoCameras();
+  const auto cameras = MeasuringCameras();
   const BodyPose pose = ModelPose();
   const TakeMarks marks = ExactMarks({pose, pose}, cameras);
   std::vector<KnownMeasurement> known(2);

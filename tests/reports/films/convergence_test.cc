@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr Paint kRed{1, 0, 0, 1};
+constexpr Paint kCurveRed{1, 0, 0, 1};
 
 // The columns between which pixels of the pure colour lie; first > last when there are none.
 struct Columns {
@@ -45,7 +45,7 @@ Columns CurveAt(const ErrorPlot& plot, double iteration) {
 
 TEST(ErrorPlot, DrawsTheCurveAsFarAsItIsKnown) {
   const RaceClock clock(100);
-  const ErrorPlot plot("error, cm", " cm", 0.1, {{{0, 1, 10, 100}, {40, 3, 0.5, 0.01}, kRed}}, clock);
+  const ErrorPlot plot("error, cm", " cm", 0.1, {{{0, 1, 10, 100}, {40, 3, 0.5, 0.01}, kCurveRed}}, clock);
   const Columns start = CurveAt(plot, 0), middle = CurveAt(plot, 50), end = CurveAt(plot, 100);
   const double length = end.last - start.last;
   EXPECT_NEAR(end.first, start.first, 6);  // the dot at the pen has left
@@ -54,7 +54,7 @@ TEST(ErrorPlot, DrawsTheCurveAsFarAsItIsKnown) {
 }
 
 TEST(ErrorPlot, KeepsWhatIsTooSmallOrNothingAtTheLowerEdge) {
-  const ErrorPlot plot("error, cm", " cm", 0.1, {{{0, 1, 2}, {40, 1e-12, 0}, kRed}}, RaceClock(2));
+  const ErrorPlot plot("error, cm", " cm", 0.1, {{{0, 1, 2}, {40, 1e-12, 0}, kCurveRed}}, RaceClock(2));
   Canvas canvas(622, 244);
   plot.Draw(canvas, {0, 0, 622, 244}, 2);
   const ColourImage pixels = canvas.Pixels();
@@ -67,7 +67,7 @@ TEST(ErrorPlot, KeepsWhatIsTooSmallOrNothingAtTheLowerEdge) {
 }
 
 TEST(ErrorPlot, ShowsAMethodThatNeverMoved) {
-  const ErrorPlot plot("error, cm", " cm", 0.1, {{{0}, {0.05}, kRed}}, RaceClock(0));
+  const ErrorPlot plot("error, cm", " cm", 0.1, {{{0}, {0.05}, kCurveRed}}, RaceClock(0));
   EXPECT_LE(CurveAt(plot, 0).first, CurveAt(plot, 0).last);
 }
 

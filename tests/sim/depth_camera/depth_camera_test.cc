@@ -13,30 +13,30 @@
 namespace etude {
 namespace {
 
-constexpr int kWidth = 320, kHeight = 240;
+constexpr int kDepthWidth = 320, kDepthHeight = 240;
 constexpr double kFocus = 580, kBaseline = 0.075;
 
 Camera ACamera() {
-  return LookAt({.width = kWidth, .height = kHeight, .fx = kFocus, .fy = kFocus, .cx = 160, .cy = 120}, {0, 1, 3},
-                {0, 1, 0});
+  return LookAt({.width = kDepthWidth, .height = kDepthHeight, .fx = kFocus, .fy = kFocus, .cx = 160, .cy = 120},
+                {0, 1, 3}, {0, 1, 0});
 }
 
-DepthImage Flat(double z) { return DepthImage(kWidth, kHeight, static_cast<float>(z)); }
+DepthImage Flat(double z) { return DepthImage(kDepthWidth, kDepthHeight, static_cast<float>(z)); }
 
 /// Near from column 200 on, far before.
 DepthImage StepEdge(double near, double far) {
   DepthImage depth = Flat(far);
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 200; x < kWidth; ++x) depth.At(x, y) = static_cast<float>(near);
+  for (int y = 0; y < kDepthHeight; ++y) {
+    for (int x = 200; x < kDepthWidth; ++x) depth.At(x, y) = static_cast<float>(near);
   }
   return depth;
 }
 
 /// A wall turned by `angle` about the vertical through the picture's middle, where its depth is `z`.
 DepthImage TurnedWall(double z, double angle) {
-  DepthImage depth(kWidth, kHeight);
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  DepthImage depth(kDepthWidth, kDepthHeight);
+  for (int y = 0; y < kDepthHeight; ++y) {
+    for (int x = 0; x < kDepthWidth; ++x) {
       depth.At(x, y) = static_cast<float>(z / (1 - std::tan(angle) * (x + 0.5 - 160) / kFocus));
     }
   }
@@ -177,7 +177,7 @@ double ShareOfNear(const DepthCameraOptions& options, int pixels_away) {
   int shown = 0, all = 0;
   for (int trial = 0; trial < 8; ++trial) {
     const DepthImage measured = Measure(StepEdge(1.5, 3), options, trial);
-    for (int y = 10; y < kHeight - 10; ++y, ++all) shown += measured.At(199 - pixels_away, y) < 2;
+    for (int y = 10; y < kDepthHeight - 10; ++y, ++all) shown += measured.At(199 - pixels_away, y) < 2;
   }
   return static_cast<double>(shown) / all;
 }
@@ -200,8 +200,8 @@ TEST(DepthCamera, EdgesAreAsUnsteadyAsPublished) {
 
 TEST(DepthCamera, EdgesShiftInBothDirectionsByPixelsOfTheSensor) {
   DepthImage corner = Flat(3);
-  for (int y = 120; y < kHeight; ++y) {
-    for (int x = 160; x < kWidth; ++x) corner.At(x, y) = 1.5f;
+  for (int y = 120; y < kDepthHeight; ++y) {
+    for (int x = 160; x < kDepthWidth; ++x) corner.At(x, y) = 1.5f;
   }
   const DepthCameraOptions options = Only(KinectV2Depth(), &DepthCameraOptions::lateral_noise);
   const int trials = 60, pixels = 100 * trials;
@@ -230,7 +230,8 @@ TEST(DepthCamera, StrengthsDoNotChangeTheDice) {
   EXPECT_EQ(next(WithStrength(KinectV1Depth(), 0), Flat(2)), expected);
   EXPECT_EQ(next(KinectV2Depth(), StepEdge(1, 3)), expected);
   EXPECT_EQ(next(KinectV1Depth(), Flat(kNotMeasured)), expected);
-  EXPECT_NE(next(KinectV1Depth(), DepthImage(kWidth, kHeight - 1, 2)), expected) << "fewer pixels, fewer throws";
+  EXPECT_NE(next(KinectV1Depth(), DepthImage(kDepthWidth, kDepthHeight - 1, 2)), expected)
+      << "fewer pixels, fewer throws";
   // Half of the noise is half of each pixel's error.
   DepthCameraOptions half = Only(KinectV1Depth(), &DepthCameraOptions::axial_noise), whole = half;
   half.axial_noise = 0.5;

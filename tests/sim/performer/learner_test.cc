@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-constexpr WorldKey kWorld{3, "learner-test", 4};
+constexpr WorldKey kLearnerWorld{3, "learner-test", 4};
 
 const ShowableFaults& AllShowable() {
   static const ShowableFaults showable(AllMoves());
