@@ -11,8 +11,7 @@ Field<StudioOptions> Effect(const std::string& key, double CameraEffects::*effec
   return Field<StudioOptions>::Number(key, Path(&StudioOptions::camera, effect), range, std::move(meaning));
 }
 
-}  // namespace
-
+/// The keys of what the cameras do to the light: one per effect of CameraEffects, in their order.
 std::vector<Field<StudioOptions>> CameraFields() {
   using E = CameraEffects;
   return {
@@ -44,8 +43,6 @@ std::vector<Field<StudioOptions>> CameraFields() {
       Effect("camera_noise", &E::noise, {0, 20}, "Multiplies the camera's usual noise."),
       Effect("jpeg_loss", &E::jpeg_loss, {0, 99}, "100 less the quality of the JPEG file; 0 is no JPEG.")};
 }
-
-namespace {
 
 void CheckStudio(Fields& fields, StudioOptions& options) {
   const RigOptions& rig = options.rig;

@@ -15,9 +15,6 @@
 
 namespace etude {
 
-/// The keys of what the cameras do to the light: one per effect of CameraEffects, in their order.
-std::vector<Field<StudioOptions>> CameraFields();
-
 enum class Clothes {
   kStudio,    ///< "studio": colours that stand apart from the room's, as one would dress for it
   kEveryday,  ///< "everyday": a grey shirt and dark blue trousers, in a room with a bluish floor
