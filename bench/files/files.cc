@@ -181,7 +181,9 @@ Result<std::string> ReadWholeFile(const std::filesystem::path& path) {
 
 Result<void> SyncFile(const std::filesystem::path& path) { return Sync(path, 0); }
 
-Result<void> SyncFolder(const std::filesystem::path& folder) { return Sync(folder.empty() ? "." : folder, O_DIRECTORY); }
+Result<void> SyncFolder(const std::filesystem::path& folder) {
+  return Sync(folder.empty() ? "." : folder, O_DIRECTORY);
+}
 
 Result<void> SyncPathTo(const std::filesystem::path& folder) {
   std::error_code error;
@@ -196,7 +198,8 @@ Result<void> SyncPathTo(const std::filesystem::path& folder) {
 
 Result<void> SyncTree(const std::filesystem::path& folder) {
   std::error_code error;
-  for (std::filesystem::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+  for (std::filesystem::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
     const auto status = entry->symlink_status(error);
     if (std::filesystem::is_directory(status)) {
       RETURN_IF_ERROR(SyncFolder(entry->path()));

@@ -162,7 +162,7 @@ Result<void> DecodeValue(const Json& json, Value& value) {
   return Codec<Value>::Decode(json, value);
 }
 
-#define ETUDE_RECORDED(...)                               \
+#define ETUDE_RECORDED(...)                             \
   template void EncodeValue(const __VA_ARGS__&, Json&); \
   template Result<void> DecodeValue(const Json&, __VA_ARGS__&)
 ETUDE_RECORDED(bool);

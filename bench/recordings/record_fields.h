@@ -12,9 +12,9 @@
 
 namespace etude {
 
-/// Writes one value of a recording as JSON. Instantiated for truth values, numbers, texts, points (three numbers), poses
-/// (sixty numbers), one number per feature (an object by FeatureName), lists of these, and optional ones, which are null
-/// when they hold nothing.
+/// Writes one value of a recording as JSON. Instantiated for truth values, numbers, texts, points (three numbers),
+/// poses (sixty numbers), one number per feature (an object by FeatureName), lists of these, and optional ones, which
+/// are null when they hold nothing.
 template <typename Value>
 void EncodeValue(const Value& value, Json& json);
 
@@ -120,7 +120,9 @@ class RecordFields {
   template <typename Entry>
   struct IsList<std::vector<Entry>> : std::true_type {};
   template <typename Type>
-  static constexpr bool kIsRecord = requires(RecordFields& fields, Type& record) { Describe(fields, record); };
+  static constexpr bool kIsRecord = requires(RecordFields& fields, Type& record) {
+    Describe(fields, record);
+  };
 
   RecordFields(Json* written, const Json* read, std::string* page) : written_(written), read_(read), page_(page) {}
 

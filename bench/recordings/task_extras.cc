@@ -37,7 +37,8 @@ static void Describe(RecordFields& fields, TransitionExtras::Candidate& candidat
 
 static void Describe(RecordFields& fields, TransitionExtras& extras) {
   fields.Tolerated("transition_frame", extras.transition_frame, "the first of `transition_frames`");
-  fields.ToleratedList("transition_frames", extras.transition_frames, "of the recording, the last ones before a change");
+  fields.ToleratedList("transition_frames", extras.transition_frames,
+                       "of the recording, the last ones before a change");
   fields.Tolerated("from", extras.from, "the clip left");
   fields.Tolerated("to", extras.to, "the clip wanted");
   fields.Tolerated("branch", extras.branch, "which way was taken: `front half`, `in-between`, …");
@@ -136,9 +137,10 @@ static void Describe(RecordFields& fields, CoachExtras& extras) {
 
 std::string RecordingsAsMarkdown() {
   return "# What recordings hold beside their motions\n\n"
-         "Written by `etude list recordings`; a test compares the two. A file of `recordings/` holds a cell's motions by\n"
-         "name, `tracks`, and in `extras` an object by the task's kind. Frames count from the first of the recording unless\n"
-         "said otherwise. What `capture` keeps stands in `bench/recordings/capture_extras.h`.\n\n"
+         "Written by `etude list recordings`; a test compares the two. A file of `recordings/` holds a cell's\n"
+         "motions by name, `tracks`, and in `extras` an object by the task's kind. Frames count from the first of\n"
+         "the recording unless said otherwise. What `capture` keeps stands in\n"
+         "`bench/recordings/capture_extras.h`.\n\n"
          "## ik\n\nTracks `truth`, `start` and, step by step, `solution`.\n\n" +
          RecordFields::Page<IkExtras>() +
          "\n## transition\n\nTrack `coach`: some seconds before and after the transition.\n\n" +

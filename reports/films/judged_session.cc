@@ -21,8 +21,8 @@ TrackingState StateOf(char letter) {
 
 Result<SkeletonStream> StreamOf(const BodyMotion& motion, const std::vector<std::string>& states, const Place& place) {
   if (states.size() < motion.poses.size()) {
-    return Fail(place, "its extras are no judged session's: joint_states of {} frames; the motion has {}", states.size(),
-                motion.poses.size());
+    return Fail(place, "its extras are no judged session's: joint_states of {} frames; the motion has {}",
+                states.size(), motion.poses.size());
   }
   SkeletonStream stream{.rate_hz = motion.rate_hz, .frames = {}};
   for (std::size_t frame = 0; frame < motion.poses.size(); ++frame) {
@@ -66,9 +66,9 @@ std::vector<Facts::Performance> PerformancesIn(const DetectionExtras& extras, co
     performance.begin_frame = std::clamp(event.begin_frame, 0, frames);
     performance.end_frame = std::clamp(event.end_frame, performance.begin_frame, frames);
     if (const auto known = poses.find(performance.move); known != poses.end()) performance.poses = known->second;
-    const auto window = std::span(seen.frames).subspan(
-        static_cast<std::size_t>(performance.begin_frame),
-        static_cast<std::size_t>(performance.end_frame - performance.begin_frame));
+    const auto window = std::span(seen.frames)
+                            .subspan(static_cast<std::size_t>(performance.begin_frame),
+                                     static_cast<std::size_t>(performance.end_frame - performance.begin_frame));
     performance.reached = WhenReached(performance.poses, window, {}, {});
     for (auto& when : performance.reached) {
       if (when) *when += performance.begin_frame;

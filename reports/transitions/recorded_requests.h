@@ -15,8 +15,8 @@ using PointFacts = TransitionExtras::Point;
 using CandidateFacts = TransitionExtras::Candidate;
 
 /// Reads what a recording tells of its transition; whatever it leaves out is empty. There is always a point, and
-/// `transition_frames` rise and lie within the coach's motion: others are left out. Fails, naming `cell`, when the extras
-/// are no JSON object.
+/// `transition_frames` rise and lie within the coach's motion: others are left out. Fails, naming `cell`, when the
+/// extras are no JSON object.
 Result<TransitionFacts> ReadTransitionFacts(const Recording& recording, const std::string& cell);
 
 /// Names a clip as people do: "builtin:side_kick" is "side kick".

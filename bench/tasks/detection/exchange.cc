@@ -178,7 +178,9 @@ Recording RecordSession(const DetectionWorld& world, const SessionVerdict& verdi
             .score = judgement.score};
     if (judgement.recognised_at) told.called_frame = window.begin + *judgement.recognised_at;
   }
-  for (const Detection& alarm : verdict.alarms) extras.alarms.push_back({repertoire.taught[alarm.move].name, alarm.frame});
+  for (const Detection& alarm : verdict.alarms) {
+    extras.alarms.push_back({repertoire.taught[alarm.move].name, alarm.frame});
+  }
   for (const SensedFrame& frame : world.stream.frames) extras.joint_states.push_back(StateLetters(frame));
   return {{{"truth", world.motion}, {"sensed", MotionOf(verdict.filtered)}}, WriteDetectionExtras(extras)};
 }

@@ -21,8 +21,15 @@ std::string Complaint(Result<Extras> (*read)(const std::string&), const std::str
 DetectionExtras Session() {
   DetectionExtras extras;
   extras.moves = {{"clap", {{{"RH", 90, 20.5}}, {{"LH", 10, 5}, {"Trunk", 0, 5}}}}};
-  extras.events = {{.move = "clap", .truth = "right", .fault = "none", .danced = "clap", .begin_frame = 3, .end_frame = 9,
-                    .called_right = true, .score = 0.25, .called_frame = 7}};
+  extras.events = {{.move = "clap",
+                    .truth = "right",
+                    .fault = "none",
+                    .danced = "clap",
+                    .begin_frame = 3,
+                    .end_frame = 9,
+                    .called_right = true,
+                    .score = 0.25,
+                    .called_frame = 7}};
   extras.events.push_back(extras.events.front());
   extras.events[1].called_right = false;
   extras.events[1].called_frame.reset();
@@ -72,7 +79,8 @@ TEST(DetectionExtras, AreRefusedNamingThePlaceWhatWasFoundAndWhatItMeans) {
   EXPECT_EQ(with(R"(["tin"])", "7"), "joint_states: 7 is no list");
   EXPECT_EQ(with(R"({"move":"sway","frame":4})", "7"), "alarms[0]: 7 is no object");
   EXPECT_THAT(with(R"("version":1)", R"("version":2)"), HasSubstr("version: 2; allowed: 1"));
-  EXPECT_THAT(with("etude-detection", "etude-coach"), HasSubstr(R"(format: "etude-coach"; allowed: "etude-detection")"));
+  EXPECT_THAT(with("etude-detection", "etude-coach"),
+              HasSubstr(R"(format: "etude-coach"; allowed: "etude-detection")"));
   EXPECT_EQ(Complaint(ReadDetectionExtras, "[1]"), "no JSON object, but a list of 1");
   EXPECT_THAT(Complaint(ReadDetectionExtras, "{"), HasSubstr("no JSON object: not valid JSON"));
 }
@@ -121,10 +129,11 @@ TEST(IkExtras, LeaveEmptyWhateverIsNotWhatItShouldBe) {
 TEST(TransitionExtras, SurviveWritingAndReading) {
   TransitionExtras extras;
   extras.transition_frames = {4, 9};
-  extras.points = {{.from = "clap", .to = "in-between", .from_frame = 4, .to_frame = 0, .distance = 0.25, .partials = {}}};
+  extras.points = {
+      {.from = "clap", .to = "in-between", .from_frame = 4, .to_frame = 0, .distance = 0.25, .partials = {}}};
   extras.points[0].partials.emplace()[9] = 0.0625;
-  extras.candidates = {{.point = 0, .from_frame = 4, .to_frame = 2, .distance = 0.5, .partials = {}, .cost = {},
-                        .outcome = "taken"}};
+  extras.candidates = {
+      {.point = 0, .from_frame = 4, .to_frame = 2, .distance = 0.5, .partials = {}, .cost = {}, .outcome = "taken"}};
   extras.pairs_seen = 900;
   const std::string text = WriteTransitionExtras(extras);
   EXPECT_THAT(text, HasSubstr(R"("distance":0.25,"partials":{"RH":0.0,"LH":0.0,)"));
