@@ -12,6 +12,7 @@ macro(etude_harness_options)
   if(CMAKE_BUILD_TYPE STREQUAL "Release")
     add_compile_options(-O1 ${ETUDE_HARDENING})
   endif()
+  link_libraries(fmt::fmt)  # the shared headers include it
   set(ETUDE_HEADERS etude_harness_headers)
 endmacro()
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "bench/clips/clip_library.h"
 #include "bench/outside/messages.h"
 #include "bench/outside/seated_program.h"
 #include "bench/process/clock.h"

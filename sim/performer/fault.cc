@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/base/angles.h"
+#include "engine/base/directions.h"
 #include "engine/base/named.h"
 
 namespace etude {

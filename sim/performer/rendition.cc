@@ -44,9 +44,9 @@ struct LimbName {
 
 /// Returns the limb that a choice in [0, 1) falls on.
 LimbName LimbOf(double choice) {
-  constexpr std::array<LimbName, 4> kLimbs = {
+  constexpr std::array<LimbName, 4> kAllLimbs = {
       {{Side::kLeft, false}, {Side::kRight, false}, {Side::kLeft, true}, {Side::kRight, true}}};
-  return kLimbs[static_cast<std::size_t>(choice * kLimbs.size())];
+  return kAllLimbs[static_cast<std::size_t>(choice * kAllLimbs.size())];
 }
 
 void LeaveOut(Controls& controls, const Controls& rest, const LimbName& limb, double severity) {
