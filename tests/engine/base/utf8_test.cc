@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string Complaint(std::string_view text) {
+std::string Utf8Complaint(std::string_view text) {
   const auto checked = CheckUtf8(text, "file");
   return checked ? "" : ToString(checked.error());
 }
@@ -33,18 +33,18 @@ TEST(CheckUtf8, TakesEveryCharacterAndNoSurrogate) {
 }
 
 TEST(CheckUtf8, NamesThePlaceOfTheFirstWrongByte) {
-  EXPECT_EQ(Complaint("a: größe\nb: c\n"), "");
-  EXPECT_THAT(Complaint("a: größe\nb: \xff\n"), HasSubstr("file:2:4: byte 0xff is no UTF-8"));
-  EXPECT_THAT(Complaint("größe \xc3"), HasSubstr("file:1:7: byte 0xc3")) << "columns count characters";
-  EXPECT_THAT(Complaint("\xff\xfe"
+  EXPECT_EQ(Utf8Complaint("a: größe\nb: c\n"), "");
+  EXPECT_THAT(Utf8Complaint("a: größe\nb: \xff\n"), HasSubstr("file:2:4: byte 0xff is no UTF-8"));
+  EXPECT_THAT(Utf8Complaint("größe \xc3"), HasSubstr("file:1:7: byte 0xc3")) << "columns count characters";
+  EXPECT_THAT(Utf8Complaint("\xff\xfe"
                         "a"),
               HasSubstr("file:1:1: byte 0xff"))
       << "UTF-16";
-  EXPECT_THAT(Complaint(std::string_view("a\0", 2)), HasSubstr("file:1:2: byte 0x00"));
-  EXPECT_NE(Complaint("\xc0\xaf"), "") << "overlong";
-  EXPECT_NE(Complaint("\xe0\x80\xaf"), "") << "overlong";
-  EXPECT_NE(Complaint("\xf0\x80\x80\xaf"), "") << "overlong";
-  EXPECT_NE(Complaint("\xe2\x82"), "") << "cut off";
+  EXPECT_THAT(Utf8Complaint(std::string_view("a\0", 2)), HasSubstr("file:1:2: byte 0x00"));
+  EXPECT_NE(Utf8Complaint("\xc0\xaf"), "") << "overlong";
+  EXPECT_NE(Utf8Complaint("\xe0\x80\xaf"), "") << "overlong";
+  EXPECT_NE(Utf8Complaint("\xf0\x80\x80\xaf"), "") << "overlong";
+  EXPECT_NE(Utf8Complaint("\xe2\x82"), "") << "cut off";
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ glm::dvec3 PlaceOf(const Clip& clip, std::size_t frame, const char* joint) {
   return globals[static_cast<std::size_t>(clip.skeleton.Find(joint))].position;
 }
 
-void ExpectNear(const glm::dvec3& a, const glm::dvec3& b) { EXPECT_LT(glm::distance(a, b), 1e-12); }
+void ExpectJointAt(const glm::dvec3& a, const glm::dvec3& b) { EXPECT_LT(glm::distance(a, b), 1e-12); }
 
 std::string Complaint(const std::string& text) {
   const auto clip = ReadDeepMimicMotion(text, "walk.txt");
@@ -60,9 +60,9 @@ TEST(DeepMimic, StandsWhereItsRootIsTold) {
   const auto clip = ReadDeepMimicMotion(text, "walk.txt");
   ASSERT_TRUE(clip) << ToString(clip.error());
   EXPECT_DOUBLE_EQ(clip->rate_hz, 25);
-  ExpectNear(PlaceOf(*clip, 0, "root"), {0.5, 0.9, -0.25});
-  ExpectNear(PlaceOf(*clip, 1, "left_ankle"), {0.5, 0.9 - 0.421546 - 0.409870, -0.25 - 0.084887});
-  ExpectNear(PlaceOf(*clip, 1, "right_wrist"),
+  ExpectJointAt(PlaceOf(*clip, 0, "root"), {0.5, 0.9, -0.25});
+  ExpectJointAt(PlaceOf(*clip, 1, "left_ankle"), {0.5, 0.9 - 0.421546 - 0.409870, -0.25 - 0.084887});
+  ExpectJointAt(PlaceOf(*clip, 1, "right_wrist"),
              {0.5 - 0.02405, 0.9 + 0.236151 + 0.2435 - 0.274788 - 0.258947, -0.25 + 0.18311});
 }
 
@@ -75,9 +75,9 @@ TEST(DeepMimic, KneesBendBackwardsElbowsForwardsAndQuaternionsAreWxyz) {
   ASSERT_TRUE(clip) << ToString(clip.error());
   // Turned by 90° about +Y, what faced +X faces −Z, and the right hip is at +X.
   const glm::dvec3 root(0.5, 0.9, -0.25);
-  ExpectNear(PlaceOf(*clip, 0, "right_hip") - root, {0.084887, 0, 0});
-  ExpectNear(PlaceOf(*clip, 0, "right_ankle") - PlaceOf(*clip, 0, "right_knee"), {0, 0, 0.409870});
-  ExpectNear(PlaceOf(*clip, 0, "right_wrist") - PlaceOf(*clip, 0, "right_elbow"), {0, 0, -0.258947});
+  ExpectJointAt(PlaceOf(*clip, 0, "right_hip") - root, {0.084887, 0, 0});
+  ExpectJointAt(PlaceOf(*clip, 0, "right_ankle") - PlaceOf(*clip, 0, "right_knee"), {0, 0, 0.409870});
+  ExpectJointAt(PlaceOf(*clip, 0, "right_wrist") - PlaceOf(*clip, 0, "right_elbow"), {0, 0, -0.258947});
 }
 
 TEST(DeepMimic, IsUnderstoodAsABody) {

@@ -9,7 +9,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-std::string ComplaintOf(std::string_view text) {
+std::string JsonComplaint(std::string_view text) {
   const auto json = ParseJsonText(text, "f");
   return json ? "" : ToString(json.error());
 }
@@ -19,16 +19,16 @@ TEST(JsonText, IsReadAsItStands) {
 }
 
 TEST(JsonText, SaysWhereItEndsToBeAny) {
-  EXPECT_EQ(ComplaintOf("[1,\n 2, x]"), "f:2:5: no JSON from here on");
-  EXPECT_EQ(ComplaintOf("[1"), "f:1:3: no JSON from here on");
-  EXPECT_EQ(ComplaintOf(""), "f:1:1: no JSON from here on");
+  EXPECT_EQ(JsonComplaint("[1,\n 2, x]"), "f:2:5: no JSON from here on");
+  EXPECT_EQ(JsonComplaint("[1"), "f:1:3: no JSON from here on");
+  EXPECT_EQ(JsonComplaint(""), "f:1:1: no JSON from here on");
 }
 
 TEST(JsonText, DoesNotEndAtAZeroByte) {
-  EXPECT_EQ(ComplaintOf("[1]\n\0, 2]"sv), "f:2:1: a zero byte, which no JSON holds");
+  EXPECT_EQ(JsonComplaint("[1]\n\0, 2]"sv), "f:2:1: a zero byte, which no JSON holds");
 }
 
-TEST(JsonText, RefusesNumbersThatNoDoubleHolds) { EXPECT_NE(ComplaintOf("[1e999]"), ""); }
+TEST(JsonText, RefusesNumbersThatNoDoubleHolds) { EXPECT_NE(JsonComplaint("[1e999]"), ""); }
 
 }  // namespace
 }  // namespace etude

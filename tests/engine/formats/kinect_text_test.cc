@@ -17,7 +17,7 @@ std::string Row(int frame, bool with_quaternions, const char* separator = " ") {
   return row.str();
 }
 
-std::string ComplaintOf(const std::string& text) {
+std::string KinectComplaint(const std::string& text) {
   const auto read = ReadKinectV2Text(text, "k.txt");
   return read ? std::string("(read)") : ToString(read.error());
 }
@@ -60,21 +60,21 @@ TEST(KinectText, TakesZerosAndNanForMissingJoints) {
 
 TEST(KinectText, NamesTheLineOfWhatItRefuses) {
   const std::string good = Row(0, true);
-  EXPECT_EQ(ComplaintOf(good), "(read)");
-  EXPECT_TRUE(ComplaintOf(good + "\n\n# remark\n" + good + " 5\n").starts_with("k.txt:4: 176 values"))
-      << ComplaintOf(good + "\n\n# remark\n" + good + " 5\n");
-  EXPECT_TRUE(ComplaintOf(good + "\n" + Row(0, true).replace(0, 3, "0,1")).starts_with("k.txt:2: "));
-  EXPECT_TRUE(ComplaintOf(good + "\nx" + good.substr(1)).starts_with("k.txt:2:1: value 1"));
-  EXPECT_TRUE(ComplaintOf(good + "\ninf" + good.substr(3)).starts_with("k.txt:2:1: value 1"));
-  EXPECT_TRUE(ComplaintOf(Row(0, true) + "\n" + Row(4000, true)).starts_with("k.txt:2: joint 0 is 4000"));
-  EXPECT_NE(ComplaintOf("1 2 3\n").find("3 values in a row; a Kinect v2 recording has 75"), std::string::npos);
-  EXPECT_EQ(ComplaintOf(""), "k.txt: no rows of numbers");
-  EXPECT_EQ(ComplaintOf("# only remarks\n"), "k.txt: no rows of numbers");
+  EXPECT_EQ(KinectComplaint(good), "(read)");
+  EXPECT_TRUE(KinectComplaint(good + "\n\n# remark\n" + good + " 5\n").starts_with("k.txt:4: 176 values"))
+      << KinectComplaint(good + "\n\n# remark\n" + good + " 5\n");
+  EXPECT_TRUE(KinectComplaint(good + "\n" + Row(0, true).replace(0, 3, "0,1")).starts_with("k.txt:2: "));
+  EXPECT_TRUE(KinectComplaint(good + "\nx" + good.substr(1)).starts_with("k.txt:2:1: value 1"));
+  EXPECT_TRUE(KinectComplaint(good + "\ninf" + good.substr(3)).starts_with("k.txt:2:1: value 1"));
+  EXPECT_TRUE(KinectComplaint(Row(0, true) + "\n" + Row(4000, true)).starts_with("k.txt:2: joint 0 is 4000"));
+  EXPECT_NE(KinectComplaint("1 2 3\n").find("3 values in a row; a Kinect v2 recording has 75"), std::string::npos);
+  EXPECT_EQ(KinectComplaint(""), "k.txt: no rows of numbers");
+  EXPECT_EQ(KinectComplaint("# only remarks\n"), "k.txt: no rows of numbers");
 }
 
 TEST(KinectText, RefusesTextsThatAreTooLongBeforeReadingThem) {
   const std::string huge((std::size_t{64} << 20) + 1, '1');
-  EXPECT_NE(ComplaintOf(huge).find("allowed: at most 67108864"), std::string::npos);
+  EXPECT_NE(KinectComplaint(huge).find("allowed: at most 67108864"), std::string::npos);
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ std::vector<Camera> Pinholes() {
   return cameras;
 }
 
-RecoverPersonOptions PersonOptions() { return {.rate_hz = kRate, .match = {}, .triangulate = {}}; }
+RecoverPersonOptions WalkOptions() { return {.rate_hz = kRate, .match = {}, .triangulate = {}}; }
 
 /// As a tool would: with the lenses undone.
 Result<RecoveredPerson> Recover(std::span<const Camera> cameras, std::span<const SeenPeople> people,
@@ -124,7 +124,7 @@ TEST(MatchPeople, LeavesAPersonAloneWhomNoOtherCameraSees) {
 
 TEST(RecoverPerson, GivesExactKeypointsPlacesBackThroughLenses) {
   const std::vector<Camera> cameras = FourCameras();
-  const auto person = Recover(cameras, TwoWalkers(cameras, 0), PersonOptions());
+  const auto person = Recover(cameras, TwoWalkers(cameras, 0), WalkOptions());
   ASSERT_TRUE(person) << ToString(person.error());
   const double first = WorstOff(person->landmarks, kFirstX, 0, 0),
                second = WorstOff(person->landmarks, kSecondX, 0.2, 0.4);
@@ -163,14 +163,14 @@ double WorstJoint(const RecoveredPerson& person) {
 
 TEST(RecoverPerson, ItsSkeletonStandsWhereThePointsAre) {
   const std::vector<Camera> cameras = FourCameras();
-  const auto person = Recover(cameras, OneWalker(cameras, 0), PersonOptions());
+  const auto person = Recover(cameras, OneWalker(cameras, 0), WalkOptions());
   ASSERT_TRUE(person) << ToString(person.error());
   EXPECT_LT(WorstJoint(*person), 1e-5);
 }
 
 TEST(RecoverPerson, ItsSkeletonIsNearerToTheTruthThanNoisyPoints) {
   const std::vector<Camera> cameras = FourCameras();
-  const auto person = Recover(cameras, OneWalker(cameras, 2), PersonOptions());
+  const auto person = Recover(cameras, OneWalker(cameras, 2), WalkOptions());
   ASSERT_TRUE(person) << ToString(person.error());
   std::vector<LandmarkPlaces> walk;
   for (std::size_t k = 0; k < kPersonFrames; ++k) walk.push_back(Walker(0, 0, static_cast<double>(k) / kRate));
@@ -185,7 +185,7 @@ TEST(RecoverPerson, ItsSkeletonIsNearerToTheTruthThanNoisyPoints) {
 
 TEST(RecoverPerson, ItsClipHasTheJointsWhereTheMotionHas) {
   const std::vector<Camera> cameras = FourCameras();
-  const auto person = Recover(cameras, OneWalker(cameras, 2), PersonOptions());
+  const auto person = Recover(cameras, OneWalker(cameras, 2), WalkOptions());
   ASSERT_TRUE(person) << ToString(person.error());
   std::vector<GlobalTransform> globals;
   for (const Role role : {Role::kLeftKnee, Role::kRightAnkle, Role::kLeftElbow, Role::kRightWrist, Role::kHead}) {
@@ -205,10 +205,10 @@ TEST(RecoverPerson, RefusesWhatIsNoSession) {
   std::vector<Camera> moved{cameras[0], cameras[1]};
   const double sine = std::sin(Radians(10)), cosine = std::cos(Radians(10));
   moved[1].R_CW = glm::transpose(glm::dmat3(1, 0, 0, 0, cosine, -sine, 0, sine, cosine)) * moved[1].R_CW;
-  const auto alone = Recover(moved, std::span(people).first(2), PersonOptions());
+  const auto alone = Recover(moved, std::span(people).first(2), WalkOptions());
   ASSERT_FALSE(alone);
   EXPECT_THAT(alone.error().message, HasSubstr("no person is seen alike"));
-  RecoverPersonOptions third = PersonOptions();
+  RecoverPersonOptions third = WalkOptions();
   third.person = 2;
   EXPECT_THAT(Recover(cameras, people, third).error().message, HasSubstr("person 3: 2 seen by two cameras"));
 }

@@ -22,7 +22,7 @@ using testing::HasSubstr;
 const WorldKey kExchangeWorld{.suite_seed = 1, .scenario = "exchange", .trial = 0};
 constexpr int kMaxSteps = 200;
 
-std::unique_ptr<Task> MakeTask(const std::string& condition = "{}") {
+std::unique_ptr<Task> MakeIkTask(const std::string& condition = "{}") {
   const Node node = *ParseYaml(condition, "test.yaml");
   Fields fields(node, "an ik scenario");
   const ClipLibrary no_clips;
@@ -84,7 +84,7 @@ std::vector<StrangersFrame> StrangersEffectors(const Json& setting, const Json& 
 }
 
 TEST(IkExchange, AStrangersForwardKinematicsReachesTheTargetsWithTheTrueAngles) {
-  const auto task = MakeTask();
+  const auto task = MakeIkTask();
   const auto world = task->MakeWorld(kExchangeWorld, false);
   const Json setting = *task->Setting()->json, problem = *world->MakeProblem()->json, truth = *world->MakeTruth()->json;
   EXPECT_EQ(setting["angles"].size(), 29u);
@@ -106,7 +106,7 @@ TEST(IkExchange, AStrangersForwardKinematicsReachesTheTargetsWithTheTrueAngles) 
 }
 
 TEST(IkExchange, TheProblemStartsWithinTheLimitsThatTheSettingNames) {
-  const auto task = MakeTask("{joint_noise_deg: 60}");
+  const auto task = MakeIkTask("{joint_noise_deg: 60}");
   const Json setting = *task->Setting()->json, problem = *task->MakeWorld(kExchangeWorld, false)->MakeProblem()->json;
   for (std::size_t i = 0; i < 29; ++i) {
     const double start = problem["start_angles_deg"][i];
@@ -119,17 +119,17 @@ TEST(IkExchange, TheProblemStartsWithinTheLimitsThatTheSettingNames) {
 }
 
 TEST(IkExchange, TheSettingTellsTheLimitsAndWhatIsAsked) {
-  const Json adult = *MakeTask()->Setting()->json;
+  const Json adult = *MakeIkTask()->Setting()->json;
   EXPECT_EQ(adult["asked"], Json({"position", "orientation"}));
   EXPECT_NEAR(adult["angles"][1]["upper_deg"].get<double>(), 135, 1e-9);
-  const Json ama = *MakeTask("{limit_set: ama, targets: position}")->Setting()->json;
+  const Json ama = *MakeIkTask("{limit_set: ama, targets: position}")->Setting()->json;
   EXPECT_EQ(ama["asked"], Json({"position"}));
   EXPECT_EQ(ama["angles"][1]["name"], "left_knee.x");
   EXPECT_NEAR(ama["angles"][1]["upper_deg"].get<double>(), 150, 1e-9) << "table 3.1, its last column";
 }
 
 TEST(IkExchange, TheTruthIsAPerfectAnswer) {
-  const auto task = MakeTask();
+  const auto task = MakeIkTask();
   const auto world = task->MakeWorld(kExchangeWorld, true);
   Json answer = *world->MakeTruth()->json;
   answer["iterations"] = 7;
@@ -198,7 +198,7 @@ TEST(IkExchange, CountsAnAnswerThatCostMoreThanTheLimitAsUnsolvedInItsPenalisedC
 }
 
 TEST(IkExchange, RefusesWhatIsNoAnswerNamingThePlaceInIt) {
-  const auto task = MakeTask();
+  const auto task = MakeIkTask();
   const auto world = task->MakeWorld(kExchangeWorld, false);
   const Json good = *world->MakeTruth()->json;
   const auto complaint = [&](auto change) { return ComplaintAfter(*world, good, change); };
@@ -214,7 +214,7 @@ TEST(IkExchange, RefusesWhatIsNoAnswerNamingThePlaceInIt) {
 }
 
 TEST(IkExchange, CreditsNoAnswerWithAFailure) {
-  const auto task = MakeTask("{max_sweeps: 50}");
+  const auto task = MakeIkTask("{max_sweeps: 50}");
   EXPECT_EQ(task->ValueOfFailure("solved_practical"), 0);
   EXPECT_EQ(task->ValueOfFailure("solved_tight"), 0);
   EXPECT_EQ(task->ValueOfFailure("iterations_par2"), 100);

@@ -15,12 +15,12 @@ namespace {
 
 using testing::HasSubstr;
 
-std::unique_ptr<Task> MakeTask(const std::string& condition = "{frames: 300, queries: 6, query: nearest-10}") {
+std::unique_ptr<Task> MakeSearchTask(const std::string& condition = "{frames: 300, queries: 6, query: nearest-10}") {
   return std::move(*MakeSearch(condition, "[]"));
 }
 
 TEST(SearchExchange, TheFileTheTermsAndTheQueriesAreEnoughToFindTheTruth) {
-  const auto task = MakeTask("{frames: 300, queries: 6}");
+  const auto task = MakeSearchTask("{frames: 300, queries: 6}");
   const auto world = task->MakeWorld(kSearchWorld, false);
   const auto setting = task->Setting();
   const Json &told = *setting->json, queries = (*world->MakeProblem()->json)["queries"];
@@ -53,7 +53,7 @@ TEST(SearchExchange, TheFileTheTermsAndTheQueriesAreEnoughToFindTheTruth) {
 
 TEST(SearchExchange, TheTruthIsAPerfectAnswerOfAllQuestions) {
   for (const std::string question : {"first", "within", "nearest", "nearest-10"}) {
-    const auto task = MakeTask("{frames: 300, queries: 6, query: " + question + "}");
+    const auto task = MakeSearchTask("{frames: 300, queries: 6, query: " + question + "}");
     const auto world = task->MakeWorld(kSearchWorld, false);
     const auto cell = world->Judge(*world->MakeTruth()->json);
     ASSERT_TRUE(cell) << ToString(cell.error());
@@ -66,7 +66,7 @@ TEST(SearchExchange, TheTruthIsAPerfectAnswerOfAllQuestions) {
 
 // The control: nearly right is not right.
 TEST(SearchExchange, OneFrameExchangedIsOneQueryWrong) {
-  const auto task = MakeTask();
+  const auto task = MakeSearchTask();
   const auto world = task->MakeWorld(kSearchWorld, false);
   Json answer = *world->MakeTruth()->json;
   std::swap(answer["found"][2][3], answer["found"][2][4]);
@@ -79,7 +79,7 @@ TEST(SearchExchange, OneFrameExchangedIsOneQueryWrong) {
 }
 
 TEST(SearchExchange, RefusesWhatIsNoAnswerNamingThePlaceInIt) {
-  const auto task = MakeTask();
+  const auto task = MakeSearchTask();
   const auto world = task->MakeWorld(kSearchWorld, false);
   const Json good = *world->MakeTruth()->json;
   const auto complaint = [&](auto change) { return ComplaintAfter(*world, good, change); };
@@ -96,7 +96,7 @@ TEST(SearchExchange, RefusesWhatIsNoAnswerNamingThePlaceInIt) {
 }
 
 TEST(SearchExchange, ScoresOrRefusesWhateverIsSaid) {
-  const auto task = MakeTask();
+  const auto task = MakeSearchTask();
   const auto world = task->MakeWorld(kSearchWorld, false);
   const Json good = *world->MakeTruth()->json;
   const Judgements judged = JudgeMutations(*world, {good}, 300, RandomStream(kSearchWorld, "mutations"));
@@ -105,7 +105,7 @@ TEST(SearchExchange, ScoresOrRefusesWhateverIsSaid) {
 }
 
 TEST(SearchExchange, CreditsNoAnswerWithNoAgreement) {
-  const auto task = MakeTask();
+  const auto task = MakeSearchTask();
   EXPECT_EQ(task->ValueOfFailure("search_agreement"), 0);
   EXPECT_EQ(task->ValueOfFailure("matches_per_query"), std::nullopt);
 }

@@ -21,7 +21,7 @@ using testing::HasSubstr;
 const WorldKey kTrackedWorld{.suite_seed = 1, .scenario = "exchange", .trial = 0};
 constexpr double kRate = 30;
 
-std::unique_ptr<Task> MakeTask(const std::string& condition = "{duration_s: 0.5}") {
+std::unique_ptr<Task> MakeTrackingTask(const std::string& condition = "{duration_s: 0.5}") {
   const Node node = *ParseYaml(condition, "test.yaml");
   Fields fields(node, "a tracking scenario");
   const ClipLibrary clips{{BuiltinClipOf("builtin:boxing")}};
@@ -30,7 +30,7 @@ std::unique_ptr<Task> MakeTask(const std::string& condition = "{duration_s: 0.5}
 }
 
 TEST(TrackingExchange, TellsTheBodyOnceAndEveryFramesRootAndTargets) {
-  const auto task = MakeTask();
+  const auto task = MakeTrackingTask();
   const Json setting = *task->Setting()->json, problem = *task->MakeWorld(kTrackedWorld, false)->MakeProblem()->json;
   EXPECT_EQ(setting["rate_hz"], 30);
   EXPECT_EQ(setting["max_steps"], 20);
@@ -46,7 +46,7 @@ TEST(TrackingExchange, TellsTheBodyOnceAndEveryFramesRootAndTargets) {
 }
 
 TEST(TrackingExchange, TheTruthIsAPerfectAnswer) {
-  const auto task = MakeTask();
+  const auto task = MakeTrackingTask();
   const auto world = task->MakeWorld(kTrackedWorld, true);
   const auto cell = world->Judge(*world->MakeTruth()->json);
   ASSERT_TRUE(cell) << ToString(cell.error());
@@ -63,7 +63,7 @@ TEST(TrackingExchange, TheTruthIsAPerfectAnswer) {
 }
 
 TEST(TrackingExchange, TheTruthMissesDisturbedTargets) {
-  const auto task = MakeTask("{duration_s: 0.5, target_noise_cm: 1}");
+  const auto task = MakeTrackingTask("{duration_s: 0.5, target_noise_cm: 1}");
   const auto world = task->MakeWorld(kTrackedWorld, false);
   const auto cell = world->Judge(*world->MakeTruth()->json);
   EXPECT_EQ(cell->status, Status::kUnsolved);
@@ -107,7 +107,7 @@ TEST(TrackingExchange, AFrameThatBreaksALimitIsUnsolvedHoweverWellItMeetsItsTarg
 }
 
 TEST(TrackingExchange, RefusesWhatIsNoAnswerNamingThePlaceInIt) {
-  const auto task = MakeTask();
+  const auto task = MakeTrackingTask();
   const auto world = task->MakeWorld(kTrackedWorld, false);
   const Json good = *world->MakeTruth()->json;
   const auto complaint = [&](auto change) { return ComplaintAfter(*world, good, change); };
@@ -125,7 +125,7 @@ TEST(TrackingExchange, RefusesWhatIsNoAnswerNamingThePlaceInIt) {
 }
 
 TEST(TrackingExchange, ScoresOrRefusesWhateverIsSaid) {
-  const auto task = MakeTask("{duration_s: 0.2}");
+  const auto task = MakeTrackingTask("{duration_s: 0.2}");
   const auto world = task->MakeWorld(kTrackedWorld, false);
   const Json good = *world->MakeTruth()->json;
   const Judgements judged = JudgeMutations(*world, {good}, 300, RandomStream(kTrackedWorld, "mutations"));
@@ -134,7 +134,7 @@ TEST(TrackingExchange, ScoresOrRefusesWhateverIsSaid) {
 }
 
 TEST(TrackingExchange, CreditsNoAnswerWithAFailure) {
-  const auto task = MakeTask();
+  const auto task = MakeTrackingTask();
   EXPECT_EQ(task->ValueOfFailure("frames_solved"), 0);
   EXPECT_EQ(task->ValueOfFailure("frames_solved_tight"), 0);
   EXPECT_EQ(task->ValueOfFailure("mpjpe_mm"), std::nullopt);

@@ -112,17 +112,17 @@ constexpr BrokenText kBrokenTexts[] = {
 // clang-format on
 
 TEST(BrokenGltf, IsRefusedNamingThePlaceAndWhatIsAllowed) {
-  ASSERT_EQ(Complaint(testing::SmallGlb()), "read without complaint");  // the control: unbroken, it reads
+  ASSERT_EQ(GlbComplaint(testing::SmallGlb()), "read without complaint");  // the control: unbroken, it reads
   for (const BrokenText& broken : kBrokenTexts) {
     SCOPED_TRACE(broken.what);
-    const std::string complaint = Complaint(Glb(Replaced(kSmallGltf, broken.from, broken.to), SmallBinary()));
+    const std::string complaint = GlbComplaint(Glb(Replaced(kSmallGltf, broken.from, broken.to), SmallBinary()));
     EXPECT_THAT(complaint, StartsWith("test.glb"));
     EXPECT_THAT(complaint, HasSubstr(broken.complaint));
   }
 }
 
 TEST(BrokenGltf, ThatIsNoJsonIsRefusedWithItsLineAndColumnAndTheParsersWords) {
-  EXPECT_THAT(Complaint("{\"asset\":\n  {\"version\": x}}"),
+  EXPECT_THAT(GlbComplaint("{\"asset\":\n  {\"version\": x}}"),
               StartsWith("test.glb:2:15: not glTF 2.0: syntax error while parsing value"));
 }
 
@@ -152,7 +152,7 @@ TEST(BrokenGltf, IsRefusedForItsNumbers) {
   for (const auto& [part, bytes, complaint] : broken) {
     std::string binary = SmallBinary();
     binary.replace(part, bytes.size(), bytes);
-    EXPECT_THAT(Complaint(Glb(std::string(kSmallGltf), binary)), HasSubstr(complaint));
+    EXPECT_THAT(GlbComplaint(Glb(std::string(kSmallGltf), binary)), HasSubstr(complaint));
   }
 }
 
@@ -162,7 +162,7 @@ TEST(BrokenGltf, MayHaveBindMatricesThatAreAffineButForAThousandth) {
       std::string binary = SmallBinary();
       binary.replace(testing::kBind + 4 * entry, 4, Floats({(entry == 15 ? 1 : 0) + off}));
       EXPECT_THAT(
-          Complaint(Glb(std::string(kSmallGltf), binary)),
+          GlbComplaint(Glb(std::string(kSmallGltf), binary)),
           HasSubstr(std::abs(off) < 0.001f ? "read without complaint" : "inverseBindMatrices[0]: found a projection"))
           << entry;
     }
@@ -172,10 +172,10 @@ TEST(BrokenGltf, MayHaveBindMatricesThatAreAffineButForAThousandth) {
 TEST(BrokenGltf, MayLackWhatTheFormatLeavesOpen) {
   // Bones without bind matrices, and a channel that drives no node: tinygltf mentions each of them.
   const std::string no_binds = Replaced(kSmallGltf, R"(,"inverseBindMatrices":4)", "");
-  EXPECT_EQ(Complaint(Glb(no_binds, SmallBinary())), "read without complaint");
+  EXPECT_EQ(GlbComplaint(Glb(no_binds, SmallBinary())), "read without complaint");
   const std::string twice =
       Replaced(no_binds, R"("skins":[{"joints":[0,1]}])", R"("skins":[{"joints":[0,1]},{"joints":[0]}])");
-  EXPECT_EQ(Complaint(Glb(twice, SmallBinary())), "read without complaint");
+  EXPECT_EQ(GlbComplaint(Glb(twice, SmallBinary())), "read without complaint");
 }
 
 TEST(BrokenGltf, IsRefusedForUrisThatLeaveItsFolder) {
@@ -187,7 +187,7 @@ TEST(BrokenGltf, IsRefusedForUrisThatLeaveItsFolder) {
     SCOPED_TRACE(uri);
     const std::string text =
         Replaced(kSmallGltf, R"("byteLength":292)", fmt::format(R"("byteLength":292,"uri":"{}")", uri));
-    const std::string complaint = Complaint(text, [](const std::string& asked) -> Result<std::string> {
+    const std::string complaint = GlbComplaint(text, [](const std::string& asked) -> Result<std::string> {
       ADD_FAILURE() << "asked for " << asked;
       return SmallBinary();
     });
@@ -197,11 +197,11 @@ TEST(BrokenGltf, IsRefusedForUrisThatLeaveItsFolder) {
 
 TEST(BrokenGltf, IsRefusedWhenAFileItNamesIsMissingOrOfAnotherSize) {
   const std::string text = Replaced(kSmallGltf, R"("byteLength":292)", R"("byteLength":292,"uri":"bear.bin")");
-  EXPECT_THAT(Complaint(text), HasSubstr("names the file 'bear.bin'; allowed here: data within the file"));
+  EXPECT_THAT(GlbComplaint(text), HasSubstr("names the file 'bear.bin'; allowed here: data within the file"));
   EXPECT_EQ(
-      Complaint(text, [](const std::string&) -> Result<std::string> { return Fail({"bear.bin"}, "no such file"); }),
+      GlbComplaint(text, [](const std::string&) -> Result<std::string> { return Fail({"bear.bin"}, "no such file"); }),
       "bear.bin: no such file");
-  EXPECT_THAT(Complaint(text, [](const std::string&) -> Result<std::string> { return SmallBinary() + "more"; }),
+  EXPECT_THAT(GlbComplaint(text, [](const std::string&) -> Result<std::string> { return SmallBinary() + "more"; }),
               HasSubstr("File size mismatch : bear.bin, requestedBytes 292, but got 296"));
 }
 
@@ -212,7 +212,7 @@ TEST(BrokenGltf, IsRefusedForSizesThatDisagree) {
     std::string glb = good;
     const std::string bytes = RawBytes({number});
     glb.replace(at, 4, bytes);
-    return Complaint(glb);
+    return GlbComplaint(glb);
   };
   EXPECT_THAT(with(4, 1), HasSubstr("found GLB version 1; allowed: 2"));
   EXPECT_THAT(with(8, static_cast<std::uint32_t>(good.size()) + 1), HasSubstr("the GLB announces"));
@@ -236,24 +236,24 @@ TEST(BrokenGltf, IsRefusedWhenItEndsAnywhereEarly) {
 
 TEST(BrokenGltf, IsRefusedForJsonThatWouldTakeTooMuchMemory) {
   const auto extras = [](const std::string& json) { return Replaced(kSmallGltf, "{", R"({"extras":)" + json + ","); };
-  EXPECT_EQ(Complaint(Glb(extras(std::string(60, '[') + std::string(60, ']')), SmallBinary())),
+  EXPECT_EQ(GlbComplaint(Glb(extras(std::string(60, '[') + std::string(60, ']')), SmallBinary())),
             "read without complaint");
-  EXPECT_THAT(Complaint(extras(std::string(100'000, '['))), HasSubstr("JSON nested deeper than 64 levels"));
+  EXPECT_THAT(GlbComplaint(extras(std::string(100'000, '['))), HasSubstr("JSON nested deeper than 64 levels"));
   std::string many = "[0";
   for (int i = 0; i < 1'000'000; ++i) many += ",0";
-  EXPECT_THAT(Complaint(extras(many + "]")), HasSubstr("JSON of more than 1000000 values"));
-  EXPECT_THAT(Complaint(R"({"asset)"), HasSubstr("a string of the JSON has no end"));
-  EXPECT_THAT(Complaint("{\"a\\"), HasSubstr("a string of the JSON has no end"));
+  EXPECT_THAT(GlbComplaint(extras(many + "]")), HasSubstr("JSON of more than 1000000 values"));
+  EXPECT_THAT(GlbComplaint(R"({"asset)"), HasSubstr("a string of the JSON has no end"));
+  EXPECT_THAT(GlbComplaint("{\"a\\"), HasSubstr("a string of the JSON has no end"));
 }
 
 TEST(BrokenGltf, IsRefusedForBuffersThatEachCopyTheBinaryPart) {
   std::string buffers = R"({"byteLength":292})";
   for (int i = 0; i < 999; ++i) buffers += R"(,{"byteLength":292})";
   const std::string text = Replaced(kSmallGltf, R"({"byteLength":292})", buffers);
-  EXPECT_EQ(Complaint(Glb(text, SmallBinary())), "read without complaint");
-  EXPECT_THAT(Complaint(Glb(text, SmallBinary() + std::string(400'000, '\0'))),
+  EXPECT_EQ(GlbComplaint(Glb(text, SmallBinary())), "read without complaint");
+  EXPECT_THAT(GlbComplaint(Glb(text, SmallBinary() + std::string(400'000, '\0'))),
               HasSubstr("1000 buffers beside 400292 bytes of binary data; allowed: 256 MB together"));
-  EXPECT_THAT(Complaint(Glb(Replaced(text, R"("buffers")", R"("buff\u0065rs")"), SmallBinary())),
+  EXPECT_THAT(GlbComplaint(Glb(Replaced(text, R"("buffers")", R"("buff\u0065rs")"), SmallBinary())),
               HasSubstr("at the top of the JSON; allowed: names without"));
 }
 
@@ -264,11 +264,11 @@ TEST(BrokenGltf, IsRefusedForMoreOrDeeperJointsThanAnyBodyHas) {
   std::string chain, crowd;
   for (int i = 1; i < 128; ++i) chain += fmt::format(R"({{"children":[{}]}},)", i);
   for (int i = 1; i < 1024; ++i) crowd += "{},";
-  EXPECT_EQ(Complaint(file(chain + "{}")), "read without complaint");
-  EXPECT_THAT(Complaint(file(chain + R"({"children":[128]},{})")),
+  EXPECT_EQ(GlbComplaint(file(chain + "{}")), "read without complaint");
+  EXPECT_THAT(GlbComplaint(file(chain + R"({"children":[128]},{})")),
               HasSubstr("nodes[128]: nested deeper than 128 levels"));
-  EXPECT_EQ(Complaint(file(crowd + "{}")), "read without complaint");
-  EXPECT_THAT(Complaint(file(crowd + "{},{}")), HasSubstr("nodes: found 1025 joints; allowed: 1024"));
+  EXPECT_EQ(GlbComplaint(file(crowd + "{}")), "read without complaint");
+  EXPECT_THAT(GlbComplaint(file(crowd + "{},{}")), HasSubstr("nodes: found 1025 joints; allowed: 1024"));
 }
 
 TEST(BrokenGltf, IsRefusedForLongNamesWhichEveryClipWouldCopy) {
@@ -276,8 +276,8 @@ TEST(BrokenGltf, IsRefusedForLongNamesWhichEveryClipWouldCopy) {
     return Glb(Replaced(kSmallGltf, from, "\"name\":\"" + std::string(length, 'x')), SmallBinary());
   };
   for (const char* name : {R"("name":"Hips)", R"("name":"Bow)", R"("name":"Coat)", R"("name":"Fur)"}) {
-    EXPECT_EQ(Complaint(file(name, 500)), "read without complaint");
-    EXPECT_THAT(Complaint(file(name, 501)), HasSubstr("[0].name: found 501 bytes; allowed: 500"));
+    EXPECT_EQ(GlbComplaint(file(name, 500)), "read without complaint");
+    EXPECT_THAT(GlbComplaint(file(name, 501)), HasSubstr("[0].name: found 501 bytes; allowed: 500"));
   }
 }
 
@@ -302,8 +302,8 @@ TEST(BrokenGltf, IsRefusedForMoreTrianglesThanAnyFigureHas) {
     json = Replaced(json, R"("byteLength":292)", fmt::format(R"("byteLength":{})", 292 + corners));
     return Glb(json, SmallBinary() + std::string(corners, '\0'));
   };
-  EXPECT_EQ(Complaint(strip(2'000'002)), "read without complaint");
-  EXPECT_THAT(Complaint(strip(2'000'003)), HasSubstr("with it there are 3 vertices and 2000001 triangles; allowed"));
+  EXPECT_EQ(GlbComplaint(strip(2'000'002)), "read without complaint");
+  EXPECT_THAT(GlbComplaint(strip(2'000'003)), HasSubstr("with it there are 3 vertices and 2000001 triangles; allowed"));
 }
 
 TEST(BrokenGltf, IsRefusedForMoreVerticesThanAnyFigureHas) {
@@ -318,8 +318,8 @@ TEST(BrokenGltf, IsRefusedForMoreVerticesThanAnyFigureHas) {
     json = Replaced(json, R"("byteLength":292)", fmt::format(R"("byteLength":{})", 292 + corners));
     return Glb(json, SmallBinary() + std::string(corners, '\0'));
   };
-  EXPECT_EQ(Complaint(flat(666'666)), "read without complaint");
-  EXPECT_THAT(Complaint(flat(666'667)),
+  EXPECT_EQ(GlbComplaint(flat(666'666)), "read without complaint");
+  EXPECT_THAT(GlbComplaint(flat(666'667)),
               HasSubstr("with it there are 2000001 vertices and 666667 triangles; allowed: 2000000 and 2000000"));
   // Before the joints and weights of so many are looked at.
   constexpr std::size_t kCount = 2'000'001;
@@ -328,7 +328,7 @@ TEST(BrokenGltf, IsRefusedForMoreVerticesThanAnyFigureHas) {
   json = Replaced(json, R"("byteLength":36)",
                   fmt::format(R"("byteOffset":292,"byteLength":{},"byteStride":4)", 4 * kCount));
   json = Replaced(json, R"("byteLength":292)", fmt::format(R"("byteLength":{})", 292 + 4 * kCount));
-  EXPECT_THAT(Complaint(Glb(json, SmallBinary() + std::string(4 * kCount, '\0'))),
+  EXPECT_THAT(GlbComplaint(Glb(json, SmallBinary() + std::string(4 * kCount, '\0'))),
               HasSubstr("primitives[0]: found 2000001 vertices; allowed: 2000000"));
 }
 
@@ -338,8 +338,8 @@ TEST(BrokenGltf, IsRefusedForMoreAnimationsThanAnyoneMakes) {
     for (int i = 0; i < count; ++i) animations += i == 0 ? "{}" : ",{}";
     return Glb(R"({"asset":{"version":"2.0"},"nodes":[{}],"animations":[)" + animations + "]}");
   };
-  EXPECT_EQ(Complaint(file(1000)), "read without complaint");
-  EXPECT_THAT(Complaint(file(1001)), HasSubstr("animations: found 1001; allowed: 1000"));
+  EXPECT_EQ(GlbComplaint(file(1000)), "read without complaint");
+  EXPECT_THAT(GlbComplaint(file(1001)), HasSubstr("animations: found 1001; allowed: 1000"));
 }
 
 TEST(BrokenGltf, IsRefusedForALongTailBelowACycle) {
@@ -347,7 +347,7 @@ TEST(BrokenGltf, IsRefusedForALongTailBelowACycle) {
   std::string nodes;
   for (int i = 1; i < 200; ++i) nodes += fmt::format(R"({{"children":[{}]}},)", i);
   nodes += R"({},{"children":[0,201]},{"children":[200]})";
-  EXPECT_THAT(Complaint(Glb(R"({"asset":{"version":"2.0"},"nodes":[)" + nodes + "]}")),
+  EXPECT_THAT(GlbComplaint(Glb(R"({"asset":{"version":"2.0"},"nodes":[)" + nodes + "]}")),
               HasSubstr("hangs below its own descendants; allowed: a tree"));
 }
 

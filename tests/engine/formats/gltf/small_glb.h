@@ -87,7 +87,7 @@ inline GltfContent Read(const std::string& bytes, const FetchFile& fetch = {}) {
   return content ? *content : GltfContent{};
 }
 
-inline std::string Complaint(const std::string& bytes, const FetchFile& fetch = {}) {
+inline std::string GlbComplaint(const std::string& bytes, const FetchFile& fetch = {}) {
   const auto content = ReadGltf(bytes, "test.glb", fetch);
   return content ? "read without complaint" : ToString(content.error());
 }
