@@ -141,7 +141,7 @@ void Print(const LabelScores& scores, bool as_json) {
   if (scores.Untaught() > 0) fmt::print(stderr, "{} labels of moves that were not taught\n", scores.Untaught());
   if (!performances.empty()) {
     fmt::print(stderr, "{} performances: F1 {}, precision {}, recall {}, AUC {}\n", performances.size(),
-               Percent(F1(confusion)), Percent(Precision(confusion)), Percent(Recall(confusion)),
+               Percent(F1(confusion)), Percent(PrecisionOf(confusion)), Percent(RecallOf(confusion)),
                Percent(RocAuc(performances)));
   }
   if (!scores.Points().empty()) {

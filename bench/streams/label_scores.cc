@@ -222,8 +222,8 @@ std::string ScoresLine(const LabelScores& scores) {
   const Confusion confusion = CountConfusion(scores.Performances());
   const Json told = {{"performances", scores.Performances().size()},
                      {"f1", NumberOrNull(F1(confusion))},
-                     {"precision", NumberOrNull(Precision(confusion))},
-                     {"recall", NumberOrNull(Recall(confusion))},
+                     {"precision", NumberOrNull(PrecisionOf(confusion))},
+                     {"recall", NumberOrNull(RecallOf(confusion))},
                      {"roc_auc", NumberOrNull(RocAuc(scores.Performances()))},
                      {"action_points", scores.Points().size()},
                      {"action_point_f", NumberOrNull(scores.PointFScore())},

@@ -40,11 +40,11 @@ Confusion CountConfusion(std::span<const JudgedEvent> events) {
   return confusion;
 }
 
-std::optional<double> Precision(const Confusion& confusion) {
+std::optional<double> PrecisionOf(const Confusion& confusion) {
   return Share(confusion.true_positives, confusion.true_positives + confusion.false_positives);
 }
 
-std::optional<double> Recall(const Confusion& confusion) {
+std::optional<double> RecallOf(const Confusion& confusion) {
   return Share(confusion.true_positives, confusion.true_positives + confusion.false_negatives);
 }
 
@@ -100,7 +100,7 @@ std::vector<std::pair<double, double>> RocCurve(std::span<const JudgedEvent> eve
 std::optional<std::pair<double, double>> OperatedAt(std::span<const JudgedEvent> events) {
   const Confusion confusion = CountConfusion(events);
   const auto wrong = Share(confusion.false_positives, confusion.false_positives + confusion.true_negatives);
-  const auto right = Recall(confusion);
+  const auto right = RecallOf(confusion);
   if (!wrong || !right) return std::nullopt;
   return std::pair(*wrong, *right);
 }

@@ -32,9 +32,9 @@ struct Confusion {
 Confusion CountConfusion(std::span<const JudgedEvent> events);
 
 /// TP / (TP + FP); empty when nothing was called right.
-std::optional<double> Precision(const Confusion& confusion);
+std::optional<double> PrecisionOf(const Confusion& confusion);
 /// TP / (TP + FN); empty when nothing was right.
-std::optional<double> Recall(const Confusion& confusion);
+std::optional<double> RecallOf(const Confusion& confusion);
 /// 2 TP / (2 TP + FP + FN); empty when nothing was right and nothing was called so.
 std::optional<double> F1(const Confusion& confusion);
 

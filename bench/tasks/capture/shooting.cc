@@ -9,11 +9,11 @@ namespace etude {
 namespace {
 
 /// A time between two of so many frames.
-struct Between {
+struct BetweenFrames {
   std::size_t before = 0;
   double share = 0;  ///< 0…1, of the way to the next
 
-  Between(std::size_t frames, double frame) {
+  BetweenFrames(std::size_t frames, double frame) {
     const double inside = std::clamp(frame, 0.0, static_cast<double>(frames - 1));
     before = static_cast<std::size_t>(inside);
     share = inside - static_cast<double>(before);
@@ -21,7 +21,7 @@ struct Between {
 };
 
 double BrightnessAt(const std::vector<double>& brightness, double frame) {
-  const Between at(brightness.size(), frame);
+  const BetweenFrames at(brightness.size(), frame);
   if (at.share == 0) return brightness[at.before];
   return (1 - at.share) * brightness[at.before] + at.share * brightness[at.before + 1];
 }
@@ -29,7 +29,7 @@ double BrightnessAt(const std::vector<double>& brightness, double frame) {
 }  // namespace
 
 BodyPose PoseAt(std::span<const BodyPose> poses, double frame) {
-  const Between at(poses.size(), frame);
+  const BetweenFrames at(poses.size(), frame);
   if (at.share == 0) return poses[at.before];
   const std::size_t last = poses.size() - 1;
   const BodyPose& b = poses[at.before];

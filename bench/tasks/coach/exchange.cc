@@ -251,7 +251,7 @@ Recording RecordCoaching(const CoachStage& stage, const SessionLog& log) {
     extras.words.push_back({words.begin_frame, words.say, words.hint, words.picture});
   }
   for (const CoachRecord& record : log.records) {
-    extras.decisions.push_back({record.frame, std::string(EventName(record.event)), record.why});
+    extras.decisions.push_back({static_cast<int>(record.frame), std::string(EventName(record.event)), record.why});
   }
   for (const GivenCorrection& correction : log.corrections) extras.corrections.push_back(correction.decided_frame);
   for (const LoggedTransition& transition : log.transitions) {

@@ -126,8 +126,8 @@ void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, co
   const Confusion confusion = CountConfusion(events);
   const std::vector<Wait> waits = WaitsOf(world, verdict);
   result.MeasureOr("f1", F1(confusion), "no performance was right, and none was called right");
-  result.MeasureOr("precision", Precision(confusion), "no performance was called right");
-  result.MeasureOr("recall", Recall(confusion), "no performance was right");
+  result.MeasureOr("precision", PrecisionOf(confusion), "no performance was called right");
+  result.MeasureOr("recall", RecallOf(confusion), "no performance was right");
   result.MeasureOr("fault_found", FaultFound(CalledRight(world, verdict, HasFault)), "no performance had a fault");
   result.MeasureOr("grey_called_right", GreyCalledRight(CalledRight(world, verdict, IsGrey)),
                    "no performance was grey");

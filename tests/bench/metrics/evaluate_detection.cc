@@ -93,8 +93,8 @@ double FalseAlarms(const Json& in) {
 
 std::span<const Evaluator> DetectionEvaluators() {
   static constexpr Evaluator kAll[] = {
-      {"precision", [](const Json& in) -> Value { return Precision(ConfusionOf(in)); }},
-      {"recall", [](const Json& in) -> Value { return Recall(ConfusionOf(in)); }},
+      {"precision", [](const Json& in) -> Value { return PrecisionOf(ConfusionOf(in)); }},
+      {"recall", [](const Json& in) -> Value { return RecallOf(ConfusionOf(in)); }},
       {"f1", [](const Json& in) -> Value { return F1(ConfusionOf(in)); }},
       {"fault_found", Found},
       {"grey_called_right", Grey},

@@ -47,7 +47,7 @@ glm::dvec3 PlaceOf(const Clip& clip, std::size_t frame, const char* joint) {
 
 void ExpectJointAt(const glm::dvec3& a, const glm::dvec3& b) { EXPECT_LT(glm::distance(a, b), 1e-12); }
 
-std::string Complaint(const std::string& text) {
+std::string DeepMimicComplaint(const std::string& text) {
   const auto clip = ReadDeepMimicMotion(text, "walk.txt");
   EXPECT_FALSE(clip);
   return clip ? "" : ToString(clip.error());
@@ -92,18 +92,18 @@ TEST(DeepMimic, IsUnderstoodAsABody) {
 }
 
 TEST(DeepMimic, RefusesWhatItIsNot) {
-  EXPECT_THAT(Complaint("{\"Frames\":\n [1, }"), HasSubstr("walk.txt:2:"));
-  EXPECT_THAT(Complaint("{\"Frames\": []}"), HasSubstr("no frames"));
-  EXPECT_THAT(Complaint(Motion({{0.04, 1, 2}})), HasSubstr("Frames[0]: 3 numbers; allowed: 44"));
-  EXPECT_THAT(Complaint(Motion({Standing(), Standing(0.05), Standing()})),
+  EXPECT_THAT(DeepMimicComplaint("{\"Frames\":\n [1, }"), HasSubstr("walk.txt:2:"));
+  EXPECT_THAT(DeepMimicComplaint("{\"Frames\": []}"), HasSubstr("no frames"));
+  EXPECT_THAT(DeepMimicComplaint(Motion({{0.04, 1, 2}})), HasSubstr("Frames[0]: 3 numbers; allowed: 44"));
+  EXPECT_THAT(DeepMimicComplaint(Motion({Standing(), Standing(0.05), Standing()})),
               HasSubstr("Frames[1][0]: a frame of 0.05 s"));
-  EXPECT_THAT(Complaint(Motion({Standing(0)})), HasSubstr("a frame of 0 s; allowed: 0.0001 to 1 s"));
+  EXPECT_THAT(DeepMimicComplaint(Motion({Standing(0)})), HasSubstr("a frame of 0 s; allowed: 0.0001 to 1 s"));
   std::vector<double> flat = Standing();
   flat[4] = 0;
-  EXPECT_THAT(Complaint(Motion({flat})), HasSubstr("a quaternion of no length"));
+  EXPECT_THAT(DeepMimicComplaint(Motion({flat})), HasSubstr("a quaternion of no length"));
   flat[4] = 1e12;
-  EXPECT_THAT(Complaint(Motion({flat})), HasSubstr("Frames[0][4]"));
-  EXPECT_THAT(Complaint("{\"Frames\": [[\"one\"]]}"), HasSubstr("1 numbers"));
+  EXPECT_THAT(DeepMimicComplaint(Motion({flat})), HasSubstr("Frames[0][4]"));
+  EXPECT_THAT(DeepMimicComplaint("{\"Frames\": [[\"one\"]]}"), HasSubstr("1 numbers"));
 }
 
 }  // namespace

@@ -29,14 +29,14 @@ TEST(Confusion, CountTheTextbookConfusion) {
   EXPECT_EQ(confusion.false_negatives, 1);
   EXPECT_EQ(confusion.false_positives, 2);
   EXPECT_EQ(confusion.true_negatives, 4);
-  EXPECT_DOUBLE_EQ(*Precision(confusion), 0.6);
-  EXPECT_DOUBLE_EQ(*Recall(confusion), 0.75);
+  EXPECT_DOUBLE_EQ(*PrecisionOf(confusion), 0.6);
+  EXPECT_DOUBLE_EQ(*RecallOf(confusion), 0.75);
   EXPECT_DOUBLE_EQ(*F1(confusion), 2 * 0.6 * 0.75 / (0.6 + 0.75));
 }
 
 TEST(Confusion, GivesValuesThatAreMissingRatherThanZeroWhenThereIsNothingToCount) {
-  EXPECT_FALSE(Precision({.true_positives = 0, .false_positives = 0, .false_negatives = 3, .true_negatives = 1}));
-  EXPECT_FALSE(Recall({.true_positives = 0, .false_positives = 2, .false_negatives = 0, .true_negatives = 1}));
+  EXPECT_FALSE(PrecisionOf({.true_positives = 0, .false_positives = 0, .false_negatives = 3, .true_negatives = 1}));
+  EXPECT_FALSE(RecallOf({.true_positives = 0, .false_positives = 2, .false_negatives = 0, .true_negatives = 1}));
   EXPECT_FALSE(F1({.true_positives = 0, .false_positives = 0, .false_negatives = 0, .true_negatives = 5}));
   EXPECT_DOUBLE_EQ(*F1({.true_positives = 0, .false_positives = 0, .false_negatives = 3, .true_negatives = 1}), 0.0);
 }
