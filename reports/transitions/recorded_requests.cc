@@ -6,6 +6,8 @@
 #include <map>
 #include <utility>
 
+#include "bench/model/recording.h"
+
 namespace etude {
 
 Result<TransitionFacts> ReadTransitionFacts(const Recording& recording, const std::string& cell) {

@@ -39,7 +39,7 @@ const Choice* FindChoice(std::string_view name);
 /// A way to get from clip to clip: a choice of frames × a join, with what they can be set by.
 struct TransitionWay {
   const Choice* choice = nullptr;
-  const Join* join = nullptr;
+  const JoinKind* join = nullptr;
   MatchRules rules = {};
   std::vector<double> choice_settings = {},
                       join_settings = {};  ///< one per setting of the choice, of the join; none: defaults

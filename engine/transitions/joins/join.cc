@@ -24,25 +24,25 @@ Blend BeginWith(const JoinInput& input, std::span<const double> values) {
 }
 
 // A function, so that the table is made after every string it is made of.
-std::span<const Join> Table() {
+std::span<const JoinKind> Table() {
   static const std::array kJoins = {
-      Join{.name = "cut", .description = "paper A's: the next frame shown is the new clip's", .begin = CutOver},
-      Join{.name = "crossfade",
+      JoinKind{.name = "cut", .description = "paper A's: the next frame shown is the new clip's", .begin = CutOver},
+      JoinKind{.name = "crossfade",
            .description = "the old motion fades into the new one (Kovar 2002)",
            .settings = CrossfadeSettings().Describe(),
            .begin = BeginWith<Crossfade, CrossfadeSettings>},
-      Join{.name = "inertialised-quintic",
+      JoinKind{.name = "inertialised-quintic",
            .description = "what was off dies away along a quintic that does not overshoot (Bollo 2018)",
            .settings = QuinticSettings().Describe(),
            .begin = BeginWith<InertialiseQuintic, QuinticSettings>},
-      Join{.name = "inertialised-spring",
+      JoinKind{.name = "inertialised-spring",
            .description = "what was off dies away like a critically damped spring (Holden 2020)",
            .begin = SpringDefaults},
-      Join{.name = "minimum-jerk",
+      JoinKind{.name = "minimum-jerk",
            .description = "what was off dies away along the quintic of least jerk, whatever its velocity",
            .settings = MinimumJerkSettings().Describe(),
            .begin = BeginWith<MinimumJerk, MinimumJerkSettings>},
-      Join{.name = "planted-feet",
+      JoinKind{.name = "planted-feet",
            .description = "the same, and each foot goes from the old motion's path to the new one's in a step",
            .settings = MinimumJerkSettings().Describe(),
            .begin = BeginWith<PlantedFeet, MinimumJerkSettings>,
@@ -53,9 +53,9 @@ std::span<const Join> Table() {
 
 }  // namespace
 
-std::span<const Join> AllJoins() { return Table(); }
+std::span<const JoinKind> AllJoins() { return Table(); }
 
 std::vector<std::string> JoinNames() { return NamesOf(AllJoins()); }
-const Join* FindJoin(std::string_view name) { return FindByName(AllJoins(), name); }
+const JoinKind* FindJoin(std::string_view name) { return FindByName(AllJoins(), name); }
 
 }  // namespace etude

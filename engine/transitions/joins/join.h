@@ -39,7 +39,7 @@ constexpr double kAlignedSeconds = 0.5;
 
 /// A way to put two clips together at a transition point, by the name scenario files call it. All limbs keep their
 /// lengths.
-struct Join {
+struct JoinKind {
   std::string name;
   std::string description;  ///< one line, for people
   std::vector<NumberSetting> settings = {};
@@ -51,9 +51,9 @@ struct Join {
 };
 
 /// Lists all joins, paper A's cut first.
-std::span<const Join> AllJoins();
+std::span<const JoinKind> AllJoins();
 std::vector<std::string> JoinNames();
 /// Returns the join of that name, null when there is none.
-const Join* FindJoin(std::string_view name);
+const JoinKind* FindJoin(std::string_view name);
 
 }  // namespace etude

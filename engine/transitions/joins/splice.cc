@@ -48,7 +48,7 @@ struct PlacedSegment {
 
 /// Returns where a segment is laid that follows `old` at its frame `left`. Frames that a choice made itself begin
 /// there.
-FloorMove Lay(const Join& join, const PlacedSegment& old, int left, const PlacedSegment& next, double rate_hz) {
+FloorMove Lay(const JoinKind& join, const PlacedSegment& old, int left, const PlacedSegment& next, double rate_hz) {
   if (join.align == nullptr || next.is_own) return AlignOnFloor(next.frames[next.first], old.At(left));
   const std::size_t count = static_cast<std::size_t>(rate_hz * kAlignedSeconds);
   std::vector<BodyPose> going = old.Own(left, count);
@@ -65,7 +65,7 @@ BodyPose FrameBefore(const BodyPose& first, const BodyPose& second) {
   return before;
 }
 
-Splice SpliceSegments(std::span<const BodyMotion> clips, std::span<const Segment> segments, const Join& join,
+Splice SpliceSegments(std::span<const BodyMotion> clips, std::span<const Segment> segments, const JoinKind& join,
                       std::span<const double> join_settings) {
   assert(segments.size() >= 2);
   Splice splice;

@@ -32,7 +32,7 @@ BodyPose FrameBefore(const BodyPose& first, const BodyPose& second);
 /// the last. Every segment is turned and moved on the floor (yaw, x, z) to continue where the one before it stood,
 /// unless it is in place. There must be two at least, and each must have a frame to play. `join_settings`: as
 /// Join::begin takes them.
-Splice SpliceSegments(std::span<const BodyMotion> clips, std::span<const Segment> segments, const Join& join,
+Splice SpliceSegments(std::span<const BodyMotion> clips, std::span<const Segment> segments, const JoinKind& join,
                       std::span<const double> join_settings = {});
 
 }  // namespace etude

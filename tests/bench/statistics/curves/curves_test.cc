@@ -127,7 +127,8 @@ TEST(JackknifedAuc, HasAnIntervalOverGroups) {
   EXPECT_DOUBLE_EQ(JackknifedAuc(different, groups)->value, 0.5);
   // Without one of three that win, 2/5; of three that lose, 3/5: √(5/6 · 6 · 0.01) either way, twice nearly.
   EXPECT_NEAR(JackknifedAuc(different, groups)->low, 0.5 - 1.96 * std::sqrt(0.05), 1e-12);
-  EXPECT_FALSE(JackknifedAuc(std::vector{Right(0.9), Wrong(0.1)}, std::vector{0, 1})) << "a group is needed for the curve";
+  EXPECT_FALSE(JackknifedAuc(std::vector{Right(0.9), Wrong(0.1)}, std::vector{0, 1}))
+      << "a group is needed for the curve";
 }
 
 TEST(SurvivalCurve, IsTheEstimateOfKaplanAndMeier) {

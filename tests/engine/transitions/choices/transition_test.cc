@@ -136,7 +136,7 @@ TEST_P(EveryChoice, WithEveryJoinKeepsItsPromisesOnRandomLibraries) {
   for (int number = 0; number < 12 && !HasFailure(); ++number) {
     const Trial trial = DrawTrial(number);
     for (const TransitionRequest& request : trial.requests) {
-      for (const Join& join : AllJoins()) {
+      for (const JoinKind& join : AllJoins()) {
         SCOPED_TRACE(testing::Message() << "library " << number << ", clip " << request.from << " frame "
                                         << request.request_frame << " to " << request.to << ", " << join.name);
         found += CheckTransition(
@@ -180,7 +180,7 @@ TEST(MakeTransition, TakesSettingsToTheirLimits) {
       check({.choice = &choice, .join = &AllJoins()[0], .rules = {}, .choice_settings = values, .join_settings = {}});
     }
   }
-  for (const Join& join : AllJoins()) {
+  for (const JoinKind& join : AllJoins()) {
     for (const std::vector<double>& values : Extremes(join.settings)) {
       check({.choice = &AllChoices()[0], .join = &join, .rules = {}, .choice_settings = {}, .join_settings = values});
     }
@@ -192,7 +192,7 @@ TEST(Unbroken, IsTheClipItselfByAnyJoin) {
   const Trial trial = DrawTrial(5);
   const TransitionRequest request{.from = 1, .request_frame = 1, .to = 0};
   ASSERT_GT(trial.library.motions[1].poses.size(), 2u);
-  for (const Join& join : AllJoins()) {
+  for (const JoinKind& join : AllJoins()) {
     const Transition result = MakeTransition(
         trial.library, request,
         {.choice = FindChoice("unbroken"), .join = &join, .rules = {}, .choice_settings = {}, .join_settings = {}});

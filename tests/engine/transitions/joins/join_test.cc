@@ -14,7 +14,7 @@ const std::vector<BodyMotion>& Strangers() {
   return kClips;
 }
 
-BodyMotion Spliced(const Join& join) {
+BodyMotion Spliced(const JoinKind& join) {
   return SpliceSegments(Strangers(), Segments(19, 5, Strangers()[1]), join).motion;
 }
 
@@ -22,7 +22,7 @@ BodyMotion CutTogether() { return Spliced(AllJoins().front()); }
 
 class EverySmoothJoin : public testing::TestWithParam<std::string> {
  protected:
-  const Join& TheJoin() const { return *FindJoin(GetParam()); }
+  const JoinKind& TheJoin() const { return *FindJoin(GetParam()); }
 };
 
 TEST_P(EverySmoothJoin, TakesTheJumpAwayAndKeepsTheLimbs) {

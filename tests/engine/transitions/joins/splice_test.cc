@@ -9,15 +9,15 @@
 namespace etude {
 namespace {
 
-const Join& Cut() { return *FindJoin("cut"); }
-const Join& Spring() { return *FindJoin("inertialised-spring"); }
+const JoinKind& Cut() { return *FindJoin("cut"); }
+const JoinKind& Spring() { return *FindJoin("inertialised-spring"); }
 
 TEST(SpliceSegments, ReproducesAClipThatIsJoinedToItself) {
   const BodyMotion clip = WavingClip(60);
   BodyMotion elsewhere = clip;
   for (BodyPose& pose : elsewhere.poses) pose = FloorMove{.yaw = 1, .x = 2, .z = 3}.Apply(pose);
   const BodyMotion clips[] = {clip, elsewhere};
-  for (const Join& join : AllJoins()) {
+  for (const JoinKind& join : AllJoins()) {
     const Splice splice = SpliceSegments(clips, Segments(19, 19, clip), join);
     ASSERT_EQ(splice.motion.poses.size(), clip.poses.size());
     for (std::size_t f = 0; f < clip.poses.size(); ++f) ExpectSamePose(splice.motion.poses[f], clip.poses[f], 1e-9);
@@ -41,11 +41,11 @@ TEST(SpliceSegments, JoinsOntoWhatAnUnfinishedJoinShows) {
   const std::vector<Segment> hasty = {{.clip = 0, .first = 0, .last = 19, .own = {}},
                                       {.clip = 1, .first = 5, .last = 8, .own = {}},
                                       {.clip = 2, .first = 5, .last = 59, .own = {}}};
-  const auto jump_at_second_point = [&](const Join& join) {
+  const auto jump_at_second_point = [&](const JoinKind& join) {
     return JumpAt(SpliceSegments(clips, hasty, join).motion, 22);
   };
   EXPECT_GT(jump_at_second_point(Cut()), 0.3) << "the control";
-  for (const Join& join : AllJoins().subspan(1)) EXPECT_LT(jump_at_second_point(join), 0.12) << join.name;
+  for (const JoinKind& join : AllJoins().subspan(1)) EXPECT_LT(jump_at_second_point(join), 0.12) << join.name;
 }
 
 TEST(SpliceSegments, TakesAClipAsMovingBeforeItsFirstFrame) {
