@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/gate/comparison.h"
 #include "bench/gate/finished_run.h"
 #include "bench/gate/metric_move.h"
 
