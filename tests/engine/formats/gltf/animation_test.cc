@@ -67,7 +67,7 @@ Clip OnlyClip(const std::string& bytes) {
   return content.clips.empty() ? Clip{} : content.clips[0];
 }
 
-void ExpectPlace(const glm::dvec3& found, const glm::dvec3& expected, double tolerance = 1e-6) {
+void ExpectSampled(const glm::dvec3& found, const glm::dvec3& expected, double tolerance = 1e-6) {
   EXPECT_LT(glm::length(found - expected), tolerance) << "(" << found.x << ", " << found.y << ", " << found.z << ")";
 }
 
@@ -92,8 +92,8 @@ TEST(GltfAnimation, SamplesUnevenKeysAt60HzAlongStraightLines) {
   EXPECT_EQ(clip.rate_hz, 60);
   const auto frames = Frames(clip);
   ASSERT_EQ(frames.size(), 121u);
-  ExpectPlace(frames[15].translation, {0.5, 0, 0});  // at 0.25 s
-  ExpectPlace(frames[75].translation, {1, 1.5, 0});  // at 1.25 s
+  ExpectSampled(frames[15].translation, {0.5, 0, 0});  // at 0.25 s
+  ExpectSampled(frames[75].translation, {1, 1.5, 0});  // at 1.25 s
   EXPECT_EQ(frames[120].translation, glm::dvec3(1, 3, 0));
 }
 
@@ -136,7 +136,7 @@ TEST(GltfAnimation, FollowsCubicSplinesWithTheirTangents) {
   const auto frames = Frames(clip);
   ASSERT_EQ(frames.size(), 121u);
   for (int frame = 0; frame <= 120; frame += 5)
-    ExpectPlace(frames[frame].translation, {std::pow(frame / 60.0, 3), 0, 0});
+    ExpectSampled(frames[frame].translation, {std::pow(frame / 60.0, 3), 0, 0});
 }
 
 TEST(GltfAnimation, MakesCubicSplineRotationsUnit) {

@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-using testing::Complaint;
+using testing::GlbComplaint;
 using testing::Floats;
 using testing::Glb;
 using ::testing::HasSubstr;
