@@ -61,7 +61,7 @@ Payload NaturePayload(const Stage& stage, const TransitionRequest& request);
 struct TransitionAnswer {
   std::optional<std::string> unsolved;  ///< why; the rest is then empty
   std::vector<Segment> segments;        ///< as in a TransitionRecord
-  const JoinKind* join = nullptr;           ///< never null when there are segments; its settings are the defaults
+  const JoinKind* join = nullptr;       ///< never null when there are segments; its settings are the defaults
   bool matched = false;
 };
 
