@@ -43,7 +43,7 @@ TEST(Holm, NeverExceedsOneNorForgetsAQuestion) {
 
 
 Comparison Compared(const std::vector<double>& differences, const char* metric = "position_error_cm") {
-  std::vector<Pair> pairs;
+  std::vector<etude::Pair> pairs;
   for (double difference : differences) pairs.push_back({0, difference});
   Comparison comparison = ComparePaired(pairs, *FindMetric(metric), 1, "x");
   comparison.baseline = "fixed";
@@ -113,7 +113,7 @@ TEST(JudgeFamily, TellsATestThatFoundSomethingFromOneThatDidNot) {
   EXPECT_THAT(found.why_open, HasSubstr("the test finds a difference (p = 0.00049 among 2), but the interval of its "
                                         "median reaches zero"));
   // A share of twelve equal worlds: nothing differs, and the interval is wide all the same.
-  std::vector<Pair> equal(12, Pair{1, 1});
+  std::vector<etude::Pair> equal(12, etude::Pair{1, 1});
   Comparison same = ComparePaired(equal, *FindMetric("solved_practical"), 1, "x");
   EXPECT_EQ(JudgedAmong(1, same).why_open,
             "no pair differs, but 12 worlds are too few to exclude a difference that matters");
