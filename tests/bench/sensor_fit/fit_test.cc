@@ -24,7 +24,7 @@ SkeletonSensorOptions Unknown() {
 }
 
 /// One recording by that sensor, of a dance before it.
-std::optional<RealRecording> Recorded(const SkeletonSensorOptions& sensor, const TwinMotion& twin) {
+std::optional<RealRecording> RecordedBySensor(const SkeletonSensorOptions& sensor, const TwinMotion& twin) {
   // Facing the sensor, as a Kinect's own space has it: Z away from it.
   MadeUp made{.rotation = glm::angleAxis(3.14159265358979, glm::dvec3(0, 1, 0)), .translation = {0, -1, 2.9}};
   auto perfect = MakeRealRecording(PerfectRecording(twin, 7, made), twin);
@@ -36,7 +36,7 @@ std::optional<RealRecording> Recorded(const SkeletonSensorOptions& sensor, const
 constexpr WorldKey kOtherDice{.suite_seed = 9, .scenario = "held-out", .trial = 0};
 
 TEST(FitSensor, GivesASensorWhoseRecordingsHaveTheRealOnesStatistics) {
-  const auto real = Recorded(Unknown(), DancingTwin(9));
+  const auto real = RecordedBySensor(Unknown(), DancingTwin(9));
   ASSERT_TRUE(real);
   const SensorFitOptions options{.start = SensorV2(), .worlds = 10, .steps = 6, .progress = {}};
   const SkeletonSensorOptions fitted = FitSensor(*real, options);
@@ -51,14 +51,14 @@ TEST(FitSensor, GivesASensorWhoseRecordingsHaveTheRealOnesStatistics) {
 }
 
 TEST(FitSensor, IsTheSameEveryTime) {
-  const auto real = Recorded(Unknown(), DancingTwin(9));
+  const auto real = RecordedBySensor(Unknown(), DancingTwin(9));
   ASSERT_TRUE(real);
   const SensorFitOptions options{.start = SensorV2(), .worlds = 3, .steps = 2, .progress = {}};
   EXPECT_EQ(WriteSensorFile(FitSensor(*real, options), "v2"), WriteSensorFile(FitSensor(*real, options), "v2"));
 }
 
 TEST(FitSensor, KeepsWhatTheRecordingDoesNotShow) {
-  auto real = Recorded(Unknown(), DancingTwin(9));
+  auto real = RecordedBySensor(Unknown(), DancingTwin(9));
   ASSERT_TRUE(real);
   for (RolePlaces& places : real->recording.frames) {
     places[Index(Role::kLeftKnee)].reset();
@@ -74,7 +74,7 @@ TEST(FitSensor, KeepsWhatTheRecordingDoesNotShow) {
 }
 
 TEST(Simulate, AtStrengthZeroSaysTheTwinItself) {
-  const auto real = Recorded(Unknown(), DancingTwin(9, 0.2, {"clap"}));
+  const auto real = RecordedBySensor(Unknown(), DancingTwin(9, 0.2, {"clap"}));
   ASSERT_TRUE(real);
   SkeletonSensorOptions perfect = SensorV2();
   perfect.strength = 0;
