@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "bench/clips/clip_library.h"
 #include "bench/outside/conformance.h"
 #include "bench/outside/messages.h"
 #include "tests/fuzz/readers/target.h"

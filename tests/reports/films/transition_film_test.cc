@@ -31,7 +31,7 @@ TransitionRace ExampleRace() {
   return *std::move(race);
 }
 
-int CountOf(const ColourImage& picture, const Paint& paint) {
+int CountPixels(const ColourImage& picture, const Paint& paint) {
   const auto near = [](std::uint8_t shown, double wanted) { return std::abs(shown - 255 * wanted) < 2; };
   return static_cast<int>(std::ranges::count_if(
       picture.pixels, [&](const Rgb8& p) { return near(p.r, paint.r) && near(p.g, paint.g) && near(p.b, paint.b); }));
@@ -108,7 +108,7 @@ TEST(DistanceBars, AreAsLongAsTheirShareOfTheThreshold) {
     facts.points[0].partials = partials;
     Canvas canvas(420, static_cast<int>(kDistanceBarsHeight));
     DrawDistanceBars(canvas, {0, 0, 420, kDistanceBarsHeight}, facts, 0);
-    return CountOf(canvas.Pixels(), kWarm);
+    return CountPixels(canvas.Pixels(), kWarm);
   };
   EXPECT_EQ(amber(0), 0);
   const int quarter = amber(0.04), half = amber(0.08);
@@ -132,7 +132,7 @@ TEST(TransitionScene, DrawsTheSamePixelsEveryTimeAndMarksTheChange) {
   const int before = clock.FrameOf(-5), after = clock.FrameOf(3);
   const ColourImage calm = scene.Draw(before).Pixels(), changed = scene.Draw(after).Pixels();
   // "now" has just changed: its column is framed, its bars are filled.
-  EXPECT_GT(CountOf(changed, kWarm), CountOf(calm, kWarm) + 1500);
+  EXPECT_GT(CountPixels(changed, kWarm), CountPixels(calm, kWarm) + 1500);
   TransitionScene again(race, "transition", **renderer);
   EXPECT_EQ(again.Draw(after).Pixels().pixels, changed.pixels);
   EXPECT_THAT(scene.Words(), HasSubstr("fuzzy-bridge (in-between, after 0.83 s)"));

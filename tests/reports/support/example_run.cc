@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "bench/model/recording.h"
 #include "bench/recordings/capture_extras.h"
 #include "engine/base/angles.h"
 
