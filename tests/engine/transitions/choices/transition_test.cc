@@ -185,7 +185,7 @@ TEST(MakeTransition, TakesSettingsToTheirLimits) {
       check({.choice = &AllChoices()[0], .join = &join, .rules = {}, .choice_settings = {}, .join_settings = values});
     }
   }
-  EXPECT_EQ(tried, 2 * (10 + 7)) << "ten settings of choices, seven of joins";
+  EXPECT_EQ(tried, 2 * (7 + 6)) << "seven settings of choices, six of joins";
 }
 
 TEST(Unbroken, IsTheClipItselfByAnyJoin) {
