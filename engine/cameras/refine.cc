@@ -1,7 +1,7 @@
 #include "engine/cameras/refine.h"
 
+#include <ceres/autodiff_cost_function.h>
 #include <ceres/crs_matrix.h>
-#include <ceres/dynamic_autodiff_cost_function.h>
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
 #include <ceres/rotation.h>
@@ -12,7 +12,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <memory>
 
 #include "engine/cameras/camera_parameters.h"
 
@@ -34,8 +33,7 @@ struct ReprojectionError {
   glm::dvec2 pixel;
 
   template <typename T>
-  bool operator()(T const* const* blocks, T* residual) const {
-    const T *const intrinsics = blocks[0], *const camera = blocks[1], *const target = blocks[2];
+  bool operator()(const T* intrinsics, const T* camera, const T* target, T* residual) const {
     const T in_target[3] = {T(p_TQ.x), T(p_TQ.y), T(p_TQ.z)};
     T in_world[3], in_camera[3];
     ceres::AngleAxisRotatePoint(target, in_target, in_world);
@@ -53,16 +51,6 @@ struct ReprojectionError {
     return true;
   }
 };
-
-/// Differentiates by four parameters at a time, because the code for all 22 at once takes the compiler much longer.
-/// Every derivative is computed by itself, so that none changes in its last bit.
-std::unique_ptr<ceres::CostFunction> MakeCost(const PointPair& pair) {
-  auto cost = std::make_unique<ceres::DynamicAutoDiffCostFunction<ReprojectionError, 4>>(
-      new ReprojectionError{pair.world, pair.pixel});
-  for (const int size : {int{kIntrinsicsCount}, kPoseCount, kPoseCount}) cost->AddParameterBlock(size);
-  cost->SetNumResiduals(2);
-  return cost;
-}
 
 using IntrinsicsBlock = std::array<double, kIntrinsicsCount>;
 using PoseBlock = std::array<double, kPoseCount>;
@@ -200,8 +188,10 @@ class Bundle {
 
   void AddView(const TargetView& view) {
     for (const PointPair& pair : view.pairs) {
-      problem_.AddResidualBlock(MakeCost(pair).release(), nullptr, intrinsics_[view.camera].data(),
-                                cameras_[view.camera].data(), targets_[view.target].data());
+      using Cost = ceres::AutoDiffCostFunction<ReprojectionError, 2, kIntrinsicsCount, kPoseCount, kPoseCount>;
+      problem_.AddResidualBlock(new Cost(new ReprojectionError{pair.world, pair.pixel}), nullptr,
+                                intrinsics_[view.camera].data(), cameras_[view.camera].data(),
+                                targets_[view.target].data());
     }
     points_ += view.pairs.size();
   }
