@@ -20,7 +20,7 @@ std::vector<std::string> ConditionFolders(const Scenario& scenario);
 /// Names a trial: "007".
 std::string TrialName(int trial);
 
-/// What is wrong with a folder of predictions: each entry names a file or a world.
+/// The faults of a folder of predictions; each entry names a file or a world.
 struct PredictionFaults {
   std::vector<std::string> missing;    ///< worlds without an answer
   std::vector<std::string> extra;      ///< files that answer no world

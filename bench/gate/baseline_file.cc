@@ -175,7 +175,7 @@ class BaselineReader {
     }
   }
 
-  /// Whose line this is: "scenario, condition, method".
+  /// Finds the slot that a line belongs to, by its "scenario, condition, method".
   Result<Slots::const_iterator> FindSlot(const JsonObject& line, std::string_view what) const {
     ASSIGN_OR_RETURN(const auto scenario, line.Text("scenario"));
     ASSIGN_OR_RETURN(const auto condition, line.Text("condition"));

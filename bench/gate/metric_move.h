@@ -32,7 +32,7 @@ enum class Movement {
 /// "same", "better", "worse", "too small to matter", "unclear", "changed"
 std::string_view MovementWords(Movement movement);
 
-/// Whose numbers a move is about.
+/// Names the numbers that moved.
 struct MoveIdentity {
   std::string scenario, condition, method, metric;
 };

@@ -22,7 +22,7 @@ const CoachedPerformance* CauseOf(const GivenCorrection& correction, const Coach
   return cause;
 }
 
-/// Whether a correction of performance `i` was decided on before the window of the next one had closed for good.
+/// Tells whether a correction of performance `i` was decided on before the window of the next one had closed for good.
 bool IsAnswered(const CoachedSession& session, std::size_t i) {
   const bool is_last = i + 1 == session.performances.size();
   const int first = session.performances[i].end_frame;

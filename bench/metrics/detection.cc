@@ -18,7 +18,8 @@ std::vector<double> TimesOf(std::string_view move, std::span<const Moment> momen
   return times;
 }
 
-/// As many pairs as can be: the earliest detection that a point can have is never worth more to a later point.
+/// Counts the most pairs that can be made: the earliest detection that a point can have is never worth more to a later
+/// one.
 int CountPairs(const std::vector<double>& points, const std::vector<double>& detections, double tolerance_s) {
   constexpr double kRounding = 1e-9;
   int pairs = 0;

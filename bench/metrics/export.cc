@@ -122,7 +122,7 @@ std::string ExpectedText(const MetricVector& vector) {
                               : fmt::format("{:.9g}", *vector.expected);
 }
 
-/// What a table's cell cannot hold: the bar that ends it.
+/// Escapes the bar, which would end a table's cell.
 std::string InTable(std::string_view content) {
   std::string text(content);
   for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2)) text.insert(at, "\\");

@@ -45,7 +45,7 @@ bool IsNatural(std::optional<double> jump_cm, std::vector<double> natural_jumps_
 /// = 0, where every clip of a stage was set down: `FootSlide` (engine/motion/statistics), of clips whose floor nobody
 /// knows, takes each foot's lowest point instead, which a foot that a join pushes through the floor would move.
 double FootSlideCmps(const BodyMotion& motion, int point);
-/// The same over the steps from frame `first` to frame `last` (to the motion's end at most).
+/// Computes the foot slide over the steps from frame `first` to frame `last` (to the motion's end at most).
 double FootSlideCmps(std::span<const BodyPose> poses, int first, int last, double rate_hz);
 
 /// The worst joint between the frame left and the frame entered, already aligned on the floor.

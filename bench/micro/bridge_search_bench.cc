@@ -83,7 +83,7 @@ void CompareAnswers(const std::vector<Searcher>& searchers, const Queries& queri
   }
 }
 
-/// What hurts: the query with the most frames within the threshold, and those that have none.
+/// The hardest queries: the one with the most frames within the threshold, and those that have none.
 struct HardQueries {
   Queries most, none;
 };
@@ -150,7 +150,7 @@ class Libraries {
   std::unique_ptr<Measured> held_;
 };
 
-/// What is asked of a searcher; the number of frames in its answer.
+/// Asks a searcher, and returns the number of frames in its answer.
 using Question = std::size_t (*)(const Searcher&, const Grades&);
 
 /// Asks all queries in turn, everyone the same ones; the time shown is the mean over them.
@@ -225,7 +225,7 @@ void FindAllMatches(benchmark::State& state, const std::vector<std::vector<Grade
   state.counters["share"] = shares / (count * (count - 1));
 }
 
-/// The same by an index of each clip that is asked for every frame of the others.
+/// Finds the transition points by an index of each clip, which is asked for every frame of the others.
 template <class Index>
 void AskForPartners(benchmark::State& state, const std::vector<std::vector<Grades>>& clips, auto... options) {
   double found = 0;

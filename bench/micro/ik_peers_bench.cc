@@ -62,7 +62,7 @@ double ClockTimeUs() {
   return least;
 }
 
-/// What a method has made of one problem.
+/// The result of one method on one problem.
 struct Outcome {
   IkPeerAnswer answer;
   double us = std::numeric_limits<double>::infinity();

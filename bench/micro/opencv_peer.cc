@@ -54,7 +54,7 @@ void KeepPersonByLabels(const cv::Mat& changed, int largest_hole, Buffers& b, Ma
   }
 }
 
-/// The same by contours alone: that of the largest area is drawn, its holes with it, unless they are large.
+/// Keeps the person by contours alone: the one of the largest area is drawn, its holes with it, unless they are large.
 void KeepPersonByContours(const cv::Mat& changed, int largest_hole, Mask& out) {
   std::vector<std::vector<cv::Point>> contours;
   std::vector<cv::Vec4i> hierarchy;

@@ -21,7 +21,7 @@ constexpr int kPictures = 4, kStep = 9;  // pixels that the person moves from on
 
 std::uint8_t Level(double value) { return static_cast<std::uint8_t>(value < 0 ? 0 : value > 255 ? 255 : value + 0.5); }
 
-/// Whether an ellipse of the person who stands `shift` pixels aside covers a pixel.
+/// Tells whether an ellipse of the person who stands `shift` pixels aside covers a pixel.
 bool IsIn(int x, int y, int shift, double cx, double cy, double rx, double ry) {
   const double u = (x - cx - shift) / rx, v = (y - cy) / ry;
   return u * u + v * v < 1;
@@ -125,7 +125,7 @@ void OursDetect(benchmark::State& state) {
 BENCHMARK(OursDetect)->Unit(benchmark::kMicrosecond);
 
 #ifdef ETUDE_HAS_OPENCV
-/// How many pixels of all pictures two finders call differently.
+/// Counts the pixels of all pictures that two finders call differently.
 template <typename Finder>
 std::size_t DifferentFromOurs(Finder& peer) {
   PersonFinder ours(Background(), {.segmenter = Segmenter::kHue, .change = {}});

@@ -75,7 +75,7 @@ Result<Specimen> MakeSpecimen(const TaskKind& kind, const Recipe& recipe, const 
 
 constexpr int kLongestEndingMs = 2000;
 
-/// What a method made of a problem, in a form that can be compared: its answer, or why it gave none.
+/// A method's result in a form that can be compared: its answer, or why it gave none.
 struct Attempt {
   Status status = Status::kFailed;
   std::string said;

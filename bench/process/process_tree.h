@@ -39,7 +39,7 @@ struct ProcessUsage {
 /// what was seen on the way. Stops at 4096 of them.
 std::vector<pid_t> ProcessTree(pid_t root);
 
-/// Those that any thread of `parent` has started, or adopted.
+/// Lists the processes that any thread of `parent` has started, or adopted.
 std::vector<pid_t> ChildrenOf(pid_t parent);
 
 /// Zeros for what has vanished.

@@ -115,7 +115,7 @@ struct CoachExtras {
     int begin_frame = 0, end_frame = 0;
     std::string faults;
   };
-  /// What is written on the screen, up to the next.
+  /// The text on the screen, up to the next.
   struct Words {
     int begin_frame = 0;
     std::string say = {}, hint = {};

@@ -31,7 +31,7 @@ constexpr std::size_t kMostRowsHeld = 20'000;
 /// for any number of workers.
 class ResultWriter {
  public:
-  /// Of rows of these studies; without any, of few.
+  /// Begins a folder for rows of these studies. Without studies it is one for few rows.
   static Result<ResultWriter> Begin(const std::filesystem::path& folder, std::span<const Study> studies = {},
                                     std::size_t most_as_text = kMostRowsAsText);
 

@@ -36,7 +36,7 @@ class NpyWriter {
     return file_.Write({reinterpret_cast<const char*>(&number), sizeof number});
   }
   std::size_t count() const { return count_; }
-  /// As an array of one dimension, or of this shape, whose product is the count.
+  /// Ends the file, as an array of one dimension or of this shape, whose product is the count.
   Result<void> Finish(std::vector<std::size_t> shape = {});
 
  private:

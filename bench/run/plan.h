@@ -73,7 +73,7 @@ class Plan {
 /// long worlds are helped with first: a long world that is begun last leaves all other workers idle.
 class OrderQueue {
  public:
-  /// Where a worker is that has not begun anything.
+  /// The condition of a worker that has not begun anything.
   static constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
 
   /// `is_long`: whether worlds of this scenario take long, as far as is known.

@@ -13,7 +13,7 @@
 
 namespace etude {
 
-/// Of one run: where their rows stand is held in memory.
+/// The most cells of one run: the places of their rows are held in memory.
 inline constexpr std::size_t kMostCells = 10'000'000;
 
 /// The inputs of a scenario's worlds beside the texts that it stands in: enough to make them again anywhere.
@@ -43,7 +43,7 @@ struct SuiteSetup {
   SourceTexts sources;
   std::vector<ScenarioSetup> scenarios;
   std::optional<ScoredMethod> scored;  ///< a method of every scenario, too
-  /// What the manifest calls `sources` that are known by other names here (CanonicalNames); for people, names stay as
+  /// The manifest's names of `sources` that are known by other names here (CanonicalNames); people are shown names as
   /// they were given.
   std::map<std::string, std::string> canonical = {};
   /// The scenarios of those files of `sources` that were parsed already, as they stand there.
@@ -59,11 +59,11 @@ class PreparedScenario {
  public:
   const ScenarioSetup& setup() const { return setup_; }
   const Scenario& scenario() const { return scenario_; }
-  /// Those of all libraries, where there are any.
+  /// The clips, those of all libraries where there are any.
   const ClipLibrary& clips() const { return *clips_; }
   /// By name, where there are any.
   const std::map<std::string, ClipLibrary>& libraries() const { return libraries_; }
-  /// Of people, where its worlds are made of them; else null.
+  /// The recordings of people that its worlds are made of; null where they are not.
   const LabelledStreams* recordings() const { return recordings_.get(); }
   const Task& task(int condition) const { return *tasks_[condition]; }
 

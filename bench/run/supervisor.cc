@@ -49,7 +49,7 @@ struct Worker {
   bool dismissed = false;           ///< it ended, and no other takes its place
   Clock::time_point began = {};     ///< the world that it works on
   Clock::time_point measured = {};  ///< when its memory was last looked at
-  /// Of the last order that it was given.
+  /// The condition of the last order that it was given.
   std::size_t condition = OrderQueue::kNowhere;
 };
 

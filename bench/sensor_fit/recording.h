@@ -31,7 +31,7 @@ struct Carrier {
   glm::dquat rotation{1, 0, 0, 0};
 };
 
-/// The same motion as that system saw it: per frame and joint its carrier, metres.
+/// The motion of a recording as a second system saw it: per frame and joint its carrier, metres.
 struct TwinMotion {
   double rate_hz = 60;
   std::vector<std::array<std::optional<Carrier>, kRoleCount>> frames;

@@ -26,7 +26,7 @@ double ShareBetter(std::span<const double> differences, double sign) {
   return better / static_cast<double>(differences.size());
 }
 
-/// Of the pairs' differences; no median's where the metric is aggregated by the mean.
+/// Computes the intervals of the pairs' differences; none of the median where the metric is aggregated by the mean.
 MedianAndMean IntervalsOf(std::span<const Pair> pairs, std::span<const double> differences, const MetricInfo& metric,
                           std::uint64_t seed, const std::string& purpose, double confidence) {
   if (metric.aggregate == Aggregate::kMedian) {

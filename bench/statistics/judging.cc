@@ -16,7 +16,7 @@
 namespace etude {
 namespace {
 
-/// Whoever gives up on hard worlds is compared on the easy ones alone.
+/// Notes missing values: a method that gives up on hard worlds is compared on the easy ones alone.
 std::string NoteOnMissing(const Comparison& c) {
   const int without = c.only_baseline + c.only_method + c.neither;
   if (without == 0) return "";

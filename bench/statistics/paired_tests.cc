@@ -141,8 +141,8 @@ class FlippedSample {
   std::vector<std::array<double, 256>> byte_sums_;
 };
 
-/// Of very many differences the flips' distribution is normal: a mean of variance Σd² / n², and, of a median, that so
-/// many differences lie on either side.
+/// Tests very many differences, whose flips are distributed normally: a mean of variance Σd² / n², and, of a median,
+/// that so many differences lie on either side.
 PairedTest ManyFlips(std::span<const double> sizes, const Signs& signs, Aggregate aggregate) {
   double sum = 0, squares = 0;
   for (std::size_t i = 0; i < sizes.size(); ++i) {

@@ -70,7 +70,7 @@ struct PairedWorlds {
   std::vector<Pair> pairs;  ///< both have a value
   std::vector<int> trials;  ///< of the pairs
   int only_baseline = 0, only_method = 0, neither = 0;
-  /// Those trials of only_method and only_baseline where the other's cell failed, rather than having no such metric.
+  /// The trials of only_method and only_baseline where the other's cell failed, rather than having no such metric.
   std::vector<int> baseline_failed, method_failed;
 };
 

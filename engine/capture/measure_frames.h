@@ -27,7 +27,7 @@ std::vector<std::vector<Marks>> AgreeingMarks(std::span<const ProjectionMatrix> 
 /// Vectors of those of the twenty roles that have one.
 using RoleVectors = std::array<std::optional<glm::dvec3>, kRoleCount>;
 
-/// What is measured in space from one frame's marks.
+/// The measurements in space from one frame's marks.
 struct FrameMeasurement {
   RoleVectors ends;        ///< p_WE, metres: each end effector's place in the world, at its role
   RoleVectors directions;  ///< unit, in the world: each limb's direction, at the role of its lower joint

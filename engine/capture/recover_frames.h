@@ -22,8 +22,8 @@ struct RecoverInputs {
   CaptureBody body;  ///< of the person, measured beforehand: PaperBody or FittedBody
   /// The observations, one per frame; nothing in frames of which too little was seen.
   std::span<const std::optional<LimbObservation>> seen;
-  /// Whether each frame itself was marked: one per frame, or empty when all were. The solver starts a marked frame from
-  /// the angles that its pictures show, any other from the last frame's angles.
+  /// Tells of each frame whether it was marked itself; empty when all were. The solver starts a marked frame from the
+  /// angles that its pictures show, any other from the last frame's angles.
   std::vector<bool> marked = {};
   /// The solver's starts and its answers as the caller knows them without pictures, to see what a stage costs; empty,
   /// or one per frame, each in place of what the stage would find.

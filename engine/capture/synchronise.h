@@ -21,7 +21,7 @@ struct SyncOptions {
 
 struct ClockOffset {
   double frames = 0;
-  /// Whether the misfits determine the offset: on average they are a quarter more than the least, which is not at an
+  /// True when the misfits determine the offset: on average they are a quarter more than the least, which is not at an
   /// end of the search. False: nobody moves, or the clock is further off, and `frames` is a guess.
   bool is_told = false;
 };

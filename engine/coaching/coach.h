@@ -116,7 +116,7 @@ struct CoachInput {
   bool moment = false;                    ///< for `yoked`: correct now, or as soon as there is a dance to interrupt
 };
 
-/// Where the player is asked to go.
+/// A request to the player to stand elsewhere.
 enum class PlayerHint { kNone, kComeIntoView, kComeNearer, kStepBack };
 /// Returns "", "come into view", "come nearer" or "step back".
 std::string_view HintText(PlayerHint hint);

@@ -68,7 +68,7 @@ class Parts {
     return children;
   }
 
-  /// Where its other parts and roles are, its own joint left out.
+  /// Returns the places of a part's other parts and roles, its own joint left out.
   std::vector<glm::dvec3> TipsOf(int part) const {
     std::vector<glm::dvec3> tips;
     for (const Role role : AllRoles()) {

@@ -26,7 +26,7 @@ enum class WeightRule {
   kWangChen,       ///< w_p = 0.0007 (1 + min/max(|P_d|, |P_c|)), w_o = 1 (Wang and Chen 1991)
 };
 
-/// How often errors are measured anew for the weights that depend on them.
+/// The step after which errors are measured anew for the weights that depend on them.
 enum class WeightRefresh { kSweep, kJoint, kDof };
 
 /// Return the names of scenario files: "fixed", "fixed-tuned", … and "sweep", "joint", "dof".

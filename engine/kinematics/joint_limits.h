@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// How far the joints of `MakeBodyTree` may turn: the tree's own limits, or a column of paper B's table 3.1.
+/// The limits of the joints of `MakeBodyTree`: the tree's own, or a column of paper B's table 3.1.
 enum class LimitSet {
   kAdult,    ///< *ours*, round figures, partly narrower than the table: the limits that `MakeBodyTree` gives its tree
   kAaos,     ///< American Academy of Orthopaedic Surgeons

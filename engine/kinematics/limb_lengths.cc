@@ -136,7 +136,7 @@ class Completer {
     return 0.5 * pair.width * UnitOr(like_[pair.right.root] - like_[pair.left.root], {-1, 0, 0});
   }
 
-  /// Where the ends that were seen put the middle between the roots.
+  /// Computes the middle between the roots from the ends that were seen.
   std::optional<glm::dvec3> MiddleOfRoots(const LimbPair& pair) const {
     const glm::dvec3 from_left = whole_.ends[pair.left.end] - Reach(pair.left, pair) + HalfAcross(pair);
     const glm::dvec3 from_right = whole_.ends[pair.right.end] - Reach(pair.right, pair) - HalfAcross(pair);

@@ -35,7 +35,7 @@ std::optional<StreamFormat> DetectStreamFormat(std::string_view text);
 struct RecordedFrame {
   double time_s = 0;  ///< by the file's own clock
   int line = 0;       ///< where it stands in the text, from 1; 0: not known
-  /// Where joints are in the file's own space, its Y axis up, metres; nothing where a joint was not reported.
+  /// The places of joints in the file's own space, its Y axis up, metres; nothing where a joint was not reported.
   RolePlaces places = {};
   std::array<TrackingState, kRoleCount> states{};  ///< of joints that have a place
 };

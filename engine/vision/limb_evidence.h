@@ -34,7 +34,7 @@ enum class FigureKind {
   kDressed,  ///< limbs are cut across at their joints (sim/character)
 };
 
-/// What is known of the person's looks beforehand.
+/// The person's looks, as far as they are known beforehand.
 struct FigureLook {
   FigureKind figure = FigureKind::kCapsules;
   /// The distance of the head's point below the crown, in half widths of the head. Files end the head at its middle or

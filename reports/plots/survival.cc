@@ -31,7 +31,8 @@ struct Censored {
 constexpr std::array<Censored, 2> kCensored = {
     {{"iterations", "solved_practical", "worlds not yet solved"}, {"wait_s", "", "requests still waiting"}}};
 
-/// How long the cell took until it was done; without end where it never was. Nothing of a cell that was skipped.
+/// Returns how long the cell took until it was done, without end where it never was; nothing for a cell that was
+/// skipped.
 std::optional<Wait> WaitOf(const Row& row, const Censored& rule) {
   if (row.result.status == Status::kSkipped) return std::nullopt;
   const auto took = ValueOf(row, rule.metric);

@@ -124,7 +124,7 @@ std::string VerdictKey(const ScenarioSummary& scenario, std::size_t method, cons
       EscapeMarkup(MethodLabel(scenario, scenario.methods[method])), told);
 }
 
-/// What the panels of one condition show, by method.
+/// The curves in the panels of one condition, by method.
 struct Curves {
   std::map<std::size_t, SharePoints> rocs, found, waiting;
   std::map<std::size_t, std::pair<double, double>> operated;

@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// What the recording of a transition tells of it, clips by the names that people use.
+/// The contents of a transition's recording, with clips by the names that people use.
 using TransitionFacts = TransitionExtras;
 using PointFacts = TransitionExtras::Point;
 using CandidateFacts = TransitionExtras::Candidate;

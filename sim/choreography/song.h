@@ -51,7 +51,7 @@ struct Song {
   std::vector<MusicTag> tags;  ///< the frame nearest to the beginning of every repetition, in order
   BodyMotion motion;           ///< 30 Hz, from the ready stance to the ready stance, moves flowing into each other
 
-  /// How many frames `motion` has once it is made.
+  /// Returns the number of frames that `motion` has once it is made.
   std::size_t CountFrames() const;
 };
 

@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-/// How many events with the best scores are right and wrong, from none to all, equal scores in one step.
+/// The numbers of right and wrong events among those of the best scores, from none to all, equal scores in one step.
 struct Admitted {
   int right = 0, wrong = 0;
 };

@@ -101,7 +101,7 @@ void RecoverBundle(CaptureRun& run) {
   }
 }
 
-/// As `etude capture` does with the same marks.
+/// Recovers the motion as `etude capture` does from the same marks.
 void RecoverByKeypoints(const CaptureStages& stages, CaptureRun& run) {
   std::vector<SeenPeople> people;
   double longer_side = 0;

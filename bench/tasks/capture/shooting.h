@@ -17,8 +17,8 @@ BodyPose PoseAt(std::span<const BodyPose> poses, double frame);
 /// Gives the pose that is seen at a time.
 Figure PerformerAt(const CaptureWorld& world, double frame);
 
-/// Where and when cameras look, and nothing that harms what they see: what is left of the effects for pictures of the
-/// truth.
+/// Keeps of the effects where and when cameras look, and nothing that harms what they see: the effects for pictures of
+/// the truth.
 CameraEffects FaultlessPictures(const CameraEffects& effects);
 
 /// The cameras of a take at work.

@@ -49,7 +49,7 @@ class TakeCameras {
   Feed FeedOf(std::size_t camera) { return Feed(*this, camera); }
 
   const std::vector<ColourImage>& backgrounds() const { return backgrounds_; }
-  /// Of each source.
+  /// The marking of each source.
   const std::vector<Marking>& marking() const { return marking_; }
 
  private:

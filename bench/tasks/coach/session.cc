@@ -99,7 +99,7 @@ class Loop {
     if (music_.IsPlaying()) NoteBeats(before, music_.Now());
   }
 
-  /// Those that sound while the music goes from one moment of its own to another, within this frame.
+  /// Notes the beats that sound while the music goes from one moment of its own to another, within this frame.
   void NoteBeats(double from_s, double to_s) {
     const std::vector<double>& beats = parts_.coach.dance().beats_s;
     for (auto beat = std::ranges::lower_bound(beats, from_s); beat != beats.end() && *beat < to_s; ++beat) {

@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// How many entries of a trace curves show.
+/// The number of entries of a trace that curves show.
 constexpr int kLongestCurve = 200;
 
 /// Makes the curves, of at most 200 entries, of `position_error_max_cm` and `orientation_error_max_deg`, the worst of

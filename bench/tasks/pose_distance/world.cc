@@ -27,7 +27,7 @@ Controls Right(std::initializer_list<Setting> settings) {
   return controls;
 }
 
-/// Likewise, on the left leg: the right one is free.
+/// Sets controls of the right leg; the body stands on the left one.
 Controls RightLeg(std::initializer_list<Setting> settings) {
   Controls controls = Right(settings);
   controls.Of(Side::kRight, kLegFree) = 1;

@@ -68,8 +68,7 @@ PairWorld ShowBlindSpot(int trial);
 /// dances.
 std::pair<std::size_t, std::size_t> DrawClips(const DancedClips& clips, const WorldKey& key);
 
-/// Those two clips, and `count` pairs of a frame of the one and a frame of the other, each pair drawn
-/// evenly.
+/// Draws two clips, and `count` pairs of a frame of the one and a frame of the other, each pair drawn evenly.
 PairWorld DrawFramePairs(const DancedClips& clips, int count, const WorldKey& key);
 
 }  // namespace etude

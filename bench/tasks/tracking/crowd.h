@@ -36,7 +36,7 @@ class Crowd {
   Followed FollowNext(const IkOptions& options, Precision precision);
 
   std::size_t size() const { return worlds_.size(); }
-  /// As it was followed last, and whether it has then met all targets.
+  /// Returns the character's state as it was followed last.
   TreeState StateOf(std::size_t character) const;
   bool HasMet(std::size_t character) const { return statuses_[character] == IkStatus::kConverged; }
 

@@ -60,7 +60,7 @@ namespace {
 
 using Angles = std::vector<std::vector<double>>;  // [frame][angle]
 
-/// What the answer looks like, frame by frame.
+/// The answer's properties, frame by frame.
 struct Outcome {
   std::vector<TrackedFrame> frames;
   BodyMotion truth, found;

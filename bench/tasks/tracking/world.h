@@ -26,7 +26,7 @@ struct TrackingWorld {
 /// the window are taken whole. At rates below the clips' 30 Hz joints lie on the straight line between two frames.
 /// Fails for a clip of fewer than kFewestTrackedFrames frames, and when a frame's limbs give no pose of the body.
 Result<TrackingWorld> MakeTrackingWorld(const TrackingOptions& options, const LibraryClip& clip, const WorldKey& key);
-/// The same for a body of other limbs than the clip's performer has.
+/// Makes a world for a body of other limbs than the clip's performer has.
 Result<TrackingWorld> MakeTrackingWorld(const KinematicTree& body, const TrackingOptions& options,
                                         const LibraryClip& clip, const WorldKey& key);
 

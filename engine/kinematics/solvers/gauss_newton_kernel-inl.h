@@ -157,7 +157,7 @@ struct QuadraticLanes {
   V vector[6];   ///< η
 };
 
-/// How far a pose is off.
+/// The residual of a pose.
 template <class V>
 struct MissLanes {
   V squares;           ///< |e|²

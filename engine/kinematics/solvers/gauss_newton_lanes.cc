@@ -67,7 +67,7 @@ class LanePoses {
     Linearise();
   }
 
-  /// How far the poses are off.
+  /// Returns the residuals of the poses.
   const MissLanes<V>& miss() const { return miss_[0]; }
   const AskedLanes<V>& AskedOf(std::size_t effector) const { return asked_[effector]; }
   /// With their screws at the poses; all else in them is the step's.
@@ -248,7 +248,7 @@ class GaussNewtonLanes {
     }
   }
 
-  /// Whether the lane steps.
+  /// Asks the lane's course what comes next; true when it steps.
   bool Ask(Lane& lane, int n) {
     using enum GaussNewtonCourse::Act;
     const auto is_out_of_reach = [&] { return help_.IsOutOfReach(lane.problem); };

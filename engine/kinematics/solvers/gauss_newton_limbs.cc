@@ -45,14 +45,14 @@ class LimbPoses {
     for (const double squares : squares_of_) miss_.squares += squares;
   }
 
-  /// How far the pose is off: |e|², and the largest distance and chord that count.
+  /// Returns the residual of the pose: |e|², and the largest distance and chord that count.
   const MissLanes<double>& miss() const { return miss_; }
   const AskedLanes<Four>& AskedAt(int ends) const { return ends_[ends].asked; }
   /// With their screws at the pose; all else in them is the step's.
   AlignedList<HingeLanes<Four>>& hinges() { return hinges_; }
   AlignedList<TrunkHinge>& trunk_hinges() { return trunk_hinges_; }
 
-  /// As in `GaussNewtonLimbs`.
+  /// Returns where an effector's target is kept, as `GaussNewtonLimbs` declares.
   double* TargetOf(int effector) { return reinterpret_cast<double*>(&EndsOf(effector).target) + Lane(effector); }
   GaussNewtonLimbs::End EndOf(int effector) {
     const double* from = reinterpret_cast<const double*>(&EndsOf(effector).frame) + Lane(effector);

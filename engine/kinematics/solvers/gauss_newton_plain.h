@@ -48,7 +48,7 @@ class GaussNewtonStep {
   std::span<const double> Solve(std::span<const double> angles, std::span<const double> preferred,
                                 std::span<const AngleRange> ranges, double damping);
 
-  /// Whether the last answer is the optimum. Until it is, calls with the same arguments come nearer.
+  /// Tells whether the last answer is the optimum. Until it is, calls with the same arguments come nearer.
   bool is_exact() const { return is_exact_; }
 
  private:

@@ -12,7 +12,7 @@ namespace etude {
 
 enum class Precision;
 
-/// What vector code has to know of the options.
+/// The part of the options that vector code needs.
 struct GaussNewtonRules {
   /// A pose meets its goals when its largest squared distance and chord are below the first of these, and misses them
   /// when one is not below the second. In between it must be measured once more.
@@ -32,7 +32,7 @@ struct GaussNewtonRules {
 
 GaussNewtonRules RulesFor(const IkOptions& options, const GaussNewtonOptions& own, Precision precision);
 
-/// What is rare, and done one number at a time. Problems are told apart by number; angles are in the tree's order.
+/// Does the rare steps, one number at a time. Problems are told apart by number; angles are in the tree's order.
 class GaussNewtonHelp {
  public:
   virtual ~GaussNewtonHelp() = default;

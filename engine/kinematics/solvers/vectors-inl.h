@@ -97,7 +97,7 @@ HWY_INLINE bool Any(const LaneMask<T, D>& a) {
   return !hn::AllFalse(D(), a.m);
 }
 
-/// As std::max(a, b): the first, unless the second is really larger.
+/// Takes the larger, lane by lane, as std::max(a, b) does: the first, unless the second is really larger.
 template <class V>
 HWY_INLINE V Larger(const V& a, const V& b) {
   return Select(Below(a, b), b, a);
@@ -153,7 +153,7 @@ HWY_INLINE void Transpose(Four& a, Four& b, Four& c, Four& d) {
   d.v = hn::ConcatUpperUpper(kTag, cd_odd, ab_odd);
 }
 
-/// The same with zeros for `c` and `d` as they come.
+/// Transposes four vectors of which `c` and `d` are zero as they come.
 HWY_INLINE void TransposeTwo(Four& a, Four& b, Four& c, Four& d) {
   constexpr Four::Tag kTag;
   constexpr hn::Half<Four::Tag> kHalf;

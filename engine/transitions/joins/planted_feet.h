@@ -16,8 +16,8 @@ struct ContactRules {
   double lift_height = 0.06, lift_speed = 0.45;    ///< until it is above one of these
 };
 
-/// Whether each foot stands, by side (Side's order) and frame. Speeds are from a frame to the next, the last frame's to
-/// the one before it.
+/// Tells whether each foot stands, by side (Side's order) and frame. Speeds are from a frame to the next, the last
+/// frame's to the one before it.
 using FootContacts = std::array<std::vector<bool>, 2>;
 FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz, const ContactRules& rules = {});
 
