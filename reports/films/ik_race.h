@@ -8,6 +8,7 @@
 #include "bench/model/run_data.h"
 #include "engine/base/result.h"
 #include "engine/kinematics/ik_problem.h"
+#include "engine/motion/body.h"
 
 namespace etude {
 
