@@ -37,7 +37,7 @@ Json Encode(const ColumnIndex& index) {
     }
     kinds.push_back({{"metrics", kind.metrics}, {"why", why}, {"stages", kind.stages}, {"series", curves}});
   }
-  for (int i = 0; i < kStatusCount; ++i) statuses.push_back(StatusName(static_cast<Status>(i)));
+  for (const Named<Status>& status : kStatuses) statuses.push_back(status.name);
   return {{"format", "etude-columns"},
           {"version", kColumnsVersion},
           {"scenario", index.scenario},

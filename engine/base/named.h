@@ -49,6 +49,16 @@ constexpr auto ValueNamed(const Rows& rows, std::string_view name) {
   return row->value;
 }
 
+/// The name of a value, which the table must have.
+template <typename Rows, typename Value>
+constexpr std::string_view NameOfValue(const Rows& rows, Value value) {
+  for (const auto& row : rows) {
+    if (row.value == value) return row.name;
+  }
+  assert(!"a value without a name");
+  return {};
+}
+
 /// Lists the rows' names in their order.
 template <typename Rows, typename NameOf = NameMember>
 std::vector<std::string> NamesOf(const Rows& rows, NameOf name_of = {}) {
