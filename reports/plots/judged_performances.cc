@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/words/judged.h"
+
 namespace etude {
 namespace {
 
@@ -70,8 +72,7 @@ std::map<std::size_t, MethodVerdicts> VerdictsUnder(const RunData& run, const Sc
   for (const CellSeries& cell : run.series) {
     const auto row = rows.find(cell.cell);
     if (row == rows.end()) continue;
-    const auto method = std::ranges::find(scenario.methods, row->second->method) - scenario.methods.begin();
-    Add(cell, row->second->trial, verdicts[static_cast<std::size_t>(method)]);
+    Add(cell, row->second->trial, verdicts[IndexOf(scenario, row->second->method)]);
   }
   std::erase_if(verdicts, [](const auto& entry) { return entry.second.performances.empty(); });
   return verdicts;

@@ -143,6 +143,10 @@ bool IsYardstick(const ScenarioSummary& scenario, const std::string& method) {
   return std::ranges::find(comparisons, method, &Comparison::baseline) == comparisons.end();
 }
 
+std::size_t IndexOf(const ScenarioSummary& scenario, const std::string& method) {
+  return static_cast<std::size_t>(std::ranges::find(scenario.methods, method) - scenario.methods.begin());
+}
+
 std::string MethodLabel(const ScenarioSummary& scenario, const std::string& method) {
   return IsYardstick(scenario, method) ? method + " (yardstick)" : method;
 }
