@@ -1,6 +1,6 @@
 #include "bench/model/recording.h"
 
-#include <algorithm>
+#include "engine/base/named.h"
 
 namespace etude {
 
@@ -14,8 +14,8 @@ Recording& Recording::operator=(Recording&&) noexcept = default;
 Recording::~Recording() = default;
 
 const BodyMotion* FindTrack(const Recording& recording, std::string_view name) {
-  const auto track = std::ranges::find(recording.tracks, name, &Track::name);
-  return track == recording.tracks.end() ? nullptr : &track->motion;
+  const Track* track = FindByName(recording.tracks, name);
+  return track == nullptr ? nullptr : &track->motion;
 }
 
 }  // namespace etude

@@ -13,6 +13,7 @@
 #include "bench/results/seal.h"
 #include "bench/results/summary_json.h"
 #include "engine/base/digest.h"
+#include "engine/base/named.h"
 
 namespace etude {
 namespace {
@@ -194,9 +195,7 @@ Result<RunData> LoadRunOutline(const fs::path& folder, Sealing sealing) {
   ASSIGN_OR_RETURN(const auto summary, ReadJsonFile(folder / "summary.json"));
   ASSIGN_OR_RETURN(run.scenarios, DecodeSummaries(summary, {(folder / "summary.json").string(), 0, 0}));
   if (!fs::exists(folder / kColumnsFolder, error)) return run;
-  std::vector<std::string> names;
-  for (const ScenarioSummary& scenario : run.scenarios) names.push_back(scenario.name);
-  ASSIGN_OR_RETURN(run.source, OpenColumns(folder, names));
+  ASSIGN_OR_RETURN(run.source, OpenColumns(folder, NamesOf(run.scenarios)));
   return run;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/named.h"
 #include "reports/words/judged.h"
 
 namespace etude {
@@ -14,8 +15,8 @@ class Columns {
   Columns(const CellSeries& cell, std::size_t count) : cell_(cell), count_(count) {}
 
   const Series* Find(std::string_view name) const {
-    const auto found = std::ranges::find(cell_.series, name, &Series::name);
-    return found == cell_.series.end() || found->values.size() != count_ ? nullptr : &*found;
+    const Series* found = FindByName(cell_.series, name);
+    return found == nullptr || found->values.size() != count_ ? nullptr : found;
   }
 
   /// Names the value of a series; "" for −1 and for values without a name.
@@ -31,8 +32,8 @@ class Columns {
 };
 
 std::size_t LengthOf(const CellSeries& cell, std::string_view name) {
-  const auto found = std::ranges::find(cell.series, name, &Series::name);
-  return found == cell.series.end() ? 0 : found->values.size();
+  const Series* found = FindByName(cell.series, name);
+  return found == nullptr ? 0 : found->values.size();
 }
 
 void Add(const CellSeries& cell, int person, MethodVerdicts& verdicts) {

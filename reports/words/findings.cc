@@ -4,6 +4,7 @@
 #include <map>
 #include <tuple>
 
+#include "engine/base/named.h"
 #include "reports/words/answer.h"
 #include "reports/words/figures.h"
 
@@ -80,8 +81,7 @@ class Successes {
 }  // namespace
 
 const MetricSummary* FindSummary(const MethodSummary& method, const std::string& metric) {
-  const auto found = std::ranges::find(method.metrics, metric, &MetricSummary::id);
-  return found == method.metrics.end() ? nullptr : &*found;
+  return FindByName(method.metrics, metric, &MetricSummary::id);
 }
 
 ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario) {
