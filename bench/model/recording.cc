@@ -18,4 +18,8 @@ const BodyMotion* FindTrack(const Recording& recording, std::string_view name) {
   return track == nullptr ? nullptr : &track->motion;
 }
 
+void AddTo(Digest& digest, const BodyPose& pose) {
+  for (const glm::dvec3& joint : pose.joints) digest.Add(joint.x).Add(joint.y).Add(joint.z);
+}
+
 }  // namespace etude

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "bench/model/row.h"
+#include "engine/base/digest.h"
 #include "engine/motion/body.h"
 
 namespace etude {
@@ -16,5 +17,8 @@ struct Track {
 
 /// The motion of that name, or null.
 const BodyMotion* FindTrack(const Recording& recording, std::string_view name);
+
+/// Adds every joint's place to a digest.
+void AddTo(Digest& digest, const BodyPose& pose);
 
 }  // namespace etude

@@ -10,6 +10,7 @@
 
 #include "bench/files/files.h"
 #include "bench/metrics/catalogue.h"
+#include "bench/model/recording.h"
 #include "bench/process/pinned_environment.h"
 #include "bench/results/folder.h"
 #include "bench/tasks/base/sensor_key.h"
@@ -34,9 +35,7 @@ Json DescribeClips(const ClipLibrary& library) {
   Json clips = Json::array();
   for (const LibraryClip& clip : library.clips) {
     Digest digest;
-    for (const BodyPose& pose : clip.motion.poses) {
-      for (const glm::dvec3& joint : pose.joints) digest.Add(joint.x).Add(joint.y).Add(joint.z);
-    }
+    for (const BodyPose& pose : clip.motion.poses) AddTo(digest, pose);
     clips.push_back({{"name", clip.name},
                      {"source", clip.source},
                      {"frames", clip.motion.poses.size()},

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/named.h"
 #include "reports/words/judged.h"
 
 namespace etude {

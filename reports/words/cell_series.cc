@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "engine/base/named.h"
-
 namespace etude {
 
 CellSeriesIndex::CellSeriesIndex(const RunData& run) {

@@ -4,7 +4,6 @@
 #include <map>
 #include <tuple>
 
-#include "engine/base/named.h"
 #include "reports/words/answer.h"
 #include "reports/words/figures.h"
 

@@ -9,6 +9,7 @@
 #include "bench/metrics/coach.h"
 #include "bench/statistics/curves/curves.h"
 #include "bench/metrics/transition_smoothness.h"
+#include "bench/model/recording.h"
 #include "bench/tasks/coach/exchange.h"
 #include "bench/tasks/coach/learner_player.h"
 #include "engine/base/digest.h"
@@ -153,15 +154,9 @@ void MeasureCorrections(const CoachedSession& session, CellResult& result) {
                    tally.given == 0 ? "nothing was corrected" : "no act began");
 }
 
-void AddMotion(const BodyMotion& motion, Digest& digest) {
-  for (const BodyPose& pose : motion.poses) {
-    for (const glm::dvec3& joint : pose.joints) digest.Add(joint.x).Add(joint.y).Add(joint.z);
-  }
-}
-
 std::string MotionDigest(const BodyMotion& motion) {
   Digest digest;
-  AddMotion(motion, digest);
+  for (const BodyPose& pose : motion.poses) AddTo(digest, pose);
   return digest.Hex();
 }
 
