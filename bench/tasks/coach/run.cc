@@ -82,13 +82,14 @@ Result<std::vector<ReadyCoach>> MakeReady(std::vector<CoachMethod> methods, cons
 Result<SessionLog> RunMethod(const ReadyCoach& ready, const CoachCondition& condition, const CoachStage& stage,
                              const CoachWorld& world, LiveProgram* program) {
   const Seat seat = program != nullptr ? ready.method.seat : Seat::kNone;
-  SeatComplaint complaint;
+  std::optional<SeatedCoachProgram> seated;
+  if (program != nullptr) seated.emplace(*program, stage);
   std::unique_ptr<Recogniser> seated_recogniser;
   std::unique_ptr<MomentSource> moments;
   std::unique_ptr<Player> player;
-  if (seat == Seat::kRecogniser) seated_recogniser = MakeSeatedRecogniser(*program, stage, complaint);
-  if (seat == Seat::kPolicy) moments = MakeSeatedPolicy(*program, stage, complaint);
-  if (seat == Seat::kLearner) player = MakeSeatedLearner(*program, stage, complaint);
+  if (seat == Seat::kRecogniser) seated_recogniser = MakeSeatedRecogniser(*seated);
+  if (seat == Seat::kPolicy) moments = MakeSeatedPolicy(*seated);
+  if (seat == Seat::kLearner) player = MakeSeatedLearner(*seated);
   if (player == nullptr) player = std::make_unique<LearnerPlayer>(world, stage);
   if (ready.partner != nullptr) {
     ASSIGN_OR_RETURN(const SessionLog partner, RunPartner(ready, condition, stage, world));
@@ -99,7 +100,7 @@ Result<SessionLog> RunMethod(const ReadyCoach& ready, const CoachCondition& cond
                            ready.method.sight.filter, ready.method.sight.sees_truth, ready.method.sight.Capture()};
   if (program != nullptr && !program->Begin(SessionBeginPayload(seat))) return SessionLog{};
   ASSIGN_OR_RETURN(SessionLog log, RunSession(parts, world, *player, moments.get()));
-  if (complaint.error()) return tl::unexpected(*complaint.error());
+  if (seated && seated->error()) return tl::unexpected(*seated->error());
   return log;
 }
 
