@@ -1,5 +1,7 @@
 #include "bench/model/recording.h"
 
+#include <nlohmann/json.hpp>
+
 #include "engine/base/named.h"
 
 namespace etude {
@@ -16,6 +18,14 @@ Recording::~Recording() = default;
 const BodyMotion* FindTrack(const Recording& recording, std::string_view name) {
   const Track* track = FindByName(recording.tracks, name);
   return track == nullptr ? nullptr : &track->motion;
+}
+
+Json EncodePose(const BodyPose& pose) {
+  Json numbers = Json::array();
+  for (const glm::dvec3& joint : pose.joints) {
+    for (int axis = 0; axis < 3; ++axis) numbers.push_back(joint[axis]);
+  }
+  return numbers;
 }
 
 void AddTo(Digest& digest, const BodyPose& pose) {

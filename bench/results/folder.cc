@@ -31,11 +31,6 @@ std::string FileNameOf(std::string cell) {
   return cell + ".json";
 }
 
-Result<Json> ReadJsonFile(const fs::path& path) {
-  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
-  return ReadJson(text, path.string());
-}
-
 /// Calls `use(json, place)` for every line; stops at the first complaint.
 template <typename Use>
 Result<void> ForEachJson(const fs::path& path, Use use) {

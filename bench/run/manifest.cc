@@ -104,8 +104,7 @@ SuiteSetup WithCanonicalNames(SuiteSetup suite) {
 }
 
 Result<Json> ReadManifestJson(const std::filesystem::path& path) {
-  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
-  auto json = ReadJson(text, path.string());
+  auto json = ReadJsonFile(path);
   if (!json) return json;
   const Json schema = json->is_object() ? json->value("schema", Json()) : Json();
   if (schema != kResultSchema) {
