@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/files/json.h"
 #include "bench/metrics/catalogue.h"
 #include "bench/run/cell_runner.h"
 #include "bench/run/outside_programs.h"
