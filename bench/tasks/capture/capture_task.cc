@@ -7,7 +7,6 @@
 #include "bench/tasks/capture/run.h"
 #include "bench/tasks/capture/score.h"
 #include "bench/tasks/capture/seated_segmenter.h"
-#include "bench/tasks/capture/sensor_sheet.h"
 #include "bench/tasks/capture/stages.h"
 #include "sim/render/renderer.h"
 

@@ -29,15 +29,18 @@ class Moments final : public MomentSource {
   std::vector<int> frames_;
 };
 
+SessionParts PartsOf(const ReadyCoach& ready, const Coach& coach, const Recogniser& recogniser) {
+  const DetectionMethod& sight = ready.method.sight;
+  return {coach, recogniser, sight.filter, sight.sees_truth, sight.Capture()};
+}
+
 /// The session that a yoked one takes its moments from: another person's, under the same condition.
 Result<SessionLog> RunPartner(const ReadyCoach& ready, const CoachCondition& condition, const CoachStage& stage,
                               const CoachWorld& world) {
   const std::string scenario = fmt::format("{}/partner", world.key.scenario);
   const CoachWorld other = MakeCoachWorld(condition, {world.key.suite_seed, scenario, world.key.trial});
   LearnerPlayer player(other, stage);
-  const SessionParts parts{*ready.partner, *ready.recogniser, ready.method.sight.filter, ready.method.sight.sees_truth,
-                           ready.method.sight.Capture()};
-  return RunSession(parts, other, player, nullptr);
+  return RunSession(PartsOf(ready, *ready.partner, *ready.recogniser), other, player, nullptr);
 }
 
 bool AreAlike(const TransitionWay& a, const TransitionWay& b) {
@@ -96,8 +99,8 @@ Result<SessionLog> RunMethod(const ReadyCoach& ready, const CoachCondition& cond
     moments = std::make_unique<Moments>(partner);
   }
 
-  const SessionParts parts{*ready.coach, seated_recogniser ? *seated_recogniser : *ready.recogniser,
-                           ready.method.sight.filter, ready.method.sight.sees_truth, ready.method.sight.Capture()};
+  const SessionParts parts =
+      PartsOf(ready, *ready.coach, seated_recogniser ? *seated_recogniser : *ready.recogniser);
   if (program != nullptr && !program->Begin(SessionBeginPayload(seat))) return SessionLog{};
   ASSIGN_OR_RETURN(SessionLog log, RunSession(parts, world, *player, moments.get()));
   if (seated && seated->error()) return tl::unexpected(*seated->error());
