@@ -33,13 +33,13 @@ void Carry(BodyPose& pose, const glm::dvec3& by) {
 
 /// `pose` for so many frames, altered by `change(pose, frame)`.
 template <typename Change>
-Poses Clip(const BodyPose& pose, Change change, int frames = kFrames) {
+Poses ClipOf(const BodyPose& pose, Change change, int frames = kFrames) {
   Poses poses(static_cast<std::size_t>(frames), pose);
   for (int f = 0; f < frames; ++f) change(poses[f], f);
   return poses;
 }
 Poses Still(const BodyPose& pose) {
-  return Clip(pose, [](BodyPose&, int) {});
+  return ClipOf(pose, [](BodyPose&, int) {});
 }
 
 /// Both feet drawn up by so much, the hips where they were.
@@ -79,7 +79,7 @@ double Ramp(int frame, int begin, int end) {
 
 TEST(FindFootContacts, SeesStepsAndDoesNotFlickerBetweenItsThresholds) {
   const auto clip_of = [](auto&& height) {
-    return Clip(
+    return ClipOf(
         Standing(), [&](BodyPose& pose, int f) { pose[kLeftFoot].y = height(f); }, 60);
   };
   const Poses steps = clip_of([](int f) { return f >= 20 && f < 40 ? 0.2 : 0.0; });
@@ -114,7 +114,7 @@ TEST(MassCentre, MovesByEachSegmentsShare) {
 }
 
 TEST(JointVelocities, AreCentralAndOneSidedAtTheEnds) {
-  const Poses falls = Clip(
+  const Poses falls = ClipOf(
       Standing(),
       [](BodyPose& pose, int f) {
         Carry(pose, {0, -0.01 * f * f, 0});
@@ -139,7 +139,7 @@ TEST(FindBearing, TakesTheLowestJointsThatRest) {
 
 TEST(FindBearing, TrustsAClipThatWalksOnTheSpotButNotOneThatGlides) {
   const auto at = [](double hips, double feet) {
-    const Poses poses = Clip(Standing(), [&](BodyPose& pose, int f) {
+    const Poses poses = ClipOf(Standing(), [&](BodyPose& pose, int f) {
       Carry(pose, {0, 0, hips * f / kRate});
       for (Role role : {kLeftAnkle, kLeftFoot, kRightAnkle, kRightFoot}) pose[role].z += (feet - hips) * f / kRate;
     });
@@ -171,9 +171,9 @@ TEST(FindSupport, HoldsBodiesThatLieKneelOrStandOnTheirHands) {
   for (const BodyPose& pose : {kneeling, Tilted(Standing(), -kPi / 2), Tilted(hands, kPi)}) {
     const Poses clip = Still(pose);
     // It sways, as no clip shows it, on what bears it.
-    const Poses sways = Clip(pose, [](BodyPose& p, int f) { Carry(p, {0.02 * std::sin(f / 5.0), 0, 0}); });
+    const Poses sways = ClipOf(pose, [](BodyPose& p, int f) { Carry(p, {0.02 * std::sin(f / 5.0), 0, 0}); });
     EXPECT_EQ(Floating(sways, clip), 0);
-    EXPECT_GE(Floating(Clip(pose, [](BodyPose& p, int f) { Carry(p, {0, f > kPoint ? 0.05 : 0.0, 0}); }), clip), 30);
+    EXPECT_GE(Floating(ClipOf(pose, [](BodyPose& p, int f) { Carry(p, {0, f > kPoint ? 0.05 : 0.0, 0}); }), clip), 30);
   }
 }
 
@@ -181,22 +181,22 @@ TEST(FindSupport, HoldsBodiesThatLieKneelOrStandOnTheirHands) {
 TEST(FindSupport, SeesABodyThatIsLifted) {
   const Poses clip = Still(Standing());
   for (const double lift : {0.05, 0.08}) {
-    const Poses lifted = Clip(Standing(), [&](BodyPose& pose, int f) {
+    const Poses lifted = ClipOf(Standing(), [&](BodyPose& pose, int f) {
       Carry(pose, {0, lift * Ramp(f, kPoint, kPoint + 8) * (1 - Ramp(f, kEnd - 8, kEnd)), 0});
     });
     EXPECT_GE(Floating(lifted, clip), 25) << lift;
   }
-  EXPECT_EQ(Floating(Clip(Standing(),
-                          [](BodyPose& pose, int) {
-                            Carry(pose, {0, 0.02, 0});
-                          }),
+  EXPECT_EQ(Floating(ClipOf(Standing(),
+                            [](BodyPose& pose, int) {
+                              Carry(pose, {0, 0.02, 0});
+                            }),
                      clip),
             0)
       << "within what takes and other bodies are off";
 }
 
 TEST(FindSupport, SeesABodyThatGlides) {
-  const Poses glides = Clip(Standing(), [](BodyPose& pose, int f) {
+  const Poses glides = ClipOf(Standing(), [](BodyPose& pose, int f) {
     Carry(pose, {std::max(f - kPoint, 0) * 0.6 / kRate, 0, std::max(f - kPoint, 0) * 0.8 / kRate});
   });
   EXPECT_GE(Floating(glides, Still(Standing())), 30);
@@ -206,9 +206,9 @@ TEST(FindSupport, SeesABodyThatGlides) {
 TEST(FindSupport, SeesABodyThatSquatsInMidAirAndFeetThatAreTuckedAtOnce) {
   const Poses clip = Still(Standing());
   EXPECT_GE(
-      Floating(Clip(Standing(), [](BodyPose& pose, int f) { Tuck(pose, 0.3 * Ramp(f, kPoint, kPoint + 12)); }), clip),
+      Floating(ClipOf(Standing(), [](BodyPose& pose, int f) { Tuck(pose, 0.3 * Ramp(f, kPoint, kPoint + 12)); }), clip),
       25);
-  const Poses tucks = Clip(Standing(), [](BodyPose& pose, int f) {
+  const Poses tucks = ClipOf(Standing(), [](BodyPose& pose, int f) {
     Tuck(pose, 0.25 * Ramp(f, kPoint, kPoint + 6) * (1 - Ramp(f, kPoint + 14, kPoint + 20)));
   });
   EXPECT_GE(Floating(tucks, clip), 10);
@@ -217,7 +217,7 @@ TEST(FindSupport, SeesABodyThatSquatsInMidAirAndFeetThatAreTuckedAtOnce) {
 TEST(FindSupport, LetsABodyJumpAsGravityDoesAndNotOtherwise) {
   // Off the floor at frame 45, back at 60: half a second, 30 cm high.
   const auto jump = [](double gravity) {
-    return Clip(Standing(), [=](BodyPose& pose, int f) {
+    return ClipOf(Standing(), [=](BodyPose& pose, int f) {
       const double t = (f - 45) / kRate, whole = 15 / kRate;
       if (t > 0 && t < whole) Carry(pose, {0, gravity / 2 * t * (whole - t), 0});
     });
@@ -226,14 +226,14 @@ TEST(FindSupport, LetsABodyJumpAsGravityDoesAndNotOtherwise) {
   EXPECT_EQ(Floating(jump(9.81), clip), 0);
   EXPECT_GE(Floating(jump(4), clip), 10) << "as on Mars";
   EXPECT_GE(Floating(jump(20), clip), 10);
-  const Poses hangs = Clip(Standing(), [](BodyPose& pose, int f) {
+  const Poses hangs = ClipOf(Standing(), [](BodyPose& pose, int f) {
     Carry(pose, {0, 0.3 * Ramp(f, 43, 50) * (1 - Ramp(f, 60, 67)), 0});
   });
   EXPECT_GE(Floating(hangs, clip), 15);
 }
 
 TEST(FindSupport, LetsABodyFollowAClipThatFliesAsNoBodyCan) {
-  const Poses cartoon = Clip(Standing(), [](BodyPose& pose, int f) {
+  const Poses cartoon = ClipOf(Standing(), [](BodyPose& pose, int f) {
     Carry(pose, {0, 0.8 * std::pow(std::sin(kPi * std::clamp((f - 10) / 40.0, 0., 1.)), 2), 0});
   });
   Poses shown = Still(Standing());
@@ -245,7 +245,7 @@ TEST(FindSupport, LetsABodyFollowAClipThatFliesAsNoBodyCan) {
 
 TEST(FindSupport, NeedsNoLevelFloorAndNoToesAtZero) {
   // It walks up a slope of one in five, one foot after the other, with toes 9 cm above the floor of the file.
-  const Poses climbs = Clip(Standing(), [](BodyPose& pose, int f) {
+  const Poses climbs = ClipOf(Standing(), [](BodyPose& pose, int f) {
     constexpr int kStep = 15;
     const auto along = [](double step) { return 0.5 * step; };
     const double phase = f / double(kStep);
@@ -269,14 +269,14 @@ TEST(FindSupport, NeedsNoLevelFloorAndNoToesAtZero) {
 
 TEST(FindSupport, TellsAStepFromToesThatAreRaised) {
   // The toes go up while the heel bears: they rest on nothing up there.
-  const Poses taps = Clip(Standing(), [](BodyPose& pose, int f) {
+  const Poses taps = ClipOf(Standing(), [](BodyPose& pose, int f) {
     for (Role role : {kLeftFoot, kRightFoot}) pose[role].y += f % 20 < 10 ? 0.06 : 0;
   });
-  const Poses stands_on_air = Clip(Standing(), [](BodyPose& pose, int) { Carry(pose, {0, 0.06, 0}); });
+  const Poses stands_on_air = ClipOf(Standing(), [](BodyPose& pose, int) { Carry(pose, {0, 0.06, 0}); });
   EXPECT_GE(Floating(stands_on_air, taps), 10);
   // A box of 30 cm is a surface of its own.
-  const Poses box = Clip(Standing(), [](BodyPose& pose, int f) { Carry(pose, {0, f < 20 ? 0.0 : 0.3, 0}); });
-  EXPECT_EQ(Floating(Clip(Standing(), [](BodyPose& pose, int) { Carry(pose, {0, 0.3, 0}); }), box), 0);
+  const Poses box = ClipOf(Standing(), [](BodyPose& pose, int f) { Carry(pose, {0, f < 20 ? 0.0 : 0.3, 0}); });
+  EXPECT_EQ(Floating(ClipOf(Standing(), [](BodyPose& pose, int) { Carry(pose, {0, 0.3, 0}); }), box), 0);
 }
 
 TEST(BalanceOffset, IsTheDistanceFromTheHullOfWhatBears) {
