@@ -198,10 +198,15 @@ std::optional<double> BalanceCm(const JoinView& view, std::span<const Support> s
   return offsets.empty() ? std::nullopt : std::optional(MeanOf(offsets));
 }
 
-bool IsClean(const CleanMeasures& m) {
+bool IsCleanByVersion1(const CleanMeasures& m) {
   constexpr double kMostSlide_cmps = 6, kLatest_s = 1.5, kStrangest_cm_s = 10, kLeastLive = 0.5;
   return m.natural && m.calmly_natural && m.slide_cmps <= std::max(kMostSlide_cmps, m.own_slide_cmps) && m.settle_s &&
          *m.settle_s <= kLatest_s && m.strange_cm_s <= kStrangest_cm_s && m.live >= kLeastLive;
+}
+
+bool IsClean(const CleanMeasures& m) {
+  constexpr double kMostSkipped = 1.0 / 3;
+  return IsCleanByVersion1(m) && m.supported && m.skipped_share <= kMostSkipped;
 }
 
 }  // namespace etude

@@ -81,7 +81,7 @@ std::vector<Support> JoinSupport(const JoinView& view);
 constexpr int kFloatingFrames = 4;
 /// `unsupported_frames`: the most frames in a row that nothing holds up.
 int UnsupportedFrames(std::span<const Support> support);
-/// `supported` of one transition.
+/// `supported_share` of one transition.
 bool IsSupported(std::span<const Support> support);
 
 /// `balance_cm`: how far the ground point of the mass centre is from the joints that bear the body (BalanceOffset),
@@ -89,18 +89,32 @@ bool IsSupported(std::span<const Support> support);
 /// JoinSupport's.
 std::optional<double> BalanceCm(const JoinView& view, std::span<const Support> support);
 
-/// `skipped_s`: how much of the wanted clip lies before the frame entered.
-constexpr double SkippedSeconds(int entered_frame, double rate_hz) { return entered_frame / rate_hz; }
+/// How much of the wanted clip is left out before the frame at which it is entered; nothing of a motion that goes on
+/// unbroken, which enters no clip.
+struct SkippedStart {
+  std::optional<int> entered_frame;  ///< of the wanted clip
+  int frames = 1;                    ///< of the wanted clip
+  double rate_hz = kJudgedRateHz;
+};
+/// `skipped_s`: as a time.
+constexpr double SkippedSeconds(const SkippedStart& start) { return start.entered_frame.value_or(0) / start.rate_hz; }
+/// `skipped_share`: as a share of the clip's frames.
+constexpr double SkippedShare(const SkippedStart& start) {
+  return static_cast<double>(start.entered_frame.value_or(0)) / start.frames;
+}
 
 /// The demands of `clean_share` on a transition.
 struct CleanMeasures {
-  bool natural = false, calmly_natural = false;
+  bool natural = false, calmly_natural = false, supported = false;
   double slide_cmps = 0, strange_cm_s = 0, live = 0;
   double own_slide_cmps = 0;  ///< foot slide of the clip that slides more, over all of it
+  double skipped_share = 0;
   std::optional<double> settle_s;
 };
-/// True if a transition meets them all: both kinds of natural, slide ≤ 6 cm/s or what a clip slides itself, settled
-/// within 1.5 s, strange ≤ 10 cm·s, live ≥ 0.5.
+/// `clean_share_v1`: both kinds of natural, slide ≤ 6 cm/s or what a clip slides itself, settled within 1.5 s,
+/// strange ≤ 10 cm·s, live ≥ 0.5. Neither `supported` nor `skipped_share` is asked for.
+bool IsCleanByVersion1(const CleanMeasures& measures);
+/// `clean_share`: all of these, supported, and no more than a third of the wanted clip skipped.
 bool IsClean(const CleanMeasures& measures);
 
 }  // namespace etude

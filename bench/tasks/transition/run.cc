@@ -51,9 +51,14 @@ constexpr std::array kTransitionMetrics = {"jump_cm",
                                            "strange_cm_s",
                                            "join_slide_cmps",
                                            "live",
+                                           "unsupported_frames",
+                                           "supported_share",
+                                           "balance_cm",
                                            "skipped_s",
+                                           "skipped_share",
                                            "calm_natural_share",
-                                           "clean_share"};
+                                           "clean_share",
+                                           "clean_share_v1"};
 constexpr std::array kMatchingMetrics = {"direct_match", "matching_share", "false_smooth_share"};
 
 /// The segments that played from the request on, until the wanted clip did.
@@ -121,25 +126,43 @@ JoinView ViewOf(const TransitionOutcome& outcome, const Stage& stage) {
           .rate_hz = splice.motion.rate_hz};
 }
 
+SkippedStart SkippedOf(const TransitionOutcome& outcome, const Stage& stage) {
+  const Segment& entered = outcome.record.segments.back();
+  SkippedStart start{.entered_frame = {},
+                     .frames = stage.library.tagged[entered.clip].FrameCount(),
+                     .rate_hz = outcome.splice.motion.rate_hz};
+  if (outcome.record.branch != Branch::kUnbroken) start.entered_frame = entered.first;
+  return start;
+}
+
 /// Measures the whole join.
 void ScoreJoin(const TransitionOutcome& outcome, const Stage& stage, bool natural, CellResult& result) {
   const JoinView view = ViewOf(outcome, stage);
   const double limit = CalmerLimitCm(stage, outcome.request.from, outcome.request.to);
+  const std::vector<Support> support = JoinSupport(view);
+  const SkippedStart skipped = SkippedOf(outcome, stage);
   const CleanMeasures clean{.natural = natural,
                             .calmly_natural = IsCalmlyNatural(view, limit),
+                            .supported = IsSupported(support),
                             .slide_cmps = JoinSlideCmps(view),
                             .strange_cm_s = StrangeCmSeconds(view, stage.real_frames),
                             .live = Liveness(view),
                             .own_slide_cmps = std::max(stage.natural_slides_cmps[outcome.request.from],
                                                        stage.natural_slides_cmps[outcome.request.to]),
+                            .skipped_share = SkippedShare(skipped),
                             .settle_s = SettleSeconds(view)};
   result.MeasureOr("settle_s", clean.settle_s, "the wanted clip was never reached");
   result.Measure("strange_cm_s", clean.strange_cm_s);
   result.Measure("join_slide_cmps", clean.slide_cmps);
   result.Measure("live", clean.live);
-  result.Measure("skipped_s", SkippedSeconds(outcome.record.segments.back().first, view.rate_hz));
+  result.Measure("unsupported_frames", UnsupportedFrames(support));
+  result.Measure("supported_share", clean.supported ? 1 : 0);
+  result.MeasureOr("balance_cm", BalanceCm(view, support), "nothing bears the body");
+  result.Measure("skipped_s", SkippedSeconds(skipped));
+  result.Measure("skipped_share", clean.skipped_share);
   result.Measure("calm_natural_share", clean.calmly_natural ? 1 : 0);
   result.Measure("clean_share", IsClean(clean) ? 1 : 0);
+  result.Measure("clean_share_v1", IsCleanByVersion1(clean) ? 1 : 0);
 }
 
 }  // namespace
@@ -166,8 +189,9 @@ std::vector<std::string> TransitionMetrics() {
 }
 
 std::optional<double> TransitionFailureValue(std::string_view metric) {
-  const bool is_share = metric == "natural_share" || metric == "calm_natural_share" || metric == "clean_share";
-  return is_share ? std::optional(0.0) : std::nullopt;
+  constexpr std::array kShares = {"natural_share", "calm_natural_share", "supported_share", "clean_share",
+                                  "clean_share_v1"};
+  return std::ranges::find(kShares, metric) != kShares.end() ? std::optional(0.0) : std::nullopt;
 }
 
 void MeasureNoWay(CellResult& result) {

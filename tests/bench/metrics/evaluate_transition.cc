@@ -167,7 +167,14 @@ Value CalmNatural(const Json& in) {
   return IsCalmlyNatural(JoinInputs(in.at("join")).View(), *limit) ? 1 : 0;
 }
 
-Value Clean(const Json& in) {
+std::vector<Support> SupportOf(const Json& in) { return JoinSupport(JoinInputs(in.at("join")).View()); }
+
+Value Balance(const Json& in) {
+  const JoinInputs join(in.at("join"));
+  return BalanceCm(join.View(), JoinSupport(join.View()));
+}
+
+CleanMeasures CleanOf(const Json& in) {
   const auto number = [&](const char* key) { return in.at(key).get<double>(); };
   CleanMeasures measures{.natural = in.at("natural").get<bool>(),
                          .calmly_natural = in.at("calmly_natural").get<bool>(),
@@ -177,11 +184,27 @@ Value Clean(const Json& in) {
                          .own_slide_cmps = number("own_slide_cmps"),
                          .settle_s = {}};
   if (!in.at("settle_s").is_null()) measures.settle_s = number("settle_s");
+  return measures;
+}
+
+Value Clean(const Json& in) {
+  CleanMeasures measures = CleanOf(in);
+  measures.supported = in.at("supported").get<bool>();
+  measures.skipped_share = in.at("skipped_share").get<double>();
   return IsClean(measures) ? 1 : 0;
 }
 
-Value Skipped(const Json& in) {
-  return SkippedSeconds(in.at("entered_frame").get<int>(), in.at("rate_hz").get<double>());
+std::optional<int> EnteredFrame(const Json& in) {
+  const Json& frame = in.at("entered_frame");
+  return frame.is_null() ? std::nullopt : std::optional(frame.get<int>());
+}
+
+Value SkippedTime(const Json& in) {
+  return SkippedSeconds({.entered_frame = EnteredFrame(in), .rate_hz = in.at("rate_hz").get<double>()});
+}
+
+Value SkippedPart(const Json& in) {
+  return SkippedShare({.entered_frame = EnteredFrame(in), .frames = in.at("clip_frames").get<int>()});
 }
 
 Value InBetween(const Json& in) {
@@ -214,9 +237,14 @@ std::span<const Evaluator> TransitionEvaluators() {
       {"strange_cm_s", Strange},
       {"join_slide_cmps", [](const Json& in) { return OfJoin(in, JoinSlideCmps); }},
       {"live", [](const Json& in) { return OfJoin(in, Liveness); }},
-      {"skipped_s", Skipped},
+      {"unsupported_frames", [](const Json& in) -> Value { return UnsupportedFrames(SupportOf(in)); }},
+      {"supported_share", [](const Json& in) -> Value { return IsSupported(SupportOf(in)) ? 1 : 0; }},
+      {"balance_cm", Balance},
+      {"skipped_s", SkippedTime},
+      {"skipped_share", SkippedPart},
       {"calm_natural_share", CalmNatural},
       {"clean_share", Clean},
+      {"clean_share_v1", [](const Json& in) -> Value { return IsCleanByVersion1(CleanOf(in)) ? 1 : 0; }},
   };
   return kAll;
 }

@@ -1,6 +1,7 @@
 """`etude list metrics`: other implementations can agree with it, and would notice if they did not."""
 import copy
 import json
+import math
 import pathlib
 import statistics
 import subprocess
@@ -12,7 +13,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
 sys.path[:0] = [str(ROOT / "tests" / "cli"), str(ROOT / "tests" / "support")]
 import second_implementation as second  # noqa: E402
-from independent import capture, coach, common, detection, ik, pose_distance, search, tracking, transition  # noqa: E402
+from independent import capture, coach, common, detection, ik, pose_distance, search, support, tracking, transition  # noqa: E402
 from etude_case import IK, EtudeCase  # noqa: E402
 from json_schema import complaints, load_schema, own_complaints  # noqa: E402
 
@@ -85,6 +86,28 @@ MUTANTS = {
     "level pairs lost": (pose_distance, {"TIE_CREDIT": 0.0}, ["close_auc"]),
     "alike up to the threshold, it included": (pose_distance, {
         "alike": lambda given, pair: pair["distance"] <= given["threshold"]}, ["called_alike", "close_f1"]),
+    "held up to 2 cm": (support, {"HEIGHT": 0.02}, ["unsupported_frames", "supported_share"]),
+    "held up to 3 cm": (support, {"HEIGHT": 0.03}, ["unsupported_frames", "supported_share", "balance_cm"]),
+    "rest below 0.3 m/s": (support, {"REST_MPS": 0.3}, ["unsupported_frames"]),
+    "rest below 0.8 m/s": (support, {"REST_MPS": 0.8}, ["unsupported_frames"]),
+    "any step is a surface": (support, {"LEVEL": 0.08}, ["unsupported_frames"]),
+    "no step is one": (support, {"LEVEL": 0.25}, ["unsupported_frames"]),
+    "a window of a fifth of a second": (support, {"WINDOW_S": 0.2}, ["unsupported_frames"]),
+    "a window of half a second": (support, {"WINDOW_S": 0.5}, ["unsupported_frames"]),
+    "whatever falls flies": (support, {"FALL_MPS2": (0, 13)}, ["unsupported_frames", "supported_share"]),
+    "however fast": (support, {"FALL_MPS2": (6.5, 30)}, ["unsupported_frames"]),
+    "nothing flies": (support, {"flies": lambda frames, rate: False}, ["unsupported_frames", "supported_share"]),
+    "flights may wobble": (support, {"STRAY": 0.03}, ["unsupported_frames"]),
+    "judged for a second": (support, {"JUDGED_S": 1}, ["unsupported_frames"]),
+    "judged for 1.4 s": (support, {"JUDGED_S": 1.4}, ["unsupported_frames"]),
+    "whoever moves glides": (support, {"GLIDING": 0}, ["unsupported_frames"]),
+    "seen after three frames": (support, {"FLOATING_FRAMES": 3}, ["supported_share"]),
+    "seen after five": (support, {"FLOATING_FRAMES": 5}, ["supported_share"]),
+    "the nearest joint for the hull": (support, {"distance_to_hull": lambda point, points: min(
+        math.dist(point, p) for p in points)}, ["balance_cm"]),
+    "the hips for the mass centre": (support, {"mass_centre": lambda pose: pose["hip_centre"]}, ["balance_cm"]),
+    "a third of the clip is too much": (transition, {"MOST_SKIPPED": 0.3333}, ["clean_share"]),
+    "half of the clip is not": (transition, {"MOST_SKIPPED": 0.5}, ["clean_share"]),
     "padding by 3": (transition, {"SPARC_PADDING": 3}, ["sparc"]),
     "all asked of every world": (ik, {"asked": lambda given: "both"}, ["solved_practical", "solved_tight"]),
     "the mean of an effector's axes for each of them": (ik, {"axis_angles_deg": ik.effector_angles_deg}, [

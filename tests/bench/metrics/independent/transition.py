@@ -307,8 +307,16 @@ def live(given):
     return 1 if own is None or not clips or min(clips) < LEAST_SPEED_MPS else min(1, own / min(clips))
 
 
+def skipped_frames(given):
+    return given["entered_frame"] or 0  # unbroken motion enters none
+
+
 def skipped(given):
-    return given["entered_frame"] / given["rate_hz"]
+    return skipped_frames(given) / given["rate_hz"]
+
+
+def skipped_share(given):
+    return skipped_frames(given) / given["clip_frames"]
 
 
 def limit_of(frames):
@@ -335,10 +343,17 @@ def calm_natural(given):
                    for f in range(join["first"], join_end(join) + 1) if 1 <= f < len(shown) - 1))
 
 
-def clean(given):
+MOST_SKIPPED = 1 / 3
+
+
+def clean_v1(given):
     settled = given["settle_s"]
-    return int(given["natural"] and given["calmly_natural"] and given["slide_cmps"] <= max(6, given["own_slide_cmps"]) and settled is not None
-               and settled <= 1.5 and given["strange_cm_s"] <= 10 and given["live"] >= 0.5)
+    return int(given["natural"] and given["calmly_natural"] and given["slide_cmps"] <= max(6, given["own_slide_cmps"])
+               and settled is not None and settled <= 1.5 and given["strange_cm_s"] <= 10 and given["live"] >= 0.5)
+
+
+def clean(given):
+    return int(clean_v1(given) and given["supported"] and given["skipped_share"] <= MOST_SKIPPED)
 
 
 METRICS = {
@@ -347,8 +362,10 @@ METRICS = {
     "join_slide_cmps": join_slide,
     "live": live,
     "skipped_s": skipped,
+    "skipped_share": skipped_share,
     "calm_natural_share": calm_natural,
     "clean_share": clean,
+    "clean_share_v1": clean_v1,
     "jump_cm": jump,
     "mean_joint_jump_cm": mean_jump,
     "rotation_step_change_deg": rotation_step_change,
