@@ -27,7 +27,8 @@ std::string WriteIkExtras(const IkExtras& extras);
 /// Leaves empty whatever is missing or of another kind. Fails when the text is no JSON object.
 Result<IkExtras> ReadIkExtras(const std::string& json);
 
-/// The extras of task `transition`: a transition that has a way, some seconds before and after it. Track "coach".
+/// The extras of task `transition`: a transition that has a way, some seconds before and after it. Tracks "coach",
+/// "left" and "wanted" (docs/recordings.md): what measures of the join look at.
 struct TransitionExtras {
   /// A transition point: two frames, at which the motion changed clips. Frames count in their clips.
   struct Point {

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <span>
 
+#include "bench/metrics/transition_join.h"
 #include "bench/metrics/transition_smoothness.h"
 #include "bench/recordings/task_extras.h"
 #include "bench/tasks/base/answer_fields.h"
@@ -95,6 +98,17 @@ TransitionAnswer ReadTransition(AnswerFields& fields, const Stage& stage, const 
   return answer;
 }
 
+/// Some seconds before and after the transition points, and as long as the join is judged.
+FrameWindow RecordedFrames(const TransitionOutcome& outcome, const Stage& stage) {
+  constexpr double kSeconds = 2.5;
+  const JoinView view = ViewOf(outcome, stage);
+  FrameWindow window = AroundPoints(outcome.splice, kSeconds);
+  const int judged = view.first + static_cast<int>(JoinSupport(view).size()) - 1;
+  const int landed = judged + static_cast<int>(view.rate_hz);  // who flies then has come down by here
+  window.last = std::max(window.last, std::min(landed, static_cast<int>(view.shown.size()) - 1));
+  return window;
+}
+
 std::string NameOf(const Segment& segment, const Stage& stage) {
   return segment.clip == Segment::kOwnFrames ? "in-between" : stage.library.names[segment.clip];
 }
@@ -166,10 +180,13 @@ std::vector<Series> ExplanationOf(const TransitionRecord& record) {
 }
 
 Recording RecordTransition(const TransitionOutcome& outcome, const Stage& stage) {
-  constexpr double kSeconds = 2.5;
-  const FrameWindow window = AroundPoints(outcome.splice, kSeconds);
-  const std::vector<BodyPose>& all = outcome.splice.motion.poses;
-  Track coach{"coach", {outcome.splice.motion.rate_hz, {all.begin() + window.first, all.begin() + window.last + 1}}};
+  const FrameWindow window = RecordedFrames(outcome, stage);
+  const JoinView view = ViewOf(outcome, stage);
+  const auto track = [&](const char* name, std::span<const BodyPose> poses, int shown_first) {
+    const std::ptrdiff_t count = std::ssize(poses), begin = std::max(window.first - shown_first, 0);
+    const std::ptrdiff_t end = std::min<std::ptrdiff_t>(window.last - shown_first + 1, count);
+    return Track{name, {view.rate_hz, {poses.begin() + begin, poses.begin() + end}}};
+  };
 
   const TransitionRecord& record = outcome.record;
   const FuzzyDistance& worst = WorstDistance(record);
@@ -210,7 +227,8 @@ Recording RecordTransition(const TransitionOutcome& outcome, const Stage& stage)
                                  .cost = candidate.cost,
                                  .outcome = std::string(OutcomeName(candidate.outcome))});
   }
-  return {{std::move(coach)}, WriteTransitionExtras(extras)};
+  return {{track("coach", view.shown, 0), track("left", view.left, 0), track("wanted", view.wanted, view.last)},
+          WriteTransitionExtras(extras)};
 }
 
 }  // namespace etude

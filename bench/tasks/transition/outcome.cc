@@ -42,6 +42,19 @@ TransitionOutcome FollowAnswer(const TransitionAnswer& answer, const Stage& stag
   return outcome;
 }
 
+JoinView ViewOf(const TransitionOutcome& outcome, const Stage& stage) {
+  const Splice& splice = outcome.splice;
+  const Segment& playing = outcome.record.segments.front();
+  const int first = splice.points.front().frame;
+  return {.shown = splice.motion.poses,
+          .left = stage.library.motions[playing.clip].poses,
+          .wanted = splice.wanted,
+          .request = first - (playing.last - playing.first),
+          .first = first,
+          .last = splice.points.back().frame,
+          .rate_hz = splice.motion.rate_hz};
+}
+
 FrameWindow AroundPoints(const Splice& splice, double seconds) {
   const int reach = static_cast<int>(seconds * splice.motion.rate_hz);
   return {std::max(splice.points.front().frame - reach, 0),

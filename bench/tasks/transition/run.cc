@@ -113,19 +113,6 @@ bool ScorePoints(const TransitionOutcome& outcome, const Stage& stage, CellResul
   return natural;
 }
 
-JoinView ViewOf(const TransitionOutcome& outcome, const Stage& stage) {
-  const Splice& splice = outcome.splice;
-  const Segment& playing = outcome.record.segments.front();
-  const int first = splice.points.front().frame;
-  return {.shown = splice.motion.poses,
-          .left = stage.library.motions[playing.clip].poses,
-          .wanted = splice.wanted,
-          .request = first - (playing.last - playing.first),
-          .first = first,
-          .last = splice.points.back().frame,
-          .rate_hz = splice.motion.rate_hz};
-}
-
 SkippedStart SkippedOf(const TransitionOutcome& outcome, const Stage& stage) {
   const Segment& entered = outcome.record.segments.back();
   SkippedStart start{.entered_frame = {},

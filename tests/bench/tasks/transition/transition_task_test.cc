@@ -174,8 +174,10 @@ TEST_F(TransitionTaskTest, RecordsTheTransitionWithWhatExplainsIt) {
   const auto cells = CellsOf(**Make(kMethods, library), 0, true);
   ASSERT_TRUE(cells[0].recording);
   const Recording& recording = *cells[0].recording;
-  ASSERT_EQ(recording.tracks.size(), 1u);
+  ASSERT_EQ(recording.tracks.size(), 3u);
   EXPECT_EQ(recording.tracks[0].name, "coach");
+  EXPECT_EQ(recording.tracks[1].name, "left");
+  EXPECT_EQ(recording.tracks[2].name, "wanted");
   EXPECT_GT(recording.tracks[0].motion.poses.size(), 30u);
   EXPECT_FALSE(CellsOf(**Make(kMethods, library), 0)[0].recording);
 
