@@ -22,6 +22,8 @@ constexpr std::array kLengths_s = {0.3, 0.4, 0.5, 0.65, 0.8, 1.0, 1.2};
 constexpr std::size_t kPlayedWithFeet = 12;
 constexpr std::size_t kMostCompared = 20'000;  // pairs of frames whose features are compared
 
+constexpr double kUnborne_s = 0.1;  // what a frame costs in which nothing bears the body
+
 struct FramePair {
   int leave = 0, enter = 0;
 };
@@ -216,10 +218,10 @@ class Rehearsal {
   double CostWithFeet(const PlayedWay& way) const {
     const JoinWindow window = Shortened(windows_[way.number], way.frames);
     std::vector<BodyPose> played = PlayMinimumJerk(window, way.fades);
-    PlantFeet(window, played);
+    const int unborne = PlantFeet(window, played);
     CostMeter meter(window, own_[way.number], options_);
     for (const BodyPose& pose : played) meter.Add(pose);
-    return Time(way) + meter.Seconds();
+    return Time(way) + meter.Seconds() + kUnborne_s * unborne;
   }
 
   /// A way whose time alone costs more than the best is not played.

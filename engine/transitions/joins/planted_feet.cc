@@ -1,7 +1,9 @@
 #include "engine/transitions/joins/planted_feet.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -66,17 +68,6 @@ class FloorFit {
 
 double FloorDistance(const glm::dvec3& a, const glm::dvec3& b) { return std::hypot(a.x - b.x, a.z - b.z); }
 
-/// The way of a foot from one path to the other, at its farthest in the window's middle half.
-struct Travel {
-  double floor = 0, whole = 0;  // metres
-};
-
-Travel TravelOf(const JoinWindow& window, Role foot, double begin, double end) {
-  const int middle = static_cast<int>(std::lround(0.5 * (begin + end)));
-  const glm::dvec3 &from = window.old[middle][foot], &to = window.next[middle][foot];
-  return {FloorDistance(from, to), glm::distance(from, to)};
-}
-
 constexpr double kStill = 0.005;        // metres: a foot that travels no farther need not be lifted
 constexpr double kMostLift = 0.09;      // metres
 constexpr double kLiftPerMetre = 0.35;  // of travel
@@ -85,47 +76,107 @@ double LiftFor(double travel) {
   return travel <= kStill ? 0 : std::min(kMostLift, kLiftPerMetre * (travel - kStill) + 0.02);
 }
 
-/// The share of the frames of a step in which the foot stands in either motion: a step from there breaks a stand.
-double StandingShare(const FootContacts& old, const FootContacts& next, std::size_t side, int begin, int end) {
-  int standing = 0;
-  for (int f = begin; f <= end; ++f) standing += old[side][f] || next[side][f] ? 1 : 0;
-  return static_cast<double>(standing) / (end - begin + 1);
+/// Frames of a window, a bit each.
+using Frames = std::uint64_t;
+constexpr int kMostFrames = 63;  // that steps are planned for; longer joins keep to their first ones
+
+constexpr Frames Bit(int frame) { return Frames{1} << frame; }
+/// The frames from `first` up to `last`, both included; none where last < first.
+constexpr Frames Range(int first, int last) {
+  return last < first ? 0 : (Bit(last) | (Bit(last) - 1)) & ~(Bit(std::max(first, 0)) - 1);
 }
+
+Frames FramesOf(const std::vector<bool>& contacts, int frames) {
+  Frames bits = 0;
+  for (int f = 0; f <= frames; ++f) bits |= contacts[f] ? Bit(f) : 0;
+  return bits;
+}
+
+/// A foot in both motions of a window.
+struct FootTracks {
+  const JoinWindow& window;
+  const LegRoles& leg;
+  int frames = 0;  ///< of the window, as far as steps are planned
+  Frames old_stands = 0, next_stands = 0;
+  std::vector<glm::dvec3> hips;  ///< as they are played
+  double reach = 0;
+
+  const glm::dvec3& OldFoot(const FootStep& step, int frame) const {
+    return window.old[std::min(frame, step.stays_from)][leg.foot];
+  }
+  const glm::dvec3& NextFoot(const FootStep& step, int frame) const {
+    return window.next[std::max(frame, step.waits_until)][leg.foot];
+  }
+};
 
 struct StepOption {
   FootStep step;
-  double cost = 0;  // centimetres per frame²
-  bool travels = false;
+  double cost = 0;    // centimetres per frame²
+  Frames stands = 0;  // the frames in which the foot bears the body
 };
 
-std::vector<StepOption> OptionsOf(const JoinWindow& window, const FootContacts& old, const FootContacts& next,
-                                  std::size_t side) {
-  const int frames = window.Frames();
-  const int shortest = std::min(frames, 5);
-  std::vector<int> ends;
-  for (int part = 0; part <= 4; ++part) ends.push_back(part * frames / 4);
+/// The largest distance, summed over frames, by which an ankle is farther from its hip than the leg reaches, metres.
+double OutOfReach(const FootTracks& foot, const FootStep& step) {
+  double sum = 0;
+  const auto add = [&](const BodyPose& pose, int frame) {
+    sum += std::max(glm::distance(pose[foot.leg.ankle], foot.hips[frame]) - foot.reach, 0.0);
+  };
+  for (int f = step.stays_from; f <= step.begin; ++f) add(foot.window.old[step.stays_from], f);
+  for (int f = step.end; f <= step.waits_until; ++f) add(foot.window.next[step.waits_until], f);
+  return sum;
+}
+
+StepOption Priced(const FootTracks& foot, const FootStep& step) {
+  constexpr double kPeak = 577;  // of least jerk: 5.77 distance / duration², here in centimetres
+  constexpr double kBrokenStand = 0.4, kOutOfReach = 20;
+  StepOption option{.step = step};
+  const int middle = (step.begin + step.end) / 2;
+  const glm::dvec3 &from = foot.OldFoot(step, middle), &to = foot.NextFoot(step, middle);
+  const double travel = FloorDistance(from, to), length = step.end - step.begin;
+  const Frames moving = Range(step.begin + 1, step.end - 1), either = foot.old_stands | foot.next_stands;
+  const double standing = std::popcount(either & Range(step.begin, step.end)) / (length + 1);
+  option.step.lift = standing > 0 ? LiftFor(travel) : 0;
+  option.cost = kPeak * (glm::distance(from, to) + 2 * option.step.lift) / (length * length) +
+                (travel > 0.02 ? kBrokenStand * standing : 0) + kOutOfReach * OutOfReach(foot, option.step);
+  option.stands = (foot.old_stands & Range(0, step.begin)) | (foot.next_stands & Range(step.end, foot.frames)) |
+                  Range(step.stays_from, step.begin) | Range(step.end, step.waits_until);
+  if (travel <= kStill) option.stands |= moving & foot.old_stands & foot.next_stands;
+  return option;
+}
+
+/// The last of `frames` up to one; −1 when there is none.
+int LastUpTo(Frames frames, int frame) { return std::bit_width(frames & Range(0, frame)) - 1; }
+/// The first of `frames` from one on; none of the window's when there is none.
+int FirstFrom(Frames frames, int frame) {
+  const Frames later = frames & ~Range(0, frame - 1);
+  return later == 0 ? FootStep::kNoFrame : std::countr_zero(later);
+}
+
+std::vector<StepOption> OptionsOf(const FootTracks& foot) {
+  constexpr int kParts = 8, kShortest = 5;
+  const int frames = foot.frames, shortest = std::min(frames, kShortest);
   std::vector<StepOption> options;
-  for (int begin : ends) {
-    for (int end : ends) {
-      if (end - begin < shortest) continue;
-      const Travel travel = TravelOf(window, kLegs[side].foot, begin, end);
-      const double standing = StandingShare(old, next, side, begin, end);
-      StepOption option;
-      option.step = {.begin = static_cast<double>(begin), .end = static_cast<double>(end)};
-      option.step.lift = standing > 0 ? LiftFor(travel.floor) : 0;
-      option.travels = travel.floor > 0.02;
-      const double length = end - begin;
-      constexpr double kPeak = 577;  // of least jerk: 5.77 distance / duration², here in centimetres
-      constexpr double kBrokenStand = 0.4;
-      option.cost = kPeak * (travel.whole + 2 * option.step.lift) / (length * length) +
-                    (option.travels ? kBrokenStand * standing : 0);
-      options.push_back(option);
+  for (int b = 0; b < kParts; ++b) {
+    for (int e = b + 1; e <= kParts; ++e) {
+      FootStep step{.begin = b * frames / kParts, .end = e * frames / kParts};
+      if (step.end - step.begin < shortest) continue;
+      options.push_back(Priced(foot, step));
+      const int stood = LastUpTo(foot.old_stands, step.begin), lands = FirstFrom(foot.next_stands, step.end);
+      const bool may_stay = stood >= 0 && stood < step.begin, may_wait = lands > step.end && lands <= frames;
+      FootStep waits = step;
+      if (may_wait) {
+        waits.waits_until = lands;
+        options.push_back(Priced(foot, waits));
+      }
+      if (may_stay) {
+        step.stays_from = waits.stays_from = stood;
+        options.push_back(Priced(foot, step));
+      }
+      if (may_stay && may_wait) options.push_back(Priced(foot, waits));
     }
   }
   return options;
 }
-
-bool Overlap(const FootStep& a, const FootStep& b) { return a.begin < b.end && b.begin < a.end; }
 
 /// A leg's frame on the way from one motion's leg to the other's.
 struct LegPath {
@@ -133,9 +184,10 @@ struct LegPath {
 };
 
 LegPath PathAt(const JoinWindow& window, const LegRoles& leg, const FootStep& step, int frame) {
-  const double s = std::clamp((frame - step.begin) / (step.end - step.begin), 0.0, 1.0);
+  const double s = std::clamp(static_cast<double>(frame - step.begin) / (step.end - step.begin), 0.0, 1.0);
   const double share = Smootherstep(s), rest = s * (1 - s);
-  const BodyPose &old = window.old[frame], &next = window.next[frame];
+  const BodyPose& old = window.old[std::min(frame, step.stays_from)];
+  const BodyPose& next = window.next[std::max(frame, step.waits_until)];
   const glm::dvec3 from = old[leg.foot] - old[leg.ankle], to = next[leg.foot] - next[leg.ankle];
   glm::dvec3 toe = glm::mix(old[leg.foot], next[leg.foot], share);
   toe.y += step.lift * 64 * rest * rest * rest;
@@ -224,36 +276,46 @@ FloorMove AlignOnPlantedFeet(std::span<const BodyPose> old, std::span<const Body
   return fit.Solve();
 }
 
-FootPlan PlanSteps(const JoinWindow& window) {
+FootPlan PlanSteps(const JoinWindow& window, std::span<const BodyPose> played) {
   const FootContacts old = FindFootContacts(window.old, window.rate_hz);
   const FootContacts next = FindFootContacts(window.next, window.rate_hz);
+  const int frames = std::min(window.Frames(), kMostFrames);
   FootPlan plan;
   std::array<std::vector<StepOption>, 2> options;
+  std::array<bool, 2> keeps{};
+  Frames borne = 0;
   for (std::size_t side = 0; side < kLegs.size(); ++side) {
-    plan[side].keeps = StandingShare(old, next, side, 0, window.Frames()) == 0;
-    options[side] = OptionsOf(window, old, next, side);
+    const LegRoles& leg = kLegs[side];
+    const BodyPose& rest = window.next.front();
+    FootTracks foot{.window = window,
+                    .leg = leg,
+                    .frames = frames,
+                    .old_stands = FramesOf(old[side], frames),
+                    .next_stands = FramesOf(next[side], frames),
+                    .reach = glm::distance(rest[leg.hip], rest[leg.knee]) + glm::distance(rest[leg.knee], rest[leg.ankle])};
+    for (const BodyPose& pose : played) foot.hips.push_back(pose[leg.hip]);
+    keeps[side] = (foot.old_stands | foot.next_stands) == 0;
+    borne |= foot.old_stands | foot.next_stands;
+    options[side] = OptionsOf(foot);
   }
-  constexpr double kHop = 2;  // centimetres per frame²: what it is worth not to leave the ground with both feet
+  constexpr double kUnborne = 1;  // centimetres per frame²: the price of a frame in which nothing stands
   std::optional<double> least;
   for (const StepOption& left : options[0]) {
     for (const StepOption& right : options[1]) {
-      const bool hops = left.travels && right.travels && Overlap(left.step, right.step);
-      const double cost = left.cost + right.cost + (hops ? kHop : 0);
+      const int unborne = std::popcount(borne & ~(left.stands | right.stands));
+      const double cost = left.cost + right.cost + kUnborne * unborne;
       if (least && cost >= *least) continue;
       least = cost;
-      for (std::size_t side = 0; side < kLegs.size(); ++side) {
-        const bool keeps = plan[side].keeps;
-        plan[side] = side == 0 ? left.step : right.step;
-        plan[side].keeps = keeps;
-      }
+      plan = {.steps = {left.step, right.step}, .unborne = unborne};
     }
   }
+  for (std::size_t side = 0; side < kLegs.size(); ++side) plan.steps[side].keeps = keeps[side];
   return plan;
 }
 
-void PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played) {
-  if (window.Frames() < 2) return;
-  const FootPlan plan = PlanSteps(window);
+int PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played) {
+  if (window.Frames() < 2) return 0;
+  const auto [plan, unborne] = PlanSteps(window, played);
   std::vector<double> drop(played.size());
   double farthest = 0;  // that any foot is off its path
   for (int frame = 1; frame < static_cast<int>(played.size()); ++frame) {
@@ -266,7 +328,7 @@ void PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played) {
     }
   }
   constexpr double kRounding = 1e-9;
-  if (farthest < kRounding) return;  // a motion that goes on as it was
+  if (farthest < kRounding) return unborne;  // a motion that goes on as it was
   drop = Smoothed(drop);
   for (int frame = 1; frame < static_cast<int>(played.size()); ++frame) {
     BodyPose& pose = played[frame];
@@ -276,6 +338,7 @@ void PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played) {
       PutLeg(window, kLegs[side], PathAt(window, kLegs[side], plan[side], frame), frame, pose);
     }
   }
+  return unborne;
 }
 
 Blend PlantedFeet(const JoinInput& input, const MinimumJerkOptions& options) {
