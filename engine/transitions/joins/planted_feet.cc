@@ -292,6 +292,7 @@ FootPlan PlanSteps(const JoinWindow& window, std::span<const BodyPose> played) {
                     .frames = frames,
                     .old_stands = FramesOf(old[side], frames),
                     .next_stands = FramesOf(next[side], frames),
+                    .hips = {},
                     .reach = glm::distance(rest[leg.hip], rest[leg.knee]) + glm::distance(rest[leg.knee], rest[leg.ankle])};
     for (const BodyPose& pose : played) foot.hips.push_back(pose[leg.hip]);
     keeps[side] = (foot.old_stands | foot.next_stands) == 0;
