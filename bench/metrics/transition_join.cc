@@ -1,6 +1,7 @@
 #include "bench/metrics/transition_join.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -166,6 +167,35 @@ double StrangeCmSeconds(const JoinView& view, const RealFrames& real) {
     ++nearest;  // motion goes on
   }
   return sum / view.rate_hz;
+}
+
+std::vector<Support> JoinSupport(const JoinView& view) {
+  constexpr double kJudgedSeconds = 1.2;
+  const int judged = view.first + static_cast<int>(std::lround(kJudgedSeconds * view.rate_hz));
+  const std::array clips = {SupportingClip{.poses = view.left, .begin = 0, .left_at = view.first},
+                            SupportingClip{.poses = view.wanted, .begin = view.last}};
+  return FindSupport(view.shown, clips, view.first, std::min(std::max(JoinEnd(view), judged), LastFrame(view)),
+                     view.rate_hz);
+}
+
+int UnsupportedFrames(std::span<const Support> support) {
+  int longest = 0, run = 0;
+  for (const Support& frame : support) {
+    run = frame.Holds() ? 0 : run + 1;
+    longest = std::max(longest, run);
+  }
+  return longest;
+}
+
+bool IsSupported(std::span<const Support> support) { return UnsupportedFrames(support) < kFloatingFrames; }
+
+std::optional<double> BalanceCm(const JoinView& view, std::span<const Support> support) {
+  std::vector<double> offsets;
+  for (std::size_t i = 0; i < support.size(); ++i) {
+    const auto offset = BalanceOffset(view.shown[view.first + i], support[i].joints);
+    if (offset) offsets.push_back(kCmPerMetre * *offset);
+  }
+  return offsets.empty() ? std::nullopt : std::optional(MeanOf(offsets));
 }
 
 bool IsClean(const CleanMeasures& m) {

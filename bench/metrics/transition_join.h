@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/motion/body.h"
+#include "engine/motion/support.h"
 
 namespace etude {
 
@@ -71,6 +72,22 @@ class RealFrames {
 /// `strange_cm_s`: the sum over the join's frames after the first transition point of their distance to the nearest
 /// real frame, times the duration of a frame.
 double StrangeCmSeconds(const JoinView& view, const RealFrames& real);
+
+/// What holds the body up from the first transition point to the join's end, 1.2 s after that point at least, as far as
+/// the motion goes: FindSupport, asked of the two clips, never of the frames shown.
+std::vector<Support> JoinSupport(const JoinView& view);
+
+/// A transition floats when nothing holds the body for so many frames in a row. Fewer are not seen.
+constexpr int kFloatingFrames = 4;
+/// `unsupported_frames`: the most frames in a row that nothing holds up.
+int UnsupportedFrames(std::span<const Support> support);
+/// `supported` of one transition.
+bool IsSupported(std::span<const Support> support);
+
+/// `balance_cm`: how far the ground point of the mass centre is from the joints that bear the body (BalanceOffset),
+/// mean over the frames of `support` that have such joints; none where the body only flies or floats. `support` is
+/// JoinSupport's.
+std::optional<double> BalanceCm(const JoinView& view, std::span<const Support> support);
 
 /// `skipped_s`: how much of the wanted clip lies before the frame entered.
 constexpr double SkippedSeconds(int entered_frame, double rate_hz) { return entered_frame / rate_hz; }

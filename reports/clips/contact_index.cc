@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/transitions/joins/planted_feet.h"
 #include "reports/plots/panel.h"
 #include "reports/words/escape.h"
 

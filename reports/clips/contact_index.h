@@ -3,7 +3,7 @@
 #include <string>
 
 #include "engine/motion/body.h"
-#include "engine/transitions/joins/planted_feet.h"
+#include "engine/motion/support.h"
 
 namespace etude {
 

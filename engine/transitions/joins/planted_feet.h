@@ -5,21 +5,10 @@
 #include <vector>
 
 #include "engine/motion/body.h"
+#include "engine/motion/support.h"
 #include "engine/transitions/joins/minimum_jerk.h"
 
 namespace etude {
-
-/// The rules by which a foot stands, with two thresholds each, so that a foot near one of them does not flicker.
-/// Heights are of the toe tips above the floor (y = 0), metres; speeds are theirs, metres per second. Ours.
-struct ContactRules {
-  double plant_height = 0.04, plant_speed = 0.25;  ///< it stands from the frame on where it is below both
-  double lift_height = 0.06, lift_speed = 0.45;    ///< until it is above one of these
-};
-
-/// Tells whether each foot stands, by side (Side's order) and frame. Speeds are from a frame to the next, the last
-/// frame's to the one before it.
-using FootContacts = std::array<std::vector<bool>, 2>;
-FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz, const ContactRules& rules = {});
 
 /// The joints of a leg, from the hip down.
 struct LegRoles {

@@ -49,25 +49,6 @@ JoinWindow Window(const BodyPose& from, const BodyPose& to, int frames) {
   return window;
 }
 
-TEST(FindFootContacts, SeesStepsAndDoesNotFlickerBetweenItsThresholds) {
-  const auto clip_of = [](auto&& height) {
-    BodyMotion motion = Still(Stride(0), 60);
-    for (int f = 0; f < 60; ++f) motion.poses[f][Role::kLeftFoot].y = height(f);
-    return motion;
-  };
-  const BodyMotion steps = clip_of([](int f) { return f >= 20 && f < 40 ? 0.2 : 0.0; });
-  const FootContacts contacts = FindFootContacts(steps.poses, 30);
-  for (int f = 0; f < 60; ++f) {
-    EXPECT_EQ(contacts[0][f], f < 19 || f >= 40) << f;  // frame 19 is already on its way up
-    EXPECT_TRUE(contacts[1][f]);
-  }
-  const BodyMotion wavers = clip_of([](int f) { return f % 10 < 5 ? 0.03 : 0.0425; });
-  int changes = 0;
-  const FootContacts steady = FindFootContacts(wavers.poses, 30);
-  for (int f = 1; f < 60; ++f) changes += steady[0][f] != steady[0][f - 1];
-  EXPECT_EQ(changes, 0) << "4.25 cm is above where a foot begins to stand, and below where it ends";
-}
-
 TEST(AlignOnPlantedFeet, LaysStandingFeetOntoEachOtherExactly) {
   const BodyPose stride = Stride(0.3);
   const FloorMove away{.yaw = 0.8, .x = 3, .z = -2};

@@ -1,0 +1,256 @@
+#include "engine/motion/support.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "engine/base/angles.h"
+
+namespace etude {
+
+FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz, const ContactRules& rules) {
+  constexpr std::array kToes = {Role::kLeftFoot, Role::kRightFoot};
+  FootContacts contacts;
+  const std::size_t count = poses.size();
+  for (std::size_t side = 0; side < kToes.size(); ++side) {
+    const Role foot = kToes[side];
+    bool stands = false;
+    for (std::size_t f = 0; f < count; ++f) {
+      const std::size_t next = std::min(f + 1, count - 1), here = next > 0 ? next - 1 : 0;
+      const double speed = rate_hz * glm::distance(poses[next][foot], poses[here][foot]);
+      const double height = poses[f][foot].y;
+      stands = stands ? height <= rules.lift_height && speed <= rules.lift_speed
+                      : height <= rules.plant_height && speed <= rules.plant_speed;
+      contacts[side].push_back(stands);
+    }
+  }
+  return contacts;
+}
+
+std::vector<BodyPose> JointVelocities(std::span<const BodyPose> poses, double rate_hz) {
+  std::vector<BodyPose> velocities(poses.size());
+  const int last = static_cast<int>(poses.size()) - 1;
+  for (int f = 0; f <= last && last > 0; ++f) {
+    const int before = std::max(f - 1, 0), after = std::min(f + 1, last);
+    for (std::size_t j = 0; j < kRoleCount; ++j) {
+      velocities[f].joints[j] = (poses[after].joints[j] - poses[before].joints[j]) * (rate_hz / (after - before));
+    }
+  }
+  return velocities;
+}
+
+namespace {
+
+double FloorSpeed(const glm::dvec3& velocity) { return std::hypot(velocity.x, velocity.z); }
+
+Bearing BearingOf(const BodyPose& pose, const BodyPose& velocity, const SupportRules& rules) {
+  constexpr double kGliding = 3;
+  double lowest = pose.joints[0].y;
+  for (const glm::dvec3& joint : pose.joints) lowest = std::min(lowest, joint.y);
+  Bearing bearing;
+  for (std::size_t j = 0; j < kRoleCount; ++j) {
+    if (pose.joints[j].y > lowest + rules.lowest) continue;
+    bearing.rests[j] = glm::length(velocity.joints[j]) <= rules.rest_speed;
+    const double over_floor = FloorSpeed(velocity.joints[j]);
+    const double from_hips = FloorSpeed(velocity.joints[j] - velocity[Role::kHipCentre]);
+    bearing.bears[j] = over_floor <= rules.rest_speed || over_floor <= kGliding * from_hips;
+  }
+  if (bearing.rests.any()) bearing.bears = bearing.rests;
+  return bearing;
+}
+
+/// A clip, looked at once, that is asked what holds up the frames shown.
+class Witness {
+ public:
+  Witness(const SupportingClip& clip, double rate_hz, const SupportRules& rules)
+      : clip_(clip),
+        rules_(rules),
+        window_(static_cast<int>(std::lround(rules.window_s * rate_hz))),
+        velocities_(JointVelocities(clip.poses, rate_hz)),
+        bearing_(FindBearing(clip.poses, rate_hz, rules)) {}
+
+  JointSet SupportAt(int frame, const BodyPose& pose, const BodyPose& velocity) const {
+    JointSet joints;
+    if (clip_.poses.empty()) return joints;
+    for (std::size_t j = 0; j < kRoleCount; ++j) {
+      joints[j] = Follows(frame, j, pose, velocity) || RestsAsHere(frame, j, pose, velocity);
+    }
+    return joints;
+  }
+
+ private:
+  int LastFrame() const { return static_cast<int>(clip_.poses.size()) - 1; }
+  double Height(int frame, std::size_t j) const { return clip_.poses[frame].joints[j].y; }
+
+  bool Follows(int frame, std::size_t j, const BodyPose& pose, const BodyPose& velocity) const {
+    const int now = frame - clip_.begin;
+    for (int f = std::max(now - 1, 0); f <= std::min(now + 1, LastFrame()); ++f) {
+      if (bearing_[f].bears[j] && std::abs(pose.joints[j].y - Height(f, j)) <= rules_.height &&
+          glm::distance(velocity.joints[j], velocities_[f].joints[j]) <= rules_.rest_speed) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  bool RestsAsHere(int frame, std::size_t j, const BodyPose& pose, const BodyPose& velocity) const {
+    if (glm::length(velocity.joints[j]) > rules_.rest_speed) return false;
+    const double height = pose.joints[j].y;
+    const std::vector<double> heights = HeightsOfRest(frame, j);
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+      // Sunk into the floor it is held all the same.
+      if (i == 0 && height >= heights[i] - rules_.level && height <= heights[i] + rules_.height) return true;
+      // A joint that also rests a little lower, as toes do whose heel bears, stands on nothing up here.
+      const bool surface = i > 0 && heights[i] - heights[i - 1] > rules_.level;
+      if (surface && std::abs(height - heights[i]) <= rules_.height) return true;
+    }
+    return false;
+  }
+
+  /// The heights at which the clip's joint rests about a frame shown, rising; at its first or last frame where the clip
+  /// has not begun or is over.
+  std::vector<double> HeightsOfRest(int frame, std::size_t j) const {
+    const int from = std::min(frame, clip_.left_at) - window_ - clip_.begin, to = frame + window_ - clip_.begin;
+    std::vector<double> heights;
+    for (int f = std::clamp(from, 0, LastFrame()); f <= std::clamp(to, 0, LastFrame()); ++f) {
+      if (bearing_[f].rests[j]) heights.push_back(Height(f, j));
+    }
+    std::ranges::sort(heights);
+    return heights;
+  }
+
+  SupportingClip clip_;
+  SupportRules rules_;
+  int window_ = 0;  // frames
+  std::vector<BodyPose> velocities_;
+  std::vector<Bearing> bearing_;
+};
+
+/// Tells whether the mass centre flies from frame `first` to `last`: a parabola fits its height that bends as a fall.
+bool FitsFlight(std::span<const BodyPose> poses, int first, int last, double rate_hz, const SupportRules& rules) {
+  constexpr int kFewest = 5;
+  const int count = last - first + 1;
+  if (count < kFewest) return false;
+  const auto time = [&](int i) { return (i - 0.5 * (count - 1)) / rate_hz; };  // from the middle: odd moments vanish
+  std::vector<double> height;
+  double mean = 0, mean_square = 0;
+  for (int i = 0; i < count; ++i) {
+    height.push_back(MassCentre(poses[first + i]).y);
+    mean += height.back() / count;
+    mean_square += time(i) * time(i) / count;
+  }
+  double rise = 0, bend = 0, bend_norm = 0;
+  for (int i = 0; i < count; ++i) {
+    const double t = time(i), square = t * t - mean_square;
+    rise += t * height[i] / (mean_square * count);
+    bend += square * height[i];
+    bend_norm += square * square;
+  }
+  bend /= bend_norm;
+  double stray = 0;
+  for (int i = 0; i < count; ++i) {
+    const double t = time(i), off = height[i] - (mean + rise * t + bend * (t * t - mean_square));
+    stray += off * off / count;
+  }
+  const double fall = -2 * bend;
+  return rules.least_fall <= fall && fall <= rules.most_fall && std::sqrt(stray) <= rules.flight_stray;
+}
+
+void MarkFlights(std::span<const BodyPose> shown, int first, double rate_hz, const SupportRules& rules,
+                 std::vector<Support>& support) {
+  const auto by_nothing = [](const Support& s) { return !s.Holds(); };
+  for (auto begin = std::ranges::find_if(support, by_nothing); begin != support.end();) {
+    const auto end = std::find_if_not(begin, support.end(), by_nothing);
+    const int from = first + static_cast<int>(begin - support.begin()), to = from + static_cast<int>(end - begin) - 1;
+    const bool takes_off_and_lands = begin != support.begin() && end != support.end();
+    if (takes_off_and_lands &&
+        (FitsFlight(shown, from, to, rate_hz, rules) || FitsFlight(shown, from - 1, to + 1, rate_hz, rules))) {
+      std::for_each(begin, end, [](Support& s) { s.flight = true; });
+    }
+    begin = std::find_if(end, support.end(), by_nothing);
+  }
+}
+
+}  // namespace
+
+std::vector<Bearing> FindBearing(std::span<const BodyPose> poses, double rate_hz, const SupportRules& rules) {
+  const std::vector<BodyPose> velocities = JointVelocities(poses, rate_hz);
+  std::vector<Bearing> bearing;
+  for (std::size_t f = 0; f < poses.size(); ++f) bearing.push_back(BearingOf(poses[f], velocities[f], rules));
+  return bearing;
+}
+
+std::vector<Support> FindSupport(std::span<const BodyPose> shown, std::span<const SupportingClip> clips, int first,
+                                 int last, double rate_hz, const SupportRules& rules) {
+  assert(0 <= first && last < static_cast<int>(shown.size()));
+  std::vector<Witness> witnesses;
+  for (const SupportingClip& clip : clips) witnesses.emplace_back(clip, rate_hz, rules);
+  const std::vector<BodyPose> velocities = JointVelocities(shown, rate_hz);
+  std::vector<Support> support;
+  // A flight at the end is followed to its landing.
+  const auto goes_on = [&](int frame) {
+    return frame <= last || (!support.back().Holds() && frame < static_cast<int>(shown.size()));
+  };
+  for (int frame = first; goes_on(frame); ++frame) {
+    Support& here = support.emplace_back();
+    for (const Witness& witness : witnesses) {
+      here.joints |= witness.SupportAt(frame, shown[frame], velocities[frame]);
+    }
+  }
+  MarkFlights(shown, first, rate_hz, rules, support);
+  support.resize(static_cast<std::size_t>(last - first + 1));
+  return support;
+}
+
+glm::dvec3 MassCentre(const BodyPose& pose) {
+  using enum Role;
+  struct Segment {
+    Role from, to;
+    double mass, centre;  // shares of the body's mass, and of the way from `from` to `to`
+  };
+  static constexpr std::array kMiddle = {Segment{kShoulderCentre, kHead, 0.081, 1.0},
+                                         Segment{kShoulderCentre, kHipCentre, 0.497, 0.5}};
+  static constexpr std::array kLimbs = {
+      Segment{kLeftShoulder, kLeftElbow, 0.028, 0.436}, Segment{kLeftElbow, kLeftWrist, 0.016, 0.430},
+      Segment{kLeftWrist, kLeftHand, 0.006, 0.506},     Segment{kLeftHip, kLeftKnee, 0.100, 0.433},
+      Segment{kLeftKnee, kLeftAnkle, 0.0465, 0.433},    Segment{kLeftAnkle, kLeftFoot, 0.0145, 0.500}};
+  glm::dvec3 centre{0};
+  const auto add = [&](Role from, Role to, const Segment& s) {
+    centre += s.mass * glm::mix(pose[from], pose[to], s.centre);
+  };
+  for (const Segment& segment : kMiddle) add(segment.from, segment.to, segment);
+  for (const Segment& segment : kLimbs) {
+    add(segment.from, segment.to, segment);
+    add(Mirrored(segment.from), Mirrored(segment.to), segment);
+  }
+  return centre;
+}
+
+std::optional<double> BalanceOffset(const BodyPose& pose, const JointSet& joints) {
+  const glm::dvec3 mass = MassCentre(pose);
+  const glm::dvec2 centre(mass.x, mass.z);
+  std::vector<glm::dvec2> points;  // from below the mass centre
+  for (std::size_t j = 0; j < kRoleCount; ++j) {
+    if (joints[j]) points.push_back(glm::dvec2(pose.joints[j].x, pose.joints[j].z) - centre);
+  }
+  if (points.empty()) return std::nullopt;
+  // The nearest point of a hull that does not hold the origin lies on a line between two of its points. It holds the
+  // origin when no half-plane of directions is free of points.
+  std::vector<double> directions;
+  double nearest = glm::length(points.front());
+  for (const glm::dvec2& a : points) {
+    directions.push_back(std::atan2(a.y, a.x));
+    for (const glm::dvec2& b : points) {
+      const glm::dvec2 line = b - a;
+      const double squared = glm::dot(line, line);
+      const double along = squared > 0 ? std::clamp(-glm::dot(a, line) / squared, 0.0, 1.0) : 0;
+      nearest = std::min(nearest, glm::length(a + along * line));
+    }
+  }
+  std::ranges::sort(directions);
+  double widest = directions.front() + 2 * kPi - directions.back();
+  for (std::size_t i = 1; i < directions.size(); ++i) widest = std::max(widest, directions[i] - directions[i - 1]);
+  return widest < kPi ? 0 : nearest;
+}
+
+}  // namespace etude

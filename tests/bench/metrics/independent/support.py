@@ -1,0 +1,184 @@
+"""What holds a body up (engine/motion/support.h), a second time: in plain Python, from a `join` as transition.py reads it."""
+import math
+
+from independent import common
+from independent.common import ROLES, frames_of, minus, norm
+from independent.transition import join_end, rate_of
+
+LOWEST = 0.12  # a joint this little above the lowest one may bear
+REST_MPS = 0.5
+HEIGHT = 0.025
+LEVEL = 0.12  # heights of rest further apart are two surfaces
+WINDOW_S = 1 / 3
+FALL_MPS2 = (6.5, 13)
+STRAY = 0.008
+FEWEST_OF_A_FLIGHT = 5
+FLOATING_FRAMES = 4
+JUDGED_S = 1.2
+GLIDING = 3
+
+# Dempster, as in Winter (2009), table 4.1: mass, and the centre's share of the way from one joint to the other.
+SEGMENTS = [("shoulder_centre", "head", 0.081, 1.0), ("shoulder_centre", "hip_centre", 0.497, 0.5)] + [
+    (f"{side}_{a}", f"{side}_{b}", mass, centre) for side in ("left", "right") for a, b, mass, centre in [
+        ("shoulder", "elbow", 0.028, 0.436), ("elbow", "wrist", 0.016, 0.430), ("wrist", "hand", 0.006, 0.506),
+        ("hip", "knee", 0.100, 0.433), ("knee", "ankle", 0.0465, 0.433), ("ankle", "foot", 0.0145, 0.500)]]
+
+
+def mass_centre(pose):
+    return [math.fsum(m * ((1 - c) * pose[a][axis] + c * pose[b][axis]) for a, b, m, c in SEGMENTS)
+            for axis in range(3)]
+
+
+def velocities(frames, rate):
+    last = len(frames) - 1
+
+    def at(f):
+        before, after = max(f - 1, 0), min(f + 1, last)
+        return {role: [d * rate / (after - before) if after > before else 0.0
+                       for d in minus(frames[after][role], frames[before][role])] for role in ROLES}
+    return [at(f) for f in range(len(frames))]
+
+
+def over_floor(v):
+    return math.hypot(v[0], v[2])
+
+
+class Clip:
+    """A clip that tells what a body may rest on: frame `begin` of the motion shown is its first."""
+
+    def __init__(self, frames, rate, begin, left_at):
+        self.frames, self.begin, self.left_at = frames, begin, left_at
+        self.window = round(WINDOW_S * rate)
+        self.velocities = velocities(frames, rate)
+        self.rests, self.bears = [], []
+        for pose, v in zip(frames, self.velocities):
+            lowest = min(p[1] for p in pose.values())
+            low = [role for role in ROLES if pose[role][1] <= lowest + LOWEST]
+            rests = {role for role in low if norm(v[role]) <= REST_MPS}
+            carried = {role for role in low if over_floor(v[role]) <= max(
+                REST_MPS, GLIDING * over_floor(minus(v[role], v["hip_centre"])))}
+            self.rests.append(rests)
+            self.bears.append(rests or carried)
+
+    def follows(self, shown, role, place, velocity):
+        now = shown - self.begin
+        return any(role in self.bears[f] and abs(place[1] - self.frames[f][role][1]) <= HEIGHT
+                   and norm(minus(velocity, self.velocities[f][role])) <= REST_MPS
+                   for f in (now - 1, now, now + 1) if 0 <= f < len(self.frames))
+
+    def rests_here(self, shown, role, place, velocity):
+        if norm(velocity) > REST_MPS:
+            return False
+        last = len(self.frames) - 1
+        first, end = min(shown, self.left_at) - self.window - self.begin, shown + self.window - self.begin
+        heights = sorted(self.frames[f][role][1] for f in range(min(max(first, 0), last), min(max(end, 0), last) + 1)
+                         if role in self.rests[f])
+        if not heights:
+            return False
+        surfaces = [h for below, h in zip(heights, heights[1:]) if h - below > LEVEL]
+        return (-LEVEL <= place[1] - heights[0] <= HEIGHT
+                or any(abs(place[1] - h) <= HEIGHT for h in surfaces))
+
+
+def flies(frames, rate):
+    """Least squares by the normal equations, times from the middle."""
+    n = len(frames)
+    if n < FEWEST_OF_A_FLIGHT:
+        return False
+    times = [(i - (n - 1) / 2) / rate for i in range(n)]
+    heights = [mass_centre(pose)[1] for pose in frames]
+    second, fourth = (math.fsum(t ** k for t in times) for k in (2, 4))
+    whole, slope, square = (math.fsum(h * t ** k for t, h in zip(times, heights)) for k in (0, 1, 2))
+    a = (n * square - second * whole) / (n * fourth - second * second)
+    c = (whole - a * second) / n
+    off = [h - (a * t * t + slope / second * t + c) for t, h in zip(times, heights)]
+    return FALL_MPS2[0] <= -2 * a <= FALL_MPS2[1] and math.sqrt(math.fsum(o * o for o in off) / n) <= STRAY
+
+
+def support(join):
+    """Of each frame judged: the joints that hold the body, and whether something does or it flies."""
+    shown, rate = frames_of(join["shown"]), rate_of(join)
+    first, last, end = join["first"], join["last"], len(shown) - 1
+    judged = min(max(join_end(join), first + round(JUDGED_S * rate)), end)
+    clips = [Clip(frames_of(join["left"]), rate, 0, first), Clip(frames_of(join["wanted"]), rate, last, math.inf)]
+    moving = velocities(shown, rate)
+
+    def held_by(f):
+        return {role for role in ROLES for clip in clips
+                if clip.follows(f, role, shown[f][role], moving[f][role])
+                or clip.rests_here(f, role, shown[f][role], moving[f][role])}
+    joints = []
+    while len(joints) <= judged - first or (not joints[-1] and first + len(joints) <= end):
+        joints.append(held_by(first + len(joints)))
+    holds = [bool(own) for own in joints]
+    start = 0
+    while start < len(joints):
+        stop = start
+        while stop < len(joints) and not joints[stop]:
+            stop += 1
+        if 0 < start < stop < len(joints) and any(
+                flies(shown[first + start - more:first + stop + more], rate) for more in (0, 1)):
+            holds[start:stop] = [True] * (stop - start)
+        start = max(stop, start + 1)
+    count = judged - first + 1
+    return joints[:count], holds[:count]
+
+
+def longest_unsupported(given):
+    longest = run = 0
+    for holds in support(given["join"])[1]:
+        run = 0 if holds else run + 1
+        longest = max(longest, run)
+    return longest
+
+
+def supported(given):
+    return int(longest_unsupported(given) < FLOATING_FRAMES)
+
+
+def hull(points):
+    """Andrew's monotone chain, anticlockwise."""
+    points = sorted(set(points))
+    if len(points) < 3:
+        return points
+
+    def half(ordered):
+        chain = []
+        for p in ordered:
+            while len(chain) > 1 and ((chain[-1][0] - chain[-2][0]) * (p[1] - chain[-2][1])
+                                      - (chain[-1][1] - chain[-2][1]) * (p[0] - chain[-2][0])) <= 0:
+                chain.pop()
+            chain.append(p)
+        return chain[:-1]
+    return half(points) + half(points[::-1])
+
+
+def distance_to_hull(point, points):
+    corners = hull(points)
+    edges = list(zip(corners, corners[1:] + corners[:1]))
+    if len(corners) > 2 and all((b[0] - a[0]) * (point[1] - a[1]) - (b[1] - a[1]) * (point[0] - a[0]) >= 0
+                                for a, b in edges):
+        return 0.0
+
+    def to_edge(a, b):
+        squared = (b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2
+        along = 0 if squared == 0 else ((point[0] - a[0]) * (b[0] - a[0]) + (point[1] - a[1]) * (b[1] - a[1])) / squared
+        along = min(max(along, 0), 1)
+        return math.hypot(a[0] + along * (b[0] - a[0]) - point[0], a[1] + along * (b[1] - a[1]) - point[1])
+    return min(to_edge(a, b) for a, b in edges)
+
+
+def balance(given):
+    join = given["join"]
+    shown = frames_of(join["shown"])
+    offsets = []
+    for f, joints in enumerate(support(join)[0], join["first"]):
+        if joints:
+            centre = mass_centre(shown[f])
+            offsets.append(common.CM * distance_to_hull(
+                (centre[0], centre[2]), [(shown[f][role][0], shown[f][role][2]) for role in joints]))
+    return common.mean(offsets)
+
+
+# Not in the catalogue yet: transition.METRICS takes these when it is.
+METRICS = {"unsupported_frames": longest_unsupported, "supported": supported, "balance_cm": balance}

@@ -1,0 +1,301 @@
+#include "engine/motion/support.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "engine/base/angles.h"
+#include "engine/base/smoothstep.h"
+#include "tests/engine/motion/standing_body.h"
+
+namespace etude {
+namespace {
+
+using enum Role;
+using Poses = std::vector<BodyPose>;
+
+constexpr double kRate = 30;
+constexpr int kFrames = 90, kPoint = 40, kEnd = 80;  // of every clip; a transition's first and last frame
+
+JointSet Set(std::initializer_list<Role> roles) {
+  JointSet joints;
+  for (Role role : roles) joints.set(Index(role));
+  return joints;
+}
+
+const JointSet kFeet = Set({kLeftAnkle, kLeftFoot, kRightAnkle, kRightFoot});
+
+void Carry(BodyPose& pose, const glm::dvec3& by) {
+  for (glm::dvec3& joint : pose.joints) joint += by;
+}
+
+/// `pose` for so many frames, altered by `change(pose, frame)`.
+template <typename Change>
+Poses ClipOf(const BodyPose& pose, Change change, int frames = kFrames) {
+  Poses poses(static_cast<std::size_t>(frames), pose);
+  for (int f = 0; f < frames; ++f) change(poses[f], f);
+  return poses;
+}
+Poses Still(const BodyPose& pose) {
+  return ClipOf(pose, [](BodyPose&, int) {});
+}
+
+/// Both feet drawn up by so much, the hips where they were.
+void Tuck(BodyPose& pose, double up) {
+  for (Role role : {kLeftAnkle, kLeftFoot, kRightAnkle, kRightFoot}) pose[role].y += up;
+  for (Role role : {kLeftKnee, kRightKnee}) pose[role] += glm::dvec3(0, up / 2, up / 2);
+}
+
+/// Turned about the line through the origin along X, so that a standing body comes to lie on its back, or on its hands.
+BodyPose Tilted(BodyPose pose, double angle) {
+  for (glm::dvec3& j : pose.joints) {
+    j = {j.x, j.y * std::cos(angle) - j.z * std::sin(angle), j.y * std::sin(angle) + j.z * std::cos(angle)};
+  }
+  double lowest = pose.joints[0].y;
+  for (const glm::dvec3& j : pose.joints) lowest = std::min(lowest, j.y);
+  Carry(pose, {0, -lowest, 0});
+  return pose;
+}
+
+/// The most frames in a row that nothing holds up, of `shown` between two clips, which it leaves and enters at kPoint.
+int Floating(const Poses& shown, const Poses& left, const Poses& wanted) {
+  const std::vector clips = {SupportingClip{.poses = left, .begin = 0, .left_at = kPoint},
+                             SupportingClip{.poses = wanted, .begin = kPoint}};
+  int run = 0, longest = 0;
+  for (const Support& support : FindSupport(shown, clips, kPoint, kEnd, kRate)) {
+    run = support.Holds() ? 0 : run + 1;
+    longest = std::max(longest, run);
+  }
+  return longest;
+}
+int Floating(const Poses& shown, const Poses& clip) { return Floating(shown, clip, clip); }
+
+/// 0 before frame `begin`, 1 from `end` on, smooth in between.
+double Ramp(int frame, int begin, int end) {
+  return Smootherstep(std::clamp((frame - begin) / double(end - begin), 0., 1.));
+}
+
+TEST(FindFootContacts, SeesStepsAndDoesNotFlickerBetweenItsThresholds) {
+  const auto clip_of = [](auto&& height) {
+    return ClipOf(
+        Standing(), [&](BodyPose& pose, int f) { pose[kLeftFoot].y = height(f); }, 60);
+  };
+  const Poses steps = clip_of([](int f) { return f >= 20 && f < 40 ? 0.2 : 0.0; });
+  const FootContacts contacts = FindFootContacts(steps, kRate);
+  for (int f = 0; f < 60; ++f) {
+    EXPECT_EQ(contacts[0][f], f < 19 || f >= 40) << f;  // frame 19 is already on its way up
+    EXPECT_TRUE(contacts[1][f]);
+  }
+  const Poses wavers = clip_of([](int f) { return f % 10 < 5 ? 0.03 : 0.0425; });
+  int changes = 0;
+  const FootContacts steady = FindFootContacts(wavers, kRate);
+  for (int f = 1; f < 60; ++f) changes += steady[0][f] != steady[0][f - 1];
+  EXPECT_EQ(changes, 0) << "4.25 cm is above where a foot begins to stand, and below where it ends";
+}
+
+TEST(MassCentre, IsWhereABodyIsThatIsOneEverywhere) {
+  BodyPose point;
+  Carry(point, {1, 2, 3});
+  EXPECT_NEAR(glm::distance(MassCentre(point), glm::dvec3(1, 2, 3)), 0, 1e-12) << "the masses sum to one";
+}
+
+TEST(MassCentre, MovesByEachSegmentsShare) {
+  BodyPose pose;
+  pose[kHead].y = 1;
+  EXPECT_NEAR(MassCentre(pose).y, 0.081, 1e-12);
+  pose = {};
+  pose[kLeftKnee].x = 1;  // the end of the thigh, the beginning of the shank
+  EXPECT_NEAR(MassCentre(pose).x, 0.100 * 0.433 + 0.0465 * (1 - 0.433), 1e-12);
+  pose = {};
+  pose[kRightHand].z = 1;
+  EXPECT_NEAR(MassCentre(pose).z, 0.006 * 0.506, 1e-12);
+}
+
+TEST(JointVelocities, AreCentralAndOneSidedAtTheEnds) {
+  const Poses falls = ClipOf(
+      Standing(),
+      [](BodyPose& pose, int f) {
+        Carry(pose, {0, -0.01 * f * f, 0});
+      },
+      4);
+  const std::vector<BodyPose> velocities = JointVelocities(falls, kRate);
+  EXPECT_NEAR(velocities[0][kHead].y, kRate * -0.01, 1e-12);
+  EXPECT_NEAR(velocities[1][kHead].y, kRate * -0.02, 1e-12);
+  EXPECT_NEAR(velocities[3][kHead].y, kRate * -0.05, 1e-12);
+  EXPECT_EQ(JointVelocities(std::vector{Standing()}, kRate)[0][kHead], glm::dvec3(0));
+}
+
+TEST(FindBearing, TakesTheLowestJointsThatRest) {
+  EXPECT_EQ(FindBearing(Still(Standing()), kRate)[10].rests, kFeet);
+  BodyPose stork = Standing();
+  stork[kLeftFoot].y = stork[kLeftAnkle].y = 0.5;  // held still, on nothing
+  EXPECT_EQ(FindBearing(Still(stork), kRate)[10].rests, Set({kRightAnkle, kRightFoot}));
+  const BodyPose lying = Tilted(Standing(), -kPi / 2);
+  EXPECT_TRUE(FindBearing(Still(lying), kRate)[10].rests[Index(kHead)]);
+  EXPECT_TRUE(FindBearing(Still(lying), kRate)[10].rests[Index(kHipCentre)]);
+}
+
+TEST(FindBearing, TrustsAClipThatWalksOnTheSpotButNotOneThatGlides) {
+  const auto at = [](double hips, double feet) {
+    const Poses poses = ClipOf(Standing(), [&](BodyPose& pose, int f) {
+      Carry(pose, {0, 0, hips * f / kRate});
+      for (Role role : {kLeftAnkle, kLeftFoot, kRightAnkle, kRightFoot}) pose[role].z += (feet - hips) * f / kRate;
+    });
+    return FindBearing(poses, kRate)[10];
+  };
+  EXPECT_TRUE(at(0, -1.2).rests.none());
+  EXPECT_EQ(at(0, -1.2).bears, kFeet) << "a treadmill";
+  EXPECT_TRUE(at(1, 1).bears.none()) << "on ice";
+  EXPECT_EQ(at(1, 0).bears, kFeet) << "a step: the body goes over its feet";
+}
+
+TEST(FindSupport, HoldsWhatGoesOnUnbroken) {
+  const Poses still = Still(Standing());
+  EXPECT_EQ(Floating(still, still), 0);
+  const std::vector clips = {SupportingClip{.poses = still}};
+  const std::vector<Support> support = FindSupport(still, clips, kPoint, kEnd, kRate);
+  ASSERT_EQ(support.size(), static_cast<std::size_t>(kEnd - kPoint + 1));
+  for (const Support& frame : support) EXPECT_EQ(frame.joints, kFeet);
+  EXPECT_TRUE(std::ranges::none_of(support, [](const Support& frame) { return frame.flight; }));
+}
+
+TEST(FindSupport, HoldsBodiesThatLieKneelOrStandOnTheirHands) {
+  BodyPose kneeling = Standing();
+  for (Role role : {kLeftAnkle, kRightAnkle}) kneeling[role] = {kneeling[role].x, 0.45, -0.35};
+  for (Role role : {kLeftFoot, kRightFoot}) kneeling[role] = {kneeling[role].x, 0.40, -0.45};
+  Carry(kneeling, {0, -0.38, 0});
+  BodyPose hands = Standing();
+  for (Role role : {kLeftHand, kRightHand}) hands[role] = {hands[role].x, 1.9, 0};
+  for (const BodyPose& pose : {kneeling, Tilted(Standing(), -kPi / 2), Tilted(hands, kPi)}) {
+    const Poses clip = Still(pose);
+    // It sways, as no clip shows it, on what bears it.
+    const Poses sways = ClipOf(pose, [](BodyPose& p, int f) { Carry(p, {0.02 * std::sin(f / 5.0), 0, 0}); });
+    EXPECT_EQ(Floating(sways, clip), 0);
+    EXPECT_GE(Floating(ClipOf(pose, [](BodyPose& p, int f) { Carry(p, {0, f > kPoint ? 0.05 : 0.0, 0}); }), clip), 30);
+  }
+}
+
+// The controls: each must be seen, whichever way it begins.
+TEST(FindSupport, SeesABodyThatIsLifted) {
+  const Poses clip = Still(Standing());
+  for (const double lift : {0.05, 0.08}) {
+    const Poses lifted = ClipOf(Standing(), [&](BodyPose& pose, int f) {
+      Carry(pose, {0, lift * Ramp(f, kPoint, kPoint + 8) * (1 - Ramp(f, kEnd - 8, kEnd)), 0});
+    });
+    EXPECT_GE(Floating(lifted, clip), 25) << lift;
+  }
+  EXPECT_EQ(Floating(ClipOf(Standing(),
+                            [](BodyPose& pose, int) {
+                              Carry(pose, {0, 0.02, 0});
+                            }),
+                     clip),
+            0)
+      << "within what takes and other bodies are off";
+}
+
+TEST(FindSupport, SeesABodyThatGlides) {
+  const Poses glides = ClipOf(Standing(), [](BodyPose& pose, int f) {
+    Carry(pose, {std::max(f - kPoint, 0) * 0.6 / kRate, 0, std::max(f - kPoint, 0) * 0.8 / kRate});
+  });
+  EXPECT_GE(Floating(glides, Still(Standing())), 30);
+  EXPECT_GE(Floating(glides, glides), 30) << "nor is it its own support";
+}
+
+TEST(FindSupport, SeesABodyThatSquatsInMidAirAndFeetThatAreTuckedAtOnce) {
+  const Poses clip = Still(Standing());
+  EXPECT_GE(
+      Floating(ClipOf(Standing(), [](BodyPose& pose, int f) { Tuck(pose, 0.3 * Ramp(f, kPoint, kPoint + 12)); }), clip),
+      25);
+  const Poses tucks = ClipOf(Standing(), [](BodyPose& pose, int f) {
+    Tuck(pose, 0.25 * Ramp(f, kPoint, kPoint + 6) * (1 - Ramp(f, kPoint + 14, kPoint + 20)));
+  });
+  EXPECT_GE(Floating(tucks, clip), 10);
+}
+
+TEST(FindSupport, LetsABodyJumpAsGravityDoesAndNotOtherwise) {
+  // Off the floor at frame 45, back at 60: half a second, 30 cm high.
+  const auto jump = [](double gravity) {
+    return ClipOf(Standing(), [=](BodyPose& pose, int f) {
+      const double t = (f - 45) / kRate, whole = 15 / kRate;
+      if (t > 0 && t < whole) Carry(pose, {0, gravity / 2 * t * (whole - t), 0});
+    });
+  };
+  const Poses clip = Still(Standing());
+  EXPECT_EQ(Floating(jump(9.81), clip), 0);
+  EXPECT_GE(Floating(jump(4), clip), 10) << "as on Mars";
+  EXPECT_GE(Floating(jump(20), clip), 10);
+  const Poses hangs = ClipOf(Standing(), [](BodyPose& pose, int f) {
+    Carry(pose, {0, 0.3 * Ramp(f, 43, 50) * (1 - Ramp(f, 60, 67)), 0});
+  });
+  EXPECT_GE(Floating(hangs, clip), 15);
+}
+
+TEST(FindSupport, LetsABodyFollowAClipThatFliesAsNoBodyCan) {
+  const Poses cartoon = ClipOf(Standing(), [](BodyPose& pose, int f) {
+    Carry(pose, {0, 0.8 * std::pow(std::sin(kPi * std::clamp((f - 10) / 40.0, 0., 1.)), 2), 0});
+  });
+  Poses shown = Still(Standing());
+  for (int f = kPoint; f < kFrames; ++f) shown[f] = cartoon[f - kPoint];
+  EXPECT_EQ(Floating(shown, Still(Standing()), cartoon), 0);
+  for (int f = kPoint; f < kFrames; ++f) Carry(shown[f], {0, 0.08, 0});
+  EXPECT_GE(Floating(shown, Still(Standing()), cartoon), 8);
+}
+
+TEST(FindSupport, NeedsNoLevelFloorAndNoToesAtZero) {
+  // It walks up a slope of one in five, one foot after the other, with toes 9 cm above the floor of the file.
+  const Poses climbs = ClipOf(Standing(), [](BodyPose& pose, int f) {
+    constexpr int kStep = 15;
+    const auto along = [](double step) { return 0.5 * step; };
+    const double phase = f / double(kStep);
+    for (const auto& [ankle, foot, knee, side] :
+         {std::tuple{kLeftAnkle, kLeftFoot, kLeftKnee, 0}, std::tuple{kRightAnkle, kRightFoot, kRightKnee, 1}}) {
+      const double step = std::floor((phase + side) / 2), part = std::min((phase + side) - 2 * step, 1.0);
+      const double z = along(2 * (step + Smootherstep(part)) - side);
+      const double lift = 0.15 * std::sin(kPi * part);
+      for (Role role : {ankle, foot}) pose[role] += glm::dvec3(0, 0.09 + 0.2 * z + lift, z);
+      pose[knee] += glm::dvec3(0, 0.09 + 0.2 * z, z);
+    }
+    for (Role role : AllRoles()) {
+      if (pose[role].y > 0.85) pose[role] += glm::dvec3(0, 0.09 + 0.2 * along(phase), along(phase));
+    }
+  });
+  EXPECT_EQ(Floating(climbs, climbs), 0);
+  Poses lifted = climbs;
+  for (int f = kPoint; f < kFrames; ++f) Carry(lifted[f], {0, 0.08, 0});
+  EXPECT_GE(Floating(lifted, climbs), 4);
+}
+
+TEST(FindSupport, TellsAStepFromToesThatAreRaised) {
+  // The toes go up while the heel bears: they rest on nothing up there.
+  const Poses taps = ClipOf(Standing(), [](BodyPose& pose, int f) {
+    for (Role role : {kLeftFoot, kRightFoot}) pose[role].y += f % 20 < 10 ? 0.06 : 0;
+  });
+  const Poses stands_on_air = ClipOf(Standing(), [](BodyPose& pose, int) { Carry(pose, {0, 0.06, 0}); });
+  EXPECT_GE(Floating(stands_on_air, taps), 10);
+  // A box of 30 cm is a surface of its own.
+  const Poses box = ClipOf(Standing(), [](BodyPose& pose, int f) { Carry(pose, {0, f < 20 ? 0.0 : 0.3, 0}); });
+  EXPECT_EQ(Floating(ClipOf(Standing(), [](BodyPose& pose, int) { Carry(pose, {0, 0.3, 0}); }), box), 0);
+}
+
+TEST(BalanceOffset, IsTheDistanceFromTheHullOfWhatBears) {
+  EXPECT_FALSE(BalanceOffset(Standing(), {}));
+  const auto with = [](const BodyPose& pose, std::initializer_list<Role> roles) {
+    return *BalanceOffset(pose, Set(roles));
+  };
+  BodyPose spine;                 // the mass centre stays at the origin
+  spine[kSpine] = {0.3, 0, 0.4};  // no segment ends there
+  EXPECT_NEAR(with(spine, {kSpine}), 0.5, 1e-12);
+  EXPECT_NEAR(with(spine, {kSpine, kHead}), 0, 1e-12) << "a corner of the hull";
+  BodyPose standing = Standing();
+  EXPECT_NEAR(with(standing, {kLeftAnkle, kLeftFoot, kRightAnkle, kRightFoot}), 0, 1e-12);
+  EXPECT_NEAR(with(standing, {kLeftAnkle, kLeftFoot}), 0.1, 1e-12) << "beside one foot";
+  Carry(standing, {0, 0, 0.5});
+  standing[kLeftAnkle] = standing[kRightAnkle] = {0, 0, 0};
+  standing[kLeftFoot] = standing[kRightFoot] = {0, 0, 0.1};
+  EXPECT_NEAR(with(standing, {kLeftAnkle, kLeftFoot}), MassCentre(standing).z - 0.1, 1e-12);
+}
+
+}  // namespace
+}  // namespace etude
