@@ -279,14 +279,14 @@ const SettingTable<PlayedOptions>& PlayedSettings() {
         "How much acceleration beyond the clips' own, in centimetres per frame², weighs as much as a second of time."},
        {"invented_per_s", &PlayedOptions::invented_per_s, 0.01, 1'000'000,
         "How far from both clips, in centimetres over a second, weighs as much as a second of time."},
-       {"least_play_s", &PlayedOptions::least_play_s, 0, 60,
-        "What must be left of the wanted clip to play, in seconds; its front half may always be entered."}});
+       {"most_skipped_s", &PlayedOptions::most_skipped_s, 0, 60,
+        "How much of the wanted clip may be skipped, in seconds; never more than its first third."}});
   return kSettings;
 }
 
 TransitionRecord PlanPlayed(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
                             const PlayedOptions& options) {
-  const AllowedFrames allowed = AllowedAnyFrames(library, request, options.least_play_s);
+  const AllowedFrames allowed = AllowedEarlyFrames(library, request, options.most_skipped_s);
   const Rehearsal rehearsal(library, request, options, NearestPairs(library, request, allowed));
   const PlayedWay& best = rehearsal.ways().front();
   TransitionRecord record = DirectTransition(library, request, best.pair.leave, best.pair.enter, rules);

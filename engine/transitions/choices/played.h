@@ -13,7 +13,7 @@ struct PlayedOptions {
   /// The exchange rate for poses of neither clip: one second equals so many cm off the nearer clip, integrated over
   /// seconds.
   double invented_per_s = 5;
-  double least_play_s = 1;  ///< what must be left of the wanted clip to play, as PointCloudOptions'
+  double most_skipped_s = 1.5;  ///< how much of the wanted clip may be skipped; never more than its first third
 };
 const SettingTable<PlayedOptions>& PlayedSettings();
 
