@@ -27,8 +27,8 @@ FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz, c
 /// A set of joints, by role.
 using JointSet = std::bitset<kRoleCount>;
 
-/// The rules of support: what holds a body up, whatever its floor. Metres, seconds. Ours; tuned on every second request
-/// to the built-in moves, captures and cartoons, and judged on the others.
+/// The rules of support: what holds a body up, whatever its floor. Metres, seconds. Ours; tuned on a hundred requests
+/// to each of ten libraries (built-in moves, captures, cartoons), judged on two hundred others.
 struct SupportRules {
   double lowest = 0.12;       ///< a joint this little above the body's lowest one may bear it
   double rest_speed = 0.5;    ///< a joint that is no faster is at rest: feet roll, and takes are noisy
@@ -77,9 +77,8 @@ struct Support {
 
 /// Finds what holds up a body in the frames `first` … `last` of `shown`, both within it. The clips alone say what can:
 /// a motion that floats cannot be its own floor. A joint supports
-/// - when it is at rest where the same joint rests in a clip at about that time: no more than SupportRules::height
-/// above
-///   the lowest of these places nor SupportRules::level below it, or within `height` of a higher surface, or
+/// - when it is at rest where the same joint rests in a clip at about that time: at most SupportRules::height above the
+///   lowest of these places and at most SupportRules::level below it, or within `height` of a higher surface, or
 /// - when it does what a joint that bears the clip does at that frame or the next to it: its height differs by no more
 ///   than SupportRules::height, its velocity by no more than SupportRules::rest_speed.
 /// Frames in a row without any are a flight when the mass centre falls as SupportRules says over them, or over them and

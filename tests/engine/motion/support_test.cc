@@ -232,6 +232,35 @@ TEST(FindSupport, LetsABodyJumpAsGravityDoesAndNotOtherwise) {
   EXPECT_GE(Floating(hangs, clip), 15);
 }
 
+TEST(FindSupport, AsksOfAFlightThatItIsOneParabolaWithATakeOff) {
+  const Poses clip = Still(Standing());
+  const auto flies = [](double wobble) {
+    return ClipOf(Standing(), [=](BodyPose& pose, int f) {
+      const double t = (f - 45) / kRate, whole = 15 / kRate;
+      if (t > 0 && t < whole) Carry(pose, {0, 9.81 / 2 * t * (whole - t) + wobble * std::sin(4 * kPi * t / whole), 0});
+    });
+  };
+  EXPECT_EQ(Floating(flies(0.003), clip), 0);
+  EXPECT_GE(Floating(flies(0.03), clip), 10) << "it swims in the air";
+  const Poses dropped = ClipOf(Standing(), [](BodyPose& pose, int f) {
+    const double t = std::max(f - kPoint, 0) / kRate;  // a third of a second
+    Carry(pose, {0, std::max(9.81 / 18 - 9.81 / 2 * t * t, 0.0), 0});
+  });
+  EXPECT_GE(Floating(dropped, clip), 9) << "from where nothing held it";
+}
+
+TEST(FindSupport, IsNotFoundInAFootThatSwingsWhileTheOtherShouldBear) {
+  const auto swings = [](double right_foot) {
+    return ClipOf(Standing(), [=](BodyPose& pose, int f) {
+      const double z = 0.4 * std::sin(f / 5.0);  // up to 2.4 m/s, close to the floor
+      for (Role role : {kLeftAnkle, kLeftFoot}) pose[role] += glm::dvec3(0, 0.02, z);
+      for (Role role : {kRightAnkle, kRightFoot}) pose[role].y += f > kPoint ? right_foot : 0;
+    });
+  };
+  EXPECT_EQ(Floating(swings(0), swings(0)), 0);
+  EXPECT_GE(Floating(swings(0.08), swings(0)), 8);
+}
+
 TEST(FindSupport, LetsABodyFollowAClipThatFliesAsNoBodyCan) {
   const Poses cartoon = ClipOf(Standing(), [](BodyPose& pose, int f) {
     Carry(pose, {0, 0.8 * std::pow(std::sin(kPi * std::clamp((f - 10) / 40.0, 0., 1.)), 2), 0});

@@ -1,4 +1,4 @@
-"""What holds a body up (engine/motion/support.h), a second time: in plain Python, from a `join` as transition.py reads it."""
+"""What holds a body up (engine/motion/support.h), a second time: of a `join` as transition.py reads it."""
 import math
 
 from independent import common
