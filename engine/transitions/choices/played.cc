@@ -17,12 +17,12 @@
 namespace etude {
 namespace {
 
-constexpr int kPairs = 12;
+constexpr int kPairs = PAIRS;
 constexpr std::array kLengths_s = {0.3, 0.4, 0.5, 0.65, 0.8, 1.0, 1.2};
-constexpr std::size_t kPlayedWithFeet = 12;
+constexpr std::size_t kPlayedWithFeet = PWF;
 constexpr std::size_t kMostCompared = 20'000;  // pairs of frames whose features are compared
 
-constexpr double kUnborne_s = 0.1;  // what a frame costs in which nothing bears the body
+constexpr double kUnborne_s = UNBS;  // what a frame costs in which nothing bears the body
 
 struct FramePair {
   int leave = 0, enter = 0;
@@ -146,7 +146,7 @@ class CostMeter {
       const std::size_t f = count_ - 1;  // of `here_`, whose neighbours are known now
       for (std::size_t j = 0; j < kRoleCount; ++j) {
         const double jump = glm::length(SecondDifferenceOf(before_, here_, shown, j));
-        worst_excess_ = std::max(worst_excess_, jump - own_[f][j]);
+        worst_excess_ = std::max(worst_excess_, jump - std::max(own_[f][j], options_.calm_m));
       }
       if (f > 0) off_ += std::sqrt(std::min(SquaredOff(here_, window_.old[f]), SquaredOff(here_, window_.next[f])));
       before_ = here_;
@@ -284,10 +284,24 @@ const SettingTable<PlayedOptions>& PlayedSettings() {
   return kSettings;
 }
 
+static double CalmOf(const BodyMotion& m) {
+  std::vector<double> worst;
+  for (std::size_t f = 1; f + 1 < m.poses.size(); ++f) {
+    double w = 0;
+    for (std::size_t j = 0; j < kRoleCount; ++j) w = std::max(w, glm::length(SecondDifferenceOf(m.poses[f - 1], m.poses[f], m.poses[f + 1], j)));
+    worst.push_back(w);
+  }
+  if (worst.empty()) return 0;
+  std::ranges::sort(worst);
+  return worst[static_cast<std::size_t>(CALMQ * (worst.size() - 1))];
+}
+
 TransitionRecord PlanPlayed(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
                             const PlayedOptions& options) {
   const AllowedFrames allowed = AllowedEarlyFrames(library, request, options.most_skipped_s);
-  const Rehearsal rehearsal(library, request, options, NearestPairs(library, request, allowed));
+  PlayedOptions with = options;
+  with.calm_m = CALMW * std::min(CalmOf(library.motions[request.from]), CalmOf(library.motions[request.to]));
+  const Rehearsal rehearsal(library, request, with, NearestPairs(library, request, allowed));
   const PlayedWay& best = rehearsal.ways().front();
   TransitionRecord record = DirectTransition(library, request, best.pair.leave, best.pair.enter, rules);
   const PreferredJoin preferred{.blend_s = best.frames / library.motions[request.from].rate_hz, .fades = best.fades};

@@ -9,10 +9,11 @@ namespace etude {
 struct PlayedOptions {
   /// The exchange rate of the cost: one second of waiting or blending equals this much acceleration beyond the clips'
   /// own, cm/frame². Smaller: smoother, later, longer transitions.
-  double excess_per_s = 0.5;
+  double excess_per_s = EXC;
   /// The exchange rate for poses of neither clip: one second equals so many cm off the nearer clip, integrated over
   /// seconds.
-  double invented_per_s = 5;
+  double calm_m = 0;
+  double invented_per_s = INV;
   double most_skipped_s = 1.5;  ///< how much of the wanted clip may be skipped; never more than its first third
 };
 const SettingTable<PlayedOptions>& PlayedSettings();

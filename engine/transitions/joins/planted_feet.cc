@@ -13,6 +13,27 @@
 namespace etude {
 namespace {
 
+constexpr double kUpright = UPR;  // of a leg's length: hips that are lower do not stand on it
+
+double LegLength(const BodyPose& pose, const LegRoles& leg) {
+  return glm::distance(pose[leg.hip], pose[leg.knee]) + glm::distance(pose[leg.knee], pose[leg.ankle]);
+}
+
+/// Tells whether each foot bears the body, by side and frame.
+FootContacts FindStands(std::span<const BodyPose> poses, double rate_hz) {
+  FootContacts stands;
+  const std::vector<Bearing> bearing = FindBearing(poses, rate_hz, {.lowest=LOW,.rest_speed=SPEED});
+  for (std::size_t f = 0; f < poses.size(); ++f) {
+    for (std::size_t side = 0; side < kLegs.size(); ++side) {
+      const LegRoles& leg = kLegs[side];
+      const double height = poses[f][leg.hip].y - poses[f][leg.ankle].y;
+      stands[side].push_back(height > kUpright * LegLength(poses[f], leg) &&
+                             (bearing[f].WHAT[Index(leg.ankle)] || bearing[f].WHAT[Index(leg.foot)]));
+    }
+  }
+  return stands;
+}
+
 /// Sums up pairs of points of the floor for the turn and shift that lay the second onto the first with the least sum of
 /// squares.
 class FloorFit {
@@ -50,8 +71,8 @@ class FloorFit {
 double FloorDistance(const glm::dvec3& a, const glm::dvec3& b) { return std::hypot(a.x - b.x, a.z - b.z); }
 
 constexpr double kStill = 0.005;        // metres: a foot that travels no farther need not be lifted
-constexpr double kMostLift = 0.09;      // metres
-constexpr double kLiftPerMetre = 0.35;  // of travel
+constexpr double kMostLift = MLIFT;      // metres
+constexpr double kLiftPerMetre = LPM;  // of travel
 
 double LiftFor(double travel) {
   return travel <= kStill ? 0 : std::min(kMostLift, kLiftPerMetre * (travel - kStill) + 0.02);
@@ -81,13 +102,6 @@ struct FootTracks {
   Frames old_stands = 0, next_stands = 0;
   std::vector<glm::dvec3> hips;  ///< as they are played
   double reach = 0;
-
-  const glm::dvec3& OldFoot(const FootStep& step, int frame) const {
-    return window.old[std::min(frame, step.stays_from)][leg.foot];
-  }
-  const glm::dvec3& NextFoot(const FootStep& step, int frame) const {
-    return window.next[std::max(frame, step.waits_until)][leg.foot];
-  }
 };
 
 struct StepOption {
@@ -95,6 +109,23 @@ struct StepOption {
   double cost = 0;    // centimetres per frame²
   Frames stands = 0;  // the frames in which the foot bears the body
 };
+
+/// What the old motion's toes are off from the new one's where a step begins, and how that changes.
+Offset OffsetOf(const JoinWindow& window, const LegRoles& leg, const FootStep& step) {
+  const int from = std::min(step.begin, step.stays_from), to = std::max(step.begin, step.waits_until);
+  const auto change = [&](const BodyPose& before, const BodyPose& after) {
+    return (after[leg.foot] - before[leg.foot]) * window.rate_hz;
+  };
+  Offset offset{.value = window.old[from][leg.foot] - window.next[to][leg.foot], .velocity = glm::dvec3(0)};
+  if (from == step.begin) {
+    // Where the old motion has ended, as it came there.
+    offset.velocity = from < window.old_frames ? change(window.old[from], window.old[from + 1])
+                      : from > 0               ? change(window.old[from - 1], window.old[from])
+                                               : change(window.shown.before, window.shown.now);
+  }
+  if (to == step.begin) offset.velocity -= change(window.next[to], window.next[to + 1]);
+  return offset;
+}
 
 /// The largest distance, summed over frames, by which an ankle is farther from its hip than the leg reaches, metres.
 double OutOfReach(const FootTracks& foot, const FootStep& step) {
@@ -108,17 +139,19 @@ double OutOfReach(const FootTracks& foot, const FootStep& step) {
 }
 
 StepOption Priced(const FootTracks& foot, const FootStep& step) {
-  constexpr double kPeak = 577;  // of least jerk: 5.77 distance / duration², here in centimetres
-  constexpr double kBrokenStand = 0.4, kOutOfReach = 20;
+  constexpr double kBrokenStand = BROKEN, kOutOfReach = OREACH, kCm = 100;
   StepOption option{.step = step};
-  const int middle = (step.begin + step.end) / 2;
-  const glm::dvec3 &from = foot.OldFoot(step, middle), &to = foot.NextFoot(step, middle);
-  const double travel = FloorDistance(from, to), length = step.end - step.begin;
+  const Offset start = OffsetOf(foot.window, foot.leg, step);
+  const BodyPose &from = foot.window.old[std::min(step.begin, step.stays_from)],
+                 &to = foot.window.next[std::max(step.end, step.waits_until)];
+  const double travel = FloorDistance(from[foot.leg.foot], to[foot.leg.foot]), length = step.end - step.begin;
   const Frames moving = Range(step.begin + 1, step.end - 1), either = foot.old_stands | foot.next_stands;
   const double standing = std::popcount(either & Range(step.begin, step.end)) / (length + 1);
   option.step.lift = standing > 0 ? LiftFor(travel) : 0;
-  option.cost = kPeak * (glm::distance(from, to) + 2 * option.step.lift) / (length * length) +
-                (travel > 0.02 ? kBrokenStand * standing : 0) + kOutOfReach * OutOfReach(foot, option.step);
+  // The largest accelerations of least jerk, from an offset, from a velocity, and of the lift.
+  const double peak = (5.8 * glm::length(start.value) + LIFTW * option.step.lift) / (length * length) +
+                      3.9 * glm::length(start.velocity) / foot.window.rate_hz / length;
+  option.cost = kCm * peak + (travel > 0.02 ? kBrokenStand * standing : 0) + kOutOfReach * OutOfReach(foot, option.step);
   option.stands = (foot.old_stands & Range(0, step.begin)) | (foot.next_stands & Range(step.end, foot.frames)) |
                   Range(step.stays_from, step.begin) | Range(step.end, step.waits_until);
   if (travel <= kStill) option.stands |= moving & foot.old_stands & foot.next_stands;
@@ -165,15 +198,17 @@ struct LegPath {
 };
 
 LegPath PathAt(const JoinWindow& window, const LegRoles& leg, const FootStep& step, int frame) {
-  const double s = std::clamp(static_cast<double>(frame - step.begin) / (step.end - step.begin), 0.0, 1.0);
-  const double share = Smootherstep(s), rest = s * (1 - s);
-  const BodyPose& old = window.old[std::min(frame, step.stays_from)];
+  const BodyPose& old = window.old[std::min({frame, step.begin, step.stays_from})];
   const BodyPose& next = window.next[std::max(frame, step.waits_until)];
   const glm::dvec3 from = old[leg.foot] - old[leg.ankle], to = next[leg.foot] - next[leg.ankle];
-  glm::dvec3 toe = glm::mix(old[leg.foot], next[leg.foot], share);
+  if (frame <= step.begin) return {old[leg.ankle], from};
+  if (frame >= step.end) return {next[leg.ankle], to};
+  const double s = static_cast<double>(frame - step.begin) / (step.end - step.begin), rest = s * (1 - s);
+  glm::dvec3 toe = next[leg.foot] + MinimumJerkDecay(OffsetOf(window, leg, step), (frame - step.begin) / window.rate_hz,
+                                                     (step.end - step.begin) / window.rate_hz);
   toe.y += step.lift * 64 * rest * rest * rest;
   // Turned backwards from the new limb, whose length it keeps.
-  const glm::dvec3 limb = Turned(to, (1 - share) * TurnBetween(to, from));
+  const glm::dvec3 limb = Turned(to, (1 - Smootherstep(s)) * TurnBetween(to, from));
   return {toe - limb, limb};
 }
 
@@ -247,7 +282,7 @@ FloorMove AlignOnPlantedFeet(std::span<const BodyPose> old, std::span<const Body
   for (Role role : {Role::kLeftHip, Role::kRightHip, Role::kLeftShoulder, Role::kRightShoulder}) {
     fit.Add(old[0][role], next[0][role], kTrunk);
   }
-  const FootContacts stands_old = FindFootContacts(old, rate_hz), stands_next = FindFootContacts(next, rate_hz);
+  const FootContacts stands_old = FindStands(old, rate_hz), stands_next = FindStands(next, rate_hz);
   for (std::size_t side = 0; side < kLegs.size(); ++side) {
     for (std::size_t f = 0; f < std::min(old.size(), next.size()); ++f) {
       if (!stands_old[side][f] || !stands_next[side][f]) continue;
@@ -258,8 +293,8 @@ FloorMove AlignOnPlantedFeet(std::span<const BodyPose> old, std::span<const Body
 }
 
 FootPlan PlanSteps(const JoinWindow& window, std::span<const BodyPose> played) {
-  const FootContacts old = FindFootContacts(window.old, window.rate_hz);
-  const FootContacts next = FindFootContacts(window.next, window.rate_hz);
+  const FootContacts old = FindStands(window.old, window.rate_hz);
+  const FootContacts next = FindStands(window.next, window.rate_hz);
   const int frames = std::min(window.Frames(), kMostFrames);
   FootPlan plan;
   std::array<std::vector<StepOption>, 2> options;
@@ -267,20 +302,19 @@ FootPlan PlanSteps(const JoinWindow& window, std::span<const BodyPose> played) {
   Frames borne = 0;
   for (std::size_t side = 0; side < kLegs.size(); ++side) {
     const LegRoles& leg = kLegs[side];
-    const BodyPose& rest = window.next.front();
     FootTracks foot{.window = window,
                     .leg = leg,
                     .frames = frames,
                     .old_stands = FramesOf(old[side], frames),
                     .next_stands = FramesOf(next[side], frames),
                     .hips = {},
-                    .reach = glm::distance(rest[leg.hip], rest[leg.knee]) + glm::distance(rest[leg.knee], rest[leg.ankle])};
+                    .reach = LegLength(window.next.front(), leg)};
     for (const BodyPose& pose : played) foot.hips.push_back(pose[leg.hip]);
     keeps[side] = (foot.old_stands | foot.next_stands) == 0;
     borne |= foot.old_stands | foot.next_stands;
     options[side] = OptionsOf(foot);
   }
-  constexpr double kUnborne = 1;  // centimetres per frame²: the price of a frame in which nothing stands
+  constexpr double kUnborne = UNB;  // centimetres per frame²: the price of a frame in which nothing stands
   std::optional<double> least;
   for (const StepOption& left : options[0]) {
     for (const StepOption& right : options[1]) {
