@@ -2,24 +2,16 @@
 
 #include <fmt/core.h>
 
+#include <array>
+
 #include "reports/words/escape.h"
 
 namespace etude {
 namespace {
 
 std::string_view VerdictClass(const std::optional<Verdict>& verdict) {
-  if (!verdict) return "mixed";
-  switch (*verdict) {
-    case Verdict::kBetter:
-      return "better";
-    case Verdict::kWorse:
-      return "worse";
-    case Verdict::kNoDifference:
-      return "same";
-    case Verdict::kInconclusive:
-      break;
-  }
-  return "open";
+  constexpr std::array<std::string_view, kVerdicts.size()> kClasses = {"better", "worse", "same", "open"};
+  return verdict ? kClasses[static_cast<std::size_t>(*verdict)] : "mixed";
 }
 
 /// Is true of a verdict that is clear on these worlds, and not the same beyond them.
@@ -28,18 +20,8 @@ bool HoldsHereOnly(const Comparison& c) { return c.verdict != Verdict::kInconclu
 }  // namespace
 
 std::string_view VerdictSign(const std::optional<Verdict>& verdict) {
-  if (!verdict) return "±";
-  switch (*verdict) {
-    case Verdict::kBetter:
-      return "▲";
-    case Verdict::kWorse:
-      return "▼";
-    case Verdict::kNoDifference:
-      return "=";
-    case Verdict::kInconclusive:
-      break;
-  }
-  return "?";
+  constexpr std::array<std::string_view, kVerdicts.size()> kSigns = {"▲", "▼", "=", "?"};
+  return verdict ? kSigns[static_cast<std::size_t>(*verdict)] : "±";
 }
 
 std::string ComparisonSign(const Comparison& comparison) {

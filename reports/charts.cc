@@ -21,8 +21,7 @@ constexpr std::size_t kMostSteps = 120;
 constexpr double kLogarithmicFrom = 100;
 
 std::string Caption(const std::string& what, const MetricWords& words) {
-  std::string unit = words.suffix;
-  unit.erase(0, unit.find_first_not_of(' '));
+  const std::string unit = UnitOf(words);
   std::string caption = what + " of the " + words.plain_label;
   if (!unit.empty()) caption += fmt::format(" ({})", unit);
   if (const auto direction = DirectionWords(words.direction); !direction.empty())

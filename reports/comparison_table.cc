@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "reports/badge.h"
 #include "reports/words/escape.h"
+#include "reports/words/figures.h"
 #include "reports/words/judged.h"
 
 namespace etude {
@@ -89,13 +89,9 @@ std::string Legend(const ScenarioSummary& scenario) {
       Plural(scenario.family, "comparison"), OtherUnits(scenario.unit), TheseUnits(scenario.unit));
 }
 
-std::string Exact(std::optional<double> value) {
-  return value && std::isfinite(*value) ? fmt::format("{}", *value) : std::string();
-}
-
 std::string BeyondCsv(const Beyond& beyond) {
-  return fmt::format("{},{},{},{},{},{},{},{},{}\n", beyond.units, Exact(beyond.difference), Exact(beyond.low),
-                     Exact(beyond.high), Exact(beyond.test.p), EscapeCsv(beyond.test.how), Exact(beyond.p_holm),
+  return fmt::format("{},{},{},{},{},{},{},{},{}\n", beyond.units, ExactText(beyond.difference), ExactText(beyond.low),
+                     ExactText(beyond.high), ExactText(beyond.test.p), EscapeCsv(beyond.test.how), ExactText(beyond.p_holm),
                      beyond.verdict ? VerdictName(*beyond.verdict) : "", EscapeCsv(beyond.why_open));
 }
 
@@ -235,12 +231,12 @@ std::string ComparisonTableCsv(const ScenarioSummary& scenario) {
     csv += fmt::format("{},{},{},{},{},", EscapeCsv(scenario.name), EscapeCsv(ConditionLabel(condition.condition)),
                        EscapeCsv(c.metric), EscapeCsv(c.baseline), EscapeCsv(c.method));
     csv += fmt::format("{},{},{},{},{},", c.pairs, c.differing, c.only_baseline, c.only_method, c.neither);
-    csv += fmt::format("{},{},{},{},{},{},{},", Exact(c.difference), Exact(c.ci_low), Exact(c.ci_high),
-                       IntervalKindName(c.interval), Exact(c.mean), Exact(c.mean_low), Exact(c.mean_high));
-    csv += fmt::format("{},{},{},{},{},", Exact(c.signed_rank.p), EscapeCsv(c.signed_rank.how), Exact(c.sign_flip.p),
-                       EscapeCsv(c.sign_flip.how), Exact(c.p_holm));
-    csv += fmt::format("{},{},{},{},", Exact(c.effect_size),
-                       Exact(c.pairs > 0 ? std::optional(c.share_better) : std::nullopt), VerdictName(c.verdict),
+    csv += fmt::format("{},{},{},{},{},{},{},", ExactText(c.difference), ExactText(c.ci_low), ExactText(c.ci_high),
+                       IntervalKindName(c.interval), ExactText(c.mean), ExactText(c.mean_low), ExactText(c.mean_high));
+    csv += fmt::format("{},{},{},{},{},", ExactText(c.signed_rank.p), EscapeCsv(c.signed_rank.how), ExactText(c.sign_flip.p),
+                       EscapeCsv(c.sign_flip.how), ExactText(c.p_holm));
+    csv += fmt::format("{},{},{},{},", ExactText(c.effect_size),
+                       ExactText(c.pairs > 0 ? std::optional(c.share_better) : std::nullopt), VerdictName(c.verdict),
                        EscapeCsv(Notes(c)));
     csv += fmt::format("{},{},", against == Against::kRival ? "rival" : "baseline", SamplingUnitName(scenario.unit));
     csv += BeyondCsv(c.beyond);

@@ -137,15 +137,8 @@ std::string RatioDetail(const RatioResult& ratio) {
 }
 
 std::string_view GateVerdictWords(GateVerdict verdict) {
-  switch (verdict) {
-    case GateVerdict::kPassed:
-      return "pass";
-    case GateVerdict::kRegressed:
-      return "regression";
-    case GateVerdict::kNotWhole:
-      break;
-  }
-  return "incomplete";
+  constexpr std::array<std::string_view, 3> kWords = {"pass", "regression", "incomplete"};
+  return kWords[static_cast<std::size_t>(verdict)];
 }
 
 std::string CompareSentence(const SnapshotComparison& comparison) {

@@ -1,4 +1,4 @@
-#include "reports/markdown.h"
+#include "reports/page.h"
 
 #include <fmt/core.h>
 

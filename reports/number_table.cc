@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
-
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"
@@ -17,11 +15,6 @@ const MetricWords kShare{.label = "", .suffix = " %", .difference_suffix = "", .
 
 std::string Cell(std::string_view html) { return fmt::format("<td>{}</td>", html); }
 std::string NumberCell(std::string_view html) { return fmt::format("<td class=\"n\">{}</td>", html); }
-
-// The shortest text that reads back as the same number; empty when there is none.
-std::string ExactText(std::optional<double> value) {
-  return value && std::isfinite(*value) ? fmt::format("{}", *value) : std::string();
-}
 
 std::string MissingText(const RunData& run, const ScenarioSummary& scenario, const ConditionSummary& condition,
                         const MethodSummary& method, const MetricSummary& metric) {

@@ -51,8 +51,8 @@ std::string SimulatedRows(const ScenarioSummary& scenario, std::size_t& rows) {
   std::string html;
   for (const ConditionSummary& condition : scenario.conditions) {
     for (const MethodSummary& method : condition.methods) {
-      const auto metric = std::ranges::find(method.metrics, kMetric, &MetricSummary::id);
-      if (metric == method.metrics.end() || !metric->median) continue;
+      const MetricSummary* metric = FindSummary(method, kMetric);
+      if (metric == nullptr || !metric->median) continue;
       if (++rows > kMostTableRows) continue;
       const std::string label = ConditionLabel(condition.condition);
       html +=

@@ -14,4 +14,13 @@ namespace etude {
 /// ones.
 std::string WritePage(const RunData& run, const Media& media, std::span<const RealTake> real = {});
 
+/// Writes the page's verdicts as a short Markdown text, for a pull request or a closing note.
+std::string WriteMarkdown(const RunData& run);
+
+/// Writes one scenario as LaTeX floats, for plain pdflatex with the package booktabs: per condition every headline
+/// metric of every method with its interval, how many cells have it, the paired comparison with the baseline and its
+/// verdict; then, where the cells keep them, paper B's tables. Figures are rounded as on the page; the CSV files hold
+/// all digits.
+std::string ScenarioLatex(const RunData& run, const ScenarioSummary& scenario);
+
 }  // namespace etude

@@ -7,11 +7,9 @@
 #include "reports/comparison_table.h"
 #include "reports/films/media.h"
 #include "reports/junit.h"
-#include "reports/markdown.h"
 #include "reports/number_table.h"
 #include "reports/page.h"
 #include "reports/paper/paper_b_section.h"
-#include "reports/scenario_latex.h"
 #include "reports/words/escape.h"
 
 namespace etude {

@@ -142,19 +142,8 @@ class Sampler {
 }  // namespace
 
 std::string_view SampleLawName(SampleLaw law) {
-  switch (law) {
-    case SampleLaw::kNormal:
-      return "normal";
-    case SampleLaw::kHeavyTailed:
-      return "t₃";
-    case SampleLaw::kTies:
-      return "ties";
-    case SampleLaw::kShares:
-      return "shares";
-    case SampleLaw::kCensored:
-      break;
-  }
-  return "censored";
+  constexpr std::array<std::string_view, kSampleLaws> kNames = {"normal", "t₃", "ties", "shares", "censored"};
+  return kNames[static_cast<std::size_t>(law)];
 }
 
 double JustMatters(SampleLaw law) {

@@ -30,6 +30,8 @@ struct LibraryClip {
 /// The clips of one scenario, in order; trials go round-robin over them.
 struct ClipLibrary {
   std::vector<LibraryClip> clips;
+
+  const LibraryClip& InTurn(int trial) const { return clips[static_cast<std::size_t>(trial) % clips.size()]; }
 };
 
 /// Returns the collection that a clip belongs to: the folder of its file, or "builtin".

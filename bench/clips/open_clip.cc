@@ -1,6 +1,7 @@
 #include "bench/clips/open_clip.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "bench/clips/references.h"
@@ -136,19 +137,8 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
 }  // namespace
 
 std::string_view FormatName(ClipFormat format) {
-  switch (format) {
-    case ClipFormat::kBvh:
-      return "BVH";
-    case ClipFormat::kGltf:
-      return "glTF";
-    case ClipFormat::kGlb:
-      return "GLB";
-    case ClipFormat::kDeepMimic:
-      return "DeepMimic";
-    case ClipFormat::kBuiltin:
-      break;
-  }
-  return "built-in";
+  constexpr std::array<std::string_view, 5> kNames = {"BVH", "glTF", "GLB", "DeepMimic", "built-in"};
+  return kNames[static_cast<std::size_t>(format)];
 }
 
 Result<ClipFile> ReadClipFile(const std::string& path) {

@@ -63,8 +63,7 @@ Result<CellResult> JudgeFile(TaskWorld& world, const fs::path& file) {
   if (!error && size > kLargestAnswer) {
     return Fail({file.string(), 0, 0}, "{} bytes; an answer has at most {}", size, kLargestAnswer);
   }
-  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file));
-  ASSIGN_OR_RETURN(const auto answer, ReadJson(text, file.string()));
+  ASSIGN_OR_RETURN(const auto answer, ReadJsonFile(file));
   auto judged = JudgeAnswer(world, answer);
   if (!judged) return Fail({file.string(), 0, 0}, "{}", ToString(judged.error()));
   return judged;

@@ -9,6 +9,8 @@
 #include <optional>
 #include <vector>
 
+#include "bench/files/files.h"
+
 namespace etude {
 namespace {
 
@@ -100,6 +102,11 @@ Result<Json> ReadJson(const std::string& text, const std::string& file, int line
   } catch (const Json::exception& error) {
     return Fail({file, line, 0}, "not valid JSON: {}", error.what());
   }
+}
+
+Result<Json> ReadJsonFile(const std::filesystem::path& path) {
+  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
+  return ReadJson(text, path.string());
 }
 
 Result<Json> ReadCbor(std::string_view bytes, const std::string& file) {

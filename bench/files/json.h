@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -31,6 +32,9 @@ int NestingOf(std::string_view text);
 
 /// Reads one JSON value, nested at most 100 deep; complains with the file and `line` (0 = a file of one value).
 Result<Json> ReadJson(const std::string& text, const std::string& file, int line = 0);
+
+/// Reads a file of one JSON value; fails like ReadWholeFile and ReadJson.
+Result<Json> ReadJsonFile(const std::filesystem::path& path);
 
 /// Reads one value as CBOR (RFC 8949), nested at most 100 deep. Refused, too, what Json::to_cbor never writes: lengths
 /// that are not told beforehand, and tags.

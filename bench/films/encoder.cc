@@ -16,7 +16,6 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include "bench/files/files.h"
 #include "sim/render/scene.h"
@@ -41,20 +40,6 @@ std::vector<std::string> Arguments(const std::string& program, const std::filesy
   return all;
 }
 
-int Spawn(const std::vector<std::string>& arguments, int input, int errors, pid_t& child) {
-  std::vector<char*> argv;
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-  argv.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, errors, STDERR_FILENO);
-  const int error = posix_spawnp(&child, argv.front(), &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  return error;
-}
-
 /// Returns the take in a picture's name, "camera-1" of "camera-1-0042.png"; empty for other names.
 std::string_view TakeOf(std::string_view name) {
   constexpr std::string_view kForm = "-0000.png";
@@ -65,6 +50,39 @@ std::string_view TakeOf(std::string_view name) {
 }
 
 }  // namespace
+
+int StartFilmProgram(const std::vector<std::string>& words, int input, int output, std::FILE* log, pid_t& child) {
+  std::vector<char*> argv;
+  for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  const auto attach = [&](int given, int standard, int mode) {
+    if (given < 0) return posix_spawn_file_actions_addopen(&actions, standard, "/dev/null", mode, 0);
+    return posix_spawn_file_actions_adddup2(&actions, given, standard);
+  };
+  attach(input, STDIN_FILENO, O_RDONLY);
+  attach(output, STDOUT_FILENO, O_WRONLY);
+  attach(fileno(log), STDERR_FILENO, O_WRONLY);
+  const int error = posix_spawnp(&child, argv.front(), &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  return error;
+}
+
+int WaitForFilmProgram(pid_t child) {
+  int status = 0;
+  while (child >= 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+std::string FirstLineOf(std::FILE* log) {
+  std::string words(400, '\0');
+  std::rewind(log);
+  words.resize(std::fread(words.data(), 1, words.size(), log));
+  words.resize(std::min(words.find('\n'), words.size()));
+  return words;
+}
 
 Result<Encoder> Encoder::Start(const std::filesystem::path& path, int width, int height, int rate_hz,
                                const std::filesystem::path& sound, const std::string& program) {
@@ -78,8 +96,8 @@ Result<Encoder> Encoder::Start(const std::filesystem::path& path, int width, int
     return Fail(place, "cannot talk to {}: {}", program, std::strerror(errno));
   }
   pid_t child = -1;
-  const int error =
-      Spawn(Arguments(program, TemporaryName(path), width, height, rate_hz, sound), ends[1], fileno(log.get()), child);
+  const int error = StartFilmProgram(Arguments(program, TemporaryName(path), width, height, rate_hz, sound), ends[1],
+                                     kNowhere, log.get(), child);
   close(ends[1]);
   if (error != 0) {
     close(ends[0]);
@@ -132,21 +150,13 @@ Result<void> Encoder::Finish() {
 
 int Encoder::CloseAndWait() {
   if (pictures_ >= 0) close(std::exchange(pictures_, -1));
-  int status = 0;
-  const pid_t child = std::exchange(child_, -1);
-  while (child >= 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return status;
+  return WaitForFilmProgram(std::exchange(child_, -1));
 }
 
 tl::unexpected<Error> Encoder::Complaint(const std::string& what) {
   std::error_code ignored;
   std::filesystem::remove(TemporaryName(path_), ignored);
-  // Its first line names the cause; what follows are consequences.
-  std::string words(400, '\0');
-  std::rewind(log_.get());
-  words.resize(std::fread(words.data(), 1, words.size(), log_.get()));
-  words.resize(std::min(words.find('\n'), words.size()));
+  const std::string words = FirstLineOf(log_.get());
   return Fail(Place{.file = path_.string()}, "{}{}{}", what, words.empty() ? "" : ": ", words);
 }
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "bench/model/payload.h"
 #include "engine/base/image.h"
@@ -43,6 +44,18 @@ class Encoder {
   int pictures_;  ///< the socket that ffmpeg reads from; −1 once closed
   Log log_;       ///< what ffmpeg says on its standard error
 };
+
+// What reading films asks of such programs, too.
+
+/// In the place of a program's input or output: there is none.
+inline constexpr int kNowhere = -1;
+/// Starts a program (no shell) between two descriptors; what it says on its standard error goes to `log`. Returns 0,
+/// or why it could not be started (errno).
+int StartFilmProgram(const std::vector<std::string>& words, int input, int output, std::FILE* log, pid_t& child);
+/// Waits for its end; −1 stands for one that has ended. Returns its status.
+int WaitForFilmProgram(pid_t child);
+/// Returns the first line of a log, which names the cause; what follows are consequences.
+std::string FirstLineOf(std::FILE* log);
 
 /// Puts the takes among `files` into `folder`, each as a film: `camera-1-0000.png`, `camera-1-0001.png`, … (in this
 /// order, PNG) become `camera-1.mp4`. Fails where ffmpeg does, for instance at odd widths.

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/files/files.h"
+#include "bench/files/json.h"
 #include "bench/metrics/catalogue.h"
 #include "bench/run/cell_runner.h"
 #include "bench/run/outside_programs.h"
@@ -91,8 +91,7 @@ Result<void> CheckMetricVersions(const Json& manifest, const Place& place) {
 
 /// The scenarios of manifest.json, read from the texts that it keeps.
 Result<std::vector<FinishedScenario>> LoadScenarios(const fs::path& path) {
-  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
-  ASSIGN_OR_RETURN(const auto manifest, ReadJson(text, path.string()));
+  ASSIGN_OR_RETURN(const auto manifest, ReadJsonFile(path));
   const Place place{path.string(), 0, 0};
   ASSIGN_OR_RETURN(const auto suite, DecodeSetup(manifest, place));
   RETURN_IF_ERROR(CheckMetricVersions(manifest, place));

@@ -4,12 +4,15 @@
 
 #include <map>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "bench/metrics/catalogue.h"
 
 namespace etude {
 namespace {
+
+constexpr std::string_view kStatusLetters = "ouftcmbs";  // in the order of Status
 
 /// The identities of all cells that a scenario asks for, in canonical order.
 std::vector<std::string> CellsOf(const Study& study) {
@@ -111,34 +114,11 @@ Result<void> CheckRows(FinishedRun& run, const Place& place) {
   return {};
 }
 
-char StatusLetter(Status status) {
-  switch (status) {
-    case Status::kOk:
-      return 'o';
-    case Status::kUnsolved:
-      return 'u';
-    case Status::kFailed:
-      return 'f';
-    case Status::kTimeout:
-      return 't';
-    case Status::kCrashed:
-      return 'c';
-    case Status::kOutOfMemory:
-      return 'm';
-    case Status::kBadOutput:
-      return 'b';
-    case Status::kSkipped:
-      return 's';
-  }
-  return 'f';
-}
+char StatusLetter(Status status) { return kStatusLetters[static_cast<std::size_t>(status)]; }
 
 Status StatusOf(char letter) {
-  for (const Status status : {Status::kOk, Status::kUnsolved, Status::kTimeout, Status::kCrashed, Status::kOutOfMemory,
-                              Status::kBadOutput, Status::kSkipped}) {
-    if (StatusLetter(status) == letter) return status;
-  }
-  return Status::kFailed;
+  const std::size_t place = kStatusLetters.find(letter);
+  return place < kStatusLetters.size() ? static_cast<Status>(place) : Status::kFailed;
 }
 
 bool DependsOnMachine(char letter) { return letter == 't' || letter == 'c' || letter == 'm'; }

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -113,21 +114,9 @@ const MetricInfo* FindGateMetric(std::string_view id) {
 }
 
 std::string_view MovementWords(Movement movement) {
-  switch (movement) {
-    case Movement::kSame:
-      return "same";
-    case Movement::kBetter:
-      return "better";
-    case Movement::kWorse:
-      return "worse";
-    case Movement::kNoMatter:
-      return "too small to matter";
-    case Movement::kUnclear:
-      return "unclear";
-    case Movement::kChanged:
-      break;
-  }
-  return "changed";
+  constexpr std::array<std::string_view, 6> kWords = {"same",    "better", "worse", "too small to matter",
+                                                      "unclear", "changed"};
+  return kWords[static_cast<std::size_t>(movement)];
 }
 
 MetricMove MeasureMove(MoveIdentity identity, const MoveColumns& columns, std::uint64_t seed) {

@@ -1,20 +1,14 @@
 #include "bench/metrics/catalogue.h"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace etude {
 
 std::string_view DirectionWords(Direction direction) {
-  switch (direction) {
-    case Direction::kLowerIsBetter:
-      return "lower is better";
-    case Direction::kHigherIsBetter:
-      return "higher is better";
-    case Direction::kNeither:
-      break;
-  }
-  return "";
+  constexpr std::array<std::string_view, 3> kWords = {"lower is better", "higher is better", ""};
+  return kWords[static_cast<std::size_t>(direction)];
 }
 
 const MetricInfo* FindMetric(std::string_view id) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "bench/files/json.h"
@@ -15,15 +16,8 @@ constexpr const char* kFormat = "etude-metrics";
 constexpr int kVersion = 1;
 
 const char* DirectionKey(Direction direction) {
-  switch (direction) {
-    case Direction::kLowerIsBetter:
-      return "lower";
-    case Direction::kHigherIsBetter:
-      return "higher";
-    case Direction::kNeither:
-      break;
-  }
-  return "neither";
+  constexpr std::array kKeys = {"lower", "higher", "neither"};
+  return kKeys[static_cast<std::size_t>(direction)];
 }
 
 Json EncodeJoints() {

@@ -1,7 +1,6 @@
 #include "bench/metrics/matching.h"
 
 #include <cassert>
-#include <cmath>
 #include <numeric>
 
 #include "bench/statistics/curves/curves.h"
@@ -16,15 +15,6 @@ double MeanJointDistanceCm(const BodyPose& a, const BodyPose& b) {
   double sum = 0;
   for (Role role : AllRoles()) sum += glm::distance(a[role], b[role]);
   return 100 * sum / static_cast<double>(kRoleCount);
-}
-
-double RootMeanSquareJointDistanceCm(const BodyPose& a, const BodyPose& b) {
-  double sum = 0;
-  for (Role role : AllRoles()) {
-    const glm::dvec3 gap = a[role] - b[role];
-    sum += glm::dot(gap, gap);
-  }
-  return 100 * std::sqrt(sum / static_cast<double>(kRoleCount));
 }
 
 std::optional<double> SearchAgreement(const std::vector<FoundFrames>& found, const std::vector<FoundFrames>& truth) {

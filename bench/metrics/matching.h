@@ -32,8 +32,6 @@ constexpr double kCloseGap = 0.15;
 
 /// Mean distance of the twenty joints, centimetres; both poses stand where they are.
 double MeanJointDistanceCm(const BodyPose& a, const BodyPose& b);
-/// Root mean square of the same distances.
-double RootMeanSquareJointDistanceCm(const BodyPose& a, const BodyPose& b);
 
 /// The frames that a search answered for one query, in the order in which they are asked for; empty: none.
 using FoundFrames = std::vector<int>;

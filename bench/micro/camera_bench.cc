@@ -50,10 +50,7 @@ constexpr CameraEffects kAll{.sync_offset_ms = 10,
 // The scene is a copy of a picture drawn beforehand.
 void Effect(benchmark::State& state, const CameraEffects& effects) {
   const auto renderer = Renderer::Create();
-  if (!renderer) {
-    state.SkipWithError(renderer.error().message.c_str());
-    return;
-  }
+  if (!renderer) return state.SkipWithError(renderer.error().message.c_str());
   CameraModel model(CameraWith(effects), effects, 30, {kWorld, "camera", true});
   const View drawn =
       (*renderer)->Render({}, {{BodyCapsules(StandingPose()), PerformerColours()}}, model.pinhole(), Targets::kAll);
@@ -82,10 +79,7 @@ BENCHMARK_CAPTURE(Effect, all_but_motion_blur, kAll)->Unit(benchmark::kMilliseco
 // Drawn as well: what a take costs a picture.
 void Shot(benchmark::State& state, const CameraEffects& effects) {
   const auto renderer = Renderer::Create();
-  if (!renderer) {
-    state.SkipWithError(renderer.error().message.c_str());
-    return;
-  }
+  if (!renderer) return state.SkipWithError(renderer.error().message.c_str());
   CameraModel model(CameraWith(effects), effects, 30, {kWorld, "camera", true});
   const std::vector<Figure> figures{{BodyCapsules(StandingPose()), PerformerColours()}};
   const auto scene = [&](double, const RowRange& rows, Targets targets) {

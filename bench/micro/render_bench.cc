@@ -27,10 +27,7 @@ enum class Kind { kColour, kLabels, kAll, kSmooth };
 
 void Picture(benchmark::State& state, std::vector<Figure> (*make)(), const Intrinsics& intrinsics, Kind kind) {
   const auto renderer = Renderer::Create();
-  if (!renderer) {
-    state.SkipWithError(renderer.error().message.c_str());
-    return;
-  }
+  if (!renderer) return state.SkipWithError(renderer.error().message.c_str());
   const std::vector<Figure> figures = make();
   const Camera camera = LookAt(intrinsics, {-1.2, 1.4, 3.9}, {0, 0.95, 0});
   const auto draw = [&] {
@@ -59,10 +56,7 @@ BENCHMARK_CAPTURE(Picture, surfaces_hd_smooth, OfSurfaces, kHd, Kind::kSmooth)->
 void Bare(benchmark::State& state) {
   const Camera camera = LookAt(kVga, {-1.2, 1.4, 3.9}, {0, 0.95, 0});
   const auto bare = BareDraw::Create({}, camera);
-  if (!bare) {
-    state.SkipWithError(bare.error().message.c_str());
-    return;
-  }
+  if (!bare) return state.SkipWithError(bare.error().message.c_str());
   const std::vector<Figure> figures = OfCapsules();
   (*bare)->Draw(figures);
   for (auto _ : state) (*bare)->Draw(figures);
@@ -73,10 +67,7 @@ BENCHMARK(Bare)->Apply(InMilliseconds);
 // percent.
 void Staged(benchmark::State& state) {
   const auto renderer = Renderer::Create();
-  if (!renderer) {
-    state.SkipWithError(renderer.error().message.c_str());
-    return;
-  }
+  if (!renderer) return state.SkipWithError(renderer.error().message.c_str());
   const BodyPose pose = StandingPose();
   const std::vector<Camera> cameras = {LookAt(kVga, {-2.4, 1.0, 2.9}, {0, 0.95, 0})};
   const StagedRoom stage({.seed = 3, .scene = 0.01 * static_cast<double>(state.range(0))}, {&pose, 1}, cameras);

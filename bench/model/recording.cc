@@ -1,6 +1,8 @@
 #include "bench/model/recording.h"
 
-#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/named.h"
 
 namespace etude {
 
@@ -14,8 +16,20 @@ Recording& Recording::operator=(Recording&&) noexcept = default;
 Recording::~Recording() = default;
 
 const BodyMotion* FindTrack(const Recording& recording, std::string_view name) {
-  const auto track = std::ranges::find(recording.tracks, name, &Track::name);
-  return track == recording.tracks.end() ? nullptr : &track->motion;
+  const Track* track = FindByName(recording.tracks, name);
+  return track == nullptr ? nullptr : &track->motion;
+}
+
+Json EncodePose(const BodyPose& pose) {
+  Json numbers = Json::array();
+  for (const glm::dvec3& joint : pose.joints) {
+    for (int axis = 0; axis < 3; ++axis) numbers.push_back(joint[axis]);
+  }
+  return numbers;
+}
+
+void AddTo(Digest& digest, const BodyPose& pose) {
+  for (const glm::dvec3& joint : pose.joints) digest.Add(joint.x).Add(joint.y).Add(joint.z);
 }
 
 }  // namespace etude

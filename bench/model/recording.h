@@ -3,7 +3,9 @@
 #include <string>
 #include <string_view>
 
+#include "bench/files/json.h"
 #include "bench/model/row.h"
+#include "engine/base/digest.h"
 #include "engine/motion/body.h"
 
 namespace etude {
@@ -16,5 +18,13 @@ struct Track {
 
 /// The motion of that name, or null.
 const BodyMotion* FindTrack(const Recording& recording, std::string_view name);
+
+/// Writes a pose as recordings hold it, and as it is told to and by methods outside the program: x, y, z of the twenty
+/// joints in the order of AllRoles, sixty numbers, metres, Y up. Every digit is kept, so methods outside see what
+/// built-in ones see.
+Json EncodePose(const BodyPose& pose);
+
+/// Adds every joint's place to a digest.
+void AddTo(Digest& digest, const BodyPose& pose);
 
 }  // namespace etude

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "engine/base/named.h"
 
 namespace etude {
 
@@ -20,7 +23,14 @@ struct CellUsage {
 
 /// The end of a cell (world × method). Every cell becomes a row with one of these.
 enum class Status { kOk, kUnsolved, kFailed, kTimeout, kCrashed, kOutOfMemory, kBadOutput, kSkipped };
-constexpr int kStatusCount = static_cast<int>(Status::kSkipped) + 1;
+inline constexpr std::array<Named<Status>, 8> kStatuses = {{{"ok", Status::kOk},
+                                                            {"unsolved", Status::kUnsolved},
+                                                            {"failed", Status::kFailed},
+                                                            {"timeout", Status::kTimeout},
+                                                            {"crashed", Status::kCrashed},
+                                                            {"out_of_memory", Status::kOutOfMemory},
+                                                            {"bad_output", Status::kBadOutput},
+                                                            {"skipped", Status::kSkipped}}};
 
 std::string_view StatusName(Status status);
 /// The status of that name; nothing when there is none.

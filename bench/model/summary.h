@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,6 +22,14 @@ enum class IntervalKind {
   kStudent,          ///< Student's t, of a mean over units or over very many worlds
   kOrderStatistics,  ///< of the median of very many worlds
 };
+inline constexpr std::array<Named<IntervalKind>, 7> kIntervalKinds = {
+    {{"none", IntervalKind::kNone},
+     {"bca", IntervalKind::kBca},
+     {"percentile", IntervalKind::kPercentile},
+     {"wilson", IntervalKind::kWilson},
+     {"adjusted wald", IntervalKind::kAdjustedWald},
+     {"student", IntervalKind::kStudent},
+     {"order statistics", IntervalKind::kOrderStatistics}}};
 std::string_view IntervalKindName(IntervalKind kind);
 
 /// One metric of one method over the trials of one condition.
@@ -43,6 +52,10 @@ struct MethodSummary {
 };
 
 enum class Verdict { kBetter, kWorse, kNoDifference, kInconclusive };
+inline constexpr std::array<Named<Verdict>, 4> kVerdicts = {{{"better", Verdict::kBetter},
+                                                             {"worse", Verdict::kWorse},
+                                                             {"no difference", Verdict::kNoDifference},
+                                                             {"inconclusive", Verdict::kInconclusive}}};
 std::string_view VerdictName(Verdict verdict);
 
 /// A test of paired differences (bench/statistics/paired_tests.h).
@@ -140,6 +153,8 @@ struct AcrossVerdict {
 
 /// The ruling on something that was said to come out: an expectation, a time rule.
 enum class Ruling { kMet, kUnmet, kUndecided };
+inline constexpr std::array<Named<Ruling>, 3> kRulings = {
+    {{"met", Ruling::kMet}, {"unmet", Ruling::kUnmet}, {"undecided", Ruling::kUndecided}}};
 std::string_view RulingName(Ruling ruling);
 
 /// An expectation of a scenario, and whether it came out.

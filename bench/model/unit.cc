@@ -4,12 +4,7 @@
 
 namespace etude {
 
-std::string_view SamplingUnitName(SamplingUnit unit) {
-  for (const Named<SamplingUnit>& row : kSamplingUnits) {
-    if (row.value == unit) return row.name;
-  }
-  return "world";
-}
+std::string_view SamplingUnitName(SamplingUnit unit) { return NameOfValue(kSamplingUnits, unit); }
 
 std::string CountUnits(int count, SamplingUnit unit) {
   switch (unit) {

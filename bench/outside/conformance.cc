@@ -12,6 +12,7 @@
 #include "bench/outside/seated_program.h"
 #include "bench/process/clock.h"
 #include "bench/tasks/registry.h"
+#include "engine/base/named.h"
 #include "engine/base/names.h"
 #include "engine/document/node.h"
 
@@ -266,10 +267,8 @@ class ConformanceTest {
 }  // namespace
 
 Result<std::vector<Specimen>> MakeSpecimens(const std::string& task, const std::string& seat) {
-  std::vector<std::string> known;
-  for (const Recipe& recipe : Recipes()) known.push_back(recipe.task);
   const TaskKind* kind = FindTaskKind(task);
-  if (kind == nullptr) return Fail({}, "{}", UnknownName("task", task, known));
+  if (kind == nullptr) return Fail({}, "{}", UnknownName("task", task, NamesOf(Recipes(), &Recipe::task)));
   if (kind->seats.empty() && !seat.empty()) return Fail({}, "task {} has no seats", task);
   if (seat.empty() && !kind->has_problems) {
     return Fail({}, "task {} needs a seat: {}", task, fmt::join(kind->seats, ", "));

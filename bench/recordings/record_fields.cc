@@ -10,25 +10,29 @@
 namespace etude {
 namespace {
 
-template <typename Value>
-struct Codec;
-
-template <>
-struct Codec<bool> {
-  static void Encode(bool value, Json& json) { json = value; }
-  static Result<void> Decode(const Json& json, bool& value) {
-    if (!json.is_boolean()) return Fail({}, ": {} is neither true nor false", ShowJson(json));
-    value = json.get<bool>();
-    return {};
-  }
+/// A kind of value that JSON itself has: how to tell it, and what another one is not.
+struct JsonKind {
+  bool (Json::*is)() const noexcept;
+  const char* complaint;
 };
-
+template <typename Value>
+constexpr JsonKind kKind = {};
 template <>
-struct Codec<double> {
-  static void Encode(double value, Json& json) { json = value; }
-  static Result<void> Decode(const Json& json, double& value) {
-    if (!json.is_number()) return Fail({}, ": {} is no number", ShowJson(json));
-    value = json.get<double>();
+constexpr JsonKind kKind<bool> = {&Json::is_boolean, "is neither true nor false"};
+template <>
+constexpr JsonKind kKind<double> = {&Json::is_number, "is no number"};
+template <>
+constexpr JsonKind kKind<std::int64_t> = {&Json::is_number_integer, "is no whole number"};
+template <>
+constexpr JsonKind kKind<std::string> = {&Json::is_string, "is no text"};
+
+template <typename Value>
+struct Codec {
+  static_assert(kKind<Value>.complaint != nullptr);
+  static void Encode(const Value& value, Json& json) { json = value; }
+  static Result<void> Decode(const Json& json, Value& value) {
+    if (!(json.*kKind<Value>.is)()) return Fail({}, ": {} {}", ShowJson(json), kKind<Value>.complaint);
+    json.get_to(value);
     return {};
   }
 };
@@ -43,26 +47,6 @@ struct Codec<int> {
       return Fail({}, ": {} is no whole number; allowed: {}…{}", ShowJson(json), -kMost, kMost);
     }
     value = static_cast<int>(whole);
-    return {};
-  }
-};
-
-template <>
-struct Codec<std::int64_t> {
-  static void Encode(std::int64_t value, Json& json) { json = value; }
-  static Result<void> Decode(const Json& json, std::int64_t& value) {
-    if (!json.is_number_integer()) return Fail({}, ": {} is no whole number", ShowJson(json));
-    value = json.get<std::int64_t>();
-    return {};
-  }
-};
-
-template <>
-struct Codec<std::string> {
-  static void Encode(const std::string& value, Json& json) { json = value; }
-  static Result<void> Decode(const Json& json, std::string& value) {
-    if (!json.is_string()) return Fail({}, ": {} is no text", ShowJson(json));
-    value = json.get<std::string>();
     return {};
   }
 };

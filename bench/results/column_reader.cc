@@ -157,7 +157,7 @@ class ScenarioColumns {
       if (kind >= kinds_.size()) return Fail(place, "kind.npy holds {}; there are {} kinds", kind, kinds_.size());
     }
     for (const std::uint8_t status : status_->Numbers<std::uint8_t>()) {
-      if (status >= kStatusCount) return Fail(place, "status.npy holds {}", status);
+      if (status >= kStatuses.size()) return Fail(place, "status.npy holds {}", status);
     }
     for (const auto& column : texts_) {
       if (!column) continue;

@@ -37,7 +37,7 @@ Json Encode(const ColumnIndex& index) {
     }
     kinds.push_back({{"metrics", kind.metrics}, {"why", why}, {"stages", kind.stages}, {"series", curves}});
   }
-  for (int i = 0; i < kStatusCount; ++i) statuses.push_back(StatusName(static_cast<Status>(i)));
+  for (const Named<Status>& status : kStatuses) statuses.push_back(status.name);
   return {{"format", "etude-columns"},
           {"version", kColumnsVersion},
           {"scenario", index.scenario},
@@ -128,10 +128,8 @@ Result<void> WriteColumnIndex(const fs::path& folder, const ColumnIndex& index) 
 }
 
 Result<ColumnIndex> ReadColumnIndex(const fs::path& folder) {
-  const std::string path = (folder / kIndexFile).string();
-  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
-  ASSIGN_OR_RETURN(const auto json, ReadJson(text, path));
-  return Decode(json, {path});
+  ASSIGN_OR_RETURN(const auto json, ReadJsonFile(folder / kIndexFile));
+  return Decode(json, {(folder / kIndexFile).string()});
 }
 
 fs::path ColumnFile(const fs::path& folder, const std::string& name) { return folder / (name + ".npy"); }

@@ -13,6 +13,7 @@
 #include "bench/results/seal.h"
 #include "bench/results/summary_json.h"
 #include "engine/base/digest.h"
+#include "engine/base/named.h"
 
 namespace etude {
 namespace {
@@ -28,11 +29,6 @@ std::string FileNameOf(std::string cell) {
   std::replace(cell.begin(), cell.end(), '/', '~');
   if (cell.size() > kLongest) cell = cell.substr(0, kLongest) + "~" + Digest().Add(std::string_view(cell)).Hex();
   return cell + ".json";
-}
-
-Result<Json> ReadJsonFile(const fs::path& path) {
-  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
-  return ReadJson(text, path.string());
 }
 
 /// Calls `use(json, place)` for every line; stops at the first complaint.
@@ -194,9 +190,7 @@ Result<RunData> LoadRunOutline(const fs::path& folder, Sealing sealing) {
   ASSIGN_OR_RETURN(const auto summary, ReadJsonFile(folder / "summary.json"));
   ASSIGN_OR_RETURN(run.scenarios, DecodeSummaries(summary, {(folder / "summary.json").string(), 0, 0}));
   if (!fs::exists(folder / kColumnsFolder, error)) return run;
-  std::vector<std::string> names;
-  for (const ScenarioSummary& scenario : run.scenarios) names.push_back(scenario.name);
-  ASSIGN_OR_RETURN(run.source, OpenColumns(folder, names));
+  ASSIGN_OR_RETURN(run.source, OpenColumns(folder, NamesOf(run.scenarios)));
   return run;
 }
 

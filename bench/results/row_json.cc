@@ -117,13 +117,7 @@ Result<Json> EncodeRecording(const Recording& recording) {
   Json& tracks = json["tracks"] = Json::array();
   for (const Track& track : recording.tracks) {
     Json poses = Json::array();
-    for (const BodyPose& pose : track.motion.poses) {
-      Json numbers = Json::array();
-      for (const glm::dvec3& joint : pose.joints) {
-        for (int axis = 0; axis < 3; ++axis) numbers.push_back(joint[axis]);
-      }
-      poses.push_back(std::move(numbers));
-    }
+    for (const BodyPose& pose : track.motion.poses) poses.push_back(EncodePose(pose));
     tracks.push_back({{"name", track.name}, {"rate_hz", track.motion.rate_hz}, {"poses", std::move(poses)}});
   }
   auto extras = ReadJson(recording.extras_json.empty() ? "{}" : recording.extras_json, "a recording's extras");

@@ -48,8 +48,7 @@ Result<Digests> ReadSeal(const fs::path& path) {
   if (!fs::exists(path, none)) {
     return Fail({path.string()}, "is missing: an older program wrote this run, or somebody took its seal away");
   }
-  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
-  ASSIGN_OR_RETURN(const auto json, ReadJson(text, path.string()));
+  ASSIGN_OR_RETURN(const auto json, ReadJsonFile(path));
   try {
     if (json.at("version").get<int>() != kSealVersion) {
       return Fail({path.string()}, "a seal of version {}; this program reads {}", json.at("version").dump(),

@@ -10,6 +10,7 @@
 
 #include "bench/files/files.h"
 #include "bench/metrics/catalogue.h"
+#include "bench/model/recording.h"
 #include "bench/process/pinned_environment.h"
 #include "bench/results/folder.h"
 #include "bench/tasks/base/sensor_key.h"
@@ -34,9 +35,7 @@ Json DescribeClips(const ClipLibrary& library) {
   Json clips = Json::array();
   for (const LibraryClip& clip : library.clips) {
     Digest digest;
-    for (const BodyPose& pose : clip.motion.poses) {
-      for (const glm::dvec3& joint : pose.joints) digest.Add(joint.x).Add(joint.y).Add(joint.z);
-    }
+    for (const BodyPose& pose : clip.motion.poses) AddTo(digest, pose);
     clips.push_back({{"name", clip.name},
                      {"source", clip.source},
                      {"frames", clip.motion.poses.size()},
@@ -105,8 +104,7 @@ SuiteSetup WithCanonicalNames(SuiteSetup suite) {
 }
 
 Result<Json> ReadManifestJson(const std::filesystem::path& path) {
-  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
-  auto json = ReadJson(text, path.string());
+  auto json = ReadJsonFile(path);
   if (!json) return json;
   const Json schema = json->is_object() ? json->value("schema", Json()) : Json();
   if (schema != kResultSchema) {

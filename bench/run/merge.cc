@@ -80,12 +80,6 @@ std::string WhatLacks(const Plan& plan, const Shard& shard, const fs::path& fold
                      first);
 }
 
-Result<Json> ReadHost(const fs::path& folder) {
-  const fs::path path = folder / "host.json";
-  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
-  return ReadJson(text, path.string());
-}
-
 }  // namespace
 
 Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(double share)>& on_progress) {
@@ -113,7 +107,7 @@ Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(d
     outcome.cells_ok += journal.cells_ok;
     const std::string what = WhatLacks(plan, journal.head.shard, folder, cells);
     if (!what.empty()) shards.missing.push_back(what);
-    ASSIGN_OR_RETURN(const auto host, what.empty() ? ReadHost(folder) : Json());
+    ASSIGN_OR_RETURN(const auto host, what.empty() ? ReadJsonFile(folder / "host.json") : Json());
     hosts.push_back(host);
   }
   if (!shards.missing.empty()) {

@@ -12,6 +12,7 @@
 #include "bench/scenario/sources.h"
 #include "bench/scenario/sweep.h"
 #include "bench/tasks/registry.h"
+#include "engine/base/named.h"
 
 namespace etude {
 namespace {
@@ -86,16 +87,10 @@ Json Says(const std::string& key, const std::string& value) {
 Json Has(const char* key) { return {{"required", {key}}}; }
 Json If(Json condition, Json then) { return {{"if", std::move(condition)}, {"then", std::move(then)}}; }
 
-std::vector<std::string> NamesOf(std::span<const KeyInfo> keys) {
-  std::vector<std::string> names;
-  for (const KeyInfo& key : keys) names.push_back(key.key);
-  return names;
-}
-
 /// A scenario's keys by name: those of every task, of files, and `own`.
 Json Names(std::span<const KeyInfo> own) {
-  std::vector<std::string> names = NamesOf(CommonScenarioKeys());
-  for (const std::vector<std::string>& more : {NamesOf(FileKeys()), NamesOf(own)}) {
+  std::vector<std::string> names = NamesOf(CommonScenarioKeys(), &KeyInfo::key);
+  for (const std::vector<std::string>& more : {NamesOf(FileKeys(), &KeyInfo::key), NamesOf(own, &KeyInfo::key)}) {
     names.insert(names.end(), more.begin(), more.end());
   }
   return {{"enum", names}};

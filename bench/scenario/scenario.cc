@@ -14,6 +14,7 @@
 #include "bench/scenario/sources.h"
 #include "bench/scenario/sweep.h"
 #include "bench/tasks/registry.h"
+#include "engine/base/named.h"
 #include "engine/base/names.h"
 
 namespace etude {
@@ -22,12 +23,6 @@ namespace {
 constexpr Range kTrials{0, 1'000'000};
 constexpr Range kBodies{0, 1000};
 constexpr double kLargestSeed = 9007199254740992;  // 2^53: every whole number up to it is exact
-
-std::vector<std::string> TaskNames() {
-  std::vector<std::string> names;
-  for (const TaskKind& kind : AllTaskKinds()) names.push_back(kind.name);
-  return names;
-}
 
 void ReadFilmedTrials(Fields& video, const Scenario& scenario, RecordingSelection& selection) {
   const Node* trials = video.Raw("trials");
@@ -151,8 +146,8 @@ const FieldTable<Scenario>& ScenarioFields() {
         [](Fields& fields, Scenario& s) { s.name = ReadPlainName(fields, "scenario"); }},
        {{"question", TextKind("a text"), "", "What is asked, in one sentence."},
         [](Fields& fields, Scenario& s) { s.question = fields.RequiredText("question"); }},
-       {{"task", NameKind(TaskNames()), "", "The kind of question."},
-        [](Fields& fields, Scenario& s) { s.task = fields.Choice("task", TaskNames(), ""); }},
+       {{"task", NameKind(NamesOf(AllTaskKinds())), "", "The kind of question."},
+        [](Fields& fields, Scenario& s) { s.task = fields.Choice("task", NamesOf(AllTaskKinds()), ""); }},
        Key::Texts("clips", &Scenario::clips, "a list of `builtin:NAME`, `builtin:*`, BVH and glTF files, patterns",
                   "What worlds are made of; trials go through them in turn."),
        Key::Texts(
@@ -278,11 +273,7 @@ bool RecordingSelection::KeepsMethod(std::string_view name) const {
   return std::find(methods.begin(), methods.end(), name) != methods.end();
 }
 
-std::vector<std::string> MethodNames(const Scenario& scenario) {
-  std::vector<std::string> names;
-  for (const MethodEntry& method : scenario.methods) names.push_back(method.name);
-  return names;
-}
+std::vector<std::string> MethodNames(const Scenario& scenario) { return NamesOf(scenario.methods); }
 
 namespace {
 

@@ -49,11 +49,11 @@ std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int compariso
   if (c.verdict != Verdict::kInconclusive) return "";
   if (c.pairs == 0) return "no world gave both a value";
   const int needed = PairsNeeded(comparisons, kAlpha);
-  if (SeesTooFewDiffer(c, metric) && c.ci_low && *c.ci_low >= -metric.practical && *c.ci_high <= metric.practical) {
+  const bool within = c.ci_low && *c.ci_low >= -metric.practical && *c.ci_high <= metric.practical;
+  if (within && SeesTooFewDiffer(c, metric)) {
     return fmt::format("{} of {} pairs differ: too few to exclude rare differences that would move the mean",
                        c.differing, c.pairs);
   }
-  const bool within = c.ci_low && *c.ci_low >= -metric.practical && *c.ci_high <= metric.practical;
   if (within && metric.aggregate == Aggregate::kMedian) return WhatTheMedianHides(c);
   if (c.differing == 0 && c.ci_low) {
     return fmt::format("no pair differs, but {} worlds are too few to exclude a difference that matters", c.pairs);
@@ -181,10 +181,8 @@ bool IsSameQuestion(const AcrossVerdict& verdict, const std::vector<SweptValue>&
 }
 
 bool Matches(const std::vector<SweptValue>& condition, const std::vector<SweptValue>& where) {
-  return std::all_of(where.begin(), where.end(), [&](const SweptValue& wanted) {
-    return std::any_of(condition.begin(), condition.end(),
-                       [&](const SweptValue& swept) { return swept.key == wanted.key && swept.value == wanted.value; });
-  });
+  return std::ranges::all_of(
+      where, [&](const SweptValue& wanted) { return std::ranges::find(condition, wanted) != condition.end(); });
 }
 
 std::string Claim(const Expectation& expectation) {

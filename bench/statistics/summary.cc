@@ -53,8 +53,7 @@ MethodSummary SummariseMethod(const MethodColumns& method, const ConditionTable&
                               std::span<const MetricInfo* const> metrics, const Study& study, std::uint64_t seed) {
   MethodSummary summary;
   summary.method = method.name();
-  for (int i = 0; i < kStatusCount; ++i) {
-    const auto status = static_cast<Status>(i);
+  for (const auto& [name, status] : kStatuses) {
     int count = 0;
     for (int trial = 0; trial < table.trials(); ++trial) count += method.StatusAt(trial) == status;
     if (count > 0) summary.statuses.emplace_back(status, count);

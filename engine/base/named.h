@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cassert>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -24,12 +25,12 @@ struct NameMember {
   }
 };
 
-/// The first of `rows` (an array, vector or span) that is called `name`, null when there is none. `name_of` tells what
-/// a row is called. The answer points into the rows.
+/// The first of `rows` (an array, vector or span) that is called `name`, null when there is none. `name_of`, a function
+/// or a member, tells what a row is called. The answer points into the rows.
 template <typename Rows, typename NameOf = NameMember>
 constexpr auto FindByName(const Rows& rows, std::string_view name, NameOf name_of = {}) -> decltype(std::data(rows)) {
   for (const auto& row : rows) {
-    if (name_of(row) == name) return &row;
+    if (std::invoke(name_of, row) == name) return &row;
   }
   return nullptr;
 }
@@ -49,11 +50,21 @@ constexpr auto ValueNamed(const Rows& rows, std::string_view name) {
   return row->value;
 }
 
+/// The name of a value, which the table must have.
+template <typename Rows, typename Value>
+constexpr std::string_view NameOfValue(const Rows& rows, Value value) {
+  for (const auto& row : rows) {
+    if (row.value == value) return row.name;
+  }
+  assert(!"a value without a name");
+  return {};
+}
+
 /// Lists the rows' names in their order.
 template <typename Rows, typename NameOf = NameMember>
 std::vector<std::string> NamesOf(const Rows& rows, NameOf name_of = {}) {
   std::vector<std::string> names;
-  for (const auto& row : rows) names.emplace_back(name_of(row));
+  for (const auto& row : rows) names.emplace_back(std::invoke(name_of, row));
   return names;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "engine/base/named.h"
 #include "reports/words/findings.h"
 
 namespace etude {
@@ -54,8 +55,7 @@ std::optional<CastCell> ChooseCell(const RunData& run, std::string_view task, st
 const Series* FindSeries(const RunData& run, const Row& row, std::string_view name) {
   const auto cell = std::ranges::find(run.series, row.Id(), &CellSeries::cell);
   if (cell == run.series.end()) return nullptr;
-  const auto curve = std::ranges::find(cell->series, name, &Series::name);
-  return curve == cell->series.end() ? nullptr : &*curve;
+  return FindByName(cell->series, name);
 }
 
 }  // namespace etude

@@ -2,11 +2,9 @@
 
 #include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -15,6 +13,8 @@
 #include <map>
 #include <utility>
 #include <vector>
+
+#include "bench/films/encoder.h"
 
 namespace etude {
 namespace {
@@ -34,16 +34,7 @@ Result<Child> StartReading(const Words& words, const Place& place) {
   int ends[2];
   if (!child.log || pipe2(ends, O_CLOEXEC) != 0)
     return Fail(place, "cannot talk to {}: {}", words[0], std::strerror(errno));
-  std::vector<char*> argv;
-  for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
-  argv.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, fileno(child.log.get()), STDERR_FILENO);
-  const int error = posix_spawnp(&child.pid, argv.front(), &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
+  const int error = StartFilmProgram(words, kNowhere, ends[1], child.log.get(), child.pid);
   close(ends[1]);
   child.output.reset(fdopen(ends[0], "rb"));
   if (error != 0) {
@@ -51,22 +42,6 @@ Result<Child> StartReading(const Words& words, const Place& place) {
                 std::strerror(error));
   }
   return child;
-}
-
-int WaitFor(pid_t pid) {
-  int status = 0;
-  while (pid >= 0 && waitpid(pid, &status, 0) < 0 && errno == EINTR) {
-  }
-  return status;
-}
-
-/// Gives the first line that a program wrote to its log, which names the cause.
-std::string FirstLineOf(std::FILE* log) {
-  std::string words(400, '\0');
-  std::rewind(log);
-  words.resize(std::fread(words.data(), 1, words.size(), log));
-  words.resize(std::min(words.find('\n'), words.size()));
-  return words;
 }
 
 /// Reads lines "key=value"; of several with one key the first.
@@ -108,7 +83,7 @@ Result<FilmFacts> ProbeFilm(const std::filesystem::path& path, const std::string
                     "default=nw=1", "file:" + path.string()},
                    place));
   auto keys = ReadKeys(child.output.get());
-  if (const int status = WaitFor(child.pid); !WIFEXITED(status) || WEXITSTATUS(status) != 0 || keys.empty()) {
+  if (const int status = WaitForFilmProgram(child.pid); !WIFEXITED(status) || WEXITSTATUS(status) != 0 || keys.empty()) {
     const std::string words = FirstLineOf(child.log.get());
     return Fail(place, "no film that ffmpeg can read{}{}", words.empty() ? "" : ": ", words);
   }
@@ -170,7 +145,7 @@ Result<bool> Decoder::Next(ColourImage& frame) {
 
 int Decoder::CloseAndWait() {
   frames_.reset();
-  return WaitFor(std::exchange(child_, -1));
+  return WaitForFilmProgram(std::exchange(child_, -1));
 }
 
 }  // namespace etude

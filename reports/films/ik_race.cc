@@ -11,6 +11,7 @@
 #include "bench/recordings/task_extras.h"
 #include "reports/films/cast.h"
 #include "reports/words/figures.h"
+#include "reports/words/judged.h"
 
 namespace etude {
 namespace {
@@ -161,10 +162,7 @@ Result<IkRace> FindIkRace(const RunData& run, const ScenarioSummary& scenario) {
     }
     auto race = is_first ? MakeRace({cell, *partner}) : MakeRace({*partner, cell});
     if (!race) return race;
-    for (IkPath& path : race->paths) {
-      path.method_index =
-          static_cast<std::size_t>(std::ranges::find(scenario.methods, path.method) - scenario.methods.begin());
-    }
+    for (IkPath& path : race->paths) path.method_index = IndexOf(scenario, path.method);
     race->choice = "the first world that kept recordings of both";
     if (!passed_over.empty()) {
       race->choice += fmt::format("; before it, {} had one of them only, the first: {}",

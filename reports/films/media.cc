@@ -101,21 +101,21 @@ void MakePlates(const RunData& run, LazyRenderer& lazy, Media& media) {
   }
 }
 
+/// The place of a film that cannot be made.
+Film NoFilm(const std::filesystem::path& path, std::string why_not) {
+  Film film;
+  film.file = path.filename().string();
+  film.why_not = std::move(why_not);
+  return film;
+}
+
 /// Films methods side by side in one world; else says why there is no film of `what`.
 template <typename SideBySide, typename Race>
 Film MakeComparingFilm(Result<Race> race, const std::string& scenario, std::string_view what,
                        const std::filesystem::path& path, const FilmWatch& watch, LazyRenderer& lazy) {
-  Film film;
-  film.file = path.filename().string();
-  if (!race) {
-    film.why_not = fmt::format("There is no film of {}: {}.", what, ToString(race.error()));
-    return film;
-  }
+  if (!race) return NoFilm(path, fmt::format("There is no film of {}: {}.", what, ToString(race.error())));
   const auto renderer = lazy.Get();
-  if (!renderer) {
-    film.why_not = "There are no pictures: " + ToString(renderer.error());
-    return film;
-  }
+  if (!renderer) return NoFilm(path, "There are no pictures: " + ToString(renderer.error()));
   SideBySide scene(std::move(*race), scenario, **renderer);
   return Shoot(scene, path, watch);
 }
@@ -130,17 +130,11 @@ std::string FilmName(const RunData& run, std::size_t index, std::string_view wha
 /// Films a coached session, around a correction unless whole ones are wanted; else says why there is none.
 Film MakeSessionFilm(const std::optional<CastCell>& cell, const std::string& which, const std::filesystem::path& path,
                      const MediaOptions& options, LazyRenderer& lazy) {
-  Film film;
-  film.file = path.filename().string();
-  if (!cell) {
-    film.why_not = "There is no film of a session: no motion of one was kept.";
-    return film;
-  }
+  if (!cell) return NoFilm(path, "There is no film of a session: no motion of one was kept.");
   auto facts = ReadCoachedSession(*cell);
   const auto renderer = facts ? lazy.Get() : Result<Renderer*>(nullptr);
   if (!facts || !renderer) {
-    film.why_not = "There is no film of a session: " + ToString(facts ? renderer.error() : facts.error());
-    return film;
+    return NoFilm(path, "There is no film of a session: " + ToString(facts ? renderer.error() : facts.error()));
   }
   const int longest = options.whole_sessions ? std::numeric_limits<int>::max() : 12 * kFilmRate;
   CoachedScene scene(std::move(*facts), fmt::format("{} · {} · {}", cell->scenario->name, cell->row->method, which),
@@ -173,12 +167,7 @@ std::optional<Film> MakeJudgedFilm(const RunData& run, std::size_t index, const 
   if (!cell) return std::nullopt;
   auto facts = ReadJudgedSession(run, *cell);
   const std::filesystem::path path = paths.films / FilmName(run, index, "judged");
-  if (!facts) {
-    Film film;
-    film.file = path.filename().string();
-    film.why_not = "There is no film of a session: " + ToString(facts.error());
-    return film;
-  }
+  if (!facts) return NoFilm(path, "There is no film of a session: " + ToString(facts.error()));
   const int longest = options.whole_sessions ? std::numeric_limits<int>::max() : 24 * kFilmRate;
   JudgedScene scene(std::move(*facts), fmt::format("{} · trial {}", scenario.name, cell->row->trial), longest);
   return Shoot(scene, path, options.watch);

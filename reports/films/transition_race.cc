@@ -7,6 +7,7 @@
 
 #include "bench/metrics/transition_smoothness.h"
 #include "reports/words/figures.h"
+#include "reports/words/judged.h"
 
 namespace etude {
 namespace {
@@ -74,8 +75,7 @@ Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSumm
     const BodyMotion& motion = *FindTrack(*recorded->recording, "coach");
     const std::string& method = recorded->row->method;
     race.paths.push_back({.method = method,
-                          .method_index = static_cast<std::size_t>(std::ranges::find(scenario.methods, method) -
-                                                                   scenario.methods.begin()),
+                          .method_index = IndexOf(scenario, method),
                           .facts = recorded->facts,
                           .motion = motion,
                           .jumps_cm = SecondDifferencesCm(motion),

@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
-
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 
@@ -94,7 +92,7 @@ std::string PaperTableCsv(const PaperTable& table, const std::string& prefix) {
         const std::optional<double>& value = row.values[i++];
         csv += fmt::format("{}{},{},{},{},{}\n", prefix, EscapeCsv(table.caption), EscapeCsv(row.label),
                            EscapeCsv(group.head), EscapeCsv(name),
-                           value && std::isfinite(*value) ? fmt::format("{}", *value) : "");
+                           ExactText(value));
       }
     }
   }

@@ -38,10 +38,6 @@ struct Cast {
   std::size_t baseline = 0, method = 0;
 };
 
-std::size_t IndexOf(const ScenarioSummary& scenario, const std::string& method) {
-  return static_cast<std::size_t>(std::ranges::find(scenario.methods, method) - scenario.methods.begin());
-}
-
 std::string Attributes(int trial) { return fmt::format(" data-t=\"{}\"", trial); }
 
 class Plot {
@@ -181,8 +177,7 @@ std::string Caption(const ScenarioSummary& scenario, const Judged& judged, const
   const Comparison& c = *judged.comparison;
   const MetricWords words = WordsFor(c.metric);
   const MetricInfo* info = FindMetric(c.metric);
-  std::string unit = words.suffix;
-  unit.erase(0, unit.find_first_not_of(' '));
+  const std::string unit = UnitOf(words);
   const std::string_view direction = DirectionWords(words.direction);
   std::string text = fmt::format("“{}” against “{}”", c.method, c.baseline);
   const std::string condition = ConditionLabel(judged.condition->condition);

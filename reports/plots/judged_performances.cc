@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/words/judged.h"
+
 namespace etude {
 namespace {
 
@@ -12,8 +14,8 @@ class Columns {
   Columns(const CellSeries& cell, std::size_t count) : cell_(cell), count_(count) {}
 
   const Series* Find(std::string_view name) const {
-    const auto found = std::ranges::find(cell_.series, name, &Series::name);
-    return found == cell_.series.end() || found->values.size() != count_ ? nullptr : &*found;
+    const Series* found = FindByName(cell_.series, name);
+    return found == nullptr || found->values.size() != count_ ? nullptr : found;
   }
 
   /// Names the value of a series; "" for −1 and for values without a name.
@@ -29,8 +31,8 @@ class Columns {
 };
 
 std::size_t LengthOf(const CellSeries& cell, std::string_view name) {
-  const auto found = std::ranges::find(cell.series, name, &Series::name);
-  return found == cell.series.end() ? 0 : found->values.size();
+  const Series* found = FindByName(cell.series, name);
+  return found == nullptr ? 0 : found->values.size();
 }
 
 void Add(const CellSeries& cell, int person, MethodVerdicts& verdicts) {
@@ -70,8 +72,7 @@ std::map<std::size_t, MethodVerdicts> VerdictsUnder(const RunData& run, const Sc
   for (const CellSeries& cell : run.series) {
     const auto row = rows.find(cell.cell);
     if (row == rows.end()) continue;
-    const auto method = std::ranges::find(scenario.methods, row->second->method) - scenario.methods.begin();
-    Add(cell, row->second->trial, verdicts[static_cast<std::size_t>(method)]);
+    Add(cell, row->second->trial, verdicts[IndexOf(scenario, row->second->method)]);
   }
   std::erase_if(verdicts, [](const auto& entry) { return entry.second.performances.empty(); });
   return verdicts;

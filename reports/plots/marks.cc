@@ -60,6 +60,16 @@ std::string_view MarkDashes(std::size_t method) {
   return method < 8 ? kDashes[method / 2] : " stroke-dasharray=\"10 3 2 3\"";
 }
 
+std::string MethodLine(std::size_t method, std::string_view path) {
+  return fmt::format("<path class=\"line\" style=\"stroke:var(--m{})\"{} d=\"{}\"/>", method % kPlotColours.size(),
+                     MarkDashes(method), path);
+}
+
+std::string LineKeySvg(std::size_t method) {
+  return fmt::format("<svg class=\"linekey\" viewBox=\"0 0 28 10\" aria-hidden=\"true\">{}</svg>",
+                     MethodLine(method, "M1 5H27"));
+}
+
 std::string MarkKeySvg(std::size_t shape, std::size_t colour) {
   return "<svg class=\"key\" viewBox=\"-6 -6 12 12\" aria-hidden=\"true\">" + MarkUse(shape, colour, 0, 0) + "</svg>";
 }

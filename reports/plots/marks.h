@@ -38,6 +38,12 @@ std::string MarkUse(std::size_t shape, std::size_t colour, double x, double y, s
 /// Gives a line's dashes, by its method: an attribute with a space before it, or "".
 std::string_view MarkDashes(std::size_t method);
 
+/// Draws a method's line along an SVG path.
+std::string MethodLine(std::size_t method, std::string_view path);
+
+/// Draws the short line that stands for a method in a legend.
+std::string LineKeySvg(std::size_t method);
+
 /// Draws a mark alone, for a legend.
 std::string MarkKeySvg(std::size_t shape, std::size_t colour);
 

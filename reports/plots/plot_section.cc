@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "reports/plots/estimation.h"
-#include "reports/plots/survival.h"
 #include "reports/plots/verdict_curves.h"
 #include "reports/plots/verdict_tables.h"
 #include "reports/words/answer.h"

@@ -22,4 +22,9 @@ std::string StripsHtml(const RunData& run, const ScenarioSummary& scenario, cons
 /// stages are true. Says whether the shares depend on an order. `condition` is in words and may be empty.
 std::string ErrorBudgetHtml(const ErrorBudget& budget, const std::string& condition);
 
+/// Curves of what is censored in this scenario (solver steps of what was not solved, waits without an end), a line per
+/// method and a panel per condition; "" where nothing is. What never is done stays in the denominator to the end, so that
+/// a method which gives up early gains nothing by it.
+std::string SurvivalHtml(const RunData& run, const ScenarioSummary& scenario);
+
 }  // namespace etude

@@ -55,7 +55,7 @@ std::vector<StripRow> RowsOf(const RunData& run, const ScenarioSummary& scenario
   std::vector<std::vector<Dot>> dots(std::min(scenario.methods.size(), kMostListed));
   for (const Row& row : run.rows) {
     if (row.scenario != scenario.name || row.condition != condition.condition) continue;
-    const auto index = static_cast<std::size_t>(std::ranges::find(scenario.methods, row.method) - scenario.methods.begin());
+    const std::size_t index = IndexOf(scenario, row.method);
     const auto value = ValueOf(row, metric);
     if (index < dots.size() && value && std::isfinite(*value)) dots[index].push_back({row.trial, words.scale * *value});
   }
@@ -85,8 +85,7 @@ std::string Strip(const StripRow& row, const Axis& axis, double top, const Scena
 }
 
 std::string Caption(const ConditionSummary& condition, const MetricWords& words, const std::vector<StripRow>& rows) {
-  std::string unit = words.suffix;
-  unit.erase(0, unit.find_first_not_of(' '));
+  const std::string unit = UnitOf(words);
   std::string text = ConditionLabel(condition.condition);
   text += fmt::format("{}{}{}", text.empty() ? "" : ": ", words.plain_label, unit.empty() ? "" : ", " + unit);
   const std::string_view direction = DirectionWords(words.direction);

@@ -1,4 +1,4 @@
-#include "reports/plots/survival.h"
+#include "reports/plots/plot_section.h"
 
 #include <fmt/core.h>
 
@@ -49,8 +49,7 @@ std::map<std::size_t, std::vector<Wait>> WaitsUnder(const RunData& run, const Sc
     if (row.scenario != scenario.name || row.condition != condition.condition) continue;
     const auto wait = WaitOf(row, rule);
     if (!wait) continue;
-    const auto method =
-        static_cast<std::size_t>(std::ranges::find(scenario.methods, row.method) - scenario.methods.begin());
+    const std::size_t method = IndexOf(scenario, row.method);
     waits[method].push_back(*wait);
     if (ValueOf(row, rule.metric)) measured.insert(method);
   }
@@ -67,15 +66,7 @@ std::string Line(std::size_t method, const std::vector<Wait>& waits, const Axis&
       path += fmt::format("H{:.1f}V{:.1f}", time.At(at), share.At(100 * left));
     }
   }
-  return fmt::format("<path class=\"line\" style=\"stroke:var(--m{})\"{} d=\"{}H{:.1f}\"/>",
-                     method % kPlotColours.size(), MarkDashes(method), path, time.to);
-}
-
-std::string KeyOf(std::size_t method, const std::string& name) {
-  return fmt::format(
-      "<span><svg class=\"linekey\" viewBox=\"0 0 28 10\" aria-hidden=\"true\"><path class=\"line\" "
-      "style=\"stroke:var(--m{})\"{} d=\"M1 5H27\"/></svg>{}</span> ",
-      method % kPlotColours.size(), MarkDashes(method), EscapeMarkup(name));
+  return MethodLine(method, fmt::format("{}H{:.1f}", path, time.to));
 }
 
 std::string PanelOf(const RunData& run, const ScenarioSummary& scenario, const ConditionSummary& condition,
@@ -119,7 +110,7 @@ std::string SectionOf(const RunData& run, const ScenarioSummary& scenario, const
   }
   if (panels.empty()) return "";
   for (std::size_t i = 0; i < std::min(scenario.methods.size(), kMostLines); ++i) {
-    keys += KeyOf(i, MethodLabel(scenario, scenario.methods[i]));
+    keys += fmt::format("<span>{}{}</span> ", LineKeySvg(i), EscapeMarkup(MethodLabel(scenario, scenario.methods[i])));
   }
   return fmt::format("<div class=\"panels\">{}</div><p class=\"quiet legend units\">{}</p>", panels, keys);
 }

@@ -29,8 +29,7 @@ const Axis kSharesUp{.low = 0, .high = 1, .from = kRocBottom, .to = kRocTop};
 std::string LineThrough(std::size_t method, const SharePoints& points) {
   std::string path;
   for (const auto& [x, y] : points) path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x, y);
-  return fmt::format("<path class=\"line\" style=\"stroke:var(--m{})\"{} d=\"{}\"/>", method % kPlotColours.size(),
-                     MarkDashes(method), path);
+  return MethodLine(method, path);
 }
 
 std::string Figure(const std::string& caption, const std::string& words, const std::string& drawn) {
@@ -117,11 +116,8 @@ std::string ConditionPrefix(const ConditionSummary& condition) {
 }
 
 std::string VerdictKey(const ScenarioSummary& scenario, std::size_t method, const std::string& told) {
-  return fmt::format(
-      "<span><svg class=\"linekey\" viewBox=\"0 0 28 10\" aria-hidden=\"true\"><path class=\"line\" "
-      "style=\"stroke:var(--m{})\"{} d=\"M1 5H27\"/></svg>{} {} {}</span> ",
-      method % kPlotColours.size(), MarkDashes(method), MarkKeySvg(method, method),
-      EscapeMarkup(MethodLabel(scenario, scenario.methods[method])), told);
+  return fmt::format("<span>{}{} {} {}</span> ", LineKeySvg(method), MarkKeySvg(method, method),
+                     EscapeMarkup(MethodLabel(scenario, scenario.methods[method])), told);
 }
 
 /// The curves in the panels of one condition, by method.

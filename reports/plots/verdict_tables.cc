@@ -8,6 +8,7 @@
 #include "reports/words/answer.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
+#include "reports/words/judged.h"
 
 namespace etude {
 namespace {
@@ -75,8 +76,8 @@ std::string SessionName(const RunData& run, const ScenarioSummary& scenario, int
 std::string SessionTable(const RunData& run, const ScenarioSummary& scenario, const std::string& prefix,
                          const Verdicts& verdicts) {
   const std::string asked = MethodInQuestion(scenario);
-  const auto index = static_cast<std::size_t>(std::ranges::find(scenario.methods, asked) - scenario.methods.begin());
-  const auto method = verdicts.contains(index) ? verdicts.find(index) : verdicts.begin();
+  const auto found = verdicts.find(IndexOf(scenario, asked));
+  const auto method = found != verdicts.end() ? found : verdicts.begin();
   const std::vector<SessionMistakes> worst = WorstSessions(method->second.performances);
   if (worst.empty()) return "";
   std::string body;

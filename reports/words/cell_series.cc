@@ -16,8 +16,8 @@ CellSeriesIndex::CellSeriesIndex(const RunData& run) {
 const std::vector<double>* CellSeriesIndex::Find(const Row& row, std::string_view name) const {
   const auto cell = cells_.find(&row);
   if (cell == cells_.end()) return nullptr;
-  const auto series = std::ranges::find(*cell->second, name, &Series::name);
-  return series == cell->second->end() ? nullptr : &series->values;
+  const Series* series = FindByName(*cell->second, name);
+  return series == nullptr ? nullptr : &series->values;
 }
 
 bool KeepsSeries(const RunData& run, const ScenarioSummary& scenario, std::string_view name) {

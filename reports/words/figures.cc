@@ -70,6 +70,10 @@ MetricWords WordsFor(const std::string& metric_id) {
   return words;
 }
 
+std::string UnitOf(const MetricWords& words) {
+  return words.suffix.starts_with(' ') ? words.suffix.substr(1) : words.suffix;
+}
+
 std::optional<double> TypicalValue(const MetricSummary& summary, const MetricWords& words) {
   return words.by_mean ? summary.mean : summary.median;
 }
@@ -77,6 +81,10 @@ std::optional<double> TypicalValue(const MetricSummary& summary, const MetricWor
 std::string FormatValue(std::optional<double> value, const MetricWords& words) {
   if (!value || !std::isfinite(*value)) return std::string(kNoValue);
   return FormatNumber(*value * words.scale) + words.suffix;
+}
+
+std::string ExactText(std::optional<double> value) {
+  return value && std::isfinite(*value) ? fmt::format("{}", *value) : std::string();
 }
 
 std::string FormatFixed(double value, int decimals) {

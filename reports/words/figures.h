@@ -26,6 +26,8 @@ struct MetricWords {
   std::string plain_label = {};  ///< "orientation error", "solved", "F1": where mean or share is said already
 };
 MetricWords WordsFor(const std::string& metric_id);
+/// Gives the suffix as a caption has it, without its blank: "cm", "".
+std::string UnitOf(const MetricWords& words);
 
 /// Gives the one number that stands for all cells, the metric's own aggregate, median or mean, in the metric's unit.
 std::optional<double> TypicalValue(const MetricSummary& summary, const MetricWords& words);
@@ -34,6 +36,8 @@ std::string FormatValue(std::optional<double> value, const MetricWords& words);
 
 /// Writes a number: "12.3", "1,284", "0.0021", "3.1e-06"; kNoValue when not finite.
 std::string FormatNumber(double value);
+/// Writes the shortest text that reads back as the same number; empty when there is none.
+std::string ExactText(std::optional<double> value);
 /// Writes a number with the given digits behind the point, for figures that stand beside each other.
 std::string FormatFixed(double value, int decimals);
 /// Writes a count: "1,284".

@@ -13,11 +13,6 @@ namespace {
 // More methods than this are told by the least and the most successful one.
 constexpr std::size_t kMostSuccesses = 12;
 
-bool SameCondition(const std::vector<SweptValue>& a, const std::vector<SweptValue>& b) {
-  return std::ranges::equal(
-      a, b, [](const SweptValue& x, const SweptValue& y) { return x.key == y.key && x.value == y.value; });
-}
-
 std::string ExpectationsSentence(const RunFindings& f) {
   const int all = f.met + f.unmet + f.undecided;
   if (all == 0) return "This run states no expectations.";
@@ -85,8 +80,7 @@ class Successes {
 }  // namespace
 
 const MetricSummary* FindSummary(const MethodSummary& method, const std::string& metric) {
-  const auto found = std::ranges::find(method.metrics, metric, &MetricSummary::id);
-  return found == method.metrics.end() ? nullptr : &*found;
+  return FindByName(method.metrics, metric, &MetricSummary::id);
 }
 
 ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario) {
@@ -183,7 +177,7 @@ std::string MissingReasons(const RunData& run, const std::string& scenario, cons
                            const std::string& method, const std::string& metric) {
   std::map<std::string, int> counts;
   for (const Row& row : run.rows) {
-    if (row.scenario != scenario || row.method != method || !SameCondition(row.condition, condition)) continue;
+    if (row.scenario != scenario || row.method != method || row.condition != condition) continue;
     const auto found = std::ranges::find(row.result.metrics, metric, &MetricValue::id);
     if (found == row.result.metrics.end()) {
       ++counts[fmt::format("{}: {}", StatusName(row.result.status), row.result.reason)];

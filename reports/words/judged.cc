@@ -3,11 +3,20 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 
 #include "reports/words/figures.h"
 
 namespace etude {
 namespace {
+
+/// What worlds were drawn from, in the order of SamplingUnit: these ones, and others like them.
+constexpr std::array<std::array<std::string_view, 2>, kSamplingUnits.size()> kUnitWords = {
+    {{"these worlds", "other worlds"},
+     {"these people", "other people"},
+     {"these clips", "other clips"},
+     {"these clips", "other clips"},
+     {"these libraries", "other libraries"}}};
 
 /// Writes the figures: "mean over 12 clips −4.50 mm, 95 % CI −6.00 to −3.00".
 std::string FiguresOf(const Beyond& beyond, const MetricWords& words, SamplingUnit unit) {
@@ -134,31 +143,17 @@ bool IsYardstick(const ScenarioSummary& scenario, const std::string& method) {
   return std::ranges::find(comparisons, method, &Comparison::baseline) == comparisons.end();
 }
 
+std::size_t IndexOf(const ScenarioSummary& scenario, const std::string& method) {
+  return static_cast<std::size_t>(std::ranges::find(scenario.methods, method) - scenario.methods.begin());
+}
+
 std::string MethodLabel(const ScenarioSummary& scenario, const std::string& method) {
   return IsYardstick(scenario, method) ? method + " (yardstick)" : method;
 }
 
-std::string_view TheseUnits(SamplingUnit unit) {
-  switch (unit) {
-    case SamplingUnit::kPerson:
-      return "these people";
-    case SamplingUnit::kClip:
-    case SamplingUnit::kClipPair:
-      return "these clips";
-    case SamplingUnit::kLibrary:
-      return "these libraries";
-    case SamplingUnit::kWorld:
-      break;
-  }
-  return "these worlds";
-}
+std::string_view TheseUnits(SamplingUnit unit) { return kUnitWords[static_cast<std::size_t>(unit)][0]; }
 
-std::string_view OtherUnits(SamplingUnit unit) {
-  const std::string_view these = TheseUnits(unit);
-  if (these == "these people") return "other people";
-  if (these == "these clips") return "other clips";
-  return these == "these libraries" ? "other libraries" : "other worlds";
-}
+std::string_view OtherUnits(SamplingUnit unit) { return kUnitWords[static_cast<std::size_t>(unit)][1]; }
 
 BeyondFinding BeyondInWords(const std::vector<Judged>& judged, SamplingUnit unit) {
   BeyondFinding finding;

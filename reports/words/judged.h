@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,6 +49,9 @@ bool IsComparedWithNone(const ScenarioSummary& scenario, const std::string& meth
 
 /// Is true of a yardstick: a method that is compared with none and none with it, like natural motion.
 bool IsYardstick(const ScenarioSummary& scenario, const std::string& method);
+
+/// Gives the method's place among the scenario's, by which it is drawn; their number when it is none of them.
+std::size_t IndexOf(const ScenarioSummary& scenario, const std::string& method);
 
 /// Gives the method's name, a yardstick's as "natural (yardstick)".
 std::string MethodLabel(const ScenarioSummary& scenario, const std::string& method);

@@ -1,4 +1,4 @@
-#include "reports/scenario_latex.h"
+#include "reports/page.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

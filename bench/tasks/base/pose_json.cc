@@ -6,14 +6,6 @@
 
 namespace etude {
 
-Json EncodePose(const BodyPose& pose) {
-  Json numbers = Json::array();
-  for (const glm::dvec3& joint : pose.joints) {
-    for (int axis = 0; axis < 3; ++axis) numbers.push_back(joint[axis]);
-  }
-  return numbers;
-}
-
 Json EncodePoses(std::span<const BodyPose> poses) {
   Json list = Json::array();
   for (const BodyPose& pose : poses) list.push_back(EncodePose(pose));

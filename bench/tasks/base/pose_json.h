@@ -4,15 +4,13 @@
 #include <string>
 
 #include "bench/files/json.h"
+#include "bench/model/recording.h"
 #include "engine/base/result.h"
 #include "engine/motion/body.h"
 
 namespace etude {
 
-/// Writes a pose as it is told to and by methods outside the program: x, y, z of the twenty joints in the order of
-/// AllRoles, sixty numbers, metres, Y up. Every digit is kept, so they see what built-in methods see.
-Json EncodePose(const BodyPose& pose);
-/// Writes a list of poses, one per frame.
+/// Writes a list of poses (EncodePose), one per frame.
 Json EncodePoses(std::span<const BodyPose> poses);
 
 /// Names the joints of the sixty numbers, and their parents: {"joints": [twenty names], "parents": [null, "hip_centre",

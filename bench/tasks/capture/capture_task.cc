@@ -7,7 +7,6 @@
 #include "bench/tasks/capture/run.h"
 #include "bench/tasks/capture/score.h"
 #include "bench/tasks/capture/seated_segmenter.h"
-#include "bench/tasks/capture/sensor_sheet.h"
 #include "bench/tasks/capture/stages.h"
 #include "sim/render/renderer.h"
 
@@ -84,10 +83,10 @@ class CaptureTask : public Task {
   explicit CaptureTask(CaptureStudy study) : study_(std::move(study)) {}
 
   std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool keeps_motion) const override {
-    return std::make_unique<CaptureTaskWorld>(study_, ClipFor(key), key, keeps_motion);
+    return std::make_unique<CaptureTaskWorld>(study_, study_.clips.InTurn(key.trial), key, keeps_motion);
   }
 
-  std::vector<std::string> ClipsOf(const WorldKey& key) const override { return {ClipFor(key).name}; }
+  std::vector<std::string> ClipsOf(const WorldKey& key) const override { return {study_.clips.InTurn(key.trial).name}; }
 
   Result<Payload> Setting() const override { return DescribeStudio(); }
 
@@ -97,10 +96,6 @@ class CaptureTask : public Task {
   }
 
  private:
-  const LibraryClip& ClipFor(const WorldKey& key) const {
-    return study_.clips.clips[static_cast<std::size_t>(key.trial) % study_.clips.clips.size()];
-  }
-
   const CaptureStudy study_;
 };
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/model/sensor_sheet.h"
 #include "bench/tasks/base/task.h"
 #include "bench/tasks/capture/stages.h"
 #include "engine/capture/recover_frames.h"
@@ -54,6 +55,11 @@ constexpr std::size_t kMostPictures = 1200;
 ///
 ///     {"poses": [[sixty numbers], …], "labels": {"background": 0, "shadow": 1, "trunk": 2, …}}
 Result<Payload> MakeCaptureTruth(const StudioOptions& options, const WorldKey& key, CaptureStages& stages);
+
+/// Two cameras at the take's liveliest frame: as the scenario has them, with labels, depth and the annotator's marks;
+/// then every effect of a camera at three strengths, whatever else the scenario has left as it is. The true skeleton at
+/// that time is drawn over what clocks and shutters do. Fails when there is no renderer.
+Result<SensorSheet> MakeCaptureSheet(const StudioOptions& options, const WorldKey& key, CaptureStages& stages);
 
 /// The answer of a method outside, one entry per frame, null where it has no pose:
 ///

@@ -126,8 +126,7 @@ FieldTable<StudioOptions> MakeConditionFields() {
            "moments", &Options::moments, {0, 12}, "up to twelve of 1…1800", {1, 1800},
            "Frames, counted from 1, of which the report shows every stage, as figures 5.3 to 5.14 of paper B do.")},
       CheckStudio};
-  const std::vector<Key> camera = CameraFields();
-  made.fields.insert(made.fields.end(), camera.begin(), camera.end());
+  Append(CameraFields(), made.fields);
   return made;
 }
 
@@ -243,7 +242,7 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
         CheckMethod};
     std::vector<Key> solver = IkSolverFields(&Method::solver, &Method::ik);
     solver.front() = solver.front().With("recovery", {"ik"});
-    made.fields.insert(made.fields.end(), solver.begin(), solver.end());
+    Append(std::move(solver), made.fields);
     return made;
   }();
   return table;

@@ -4,6 +4,7 @@
 
 #include "bench/metrics/measurement.h"
 #include "bench/metrics/pose_error.h"
+#include "bench/model/recording.h"
 #include "bench/statistics/curves/curves.h"
 #include "engine/base/digest.h"
 #include "engine/capture/adjust_take.h"
@@ -19,10 +20,6 @@ void ReportMasks(const MaskScore& score, CellResult& cell) {
   cell.MeasureOr("mask_f1", score.f1, "no picture shows or finds a person");
   cell.MeasureOr("shadow_error", score.shadow_error, "no picture shows a shadow");
   cell.MeasureOr("pwc", score.pwc, "there is no picture");
-}
-
-void Add(const BodyPose& pose, Digest& digest) {
-  for (const glm::dvec3& joint : pose.joints) digest.Add(joint.x).Add(joint.y).Add(joint.z);
 }
 
 void ReportMeasurements(const CaptureWorld& world, const MeasuredTake& measured, CellResult& cell) {
@@ -201,8 +198,8 @@ void ReportPoses(const CaptureWorld& world, const CaptureRun& run, const std::ve
   for (const RecoveredFrame& frame : frames) {
     fixed.push_back(frame.fixed);
     poses.push_back(frame.pose);
-    Add(frame.fixed, lengths_digest);
-    Add(frame.pose, pose_digest);
+    AddTo(lengths_digest, frame.fixed);
+    AddTo(pose_digest, frame.pose);
   }
   cell.digests.emplace_back("lengths", lengths_digest.Hex());
   cell.digests.emplace_back("pose", pose_digest.Hex());
@@ -275,7 +272,7 @@ CellResult ScoreCaptureAnswer(const CaptureWorld& world, const CaptureAnswer& an
   }
   const std::vector<BodyPose> poses = HoldPoses(answer);
   Digest digest;
-  for (const BodyPose& pose : poses) Add(pose, digest);
+  for (const BodyPose& pose : poses) AddTo(digest, pose);
   cell.digests = {{"pose", digest.Hex()}};
   ReportJointErrors(JudgePoses(world, poses), cell);
   ReportJerk(world, poses, cell);

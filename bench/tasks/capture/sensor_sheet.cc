@@ -1,4 +1,4 @@
-#include "bench/tasks/capture/sensor_sheet.h"
+#include "bench/tasks/capture/exchange.h"
 
 #include <algorithm>
 #include <array>

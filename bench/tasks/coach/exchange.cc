@@ -36,11 +36,10 @@ PerformanceTruth TruthIn(AnswerFields& fields) {
 
 class SeatedFollower final : public MoveFollower {
  public:
-  SeatedFollower(LiveProgram& program, const CoachStage& stage, SeatComplaint& complaint)
-      : program_(program), stage_(stage), complaint_(complaint), spotted_(stage.moves.size()) {}
+  explicit SeatedFollower(SeatedCoachProgram& program) : program_(program), spotted_(program.stage().moves.size()) {}
 
   void Ask(std::optional<std::size_t> move) override {
-    ask_ = Json{{"move", move ? NameOf(stage_, static_cast<int>(*move)) : Json(nullptr)}};
+    ask_ = Json{{"move", move ? NameOf(program_.stage(), static_cast<int>(*move)) : Json(nullptr)}};
     asked_ = 0;
   }
 
@@ -49,8 +48,8 @@ class SeatedFollower final : public MoveFollower {
                  {"states", StateLetters(frame.skeleton)},
                  {"body_seen", frame.skeleton.body_seen}};
     if (ask_) step["ask"] = *std::exchange(ask_, std::nullopt);
-    if (complaint_.error()) return {0, spotted_};
-    if (const JsonPtr answer = program_.Step(PayloadOf(std::move(step)))) complaint_.Note(Read(*answer));
+    if (program_.error()) return {0, spotted_};
+    if (const JsonPtr answer = program_.Step(std::move(step))) program_.Note(Read(*answer));
     return {asked_, spotted_};
   }
 
@@ -64,9 +63,7 @@ class SeatedFollower final : public MoveFollower {
     return fields.Finish();
   }
 
-  LiveProgram& program_;
-  const CoachStage& stage_;
-  SeatComplaint& complaint_;
+  SeatedCoachProgram& program_;
   std::optional<Json> ask_;
   double asked_ = 0;
   std::vector<double> spotted_;
@@ -74,60 +71,52 @@ class SeatedFollower final : public MoveFollower {
 
 class SeatedRecogniser final : public Recogniser {
  public:
-  SeatedRecogniser(LiveProgram& program, const CoachStage& stage, SeatComplaint& complaint)
-      : program_(program), stage_(stage), complaint_(complaint) {}
+  explicit SeatedRecogniser(SeatedCoachProgram& program) : program_(program) {}
 
   std::unique_ptr<MoveFollower> Follow(double /*rate_hz*/) const override {
-    return std::make_unique<SeatedFollower>(program_, stage_, complaint_);
+    return std::make_unique<SeatedFollower>(program_);
   }
 
  private:
-  LiveProgram& program_;
-  const CoachStage& stage_;
-  SeatComplaint& complaint_;
+  SeatedCoachProgram& program_;
 };
 
 class SeatedPolicy final : public MomentSource {
  public:
-  SeatedPolicy(LiveProgram& program, const CoachStage& stage, SeatComplaint& complaint)
-      : program_(program), stage_(stage), complaint_(complaint) {}
+  explicit SeatedPolicy(SeatedCoachProgram& program) : program_(program) {}
 
   bool Now(int /*frame*/, const CoachOutput& before) override {
-    Json step = DescribeShown(stage_, before);
+    Json step = DescribeShown(program_.stage(), before);
     step["verdicts"] = Json::array();
     for (const CoachRecord& record : before.records) {
       if (!IsVerdict(record.event)) continue;
-      step["verdicts"].push_back({{"move", NameOf(stage_, record.move)},
+      step["verdicts"].push_back({{"move", NameOf(program_.stage(), record.move)},
                                   {"repetition", record.repetition},
                                   {"verdict", EventName(record.event)},
                                   {"mistake", MistakeName(record.mistake)},
                                   {"evidence", record.evidence}});
     }
-    if (complaint_.error()) return false;
-    const JsonPtr answer = program_.Step(PayloadOf(std::move(step)));
+    const JsonPtr answer = program_.Step(std::move(step));
     if (answer == nullptr) return false;
     AnswerFields fields(*answer);
     const bool corrects = fields.Boolean("correct", false);
-    complaint_.Note(fields.Finish());
+    program_.Note(fields.Finish());
     return corrects;
   }
 
  private:
-  LiveProgram& program_;
-  const CoachStage& stage_;
-  SeatComplaint& complaint_;
+  SeatedCoachProgram& program_;
 };
 
 class SeatedLearner final : public Player {
  public:
-  SeatedLearner(LiveProgram& program, const CoachStage& stage, SeatComplaint& complaint)
-      : program_(program), stage_(stage), complaint_(complaint) {
-    pose_ = stage.dance().motion.poses.front();
-    truths_.resize(stage.dance().repetitions.size());
-  }
+  explicit SeatedLearner(SeatedCoachProgram& program)
+      : program_(program),
+        pose_(program.stage().dance().motion.poses.front()),
+        truths_(program.stage().dance().repetitions.size()) {}
 
   BodyPose Next(const CoachOutput& shown) override {
-    Json step = DescribeShown(stage_, shown);
+    Json step = DescribeShown(program_.stage(), shown);
     step["pose"] = EncodePose(shown.body);
     step["clip"] = shown.clip;
     step["clip_frame"] = shown.clip_frame;
@@ -135,9 +124,7 @@ class SeatedLearner final : public Player {
     step["hint"] = shown.hint;
     step["events"] = Json::array();
     for (const CoachRecord& record : shown.records) step["events"].push_back(EventName(record.event));
-    if (complaint_.error()) return pose_;
-    if (const JsonPtr answer = program_.Step(PayloadOf(std::move(step))))
-      complaint_.Note(Read(*answer, shown.repetition));
+    if (const JsonPtr answer = program_.Step(std::move(step))) program_.Note(Read(*answer, shown.repetition));
     return pose_;
   }
 
@@ -150,14 +137,13 @@ class SeatedLearner final : public Player {
 
   std::vector<double> TakeTest(int performances_later) override {
     std::vector<double> right;
-    for (const Move& move : stage_.moves) {
-      if (complaint_.error()) break;
-      const JsonPtr answer = program_.Step(PayloadOf({{"test", {{"move", move.name}, {"after", performances_later}}}}));
+    for (const Move& move : program_.stage().moves) {
+      const JsonPtr answer = program_.Step({{"test", {{"move", move.name}, {"after", performances_later}}}});
       if (answer == nullptr) break;
       AnswerFields fields(*answer);
       const PerformanceTruth truth = TruthIn(fields);
       if (truth != PerformanceTruth::kGrey) right.push_back(truth == PerformanceTruth::kRight ? 1 : 0);
-      complaint_.Note(fields.Finish());
+      program_.Note(fields.Finish());
     }
     return right;
   }
@@ -174,9 +160,7 @@ class SeatedLearner final : public Player {
     return fields.Finish();
   }
 
-  LiveProgram& program_;
-  const CoachStage& stage_;
-  SeatComplaint& complaint_;
+  SeatedCoachProgram& program_;
   BodyPose pose_;
   std::vector<std::optional<PerformanceTruth>> truths_;  ///< by repetition, the latest
   bool given_up_ = false;
@@ -218,18 +202,20 @@ Payload SessionBeginPayload(Seat seat) {
   return PayloadOf({{"seat", SeatNames()[static_cast<std::size_t>(seat) - 1]}});
 }
 
-std::unique_ptr<Recogniser> MakeSeatedRecogniser(LiveProgram& program, const CoachStage& stage,
-                                                 SeatComplaint& complaint) {
-  return std::make_unique<SeatedRecogniser>(program, stage, complaint);
+JsonPtr SeatedCoachProgram::Step(Json step) {
+  return error_ ? nullptr : program_.Step(PayloadOf(std::move(step)));
 }
 
-std::unique_ptr<MomentSource> MakeSeatedPolicy(LiveProgram& program, const CoachStage& stage,
-                                               SeatComplaint& complaint) {
-  return std::make_unique<SeatedPolicy>(program, stage, complaint);
+std::unique_ptr<Recogniser> MakeSeatedRecogniser(SeatedCoachProgram& program) {
+  return std::make_unique<SeatedRecogniser>(program);
 }
 
-std::unique_ptr<Player> MakeSeatedLearner(LiveProgram& program, const CoachStage& stage, SeatComplaint& complaint) {
-  return std::make_unique<SeatedLearner>(program, stage, complaint);
+std::unique_ptr<MomentSource> MakeSeatedPolicy(SeatedCoachProgram& program) {
+  return std::make_unique<SeatedPolicy>(program);
+}
+
+std::unique_ptr<Player> MakeSeatedLearner(SeatedCoachProgram& program) {
+  return std::make_unique<SeatedLearner>(program);
 }
 
 Recording RecordCoaching(const CoachStage& stage, const SessionLog& log) {

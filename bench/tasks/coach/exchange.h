@@ -22,15 +22,23 @@ Payload DancePayload(const CoachStage& stage);
 /// Makes the beginning of a session: {"seat": "recogniser"}.
 Payload SessionBeginPayload(Seat seat);
 
-/// Keeps the first complaint about a program's answers.
-class SeatComplaint {
+/// A program in a seat of a session, and the first complaint about its answers.
+class SeatedCoachProgram {
  public:
+  /// Both must outlive it.
+  SeatedCoachProgram(LiveProgram& program, const CoachStage& stage) : program_(program), stage_(stage) {}
+
+  const CoachStage& stage() const { return stage_; }
+  /// Puts a step to it; null when it has failed, or after a complaint: then nothing more is asked.
+  JsonPtr Step(Json step);
   void Note(const Result<void>& read) {
     if (!read && !error_) error_ = read.error();
   }
   const std::optional<Error>& error() const { return error_; }
 
  private:
+  LiveProgram& program_;
+  const CoachStage& stage_;
   std::optional<Error> error_;
 };
 
@@ -45,8 +53,7 @@ class SeatComplaint {
 ///     {"asked": 0.7, "spotted": [0, 0.1, …]}
 ///
 /// What it points to must outlive it and its follower.
-std::unique_ptr<Recogniser> MakeSeatedRecogniser(LiveProgram& program, const CoachStage& stage,
-                                                 SeatComplaint& complaint);
+std::unique_ptr<Recogniser> MakeSeatedRecogniser(SeatedCoachProgram& program);
 
 /// Makes a policy that a program plays. Step: what the coach showed in the frame before, and what it made of the
 /// windows that closed in it:
@@ -55,7 +62,7 @@ std::unique_ptr<Recogniser> MakeSeatedRecogniser(LiveProgram& program, const Coa
 ///      "verdicts": [{"move": "clap", "repetition": 2, "verdict": "wrong", "mistake": "not reached", "evidence": 0.3}]}
 ///
 /// Answer: {"correct": true} interrupts the dance now, or as soon as there is one.
-std::unique_ptr<MomentSource> MakeSeatedPolicy(LiveProgram& program, const CoachStage& stage, SeatComplaint& complaint);
+std::unique_ptr<MomentSource> MakeSeatedPolicy(SeatedCoachProgram& program);
 
 /// Makes a learner that a program plays. Step: what is on the screen and what was decided in this frame:
 ///
@@ -69,7 +76,7 @@ std::unique_ptr<MomentSource> MakeSeatedPolicy(LiveProgram& program, const Coach
 ///
 /// After the session, for every move: {"test": {"move": "clap", "after": 20}}, so many performances' time later,
 /// answered by {"right": true}.
-std::unique_ptr<Player> MakeSeatedLearner(LiveProgram& program, const CoachStage& stage, SeatComplaint& complaint);
+std::unique_ptr<Player> MakeSeatedLearner(SeatedCoachProgram& program);
 
 /// Records what a film of a session shows: tracks "coach", "truth" (the learner as danced) and "sensed", and
 /// CoachExtras.

@@ -9,6 +9,7 @@
 #include "bench/metrics/coach.h"
 #include "bench/statistics/curves/curves.h"
 #include "bench/metrics/transition_smoothness.h"
+#include "bench/model/recording.h"
 #include "bench/tasks/coach/exchange.h"
 #include "bench/tasks/coach/learner_player.h"
 #include "engine/base/digest.h"
@@ -28,15 +29,18 @@ class Moments final : public MomentSource {
   std::vector<int> frames_;
 };
 
+SessionParts PartsOf(const ReadyCoach& ready, const Coach& coach, const Recogniser& recogniser) {
+  const DetectionMethod& sight = ready.method.sight;
+  return {coach, recogniser, sight.filter, sight.sees_truth, sight.Capture()};
+}
+
 /// The session that a yoked one takes its moments from: another person's, under the same condition.
 Result<SessionLog> RunPartner(const ReadyCoach& ready, const CoachCondition& condition, const CoachStage& stage,
                               const CoachWorld& world) {
   const std::string scenario = fmt::format("{}/partner", world.key.scenario);
   const CoachWorld other = MakeCoachWorld(condition, {world.key.suite_seed, scenario, world.key.trial});
   LearnerPlayer player(other, stage);
-  const SessionParts parts{*ready.partner, *ready.recogniser, ready.method.sight.filter, ready.method.sight.sees_truth,
-                           ready.method.sight.Capture()};
-  return RunSession(parts, other, player, nullptr);
+  return RunSession(PartsOf(ready, *ready.partner, *ready.recogniser), other, player, nullptr);
 }
 
 bool AreAlike(const TransitionWay& a, const TransitionWay& b) {
@@ -81,24 +85,25 @@ Result<std::vector<ReadyCoach>> MakeReady(std::vector<CoachMethod> methods, cons
 Result<SessionLog> RunMethod(const ReadyCoach& ready, const CoachCondition& condition, const CoachStage& stage,
                              const CoachWorld& world, LiveProgram* program) {
   const Seat seat = program != nullptr ? ready.method.seat : Seat::kNone;
-  SeatComplaint complaint;
+  std::optional<SeatedCoachProgram> seated;
+  if (program != nullptr) seated.emplace(*program, stage);
   std::unique_ptr<Recogniser> seated_recogniser;
   std::unique_ptr<MomentSource> moments;
   std::unique_ptr<Player> player;
-  if (seat == Seat::kRecogniser) seated_recogniser = MakeSeatedRecogniser(*program, stage, complaint);
-  if (seat == Seat::kPolicy) moments = MakeSeatedPolicy(*program, stage, complaint);
-  if (seat == Seat::kLearner) player = MakeSeatedLearner(*program, stage, complaint);
+  if (seat == Seat::kRecogniser) seated_recogniser = MakeSeatedRecogniser(*seated);
+  if (seat == Seat::kPolicy) moments = MakeSeatedPolicy(*seated);
+  if (seat == Seat::kLearner) player = MakeSeatedLearner(*seated);
   if (player == nullptr) player = std::make_unique<LearnerPlayer>(world, stage);
   if (ready.partner != nullptr) {
     ASSIGN_OR_RETURN(const SessionLog partner, RunPartner(ready, condition, stage, world));
     moments = std::make_unique<Moments>(partner);
   }
 
-  const SessionParts parts{*ready.coach, seated_recogniser ? *seated_recogniser : *ready.recogniser,
-                           ready.method.sight.filter, ready.method.sight.sees_truth, ready.method.sight.Capture()};
+  const SessionParts parts =
+      PartsOf(ready, *ready.coach, seated_recogniser ? *seated_recogniser : *ready.recogniser);
   if (program != nullptr && !program->Begin(SessionBeginPayload(seat))) return SessionLog{};
   ASSIGN_OR_RETURN(SessionLog log, RunSession(parts, world, *player, moments.get()));
-  if (complaint.error()) return tl::unexpected(*complaint.error());
+  if (seated && seated->error()) return tl::unexpected(*seated->error());
   return log;
 }
 
@@ -153,15 +158,9 @@ void MeasureCorrections(const CoachedSession& session, CellResult& result) {
                    tally.given == 0 ? "nothing was corrected" : "no act began");
 }
 
-void AddMotion(const BodyMotion& motion, Digest& digest) {
-  for (const BodyPose& pose : motion.poses) {
-    for (const glm::dvec3& joint : pose.joints) digest.Add(joint.x).Add(joint.y).Add(joint.z);
-  }
-}
-
 std::string MotionDigest(const BodyMotion& motion) {
   Digest digest;
-  AddMotion(motion, digest);
+  for (const BodyPose& pose : motion.poses) AddTo(digest, pose);
   return digest.Hex();
 }
 

@@ -1,6 +1,5 @@
 #include "bench/tasks/coach/train_coached.h"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
@@ -8,6 +7,7 @@
 #include "bench/tasks/coach/learner_player.h"
 #include "bench/tasks/coach/operating_point.h"
 #include "bench/tasks/coach/run.h"
+#include "bench/tasks/detection/train_recogniser.h"
 #include "engine/recognition/measuring_recogniser.h"
 
 namespace etude {
@@ -41,9 +41,6 @@ CoachCondition ThrowCondition(const WorldKey& key) {
 
 /// The measures of each window, the nearest first and not more than can matter; grey ones left out.
 void AddSession(const Lesson& lesson, const SessionLog& log, Weighting weighting, std::vector<LabelledBag>& bags) {
-  constexpr std::size_t kMost = 12;
-  const auto& names = MeasureNames();
-  const auto distance = static_cast<std::size_t>(std::ranges::find(names, "distance") - names.begin());
   std::vector<PerformanceMeasures> measured;
   const auto recogniser = MakeMeasuringRecogniser(
       lesson.stage.taught, {.weighting = weighting},
@@ -55,8 +52,7 @@ void AddSession(const Lesson& lesson, const SessionLog& log, Weighting weighting
   FollowPerformances(log, *recogniser, {}, [&](const LoggedPerformance& performance, double) {
     std::vector<PerformanceMeasures> own = std::exchange(measured, {});
     if (performance.judged.truth == PerformanceTruth::kGrey || own.empty()) return;
-    std::ranges::stable_sort(own, [&](const auto& a, const auto& b) { return a[distance] < b[distance]; });
-    own.resize(std::min(own.size(), kMost));
+    KeepNearest(own);
     bags.push_back({performance.judged.truth == PerformanceTruth::kRight, std::move(own)});
   });
 }

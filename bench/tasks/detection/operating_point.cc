@@ -5,6 +5,7 @@
 
 #include "bench/tasks/detection/run.h"
 #include "bench/tasks/detection/score.h"
+#include "engine/base/named.h"
 
 namespace etude {
 namespace {
@@ -36,8 +37,7 @@ double ThresholdAt(std::span<const AlarmTrial> trials, double false_alarms_per_m
 void AddTrials(const std::shared_ptr<const DetectionWorld>& world, std::span<const ReadyMethod> methods,
                const Repertoire& repertoire, TrialsOfMethods& trials) {
   const std::vector<FrameInterval> takes = world->Takes();
-  std::vector<std::string> names;
-  for (const TaughtMove& move : repertoire.taught) names.push_back(move.name);
+  const std::vector<std::string> names = NamesOf(repertoire.taught);
   for (std::size_t m = 0; m < methods.size(); ++m) {
     const auto& [method, recogniser] = methods[m];
     if (method.threshold) continue;

@@ -166,7 +166,7 @@ const FieldTable<DetectionMethod>& DetectionMethodFields() {
     std::vector<MethodKey> fields = {MethodKey::Name("filter", Path(&Method::filter, &FilterOptions::kind),
                                                      FilterNames(), FilterOf,
                                                      "How the sensed joints are smoothed first.")};
-    for (MethodKey& field : FilterFields()) fields.push_back(std::move(field));
+    Append(FilterFields(), fields);
     fields.push_back(MethodKey::Flags("oracle", {{"stream", &Method::sees_truth}},
                                       "What is replaced by the truth: the skeletons as performed instead of as sensed, "
                                       "so what the sensor costs."));
@@ -174,9 +174,7 @@ const FieldTable<DetectionMethod>& DetectionMethodFields() {
     fields.push_back(MethodKey::Name("recogniser", Path(&Method::recogniser, &RecogniserOptions::kind),
                                      RecogniserNames(), FindRecogniser, "How a move is recognised."));
     const auto settings = Path(&Method::recogniser, &RecogniserOptions::settings);
-    for (auto& field : SettingFields<Method>("recogniser", AllRecognisers(), settings)) {
-      fields.push_back(std::move(field));
-    }
+    Append(SettingFields<Method>("recogniser", AllRecognisers(), settings), fields);
     fields.push_back(MethodKey::Name("weights",
                                      Path(&Method::recogniser, &RecogniserOptions::weights, &SightWeights::weighting),
                                      {{"fixed", Weighting::kFixed}, {"adaptive", Weighting::kAdaptive}},

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bench/metrics/detection.h"
+#include "bench/model/recording.h"
 #include "engine/base/digest.h"
 
 namespace etude {
@@ -83,24 +84,20 @@ std::optional<double> PointFScore(const DetectionWorld& world, const SessionVerd
   return MeanFScore(points, detections, kActionPointTolerance);
 }
 
-void AddPose(Digest& digest, const BodyPose& pose) {
-  for (const glm::dvec3& joint : pose.joints) digest.Add(joint.x).Add(joint.y).Add(joint.z);
-}
-
 std::string SessionDigest(const DetectionWorld& world) {
   Digest digest;
   for (const DetectionEvent& event : world.events) {
     digest.Add(event.move).Add(event.danced).Add(event.FaultText()).Add(event.start_s).Add(event.end_s);
     digest.Add(event.first_right_s.value_or(-1));
   }
-  for (const BodyPose& pose : world.motion.poses) AddPose(digest, pose);
+  for (const BodyPose& pose : world.motion.poses) AddTo(digest, pose);
   return digest.Hex();
 }
 
 std::string StreamDigest(const SkeletonStream& stream) {
   Digest digest;
   for (const SensedFrame& frame : stream.frames) {
-    AddPose(digest, PoseOf(frame));
+    AddTo(digest, PoseOf(frame));
     for (const SensedJoint& joint : frame.joints) digest.Add(static_cast<std::int64_t>(joint.state));
     digest.Add(std::int64_t{frame.body_seen});
   }

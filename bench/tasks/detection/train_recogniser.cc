@@ -29,10 +29,8 @@ class BagMaker {
   }
 
   void Into(std::vector<LabelledBag>& all) {
-    constexpr std::size_t kMost = 12;
     for (auto& [key, bag] : bags_) {
-      std::ranges::stable_sort(bag.performances, {}, [](const auto& each) { return each[kDistanceMeasure]; });
-      bag.performances.resize(std::min(bag.performances.size(), kMost));
+      KeepNearest(bag.performances);
       all.push_back(std::move(bag));
     }
     bags_.clear();
@@ -119,6 +117,12 @@ void AddSession(const DetectionWorld& world, const Repertoire& repertoire, const
 }
 
 }  // namespace
+
+void KeepNearest(std::vector<PerformanceMeasures>& performances) {
+  constexpr std::size_t kMost = 12;
+  std::ranges::stable_sort(performances, {}, [](const auto& each) { return each[kDistanceMeasure]; });
+  performances.resize(std::min(performances.size(), kMost));
+}
 
 LearntModel TrainRecogniser(const Repertoire& repertoire, const RecogniserTraining& training) {
   std::vector<LabelledBag> asked, spotted;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "bench/tasks/detection/world.h"
 #include "engine/base/progress.h"
@@ -20,5 +21,8 @@ struct RecogniserTraining {
 /// did. Grey performances teach nothing. The worlds are keyed apart from those of every scenario, so nobody judged is
 /// among them.
 LearntModel TrainRecogniser(const Repertoire& repertoire, const RecogniserTraining& training);
+
+/// Keeps the nearest of a bag's performances, nearest first, and not more than can matter.
+void KeepNearest(std::vector<PerformanceMeasures>& performances);
 
 }  // namespace etude

@@ -98,13 +98,13 @@ const FieldTable<IkMethod>& IkMethodFields() {
   using Key = Field<IkMethod>;
   static const FieldTable<IkMethod> table = [] {
     FieldTable<IkMethod> made{IkSolverFields(&IkMethod::solver, &IkMethod::options), CheckMethod};
-    const std::vector<Key> own = {
+    std::vector<Key> own = {
         Key::Flag("limits", Path(&IkMethod::options, &IkOptions::limits), "Whether joint limits are kept."),
         ToleranceField(&IkMethod::options, "How far an angle may leave its start."),
         Key::Number("tolerance_times_noise", &IkMethod::tolerance_times_noise, {0, 100},
                     "The same in multiples of joint_noise_deg; paper B's reading: 1.2.")
             .WhenAbsent("(no bound)")};
-    made.fields.insert(made.fields.end(), own.begin(), own.end());
+    Append(std::move(own), made.fields);
     return made;
   }();
   return table;

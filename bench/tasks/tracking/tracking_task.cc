@@ -57,10 +57,10 @@ class TrackingTask : public Task {
   explicit TrackingTask(TrackingStudy study) : study_(std::move(study)) {}
 
   std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool keeps_motion) const override {
-    return std::make_unique<TrackingTaskWorld>(study_, ClipFor(key), key, keeps_motion);
+    return std::make_unique<TrackingTaskWorld>(study_, study_.clips.InTurn(key.trial), key, keeps_motion);
   }
 
-  std::vector<std::string> ClipsOf(const WorldKey& key) const override { return {ClipFor(key).name}; }
+  std::vector<std::string> ClipsOf(const WorldKey& key) const override { return {study_.clips.InTurn(key.trial).name}; }
 
   Result<Payload> Setting() const override { return DescribeTrackingSetting(study_.options, study_.options.common); }
 
@@ -69,10 +69,6 @@ class TrackingTask : public Task {
   }
 
  private:
-  const LibraryClip& ClipFor(const WorldKey& key) const {
-    return study_.clips.clips[static_cast<std::size_t>(key.trial) % study_.clips.clips.size()];
-  }
-
   const TrackingStudy study_;
 };
 

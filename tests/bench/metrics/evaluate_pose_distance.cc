@@ -15,6 +15,12 @@ Value CalledAlike(const Json& in) {
   return pairs.at(0).at("distance").get<double>() < in.at("threshold").get<double>() ? 1 : 0;
 }
 
+double RootMeanSquareJointDistanceCm(const BodyPose& a, const BodyPose& b) {
+  double sum = 0;
+  for (const Role role : AllRoles()) sum += glm::dot(a[role] - b[role], a[role] - b[role]);
+  return 100 * std::sqrt(sum / static_cast<double>(kRoleCount));
+}
+
 Value JointDistance(const Json& in) {
   const BodyPose a = ReadPose(in.at("a")), b = ReadPose(in.at("b"));
   return in.at("method") == "point-cloud" ? RootMeanSquareJointDistanceCm(a, b) : MeanJointDistanceCm(a, b);

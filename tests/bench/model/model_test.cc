@@ -55,15 +55,15 @@ TEST(Recording, FindsATrackByName) {
 
 TEST(Names, OfAllStatusesDiffer) {
   std::set<std::string_view> names;
-  for (int i = 0; i < kStatusCount; ++i) names.insert(StatusName(static_cast<Status>(i)));
-  EXPECT_EQ(names.size(), static_cast<std::size_t>(kStatusCount));
+  for (std::size_t i = 0; i < kStatuses.size(); ++i) names.insert(StatusName(static_cast<Status>(i)));
+  EXPECT_EQ(names.size(), kStatuses.size());
   EXPECT_EQ(RulingName(Ruling::kMet), "met");
   EXPECT_EQ(RulingName(Ruling::kUnmet), "unmet");
   EXPECT_EQ(RulingName(Ruling::kUndecided), "undecided");
 }
 
 TEST(FindStatus, FindsEachByItsNameAndNothingElse) {
-  for (int i = 0; i < kStatusCount; ++i) {
+  for (std::size_t i = 0; i < kStatuses.size(); ++i) {
     const auto status = static_cast<Status>(i);
     EXPECT_EQ(FindStatus(StatusName(status)), status);
   }

@@ -1,4 +1,4 @@
-#include "reports/plots/survival.h"
+#include "reports/plots/plot_section.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
