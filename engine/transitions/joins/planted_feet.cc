@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <optional>
+#include <limits>
 #include <utility>
 
 #include "engine/base/smoothstep.h"
@@ -12,27 +12,6 @@
 
 namespace etude {
 namespace {
-
-constexpr double kUpright = UPR;  // of a leg's length: hips that are lower do not stand on it
-
-double LegLength(const BodyPose& pose, const LegRoles& leg) {
-  return glm::distance(pose[leg.hip], pose[leg.knee]) + glm::distance(pose[leg.knee], pose[leg.ankle]);
-}
-
-/// Tells whether each foot bears the body, by side and frame.
-FootContacts FindStands(std::span<const BodyPose> poses, double rate_hz) {
-  FootContacts stands;
-  const std::vector<Bearing> bearing = FindBearing(poses, rate_hz, {.lowest=LOW,.rest_speed=SPEED});
-  for (std::size_t f = 0; f < poses.size(); ++f) {
-    for (std::size_t side = 0; side < kLegs.size(); ++side) {
-      const LegRoles& leg = kLegs[side];
-      const double height = poses[f][leg.hip].y - poses[f][leg.ankle].y;
-      stands[side].push_back(height > kUpright * LegLength(poses[f], leg) &&
-                             (bearing[f].WHAT[Index(leg.ankle)] || bearing[f].WHAT[Index(leg.foot)]));
-    }
-  }
-  return stands;
-}
 
 /// Sums up pairs of points of the floor for the turn and shift that lay the second onto the first with the least sum of
 /// squares.
@@ -71,8 +50,8 @@ class FloorFit {
 double FloorDistance(const glm::dvec3& a, const glm::dvec3& b) { return std::hypot(a.x - b.x, a.z - b.z); }
 
 constexpr double kStill = 0.005;        // metres: a foot that travels no farther need not be lifted
-constexpr double kMostLift = MLIFT;      // metres
-constexpr double kLiftPerMetre = LPM;  // of travel
+constexpr double kMostLift = 0.05;      // metres
+constexpr double kLiftPerMetre = 0.2;   // of travel
 
 double LiftFor(double travel) {
   return travel <= kStill ? 0 : std::min(kMostLift, kLiftPerMetre * (travel - kStill) + 0.02);
@@ -88,20 +67,21 @@ constexpr Frames Range(int first, int last) {
   return last < first ? 0 : (Bit(last) | (Bit(last) - 1)) & ~(Bit(std::max(first, 0)) - 1);
 }
 
-Frames FramesOf(const std::vector<bool>& contacts, int frames) {
-  Frames bits = 0;
-  for (int f = 0; f <= frames; ++f) bits |= contacts[f] ? Bit(f) : 0;
-  return bits;
-}
-
 /// A foot in both motions of a window.
 struct FootTracks {
+  FootTracks(const JoinWindow& w, const LegRoles& l, const std::vector<bool>& old, const std::vector<bool>& next)
+      : window(w), leg(l), frames(std::min(w.Frames(), kMostFrames)) {
+    for (int f = 0; f <= frames; ++f) {
+      old_stands |= old[f] ? Bit(f) : 0;
+      next_stands |= next[f] ? Bit(f) : 0;
+    }
+  }
+  bool StandsAtAll() const { return (old_stands | next_stands) != 0; }
+
   const JoinWindow& window;
   const LegRoles& leg;
   int frames = 0;  ///< of the window, as far as steps are planned
   Frames old_stands = 0, next_stands = 0;
-  std::vector<glm::dvec3> hips;  ///< as they are played
-  double reach = 0;
 };
 
 struct StepOption {
@@ -110,7 +90,7 @@ struct StepOption {
   Frames stands = 0;  // the frames in which the foot bears the body
 };
 
-/// What the old motion's toes are off from the new one's where a step begins, and how that changes.
+/// Returns what the old motion's toes are off from the new one's where a step begins, and how that changes.
 Offset OffsetOf(const JoinWindow& window, const LegRoles& leg, const FootStep& step) {
   const int from = std::min(step.begin, step.stays_from), to = std::max(step.begin, step.waits_until);
   const auto change = [&](const BodyPose& before, const BodyPose& after) {
@@ -127,47 +107,39 @@ Offset OffsetOf(const JoinWindow& window, const LegRoles& leg, const FootStep& s
   return offset;
 }
 
-/// The largest distance, summed over frames, by which an ankle is farther from its hip than the leg reaches, metres.
-double OutOfReach(const FootTracks& foot, const FootStep& step) {
-  double sum = 0;
-  const auto add = [&](const BodyPose& pose, int frame) {
-    sum += std::max(glm::distance(pose[foot.leg.ankle], foot.hips[frame]) - foot.reach, 0.0);
-  };
-  for (int f = step.stays_from; f <= step.begin; ++f) add(foot.window.old[step.stays_from], f);
-  for (int f = step.end; f <= step.waits_until; ++f) add(foot.window.next[step.waits_until], f);
-  return sum;
-}
-
+/// The step with its lift, price and stands. The price is the largest acceleration that movements of least jerk have from
+/// an offset, from a velocity and by the lift.
 StepOption Priced(const FootTracks& foot, const FootStep& step) {
-  constexpr double kBrokenStand = BROKEN, kOutOfReach = OREACH, kCm = 100;
+  constexpr double kCm = 100;
   StepOption option{.step = step};
   const Offset start = OffsetOf(foot.window, foot.leg, step);
   const BodyPose &from = foot.window.old[std::min(step.begin, step.stays_from)],
                  &to = foot.window.next[std::max(step.end, step.waits_until)];
   const double travel = FloorDistance(from[foot.leg.foot], to[foot.leg.foot]), length = step.end - step.begin;
-  const Frames moving = Range(step.begin + 1, step.end - 1), either = foot.old_stands | foot.next_stands;
-  const double standing = std::popcount(either & Range(step.begin, step.end)) / (length + 1);
-  option.step.lift = standing > 0 ? LiftFor(travel) : 0;
-  // The largest accelerations of least jerk, from an offset, from a velocity, and of the lift.
-  const double peak = (5.8 * glm::length(start.value) + LIFTW * option.step.lift) / (length * length) +
+  // A foot that is in the air all the while is lifted by the motions themselves.
+  const bool stands = ((foot.old_stands | foot.next_stands) & Range(step.begin, step.end)) != 0;
+  option.step.lift = stands ? LiftFor(travel) : 0;
+  const double peak = (5.8 * glm::length(start.value) + 12 * option.step.lift) / (length * length) +
                       3.9 * glm::length(start.velocity) / foot.window.rate_hz / length;
-  option.cost = kCm * peak + (travel > 0.02 ? kBrokenStand * standing : 0) + kOutOfReach * OutOfReach(foot, option.step);
+  option.cost = kCm * peak;
   option.stands = (foot.old_stands & Range(0, step.begin)) | (foot.next_stands & Range(step.end, foot.frames)) |
                   Range(step.stays_from, step.begin) | Range(step.end, step.waits_until);
-  if (travel <= kStill) option.stands |= moving & foot.old_stands & foot.next_stands;
+  if (travel <= kStill) option.stands |= foot.old_stands & foot.next_stands & Range(step.begin, step.end);
   return option;
 }
 
-/// The last of `frames` up to one; −1 when there is none.
+/// Returns the last of `frames` up to one; −1 when there is none.
 int LastUpTo(Frames frames, int frame) { return std::bit_width(frames & Range(0, frame)) - 1; }
-/// The first of `frames` from one on; none of the window's when there is none.
+/// Returns the first of `frames` from one on; kNoFrame when there is none.
 int FirstFrom(Frames frames, int frame) {
   const Frames later = frames & ~Range(0, frame - 1);
   return later == 0 ? FootStep::kNoFrame : std::countr_zero(later);
 }
 
+/// Lists the steps that a foot may make, by tenths of the window. Each may also begin where the foot last stood, and end
+/// where it will stand next.
 std::vector<StepOption> OptionsOf(const FootTracks& foot) {
-  constexpr int kParts = 8, kShortest = 5;
+  constexpr int kParts = 10, kShortest = 8;
   const int frames = foot.frames, shortest = std::min(frames, kShortest);
   std::vector<StepOption> options;
   for (int b = 0; b < kParts; ++b) {
@@ -278,11 +250,11 @@ void PutLeg(const JoinWindow& window, const LegRoles& leg, const LegPath& path, 
 
 FloorMove AlignOnPlantedFeet(std::span<const BodyPose> old, std::span<const BodyPose> next, double rate_hz) {
   FloorFit fit;
-  constexpr double kTrunk = 0.25, kFeet = 0.1;
+  constexpr double kTrunk = 0.05, kFeet = 0.1;
   for (Role role : {Role::kLeftHip, Role::kRightHip, Role::kLeftShoulder, Role::kRightShoulder}) {
     fit.Add(old[0][role], next[0][role], kTrunk);
   }
-  const FootContacts stands_old = FindStands(old, rate_hz), stands_next = FindStands(next, rate_hz);
+  const FootContacts stands_old = FindFootContacts(old, rate_hz), stands_next = FindFootContacts(next, rate_hz);
   for (std::size_t side = 0; side < kLegs.size(); ++side) {
     for (std::size_t f = 0; f < std::min(old.size(), next.size()); ++f) {
       if (!stands_old[side][f] || !stands_next[side][f]) continue;
@@ -292,46 +264,37 @@ FloorMove AlignOnPlantedFeet(std::span<const BodyPose> old, std::span<const Body
   return fit.Solve();
 }
 
-FootPlan PlanSteps(const JoinWindow& window, std::span<const BodyPose> played) {
-  const FootContacts old = FindStands(window.old, window.rate_hz);
-  const FootContacts next = FindStands(window.next, window.rate_hz);
-  const int frames = std::min(window.Frames(), kMostFrames);
-  FootPlan plan;
+FootPlan PlanSteps(const JoinWindow& window) {
+  const FootContacts old = FindFootContacts(window.old, window.rate_hz);
+  const FootContacts next = FindFootContacts(window.next, window.rate_hz);
   std::array<std::vector<StepOption>, 2> options;
-  std::array<bool, 2> keeps{};
+  std::array<bool, 2> stands{};
   Frames borne = 0;
   for (std::size_t side = 0; side < kLegs.size(); ++side) {
-    const LegRoles& leg = kLegs[side];
-    FootTracks foot{.window = window,
-                    .leg = leg,
-                    .frames = frames,
-                    .old_stands = FramesOf(old[side], frames),
-                    .next_stands = FramesOf(next[side], frames),
-                    .hips = {},
-                    .reach = LegLength(window.next.front(), leg)};
-    for (const BodyPose& pose : played) foot.hips.push_back(pose[leg.hip]);
-    keeps[side] = (foot.old_stands | foot.next_stands) == 0;
-    borne |= foot.old_stands | foot.next_stands;
+    const FootTracks foot(window, kLegs[side], old[side], next[side]);
     options[side] = OptionsOf(foot);
+    stands[side] = foot.StandsAtAll();
+    borne |= foot.old_stands | foot.next_stands;
   }
-  constexpr double kUnborne = UNB;  // centimetres per frame²: the price of a frame in which nothing stands
-  std::optional<double> least;
+  constexpr double kUnborne = 2;  // centimetres per frame²: the price of a frame in which nothing stands
+  FootPlan plan;
+  double least = std::numeric_limits<double>::infinity();
   for (const StepOption& left : options[0]) {
     for (const StepOption& right : options[1]) {
       const int unborne = std::popcount(borne & ~(left.stands | right.stands));
       const double cost = left.cost + right.cost + kUnborne * unborne;
-      if (least && cost >= *least) continue;
+      if (cost >= least) continue;
       least = cost;
       plan = {.steps = {left.step, right.step}, .unborne = unborne};
     }
   }
-  for (std::size_t side = 0; side < kLegs.size(); ++side) plan.steps[side].keeps = keeps[side];
+  for (std::size_t side = 0; side < kLegs.size(); ++side) plan.steps[side].keeps = !stands[side];
   return plan;
 }
 
 int PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played) {
   if (window.Frames() < 2) return 0;
-  const auto [plan, unborne] = PlanSteps(window, played);
+  const auto [plan, unborne] = PlanSteps(window);
   std::vector<double> drop(played.size());
   double farthest = 0;  // that any foot is off its path
   for (int frame = 1; frame < static_cast<int>(played.size()); ++frame) {

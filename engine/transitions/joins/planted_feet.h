@@ -42,10 +42,9 @@ struct FootPlan {
   int unborne = 0;  ///< frames in which a foot stands in one of the motions, and none stands by this plan
 };
 
-/// Plans a step for each foot within the window so that one foot stands while the other travels: the two one after the
-/// other, long ones so that they accelerate little, while the foot is in the air anyway where it is, within reach of
-/// the hips of `played` (PlayMinimumJerk's). Ours.
-FootPlan PlanSteps(const JoinWindow& window, std::span<const BodyPose> played);
+/// Plans a step for each foot within the window: long ones, so that they accelerate little, and one after the other, so
+/// that one foot stands while the other travels. Ours.
+FootPlan PlanSteps(const JoinWindow& window);
 
 /// Puts the feet of `played` (PlayMinimumJerk's) onto their paths, and lowers the pelvis where a leg is too short.
 /// Limbs keep their lengths; the first frame stays as it is. Returns FootPlan::unborne.
