@@ -161,9 +161,9 @@ std::vector<Bearing> FindBearing(std::span<const BodyPose> poses, double rate_hz
   return bearing;
 }
 
-FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz, const SupportRules& rules) {
+FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz) {
   FootContacts contacts;
-  for (const Bearing& bearing : FindBearing(poses, rate_hz, rules)) {
+  for (const Bearing& bearing : FindBearing(poses, rate_hz, kFootRules)) {
     contacts[0].push_back(bearing.bears[Index(Role::kLeftAnkle)] || bearing.bears[Index(Role::kLeftFoot)]);
     contacts[1].push_back(bearing.bears[Index(Role::kRightAnkle)] || bearing.bears[Index(Role::kRightFoot)]);
   }

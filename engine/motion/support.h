@@ -46,11 +46,11 @@ std::vector<BodyPose> JointVelocities(std::span<const BodyPose> poses, double ra
 /// lowest.
 std::vector<Bearing> FindBearing(std::span<const BodyPose> poses, double rate_hz, const SupportRules& rules = {});
 
-/// Tells whether each foot bears the body, by its toes or its ankle; by side (Side's order) and frame. The rules are
-/// narrower than those of support: feet that transitions leave standing should really stand.
+/// The rules of a foot that stands, narrower than those of support: it should do so clearly.
+constexpr SupportRules kFootRules{.lowest = 0.06, .rest_speed = 0.3};
+/// Tells whether each foot bears the body by kFootRules, with its toes or its ankle; by side (Side's order) and frame.
 using FootContacts = std::array<std::vector<bool>, 2>;
-FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz,
-                              const SupportRules& rules = {.lowest = 0.06, .rest_speed = 0.3});
+FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz);
 
 /// A clip that tells what a body may rest on where it is shown.
 struct SupportingClip {

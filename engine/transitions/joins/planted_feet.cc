@@ -113,9 +113,7 @@ StepOption Priced(const FootTracks& foot, const FootStep& step) {
   constexpr double kCm = 100;
   StepOption option{.step = step};
   const Offset start = OffsetOf(foot.window, foot.leg, step);
-  const BodyPose &from = foot.window.old[std::min(step.begin, step.stays_from)],
-                 &to = foot.window.next[std::max(step.end, step.waits_until)];
-  const double travel = FloorDistance(from[foot.leg.foot], to[foot.leg.foot]), length = step.end - step.begin;
+  const double travel = std::hypot(start.value.x, start.value.z), length = step.end - step.begin;
   // A foot that is in the air all the while is lifted by the motions themselves.
   const bool stands = ((foot.old_stands | foot.next_stands) & Range(step.begin, step.end)) != 0;
   option.step.lift = stands ? LiftFor(travel) : 0;
