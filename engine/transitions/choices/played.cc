@@ -21,8 +21,9 @@ constexpr int kPairs = 12;
 constexpr std::array kLengths_s = {0.3, 0.4, 0.5, 0.65, 0.8, 1.0, 1.2};
 constexpr std::size_t kMostCompared = 20'000;  // pairs of frames whose features are compared
 
-constexpr std::size_t kWithFeet = 2;  // of each length
-constexpr double kUnborne_s = 0.3;  // what a frame costs in which nothing bears the body
+constexpr std::size_t kWithFeet = 2;   // of each length
+constexpr double kAlwaysUsual = 0.01;  // metres per frame²: 9 m/s², as of what falls
+constexpr double kUnborne_s = 0.3;     // what a frame costs in which nothing bears the body
 
 struct FramePair {
   int leave = 0, enter = 0;
@@ -193,7 +194,8 @@ class Rehearsal {
       : request_(request),
         options_(options),
         rate_hz_(library.motions[request.from].rate_hz),
-        usual_(std::min(library.usual_accelerations[request.from], library.usual_accelerations[request.to])) {
+        usual_(std::max(std::min(library.usual_accelerations[request.from], library.usual_accelerations[request.to]),
+                        kAlwaysUsual)) {
     const int longest = FramesOf(kLengths_s.back());
     for (const FramePair& pair : pairs) {
       windows_.push_back(WindowOfPair(library, request, pair, longest));

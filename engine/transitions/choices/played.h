@@ -9,7 +9,7 @@ namespace etude {
 struct PlayedOptions {
   /// The exchange rate of the cost: one second of waiting or blending equals this much acceleration beyond the clips'
   /// own, cm/frame². Smaller: smoother, later, longer transitions.
-  double excess_per_s = 0.1;
+  double excess_per_s = 0.2;
   /// The exchange rate for poses of neither clip: one second equals so many cm off the nearer clip, integrated over
   /// seconds.
   double invented_per_s = 5;
@@ -21,10 +21,10 @@ const SettingTable<PlayedOptions>& PlayedSettings();
 /// each the nearest by MotionFeatures for its part of the wait, are joined at several lengths from 0.3 to 1.2 s, as far
 /// as the wanted clip goes, in both ways of PlayMinimumJerk, and the one of least cost is taken: wait + length + the
 /// largest acceleration of any joint beyond what either clip has of its own there, and beyond what is usual in the
-/// calmer one (`excess_per_s`) + how far the frames shown are from both clips' own, the root of the mean over joints,
-/// summed over time (`invented_per_s`). The best of each length are played once more with their feet (PlantFeet) before
-/// the last word; then each frame in which no foot bears the body costs, too. The record's last segment holds how it
-/// should be joined (PreferredJoin).
+/// calmer one, 9 m/s² at least (`excess_per_s`) + how far the frames shown are from both clips' own, the root of the
+/// mean over joints, summed over time (`invented_per_s`). The best of each length are played once more with their feet
+/// (PlantFeet) before the last word; then each frame in which no foot bears the body costs, too. The record's last
+/// segment holds how it should be joined (PreferredJoin).
 ///
 /// Ours; searching what is shown instead of what is alike after Kovar, Gleicher and Pighin 2002 and Bollo 2018. It does
 /// not know the limits by which transitions are judged.

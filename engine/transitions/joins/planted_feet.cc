@@ -49,9 +49,9 @@ class FloorFit {
 
 double FloorDistance(const glm::dvec3& a, const glm::dvec3& b) { return std::hypot(a.x - b.x, a.z - b.z); }
 
-constexpr double kStill = 0.005;        // metres: a foot that travels no farther need not be lifted
-constexpr double kMostLift = 0.05;      // metres
-constexpr double kLiftPerMetre = 0.2;   // of travel
+constexpr double kStill = 0.005;       // metres: a foot that travels no farther need not be lifted
+constexpr double kMostLift = 0.05;     // metres
+constexpr double kLiftPerMetre = 0.2;  // of travel
 
 double LiftFor(double travel) {
   return travel <= kStill ? 0 : std::min(kMostLift, kLiftPerMetre * (travel - kStill) + 0.02);
@@ -107,8 +107,8 @@ Offset OffsetOf(const JoinWindow& window, const LegRoles& leg, const FootStep& s
   return offset;
 }
 
-/// The step with its lift, price and stands. The price is the largest acceleration that movements of least jerk have from
-/// an offset, from a velocity and by the lift.
+/// The step with its lift, price and stands. The price is the largest acceleration that movements of least jerk have
+/// from an offset, from a velocity and by the lift.
 StepOption Priced(const FootTracks& foot, const FootStep& step) {
   constexpr double kCm = 100;
   StepOption option{.step = step};
@@ -134,8 +134,8 @@ int FirstFrom(Frames frames, int frame) {
   return later == 0 ? FootStep::kNoFrame : std::countr_zero(later);
 }
 
-/// Lists the steps that a foot may make, by tenths of the window. Each may also begin where the foot last stood, and end
-/// where it will stand next.
+/// Lists the steps that a foot may make, by tenths of the window. Each may also begin where the foot last stood, and
+/// end where it will stand next.
 std::vector<StepOption> OptionsOf(const FootTracks& foot) {
   constexpr int kParts = 10, kShortest = 8;
   const int frames = foot.frames, shortest = std::min(frames, kShortest);
@@ -146,7 +146,7 @@ std::vector<StepOption> OptionsOf(const FootTracks& foot) {
       if (step.end - step.begin < shortest) continue;
       options.push_back(Priced(foot, step));
       const int stood = LastUpTo(foot.old_stands, step.begin), lands = FirstFrom(foot.next_stands, step.end);
-      const bool may_stay = stood >= 0 && stood < step.begin, may_wait = lands > step.end && lands <= frames;
+      const bool may_stay = stood >= 0 && stood<step.begin, may_wait = lands> step.end && lands <= frames;
       FootStep waits = step;
       if (may_wait) {
         waits.waits_until = lands;

@@ -30,9 +30,9 @@ struct FootStep {
   bool keeps = false;  ///< the foot is left where the limbs put it: it stands in neither motion
   int begin = 0;       ///< frames after the point
   int end = 1;
-  double lift = 0;           ///< metres at the middle of the step
-  int stays_from = kNoFrame; ///< the foot stays where the old motion has it at this frame
-  int waits_until = -1;      ///< the foot waits where the new motion has it at this frame
+  double lift = 0;            ///< metres at the middle of the step
+  int stays_from = kNoFrame;  ///< the foot stays where the old motion has it at this frame
+  int waits_until = -1;       ///< the foot waits where the new motion has it at this frame
 
   static constexpr int kNoFrame = 1 << 30;
 };

@@ -13,7 +13,8 @@ using ::testing::Not;
 BodyMotion OnOneLeg() {
   BodyMotion motion;
   motion.poses.resize(40);
-  for (std::size_t f = 20; f < 40; ++f) motion.poses[f][Role::kRightFoot].y = motion.poses[f][Role::kRightAnkle].y = 0.5;
+  for (std::size_t f = 20; f < 40; ++f)
+    motion.poses[f][Role::kRightFoot].y = motion.poses[f][Role::kRightAnkle].y = 0.5;
   return motion;
 }
 
