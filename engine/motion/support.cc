@@ -8,25 +8,6 @@
 
 namespace etude {
 
-FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz, const ContactRules& rules) {
-  constexpr std::array kToes = {Role::kLeftFoot, Role::kRightFoot};
-  FootContacts contacts;
-  const std::size_t count = poses.size();
-  for (std::size_t side = 0; side < kToes.size(); ++side) {
-    const Role foot = kToes[side];
-    bool stands = false;
-    for (std::size_t f = 0; f < count; ++f) {
-      const std::size_t next = std::min(f + 1, count - 1), here = next > 0 ? next - 1 : 0;
-      const double speed = rate_hz * glm::distance(poses[next][foot], poses[here][foot]);
-      const double height = poses[f][foot].y;
-      stands = stands ? height <= rules.lift_height && speed <= rules.lift_speed
-                      : height <= rules.plant_height && speed <= rules.plant_speed;
-      contacts[side].push_back(stands);
-    }
-  }
-  return contacts;
-}
-
 std::vector<BodyPose> JointVelocities(std::span<const BodyPose> poses, double rate_hz) {
   std::vector<BodyPose> velocities(poses.size());
   const int last = static_cast<int>(poses.size()) - 1;
@@ -178,6 +159,15 @@ std::vector<Bearing> FindBearing(std::span<const BodyPose> poses, double rate_hz
   std::vector<Bearing> bearing;
   for (std::size_t f = 0; f < poses.size(); ++f) bearing.push_back(BearingOf(poses[f], velocities[f], rules));
   return bearing;
+}
+
+FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz) {
+  FootContacts contacts;
+  for (const Bearing& bearing : FindBearing(poses, rate_hz, kFootRules)) {
+    contacts[0].push_back(bearing.bears[Index(Role::kLeftAnkle)] || bearing.bears[Index(Role::kLeftFoot)]);
+    contacts[1].push_back(bearing.bears[Index(Role::kRightAnkle)] || bearing.bears[Index(Role::kRightFoot)]);
+  }
+  return contacts;
 }
 
 std::vector<Support> FindSupport(std::span<const BodyPose> shown, std::span<const SupportingClip> clips, int first,

@@ -12,18 +12,6 @@
 
 namespace etude {
 
-/// The rules by which a foot stands, with two thresholds each, so that a foot near one of them does not flicker.
-/// Heights are of the toe tips above the floor (y = 0), metres; speeds are theirs, metres per second. Ours.
-struct ContactRules {
-  double plant_height = 0.04, plant_speed = 0.25;  ///< it stands from the frame on where it is below both
-  double lift_height = 0.06, lift_speed = 0.45;    ///< until it is above one of these
-};
-
-/// Tells whether each foot stands, by side (Side's order) and frame. Speeds are from a frame to the next, the last
-/// frame's to the one before it.
-using FootContacts = std::array<std::vector<bool>, 2>;
-FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz, const ContactRules& rules = {});
-
 /// A set of joints, by role.
 using JointSet = std::bitset<kRoleCount>;
 
@@ -57,6 +45,12 @@ std::vector<BodyPose> JointVelocities(std::span<const BodyPose> poses, double ra
 /// Finds what bears a body in every frame of its clip. No floor is assumed: a joint may bear when it is one of the
 /// lowest.
 std::vector<Bearing> FindBearing(std::span<const BodyPose> poses, double rate_hz, const SupportRules& rules = {});
+
+/// The rules of a foot that stands, narrower than those of support: it should do so clearly.
+constexpr SupportRules kFootRules{.lowest = 0.06, .rest_speed = 0.3};
+/// Tells whether each foot bears the body by kFootRules, with its toes or its ankle; by side (Side's order) and frame.
+using FootContacts = std::array<std::vector<bool>, 2>;
+FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz);
 
 /// A clip that tells what a body may rest on where it is shown.
 struct SupportingClip {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
-#include "engine/transitions/joins/planted_feet.h"
 #include "reports/plots/panel.h"
 #include "reports/words/escape.h"
 
@@ -17,13 +17,13 @@ namespace {
 constexpr double kPictureWidth = 960, kLabelWidth = 70, kRightEdge = 20, kPanelHeight = 90, kBarHeight = 12,
                  kBetween = 22, kTitleHeight = 44;
 constexpr double kCm = 100;
-constexpr std::array kSides = {"left foot", "right foot"};
+constexpr std::array kSides = {std::pair("left foot", Role::kLeftFoot), std::pair("right foot", Role::kRightFoot)};
 
-/// A curve over the clip with its two thresholds.
+/// A curve over the clip with the limit of what stands.
 struct CurvePanel {
   std::string label, unit;
   std::vector<double> values;
-  double plant = 0, lift = 0;
+  double limit = 0;
 };
 
 class ContactPicture {
@@ -36,16 +36,14 @@ class ContactPicture {
                 .to = kPictureWidth - kRightEdge} {}
 
   void Add(const CurvePanel& panel) {
-    // Beyond three times what lifts a foot it does not matter how far: what matters stays large.
-    const double top = std::clamp(*std::ranges::max_element(panel.values), 1.2 * panel.lift, 3 * panel.lift);
+    // Beyond four times the limit it does not matter how far: what matters stays large.
+    const double top = std::clamp(*std::ranges::max_element(panel.values), 1.5 * panel.limit, 4 * panel.limit);
     const Axis axis{.low = 0, .high = top, .from = y_ + kPanelHeight, .to = y_};
-    for (double threshold : {panel.plant, panel.lift}) {
-      body_ += fmt::format(
-          R"(<line x1="{}" x2="{}" y1="{:.1f}" y2="{:.1f}" class="threshold"/><text x="{}" y="{:.1f}" class="tick">{:g}</text>)"
-          "\n",
-          kLabelWidth, kPictureWidth - kRightEdge, axis.At(threshold), axis.At(threshold), kLabelWidth - 6,
-          axis.At(threshold) + 4, threshold);
-    }
+    body_ += fmt::format(
+        R"(<line x1="{}" x2="{}" y1="{:.1f}" y2="{:.1f}" class="threshold"/><text x="{}" y="{:.1f}" class="tick">{:g}</text>)"
+        "\n",
+        kLabelWidth, kPictureWidth - kRightEdge, axis.At(panel.limit), axis.At(panel.limit), kLabelWidth - 6,
+        axis.At(panel.limit) + 4, panel.limit);
     std::string points;
     for (std::size_t f = 0; f < panel.values.size(); ++f) {
       points += fmt::format("{:.1f},{:.1f} ", frames_.At(static_cast<double>(f)), axis.At(panel.values[f]));
@@ -95,32 +93,30 @@ class ContactPicture {
 
 }  // namespace
 
-std::string ContactIndexSvg(const std::string& name, const BodyMotion& motion, const ContactRules& rules) {
-  const FootContacts contacts = FindFootContacts(motion.poses, motion.rate_hz, rules);
+std::string ContactIndexSvg(const std::string& name, const BodyMotion& motion) {
+  const FootContacts contacts = FindFootContacts(motion.poses, motion.rate_hz);
+  const std::vector<BodyPose> velocities = JointVelocities(motion.poses, motion.rate_hz);
   ContactPicture picture(motion);
   std::string title = name;
-  for (std::size_t side = 0; side < kLegs.size(); ++side) {
-    CurvePanel height{.label = fmt::format("{}: height of the toe tip", kSides[side]),
+  for (std::size_t side = 0; side < kSides.size(); ++side) {
+    const auto& [label, toes] = kSides[side];
+    CurvePanel height{.label = fmt::format("{}: height of the toe tip above the lowest joint", label),
                       .unit = "cm",
                       .values = {},
-                      .plant = kCm * rules.plant_height,
-                      .lift = kCm * rules.lift_height};
-    CurvePanel speed{.label = fmt::format("{}: speed", kSides[side]),
-                     .unit = "cm/s",
-                     .values = {},
-                     .plant = kCm * rules.plant_speed,
-                     .lift = kCm * rules.lift_speed};
+                      .limit = kCm * kFootRules.lowest};
+    CurvePanel speed{
+        .label = fmt::format("{}: speed", label), .unit = "cm/s", .values = {}, .limit = kCm * kFootRules.rest_speed};
     for (std::size_t f = 0; f < motion.poses.size(); ++f) {
-      const glm::dvec3& here = motion.poses[f][kLegs[side].foot];
-      const glm::dvec3& next = motion.poses[std::min(f + 1, motion.poses.size() - 1)][kLegs[side].foot];
-      height.values.push_back(kCm * here.y);
-      speed.values.push_back(kCm * motion.rate_hz * glm::distance(here, next));
+      const BodyPose& pose = motion.poses[f];
+      const double lowest = std::ranges::min(pose.joints, {}, &glm::dvec3::y).y;
+      height.values.push_back(kCm * (pose[toes].y - lowest));
+      speed.values.push_back(kCm * glm::length(velocities[f][toes]));
     }
     picture.Add(height);
     picture.Add(speed);
     picture.AddBars(contacts[side]);
     const auto standing = static_cast<double>(std::ranges::count(contacts[side], true));
-    title += fmt::format("{} {} stands {:.0f} % of the time", side == 0 ? ":" : ",", kSides[side],
+    title += fmt::format("{} {} stands {:.0f} % of the time", side == 0 ? ":" : ",", label,
                          100 * standing / static_cast<double>(motion.poses.size()));
   }
   return picture.Svg(title);

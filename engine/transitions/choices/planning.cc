@@ -26,6 +26,14 @@ AllowedFrames AllowedAnyFrames(const MotionLibrary& library, const TransitionReq
           .enter = FramesWithin({0, enter_end - 1})};
 }
 
+AllowedFrames AllowedEarlyFrames(const MotionLibrary& library, const TransitionRequest& request,
+                                 double most_skipped_s) {
+  const TaggedClip &playing = library.tagged[request.from], &next = library.tagged[request.to];
+  const int skipped = std::min(static_cast<int>(most_skipped_s * next.rate_hz + 1e-9), next.FrameCount() / 3);
+  return {.leave = FramesWithin(WaitWindow(playing, request.request_frame, request.budget_s)),
+          .enter = FramesWithin({0, std::min(skipped, next.FrameCount() - 2)})};
+}
+
 TransitionRecord DirectTransition(const MotionLibrary& library, const TransitionRequest& request, int leave_frame,
                                   int enter_frame, const MatchRules& rules) {
   const TaggedClip &from = library.tagged[request.from], &to = library.tagged[request.to];

@@ -29,6 +29,10 @@ AllowedFrames AllowedBridgeFrames(const MotionLibrary& library, const Transition
 /// or lie in its front half; one pair at least when the wanted clip has two frames.
 AllowedFrames AllowedAnyFrames(const MotionLibrary& library, const TransitionRequest& request, double least_play_s);
 
+/// Returns all frames within the budget, and those of the wanted clip's first third that skip `most_skipped_s` seconds
+/// of it at most; one pair at least when the wanted clip has two frames.
+AllowedFrames AllowedEarlyFrames(const MotionLibrary& library, const TransitionRequest& request, double most_skipped_s);
+
 /// Makes a record of two segments: the playing clip up to `leave_frame`, the wanted one after `enter_frame`. The branch
 /// is by half (paper A, section 3.5), the distance by the rules' weights; why is left to the caller.
 TransitionRecord DirectTransition(const MotionLibrary& library, const TransitionRequest& request, int leave_frame,

@@ -19,8 +19,11 @@ namespace {
 
 constexpr int kPairs = 12;
 constexpr std::array kLengths_s = {0.3, 0.4, 0.5, 0.65, 0.8, 1.0, 1.2};
-constexpr std::size_t kPlayedWithFeet = 12;
 constexpr std::size_t kMostCompared = 20'000;  // pairs of frames whose features are compared
+
+constexpr std::size_t kWithFeet = 2;   // of each length
+constexpr double kAlwaysUsual = 0.01;  // metres per frame²: 9 m/s², as of what falls
+constexpr double kUnborne_s = 0.3;     // what a frame costs in which nothing bears the body
 
 struct FramePair {
   int leave = 0, enter = 0;
@@ -136,15 +139,15 @@ double SquaredOff(const BodyPose& a, const BodyPose& b) {
 /// Adds up what the frames of a join cost, in their order, the one at the point first.
 class CostMeter {
  public:
-  CostMeter(const JoinWindow& window, const OwnAccelerations& own, const PlayedOptions& options)
-      : window_(window), own_(own), options_(options), before_(window.shown.before) {}
+  CostMeter(const JoinWindow& window, const OwnAccelerations& own, double usual, const PlayedOptions& options)
+      : window_(window), own_(own), usual_(usual), options_(options), before_(window.shown.before) {}
 
   void Add(const BodyPose& shown) {
     if (count_ > 0) {
       const std::size_t f = count_ - 1;  // of `here_`, whose neighbours are known now
       for (std::size_t j = 0; j < kRoleCount; ++j) {
         const double jump = glm::length(SecondDifferenceOf(before_, here_, shown, j));
-        worst_excess_ = std::max(worst_excess_, jump - own_[f][j]);
+        worst_excess_ = std::max(worst_excess_, jump - std::max(own_[f][j], usual_));
       }
       if (f > 0) off_ += std::sqrt(std::min(SquaredOff(here_, window_.old[f]), SquaredOff(here_, window_.next[f])));
       before_ = here_;
@@ -162,6 +165,7 @@ class CostMeter {
  private:
   const JoinWindow& window_;
   const OwnAccelerations& own_;
+  const double usual_;  // MotionLibrary::usual_accelerations of the calmer clip
   const PlayedOptions& options_;
   BodyPose before_, here_;
   std::size_t count_ = 0;
@@ -187,7 +191,11 @@ class Rehearsal {
  public:
   Rehearsal(const MotionLibrary& library, const TransitionRequest& request, const PlayedOptions& options,
             const std::vector<FramePair>& pairs)
-      : request_(request), options_(options), rate_hz_(library.motions[request.from].rate_hz) {
+      : request_(request),
+        options_(options),
+        rate_hz_(library.motions[request.from].rate_hz),
+        usual_(std::max(std::min(library.usual_accelerations[request.from], library.usual_accelerations[request.to]),
+                        kAlwaysUsual)) {
     const int longest = FramesOf(kLengths_s.back());
     for (const FramePair& pair : pairs) {
       windows_.push_back(WindowOfPair(library, request, pair, longest));
@@ -208,7 +216,7 @@ class Rehearsal {
   double Cost(const PlayedWay& way, double enough) const {
     const JoinWindow& window = windows_[way.number];
     const MinimumJerkPlay play(window, way.frames, way.fades);
-    CostMeter meter(window, own_[way.number], options_);
+    CostMeter meter(window, own_[way.number], usual_, options_);
     for (int frame = 0; frame <= way.frames && Time(way) + meter.Seconds() < enough; ++frame) meter.Add(play.At(frame));
     return Time(way) + meter.Seconds();
   }
@@ -216,10 +224,10 @@ class Rehearsal {
   double CostWithFeet(const PlayedWay& way) const {
     const JoinWindow window = Shortened(windows_[way.number], way.frames);
     std::vector<BodyPose> played = PlayMinimumJerk(window, way.fades);
-    PlantFeet(window, played);
-    CostMeter meter(window, own_[way.number], options_);
+    const int unborne = PlantFeet(window, played);
+    CostMeter meter(window, own_[way.number], usual_, options_);
     for (const BodyPose& pose : played) meter.Add(pose);
-    return Time(way) + meter.Seconds();
+    return Time(way) + meter.Seconds() + kUnborne_s * unborne;
   }
 
   /// A way whose time alone costs more than the best is not played.
@@ -237,33 +245,38 @@ class Rehearsal {
       }
     }
     std::ranges::sort(open, IsBetterWay);
-    std::vector<double> least;  // costs of as many as will be played with feet, the largest first in the heap
-    for (PlayedWay& way : open) {
-      const bool is_full = least.size() == kPlayedWithFeet;
-      const double enough = is_full ? least.front() : std::numeric_limits<double>::infinity();
+    for (double length : kLengths_s) PlayLength(FramesOf(length), open);
+    std::ranges::sort(ways_, IsBetterWay);
+  }
+
+  /// Plays the ways of one length, and keeps those that cost least.
+  void PlayLength(int frames, const std::vector<PlayedWay>& open) {
+    std::vector<PlayedWay> best;  // the largest cost first in the heap
+    for (PlayedWay way : open) {
+      if (way.frames != frames) continue;
+      const bool is_full = best.size() == kWithFeet;
+      const double enough = is_full ? best.front().cost_s : std::numeric_limits<double>::infinity();
       if (way.cost_s >= enough) break;
       way.cost_s = Cost(way, enough);
       if (way.cost_s >= enough) continue;
       if (is_full) {
-        std::ranges::pop_heap(least);
-        least.pop_back();
+        std::ranges::pop_heap(best, IsBetterWay);
+        best.pop_back();
       }
-      least.push_back(way.cost_s);
-      std::ranges::push_heap(least);
-      ways_.push_back(way);
+      best.push_back(way);
+      std::ranges::push_heap(best, IsBetterWay);
     }
-    std::ranges::sort(ways_, IsBetterWay);
+    ways_.insert(ways_.end(), best.begin(), best.end());
   }
 
   void PlayBestWithFeet() {
-    if (ways_.size() > kPlayedWithFeet) ways_.resize(kPlayedWithFeet);
     for (PlayedWay& way : ways_) way.cost_s = CostWithFeet(way);
     std::ranges::sort(ways_, IsBetterWay);
   }
 
   const TransitionRequest& request_;
   const PlayedOptions& options_;
-  const double rate_hz_;
+  const double rate_hz_, usual_;
   std::vector<JoinWindow> windows_;
   std::vector<OwnAccelerations> own_;
   std::vector<PlayedWay> ways_;
@@ -277,14 +290,14 @@ const SettingTable<PlayedOptions>& PlayedSettings() {
         "How much acceleration beyond the clips' own, in centimetres per frame², weighs as much as a second of time."},
        {"invented_per_s", &PlayedOptions::invented_per_s, 0.01, 1'000'000,
         "How far from both clips, in centimetres over a second, weighs as much as a second of time."},
-       {"least_play_s", &PlayedOptions::least_play_s, 0, 60,
-        "What must be left of the wanted clip to play, in seconds; its front half may always be entered."}});
+       {"most_skipped_s", &PlayedOptions::most_skipped_s, 0, 60,
+        "How much of the wanted clip may be skipped, in seconds; never more than its first third."}});
   return kSettings;
 }
 
 TransitionRecord PlanPlayed(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
                             const PlayedOptions& options) {
-  const AllowedFrames allowed = AllowedAnyFrames(library, request, options.least_play_s);
+  const AllowedFrames allowed = AllowedEarlyFrames(library, request, options.most_skipped_s);
   const Rehearsal rehearsal(library, request, options, NearestPairs(library, request, allowed));
   const PlayedWay& best = rehearsal.ways().front();
   TransitionRecord record = DirectTransition(library, request, best.pair.leave, best.pair.enter, rules);

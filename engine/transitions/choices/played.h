@@ -9,24 +9,25 @@ namespace etude {
 struct PlayedOptions {
   /// The exchange rate of the cost: one second of waiting or blending equals this much acceleration beyond the clips'
   /// own, cm/frame². Smaller: smoother, later, longer transitions.
-  double excess_per_s = 0.5;
+  double excess_per_s = 0.2;
   /// The exchange rate for poses of neither clip: one second equals so many cm off the nearer clip, integrated over
   /// seconds.
   double invented_per_s = 5;
-  double least_play_s = 1;  ///< what must be left of the wanted clip to play, as PointCloudOptions'
+  double most_skipped_s = 1.5;  ///< how much of the wanted clip may be skipped; never more than its first third
 };
 const SettingTable<PlayedOptions>& PlayedSettings();
 
-/// Plays transitions before it takes one. Of the pairs of frames that the budget and `least_play_s` allow, a dozen,
+/// Plays transitions before it takes one. Of the pairs of frames that the budget and `most_skipped_s` allow, a dozen,
 /// each the nearest by MotionFeatures for its part of the wait, are joined at several lengths from 0.3 to 1.2 s, as far
 /// as the wanted clip goes, in both ways of PlayMinimumJerk, and the one of least cost is taken: wait + length + the
-/// largest acceleration of any joint beyond what either clip has of its own there (`excess_per_s`) + how far the frames
-/// shown are from both clips' own, the root of the mean over joints, summed over time (`invented_per_s`). The best are
-/// played once more with their feet (PlantFeet) before the last word. The record's last segment holds how it should be
-/// joined (PreferredJoin).
+/// largest acceleration of any joint beyond what either clip has of its own there, and beyond what is usual in the
+/// calmer one, 9 m/s² at least (`excess_per_s`) + how far the frames shown are from both clips' own, the root of the
+/// mean over joints, summed over time (`invented_per_s`). The best of each length are played once more with their feet
+/// (PlantFeet) before the last word; then each frame in which no foot bears the body costs, too. The record's last
+/// segment holds how it should be joined (PreferredJoin).
 ///
-/// Ours; searching what is shown instead of what is alike after Kovar, Gleicher and Pighin 2002 and Bollo 2018. It
-/// knows nothing of what accelerations count as natural.
+/// Ours; searching what is shown instead of what is alike after Kovar, Gleicher and Pighin 2002 and Bollo 2018. It does
+/// not know the limits by which transitions are judged.
 TransitionRecord PlanPlayed(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
                             const PlayedOptions& options = {});
 

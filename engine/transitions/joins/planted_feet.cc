@@ -1,8 +1,10 @@
 #include "engine/transitions/joins/planted_feet.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <optional>
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "engine/base/smoothstep.h"
@@ -47,66 +49,118 @@ class FloorFit {
 
 double FloorDistance(const glm::dvec3& a, const glm::dvec3& b) { return std::hypot(a.x - b.x, a.z - b.z); }
 
-/// The way of a foot from one path to the other, at its farthest in the window's middle half.
-struct Travel {
-  double floor = 0, whole = 0;  // metres
-};
-
-Travel TravelOf(const JoinWindow& window, Role foot, double begin, double end) {
-  const int middle = static_cast<int>(std::lround(0.5 * (begin + end)));
-  const glm::dvec3 &from = window.old[middle][foot], &to = window.next[middle][foot];
-  return {FloorDistance(from, to), glm::distance(from, to)};
-}
-
-constexpr double kStill = 0.005;        // metres: a foot that travels no farther need not be lifted
-constexpr double kMostLift = 0.09;      // metres
-constexpr double kLiftPerMetre = 0.35;  // of travel
+constexpr double kStill = 0.005;       // metres: a foot that travels no farther need not be lifted
+constexpr double kMostLift = 0.05;     // metres
+constexpr double kLiftPerMetre = 0.2;  // of travel
 
 double LiftFor(double travel) {
   return travel <= kStill ? 0 : std::min(kMostLift, kLiftPerMetre * (travel - kStill) + 0.02);
 }
 
-/// The share of the frames of a step in which the foot stands in either motion: a step from there breaks a stand.
-double StandingShare(const FootContacts& old, const FootContacts& next, std::size_t side, int begin, int end) {
-  int standing = 0;
-  for (int f = begin; f <= end; ++f) standing += old[side][f] || next[side][f] ? 1 : 0;
-  return static_cast<double>(standing) / (end - begin + 1);
+/// Frames of a window, a bit each.
+using Frames = std::uint64_t;
+constexpr int kMostFrames = 63;  // that steps are planned for; longer joins keep to their first ones
+
+constexpr Frames Bit(int frame) { return Frames{1} << frame; }
+/// The frames from `first` up to `last`, both included; none where last < first.
+constexpr Frames Range(int first, int last) {
+  return last < first ? 0 : (Bit(last) | (Bit(last) - 1)) & ~(Bit(std::max(first, 0)) - 1);
 }
+
+/// A foot in both motions of a window.
+struct FootTracks {
+  FootTracks(const JoinWindow& w, const LegRoles& l, const std::vector<bool>& old, const std::vector<bool>& next)
+      : window(w), leg(l), frames(std::min(w.Frames(), kMostFrames)) {
+    for (int f = 0; f <= frames; ++f) {
+      old_stands |= old[f] ? Bit(f) : 0;
+      next_stands |= next[f] ? Bit(f) : 0;
+    }
+  }
+  bool StandsAtAll() const { return (old_stands | next_stands) != 0; }
+
+  const JoinWindow& window;
+  const LegRoles& leg;
+  int frames = 0;  ///< of the window, as far as steps are planned
+  Frames old_stands = 0, next_stands = 0;
+};
 
 struct StepOption {
   FootStep step;
-  double cost = 0;  // centimetres per frame²
-  bool travels = false;
+  double cost = 0;    // centimetres per frame²
+  Frames stands = 0;  // the frames in which the foot bears the body
 };
 
-std::vector<StepOption> OptionsOf(const JoinWindow& window, const FootContacts& old, const FootContacts& next,
-                                  std::size_t side) {
-  const int frames = window.Frames();
-  const int shortest = std::min(frames, 5);
-  std::vector<int> ends;
-  for (int part = 0; part <= 4; ++part) ends.push_back(part * frames / 4);
+/// Returns what the old motion's toes are off from the new one's where a step begins, and how that changes.
+Offset OffsetOf(const JoinWindow& window, const LegRoles& leg, const FootStep& step) {
+  const int from = std::min(step.begin, step.stays_from), to = std::max(step.begin, step.waits_until);
+  const auto change = [&](const BodyPose& before, const BodyPose& after) {
+    return (after[leg.foot] - before[leg.foot]) * window.rate_hz;
+  };
+  Offset offset{.value = window.old[from][leg.foot] - window.next[to][leg.foot], .velocity = glm::dvec3(0)};
+  if (from == step.begin) {
+    // Where the old motion has ended, as it came there.
+    offset.velocity = from < window.old_frames ? change(window.old[from], window.old[from + 1])
+                      : from > 0               ? change(window.old[from - 1], window.old[from])
+                                               : change(window.shown.before, window.shown.now);
+  }
+  if (to == step.begin) offset.velocity -= change(window.next[to], window.next[to + 1]);
+  return offset;
+}
+
+/// The step with its lift, price and stands. The price is the largest acceleration that movements of least jerk have
+/// from an offset, from a velocity and by the lift.
+StepOption Priced(const FootTracks& foot, const FootStep& step) {
+  constexpr double kCm = 100;
+  StepOption option{.step = step};
+  const Offset start = OffsetOf(foot.window, foot.leg, step);
+  const double travel = std::hypot(start.value.x, start.value.z), length = step.end - step.begin;
+  // A foot that is in the air all the while is lifted by the motions themselves.
+  const bool stands = ((foot.old_stands | foot.next_stands) & Range(step.begin, step.end)) != 0;
+  option.step.lift = stands ? LiftFor(travel) : 0;
+  const double peak = (5.8 * glm::length(start.value) + 12 * option.step.lift) / (length * length) +
+                      3.9 * glm::length(start.velocity) / foot.window.rate_hz / length;
+  option.cost = kCm * peak;
+  option.stands = (foot.old_stands & Range(0, step.begin)) | (foot.next_stands & Range(step.end, foot.frames)) |
+                  Range(step.stays_from, step.begin) | Range(step.end, step.waits_until);
+  if (travel <= kStill) option.stands |= foot.old_stands & foot.next_stands & Range(step.begin, step.end);
+  return option;
+}
+
+/// Returns the last of `frames` up to one; −1 when there is none.
+int LastUpTo(Frames frames, int frame) { return std::bit_width(frames & Range(0, frame)) - 1; }
+/// Returns the first of `frames` from one on; kNoFrame when there is none.
+int FirstFrom(Frames frames, int frame) {
+  const Frames later = frames & ~Range(0, frame - 1);
+  return later == 0 ? FootStep::kNoFrame : std::countr_zero(later);
+}
+
+/// Lists the steps that a foot may make, by tenths of the window. Each may also begin where the foot last stood, and
+/// end where it will stand next.
+std::vector<StepOption> OptionsOf(const FootTracks& foot) {
+  constexpr int kParts = 10, kShortest = 8;
+  const int frames = foot.frames, shortest = std::min(frames, kShortest);
   std::vector<StepOption> options;
-  for (int begin : ends) {
-    for (int end : ends) {
-      if (end - begin < shortest) continue;
-      const Travel travel = TravelOf(window, kLegs[side].foot, begin, end);
-      const double standing = StandingShare(old, next, side, begin, end);
-      StepOption option;
-      option.step = {.begin = static_cast<double>(begin), .end = static_cast<double>(end)};
-      option.step.lift = standing > 0 ? LiftFor(travel.floor) : 0;
-      option.travels = travel.floor > 0.02;
-      const double length = end - begin;
-      constexpr double kPeak = 577;  // of least jerk: 5.77 distance / duration², here in centimetres
-      constexpr double kBrokenStand = 0.4;
-      option.cost = kPeak * (travel.whole + 2 * option.step.lift) / (length * length) +
-                    (option.travels ? kBrokenStand * standing : 0);
-      options.push_back(option);
+  for (int b = 0; b < kParts; ++b) {
+    for (int e = b + 1; e <= kParts; ++e) {
+      FootStep step{.begin = b * frames / kParts, .end = e * frames / kParts};
+      if (step.end - step.begin < shortest) continue;
+      options.push_back(Priced(foot, step));
+      const int stood = LastUpTo(foot.old_stands, step.begin), lands = FirstFrom(foot.next_stands, step.end);
+      const bool may_stay = stood >= 0 && stood<step.begin, may_wait = lands> step.end && lands <= frames;
+      FootStep waits = step;
+      if (may_wait) {
+        waits.waits_until = lands;
+        options.push_back(Priced(foot, waits));
+      }
+      if (may_stay) {
+        step.stays_from = waits.stays_from = stood;
+        options.push_back(Priced(foot, step));
+      }
+      if (may_stay && may_wait) options.push_back(Priced(foot, waits));
     }
   }
   return options;
 }
-
-bool Overlap(const FootStep& a, const FootStep& b) { return a.begin < b.end && b.begin < a.end; }
 
 /// A leg's frame on the way from one motion's leg to the other's.
 struct LegPath {
@@ -114,14 +168,17 @@ struct LegPath {
 };
 
 LegPath PathAt(const JoinWindow& window, const LegRoles& leg, const FootStep& step, int frame) {
-  const double s = std::clamp((frame - step.begin) / (step.end - step.begin), 0.0, 1.0);
-  const double share = Smootherstep(s), rest = s * (1 - s);
-  const BodyPose &old = window.old[frame], &next = window.next[frame];
+  const BodyPose& old = window.old[std::min({frame, step.begin, step.stays_from})];
+  const BodyPose& next = window.next[std::max(frame, step.waits_until)];
   const glm::dvec3 from = old[leg.foot] - old[leg.ankle], to = next[leg.foot] - next[leg.ankle];
-  glm::dvec3 toe = glm::mix(old[leg.foot], next[leg.foot], share);
+  if (frame <= step.begin) return {old[leg.ankle], from};
+  if (frame >= step.end) return {next[leg.ankle], to};
+  const double s = static_cast<double>(frame - step.begin) / (step.end - step.begin), rest = s * (1 - s);
+  glm::dvec3 toe = next[leg.foot] + MinimumJerkDecay(OffsetOf(window, leg, step), (frame - step.begin) / window.rate_hz,
+                                                     (step.end - step.begin) / window.rate_hz);
   toe.y += step.lift * 64 * rest * rest * rest;
   // Turned backwards from the new limb, whose length it keeps.
-  const glm::dvec3 limb = Turned(to, (1 - share) * TurnBetween(to, from));
+  const glm::dvec3 limb = Turned(to, (1 - Smootherstep(s)) * TurnBetween(to, from));
   return {toe - limb, limb};
 }
 
@@ -191,7 +248,7 @@ void PutLeg(const JoinWindow& window, const LegRoles& leg, const LegPath& path, 
 
 FloorMove AlignOnPlantedFeet(std::span<const BodyPose> old, std::span<const BodyPose> next, double rate_hz) {
   FloorFit fit;
-  constexpr double kTrunk = 0.25, kFeet = 0.1;
+  constexpr double kTrunk = 0.05, kFeet = 0.1;
   for (Role role : {Role::kLeftHip, Role::kRightHip, Role::kLeftShoulder, Role::kRightShoulder}) {
     fit.Add(old[0][role], next[0][role], kTrunk);
   }
@@ -208,33 +265,34 @@ FloorMove AlignOnPlantedFeet(std::span<const BodyPose> old, std::span<const Body
 FootPlan PlanSteps(const JoinWindow& window) {
   const FootContacts old = FindFootContacts(window.old, window.rate_hz);
   const FootContacts next = FindFootContacts(window.next, window.rate_hz);
-  FootPlan plan;
   std::array<std::vector<StepOption>, 2> options;
+  std::array<bool, 2> stands{};
+  Frames borne = 0;
   for (std::size_t side = 0; side < kLegs.size(); ++side) {
-    plan[side].keeps = StandingShare(old, next, side, 0, window.Frames()) == 0;
-    options[side] = OptionsOf(window, old, next, side);
+    const FootTracks foot(window, kLegs[side], old[side], next[side]);
+    options[side] = OptionsOf(foot);
+    stands[side] = foot.StandsAtAll();
+    borne |= foot.old_stands | foot.next_stands;
   }
-  constexpr double kHop = 2;  // centimetres per frame²: what it is worth not to leave the ground with both feet
-  std::optional<double> least;
+  constexpr double kUnborne = 2;  // centimetres per frame²: the price of a frame in which nothing stands
+  FootPlan plan;
+  double least = std::numeric_limits<double>::infinity();
   for (const StepOption& left : options[0]) {
     for (const StepOption& right : options[1]) {
-      const bool hops = left.travels && right.travels && Overlap(left.step, right.step);
-      const double cost = left.cost + right.cost + (hops ? kHop : 0);
-      if (least && cost >= *least) continue;
+      const int unborne = std::popcount(borne & ~(left.stands | right.stands));
+      const double cost = left.cost + right.cost + kUnborne * unborne;
+      if (cost >= least) continue;
       least = cost;
-      for (std::size_t side = 0; side < kLegs.size(); ++side) {
-        const bool keeps = plan[side].keeps;
-        plan[side] = side == 0 ? left.step : right.step;
-        plan[side].keeps = keeps;
-      }
+      plan = {.steps = {left.step, right.step}, .unborne = unborne};
     }
   }
+  for (std::size_t side = 0; side < kLegs.size(); ++side) plan.steps[side].keeps = !stands[side];
   return plan;
 }
 
-void PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played) {
-  if (window.Frames() < 2) return;
-  const FootPlan plan = PlanSteps(window);
+int PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played) {
+  if (window.Frames() < 2) return 0;
+  const auto [plan, unborne] = PlanSteps(window);
   std::vector<double> drop(played.size());
   double farthest = 0;  // that any foot is off its path
   for (int frame = 1; frame < static_cast<int>(played.size()); ++frame) {
@@ -247,7 +305,7 @@ void PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played) {
     }
   }
   constexpr double kRounding = 1e-9;
-  if (farthest < kRounding) return;  // a motion that goes on as it was
+  if (farthest < kRounding) return unborne;  // a motion that goes on as it was
   drop = Smoothed(drop);
   for (int frame = 1; frame < static_cast<int>(played.size()); ++frame) {
     BodyPose& pose = played[frame];
@@ -257,6 +315,7 @@ void PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played) {
       PutLeg(window, kLegs[side], PathAt(window, kLegs[side], plan[side], frame), frame, pose);
     }
   }
+  return unborne;
 }
 
 Blend PlantedFeet(const JoinInput& input, const MinimumJerkOptions& options) {

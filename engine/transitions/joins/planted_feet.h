@@ -24,23 +24,31 @@ constexpr std::array<LegRoles, 2> kLegs = {
 /// the point, which decide alone where no foot stands. `old` and `next`: frames from the point on, one at least each.
 FloorMove AlignOnPlantedFeet(std::span<const BodyPose> old, std::span<const BodyPose> next, double rate_hz);
 
-/// A foot's change from the old motion's path to the new one's: when it happens, and how high the foot is lifted.
+/// A foot's change from the old motion's path to the new one's. Until it begins the foot follows the old motion, or
+/// stays where that last stood; from its end on it follows the new one, or waits where that will stand.
 struct FootStep {
   bool keeps = false;  ///< the foot is left where the limbs put it: it stands in neither motion
-  double begin = 0;    ///< frames after the point
-  double end = 1;
-  double lift = 0;  ///< metres at the middle of the step
-};
-/// The changes of both feet, by side.
-using FootPlan = std::array<FootStep, 2>;
+  int begin = 0;       ///< frames after the point
+  int end = 1;
+  double lift = 0;            ///< metres at the middle of the step
+  int stays_from = kNoFrame;  ///< the foot stays where the old motion has it at this frame
+  int waits_until = -1;       ///< the foot waits where the new motion has it at this frame
 
-/// Plans a step for each foot within the window: the two one after the other where both must travel, long ones so that
-/// they accelerate little, while the foot is in the air anyway where it is. Ours.
+  static constexpr int kNoFrame = 1 << 30;
+};
+/// The changes of both feet, by side, and what they cost the body.
+struct FootPlan {
+  std::array<FootStep, 2> steps;
+  int unborne = 0;  ///< frames in which a foot stands in one of the motions, and none stands by this plan
+};
+
+/// Plans a step for each foot within the window: long ones, so that they accelerate little, and one after the other, so
+/// that one foot stands while the other travels. Ours.
 FootPlan PlanSteps(const JoinWindow& window);
 
 /// Puts the feet of `played` (PlayMinimumJerk's) onto their paths, and lowers the pelvis where a leg is too short.
-/// Limbs keep their lengths; the first frame stays as it is.
-void PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played);
+/// Limbs keep their lengths; the first frame stays as it is. Returns FootPlan::unborne.
+int PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played);
 
 /// Joins by MinimumJerk with PlantFeet, the new motion laid by AlignOnPlantedFeet.
 Blend PlantedFeet(const JoinInput& input, const MinimumJerkOptions& options);

@@ -78,6 +78,22 @@ std::vector<std::vector<MotionFeatures>> ComputeMotionFeatures(std::span<const B
   return computed;
 }
 
+double UsualAcceleration(const BodyMotion& motion) {
+  constexpr double kUsual = 0.9;
+  std::vector<double> largest;
+  for (std::size_t f = 1; f + 1 < motion.poses.size(); ++f) {
+    double& here = largest.emplace_back(0);
+    for (std::size_t j = 0; j < kRoleCount; ++j) {
+      const auto at = [&](std::size_t frame) { return motion.poses[frame].joints[j]; };
+      here = std::max(here, glm::length(at(f + 1) - 2.0 * at(f) + at(f - 1)));
+    }
+  }
+  if (largest.empty()) return 0;
+  const auto usual = largest.begin() + static_cast<std::ptrdiff_t>(kUsual * static_cast<double>(largest.size() - 1));
+  std::ranges::nth_element(largest, usual);
+  return *usual;
+}
+
 MotionLibrary MakeLibraryOfOneBody(std::vector<std::string> names, std::vector<BodyMotion> motions,
                                    const BodyProportions& proportions, const TagRules& rules, const TweenRules& tween) {
   MotionLibrary library{.proportions = proportions,
@@ -85,9 +101,11 @@ MotionLibrary MakeLibraryOfOneBody(std::vector<std::string> names, std::vector<B
                         .motions = std::move(motions),
                         .tagged = {},
                         .features = {},
+                        .usual_accelerations = {},
                         .in_betweens = {}};
   library.tagged = TagClips(library.motions, proportions.standing_hip_height, rules);
   library.features = ComputeMotionFeatures(library.motions);
+  for (const BodyMotion& motion : library.motions) library.usual_accelerations.push_back(UsualAcceleration(motion));
   library.in_betweens =
       BuildInBetweens(library.tagged, {.weights = rules.weights, .threshold = kPaperThreshold, .tween = tween});
   return library;

@@ -23,6 +23,10 @@ using MotionFeatures = std::array<double, kMotionFeatureCount>;
 /// all frames of the library, so that metres and metres per second count alike; one that never varies counts nothing.
 std::vector<std::vector<MotionFeatures>> ComputeMotionFeatures(std::span<const BodyMotion> clips);
 
+/// Returns the largest second difference of any joint that nine of ten frames of a motion keep to, metres per frame²; 0
+/// of fewer than three frames.
+double UsualAcceleration(const BodyMotion& motion);
+
 /// Clips made ready for transitions: all performed by one body, at 30 Hz, tagged, and joined by in-betweens.
 struct MotionLibrary {
   BodyProportions proportions;
@@ -30,6 +34,7 @@ struct MotionLibrary {
   std::vector<BodyMotion> motions;
   std::vector<TaggedClip> tagged;                     ///< as `motions`, frame by frame
   std::vector<std::vector<MotionFeatures>> features;  ///< as `motions`, frame by frame
+  std::vector<double> usual_accelerations;            ///< as `motions`: UsualAcceleration
   InBetweenNet in_betweens;
 };
 

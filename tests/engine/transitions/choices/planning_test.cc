@@ -50,5 +50,16 @@ TEST(FuzzyGate, HasNothingToCompareWithoutFramesToEnter) {
   EXPECT_TRUE(gate.Compare(3).empty());
 }
 
+TEST(AllowedEarlyFrames, AreTheFirstThirdAndNoMoreThanMayBeSkipped) {
+  RandomStream dice({.suite_seed = 6, .scenario = "early", .trial = 0}, "clips");
+  const MotionLibrary library = RandomLibrary(dice, {40, 60});
+  const TransitionRequest request{.from = 0, .request_frame = 5, .to = 1, .budget_s = 0.5};
+  EXPECT_EQ(AllowedEarlyFrames(library, request, 60).enter.back(), 20);
+  EXPECT_EQ(AllowedEarlyFrames(library, request, 0.5).enter.back(), 15);
+  const AllowedFrames first = AllowedEarlyFrames(library, request, 0);
+  EXPECT_EQ(first.enter, std::vector{0});
+  EXPECT_EQ(first.leave, AllowedAnyFrames(library, request, 1).leave);
+}
+
 }  // namespace
 }  // namespace etude

@@ -72,25 +72,52 @@ TEST(AlignOnPlantedFeet, TrustsFeetThatStandMoreThanATrunkThatLeans) {
 }
 
 TEST(PlanSteps, LetsFeetThatMustTravelGoOneAfterTheOther) {
-  const FootPlan plan = PlanSteps(Window(Stride(0.15), Stride(-0.15), 30));
-  for (const FootStep& step : plan) {
+  const auto [steps, unborne] = PlanSteps(Window(Stride(0.15), Stride(-0.15), 30));
+  EXPECT_EQ(unborne, 0);
+  for (const FootStep& step : steps) {
     EXPECT_FALSE(step.keeps);
     EXPECT_GT(step.lift, 0.02);
     EXPECT_LT(step.begin, step.end);
   }
-  EXPECT_TRUE(plan[0].end <= plan[1].begin || plan[1].end <= plan[0].begin);
+  EXPECT_TRUE(steps[0].end <= steps[1].begin || steps[1].end <= steps[0].begin);
+}
+
+/// Lifts a foot from one frame to another, both included.
+void Lift(Role foot, int first, int last, std::vector<BodyPose>& poses) {
+  const Role ankle = *ParentOf(foot);
+  for (int f = first; f <= last; ++f) {
+    for (Role role : {foot, ankle}) poses[f][role].y += 0.15;
+  }
+}
+
+TEST(PlanSteps, LeavesAFootStandingWhoseOwnMotionLiftsItWhileTheOtherTravels) {
+  JoinWindow window = Window(Stride(0.15), Stride(-0.15), 30);
+  // Both motions lift their right foot at once, which leaves nothing for the left one to travel by.
+  Lift(Role::kRightFoot, 8, 30, window.old);
+  Lift(Role::kRightFoot, 0, 14, window.next);
+  const auto [steps, unborne] = PlanSteps(window);
+  EXPECT_EQ(unborne, 0);
+  EXPECT_TRUE(steps[1].stays_from < steps[1].begin || steps[1].waits_until > steps[1].end);
+}
+
+TEST(PlanSteps, CountsTheFramesInWhichNothingCanStand) {
+  JoinWindow window = Window(Stride(0.15), Stride(-0.15), 10);  // too short for two steps
+  EXPECT_GT(PlanSteps(window).unborne, 3);
 }
 
 TEST(PlanSteps, DoesNotLiftFeetThatStandWhereTheyShould) {
-  for (const FootStep& step : PlanSteps(Window(Stride(0.2), Stride(0.2), 15))) EXPECT_EQ(step.lift, 0);
+  const FootPlan plan = PlanSteps(Window(Stride(0.2), Stride(0.2), 15));
+  EXPECT_EQ(plan.unborne, 0);
+  for (const FootStep& step : plan.steps) EXPECT_EQ(step.lift, 0);
 }
 
 TEST(PlantFeet, KeepsEachFootInItsPlaceUntilItsStepAndAfterIt) {
   const BodyPose from = Stride(0.3), to = Stride(-0.3);
   const JoinWindow window = Window(from, to, 24);
-  const FootPlan plan = PlanSteps(window);
+  const auto [plan, unborne] = PlanSteps(window);
+  EXPECT_EQ(unborne, 0);
   std::vector<BodyPose> played = PlayMinimumJerk(window, false);
-  PlantFeet(window, played);
+  EXPECT_EQ(PlantFeet(window, played), 0);
   for (std::size_t side = 0; side < kLegs.size(); ++side) {
     for (int f = 0; f <= 24; ++f) {
       const Role foot = kLegs[side].foot;

@@ -67,5 +67,17 @@ TEST(MotionFeatures, HoldTheHipsVelocityInTheDirectionOfFacing) {
   EXPECT_NEAR(frames[20][kHips + 2], frames[10][kHips + 2] / 2, 1e-9) << "central: half of it walks, half stands";
 }
 
+TEST(UsualAcceleration, IsWhatNineOfTenFramesKeepTo) {
+  BodyMotion motion;
+  // Eleven frames in the middle, of which one jumps: x = f² / 2 · 0.02 m but for the last step.
+  for (int f = 0; f < 13; ++f) {
+    BodyPose& pose = motion.poses.emplace_back();
+    pose[Role::kLeftHand].x = 0.01 * f * f + (f == 12 ? 0.5 : 0);
+  }
+  EXPECT_NEAR(UsualAcceleration(motion), 0.02, 1e-12);
+  motion.poses.resize(2);
+  EXPECT_EQ(UsualAcceleration(motion), 0);
+}
+
 }  // namespace
 }  // namespace etude
