@@ -84,7 +84,7 @@ TEST_F(Controls, UnbrokenMotionIsCleanAndSearchingWithFeetMostly) {
   };
   EXPECT_GE(ShareOf("clean_share", by("unbroken", "cut")), 0.85);
   EXPECT_EQ(ShareOf("calm_natural_share", by("unbroken", "cut")), 1);
-  EXPECT_GE(ShareOf("clean_share_v1", by("played", "planted-feet")), 0.75);
+  EXPECT_GE(ShareOf("clean_share", by("played", "planted-feet")), 0.75);
   EXPECT_EQ(ShareOf("skipped_share", by("unbroken", "cut")), 0);
   EXPECT_LE(ShareOf("clean_share", by("now", "cut")), 0.02);
 }
