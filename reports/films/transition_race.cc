@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bench/metrics/transition_smoothness.h"
+#include "bench/model/recording.h"
 #include "reports/words/figures.h"
 #include "reports/words/judged.h"
 

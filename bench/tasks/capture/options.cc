@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/cameras/rig_file.h"
+#include "sim/render/scene.h"
 
 namespace etude {
 namespace {

@@ -5,6 +5,7 @@
 #include "bench/metrics/detection.h"
 #include "bench/model/recording.h"
 #include "engine/base/digest.h"
+#include "engine/streams/labels.h"
 
 namespace etude {
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/clips/clip_library.h"
 #include "bench/tasks/registry.h"
 
 namespace etude {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "engine/kinematics/body_tree.h"
 #include "tests/engine/capture/marked_body.h"
 #include "tests/support/gtest_printers.h"
 

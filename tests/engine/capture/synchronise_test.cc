@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/kinematics/body_tree.h"
 #include "tests/engine/capture/marked_body.h"
 
 namespace etude {

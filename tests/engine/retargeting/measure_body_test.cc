@@ -1,5 +1,6 @@
 #include "engine/retargeting/measure_body.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -8,6 +8,7 @@
 #include "engine/fuzzy/features.h"
 #include "sim/choreography/canonical_body.h"
 #include "tests/sim/choreography/key_poses_shown.h"
+#include "tests/sim/choreography/measures.h"
 
 namespace etude {
 namespace {

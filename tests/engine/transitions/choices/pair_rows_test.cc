@@ -5,6 +5,7 @@
 
 #include "engine/fuzzy/distance.h"
 #include "engine/transitions/choices/pair_rows.h"
+#include "engine/transitions/library/transition_points.h"
 #include "tests/engine/transitions/random_clips.h"
 
 namespace etude {
