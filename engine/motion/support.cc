@@ -4,8 +4,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "engine/base/angles.h"
-
 namespace etude {
 
 std::vector<BodyPose> JointVelocities(std::span<const BodyPose> poses, double rate_hz) {
@@ -224,12 +222,13 @@ std::optional<double> BalanceOffset(const BodyPose& pose, const JointSet& joints
     if (joints[j]) points.push_back(glm::dvec2(pose.joints[j].x, pose.joints[j].z) - centre);
   }
   if (points.empty()) return std::nullopt;
-  // The nearest point of a hull that does not hold the origin lies on a line between two of its points. It holds the
-  // origin when no half-plane of directions is free of points.
-  std::vector<double> directions;
+  // A hull that does not hold the origin is nearest on a line between two of its points. Seen from there, one of its
+  // points has all others on its left.
+  bool holds = true;
   double nearest = glm::length(points.front());
   for (const glm::dvec2& a : points) {
-    directions.push_back(std::atan2(a.y, a.x));
+    const auto is_left = [&](const glm::dvec2& p) { return a.x * p.y - a.y * p.x >= 0; };
+    holds = holds && !std::ranges::all_of(points, is_left);
     for (const glm::dvec2& b : points) {
       const glm::dvec2 line = b - a;
       const double squared = glm::dot(line, line);
@@ -237,10 +236,7 @@ std::optional<double> BalanceOffset(const BodyPose& pose, const JointSet& joints
       nearest = std::min(nearest, glm::length(a + along * line));
     }
   }
-  std::ranges::sort(directions);
-  double widest = directions.front() + 2 * kPi - directions.back();
-  for (std::size_t i = 1; i < directions.size(); ++i) widest = std::max(widest, directions[i] - directions[i - 1]);
-  return widest < kPi ? 0 : nearest;
+  return holds ? 0 : nearest;
 }
 
 }  // namespace etude
