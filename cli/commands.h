@@ -26,6 +26,8 @@ int Finish(const Result<int>& code);
 int TellStopped(const Error& what_is_left = {{}, "stopped; nothing is kept"});
 /// Says on standard error that a run was read although its folder is not as it was written.
 void TellUnsealed(const RunData& run);
+/// Tells whether the parent had closed our standard output, so that nobody will read what is printed.
+bool OutputWasClosed();
 /// Prints a title and indented lines, or nothing without lines.
 void PrintList(const std::string& title, const std::vector<std::string>& lines);
 

@@ -7,12 +7,15 @@
 #include <csignal>
 #include <cstring>
 #include <exception>
+#include <filesystem>
+#include <span>
 
 #include "bench/process/pinned_environment.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "engine/base/names.h"
+#include "engine/base/utf8.h"
 
 namespace etude {
 namespace {
@@ -71,16 +74,31 @@ int ComplainOfArguments(const CLI::App& app, const CLI::ParseError& error) {
   return Complain(Error{{}, fmt::format("{} (etude {}--help explains)", message, words)});
 }
 
-/// Is true of commands that compute nothing that must come out the same on any machine: they print what is known or written,
-/// or draw pages, sheets and films, as fast as this machine can.
+/// Is true of commands that compute nothing that must come out the same on any machine: they print what is known or
+/// written, or draw pages, sheets and films, as fast as this machine can.
 bool RunsUnpinned(const CLI::App& app) {
   if (app.got_subcommand("list") || app.got_subcommand("rows") || app.got_subcommand("report")) return true;
   return app.got_subcommand("clip") && app.get_subcommand("clip")->got_subcommand("render");
 }
 
+bool output_was_closed = false;
+
+/// Refuses what no result could name: manifests, rows and pages are UTF-8.
+Result<void> CheckNames(std::span<char*> arguments) {
+  for (std::size_t i = 1; i < arguments.size(); ++i) {
+    if (CheckUtf8(arguments[i], "")) continue;
+    return Fail({fmt::format("argument {}", i)}, "is no UTF-8 text; allowed: names of UTF-8");
+  }
+  std::error_code error;
+  const std::string here = std::filesystem::current_path(error).string();
+  if (!CheckUtf8(here, "")) return Fail({}, "the name of the working folder is no UTF-8 text; start in another folder");
+  return {};
+}
+
 /// Opens standard streams that the parent has closed: else the next file opened would get the number of one, and what
 /// is printed would land in it.
 void OpenStandardStreams() {
+  output_was_closed = ::fcntl(STDOUT_FILENO, F_GETFD) < 0;
   for (int descriptor = ::open("/dev/null", O_RDWR); descriptor >= 0; descriptor = ::dup(descriptor)) {
     if (descriptor <= STDERR_FILENO) continue;
     ::close(descriptor);
@@ -89,6 +107,7 @@ void OpenStandardStreams() {
 }
 
 int Main(int argc, char** argv) {
+  if (auto named = CheckNames({argv, static_cast<std::size_t>(argc)}); !named) return Complain(named.error());
   CLI::App app(kAbout, "etude");
   app.footer(kExamples);
   app.set_version_flag("--version", ETUDE_VERSION);
@@ -111,6 +130,9 @@ int Main(int argc, char** argv) {
 }
 
 }  // namespace
+
+bool OutputWasClosed() { return output_was_closed; }
+
 }  // namespace etude
 
 int main(int argc, char** argv) {

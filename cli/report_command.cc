@@ -39,6 +39,7 @@ Result<int> ReportCommand(const std::string& folder, const std::vector<std::stri
 
 Result<int> RowsCommand(const std::string& folder, const std::string& file, bool overwrite, Sealing sealing) {
   if (file.empty()) {
+    if (OutputWasClosed()) return Fail({"standard output"}, "is closed; -o writes the rows into a file");
     RETURN_IF_ERROR(WriteRows(folder, sealing, [](std::string_view line) -> Result<void> {
       if (std::fwrite(line.data(), 1, line.size(), stdout) == line.size()) return {};
       return Fail({"standard output"}, "cannot be written: {}", std::strerror(errno));

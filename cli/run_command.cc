@@ -104,7 +104,7 @@ int RunCommand(const RunOptions& given) {
   const std::string folder = outcome->folder.string();
   for (const int line : outcome->damaged_lines) {
     Complain(
-        {{(outcome->folder / kJournalFile).string(), line, 0}, "was not as it had been written; its cell ran again"});
+        {{(outcome->folder / kJournalFile).string(), line, 0}, "does not count: damaged, or the second of its cell"});
   }
   if (outcome->fence.starts_with("none")) Complain({{}, "methods outside ran in no fence: " + outcome->fence});
   if (outcome->stopped) {
@@ -184,6 +184,11 @@ int DryRunCommand(const RunOptions& options) {
   return kSuccess;
 }
 
+void AddOtherLibraries(CLI::App& command, bool& other_libraries) {
+  command.add_flag("--other-libraries", other_libraries,
+                   "Accept that libraries have changed since (which ones is recorded in other_libraries.json)");
+}
+
 }  // namespace
 
 void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
@@ -202,6 +207,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   CLI::Option* overwrite = AddOverwrite(*command, options->overwrite, "Replace a folder that already holds a run");
   CLI::Option* resume =
       command->add_flag("--resume", options->resume, "Go on with the run that the folder holds")->excludes(overwrite);
+  AddOtherLibraries(*command, options->other_libraries);
   AddOutsideRules(*command, options->outside);
   command->add_option("--sync-seconds", options->sync.seconds, "What is done is on the disk after so long at most")
       ->check(NumberWithin(0, 3600, "time in s"))
@@ -245,6 +251,7 @@ void DefineMerge(CLI::App& app, const std::string& command_line, Action& action)
   command->add_option("folders", options->folders, "The folders of all shards, in any order")->required();
   command->add_option("-o,--output", options->output, "Result folder")->required();
   AddOverwrite(*command, options->overwrite, "Replace a folder that already holds a run");
+  AddOtherLibraries(*command, options->other_libraries);
   command->callback([=, &action] { action = [=] { return MergeCommand(*options); }; });
 }
 

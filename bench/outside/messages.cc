@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <vector>
 
 #include "bench/outside/outside_method.h"
 
@@ -9,6 +12,20 @@ namespace etude {
 namespace {
 
 constexpr std::size_t kLongestName = 200;
+
+/// Parses a line; `repeated` is the first key that an object names twice, since readers disagree about which one
+/// counts.
+Json ParseLine(const std::string& line, std::optional<std::string>& repeated) {
+  std::vector<std::set<std::string>> open;  // the keys of the objects that we are in
+  return Json::parse(line, [&](int, Json::parse_event_t event, const Json& parsed) {
+    if (event == Json::parse_event_t::object_start) open.emplace_back();
+    if (event == Json::parse_event_t::object_end) open.pop_back();
+    if (event == Json::parse_event_t::key && !open.back().insert(parsed.get<std::string>()).second && !repeated) {
+      repeated = parsed.get<std::string>();
+    }
+    return true;
+  });
+}
 
 /// Reads an object with a text `type`.
 Result<Json> ReadMessage(const std::string& line) {
@@ -18,7 +35,9 @@ Result<Json> ReadMessage(const std::string& line) {
   if (line.find('\0') != std::string::npos) return Fail({}, "said something that is not JSON: a zero byte");
   Json message;
   try {
-    message = Json::parse(line);
+    std::optional<std::string> repeated;
+    message = ParseLine(line, repeated);
+    if (repeated) return Fail({}, "named the key {} twice in one object: {}", Printable(*repeated), Printable(line));
   } catch (const Json::parse_error& error) {
     const std::size_t start = error.byte > 40 ? error.byte - 40 : 0;
     const std::string where = start == 0 ? "" : fmt::format(" near byte {}", error.byte);

@@ -93,6 +93,10 @@ Result<void> LoadManifest(const fs::path& folder, RunData& run) {
     run.program_version = manifest.at("etude").get<std::string>();
     run.command_line = host.at("command_line").get<std::string>();
     run.host = host.at("host").get<std::string>();
+    std::error_code none;
+    if (fs::exists(folder / kOtherLibrariesFile, none)) {
+      run.host += fmt::format("; libraries changed meanwhile ({})", kOtherLibrariesFile);
+    }
     run.wall_seconds = host.at("wall_seconds").get<double>();
   } catch (const Json::exception& error) {
     return Fail(place, "not a manifest: {}", error.what());

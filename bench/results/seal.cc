@@ -33,10 +33,14 @@ Result<Digests> DigestsOf(const fs::path& folder) {
     const fs::path name = entry->path().lexically_relative(folder);
     if (!IsSealed(name)) {
       entry.disable_recursion_pending();
-    } else if (entry->is_regular_file(error)) {
+    } else if (const fs::file_status status = entry->symlink_status(error); fs::is_regular_file(status)) {
       Digest digest;
       RETURN_IF_ERROR(ReadInChunks(entry->path(), [&](std::string_view bytes) { digest.Add(bytes); }));
       digests[name.generic_string()] = digest.Hex();
+    } else if (!fs::is_directory(status)) {
+      return Fail({entry->path().string()}, "is no file and no folder; a run writes nothing else");
+    } else if (fs::is_empty(entry->path(), error)) {
+      digests[name.generic_string() + "/"] = "empty";
     }
   }
   if (error) return Fail({folder.string()}, "cannot be read: {}", error.message());

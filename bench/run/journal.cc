@@ -52,15 +52,16 @@ struct LineInFile {
   std::size_t length;
 };
 
-Result<void> AddCell(const CellLineHead& head, const LineInFile& line, const Place& place, const Plan& plan,
+/// Returns whether the line counts: a second one of the same cell does not.
+Result<bool> AddCell(const CellLineHead& head, const LineInFile& line, const Place& place, const Plan& plan,
                      const Shard& shard, CellTable& cells) {
   const std::size_t cell = head.cell;
   if (cell >= plan.cell_count() || !plan.IsIn(shard, plan.WorldOf(cell))) {
     return Fail(place, "cell {} is none of this run's shard {}", cell, ToString(shard));
   }
-  if (cells.Has(cell)) return Fail(place, "cell {} ({}) stands in two places", cell, plan.IdentityOf(cell).Id());
+  if (cells.Has(cell)) return false;
   cells.Put(cell, line.file, line.offset, line.length);
-  return {};
+  return true;
 }
 
 }  // namespace
@@ -233,8 +234,12 @@ Result<JournalContent> ReadJournal(const fs::path& folder, const Plan& plan, Cel
       content.damaged.push_back(number);
       continue;
     }
-    RETURN_IF_ERROR(
-        AddCell(*cell, {file, offset, line.size()}, {path.string(), number, 0}, plan, content.head.shard, cells));
+    ASSIGN_OR_RETURN(const bool counts, AddCell(*cell, {file, offset, line.size()}, {path.string(), number}, plan,
+                                                content.head.shard, cells));
+    if (!counts) {
+      content.damaged.push_back(number);
+      continue;
+    }
     ++content.cells;
     content.cells_ok += cell->status == Status::kOk ? 1 : 0;
   }

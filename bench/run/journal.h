@@ -102,14 +102,14 @@ Result<JournalHead> ReadJournalHead(const std::filesystem::path& folder);
 
 struct JournalContent {
   JournalHead head;
-  std::vector<int> damaged;  ///< numbers of lines that are not as they were written, from 1: their cells are not known
+  std::vector<int> damaged;  ///< numbers, from 1, of lines that do not count: not as written, or of a cell that has one
   std::size_t cells = 0, cells_ok = 0;
 };
 
 /// Puts the cells of a journal into `cells` (one place per cell of `plan`). A last line without its end is what a kill
 /// leaves, and ignored; a line that is not as it was written (a flipped bit, something that somebody wrote into it)
-/// costs its cell alone. A good line that is no cell of the plan or of the shard, or stands there already, is refused
-/// with file:line.
+/// costs its cell alone, and a second line of a cell only itself. A good line that is no cell of the plan or of the shard
+/// is refused with file:line.
 Result<JournalContent> ReadJournal(const std::filesystem::path& folder, const Plan& plan, CellTable& cells);
 
 }  // namespace etude

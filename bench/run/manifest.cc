@@ -4,6 +4,7 @@
 #include <sys/utsname.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -17,6 +18,7 @@
 #include "bench/tasks/registry.h"
 #include "bench/training/genetic_search.h"
 #include "engine/base/digest.h"
+#include "engine/base/names.h"
 #include "sim/render/renderer.h"
 
 namespace etude {
@@ -81,14 +83,45 @@ std::string DigestOf(const std::vector<std::string>& texts) {
   return digest.Hex();
 }
 
-/// The digest of all libraries that a worker may load, by their build IDs: those of the program, renderer and codecs, and
-/// of the genetic search.
-std::string DigestOfLibraries() {
-  static_cast<void>(LoadRenderer());  // where one is missing, the digest tells that
+/// The libraries whose code a result passes through, by the beginnings of their files' names: C and C++, the renderer
+/// and its compiler, linear algebra and orderings below Ceres, codecs of pictures, the genetic search. Ceres, Eigen,
+/// GLM and Random123 are part of our own build, which a journal's head names. What only draws pages or reads fonts is
+/// not here, so that its updates change no run's identity.
+constexpr std::array kDecisiveLibraries = {"libc.",        "libm.",       "libstdc++.",   "libOSMesa.", "libglapi.",
+                                           "libLLVM",      "libblas.",    "liblapack.",   "libatlas",   "libopenblas",
+                                           "libgfortran.", "libcholmod.", "libcxsparse.", "libamd.",    "libcamd.",
+                                           "libcolamd.",   "libccolamd.", "libmetis.",    "libhwy.",    "libjpeg.",
+                                           "libpng",       "libz.",       "libOpenEXR",   "libImath",   "libIex",
+                                           "libtinygltf.", "libstb.",     "libpagmo.",    "libnlopt.",  "libipopt."};
+
+/// The builds of the decisive libraries, by name: the first half of their build IDs.
+Json DescribeLibraries() {
+  constexpr std::size_t kToldDigits = 20;
+  static_cast<void>(LoadRenderer());  // one that is missing is missing in the list
   static_cast<void>(LoadGeneticSearch());
-  std::vector<std::string> texts;
-  for (const auto& [name, build] : LoadedLibraries()) texts.push_back(name + " " + build);
-  return DigestOf(texts);
+  Json libraries = Json::object();
+  for (const auto& [name, build] : LoadedLibraries()) {
+    const bool counts =
+        std::ranges::any_of(kDecisiveLibraries, [&](const char* stem) { return name.starts_with(stem); });
+    if (counts) libraries[name] = build.substr(0, kToldDigits);
+  }
+  return libraries;
+}
+
+/// Adds to `found` what differs at `path` or below it.
+void CompareJson(const std::string& path, const Json& then, const Json& now, std::vector<JsonDifference>& found) {
+  if (then == now) return;
+  if (then.is_object() && now.is_object()) {
+    const auto below = [&](const std::string& key) { return path.empty() ? key : path + "." + key; };
+    for (const auto& [key, value] : then.items()) CompareJson(below(key), value, now.value(key, Json()), found);
+    for (const auto& [key, value] : now.items()) {
+      if (!then.contains(key)) CompareJson(below(key), Json(), value, found);
+    }
+  } else if (then.is_array() && now.is_array() && then.size() == now.size()) {
+    for (std::size_t i = 0; i < now.size(); ++i) CompareJson(fmt::format("{}[{}]", path, i), then[i], now[i], found);
+  } else {
+    found.push_back({path, then.is_null() ? "absent" : ShowJson(then), now.is_null() ? "absent" : ShowJson(now)});
+  }
 }
 
 SuiteSetup WithCanonicalNames(SuiteSetup suite) {
@@ -121,7 +154,7 @@ Json MakeManifest(const SuiteSetup& suite, std::span<const PreparedScenario> sce
             {"compiler", __VERSION__},
             {"packages", ETUDE_PACKAGES},
             {"glibc", gnu_get_libc_version()},
-            {"libraries", DigestOfLibraries()},
+            {"libraries", DescribeLibraries()},
             {"environment", DigestOf(PinnedEnvironment())}};
   json.update(EncodeSetup(WithCanonicalNames(suite)));
   for (const TaskKind& kind : AllTaskKinds()) {
@@ -163,6 +196,49 @@ Result<PreparedRun> PrepareRun(const std::filesystem::path& manifest) {
   ASSIGN_OR_RETURN(auto scenarios, PrepareAll(suite));
   RETURN_IF_ERROR(CheckClips(manifest, scenarios));
   return PreparedRun{std::move(suite), std::move(scenarios)};
+}
+
+std::vector<JsonDifference> CompareManifests(const Json& then, const Json& now) {
+  std::vector<JsonDifference> found;
+  CompareJson("", then, now, found);
+  return found;
+}
+
+std::string InWords(std::span<const JsonDifference> differences) {
+  constexpr std::size_t kMostTold = 4;
+  std::vector<std::string> told;
+  for (const JsonDifference& one : differences.first(std::min(differences.size(), kMostTold))) {
+    told.push_back(fmt::format("{} was {} and is {}", one.path, one.then, one.now));
+  }
+  if (differences.size() > kMostTold) told.push_back(fmt::format("{} more differ", differences.size() - kMostTold));
+  return Join(told, "; ");
+}
+
+bool AreOfLibraries(std::span<const JsonDifference> differences) {
+  return std::ranges::all_of(differences, [](const auto& one) { return one.path.starts_with("libraries."); });
+}
+
+Result<std::vector<JsonDifference>> OtherLibrariesOf(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / kOtherLibrariesFile;
+  std::vector<JsonDifference> noted;
+  if (std::error_code none; !std::filesystem::exists(path, none)) return noted;
+  ASSIGN_OR_RETURN(const auto json, ReadJsonFile(path));
+  try {
+    for (const Json& one : json) noted.push_back({one.at("path"), one.at("then"), one.at("now")});
+  } catch (const Json::exception& error) {
+    return Fail({path.string()}, "not a list of libraries that changed: {}", error.what());
+  }
+  return noted;
+}
+
+Result<void> RecordOtherLibraries(const std::filesystem::path& folder, std::span<const JsonDifference> differences) {
+  ASSIGN_OR_RETURN(auto noted, OtherLibrariesOf(folder));
+  for (const JsonDifference& one : differences) {
+    if (std::ranges::find(noted, one) == noted.end()) noted.push_back(one);
+  }
+  Json json = Json::array();
+  for (const JsonDifference& one : noted) json.push_back({{"path", one.path}, {"then", one.then}, {"now", one.now}});
+  return SaveJson(folder / kOtherLibrariesFile, json);
 }
 
 Result<std::string> BuildDigest() {

@@ -28,6 +28,25 @@ struct PreparedRun {
 /// Makes ready what a manifest describes, with the very clips that it had then.
 Result<PreparedRun> PrepareRun(const std::filesystem::path& manifest);
 
+/// A value of a manifest that is another in a second one.
+struct JsonDifference {
+  std::string path;       ///< "libraries.libLLVM-15.so.1", "scenarios[0].trials"
+  std::string then, now;  ///< cut short; "absent"
+
+  bool operator==(const JsonDifference&) const = default;
+};
+
+/// Finds all values that two manifests do not share.
+std::vector<JsonDifference> CompareManifests(const Json& then, const Json& now);
+/// Tells the first few of them: "seed was 1 and is 2; …".
+std::string InWords(std::span<const JsonDifference> differences);
+/// Tells whether all of them are builds of libraries.
+bool AreOfLibraries(std::span<const JsonDifference> differences);
+/// The differences that the folder of a run notes.
+Result<std::vector<JsonDifference>> OtherLibrariesOf(const std::filesystem::path& folder);
+/// Notes in the run's folder, once, that cells of it were computed under other libraries than its manifest names.
+Result<void> RecordOtherLibraries(const std::filesystem::path& folder, std::span<const JsonDifference> differences);
+
 /// Makes host.json: where and how the run was made.
 Json DescribeHost(const std::string& command_line, int jobs, double seconds);
 

@@ -24,30 +24,50 @@ struct Shards {
   std::map<int, fs::path> folders;
   std::string manifest;              ///< the text that all of them have
   std::vector<std::string> missing;  ///< in words: shards that no folder holds, folders that hold none
+  std::vector<JsonDifference> other_libraries = {};
 };
 
-Result<void> AddShard(const fs::path& folder, const std::string& build, Shards& shards) {
+/// Finds out how a shard's manifest differs from those before: libraries may, if that is asked for.
+Result<void> CheckManifest(const fs::path& folder, const JournalHead& head, bool other_libraries, Shards& shards) {
+  if (head.manifest == Digest().Add(std::string_view(shards.manifest)).Hex()) return {};
+  ASSIGN_OR_RETURN(const auto then, ReadJson(shards.manifest, shards.folders.begin()->second.string()));
+  ASSIGN_OR_RETURN(const auto now, ReadJsonFile(folder / "manifest.json"));
+  const std::vector<JsonDifference> found = CompareManifests(then, now);
+  const Place place{folder.string()};
+  if (found.empty()) return Fail(place, "its manifest.json is not the one that it was begun with");
+  if (!AreOfLibraries(found)) return Fail(place, "is a shard of another run than the ones before: {}", InWords(found));
+  if (!other_libraries) {
+    return Fail(place,
+                "ran under other libraries than the ones before: {}; --other-libraries merges all the same and "
+                "records it",
+                InWords(found));
+  }
+  shards.other_libraries.insert(shards.other_libraries.end(), found.begin(), found.end());
+  return {};
+}
+
+Result<void> AddShard(const fs::path& folder, const std::string& build, bool other_libraries, Shards& shards) {
   const Place place{folder.string(), 0, 0};
   ASSIGN_OR_RETURN(const auto head, ReadJournalHead(folder));
-  if (head.build != build) return Fail(place, "was run by another build of etude than this one");
+  if (head.build != build) return Fail(place, "was run by build {} of etude, this is build {}", head.build, build);
   if (shards.folders.empty()) {
     ASSIGN_OR_RETURN(auto manifest, ReadWholeFile(folder / "manifest.json"));
     shards.manifest = std::move(manifest);
     shards.count = head.shard.count;
   }
-  if (head.manifest != Digest().Add(std::string_view(shards.manifest)).Hex()) {
-    return Fail(place, "is a shard of another run than the ones before: scenarios, seed, clips or version differ");
-  }
+  RETURN_IF_ERROR(CheckManifest(folder, head, other_libraries, shards));
   if (head.shard.count != shards.count) {
     return Fail(place, "is shard {}, but the ones before are of {}", ToString(head.shard), shards.count);
   }
   const auto [other, is_new] = shards.folders.emplace(head.shard.index, folder);
   if (!is_new) return Fail(place, "is shard {}, and so is {}", ToString(head.shard), other->second.string());
+  ASSIGN_OR_RETURN(const auto recorded, OtherLibrariesOf(folder));
+  shards.other_libraries.insert(shards.other_libraries.end(), recorded.begin(), recorded.end());
   return {};
 }
 
 /// Finds which shards the folders hold, after checking that they are parts of one run, each there once.
-Result<Shards> FindShards(const std::vector<std::string>& folders) {
+Result<Shards> FindShards(const std::vector<std::string>& folders, bool other_libraries) {
   ASSIGN_OR_RETURN(const auto build, BuildDigest());
   Shards shards;
   for (const std::string& folder : folders) {
@@ -55,7 +75,7 @@ Result<Shards> FindShards(const std::vector<std::string>& folders) {
     if (state == FolderState::kFinished) return Fail({folder, 0, 0}, "is a whole run already, no shard");
     if (state == FolderState::kFree) {
       shards.missing.push_back(folder + " holds no shard");
-    } else if (auto added = AddShard(folder, build, shards); !added) {
+    } else if (auto added = AddShard(folder, build, other_libraries, shards); !added) {
       return tl::unexpected(added.error());
     }
   }
@@ -84,7 +104,7 @@ std::string WhatLacks(const Plan& plan, const Shard& shard, const fs::path& fold
 
 Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(double share)>& on_progress) {
   const Clock::time_point start = Clock::now();
-  ASSIGN_OR_RETURN(auto shards, FindShards(options.folders));
+  ASSIGN_OR_RETURN(auto shards, FindShards(options.folders, options.other_libraries));
   if (shards.folders.empty()) return Fail({}, "there is nothing to merge: {}", Join(shards.missing, "; "));
   ASSIGN_OR_RETURN(const auto prepared, PrepareRun(shards.folders.begin()->second / "manifest.json"));
   const Plan plan(prepared.scenarios);
@@ -120,6 +140,7 @@ Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(d
   }
   ASSIGN_OR_RETURN(auto claimed, RunFolder::Claim(options.output, false));
   RETURN_IF_ERROR(WriteFileAtomically(fs::path(options.output) / "manifest.json", shards.manifest));
+  if (!shards.other_libraries.empty()) RETURN_IF_ERROR(RecordOtherLibraries(options.output, shards.other_libraries));
   Json host = DescribeHost(options.command_line, 0, 0);
   host["shards"] = std::move(hosts);
   const auto has_written = [&](std::size_t rows) { return goes_on(read + rows); };

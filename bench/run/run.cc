@@ -35,24 +35,29 @@ Result<FolderState> CheckFolder(const fs::path& folder, const RunOptions& option
               *state == FolderState::kFinished ? "" : "--resume goes on with it, ");
 }
 
-/// A folder can only be gone on with by the same build, suite, seed and clips.
-Result<void> CheckManifest(const fs::path& folder, const std::string& manifest) {
+/// A folder can only be gone on with by the same build, suite, seed and clips; by other libraries if that is asked for,
+/// which the folder then records.
+Result<void> CheckManifest(const fs::path& folder, const std::string& manifest, bool other_libraries) {
   const fs::path path = folder / "manifest.json";
   ASSIGN_OR_RETURN(const auto found, ReadWholeFile(path));
   if (found == manifest) return {};
   ASSIGN_OR_RETURN(const auto then, ReadJson(found, path.string()));
   ASSIGN_OR_RETURN(const auto now, ReadJson(manifest, ""));
-  for (const auto& [key, value] : now.items()) {
-    if (!then.is_object() || then.value(key, Json()) != value) {
-      return Fail({path.string(), 0, 0}, "is of another run: its '{}' differs; only the same run can be resumed", key);
-    }
+  const std::vector<JsonDifference> differences = CompareManifests(then, now);
+  if (!AreOfLibraries(differences)) {
+    return Fail({path.string()}, "is of another run: {}; only the same run can be resumed", InWords(differences));
   }
-  return Fail({path.string(), 0, 0}, "is of another run; only the same run can be resumed");
+  if (other_libraries) return RecordOtherLibraries(folder, differences);
+  return Fail({path.string()},
+              "libraries have changed since: {}; --other-libraries goes on all the same and records it",
+              InWords(differences));
 }
 
 Result<void> CheckHead(const fs::path& folder, const JournalHead& found, const JournalHead& wanted) {
   const Place place{(folder / kJournalFile).string(), 1, 0};
-  if (found.build != wanted.build) return Fail(place, "was written by another build of etude; run it anew");
+  if (found.build != wanted.build) {
+    return Fail(place, "was written by build {} of etude, this is build {}; run it anew", found.build, wanted.build);
+  }
   if (found.shard != wanted.shard) {
     return Fail(place, "is of shard {}, not {}", ToString(found.shard), ToString(wanted.shard));
   }
@@ -176,7 +181,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   const bool continues = options.resume && state != FolderState::kFree;
   ASSIGN_OR_RETURN(auto claimed, RunFolder::Claim(folder, continues));
   if (continues) {
-    RETURN_IF_ERROR(CheckManifest(folder, manifest + "\n"));
+    RETURN_IF_ERROR(CheckManifest(folder, manifest + "\n", options.other_libraries));
     if (state == FolderState::kFinished) return AlreadyWhole(folder);
   }
   CellTable cells(plan.cell_count());

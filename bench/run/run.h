@@ -27,6 +27,7 @@ struct RunOptions {
   std::string output;                ///< "" = out/<suite>-<seed>, and "-<i>-of-<n>" for a shard
   bool overwrite = false;            ///< replace a folder that already holds a run
   bool resume = false;               ///< go on with the run that the folder holds
+  bool other_libraries = false;      ///< … even where libraries have changed since; the folder records it
   Shard shard;                       ///< run this part only
   int jobs = 0;                      ///< worker processes; 0 = one per processor
   OutsideRules outside;
@@ -66,6 +67,7 @@ struct MergeOptions {
   std::vector<std::string> folders;  ///< of the shards 1/n … n/n, in any order
   std::string output;
   bool overwrite = false;
+  bool other_libraries = false;  ///< shards may have run under different libraries; the merged folder records it
   std::string command_line;
   std::string program_version;
   const std::atomic<bool>* stop = nullptr;

@@ -40,6 +40,19 @@ int EstimateNesting(std::string_view text) {
   return deepest;
 }
 
+/// Refuses control characters (C0 but for tabs and line ends, delete, C1): texts of a document reach terminals and
+/// pages.
+Result<void> CheckControls(std::string_view text, const Place& place) {
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const auto byte = static_cast<unsigned char>(text[at]);
+    const bool is_c1 = byte == 0xc2 && at + 1 < text.size() && static_cast<unsigned char>(text[at + 1]) < 0xa0;
+    if ((byte >= ' ' && byte != 0x7f && !is_c1) || byte == '\n' || byte == '\t') continue;
+    return Fail(place, "holds the control character U+{:04X}; allowed: text, tabs and line ends",
+                is_c1 ? static_cast<unsigned char>(text[at + 1]) : byte);
+  }
+  return {};
+}
+
 class Builder {
  public:
   explicit Builder(std::string file) : file_(std::move(file)) {}
@@ -52,6 +65,7 @@ class Builder {
       case YAML::NodeType::Scalar:
         node.kind = Node::Kind::kScalar;
         node.scalar = yaml.Scalar();
+        RETURN_IF_ERROR(CheckControls(node.scalar, node.place));
         break;
       case YAML::NodeType::Sequence:
         node.kind = Node::Kind::kSequence;
@@ -67,6 +81,7 @@ class Builder {
           const Place key_place = At(pair.first.Mark());
           if (!pair.first.IsScalar()) return Fail(key_place, "a key must be plain text");
           const std::string key = pair.first.Scalar();
+          RETURN_IF_ERROR(CheckControls(key, key_place));
           if (node.Find(key) != nullptr) return Fail(key_place, "the key '{}' stands here twice", key);
           auto value = Build(pair.second, depth + 1);
           if (!value) return value;

@@ -40,6 +40,23 @@ std::optional<double> RateOf(const NumberRows& table, std::size_t time_column) {
   return middle > 0 ? std::optional(1 / middle) : std::nullopt;
 }
 
+/// Refuses a clock that runs backwards, or never moves on.
+Result<void> CheckTimes(const NumberRows& table, std::size_t time_column, const std::string& file) {
+  double last = -std::numeric_limits<double>::infinity();
+  for (std::size_t t = 0; t < table.RowCount(); ++t) {
+    const double time = table.Row(t)[time_column];
+    if (time < last) {
+      return Fail({file, table.lines[t]}, "time {:.6g} s after {:.6g} s; allowed: a clock that does not run backwards",
+                  time, last);
+    }
+    if (!std::isnan(time)) last = time;
+  }
+  if (table.RowCount() > 1 && std::isfinite(last) && !RateOf(table, time_column)) {
+    return Fail({file, table.lines.back()}, "most rows tell the time of the row before; allowed: a clock that runs");
+  }
+  return {};
+}
+
 Result<void> CheckColumns(std::size_t headings, std::size_t columns, const std::string& file) {
   if (headings != columns) return Fail({file, 1}, "{} headings over {} columns", headings, columns);
   return {};
@@ -100,7 +117,10 @@ Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file) {
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file));
   JointCsv csv;
   ASSIGN_OR_RETURN(csv.columns, FindColumns(table, file));
-  if (csv.columns.time) csv.rate_hz = RateOf(table, *csv.columns.time);
+  if (csv.columns.time) {
+    RETURN_IF_ERROR(CheckTimes(table, *csv.columns.time, file));
+    csv.rate_hz = RateOf(table, *csv.columns.time);
+  }
   csv.lines = table.lines;
   for (std::size_t t = 0; t < table.RowCount(); ++t) {
     const JointCsvRow row = RowOf(table.Row(t), csv.columns);

@@ -1,5 +1,6 @@
 """Bad input gives one message that says where and what is allowed, exit code 2, and writes nothing."""
 import json
+import os
 import subprocess
 import unittest
 
@@ -118,6 +119,16 @@ class Errors(EtudeCase):
         manifest["scenarios"] = []
         self.refuses("run", "--from", self.write("m.json", json.dumps(manifest)), "-o", self.out,
                      says=["m.json: names no scenario"])
+
+    def test_names_that_are_no_text(self):
+        odd = os.fsencode(self.folder) + b"/caf\xe9"
+        os.mkdir(odd)
+        named = subprocess.run([ETUDE, "run", self.write("s.yaml", IK), "-o", odd], capture_output=True, text=True)
+        inside = subprocess.run([ETUDE, "list", "metrics"], cwd=odd, capture_output=True, text=True)
+        for result, complaint in ((named, "argument 4: is no UTF-8 text"), (inside, "the working folder is no UTF-8")):
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertIn(complaint, result.stderr)
+        self.assertEqual(os.listdir(odd), [])
 
     def test_a_full_output_is_told(self):
         with open("/dev/full", "w") as full:

@@ -115,6 +115,9 @@ methods: [{name: hue}]
         script = 'exec "$0" run "$1" -o "$2" <&- >&- 2>&-'
         self.assertEqual(subprocess.run(["sh", "-c", script, ETUDE, path, self.out], timeout=60).returncode, 0)
         self.assertTrue((self.out / "cells.jsonl").exists())
+        rows = subprocess.run(["sh", "-c", 'exec "$0" rows "$1" >&-', ETUDE, self.out], stderr=subprocess.PIPE, text=True)
+        self.assertEqual(rows.returncode, 2)
+        self.assertIn("standard output: is closed", rows.stderr)
 
     def test_a_condition_without_measurements_is_one_line_with_the_reason(self):
         clip = "/usr/share/assimp/models/BVH/01_01.bvh"

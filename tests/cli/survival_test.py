@@ -1,5 +1,6 @@
 """A run survives whatever happens to it: killed anywhere and resumed, cut into shards, repeated elsewhere, it gives
 the same bytes.  ETUDE_KILLS: how many kills (more in the heavy version of this test)."""
+import ctypes
 import json
 import os
 import random
@@ -94,7 +95,7 @@ class Survival(EtudeCase):
         self.wait_for_cells(self.out)
         run.kill()
         run.wait()
-        for arguments, complaint in ((["--seed", "9"], "its 'seed' differs"), (["--trials", "41"], "differs"),
+        for arguments, complaint in ((["--seed", "9"], "seed was 1 and is 9"), (["--trials", "41"], "scenarios[0].trials was 40 and is 41"),
                                      (["--shard", "1/2"], "is of shard 1/1, not 1/2")):
             result = self.etude("run", self.scenario, "-o", self.out, "--resume", *arguments)
             self.assertEqual(result.returncode, 2)
@@ -104,6 +105,47 @@ class Survival(EtudeCase):
         self.assertIn("already holds an unfinished run; --resume goes on with it", unasked.stderr)
         self.resume()
         self.assert_same_results(self.whole, self.out)
+
+    @staticmethod
+    def change_a_library(folder):
+        """Makes the folder one of a run under another libm; gives that library's name."""
+        xxh3 = ctypes.CDLL("libxxhash.so.0").XXH3_64bits
+        xxh3.restype, xxh3.argtypes = ctypes.c_uint64, [ctypes.c_char_p, ctypes.c_size_t]
+        path, journal = folder / "manifest.json", folder / "journal.jsonl"
+        manifest = json.loads(path.read_text())
+        name = next(name for name in manifest["libraries"] if name.startswith("libm."))
+        text = path.read_text().replace(manifest["libraries"][name], "0123456789abcdef0123", 1)
+        path.write_text(text)
+        lines = journal.read_text().splitlines(keepends=True)
+        head = json.loads(lines[0])
+        old = head["manifest"]
+        head = lines[0].replace(old, f"{xxh3(text.encode(), len(text.encode())):016x}").split(',"sum":')[0]
+        lines[:2] = [f'{head},"sum":"{xxh3(head.encode(), len(head)):016x}"}}\n'] * 2
+        journal.write_text("".join(lines))
+        return name
+
+    def test_a_library_that_changed_is_named_and_its_acceptance_recorded(self):
+        folders = self.shards()
+        name = self.change_a_library(folders[1])
+        refused = self.etude("merge", *folders, "-o", self.out)
+        self.assertEqual(refused.returncode, 2, refused.stderr)
+        self.assertRegex(refused.stderr, rf'ran under other libraries than the ones before: libraries\.{name} was "\w+" '
+                                         r'and is "0123456789abcdef0123"; --other-libraries merges')
+        self.assertFalse(self.out.exists())
+        merged = self.etude("merge", *folders, "-o", self.out, "--other-libraries")
+        self.assertEqual(merged.returncode, 0, merged.stderr)
+        recorded = json.loads((self.out / "other_libraries.json").read_text())
+        self.assertEqual([(one["path"], one["now"]) for one in recorded],
+                         [(f"libraries.{name}", '"0123456789abcdef0123"')])
+        self.assertEqual(self.etude("report", self.out, "--no-video").returncode, 0)
+        self.assertIn("libraries changed meanwhile", (self.out / "report" / "index.html").read_text())
+        # The same of a run that is gone on with.
+        resumed = self.etude("run", self.scenario, "-o", folders[1], "--shard", "2/3", "--resume")
+        self.assertEqual(resumed.returncode, 2, resumed.stderr)
+        self.assertIn(f"libraries have changed since: libraries.{name} was", resumed.stderr)
+        accepted = self.etude("run", self.scenario, "-o", folders[1], "--shard", "2/3", "--resume", "--other-libraries")
+        self.assertEqual(accepted.returncode, 0, accepted.stderr)
+        self.assertTrue((folders[1] / "other_libraries.json").exists())
 
     def shards(self):
         """Copies of the run's three shards."""

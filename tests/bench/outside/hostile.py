@@ -51,6 +51,10 @@ def answers_nan(problem):
     write('{"type": "answer", "id": "%s", "answer": {"number": NaN}}\n' % problem["id"])
 
 
+def answers_a_key_twice(problem):
+    write('{"type": "answer", "id": "%s", "answer": {"number": 1, "number": 2}}\n' % problem["id"])
+
+
 def answers_beyond_doubles(problem):
     write('{"type": "answer", "id": "%s", "answer": {"number": 1e999}}\n' % problem["id"])
 

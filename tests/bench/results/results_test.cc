@@ -225,6 +225,13 @@ TEST(Seal, HoldsUntilAnythingTheRunWroteChanges) {
   EXPECT_THAT(ToString(CheckSeal(folder).error()), HasSubstr("more.json: was not written by the run"));
   std::filesystem::remove(folder / "more.json");
   EXPECT_TRUE(CheckSeal(folder));
+  std::filesystem::create_directories(folder / "stray");
+  EXPECT_THAT(ToString(CheckSeal(folder).error()), HasSubstr("stray/: was not written by the run"));
+  std::filesystem::remove(folder / "stray");
+  std::filesystem::create_symlink(cells, folder / "link.jsonl");
+  EXPECT_THAT(ToString(CheckSeal(folder).error()), HasSubstr("link.jsonl: is no file and no folder"));
+  std::filesystem::remove(folder / "link.jsonl");
+  EXPECT_TRUE(CheckSeal(folder));
   ASSERT_TRUE(WriteFileAtomically(folder / "seal.json", "{\"version\": 7}"));
   EXPECT_THAT(ToString(CheckSeal(folder).error()), HasSubstr("a seal of version 7"));
 }

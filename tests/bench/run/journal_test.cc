@@ -127,6 +127,19 @@ TEST_F(JournalTest, LosesACellAloneByAChangedByteOfItsLine) {
   }
 }
 
+TEST_F(JournalTest, ASecondLineOfACellCostsItselfAlone) {
+  WriteTwo();
+  const std::string text = Text();
+  const std::size_t begin = EndOfHead(text), end = text.find('\n', begin) + 1;
+  Rewrite(text + text.substr(begin, end - begin));
+  CellTable cells(0);
+  const auto content = Read(cells);
+  ASSERT_TRUE(content) << ToString(content.error());
+  EXPECT_TRUE(cells.Has(0) && cells.Has(3));
+  EXPECT_EQ(content->damaged, std::vector<int>{5});
+  EXPECT_EQ(content->cells, 2u);
+}
+
 TEST_F(JournalTest, PassesOverGarbageWithALineEnd) {
   WriteTwo();
   const std::string text = Text();

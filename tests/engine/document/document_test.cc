@@ -77,6 +77,13 @@ TEST(Document, RefusesInfinitiesAndNotANumber) {
   }
 }
 
+TEST(Document, RefusesControlCharactersThatATerminalWouldObey) {
+  EXPECT_THAT(Complaint("a: 1\nb: \"\\e[31m\"\n"), HasSubstr("t.yaml:2:4: holds the control character U+001B"));
+  EXPECT_THAT(Complaint("\"a\\x9b\": 1\n"), HasSubstr("t.yaml:1:1: holds the control character U+009B"));
+  EXPECT_THAT(Complaint("a: [\"\\x7f\"]\n"), HasSubstr("holds the control character U+007F"));
+  EXPECT_TRUE(ParseYaml("a: \"one\\n\\ttwo \\xe9\"\n", "t.yaml"));
+}
+
 TEST(Document, RefusesBrokenOrHostileText) {
   EXPECT_THAT(Complaint("a: [1, 2\n"), HasSubstr("not valid YAML"));
   EXPECT_THAT(Complaint("speed: 1\nspeed: 2\n"), HasSubstr("t.yaml:2:1: the key 'speed' stands here twice"));

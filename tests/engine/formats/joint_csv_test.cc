@@ -66,6 +66,11 @@ TEST(JointCsv, RefusesUnknownHeadingsHalfJointsAndRaggedRows) {
   EXPECT_EQ(complaint("head_x_m,head_y_m\n1,2\n"), "m.csv:1: 'head' has not all of its three coordinates");
   EXPECT_EQ(complaint("head_x_m,head_y_m,head_z_m\n1,2,3\n1,2\n"), "m.csv:3: 2 values; the rows before have 3");
   EXPECT_EQ(complaint("1,2,3\n"), "m.csv:1: 0 headings over 3 columns");
+  const std::string timed = "time_s,head_x_m,head_y_m,head_z_m\n";
+  EXPECT_EQ(complaint((timed + "0.2,1,2,3\n0.1,1,2,3\n0,1,2,3\n").c_str()),
+            "m.csv:3: time 0.1 s after 0.2 s; allowed: a clock that does not run backwards");
+  EXPECT_EQ(complaint((timed + "1,1,2,3\n1,1,2,3\n").c_str()),
+            "m.csv:3: most rows tell the time of the row before; allowed: a clock that runs");
 }
 
 }  // namespace
