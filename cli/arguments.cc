@@ -84,10 +84,12 @@ std::function<std::string(const std::string&)> NumberWithin(double low, double h
 void DefineCommands(CLI::App& app, const std::string& command_line, Action& action) {
   app.require_subcommand(1);
   DefineRun(app, command_line, action);
+  DefineScenario(app, action);
   DefineMerge(app, command_line, action);
   DefineReport(app, action);
   DefineRows(app, action);
   DefineReplay(app, action);
+  DefineCite(app, action);
   DefineGate(app, action);
   DefineCompare(app, action);
   DefineExport(app, action);
@@ -104,6 +106,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineCapture(app, action);
   DefineCoach(app, action);
   DefineCrowd(app, action);
+  DefineOptionTree(app, action);
   CLI::App* worker = app.add_subcommand("worker", "What the program starts for itself");
   worker->group("");  // hidden
   worker->callback([&action] { action = [] { return RunWorker(std::cin, std::cout); }; });

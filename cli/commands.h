@@ -35,6 +35,8 @@ void PrintList(const std::string& title, const std::vector<std::string>& lines);
 
 /// `etude run`: runs scenarios with a progress bar and prints the verdicts; with --dry-run tells what it would take.
 void DefineRun(CLI::App& app, const std::string& command_line, Action& action);
+/// `etude scenario copy NAME FOLDER`: copies what comes with etude.
+void DefineScenario(CLI::App& app, Action& action);
 /// `etude merge DIR… -o DIR`: makes one run of its shards.
 void DefineMerge(CLI::App& app, const std::string& command_line, Action& action);
 /// `etude report DIR`: writes DIR/report and DIR/video.
@@ -43,6 +45,8 @@ void DefineReport(CLI::App& app, Action& action);
 void DefineRows(CLI::App& app, Action& action);
 /// `etude replay DIR|FILE`: runs cells again and compares them stage by stage (exit 1 when one differs), or packs one.
 void DefineReplay(CLI::App& app, Action& action);
+/// `etude cite DIR`: BibTeX, and the sentence that names a run.
+void DefineCite(CLI::App& app, Action& action);
 /// `etude gate`: exit 0 pass, 1 regression or unmet expectation, 2 bad input, 3 incomplete.
 void DefineGate(CLI::App& app, Action& action);
 /// `etude compare A B`: tells what differs between two runs of the same worlds.
@@ -79,6 +83,8 @@ void DefineCalibrate(CLI::App& app, Action& action);
 void DefineCapture(CLI::App& app, Action& action);
 /// `etude coach`: coaches a song live from a skeleton stream.
 void DefineCoach(CLI::App& app, Action& action);
+/// `etude completion SHELL`, and what packages make their manual pages by.
+void DefineOptionTree(CLI::App& app, Action& action);
 /// `etude crowd`: follows a crowd on one core, tells how long its frames take, and films it.
 void DefineCrowd(CLI::App& app, Action& action);
 

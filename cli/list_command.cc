@@ -6,6 +6,7 @@
 #include "bench/metrics/catalogue.h"
 #include "bench/metrics/export.h"
 #include "bench/recordings/task_extras.h"
+#include "bench/run/shipped.h"
 #include "bench/run/suite.h"
 #include "bench/scenario/keys.h"
 #include "bench/scenario/scenario.h"
@@ -56,7 +57,25 @@ Result<int> ListClips() {
   return kSuccess;
 }
 
+/// Lists what comes with the program, a line each, by the names that `etude run` takes.
+Result<int> ListShippedScenarios() {
+  const std::vector<std::string> names = ShippedScenarios();
+  if (names.empty()) return Fail({}, "no scenarios came with this program; etude list scenarios FOLDER lists yours");
+  for (const std::string& name : names) {
+    SourceTexts texts;
+    ASSIGN_OR_RETURN(const auto scenarios, ReadScenarios(FindShipped(name).string(), texts));
+    for (const Scenario& scenario : scenarios) {
+      fmt::print("{:<28}  {:<10}  {}\n", &scenario == &scenarios.front() ? name : "", scenario.task, scenario.question);
+    }
+  }
+  fmt::print(
+      "\nSuites: quick (a minute), paper (what the papers claim), full (hours each). etude run quick; "
+      "etude scenario copy full/ik_weights .\n");
+  return kSuccess;
+}
+
 Result<int> ListScenarios(const std::string& folder) {
+  if (folder.empty()) return ListShippedScenarios();
   ASSIGN_OR_RETURN(const auto files, FindScenarioFiles({folder}));
   for (const std::string& file : files) {
     SourceTexts texts;
@@ -163,9 +182,9 @@ void DefineList(CLI::App& app, Action& action) {
     const KeysFormat format = *as_schema ? KeysFormat::kSchema : *as_page ? KeysFormat::kMarkdown : KeysFormat::kText;
     action = [=] { return ListKeysCommand(format); };
   });
-  auto folder = std::make_shared<std::string>("scenarios/quick");
-  CLI::App* scenarios = command->add_subcommand("scenarios", "Scenarios of a folder");
-  scenarios->add_option("folder", *folder, "Folder of scenarios")->capture_default_str();
+  auto folder = std::make_shared<std::string>();
+  CLI::App* scenarios = command->add_subcommand("scenarios", "Scenarios that come with etude, or those of a folder");
+  scenarios->add_option("folder", *folder, "A folder, a file, or a name such as quick");
   scenarios->callback([=, &action] { action = [=] { return Finish(ListCommand(Listing::kScenarios, *folder)); }; });
 }
 

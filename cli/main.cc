@@ -28,12 +28,12 @@ constexpr const char* kAbout =
 
 constexpr const char* kExamples =
     "\nTry:\n"
-    "  etude run scenarios/quick                      the quick suite, into out/quick-1\n"
-    "  etude run scenarios/quick --clips '~/mocap/*.bvh'   on your own motion capture\n"
+    "  etude run quick                                the quick suite, into out/quick-1\n"
+    "  etude run quick --clips '~/mocap/*.bvh'        on your own motion capture\n"
     "  etude report out/quick-1                       a page, tables, JUnit and a video of it\n"
-    "  etude run scenarios/quick --resume             go on after a crash, a kill, a power cut\n"
+    "  etude run quick --resume                       go on after a crash, a kill, a power cut\n"
     "  etude gate out/quick-1 --baseline FILE         pass or fail, for a CI server\n"
-    "  etude run scenarios/paper                      what the papers claim, in their own tables and situations\n"
+    "  etude run paper                                what the papers claim, in their own tables and situations\n"
     "  etude list methods                             what a scenario can name; also keys, metrics, clips\n"
     "  etude clip render '~/mocap/*.bvh' -o mocap.png      what is in these clips; also info, convert, map\n"
     "  etude bridge '~/mocap/*.bvh' -o tags.xml       where these clips lead into each other, and how well\n"
@@ -77,7 +77,9 @@ int ComplainOfArguments(const CLI::App& app, const CLI::ParseError& error) {
 /// Is true of commands that compute nothing that must come out the same on any machine: they print what is known or
 /// written, or draw pages, sheets and films, as fast as this machine can.
 bool RunsUnpinned(const CLI::App& app) {
-  if (app.got_subcommand("list") || app.got_subcommand("rows") || app.got_subcommand("report")) return true;
+  if (app.got_subcommand("list") || app.got_subcommand("rows") || app.got_subcommand("cite") ||
+      app.got_subcommand("completion") || app.got_subcommand("man") || app.got_subcommand("report"))
+    return true;
   return app.got_subcommand("clip") && app.get_subcommand("clip")->got_subcommand("render");
 }
 

@@ -9,11 +9,13 @@
 #include "bench/results/folder.h"
 #include "bench/run/dry_run.h"
 #include "bench/run/run.h"
+#include "bench/run/shipped.h"
 #include "bench/statistics/beyond.h"
 #include "bench/statistics/bootstrap.h"
 #include "bench/statistics/distributions.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
+#include "cli/output_file.h"
 #include "cli/progress_bar.h"
 
 namespace etude {
@@ -95,6 +97,9 @@ int ShowOutcome(const RunOutcome& outcome) {
 
 int RunCommand(const RunOptions& given) {
   RunOptions options = given;
+  for (const std::string& name : NamesThatAreHereToo(options.scenarios)) {
+    Complain({{name}, "what is here is run, not what comes with etude under that name"});
+  }
   std::optional<Interrupt> interrupt(std::in_place);
   options.stop = interrupt->requested();
   ProgressBar bar;
@@ -197,7 +202,8 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   options->program_version = ETUDE_VERSION;
   options->command_line = command_line;
   CLI::App* command = app.add_subcommand("run", "Run scenarios into a result folder");
-  command->add_option("scenarios", options->scenarios, "Scenario files, or folders of them");
+  command->add_option("scenarios", options->scenarios,
+                      "Scenario files, folders of them, or names of what comes with etude (quick, full/ik_weights)");
   command->add_option("-o,--output", options->output, "Result folder (default: out/<suite>-<seed>)");
   AddJobs(*command, options->jobs);
   const auto world_options =
@@ -239,6 +245,23 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
         options->shard = *part;
       }
       return *dry_run ? DryRunCommand(*options) : RunCommand(*options);
+    };
+  });
+}
+
+void DefineScenario(CLI::App& app, Action& action) {
+  auto name = std::make_shared<std::string>(), folder = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("scenario", "Start from what comes with etude");
+  CLI::App* copy = command->add_subcommand("copy", "Copy a scenario or a suite, to change it");
+  command->require_subcommand(1);
+  copy->add_option("name", *name, "Its name, such as full/ik_weights or quick (etude list scenarios)")->required();
+  copy->add_option("folder", *folder, "Where to")->required();
+  copy->callback([=, &action] {
+    action = [=] {
+      const auto written = CopyShipped(*name, *folder);
+      if (!written) return Complain(written.error());
+      for (const auto& file : *written) TellWritten(file.string());
+      return kSuccess;
     };
   });
 }

@@ -35,8 +35,9 @@ Result<void> AddFile(const std::string& reference, const OpenOptions& options, C
 }  // namespace
 
 std::string CollectionOf(const LibraryClip& clip) {
-  if (clip.source.starts_with(kBuiltinPrefix)) return std::string(kBuiltinPrefix.substr(0, kBuiltinPrefix.size() - 1));
   const std::size_t slash = clip.source.rfind('/');
+  const bool is_named = clip.source.starts_with(kBuiltinPrefix) || FileOf(clip.source) != clip.source;
+  if (is_named) return clip.source.substr(0, clip.source.find(':'));
   return slash == std::string::npos ? "." : clip.source.substr(0, slash);
 }
 

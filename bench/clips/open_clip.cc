@@ -176,8 +176,8 @@ Result<ClipFile> ReadClipFile(const std::string& path) {
 Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const OpenOptions& options) {
   if (reference.starts_with(kBuiltinPrefix)) return ReadBuiltin(reference);
   const SplitReference wanted = Split(reference);
-  ASSIGN_OR_RETURN(auto file, ReadClipFile(wanted.path));
-  const std::string stem = fs::path(wanted.path).stem().string();
+  ASSIGN_OR_RETURN(auto file, ReadClipFile(FileOf(wanted.path)));
+  const std::string stem = fs::path(FileOf(wanted.path)).stem().string();
   if (file.format == ClipFormat::kBvh || file.format == ClipFormat::kDeepMimic) {
     if (wanted.animation) {
       return Fail({wanted.path, 0, 0}, "a {} file has one motion; '#{}' chooses one of a glTF file",

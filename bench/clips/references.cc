@@ -3,7 +3,9 @@
 #include <glob.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 #include "engine/base/names.h"
@@ -11,6 +13,23 @@
 
 namespace etude {
 namespace {
+
+/// Clips that a package installs, called by its name, so that neither a scenario nor a result holds a path of a
+/// machine.
+struct PackagedClips {
+  std::string_view prefix;   ///< of a reference
+  std::string_view package;  ///< of Debian
+  std::string_view folder;
+  std::string_view ending;
+};
+constexpr std::array kPackagedClips = {
+    PackagedClips{"assimp:", "assimp-testmodels", "/usr/share/assimp/models/BVH/", ".bvh"}};
+
+const PackagedClips* FindPackage(std::string_view reference) {
+  const auto found =
+      std::ranges::find_if(kPackagedClips, [&](const PackagedClips& one) { return reference.starts_with(one.prefix); });
+  return found == kPackagedClips.end() ? nullptr : &*found;
+}
 
 std::vector<std::string> FilesMatching(const std::string& pattern) {
   // glob calls itself for every '/', each time with a copy of the pattern: thousands of them overflow its stack.
@@ -37,6 +56,11 @@ std::vector<std::string> BuiltinsOf(const std::string& reference) {
 std::vector<std::string> FilesOf(const std::string& reference) {
   std::error_code ignored;
   if (std::filesystem::exists(reference, ignored)) return {reference};  // brackets in it are no pattern then
+  if (const PackagedClips* package = FindPackage(reference)) {
+    std::vector<std::string> files = FilesMatching(FileOf(reference));
+    for (std::string& file : files) file = std::string(package->prefix) + std::filesystem::path(file).stem().string();
+    return files;
+  }
   if (std::vector<std::string> files = FilesMatching(reference); !files.empty()) return files;
   const SplitReference split = Split(reference);
   if (!split.animation) return {};
@@ -70,15 +94,26 @@ Result<BuiltinClip> LoadBuiltinClip(const std::string& name, const Place& place)
 Result<std::vector<std::string>> ExpandReference(const std::string& reference, const Place& place) {
   const bool is_builtin = reference.starts_with(kBuiltinPrefix);
   std::vector<std::string> found = is_builtin ? BuiltinsOf(reference) : FilesOf(reference);
+  if (const PackagedClips* package = FindPackage(reference); found.empty() && package != nullptr) {
+    return Fail(place, "no clip matches '{}'; {} come with the package {}, in {}", reference, package->prefix,
+                package->package, package->folder);
+  }
   if (found.empty()) {
-    return Fail(
-        place,
-        "no clip matches '{}'; allowed: builtin:NAME, a BVH or glTF file, file.glb#ANIMATION, or a pattern such "
-        "as 'mocap/*.bvh'",
-        reference);
+    return Fail(place,
+                "no clip matches '{}'; allowed: builtin:NAME, assimp:NAME, a BVH or glTF file, file.glb#ANIMATION, or "
+                "a pattern such "
+                "as 'mocap/*.bvh'",
+                reference);
   }
   if (found.size() > kMostClips) return Fail(place, "'{}' stands for more than {} clips", reference, kMostClips);
   return found;
+}
+
+std::string FileOf(const std::string& reference) {
+  const PackagedClips* package = FindPackage(reference);
+  std::error_code ignored;
+  if (package == nullptr || std::filesystem::exists(reference, ignored)) return reference;
+  return std::string(package->folder) + reference.substr(package->prefix.size()) + std::string(package->ending);
 }
 
 SplitReference Split(const std::string& reference) {

@@ -26,7 +26,8 @@ Result<BuiltinClip> LoadBuiltinClip(const std::string& name, const Place& place)
 constexpr std::size_t kMostClips = 1000;
 
 /// Lists the clips that a reference stands for, in order, each opened on its own: a built-in clip ("builtin:clap";
-/// "builtin:*" are all moves, "builtin:acts", "builtin:songs"), or a file ("mocap/*.bvh", sorted; `~/` is the home
+/// "builtin:*" are all moves, "builtin:acts", "builtin:songs"), a clip of a package ("assimp:01_01", "assimp:*"; of
+/// Debian's assimp-testmodels), or a file ("mocap/*.bvh", sorted; `~/` is the home
 /// folder), each with the "#animation" of the pattern. A file of that very name comes before what a pattern or '#'
 /// would mean. Relative names start at the current folder. Fails at `place` when nothing matches.
 Result<std::vector<std::string>> ExpandReference(const std::string& reference, const Place& place);
@@ -38,5 +39,8 @@ struct SplitReference {
   std::optional<std::string> animation;
 };
 SplitReference Split(const std::string& reference);
+
+/// The file that a reference without an animation names: that of a package's clip, else itself.
+std::string FileOf(const std::string& reference);
 
 }  // namespace etude

@@ -33,14 +33,14 @@ Result<Json> PackClips(const ClipLibrary& library) {
     const SplitReference reference = Split(clip.source);
     const auto [file, is_new] = number_of.emplace(reference.path, files.size());
     if (is_new) {
-      ASSIGN_OR_RETURN(auto bytes, ReadWholeFile(reference.path));
+      ASSIGN_OR_RETURN(auto bytes, ReadWholeFile(FileOf(reference.path)));
       const std::size_t first = bytes.find_first_not_of(" \t\r\n");
       if (first != std::string::npos && bytes[first] == '{') {
         return Fail({reference.path, 0, 0},
                     "a .gltf may need files beside it and is not packed; 'etude clip convert' "
                     "makes a .glb of it");
       }
-      files.push_back({{"name", fs::path(reference.path).filename().string()},
+      files.push_back({{"name", fs::path(FileOf(reference.path)).filename().string()},
                        {"bytes", Json::binary({bytes.begin(), bytes.end()})}});
     }
     clips.push_back({{"file", file->second}, {"animation", reference.animation.value_or("")}});

@@ -8,6 +8,7 @@
 
 #include "bench/files/files.h"
 #include "bench/run/manifest.h"
+#include "bench/run/shipped.h"
 #include "bench/scenario/methods.h"
 #include "bench/tasks/registry.h"
 #include "engine/base/digest.h"
@@ -21,7 +22,10 @@ fs::path TopOf(const fs::path& folder) {
   for (fs::path above = folder; above != above.parent_path(); above = above.parent_path()) {
     if (std::error_code none; fs::exists(above / ".git", none)) return above;
   }
-  return {};
+  // What is shipped has the names that it has in its repository, wherever it is installed.
+  const fs::path shipped = ShippedFolder();
+  const fs::path inside = folder.lexically_relative(shipped);
+  return shipped.empty() || inside.empty() || *inside.begin() == ".." ? fs::path() : shipped;
 }
 
 namespace fs = std::filesystem;
@@ -43,8 +47,8 @@ Result<void> KeepText(const std::string& file, SourceTexts& texts) {
   return {};
 }
 
-/// Keeps the texts of the files that a scenario's conditions name among the sources. A file that is no text is refused when the
-/// tasks are made.
+/// Keeps the texts of the files that a scenario's conditions name among the sources. A file that is no text is refused
+/// when the tasks are made.
 Result<void> KeepNamedFiles(const Scenario& scenario, SourceTexts& texts) {
   for (const Condition& condition : scenario.conditions) {
     for (const NamedFile& file : FilesNamedBy(condition, *FindTaskKind(scenario.task))) {
@@ -153,9 +157,15 @@ std::map<std::string, std::string> CanonicalNames(const std::string& scenario_fi
 
 Result<std::vector<std::string>> FindScenarioFiles(const std::vector<std::string>& paths) {
   std::vector<std::string> files;
-  for (const std::string& path : paths) {
+  for (const std::string& named : paths) {
     std::error_code error;
-    const fs::file_status status = fs::status(path, error);
+    fs::file_status status = fs::status(named, error);
+    std::string path = named;
+    if (status.type() == fs::file_type::not_found) {
+      path = FindShipped(named).string();
+      if (path.empty()) return NotShipped(named);
+      status = fs::status(path, error);
+    }
     if (fs::is_directory(status)) {
       std::vector<std::string> inside;
       for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
@@ -165,8 +175,6 @@ Result<std::vector<std::string>> FindScenarioFiles(const std::vector<std::string
       if (inside.empty()) return Fail({path, 0, 0}, "holds no scenario (*.yaml)");
       std::sort(inside.begin(), inside.end());
       files.insert(files.end(), inside.begin(), inside.end());
-    } else if (status.type() == fs::file_type::not_found) {
-      return Fail({path, 0, 0}, "no such scenario file or folder");
     } else {
       files.push_back(path);  // reading it tells what else is wrong with it
     }

@@ -21,7 +21,7 @@ constexpr std::size_t kMostFiles = 100'000;
 
 bool IsClip(const std::string& reference) {
   if (reference.starts_with("builtin:")) return true;
-  const std::string ending = fs::path(Split(reference).path).extension().string();
+  const std::string ending = fs::path(FileOf(Split(reference).path)).extension().string();
   return ending == ".bvh" || ending == ".BVH" || ending == ".glb" || ending == ".gltf";
 }
 

@@ -1,0 +1,106 @@
+#include "bench/run/shipped.h"
+
+#include <algorithm>
+
+#include "bench/files/files.h"
+#include "engine/base/names.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSuites[] = {"quick", "paper", "full"};
+constexpr const char* kScenarioFolder = "scenarios";
+constexpr const char* kEnding = ".yaml";
+
+bool HoldsSuites(const fs::path& folder) {
+  std::error_code none;
+  return fs::is_directory(folder / kScenarioFolder / kSuites[0], none);
+}
+
+/// The *.yaml of a folder, sorted.
+std::vector<fs::path> ScenarioFilesIn(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    if (entry->path().extension() == kEnding) files.push_back(entry->path());
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+}  // namespace
+
+fs::path ShippedFolder() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  const fs::path folder = program.parent_path();
+  const fs::path installed = folder.parent_path() / "share" / "etude";
+  if (HoldsSuites(installed)) return installed;
+  for (fs::path above = folder; above.has_relative_path(); above = above.parent_path()) {
+    if (HoldsSuites(above)) return above;
+  }
+  return {};
+}
+
+std::vector<std::string> ShippedScenarios() {
+  std::vector<std::string> names;
+  for (const char* suite : kSuites) {
+    for (const fs::path& file : ScenarioFilesIn(ShippedFolder() / kScenarioFolder / suite)) {
+      names.push_back(fmt::format("{}/{}", suite, file.stem().string()));
+    }
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+fs::path FindShipped(const std::string& name) {
+  const fs::path top = ShippedFolder();
+  if (top.empty()) return {};
+  const fs::path path = top / kScenarioFolder / name;
+  if (std::ranges::find(kSuites, name) != std::end(kSuites)) return path;
+  const std::vector<std::string> names = ShippedScenarios();
+  return std::ranges::binary_search(names, name) ? fs::path(path.string() + kEnding) : fs::path();
+}
+
+tl::unexpected<Error> NotShipped(const std::string& path) {
+  std::vector<std::string> names = ShippedScenarios();
+  names.insert(names.end(), std::begin(kSuites), std::end(kSuites));
+  const std::string nearest = NearestName(path, names);
+  return Fail({path},
+              "no such scenario file or folder, and none of that name comes with etude{} (etude list scenarios)",
+              nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest));
+}
+
+std::vector<std::string> NamesThatAreHereToo(const std::vector<std::string>& paths) {
+  std::vector<std::string> names;
+  for (const std::string& path : paths) {
+    const fs::path shipped = FindShipped(path);
+    std::error_code error;
+    if (!shipped.empty() && fs::exists(path, error) && !fs::equivalent(path, shipped, error)) names.push_back(path);
+  }
+  return names;
+}
+
+Result<std::vector<fs::path>> CopyShipped(const std::string& name, const fs::path& folder) {
+  const fs::path found = FindShipped(name);
+  if (found.empty()) return NotShipped(name);
+  std::error_code error;
+  const bool is_suite = fs::is_directory(found, error);
+  const fs::path into = is_suite ? folder / name : folder;
+  std::vector<fs::path> written;
+  const std::vector<fs::path> files = is_suite ? ScenarioFilesIn(found) : std::vector<fs::path>{found};
+  for (const fs::path& file : files) {
+    const fs::path copy = into / file.filename();
+    if (fs::exists(copy, error)) return Fail({copy.string()}, "is there already; nothing was copied");
+  }
+  for (const fs::path& file : files) {
+    ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file));
+    RETURN_IF_ERROR(WriteFileAtomically(into / file.filename(), text));
+    written.push_back(into / file.filename());
+  }
+  return written;
+}
+
+}  // namespace etude

@@ -1,0 +1,41 @@
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "bench/files/files.h"
+#include "bench/results/folder.h"
+#include "cli/commands.h"
+#include "engine/base/digest.h"
+
+namespace etude {
+namespace {
+
+Result<int> CiteCommand(const std::string& folder) {
+  ASSIGN_OR_RETURN(const auto run, LoadRunOutline(folder));
+  ASSIGN_OR_RETURN(const auto manifest, ReadWholeFile(folder + "/manifest.json"));
+  const std::string digest = Digest().Add(std::string_view(manifest)).Hex();
+  fmt::print(
+      "@software{{etude,\n"
+      "  title   = {{Etude: a deterministic benchmark for interactive human motion}},\n"
+      "  author  = {{{{The Etude authors}}}},\n"
+      "  version = {{{}}},\n"
+      "  year    = {{2026}}\n"
+      "}}\n\n"
+      "For a methods section: We ran the suite \"{}\" of Etude {} (seed {}, manifest {}); the same manifest gives the "
+      "same "
+      "cells to the last bit.\n",
+      run.program_version, run.suite, run.program_version, run.seed, digest);
+  return kSuccess;
+}
+
+}  // namespace
+
+void DefineCite(CLI::App& app, Action& action) {
+  auto folder = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("cite", "BibTeX, and the sentence that names a run in a paper");
+  command->add_option("folder", *folder, "A result folder")->required();
+  command->callback([=, &action] { action = [=] { return Finish(CiteCommand(*folder)); }; });
+}
+
+}  // namespace etude

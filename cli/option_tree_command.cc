@@ -1,0 +1,221 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <functional>
+#include <memory>
+
+#include "bench/files/files.h"
+#include "bench/run/shipped.h"
+#include "cli/commands.h"
+#include "cli/output_file.h"
+#include "engine/base/names.h"
+
+// What is made of the option tree: completion for shells, and manual pages. Nothing of them is written by hand.
+
+namespace etude {
+namespace {
+
+std::vector<const CLI::App*> CommandsOf(const CLI::App& app) {
+  return app.get_subcommands([](const CLI::App* sub) { return !sub->get_name().empty() && !sub->get_group().empty(); });
+}
+
+/// Calls `use` for the program, each command and each command's commands, with the words that lead there: "clip info".
+void ForEachCommand(const CLI::App& app, const std::string& words,
+                    const std::function<void(const CLI::App& command, const std::string& words)>& use) {
+  use(app, words);
+  for (const CLI::App* command : CommandsOf(app)) {
+    ForEachCommand(*command, words.empty() ? command->get_name() : words + " " + command->get_name(), use);
+  }
+}
+
+/// The options of a command, each with its names: "-o", "--output".
+std::vector<std::pair<const CLI::Option*, std::vector<std::string>>> OptionsOf(const CLI::App& command) {
+  std::vector<std::pair<const CLI::Option*, std::vector<std::string>>> options;
+  for (const CLI::Option* option : command.get_options()) {
+    std::vector<std::string> names;
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    if (!names.empty()) options.emplace_back(option, std::move(names));
+  }
+  return options;
+}
+
+/// What may follow the words of a command: its commands, its options and, where scenarios are asked for, those that
+/// come with etude.
+std::string FollowersOf(const CLI::App& command) {
+  std::vector<std::string> words;
+  for (const CLI::App* sub : CommandsOf(command)) words.push_back(sub->get_name());
+  for (const auto& [option, names] : OptionsOf(command)) words.insert(words.end(), names.begin(), names.end());
+  if (command.get_option_no_throw("scenarios") != nullptr) {
+    for (const char* suite : {"quick", "paper", "full"}) words.emplace_back(suite);
+    std::ranges::copy(ShippedScenarios(), std::back_inserter(words));
+  }
+  return Join(words, " ");
+}
+
+/// The cases of a shell's `case`, one a command; `write` makes a branch of its words and followers.
+std::string Cases(const CLI::App& app,
+                  const std::function<std::string(const std::string&, const std::string&)>& write) {
+  std::string text;
+  ForEachCommand(
+      app, "", [&](const CLI::App& command, const std::string& words) { text += write(words, FollowersOf(command)); });
+  return text;
+}
+
+/// Finds the words of the command before the cursor, in bash and zsh: words without a dash that lead to a known
+/// command.
+constexpr std::string_view kFindCommand = R"(  local at="" word
+  for word in "${before[@]}"; do
+    case "${at:+$at }$word" in
+      COMMANDS) at="${at:+$at }$word" ;;
+    esac
+  done
+)";
+
+std::string FindCommand(const CLI::App& app) {
+  std::vector<std::string> commands;
+  ForEachCommand(app, "", [&](const CLI::App&, const std::string& words) {
+    if (!words.empty()) commands.push_back("'" + words + "'");
+  });
+  std::string text(kFindCommand);
+  return text.replace(text.find("COMMANDS"), std::string_view("COMMANDS").size(), Join(commands, "|"));
+}
+
+std::string BashCompletion(const CLI::App& app) {
+  const auto branch = [](const std::string& words, const std::string& followers) {
+    return fmt::format("    '{}') known='{}' ;;\n", words, followers);
+  };
+  return "# Completion of etude for bash, made by `etude completion bash`.\n_etude() {\n"
+         "  local before=(\"${COMP_WORDS[@]:1:COMP_CWORD-1}\") known=\n" +
+         FindCommand(app) + "  case \"$at\" in\n" + Cases(app, branch) +
+         "  esac\n  COMPREPLY=($(compgen -W \"$known\" -- \"${COMP_WORDS[COMP_CWORD]}\"))\n}\n"
+         "complete -o default -o bashdefault -F _etude etude\n";
+}
+
+std::string ZshCompletion(const CLI::App& app) {
+  const auto branch = [](const std::string& words, const std::string& followers) {
+    return fmt::format("    '{}') known=({}) ;;\n", words, followers);
+  };
+  return "#compdef etude\n# Completion of etude for zsh, made by `etude completion zsh`.\n"
+         "local -a before known\nbefore=(\"${words[@]:1:CURRENT-2}\")\n" +
+         FindCommand(app) + "case \"$at\" in\n" + Cases(app, branch) + "esac\ncompadd -- \"${known[@]}\"\n_files\n";
+}
+
+std::string FishCompletion(const CLI::App& app) {
+  const auto quoted = [](std::string text) {
+    for (std::size_t at = 0; (at = text.find_first_of("'\\", at)) != std::string::npos; at += 2) text.insert(at, "\\");
+    return "'" + text + "'";
+  };
+  std::string text = "# Completion of etude for fish, made by `etude completion fish`.\n";
+  ForEachCommand(app, "", [&](const CLI::App& command, const std::string& words) {
+    std::string when = "__fish_use_subcommand";
+    if (!words.empty()) {
+      when.clear();
+      for (std::size_t from = 0; from <= words.size();) {
+        const std::size_t end = std::min(words.find(' ', from), words.size());
+        when += (from == 0 ? "" : "; and ") + ("__fish_seen_subcommand_from " + words.substr(from, end - from));
+        from = end + 1;
+      }
+    }
+    for (const CLI::App* sub : CommandsOf(command)) {
+      text +=
+          fmt::format("complete -c etude -n '{}' -a {} -d {}\n", when, sub->get_name(), quoted(sub->get_description()));
+    }
+    for (const auto& [option, names] : OptionsOf(command)) {
+      text += fmt::format("complete -c etude -n '{}'", when);
+      for (const std::string& name : names) {
+        text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
+      }
+      text += fmt::format("{} -d {}\n", option->get_items_expected_max() > 0 ? " -r" : "",
+                          quoted(option->get_description()));
+    }
+  });
+  return text;
+}
+
+/// Text as troff takes it: nothing at a line's start is a request, no dash is a hyphen.
+std::string Troff(const std::string& text) {
+  std::string result;
+  bool starts_line = true;
+  for (const char c : text) {
+    if (starts_line && (c == '.' || c == '\'')) result += "\\&";
+    if (c == '\\') {
+      result += "\\e";
+    } else if (c == '-') {
+      result += "\\-";
+    } else {
+      result += c;
+    }
+    starts_line = c == '\n';
+  }
+  return result;
+}
+
+std::string ManualPage(const CLI::App& command, const std::string& words) {
+  std::string title = words.empty() ? "etude" : "etude " + words;
+  std::ranges::replace(title, ' ', '-');
+  const std::string about = command.get_description();
+  const std::string brief = about.substr(0, about.find('\n'));
+  std::string text = fmt::format(".TH {} 1 \"\" \"Etude {}\"\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n.B etude {}\n", title,
+                                 ETUDE_VERSION, Troff(title), Troff(brief), Troff(words));
+  std::string arguments;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_positional()) arguments += " [" + option->get_name(true) + "]";
+  }
+  if (!CommandsOf(command).empty()) arguments += " COMMAND";
+  text += Troff(arguments + " [options]") + "\n.SH DESCRIPTION\n.nf\n" + Troff(about) + "\n.fi\n";
+  for (const CLI::Option* option : command.get_options()) {
+    if (!option->get_positional()) continue;
+    text += fmt::format(".TP\n.B {}\n{}\n", Troff(option->get_name(true)), Troff(option->get_description()));
+  }
+  if (!CommandsOf(command).empty()) text += ".SH COMMANDS\n";
+  for (const CLI::App* sub : CommandsOf(command)) {
+    text +=
+        fmt::format(".TP\n.BR {}\n{}\n", Troff(title + "-" + sub->get_name()) + " (1)", Troff(sub->get_description()));
+  }
+  text += ".SH OPTIONS\n";
+  for (const auto& [option, names] : OptionsOf(command)) {
+    text += fmt::format(".TP\n.B {}\n{}\n", Troff(Join(names)), Troff(option->get_description()));
+  }
+  if (const std::string footer = command.get_footer(); !footer.empty()) {
+    text += ".SH EXAMPLES\n.nf\n" + Troff(footer) + "\n.fi\n";
+  }
+  return text;
+}
+
+Result<int> WriteManual(const CLI::App& app, const std::string& folder) {
+  Result<void> written;
+  ForEachCommand(app, "", [&](const CLI::App& command, const std::string& words) {
+    std::string name = words.empty() ? "etude" : "etude " + words;
+    std::ranges::replace(name, ' ', '-');
+    if (written) written = WriteFileAtomically(folder + "/" + name + ".1", ManualPage(command, words));
+  });
+  RETURN_IF_ERROR(written);
+  TellWritten(folder);
+  return kSuccess;
+}
+
+}  // namespace
+
+void DefineOptionTree(CLI::App& app, Action& action) {
+  const CLI::App* program = &app;
+  auto shell = std::make_shared<std::string>(), folder = std::make_shared<std::string>();
+  CLI::App* completion = app.add_subcommand("completion", "Print completion for a shell, to be put where it looks");
+  completion->add_option("shell", *shell, "bash, zsh or fish")
+      ->required()
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  completion->callback([=, &action] {
+    action = [=] {
+      fmt::print("{}", *shell == "bash"  ? BashCompletion(*program)
+                       : *shell == "zsh" ? ZshCompletion(*program)
+                                         : FishCompletion(*program));
+      return kSuccess;
+    };
+  });
+  CLI::App* manual = app.add_subcommand("man", "Write the manual pages into a folder")->group("");
+  manual->add_option("folder", *folder)->required();
+  manual->callback([=, &action] { action = [=] { return Finish(WriteManual(*program, *folder)); }; });
+}
+
+}  // namespace etude

@@ -1,0 +1,42 @@
+# `cmake --install`, and packages of it (`cpack -G DEB`): the program, its modules, and what it finds beside itself by name.
+# The tree may be moved as a whole: nothing of it holds the prefix.
+include(GNUInstallDirs)
+set(ETUDE_MODULES "${CMAKE_INSTALL_LIBDIR}/etude")
+file(RELATIVE_PATH modules_from_program "/${CMAKE_INSTALL_BINDIR}" "/${ETUDE_MODULES}")
+set_target_properties(etude PROPERTIES INSTALL_RPATH "$ORIGIN/${modules_from_program}")
+install(TARGETS etude RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+install(TARGETS etude_training_pagmo LIBRARY DESTINATION "${ETUDE_MODULES}")
+
+install(DIRECTORY scenarios examples DESTINATION share/etude PATTERN __pycache__ EXCLUDE PATTERN node_modules EXCLUDE)
+install(DIRECTORY docs/schemas DESTINATION share/etude)
+install(DIRECTORY docs/ DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs" PATTERN schemas EXCLUDE)
+install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" RENAME copyright)
+
+# Made of the option tree by the program itself.
+set(made "${CMAKE_BINARY_DIR}/option_tree")
+add_custom_command(OUTPUT "${made}/etude.fish"
+  COMMAND etude man "${made}/man" >/dev/null
+  COMMAND etude completion bash > "${made}/etude"
+  COMMAND etude completion zsh > "${made}/_etude"
+  COMMAND etude completion fish > "${made}/etude.fish"
+  DEPENDS etude COMMENT "Writing manual pages and completions")
+add_custom_target(etude_option_tree ALL DEPENDS "${made}/etude.fish")
+install(DIRECTORY "${made}/man/" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
+install(FILES "${made}/etude" DESTINATION share/bash-completion/completions)
+install(FILES "${made}/_etude" DESTINATION share/zsh/vendor-completions)
+install(FILES "${made}/etude.fish" DESTINATION share/fish/vendor_completions.d)
+
+set(CPACK_PACKAGE_NAME etude)
+set(CPACK_PACKAGE_VENDOR "The Etude authors")
+set(CPACK_PACKAGE_CONTACT "The Etude authors <etude@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Deterministic benchmark for interactive human motion")
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+# What is linked is found out; what is opened or started by name is told.
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libosmesa6, ffmpeg, fonts-dejavu-core")
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "bubblewrap, assimp-testmodels, python3")
+include(CPack)
