@@ -10,6 +10,7 @@
 #include "bench/run/outside_programs.h"
 #include "bench/run/worker.h"
 #include "cli/commands.h"
+#include "cli/examples.h"
 
 namespace etude {
 namespace {
@@ -111,6 +112,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   worker->group("");  // hidden
   worker->callback([&action] { action = [] { return RunWorker(std::cin, std::cout); }; });
   RefuseEmptyValues(app);
+  AddExamples(app);
 }
 
 }  // namespace etude

@@ -1,0 +1,61 @@
+"""Every command's help ends with three examples of its own, and what they name is there."""
+import re
+import shlex
+import subprocess
+import unittest
+
+from etude_case import ETUDE, EtudeCase
+
+
+def commands_in(help_text):
+    """The names below "Subcommands:"."""
+    listed = re.search(r"^Subcommands:\n((?:  .*\n)+)", help_text, re.M)
+    return re.findall(r"^  (\S+)", listed[1], re.M) if listed else []
+
+
+class Help(EtudeCase):
+    def test_of_every_command_ends_with_examples_that_it_understands(self):
+        seen, waiting = {}, [()]
+        while waiting:
+            words = waiting.pop()
+            text = self.etude(*words, "--help").stdout
+            seen[words] = text
+            waiting += [(*words, name) for name in commands_in(text)]
+        self.assertGreater(len(seen), 35)
+        for words, text in seen.items():
+            if not words:
+                continue
+            with self.subTest(" ".join(words)):
+                self.assertIn("Examples:\n", text)
+                lines = text.split("Examples:\n")[1].strip().splitlines()
+                self.assertEqual(len(lines), 3, lines)
+                for line in lines:
+                    call = shlex.split(line[line.index("etude "):].split("|")[0].split(">")[0], comments=True)[1:]
+                    path = ()
+                    while (*path, *call[:1]) in seen and call:
+                        path, call = (*path, call[0]), call[1:]
+                    self.assertTrue(path, line)
+                    for word in call[:call.index("--")] if "--" in call else call:
+                        if word.startswith("-") and word != "-":
+                            self.assertRegex(seen[path], rf"(?m)^  (-\w,)?{re.escape(word)}\b|^  {re.escape(word)}[ ,]", line)
+
+    def test_completion_knows_every_command_and_its_options(self):
+        script = self.write("complete.bash", self.etude("completion", "bash").stdout + """
+_try() { COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _etude; echo "${COMPREPLY[*]}"; }
+_try etude ga; _try etude gate --basel; _try etude clip in; _try etude clip info --js; _try etude run full/ik_we
+""")
+        said = subprocess.run(["bash", script], capture_output=True, text=True, check=True)
+        self.assertEqual(said.stdout.split("\n")[:5], ["gate", "--baseline", "info", "--json", "full/ik_weights"])
+        self.assertEqual(said.stderr, "")
+
+    def test_manual_pages_are_of_every_command(self):
+        self.assertEqual(self.etude("man", self.folder / "man").returncode, 0)
+        pages = sorted(path.name for path in (self.folder / "man").iterdir())
+        self.assertIn("etude.1", pages)
+        self.assertIn("etude-clip-info.1", pages)
+        self.assertGreater(len(pages), 35)
+        self.assertIn("\n.TP\n.B \\-\\-baseline\n", (self.folder / "man" / "etude-gate.1").read_text())
+
+
+if __name__ == "__main__":
+    unittest.main()
