@@ -87,8 +87,7 @@ Result<Converted> ConvertOwnSkeletons(std::vector<SourceClip> sources, MotionFor
   for (const SourceClip& source : sources) {
     auto edited = Edited(source.clip, options);
     if (!edited) return Fail({source.source, 0, 0}, "{}", edited.error().message);
-    if (format == MotionFormat::kGlb &&
-        (source.format == ClipFormat::kBvh || source.format == ClipFormat::kDeepMimic)) {
+    if (format == MotionFormat::kGlb && source.format != ClipFormat::kGltf && source.format != ClipFormat::kGlb) {
       ASSIGN_OR_RETURN(const auto unit, FindUnit(source, options.open));
       *edited = InMetres(std::move(*edited), unit.metres_per_unit, unit.up);
       if (clips.empty()) {

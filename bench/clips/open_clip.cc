@@ -7,6 +7,7 @@
 #include "bench/clips/references.h"
 #include "bench/files/files.h"
 #include "engine/base/names.h"
+#include "engine/formats/acclaim.h"
 #include "engine/formats/bvh.h"
 #include "engine/formats/deepmimic.h"
 #include "engine/formats/gltf/gltf.h"
@@ -64,6 +65,7 @@ std::string WhatElse(std::string_view bytes, const std::string& first_word) {
   const bool is_fbx = bytes.starts_with("Kaydara FBX Binary") || bytes.starts_with("; FBX");
   if (is_fbx) return "an FBX file, which Blender turns into glTF";
   if (first_word.empty()) return "an empty file";
+  if (first_word == ":") return "an Acclaim skeleton, whose motions are the .amc files beside it";
   return "a file that begins with " + Quote(first_word);
 }
 
@@ -73,6 +75,35 @@ ClipFile FileOfOne(ClipFormat format, Clip clip) {
                 .clips = {}};
   file.clips.push_back(std::move(clip));
   return file;
+}
+
+/// Finds the skeleton of an Acclaim motion.
+Result<std::string> AcclaimSkeletonBeside(const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  const std::string stem = fs::path(path).stem().string();
+  std::vector<std::string> found;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string ending = entry->path().extension().string();
+    if (ending != ".asf" && ending != ".ASF") continue;
+    if (entry->path().stem() == stem || stem.starts_with(entry->path().stem().string() + "_")) {
+      return entry->path().string();
+    }
+    found.push_back(entry->path().string());
+  }
+  if (found.size() == 1) return found.front();
+  return Fail({path},
+              "an Acclaim motion, whose skeleton is another file: {} .asf files are in its folder; allowed: one, or "
+              "one that begins its name ('01.asf' of '01_01.amc')",
+              found.empty() ? "no" : std::to_string(found.size()));
+}
+
+Result<Clip> ReadAcclaim(std::string_view bytes, const std::string& path, CappedReader& reader) {
+  ASSIGN_OR_RETURN(const auto skeleton_path, AcclaimSkeletonBeside(path));
+  ASSIGN_OR_RETURN(const auto text, reader.Read(skeleton_path));
+  ASSIGN_OR_RETURN(const auto skeleton, ReadAcclaimSkeleton(text, skeleton_path));
+  return ReadAcclaimMotion(bytes, skeleton, path);
 }
 
 Result<std::vector<SourceClip>> ReadBuiltin(const std::string& reference) {
@@ -137,7 +168,7 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
 }  // namespace
 
 std::string_view FormatName(ClipFormat format) {
-  constexpr std::array<std::string_view, 5> kNames = {"BVH", "glTF", "GLB", "DeepMimic", "built-in"};
+  constexpr std::array<std::string_view, 6> kNames = {"BVH", "glTF", "GLB", "DeepMimic", "Acclaim", "built-in"};
   return kNames[static_cast<std::size_t>(format)];
 }
 
@@ -163,11 +194,16 @@ Result<ClipFile> ReadClipFile(const std::string& path) {
     file.clips = std::move(content.clips);
     return file;
   }
+  if (IsAcclaimMotion(bytes)) {
+    ASSIGN_OR_RETURN(auto clip, ReadAcclaim(bytes, path, reader));
+    return FileOfOne(ClipFormat::kAcclaim, std::move(clip));
+  }
   constexpr std::string_view kBvhStart = "HIERARCHY";
   if (!std::ranges::equal(first.text, kBvhStart, {}, [](char c) { return c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c; })) {
-    return Fail(scanner.At(first),
-                "{}; allowed: BVH (it begins with HIERARCHY), glTF 2.0 (.glb, .gltf), DeepMimic's motions",
-                WhatElse(bytes, std::string(first.text)));
+    return Fail(
+        scanner.At(first),
+        "{}; allowed: BVH (it begins with HIERARCHY), glTF 2.0 (.glb, .gltf), Acclaim's .amc, DeepMimic's motions",
+        WhatElse(bytes, std::string(first.text)));
   }
   ASSIGN_OR_RETURN(auto clip, ReadBvh(bytes, path));
   return FileOfOne(ClipFormat::kBvh, std::move(clip));
@@ -178,7 +214,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   const SplitReference wanted = Split(reference);
   ASSIGN_OR_RETURN(auto file, ReadClipFile(FileOf(wanted.path)));
   const std::string stem = fs::path(FileOf(wanted.path)).stem().string();
-  if (file.format == ClipFormat::kBvh || file.format == ClipFormat::kDeepMimic) {
+  if (file.format != ClipFormat::kGltf && file.format != ClipFormat::kGlb) {
     if (wanted.animation) {
       return Fail({wanted.path, 0, 0}, "a {} file has one motion; '#{}' chooses one of a glTF file",
                   FormatName(file.format), *wanted.animation);

@@ -16,8 +16,8 @@
 
 namespace etude {
 
-enum class ClipFormat { kBvh, kGltf, kGlb, kDeepMimic, kBuiltin };
-/// Returns the name of a format: "BVH", "glTF", "GLB", "DeepMimic" or "built-in".
+enum class ClipFormat { kBvh, kGltf, kGlb, kDeepMimic, kAcclaim, kBuiltin };
+/// Returns the name of a format: "BVH", "glTF", "GLB", "DeepMimic", "Acclaim" or "built-in".
 std::string_view FormatName(ClipFormat format);
 
 /// The content of a motion file.
@@ -30,8 +30,9 @@ struct ClipFile {
 /// The largest size of a file, or of a .gltf with its buffers, bytes; more is refused before memory is taken.
 constexpr std::uintmax_t kLargestClipFile = 500'000'000;
 
-/// Reads a BVH or glTF file or a motion of DeepMimic, told by its content, whatever it is called. The buffers of a
-/// .gltf are read from its own folder and below only, links leading out of it are refused.
+/// Reads a BVH or glTF file, a motion of DeepMimic or an Acclaim motion (AMC), told by its content, whatever it is
+/// called. The buffers of a .gltf are read from its own folder and below only, links leading out of it are refused. An
+/// AMC's skeleton is the ASF beside it: "01.asf" of "01_01.amc", else the only one of its folder.
 Result<ClipFile> ReadClipFile(const std::string& path);
 
 /// The options with which a clip is opened.

@@ -1,0 +1,351 @@
+#include "engine/formats/acclaim.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "engine/base/angles.h"
+#include "engine/base/names.h"
+#include "engine/formats/text_scanner.h"
+
+namespace etude {
+namespace {
+
+constexpr std::size_t kMostBones = 1000;
+constexpr double kCmuRateHz = 120;
+
+/// Walks the lines of a text that hold words; what follows a '#' is a remark.
+class Lines {
+ public:
+  Lines(std::string_view text, const std::string& file) : scanner_(text, file), text_(text) {}
+
+  /// Makes `words` those of the next line that has any; false at the end.
+  bool Next() {
+    while (!text_.empty()) {
+      const std::size_t end = std::min(text_.find_first_of("\r\n"), text_.size());
+      std::string_view line = text_.substr(0, end);
+      text_.remove_prefix(std::min(end + (text_.substr(end).starts_with("\r\n") ? 2 : 1), text_.size()));
+      ++number_;
+      line = line.substr(0, line.find('#'));
+      words.clear();
+      for (std::size_t at = 0; (at = line.find_first_not_of(" \t", at)) != std::string_view::npos;) {
+        const std::size_t stop = std::min(line.find_first_of(" \t", at), line.size());
+        words.push_back({line.substr(at, stop - at), number_, static_cast<int>(at) + 1});
+        at = stop;
+      }
+      if (!words.empty()) return true;
+    }
+    return false;
+  }
+
+  bool Is(std::string_view first) const { return !words.empty() && words.front().text == first; }
+  bool IsSection() const { return !words.empty() && words.front().text.starts_with(':'); }
+  Place At(std::size_t word = 0) const {
+    return word < words.size() ? scanner_.At(words[word]) : scanner_.At({"", number_, 0});
+  }
+  Result<double> Number(std::size_t word) const {
+    if (word >= words.size()) return Fail(At(word), "a number is missing at the end of this line");
+    return scanner_.Number(words[word], "value");
+  }
+  Result<glm::dvec3> Vector(std::size_t first) const {
+    glm::dvec3 vector(0);
+    for (int i = 0; i < 3; ++i) {
+      ASSIGN_OR_RETURN(vector[i], Number(first + static_cast<std::size_t>(i)));
+    }
+    return vector;
+  }
+
+  std::vector<Token> words;
+
+ private:
+  TextScanner scanner_;
+  std::string_view text_;
+  int number_ = 0;
+};
+
+glm::dquat TurnAbout(int axis, double angle) {
+  glm::dvec3 direction(0);
+  direction[axis] = 1;
+  return glm::angleAxis(angle, direction);
+}
+
+/// The turn of three angles, about the axes that `order` names ("XYZ"), the first one first.
+Result<glm::dquat> TurnInOrder(const glm::dvec3& angles, std::string_view order, const Place& place) {
+  glm::dquat turn(1, 0, 0, 0);
+  bool is_order = order.size() == 3;
+  for (std::size_t i = 0; is_order && i < order.size(); ++i) {
+    const int axis = (order[i] | 0x20) - 'x';
+    is_order = axis >= 0 && axis < 3;
+    if (is_order) turn = TurnAbout(axis, angles[static_cast<int>(i)]) * turn;
+  }
+  if (!is_order) return Fail(place, "axes {}; allowed: an order such as XYZ", Quote(order));
+  return turn;
+}
+
+std::optional<AcclaimSkeleton::Channel> ChannelNamed(std::string_view name) {
+  if (name.size() != 2) return std::nullopt;
+  const int kind = name[0] | 0x20, axis = (name[1] | 0x20) - 'x';
+  if ((kind != 'r' && kind != 't') || axis < 0 || axis > 2) return std::nullopt;
+  return AcclaimSkeleton::Channel{kind == 'r', axis};
+}
+
+struct Bone {
+  std::string name;
+  glm::dvec3 end{0};  ///< from its beginning, in the rest pose
+  glm::dquat axes{1, 0, 0, 0};
+  std::vector<AcclaimSkeleton::Channel> channels = {};
+  glm::dvec3 begin{0};  ///< of the root: where it stands
+};
+
+class SkeletonReader {
+ public:
+  SkeletonReader(std::string_view text, const std::string& file) : file_(file), lines_(text, file) {}
+
+  Result<AcclaimSkeleton> Read() {
+    bool goes_on = lines_.Next();
+    while (goes_on) {
+      if (!lines_.IsSection()) return Fail(lines_.At(), "{}; allowed: a section such as :bonedata", Found());
+      const std::string section(lines_.words.front().text.substr(1));
+      Result<bool> read = section == "units"       ? ReadUnits()
+                          : section == "root"      ? ReadRoot()
+                          : section == "bonedata"  ? ReadBones()
+                          : section == "hierarchy" ? ReadHierarchy()
+                                                   : SkipSection();
+      if (!read) return tl::unexpected(read.error());
+      goes_on = *read;
+    }
+    if (bones_.size() < 2) return Fail({file_}, "no bones; allowed: an Acclaim skeleton with :root and :bonedata");
+    return Assemble();
+  }
+
+ private:
+  std::string Found() const { return Quote(lines_.words.front().text); }
+
+  Result<bool> SkipSection() {
+    while (lines_.Next()) {
+      if (lines_.IsSection()) return true;
+    }
+    return false;
+  }
+
+  Result<bool> ReadUnits() {
+    while (lines_.Next()) {
+      if (lines_.IsSection()) return true;
+      if (!lines_.Is("angle")) continue;
+      const std::string_view unit = lines_.words.size() > 1 ? lines_.words[1].text : "";
+      if (unit != "deg" && unit != "rad") return Fail(lines_.At(1), "angles in {}; allowed: deg, rad", Quote(unit));
+      in_degrees_ = unit == "deg";
+    }
+    return false;
+  }
+
+  double Radians(double angle) const { return in_degrees_ ? angle * kPi / 180 : angle; }
+
+  Result<void> ReadChannels(Bone& bone) {
+    bone.channels.clear();
+    for (std::size_t i = 1; i < lines_.words.size(); ++i) {
+      const auto channel = ChannelNamed(lines_.words[i].text);
+      if (!channel)
+        return Fail(lines_.At(i), "channel {}; allowed: rx, ry, rz, tx, ty, tz", Quote(lines_.words[i].text));
+      bone.channels.push_back(*channel);
+    }
+    return {};
+  }
+
+  Result<bool> ReadRoot() {
+    Bone& root = bones_.front();
+    glm::dvec3 angles(0);
+    std::string order = "XYZ";
+    Place place = lines_.At();
+    bool goes_on = false;
+    while ((goes_on = lines_.Next()) && !lines_.IsSection()) {
+      if (lines_.Is("order")) RETURN_IF_ERROR(ReadChannels(root));
+      if (lines_.Is("axis") && lines_.words.size() > 1) {
+        order = lines_.words[1].text;
+        place = lines_.At(1);
+      }
+      if (lines_.Is("position")) {
+        ASSIGN_OR_RETURN(root.begin, lines_.Vector(1));
+      }
+      if (lines_.Is("orientation")) {
+        ASSIGN_OR_RETURN(angles, lines_.Vector(1));
+      }
+    }
+    for (int i = 0; i < 3; ++i) angles[i] = Radians(angles[i]);
+    ASSIGN_OR_RETURN(root.axes, TurnInOrder(angles, order, place));
+    return goes_on;
+  }
+
+  Result<void> ReadBone() {
+    Bone bone;
+    const Place place = lines_.At();
+    glm::dvec3 direction(0);
+    double length = 0;
+    while (lines_.Next() && !lines_.Is("end")) {
+      if (lines_.IsSection()) return Fail(lines_.At(), "the bone of line {} has no 'end'", place.line);
+      if (lines_.Is("name") && lines_.words.size() > 1) bone.name = lines_.words[1].text;
+      if (lines_.Is("direction")) {
+        ASSIGN_OR_RETURN(direction, lines_.Vector(1));
+      }
+      if (lines_.Is("length")) {
+        ASSIGN_OR_RETURN(length, lines_.Number(1));
+      }
+      if (lines_.Is("dof")) RETURN_IF_ERROR(ReadChannels(bone));
+      if (lines_.Is("axis")) {
+        ASSIGN_OR_RETURN(auto angles, lines_.Vector(1));
+        for (int i = 0; i < 3; ++i) angles[i] = Radians(angles[i]);
+        const std::string_view order = lines_.words.size() > 4 ? lines_.words[4].text : "XYZ";
+        ASSIGN_OR_RETURN(bone.axes, TurnInOrder(angles, order, lines_.At(4)));
+      }
+    }
+    if (bone.name.empty()) return Fail(place, "a bone without a name");
+    if (FindBone(bone.name)) return Fail(place, "the bone {} stands here twice", Quote(bone.name));
+    if (bones_.size() > kMostBones) return Fail(place, "more than {} bones", kMostBones);
+    bone.end = direction * length;
+    bones_.push_back(std::move(bone));
+    return {};
+  }
+
+  Result<bool> ReadBones() {
+    while (lines_.Next()) {
+      if (lines_.IsSection()) return true;
+      if (!lines_.Is("begin")) return Fail(lines_.At(), "{}; allowed: 'begin', then what is told of a bone", Found());
+      RETURN_IF_ERROR(ReadBone());
+    }
+    return false;
+  }
+
+  std::optional<std::size_t> FindBone(std::string_view name) const {
+    const auto found = std::ranges::find(bones_, name, &Bone::name);
+    return found == bones_.end() ? std::nullopt : std::optional<std::size_t>(found - bones_.begin());
+  }
+
+  Result<bool> ReadHierarchy() {
+    while (lines_.Next()) {
+      if (lines_.IsSection()) return true;
+      if (lines_.Is("begin") || lines_.Is("end")) continue;
+      std::vector<std::size_t> named;
+      for (std::size_t i = 0; i < lines_.words.size(); ++i) {
+        const auto bone = FindBone(lines_.words[i].text);
+        if (!bone) return Fail(lines_.At(i), "no bone is called {}", Quote(lines_.words[i].text));
+        if (i > 0 && (*bone == 0 || !parent_of_.emplace(*bone, named.front()).second)) {
+          return Fail(lines_.At(i), "the bone {} hangs on something already", Quote(lines_.words[i].text));
+        }
+        named.push_back(*bone);
+      }
+    }
+    return false;
+  }
+
+  /// Puts parents before their children.
+  Result<AcclaimSkeleton> Assemble() const {
+    AcclaimSkeleton made;
+    made.in_degrees = in_degrees_;
+    std::map<std::size_t, int> joint_of;
+    std::vector<std::size_t> waiting = {0};
+    while (!waiting.empty()) {
+      const std::size_t b = waiting.back();
+      waiting.pop_back();
+      const Bone& bone = bones_[b];
+      const auto parent = parent_of_.find(b);
+      const bool is_root = parent == parent_of_.end();
+      joint_of[b] = static_cast<int>(made.skeleton.joints.size());
+      made.skeleton.joints.push_back({.name = bone.name,
+                                      .parent = is_root ? -1 : joint_of.at(parent->second),
+                                      .rest = {.translation = is_root ? bone.begin : bones_[parent->second].end}});
+      made.channels.push_back(bone.channels);
+      made.axes.push_back(bone.axes);
+      bool is_end = true;
+      for (auto child = parent_of_.rbegin(); child != parent_of_.rend(); ++child) {
+        if (child->second != b) continue;
+        waiting.push_back(child->first);
+        is_end = false;
+      }
+      if (!is_end) continue;
+      made.skeleton.joints.push_back(
+          {.name = bone.name + "_end", .parent = joint_of[b], .rest = {.translation = bone.end}, .is_end_site = true});
+      made.channels.emplace_back();
+      made.axes.emplace_back(1, 0, 0, 0);
+    }
+    if (joint_of.size() == bones_.size()) return made;
+    const auto lost =
+        std::ranges::find_if(bones_, [&](const Bone& bone) { return !joint_of.contains(*FindBone(bone.name)); });
+    return Fail({file_}, "the bone {} hangs on nothing; allowed: a :hierarchy that leads from the root to every bone",
+                Quote(lost->name));
+  }
+
+  std::string file_;
+  Lines lines_;
+  bool in_degrees_ = true;
+  std::vector<Bone> bones_ = {Bone{.name = "root"}};
+  std::map<std::size_t, std::size_t> parent_of_;
+};
+
+/// Reads what a line tells of a joint.
+Result<LocalTransform> ReadTransform(const Lines& lines, const AcclaimSkeleton& skeleton, std::size_t joint,
+                                     bool in_degrees) {
+  const auto& channels = skeleton.channels[joint];
+  if (lines.words.size() != channels.size() + 1) {
+    return Fail(lines.At(), "{} numbers of bone {}; allowed: {}, as its skeleton says", lines.words.size() - 1,
+                Quote(lines.words.front().text), channels.size());
+  }
+  LocalTransform local = skeleton.skeleton.joints[joint].rest;
+  glm::dquat turn(1, 0, 0, 0);
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    ASSIGN_OR_RETURN(const double value, lines.Number(i + 1));
+    if (channels[i].turns) {
+      turn = TurnAbout(channels[i].axis, in_degrees ? value * kPi / 180 : value) * turn;
+    } else {
+      local.translation[channels[i].axis] += value;
+    }
+  }
+  const glm::dquat& axes = skeleton.axes[joint];
+  local.rotation = axes * turn * glm::conjugate(axes);
+  return local;
+}
+
+}  // namespace
+
+bool IsAcclaimMotion(std::string_view text) {
+  Lines lines(text.substr(0, 4096), "");
+  return lines.Next() && (lines.Is(":FULLY-SPECIFIED") || lines.Is(":DEGREES") || lines.Is(":RADIANS"));
+}
+
+Result<AcclaimSkeleton> ReadAcclaimSkeleton(std::string_view text, const std::string& file) {
+  return SkeletonReader(text, file).Read();
+}
+
+Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& skeleton, const std::string& file) {
+  std::map<std::string_view, std::size_t> joint_of;
+  for (std::size_t joint = 0; joint < skeleton.skeleton.joints.size(); ++joint) {
+    if (!skeleton.skeleton.joints[joint].is_end_site) joint_of[skeleton.skeleton.joints[joint].name] = joint;
+  }
+  Clip clip{.name = "acclaim", .skeleton = skeleton.skeleton, .rate_hz = kCmuRateHz, .frames = {}};
+  bool in_degrees = skeleton.in_degrees;
+  double last = 0;
+  Lines lines(text, file);
+  while (lines.Next()) {
+    if (lines.IsSection()) {
+      if (lines.Is(":DEGREES")) in_degrees = true;
+      if (lines.Is(":RADIANS")) in_degrees = false;
+    } else if (lines.words.size() == 1 && !joint_of.contains(lines.words.front().text)) {
+      ASSIGN_OR_RETURN(const double number, lines.Number(0));
+      if (!clip.frames.empty() && number != last + 1) {
+        return Fail(lines.At(), "frame {} after frame {}; allowed: the next one", number, last);
+      }
+      last = number;
+      clip.frames.push_back(RestPose(clip.skeleton));
+    } else {
+      const auto joint = joint_of.find(lines.words.front().text);
+      if (joint == joint_of.end()) {
+        return Fail(lines.At(), "the skeleton has no bone {}", Quote(lines.words.front().text));
+      }
+      if (clip.frames.empty()) return Fail(lines.At(), "a bone before the first frame's number");
+      ASSIGN_OR_RETURN(clip.frames.back()[joint->second], ReadTransform(lines, skeleton, joint->second, in_degrees));
+    }
+  }
+  if (clip.frames.empty()) return Fail({file}, "no frames");
+  return clip;
+}
+
+}  // namespace etude
