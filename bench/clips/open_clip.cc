@@ -3,16 +3,21 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <map>
 
 #include "bench/clips/references.h"
 #include "bench/files/files.h"
 #include "engine/base/names.h"
 #include "engine/formats/acclaim.h"
 #include "engine/formats/bvh.h"
+#include "engine/formats/c3d.h"
 #include "engine/formats/deepmimic.h"
 #include "engine/formats/gltf/gltf.h"
+#include "engine/formats/joint_csv.h"
 #include "engine/formats/text_scanner.h"
+#include "engine/formats/trc.h"
 #include "engine/motion/edit.h"
+#include "engine/retargeting/markers.h"
 #include "engine/retargeting/rig.h"
 #include "sim/camera/jpeg.h"
 #include "sim/choreography/canonical_body.h"
@@ -106,6 +111,43 @@ Result<Clip> ReadAcclaim(std::string_view bytes, const std::string& path, Capped
   return ReadAcclaimMotion(bytes, skeleton, path);
 }
 
+/// Makes clips of the bodies that markers show.
+Result<ClipFile> FileOfMarkers(ClipFormat format, const MarkerMotion& markers, const std::string& path, char up = 0) {
+  ASSIGN_OR_RETURN(const auto bodies, FindMarkerBodies(markers, path, up));
+  ClipFile file{.format = format, .figure = {.name = "", .skeleton = {}, .materials = {}, .meshes = {}}, .clips = {}};
+  for (const MarkerBody& body : bodies) {
+    file.clips.push_back(RigClip(body.motion, StandingPose(), body.name));
+    file.notes.push_back(body.note);
+  }
+  file.figure.skeleton = file.clips.front().skeleton;
+  return file;
+}
+
+Result<ClipFile> ReadJointTable(std::string_view text, const std::string& path) {
+  ASSIGN_OR_RETURN(const auto csv, ReadJointCsv(text, path));
+  MarkerMotion markers{.rate_hz = csv.rate_hz.value_or(kJudgedRateHz), .names = {}, .frames = {}};
+  for (const Role role : AllRoles()) markers.names.emplace_back(RoleName(role));
+  for (const auto& frame : csv.frames) markers.frames.emplace_back(frame.begin(), frame.end());
+  return FileOfMarkers(ClipFormat::kCsv, markers, path, 'Y');
+}
+
+/// Reads a file of markers; nothing when it is none.
+std::optional<Result<ClipFile>> ReadMarkers(std::string_view bytes, const std::string& path) {
+  if (IsC3d(bytes)) {
+    const auto read = ReadC3d(bytes, path);
+    if (!read) return tl::unexpected(read.error());
+    return FileOfMarkers(ClipFormat::kC3d, read->markers, path, read->up);
+  }
+  const std::string_view heading = bytes.substr(0, bytes.find('\n'));
+  if (heading.starts_with("PathFileType")) {
+    const auto read = ReadTrc(bytes, path);
+    if (!read) return tl::unexpected(read.error());
+    return FileOfMarkers(ClipFormat::kTrc, *read, path);
+  }
+  if (heading.find("_x_m") != std::string_view::npos) return ReadJointTable(bytes, path);
+  return std::nullopt;
+}
+
 Result<std::vector<SourceClip>> ReadBuiltin(const std::string& reference) {
   ASSIGN_OR_RETURN(const auto builtin, LoadBuiltinClip(reference.substr(kBuiltinPrefix.size()), {}));
   Clip clip = RigClip(builtin.motion, StandingPose(), reference.substr(kBuiltinPrefix.size()));
@@ -154,7 +196,8 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
   for (const Role role : AllRoles()) {
     opened.map.points[Index(role)].joint = opened.source.clip.skeleton.Find(std::string(RoleName(role)));
   }
-  opened.body = {.metres_per_unit = 1, .unit = "metre", .note = "the canonical body", .motion = {}};
+  const std::string note = opened.source.note.empty() ? "the canonical body" : opened.source.note;
+  opened.body = {.metres_per_unit = 1, .unit = "metre", .note = note, .motion = {}};
   const Clip clip = Resample(opened.source.clip, options.rate_hz);
   opened.body.motion.rate_hz = options.rate_hz;
   std::vector<GlobalTransform> globals;
@@ -168,7 +211,7 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
 }  // namespace
 
 std::string_view FormatName(ClipFormat format) {
-  constexpr std::array<std::string_view, 6> kNames = {"BVH", "glTF", "GLB", "DeepMimic", "Acclaim", "built-in"};
+  constexpr std::array kNames = {"BVH", "glTF", "GLB", "DeepMimic", "Acclaim", "C3D", "TRC", "CSV", "built-in"};
   return kNames[static_cast<std::size_t>(format)];
 }
 
@@ -180,6 +223,7 @@ Result<ClipFile> ReadClipFile(const std::string& path) {
   const Token first = has_text ? scanner.Next() : Token{};
 
   ClipFile file;
+  if (auto markers = ReadMarkers(bytes, path)) return *std::move(markers);
   if (first.text == "{" && IsDeepMimicMotion(bytes)) {
     ASSIGN_OR_RETURN(auto clip, ReadDeepMimicMotion(bytes, path));
     return FileOfOne(ClipFormat::kDeepMimic, std::move(clip));
@@ -200,10 +244,10 @@ Result<ClipFile> ReadClipFile(const std::string& path) {
   }
   constexpr std::string_view kBvhStart = "HIERARCHY";
   if (!std::ranges::equal(first.text, kBvhStart, {}, [](char c) { return c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c; })) {
-    return Fail(
-        scanner.At(first),
-        "{}; allowed: BVH (it begins with HIERARCHY), glTF 2.0 (.glb, .gltf), Acclaim's .amc, DeepMimic's motions",
-        WhatElse(bytes, std::string(first.text)));
+    return Fail(scanner.At(first),
+                "{}; allowed: BVH (it begins with HIERARCHY), glTF 2.0 (.glb, .gltf), Acclaim's .amc, C3D, TRC, joint "
+                "CSV, DeepMimic's motions",
+                WhatElse(bytes, std::string(first.text)));
   }
   ASSIGN_OR_RETURN(auto clip, ReadBvh(bytes, path));
   return FileOfOne(ClipFormat::kBvh, std::move(clip));
@@ -214,13 +258,17 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   const SplitReference wanted = Split(reference);
   ASSIGN_OR_RETURN(auto file, ReadClipFile(FileOf(wanted.path)));
   const std::string stem = fs::path(FileOf(wanted.path)).stem().string();
-  if (file.format != ClipFormat::kGltf && file.format != ClipFormat::kGlb) {
+  const bool is_gltf = file.format == ClipFormat::kGltf || file.format == ClipFormat::kGlb;
+  if (!is_gltf && file.clips.size() == 1) {
     if (wanted.animation) {
       return Fail({wanted.path, 0, 0}, "a {} file has one motion; '#{}' chooses one of a glTF file",
                   FormatName(file.format), *wanted.animation);
     }
-    return std::vector<SourceClip>{{stem, wanted.path, file.format, std::move(file.clips.front()), nullptr}};
+    return std::vector<SourceClip>{{stem, wanted.path, file.format, std::move(file.clips.front()), nullptr,
+                                    std::nullopt, file.notes.empty() ? "" : file.notes.front()}};
   }
+  std::map<std::string, std::string> notes;
+  for (std::size_t i = 0; i < file.notes.size(); ++i) notes[file.clips[i].name] = file.notes[i];
   const std::optional<Ground> ground = GroundOf(file, wanted.path, options);
   RETURN_IF_ERROR(KeepWanted(wanted, file.figure, file.clips));
   const bool has_meshes = !file.figure.meshes.empty();
@@ -228,13 +276,15 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   std::vector<SourceClip> clips;
   for (Clip& clip : file.clips) {
     const std::string animation = "#" + clip.name;
-    clips.push_back({stem + animation, wanted.path + animation, file.format, std::move(clip), figure, ground});
+    const std::string note = notes[clip.name];
+    clips.push_back({stem + animation, wanted.path + animation, file.format, std::move(clip), figure, ground, note});
   }
   return clips;
 }
 
 Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options) {
-  if (source.format == ClipFormat::kBuiltin) return UnderstandBuiltin(std::move(source), options.body);
+  const bool is_body = source.format == ClipFormat::kBuiltin || !source.note.empty();
+  if (is_body) return UnderstandBuiltin(std::move(source), options.body);
   ASSIGN_OR_RETURN(auto map, FindJointMap(source.clip.skeleton, source.source, TaughtBy(options)));
   BodyOptions told = options.body;
   if (source.ground) {

@@ -16,23 +16,26 @@
 
 namespace etude {
 
-enum class ClipFormat { kBvh, kGltf, kGlb, kDeepMimic, kAcclaim, kBuiltin };
-/// Returns the name of a format: "BVH", "glTF", "GLB", "DeepMimic", "Acclaim" or "built-in".
+enum class ClipFormat { kBvh, kGltf, kGlb, kDeepMimic, kAcclaim, kC3d, kTrc, kCsv, kBuiltin };
+/// Returns the name of a format: "BVH", "glTF", "GLB", "DeepMimic", "Acclaim", "C3D", "TRC", "CSV" or
+/// "built-in".
 std::string_view FormatName(ClipFormat format);
 
 /// The content of a motion file.
 struct ClipFile {
   ClipFormat format = ClipFormat::kBvh;
   Character figure;         ///< a skeleton, and meshes if the file has any
-  std::vector<Clip> clips;  ///< on that skeleton; a glTF file may have none
+  std::vector<Clip> clips;  ///< on that skeleton; a glTF file may have none, and one of markers several people
+  std::vector<std::string> notes = {};  ///< of clips that are bodies already: how they were made of markers
 };
 
 /// The largest size of a file, or of a .gltf with its buffers, bytes; more is refused before memory is taken.
 constexpr std::uintmax_t kLargestClipFile = 500'000'000;
 
-/// Reads a BVH or glTF file, a motion of DeepMimic or an Acclaim motion (AMC), told by its content, whatever it is
-/// called. The buffers of a .gltf are read from its own folder and below only, links leading out of it are refused. An
-/// AMC's skeleton is the ASF beside it: "01.asf" of "01_01.amc", else the only one of its folder.
+/// Reads a BVH or glTF file, a motion of DeepMimic, an Acclaim motion (AMC), or markers of C3D, TRC or joint CSV
+/// (FindMarkerBodies), told by its content, whatever it is called. The buffers of a .gltf are read from its own folder
+/// and below only, links leading out of it are refused. An AMC's skeleton is the ASF beside it: "01.asf" of
+/// "01_01.amc", else the only one of its folder.
 Result<ClipFile> ReadClipFile(const std::string& path);
 
 /// The options with which a clip is opened.
@@ -51,6 +54,7 @@ struct SourceClip {
   /// The file's own figure, when it has meshes; its skeleton is the clip's. Shared by all clips of the file.
   std::shared_ptr<const Character> character;
   std::optional<Ground> ground = {};  ///< of all clips of the file, where there are several
+  std::string note = {};  ///< of a body that was made of markers: it is in metres already, and stands on the floor
 };
 
 /// Reads the clips of one file or built-in name (as ExpandReference gives them): one of a BVH, all animations of a

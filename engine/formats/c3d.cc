@@ -1,0 +1,243 @@
+#include "engine/formats/c3d.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <optional>
+
+#include "engine/base/names.h"
+
+namespace etude {
+namespace {
+
+constexpr std::size_t kBlock = 512;
+constexpr unsigned char kKey = 0x50;
+constexpr std::size_t kMostPoints = 10'000;
+constexpr double kMostFrames = 1e7;
+constexpr double kLargest = 1e9;
+
+enum class Machine { kIntel = 84, kDec = 85, kMips = 86 };
+
+/// Reads numbers as one kind of machine wrote them; beyond the end there are zeros.
+class Bytes {
+ public:
+  Bytes(std::string_view bytes, Machine machine) : bytes_(bytes), machine_(machine) {}
+
+  std::size_t size() const { return bytes_.size(); }
+  unsigned Byte(std::size_t at) const { return at < bytes_.size() ? static_cast<unsigned char>(bytes_[at]) : 0; }
+  unsigned Word(std::size_t at) const {
+    return machine_ == Machine::kMips ? Byte(at) << 8 | Byte(at + 1) : Byte(at + 1) << 8 | Byte(at);
+  }
+  int Integer(std::size_t at) const { return static_cast<std::int16_t>(Word(at)); }
+  double Float(std::size_t at) const {
+    std::uint32_t bits = Word(at + 2) << 16 | Word(at);
+    if (machine_ != Machine::kIntel) bits = Word(at) << 16 | Word(at + 2);
+    // A VAX's exponent counts from one half, and one power of two further.
+    return machine_ == Machine::kDec ? std::bit_cast<float>(bits) / 4 : std::bit_cast<float>(bits);
+  }
+  std::string Text(std::size_t at, std::size_t length) const {
+    if (at >= bytes_.size()) return "";
+    std::string text(bytes_.substr(at, length));
+    text.erase(std::find(text.begin(), text.end(), '\0'), text.end());
+    text.erase(text.find_last_not_of(' ') + 1);
+    return text;
+  }
+
+ private:
+  std::string_view bytes_;
+  Machine machine_;
+};
+
+struct Parameter {
+  int type = 0;  ///< −1 text, 1 bytes, 2 whole numbers, 4 floats
+  std::vector<std::size_t> sizes;
+  std::size_t at = 0;  ///< of the first value
+
+  std::size_t Count() const {
+    std::size_t count = 1;
+    for (const std::size_t size : sizes) count *= size;
+    return count;
+  }
+};
+
+/// The parameters of a file, called "POINT:USED".
+class Parameters {
+ public:
+  static Parameters Read(const Bytes& bytes, std::size_t at) {
+    Parameters read(bytes);
+    std::map<int, std::string> group_names;
+    std::vector<std::pair<int, std::pair<std::string, Parameter>>> found;
+    const std::size_t end = std::min(bytes.size(), at + kBlock * std::max(1u, bytes.Byte(at + 2)));
+    // The count of blocks is wrong in some files: the chain's own end counts, as long as there are bytes.
+    for (std::size_t record = at + 4; record + 4 < std::max(end, bytes.size());) {
+      const auto length = static_cast<std::int8_t>(bytes.Byte(record));
+      const auto id = static_cast<std::int8_t>(bytes.Byte(record + 1));
+      const auto letters = static_cast<std::size_t>(std::abs(length));
+      if (letters == 0 || id == 0) break;
+      std::string name = bytes.Text(record + 2, letters);
+      std::ranges::transform(name, name.begin(), [](char c) { return c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c; });
+      const std::size_t offset_at = record + 2 + letters;
+      if (id < 0) {
+        group_names[-id] = name;
+      } else {
+        Parameter parameter{.type = static_cast<std::int8_t>(bytes.Byte(offset_at + 2)), .sizes = {}};
+        const std::size_t dimensions = std::min(bytes.Byte(offset_at + 3), 7u);
+        for (std::size_t d = 0; d < dimensions; ++d) parameter.sizes.push_back(bytes.Byte(offset_at + 4 + d));
+        parameter.at = offset_at + 4 + dimensions;
+        found.push_back({id, {name, parameter}});
+      }
+      const std::size_t offset = bytes.Word(offset_at);
+      if (offset == 0) break;
+      record = offset_at + offset;
+    }
+    for (auto& [group, named] : found) read.all_[group_names[group] + ":" + named.first] = named.second;
+    return read;
+  }
+
+  const Parameter* Find(const std::string& name) const {
+    const auto found = all_.find(name);
+    return found == all_.end() ? nullptr : &found->second;
+  }
+  std::optional<double> Number(const std::string& name, std::size_t index = 0) const {
+    const Parameter* one = Find(name);
+    if (one == nullptr || index >= one->Count()) return std::nullopt;
+    if (one->type == 4) return bytes_.Float(one->at + 4 * index);
+    if (one->type == 2) return bytes_.Word(one->at + 2 * index);  // counts beyond 32,767 stand here, too
+    if (one->type == 1) return bytes_.Byte(one->at + index);
+    return std::nullopt;
+  }
+  /// The texts of a list; of one text a list of one.
+  std::vector<std::string> Texts(const std::string& name) const {
+    const Parameter* one = Find(name);
+    std::vector<std::string> texts;
+    if (one == nullptr || one->type != -1 || one->sizes.empty()) return texts;
+    const std::size_t length = one->sizes[0], count = length == 0 ? 0 : one->Count() / length;
+    for (std::size_t i = 0; i < count; ++i) texts.push_back(bytes_.Text(one->at + i * length, length));
+    return texts;
+  }
+
+ private:
+  explicit Parameters(const Bytes& bytes) : bytes_(bytes) {}
+
+  Bytes bytes_;
+  std::map<std::string, Parameter> all_;
+};
+
+std::optional<double> MetresOf(std::string unit) {
+  std::ranges::transform(unit, unit.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; });
+  constexpr std::pair<std::string_view, double> kUnits[] = {{"", 0.001},    {"mm", 0.001}, {"millimeters", 0.001},
+                                                            {"cm", 0.01},   {"m", 1},      {"meters", 1},
+                                                            {"in", 0.0254}, {"ft", 0.3048}};
+  for (const auto& [name, metres] : kUnits) {
+    if (name == unit) return metres;
+  }
+  return std::nullopt;
+}
+
+/// The names of all points: LABELS, LABELS2 and so on.
+std::vector<std::string> NamesOf(const Parameters& parameters, std::size_t points) {
+  std::vector<std::string> names;
+  for (int part = 1; names.size() < points; ++part) {
+    const auto more = parameters.Texts("POINT:LABELS" + (part == 1 ? "" : std::to_string(part)));
+    if (more.empty()) break;
+    names.insert(names.end(), more.begin(), more.end());
+  }
+  names.resize(points);
+  for (std::size_t i = 0; i < points; ++i) {
+    if (names[i].empty()) names[i] = "point " + std::to_string(i + 1);
+  }
+  return names;
+}
+
+std::size_t CountFrames(const Bytes& bytes, const Parameters& parameters) {
+  const double first = bytes.Word(6), last = bytes.Word(8);
+  double frames = last - first + 1;
+  const auto field = [&](const char* name) -> std::optional<double> {
+    const auto low = parameters.Number(name, 0), high = parameters.Number(name, 1);
+    return low && high ? std::optional(*low + 65536 * *high) : std::nullopt;
+  };
+  const auto begin = field("TRIAL:ACTUAL_START_FIELD"), end = field("TRIAL:ACTUAL_END_FIELD");
+  if (begin && end && *end >= *begin) frames = *end - *begin + 1;
+  // Where the header's words are too small, POINT:FRAMES may be a float.
+  if (const auto told = parameters.Number("POINT:FRAMES"); told && last >= 65535 && *told > frames) frames = *told;
+  return frames >= 1 && frames <= kMostFrames ? static_cast<std::size_t>(frames) : 0;
+}
+
+/// Where and how the points of a frame stand.
+struct Layout {
+  std::size_t points = 0, begin = 0, frame_bytes = 0;
+  bool has_floats = false;
+  double metres = 0;  ///< of a float, or of a whole number
+};
+
+std::optional<glm::dvec3> PointAt(const Bytes& bytes, std::size_t at, const Layout& layout) {
+  glm::dvec3 point(0);
+  const std::size_t step = layout.has_floats ? 4 : 2;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::size_t value = at + step * static_cast<std::size_t>(axis);
+    point[axis] = (layout.has_floats ? bytes.Float(value) : bytes.Integer(value)) * layout.metres;
+    if (!(std::abs(point[axis]) < kLargest)) return std::nullopt;
+  }
+  const double residual = layout.has_floats ? bytes.Float(at + 3 * step) : bytes.Integer(at + 3 * step);
+  return residual >= 0 ? std::optional(point) : std::nullopt;
+}
+
+}  // namespace
+
+bool IsC3d(std::string_view bytes) {
+  return bytes.size() >= 2 * kBlock && static_cast<unsigned char>(bytes[1]) == kKey && bytes[0] > 0;
+}
+
+Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
+  if (!IsC3d(bytes)) return Fail({file}, "no C3D file");
+  const std::size_t parameters_at = (static_cast<unsigned char>(bytes[0]) - std::size_t{1}) * kBlock;
+  const unsigned machine = Bytes(bytes, Machine::kIntel).Byte(parameters_at + 3);
+  if (machine < 84 || machine > 86) {
+    return Fail({file}, "written by a machine of kind {}; allowed: 84 (Intel), 85 (DEC), 86 (MIPS)", machine);
+  }
+  const Bytes all(bytes, static_cast<Machine>(machine));
+  const Parameters parameters = Parameters::Read(all, parameters_at);
+
+  Layout layout{.points = static_cast<std::size_t>(parameters.Number("POINT:USED").value_or(all.Word(2)))};
+  const double scale = parameters.Number("POINT:SCALE").value_or(all.Float(12));
+  const double rate = parameters.Number("POINT:RATE").value_or(all.Float(20));
+  if (layout.points == 0) return Fail({file}, "holds no points (rotations and analogue channels are not read)");
+  if (layout.points > kMostPoints) return Fail({file}, "{} points; allowed: {}", layout.points, kMostPoints);
+  if (!(rate > 0 && rate < kLargest)) return Fail({file}, "a rate of {} Hz; allowed: above 0", rate);
+  if (!(std::abs(scale) < kLargest) || scale == 0) return Fail({file}, "POINT:SCALE is {}; allowed: not 0", scale);
+  const auto units = parameters.Texts("POINT:UNITS");
+  C3d read{.markers = {.rate_hz = rate, .names = NamesOf(parameters, layout.points), .frames = {}},
+           .unit = units.empty() ? "" : units.front()};
+  const auto metres = MetresOf(read.unit);
+  if (!metres) return Fail({file}, "units {}; allowed: m, cm, mm, in, ft", Quote(read.unit));
+  layout.has_floats = scale < 0;
+  layout.metres = layout.has_floats ? *metres : *metres * scale;
+  read.step_m = layout.has_floats ? 0 : layout.metres;
+  if (const auto screen = parameters.Texts("POINT:Y_SCREEN"); !screen.empty() && screen.front().size() == 2) {
+    const char axis = screen.front()[1];
+    if (axis == 'Y' || axis == 'Z') read.up = axis;
+  }
+
+  const auto data_block = static_cast<std::size_t>(parameters.Number("POINT:DATA_START").value_or(all.Word(16)));
+  layout.begin = (std::max<std::size_t>(data_block, 1) - 1) * kBlock;
+  layout.frame_bytes = (4 * layout.points + all.Word(4)) * (layout.has_floats ? 4 : 2);
+  const std::size_t frames = CountFrames(all, parameters);
+  if (frames == 0) return Fail({file}, "its header tells of no frames, or of more than 10⁷");
+  const std::size_t there = bytes.size() > layout.begin ? (bytes.size() - layout.begin) / layout.frame_bytes : 0;
+  if (there < frames) return Fail({file}, "is cut short: {} of {} frames are there", there, frames);
+  read.markers.frames.reserve(frames);
+  for (std::size_t frame = 0; frame < frames; ++frame) {
+    auto& places = read.markers.frames.emplace_back(layout.points);
+    for (std::size_t point = 0; point < layout.points; ++point) {
+      const std::size_t at = layout.begin + frame * layout.frame_bytes + point * (layout.has_floats ? 16 : 8);
+      places[point] = PointAt(all, at, layout);
+    }
+  }
+  return read;
+}
+
+}  // namespace etude

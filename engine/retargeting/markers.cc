@@ -1,0 +1,397 @@
+#include "engine/retargeting/markers.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string_view>
+
+#include "engine/base/names.h"
+
+namespace etude {
+namespace {
+
+using Place = std::optional<glm::dvec3>;
+using Places = std::array<Place, kRoleCount>;
+
+constexpr double kLongestGap_s = 1;
+
+/// A joint is the middle of some markers, all of them.
+struct Rule {
+  Role role;
+  std::vector<std::string> markers;
+};
+
+/// A convention of names, in small letters.
+struct MarkerSet {
+  std::string name;
+  std::vector<Rule> rules;
+  std::array<std::string, 4> pelvis = {};  ///< left and right, front and back; the hips follow from them
+  bool is_gait = false;                    ///< knees, ankles and shoulders have one marker, at the skin
+};
+
+/// Adds a rule for each side; '?' stands for the side, as `left` and `right` have it.
+void AddSides(std::vector<Rule>& rules, Role left_role, const std::vector<std::string>& markers, std::string_view left,
+              std::string_view right) {
+  for (const bool is_left : {true, false}) {
+    Rule rule{is_left ? left_role : Mirrored(left_role), markers};
+    for (std::string& marker : rule.markers) {
+      if (const std::size_t at = marker.find('?'); at != std::string::npos) {
+        marker.replace(at, 1, is_left ? left : right);
+      }
+    }
+    rules.push_back(std::move(rule));
+  }
+}
+
+using LimbMarkers = std::vector<std::pair<Role, std::vector<std::string>>>;
+
+MarkerSet MakeSet(std::string name, std::vector<Rule> middle, const LimbMarkers& limbs, std::string_view left,
+                  std::string_view right) {
+  MarkerSet set{.name = std::move(name), .rules = std::move(middle)};
+  for (const auto& [role, markers] : limbs) AddSides(set.rules, role, markers, left, right);
+  return set;
+}
+
+std::vector<MarkerSet> MakeSets() {
+  std::vector<MarkerSet> sets;
+  MarkerSet own{.name = "Etude's joints", .rules = {}};
+  for (const Role role : AllRoles()) own.rules.push_back({role, {std::string(RoleName(role))}});
+  sets.push_back(std::move(own));
+  const LimbMarkers pose_limbs = {{Role::kLeftShoulder, {"?shoulder"}}, {Role::kLeftElbow, {"?elbow"}},
+                                  {Role::kLeftWrist, {"?wrist"}},       {Role::kLeftHip, {"?hip"}},
+                                  {Role::kLeftKnee, {"?knee"}},         {Role::kLeftAnkle, {"?ankle"}}};
+  LimbMarkers with_toes = pose_limbs;
+  with_toes.push_back({Role::kLeftFoot, {"?bigtoe"}});
+  sets.push_back(
+      MakeSet("OpenPose BODY_25",
+              {{Role::kHipCentre, {"midhip"}}, {Role::kShoulderCentre, {"neck"}}, {Role::kHead, {"lear", "rear"}}},
+              with_toes, "l", "r"));
+  sets.push_back(MakeSet(
+      "HALPE_26", {{Role::kHipCentre, {"hip"}}, {Role::kShoulderCentre, {"neck"}}, {Role::kHead, {"nose", "head"}}},
+      with_toes, "l", "r"));
+  sets.push_back(MakeSet("COCO", {{Role::kHead, {"left_ear", "right_ear"}}}, pose_limbs, "left_", "right_"));
+  MarkerSet augmented = MakeSet("OpenCap's augmented markers", {},
+                                {{Role::kLeftShoulder, {"?_shoulder_study"}},
+                                 {Role::kLeftElbow, {"?_lelbow_study", "?_melbow_study"}},
+                                 {Role::kLeftWrist, {"?_lwrist_study", "?_mwrist_study"}},
+                                 {Role::kLeftHip, {"?hjc_study"}},
+                                 {Role::kLeftKnee, {"?_knee_study", "?_mknee_study"}},
+                                 {Role::kLeftAnkle, {"?_ankle_study", "?_mankle_study"}},
+                                 {Role::kLeftFoot, {"?_toe_study"}}},
+                                "l", "r");
+  augmented.pelvis = {"l.asis_study", "r.asis_study", "l.psis_study", "r.psis_study"};
+  sets.push_back(std::move(augmented));
+  MarkerSet gait = MakeSet("Plug-in Gait",
+                           {{Role::kHead, {"lfhd", "rfhd", "lbhd", "rbhd"}},
+                            {Role::kShoulderCentre, {"c7", "clav"}},
+                            {Role::kSpine, {"t10", "strn"}}},
+                           {{Role::kLeftShoulder, {"?sho"}},
+                            {Role::kLeftElbow, {"?elb"}},
+                            {Role::kLeftWrist, {"?wra", "?wrb"}},
+                            {Role::kLeftHand, {"?fin"}},
+                            {Role::kLeftKnee, {"?kne"}},
+                            {Role::kLeftAnkle, {"?ank"}},
+                            {Role::kLeftFoot, {"?toe"}}},
+                           "l", "r");
+  gait.pelvis = {"lasi", "rasi", "lpsi", "rpsi"};
+  gait.is_gait = true;
+  sets.push_back(std::move(gait));
+  return sets;
+}
+
+/// The joints without which there is no body.
+constexpr std::array kNeeded = {Role::kLeftShoulder, Role::kLeftElbow,  Role::kLeftWrist, Role::kRightShoulder,
+                                Role::kRightElbow,   Role::kRightWrist, Role::kLeftHip,   Role::kLeftKnee,
+                                Role::kLeftAnkle,    Role::kRightHip,   Role::kRightKnee, Role::kRightAnkle};
+
+std::string LowerCase(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return lower;
+}
+
+/// The columns of one person's markers, by their names without prefix in small letters.
+using Columns = std::map<std::string, std::size_t, std::less<>>;
+
+std::map<std::string, Columns> PeopleOf(const MarkerMotion& markers) {
+  std::map<std::string, Columns> people;
+  for (std::size_t i = 0; i < markers.names.size(); ++i) {
+    const std::string& name = markers.names[i];
+    const std::size_t colon = name.rfind(':');
+    const std::string prefix = colon == std::string::npos ? "" : name.substr(0, colon);
+    people[prefix].emplace(LowerCase(name.substr(colon == std::string::npos ? 0 : colon + 1)), i);  // the first counts
+  }
+  return people;
+}
+
+bool HasAll(const Columns& columns, std::span<const std::string> markers) {
+  return std::ranges::all_of(markers, [&](const std::string& marker) { return columns.contains(marker); });
+}
+
+bool HasPelvis(const MarkerSet& set, const Columns& columns) {
+  return !set.pelvis.front().empty() && HasAll(columns, set.pelvis);
+}
+
+bool Tells(const MarkerSet& set, const Columns& columns, Role role) {
+  if ((role == Role::kLeftHip || role == Role::kRightHip) && HasPelvis(set, columns)) return true;
+  return std::ranges::any_of(set.rules,
+                             [&](const Rule& rule) { return rule.role == role && HasAll(columns, rule.markers); });
+}
+
+std::vector<std::string> LackedBy(const MarkerSet& set, const Columns& columns) {
+  std::vector<std::string> lacks;
+  for (const Role role : kNeeded) {
+    if (!Tells(set, columns, role)) lacks.emplace_back(RoleName(role));
+  }
+  return lacks;
+}
+
+/// Gives the point between two times that are seen.
+glm::dvec3 Mix(const glm::dvec3& a, const glm::dvec3& b, double part) { return a + part * (b - a); }
+
+/// Bridges gaps between two frames that are at most so many frames apart; counts the frames filled.
+int BridgeGaps(std::vector<Places>& frames, std::size_t joint, std::size_t most) {
+  int filled = 0;
+  std::optional<std::size_t> last;
+  for (std::size_t t = 0; t < frames.size(); ++t) {
+    if (!frames[t][joint]) continue;
+    if (last && t - *last > 1 && t - *last <= most + 1) {
+      for (std::size_t k = *last + 1; k < t; ++k, ++filled) {
+        frames[k][joint] = Mix(*frames[*last][joint], *frames[t][joint],
+                               static_cast<double>(k - *last) / static_cast<double>(t - *last));
+      }
+    }
+    last = t;
+  }
+  return filled;
+}
+
+/// Hip joint centres by Harrington et al. (2007), "Prediction of the hip joint centre in adults, children, and patients
+/// with cerebral palsy", table 6: millimetres, from the middle between the front markers.
+void PlaceHips(const std::array<glm::dvec3, 4>& pelvis, Places& places) {
+  const glm::dvec3 front = 0.5 * (pelvis[0] + pelvis[1]), back = 0.5 * (pelvis[2] + pelvis[3]);
+  const glm::dvec3 right = glm::normalize(pelvis[1] - pelvis[0]);
+  glm::dvec3 forward = front - back;
+  const double width = 1000 * glm::distance(pelvis[0], pelvis[1]), depth = 1000 * glm::length(forward);
+  forward = glm::normalize(forward - glm::dot(forward, right) * right);
+  const glm::dvec3 up = glm::cross(right, forward);
+  const glm::dvec3 middle = (-0.24 * depth - 9.9) * forward + (-0.30 * width - 10.9) * up;
+  const glm::dvec3 side = (0.33 * width + 7.3) * right;
+  places[Index(Role::kLeftHip)] = front + 1e-3 * (middle - side);
+  places[Index(Role::kRightHip)] = front + 1e-3 * (middle + side);
+}
+
+/// The part of `across` that is square to the way from `from` to `to`, of length 1.
+glm::dvec3 SquareTo(const glm::dvec3& across, const glm::dvec3& from, const glm::dvec3& to) {
+  const glm::dvec3 along = glm::normalize(to - from);
+  return glm::normalize(across - glm::dot(across, along) * along);
+}
+
+/// Moves Plug-in Gait's markers from the skin to the joints.
+void MoveIntoLimbs(Places& places) {
+  constexpr double kHalfKnee = 0.05, kHalfAnkle = 0.035, kShoulderDepth = 0.045;
+  const auto at = [&](Role role) -> Place& { return places[Index(role)]; };
+  if (at(Role::kLeftHip) && at(Role::kRightHip)) {
+    const glm::dvec3 to_right = *at(Role::kRightHip) - *at(Role::kLeftHip);
+    for (const bool is_left : {true, false}) {
+      const auto of = [&](Role role) -> Place& { return at(is_left ? role : Mirrored(role)); };
+      const glm::dvec3 inward = is_left ? to_right : -to_right;
+      Place &hip = of(Role::kLeftHip), &knee = of(Role::kLeftKnee), &ankle = of(Role::kLeftAnkle);
+      if (knee) *knee += kHalfKnee * SquareTo(inward, *hip, *knee);
+      if (knee && ankle) *ankle += kHalfAnkle * SquareTo(inward, *knee, *ankle);
+    }
+  }
+  const Place &neck = at(Role::kShoulderCentre), &spine = at(Role::kSpine);
+  if (!neck || !spine) return;
+  for (const Role shoulder : {Role::kLeftShoulder, Role::kRightShoulder}) {
+    if (at(shoulder)) *at(shoulder) += kShoulderDepth * glm::normalize(*spine - *neck);
+  }
+}
+
+Places PlacesOf(const MarkerSet& set, const Columns& columns, const std::vector<Place>& frame) {
+  Places places;
+  const auto middle = [&](std::span<const std::string> markers) -> Place {
+    glm::dvec3 sum(0);
+    for (const std::string& marker : markers) {
+      const Place& one = frame[columns.find(marker)->second];
+      if (!one) return std::nullopt;
+      sum += *one;
+    }
+    return sum / static_cast<double>(markers.size());
+  };
+  for (const Rule& rule : set.rules) {
+    if (HasAll(columns, rule.markers)) places[Index(rule.role)] = middle(rule.markers);
+  }
+  if (HasPelvis(set, columns) && !places[Index(Role::kLeftHip)]) {
+    std::array<glm::dvec3, 4> pelvis;
+    bool is_seen = true;
+    for (std::size_t i = 0; i < pelvis.size(); ++i) {
+      const Place one = middle({&set.pelvis[i], 1});
+      is_seen = is_seen && one;
+      if (one) pelvis[i] = *one;
+    }
+    if (is_seen) PlaceHips(pelvis, places);
+  }
+  if (set.is_gait) MoveIntoLimbs(places);
+  for (Place& place : places) {  // markers that lie on each other have no direction
+    if (place && !std::isfinite(place->x + place->y + place->z)) place.reset();
+  }
+  return places;
+}
+
+/// Puts what no marker tells where a body has it. Y points up.
+BodyPose Complete(const Places& places) {
+  constexpr double kHeadAbove = 0.3, kHandBeyond = 0.7, kToesBefore = 0.16, kToesBelow = 0.04;
+  BodyPose pose;
+  for (std::size_t i = 0; i < kRoleCount; ++i) pose.joints[i] = places[i].value_or(glm::dvec3(0));
+  const auto lacks = [&](Role role) { return !places[Index(role)]; };
+  if (lacks(Role::kHipCentre)) pose[Role::kHipCentre] = 0.5 * (pose[Role::kLeftHip] + pose[Role::kRightHip]);
+  if (lacks(Role::kShoulderCentre)) {
+    pose[Role::kShoulderCentre] = 0.5 * (pose[Role::kLeftShoulder] + pose[Role::kRightShoulder]);
+  }
+  const glm::dvec3 trunk = pose[Role::kShoulderCentre] - pose[Role::kHipCentre];
+  if (lacks(Role::kSpine)) pose[Role::kSpine] = pose[Role::kHipCentre] + 0.5 * trunk;
+  if (lacks(Role::kHead)) pose[Role::kHead] = pose[Role::kShoulderCentre] + kHeadAbove * trunk;
+  const glm::dvec3 facing = Facing(pose);
+  for (const bool is_left : {true, false}) {
+    const auto of = [&](Role role) { return is_left ? role : Mirrored(role); };
+    const Role wrist = of(Role::kLeftWrist), ankle = of(Role::kLeftAnkle);
+    if (lacks(of(Role::kLeftHand))) {
+      pose[of(Role::kLeftHand)] = pose[wrist] + kHandBeyond * (pose[wrist] - pose[of(Role::kLeftElbow)]);
+    }
+    if (lacks(of(Role::kLeftFoot))) {
+      pose[of(Role::kLeftFoot)] = pose[ankle] + kToesBefore * facing - glm::dvec3(0, kToesBelow, 0);
+    }
+  }
+  return pose;
+}
+
+/// The axis, and its sign, along which shoulders are furthest from ankles.
+glm::dvec3 FindUp(const std::vector<Places>& frames) {
+  glm::dvec3 sum(0);
+  for (const Places& places : frames) {
+    const Place &shoulder = places[Index(Role::kLeftShoulder)], &ankle = places[Index(Role::kLeftAnkle)];
+    if (shoulder && ankle) sum += *shoulder - *ankle;
+  }
+  glm::dvec3 up(0);
+  int axis = 1;
+  for (int i = 0; i < 3; ++i) {
+    if (std::abs(sum[i]) > std::abs(sum[axis])) axis = i;
+  }
+  up[axis] = sum[axis] < 0 ? -1 : 1;
+  return up;
+}
+
+/// Turns places so that `up` becomes Y.
+void TurnUpright(const glm::dvec3& up, std::vector<Places>& frames) {
+  for (Places& places : frames) {
+    for (Place& place : places) {
+      if (!place) continue;
+      const glm::dvec3 p = *place;
+      if (up.z != 0) *place = {p.x, up.z * p.z, -up.z * p.y};
+      if (up.x != 0) *place = {-up.x * p.y, up.x * p.x, p.z};
+      if (up.y < 0) *place = {p.x, -p.y, -p.z};
+    }
+  }
+}
+
+/// The longest stretch of frames in which every needed joint is known: its beginning, and the frame after it.
+std::pair<std::size_t, std::size_t> LongestStretch(const std::vector<Places>& frames) {
+  std::pair<std::size_t, std::size_t> best{0, 0};
+  std::size_t begin = 0;
+  for (std::size_t t = 0; t <= frames.size(); ++t) {
+    const bool is_whole = t < frames.size() &&
+                          std::ranges::all_of(kNeeded, [&](Role role) { return frames[t][Index(role)].has_value(); });
+    if (is_whole) continue;
+    if (t - begin > best.second - best.first) best = {begin, t};
+    begin = t + 1;
+  }
+  return best;
+}
+
+/// Puts the floor at 0: where the lowest joint is in the lowest twentieth of the frames.
+void StandOnFloor(std::vector<BodyPose>& poses) {
+  std::vector<double> lowest;
+  for (const BodyPose& pose : poses) {
+    lowest.push_back(std::ranges::min(pose.joints, {}, [](const glm::dvec3& joint) { return joint.y; }).y);
+  }
+  std::ranges::sort(lowest);
+  const double floor = lowest[lowest.size() / 20];
+  for (BodyPose& pose : poses) {
+    for (glm::dvec3& joint : pose.joints) joint.y -= floor;
+  }
+}
+
+std::optional<MarkerBody> BodyOf(const MarkerMotion& markers, const MarkerSet& set, const Columns& columns, char up) {
+  std::vector<Places> frames;
+  frames.reserve(markers.frames.size());
+  for (const auto& frame : markers.frames) frames.push_back(PlacesOf(set, columns, frame));
+  int filled = 0;
+  const auto longest_gap = static_cast<std::size_t>(kLongestGap_s * markers.rate_hz);
+  for (std::size_t joint = 0; joint < kRoleCount; ++joint) filled += BridgeGaps(frames, joint, longest_gap);
+  TurnUpright(up == 'Z' ? glm::dvec3(0, 0, 1) : up == 'Y' ? glm::dvec3(0, 1, 0) : FindUp(frames), frames);
+  const auto [begin, end] = LongestStretch(frames);
+  if (begin == end) return std::nullopt;
+  MarkerBody body{.name = "", .motion = {.rate_hz = markers.rate_hz, .poses = {}}, .note = set.name};
+  for (std::size_t t = begin; t < end; ++t) body.motion.poses.push_back(Complete(frames[t]));
+  StandOnFloor(body.motion.poses);
+  if (filled > 0) body.note += fmt::format(", {} places bridged over gaps", filled);
+  if (end - begin < frames.size()) {
+    body.note += fmt::format(", frames {} to {} of {} (elsewhere joints are lost for over {:g} s)", begin + 1, end,
+                             frames.size(), kLongestGap_s);
+  }
+  std::vector<std::string> guessed;
+  for (const Role role : AllRoles()) {
+    if (!Tells(set, columns, role)) guessed.emplace_back(RoleName(role));
+  }
+  if (!guessed.empty()) body.note += ", placed by rule: " + Join(guessed);
+  return body;
+}
+
+}  // namespace
+
+Result<std::vector<MarkerBody>> FindMarkerBodies(const MarkerMotion& markers, const std::string& file, char up) {
+  static const std::vector<MarkerSet> sets = MakeSets();
+  std::vector<MarkerBody> bodies;
+  std::string nearest = "";
+  std::size_t fewest = kNeeded.size() + 1;
+  for (const auto& [prefix, columns] : PeopleOf(markers)) {
+    const MarkerSet* best = nullptr;
+    std::size_t most = 0;
+    for (const MarkerSet& set : sets) {
+      const auto lacks = LackedBy(set, columns);
+      const auto told = static_cast<std::size_t>(
+          std::ranges::count_if(AllRoles(), [&](Role role) { return Tells(set, columns, role); }));
+      if (lacks.empty() && told > most) {
+        best = &set;
+        most = told;
+      }
+      if (lacks.size() < fewest) {
+        fewest = lacks.size();
+        nearest = fmt::format("{} lacks {}", set.name, Join(lacks));
+      }
+    }
+    if (best == nullptr) continue;
+    auto body = BodyOf(markers, *best, columns, up);
+    if (!body) continue;
+    body->name = prefix;
+    bodies.push_back(std::move(*body));
+  }
+  if (!bodies.empty()) return bodies;
+  if (fewest == 0) return Fail({file}, "no frame shows all joints of a body at once");
+  std::vector<std::string> names(markers.names.begin(),
+                                 markers.names.begin() + std::min<std::size_t>(markers.names.size(), 12));
+  return Fail(
+      {file},
+      "its markers ({}{}) are of no set known here: {}; known: Etude's joints, OpenPose BODY_25, HALPE_26, COCO, "
+      "OpenCap's augmented markers, Plug-in Gait",
+      Join(names), markers.names.size() > names.size() ? ", …" : "", nearest);
+}
+
+}  // namespace etude
