@@ -89,7 +89,7 @@ std::optional<AcclaimSkeleton::Channel> ChannelNamed(std::string_view name) {
   return AcclaimSkeleton::Channel{kind == 'r', axis};
 }
 
-struct Bone {
+struct AcclaimBone {
   std::string name;
   glm::dvec3 end{0};  ///< from its beginning, in the rest pose
   glm::dquat axes{1, 0, 0, 0};
@@ -141,7 +141,7 @@ class SkeletonReader {
 
   double Radians(double angle) const { return in_degrees_ ? angle * kPi / 180 : angle; }
 
-  Result<void> ReadChannels(Bone& bone) {
+  Result<void> ReadChannels(AcclaimBone& bone) {
     bone.channels.clear();
     for (std::size_t i = 1; i < lines_.words.size(); ++i) {
       const auto channel = ChannelNamed(lines_.words[i].text);
@@ -153,7 +153,7 @@ class SkeletonReader {
   }
 
   Result<bool> ReadRoot() {
-    Bone& root = bones_.front();
+    AcclaimBone& root = bones_.front();
     glm::dvec3 angles(0);
     std::string order = "XYZ";
     Place place = lines_.At();
@@ -177,7 +177,7 @@ class SkeletonReader {
   }
 
   Result<void> ReadBone() {
-    Bone bone;
+    AcclaimBone bone;
     const Place place = lines_.At();
     glm::dvec3 direction(0);
     double length = 0;
@@ -216,7 +216,7 @@ class SkeletonReader {
   }
 
   std::optional<std::size_t> FindBone(std::string_view name) const {
-    const auto found = std::ranges::find(bones_, name, &Bone::name);
+    const auto found = std::ranges::find(bones_, name, &AcclaimBone::name);
     return found == bones_.end() ? std::nullopt : std::optional<std::size_t>(found - bones_.begin());
   }
 
@@ -246,7 +246,7 @@ class SkeletonReader {
     while (!waiting.empty()) {
       const std::size_t b = waiting.back();
       waiting.pop_back();
-      const Bone& bone = bones_[b];
+      const AcclaimBone& bone = bones_[b];
       const auto parent = parent_of_.find(b);
       const bool is_root = parent == parent_of_.end();
       joint_of[b] = static_cast<int>(made.skeleton.joints.size());
@@ -269,7 +269,7 @@ class SkeletonReader {
     }
     if (joint_of.size() == bones_.size()) return made;
     const auto lost =
-        std::ranges::find_if(bones_, [&](const Bone& bone) { return !joint_of.contains(*FindBone(bone.name)); });
+        std::ranges::find_if(bones_, [&](const AcclaimBone& bone) { return !joint_of.contains(*FindBone(bone.name)); });
     return Fail({file_}, "the bone {} hangs on nothing; allowed: a :hierarchy that leads from the root to every bone",
                 Quote(lost->name));
   }
@@ -277,7 +277,7 @@ class SkeletonReader {
   std::string file_;
   Lines lines_;
   bool in_degrees_ = true;
-  std::vector<Bone> bones_ = {Bone{.name = "root"}};
+  std::vector<AcclaimBone> bones_ = {AcclaimBone{.name = "root"}};
   std::map<std::size_t, std::size_t> parent_of_;
 };
 

@@ -14,11 +14,11 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kBlock = 512;
-constexpr unsigned char kKey = 0x50;
+constexpr std::size_t kC3dBlock = 512;
+constexpr unsigned char kC3dKey = 0x50;
 constexpr std::size_t kMostPoints = 10'000;
-constexpr double kMostFrames = 1e7;
-constexpr double kLargest = 1e9;
+constexpr double kMostC3dFrames = 1e7;
+constexpr double kLargestValue = 1e9;
 
 enum class Machine { kIntel = 84, kDec = 85, kMips = 86 };
 
@@ -71,7 +71,7 @@ class Parameters {
     Parameters read(bytes);
     std::map<int, std::string> group_names;
     std::vector<std::pair<int, std::pair<std::string, Parameter>>> found;
-    const std::size_t end = std::min(bytes.size(), at + kBlock * std::max(1u, bytes.Byte(at + 2)));
+    const std::size_t end = std::min(bytes.size(), at + kC3dBlock * std::max(1u, bytes.Byte(at + 2)));
     // The count of blocks is wrong in some files: the chain's own end counts, as long as there are bytes.
     for (std::size_t record = at + 4; record + 4 < std::max(end, bytes.size());) {
       const auto length = static_cast<std::int8_t>(bytes.Byte(record));
@@ -139,7 +139,7 @@ std::optional<double> MetresOf(std::string unit) {
 }
 
 /// The names of all points: LABELS, LABELS2 and so on.
-std::vector<std::string> NamesOf(const Parameters& parameters, std::size_t points) {
+std::vector<std::string> PointNames(const Parameters& parameters, std::size_t points) {
   std::vector<std::string> names;
   for (int part = 1; names.size() < points; ++part) {
     const auto more = parameters.Texts("POINT:LABELS" + (part == 1 ? "" : std::to_string(part)));
@@ -164,7 +164,7 @@ std::size_t CountFrames(const Bytes& bytes, const Parameters& parameters) {
   if (begin && end && *end >= *begin) frames = *end - *begin + 1;
   // Where the header's words are too small, POINT:FRAMES may be a float.
   if (const auto told = parameters.Number("POINT:FRAMES"); told && last >= 65535 && *told > frames) frames = *told;
-  return frames >= 1 && frames <= kMostFrames ? static_cast<std::size_t>(frames) : 0;
+  return frames >= 1 && frames <= kMostC3dFrames ? static_cast<std::size_t>(frames) : 0;
 }
 
 /// Where and how the points of a frame stand.
@@ -180,7 +180,7 @@ std::optional<glm::dvec3> PointAt(const Bytes& bytes, std::size_t at, const Layo
   for (int axis = 0; axis < 3; ++axis) {
     const std::size_t value = at + step * static_cast<std::size_t>(axis);
     point[axis] = (layout.has_floats ? bytes.Float(value) : bytes.Integer(value)) * layout.metres;
-    if (!(std::abs(point[axis]) < kLargest)) return std::nullopt;
+    if (!(std::abs(point[axis]) < kLargestValue)) return std::nullopt;
   }
   const double residual = layout.has_floats ? bytes.Float(at + 3 * step) : bytes.Integer(at + 3 * step);
   return residual >= 0 ? std::optional(point) : std::nullopt;
@@ -189,12 +189,12 @@ std::optional<glm::dvec3> PointAt(const Bytes& bytes, std::size_t at, const Layo
 }  // namespace
 
 bool IsC3d(std::string_view bytes) {
-  return bytes.size() >= 2 * kBlock && static_cast<unsigned char>(bytes[1]) == kKey && bytes[0] > 0;
+  return bytes.size() >= 2 * kC3dBlock && static_cast<unsigned char>(bytes[1]) == kC3dKey && bytes[0] > 0;
 }
 
 Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   if (!IsC3d(bytes)) return Fail({file}, "no C3D file");
-  const std::size_t parameters_at = (static_cast<unsigned char>(bytes[0]) - std::size_t{1}) * kBlock;
+  const std::size_t parameters_at = (static_cast<unsigned char>(bytes[0]) - std::size_t{1}) * kC3dBlock;
   const unsigned machine = Bytes(bytes, Machine::kIntel).Byte(parameters_at + 3);
   if (machine < 84 || machine > 86) {
     return Fail({file}, "written by a machine of kind {}; allowed: 84 (Intel), 85 (DEC), 86 (MIPS)", machine);
@@ -207,10 +207,10 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   const double rate = parameters.Number("POINT:RATE").value_or(all.Float(20));
   if (layout.points == 0) return Fail({file}, "holds no points (rotations and analogue channels are not read)");
   if (layout.points > kMostPoints) return Fail({file}, "{} points; allowed: {}", layout.points, kMostPoints);
-  if (!(rate > 0 && rate < kLargest)) return Fail({file}, "a rate of {} Hz; allowed: above 0", rate);
-  if (!(std::abs(scale) < kLargest) || scale == 0) return Fail({file}, "POINT:SCALE is {}; allowed: not 0", scale);
+  if (!(rate > 0 && rate < kLargestValue)) return Fail({file}, "a rate of {} Hz; allowed: above 0", rate);
+  if (!(std::abs(scale) < kLargestValue) || scale == 0) return Fail({file}, "POINT:SCALE is {}; allowed: not 0", scale);
   const auto units = parameters.Texts("POINT:UNITS");
-  C3d read{.markers = {.rate_hz = rate, .names = NamesOf(parameters, layout.points), .frames = {}},
+  C3d read{.markers = {.rate_hz = rate, .names = PointNames(parameters, layout.points), .frames = {}},
            .unit = units.empty() ? "" : units.front()};
   const auto metres = MetresOf(read.unit);
   if (!metres) return Fail({file}, "units {}; allowed: m, cm, mm, in, ft", Quote(read.unit));
@@ -223,7 +223,7 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   }
 
   const auto data_block = static_cast<std::size_t>(parameters.Number("POINT:DATA_START").value_or(all.Word(16)));
-  layout.begin = (std::max<std::size_t>(data_block, 1) - 1) * kBlock;
+  layout.begin = (std::max<std::size_t>(data_block, 1) - 1) * kC3dBlock;
   layout.frame_bytes = (4 * layout.points + all.Word(4)) * (layout.has_floats ? 4 : 2);
   const std::size_t frames = CountFrames(all, parameters);
   if (frames == 0) return Fail({file}, "its header tells of no frames, or of more than 10⁷");
