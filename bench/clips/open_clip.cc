@@ -9,11 +9,13 @@
 #include "bench/files/files.h"
 #include "engine/base/names.h"
 #include "engine/formats/acclaim.h"
+#include "engine/formats/amass.h"
 #include "engine/formats/bvh.h"
 #include "engine/formats/c3d.h"
 #include "engine/formats/deepmimic.h"
 #include "engine/formats/gltf/gltf.h"
 #include "engine/formats/joint_csv.h"
+#include "engine/formats/npz.h"
 #include "engine/formats/text_scanner.h"
 #include "engine/formats/trc.h"
 #include "engine/motion/edit.h"
@@ -211,7 +213,8 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
 }  // namespace
 
 std::string_view FormatName(ClipFormat format) {
-  constexpr std::array kNames = {"BVH", "glTF", "GLB", "DeepMimic", "Acclaim", "C3D", "TRC", "CSV", "built-in"};
+  constexpr std::array kNames = {"BVH",   "glTF", "GLB", "DeepMimic", "Acclaim",
+                                 "AMASS", "C3D",  "TRC", "CSV",       "built-in"};
   return kNames[static_cast<std::size_t>(format)];
 }
 
@@ -223,6 +226,11 @@ Result<ClipFile> ReadClipFile(const std::string& path) {
   const Token first = has_text ? scanner.Next() : Token{};
 
   ClipFile file;
+  if (IsZip(bytes)) {
+    ASSIGN_OR_RETURN(const auto arrays, ReadNpz(bytes, path));
+    ASSIGN_OR_RETURN(auto clip, ReadAmass(arrays, path));
+    return FileOfOne(ClipFormat::kAmass, std::move(clip));
+  }
   if (auto markers = ReadMarkers(bytes, path)) return *std::move(markers);
   if (first.text == "{" && IsDeepMimicMotion(bytes)) {
     ASSIGN_OR_RETURN(auto clip, ReadDeepMimicMotion(bytes, path));
@@ -245,7 +253,8 @@ Result<ClipFile> ReadClipFile(const std::string& path) {
   constexpr std::string_view kBvhStart = "HIERARCHY";
   if (!std::ranges::equal(first.text, kBvhStart, {}, [](char c) { return c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c; })) {
     return Fail(scanner.At(first),
-                "{}; allowed: BVH (it begins with HIERARCHY), glTF 2.0 (.glb, .gltf), Acclaim's .amc, C3D, TRC, joint "
+                "{}; allowed: BVH (it begins with HIERARCHY), glTF 2.0 (.glb, .gltf), Acclaim's .amc, AMASS's .npz, "
+                "C3D, TRC, joint "
                 "CSV, DeepMimic's motions",
                 WhatElse(bytes, std::string(first.text)));
   }

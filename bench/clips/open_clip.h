@@ -16,8 +16,8 @@
 
 namespace etude {
 
-enum class ClipFormat { kBvh, kGltf, kGlb, kDeepMimic, kAcclaim, kC3d, kTrc, kCsv, kBuiltin };
-/// Returns the name of a format: "BVH", "glTF", "GLB", "DeepMimic", "Acclaim", "C3D", "TRC", "CSV" or
+enum class ClipFormat { kBvh, kGltf, kGlb, kDeepMimic, kAcclaim, kAmass, kC3d, kTrc, kCsv, kBuiltin };
+/// Returns the name of a format: "BVH", "glTF", "GLB", "DeepMimic", "Acclaim", "AMASS", "C3D", "TRC", "CSV" or
 /// "built-in".
 std::string_view FormatName(ClipFormat format);
 
@@ -32,10 +32,10 @@ struct ClipFile {
 /// The largest size of a file, or of a .gltf with its buffers, bytes; more is refused before memory is taken.
 constexpr std::uintmax_t kLargestClipFile = 500'000'000;
 
-/// Reads a BVH or glTF file, a motion of DeepMimic, an Acclaim motion (AMC), or markers of C3D, TRC or joint CSV
-/// (FindMarkerBodies), told by its content, whatever it is called. The buffers of a .gltf are read from its own folder
-/// and below only, links leading out of it are refused. An AMC's skeleton is the ASF beside it: "01.asf" of
-/// "01_01.amc", else the only one of its folder.
+/// Reads a BVH or glTF file, a motion of DeepMimic, an Acclaim motion (AMC), one of AMASS (.npz), or markers of C3D,
+/// TRC or joint CSV (FindMarkerBodies), told by its content, whatever it is called. The buffers of a .gltf are read
+/// from its own folder and below only, links leading out of it are refused. An AMC's skeleton is the ASF beside it:
+/// "01.asf" of "01_01.amc", else the only one of its folder.
 Result<ClipFile> ReadClipFile(const std::string& path);
 
 /// The options with which a clip is opened.

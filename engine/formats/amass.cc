@@ -1,0 +1,121 @@
+#include "engine/formats/amass.h"
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "engine/base/names.h"
+
+namespace etude {
+namespace {
+
+/// SMPL's joints in their order, and our own T-pose: metres from the joint above; X to the left, Y up, facing +Z.
+/// Segment lengths after Drillis and Contini (1966) for 1.70 m.
+struct SmplJoint {
+  const char* name;
+  int parent;
+  glm::dvec3 offset;
+  bool is_end_site = false;
+};
+
+constexpr std::size_t kJoints = 22;
+const std::array<SmplJoint, kJoints + 5> kSmpl = {{{"pelvis", -1, {0, 0, 0}},
+                                                   {"left_hip", 0, {0.09, -0.06, 0}},
+                                                   {"right_hip", 0, {-0.09, -0.06, 0}},
+                                                   {"spine1", 0, {0, 0.10, 0}},
+                                                   {"left_knee", 1, {0, -0.4165, 0}},
+                                                   {"right_knee", 2, {0, -0.4165, 0}},
+                                                   {"spine2", 3, {0, 0.12, 0}},
+                                                   {"left_ankle", 4, {0, -0.418, 0}},
+                                                   {"right_ankle", 5, {0, -0.418, 0}},
+                                                   {"spine3", 6, {0, 0.06, 0}},
+                                                   {"left_foot", 7, {0.01, -0.045, 0.12}},
+                                                   {"right_foot", 8, {-0.01, -0.045, 0.12}},
+                                                   {"neck", 9, {0, 0.20, 0}},
+                                                   {"left_collar", 9, {0.07, 0.11, 0}},
+                                                   {"right_collar", 9, {-0.07, 0.11, 0}},
+                                                   {"head", 12, {0, 0.085, 0.02}},
+                                                   {"left_shoulder", 13, {0.11, 0.05, 0}},
+                                                   {"right_shoulder", 14, {-0.11, 0.05, 0}},
+                                                   {"left_elbow", 16, {0.30, 0, 0}},
+                                                   {"right_elbow", 17, {-0.30, 0, 0}},
+                                                   {"left_wrist", 18, {0.25, 0, 0}},
+                                                   {"right_wrist", 19, {-0.25, 0, 0}},
+                                                   {"head_end", 15, {0, 0.16, 0}, true},
+                                                   {"left_foot_end", 10, {0, -0.01, 0.06}, true},
+                                                   {"right_foot_end", 11, {0, -0.01, 0.06}, true},
+                                                   {"left_hand_end", 20, {0.18, 0, 0}, true},
+                                                   {"right_hand_end", 21, {-0.18, 0, 0}, true}}};
+
+Skeleton SmplSkeleton() {
+  Skeleton skeleton;
+  for (const SmplJoint& joint : kSmpl) {
+    skeleton.joints.push_back({.name = joint.name,
+                               .parent = joint.parent,
+                               .rest = {.translation = joint.offset},
+                               .is_end_site = joint.is_end_site});
+  }
+  return skeleton;
+}
+
+const NumberArray* Find(const Npz& npz, const std::string& name) {
+  const auto found = npz.arrays.find(name);
+  return found == npz.arrays.end() ? nullptr : &found->second;
+}
+
+glm::dquat TurnOf(const double* axis_times_angle) {
+  const glm::dvec3 turn(axis_times_angle[0], axis_times_angle[1], axis_times_angle[2]);
+  const double angle = glm::length(turn);
+  return angle > 0 ? glm::angleAxis(angle, turn / angle) : glm::dquat(1, 0, 0, 0);
+}
+
+/// The number of columns of an array of rows; 0 when it is none.
+std::size_t WidthOf(const NumberArray* array) {
+  return array != nullptr && array->shape.size() == 2 ? array->shape[1] : 0;
+}
+
+}  // namespace
+
+Result<Clip> ReadAmass(const Npz& npz, const std::string& file) {
+  const NumberArray *poses = Find(npz, "poses"), *places = Find(npz, "trans"), *rate = Find(npz, "mocap_framerate");
+  if (rate == nullptr) rate = Find(npz, "mocap_frame_rate");
+  const std::size_t width = WidthOf(poses);
+  if ((width != 156 && width != 165) || WidthOf(places) != 3 || rate == nullptr || rate->values.size() != 1) {
+    std::vector<std::string> names;
+    for (const auto& [name, array] : npz.arrays) names.push_back(name);
+    return Fail({file},
+                "arrays {}; allowed: a motion of AMASS with poses (frames × 156 or 165), trans (frames × 3) and "
+                "mocap_framerate or mocap_frame_rate",
+                names.empty() ? "none" : Join(names));
+  }
+  const std::size_t frames = poses->shape[0];
+  if (frames == 0) return Fail({file}, "no frames");
+  if (places->shape[0] != frames) {
+    return Fail({file}, "trans has {} frames; poses has {}", places->shape[0], frames);
+  }
+  constexpr double kSlowest_hz = 1, kFastest_hz = 10'000, kLargestValue = 1e6;
+  const double rate_hz = rate->values.front();
+  if (!(rate_hz >= kSlowest_hz && rate_hz <= kFastest_hz)) {
+    return Fail({file}, "a rate of {} Hz; allowed: {} to {}", rate_hz, kSlowest_hz, kFastest_hz);
+  }
+  for (const NumberArray* array : {poses, places}) {
+    for (std::size_t i = 0; i < array->values.size(); ++i) {
+      if (std::abs(array->values[i]) <= kLargestValue) continue;
+      return Fail({file}, "{} of frame {} is {}; allowed: numbers within ±10⁶", array == poses ? "poses" : "trans",
+                  i / array->shape[1], array->values[i]);
+    }
+  }
+  Clip clip{.name = "amass", .skeleton = SmplSkeleton(), .rate_hz = rate_hz, .frames = {}};
+  const LocalPose rest = RestPose(clip.skeleton);
+  for (std::size_t t = 0; t < frames; ++t) {
+    LocalPose& pose = clip.frames.emplace_back(rest);
+    for (int axis = 0; axis < 3; ++axis)
+      pose[0].translation[axis] = places->values[3 * t + static_cast<std::size_t>(axis)];
+    for (std::size_t joint = 0; joint < kJoints; ++joint) {
+      pose[joint].rotation = TurnOf(&poses->values[t * width + 3 * joint]);
+    }
+  }
+  return clip;
+}
+
+}  // namespace etude

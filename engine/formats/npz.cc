@@ -1,0 +1,153 @@
+#include "engine/formats/npz.h"
+
+#include <zip.h>
+
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "engine/base/names.h"
+
+namespace etude {
+namespace {
+
+constexpr std::size_t kMostMembers = 1000;
+constexpr std::uint64_t kMostUnpacked = std::uint64_t{512} << 20;
+
+/// What follows a key of the header's Python dictionary, up to `end`.
+std::string_view ValueOf(std::string_view header, std::string_view key, char end) {
+  const std::size_t at = header.find(key);
+  if (at == std::string_view::npos) return {};
+  header.remove_prefix(at + key.size());
+  return header.substr(0, header.find(end));
+}
+
+template <typename Number>
+void Append(std::string_view bytes, std::vector<double>& values) {
+  for (std::size_t at = 0; at + sizeof(Number) <= bytes.size(); at += sizeof(Number)) {
+    Number number;
+    std::memcpy(&number, bytes.data() + at, sizeof number);
+    values.push_back(static_cast<double>(number));
+  }
+}
+
+/// Reads the numbers of a type such as "<f4"; nothing when they are none.
+std::optional<std::vector<double>> NumbersOf(std::string_view type, std::string_view bytes) {
+  std::vector<double> values;
+  if (type == "<f8") {
+    Append<double>(bytes, values);
+  } else if (type == "<f4") {
+    Append<float>(bytes, values);
+  } else if (type == "<i8") {
+    Append<std::int64_t>(bytes, values);
+  } else if (type == "<i4") {
+    Append<std::int32_t>(bytes, values);
+  } else if (type == "<u4") {
+    Append<std::uint32_t>(bytes, values);
+  } else if (type == "<i2") {
+    Append<std::int16_t>(bytes, values);
+  } else if (type == "|u1" || type == "|b1") {
+    Append<std::uint8_t>(bytes, values);
+  } else {
+    return std::nullopt;
+  }
+  return values;
+}
+
+/// Reads an .npy file; nothing when it holds no plain numbers.
+Result<std::optional<NumberArray>> ReadNpy(std::string_view bytes, const std::string& file) {
+  constexpr std::string_view kMagic = "\x93NUMPY";
+  const Place place{file};
+  if (!bytes.starts_with(kMagic) || bytes.size() < 12) return Fail(place, "is no .npy file");
+  const bool is_first = bytes[6] == 1;  // later versions tell the header's length by four bytes
+  const std::size_t length_bytes = is_first ? 2 : 4, head = 8 + length_bytes;
+  std::size_t length = 0;
+  for (std::size_t i = 0; i < length_bytes; ++i)
+    length |= std::size_t{static_cast<unsigned char>(bytes[8 + i])} << (8 * i);
+  if (length > bytes.size() - head) return Fail(place, "its header is cut short");
+  const std::string_view header = bytes.substr(head, length), data = bytes.substr(head + length);
+  NumberArray array;
+  std::size_t count = 1;
+  const std::string_view shape = ValueOf(header, "'shape': (", ')');
+  for (std::size_t at = 0; (at = shape.find_first_not_of(" ,", at)) != std::string_view::npos;) {
+    std::size_t size = 0;
+    const auto [end, error] = std::from_chars(shape.data() + at, shape.data() + shape.size(), size);
+    if (error != std::errc() || size > kMostUnpacked) return Fail(place, "its shape is {}", Quote(shape));
+    if (size != 0 && count > kMostUnpacked / size) return Fail(place, "is larger than it can be");
+    array.shape.push_back(size);
+    count *= size;
+    at = static_cast<std::size_t>(end - shape.data());
+  }
+  auto values = NumbersOf(ValueOf(header, "'descr': '", '\''), data);
+  if (!values) return std::optional<NumberArray>();
+  if (array.shape.size() > 1 && ValueOf(header, "'fortran_order': ", ',') == "True") {
+    return Fail(place, "is in Fortran's order; allowed: numpy.ascontiguousarray of it");
+  }
+  if (values->size() != count) return Fail(place, "holds {} numbers; its shape says {}", values->size(), count);
+  array.values = std::move(*values);
+  return std::optional(std::move(array));
+}
+
+using Archive = std::unique_ptr<zip_t, decltype(&zip_discard)>;
+
+/// Unpacks a member; `left` is what may still be unpacked.
+Result<std::string> Unpack(zip_t* archive, zip_uint64_t member, std::uint64_t& left, const std::string& file) {
+  zip_stat_t status;
+  zip_stat_init(&status);
+  if (zip_stat_index(archive, member, 0, &status) != 0 || (status.valid & ZIP_STAT_SIZE) == 0) {
+    return Fail({file}, "member {} has no size", member);
+  }
+  if (status.size > left) return Fail({file}, "unpacks to more than {} MiB", kMostUnpacked >> 20);
+  left -= status.size;
+  std::string bytes(status.size, '\0');
+  const std::unique_ptr<zip_file_t, decltype(&zip_fclose)> opened(zip_fopen_index(archive, member, 0), &zip_fclose);
+  const bool is_read =
+      opened && zip_fread(opened.get(), bytes.data(), status.size) == static_cast<zip_int64_t>(status.size);
+  // One byte more makes the library compare the sums.
+  char more = 0;
+  if (!is_read || zip_fread(opened.get(), &more, 1) != 0) return Fail({file}, "member {} is damaged", member);
+  return bytes;
+}
+
+}  // namespace
+
+bool IsZip(std::string_view bytes) { return bytes.starts_with("PK\x03\x04"); }
+
+Result<Npz> ReadNpz(std::string_view bytes, const std::string& file) {
+  zip_error_t error;
+  zip_error_init(&error);
+  zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
+  Archive archive(source == nullptr ? nullptr : zip_open_from_source(source, ZIP_RDONLY, &error), &zip_discard);
+  if (!archive) {
+    if (source != nullptr) zip_source_free(source);
+    auto failed = Fail({file}, "no ZIP file that can be read: {}", zip_error_strerror(&error));
+    zip_error_fini(&error);
+    return failed;
+  }
+  const zip_int64_t members = zip_get_num_entries(archive.get(), 0);
+  if (members < 0 || static_cast<std::size_t>(members) > kMostMembers) {
+    return Fail({file}, "{} members; allowed: {}", members, kMostMembers);
+  }
+  Npz read;
+  std::uint64_t left = kMostUnpacked;
+  for (zip_uint64_t i = 0; i < static_cast<zip_uint64_t>(members); ++i) {
+    const char* name = zip_get_name(archive.get(), i, 0);
+    std::string key = name == nullptr ? "" : name;
+    constexpr std::string_view kEnding = ".npy";
+    if (!key.ends_with(kEnding)) continue;
+    key.resize(key.size() - kEnding.size());
+    ASSIGN_OR_RETURN(const auto unpacked, Unpack(archive.get(), i, left, file));
+    ASSIGN_OR_RETURN(auto array, ReadNpy(unpacked, file + "/" + key));
+    if (array) {
+      read.arrays[key] = std::move(*array);
+    } else {
+      read.skipped.push_back(key);
+    }
+  }
+  return read;
+}
+
+}  // namespace etude

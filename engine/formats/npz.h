@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/result.h"
+
+namespace etude {
+
+/// An array of numbers, in C's order.
+struct NumberArray {
+  std::vector<std::size_t> shape;  ///< empty = one number
+  std::vector<double> values;
+};
+
+/// The arrays of an .npz file (NumPy's format: a ZIP of .npy files), by name.
+struct Npz {
+  std::map<std::string, NumberArray> arrays;
+  std::vector<std::string> skipped;  ///< members that hold no plain numbers: texts, pickled objects
+};
+
+/// Tells whether bytes begin as a ZIP file does.
+bool IsZip(std::string_view bytes);
+
+/// Reads an .npz file, stored or deflated, ZIP64, too: floats and whole numbers of any size, little-endian. Refused: a
+/// damaged file, more than 1,000 members, members of more than 512 MiB together once unpacked, arrays in Fortran's
+/// order.
+Result<Npz> ReadNpz(std::string_view bytes, const std::string& file);
+
+}  // namespace etude
