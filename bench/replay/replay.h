@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,7 +44,8 @@ Result<std::vector<CellCheck>> ReplayRun(const ReplayOptions& options);
 Result<void> PackCell(const std::string& folder, const std::string& cell, const std::string& file,
                       Sealing sealing = Sealing::kRequired);
 
-/// Runs the cell of such a file again.
-Result<CellCheck> ReplayPack(const std::string& file, const OutsideRules& outside = {});
+/// Runs the cell of such a file again. Nothing when it is stopped.
+Result<std::optional<CellCheck>> ReplayPack(const std::string& file, const OutsideRules& outside = {},
+                                            const std::atomic<bool>* stop = nullptr);
 
 }  // namespace etude

@@ -135,7 +135,7 @@ Result<void> ResultWriter::BeginScenario(const std::string& scenario) {
 }
 
 Result<void> ResultWriter::FinishScenario() {
-  if (series_) RETURN_IF_ERROR(series_->Finish());
+  if (series_) RETURN_IF_ERROR(series_->Finish(OnDisk::kLater));
   series_.reset();
   if (columns_) RETURN_IF_ERROR(columns_->Finish());
   columns_.reset();
@@ -147,7 +147,7 @@ Result<void> ResultWriter::Add(const Row& row, const CellUsage& usage) {
   RETURN_IF_ERROR(columns_ ? columns_->Add(row, usage) : AddAsText(row, usage));
   if (!row.result.recording) return {};
   ASSIGN_OR_RETURN(const auto json, EncodeRecording(*row.result.recording));
-  return SaveJson(folder_ / "recordings" / FileNameOf(row.Id()), json);
+  return SaveJson(folder_ / "recordings" / FileNameOf(row.Id()), json, OnDisk::kLater);
 }
 
 Result<void> ResultWriter::AddAsText(const Row& row, const CellUsage& usage) {
@@ -167,9 +167,9 @@ Result<void> ResultWriter::AddAsText(const Row& row, const CellUsage& usage) {
 
 Result<void> ResultWriter::Finish(const std::vector<ScenarioSummary>& scenarios) {
   RETURN_IF_ERROR(FinishScenario());
-  RETURN_IF_ERROR(SaveJson(folder_ / "summary.json", EncodeSummaries(scenarios)));
-  if (timings_) RETURN_IF_ERROR(timings_->Finish());
-  return cells_ ? cells_->Finish() : Result<void>();
+  RETURN_IF_ERROR(SaveJson(folder_ / "summary.json", EncodeSummaries(scenarios), OnDisk::kLater));
+  if (timings_) RETURN_IF_ERROR(timings_->Finish(OnDisk::kLater));
+  return cells_ ? cells_->Finish(OnDisk::kLater) : Result<void>();
 }
 
 Result<RunData> LoadRunOutline(const fs::path& folder, Sealing sealing) {

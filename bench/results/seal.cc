@@ -70,7 +70,8 @@ bool IsMadeFromResults(std::string_view part) { return part == "report" || part 
 
 Result<void> SealRun(const fs::path& folder) {
   ASSIGN_OR_RETURN(const auto digests, DigestsOf(folder));
-  return SaveJson(folder / kSealFile, {{"format", "etude-seal"}, {"version", kSealVersion}, {"files", digests}});
+  return SaveJson(folder / kSealFile, {{"format", "etude-seal"}, {"version", kSealVersion}, {"files", digests}},
+                  OnDisk::kLater);
 }
 
 Result<void> CheckSeal(const fs::path& folder) {

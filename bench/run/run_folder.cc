@@ -113,7 +113,7 @@ Result<bool> FinishRun(const fs::path& folder, const Plan& plan, CellTable& cell
   }
   if (!goes_on(cell)) return false;
   RETURN_IF_ERROR(results.Finish(summaries));
-  RETURN_IF_ERROR(SaveJson(folder / "host.json", host));
+  RETURN_IF_ERROR(SaveJson(folder / "host.json", host, OnDisk::kLater));
   // The journal is the only other place that knows the results: it goes when all of them are on the disk.
   RETURN_IF_ERROR(SealRun(folder));
   RETURN_IF_ERROR(SyncTree(folder));
