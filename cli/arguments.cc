@@ -88,6 +88,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineReport(app, action);
   DefineRows(app, action);
   DefineReplay(app, action);
+  DefineVerify(app, action);
   DefineGate(app, action);
   DefineCompare(app, action);
   DefineExport(app, action);

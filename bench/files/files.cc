@@ -74,7 +74,8 @@ Result<void> SaveJson(const std::filesystem::path& path, const Json& json, OnDis
 
 bool LockUnlessTaken(int file, const std::filesystem::path& name) {
   if (::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return false;
-  struct stat ours {}, there {};
+  struct stat ours {
+  }, there{};
   if (::fstat(file, &ours) != 0 || ::lstat(name.c_str(), &there) != 0) return false;
   return ours.st_dev == there.st_dev && ours.st_ino == there.st_ino;
 }

@@ -36,7 +36,8 @@ Result<void> MakeFolder(const std::filesystem::path& folder);
 /// that two processes that write the same file have two; what a killed one has left is used by the next.
 class PartialFile {
  public:
-  /// Makes the folder it stands in, and an empty file. Fails, as everything here, naming `path` and the system's reason.
+  /// Makes the folder it stands in, and an empty file. Fails, as everything here, naming `path` and the system's
+  /// reason.
   static Result<PartialFile> Claim(const std::filesystem::path& path);
   PartialFile() = default;
   PartialFile(PartialFile&& other) noexcept { *this = std::move(other); }

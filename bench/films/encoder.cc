@@ -94,8 +94,8 @@ Result<Encoder> Encoder::Start(const std::filesystem::path& path, int width, int
     return Fail(place, "cannot talk to {}: {}", program, std::strerror(errno));
   }
   pid_t child = -1;
-  const int error = StartFilmProgram(Arguments(program, film.name(), width, height, rate_hz, sound), ends[1],
-                                     kNowhere, log.get(), child);
+  const int error = StartFilmProgram(Arguments(program, film.name(), width, height, rate_hz, sound), ends[1], kNowhere,
+                                     log.get(), child);
   close(ends[1]);
   if (error != 0) {
     close(ends[0]);

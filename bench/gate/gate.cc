@@ -164,7 +164,8 @@ bool IsRegression(const MetricMove& move) {
 GateVerdict GateVerdictOf(const GateReport& report) {
   if (!report.incomplete.empty()) return GateVerdict::kNotWhole;
   const auto unmet = [](const auto& judged) { return judged.ruling == Ruling::kUnmet; };
-  const bool fails = !report.silent.empty() || std::any_of(report.comparison.moves.begin(), report.comparison.moves.end(), IsRegression) ||
+  const bool fails = !report.silent.empty() ||
+                     std::any_of(report.comparison.moves.begin(), report.comparison.moves.end(), IsRegression) ||
                      std::any_of(report.ratios.begin(), report.ratios.end(), unmet) ||
                      std::any_of(report.expectations.begin(), report.expectations.end(),
                                  [&](const GateExpectation& expectation) { return unmet(expectation.result); });

@@ -59,7 +59,7 @@ Result<void> LoadSeries(const fs::path& folder, RunData& run) {
 
 Result<void> LoadRecordings(const fs::path& folder, RunData& run) {
   for (const Row& row : run.rows) {
-    const fs::path path = folder / "recordings" / FileNameOf(row.Id());
+    const fs::path path = RecordingFile(folder, row.Id());
     if (std::error_code none; !fs::exists(path, none)) continue;
     ASSIGN_OR_RETURN(const auto json, ReadJsonFile(path));
     ASSIGN_OR_RETURN(auto recording, DecodeRecording(json, {path.string(), 0, 0}));
@@ -106,6 +106,10 @@ Result<void> LoadManifest(const fs::path& folder, RunData& run) {
 
 }  // namespace
 
+fs::path RecordingFile(const fs::path& folder, const std::string& cell) {
+  return folder / "recordings" / FileNameOf(cell);
+}
+
 Result<ResultWriter> ResultWriter::Begin(const fs::path& folder, std::span<const Study> studies,
                                          std::size_t most_as_text) {
   ResultWriter writer(folder);
@@ -147,7 +151,7 @@ Result<void> ResultWriter::Add(const Row& row, const CellUsage& usage) {
   RETURN_IF_ERROR(columns_ ? columns_->Add(row, usage) : AddAsText(row, usage));
   if (!row.result.recording) return {};
   ASSIGN_OR_RETURN(const auto json, EncodeRecording(*row.result.recording));
-  return SaveJson(folder_ / "recordings" / FileNameOf(row.Id()), json, OnDisk::kLater);
+  return SaveJson(RecordingFile(folder_, row.Id()), json, OnDisk::kLater);
 }
 
 Result<void> ResultWriter::AddAsText(const Row& row, const CellUsage& usage) {
