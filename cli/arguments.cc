@@ -91,6 +91,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineRows(app, action);
   DefineReplay(app, action);
   DefineCite(app, action);
+  DefineVerify(app, action);
   DefineGate(app, action);
   DefineCompare(app, action);
   DefineExport(app, action);

@@ -47,6 +47,8 @@ void DefineRows(CLI::App& app, Action& action);
 void DefineReplay(CLI::App& app, Action& action);
 /// `etude cite DIR`: BibTeX, and the sentence that names a run.
 void DefineCite(CLI::App& app, Action& action);
+/// `etude verify DIR`: recomputes and replays what a run says (exit 1 when it differs); signs it, checks a signature.
+void DefineVerify(CLI::App& app, Action& action);
 /// `etude gate`: exit 0 pass, 1 regression or unmet expectation, 2 bad input, 3 incomplete.
 void DefineGate(CLI::App& app, Action& action);
 /// `etude compare A B`: tells what differs between two runs of the same worlds.

@@ -37,18 +37,18 @@ int ComplainOfFaults(const ScoreOptions& options, const PredictionFaults& faults
                    only_missing ? "; --allow-missing counts a missing one as a failure" : "")});
 }
 
-int ExportCommand(const ExportOptions& given) {
-  const Interrupt interrupt;
-  ExportOptions options = given;
-  options.stop = interrupt.requested();
+int ExportAll(const ExportOptions& options) {
   const auto outcome = ExportSuite(options, ProgressOf("worlds"));
   if (!outcome) return Complain(outcome.error());
-  if (outcome->stopped) return TellStopped();
   fmt::print("{} problems in {}{}\nNext: give away {}/inputs, then etude score {} PREDICTIONS -o RESULT\n",
              outcome->problems, options.output,
              outcome->skipped > 0 ? fmt::format(" ({} worlds skipped, see inputs/index.csv)", outcome->skipped) : "",
              options.output, options.output);
   return kSuccess;
+}
+
+int ExportCommand(const ExportOptions& options) {
+  return DoInterruptibly([&] { return ExportAll(options); }, [&] { RemoveUnfinishedExport(options.output); });
 }
 
 int ScoreCommand(const ScoreOptions& given) {

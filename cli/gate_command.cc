@@ -73,6 +73,7 @@ void PrintReport(const GateReport& report) {
   }
   PrintList("New, not in the baseline:", report.comparison.only_after);
   PrintList("Settings of the method changed in the scenario:", report.comparison.settings_changed);
+  PrintList("Methods without an answer:", report.silent);
   PrintList("Incomplete:", report.incomplete);
   for (const std::string& sentence : GateSentences(report)) fmt::print("{}\n", sentence);
   fmt::print("Gate: {}\n", GateVerdictWords(GateVerdictOf(report)));
@@ -81,6 +82,9 @@ void PrintReport(const GateReport& report) {
 Result<int> Judge(const GateOptions& options, const FinishedRun& run) {
   std::optional<Snapshot> baseline;
   if (!options.baseline.empty()) {
+    if (std::error_code none; !fs::exists(options.baseline, none)) {
+      return Fail({options.baseline, 0, 0}, "no such file; --update makes it of this run");
+    }
     ASSIGN_OR_RETURN(baseline, LoadBaseline(options.baseline));
   }
   ASSIGN_OR_RETURN(auto report, JudgeRun(run, baseline ? &*baseline : nullptr, options.baseline));
@@ -102,15 +106,17 @@ void PrintDifference(Snapshot before, Snapshot after, const FinishedRun& run) {
 }
 
 Result<int> Update(const GateOptions& options, const FinishedRun& run) {
-  std::vector<std::string> incomplete = run.incomplete;
-  for (const std::string& ends : DescribeMachineEnds(run)) incomplete.push_back(ends);
-  if (!incomplete.empty()) {
+  if (const auto incomplete = WhyIncomplete(run); !incomplete.empty()) {
     PrintList("No baseline is made of an incomplete run:", incomplete);
     return kIncomplete;
   }
+  if (const auto silent = DescribeSilentMethods(run); !silent.empty()) {
+    PrintList("No baseline is made of a run in which a method has no answer, for nothing could be worse:", silent);
+    return kRegression;
+  }
   const Snapshot now = TakeSnapshot(run);
   ASSIGN_OR_RETURN(const auto text, WriteBaseline(now));
-  RETURN_IF_ERROR(ReadBaseline(text, options.target));  // e.g. all failed
+  RETURN_IF_ERROR(ReadBaseline(text, options.target));
   std::optional<Snapshot> before;
   if (std::error_code none; fs::exists(options.baseline, none)) {
     ASSIGN_OR_RETURN(before, LoadBaseline(options.baseline));  // what is no baseline is not written over

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 
 #include "engine/base/result.h"
 
@@ -24,6 +25,10 @@ class Interrupt {
  private:
   void (*piped_)(int);
 };
+
+/// Does `work` in a copy of this process, which Ctrl-C (and SIGTERM) ends wherever it is; `clean_up` then takes away
+/// what it had begun. Gives the exit code that `work` gives. It is for work whose single steps take long.
+int DoInterruptibly(const std::function<int()>& work, const std::function<void()>& clean_up);
 
 /// Gives the outcome of writing a film, but false when Ctrl-C came: it reaches the encoder, too, whose end may be
 /// noticed first.

@@ -30,13 +30,14 @@ void PrintDifference(const CellCheck& check) {
   fmt::print("differs: {}\n  first at {}: {} then, {} now\n", check.cell, check.stage, check.then, check.now);
 }
 
-Result<int> ReplayFile(const std::string& file, const OutsideRules& outside) {
-  ASSIGN_OR_RETURN(const auto check, ReplayPack(file, outside));
-  if (!check.same) {
-    PrintDifference(check);
+Result<int> ReplayFile(const std::string& file, const OutsideRules& outside, const Interrupt& interrupt) {
+  ASSIGN_OR_RETURN(const auto check, ReplayPack(file, outside, interrupt.requested()));
+  if (!check) return TellStopped({{}, "stopped; its cell was not run again"});
+  if (!check->same) {
+    PrintDifference(*check);
     return kNothingWorked;
   }
-  fmt::print("{}: the same, stage by stage\n", check.cell);
+  fmt::print("{}: the same, stage by stage\n", check->cell);
   return kSuccess;
 }
 
@@ -56,7 +57,7 @@ Result<int> ReplayCommand(const ReplayCommandOptions& options) {
     if (!options.cells.empty() || !options.pack_file.empty() || options.sample > 0) {
       return Fail({options.target}, "is no result folder; --cell, --sample and --pack need one");
     }
-    return ReplayFile(options.target, options.outside);
+    return ReplayFile(options.target, options.outside, interrupt);
   }
   if (!options.pack_file.empty()) return Pack(options);
   ASSIGN_OR_RETURN(const auto checks, ReplayRun({.folder = options.target,
@@ -71,7 +72,10 @@ Result<int> ReplayCommand(const ReplayCommandOptions& options) {
     if (!check.same) PrintDifference(check);
   }
   fmt::print("{} of {} cells came out the same\n", same, checks.size());
-  if (*interrupt.requested()) return kInterrupted;
+  if (*interrupt.requested()) {
+    std::fflush(stdout);
+    return TellStopped({{}, "stopped; the other cells were not run again"});
+  }
   return static_cast<std::size_t>(same) == checks.size() ? kSuccess : kNothingWorked;
 }
 

@@ -1,6 +1,7 @@
 #include "reports/gate_report.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <map>
 
@@ -77,11 +78,11 @@ Ruling RulingOf(const MetricMove& move) {
 
 constexpr std::size_t kMostWorldsOfCase = 20;
 
-JunitCase CaseOf(const MetricMove& move, const std::string& run_folder) {
+JunitCase CaseOf(const MetricMove& move, const GateReport& report) {
   const GateTableRow row = TableRow(move);
   std::string detail = fmt::format("{}: {} -> {}, difference {}, p {}, in {} worlds", row.verdict, row.before,
                                    row.after, row.difference, row.p, row.worlds);
-  for (const TailLine& line : TailLines(move, run_folder, kMostWorldsOfCase)) {
+  for (const TailLine& line : TailLines(move, report.run_folder, kMostWorldsOfCase, report.runs_programs)) {
     detail += "\n" + line.world + (line.replay.empty() ? "" : ": " + line.replay);
   }
   return {fmt::format("{}, {}: {}", row.condition, row.method, row.metric), RulingOf(move), std::move(detail)};
@@ -94,6 +95,7 @@ std::string WriteGateMarkdown(const GateReport& report) {
       fmt::format("## Etude gate of {}: {}\n\n", EscapeMarkdown(report.suite), GateVerdictWords(GateVerdictOf(report)));
   for (const std::string& sentence : GateSentences(report)) text += "- " + EscapeMarkdown(sentence) + "\n";
   text += List("**Incomplete**, so there is no verdict on the whole:", report.incomplete);
+  text += List("**Methods without an answer:**", report.silent);
   text += List("**Not met:**", ClaimsThatAre(report, Ruling::kUnmet));
   std::vector<GateTableRow> failing, others;
   for (GateTableRow& row : MovedRows(report.comparison)) (row.fails ? failing : others).push_back(std::move(row));
@@ -119,10 +121,12 @@ std::string WriteGateMarkdown(const GateReport& report) {
 }
 
 std::string WriteGateJunit(const GateReport& report) {
-  std::string why;
-  for (const std::string& reason : report.incomplete) why += reason + "\n";
+  const auto empty = [](const std::string& name, const std::vector<std::string>& lines) {
+    return JunitCase{name, lines.empty() ? Ruling::kMet : Ruling::kUnmet, fmt::format("{}\n", fmt::join(lines, "\n"))};
+  };
   std::vector<JunitSuite> suites = {
-      {"gate", {{"every cell can be judged", report.incomplete.empty() ? Ruling::kMet : Ruling::kUnmet, why}}}};
+      {"gate",
+       {empty("every cell can be judged", report.incomplete), empty("every method has an answer", report.silent)}}};
   std::map<std::string, std::size_t> places;
   const auto suite_of = [&](const std::string& scenario) -> JunitSuite& {
     const auto [place, is_new] = places.emplace(scenario, suites.size());
@@ -136,7 +140,7 @@ std::string WriteGateJunit(const GateReport& report) {
     suite_of(ratio.scenario).cases.push_back({RatioClaim(ratio), ratio.ruling, RatioDetail(ratio)});
   }
   for (const MetricMove& move : report.comparison.moves) {
-    suite_of(move.identity.scenario).cases.push_back(CaseOf(move, report.run_folder));
+    suite_of(move.identity.scenario).cases.push_back(CaseOf(move, report));
   }
   return WriteJunitXml(report.suite + " gate", suites);
 }

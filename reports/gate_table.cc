@@ -160,7 +160,8 @@ std::vector<std::string> GateSentences(const GateReport& report) {
   return sentences;
 }
 
-std::vector<TailLine> TailLines(const MetricMove& move, const std::string& run_folder, std::size_t most) {
+std::vector<TailLine> TailLines(const MetricMove& move, const std::string& run_folder, std::size_t most,
+                                bool runs_programs) {
   const MoveIdentity& identity = move.identity;
   const std::string folder = run_folder.empty() ? "RUN" : ShellWord(run_folder);
   const std::string about = identity.scenario + (identity.condition == "-" ? "" : ", " + identity.condition);
@@ -170,9 +171,10 @@ std::vector<TailLine> TailLines(const MetricMove& move, const std::string& run_f
     const TailWorld& world = move.tail[i];
     const std::string cell =
         fmt::format("{}/{}/{:03}/{}", identity.scenario, identity.condition, world.trial, identity.method);
-    lines.push_back({fmt::format("{}, trial {}, {}: {} {}", about, world.trial, identity.method, label,
-                                 ValuesText(world, identity.metric)),
-                     fmt::format("etude replay {} --cell {}", folder, ShellWord(cell))});
+    lines.push_back(
+        {fmt::format("{}, trial {}, {}: {} {}", about, world.trial, identity.method, label,
+                     ValuesText(world, identity.metric)),
+         fmt::format("etude replay {}{} --cell {}", folder, runs_programs ? " --allow-exec" : "", ShellWord(cell))});
   }
   if (move.tail.size() > most) {
     lines.push_back(
@@ -192,7 +194,8 @@ std::vector<TailLine> TailLines(const GateReport& report, bool failing, std::siz
       left_out += std::ssize(move.tail);
       continue;
     }
-    for (TailLine& line : TailLines(move, report.run_folder, most_each)) lines.push_back(std::move(line));
+    for (TailLine& line : TailLines(move, report.run_folder, most_each, report.runs_programs))
+      lines.push_back(std::move(line));
   }
   if (left_out > 0) lines.push_back({fmt::format("… and {} of other comparisons", Plural(left_out, "more world")), ""});
   return lines;

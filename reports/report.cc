@@ -1,6 +1,7 @@
 #include "reports/report.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include "bench/files/files.h"
 #include "bench/recordings/capture_extras.h"
@@ -15,35 +16,62 @@
 namespace etude {
 namespace {
 
-Result<void> WriteTables(const RunData& run, const std::filesystem::path& folder) {
+namespace fs = std::filesystem;
+
+/// A file of a report that is text, by its path below `report`.
+struct ReportText {
+  fs::path path;
+  std::string text;
+};
+
+void AddTables(const RunData& run, std::vector<ReportText>& texts) {
   for (std::size_t i = 0; i < run.scenarios.size(); ++i) {
     const ScenarioSummary& scenario = run.scenarios[i];
-    const std::string name = FileNameOf(scenario.name, i);
-    auto written = WriteFileAtomically(folder / (name + ".csv"), NumberTableCsv(run, scenario));
-    if (!written) return written;
-    written = WriteFileAtomically(folder / (name + "-comparisons.csv"), ComparisonTableCsv(scenario));
-    if (!written) return written;
-    written = WriteFileAtomically(folder / (name + ".tex"), ScenarioLatex(run, scenario));
-    if (!written) return written;
-    if (const std::string csv = PaperBCsv(run, scenario); !csv.empty()) {
-      written = WriteFileAtomically(folder / (name + "-paper-b.csv"), csv);
-      if (!written) return written;
-    }
+    const std::string name = "tables/" + FileNameOf(scenario.name, i);
+    texts.push_back({name + ".csv", NumberTableCsv(run, scenario)});
+    texts.push_back({name + "-comparisons.csv", ComparisonTableCsv(scenario)});
+    texts.push_back({name + ".tex", ScenarioLatex(run, scenario)});
+    std::string csv = PaperBCsv(run, scenario);
+    if (!csv.empty()) texts.push_back({name + "-paper-b.csv", std::move(csv)});
+  }
+}
+
+// The motions that captures recovered, for any program that reads BVH.
+Result<void> AddMotions(const RunData& run, std::vector<ReportText>& texts) {
+  for (const CellRecording& recorded : run.recordings) {
+    const auto row = std::ranges::find(run.rows, recorded.cell, &Row::Id);
+    if (row == run.rows.end() || row->task != "capture") continue;
+    ASSIGN_OR_RETURN(auto extras, ReadCaptureExtras(recorded.recording.extras_json));
+    std::string name = recorded.cell;
+    std::ranges::replace(name, '/', '~');
+    texts.push_back({fs::path("motions") / (name + ".bvh"), std::move(extras.bvh)});
   }
   return {};
 }
 
-// The motions that captures recovered, for any program that reads BVH.
-Result<void> WriteMotions(const RunData& run, const std::filesystem::path& folder) {
-  for (const CellRecording& recorded : run.recordings) {
-    const auto row = std::ranges::find(run.rows, recorded.cell, &Row::Id);
-    if (row == run.rows.end() || row->task != "capture") continue;
-    ASSIGN_OR_RETURN(const auto extras, ReadCaptureExtras(recorded.recording.extras_json));
-    std::string name = recorded.cell;
-    std::ranges::replace(name, '/', '~');
-    RETURN_IF_ERROR(WriteFileAtomically(folder / (name + ".bvh"), extras.bvh));
+/// All that needs no pictures.
+Result<std::vector<ReportText>> TextsOf(const RunData& run) {
+  std::vector<ReportText> texts = {{"summary.md", WriteMarkdown(run)}, {"junit.xml", WriteJunit(run)}};
+  AddTables(run, texts);
+  RETURN_IF_ERROR(AddMotions(run, texts));
+  return texts;
+}
+
+/// True if one page is another without its pictures and films, without what it says of those that it lacks, and without
+/// captures of real films: element by element, in the order of the page.
+bool HoldsAll(std::string_view page, std::string_view without_pictures) {
+  std::size_t at = 0;
+  while (!without_pictures.empty()) {
+    const std::size_t end = std::min(without_pictures.find('<', 1), without_pictures.size());
+    const std::string_view element = without_pictures.substr(0, end);
+    do {
+      at = page.find(element, at);
+      if (at == std::string_view::npos) return false;
+      at += end;
+    } while (at < page.size() && page[at] != '<');  // else it only begins like that
+    without_pictures.remove_prefix(end);
   }
-  return {};
+  return true;
 }
 
 }  // namespace
@@ -51,10 +79,8 @@ Result<void> WriteMotions(const RunData& run, const std::filesystem::path& folde
 Result<bool> WriteReport(const RunData& run, const std::filesystem::path& run_folder, const ReportOptions& options) {
   const std::filesystem::path folder = run_folder / "report";
   // The cheap texts first, so that they are there even when rendering the film fails.
-  RETURN_IF_ERROR(WriteFileAtomically(folder / "summary.md", WriteMarkdown(run)));
-  RETURN_IF_ERROR(WriteFileAtomically(folder / "junit.xml", WriteJunit(run)));
-  RETURN_IF_ERROR(WriteTables(run, folder / "tables"));
-  RETURN_IF_ERROR(WriteMotions(run, folder / "motions"));
+  ASSIGN_OR_RETURN(const auto texts, TextsOf(run));
+  for (const auto& [path, text] : texts) RETURN_IF_ERROR(WriteFileAtomically(folder / path, text));
 
   Media media;
   if (options.pictures) {
@@ -66,6 +92,26 @@ Result<bool> WriteReport(const RunData& run, const std::filesystem::path& run_fo
   }
   RETURN_IF_ERROR(WriteFileAtomically(folder / "index.html", WritePage(run, media, options.real)));
   return true;
+}
+
+Result<ReportCheck> CheckReport(const RunData& run, const std::filesystem::path& run_folder) {
+  ReportCheck check;
+  ASSIGN_OR_RETURN(const auto texts, TextsOf(run));
+  const std::filesystem::path folder = run_folder / "report";
+  std::error_code none;
+  for (const auto& [path, text] : texts) {
+    if (!fs::exists(folder / path, none)) continue;
+    ++check.files;
+    ASSIGN_OR_RETURN(const auto found, ReadWholeFile(folder / path));
+    if (found != text) check.differences.push_back((folder / path).string() + " is not what the run says");
+  }
+  if (const fs::path page = folder / "index.html"; fs::exists(page, none)) {
+    ++check.files;
+    ASSIGN_OR_RETURN(const auto found, ReadWholeFile(page));
+    if (!HoldsAll(found, WritePage(run, {}, {})))
+      check.differences.push_back(page.string() + " is not what the run says");
+  }
+  return check;
 }
 
 }  // namespace etude

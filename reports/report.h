@@ -27,4 +27,13 @@ struct ReportOptions {
 /// then.
 Result<bool> WriteReport(const RunData& run, const std::filesystem::path& run_folder, const ReportOptions& options);
 
+/// A report held against its run.
+struct ReportCheck {
+  int files = 0;                         ///< that are there and were compared
+  std::vector<std::string> differences;  ///< what one says that the run does not
+};
+
+/// Compares the tables, motions and page of a folder with those that its run makes; pictures and films are left out.
+Result<ReportCheck> CheckReport(const RunData& run, const std::filesystem::path& run_folder);
+
 }  // namespace etude

@@ -1,7 +1,11 @@
 #include "bench/dataset/export.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "bench/dataset/layout.h"
 #include "bench/files/files.h"
@@ -30,6 +34,20 @@ object per problem, under the same names: `SCENARIO/CONDITION/TRIAL.json`. Judge
     etude score THIS_FOLDER PREDICTIONS -o RESULT --name METHOD
 )";
 
+/// The folder beside `path` that is filled first.
+fs::path PartialOf(const fs::path& path) {
+  std::error_code error;
+  return fs::absolute(path, error).lexically_normal().string() + ".partial";
+}
+
+/// Opens and locks a folder; −1 when another process holds it.
+int Lock(const fs::path& folder) {
+  const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock < 0 || LockUnlessTaken(lock, folder)) return lock;
+  ::close(lock);
+  return -1;
+}
+
 /// A folder that is being filled under another name, and gets its own when it is whole; else it goes away again.
 class NewFolder {
  public:
@@ -41,41 +59,49 @@ class NewFolder {
     if (fs::is_directory(status) && !fs::is_empty(path, error)) {
       return Fail(place, "is not empty; choose another folder with -o");
     }
-    NewFolder folder(path);
-    fs::remove_all(folder.partial_, error);  // of an export that was killed
-    RETURN_IF_ERROR(MakeFolder(folder.partial_));
+    RETURN_IF_ERROR(MakeFolder(PartialOf(path)));
+    NewFolder folder(path, Lock(PartialOf(path)));
+    if (folder.lock_ < 0) return Fail(place, "another export is writing it; choose another folder with -o");
+    for (fs::directory_iterator entry(folder.partial_, error), end; !error && entry != end; entry.increment(error)) {
+      fs::remove_all(entry->path(), error);  // of an export that was killed
+    }
+    if (error) return Fail({folder.partial_.string()}, "cannot be emptied: {}", error.message());
     return folder;
   }
-  NewFolder(NewFolder&& other) noexcept : path_(std::move(other.path_)), partial_(std::move(other.partial_)) {
-    other.partial_.clear();
-  }
+  NewFolder(NewFolder&& other) noexcept
+      : path_(std::move(other.path_)), partial_(std::move(other.partial_)), lock_(std::exchange(other.lock_, -1)) {}
   NewFolder& operator=(NewFolder&&) = delete;
   ~NewFolder() {
+    if (lock_ < 0) return;
     std::error_code ignored;
-    if (!partial_.empty()) fs::remove_all(partial_, ignored);
+    fs::remove_all(partial_, ignored);
+    ::close(lock_);
   }
 
   const fs::path& partial() const { return partial_; }
 
+  /// Gives the folder its name, when all that it holds is on its disk.
   Result<void> Finish() {
+    RETURN_IF_ERROR(SyncTree(partial_));
     std::error_code error;
     fs::rename(partial_, path_, error);
     if (error) return Fail({path_.string(), 0, 0}, "cannot be written: {}", error.message());
-    partial_.clear();
-    return {};
+    ::close(std::exchange(lock_, -1));
+    return SyncPathTo(path_);
   }
 
  private:
-  explicit NewFolder(const fs::path& path)
-      : path_(fs::absolute(path).lexically_normal()), partial_(path_.string() + ".partial") {}
+  NewFolder(const fs::path& path, int lock)
+      : path_(fs::absolute(path).lexically_normal()), partial_(PartialOf(path)), lock_(lock) {}
 
   fs::path path_, partial_;
+  int lock_;  ///< −1 once it is finished
 };
 
 Result<void> SavePayload(const Payload& payload, const fs::path& folder, const char* name) {
-  RETURN_IF_ERROR(SaveJson(folder / name, *payload.json));
+  RETURN_IF_ERROR(SaveJson(folder / name, *payload.json, OnDisk::kLater));
   for (const Attachment& file : payload.files) {
-    RETURN_IF_ERROR(WriteFileAtomically(folder / file.name, file.bytes));
+    RETURN_IF_ERROR(WriteFileAtomically(folder / file.name, file.bytes, OnDisk::kLater));
   }
   return {};
 }
@@ -147,6 +173,15 @@ class Exporter {
 
 }  // namespace
 
+void RemoveUnfinishedExport(const fs::path& output) {
+  const fs::path partial = PartialOf(output);
+  const int lock = Lock(partial);
+  if (lock < 0) return;
+  std::error_code ignored;
+  fs::remove_all(partial, ignored);
+  ::close(lock);
+}
+
 Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress& on_progress) {
   RunOptions run;
   run.scenarios = options.scenarios;
@@ -163,10 +198,6 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress
   std::string index = "scenario,task,condition,trial,clip,problem,prediction,skipped\n";
   on_progress(0, plan.world_count());
   for (std::size_t w = 0; w < plan.world_count(); ++w) {
-    if (options.stop != nullptr && *options.stop) {
-      outcome.stopped = true;
-      return outcome;
-    }
     const World& world = plan.world(w);
     const PreparedScenario& scenario = plan.scenario_of(w);
     const std::string place = scenario.scenario().name + "/" + ConditionFolders(scenario.scenario())[world.condition];

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -20,13 +19,11 @@ struct ExportOptions {
   bool films = false;                  ///< of each camera of a capture, beside its pictures
   std::string output;
   std::string program_version;
-  const std::atomic<bool>* stop = nullptr;
 };
 
 struct ExportOutcome {
   std::size_t problems = 0;
   std::size_t skipped = 0;  ///< worlds in which no method can run; listed with the reason
-  bool stopped = false;     ///< nothing was written
 };
 
 /// Writes the problems of all worlds, and apart from them what is true about them (docs/datasets.md):
@@ -38,9 +35,13 @@ struct ExportOutcome {
 ///     inputs/SCENARIO/CONDITION/TRIAL/problem.json, with its files beside
 ///     truth/SCENARIO/CONDITION/TRIAL/truth.json, with its files beside
 ///
-/// Whole or not at all. Refused, before anything is written: a folder that holds something. The process is to be in
+/// Whole or not at all, and on its disk. Refused, before anything is written: a folder that holds something, or that
+/// another export is writing. The process is to be in
 /// the pinned environment, which makes the pictures the same on every machine.
 /// `on_progress` is told of worlds.
 Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress& on_progress);
+
+/// Takes away what an export to this folder has left that was killed.
+void RemoveUnfinishedExport(const std::filesystem::path& output);
 
 }  // namespace etude

@@ -1,6 +1,8 @@
 #include "bench/files/files.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -29,24 +31,27 @@ Result<void> CheckReadable(const std::filesystem::path& path) {
   return {};
 }
 
+/// Some file systems have nothing to synchronise and say so.
+bool Synced(int file) { return ::fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP; }
+
 Result<void> Sync(const std::filesystem::path& path, int flags) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags);
   if (file < 0) return Fail({path.string()}, "cannot be opened to synchronise it: {}", std::strerror(errno));
-  const int failed = ::fsync(file) == 0 ? 0 : errno;
+  const int failed = Synced(file) ? 0 : errno;
   ::close(file);
-  // Some file systems have nothing to synchronise and say so.
-  if (failed != 0 && failed != EINVAL && failed != ENOTSUP) {
-    return Fail({path.string()}, "cannot be synchronised: {}", std::strerror(failed));
-  }
+  if (failed != 0) return Fail({path.string()}, "cannot be synchronised: {}", std::strerror(failed));
   return {};
+}
+
+/// The extension stays last: encoders choose the container by it.
+std::filesystem::path NameOfCopy(const std::filesystem::path& path, int copy) {
+  const std::string number = copy == 0 ? "" : std::to_string(copy + 1);
+  return path.parent_path() / (path.stem().string() + ".partial" + number + path.extension().string());
 }
 
 }  // namespace
 
-std::filesystem::path TemporaryName(const std::filesystem::path& path) {
-  // The extension stays last: encoders choose the container by it.
-  return path.parent_path() / (path.stem().string() + ".partial" + path.extension().string());
-}
+std::filesystem::path TemporaryName(const std::filesystem::path& path) { return NameOfCopy(path, 0); }
 
 Result<void> MakeFolder(const std::filesystem::path& folder) {
   if (folder.empty()) return {};  // of a plain file name: the one we stand in
@@ -56,51 +61,81 @@ Result<void> MakeFolder(const std::filesystem::path& folder) {
   return {};
 }
 
-Result<void> RenameFinished(const std::filesystem::path& temporary, const std::filesystem::path& path) {
-  std::error_code error;
-  std::filesystem::rename(temporary, path, error);
-  if (!error) return {};
-  std::error_code ignored;
-  std::filesystem::remove(temporary, ignored);
-  return Fail(InFile(path), "cannot write this file: {}", error.message());
-}
-
-Result<void> WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes) {
+Result<void> WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes, OnDisk when) {
   ASSIGN_OR_RETURN(auto file, AtomicFile::Begin(path));
   RETURN_IF_ERROR(file.Write(bytes));
-  return file.Finish();
+  return file.Finish(when);
 }
 
-Result<void> SaveJson(const std::filesystem::path& path, const Json& json) {
+Result<void> SaveJson(const std::filesystem::path& path, const Json& json, OnDisk when) {
   ASSIGN_OR_RETURN(const auto text, WriteJson(json));
-  return WriteFileAtomically(path, text + "\n");
+  return WriteFileAtomically(path, text + "\n", when);
 }
 
-Result<AtomicFile> AtomicFile::Begin(const std::filesystem::path& path) {
+bool LockUnlessTaken(int file, const std::filesystem::path& name) {
+  if (::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return false;
+  struct stat ours {
+  }, there{};
+  if (::fstat(file, &ours) != 0 || ::lstat(name.c_str(), &there) != 0) return false;
+  return ours.st_dev == there.st_dev && ours.st_ino == there.st_ino;
+}
+
+Result<PartialFile> PartialFile::Claim(const std::filesystem::path& path) {
+  PartialFile partial;
+  partial.path_ = path;
+  std::error_code ignored;
+  partial.made_folder_ = !path.parent_path().empty() && !std::filesystem::exists(path.parent_path(), ignored);
   RETURN_IF_ERROR(MakeFolder(path.parent_path()));
-  AtomicFile file(path, ::open(TemporaryName(path).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  if (file.file_ < 0) return file.Failure();
-  return file;
+  constexpr int kMostTries = 1000;  // a try fails where another process writes the same file, or has just finished it
+  for (int copy = 0; copy < kMostTries; ++copy) {
+    partial.name_ = NameOfCopy(path, copy / 2);
+    const int file = ::open(partial.name_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (file < 0) return partial.Failure();
+    if (!LockUnlessTaken(file, partial.name_)) {
+      ::close(file);
+      continue;
+    }
+    partial.file_ = file;
+    if (::ftruncate(file, 0) != 0) return partial.Failure();
+    return partial;
+  }
+  return Fail(InFile(path), "cannot write this file: too many processes do");
 }
 
-AtomicFile::AtomicFile(AtomicFile&& other) noexcept { *this = std::move(other); }
-
-AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
+PartialFile& PartialFile::operator=(PartialFile&& other) noexcept {
   std::swap(path_, other.path_);
+  std::swap(name_, other.name_);
   std::swap(file_, other.file_);
-  std::swap(unwritten_, other.unwritten_);
+  std::swap(made_folder_, other.made_folder_);
   return *this;
 }
 
-AtomicFile::~AtomicFile() {
+PartialFile::~PartialFile() {
   if (file_ < 0) return;
-  ::close(file_);
   std::error_code ignored;
-  std::filesystem::remove(TemporaryName(path_), ignored);
+  std::filesystem::remove(name_, ignored);
+  ::close(file_);  // last: until then nobody else takes the name
 }
 
-tl::unexpected<Error> AtomicFile::Failure() {
+tl::unexpected<Error> PartialFile::Failure() const {
   return Fail({path_.string()}, "cannot write this file: {}", std::strerror(errno));
+}
+
+Result<void> PartialFile::Finish(OnDisk when) {
+  // What cannot be written is told by fsync, or else, on some file systems, when a descriptor of the file is closed.
+  if (when == OnDisk::kAtOnce ? !Synced(file_) : ::close(::dup(file_)) != 0) return Failure();
+  if (::rename(name_.c_str(), path_.c_str()) != 0) return Failure();
+  ::close(std::exchange(file_, -1));
+  if (when == OnDisk::kLater) return {};
+  const std::filesystem::path folder = path_.parent_path();
+  if (::access(folder.empty() ? "." : folder.c_str(), R_OK) == 0) RETURN_IF_ERROR(SyncFolder(folder));
+  return made_folder_ ? SyncPathTo(folder) : Result<void>();
+}
+
+Result<AtomicFile> AtomicFile::Begin(const std::filesystem::path& path) {
+  AtomicFile file;
+  ASSIGN_OR_RETURN(file.partial_, PartialFile::Claim(path));
+  return file;
 }
 
 Result<void> AtomicFile::Write(std::string_view bytes) {
@@ -110,9 +145,9 @@ Result<void> AtomicFile::Write(std::string_view bytes) {
 
 Result<void> AtomicFile::Flush() {
   for (std::size_t written = 0; written < unwritten_.size();) {
-    const ssize_t count = ::write(file_, unwritten_.data() + written, unwritten_.size() - written);
+    const ssize_t count = ::write(partial_.file(), unwritten_.data() + written, unwritten_.size() - written);
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return Failure();
+    if (count <= 0) return partial_.Failure();
     written += static_cast<std::size_t>(count);
   }
   unwritten_.clear();
@@ -121,20 +156,13 @@ Result<void> AtomicFile::Flush() {
 
 Result<void> AtomicFile::Overwrite(std::uint64_t offset, std::string_view bytes) {
   RETURN_IF_ERROR(Flush());
-  if (::pwrite(file_, bytes.data(), bytes.size(), static_cast<off_t>(offset)) == static_cast<ssize_t>(bytes.size()))
-    return {};
-  return Failure();
+  const ssize_t count = ::pwrite(partial_.file(), bytes.data(), bytes.size(), static_cast<off_t>(offset));
+  return count == static_cast<ssize_t>(bytes.size()) ? Result<void>() : partial_.Failure();
 }
 
-Result<void> AtomicFile::Finish() {
+Result<void> AtomicFile::Finish(OnDisk when) {
   RETURN_IF_ERROR(Flush());
-  if (::close(std::exchange(file_, -1)) != 0) {
-    auto failure = Failure();
-    std::error_code ignored;
-    std::filesystem::remove(TemporaryName(path_), ignored);
-    return failure;
-  }
-  return RenameFinished(TemporaryName(path_), path_);
+  return partial_.Finish(when);
 }
 
 Result<void> ReadInChunks(const std::filesystem::path& path, const std::function<void(std::string_view)>& use) {

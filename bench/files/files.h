@@ -11,45 +11,68 @@
 
 namespace etude {
 
+/// The moment at which a finished file is on its disk, name and all, so that a power cut cannot take it.
+enum class OnDisk {
+  kAtOnce,  ///< before the call returns
+  kLater,   ///< when the caller synchronises the folder (SyncTree); or never, of what is temporary
+};
+
 /// Puts `bytes` at `path`, whole or not at all: written beside it first, then renamed. Makes the folder
 /// it stands in. Fails naming the path and the system's reason.
-Result<void> WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes);
+Result<void> WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes,
+                                 OnDisk when = OnDisk::kAtOnce);
 
 /// Puts one JSON value and a line end at `path`, whole or not at all.
-Result<void> SaveJson(const std::filesystem::path& path, const Json& json);
+Result<void> SaveJson(const std::filesystem::path& path, const Json& json, OnDisk when = OnDisk::kAtOnce);
 
-/// Names the file beside `path` that is written first and renamed to `path` when it is whole.
+/// Names the file beside `path` that is written first and renamed to `path` when it is whole. While another process
+/// writes the same file, it is another name.
 std::filesystem::path TemporaryName(const std::filesystem::path& path);
 
 /// Makes a folder and those above it. Fails naming it.
 Result<void> MakeFolder(const std::filesystem::path& folder);
 
-/// Gives the finished file its real name; on failure removes it and names the path.
-Result<void> RenameFinished(const std::filesystem::path& temporary, const std::filesystem::path& path);
+/// The file beside its place that becomes another when it is whole, and goes when it is not finished. It is locked, so
+/// that two processes that write the same file have two; what a killed one has left is used by the next.
+class PartialFile {
+ public:
+  /// Makes the folder it stands in, and an empty file. Fails, as everything here, naming `path` and the system's
+  /// reason.
+  static Result<PartialFile> Claim(const std::filesystem::path& path);
+  PartialFile() = default;
+  PartialFile(PartialFile&& other) noexcept { *this = std::move(other); }
+  PartialFile& operator=(PartialFile&& other) noexcept;
+  ~PartialFile();
 
-/// A file that is written bit by bit and has its name only once it is whole: until then it stands beside its place, and
-/// goes when it is not finished.
+  const std::filesystem::path& path() const { return path_; }  ///< that it will have
+  const std::filesystem::path& name() const { return name_; }
+  int file() const { return file_; }  ///< open for writing; −1 once it is finished
+  /// Gives the file its name.
+  Result<void> Finish(OnDisk when = OnDisk::kAtOnce);
+  tl::unexpected<Error> Failure() const;
+
+ private:
+  std::filesystem::path path_, name_;
+  int file_ = -1;
+  bool made_folder_ = false;
+};
+
+/// A file that is written bit by bit and has its name only once it is whole.
 class AtomicFile {
  public:
-  /// Makes the folder it stands in. Fails, as everything here, naming the path and the system's reason.
+  /// Fails like PartialFile.
   static Result<AtomicFile> Begin(const std::filesystem::path& path);
-  AtomicFile(AtomicFile&& other) noexcept;
-  AtomicFile& operator=(AtomicFile&& other) noexcept;
-  ~AtomicFile();
 
   Result<void> Write(std::string_view bytes);
   /// Puts bytes in the place of some that were written.
   Result<void> Overwrite(std::uint64_t offset, std::string_view bytes);
   /// Gives the file its name.
-  Result<void> Finish();
+  Result<void> Finish(OnDisk when = OnDisk::kAtOnce);
 
  private:
-  AtomicFile(std::filesystem::path path, int file) : path_(std::move(path)), file_(file) {}
   Result<void> Flush();
-  tl::unexpected<Error> Failure();
 
-  std::filesystem::path path_;
-  int file_ = -1;  ///< −1 once it is finished or given up
+  PartialFile partial_;
   std::string unwritten_;
 };
 
@@ -78,5 +101,9 @@ Result<void> SyncPathTo(const std::filesystem::path& folder);
 
 /// Returns once every file and folder below a folder, and the folder itself, are on their disks.
 Result<void> SyncTree(const std::filesystem::path& folder);
+
+/// Locks an open file or folder against other processes until it is closed. False when another holds it, or when it no
+/// longer has this name; true also on file systems that know no locks.
+bool LockUnlessTaken(int file, const std::filesystem::path& name);
 
 }  // namespace etude

@@ -14,10 +14,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
-#include "bench/files/files.h"
 #include "sim/render/scene.h"
 #include "sim/sensors/image_files.h"
 
@@ -87,7 +85,7 @@ std::string FirstLineOf(std::FILE* log) {
 Result<Encoder> Encoder::Start(const std::filesystem::path& path, int width, int height, int rate_hz,
                                const std::filesystem::path& sound, const std::string& program) {
   const Place place{.file = path.string()};
-  RETURN_IF_ERROR(MakeFolder(path.parent_path()));
+  ASSIGN_OR_RETURN(auto film, PartialFile::Claim(path));
   Log log(std::tmpfile(), std::fclose);
   if (!log) return Fail(place, "cannot make a temporary file: {}", std::strerror(errno));
   // A socket instead of a pipe: writing to a reader that has gone is then an error, not a signal.
@@ -96,22 +94,22 @@ Result<Encoder> Encoder::Start(const std::filesystem::path& path, int width, int
     return Fail(place, "cannot talk to {}: {}", program, std::strerror(errno));
   }
   pid_t child = -1;
-  const int error = StartFilmProgram(Arguments(program, TemporaryName(path), width, height, rate_hz, sound), ends[1],
-                                     kNowhere, log.get(), child);
+  const int error = StartFilmProgram(Arguments(program, film.name(), width, height, rate_hz, sound), ends[1], kNowhere,
+                                     log.get(), child);
   close(ends[1]);
   if (error != 0) {
     close(ends[0]);
     return Fail(place, "{} could not be started ({}); the Debian package of that name brings it", program,
                 std::strerror(error));
   }
-  return Encoder(path, child, ends[0], std::move(log));
+  return Encoder(std::move(film), child, ends[0], std::move(log));
 }
 
-Encoder::Encoder(std::filesystem::path path, pid_t child, int pictures, Log log)
-    : path_(std::move(path)), child_(child), pictures_(pictures), log_(std::move(log)) {}
+Encoder::Encoder(PartialFile film, pid_t child, int pictures, Log log)
+    : film_(std::move(film)), child_(child), pictures_(pictures), log_(std::move(log)) {}
 
 Encoder::Encoder(Encoder&& other) noexcept
-    : path_(std::move(other.path_)),
+    : film_(std::move(other.film_)),
       child_(std::exchange(other.child_, -1)),
       pictures_(std::exchange(other.pictures_, -1)),
       log_(std::move(other.log_)) {}
@@ -120,8 +118,6 @@ Encoder::~Encoder() {
   if (child_ < 0) return;
   kill(child_, SIGKILL);
   CloseAndWait();
-  std::error_code ignored;
-  std::filesystem::remove(TemporaryName(path_), ignored);
 }
 
 Result<void> Encoder::Add(const ColourImage& picture) {
@@ -143,7 +139,7 @@ Result<void> Encoder::Add(const ColourImage& picture) {
 
 Result<void> Encoder::Finish() {
   const int status = CloseAndWait();
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return RenameFinished(TemporaryName(path_), path_);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return film_.Finish();
   return Complaint(WIFEXITED(status) ? fmt::format("ffmpeg ended with code {}", WEXITSTATUS(status))
                                      : "ffmpeg was killed");
 }
@@ -154,10 +150,8 @@ int Encoder::CloseAndWait() {
 }
 
 tl::unexpected<Error> Encoder::Complaint(const std::string& what) {
-  std::error_code ignored;
-  std::filesystem::remove(TemporaryName(path_), ignored);
   const std::string words = FirstLineOf(log_.get());
-  return Fail(Place{.file = path_.string()}, "{}{}{}", what, words.empty() ? "" : ": ", words);
+  return Fail(Place{.file = film_.path().string()}, "{}{}{}", what, words.empty() ? "" : ": ", words);
 }
 
 Result<void> SaveTakeFilms(std::span<const Attachment> files, int rate_hz, const std::filesystem::path& folder) {

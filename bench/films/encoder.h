@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/files/files.h"
 #include "bench/model/payload.h"
 #include "engine/base/image.h"
 #include "engine/base/result.h"
@@ -35,11 +36,11 @@ class Encoder {
 
  private:
   using Log = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-  Encoder(std::filesystem::path path, pid_t child, int pictures, Log log);
+  Encoder(PartialFile film, pid_t child, int pictures, Log log);
   tl::unexpected<Error> Complaint(const std::string& what);
   int CloseAndWait();
 
-  std::filesystem::path path_;
+  PartialFile film_;
   pid_t child_;   ///< −1 once it has ended
   int pictures_;  ///< the socket that ffmpeg reads from; −1 once closed
   Log log_;       ///< what ffmpeg says on its standard error

@@ -93,7 +93,7 @@ class BaselineReader {
       return slot.second.cells->statuses.find_first_of(kAnswers) != std::string::npos;
     };
     if (std::ranges::any_of(slots_, has_answer)) return std::move(snapshot_);
-    return Fail(head.place(), "no cell has an answer (a letter of '{}'): nothing could be worse", kAnswers);
+    return Fail(head.place(), "no cell is ok or unsolved: nothing could be worse");
   }
 
  private:
@@ -201,8 +201,8 @@ class BaselineReader {
     if (skipped || statuses.find_first_of(kAnswers) != std::string::npos) return {};
     return Fail(place,
                 "all {} cells of {} failed: nothing could be worse; allowed: a baseline in which each method has "
-                "an answer (a letter of '{}') somewhere, or is skipped",
-                cells.trials, name, kAnswers);
+                "a cell that is ok or unsolved, or is skipped",
+                cells.trials, name);
   }
 
   Result<void> ReadValues(const Json& entry, const Place& place) {

@@ -81,13 +81,18 @@ TailRules TailRulesOf(const FinishedRun& run) {
   return tails;
 }
 
-std::vector<std::string> DescribeMachineEnds(const FinishedRun& run) {
+std::vector<std::string> WhyIncomplete(const FinishedRun& run) {
+  if (!run.incomplete.empty()) return run.incomplete;
   struct Ends {
     int cells = 0;
     std::string first;
   };
   std::map<std::pair<std::string, std::string>, Ends> ends;  // by scenario and status
+  bool all_skipped = true;
+  std::string why_skipped;
   ForEachRow(run.data, [&](const Row& row, std::size_t) {
+    all_skipped = all_skipped && row.result.status == Status::kSkipped;
+    if (all_skipped && why_skipped.empty()) why_skipped = fmt::format("{}: {}", row.Id(), row.result.reason);
     if (!DependsOnMachine(StatusLetter(row.result.status))) return;
     Ends& found = ends[{row.scenario, std::string(StatusName(row.result.status))}];
     if (found.cells++ == 0) found.first = fmt::format("{}: {}", row.Id(), row.result.reason);
@@ -96,6 +101,30 @@ std::vector<std::string> DescribeMachineEnds(const FinishedRun& run) {
   for (const auto& [key, found] : ends) {
     sentences.push_back(fmt::format("{}: {} × {}, which depends on the machine; the first is {}", key.first,
                                     found.cells, key.second, found.first));
+  }
+  if (all_skipped && !why_skipped.empty()) sentences.push_back("every cell was skipped; the first is " + why_skipped);
+  return sentences;
+}
+
+std::vector<std::string> DescribeSilentMethods(const FinishedRun& run) {
+  struct Cells {
+    int attempted = 0;
+    bool has_answer = false;
+    std::string first;
+  };
+  std::map<std::pair<std::string, std::string>, Cells> methods;  // by scenario and method
+  ForEachRow(run.data, [&](const Row& row, std::size_t) {
+    if (row.result.status == Status::kSkipped) return;
+    Cells& cells = methods[{row.scenario, row.method}];
+    cells.has_answer |= row.result.status == Status::kOk || row.result.status == Status::kUnsolved;
+    if (cells.attempted++ > 0) return;
+    cells.first = fmt::format("{} ({}): {}", row.Id(), StatusName(row.result.status), row.result.reason);
+  });
+  std::vector<std::string> sentences;
+  for (const auto& [name, cells] : methods) {
+    if (cells.has_answer) continue;
+    sentences.push_back(fmt::format("{}: none of the {} cells of {} is ok or unsolved; the first is {}", name.first,
+                                    cells.attempted, name.second, cells.first));
   }
   return sentences;
 }
@@ -111,7 +140,11 @@ Result<GateReport> JudgeRun(const FinishedRun& run, const Snapshot* baseline, co
       report.expectations.push_back({scenario.name, result});
   }
   if (!report.incomplete.empty()) return report;
-  report.incomplete = DescribeMachineEnds(run);
+  report.incomplete = WhyIncomplete(run);
+  report.silent = DescribeSilentMethods(run);
+  for (const FinishedScenario& scenario : run.scenarios) {
+    for (const ComparedMethod& method : scenario.study.methods) report.runs_programs |= method.settings.empty();
+  }
   report.ratios = JudgeTimeRatios(run);
   if (baseline == nullptr) return report;
   report.baseline_version = baseline->program_version;
@@ -131,7 +164,8 @@ bool IsRegression(const MetricMove& move) {
 GateVerdict GateVerdictOf(const GateReport& report) {
   if (!report.incomplete.empty()) return GateVerdict::kNotWhole;
   const auto unmet = [](const auto& judged) { return judged.ruling == Ruling::kUnmet; };
-  const bool fails = std::any_of(report.comparison.moves.begin(), report.comparison.moves.end(), IsRegression) ||
+  const bool fails = !report.silent.empty() ||
+                     std::any_of(report.comparison.moves.begin(), report.comparison.moves.end(), IsRegression) ||
                      std::any_of(report.ratios.begin(), report.ratios.end(), unmet) ||
                      std::any_of(report.expectations.begin(), report.expectations.end(),
                                  [&](const GateExpectation& expectation) { return unmet(expectation.result); });

@@ -40,7 +40,9 @@ struct GateReport {
   std::vector<GateExpectation> expectations;
   std::vector<RatioResult> ratios;
   SnapshotComparison comparison;
+  std::vector<std::string> silent;      ///< methods that gave no answer in any cell, in words: they fail
   std::vector<std::string> incomplete;  ///< why there can be no verdict on the whole
+  bool runs_programs = false;           ///< some methods are programs, which `etude replay` asks to be allowed
 };
 
 /// Judges a finished run by what its scenarios expect, by their time rules, and, when there is one, against a
@@ -51,8 +53,12 @@ Result<GateReport> JudgeRun(const FinishedRun& run, const Snapshot* baseline, co
 std::set<std::string> ExactScenarios(const FinishedRun& run);
 TailRules TailRulesOf(const FinishedRun& run);
 
-/// One sentence per scenario and status that depends on the machine (timeout, crashed, out of memory).
-std::vector<std::string> DescribeMachineEnds(const FinishedRun& run);
+/// Why there can be no verdict on the whole: the run is not whole, cells ended in a status that depends on the machine
+/// (timeout, crashed, out of memory; one sentence per scenario and status), or every cell was skipped.
+std::vector<std::string> WhyIncomplete(const FinishedRun& run);
+
+/// One sentence per method that gave no answer (ok or unsolved) in any of its cells, unless all of them were skipped.
+std::vector<std::string> DescribeSilentMethods(const FinishedRun& run);
 
 /// True if a move makes the gate fail.
 bool IsRegression(const MetricMove& move);

@@ -19,7 +19,7 @@ Result<AttachmentFolder> AttachmentFolder::Write(const fs::path& attachment_root
   if (::mkdtemp(name.data()) == nullptr) return Fail({name, 0, 0}, "cannot be made: {}", std::strerror(errno));
   folder.path_ = name;
   for (const Attachment& file : files) {
-    RETURN_IF_ERROR(WriteFileAtomically(folder.path_ / file.name, file.bytes));
+    RETURN_IF_ERROR(WriteFileAtomically(folder.path_ / file.name, file.bytes, OnDisk::kLater));
   }
   return folder;
 }

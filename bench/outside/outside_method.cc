@@ -294,11 +294,13 @@ Failure OutsideMethod::State::HowItEnded() {
   }
   for (int i = 0; i < kDyingMs && !child->HasEnded(); ++i) ::usleep(1000);
   if (!child->HasEnded()) return {Status::kBadOutput, "closed its output, but went on running"};
-  std::string reason = "ended with " + child->Finish(0);
+  const std::string end = child->Finish(0);
+  std::string reason = "ended with " + end;
   if (!part.empty()) reason += ", amid the line " + Printable(part);
   if (const std::string words = errors.LastLine(); !words.empty())
     reason += "; its last words: " + Printable(words, 200);
-  return {Status::kCrashed, std::move(reason)};
+  // An exit code is the program's own word, an exception for instance; a signal may be the machine's.
+  return {end.starts_with("exit code") ? Status::kFailed : Status::kCrashed, std::move(reason)};
 }
 
 /// Ends the session: what the program says of it counts as said again.

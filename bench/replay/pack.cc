@@ -58,7 +58,8 @@ Result<std::vector<std::string>> UnpackClips(const Json& packed, const fs::path&
     }
     const auto& bytes = file.at("bytes").get_binary();
     paths.push_back((folder / std::to_string(paths.size()) / name).string());
-    RETURN_IF_ERROR(WriteFileAtomically(paths.back(), {reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
+    RETURN_IF_ERROR(
+        WriteFileAtomically(paths.back(), {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, OnDisk::kLater));
   }
   std::vector<std::string> references;
   for (const Json& clip : packed.at("clips")) {
@@ -174,7 +175,8 @@ Result<void> PackCell(const std::string& folder, const std::string& cell, const 
   return WriteFileAtomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
-Result<CellCheck> ReplayPack(const std::string& file, const OutsideRules& outside) {
+Result<std::optional<CellCheck>> ReplayPack(const std::string& file, const OutsideRules& outside,
+                                            const std::atomic<bool>* stop) {
   ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(file));
   ASSIGN_OR_RETURN(auto pack, ReadPack(bytes, file));
   ASSIGN_OR_RETURN(const auto folder, TemporaryFolder::Make("replay"));
@@ -192,13 +194,13 @@ Result<CellCheck> ReplayPack(const std::string& file, const OutsideRules& outsid
                              .error_folder = "",
                              .fence = FenceFor(scenarios, outside, ""),
                              .jobs = 1,
-                             .stop = nullptr},
+                             .stop = stop},
                             [&](const DeliveredCell& again) -> Result<void> {
                               ASSIGN_OR_RETURN(const auto finished, again.Read(plan));
                               check = CompareRows(pack.row, finished.row);
                               return {};
                             }));
-  return *check;
+  return check;
 }
 
 }  // namespace etude

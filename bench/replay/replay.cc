@@ -4,12 +4,17 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <utility>
 
+#include "bench/files/files.h"
 #include "bench/results/folder.h"
+#include "bench/results/row_json.h"
 #include "bench/run/manifest.h"
 #include "bench/run/supervisor.h"
+#include "engine/base/digest.h"
 #include "engine/base/names.h"
 #include "sim/random/stream.h"
 
@@ -36,8 +41,18 @@ namespace fs = std::filesystem;
 
 /// The numbers of the wanted cells, ascending.
 Result<std::set<std::size_t>> ChooseCells(const ReplayOptions& options, const RunData& run,
-                                          const std::optional<ScoredMethod>& scored) {
-  const auto was_run = [&](const Row& row) { return !scored || row.method != scored->name; };
+                                          const PreparedRun& prepared) {
+  const std::optional<ScoredMethod>& scored = prepared.suite.scored;
+  std::set<std::pair<std::string, std::string>> left_out;  // scenarios and methods
+  for (const PreparedScenario& one : prepared.scenarios) {
+    for (const MethodEntry& method : one.scenario().methods) {
+      const bool is_left_out = scored && method.name == scored->name;
+      if (is_left_out || (options.without_programs && !method.exec.empty())) {
+        left_out.emplace(one.scenario().name, method.name);
+      }
+    }
+  }
+  const auto was_run = [&](const Row& row) { return !left_out.contains({row.scenario, row.method}); };
   std::set<std::size_t> chosen;
   for (const std::string& wanted : options.cells) {
     const auto place = FindRow(run, wanted);
@@ -63,6 +78,9 @@ Result<std::set<std::size_t>> ChooseCells(const ReplayOptions& options, const Ru
     if (chosen.size() == count) return;
     if (was_run(row) && dice.IndexBelow(left--) < count - chosen.size()) chosen.insert(place);
   });
+  ForEachRow(run, [&](const Row& row, std::size_t place) {
+    if (options.recorded_too && was_run(row) && IsRecorded(prepared, row)) chosen.insert(place);
+  });
   return chosen;
 }
 
@@ -72,7 +90,47 @@ std::vector<Order> OrdersOf(const Plan& plan, const std::set<std::size_t>& cells
   return plan.OrdersFor(Shard{}, done);
 }
 
+/// The curves of a row, which its line does not hold.
+std::vector<Series> SeriesOf(const RunData& run, const std::string& cell, std::size_t place) {
+  if (run.source) return run.source->SeriesOf(place);
+  const auto found = std::ranges::find(run.series, cell, &CellSeries::cell);
+  return found == run.series.end() ? std::vector<Series>() : found->series;
+}
+
+/// The digest of what a file holds, or of what would stand there.
+std::string Fingerprint(std::string_view text) { return Digest().Add(text).Hex(); }
+
+/// Compares what a row keeps in files of their own.
+Result<void> CompareKept(const fs::path& folder, const RunData& run, std::size_t place, const Row& now,
+                         CellCheck& check) {
+  ASSIGN_OR_RETURN(const auto curves_then, WriteJson(EncodeSeries(SeriesOf(run, check.cell, place))));
+  ASSIGN_OR_RETURN(const auto curves_now, WriteJson(EncodeSeries(now.result.series)));
+  std::string recording_then = kAbsent, recording_now = kAbsent;
+  std::error_code none;
+  if (const fs::path file = RecordingFile(folder, check.cell); fs::exists(file, none)) {
+    ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file));
+    recording_then = Fingerprint(text);
+  }
+  if (now.result.recording) {
+    ASSIGN_OR_RETURN(const auto json, EncodeRecording(*now.result.recording));
+    ASSIGN_OR_RETURN(const auto text, WriteJson(json));
+    recording_now = Fingerprint(text + "\n");
+  }
+  if (curves_then != curves_now) {
+    check = {check.cell, false, "curves", Fingerprint(curves_then), Fingerprint(curves_now)};
+  } else if (recording_then != recording_now) {
+    check = {check.cell, false, "recording", recording_then, recording_now};
+  }
+  return {};
+}
+
 }  // namespace
+
+bool IsRecorded(const PreparedRun& run, const Row& row) {
+  return std::ranges::any_of(run.scenarios, [&](const PreparedScenario& one) {
+    return one.scenario().name == row.scenario && one.scenario().recordings.KeepsTrial(row.trial);
+  });
+}
 
 CellCheck CompareRows(const Row& then, const Row& now) {
   CellCheck check{.cell = then.Id(), .same = true, .stage = "", .then = "", .now = ""};
@@ -100,8 +158,8 @@ Result<std::vector<CellCheck>> ReplayRun(const ReplayOptions& options) {
   if (CountRows(run) != plan.cell_count()) {
     return Fail({options.folder, 0, 0}, "has {} rows; its manifest makes {}", CountRows(run), plan.cell_count());
   }
-  ASSIGN_OR_RETURN(const auto chosen, ChooseCells(options, run, prepared.suite.scored));
-  RETURN_IF_ERROR(CheckPrograms(options.folder, prepared.scenarios, options.outside));
+  ASSIGN_OR_RETURN(const auto chosen, ChooseCells(options, run, prepared));
+  if (!options.without_programs) RETURN_IF_ERROR(CheckPrograms(options.folder, prepared.scenarios, options.outside));
   const Fence fence = FenceFor(prepared.scenarios, options.outside, options.folder);
   std::map<std::size_t, CellCheck> checks;
   const auto whole = RunOrders(
@@ -109,8 +167,9 @@ Result<std::vector<CellCheck>> ReplayRun(const ReplayOptions& options) {
       {.program = ThisProgram(), .error_folder = "", .fence = fence, .jobs = options.jobs, .stop = options.stop},
       [&](const DeliveredCell& cell) -> Result<void> {
         ASSIGN_OR_RETURN(const auto finished, cell.Read(plan));
-        checks.emplace(cell.head.cell, CompareRows(RowAt(run, cell.head.cell), finished.row));
-        return {};
+        const std::size_t place = cell.head.cell;
+        CellCheck& check = checks[place] = CompareRows(RowAt(run, place), finished.row);
+        return check.same ? CompareKept(options.folder, run, place, finished.row, check) : Result<void>();
       });
   if (!whole) return tl::unexpected(whole.error());
   std::vector<CellCheck> list;

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,12 +13,14 @@
 
 namespace etude {
 
+struct PreparedRun;
+
 /// A cell that was run again.
 struct CellCheck {
   std::string cell;
   bool same = false;
-  /// The place where it went another way: the first stage whose digest differs, else "status" or a metric; "" when the
-  /// same.
+  /// The place where it went another way: the first stage whose digest differs, else "status", a metric, "curves" or
+  /// "recording"; "" when the same.
   std::string stage;
   std::string then, now;  ///< what stood there, what came now
 };
@@ -29,21 +32,27 @@ struct ReplayOptions {
   std::string folder;
   std::vector<std::string> cells;  ///< identities as in cells.jsonl; empty = a sample
   std::size_t sample = 0;          ///< how many cells, drawn by the suite's seed; 0 = all
+  bool recorded_too = false;       ///< and, of a sample, every cell that left a recording
+  bool without_programs = false;   ///< leaves out cells of methods outside
   int jobs = 0;                    ///< 0 = one per processor
   OutsideRules outside;
   Sealing sealing = Sealing::kRequired;
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Runs cells of a finished run again, as its manifest describes them, and compares every stage. In canonical order.
-/// Stopped early, it gives those that were done.
+/// True if the run keeps a recording of the trial of this row.
+bool IsRecorded(const PreparedRun& run, const Row& row);
+
+/// Runs cells of a finished run again, as its manifest describes them, and compares every stage, curve and recording.
+/// In canonical order. Stopped early, it gives those that were done.
 Result<std::vector<CellCheck>> ReplayRun(const ReplayOptions& options);
 
 /// Writes all that is needed to repeat one cell elsewhere into one file: the scenario, the clips, and what came of it.
 Result<void> PackCell(const std::string& folder, const std::string& cell, const std::string& file,
                       Sealing sealing = Sealing::kRequired);
 
-/// Runs the cell of such a file again.
-Result<CellCheck> ReplayPack(const std::string& file, const OutsideRules& outside = {});
+/// Runs the cell of such a file again. Nothing when it is stopped.
+Result<std::optional<CellCheck>> ReplayPack(const std::string& file, const OutsideRules& outside = {},
+                                            const std::atomic<bool>* stop = nullptr);
 
 }  // namespace etude

@@ -124,7 +124,7 @@ bool IsWhy(std::optional<int> why, const MetricValue& metric, const Row& row, co
 }  // namespace
 
 Result<void> WriteColumnIndex(const fs::path& folder, const ColumnIndex& index) {
-  return SaveJson(folder / kIndexFile, Encode(index));
+  return SaveJson(folder / kIndexFile, Encode(index), OnDisk::kLater);
 }
 
 Result<ColumnIndex> ReadColumnIndex(const fs::path& folder) {

@@ -59,7 +59,7 @@ Result<void> LoadSeries(const fs::path& folder, RunData& run) {
 
 Result<void> LoadRecordings(const fs::path& folder, RunData& run) {
   for (const Row& row : run.rows) {
-    const fs::path path = folder / "recordings" / FileNameOf(row.Id());
+    const fs::path path = RecordingFile(folder, row.Id());
     if (std::error_code none; !fs::exists(path, none)) continue;
     ASSIGN_OR_RETURN(const auto json, ReadJsonFile(path));
     ASSIGN_OR_RETURN(auto recording, DecodeRecording(json, {path.string(), 0, 0}));
@@ -106,6 +106,10 @@ Result<void> LoadManifest(const fs::path& folder, RunData& run) {
 
 }  // namespace
 
+fs::path RecordingFile(const fs::path& folder, const std::string& cell) {
+  return folder / "recordings" / FileNameOf(cell);
+}
+
 Result<ResultWriter> ResultWriter::Begin(const fs::path& folder, std::span<const Study> studies,
                                          std::size_t most_as_text) {
   ResultWriter writer(folder);
@@ -135,7 +139,7 @@ Result<void> ResultWriter::BeginScenario(const std::string& scenario) {
 }
 
 Result<void> ResultWriter::FinishScenario() {
-  if (series_) RETURN_IF_ERROR(series_->Finish());
+  if (series_) RETURN_IF_ERROR(series_->Finish(OnDisk::kLater));
   series_.reset();
   if (columns_) RETURN_IF_ERROR(columns_->Finish());
   columns_.reset();
@@ -147,7 +151,7 @@ Result<void> ResultWriter::Add(const Row& row, const CellUsage& usage) {
   RETURN_IF_ERROR(columns_ ? columns_->Add(row, usage) : AddAsText(row, usage));
   if (!row.result.recording) return {};
   ASSIGN_OR_RETURN(const auto json, EncodeRecording(*row.result.recording));
-  return SaveJson(folder_ / "recordings" / FileNameOf(row.Id()), json);
+  return SaveJson(RecordingFile(folder_, row.Id()), json, OnDisk::kLater);
 }
 
 Result<void> ResultWriter::AddAsText(const Row& row, const CellUsage& usage) {
@@ -167,9 +171,9 @@ Result<void> ResultWriter::AddAsText(const Row& row, const CellUsage& usage) {
 
 Result<void> ResultWriter::Finish(const std::vector<ScenarioSummary>& scenarios) {
   RETURN_IF_ERROR(FinishScenario());
-  RETURN_IF_ERROR(SaveJson(folder_ / "summary.json", EncodeSummaries(scenarios)));
-  if (timings_) RETURN_IF_ERROR(timings_->Finish());
-  return cells_ ? cells_->Finish() : Result<void>();
+  RETURN_IF_ERROR(SaveJson(folder_ / "summary.json", EncodeSummaries(scenarios), OnDisk::kLater));
+  if (timings_) RETURN_IF_ERROR(timings_->Finish(OnDisk::kLater));
+  return cells_ ? cells_->Finish(OnDisk::kLater) : Result<void>();
 }
 
 Result<RunData> LoadRunOutline(const fs::path& folder, Sealing sealing) {

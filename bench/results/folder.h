@@ -69,6 +69,9 @@ Result<RunData> LoadRun(const std::filesystem::path& folder, Sealing sealing = S
 /// A result folder without its rows, series and recordings.
 Result<RunData> LoadRunOutline(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
 
+/// The file that keeps the recording of a cell (Row::Id), where there is one.
+std::filesystem::path RecordingFile(const std::filesystem::path& folder, const std::string& cell);
+
 /// Writes every row of a result folder as a line of cells.jsonl, whether or not the folder holds them so.
 Result<void> WriteRows(const std::filesystem::path& folder, Sealing sealing,
                        const std::function<Result<void>(std::string_view line)>& write);

@@ -39,7 +39,7 @@ Result<NpyWriter> NpyWriter::Begin(const std::filesystem::path& path, std::strin
 Result<void> NpyWriter::Finish(std::vector<std::size_t> shape) {
   if (shape.empty()) shape = {count_};
   RETURN_IF_ERROR(file_.Overwrite(0, HeadOf(type_, shape)));
-  return file_.Finish();
+  return file_.Finish(OnDisk::kLater);
 }
 
 Result<NpyFile> NpyFile::Open(const std::filesystem::path& path, std::string_view type) {

@@ -23,7 +23,10 @@ using Digests = std::map<std::string, std::string>;
 
 bool IsSealed(const fs::path& from_folder) {
   const std::string first = from_folder.begin()->string();
-  return first != kSealFile && first != TemporaryName(kSealFile) && first != kJournalFile && !IsMadeFromResults(first);
+  for (const char* name : {kSealFile, kSignedFile, kSignatureFile}) {
+    if (first == name || first == TemporaryName(name)) return false;
+  }
+  return first != kJournalFile && !IsMadeFromResults(first);
 }
 
 Result<Digests> DigestsOf(const fs::path& folder) {
@@ -70,7 +73,17 @@ bool IsMadeFromResults(std::string_view part) { return part == "report" || part 
 
 Result<void> SealRun(const fs::path& folder) {
   ASSIGN_OR_RETURN(const auto digests, DigestsOf(folder));
-  return SaveJson(folder / kSealFile, {{"format", "etude-seal"}, {"version", kSealVersion}, {"files", digests}});
+  return SaveJson(folder / kSealFile, {{"format", "etude-seal"}, {"version", kSealVersion}, {"files", digests}},
+                  OnDisk::kLater);
+}
+
+Result<std::vector<std::string>> SealedNames(const fs::path& folder) {
+  ASSIGN_OR_RETURN(const auto sealed, ReadSeal(folder / kSealFile));
+  std::vector<std::string> names;
+  for (const auto& [name, digest] : sealed) {
+    if (!name.ends_with('/')) names.push_back(name);
+  }
+  return names;
 }
 
 Result<void> CheckSeal(const fs::path& folder) {

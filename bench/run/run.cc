@@ -137,7 +137,7 @@ Result<OpenedJournal> OpenJournal(const fs::path& folder, const std::string& man
     before.cells_done = before.cells_before = found.cells;
     before.cells_ok = found.cells_ok;
   } else {
-    RETURN_IF_ERROR(WriteFileAtomically(folder / "manifest.json", manifest));
+    RETURN_IF_ERROR(WriteFileAtomically(folder / "manifest.json", manifest, OnDisk::kLater));
     RETURN_IF_ERROR(SyncTree(folder));
     RETURN_IF_ERROR(SyncPathTo(folder));
   }
@@ -158,7 +158,7 @@ Result<bool> FinishFolder(const fs::path& folder, const Plan& plan, CellTable& c
     return FinishRun(folder, plan, cells, host, WorkerCount(options.jobs), goes_on);
   }
   if (std::error_code none; !was_done || !fs::exists(folder / "host.json", none)) {
-    RETURN_IF_ERROR(SaveJson(folder / "host.json", host));
+    RETURN_IF_ERROR(SaveJson(folder / "host.json", host, OnDisk::kLater));
     RETURN_IF_ERROR(SyncTree(folder));
   }
   return true;

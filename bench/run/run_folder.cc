@@ -24,9 +24,9 @@ namespace fs = std::filesystem;
 /// The name of a part of a result folder, or of one that was being written.
 bool IsPartOfRun(const fs::path& name) {
   static const std::vector<std::string> parts = {
-      "manifest.json", "host.json", kJournalFile,   kSealFile,      "cells.jsonl",
-      "timings.jsonl", "series",    "recordings",   "summary.json", "report",
-      "video",         "stderr",    kColumnsFolder, kTimesFolder,   kOtherLibrariesFile};
+      "manifest.json", "host.json",  kJournalFile,        kSealFile,   "cells.jsonl", "timings.jsonl",
+      "series",        "recordings", "summary.json",      "report",    "video",       "stderr",
+      kColumnsFolder,  kTimesFolder, kOtherLibrariesFile, kSignedFile, kSignatureFile};
   return std::any_of(parts.begin(), parts.end(),
                      [&](const std::string& part) { return name == part || name == TemporaryName(part); });
 }
@@ -113,7 +113,7 @@ Result<bool> FinishRun(const fs::path& folder, const Plan& plan, CellTable& cell
   }
   if (!goes_on(cell)) return false;
   RETURN_IF_ERROR(results.Finish(summaries));
-  RETURN_IF_ERROR(SaveJson(folder / "host.json", host));
+  RETURN_IF_ERROR(SaveJson(folder / "host.json", host, OnDisk::kLater));
   // The journal is the only other place that knows the results: it goes when all of them are on the disk.
   RETURN_IF_ERROR(SealRun(folder));
   RETURN_IF_ERROR(SyncTree(folder));

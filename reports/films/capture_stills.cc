@@ -116,12 +116,11 @@ std::vector<Picture> DrawStrip(const CapturePanel& capture, Renderer& renderer) 
 }
 
 Result<void> SaveStripPictures(const CapturePanel& capture, Renderer& renderer, const std::filesystem::path& folder) {
-  RETURN_IF_ERROR(MakeFolder(folder));
   for (const int frame : StripFrames(capture)) {
     for (std::size_t camera = 0; camera < std::min(kShownCameras, capture.Cameras()); ++camera) {
       const std::string name = fmt::format("camera-{}-frame-{:03}.exr", camera + 1, frame);
-      auto saved = SaveExr(capture.Seen(renderer, camera, frame, Targets::kAll), (folder / name).string());
-      if (!saved) return saved;
+      ASSIGN_OR_RETURN(const auto exr, EncodeExr(capture.Seen(renderer, camera, frame, Targets::kAll)));
+      RETURN_IF_ERROR(WriteFileAtomically(folder / name, exr));
     }
   }
   return {};

@@ -1,8 +1,10 @@
 #include "reports/films/film.h"
 
+#include <optional>
 #include <utility>
 
 #include "bench/files/files.h"
+#include "bench/files/temporary_folder.h"
 #include "bench/films/encoder.h"
 #include "engine/formats/wav.h"
 #include "reports/films/look.h"
@@ -11,37 +13,31 @@
 namespace etude {
 namespace {
 
-/// A click track that lies beside the film while it is encoded.
+/// A click track that is there while its film is encoded.
 class SoundFile {
  public:
-  static Result<SoundFile> Make(const Scene& scene, const std::filesystem::path& film) {
+  static Result<SoundFile> Make(const Scene& scene) {
     SoundFile sound;
     const std::vector<double> beats = scene.Beats();
     if (beats.empty()) return sound;
     constexpr int kSoundRate = 44100;
-    sound.path_ = TemporaryName(film);
-    sound.path_ += ".wav";
+    ASSIGN_OR_RETURN(sound.folder_, TemporaryFolder::Make("sound"));
+    sound.path_ = sound.folder_->path() / "clicks.wav";
     const double seconds = static_cast<double>(scene.Frames()) / kFilmRate;
-    RETURN_IF_ERROR(WriteFileAtomically(sound.path_, WriteWav(ClickTrack(beats, seconds, kSoundRate), kSoundRate)));
+    RETURN_IF_ERROR(
+        WriteFileAtomically(sound.path_, WriteWav(ClickTrack(beats, seconds, kSoundRate), kSoundRate), OnDisk::kLater));
     return sound;
   }
-  ~SoundFile() {
-    std::error_code ignored;
-    if (!path_.empty()) std::filesystem::remove(path_, ignored);
-  }
-  SoundFile(SoundFile&& other) noexcept : path_(std::exchange(other.path_, {})) {}
-  SoundFile& operator=(SoundFile&&) = delete;
-
   const std::filesystem::path& path() const { return path_; }  ///< empty: silence
 
  private:
   SoundFile() = default;
+  std::optional<TemporaryFolder> folder_;
   std::filesystem::path path_;
 };
 
 Result<std::string> Encode(Scene& scene, const std::filesystem::path& path, const FilmWatch& watch) {
-  RETURN_IF_ERROR(MakeFolder(path.parent_path()));
-  ASSIGN_OR_RETURN(const SoundFile sound, SoundFile::Make(scene, path));
+  ASSIGN_OR_RETURN(const SoundFile sound, SoundFile::Make(scene));
   ASSIGN_OR_RETURN(auto encoder, Encoder::Start(path, kFilmWidth, kFilmHeight, kFilmRate, sound.path()));
   for (int frame = 0; frame < scene.Frames(); ++frame) {
     if (watch.IsStopped()) return Fail({}, "it was stopped");

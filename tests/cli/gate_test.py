@@ -3,13 +3,24 @@ import json
 import os
 import re
 import shutil
+import subprocess
 import unittest
 import xml.etree.ElementTree
 
-from etude_case import EtudeCase, ik_scenario
+from etude_case import ETUDE, EtudeCase, ik_scenario
 
 SCENARIO = ik_scenario(trials=12, question="Does the gate see it?", weights="fixed-tuned")
 WORSE = SCENARIO.replace("weights: fixed-tuned", "weights: fixed")
+
+
+GIVES_UP = """import json, sys
+for line in sys.stdin:
+    message = json.loads(line)
+    if message["type"] == "problem" and {when}:  # its own worlds, whatever they are called
+        raise ValueError("math domain error")
+    reply = {{"hello": dict(type="hello", protocol=1, name="own", version="1"), "setting": dict(type="ready")}}
+    print(json.dumps(reply.get(message["type"]) or dict(type="no_answer", id=message["id"], reason="why not")), flush=True)
+"""
 
 
 class Gate(EtudeCase):
@@ -114,6 +125,43 @@ class Gate(EtudeCase):
         self.assertTrue(all('"fixed"' in line for line in moved), moved)
         self.gate(self.now, "--baseline", self.baseline, expect=0)
 
+    def test_two_updates_at_once_leave_a_whole_baseline(self):
+        self.make_baseline()
+        whole = self.baseline.read_bytes()
+        for _ in range(3):
+            updates = [subprocess.Popen([ETUDE, "gate", self.out, "--baseline", self.baseline, "--update"],
+                                        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) for _ in range(4)]
+            for update in updates:
+                self.assertEqual((update.communicate()[1], update.returncode), ("", 0))
+            self.assertEqual(self.baseline.read_bytes(), whole)
+        self.assertEqual([path.name for path in self.baseline.parent.iterdir()], ["ik.json"])
+
+    def run_program(self, program):
+        """A run in which `program` is a method beside a built-in one: its exit code and the folder of the run."""
+        own = f"  - {{name: own, exec: [python3, {self.write('own.py', program)}]}}\n"
+        return self.etude("run", self.write("own.yaml", SCENARIO + own), "-o", self.now)
+
+    def test_a_method_without_an_answer_fails_and_makes_no_baseline(self):
+        self.run_program("raise ValueError('math domain error')\n")
+        text = self.gate(self.now, expect=1)
+        self.assertIn("ik: none of the 24 cells of own is ok or unsolved; the first is ik/joint_noise_deg=2/000/own "
+                      "(failed): in its start: ended with exit code 1; its last words: 'ValueError: math domain error'", text)
+        self.assertIn("Gate: regression", text)
+        self.assertIn("none of the 24", (self.now / "report" / "gate.md").read_text())
+        self.assertIn("none of the 24", (self.now / "report" / "gate.xml").read_text())
+        text = self.gate(self.now, "--baseline", self.baseline, "--update", expect=1)
+        self.assertIn("No baseline is made of a run in which a method has no answer", text)
+        self.assertFalse(self.baseline.exists())
+
+    def test_a_method_s_own_exception_is_its_failure_and_not_the_machine_s(self):
+        self.assertEqual(self.run_program(GIVES_UP.format(when="False")).returncode, 0)
+        self.gate(self.now, "--baseline", self.baseline, "--update", expect=0)
+        shutil.rmtree(self.now)
+        self.assertEqual(self.run_program(GIVES_UP.format(when="sum(map(ord, json.dumps(message['problem']))) % 2")).returncode, 0)
+        text = self.gate(self.now, "--baseline", self.baseline, expect=1)
+        self.assertNotIn("depends on the machine", text)
+        self.assertIn(f"etude replay {self.now} --allow-exec --cell ik/", text)
+
     def test_an_unmet_expectation_fails_without_a_baseline(self):
         self.make_baseline()
         self.assertIn("no baseline was given", self.gate(self.out, expect=0))
@@ -150,7 +198,7 @@ class Gate(EtudeCase):
         self.assertIn("no such folder", self.gate(self.folder / "none", expect=2))
         self.make_baseline()
         whole = self.baseline.read_text()
-        self.assertIn("no such file", self.gate(self.out, "--baseline", self.folder / "none.json", expect=2))
+        self.assertIn("no such file; --update makes it of this run", self.gate(self.out, "--baseline", self.folder / "none.json", expect=2))
         for broken in "", "{}", whole[:len(whole) // 2], whole.replace('"schema":1', '"schema":7'), \
                 whole.replace('"seed":1', '"seed":1,"seed":1'), whole.replace('"trials":12', '"trials":null'), \
                 re.sub('"cells":"[a-z]+"', '"cells":"' + 12 * "f" + '"', whole), \

@@ -14,6 +14,17 @@ WALK = "/usr/share/assimp/models/BVH/01_01.bvh"
 AT_ONCE = "etude: stopped; nothing half done is kept\n"
 
 
+# One world whose pictures take minutes.
+LONG_TAKE = """scenario: long
+question: Does it end?
+task: capture
+clips: [builtin:boxing]
+duration_s: 20
+trials: 1
+methods: [{name: fixed, segmenter: hue, calibration: dlt, solver: ccd, weights: fixed}]
+"""
+
+
 class Interrupts(EtudeCase):
     def interrupt(self, arguments, is_begun, sent=signal.SIGINT):
         """What the program says when it is interrupted once it `is_begun`."""
@@ -72,6 +83,30 @@ class Interrupts(EtudeCase):
         many = self.write("many.yaml", IK.replace("trials: 4", "trials: 3000"))
         self.interrupt(["export", many, "-o", self.out], lambda _: self.left())
         self.assertEqual([path.name for path in self.folder.iterdir()], ["many.yaml"])
+
+    def test_an_export_ends_at_once_also_amid_a_world(self):
+        long = self.write("long.yaml", LONG_TAKE)
+        sent_at = []
+
+        def renders(_):
+            began = self.left()
+            time.sleep(0.5)  # the world's pictures take much longer
+            sent_at.append(time.monotonic())
+            return began
+
+        self.interrupt(["export", long, "--films", "-o", self.out], renders)
+        self.assertLess(time.monotonic() - sent_at[-1], 5, "the first signal ends it")
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["long.yaml"])
+
+    def test_a_replay_says_that_it_was_stopped(self):
+        many = self.write("many.yaml", IK.replace("trials: 4", "trials: 1500"))
+        self.run_suite(many)
+
+        def works(program):
+            return pathlib.Path(f"/proc/{program.pid}/task/{program.pid}/children").read_text()
+
+        said = self.interrupt(["replay", self.out], works)
+        self.assertEqual(said, "etude: stopped; the other cells were not run again\n")
 
     def test_a_run_interrupted_in_its_last_writing_goes_on_to_the_same_bytes(self):
         many = self.write("many.yaml", IK.replace("trials: 4", "trials: 1500").replace("ccd, weights: fixed", "gauss-newton")

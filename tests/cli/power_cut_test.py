@@ -1,6 +1,7 @@
 """A power cut loses nothing that a run has counted. The system calls of a run are recorded (strace), and replayed onto a
 model of a disk that keeps only what was synchronised; at every call the power is cut, and what the disk then holds is
 gone on with.  ETUDE_CUTS: how many different disks are tried (all of them in the heavy version of this test)."""
+import json
 import os
 import pathlib
 import random
@@ -25,8 +26,8 @@ def strings_of(arguments):
     return [unescaped(text) for text in re.findall(r'"((?:\\x[0-9a-f]{2})*)"', arguments)]
 
 
-def recorded(command, trace):
-    """The system calls of a program's first process, as (name, arguments, result)."""
+def recorded(command, trace, of_all=False):
+    """The system calls of a program's first process, or of all that have its files, as (name, arguments, result)."""
     subprocess.run(["strace", "-f", "-xx", "-s", "10000000", "-e", f"trace={CALLS}", "-o", trace, *command],
                    check=True, capture_output=True, timeout=300)
     calls, first, unfinished = [], None, {}
@@ -41,7 +42,7 @@ def recorded(command, trace):
         match = LINE.match(line)
         if match:
             first = first or match[1]
-            if match[1] == first and int(match[4]) >= 0:
+            if (of_all or match[1] == first) and int(match[4]) >= 0:
                 calls.append((match[2], match[3], int(match[4])))
     return calls
 
@@ -57,11 +58,17 @@ class Disk:
 
     def __init__(self, root):
         self.root = os.fsencode(str(root))
-        self.now, self.safe = {}, {}  # names: of files a File, of folders None
+        self.now, self.safe, self.moved = {}, {}, {}  # names: of files a File, of folders None
         self.open = {}
 
     def inside(self, path):
         return path == self.root or path.startswith(self.root + b"/")
+
+    @staticmethod
+    def move(names, paths):
+        """All that stands in the first folder to the second."""
+        for path in [path for path in names if path.startswith(paths[0] + b"/")] if paths[0] else []:
+            names[paths[1] + path[len(paths[0]):]] = names.pop(path)
 
     def apply(self, name, arguments, result):
         paths = strings_of(arguments)
@@ -94,8 +101,12 @@ class Disk:
                     self.safe.pop(path, None)
                     if path in self.now:
                         self.safe[path] = self.now[path]
+                    self.move(self.safe, self.moved.pop(path, (b"", b"")))
         elif name.startswith("rename") and self.inside(paths[0]):
             self.now[paths[1]] = self.now.pop(paths[0])
+            if self.now[paths[1]] is None:
+                self.move(self.now, paths)
+                self.moved[paths[1]] = paths  # what is safe in it moves when the folder above is synchronised
         elif name.startswith("unlink") or name == "rmdir":
             self.now.pop(paths[0], None)
         elif name.startswith("mkdir") and self.inside(paths[0]):
@@ -190,6 +201,27 @@ class PowerCut(EtudeCase):
         self.assertNotIn(b"journal.jsonl", files)
         self.assertEqual(files[b"cells.jsonl"], (self.whole / "cells.jsonl").read_bytes())
         self.assertIn(b"seal.json", files)
+
+    def test_what_other_commands_write_is_on_the_disk_when_they_have_ended(self):
+        shutil.copytree(self.whole, self.out)
+        shutil.rmtree(self.out / "report", ignore_errors=True)
+        cell = json.loads((self.out / "cells.jsonl").read_text().splitlines()[0])["cell"]
+        for written, command in (("report", ["report", "--no-video", self.out]),
+                                 ("new/baseline.json", ["gate", self.whole, "--update", "--baseline"]),
+                                 ("rows.jsonl", ["rows", self.whole, "-o"]),
+                                 ("cell.pack", ["replay", self.whole, "--cell", cell, "--pack"]),
+                                 ("data", ["export", self.scenario, "--trials", "1", "-o"]),
+                                 ("clap.bvh", ["clip", "convert", "builtin:clap"])):
+            with self.subTest(command=command[0]):
+                path, disk = self.out / written, Disk(self.out)
+                words = [*command, *([] if command[0] == "report" else [path])]
+                for call in recorded([ETUDE, *map(str, words)], self.folder / "trace", of_all=True):
+                    disk.apply(*call)
+                left = disk.after_a_cut("least")
+                files = [path] if path.is_file() else [file for file in path.rglob("*") if file.is_file()]
+                self.assertGreater(len(files), 0)
+                for file in files:
+                    self.assertEqual(left.get(os.fsencode(str(file.relative_to(self.out)))), file.read_bytes(), file)
 
     def test_the_model_finds_what_is_not_synchronised(self):
         """The control: without its calls to synchronise, the disk has lost cells that were counted."""

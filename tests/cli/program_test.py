@@ -19,7 +19,7 @@ LIBRARIES = {
     "libxml2": "tags, calibrations", "libyaml-cpp": "scenarios",
     "libglog": "Ceres's", "libcholmod": "Ceres's", "libcxsparse": "Ceres's", "libspqr": "Ceres's",
     "liblapack": "Ceres's", "libblas": "Ceres's",
-    "libhwy": "vectors", "libfmt": "text", "libxxhash": "digests",
+    "libhwy": "vectors", "libfmt": "text", "libxxhash": "digests", "libsodium": "signatures",
     "libstdc++": "C++", "libgcc_s": "C++", "libm": "C", "libc": "C", "ld-linux-x86-64": "C",
 }
 

@@ -32,6 +32,7 @@ DOORS = {
     "CLI/": ["cli"],
     "Random123/": ["sim/random"],
     "xxhash.h": ["engine/base"],
+    "sodium.h": ["bench/results"],
     "nlohmann/": ["bench", "engine/formats/deepmimic.cc", "engine/formats/gltf", "engine/formats/json_text.cc",
                   "engine/formats/json_text.h", "engine/streams", "reports"],
     "boost/": ["bench/statistics"],
@@ -69,6 +70,11 @@ BANNED_BELOW = [
     (("engine",), r"\bRandomStream\b", "engine is pure: randomness belongs to sim"),
     (("engine",), r"std::(i|o)?fstream\b|\bfopen\(", "engine reads bytes, not files"),
 ]
+
+# Files are written through bench/files alone, whole and onto the disk; but for what grows line by line, or is none.
+WRITES = re.compile(r"std::o?fstream\b|\bfopen\(|\bO_CREAT\b|\bcreat\(")
+WRITERS = ["bench/files", "bench/outside/error_log.cc", "bench/process/child_process.cc", "bench/run/cell_runner.cc",
+           "bench/run/journal.cc"]
 
 DRAW = re.compile(r"\b(\w+)\.(?:Bits|Chance|IndexBelow|Normal3?|Uniform)(?=\()|(?<=[(, ])(random|dice)(?=[,)])")
 INNERMOST = re.compile(r"([({\[])([^(){}\[\]]*)[)}\]]")
@@ -251,6 +257,9 @@ def check_determinism(relative, path):
         for layers, pattern, why in BANNED_BELOW:
             if relative.parts[0] in layers and re.search(pattern, line):
                 yield number, f"'{re.search(pattern, line).group()}': {why}"
+        if relative.parts[0] in ("bench", "reports", "cli") and not lies_in(relative.as_posix(), WRITERS):
+            if found := WRITES.search(line):
+                yield number, f"'{found.group()}' may leave half a file; WriteFileAtomically leaves none"
 
 
 @functools.lru_cache

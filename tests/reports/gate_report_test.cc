@@ -128,6 +128,7 @@ TEST(GateTail, QuotesWhatAShellWouldTakeApartAndTellsStatuses) {
   EXPECT_THAT(lines[0].world, HasSubstr("cells that ended ok ok → failed"));
   EXPECT_THAT(lines[1].world, HasSubstr("… and 4 more worlds of"));
   EXPECT_THAT(TailLines(move, "", 1)[0].replay, HasSubstr("etude replay RUN --cell "));
+  EXPECT_THAT(TailLines(move, "", 1, true)[0].replay, HasSubstr("etude replay RUN --allow-exec --cell "));
 }
 
 TEST(GateMarkdown, SaysThatNothingWasComparedWithoutABaseline) {

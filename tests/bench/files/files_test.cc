@@ -24,6 +24,29 @@ TEST(Files, ReadBackWhatTheyWroteAndLeaveNothingBeside) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(Files, WrittenByTwoAtOnceAreEachWhole) {
+  const auto folder = TemporaryFolder::Make("files-test");
+  const fs::path path = folder->path() / "a.json";
+  auto first = AtomicFile::Begin(path), second = AtomicFile::Begin(path);
+  ASSERT_TRUE(first && second);
+  ASSERT_TRUE(first->Write("first") && second->Write("second"));
+  ASSERT_TRUE(first->Finish());
+  EXPECT_EQ(ReadWholeFile(path), "first");
+  ASSERT_TRUE(second->Finish());
+  EXPECT_EQ(ReadWholeFile(path), "second");
+  { EXPECT_TRUE(AtomicFile::Begin(path)); }
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder->path()), {}), 1) << "nothing is left beside it";
+}
+
+TEST(Files, TakeTheNameThatAKilledWriterHasLeft) {
+  const auto folder = TemporaryFolder::Make("files-test");
+  const fs::path path = folder->path() / "a.json";
+  std::ofstream(TemporaryName(path)) << "half of much more than comes now";
+  ASSERT_TRUE(WriteFileAtomically(path, "whole"));
+  EXPECT_EQ(ReadWholeFile(path), "whole");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder->path()), {}), 1);
+}
+
 TEST(Files, OfAPlainNameAreWrittenWhereWeStand) {
   const std::filesystem::path before = std::filesystem::current_path();
   const auto folder = TemporaryFolder::Make("files-test");

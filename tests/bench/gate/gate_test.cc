@@ -90,9 +90,31 @@ TEST(Gate, IsIncompleteWhereTheMachineEndedACell) {
     FinishedRun run = Steady();
     run.data.rows[5].result = CellResult::Ended(status, "signal 9");
     EXPECT_EQ(VerdictOn(run, baseline), GateVerdict::kNotWhole);
-    EXPECT_THAT(DescribeMachineEnds(run), ElementsAre(HasSubstr("s/joint_noise_deg=1/002/b: signal 9")));
+    EXPECT_THAT(WhyIncomplete(run), ElementsAre(HasSubstr("s/joint_noise_deg=1/002/b: signal 9")));
   }
-  EXPECT_THAT(DescribeMachineEnds(Steady()), IsEmpty());
+  EXPECT_THAT(WhyIncomplete(Steady()), IsEmpty());
+}
+
+TEST(Gate, FailsAMethodThatGaveNoAnswerAnywhere) {
+  FinishedRun run = Steady();
+  for (Row& row : run.data.rows) {
+    if (row.method == "b") row.result = CellResult::Ended(Status::kFailed, "ended with exit code 1");
+  }
+  const auto report = JudgeRun(run, nullptr, "");
+  EXPECT_EQ(GateVerdictOf(*report), GateVerdict::kRegressed);
+  EXPECT_THAT(report->silent, ElementsAre("s: none of the 48 cells of b is ok or unsolved; the first is "
+                                          "s/joint_noise_deg=1/000/b (failed): ended with exit code 1"));
+  run.data.rows.back().result = CellResult::Ended(Status::kUnsolved, "too far");  // b's, which is an answer
+  EXPECT_EQ(GateVerdictOf(*JudgeRun(run, nullptr, "")), GateVerdict::kPassed);
+}
+
+TEST(Gate, IsIncompleteWhereNothingWasRun) {
+  FinishedRun run = Steady();
+  for (Row& row : run.data.rows) row.result = CellResult::Ended(Status::kSkipped, "no labels");
+  const auto report = JudgeRun(run, nullptr, "");
+  EXPECT_EQ(GateVerdictOf(*report), GateVerdict::kNotWhole);
+  EXPECT_THAT(report->incomplete,
+              ElementsAre("every cell was skipped; the first is s/joint_noise_deg=1/000/a: no labels"));
 }
 
 TEST(Gate, IsIncompleteWhenTheBaselineHoldsMoreThanTheRun) {

@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Hostility{"crashes", Status::kCrashed,
                   "ended with signal 11 (Segmentation fault); its last words: 'about to fall'"},
-        Hostility{"exits", Status::kCrashed, R"(ended with exit code 3, amid the line '{"type": "ans')"},
+        Hostility{"exits", Status::kFailed, R"(ended with exit code 3, amid the line '{"type": "ans')"},
         Hostility{"prints_garbage", Status::kBadOutput,
                   R"(said something that is not JSON: 'loading model \x1b[1m100%\x1b[0m')"},
         Hostility{"answers_nan", Status::kBadOutput, "said something that is not JSON near byte 52: '"},
@@ -112,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(
         Hostility{"answers_a_list", Status::kBadOutput, "its 'answer' has no object \"answer\": "},
         Hostility{"eats_memory", Status::kOutOfMemory, "held more than 200 MB of memory"},
         Hostility{"lets_a_child_eat_memory", Status::kOutOfMemory, "held more than 200 MB of memory"},
-        Hostility{"leaves_a_child_at_its_output", Status::kCrashed, "ended with exit code 5"},
+        Hostility{"leaves_a_child_at_its_output", Status::kFailed, "ended with exit code 5"},
         Hostility{"speaks_another_protocol", Status::kBadOutput, "in its start: does not speak protocol 1: "}),
     [](const auto& tested) { return tested.param.behaviour; });
 
@@ -190,7 +190,7 @@ TEST(OutsideMethod, AStartThatFailsThreeTimesIsNotTriedAgain) {
   OutsideMethod method(options);
   for (int i = 0; i < 6; ++i) {
     const OutsideReply reply = Ask(method);
-    EXPECT_EQ(reply.status, Status::kCrashed);
+    EXPECT_EQ(reply.status, Status::kFailed);
     EXPECT_EQ(reply.reason, "in its start: ended with exit code 1; its last words: 'no licence found'");
   }
   EXPECT_EQ(ReadText(starts), "started\nstarted\nstarted\n");
@@ -200,7 +200,7 @@ TEST(OutsideMethod, ASettingThatKillsItSparesTheOthers) {
   OutsideMethod method(Behaving("dies_at_a_setting"));
   for (int i = 0; i < 4; ++i) {
     const OutsideReply reply = Ask(method, "p", "fatal");
-    EXPECT_EQ(reply.status, Status::kCrashed);
+    EXPECT_EQ(reply.status, Status::kFailed);
     EXPECT_EQ(reply.reason, "at setting 'fatal': ended with exit code 7");
   }
   EXPECT_EQ(Ask(method, "p", "harmless").status, Status::kOk);
@@ -307,7 +307,7 @@ TEST_P(HostileInASession, EndsTheSessionAndTheNextOneBeginsAnew) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OutsideMethod, HostileInASession,
-                         ::testing::Values(Hostility{"dies_in_a_session", Status::kCrashed,
+                         ::testing::Values(Hostility{"dies_in_a_session", Status::kFailed,
                                                      "ended with exit code 1; its last words: 'out of luck'"},
                                            Hostility{"hangs_in_a_session", Status::kTimeout, "took longer than 0.1 s"},
                                            Hostility{"prints_garbage_in_a_session", Status::kBadOutput,
