@@ -1,17 +1,23 @@
 #include <fmt/format.h>
 
+#include "engine/formats/acclaim.h"
+#include "engine/formats/amass.h"
 #include "engine/formats/bvh.h"
+#include "engine/formats/c3d.h"
 #include "engine/formats/deepmimic.h"
 #include "engine/formats/gltf/gltf.h"
 #include "engine/formats/joint_csv.h"
+#include "engine/formats/npz.h"
 #include "engine/formats/rigid_targets.h"
 #include "engine/formats/trc.h"
 #include "engine/motion/character.h"
 #include "engine/retargeting/joint_map.h"
 #include "engine/retargeting/map_file.h"
+#include "engine/retargeting/markers.h"
 #include "engine/retargeting/to_body.h"
 #include "tests/engine/streams/small_files.h"
 #include "tests/fuzz/readers/target.h"
+#include "tests/support/c3d_writer.h"
 #include "tests/support/random_clip.h"
 
 namespace etude::fuzz {
@@ -92,6 +98,7 @@ std::vector<std::string> GltfSeeds() {
 }
 
 void Trc(std::string_view bytes) {
+  if (const auto markers = ReadTrc(bytes, kFile)) FindMarkerBodies(*markers, kFile);
   RequireRoundTrip(
       bytes, [](std::string_view text) { return ReadTrc(text, kFile); },
       [](const MarkerMotion& motion) { return WriteTrc(motion, kFile); });
@@ -118,6 +125,71 @@ std::string DeepMimicText() {
   std::string frame = "0.0333, 0, 0.9, 0";
   for (int i = 0; i < 40; ++i) frame += i % 5 == 0 ? ", 1" : ", 0.1";
   return fmt::format(R"({{"Loop": "wrap", "Frames": [[{}], [{}]]}})", frame, frame);
+}
+
+void C3dFile(std::string_view bytes) {
+  const auto read = ReadC3d(bytes, kFile);
+  if (read) FindMarkerBodies(read->markers, kFile, read->up);
+}
+
+std::vector<std::string> C3dSeeds() {
+  std::vector<std::string> seeds;
+  for (const int machine : {testing::kIntel, testing::kDec, testing::kMips}) {
+    for (const bool floats : {false, true}) seeds.push_back(testing::C3dWriter(machine, floats).Write());
+  }
+  return seeds;
+}
+
+constexpr const char* kAcclaimSkeleton =
+    ":units\n angle deg\n:root\n order TX TY TZ RX RY RZ\n axis XYZ\n position 0 1 0\n orientation 0 0 9\n"
+    ":bonedata\n begin\n id 1\n name upper\n direction 1 0 0\n length 2\n axis 0 0 90 XYZ\n dof rx ry rz\n end\n"
+    " begin\n name lower\n direction 1 0 0\n length 3\n axis 0 0 0 XYZ\n end\n"
+    ":hierarchy\n begin\n root upper\n upper lower\n end\n";
+
+void AcclaimSkeletonFile(std::string_view bytes) {
+  const auto read = ReadAcclaimSkeleton(bytes, kFile);
+  if (read) ReadAcclaimMotion(":DEGREES\n1\nroot 1 2 3 4 5 6\n", *read, kFile);
+}
+
+void AcclaimMotionFile(std::string_view bytes) {
+  static const AcclaimSkeleton skeleton = Required(ReadAcclaimSkeleton(kAcclaimSkeleton, kFile), "a seed");
+  IsAcclaimMotion(bytes);
+  const auto clip = ReadAcclaimMotion(bytes, skeleton, kFile);
+  if (clip) MakeBody(*clip);
+}
+
+/// Two frames of AMASS, as NumPy packs them.
+constexpr std::string_view kAmassInHexadecimal =
+    "504b03041400000008000000210068d39d04520000006005000009001400706f7365732e6e70790100100060050000000000005200000000"
+    "0000009bec17ea1b10c9c850c650ad9e925a9c5ca46ea5a06e9366a2aea3a09e965f54529498179f5f94920a12774bcc294e058a17672416"
+    "a402f91a463a0a86a6669a3a0ab50a64022e8651300a46c12818a60000504b03041400000008000000210078b32618490000009800000009"
+    "0014007472616e732e6e707901001000980000000000000049000000000000009bec17ea1b10c9c850c650ad9e925a9c5ca46ea5a06e9366"
+    "a2aea3a09e965f54529498179f5f94920a12774bcc294e058a17672416a402f91a463a0ac69a3a0ab50a64032e061c0000504b0304140000"
+    "00080000002100eb016ed34700000088000000130014006d6f6361705f6672616d65726174652e6e70790100100088000000000000004700"
+    "0000000000009bec17ea1b10c9c850c650ad9e925a9c5ca46ea5a06e9366a1aea3a09e965f54529498179f5f94920a12774bcc294e058a17"
+    "672416a402f91a9a3a0ab50a14012e063088730000504b030414000000080000002100e2f6377546000000840000000a00140067656e6465"
+    "722e6e707901001000840000000000000046000000000000009bec17ea1b10c9c850c650ad9e925a9c5ca46ea5a06e136aa8aea3a09e965f"
+    "54529498179f5f94920a12774bcc294e058a17672416a402f91a9a3a0ab50a1401ae3406060600504b010214031400000008000000210068"
+    "d39d045200000060050000090000000000000000000000800100000000706f7365732e6e7079504b010214031400000008000000210078b3"
+    "2618490000009800000009000000000000000000000080018d0000007472616e732e6e7079504b0102140314000000080000002100eb016e"
+    "d347000000880000001300000000000000000000008001110100006d6f6361705f6672616d65726174652e6e7079504b0102140314000000"
+    "080000002100e2f6377546000000840000000a000000000000000000000080019d01000067656e6465722e6e7079504b0506000000000400"
+    "0400e70000001f0200000000";
+
+std::string FromHexadecimal(std::string_view digits) {
+  const auto value = [](char c) { return c <= '9' ? c - '0' : c - 'a' + 10; };
+  std::string bytes;
+  for (std::size_t i = 0; i + 1 < digits.size(); i += 2) {
+    bytes += static_cast<char>(value(digits[i]) << 4 | value(digits[i + 1]));
+  }
+  return bytes;
+}
+
+void NpzFile(std::string_view bytes) {
+  const auto arrays = ReadNpz(bytes, kFile);
+  if (!arrays) return;
+  const auto clip = ReadAmass(*arrays, kFile);
+  if (clip) MakeBody(*clip);
 }
 
 void Map(std::string_view bytes) {
@@ -170,6 +242,19 @@ std::vector<Target> MotionTargets() {
       {"joint-csv", Csv, [] { return std::vector{WriteJointCsv(testing::WavingMotion(3))}; }, {"nan", "1e400"}},
       {"rigid-targets", Targets17, [] { return std::vector{RigidRows()}; }, {"nan"}},
       {"deepmimic", DeepMimic, [] { return std::vector{DeepMimicText()}; }},
+      {"c3d", C3dFile, C3dSeeds, {"POINT", "LABELS", "TRIAL", "ACTUAL_END_FIELD", "SCALE", "FRAMES"}},
+      {"acclaim-skeleton",
+       AcclaimSkeletonFile,
+       [] { return std::vector<std::string>{kAcclaimSkeleton}; },
+       {"dof", "tx", "nan"}},
+      {"acclaim-motion",
+       AcclaimMotionFile,
+       [] { return std::vector<std::string>{":DEGREES\n1\nroot 1 2 3 4 5 6\nupper 7 8 9\n2\nupper 1 2 3\n"}; },
+       {":RADIANS", "1e308", "nan"}},
+      {"npz",
+       NpzFile,
+       [] { return std::vector{FromHexadecimal(kAmassInHexadecimal)}; },
+       {"'shape': (", "<f8", "NUMPY"}},
       {"joint-map", Map, MapSeeds, {"hip_centre", "_End", "right_foot"}},
   };
 }
