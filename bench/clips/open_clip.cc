@@ -7,6 +7,9 @@
 
 #include "bench/clips/references.h"
 #include "bench/files/files.h"
+#include "bench/model/recording.h"
+#include "bench/results/folder.h"
+#include "bench/results/row_json.h"
 #include "engine/base/names.h"
 #include "engine/formats/acclaim.h"
 #include "engine/formats/amass.h"
@@ -133,6 +136,35 @@ Result<ClipFile> ReadJointTable(std::string_view text, const std::string& path) 
   return FileOfMarkers(ClipFormat::kCsv, markers, path, 'Y');
 }
 
+/// Tells whether a text begins as a recording of a run does.
+bool IsRecording(std::string_view text) { return text.starts_with(R"({"tracks":)"); }
+
+/// Reads the motions of a run's recording, called as its tracks are.
+Result<ClipFile> FileOfRecording(const std::string& text, const std::string& path) {
+  ASSIGN_OR_RETURN(const auto recording, ReadRecording(text, path));
+  ClipFile file{.format = ClipFormat::kRecording,
+                .figure = {.name = "", .skeleton = {}, .materials = {}, .meshes = {}},
+                .clips = {}};
+  for (const Track& track : recording.tracks) {
+    if (track.motion.poses.empty()) continue;
+    file.clips.push_back(RigClip(track.motion, StandingPose(), track.name));
+    file.notes.emplace_back("of a run's recording");
+  }
+  if (file.clips.empty()) return Fail({path}, "a recording without a motion");
+  file.figure.skeleton = file.clips.front().skeleton;
+  return file;
+}
+
+/// Makes "RUN#CELL@TRACK" the file of that cell's recording, and the track in it.
+SplitReference InRun(const SplitReference& wanted) {
+  std::error_code none;
+  if (!wanted.animation || !fs::exists(fs::path(wanted.path) / "manifest.json", none)) return wanted;
+  const std::size_t at = wanted.animation->rfind('@');
+  SplitReference found{RecordingFile(wanted.path, wanted.animation->substr(0, at)).string(), std::nullopt};
+  if (at != std::string::npos) found.animation = wanted.animation->substr(at + 1);
+  return found;
+}
+
 /// Reads a file of markers; nothing when it is none.
 std::optional<Result<ClipFile>> ReadMarkers(std::string_view bytes, const std::string& path) {
   if (IsC3d(bytes)) {
@@ -213,8 +245,8 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
 }  // namespace
 
 std::string_view FormatName(ClipFormat format) {
-  constexpr std::array kNames = {"BVH",   "glTF", "GLB", "DeepMimic", "Acclaim",
-                                 "AMASS", "C3D",  "TRC", "CSV",       "built-in"};
+  constexpr std::array kNames = {"BVH", "glTF", "GLB", "DeepMimic", "Acclaim", "AMASS",
+                                 "C3D", "TRC",  "CSV", "recording", "built-in"};
   return kNames[static_cast<std::size_t>(format)];
 }
 
@@ -232,6 +264,7 @@ Result<ClipFile> ReadClipFile(const std::string& path) {
     return FileOfOne(ClipFormat::kAmass, std::move(clip));
   }
   if (auto markers = ReadMarkers(bytes, path)) return *std::move(markers);
+  if (IsRecording(bytes)) return FileOfRecording(bytes, path);
   if (first.text == "{" && IsDeepMimicMotion(bytes)) {
     ASSIGN_OR_RETURN(auto clip, ReadDeepMimicMotion(bytes, path));
     return FileOfOne(ClipFormat::kDeepMimic, std::move(clip));
@@ -264,11 +297,12 @@ Result<ClipFile> ReadClipFile(const std::string& path) {
 
 Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const OpenOptions& options) {
   if (reference.starts_with(kBuiltinPrefix)) return ReadBuiltin(reference);
-  const SplitReference wanted = Split(reference);
+  const SplitReference wanted = InRun(Split(reference));
   ASSIGN_OR_RETURN(auto file, ReadClipFile(FileOf(wanted.path)));
   const std::string stem = fs::path(FileOf(wanted.path)).stem().string();
   const bool is_gltf = file.format == ClipFormat::kGltf || file.format == ClipFormat::kGlb;
-  if (!is_gltf && file.clips.size() == 1) {
+  const bool is_one = !is_gltf && file.format != ClipFormat::kRecording && file.clips.size() == 1;
+  if (is_one) {
     if (wanted.animation) {
       return Fail({wanted.path, 0, 0}, "a {} file has one motion; '#{}' chooses one of a glTF file",
                   FormatName(file.format), *wanted.animation);

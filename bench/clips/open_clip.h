@@ -16,9 +16,9 @@
 
 namespace etude {
 
-enum class ClipFormat { kBvh, kGltf, kGlb, kDeepMimic, kAcclaim, kAmass, kC3d, kTrc, kCsv, kBuiltin };
-/// Returns the name of a format: "BVH", "glTF", "GLB", "DeepMimic", "Acclaim", "AMASS", "C3D", "TRC", "CSV" or
-/// "built-in".
+enum class ClipFormat { kBvh, kGltf, kGlb, kDeepMimic, kAcclaim, kAmass, kC3d, kTrc, kCsv, kRecording, kBuiltin };
+/// Returns the name of a format: "BVH", "glTF", "GLB", "DeepMimic", "Acclaim", "AMASS", "C3D", "TRC", "CSV",
+/// "recording" or "built-in".
 std::string_view FormatName(ClipFormat format);
 
 /// The content of a motion file.

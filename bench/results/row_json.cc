@@ -126,6 +126,11 @@ Result<Json> EncodeRecording(const Recording& recording) {
   return json;
 }
 
+Result<Recording> ReadRecording(const std::string& text, const std::string& file) {
+  ASSIGN_OR_RETURN(const auto json, ReadJson(text, file));
+  return DecodeRecording(json, {file});
+}
+
 Result<Recording> DecodeRecording(const Json& json, const Place& place) {
   Recording recording;
   try {

@@ -16,6 +16,8 @@ std::vector<Series> DecodeSeries(const Json& json);
 /// A recording: each track's poses as rows of 60 numbers (x, y, z of the 20 joints, metres).
 Result<Json> EncodeRecording(const Recording& recording);
 Result<Recording> DecodeRecording(const Json& json, const Place& place);
+/// Reads a recording's text.
+Result<Recording> ReadRecording(const std::string& text, const std::string& file);
 
 /// A line of timings.jsonl.
 Json EncodeUsage(const std::string& cell, const CellUsage& usage);

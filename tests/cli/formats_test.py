@@ -143,6 +143,30 @@ class Formats(EtudeCase):
                 numpy.testing.assert_allclose(b[name] - [2, floor, 0], a[name], atol=1e-5)
         self.refused(self.c3d(["A", "B"], 3, lambda t, i: (0, 0, 0)), "its markers (A, B) are of no set known here")
 
+    def test_what_a_run_recorded_is_a_clip(self):
+        path = self.write("capture.yaml", """scenario: c
+question: Is it there?
+task: capture
+trials: 1
+clips: ['builtin:clap']
+duration_s: 0.2
+methods:
+  - {name: fixed, segmenter: hue, calibration: dlt, solver: ccd, weights: fixed}
+video: {trials: [0]}
+""")
+        self.run_suite(path)
+        cell = json.loads((self.out / "cells.jsonl").read_text().splitlines()[0])
+        name = f"c/-/000/{cell['method']}"
+        recorded = json.loads(next((self.out / "recordings").iterdir()).read_text())
+        truth = next(track for track in recorded["tracks"] if track["name"] == "truth")
+        joints = self.joints(f"{self.out}#{name}@truth")
+        poses = truth["poses"]
+        self.assertEqual(len(joints), len(poses))
+        for frame, pose in zip(joints, poses):
+            numpy.testing.assert_allclose(numpy.ravel(list(frame.values())), pose, atol=1e-9)
+        self.assertEqual(self.etude("clip", "info", f"{self.out}#{name}").returncode, 0)
+        self.refused(f"{self.out}#{name}@nobody", "animation 'nobody'")
+
 
 if __name__ == "__main__":
     unittest.main()
