@@ -142,10 +142,12 @@ class Gate(EtudeCase):
         return self.etude("run", self.write("own.yaml", SCENARIO + own), "-o", self.now)
 
     def test_a_method_without_an_answer_fails_and_makes_no_baseline(self):
-        self.run_program("raise ValueError('math domain error')\n")
+        ran = self.run_program("raise ValueError('math domain error')\n")
+        self.assertEqual(ran.returncode, 1, ran.stderr)
+        self.assertIn("24 × failed: in its start: ended with exit code 1; its last words: 'ValueError", ran.stdout)
         text = self.gate(self.now, expect=1)
-        self.assertIn("ik: none of the 24 cells of own is ok or unsolved; the first is ik/joint_noise_deg=2/000/own "
-                      "(failed): in its start: ended with exit code 1; its last words: 'ValueError: math domain error'", text)
+        self.assertIn("ik: none of the 24 cells of own is ok or unsolved; the first is ik/joint_noise_deg=2/000/own; 24 × "
+                      "failed: in its start: ended with exit code 1; its last words: 'ValueError: math domain error'", text)
         self.assertIn("Gate: regression", text)
         self.assertIn("none of the 24", (self.now / "report" / "gate.md").read_text())
         self.assertIn("none of the 24", (self.now / "report" / "gate.xml").read_text())
