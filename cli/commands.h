@@ -9,6 +9,7 @@
 namespace etude {
 
 struct RunData;
+struct RunOutcome;
 
 // Exit codes of every command.
 constexpr int kSuccess = 0;
@@ -26,6 +27,8 @@ int Finish(const Result<int>& code);
 int TellStopped(const Error& what_is_left = {{}, "stopped; nothing is kept"});
 /// Says on standard error that a run was read although its folder is not as it was written.
 void TellUnsealed(const RunData& run);
+/// Prints the tables of a finished run, and why methods have no answer; gives 1 when one has none, or no cell is ok.
+int ShowOutcome(const RunOutcome& outcome);
 /// Tells whether the parent had closed our standard output, so that nobody will read what is printed.
 bool OutputWasClosed();
 /// Prints a title and indented lines, or nothing without lines.

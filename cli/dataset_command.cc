@@ -60,9 +60,7 @@ int ScoreCommand(const ScoreOptions& given) {
   if (!outcome) return Complain(outcome.error());
   if (outcome->run.stopped) return TellStopped();
   if (!outcome->faults.empty()) return ComplainOfFaults(options, outcome->faults);
-  fmt::print("{} of {} cells ok in {:.1f} s: {}\nNext: etude report {}\n", outcome->run.cells_ok, outcome->run.cells,
-             outcome->run.seconds, options.output, options.output);
-  return outcome->run.cells_ok > 0 ? kSuccess : kNothingWorked;
+  return ShowOutcome(outcome->run);
 }
 
 }  // namespace

@@ -3,12 +3,14 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <exception>
 #include <filesystem>
 #include <span>
+#include <string_view>
 
 #include "bench/process/pinned_environment.h"
 #include "cli/arguments.h"
@@ -42,8 +44,8 @@ constexpr const char* kExamples =
     "  etude recognise new.txt --moves moves.yaml     which of them a recording, or a device, shows\n"
     "  etude calibrate left/ right/ -o rig.yaml       cameras from pictures of a board, or from measured points\n"
     "  etude capture --rig rig.yaml left.mp4 right.mp4 --keypoints json/ -o motion.bvh     films to a motion\n\n"
-    "Exit codes: 0 fine, 1 no cell was ok (gate: regression; replay: a difference), 2 bad input (nothing is\n"
-    "written), 3 incomplete, 130 interrupted.";
+    "Exit codes: 0 fine, 1 a method has no answer (gate: regression; replay, verify: a difference), 2 bad input\n"
+    "(nothing is written), 3 incomplete, 130 interrupted.";
 
 /// Lists the options and subcommands that could have been meant at this point of the command line.
 std::vector<std::string> KnownWords(const CLI::App& app) {
@@ -113,6 +115,11 @@ int Main(int argc, char** argv) {
   CLI::App app(kAbout, "etude");
   app.footer(kExamples);
   app.set_version_flag("--version", ETUDE_VERSION);
+  static char help[] = "--help";
+  if (argc > 1 && std::string_view(argv[1]) == "help") {  // etude help run: etude run --help
+    std::rotate(argv + 1, argv + 2, argv + argc);
+    argv[argc - 1] = help;
+  }
   std::string command_line = "etude";
   for (int i = 1; i < argc; ++i) command_line += std::string(" ") + argv[i];
   Action action;

@@ -5,6 +5,8 @@
 #include <memory>
 #include <optional>
 
+#include "bench/finished_runs/finished_runs.h"
+#include "bench/gate/gate.h"
 #include "bench/metrics/catalogue.h"
 #include "bench/results/folder.h"
 #include "bench/run/dry_run.h"
@@ -81,6 +83,24 @@ void PrintSummary(const RunData& run) {
   }
 }
 
+/// True if a method of this scenario has cells that were run and no answer, ok or unsolved, among them.
+bool HasSilentMethod(const ScenarioSummary& scenario) {
+  return std::ranges::any_of(scenario.methods, [&](const std::string& name) {
+    int attempted = 0, answers = 0;
+    for (const ConditionSummary& condition : scenario.conditions) {
+      const auto method = std::ranges::find(condition.methods, name, &MethodSummary::method);
+      if (method == condition.methods.end()) continue;
+      attempted += method->attempted;
+      for (const auto& [status, count] : method->statuses) {
+        answers += status == Status::kOk || status == Status::kUnsolved ? count : 0;
+      }
+    }
+    return attempted > 0 && answers == 0;
+  });
+}
+
+}  // namespace
+
 int ShowOutcome(const RunOutcome& outcome) {
   auto run = LoadRunOutline(outcome.folder);
   const auto has_skipped = [](const ScenarioSummary& scenario) {
@@ -90,10 +110,18 @@ int ShowOutcome(const RunOutcome& outcome) {
   if (!run) return Complain(run.error());
   PrintSummary(*run);
   const std::string folder = outcome.folder.string();
+  const bool has_silent = std::ranges::any_of(run->scenarios, HasSilentMethod);
+  if (has_silent) {
+    const auto finished = LoadFinishedRun(outcome.folder);
+    if (!finished) return Complain(finished.error());
+    PrintList("\nMethods without an answer:", DescribeSilentMethods(*finished));
+  }
   fmt::print("\n{} of {} cells ok in {:.1f} s: {}\nNext: etude report {}\n", outcome.cells_ok, outcome.cells,
              outcome.seconds, folder, folder);
-  return outcome.cells_ok > 0 ? kSuccess : kNothingWorked;
+  return outcome.cells_ok > 0 && !has_silent ? kSuccess : kNothingWorked;
 }
+
+namespace {
 
 int RunCommand(const RunOptions& given) {
   RunOptions options = given;

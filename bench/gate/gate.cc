@@ -1,6 +1,7 @@
 #include "bench/gate/gate.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -111,20 +112,31 @@ std::vector<std::string> DescribeSilentMethods(const FinishedRun& run) {
     int attempted = 0;
     bool has_answer = false;
     std::string first;
+    std::map<std::string, int> causes;
   };
+  constexpr std::size_t kMostCauses = 1000, kToldCauses = 3;
   std::map<std::pair<std::string, std::string>, Cells> methods;  // by scenario and method
   ForEachRow(run.data, [&](const Row& row, std::size_t) {
-    if (row.result.status == Status::kSkipped) return;
+    const CellResult& result = row.result;
+    if (result.status == Status::kSkipped) return;
     Cells& cells = methods[{row.scenario, row.method}];
-    cells.has_answer |= row.result.status == Status::kOk || row.result.status == Status::kUnsolved;
-    if (cells.attempted++ > 0) return;
-    cells.first = fmt::format("{} ({}): {}", row.Id(), StatusName(row.result.status), row.result.reason);
+    cells.has_answer |= result.status == Status::kOk || result.status == Status::kUnsolved;
+    if (cells.attempted++ == 0) cells.first = row.Id();
+    if (cells.has_answer || cells.causes.size() == kMostCauses) return;
+    ++cells.causes[fmt::format("{}: {}", StatusName(result.status), result.reason)];
   });
   std::vector<std::string> sentences;
   for (const auto& [name, cells] : methods) {
     if (cells.has_answer) continue;
-    sentences.push_back(fmt::format("{}: none of the {} cells of {} is ok or unsolved; the first is {}", name.first,
-                                    cells.attempted, name.second, cells.first));
+    std::vector<std::pair<std::string, int>> causes(cells.causes.begin(), cells.causes.end());
+    std::ranges::stable_sort(causes, std::greater(), &std::pair<std::string, int>::second);
+    std::string text = fmt::format("{}: none of the {} cells of {} is ok or unsolved; the first is {}", name.first,
+                                   cells.attempted, name.second, cells.first);
+    for (std::size_t i = 0; i < std::min(causes.size(), kToldCauses); ++i) {
+      text += fmt::format("; {} × {}", causes[i].second, causes[i].first);
+    }
+    if (causes.size() > kToldCauses) text += "; and others";
+    sentences.push_back(std::move(text));
   }
   return sentences;
 }

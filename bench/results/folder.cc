@@ -187,6 +187,9 @@ Result<RunData> LoadRunOutline(const fs::path& folder, Sealing sealing) {
                 "etude run --resume goes on with it, etude merge makes a run of shards",
                 kJournalFile);
   }
+  if (!fs::exists(folder / "manifest.json", error)) {
+    return Fail(place, "is no run, for it holds no manifest.json; a run writes one (etude run)");
+  }
   RETURN_IF_ERROR(LoadManifest(folder, run));
   if (auto sealed = CheckSeal(folder); !sealed) {
     if (sealing == Sealing::kRequired) {

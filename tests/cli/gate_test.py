@@ -1,6 +1,7 @@
 """`etude gate` and `etude compare` as a CI server and a reviewer meet them."""
 import json
 import os
+import pathlib
 import re
 import shutil
 import subprocess
@@ -13,14 +14,7 @@ SCENARIO = ik_scenario(trials=12, question="Does the gate see it?", weights="fix
 WORSE = SCENARIO.replace("weights: fixed-tuned", "weights: fixed")
 
 
-GIVES_UP = """import json, sys
-for line in sys.stdin:
-    message = json.loads(line)
-    if message["type"] == "problem" and {when}:  # its own worlds, whatever they are called
-        raise ValueError("math domain error")
-    reply = {{"hello": dict(type="hello", protocol=1, name="own", version="1"), "setting": dict(type="ready")}}
-    print(json.dumps(reply.get(message["type"]) or dict(type="no_answer", id=message["id"], reason="why not")), flush=True)
-"""
+EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples/outside-methods"
 
 
 class Gate(EtudeCase):
@@ -128,12 +122,11 @@ class Gate(EtudeCase):
     def test_two_updates_at_once_leave_a_whole_baseline(self):
         self.make_baseline()
         whole = self.baseline.read_bytes()
-        for _ in range(3):
-            updates = [subprocess.Popen([ETUDE, "gate", self.out, "--baseline", self.baseline, "--update"],
-                                        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) for _ in range(4)]
-            for update in updates:
-                self.assertEqual((update.communicate()[1], update.returncode), ("", 0))
-            self.assertEqual(self.baseline.read_bytes(), whole)
+        updates = [subprocess.Popen([ETUDE, "gate", self.out, "--baseline", self.baseline, "--update"],
+                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) for _ in range(4)]
+        for update in updates:
+            self.assertEqual((update.communicate()[1], update.returncode), ("", 0))
+        self.assertEqual(self.baseline.read_bytes(), whole)
         self.assertEqual([path.name for path in self.baseline.parent.iterdir()], ["ik.json"])
 
     def run_program(self, program):
@@ -142,10 +135,12 @@ class Gate(EtudeCase):
         return self.etude("run", self.write("own.yaml", SCENARIO + own), "-o", self.now)
 
     def test_a_method_without_an_answer_fails_and_makes_no_baseline(self):
-        self.run_program("raise ValueError('math domain error')\n")
+        ran = self.run_program("raise ValueError('math domain error')\n")
+        self.assertEqual(ran.returncode, 1, ran.stderr)
+        self.assertIn("24 × failed: in its start: ended with exit code 1; its last words: 'ValueError", ran.stdout)
         text = self.gate(self.now, expect=1)
-        self.assertIn("ik: none of the 24 cells of own is ok or unsolved; the first is ik/joint_noise_deg=2/000/own "
-                      "(failed): in its start: ended with exit code 1; its last words: 'ValueError: math domain error'", text)
+        self.assertIn("ik: none of the 24 cells of own is ok or unsolved; the first is ik/joint_noise_deg=2/000/own; 24 × "
+                      "failed: in its start: ended with exit code 1; its last words: 'ValueError: math domain error'", text)
         self.assertIn("Gate: regression", text)
         self.assertIn("none of the 24", (self.now / "report" / "gate.md").read_text())
         self.assertIn("none of the 24", (self.now / "report" / "gate.xml").read_text())
@@ -154,10 +149,15 @@ class Gate(EtudeCase):
         self.assertFalse(self.baseline.exists())
 
     def test_a_method_s_own_exception_is_its_failure_and_not_the_machine_s(self):
-        self.assertEqual(self.run_program(GIVES_UP.format(when="False")).returncode, 0)
+        shutil.copy(EXAMPLES / "etude_method.py", self.folder)
+        solver = (EXAMPLES / "ik_dls.py").read_text()
+        self.assertEqual(self.run_program(solver).returncode, 0)
         self.gate(self.now, "--baseline", self.baseline, "--update", expect=0)
         shutil.rmtree(self.now)
-        self.assertEqual(self.run_program(GIVES_UP.format(when="sum(map(ord, json.dumps(message['problem']))) % 2")).returncode, 0)
+        head = "def answer(tree, problem, files):\n"
+        self.assertIn(head, solver)
+        raises = solver.replace(head, head + "    if sum(map(ord, str(problem))) % 2:\n        raise ValueError('no')\n")
+        self.assertEqual(self.run_program(raises).returncode, 0)
         text = self.gate(self.now, "--baseline", self.baseline, expect=1)
         self.assertNotIn("depends on the machine", text)
         self.assertIn(f"etude replay {self.now} --allow-exec --cell ik/", text)

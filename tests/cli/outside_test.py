@@ -46,7 +46,7 @@ class OutsideMethods(EtudeCase):
         hostile = "".join(outside(name, HOSTILE, name, more=", time_s: 0.5" if name == "hangs" else "")
                           for name in REASONS)
         alone = self.run_suite(self.write("alone.yaml", IK + good + LIMITS), out=self.folder / "alone")
-        among = self.run_suite(self.write("among.yaml", IK + hostile + good + LIMITS), "--jobs", 2)
+        among = self.run_suite(self.write("among.yaml", IK + hostile + good + LIMITS), "--jobs", 2, code=1)
         for name, (status, reason) in REASONS.items():
             rows = [row for row in among if row["method"] == name]
             self.assertEqual(len(rows), 8)
@@ -62,13 +62,13 @@ class OutsideMethods(EtudeCase):
     def test_answers_of_the_wrong_shape_say_where(self):
         wrong = {"short": ('{"angles_deg": [1, 2]}', "angles_deg: "), "other": ('{"angle": 3}', "angle")}
         methods = "".join(outside(name, HOSTILE, "is_good", answer) for name, (answer, _) in wrong.items())
-        for row in self.run_suite(self.write("wrong.yaml", IK + methods)):
+        for row in self.run_suite(self.write("wrong.yaml", IK + methods), code=1):
             if row["method"] in wrong:
                 self.assertEqual(row["status"], "bad_output")
                 self.assertIn(wrong[row["method"]][1], row["reason"])
 
     def test_a_program_that_cannot_be_found_fails_its_cells_only(self):
-        rows = self.run_suite(self.write("none.yaml", IK + "  - {name: none, exec: [no-such-program]}\n"))
+        rows = self.run_suite(self.write("none.yaml", IK + "  - {name: none, exec: [no-such-program]}\n"), code=1)
         none = [row for row in rows if row["method"] == "none"]
         self.assertEqual({row["status"] for row in none}, {"failed"})
         self.assertIn("no program 'no-such-program' in PATH", none[0]["reason"])
@@ -76,9 +76,9 @@ class OutsideMethods(EtudeCase):
 
     def test_a_fence_changes_no_result_and_is_told_of(self):
         suite = self.write("suite.yaml", IK + outside("good", EXAMPLES / "ik_dls.py") + outside("crashes", HOSTILE, "crashes"))
-        self.run_suite(suite, "--jobs", 2)
+        self.run_suite(suite, "--jobs", 2, code=1)
         open_air = self.folder / "no-fence"
-        self.run_suite(suite, "--no-fence", out=open_air)
+        self.run_suite(suite, "--no-fence", out=open_air, code=1)
         self.assert_same_results(self.out, open_air)
         self.assertRegex(json.loads((self.out / "host.json").read_text())["fence"], r"^(bubblewrap \d|none \()")
         self.assertEqual(json.loads((open_air / "host.json").read_text())["fence"], "none (not asked for)")
@@ -107,7 +107,7 @@ class OutsideMethods(EtudeCase):
         program.write_text(f"#!/bin/sh\necho started >>{mark}\nexit 1\n")
         program.chmod(0o755)
         cell = "ik/joint_noise_deg=2/000/mine"
-        self.run_suite(self.write("suite.yaml", IK + f"  - {{name: mine, exec: [{program}, --fast]}}\n"), "--no-fence")
+        self.run_suite(self.write("suite.yaml", IK + f"  - {{name: mine, exec: [{program}, --fast]}}\n"), "--no-fence", code=1)
         self.assertTrue(mark.exists())
         mark.unlink()
         pack = self.folder / "cell.etude"

@@ -103,7 +103,7 @@ TEST(Gate, FailsAMethodThatGaveNoAnswerAnywhere) {
   const auto report = JudgeRun(run, nullptr, "");
   EXPECT_EQ(GateVerdictOf(*report), GateVerdict::kRegressed);
   EXPECT_THAT(report->silent, ElementsAre("s: none of the 48 cells of b is ok or unsolved; the first is "
-                                          "s/joint_noise_deg=1/000/b (failed): ended with exit code 1"));
+                                          "s/joint_noise_deg=1/000/b; 48 × failed: ended with exit code 1"));
   run.data.rows.back().result = CellResult::Ended(Status::kUnsolved, "too far");  // b's, which is an answer
   EXPECT_EQ(GateVerdictOf(*JudgeRun(run, nullptr, "")), GateVerdict::kPassed);
 }
