@@ -18,6 +18,7 @@
 #include "bench/outside/attachment_folder.h"
 #include "bench/outside/error_log.h"
 #include "bench/outside/messages.h"
+#include "bench/outside/program_view.h"
 #include "bench/process/child_process.h"
 #include "bench/process/clock.h"
 
@@ -29,6 +30,9 @@ constexpr int kMostFailures = 3;
 constexpr int kDyingMs = 1000;     // from closing its output to its end
 constexpr int kEndingMs = 500;     // from the end of its input to its own
 constexpr double kLongestS = 1e9;  // beyond any run, within what the clock can hold
+
+/// Told whether there is a fence or not: the same program fails with the same words everywhere.
+constexpr const char* kHint = " (a fence shows it the system and what its key 'files' lists)";
 
 /// Why there is no answer.
 struct Failure {
@@ -187,17 +191,22 @@ Outcome<void> OutsideMethod::State::Start() {
   auto program = FindProgram(command.front());
   if (!program) return OurFailure(program.error());
   command.front() = std::move(*program);
-  command = options.fence.Around(command, {attachment_root->path()});
-  auto started = ChildProcess::Start({.program = command.front(),
-                                      .arguments = {command.begin() + 1, command.end()},
+  ProgramView view = ViewOf(command, options.files);
+  view.shown.emplace_back(attachment_root->path());
+  const FencedCommand fenced = options.fence.Around(view.command, view.shown, view.start);
+  auto started = ChildProcess::Start({.program = fenced.words.front(),
+                                      .arguments = {fenced.words.begin() + 1, fenced.words.end()},
                                       .error_file = errors.path(),
-                                      .limited = true});
+                                      .limited = true,
+                                      .told = fenced.told});
   if (!started) return OurFailure(started.error());
   child = std::move(*started);
   answered.clear();
   cpu_s = cpu_charged_s = 0;
-  ASSIGN_OR_RETURN(const auto reply, Exchange(*hello, StartSeconds(), ReadHello));
-  program_name = reply.name + " " + reply.version;
+  auto reply = Exchange(*hello, StartSeconds(), ReadHello);
+  if (!reply && reply.error().status == Status::kCrashed) reply.error().reason += kHint;
+  if (!reply) return tl::unexpected(std::move(reply).error());
+  program_name = reply->name + " " + reply->version;
   return {};
 }
 

@@ -23,7 +23,8 @@ struct OutsideOptions {
   std::string error_file = {};       ///< its standard error is kept here, up to 1 MiB; "" = it shares ours
   /// Handshake and setting may take this long each, where time_s is less: programs load libraries and models then.
   double start_s = 30;
-  Fence fence = {};  ///< that it runs in
+  Fence fence = {};                     ///< that it runs in
+  std::vector<std::string> files = {};  ///< what the fence shows it (ProgramView)
 };
 
 /// Seconds that Ask may take at most, with the start_s above: handshake, setting, problem, and the clearing away.

@@ -191,7 +191,9 @@ TEST(OutsideMethod, AStartThatFailsThreeTimesIsNotTriedAgain) {
   for (int i = 0; i < 6; ++i) {
     const OutsideReply reply = Ask(method);
     EXPECT_EQ(reply.status, Status::kCrashed);
-    EXPECT_EQ(reply.reason, "in its start: ended with exit code 1; its last words: 'no licence found'");
+    EXPECT_EQ(reply.reason,
+              "in its start: ended with exit code 1; its last words: 'no licence found' "
+              "(a fence shows it the system and what its key 'files' lists)");
   }
   EXPECT_EQ(ReadText(starts), "started\nstarted\nstarted\n");
 }
