@@ -21,6 +21,7 @@
 #include "bench/outside/program_view.h"
 #include "bench/process/child_process.h"
 #include "bench/process/clock.h"
+#include "sim/random/stream.h"
 
 namespace etude {
 namespace {
@@ -80,6 +81,10 @@ struct OutsideMethod::State {
   void EndSession();
   std::string Stop(int patience_ms);
 
+  /// The id that stands for a name in the conversation, and tells nothing of it.
+  std::string IdOf(char kind, const std::string& name) const {
+    return fmt::format("{}{:016x}", kind, RandomStream({options.seed, "exchange", 0}, kind + name).Bits());
+  }
   double StartSeconds() const { return std::max(options.start_s, options.time_s); }
 
   const OutsideOptions options;
@@ -127,6 +132,7 @@ Outcome<void> OutsideMethod::State::Attempt(const std::string& what, Act act) {
 /// Makes the program run and know the setting.
 Outcome<void> OutsideMethod::State::MakeReady(const std::string& setting_id, const Payload& setting) {
   EndSession();
+  if (!options.seed.IsPlain() && setting_in_force && setting_in_force != setting_id) Stop(kEndingMs);
   if (!child) {
     RETURN_IF_ERROR(Attempt("in its start", [&] { return Start(); }));
   }
@@ -136,9 +142,10 @@ Outcome<void> OutsideMethod::State::MakeReady(const std::string& setting_id, con
   return {};
 }
 
-Outcome<void> OutsideMethod::State::Begin(const std::string& setting_id, const Payload& setting, const std::string& id,
-                                          const Payload& begin) {
+Outcome<void> OutsideMethod::State::Begin(const std::string& setting_id, const Payload& setting,
+                                          const std::string& name, const Payload& begin) {
   RETURN_IF_ERROR(MakeReady(setting_id, setting));
+  const std::string id = IdOf('p', name);
   auto files = AttachmentFolder::Write(attachment_root->path(), begin.files);
   if (!files) return OurFailure(files.error());
   const auto line = BeginLine(id, *begin.json, files->path());
@@ -164,8 +171,9 @@ Outcome<Json> OutsideMethod::State::Step(const Payload& step) {
 }
 
 Outcome<Json> OutsideMethod::State::Solve(const std::string& setting_id, const Payload& setting,
-                                          const std::string& problem_id, const Payload& problem) {
+                                          const std::string& name, const Payload& problem) {
   RETURN_IF_ERROR(MakeReady(setting_id, setting));
+  const std::string problem_id = IdOf('p', name);
   const auto files = AttachmentFolder::Write(attachment_root->path(), problem.files);
   if (!files) return OurFailure(files.error());
   const auto line = ProblemLine(problem_id, *problem.json, files->path());
@@ -214,7 +222,7 @@ Outcome<void> OutsideMethod::State::TellSetting(const std::string& id, const Pay
   auto files = AttachmentFolder::Write(attachment_root->path(), setting.files);
   if (!files) return OurFailure(files.error());
   setting_files = std::move(*files);
-  const auto line = SettingLine(id, *setting.json, setting_files.path());
+  const auto line = SettingLine(IdOf('s', id), *setting.json, setting_files.path());
   if (!line) return OurFailure(line.error());
   RETURN_IF_ERROR(Exchange(*line, StartSeconds(), ReadReady));
   setting_in_force = id;

@@ -31,6 +31,7 @@ struct ReplayOptions {
   std::size_t sample = 0;          ///< how many cells, drawn by the suite's seed; 0 = all
   int jobs = 0;                    ///< 0 = one per processor
   OutsideRules outside;
+  std::optional<SecretKey> key = {};  ///< of secret worlds
   Sealing sealing = Sealing::kRequired;
   const std::atomic<bool>* stop = nullptr;
 };
@@ -44,6 +45,7 @@ Result<void> PackCell(const std::string& folder, const std::string& cell, const 
                       Sealing sealing = Sealing::kRequired);
 
 /// Runs the cell of such a file again.
-Result<CellCheck> ReplayPack(const std::string& file, const OutsideRules& outside = {});
+Result<CellCheck> ReplayPack(const std::string& file, const OutsideRules& outside = {},
+                             const std::optional<SecretKey>& key = {});
 
 }  // namespace etude
