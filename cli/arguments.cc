@@ -1,11 +1,13 @@
 #include "cli/arguments.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <iostream>
 
+#include "bench/process/pinned_environment.h"
 #include "bench/results/folder.h"
 #include "bench/run/outside_programs.h"
 #include "bench/run/worker.h"
@@ -38,6 +40,23 @@ CLI::Option* AddSeed(CLI::App& command, std::uint64_t& seed, const std::string& 
 
 CLI::Option* AddSeed(CLI::App& command, std::optional<std::uint64_t>& seed, const std::string& help) {
   return command.add_option("--seed", seed, help)->check(SeedRange());
+}
+
+CLI::Option* AddSeedFile(CLI::App& command, std::string& file) {
+  CLI::Option* option = command.add_option(
+      "--seed-file", file,
+      "The key of secret worlds: a file of 64 hexadecimal digits or 32 bytes; or the digits stand in ETUDE_SEED_KEY");
+  if (CLI::Option* seed = command.get_option_no_throw("--seed")) option->excludes(seed);
+  return option;
+}
+
+Result<std::optional<SecretKey>> TakeSecretKey(const std::string& file, bool has_seed) {
+  ASSIGN_OR_RETURN(auto key, FindSecretKey(file));
+  if (key && has_seed) return Fail({kKeyVariable}, "is set, and --seed, too; leave out one of them");
+  if (struct stat status{}; key && ::stat(key->file.c_str(), &status) == 0 && (status.st_mode & S_IROTH) != 0) {
+    Complain({{file}, "can be read by everybody here; chmod 600 keeps the key to yourself"});
+  }
+  return key;
 }
 
 CLI::Option* AddJobs(CLI::App& command, int& jobs) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/run/secret_key.h"
+
 namespace CLI {
 class App;
 class Option;
@@ -30,6 +32,10 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
 CLI::Option* AddSeed(CLI::App& command, std::uint64_t& seed, const std::string& help);
 /// Adds --seed where nothing stands for what a scenario, or the program, has by default.
 CLI::Option* AddSeed(CLI::App& command, std::optional<std::uint64_t>& seed, const std::string& help);
+/// Adds --seed-file, of every command that throws the dice of worlds; it stands in the place of --seed.
+CLI::Option* AddSeedFile(CLI::App& command, std::string& file);
+/// Reads the key of secret worlds, if there is one; says when others can read its file, and refuses a seed beside it.
+Result<std::optional<SecretKey>> TakeSecretKey(const std::string& file, bool has_seed = false);
 /// Adds -j, --jobs.
 CLI::Option* AddJobs(CLI::App& command, int& jobs);
 /// Adds --overwrite.

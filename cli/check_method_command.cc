@@ -34,7 +34,7 @@ int CheckMethodCommand(OutsideOptions options, const std::string& seat, bool is_
 
 void DefineCheckMethod(CLI::App& app, Action& action) {
   struct Options {
-    std::vector<std::string> command;
+    std::vector<std::string> command, files;
     std::string task, seat;
     double time_s = 10, memory_mb = 4096;
     bool is_fenced = true;
@@ -55,13 +55,16 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
   command->add_option("--memory", options->memory_mb, "MB of memory")
       ->check(NumberWithin(1, 1e6, "size in MB"))
       ->capture_default_str();
+  command->add_option("--files", options->files, "What the fence shows it (default: its own folder)")
+      ->allow_extra_args(false);
   command->add_flag("!--no-fence", options->is_fenced, "Run it without a fence, to debug it");
   command->callback([=, &action] {
     action = [=] {
       return CheckMethodCommand({.command = options->command,
                                  .task = options->task,
                                  .time_s = options->time_s,
-                                 .memory_mb = options->memory_mb},
+                                 .memory_mb = options->memory_mb,
+                                 .files = options->files},
                                 options->seat, options->is_fenced);
     };
   });

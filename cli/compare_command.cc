@@ -44,6 +44,9 @@ Result<int> CompareCommand(const std::string& a, const std::string& b, Sealing s
   PrintList("Not comparable, for the worlds are not the same:", incomparable);
   PrintList("Methods with other settings:", comparison.settings_changed);
   fmt::print("{}\n", CompareSentence(comparison));
+  if (!run_b.data.fence.empty() || !run_b.data.key_digest.empty()) {
+    fmt::print("B: {}.\n", DescribeWorlds(run_b.data));
+  }
   if (!comparison.moves.empty()) fmt::print("{}\n", ScopeSentence(run_b));
   return kSuccess;
 }

@@ -73,7 +73,16 @@ void DefineExport(CLI::App& app, Action& action) {
   command->add_option("-o,--output", options->output, "Folder of the data set")->required();
   command->add_flag("--films", options->films, "Each camera's take as an MP4, too, beside its pictures");
   AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map);
-  command->callback([=, &action] { action = [=] { return ExportCommand(*options); }; });
+  auto key_file = std::make_shared<std::string>();
+  AddSeedFile(*command, *key_file);
+  command->callback([=, &action] {
+    action = [=] {
+      auto key = TakeSecretKey(*key_file, options->seed.has_value());
+      if (!key) return Complain(key.error());
+      options->key = std::move(*key);
+      return ExportCommand(*options);
+    };
+  });
 }
 
 void DefineScore(CLI::App& app, const std::string& command_line, Action& action) {
@@ -90,7 +99,16 @@ void DefineScore(CLI::App& app, const std::string& command_line, Action& action)
   command->add_flag("--allow-missing", options->allow_missing, "A world without answer is a failed cell");
   AddJobs(*command, options->jobs);
   AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map);
-  command->callback([=, &action] { action = [=] { return ScoreCommand(*options); }; });
+  auto key_file = std::make_shared<std::string>();
+  AddSeedFile(*command, *key_file);
+  command->callback([=, &action] {
+    action = [=] {
+      auto key = TakeSecretKey(*key_file, options->seed.has_value());
+      if (!key) return Complain(key.error());
+      options->key = std::move(*key);
+      return ScoreCommand(*options);
+    };
+  });
 }
 
 }  // namespace etude

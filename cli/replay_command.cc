@@ -23,6 +23,7 @@ struct ReplayCommandOptions {
   bool overwrite = false;
   int jobs = 0;
   OutsideRules outside;
+  std::string key_file;
   Sealing sealing = Sealing::kRequired;
 };
 
@@ -30,8 +31,9 @@ void PrintDifference(const CellCheck& check) {
   fmt::print("differs: {}\n  first at {}: {} then, {} now\n", check.cell, check.stage, check.then, check.now);
 }
 
-Result<int> ReplayFile(const std::string& file, const OutsideRules& outside, const Interrupt& interrupt) {
-  ASSIGN_OR_RETURN(const auto check, ReplayPack(file, outside, interrupt.requested()));
+Result<int> ReplayFile(const std::string& file, const OutsideRules& outside, const std::optional<SecretKey>& key,
+                       const Interrupt& interrupt) {
+  ASSIGN_OR_RETURN(const auto check, ReplayPack(file, outside, key, interrupt.requested()));
   if (!check) return TellStopped({{}, "stopped; its cell was not run again"});
   if (!check->same) {
     PrintDifference(*check);
@@ -52,12 +54,13 @@ Result<int> Pack(const ReplayCommandOptions& options) {
 
 Result<int> ReplayCommand(const ReplayCommandOptions& options) {
   const Interrupt interrupt;
+  ASSIGN_OR_RETURN(const auto key, TakeSecretKey(options.key_file));
   std::error_code error;
   if (!std::filesystem::is_directory(options.target, error)) {
     if (!options.cells.empty() || !options.pack_file.empty() || options.sample > 0) {
       return Fail({options.target}, "is no result folder; --cell, --sample and --pack need one");
     }
-    return ReplayFile(options.target, options.outside, interrupt);
+    return ReplayFile(options.target, options.outside, key, interrupt);
   }
   if (!options.pack_file.empty()) return Pack(options);
   ASSIGN_OR_RETURN(const auto checks, ReplayRun({.folder = options.target,
@@ -65,6 +68,7 @@ Result<int> ReplayCommand(const ReplayCommandOptions& options) {
                                                  .sample = options.sample,
                                                  .jobs = options.jobs,
                                                  .outside = options.outside,
+                                                 .key = key,
                                                  .sealing = options.sealing,
                                                  .stop = interrupt.requested()}));
   const auto same = std::ranges::count(checks, true, &CellCheck::same);
@@ -91,6 +95,7 @@ void DefineReplay(CLI::App& app, Action& action) {
       ->excludes(cell);
   AddUnsealed(*command, options->sealing);
   AddOutsideRules(*command, options->outside);
+  AddSeedFile(*command, options->key_file);
   command->add_option("--pack", options->pack_file, "Write the cell, with its scenario and clips, into this one file");
   AddOverwrite(*command, options->overwrite);
   AddJobs(*command, options->jobs);

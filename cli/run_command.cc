@@ -232,10 +232,13 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   CLI::App* command = app.add_subcommand("run", "Run scenarios into a result folder");
   command->add_option("scenarios", options->scenarios,
                       "Scenario files, folders of them, or names of what comes with etude (quick, full/ik_weights)");
-  command->add_option("-o,--output", options->output, "Result folder (default: out/<suite>-<seed>)");
+  command->add_option("-o,--output", options->output,
+                      "Result folder (default: out/<suite>-<seed>; of secret worlds, their digest)");
   AddJobs(*command, options->jobs);
   const auto world_options =
       AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map);
+  auto key_file = std::make_shared<std::string>();
+  AddSeedFile(*command, *key_file);
   CLI::Option* shard_option =
       command->add_option("--shard", *shard, "Run part i of n, as i/n; etude merge makes one run of all parts");
   CLI::Option* overwrite = AddOverwrite(*command, options->overwrite, "Replace a folder that already holds a run");
@@ -272,6 +275,9 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
         if (!part) return Complain({{}, "--shard: " + part.error().message});
         options->shard = *part;
       }
+      auto key = TakeSecretKey(*key_file, options->seed.has_value());
+      if (!key) return Complain(key.error());
+      options->key = std::move(*key);
       return *dry_run ? DryRunCommand(*options) : RunCommand(*options);
     };
   });
@@ -303,7 +309,16 @@ void DefineMerge(CLI::App& app, const std::string& command_line, Action& action)
   command->add_option("-o,--output", options->output, "Result folder")->required();
   AddOverwrite(*command, options->overwrite, "Replace a folder that already holds a run");
   AddOtherLibraries(*command, options->other_libraries);
-  command->callback([=, &action] { action = [=] { return MergeCommand(*options); }; });
+  auto key_file = std::make_shared<std::string>();
+  AddSeedFile(*command, *key_file);
+  command->callback([=, &action] {
+    action = [=] {
+      auto key = TakeSecretKey(*key_file);
+      if (!key) return Complain(key.error());
+      options->key = std::move(*key);
+      return MergeCommand(*options);
+    };
+  });
 }
 
 }  // namespace etude

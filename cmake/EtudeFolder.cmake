@@ -175,7 +175,8 @@ set(ETUDE_PINNED_ENVIRONMENT
   "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1"
   "MESA_SHADER_CACHE_DISABLE=true"
   "LP_NUM_THREADS=0"
-  "LC_ALL=C.UTF-8")
+  "LC_ALL=C.UTF-8"
+  "PATH=/usr/bin:$ENV{PATH}")  # a fence shows no Python of a home
 if(ETUDE_SANITIZE MATCHES "address")
   # A constant that is made before one that it needs: the order of files is the linker's choice.
   list(APPEND ETUDE_PINNED_ENVIRONMENT "ASAN_OPTIONS=check_initialization_order=1:strict_init_order=1")

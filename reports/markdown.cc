@@ -1,5 +1,3 @@
-#include "reports/page.h"
-
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 
 #include "reports/comparison_table.h"
 #include "reports/overview_table.h"
+#include "reports/page.h"
 #include "reports/paper/paper_a.h"
 #include "reports/paper/paper_b_section.h"
 #include "reports/transitions/transition_section.h"
@@ -82,7 +81,7 @@ std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
 std::string WriteMarkdown(const RunData& run) {
   std::string text = fmt::format("# {}\n\n{}\n", EscapeMarkdown(run.suite), FindingsOf(run).sentence);
   for (const ScenarioSummary& scenario : run.scenarios) text += ScenarioText(run, scenario);
-  text += fmt::format("\nEtude {}, seed {}.\n", EscapeMarkdown(run.program_version), run.seed);
+  text += fmt::format("\nEtude {}, {}.\n", EscapeMarkdown(run.program_version), DescribeWorlds(run));
   return text;
 }
 

@@ -130,7 +130,7 @@ std::string Footer(const RunData& run) {
     if (!value.empty()) html += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", name, EscapeMarkup(value));
   };
   entry("Etude", run.program_version);
-  entry("Seed", fmt::format("{}", run.seed));
+  entry("Worlds", DescribeWorlds(run));
   entry("Took", run.wall_seconds > 0 ? FormatNumber(run.wall_seconds) + " s" : "");
   entry("Machine", run.host);
   entry("Unsealed", run.unsealed);

@@ -1,8 +1,10 @@
 #include "bench/dataset/export.h"
 
 #include <fcntl.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -127,14 +129,16 @@ class Exporter {
 
   /// Adds the world's line to `index`.
   Result<void> SaveWorld(int condition, int trial, const std::string& place, ExportOutcome& outcome,
-                         std::string& index) {
+                         std::vector<std::string>& index) {
     const auto world = scenario_.task(condition).MakeWorld(scenario_.KeyOf(trial), /*keeps_motion=*/false);
-    const std::string path = place + "/" + TrialName(trial);
+    const std::string path = place + "/" + WorldName(scenario_, condition, trial);
     const Row row = scenario_.IdentityOf(condition, trial, 0);
     const auto why_skipped = world->WhySkipped();
-    index += fmt::format("{},{},{},{},{},{},{},{}\n", row.scenario, row.task, Quoted(ConditionLabel(row.condition)),
-                         trial, Quoted(row.clip), why_skipped ? "" : Quoted(path + "/problem.json"),
-                         why_skipped ? "" : Quoted(path + ".json"), Quoted(why_skipped.value_or("")));
+    const bool is_plain = scenario_.setup().seed.IsPlain();
+    index.push_back(fmt::format("{},{},{},{},{},{},{},{}\n", row.scenario, row.task,
+                                Quoted(ConditionLabel(row.condition)), is_plain ? fmt::format("{}", trial) : "",
+                                is_plain ? Quoted(row.clip) : "", why_skipped ? "" : Quoted(path + "/problem.json"),
+                                why_skipped ? "" : Quoted(path + ".json"), Quoted(why_skipped.value_or(""))));
     if (why_skipped) {
       ++outcome.skipped;
       return {};
@@ -186,6 +190,7 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress
   RunOptions run;
   run.scenarios = options.scenarios;
   run.seed = options.seed;
+  run.key = options.key;
   run.trials = options.trials;
   run.clips = options.clips;
   run.joint_map = options.joint_map;
@@ -195,7 +200,7 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress
 
   const Plan plan(scenarios);
   ExportOutcome outcome;
-  std::string index = "scenario,task,condition,trial,clip,problem,prediction,skipped\n";
+  std::vector<std::string> index;
   on_progress(0, plan.world_count());
   for (std::size_t w = 0; w < plan.world_count(); ++w) {
     const World& world = plan.world(w);
@@ -211,7 +216,9 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress
   const auto save = [&](const char* name, const std::string& text) {
     return WriteFileAtomically(folder.partial() / name, text);
   };
-  RETURN_IF_ERROR(save("inputs/index.csv", index));
+  if (!suite.seed.IsPlain()) std::ranges::sort(index);
+  index.insert(index.begin(), "scenario,task,condition,trial,clip,problem,prediction,skipped\n");
+  RETURN_IF_ERROR(save("inputs/index.csv", fmt::format("{}", fmt::join(index, ""))));
   RETURN_IF_ERROR(save("README.md", kReadme));
   RETURN_IF_ERROR(
       SaveJson(folder.partial() / "manifest.json", MakeManifest(suite, scenarios, options.program_version)));

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/run/secret_key.h"
 #include "engine/base/progress.h"
 #include "engine/base/result.h"
 
@@ -13,6 +14,7 @@ namespace etude {
 struct ExportOptions {
   std::vector<std::string> scenarios;  ///< files, or folders of *.yaml
   std::optional<std::uint64_t> seed;   ///< else each scenario's own, else 1
+  std::optional<SecretKey> key = {};   ///< of secret worlds, in the place of a seed
   std::optional<int> trials;           ///< else each scenario's own
   std::vector<std::string> clips;      ///< replaces the scenarios' clips when not empty
   std::string joint_map;               ///< replaces the scenarios' joint maps when not empty
@@ -35,10 +37,10 @@ struct ExportOutcome {
 ///     inputs/SCENARIO/CONDITION/TRIAL/problem.json, with its files beside
 ///     truth/SCENARIO/CONDITION/TRIAL/truth.json, with its files beside
 ///
-/// Whole or not at all, and on its disk. Refused, before anything is written: a folder that holds something, or that
-/// another export is writing. The process is to be in
-/// the pinned environment, which makes the pictures the same on every machine.
-/// `on_progress` is told of worlds.
+/// Secret worlds stand under names, and in an order, that tell nothing of their trials; the index leaves out trial and
+/// clip. Whole or not at all, and on its disk. Refused, before anything is written: a folder that holds something, or
+/// that another export is writing. The process is to be in the pinned environment, which makes the pictures the same on
+/// every machine. `on_progress` is told of worlds.
 Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress& on_progress);
 
 /// Takes away what an export to this folder has left that was killed.

@@ -7,6 +7,8 @@
 #include <map>
 #include <string_view>
 
+#include "sim/random/stream.h"
+
 namespace etude {
 namespace {
 
@@ -19,8 +21,10 @@ bool IsPlain(char c) {
   return is_letter || (c >= '0' && c <= '9') || std::string_view("._=,+-").find(c) != std::string_view::npos;
 }
 
-/// Finds the trial that a file name stands for: "7.json", "007.json" and "007.JSON" are trial 7.
-std::optional<int> TrialOf(const fs::path& name) {
+std::string TrialName(int trial) { return fmt::format("{:03}", trial); }
+
+/// Finds the name of the world that a file name stands for: "7.json", "007.json" and "007.JSON" are trial "007".
+std::optional<std::string> WorldOf(const fs::path& name) {
   std::string extension = name.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
@@ -28,8 +32,8 @@ std::optional<int> TrialOf(const fs::path& name) {
   int trial = 0;
   const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), trial);
   const bool is_number = error == std::errc() && end == stem.data() + stem.size() && trial >= 0;
-  if (extension != ".json" || !is_number) return std::nullopt;
-  return trial;
+  if (extension != ".json") return std::nullopt;
+  return is_number ? TrialName(trial) : stem;
 }
 
 /// Lists all files below `folder`, in order of their names, relative to it.
@@ -68,21 +72,26 @@ std::vector<std::string> ConditionFolders(const Scenario& scenario) {
   return folders;
 }
 
-std::string TrialName(int trial) { return fmt::format("{:03}", trial); }
+std::string WorldName(const PreparedScenario& scenario, int condition, int trial) {
+  if (scenario.setup().seed.IsPlain()) return TrialName(trial);
+  const std::string purpose = "exchange/export/" + CompactLabel(scenario.scenario().conditions[condition].swept);
+  return fmt::format("{:016x}", RandomStream(scenario.KeyOf(trial), purpose).Bits());
+}
 
 Result<PredictionFiles> FindPredictions(const fs::path& folder, const Plan& plan, PredictionFaults& faults) {
   ASSIGN_OR_RETURN(const auto files, FilesBelow(folder));
-  // By "SCENARIO/CONDITION" and trial.
-  std::map<std::pair<std::string, int>, std::size_t> worlds;
+  // By "SCENARIO/CONDITION" and the world's name.
+  std::map<std::pair<std::string, std::string>, std::size_t> worlds;
   for (std::size_t w = 0; w < plan.world_count(); ++w) {
     const Scenario& scenario = plan.scenario_of(w).scenario();
     const World& world = plan.world(w);
-    worlds[{scenario.name + "/" + ConditionFolders(scenario)[world.condition], world.trial}] = w;
+    worlds[{scenario.name + "/" + ConditionFolders(scenario)[world.condition],
+            WorldName(plan.scenario_of(w), world.condition, world.trial)}] = w;
   }
   PredictionFiles found(plan.world_count());
   for (const fs::path& file : files) {
-    const std::optional<int> trial = TrialOf(file.filename());
-    const auto world = trial ? worlds.find({file.parent_path().generic_string(), *trial}) : worlds.end();
+    const std::optional<std::string> name = WorldOf(file.filename());
+    const auto world = name ? worlds.find({file.parent_path().generic_string(), *name}) : worlds.end();
     if (world == worlds.end()) {
       faults.extra.push_back(file.generic_string());
     } else if (auto& place = found[world->second]) {

@@ -17,8 +17,9 @@ namespace etude {
 /// of "._=,+-" becomes "_", and conditions that would then be one get "~2", "~3", … in order.
 std::vector<std::string> ConditionFolders(const Scenario& scenario);
 
-/// Names a trial: "007".
-std::string TrialName(int trial);
+/// Names a world in its condition's folder: its trial, "007"; of a secret one sixteen digits, which only its key
+/// connects with the trial.
+std::string WorldName(const PreparedScenario& scenario, int condition, int trial);
 
 /// The faults of a folder of predictions; each entry names a file or a world.
 struct PredictionFaults {
@@ -33,7 +34,8 @@ struct PredictionFaults {
 /// The file that answers each world of a plan; nothing where there is none.
 using PredictionFiles = std::vector<std::optional<std::filesystem::path>>;
 
-/// Finds SCENARIO/CONDITION/TRIAL.json in `folder`: a trial is its number, with or without leading zeros.
+/// Finds SCENARIO/CONDITION/TRIAL.json in `folder`: a trial is its number, with or without leading zeros; of
+/// secret worlds the name that export gave it.
 /// Everything else in there is noted as extra, but what begins with a dot. Fails when the folder cannot be read.
 Result<PredictionFiles> FindPredictions(const std::filesystem::path& folder, const Plan& plan,
                                         PredictionFaults& faults);

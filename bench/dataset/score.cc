@@ -24,6 +24,7 @@ Result<SuiteSetup> ReadTarget(const ScoreOptions& options) {
     RunOptions run;
     run.scenarios = {options.target};
     run.seed = options.seed;
+    run.key = options.key;
     run.trials = options.trials;
     run.clips = options.clips;
     run.joint_map = options.joint_map;
@@ -33,7 +34,9 @@ Result<SuiteSetup> ReadTarget(const ScoreOptions& options) {
     return Fail({manifest.string(), 0, 0},
                 "tells seed, trials and clips itself; leave out --seed, --trials, --clips, --joint-map");
   }
-  return ReadManifest(manifest);
+  ASSIGN_OR_RETURN(auto suite, ReadManifest(manifest));
+  RETURN_IF_ERROR(OpenSeeds(options.key, {manifest.string()}, suite));
+  return suite;
 }
 
 Result<std::vector<PreparedScenario>> PrepareTarget(const SuiteSetup& suite, const ScoreOptions& options) {
@@ -52,7 +55,8 @@ Result<std::vector<PreparedScenario>> PrepareTarget(const SuiteSetup& suite, con
 std::string NameOf(const Plan& plan, std::size_t w) {
   const Scenario& scenario = plan.scenario_of(w).scenario();
   const World& world = plan.world(w);
-  return fmt::format("{}/{}/{}", scenario.name, ConditionFolders(scenario)[world.condition], TrialName(world.trial));
+  return fmt::format("{}/{}/{}", scenario.name, ConditionFolders(scenario)[world.condition],
+                     WorldName(plan.scenario_of(w), world.condition, world.trial));
 }
 
 constexpr std::uintmax_t kLargestAnswer = std::uintmax_t{16} << 20;  // as a program's; 60 s of poses take 3 MB
@@ -160,6 +164,7 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
   }
   ASSIGN_OR_RETURN(const auto scenarios, PrepareTarget(suite, options));
 
+  ASSIGN_OR_RETURN(const Fence fence, FenceFor(scenarios, options.outside, options.output, options.key));
   const Plan plan(scenarios);
   CellTable cells(plan.cell_count());
   Meter meter(plan.cell_count(), on_progress);
@@ -175,24 +180,22 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
   manifest["scored"].update(answers);
   const fs::path folder = options.output;
   RETURN_IF_ERROR(SaveJson(folder / "manifest.json", manifest));
-  const auto whole = RunOrders(suite, plan, plan.OrdersFor({}, cells.Done()),
-                               {.program = ThisProgram(),
-                                .error_folder = "",
-                                .fence = FenceFor(scenarios, options.outside, folder),
-                                .jobs = options.jobs,
-                                .stop = options.stop},
-                               [&](const DeliveredCell& cell) -> Result<void> {
-                                 meter.Count(cell.head.status);
-                                 cells.Put(cell.head.cell, std::string(cell.line));
-                                 return {};
-                               });
+  const auto whole = RunOrders(
+      suite, plan, plan.OrdersFor({}, cells.Done()),
+      {.program = ThisProgram(), .error_folder = "", .fence = fence, .jobs = options.jobs, .stop = options.stop},
+      [&](const DeliveredCell& cell) -> Result<void> {
+        meter.Count(cell.head.status);
+        cells.Put(cell.head.cell, std::string(cell.line));
+        return {};
+      });
   if (!whole) return tl::unexpected(whole.error());
   outcome.run.stopped = !*whole;
   outcome.run.cells = meter.progress().cells_done;
   outcome.run.cells_ok = meter.progress().cells_ok;
   outcome.run.seconds = meter.progress().seconds;
   if (outcome.run.stopped) return outcome;
-  const Json host = DescribeHost(options.command_line, WorkerCount(options.jobs), outcome.run.seconds);
+  Json host = DescribeHost(options.command_line, WorkerCount(options.jobs), outcome.run.seconds);
+  if (!ProgramsOf(scenarios).empty()) host["fence"] = fence.description();
   RETURN_IF_ERROR(FinishRun(folder, plan, cells, host, WorkerCount(options.jobs), [](std::size_t) { return true; }));
   claimed.Keep();
   return outcome;

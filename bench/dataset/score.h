@@ -21,6 +21,7 @@ struct ScoreOptions {
   bool allow_missing = false;         ///< a world without an answer is a failed cell instead of a complaint
   int jobs = 0;                       ///< worker processes for the scenarios' own methods; 0 = one per processor
   std::optional<std::uint64_t> seed;  ///< of scenario files; a manifest has its own
+  std::optional<SecretKey> key = {};  ///< of secret worlds
   std::optional<int> trials;
   std::vector<std::string> clips;
   std::string joint_map;

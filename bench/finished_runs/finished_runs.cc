@@ -122,7 +122,7 @@ bool WantsTimes(const FinishedScenario& scenario) { return !scenario.study.gate.
 
 FinishedScenario FinishScenario(const Scenario& scenario, const ScenarioSetup& setup,
                                 std::span<const std::string> clip_digests) {
-  FinishedScenario finished{.study = StudyOf(scenario), .seed = setup.seed, .worlds = {}, .methods = {}};
+  FinishedScenario finished{.study = StudyOf(scenario), .seed = setup.seed.Public(), .worlds = {}, .methods = {}};
   for (const Condition& condition : scenario.conditions) {
     finished.worlds.emplace_back(CompactLabel(condition.swept),
                                  WorldDigest(scenario.task, condition.node, clip_digests));
@@ -159,7 +159,8 @@ Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed)
   run.data.suite = scenario.name;
   run.data.seed = seed;
   run.scenarios.push_back(FinishScenario(scenario, setup, {}));
-  CellRunner runner(prepared, "", FenceFor({&prepared, 1}, {}, ""));
+  ASSIGN_OR_RETURN(const Fence fence, FenceFor({&prepared, 1}, {}, "", {}));
+  CellRunner runner(prepared, "", fence);
   for (int condition = 0; condition < static_cast<int>(scenario.conditions.size()); ++condition) {
     for (int trial = 0; trial < scenario.trials; ++trial) {
       runner.Open(condition, trial);

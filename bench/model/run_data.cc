@@ -1,6 +1,15 @@
 #include "bench/model/run_data.h"
 
+#include <fmt/core.h>
+
 namespace etude {
+
+std::string DescribeWorlds(const RunData& run) {
+  if (run.key_digest.empty()) return fmt::format("seed {}{}", run.seed, run.fence.empty() ? "" : ", open worlds");
+  const bool is_unfenced = run.fence.starts_with("none");
+  return fmt::format("secret worlds, key {}…{}", run.key_digest.substr(0, 16),
+                     is_unfenced ? ", programs in no fence" : "");
+}
 
 std::size_t CountRows(const RunData& run) { return run.source ? run.source->size() : run.rows.size(); }
 

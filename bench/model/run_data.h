@@ -41,7 +41,9 @@ struct CellRecording {
 /// A whole result folder in memory; of a run of many cells some of its worlds, and a way to all others.
 struct RunData {
   std::string suite;
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;  ///< of secret worlds a number that their key's digest makes
+  std::string key_digest;  ///< of secret worlds; else ""
+  std::string fence;       ///< what programs that are methods ran in; "" = there were none
   std::string program_version;
   std::string command_line;  ///< from host.json
   std::string host;          ///< one line about the machine
@@ -56,6 +58,10 @@ struct RunData {
   std::string unsealed;  ///< why the folder is not as the run wrote it, when it was read all the same; else ""
   std::map<std::string, double> cpu_seconds;  ///< processor time, by Row::Id(); empty where the folder tells of none
 };
+
+/// Says what the worlds were drawn by, and whether a program that was asked could have known it: "seed 1", "seed 1,
+/// open worlds", "secret worlds, key 0123456789abcdef…".
+std::string DescribeWorlds(const RunData& run);
 
 std::size_t CountRows(const RunData& run);
 /// Hands on every row of the run, also those that are not held, and its place.

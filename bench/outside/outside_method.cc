@@ -18,8 +18,10 @@
 #include "bench/outside/attachment_folder.h"
 #include "bench/outside/error_log.h"
 #include "bench/outside/messages.h"
+#include "bench/outside/program_view.h"
 #include "bench/process/child_process.h"
 #include "bench/process/clock.h"
+#include "sim/random/stream.h"
 
 namespace etude {
 namespace {
@@ -29,6 +31,9 @@ constexpr int kMostFailures = 3;
 constexpr int kDyingMs = 1000;     // from closing its output to its end
 constexpr int kEndingMs = 500;     // from the end of its input to its own
 constexpr double kLongestS = 1e9;  // beyond any run, within what the clock can hold
+
+/// Told whether there is a fence or not: the same program fails with the same words everywhere.
+constexpr const char* kHint = " (a fence shows it the system and what its key 'files' lists)";
 
 /// Why there is no answer.
 struct Failure {
@@ -76,6 +81,10 @@ struct OutsideMethod::State {
   void EndSession();
   std::string Stop(int patience_ms);
 
+  /// The id that stands for a name in the conversation, and tells nothing of it.
+  std::string IdOf(char kind, const std::string& name) const {
+    return fmt::format("{}{:016x}", kind, RandomStream({options.seed, "exchange", 0}, kind + name).Bits());
+  }
   double StartSeconds() const { return std::max(options.start_s, options.time_s); }
 
   const OutsideOptions options;
@@ -123,6 +132,7 @@ Outcome<void> OutsideMethod::State::Attempt(const std::string& what, Act act) {
 /// Makes the program run and know the setting.
 Outcome<void> OutsideMethod::State::MakeReady(const std::string& setting_id, const Payload& setting) {
   EndSession();
+  if (!options.seed.IsPlain() && setting_in_force && setting_in_force != setting_id) Stop(kEndingMs);
   if (!child) {
     RETURN_IF_ERROR(Attempt("in its start", [&] { return Start(); }));
   }
@@ -132,9 +142,10 @@ Outcome<void> OutsideMethod::State::MakeReady(const std::string& setting_id, con
   return {};
 }
 
-Outcome<void> OutsideMethod::State::Begin(const std::string& setting_id, const Payload& setting, const std::string& id,
-                                          const Payload& begin) {
+Outcome<void> OutsideMethod::State::Begin(const std::string& setting_id, const Payload& setting,
+                                          const std::string& name, const Payload& begin) {
   RETURN_IF_ERROR(MakeReady(setting_id, setting));
+  const std::string id = IdOf('p', name);
   auto files = AttachmentFolder::Write(attachment_root->path(), begin.files);
   if (!files) return OurFailure(files.error());
   const auto line = BeginLine(id, *begin.json, files->path());
@@ -160,8 +171,9 @@ Outcome<Json> OutsideMethod::State::Step(const Payload& step) {
 }
 
 Outcome<Json> OutsideMethod::State::Solve(const std::string& setting_id, const Payload& setting,
-                                          const std::string& problem_id, const Payload& problem) {
+                                          const std::string& name, const Payload& problem) {
   RETURN_IF_ERROR(MakeReady(setting_id, setting));
+  const std::string problem_id = IdOf('p', name);
   const auto files = AttachmentFolder::Write(attachment_root->path(), problem.files);
   if (!files) return OurFailure(files.error());
   const auto line = ProblemLine(problem_id, *problem.json, files->path());
@@ -187,17 +199,22 @@ Outcome<void> OutsideMethod::State::Start() {
   auto program = FindProgram(command.front());
   if (!program) return OurFailure(program.error());
   command.front() = std::move(*program);
-  command = options.fence.Around(command, {attachment_root->path()});
-  auto started = ChildProcess::Start({.program = command.front(),
-                                      .arguments = {command.begin() + 1, command.end()},
+  ProgramView view = ViewOf(command, options.files);
+  view.shown.emplace_back(attachment_root->path());
+  const FencedCommand fenced = options.fence.Around(view.command, view.shown, view.start);
+  auto started = ChildProcess::Start({.program = fenced.words.front(),
+                                      .arguments = {fenced.words.begin() + 1, fenced.words.end()},
                                       .error_file = errors.path(),
-                                      .limited = true});
+                                      .limited = true,
+                                      .told = fenced.told});
   if (!started) return OurFailure(started.error());
   child = std::move(*started);
   answered.clear();
   cpu_s = cpu_charged_s = 0;
-  ASSIGN_OR_RETURN(const auto reply, Exchange(*hello, StartSeconds(), ReadHello));
-  program_name = reply.name + " " + reply.version;
+  auto reply = Exchange(*hello, StartSeconds(), ReadHello);
+  if (!reply && reply.error().status == Status::kCrashed) reply.error().reason += kHint;
+  if (!reply) return tl::unexpected(std::move(reply).error());
+  program_name = reply->name + " " + reply->version;
   return {};
 }
 
@@ -205,7 +222,7 @@ Outcome<void> OutsideMethod::State::TellSetting(const std::string& id, const Pay
   auto files = AttachmentFolder::Write(attachment_root->path(), setting.files);
   if (!files) return OurFailure(files.error());
   setting_files = std::move(*files);
-  const auto line = SettingLine(id, *setting.json, setting_files.path());
+  const auto line = SettingLine(IdOf('s', id), *setting.json, setting_files.path());
   if (!line) return OurFailure(line.error());
   RETURN_IF_ERROR(Exchange(*line, StartSeconds(), ReadReady));
   setting_in_force = id;

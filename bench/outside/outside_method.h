@@ -8,6 +8,7 @@
 #include "bench/model/payload.h"
 #include "bench/model/row.h"
 #include "bench/process/fence.h"
+#include "sim/random/seed.h"
 
 namespace etude {
 
@@ -23,7 +24,11 @@ struct OutsideOptions {
   std::string error_file = {};       ///< its standard error is kept here, up to 1 MiB; "" = it shares ours
   /// Handshake and setting may take this long each, where time_s is less: programs load libraries and models then.
   double start_s = 30;
-  Fence fence = {};  ///< that it runs in
+  Fence fence = {};                     ///< that it runs in
+  std::vector<std::string> files = {};  ///< what the fence shows it (ProgramView)
+  /// Keys the ids that stand for the names of settings and problems. Of a secret one, the program is started anew for
+  /// every setting: trials of several conditions share their dice, and one may give the answer of the other.
+  Seed seed = 1;
 };
 
 /// Seconds that Ask may take at most, with the start_s above: handshake, setting, problem, and the clearing away.

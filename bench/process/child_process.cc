@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <linux/close_range.h>
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -28,7 +29,8 @@ bool IsProgram(const std::string& path) {
   return ::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) && ::access(path.c_str(), X_OK) == 0;
 }
 
-constexpr int kChunksPerReceive = 16;  // a child that never stops talking must not keep us from looking at the clock
+constexpr int kTold = STDERR_FILENO + 1;  // the descriptor of ChildOptions::told
+constexpr int kChunksPerReceive = 16;     // a child that never stops talking must not keep us from looking at the clock
 
 std::vector<char*> Pointers(std::vector<std::string>& texts) {
   std::vector<char*> pointers;
@@ -65,7 +67,7 @@ void LimitProgram() {
 
 /// Turns a forked child into the program. Only system calls are safe here.
 [[noreturn]] void BecomeProgram(const char* path, char* const* argv, char* const* envp, int input, int output,
-                                int errors, int report, pid_t parent, bool limited) {
+                                int errors, int told, int report, pid_t parent, bool limited) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // orphans below it stay below it, where they can be found
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -75,11 +77,24 @@ void LimitProgram() {
   ::dup2(input, STDIN_FILENO);
   ::dup2(output, STDOUT_FILENO);
   if (errors >= 0) ::dup2(errors, STDERR_FILENO);
-  ::close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);
+  if (report == kTold) report = ::dup(report);
+  if (told >= 0) ::dup2(told, kTold);
+  ::close_range(told >= 0 ? kTold + 1 : kTold, ~0U, CLOSE_RANGE_CLOEXEC);
+  if (told == kTold) ::fcntl(kTold, F_SETFD, 0);
   ::execve(path, argv, envp);
   const int reason = errno;
   if (::write(report, &reason, sizeof reason) < 0) ::_exit(126);
   ::_exit(127);
+}
+
+/// A file in memory that holds `text`, to be read from its beginning.
+Result<Descriptor> HoldText(std::string_view text) {
+  Descriptor held(::memfd_create("told", MFD_CLOEXEC));
+  if (held.number() < 0 || ::write(held.number(), text.data(), text.size()) != static_cast<ssize_t>(text.size()) ||
+      ::lseek(held.number(), 0, SEEK_SET) != 0) {
+    return Fail({}, "what a program is told cannot be held: {}", std::strerror(errno));
+  }
+  return held;
 }
 
 /// The children of this process that are spoken to. Where it adopts orphans, all others are such.
@@ -146,10 +161,15 @@ Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
     errors = Descriptor(::open(options.error_file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666));
     if (errors.number() < 0) return Fail({options.error_file, 0, 0}, "cannot write: {}", std::strerror(errno));
   }
+  Descriptor told;
+  if (!options.told.empty()) {
+    ASSIGN_OR_RETURN(told, HoldText(options.told));
+  }
   // Everything that allocates happens before fork: between fork and exec only system calls are safe.
   std::vector<std::string> argument_texts = {options.program};
   argument_texts.insert(argument_texts.end(), options.arguments.begin(), options.arguments.end());
   std::vector<std::string> environment_texts = ClosedEnvironment();
+  if (options.limited) std::erase_if(environment_texts, [](const auto& text) { return text.starts_with("PWD="); });
   const std::vector<char*> argv = Pointers(argument_texts);
   const std::vector<char*> envp = Pointers(environment_texts);
   ::signal(SIGPIPE, SIG_IGN);
@@ -157,7 +177,7 @@ Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
   const pid_t pid = ::fork();
   if (pid == 0) {
     BecomeProgram(path.c_str(), argv.data(), envp.data(), input->read.number(), output->write.number(), errors.number(),
-                  report->write.number(), parent, options.limited);
+                  told.number(), report->write.number(), parent, options.limited);
   }
   if (pid < 0) return Fail({}, "no process can be started: {}", std::strerror(errno));
   ManagedChildren().insert(pid);

@@ -29,7 +29,8 @@ struct ChildOptions {
   std::string program;  ///< a path, or a name to be found in PATH
   std::vector<std::string> arguments = {};
   std::string error_file = {};  ///< its standard error is appended here; "" = it shares ours
-  bool limited = false;         ///< it is not ours: it gains no privileges and is kept within ProgramLimits
+  bool limited = false;   ///< it is not ours: it gains no privileges, is kept within ProgramLimits, not told our folder
+  std::string told = {};  ///< what it can read from descriptor 3; "" = it has none
 };
 
 /// Makes what a child leaves behind from now on a child of this process, which ends it with the child. For processes

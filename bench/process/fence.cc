@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
+#include <map>
 
 #include "bench/process/child_process.h"
 
@@ -17,23 +17,14 @@ namespace fs = std::filesystem;
 
 constexpr int kTrialMs = 5000;
 
-/// Replaced by folders to write to: what others keep there is none of its business.
+/// What every program sees: the system's programs, libraries and settings.
+constexpr std::array kSystem = {"/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/etc", "/opt", "/nix"};
+/// Folders to write to, empty at first.
 constexpr std::array kScratch = {"/tmp", "/var/tmp", "/dev/shm"};
-/// Holds the sockets of the system's services, which a network namespace does not close.
-constexpr const char* kSockets = "/run";
 
-bool IsFolder(const fs::path& path) {
-  std::error_code error;
-  return fs::is_directory(fs::symlink_status(path, error));
-}
-
-/// The part of a path just below the replaced folder that it lies in; else "".
-fs::path TopBelowReplaced(const fs::path& path) {
-  for (const char* replaced : {kScratch[0], kScratch[1], kScratch[2], kSockets}) {
-    const fs::path inside = path.lexically_relative(replaced);
-    if (!inside.empty() && *inside.begin() != ".." && *inside.begin() != ".") return replaced / *inside.begin();
-  }
-  return {};
+bool IsWithin(const fs::path& path, const fs::path& folder) {
+  const auto [at_folder, at_path] = std::ranges::mismatch(folder, path);
+  return at_folder == folder.end();
 }
 
 void Add(std::vector<std::string>& words, std::initializer_list<std::string> more) {
@@ -50,8 +41,10 @@ std::vector<std::string> Limiter() {
 }
 
 /// The first line that a command says; "" when it says none in time.
-std::string FirstLineOf(const std::vector<std::string>& command) {
-  auto child = ChildProcess::Start({.program = command[0], .arguments = {command.begin() + 1, command.end()}});
+std::string FirstLineOf(const FencedCommand& command) {
+  auto child = ChildProcess::Start({.program = command.words[0],
+                                    .arguments = {command.words.begin() + 1, command.words.end()},
+                                    .told = command.told});
   if (!child) return ToString(child.error());
   pollfd watched{child->output(), POLLIN, 0};
   for (bool open = true; open && ::poll(&watched, 1, kTrialMs) > 0;) {
@@ -79,48 +72,68 @@ Fence Fence::Find() {
   Fence fence = Of(*program);
   // It tells its version from within the whole fence. A refusal is told on standard error.
   std::vector<std::string> trial = {*shell, "-c", R"(exec "$0" "$@" 2>&1)"};
-  const std::vector<std::string> fenced = fence.Around({*program, "--version"}, {});
-  trial.insert(trial.end(), fenced.begin(), fenced.end());
-  const std::string said = FirstLineOf(trial);
+  const FencedCommand fenced = fence.Around({*program, "--version"}, {});
+  trial.insert(trial.end(), fenced.words.begin(), fenced.words.end());
+  const std::string said = FirstLineOf({std::move(trial), fenced.told});
   fence.description_ = said;
   if (said.starts_with("bubblewrap ")) return fence;
   none.description_ = fmt::format("none ({})", said.empty() ? "bubblewrap says nothing" : said);
   return none;
 }
 
-std::vector<std::string> Fence::Around(const std::vector<std::string>& command,
-                                       const std::vector<fs::path>& shown) const {
-  if (!IsUp()) return command;
-  std::vector<std::string> words = {program_};
-  Add(words, {"--unshare-user", "--unshare-pid", "--unshare-ipc", "--unshare-net", "--unshare-uts"});
-  Add(words, {"--unshare-cgroup-try", "--disable-userns", "--cap-drop", "ALL", "--new-session", "--die-with-parent"});
-  Add(words, {"--ro-bind", "/", "/", "--dev", "/dev", "--proc", "/proc"});
-  const std::string scratch_bytes = std::to_string(ProgramLimits::kFileBytes);
-  for (const char* folder : kScratch) {
-    if (IsFolder(folder)) Add(words, {"--size", scratch_bytes, "--tmpfs", folder});
-  }
-  Add(words, {"--remount-ro", "/dev", "--tmpfs", kSockets, "--setenv", "TMPDIR", kScratch[0]});
+bool Fence::IsOfSystem(const fs::path& path) {
+  return std::ranges::any_of(kSystem, [&](const char* folder) { return IsWithin(path, folder); });
+}
 
+bool Fence::HoldsScratch(const fs::path& folder) {
+  return std::ranges::any_of(kScratch, [&](const char* scratch) { return IsWithin(scratch, folder); });
+}
+
+FencedCommand Fence::Around(const std::vector<std::string>& command, const std::vector<fs::path>& shown,
+                            const fs::path& start) const {
+  if (!IsUp()) return {command};
+  std::vector<std::string> words = {"--unshare-user", "--unshare-pid", "--unshare-ipc", "--unshare-net"};
+  Add(words, {"--unshare-uts", "--unshare-cgroup-try", "--disable-userns", "--cap-drop", "ALL"});
+  Add(words, {"--new-session", "--die-with-parent", "--dev", "/dev", "--proc", "/proc"});
+  Add(words, {"--ro-bind-try", "/sys/devices/system", "/sys/devices/system"});
+  const std::string scratch_bytes = std::to_string(ProgramLimits::kFileBytes);
+  for (const char* folder : kScratch) Add(words, {"--size", scratch_bytes, "--tmpfs", folder});
+  Add(words, {"--dir", "/run", "--setenv", "TMPDIR", kScratch[0], "--setenv", "HOME", kScratch[0]});
   std::error_code error;
-  const fs::path here = fs::current_path(error);
-  std::set<fs::path> seen(shown.begin(), shown.end());
-  seen.insert(TopBelowReplaced(here));
-  for (const std::string& word : command) {
-    const fs::path path = (here / word).lexically_normal();
-    if (fs::exists(path, error)) seen.insert(TopBelowReplaced(path));
+  for (const char* folder : kSystem) {
+    const bool is_link = fs::is_symlink(folder, error);
+    const std::string target = is_link ? fs::read_symlink(folder, error).string() : folder;
+    Add(words, {is_link ? "--symlink" : "--ro-bind-try", target, folder});
   }
-  for (const fs::path& path : seen) {
-    if (!path.empty()) Add(words, {"--ro-bind", path.string(), path.string()});
+  // In this order a folder comes before what it holds. What lies in no folder that is seen needs no hiding, which would
+  // tell its name.
+  std::map<fs::path, bool> is_shown;
+  for (const fs::path& path : shown) is_shown.emplace(path, true);
+  for (const fs::path& path : hidden_) {
+    const bool is_seen = IsOfSystem(path) || std::ranges::any_of(shown, [&](const fs::path& one) {
+                           return IsWithin(path, one) && !HoldsScratch(path);
+                         });
+    if (is_seen && fs::exists(path, error)) is_shown.insert_or_assign(path, false);
   }
-  for (const fs::path& folder : hidden_) {
-    const bool holds_here = *here.lexically_relative(folder).begin() != "..";  // it must be seen then
-    if (!holds_here) Add(words, {"--tmpfs", folder.string(), "--remount-ro", folder.string()});
+  std::vector<std::string> masks;
+  for (const auto& [path, is_seen] : is_shown) {
+    if (is_seen) {
+      Add(words, {"--ro-bind", path.string(), path.string()});
+    } else if (fs::is_directory(path, error)) {
+      Add(words, {"--tmpfs", path.string()});
+      Add(masks, {"--remount-ro", path.string()});
+    } else {
+      Add(words, {"--ro-bind", "/dev/null", path.string()});
+    }
   }
-  Add(words, {"--remount-ro", kSockets, "--chdir", here.string(), "--"});
+  words.insert(words.end(), masks.begin(), masks.end());
+  Add(words, {"--remount-ro", "/dev", "--remount-ro", "/", "--chdir", start.empty() ? kScratch[0] : start.string()});
+  FencedCommand fenced{{program_, "--args", "3", "--"}};
+  for (const std::string& word : words) fenced.told += word + '\0';
   const std::vector<std::string> limiter = Limiter();
-  words.insert(words.end(), limiter.begin(), limiter.end());
-  words.insert(words.end(), command.begin(), command.end());
-  return words;
+  fenced.words.insert(fenced.words.end(), limiter.begin(), limiter.end());
+  fenced.words.insert(fenced.words.end(), command.begin(), command.end());
+  return fenced;
 }
 
 }  // namespace etude

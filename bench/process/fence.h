@@ -6,9 +6,16 @@
 
 namespace etude {
 
+/// The words that run a program behind a fence, and what bubblewrap is told besides: what programs inside could read in
+/// its command line must not name our folders.
+struct FencedCommand {
+  std::vector<std::string> words;  ///< a path and arguments
+  std::string told = {};           ///< what descriptor 3 gives (ChildOptions::told)
+};
+
 /// A fence around programs that are not ours, made by bubblewrap where the kernel lets it: user, process, mount, ipc
-/// and network namespaces of their own, no capabilities, a read-only view of the system, and scratch folders that go
-/// with them (docs/outside-methods.md).
+/// and network namespaces of their own, no capabilities, and of all files only the system's, what they are shown, both
+/// read-only, and scratch folders that go with them (docs/outside-methods.md).
 class Fence {
  public:
   /// No fence: programs run as we do.
@@ -17,6 +24,10 @@ class Fence {
   static Fence Find();
   /// The fence that another process has found: its `program`.
   static Fence Of(const std::string& program);
+  /// Tells whether every program sees a path, as part of the system.
+  static bool IsOfSystem(const std::filesystem::path& path);
+  /// Tells whether a folder holds one that programs have to write to, so that it cannot be shown as it is.
+  static bool HoldsScratch(const std::filesystem::path& folder);
 
   bool IsUp() const { return !program_.empty(); }
   /// The path of bubblewrap; "" = no fence.
@@ -24,14 +35,14 @@ class Fence {
   /// "bubblewrap 0.8.0"; "none (not asked for)".
   const std::string& description() const { return description_; }
 
-  /// Has programs inside see `folder` empty. It must exist when they start.
-  void Hide(const std::filesystem::path& folder) { hidden_.push_back(folder); }
+  /// Has programs inside see a folder empty, and a file not at all, even where the system or what is shown holds it.
+  void Hide(const std::filesystem::path& path) { hidden_.push_back(path); }
   const std::vector<std::filesystem::path>& hidden() const { return hidden_; }
 
-  /// The words that run `command`, a path and arguments, inside; `command` itself without a fence. Of the folders for
-  /// temporary files it sees `shown`, what holds our working folder, and the files that it names.
-  std::vector<std::string> Around(const std::vector<std::string>& command,
-                                  const std::vector<std::filesystem::path>& shown) const;
+  /// The words that run `command`, a path and arguments, inside, in the folder `start` ("" = /tmp); `command` itself
+  /// without a fence. It sees `shown`, files and folders by absolute paths, beside the system.
+  FencedCommand Around(const std::vector<std::string>& command, const std::vector<std::filesystem::path>& shown,
+                       const std::filesystem::path& start = {}) const;
 
  private:
   std::string program_;

@@ -33,7 +33,7 @@ bool IsClosed() {
   for (char** entry = environ; *entry != nullptr; ++entry) {
     if (Holds(PinnedEnvironment(), *entry)) {
       ++pinned;
-    } else if (!Holds(PassedVariables(), NameOf(*entry))) {
+    } else if (!Holds(PassedVariables(), NameOf(*entry)) && NameOf(*entry) != kKeyVariable) {
       return false;
     }
   }
@@ -123,6 +123,7 @@ Result<void> EnterPinnedEnvironment() {
   if (is_restarted) return Fail({}, "the pinned environment cannot be set for this process");
   std::vector<std::string> environment = ClosedEnvironment();
   environment.push_back(restarted);
+  if (const char* key = std::getenv(kKeyVariable)) environment.push_back(std::string(kKeyVariable) + "=" + key);
   std::vector<char*> variables;
   for (std::string& assignment : environment) variables.push_back(assignment.data());
   variables.push_back(nullptr);

@@ -12,6 +12,9 @@ namespace etude {
 /// process starts, which is why commands that compute start themselves anew (cli/main.cc).
 const std::vector<std::string>& PinnedEnvironment();
 
+/// The variable that may hold the key of secret worlds (bench/run/secret_key.h). No child is given it.
+inline constexpr const char* kKeyVariable = "ETUDE_SEED_KEY";
+
 /// The names of what may come from outside: where programs, homes and temporary files are, who asks, the terminal, and
 /// what sanitizers are told. Nothing of these reaches a result.
 const std::vector<std::string>& PassedVariables();

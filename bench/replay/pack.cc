@@ -153,13 +153,15 @@ Result<void> PackCell(const std::string& folder, const std::string& cell, const 
   const auto place = FindRow(run, cell);
   if (!place) return Fail({folder, 0, 0}, "holds no cell '{}'", cell);
   const Row row = RowAt(run, *place);
-  ASSIGN_OR_RETURN(auto whole, PrepareRun(fs::path(folder) / "manifest.json"));
-  const std::vector<PreparedScenario>& scenarios = whole.scenarios;
+  // No dice are thrown: of secret worlds, the key is needed when the cell is replayed.
+  const fs::path manifest = fs::path(folder) / "manifest.json";
+  ASSIGN_OR_RETURN(SuiteSetup suite, ReadManifest(manifest));
+  ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(suite));
+  RETURN_IF_ERROR(CheckClips(manifest, scenarios));
   const auto prepared = std::find_if(scenarios.begin(), scenarios.end(), [&](const PreparedScenario& scenario) {
     return scenario.scenario().name == row.scenario;
   });
   if (prepared == scenarios.end()) return Fail({folder, 0, 0}, "names no scenario '{}'", row.scenario);
-  SuiteSetup suite = whole.suite;
   ASSIGN_OR_RETURN(auto clips, PackMotions(*prepared));
   if (suite.scored && row.method == suite.scored->name) {
     return Fail({folder, 0, 0}, "'{}' is an answer that was scored, not run", cell);
@@ -176,13 +178,15 @@ Result<void> PackCell(const std::string& folder, const std::string& cell, const 
 }
 
 Result<std::optional<CellCheck>> ReplayPack(const std::string& file, const OutsideRules& outside,
-                                            const std::atomic<bool>* stop) {
+                                            const std::optional<SecretKey>& key, const std::atomic<bool>* stop) {
   ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(file));
   ASSIGN_OR_RETURN(auto pack, ReadPack(bytes, file));
+  RETURN_IF_ERROR(OpenSeeds(key, {file}, pack.suite));
   ASSIGN_OR_RETURN(const auto folder, TemporaryFolder::Make("replay"));
   RETURN_IF_ERROR(UnpackMotions(pack, file, folder.path()));
   ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(pack.suite));
   RETURN_IF_ERROR(CheckPrograms(file, scenarios, outside));
+  ASSIGN_OR_RETURN(const Fence fence, FenceFor(scenarios, outside, "", key));
   const Plan plan(scenarios);
   std::size_t cell = 0;
   while (cell < plan.cell_count() && plan.IdentityOf(cell).Id() != pack.row.Id()) ++cell;
@@ -190,11 +194,7 @@ Result<std::optional<CellCheck>> ReplayPack(const std::string& file, const Outsi
   const std::size_t world = plan.WorldOf(cell);
   std::optional<CellCheck> check;
   RETURN_IF_ERROR(RunOrders(pack.suite, plan, {{world, {cell - plan.CellAt(world, 0)}}},
-                            {.program = ThisProgram(),
-                             .error_folder = "",
-                             .fence = FenceFor(scenarios, outside, ""),
-                             .jobs = 1,
-                             .stop = stop},
+                            {.program = ThisProgram(), .error_folder = "", .fence = fence, .jobs = 1, .stop = stop},
                             [&](const DeliveredCell& again) -> Result<void> {
                               ASSIGN_OR_RETURN(const auto finished, again.Read(plan));
                               check = CompareRows(pack.row, finished.row);

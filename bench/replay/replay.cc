@@ -153,14 +153,14 @@ CellCheck CompareRows(const Row& then, const Row& now) {
 
 Result<std::vector<CellCheck>> ReplayRun(const ReplayOptions& options) {
   ASSIGN_OR_RETURN(const auto run, LoadRun(options.folder, options.sealing));
-  ASSIGN_OR_RETURN(const auto prepared, PrepareRun(fs::path(options.folder) / "manifest.json"));
+  ASSIGN_OR_RETURN(const auto prepared, PrepareRun(fs::path(options.folder) / "manifest.json", options.key));
   const Plan plan(prepared.scenarios);
   if (CountRows(run) != plan.cell_count()) {
     return Fail({options.folder, 0, 0}, "has {} rows; its manifest makes {}", CountRows(run), plan.cell_count());
   }
   ASSIGN_OR_RETURN(const auto chosen, ChooseCells(options, run, prepared));
   if (!options.without_programs) RETURN_IF_ERROR(CheckPrograms(options.folder, prepared.scenarios, options.outside));
-  const Fence fence = FenceFor(prepared.scenarios, options.outside, options.folder);
+  ASSIGN_OR_RETURN(const Fence fence, FenceFor(prepared.scenarios, options.outside, options.folder, options.key));
   std::map<std::size_t, CellCheck> checks;
   const auto whole = RunOrders(
       prepared.suite, plan, OrdersOf(plan, chosen),

@@ -36,6 +36,7 @@ struct ReplayOptions {
   bool without_programs = false;   ///< leaves out cells of methods outside
   int jobs = 0;                    ///< 0 = one per processor
   OutsideRules outside;
+  std::optional<SecretKey> key = {};  ///< of secret worlds
   Sealing sealing = Sealing::kRequired;
   const std::atomic<bool>* stop = nullptr;
 };
@@ -53,6 +54,7 @@ Result<void> PackCell(const std::string& folder, const std::string& cell, const 
 
 /// Runs the cell of such a file again. Nothing when it is stopped.
 Result<std::optional<CellCheck>> ReplayPack(const std::string& file, const OutsideRules& outside = {},
+                                            const std::optional<SecretKey>& key = {},
                                             const std::atomic<bool>* stop = nullptr);
 
 }  // namespace etude

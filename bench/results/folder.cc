@@ -14,6 +14,7 @@
 #include "bench/results/summary_json.h"
 #include "engine/base/digest.h"
 #include "engine/base/named.h"
+#include "sim/random/seed.h"
 
 namespace etude {
 namespace {
@@ -89,7 +90,17 @@ Result<void> LoadManifest(const fs::path& folder, RunData& run) {
     const int schema = manifest.at("schema").get<int>();
     if (schema != kResultSchema) return Fail(place, "schema {}; this program reads {}", schema, kResultSchema);
     run.suite = manifest.at("suite").get<std::string>();
-    run.seed = manifest.at("seed").get<std::uint64_t>();
+    const Json& seed = manifest.at("seed");
+    ASSIGN_OR_RETURN(const Seed keyed,
+                     seed.is_string() ? ParseSeed(seed.get<std::string>()) : Result<Seed>(seed.get<std::uint64_t>()));
+    run.seed = keyed.Public();
+    run.key_digest = keyed.Digest();
+    run.fence = host.value("fence", "");
+    for (const Json& shard : host.value("shards", Json::array())) {
+      if (const std::string fence = shard.value("fence", ""); run.fence.empty() || fence.starts_with("none")) {
+        run.fence = fence;
+      }
+    }
     run.program_version = manifest.at("etude").get<std::string>();
     run.command_line = host.at("command_line").get<std::string>();
     run.host = host.at("host").get<std::string>();

@@ -78,7 +78,9 @@ CellRunner::CellRunner(const PreparedScenario& scenario, std::string error_folde
                                        .time_s = method.time_s.value_or(told.limits.time_s),
                                        .memory_mb = told.limits.memory_mb,
                                        .error_file = ErrorFileOf(error_folder_, scenario, method),
-                                       .fence = fence}));
+                                       .fence = fence,
+                                       .files = method.files,
+                                       .seed = scenario.setup().seed}));
   }
 }
 

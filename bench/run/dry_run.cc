@@ -44,7 +44,7 @@ Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
   ASSIGN_OR_RETURN(const auto suite, ReadSuiteToRun(options));
   ASSIGN_OR_RETURN(const auto scenarios, PrepareToRun(suite, options));
   Forecast forecast{.scenarios = {}, .workers = WorkerCount(options.jobs)};
-  const Fence fence = FenceFor(scenarios, options.outside, "");
+  ASSIGN_OR_RETURN(const Fence fence, FenceFor(scenarios, options.outside, "", options.key));
   const auto start = Clock::now();
   double total = 0;
   for (std::size_t i = 0; i < scenarios.size(); ++i) {

@@ -191,8 +191,9 @@ Result<void> CheckClips(const std::filesystem::path& path, std::span<const Prepa
   return {};
 }
 
-Result<PreparedRun> PrepareRun(const std::filesystem::path& manifest) {
+Result<PreparedRun> PrepareRun(const std::filesystem::path& manifest, const std::optional<SecretKey>& key) {
   ASSIGN_OR_RETURN(auto suite, ReadManifest(manifest));
+  RETURN_IF_ERROR(OpenSeeds(key, {manifest.string()}, suite));
   ASSIGN_OR_RETURN(auto scenarios, PrepareAll(suite));
   RETURN_IF_ERROR(CheckClips(manifest, scenarios));
   return PreparedRun{std::move(suite), std::move(scenarios)};

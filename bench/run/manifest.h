@@ -7,6 +7,7 @@
 
 #include "bench/files/json.h"
 #include "bench/run/plan.h"
+#include "bench/run/secret_key.h"
 
 namespace etude {
 
@@ -26,7 +27,8 @@ struct PreparedRun {
 };
 
 /// Makes ready what a manifest describes, with the very clips that it had then.
-Result<PreparedRun> PrepareRun(const std::filesystem::path& manifest);
+/// Secret worlds need their key.
+Result<PreparedRun> PrepareRun(const std::filesystem::path& manifest, const std::optional<SecretKey>& key = {});
 
 /// A value of a manifest that is another in a second one.
 struct JsonDifference {

@@ -106,7 +106,7 @@ Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(d
   const Clock::time_point start = Clock::now();
   ASSIGN_OR_RETURN(auto shards, FindShards(options.folders, options.other_libraries));
   if (shards.folders.empty()) return Fail({}, "there is nothing to merge: {}", Join(shards.missing, "; "));
-  ASSIGN_OR_RETURN(const auto prepared, PrepareRun(shards.folders.begin()->second / "manifest.json"));
+  ASSIGN_OR_RETURN(const auto prepared, PrepareRun(shards.folders.begin()->second / "manifest.json", options.key));
   const Plan plan(prepared.scenarios);
   CellTable cells(plan.cell_count());
   Json hosts = Json::array();

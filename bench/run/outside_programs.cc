@@ -2,7 +2,12 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
+
+#include "bench/outside/program_view.h"
+#include "bench/process/child_process.h"
 
 namespace etude {
 
@@ -26,12 +31,91 @@ Result<void> CheckPrograms(const std::string& file, std::span<const PreparedScen
   return Fail({file, 0, 0}, "would run programs, which --allow-exec allows: {}", fmt::join(programs, "; "));
 }
 
-Fence FenceFor(std::span<const PreparedScenario> scenarios, const OutsideRules& rules, const fs::path& folder) {
-  if (!rules.is_fenced || ProgramsOf(scenarios).empty()) return {};
-  Fence fence = Fence::Find();
-  if (std::error_code error; fence.IsUp() && fs::is_directory(folder, error)) {
-    fence.Hide(fs::absolute(folder).lexically_normal());
+namespace {
+
+/// Where Etude's own program and data, and clips that anybody has, may lie in the system.
+constexpr std::array kHiddenInSystem = {"/usr/bin/etude", "/usr/local/bin/etude", "/usr/share/etude",
+                                        "/usr/local/share/etude", "/usr/share/assimp"};
+
+fs::path Canonical(const fs::path& path) {
+  std::error_code error;
+  const fs::path canonical = fs::weakly_canonical(fs::absolute(path, error), error);
+  return canonical.has_filename() ? canonical : canonical.parent_path();
+}
+
+bool Holds(const fs::path& folder, const fs::path& path) {
+  return std::ranges::mismatch(folder, path).in1 == folder.end();
+}
+
+/// Tells whether a folder of the system may be hidden whole: it is one of ours, such as /opt/NAME or /usr/src/NAME.
+bool IsOursInSystem(const fs::path& folder, const fs::path& program) {
+  const auto depth = std::distance(folder.begin(), folder.end());
+  return Fence::IsOfSystem(folder) && depth >= (Holds("/opt", folder) ? 3 : 4) && !Holds(folder, program);
+}
+
+/// Refuses what a method of secret worlds would be shown and must not see.
+Result<void> CheckShown(const PreparedScenario& scenario, const MethodEntry& method, const ProgramView& view,
+                        const fs::path& folder, const std::optional<SecretKey>& key) {
+  const std::pair<const char*, fs::path> secrets[] = {
+      {"the scenario", scenario.setup().file}, {"the run's folder", folder}, {"the key", key ? key->file : fs::path()}};
+  for (const fs::path& shown : view.shown) {
+    for (const auto& [what, path] : secrets) {
+      if (path.empty() || !Holds(Canonical(shown), Canonical(path))) continue;
+      return Fail({scenario.setup().file},
+                  "method '{}' would be shown '{}', which holds {} of secret worlds ('{}'); its key 'files' lists what "
+                  "it needs",
+                  method.name, shown.string(), what, path.string());
+    }
   }
+  return {};
+}
+
+/// Refuses files that are not there.
+Result<void> CheckFiles(const PreparedScenario& scenario, const MethodEntry& method) {
+  std::error_code error;
+  for (const std::string& file : method.files) {
+    if (Fence::HoldsScratch(Canonical(file))) {
+      return Fail({scenario.setup().file}, "'files' of method '{}': '{}' holds a folder that programs write to",
+                  method.name, file);
+    }
+    if (fs::exists(file, error)) continue;
+    return Fail({scenario.setup().file}, "'files' of method '{}': '{}' is no file or folder", method.name, file);
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const OutsideRules& rules, const fs::path& folder,
+                       const std::optional<SecretKey>& key) {
+  if (ProgramsOf(scenarios).empty()) return Fence();
+  Fence fence = rules.is_fenced ? Fence::Find() : Fence();
+  std::error_code error;
+  std::vector<fs::path> ours = {fs::current_path(error)};
+  for (const PreparedScenario& scenario : scenarios) {
+    const bool is_secret = !scenario.setup().seed.IsPlain();
+    ours.push_back(Canonical(scenario.setup().file).parent_path());
+    for (const MethodEntry& method : scenario.scenario().methods) {
+      if (method.exec.empty()) continue;
+      RETURN_IF_ERROR(CheckFiles(scenario, method));
+      std::vector<std::string> command = method.exec;
+      if (const auto program = FindProgram(command.front())) command.front() = *program;
+      for (const fs::path& mine : ours) {
+        if (IsOursInSystem(mine, Canonical(command.front()))) fence.Hide(mine);
+      }
+      if (!is_secret || !rules.is_fenced) continue;
+      if (!fence.IsUp()) {
+        return Fail({scenario.setup().file},
+                    "its worlds are secret, and there is no fence around methods outside: {}; --no-fence runs them "
+                    "without one, and the page says so",
+                    fence.description());
+      }
+      RETURN_IF_ERROR(CheckShown(scenario, method, ViewOf(command, method.files), folder, key));
+    }
+  }
+  for (const char* path : kHiddenInSystem) fence.Hide(path);
+  fence.Hide(fs::read_symlink("/proc/self/exe", error));
+  if (!folder.empty()) fence.Hide(fs::absolute(folder).lexically_normal());
   return fence;
 }
 

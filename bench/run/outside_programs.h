@@ -7,6 +7,7 @@
 
 #include "bench/files/json.h"
 #include "bench/process/fence.h"
+#include "bench/run/secret_key.h"
 #include "bench/run/setup.h"
 
 namespace etude {
@@ -24,10 +25,11 @@ std::vector<std::string> ProgramsOf(std::span<const PreparedScenario> scenarios)
 Result<void> CheckPrograms(const std::string& file, std::span<const PreparedScenario> scenarios,
                            const OutsideRules& rules);
 
-/// The fence for the methods outside of these scenarios, which shall not see `folder`. It is looked for only where
-/// there are such methods.
-Fence FenceFor(std::span<const PreparedScenario> scenarios, const OutsideRules& rules,
-               const std::filesystem::path& folder);
+/// The fence for the methods outside of these scenarios, which shall not see the run's `folder` ("" = there is none).
+/// It is looked for only where there are such methods. Under a secret seed, a machine without a fence is refused unless
+/// none is asked for, and so are methods that would be shown a scenario, the folder or the file of the key.
+Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const OutsideRules& rules,
+                       const std::filesystem::path& folder, const std::optional<SecretKey>& key);
 
 /// For a worker's set-up.
 Json EncodeFence(const Fence& fence);

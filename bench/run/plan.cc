@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <tuple>
 #include <utility>
+
+#include "sim/random/stream.h"
 
 namespace etude {
 
@@ -54,6 +57,16 @@ std::vector<Order> Plan::OrdersFor(const Shard& shard, const std::vector<bool>& 
     }
     if (!order.methods.empty()) orders.push_back(std::move(order));
   }
+  if (std::ranges::all_of(scenarios_, [](const auto& one) { return one.setup().seed.IsPlain(); })) return orders;
+  // Secret trials are put in an order of their own: a method that counts them learns nothing.
+  const auto rank = [this](const Order& order) {
+    const World& world = worlds_[order.world];
+    const PreparedScenario& scenario = scenarios_[world.scenario];
+    const bool is_plain = scenario.setup().seed.IsPlain();
+    return std::tuple(world.scenario, world.condition,
+                      is_plain ? 0 : RandomStream(scenario.KeyOf(world.trial), "exchange/order").Bits());
+  };
+  std::ranges::stable_sort(orders, {}, rank);
   return orders;
 }
 
@@ -64,6 +77,7 @@ OrderQueue::OrderQueue(const Plan& plan, std::vector<Order> orders, std::functio
     const bool is_same = !conditions_.empty() && conditions_.back().scenario == world.scenario &&
                          plan.world(conditions_.back().first_world).condition == world.condition;
     if (!is_same) conditions_.push_back({world.scenario, order.world});
+    conditions_.back().first_world = std::min(conditions_.back().first_world, order.world);
     conditions_.back().orders.push_back(std::move(order));
   }
 }

@@ -23,7 +23,8 @@ fs::path FolderFor(const RunOptions& options, const SuiteSetup& suite) {
   if (!options.output.empty()) return options.output;
   const std::string part =
       options.shard.IsWhole() ? "" : fmt::format("-{}-of-{}", options.shard.index, options.shard.count);
-  return fmt::format("out/{}-{}{}", suite.suite, suite.seed, part);
+  const std::string seed = suite.seed.IsPlain() ? ToString(suite.seed) : "secret-" + suite.seed.Digest().substr(0, 8);
+  return fmt::format("out/{}-{}{}", suite.suite, seed, part);
 }
 
 /// Fails unless the folder may be written into as the options want it.
@@ -43,6 +44,9 @@ Result<void> CheckManifest(const fs::path& folder, const std::string& manifest, 
   if (found == manifest) return {};
   ASSIGN_OR_RETURN(const auto then, ReadJson(found, path.string()));
   ASSIGN_OR_RETURN(const auto now, ReadJson(manifest, ""));
+  if (then.is_object() && then.value("seed", Json()).is_string() && now.at("seed").is_number()) {
+    return Fail({path.string()}, "its worlds are secret: to go on with it takes its key again (--seed-file)");
+  }
   const std::vector<JsonDifference> differences = CompareManifests(then, now);
   if (!AreOfLibraries(differences)) {
     return Fail({path.string()}, "is of another run: {}; only the same run can be resumed", InWords(differences));
@@ -172,6 +176,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   const fs::path folder = FolderFor(options, suite);
   ASSIGN_OR_RETURN(const auto state, CheckFolder(folder, options));
   ASSIGN_OR_RETURN(const auto scenarios, PrepareToRun(suite, options));
+  ASSIGN_OR_RETURN(const Fence fence, FenceFor(scenarios, options.outside, folder, options.key));
   const Plan plan(scenarios);
   ASSIGN_OR_RETURN(const auto manifest, WriteJson(MakeManifest(suite, scenarios, options.program_version)));
   ASSIGN_OR_RETURN(const auto build, BuildDigest());
@@ -188,7 +193,6 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   ASSIGN_OR_RETURN(auto opened, OpenJournal(folder, manifest + "\n", head, continues, options, plan, cells));
   std::vector<Order> orders = plan.OrdersFor(options.shard, cells.Done());
   const bool was_done = continues && orders.empty();
-  const Fence fence = FenceFor(scenarios, options.outside, folder);
   JournalRecorder recorder(cells, std::move(opened.journal), cells.AddFile(folder / kJournalFile), opened.before,
                            on_progress);
   const auto whole = RunOrders(suite, plan, std::move(orders),

@@ -10,6 +10,7 @@
 #include "bench/run/journal.h"
 #include "bench/run/outside_programs.h"
 #include "bench/run/plan.h"
+#include "bench/run/secret_key.h"
 #include "engine/base/result.h"
 
 namespace etude {
@@ -18,6 +19,7 @@ struct RunOptions {
   std::vector<std::string> scenarios;  ///< files, or folders of *.yaml; none with `from`
   std::string from;                    ///< the manifest.json of a run to be repeated
   std::optional<std::uint64_t> seed;   ///< else each scenario's own, else 1
+  std::optional<SecretKey> key = {};   ///< of secret worlds, in the place of a seed
   std::optional<int> trials;           ///< else each scenario's own
   std::vector<std::string> clips;      ///< replaces the scenarios' clips when not empty
   std::vector<std::string> libraries;  ///< NAME=CLIPS, beside the scenarios' libraries; one name may stand repeatedly
@@ -67,7 +69,8 @@ struct MergeOptions {
   std::vector<std::string> folders;  ///< of the shards 1/n … n/n, in any order
   std::string output;
   bool overwrite = false;
-  bool other_libraries = false;  ///< shards may have run under different libraries; the merged folder records it
+  std::optional<SecretKey> key = {};  ///< of secret worlds
+  bool other_libraries = false;       ///< shards may have run under different libraries; the merged folder records it
   std::string command_line;
   std::string program_version;
   const std::atomic<bool>* stop = nullptr;

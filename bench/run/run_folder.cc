@@ -108,7 +108,7 @@ Result<bool> FinishRun(const fs::path& folder, const Plan& plan, CellTable& cell
       table.Add(finished.row);
       RETURN_IF_ERROR(results.Add(finished.row, finished.usage));
     }
-    ASSIGN_OR_RETURN(auto summary, SumUp(study, table, plan.scenarios()[s].setup().seed, jobs));
+    ASSIGN_OR_RETURN(auto summary, SumUp(study, table, plan.scenarios()[s].setup().seed.Public(), jobs));
     summaries.push_back(std::move(summary));
   }
   if (!goes_on(cell)) return false;

@@ -67,6 +67,15 @@ std::vector<std::string> UnitsOf(const std::vector<std::string>& clips, Sampling
   return {names.begin(), names.end()};
 }
 
+Json EncodeSeed(const Seed& seed) { return seed.IsPlain() ? Json(seed.number()) : Json(ToString(seed)); }
+
+Result<Seed> DecodeSeed(const Json& json, const Place& place) {
+  if (!json.is_string()) return Seed(json.get<std::uint64_t>());
+  auto seed = ParseSeed(json.get<std::string>());
+  if (seed && !seed->IsPlain()) return seed;
+  return Fail(place, "'seed' must be a whole number, or 'secret' and a digest, found {}", json.dump());
+}
+
 }  // namespace
 
 Json EncodeSetup(const SuiteSetup& setup) {
@@ -74,7 +83,7 @@ Json EncodeSetup(const SuiteSetup& setup) {
   for (const ScenarioSetup& scenario : setup.scenarios) {
     scenarios.push_back({{"name", scenario.name},
                          {"file", scenario.file},
-                         {"seed", scenario.seed},
+                         {"seed", EncodeSeed(scenario.seed)},
                          {"trials", scenario.trials},
                          {"clips", scenario.clips},
                          {"joint_map", scenario.joint_map},
@@ -88,7 +97,7 @@ Json EncodeSetup(const SuiteSetup& setup) {
   Json sources = Json::object();
   for (const auto& [file, text] : setup.sources) sources[file] = text;
   Json json{{"suite", setup.suite},
-            {"seed", setup.seed},
+            {"seed", EncodeSeed(setup.seed)},
             {"scenarios", std::move(scenarios)},
             {"sources", std::move(sources)}};
   if (setup.scored) json["scored"] = {{"method", setup.scored->name}, {"alone", setup.scored->alone}};
@@ -109,15 +118,17 @@ Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
   SuiteSetup setup;
   try {
     setup.suite = json.at("suite").get<std::string>();
-    setup.seed = json.at("seed").get<std::uint64_t>();
+    ASSIGN_OR_RETURN(setup.seed, DecodeSeed(json.at("seed"), place));
     for (const auto& [file, text] : json.at("sources").items()) setup.sources[file] = text.get<std::string>();
     if (json.at("scenarios").empty()) return Fail(place, "names no scenario");
     for (const Json& scenario : json.at("scenarios")) {
       ASSIGN_OR_RETURN(const int trials, TrialsOf(scenario, place));
-      setup.scenarios.push_back({scenario.at("file").get<std::string>(), scenario.at("name").get<std::string>(),
-                                 scenario.at("seed").get<std::uint64_t>(), trials,
-                                 scenario.at("clips").get<std::vector<std::string>>(), scenario.value("joint_map", ""),
-                                 scenario.at("digest").get<std::string>()});
+      ASSIGN_OR_RETURN(const Seed seed, DecodeSeed(scenario.at("seed"), place));
+      if (!setup.seed.IsPlain() && seed != setup.seed) return Fail(place, "its scenarios are of another secret seed");
+      if (setup.seed.IsPlain() && !seed.IsPlain()) return Fail(place, "some of its seeds are secret, others are not");
+      setup.scenarios.push_back({scenario.at("file").get<std::string>(), scenario.at("name").get<std::string>(), seed,
+                                 trials, scenario.at("clips").get<std::vector<std::string>>(),
+                                 scenario.value("joint_map", ""), scenario.at("digest").get<std::string>()});
       setup.scenarios.back().streams = scenario.value("streams", std::vector<std::string>{});
       setup.scenarios.back().labels = scenario.value("labels", std::vector<std::string>{});
       for (const Json& library : scenario.value("libraries", Json::array())) {

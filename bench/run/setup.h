@@ -10,6 +10,7 @@
 #include "bench/scenario/scenario.h"
 #include "bench/streams/load.h"
 #include "bench/tasks/base/task.h"
+#include "sim/random/seed.h"
 
 namespace etude {
 
@@ -20,7 +21,7 @@ inline constexpr std::size_t kMostCells = 10'000'000;
 struct ScenarioSetup {
   std::string file;  ///< a key of SuiteSetup::sources
   std::string name;  ///< a file may hold several scenarios
-  std::uint64_t seed = 1;
+  Seed seed = 1;
   int trials = 1;
   std::vector<std::string> clips;          ///< references; the scenario's own, or those of --clips
   std::string joint_map;                   ///< a key of SuiteSetup::sources, "" = none
@@ -39,7 +40,7 @@ struct ScoredMethod {
 /// The set-up of a suite, which the manifest keeps and every worker is started with.
 struct SuiteSetup {
   std::string suite;
-  std::uint64_t seed = 1;
+  Seed seed = 1;
   SourceTexts sources;
   std::vector<ScenarioSetup> scenarios;
   std::optional<ScoredMethod> scored;  ///< a method of every scenario, too
@@ -50,6 +51,7 @@ struct SuiteSetup {
   std::map<std::string, std::vector<Scenario>> parsed = {};
 };
 
+/// Of secret seeds it writes the digest alone.
 Json EncodeSetup(const SuiteSetup& setup);
 /// Complains of what is no set-up, names no scenario, or asks for no trials or too many.
 Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place);

@@ -100,6 +100,12 @@ struct UsersOfFiles {
   std::set<std::string> clips, recordings;
 };
 
+/// The seed that options ask for, in the place of the scenarios'.
+std::optional<Seed> SeedOf(const RunOptions& options) {
+  if (options.key) return Seed::Secret(options.key->words);
+  return options.seed ? std::optional<Seed>(*options.seed) : std::nullopt;
+}
+
 /// A scenario of `file` with what the options put in the place of its own. The texts of what it names are kept among
 /// `sources`; what it has a use for is noted in `users`.
 Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const std::string& digest, int trials,
@@ -128,7 +134,7 @@ Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const s
   const std::string& joint_map = options.joint_map.empty() ? scenario.joint_map : options.joint_map;
   RETURN_IF_ERROR(KeepText(joint_map, sources));
   RETURN_IF_ERROR(KeepNamedFiles(scenario, sources));
-  ScenarioSetup setup{file,   scenario.name,      options.seed ? *options.seed : scenario.seed.value_or(1),
+  ScenarioSetup setup{file,   scenario.name,      SeedOf(options).value_or(scenario.seed.value_or(1)),
                       trials, std::move(clips),   joint_map,
                       digest, scenario.libraries, scenario.streams.files};
   ASSIGN_OR_RETURN(setup.labels, KeepLabels(scenario.streams.labels, sources));
@@ -187,7 +193,7 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
   ASSIGN_OR_RETURN(const auto libraries, ReadLibraryOptions(options.libraries));
   SuiteSetup suite;
   suite.suite = SuiteName(options.scenarios);
-  suite.seed = options.seed.value_or(1);
+  suite.seed = SeedOf(options).value_or(1);
   std::map<std::string, std::string> file_of_name;
   UsersOfFiles users;
   std::size_t cells = 0;
@@ -239,6 +245,7 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
 
 Result<SuiteSetup> ReadSuiteToRun(const RunOptions& options) {
   ASSIGN_OR_RETURN(auto suite, options.from.empty() ? ReadSuite(options) : ReadManifest(options.from));
+  if (!options.from.empty()) RETURN_IF_ERROR(OpenSeeds(options.key, {options.from}, suite));
   if (!suite.scored) return suite;
   return Fail({options.from, 0, 0}, "is of answers that were scored ('{}'), which cannot be run; etude score does it",
               suite.scored->name);

@@ -74,7 +74,8 @@ class Supervisor {
     AdoptOrphans();  // a worker that is killed leaves its methods outside to us
     ASSIGN_OR_RETURN(const auto setup_line, WriteJson({{"setup", EncodeSetup(setup)},
                                                        {"error_folder", options_.error_folder},
-                                                       {"fence", EncodeFence(options_.fence)}}));
+                                                       {"fence", EncodeFence(options_.fence)},
+                                                       {"key", setup.seed.IsPlain() ? "" : Hex(setup.seed.key())}}));
     setup_line_ = setup_line;
     const std::size_t jobs = std::min<std::size_t>(WorkerCount(options_.jobs), orders_.size());
     while (workers_.size() < jobs) {

@@ -12,6 +12,7 @@
 #include "bench/run/cell_line.h"
 #include "bench/run/cell_runner.h"
 #include "bench/run/outside_programs.h"
+#include "bench/run/secret_key.h"
 
 namespace etude {
 namespace {
@@ -55,8 +56,11 @@ int RunWorker(std::istream& in, std::ostream& out) {
   const auto json = ReadJson(line, place.file, place.line);
   if (!json) return ProtocolError(json.error());
   try {
-    const auto setup = DecodeSetup(json->at("setup"), place);
+    auto setup = DecodeSetup(json->at("setup"), place);
     if (!setup) return ProtocolError(setup.error());
+    if (const auto key = ParseWords256(json->value("key", ""))) {
+      if (auto opened = OpenSeeds(SecretKey{*key, ""}, place, *setup); !opened) return ProtocolError(opened.error());
+    }
     const auto scenarios = PrepareAll(*setup);
     if (!scenarios) return ProtocolError(scenarios.error());
     const Fence fence = DecodeFence(json->at("fence"));

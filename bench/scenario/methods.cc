@@ -14,6 +14,8 @@ namespace {
 
 constexpr std::size_t kMostMethods = 100;
 constexpr double kLongestTime_s = 86'400;
+/// The keys about a program, which no task reads.
+constexpr std::string_view kProgramKeys[] = {"exec", "options", "files", "time_s"};
 
 std::string ReadOptions(Fields& method) {
   const Node* options = method.Raw("options");
@@ -38,7 +40,7 @@ void ReadProgram(Fields& method, MethodEntry& entry) {
 /// The keys of a built-in method are its task's: it reads their values. Their names are checked here, where it is
 /// known that `against` and `exec` may stand beside them.
 void CheckKeysOfBuiltIn(Fields& method, const TaskKind& kind) {
-  for (const char* key : {"options", "time_s"}) {
+  for (const char* key : {"options", "files", "time_s"}) {
     const Node* value = method.Raw(key);
     if (value != nullptr) method.Complain(value->place, fmt::format("'{}' is for methods with 'exec'", key));
   }
@@ -84,10 +86,9 @@ Result<MethodEntry> ReadMethod(const Node& node, const TaskKind& kind) {
   }
   entry->node = node;
   std::erase_if(entry->node.entries, [&](const Node::Entry& key) {
-    return key.key == "against" || (!entry->seat.empty() && (key.key == "options" || key.key == "time_s"));
+    const bool is_outside = std::ranges::find(kProgramKeys, key.key) != std::end(kProgramKeys);
+    return key.key == "against" || (!entry->seat.empty() && is_outside);
   });
-  if (!entry->seat.empty())
-    std::erase_if(entry->node.entries, [](const Node::Entry& key) { return key.key == "exec"; });
   return entry;
 }
 
@@ -120,6 +121,8 @@ const FieldTable<MethodEntry>& OutsideMethodFields() {
         ReadProgram},
        {{"options", {"a mapping; with `exec`", R"({"type":"object"})"}, "{}", "Told to that program as JSON."},
         [](Fields& method, MethodEntry& entry) { entry.options_json = ReadOptions(method); }},
+       Key::Texts("files", &MethodEntry::files, "a list of folders and files; with `exec`",
+                  "What a fence shows that program, read-only; the default is its own folder."),
        Key::Number("time_s", &MethodEntry::time_s, {0.001, kLongestTime_s},
                    "How long it may take over one problem, or one step.")
            .WhenAbsent("(`limits.time_s`)")

@@ -62,6 +62,7 @@ struct MethodEntry {
   std::string options_json;       ///< a method outside: what its key `options` holds, told to it as it is
   std::optional<double> time_s;   ///< a method outside: its own limit per problem or step, instead of Limits::time_s
   std::string seat = {};          ///< a method outside: its seat in the task's loop; "" = it is asked once a world
+  std::vector<std::string> files = {};  ///< a method outside: what a fence shows it; empty = its program's own folder
 
   /// True when its task runs it, wholly or around its seat.
   bool RunsInTask() const { return exec.empty() || !seat.empty(); }

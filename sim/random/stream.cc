@@ -3,6 +3,8 @@
 #include <Random123/philox.h>
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "engine/base/angles.h"
@@ -10,14 +12,45 @@
 
 namespace etude {
 
-RandomStream::RandomStream(const WorldKey& world, std::string_view purpose)
-    : key_{Fingerprint(fmt::format("{}/{}/{}", world.suite_seed, world.scenario, world.trial)), Fingerprint(purpose)} {}
+namespace {
+
+/// Authenticates the text under the key (the cipher's blocks chained, the text's length first, so that no text is the
+/// beginning of another): a key of its own for every text.
+Words256 DeriveKey(const Words256& key, std::string_view text) {
+  Words256 chained = Encrypt(key, {text.size()});
+  while (!text.empty()) {
+    std::array<unsigned char, sizeof(Words256)> bytes{};
+    const std::size_t count = std::min(text.size(), bytes.size());
+    std::copy_n(text.begin(), count, bytes.begin());
+    for (std::size_t i = 0; i < bytes.size(); ++i) chained[i / 8] ^= std::uint64_t{bytes[i]} << (8 * (i % 8));
+    chained = Encrypt(key, chained);
+    text.remove_prefix(count);
+  }
+  return chained;
+}
+
+}  // namespace
+
+RandomStream::RandomStream(const WorldKey& world, std::string_view purpose) : is_secret_(!world.suite_seed.IsPlain()) {
+  assert(world.suite_seed.IsOpen());
+  if (is_secret_) {
+    key_ = DeriveKey(world.suite_seed.key(), fmt::format("{}/{}/{}/{}/{}", world.scenario.size(), world.scenario,
+                                                         world.trial, purpose.size(), purpose));
+  } else {
+    key_ = {Fingerprint(fmt::format("{}/{}/{}", world.suite_seed.number(), world.scenario, world.trial)),
+            Fingerprint(purpose)};
+  }
+}
+
+Words256 RandomStream::Block(std::uint64_t counter) const {
+  if (is_secret_) return Encrypt(key_, {counter});
+  const auto block = r123::Philox4x64()({{counter, 0, 0, 0}}, {{key_[0], key_[1]}});
+  return {block[0], block[1], block[2], block[3]};
+}
 
 std::uint64_t RandomStream::Bits() {
   if (used_ == 4) {
-    const r123::Philox4x64::ctr_type counter{{counter_++, 0, 0, 0}};
-    const auto block = r123::Philox4x64()(counter, {{key_[0], key_[1]}});
-    for (int i = 0; i < 4; ++i) block_[i] = block[i];
+    block_ = Block(counter_++);
     used_ = 0;
   }
   return block_[used_++];
@@ -27,9 +60,13 @@ void RandomStream::FillBits(std::span<std::uint64_t> out) {
   std::size_t i = 0;
   while (i < out.size() && used_ != 4) out[i++] = Bits();
   // Whole blocks know nothing of each other, so the processor works at several of them at once.
-  for (; i + 4 <= out.size(); i += 4) {
-    const auto block = r123::Philox4x64()({{counter_++, 0, 0, 0}}, {{key_[0], key_[1]}});
-    for (std::size_t j = 0; j < 4; ++j) out[i + j] = block[j];
+  if (is_secret_) {
+    for (; i + 4 <= out.size(); i += 4) std::ranges::copy(Block(counter_++), out.begin() + i);
+  } else {
+    for (; i + 4 <= out.size(); i += 4) {
+      const auto block = r123::Philox4x64()({{counter_++, 0, 0, 0}}, {{key_[0], key_[1]}});
+      for (std::size_t j = 0; j < 4; ++j) out[i + j] = block[j];
+    }
   }
   while (i < out.size()) out[i++] = Bits();
 }

@@ -6,19 +6,23 @@
 #include <span>
 #include <string_view>
 
+#include "sim/random/seed.h"
+
 namespace etude {
 
 /// The key of a world's dice: never the method, never the condition's values, so that every method meets the same world
 /// and a sweep changes strengths, not the dice.
 struct WorldKey {
-  std::uint64_t suite_seed = 1;
+  Seed suite_seed = 1;
   std::string_view scenario;
   int trial = 0;
 };
 
 /// A stream of random numbers that depends on its key alone (counter-based: Philox 4×64-10 of
-/// Random123, Salmon et al. 2011), the same on every machine. Distributions are our own, because the
-/// standard library's differ from one implementation to the next.
+/// Random123, Salmon et al. 2011), the same on every machine. Under a secret seed it is Threefish-256 in counter mode,
+/// under a key that the cipher makes of the secret and of all that names the stream: who sees all numbers of all other
+/// streams knows nothing of this one's. Distributions are our own, because the standard library's differ from one
+/// implementation to the next.
 class RandomStream {
  public:
   /// Makes the stream of one purpose, independent of all others, e.g. "joint-noise" or "camera-0/pixel-noise".
@@ -40,9 +44,12 @@ class RandomStream {
   bool Chance(double probability) { return Uniform() < probability; }
 
  private:
-  std::array<std::uint64_t, 2> key_;
+  Words256 Block(std::uint64_t counter) const;
+
+  Words256 key_{};  ///< Philox takes two of them
+  bool is_secret_ = false;
   std::uint64_t counter_ = 0;
-  std::array<std::uint64_t, 4> block_{};
+  Words256 block_{};
   int used_ = 4;
   bool has_spare_normal_ = false;
   double spare_normal_ = 0;

@@ -10,6 +10,7 @@ import unittest
 import zlib
 
 ETUDE = os.environ["ETUDE"]
+os.environ["PATH"] = "/usr/bin:" + os.environ["PATH"]  # a fence shows no Python of a home
 
 
 def ik_scenario(trials, question="Does it run?", weights="fixed"):

@@ -25,7 +25,7 @@ trials: 2
 limits: {{time_s: 60, memory_mb: 400}}
 methods:
   - {{name: neighbour, solver: damped-least-squares}}
-  - {{name: specimen, exec: [{python}, {zoo}, {name}, {den}], time_s: 3}}
+  - {{name: specimen, exec: [{python}, {zoo}, {name}, {den}], files: [{zoo}, {den}], time_s: 3}}
 """
 
 

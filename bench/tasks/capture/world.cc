@@ -84,9 +84,15 @@ Wardrobe WardrobeOf(Clothes clothes) {
   return Wardrobe::kStudio;
 }
 
+/// Draws the seed of a picture's room, which recordings tell; of a secret world so many bits that nobody tries them
+/// all.
+std::uint64_t DrawRoomSeed(RandomStream& random, const WorldKey& key) {
+  return random.IndexBelow(std::uint64_t{1} << (key.suite_seed.IsPlain() ? 30 : 53));
+}
+
 StageOptions StageOptionsOf(const StudioOptions& options, const WorldKey& key) {
   RandomStream random(key, "capture/stage");
-  return {.seed = random.IndexBelow(1u << 30), .scene = options.scene, .wardrobe = WardrobeOf(options.clothes)};
+  return {.seed = DrawRoomSeed(random, key), .scene = options.scene, .wardrobe = WardrobeOf(options.clothes)};
 }
 
 // The lamp waxes and wanes slowly about the brightness of the background pictures.
@@ -151,7 +157,7 @@ CaptureWorld MakeStudio(const StudioOptions& options, const Booking& booking, co
   world.measured = Measured(world.person, options.limb_measure_mm, key);
   world.colours = ColoursOf(options.clothes);
   RandomStream room(key, "capture/room");
-  world.room.texture_seed = room.IndexBelow(1u << 30);
+  world.room.texture_seed = DrawRoomSeed(room, key);
   world.brightness = MakeBrightness(options, booking.frames, key);
   world.middle = MiddleOnFloor(booking.poses);
   world.cameras = SetUpCameras(options.rig, booking.poses, key);

@@ -44,7 +44,7 @@ class ReadyCoaches {
 
  private:
   const Rehearsal& rehearsal_;
-  std::map<std::pair<std::uint64_t, std::string>, std::vector<ReadyCoach>> known_;
+  std::map<std::pair<Seed, std::string>, std::vector<ReadyCoach>> known_;
 };
 
 class CoachTaskWorld final : public TaskWorld {

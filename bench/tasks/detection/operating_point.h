@@ -71,7 +71,7 @@ class MethodDecisions {
   const std::vector<ReadyMethod>& methods_;
   const Repertoire& repertoire_;
   const DetectionOptions& options_;
-  std::map<std::pair<std::uint64_t, std::string>, std::vector<MethodDecision>> known_;
+  std::map<std::pair<Seed, std::string>, std::vector<MethodDecision>> known_;
 };
 
 }  // namespace etude

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 
+SETTINGS = []  # the ids of those it was told
 ANSWER = json.loads(sys.argv[2]) if len(sys.argv) > 2 else {"number": 1}
 
 
@@ -22,6 +23,10 @@ def say(**message):
 def answer(problem, **instead):
     number = {"number": problem["number"]} if "number" in problem else {}
     say(**{"type": "answer", "id": problem["id"], "answer": ANSWER} | number | instead)
+
+
+def tells_its_settings(problem):
+    answer(problem, answer={"number": len(SETTINGS), "ids": " ".join(SETTINGS + [problem["id"]])})
 
 
 def crashes(problem):
@@ -138,11 +143,12 @@ def closes_its_output(problem):
     time.sleep(1000)
 
 
-def floods_its_standard_error(problem):
+def floods_its_standard_error(problem, asked=[0]):
+    asked[0] += 1
     for _ in range(100):
         sys.stderr.write(("x" * 99 + "\n") * 1000)
     print("the last line", file=sys.stderr, flush=True)
-    crashes(problem) if problem["id"].endswith("crash") else answer(problem)
+    crashes(problem) if asked[0] == 2 else answer(problem)
 
 
 def counts_its_problems(problem, asked=[0]):
@@ -202,7 +208,8 @@ def main(behaviour):
             protocol = 2 if behaviour == "speaks_another_protocol" else 1
             say(type="hello", protocol=protocol, name="hostile", version="1.0")
         elif message["type"] == "setting":
-            if behaviour == "dies_at_a_setting" and message["id"] == "fatal":
+            SETTINGS.append(message["id"])
+            if behaviour == "dies_at_a_setting" and message["setting"]["name"] == "fatal":
                 sys.exit(7)
             say(type="ready")
         elif message["type"] == "begin" and behaviour != "answers_the_beginning":

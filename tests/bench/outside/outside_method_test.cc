@@ -37,7 +37,7 @@ OutsideOptions Behaving(const std::string& behaviour, const Fence& fence = {}) {
 }
 
 OutsideReply Ask(OutsideMethod& method, const std::string& id = "p", const std::string& setting = "s") {
-  return method.Ask(setting, Show({{"size", 1}}), id, Show({{"question", 2}}));
+  return method.Ask(setting, Show({{"size", 1}, {"name", setting}}), id, Show({{"question", 2}}));
 }
 
 std::string ReadText(const std::string& path) {
@@ -57,6 +57,26 @@ TEST(OutsideMethod, AnswersManyProblemsInOneLife) {
   }
   EXPECT_EQ(method.ProgramName(), "hostile 1.0");
   EXPECT_EQ(method.End(5000), "exit code 0");
+}
+
+TEST(OutsideMethod, IdsTellNoNamesAndUnderASecretSeedNoLifeSeesTwoSettings) {
+  std::string ids_of_plain;
+  for (const Seed& seed : {Seed(1), Seed::Secret({1, 2, 3, 4})}) {
+    OutsideOptions options = Behaving("tells_its_settings");
+    options.seed = seed;
+    OutsideMethod method(std::move(options));
+    std::string ids;
+    for (const char* noise : {"0", "0", "10"}) {
+      const std::string setting = std::string("noise=") + noise;
+      const OutsideReply reply = Ask(method, setting + "/7", setting);
+      ASSERT_EQ(reply.status, Status::kOk) << reply.reason;
+      EXPECT_EQ((*reply.answer)["number"], seed.IsPlain() && noise == std::string("10") ? 2 : 1);
+      ids = (*reply.answer)["ids"].get<std::string>();
+      EXPECT_THAT(ids, ::testing::MatchesRegex("(s[0-9a-f]+ )+p[0-9a-f]+"));
+    }
+    EXPECT_NE(ids, ids_of_plain);
+    ids_of_plain = ids;
+  }
 }
 
 TEST(OutsideMethod, LargeAnswersAndLargeProblemsPass) {
@@ -108,7 +128,7 @@ INSTANTIATE_TEST_SUITE_P(
         Hostility{"answers_bytes", Status::kBadOutput, "said something that is not JSON: "},
         Hostility{"answers_behind_a_zero_byte", Status::kBadOutput, "said something that is not JSON: a zero byte"},
         Hostility{"answers_without_end", Status::kBadOutput, "said a line of more than 16 MiB: 'xxx"},
-        Hostility{"answers_another_question", Status::kBadOutput, "answered 'another' when asked 'p'"},
+        Hostility{"answers_another_question", Status::kBadOutput, "answered 'another' when asked 'p"},
         Hostility{"answers_a_list", Status::kBadOutput, "its 'answer' has no object \"answer\": "},
         Hostility{"eats_memory", Status::kOutOfMemory, "held more than 200 MB of memory"},
         Hostility{"lets_a_child_eat_memory", Status::kOutOfMemory, "held more than 200 MB of memory"},
@@ -191,7 +211,9 @@ TEST(OutsideMethod, AStartThatFailsThreeTimesIsNotTriedAgain) {
   for (int i = 0; i < 6; ++i) {
     const OutsideReply reply = Ask(method);
     EXPECT_EQ(reply.status, Status::kFailed);
-    EXPECT_EQ(reply.reason, "in its start: ended with exit code 1; its last words: 'no licence found'");
+    EXPECT_EQ(reply.reason,
+              "in its start: ended with exit code 1; its last words: 'no licence found' "
+              "(a fence shows it the system and what its key 'files' lists)");
   }
   EXPECT_EQ(ReadText(starts), "started\nstarted\nstarted\n");
 }

@@ -22,9 +22,13 @@ const Fence& TheFence() {
 }
 
 /// All that a script says in the fence.
-std::string Say(const Fence& fence, const std::string& script, const std::vector<fs::path>& shown = {}) {
-  const std::vector<std::string> command = fence.Around({"/bin/sh", "-c", script + " 2>&1"}, shown);
-  auto child = ChildProcess::Start({.program = command[0], .arguments = {command.begin() + 1, command.end()}});
+std::string Say(const Fence& fence, const std::string& script, const std::vector<fs::path>& shown = {},
+                const fs::path& start = {}) {
+  const FencedCommand command = fence.Around({"/bin/sh", "-c", script + " 2>&1"}, shown, start);
+  auto child = ChildProcess::Start({.program = command.words[0],
+                                    .arguments = {command.words.begin() + 1, command.words.end()},
+                                    .limited = true,
+                                    .told = command.told});
   std::string said;
   for (bool open = true; open;) {
     pollfd watched{child->output(), POLLIN, 0};
@@ -52,9 +56,32 @@ class FenceTest : public ::testing::Test {
 
 TEST_F(FenceTest, SaysWhatItIsMadeOf) { EXPECT_THAT(TheFence().description(), ::testing::StartsWith("bubblewrap ")); }
 
-TEST_F(FenceTest, RunsAProgramInOurFolder) {
-  EXPECT_EQ(Say(TheFence(), "pwd"), fs::current_path().string() + "\n");
+TEST_F(FenceTest, RunsAProgramWhereItIsAskedTo) {
+  EXPECT_EQ(Say(TheFence(), "pwd"), "/tmp\n");
+  EXPECT_EQ(Say(TheFence(), "pwd; ls", {folder_}, folder_), folder_ + "\nsecret.txt\n");
   EXPECT_EQ(Say(TheFence(), "exit 3"), "");
+}
+
+TEST_F(FenceTest, ShowsTheSystemAndNothingOfOurs) {
+  EXPECT_THAT(Say(TheFence(), "ls /usr/bin/env /etc/passwd"), ::testing::HasSubstr("/etc/passwd"));
+  for (const std::string& ours :
+       {fs::current_path().string(), std::string("/root"), std::string("/home"), std::string("/srv"),
+        std::string("/mnt"), fs::read_symlink("/proc/self/exe").string()}) {
+    EXPECT_EQ(Say(TheFence(), "test -e " + ours + " && echo seen"), "") << ours;
+  }
+}
+
+TEST_F(FenceTest, NamesNothingOfOurs) {
+  const std::string here = fs::current_path().string();
+  const std::string look =
+      "tr '\\0' '\\n' </proc/1/cmdline; tr '\\0' '\\n' </proc/1/environ; cat /proc/self/mountinfo; "
+      "ls -l /proc/[0-9]*/fd/ /proc/[0-9]*/cwd; cat /proc/[0-9]*/environ | tr '\\0' '\\n'";
+  const std::string said = Say(TheFence(), look);
+  EXPECT_THAT(said, ::testing::HasSubstr("--args"));
+  EXPECT_THAT(said, ::testing::HasSubstr("PATH="));
+  EXPECT_THAT(said, ::testing::Not(::testing::HasSubstr(here + "/")));
+  EXPECT_THAT(said, ::testing::Not(::testing::HasSubstr("PWD=" + here)));
+  EXPECT_EQ(Say(TheFence(), "ls /proc/self/fd | grep -v '^[0-2]$' | wc -l"), "1\n") << "ls's own alone";
 }
 
 TEST_F(FenceTest, HoldsNoProcessButItsOwn) {
@@ -64,13 +91,13 @@ TEST_F(FenceTest, HoldsNoProcessButItsOwn) {
 }
 
 TEST_F(FenceTest, HasNoNetworkAndNoPrivileges) {
-  EXPECT_EQ(Say(TheFence(), "ls /sys/class/net/ >/dev/null; cat /proc/net/dev | grep -c :"), "1\n") << "loopback only";
+  EXPECT_EQ(Say(TheFence(), "cat /proc/net/dev | grep -c :"), "1\n") << "loopback only";
   EXPECT_EQ(Say(TheFence(), "grep -E 'NoNewPrivs|CapEff' /proc/self/status"),
             "CapEff:\t0000000000000000\nNoNewPrivs:\t1\n");
 }
 
 TEST_F(FenceTest, CanWriteOnlyToScratchFoldersThatGoWithIt) {
-  const std::string script = "for f in /tmp /var/tmp /dev/shm / /dev /run . /etc " + folder_ +
+  const std::string script = "for f in /tmp /var/tmp /dev/shm / /dev /run /etc " + folder_ +
                              "; do (echo x > $f/of-the-fence-test) 2>/dev/null && echo $f; done";
   EXPECT_EQ(Say(TheFence(), script, {folder_}), "/tmp\n/var/tmp\n/dev/shm\n");
   for (const char* folder : {"/tmp", "/var/tmp", "/dev/shm"}) {
@@ -82,14 +109,11 @@ TEST_F(FenceTest, ScratchFoldersAreBounded) {
   EXPECT_EQ(Say(TheFence(), "head -c 300M /dev/zero >/tmp/a; wc -c </tmp/a"), "268435456\n");
 }
 
-TEST_F(FenceTest, OfTemporaryFoldersItSeesWhatItIsShownOrTold) {
+TEST_F(FenceTest, OfTemporaryFoldersItSeesWhatItIsShown) {
   const std::string read = "cat " + folder_ + "/secret.txt";
   EXPECT_THAT(Say(TheFence(), read), ::testing::HasSubstr("No such file"));
   EXPECT_EQ(Say(TheFence(), read, {folder_}), "the truth\n");
-  const auto words = TheFence().Around({"/bin/cat", folder_ + "/secret.txt"}, {});
-  auto child = ChildProcess::Start({.program = words[0], .arguments = {words.begin() + 1, words.end()}});
-  while (child->Receive()) ::usleep(1000);
-  EXPECT_EQ(child->NextLine(), "the truth");
+  EXPECT_EQ(Say(TheFence(), read, {folder_ + "/secret.txt"}), "the truth\n");
 }
 
 TEST_F(FenceTest, WhatIsHiddenIsEmpty) {
@@ -97,6 +121,11 @@ TEST_F(FenceTest, WhatIsHiddenIsEmpty) {
   fence.Hide(folder_);
   EXPECT_EQ(Say(fence, "ls " + folder_, {folder_}), "");
   EXPECT_EQ(Say(TheFence(), "ls " + folder_, {folder_}), "secret.txt\n");
+  fence = TheFence();
+  fence.Hide("/usr/include");
+  fence.Hide(folder_ + "/secret.txt");
+  EXPECT_EQ(Say(fence, "ls /usr/include; cat " + folder_ + "/secret.txt && echo read", {folder_}),
+            "cat: " + folder_ + "/secret.txt: Permission denied\n");
 }
 
 }  // namespace

@@ -35,6 +35,64 @@ TEST(RandomStream, DependsOnItsKeyAlone) {
   }
 }
 
+/// The key, the bytes of 256 bits in order.
+constexpr Words256 kKey = {0x1716151413121110, 0x1f1e1d1c1b1a1918, 0x2726252423222120, 0x2f2e2d2c2b2a2928};
+
+TEST(Seed, CipherIsThreefish256WithItsKnownAnswers) {
+  // Of the Skein submission (version 1.3): tweak, key and block all zero.
+  EXPECT_EQ(Encrypt({}, {}),
+            (Words256{0x94eeea8b1f2ada84, 0xadf103313eae6670, 0x952419a1f4b16d53, 0xd83f13e63c9f6b11}));
+}
+
+TEST(Seed, IsANumberOrASecretThatTellsItsDigestAlone) {
+  const Seed plain = 7, secret = Seed::Secret(kKey);
+  EXPECT_EQ(ToString(plain), "7");
+  EXPECT_EQ(plain.Public(), 7u);
+  EXPECT_EQ(plain.Digest(), "");
+  EXPECT_EQ(ToString(secret), "secret " + secret.Digest());
+  EXPECT_EQ(secret.Digest().size(), 64u);
+  EXPECT_NE(secret.Digest(), Hex(kKey));
+  const auto read = ParseSeed(ToString(secret));
+  ASSERT_TRUE(read);
+  EXPECT_FALSE(read->IsOpen());
+  EXPECT_EQ(*read, secret.WithoutKey());
+  EXPECT_EQ(read->Public(), secret.Public());
+  EXPECT_LT(secret.Public(), std::uint64_t{1} << 53);
+  EXPECT_EQ(ParseSeed("7"), plain);
+  for (const char* wrong : {"", "secret", "secret 12", "-1", "1.5", "7 "}) EXPECT_FALSE(ParseSeed(wrong)) << wrong;
+  EXPECT_EQ(ParseWords256(Hex(kKey)), kKey);
+  EXPECT_FALSE(ParseWords256(Hex(kKey).substr(1)));
+}
+
+TEST(Seed, EveryBitOfAKeyCounts) {
+  RandomStream stream({Seed::Secret(kKey), "test", 3}, "noise");
+  const std::uint64_t first = stream.Bits();
+  for (std::size_t bit = 0; bit < 256; ++bit) {
+    Words256 other = kKey;
+    other[bit / 64] ^= std::uint64_t{1} << (bit % 64);
+    const Seed seed = Seed::Secret(other);
+    EXPECT_NE(RandomStream({seed, "test", 3}, "noise").Bits(), first);
+    EXPECT_NE(seed.Digest(), Seed::Secret(kKey).Digest());
+  }
+}
+
+TEST(RandomStream, OfASecretSeedDependsOnItsKeyAlone) {
+  const Seed secret = Seed::Secret(kKey);
+  RandomStream a({secret, "test", 3}, "noise"), b({secret, "test", 3}, "noise");
+  RandomStream others[] = {{{secret, "test", 3}, "noise2"},
+                           {{secret, "test", 4}, "noise"},
+                           {{secret, "tess", 3}, "noise"},
+                           {{secret, "test/3", 3}, "noise"},
+                           {{secret, "test", 3}, std::string("noise\0", 6)}};
+  std::vector<std::uint64_t> filled(103);
+  b.FillBits(filled);
+  for (const std::uint64_t expected : filled) {
+    const std::uint64_t bits = a.Bits();
+    EXPECT_EQ(bits, expected);
+    for (RandomStream& other : others) EXPECT_NE(bits, other.Bits());
+  }
+}
+
 TEST(RandomStream, HasTheMomentsOfItsDistributions) {
   RandomStream stream(kWorld, "moments");
   const int n = 200000;

@@ -1,0 +1,42 @@
+#include "bench/outside/program_view.h"
+
+#include "bench/process/fence.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Absolute, without a slash at its end.
+fs::path Whole(const fs::path& path) {
+  std::error_code error;
+  const fs::path whole = fs::absolute(path, error).lexically_normal();
+  return whole.has_filename() ? whole : whole.parent_path();
+}
+
+}  // namespace
+
+ProgramView ViewOf(const std::vector<std::string>& command, const std::vector<std::string>& files) {
+  ProgramView view;
+  std::error_code error;
+  for (const std::string& file : files) view.shown.push_back(Whole(file));
+  for (const std::string& word : command) {
+    // A plain word may happen to be the name of a folder.
+    const bool is_file = fs::is_regular_file(word, error);
+    if (!is_file && (word.find('/') == std::string::npos || !fs::exists(word, error))) {
+      view.command.push_back(word);
+      continue;
+    }
+    const fs::path path = Whole(word);
+    view.command.push_back(path.string());
+    if (!is_file || Fence::IsOfSystem(path)) continue;
+    const fs::path folder = path.parent_path();
+    view.shown.push_back(view.shown.empty() && !Fence::HoldsScratch(folder) ? folder : path);
+  }
+  for (const fs::path& path : view.shown) {
+    if (view.start.empty() && fs::is_directory(path, error)) view.start = path;
+  }
+  return view;
+}
+
+}  // namespace etude

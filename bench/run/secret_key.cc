@@ -1,0 +1,64 @@
+#include "bench/run/secret_key.h"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <cstring>
+
+#include "bench/files/files.h"
+#include "bench/process/pinned_environment.h"
+
+namespace etude {
+namespace {
+
+constexpr const char* kAllowed = "64 hexadecimal digits, or 32 bytes as they are";
+
+/// The first digits of a digest, which tell keys apart.
+std::string Short(const Seed& seed) { return seed.Digest().substr(0, 16) + "…"; }
+
+Result<Words256> ParseKey(std::string_view bytes) {
+  Words256 words{};
+  if (bytes.size() == sizeof words) {
+    std::memcpy(words.data(), bytes.data(), sizeof words);
+    return words;
+  }
+  while (!bytes.empty() && (bytes.back() == '\n' || bytes.back() == '\r')) bytes.remove_suffix(1);
+  return ParseWords256(bytes);
+}
+
+}  // namespace
+
+Result<std::optional<SecretKey>> FindSecretKey(const std::string& file) {
+  if (!file.empty()) {
+    ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(file));
+    const auto words = ParseKey(bytes);
+    if (!words) return Fail({file}, "{} bytes that are no key; allowed: {}", bytes.size(), kAllowed);
+    std::error_code error;
+    return SecretKey{*words, std::filesystem::absolute(file, error).lexically_normal()};
+  }
+  char* text = std::getenv(kKeyVariable);
+  if (text == nullptr) return std::nullopt;
+  const auto words = ParseWords256(text);
+  std::memset(text, '0', std::strlen(text));  // what others could read of our environment
+  ::unsetenv(kKeyVariable);
+  if (!words) return Fail({kKeyVariable}, "holds no key; allowed: 64 hexadecimal digits");
+  return SecretKey{*words, ""};
+}
+
+Result<void> OpenSeeds(const std::optional<SecretKey>& key, const Place& place, SuiteSetup& suite) {
+  if (suite.seed.IsPlain()) {
+    if (!key || key->file.empty()) return {};
+    return Fail(place, "has the plain seed {}; leave out --seed-file", suite.seed.number());
+  }
+  if (!key) return Fail(place, "its worlds are secret: --seed-file names their key, of digest {}", Short(suite.seed));
+  const Seed seed = Seed::Secret(key->words);
+  if (seed.WithoutKey() != suite.seed.WithoutKey()) {
+    return Fail(place, "its worlds are of the key with digest {}, not of that with digest {}", Short(suite.seed),
+                Short(seed));
+  }
+  suite.seed = seed;
+  for (ScenarioSetup& scenario : suite.scenarios) scenario.seed = seed;
+  return {};
+}
+
+}  // namespace etude

@@ -1,0 +1,60 @@
+#include "bench/outside/program_view.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <fstream>
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+
+class ProgramViewTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = ::testing::TempDir() + "program-view-XXXXXX";
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    folder_ = name;
+    for (const char* file : {"mine/solver.py", "mine/own.bin", "other/weights.bin"}) {
+      fs::create_directories((folder_ / file).parent_path());
+      std::ofstream(folder_ / file) << "\n";
+    }
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  std::string In(const char* path) const { return (folder_ / path).string(); }
+
+  fs::path folder_;
+};
+
+TEST_F(ProgramViewTest, ShowsTheScriptsFolderAndOtherFilesThatAreNamed) {
+  const ProgramView view = ViewOf({"/bin/sh", In("mine/solver.py"), In("other/weights.bin"), "plain", "no/such"}, {});
+  EXPECT_THAT(view.shown, ElementsAre(In("mine"), In("other/weights.bin")));
+  EXPECT_EQ(view.start, In("mine"));
+  EXPECT_THAT(view.command, ElementsAre("/bin/sh", In("mine/solver.py"), In("other/weights.bin"), "plain", "no/such"));
+}
+
+TEST_F(ProgramViewTest, ShowsTheExecutablesFolderFirst) {
+  EXPECT_THAT(ViewOf({In("mine/own.bin"), In("other/weights.bin")}, {}).shown,
+              ElementsAre(In("mine"), In("other/weights.bin")));
+}
+
+TEST_F(ProgramViewTest, ShowsWhatFilesListAndOfTheCommandTheFilesAlone) {
+  const ProgramView view = ViewOf({"/bin/sh", In("mine/solver.py")}, {In("other/"), In("mine/own.bin")});
+  EXPECT_THAT(view.shown, ElementsAre(In("other"), In("mine/own.bin"), In("mine/solver.py")));
+  EXPECT_EQ(view.start, In("other"));
+}
+
+TEST_F(ProgramViewTest, NamesFilesOfOursByAbsolutePathsAndNoPlainWords) {
+  // Tests are run at the top of the tree.
+  const fs::path here = fs::current_path();
+  const ProgramView view = ViewOf({"/bin/sh", "README.md", "tests", "./tests"}, {});
+  EXPECT_THAT(view.command, ElementsAre("/bin/sh", (here / "README.md").string(), "tests", (here / "tests").string()));
+  EXPECT_EQ(view.start, here);
+  EXPECT_EQ(ViewOf({"/bin/sh"}, {}).start, "");
+}
+
+}  // namespace
+}  // namespace etude

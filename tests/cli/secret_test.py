@@ -1,0 +1,188 @@
+"""Secret worlds: a key of 256 bits makes them, its digest names them, and nothing that Etude writes, says or starts shows it."""
+import json
+import os
+import pathlib
+import re
+import subprocess
+import unittest
+
+from etude_case import ETUDE, IK, EtudeCase, ik_scenario
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+EXAMPLE = ROOT / "examples/outside-methods/ik_dls.py"
+KEY, OTHER = "0123456789abcdef" * 4, "f" * 64
+MINE = f"  - {{name: mine, exec: [python3, '{EXAMPLE}']}}\n"
+SAYS_WHAT_IT_SEES = """import json, os, sys
+sys.path.insert(0, 'EXAMPLES')
+print('sees', json.dumps(dict(os.environ)), open('/proc/1/environ').read(), file=sys.stderr)
+"""
+
+
+class SecretWorlds(EtudeCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.shared = cls.shared_folder()
+        cls.key, cls.other = cls.shared / "key", cls.shared / "other"
+        for file, text in ((cls.key, KEY), (cls.other, OTHER)):
+            file.write_text(text + "\n")
+            file.chmod(0o600)
+        cls.scenario = cls.shared / "ik.yaml"
+        cls.scenario.write_text(ik_scenario(trials=2))
+        cls.run_folder = cls.shared / "run"
+        cls.said = cls.etude("run", cls.scenario, "-o", cls.run_folder, "--seed-file", cls.key)
+        assert cls.said.returncode == 0, cls.said.stderr
+
+    def refuse(self, *arguments, code=2):
+        result = self.etude(*arguments)
+        self.assertEqual(result.returncode, code, result.stdout + result.stderr)
+        for text in (KEY, OTHER):
+            self.assertNotIn(text, result.stdout + result.stderr)
+        return result.stderr
+
+    @property
+    def digest(self):
+        return json.loads((self.run_folder / "manifest.json").read_text())["seed"].removeprefix("secret ")
+
+    def test_the_key_is_nowhere_and_its_digest_in_the_manifest(self):
+        self.assertRegex(self.digest, "^[0-9a-f]{64}$")
+        self.assertNotIn("can be read", self.said.stderr)
+        raw = bytes.fromhex(KEY)
+        looked = 0
+        for file in self.run_folder.rglob("*"):
+            if file.is_file():
+                looked += 1
+                data = file.read_bytes()
+                for form in (KEY.encode(), KEY.upper().encode(), raw, raw[::-1], KEY[:16].encode()):
+                    self.assertNotIn(form, data, file)
+        self.assertGreater(looked, 5)
+
+    def test_the_same_key_gives_the_same_bytes_and_another_one_other_worlds(self):
+        raw = self.shared / "raw"
+        raw.write_bytes(b"".join(bytes.fromhex(KEY)[at:at + 8][::-1] for at in range(0, 32, 8)))
+        raw.chmod(0o644)
+        again = self.etude("run", self.scenario, "-o", self.out, "--seed-file", raw, "--jobs", 1)
+        self.assertIn("can be read by everybody", again.stderr)
+        self.assert_same_results(self.run_folder, self.out)
+        self.run_suite(self.scenario, "--seed-file", self.other, out=self.folder / "other")
+        self.assertNotEqual((self.folder / "other/cells.jsonl").read_bytes(), (self.out / "cells.jsonl").read_bytes())
+
+    def test_the_environment_of_a_server_gives_it_and_no_child_sees_it(self):
+        script = self.folder / "method" / "method.py"
+        script.parent.mkdir()
+        script.write_text(SAYS_WHAT_IT_SEES.replace("EXAMPLES", str(EXAMPLE.parent)) + "exec(open(sys.argv[1]).read())\n")
+        scenario = self.folder / "ik.yaml"
+        scenario.write_text(ik_scenario(trials=1) + f"  - {{name: mine, exec: [python3, '{script}', '{EXAMPLE}'], "
+                                                    f"files: ['{script.parent}', '{EXAMPLE.parent}']}}\n")
+        run = subprocess.run([ETUDE, "run", scenario, "-o", self.out], capture_output=True, text=True, timeout=120,
+                             env={**os.environ, "ETUDE_SEED_KEY": KEY})
+        if "there is no fence" in run.stderr:
+            self.skipTest(run.stderr)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(json.loads((self.out / "manifest.json").read_text())["seed"], "secret " + self.digest)
+        log = (self.out / "stderr" / "ik~mine.txt").read_text()
+        self.assertIn("sees", log)
+        for text in (KEY, "ETUDE_SEED", str(self.folder / "ik.yaml"), str(self.out)):
+            self.assertNotIn(text, log)
+        refused = subprocess.run([ETUDE, "run", scenario, "--seed", "3", "-o", self.folder / "no"], capture_output=True,
+                                 text=True, env={**os.environ, "ETUDE_SEED_KEY": KEY})
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("ETUDE_SEED_KEY: is set, and --seed, too", refused.stderr)
+
+    def test_the_folder_is_named_by_the_digest(self):
+        run = subprocess.run([ETUDE, "run", self.scenario, "--trials", "1", "--seed-file", self.key], capture_output=True,
+                             text=True, cwd=self.folder, timeout=120)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual([folder.name for folder in (self.folder / "out").iterdir()], [f"ik-secret-{self.digest[:8]}"])
+
+    def test_what_is_no_key_is_refused_without_being_shown(self):
+        for content in ("secret-words", KEY[:-1], KEY + "0", "x" * 64, ""):
+            bad = self.write("bad", content)
+            stderr = self.refuse("run", self.scenario, "-o", self.out, "--seed-file", bad)
+            self.assertIn("that are no key; allowed: 64 hexadecimal digits, or 32 bytes as they are", stderr)
+            if content:
+                self.assertNotIn(content, stderr)
+        self.refuse("run", self.scenario, "-o", self.out, "--seed-file", self.folder / "none")
+        self.assertIn("--seed", self.refuse("run", self.scenario, "-o", self.out, "--seed-file", self.key, "--seed", 1))
+        self.assertFalse(self.out.exists())
+
+    def test_it_is_gone_on_with_and_replayed_by_its_key_alone(self):
+        self.run_suite(self.scenario, "--seed-file", self.key)
+        (self.folder / "plain").mkdir()
+        self.run_suite(self.scenario, out=self.folder / "plain")
+        resume = ["run", self.scenario, "-o", self.out, "--resume"]
+        self.assertIn("takes its key again (--seed-file)", self.refuse(*resume))
+        self.assertIn('seed was "secret ' + self.digest[:8], self.refuse(*resume, "--seed-file", self.other))
+        self.assertEqual(self.etude(*resume, "--seed-file", self.key).returncode, 0)
+        for command in (["replay", self.out], ["run", "--from", self.out / "manifest.json", "-o", self.folder / "from"]):
+            self.assertIn(f"its worlds are secret: --seed-file names their key, of digest {self.digest[:16]}…",
+                          self.refuse(*command))
+            self.assertIn("its worlds are of the key with digest " + self.digest[:16],
+                          self.refuse(*command, "--seed-file", self.other))
+        replayed = self.etude("replay", self.out, "--seed-file", self.key)
+        self.assertEqual(replayed.stdout, "8 of 8 cells came out the same\n", replayed.stderr)
+        self.assertIn("leave out --seed-file", self.refuse("replay", self.folder / "plain", "--seed-file", self.key))
+        cell = json.loads((self.out / "cells.jsonl").read_text().splitlines()[3])["cell"]
+        pack = self.folder / "cell.pack"
+        self.assertEqual(self.etude("replay", self.out, "--cell", cell, "--pack", pack).returncode, 0)
+        self.assertIn("its worlds are secret", self.refuse("replay", pack))
+        self.assertEqual(self.etude("replay", pack, "--seed-file", self.key).returncode, 0)
+
+    def test_shards_of_one_key_are_merged_and_of_another_refused(self):
+        for index, key in ((1, self.key), (2, self.key)):
+            done = self.etude("run", self.scenario, "--seed-file", key, "--shard", f"{index}/2", "-o", self.folder / str(index))
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.etude("run", self.scenario, "--seed-file", self.other, "--shard", "2/2", "-o", self.folder / "foreign")
+        self.assertIn("is a shard of another run", self.refuse("merge", self.folder / "1", self.folder / "foreign", "-o", self.out,
+                                                               "--seed-file", self.key))
+        merged = self.etude("merge", self.folder / "1", self.folder / "2", "-o", self.out, "--seed-file", self.key)
+        self.assertEqual(merged.returncode, 0, merged.stderr)
+        self.assert_same_results(self.run_folder, self.out)
+
+    def test_an_export_tells_no_trial_and_is_scored_by_its_key(self):
+        data = self.folder / "data"
+        self.assertEqual(self.etude("export", self.scenario, "-o", data, "--seed-file", self.key).returncode, 0)
+        problems = sorted(data.glob("inputs/ik/*/*/problem.json"))
+        self.assertEqual(len(problems), 4)
+        answers = self.folder / "answers"
+        for problem in problems:
+            self.assertRegex(problem.parent.name, "^[0-9a-f]{16}$")
+            place = problem.parent.relative_to(data / "inputs")
+            (answers / place.parent).mkdir(parents=True, exist_ok=True)
+            truth = json.loads((data / "truth" / place / "truth.json").read_text())
+            (answers / place.parent / (place.name + ".json")).write_text(json.dumps({"angles_deg": truth["angles_deg"]}))
+        index = (data / "inputs/index.csv").read_text().splitlines()[1:]
+        self.assertEqual(index, sorted(index))
+        self.assertTrue(all(re.match("ik,ik,[^,]*,,,", line) for line in index), index)
+        score = ["score", data, answers, "-o", self.out, "--alone"]
+        self.assertIn("its worlds are secret", self.refuse(*score))
+        self.assertIn("its worlds are of the key", self.refuse(*score, "--seed-file", self.other))
+        scored = self.etude(*score, "--seed-file", self.key)
+        self.assertEqual(scored.returncode, 0, scored.stderr)
+        for line in (self.out / "cells.jsonl").read_text().splitlines():
+            self.assertLess(json.loads(line)["hidden_angle_error_deg"], 1e-9)
+
+    def test_the_page_and_compare_say_which_worlds_they_are(self):
+        scenario = self.folder / "suite.yaml"
+        scenario.write_text(ik_scenario(trials=1) + MINE)
+        self.run_suite(scenario)
+        self.run_suite(scenario, "--seed-file", self.key, "--no-fence", out=self.folder / "unfenced")
+        for folder, says in ((self.out, "seed 1, open worlds"), (self.run_folder, f"secret worlds, key {self.digest[:16]}…"),
+                             (self.folder / "unfenced", f"secret worlds, key {self.digest[:16]}…, programs in no fence")):
+            self.assertEqual(self.etude("report", folder, "--no-video").returncode, 0)
+            self.assertIn(f"<dd>{says}</dd>", (folder / "report" / "index.html").read_text())
+            self.assertIn(says + ".\n", self.etude("compare", folder, folder).stdout)
+
+    def test_a_method_that_would_be_shown_the_scenario_is_refused(self):
+        scenario = self.folder / "suite.yaml"
+        shown = f"  - {{name: mine, exec: [python3, '{EXAMPLE}'], files: ['{EXAMPLE.parent}', '{self.folder}']}}\n"
+        scenario.write_text(ik_scenario(trials=1) + shown)
+        stderr = self.refuse("run", scenario, "-o", self.shared / "out", "--seed-file", self.key)
+        if "no fence" not in stderr:
+            self.assertIn(f"method 'mine' would be shown '{self.folder}', which holds the scenario of secret worlds", stderr)
+        self.assertFalse((self.shared / "out").exists())
+        scenario.write_text(ik_scenario(trials=1) + MINE.replace("]}", "], files: [no-such-folder]}"))
+        self.assertIn("'no-such-folder' is no file or folder", self.refuse("run", scenario, "-o", self.shared / "out"))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,135 @@
+"""A method that looks the truth up: `lookup.py DEN SEEDS…` brings its own copy of Etude and of the scenario in DEN.
+
+Behind the fence it runs the scenario itself under every seed that it can think of, and compares what its own copy is asked
+(`lookup.py spy FILE`) with what it is asked; it looks for scenarios, runs and names of them in files, descriptors and /proc,
+and for what it has left itself when it answered another condition. What it finds it says on standard error, LOOKUP first.
+Of task ik it answers the truth where it has it, else the pose that the problem starts in.
+"""
+import hashlib
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+MEMORY = [pathlib.Path(folder) / "lookup-memory" for folder in ("/tmp", "/var/tmp", "/dev/shm")]
+OWN = pathlib.Path("/tmp/lookup-own")
+
+
+def found(what):
+    print("LOOKUP " + what, file=sys.stderr, flush=True)
+
+
+def content_of(message):
+    """A fingerprint of all that a message tells but its id."""
+    told = hashlib.sha256(json.dumps(message[message["type"]], sort_keys=True).encode())
+    for file in sorted(pathlib.Path(message["files"]).iterdir()) if message.get("files") else []:
+        told.update(file.name.encode() + file.read_bytes())
+    return told.hexdigest()
+
+
+def converse(asked):
+    """The protocol; `asked` gives the answer to a problem or a step, or None."""
+    for line in sys.stdin:
+        message = json.loads(line)
+        reply = {"hello": {"type": "hello", "protocol": 1, "name": "lookup", "version": "1"}}.get(
+            message["type"], {"type": "ready"})
+        if message["type"] in ("setting", "begin"):
+            asked(message)
+        elif message["type"] in ("problem", "step"):
+            answer = asked(message)
+            reply = {"type": "answer", "answer": answer} if answer else {"type": "no_answer", "reason": "unknown"}
+            reply["id"] = message["id"]
+            if "number" in message:
+                reply["number"] = message["number"]
+        print(json.dumps(reply), flush=True)
+
+
+def spy(file):
+    def note(message):
+        if message["type"] in ("problem", "step"):
+            with open(file, "a") as known:
+                known.write(content_of(message) + "\n")
+    converse(note)
+
+
+def run_own_copy(den, seeds):
+    """What every world of the scenario is asked under these seeds: contents, and for ik the truth by content."""
+    known, truth = set(), {}
+    scenario = (den / "own.txt").read_text().replace("DEN", str(den)).replace("KNOWN", str(OWN / "known"))
+    OWN.mkdir()
+    (OWN / "own.yaml").write_text(scenario)
+    for seed in seeds:
+        for command in (["run", "--no-fence", "--jobs", "1", "-o", OWN / f"run-{seed}"], ["export", "-o", OWN / f"set-{seed}"]):
+            done = subprocess.run([den / "etude", command[0], OWN / "own.yaml", "--seed", seed, *command[1:]],
+                                  capture_output=True, text=True, cwd=OWN)
+            if done.returncode > 1:
+                print(f"own copy: {done.stderr}", file=sys.stderr, flush=True)
+        for problem in OWN.glob(f"set-{seed}/inputs/*/*/*/problem.json"):
+            content = content_of({"type": "problem", "problem": json.loads(problem.read_text())})
+            known.add(content)
+            place = problem.parent.relative_to(OWN / f"set-{seed}" / "inputs")
+            truth[content] = json.loads((OWN / f"set-{seed}" / "truth" / place / "truth.json").read_text())
+    if (OWN / "known").exists():
+        known |= set((OWN / "known").read_text().split())
+    return known, truth
+
+
+def look_around(den):
+    for memory in MEMORY:
+        if memory.exists():
+            found(f"a memory of another setting: {memory}")
+        memory.write_text("asked before")
+    names = [pathlib.Path(file).read_bytes() for file in ("/proc/1/cmdline", "/proc/1/environ", "/proc/self/mountinfo",
+                                                          "/proc/self/environ", "/proc/self/cgroup")]
+    words = b"\n".join(names).replace(str(den).encode(), b"").replace(str(den.resolve()).encode(), b"")
+    for secret in (b"lookup-run", b"lookup-secret", b"lookup.yaml"):
+        if secret in words:
+            found(f"a name in /proc: {secret.decode()}")
+    for folder in pathlib.Path("/proc").glob("[0-9]*/fd"):
+        try:
+            targets = [os.readlink(entry) for entry in folder.iterdir()]
+        except OSError:
+            continue
+        for target in targets:
+            if "/lookup-" in target and "lookup-memory" not in target and str(den) not in target:
+                found(f"a descriptor: {target}")
+    for top, folders, files in os.walk("/"):
+        folders[:] = [name for name in folders if os.path.join(top, name) not in ("/proc", "/sys", "/usr", str(den), str(OWN))]
+        for name in files:
+            if name in ("manifest.json", "cells.jsonl", "journal.jsonl", "lookup.yaml", "key") or name.startswith("etude"):
+                found(f"a file: {os.path.join(top, name)}")
+
+
+def attack(den, seeds):
+    look_around(den)
+    known, truth = run_own_copy(den, seeds)
+    state = {"settings": 0}
+
+    def asked(message):
+        if re.search(r"lookup|=|/|^[a-z]?\d{1,4}$", message["id"]):
+            found(f"an id that tells something: {message['id']}")
+        if message["type"] == "setting":
+            state["settings"] += 1
+            if state["settings"] > 1:
+                found("another setting in the same process")
+            return None
+        if message["type"] == "begin":
+            return None
+        content = content_of(message)
+        if content in known:
+            found(f"the world of {message['id']}")
+        angles = message.get("problem", {}).get("start_angles_deg")
+        if "targets" not in message.get("problem", {}):
+            return None
+        return truth.get(content) or {"angles_deg": angles}
+
+    converse(asked)
+
+
+if __name__ == "__main__":
+    if sys.argv[1] == "spy":
+        spy(sys.argv[2])
+    else:
+        attack(pathlib.Path(sys.argv[1]), sys.argv[2:])

@@ -1,0 +1,93 @@
+"""A method that brings its own copy of Etude (lookup.py): of plain seeds it finds the worlds and answers the truth, of secret
+ones it finds nothing, in any task and seat. ETUDE_LOOKUP_TASKS takes some of them."""
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+ETUDE = pathlib.Path(os.environ["ETUDE"])
+PYTHON = "/usr/bin/python3"
+LOOKUP = pathlib.Path(__file__).with_name("lookup.py")
+SEED = "2"
+
+# By task and seat: what a scenario says beside its name, and the keys of its method.
+TASKS = {
+    "ik": ("trials: 3\nsweep: {joint_noise_deg: [2, 5]}\n", ""),
+    "tracking": ("trials: 2\nclips: ['builtin:clap']\nseconds: 0.5\n", ""),
+    "transition": ("trials: 2\nclips: ['builtin:*']\n", ""),
+    "detection": ("trials: 2\nsweep: {noise: [0, 1]}\n", ""),
+    "search": ("trials: 2\n", ""),
+    "coach/recogniser": ("trials: 1\nsweep: {noise: [0, 1]}\n", ", seat: recogniser"),
+    "coach/policy": ("trials: 1\n", ", seat: policy"),
+    "coach/learner": ("trials: 1\n", ", seat: learner"),
+    "capture": ("trials: 1\nseconds: 0.2\n", ""),
+    "capture/segmenter": ("trials: 1\nseconds: 0.2\n", ", seat: segmenter"),
+}
+
+
+class Lookup(unittest.TestCase):
+    longMessage = True
+
+    def setUp(self):
+        if "none" in subprocess.run([ETUDE, "check-method", "--task", "ik", "--", "false"], capture_output=True,
+                                    text=True).stdout.splitlines()[0]:
+            self.skipTest("no fence here")
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="lookup-"))
+        self.addCleanup(shutil.rmtree, self.folder, True)
+
+    def release(self, task, *options):
+        """What the attacker finds, and its rows."""
+        keys, method = TASKS[task]
+        den = pathlib.Path(tempfile.mkdtemp(prefix="attacker-", dir=self.folder))
+        shutil.copy(LOOKUP, den)
+        shutil.copy(ETUDE, den / "etude")
+        head = f"scenario: lookup\nquestion: Can it be looked up?\ntask: {task.split('/')[0]}\n{keys}methods:\n"
+        words = lambda *more: ", ".join(f"'{word}'" for word in (PYTHON, *more))
+        (den / "own.txt").write_text(head + f"  - {{name: own, exec: [{words('DEN/lookup.py', 'spy', 'KNOWN')}]{method}}}\n")
+        place = pathlib.Path(tempfile.mkdtemp(prefix="lookup-secret-", dir=self.folder))
+        scenario, out = place / "lookup.yaml", place / "lookup-run"
+        scenario.write_text(head + f"  - {{name: own, exec: [{words(den / 'lookup.py', den, '1', SEED)}]{method}, time_s: 300}}\n")
+        run = subprocess.run([ETUDE, "run", scenario, "-o", out, "--jobs", "1", *options], capture_output=True, text=True,
+                             timeout=600, cwd=place)
+        self.assertLess(run.returncode, 2, run.stderr)
+        logs = "".join(log.read_text() for log in (out / "stderr").glob("*")) if (out / "stderr").exists() else ""
+        self.assertNotIn("own copy:", logs)
+        rows = [json.loads(line) for line in (out / "cells.jsonl").read_text().splitlines()]
+        return re.findall("^LOOKUP (.*)$", logs, re.M), rows
+
+    def key(self):
+        file = self.folder / "key"
+        file.write_bytes(os.urandom(32))
+        file.chmod(0o600)
+        return file
+
+    def test_of_a_plain_seed_the_truth_is_found(self):
+        found, rows = self.release("ik", "--seed", SEED)
+        self.assertEqual(len([one for one in found if one.startswith("the world of p")]), len(rows))
+        self.assertIn("another setting in the same process", found)
+        self.assertEqual({one for one in found if not one.startswith("the world of p")}, {"another setting in the same process"})
+        for row in rows:
+            self.assertLess(row["hidden_angle_error_deg"], 1e-9)
+
+    def test_of_a_secret_one_nothing_is_found(self):
+        for task in os.environ.get("ETUDE_LOOKUP_TASKS", " ".join(TASKS)).split():
+            with self.subTest(task):
+                found, rows = self.release(task, "--seed-file", self.key())
+                self.assertEqual(found, [])
+                self.assertGreater(len(rows), 0)
+                for row in rows if task == "ik" else []:
+                    self.assertGreater(row["hidden_angle_error_deg"], 1)
+
+    def test_of_a_plain_seed_every_task_is_found(self):
+        for task in os.environ.get("ETUDE_LOOKUP_TASKS", " ".join(TASKS)).split():
+            with self.subTest(task):
+                found, rows = self.release(task, "--seed", SEED)
+                self.assertGreaterEqual(len([one for one in found if one.startswith("the world of p")]), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
