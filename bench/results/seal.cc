@@ -23,7 +23,8 @@ using Digests = std::map<std::string, std::string>;
 
 bool IsSealed(const fs::path& from_folder) {
   const std::string first = from_folder.begin()->string();
-  return first != kSealFile && first != TemporaryName(kSealFile) && first != kJournalFile && !IsMadeFromResults(first);
+  return first != kSealFile && first != TemporaryName(kSealFile) && first != kJournalFile && first != kLockFile &&
+         !IsMadeFromResults(first);
 }
 
 Result<Digests> DigestsOf(const fs::path& folder) {

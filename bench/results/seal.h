@@ -9,6 +9,8 @@ namespace etude {
 
 /// The seal in the folder of a whole run: a digest of every file that the run or the merge wrote.
 constexpr const char* kSealFile = "seal.json";
+/// Locked by whoever writes into the folder, and gone when it is done; no result.
+constexpr const char* kLockFile = "lock";
 
 /// True if a part of a result folder is made from the results, and may be made again: `report`, `video`. Such parts are
 /// not sealed.

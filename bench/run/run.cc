@@ -8,6 +8,7 @@
 #include "bench/process/clock.h"
 #include "bench/results/folder.h"
 #include "bench/run/journal.h"
+#include "bench/run/machine_trial.h"
 #include "bench/run/manifest.h"
 #include "bench/run/run_folder.h"
 #include "bench/run/suite.h"
@@ -172,6 +173,8 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   const fs::path folder = FolderFor(options, suite);
   ASSIGN_OR_RETURN(const auto state, CheckFolder(folder, options));
   ASSIGN_OR_RETURN(const auto scenarios, PrepareToRun(suite, options));
+  Fence fence = FenceFor(scenarios, options.outside, "");
+  if (!options.resume || state != FolderState::kFinished) RETURN_IF_ERROR(TryMachine(scenarios, fence));
   const Plan plan(scenarios);
   ASSIGN_OR_RETURN(const auto manifest, WriteJson(MakeManifest(suite, scenarios, options.program_version)));
   ASSIGN_OR_RETURN(const auto build, BuildDigest());
@@ -188,7 +191,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   ASSIGN_OR_RETURN(auto opened, OpenJournal(folder, manifest + "\n", head, continues, options, plan, cells));
   std::vector<Order> orders = plan.OrdersFor(options.shard, cells.Done());
   const bool was_done = continues && orders.empty();
-  const Fence fence = FenceFor(scenarios, options.outside, folder);
+  if (fence.IsUp()) fence.Hide(fs::absolute(folder).lexically_normal());
   JournalRecorder recorder(cells, std::move(opened.journal), cells.AddFile(folder / kJournalFile), opened.before,
                            on_progress);
   const auto whole = RunOrders(suite, plan, std::move(orders),
@@ -215,6 +218,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
                      .seconds = SecondsSince(start),
                      .stopped = !*whole,
                      .fence = ProgramsOf(scenarios).empty() ? "" : fence.description(),
+                     .why_unlocked = claimed.why_unlocked(),
                      .damaged_lines = std::move(opened.damaged)};
   if (outcome.stopped) return outcome;
   claimed.Keep();
