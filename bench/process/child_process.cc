@@ -130,7 +130,8 @@ bool SettleIn(const Becoming& child) {
   ::close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);
   for (std::size_t i = 0; i < child.told.size(); ++i) {
     const int wanted = STDERR_FILENO + 1 + static_cast<int>(i);
-    // Those of what is told were opened last, behind two pipes and the report: none is overwritten that is still wanted.
+    // Those of what is told were opened last, behind two pipes and the report: none is overwritten that is still
+    // wanted.
     if (::dup2(child.told[i].number(), wanted) < 0 || ::lseek(wanted, 0, SEEK_SET) != 0) GiveUp(child, errno);
   }
   ::execve(child.path, child.argv, child.envp);

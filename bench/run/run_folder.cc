@@ -27,9 +27,9 @@ namespace fs = std::filesystem;
 /// The name of a part of a result folder, or of one that was being written.
 bool IsPartOfRun(const fs::path& name) {
   static const std::vector<std::string> parts = {
-      "manifest.json", "host.json", kJournalFile,   kSealFile,      "cells.jsonl",
-      "timings.jsonl", "series",    "recordings",   "summary.json", "report",
-      "video",         "stderr",    kColumnsFolder, kTimesFolder,   kOtherLibrariesFile, kLockFile};
+      "manifest.json", "host.json",  kJournalFile,        kSealFile, "cells.jsonl", "timings.jsonl",
+      "series",        "recordings", "summary.json",      "report",  "video",       "stderr",
+      kColumnsFolder,  kTimesFolder, kOtherLibrariesFile, kLockFile};
   return std::any_of(parts.begin(), parts.end(),
                      [&](const std::string& part) { return name == part || name == TemporaryName(part); });
 }

@@ -34,7 +34,7 @@ trials: 1
 methods:
   - {name: plain}
 """
-# Answers with the frame asked at; where it is told a folder, it makes a file of it at its first answer.
+# Answers with the frame asked at; of a folder that it is told, and can write to, it makes a file at its first answer.
 METHOD = """import json, os, shutil, sys
 for line in sys.stdin:
     message = json.loads(line)
@@ -46,7 +46,7 @@ for line in sys.stdin:
         reply = {"type": "answer", "id": message["id"],
                  "answer": {"leave_frame": message["problem"]["request_frame"], "enter_frame": 0}}
         for folder in sys.argv[1:]:
-            if os.path.isdir(folder):
+            if os.access(folder, os.W_OK) and os.path.isdir(folder):
                 shutil.rmtree(folder)
                 open(folder, "w").close()
     print(json.dumps(reply), flush=True)
@@ -134,7 +134,7 @@ class Machine(EtudeCase):
             self.assertIn(f"{self.out}: could not be locked ({words})", run.stderr)
             self.assert_same_results(whole, self.out)
         held = self.run_here(scenario, "-o", self.out, "--overwrite", wrapped=[
-            "strace", "-f", "-o", "/dev/null", "-e", "trace=flock", "-e", "inject=flock:error=EWOULDBLOCK"])
+            "strace", "-f", "-o", "/dev/null", "-e", "trace=flock", "-e", "inject=flock:error=EAGAIN"])
         self.assertEqual(held.returncode, 2)
         self.assertIn("another run is writing into it", held.stderr)
         self.assertEqual(sorted(path.name for path in self.out.glob("lock*")), [])
