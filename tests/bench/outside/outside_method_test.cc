@@ -222,10 +222,11 @@ TEST(OutsideMethod, WhatOfThisMachineKeepsUsFromAskingItIsNoAnswerOfIt) {
   const char* const before = ::getenv("TMPDIR");
   const std::string told = before == nullptr ? "" : before;
   const std::string file = ::testing::TempDir() + "no-folder";
+  const OutsideOptions options = Behaving("is_good");
   std::ofstream(file) << "";
   for (const std::string& folder : {std::string("/no/such/folder"), file, std::string("/proc"), std::string("tests")}) {
     ::setenv("TMPDIR", folder.c_str(), 1);
-    OutsideMethod method(Behaving("is_good"));
+    OutsideMethod method(options);
     const OutsideReply reply = Ask(method);
     EXPECT_FALSE(reply.was_asked);
     EXPECT_THAT(reply.reason, StartsWith("in its start: TMPDIR=" + folder + ": "));
