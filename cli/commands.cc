@@ -5,12 +5,13 @@
 #include <cstdio>
 
 #include "bench/model/run_data.h"
+#include "bench/process/machine.h"
 
 namespace etude {
 
 int Complain(const Error& error) {
   std::fputs(("etude: " + ToString(error) + "\n").c_str(), stderr);
-  return kUnusableInput;
+  return IsOfThisMachine(error) ? kIncomplete : kUnusableInput;
 }
 
 int Finish(const Result<int>& code) { return code ? *code : Complain(code.error()); }

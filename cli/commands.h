@@ -19,9 +19,9 @@ constexpr int kUnusableInput = 2;
 constexpr int kIncomplete = 3;
 constexpr int kInterrupted = 130;
 
-/// Prints a complaint the one way Etude does, and gives kUnusableInput.
+/// Prints a complaint the one way Etude does, and gives kUnusableInput; kIncomplete of an error of this machine.
 int Complain(const Error& error);
-/// Gives a command's exit code; without one prints its complaint and gives kUnusableInput.
+/// Gives a command's exit code; without one what Complain gives.
 int Finish(const Result<int>& code);
 /// Says that Ctrl-C came and what it left, and gives kInterrupted.
 int TellStopped(const Error& what_is_left = {{}, "stopped; nothing is kept"});

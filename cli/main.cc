@@ -9,9 +9,11 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <new>
 #include <span>
 #include <string_view>
 
+#include "bench/process/machine.h"
 #include "bench/process/pinned_environment.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
@@ -152,7 +154,9 @@ int main(int argc, char** argv) {
     const int code = etude::Main(argc, argv);
     if (std::fflush(stdout) == 0) return code;
     return etude::Complain({{"standard output", 0, 0}, std::strerror(errno)});
-  } catch (const std::exception& error) {  // out of memory, or an output that takes nothing more
+  } catch (const std::bad_alloc&) {
+    return etude::Complain({{etude::kThisMachine, 0, 0}, "there is no more memory"});
+  } catch (const std::exception& error) {  // an output that takes nothing more
     return etude::Complain({{}, error.what()});
   }
 }

@@ -122,6 +122,13 @@ int ShowOutcome(const RunOutcome& outcome) {
 }
 
 namespace {
+/// Says that nothing keeps a second run out of the folder.
+void TellUnlocked(const RunOutcome& outcome) {
+  if (outcome.why_unlocked.empty()) return;
+  Complain(
+      {{outcome.folder.string(), 0, 0},
+       fmt::format("could not be locked ({}): that no other run writes into it is up to you", outcome.why_unlocked)});
+}
 
 int RunCommand(const RunOptions& given) {
   RunOptions options = given;
@@ -134,6 +141,7 @@ int RunCommand(const RunOptions& given) {
   const auto outcome = Run(options, [&](const Progress& progress) { bar.Show(progress); });
   interrupt.reset();  // all is written
   if (!outcome) return Complain(outcome.error());
+  TellUnlocked(*outcome);
   const std::string folder = outcome->folder.string();
   for (const int line : outcome->damaged_lines) {
     Complain(
@@ -163,6 +171,7 @@ int MergeCommand(const MergeOptions& given) {
   const auto outcome = Merge(options, [&](double share) { (share < 0.5 ? reading : writing).Show(share, "merged"); });
   interrupt.reset();
   if (!outcome) return Complain(outcome.error());
+  TellUnlocked(*outcome);
   if (!outcome->stopped) return ShowOutcome(*outcome);
   return TellStopped({{}, "stopped; the shards are as they were, and there is no merged run"});
 }

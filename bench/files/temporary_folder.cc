@@ -31,18 +31,23 @@ int Lock(const fs::path& folder) {
 }  // namespace
 
 Result<TemporaryFolder> TemporaryFolder::Make(const std::string& purpose) {
-  RemoveAbandoned();
+  const char* told = ::getenv("TMPDIR");
+  const fs::path parent = told != nullptr && *told != '\0' ? told : "/tmp";
+  const Place place{told != nullptr ? "TMPDIR=" + parent.string() : parent.string(), 0, 0};
   std::error_code error;
-  const fs::path parent = fs::temp_directory_path(error);
-  if (error) return Fail({parent.string(), 0, 0}, "is no folder for temporary files: {}", error.message());
+  if (!fs::is_directory(parent, error)) {
+    return Fail(place, "is no folder for temporary files{}", error ? ": " + error.message() : "");
+  }
+  if (!parent.is_absolute()) return Fail(place, "is no folder for temporary files; allowed: a path that begins with /");
+  RemoveAbandoned();
   // It gets its final name when it is locked, lest another process take it for abandoned before.
   std::string name = (parent / ("." + std::string(kPrefix) + purpose + "-XXXXXX")).string();
-  if (::mkdtemp(name.data()) == nullptr) return Fail({name, 0, 0}, "cannot be made: {}", std::strerror(errno));
+  if (::mkdtemp(name.data()) == nullptr) return Fail(place, "takes no temporary files: {}", std::strerror(errno));
   const int lock = Lock(name);
   const fs::path path = parent / fs::path(name).filename().string().substr(1);
   if (::rename(name.c_str(), path.c_str()) != 0) {
     ::close(lock);
-    return Fail({path.string(), 0, 0}, "cannot be made: {}", std::strerror(errno));
+    return Fail(place, "takes no temporary files: {}", std::strerror(errno));
   }
   return TemporaryFolder(path, lock);
 }

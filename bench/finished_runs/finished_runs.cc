@@ -7,6 +7,7 @@
 
 #include "bench/files/json.h"
 #include "bench/metrics/catalogue.h"
+#include "bench/process/machine.h"
 #include "bench/run/cell_runner.h"
 #include "bench/run/outside_programs.h"
 #include "bench/scenario/scenario.h"
@@ -164,7 +165,11 @@ Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed)
   for (int condition = 0; condition < static_cast<int>(scenario.conditions.size()); ++condition) {
     for (int trial = 0; trial < scenario.trials; ++trial) {
       runner.Open(condition, trial);
-      for (std::size_t m = 0; m < scenario.methods.size(); ++m) run.data.rows.push_back(runner.Run(m).row);
+      for (std::size_t m = 0; m < scenario.methods.size(); ++m) {
+        FinishedCell cell = runner.Run(m);
+        if (!cell.why_not_run.empty()) return Fail({kThisMachine}, "{}", cell.why_not_run);
+        run.data.rows.push_back(std::move(cell.row));
+      }
     }
   }
   return run;

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 Result<AttachmentFolder> AttachmentFolder::Write(const fs::path& attachment_root, std::span<const Attachment> files) {
   AttachmentFolder folder;
   if (files.empty()) return folder;
-  std::string name = (attachment_root / "XXXXXX").string();
+  std::string name = (attachment_root / std::string(kNameLength, 'X')).string();
   if (::mkdtemp(name.data()) == nullptr) return Fail({name, 0, 0}, "cannot be made: {}", std::strerror(errno));
   folder.path_ = name;
   for (const Attachment& file : files) {

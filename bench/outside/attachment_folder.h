@@ -12,6 +12,8 @@ namespace etude {
 /// A folder that holds attachments, and goes away with all that is in it.
 class AttachmentFolder {
  public:
+  static constexpr std::size_t kNameLength = 6;  ///< of its name below `attachment_root`
+
   /// Holds no folder yet.
   AttachmentFolder() = default;
   /// Makes a folder in `attachment_root` that holds the files; none when there are no files.

@@ -139,7 +139,7 @@ class ConformanceTest {
     slowest_s_ = std::max(slowest_s_, SecondsSince(start));
     peak_mb_ = std::max(peak_mb_, reply.peak_mb);
     repeated_ += reply.repeated;
-    Attempt attempt{reply.status, reply.reason, "", reply.status != Status::kFailed};
+    Attempt attempt{reply.status, reply.reason, "", reply.was_asked && reply.status != Status::kFailed};
     if (reply.status == Status::kOk) {
       attempt.said = reply.answer->dump();
       const auto judged = problem.world->Judge(*reply.answer);
@@ -161,7 +161,7 @@ class ConformanceTest {
     peak_mb_ = std::max(peak_mb_, program.peak_mb());
     repeated_ += program.repeated();
     if (const auto& failure = program.failure()) {
-      Attempt attempt{failure->status, failure->reason, "", failure->status != Status::kFailed};
+      Attempt attempt{failure->status, failure->reason, "", program.was_asked() && failure->status != Status::kFailed};
       if (failure->status != Status::kUnsolved) {
         attempt.fault = fmt::format("{}: {}", StatusName(failure->status), failure->reason);
       }

@@ -27,6 +27,7 @@ namespace etude {
 namespace {
 
 constexpr std::chrono::milliseconds kLookEvery{20};  // at memory, and at whether it still runs
+constexpr std::chrono::milliseconds kLookAtMappingsEvery{200};
 constexpr int kMostFailures = 3;
 constexpr int kDyingMs = 1000;     // from closing its output to its end
 constexpr int kEndingMs = 500;     // from the end of its input to its own
@@ -39,6 +40,7 @@ constexpr const char* kHint = " (a fence shows it the system and what its key 'f
 struct Failure {
   Status status = Status::kFailed;
   std::string reason;
+  bool was_asked = true;
 };
 template <typename T>
 using Outcome = tl::expected<T, Failure>;
@@ -49,9 +51,12 @@ tl::unexpected<Failure> Failed(Status status, std::string reason) {
 
 Failure TooLong(double seconds) { return {Status::kTimeout, fmt::format("took longer than {:g} s", seconds)}; }
 
-/// Blames a program for what it said; OurFailure is for what cannot be said to it.
+/// Blames a program for what it said; OurFailure is for what cannot be said to it; NotAsked blames this machine.
 tl::unexpected<Failure> BadOutput(const Error& error) { return Failed(Status::kBadOutput, error.message); }
 tl::unexpected<Failure> OurFailure(const Error& error) { return Failed(Status::kFailed, ToString(error)); }
+tl::unexpected<Failure> NotAsked(const Error& error) {
+  return tl::unexpected<Failure>({Status::kFailed, ToString(error), false});
+}
 
 }  // namespace
 
@@ -65,6 +70,7 @@ struct OutsideMethod::State {
                       const Payload& begin);
   Outcome<Json> Step(const Payload& step);
   OutsideReply ReplyOf(Outcome<Json> said);
+  std::string WithoutFolder(std::string text) const;
   Outcome<void> Start();
   Outcome<void> TellSetting(const std::string& id, const Payload& setting);
   template <typename Act>
@@ -102,7 +108,8 @@ struct OutsideMethod::State {
   std::optional<Session> session;  ///< that goes on
   std::set<std::string> answered;  ///< what the running program was asked before
   int repeated = 0;                ///< lines passed over since the problem was put
-  Clock::time_point last_look{};
+  Clock::time_point last_look{}, last_look_at_mappings{};
+  double shared_mb = 0;      ///< in mappings, as last seen
   double cpu_s = 0;          ///< of the running program, as last seen
   double cpu_charged_s = 0;  ///< of that, told in earlier replies
   double peak_mb = 0;        ///< since the problem was put
@@ -125,7 +132,7 @@ Outcome<void> OutsideMethod::State::Attempt(const std::string& what, Act act) {
     return done;
   }
   ++failed.times;
-  failed.last = {done.error().status, fmt::format("{}: {}", what, done.error().reason)};
+  failed.last = {done.error().status, fmt::format("{}: {}", what, done.error().reason), done.error().was_asked};
   return tl::unexpected(failed.last);
 }
 
@@ -147,7 +154,7 @@ Outcome<void> OutsideMethod::State::Begin(const std::string& setting_id, const P
   RETURN_IF_ERROR(MakeReady(setting_id, setting));
   const std::string id = IdOf('p', name);
   auto files = AttachmentFolder::Write(attachment_root->path(), begin.files);
-  if (!files) return OurFailure(files.error());
+  if (!files) return NotAsked(files.error());
   const auto line = BeginLine(id, *begin.json, files->path());
   if (!line) return OurFailure(line.error());
   RETURN_IF_ERROR(Exchange(*line, options.time_s, ReadReady));
@@ -159,7 +166,7 @@ Outcome<void> OutsideMethod::State::Begin(const std::string& setting_id, const P
 Outcome<Json> OutsideMethod::State::Step(const Payload& step) {
   const int number = session->steps++;
   const auto files = AttachmentFolder::Write(attachment_root->path(), step.files);
-  if (!files) return OurFailure(files.error());
+  if (!files) return NotAsked(files.error());
   const auto line = StepLine(session->id, number, *step.json, files->path());
   if (!line) return OurFailure(line.error());
   const auto read = [&](const std::string& said) -> Result<Json> {
@@ -175,7 +182,7 @@ Outcome<Json> OutsideMethod::State::Solve(const std::string& setting_id, const P
   RETURN_IF_ERROR(MakeReady(setting_id, setting));
   const std::string problem_id = IdOf('p', name);
   const auto files = AttachmentFolder::Write(attachment_root->path(), problem.files);
-  if (!files) return OurFailure(files.error());
+  if (!files) return NotAsked(files.error());
   const auto line = ProblemLine(problem_id, *problem.json, files->path());
   if (!line) return OurFailure(line.error());
   answered.erase(problem_id);
@@ -192,12 +199,12 @@ Outcome<void> OutsideMethod::State::Start() {
   if (!hello) return OurFailure(hello.error());
   if (!attachment_root) {
     auto made = TemporaryFolder::Make("files");
-    if (!made) return OurFailure(made.error());
+    if (!made) return NotAsked(made.error());
     attachment_root.emplace(std::move(*made));
   }
   std::vector<std::string> command = options.command;
   auto program = FindProgram(command.front());
-  if (!program) return OurFailure(program.error());
+  if (!program) return NotAsked(program.error());
   command.front() = std::move(*program);
   ProgramView view = ViewOf(command, options.files);
   view.shown.emplace_back(attachment_root->path());
@@ -206,13 +213,18 @@ Outcome<void> OutsideMethod::State::Start() {
                                       .arguments = {fenced.words.begin() + 1, fenced.words.end()},
                                       .error_file = errors.path(),
                                       .limited = true,
+                                      .contained = options.fence.IsUp(),
                                       .told = fenced.told});
-  if (!started) return OurFailure(started.error());
+  if (!started) return NotAsked(started.error());
   child = std::move(*started);
   answered.clear();
-  cpu_s = cpu_charged_s = 0;
+  cpu_s = cpu_charged_s = shared_mb = 0;
+  last_look_at_mappings = {};
   auto reply = Exchange(*hello, StartSeconds(), ReadHello);
-  if (!reply && reply.error().status == Status::kCrashed) reply.error().reason += kHint;
+  if (!reply && reply.error().status == Status::kCrashed) {  // or was it the fence?
+    if (auto tried = options.fence.Try(); !tried) return NotAsked(tried.error());
+    reply.error().reason += kHint;
+  }
   if (!reply) return tl::unexpected(std::move(reply).error());
   program_name = reply->name + " " + reply->version;
   return {};
@@ -220,7 +232,7 @@ Outcome<void> OutsideMethod::State::Start() {
 
 Outcome<void> OutsideMethod::State::TellSetting(const std::string& id, const Payload& setting) {
   auto files = AttachmentFolder::Write(attachment_root->path(), setting.files);
-  if (!files) return OurFailure(files.error());
+  if (!files) return NotAsked(files.error());
   setting_files = std::move(*files);
   const auto line = SettingLine(IdOf('s', id), *setting.json, setting_files.path());
   if (!line) return OurFailure(line.error());
@@ -245,7 +257,10 @@ auto OutsideMethod::State::Exchange(const std::string& line, double seconds, Rea
       ++repeated;
       continue;
     }
-    if (!reply) return BadOutput(reply.error());
+    if (!reply) {
+      const auto again = read(WithoutFolder(*said));
+      return BadOutput((again ? reply : again).error());
+    }
     if (looks == Looks::kAlways || Clock::now() >= last_look + kLookEvery) {
       RETURN_IF_ERROR(Look());
     }
@@ -292,7 +307,12 @@ Outcome<std::string> OutsideMethod::State::WaitForLine(Clock::time_point deadlin
 Outcome<void> OutsideMethod::State::Look() {
   last_look = Clock::now();
   errors.Trim();
-  const ProcessUsage usage = child->Measure();
+  ProcessUsage usage = child->Measure();
+  if (last_look >= last_look_at_mappings + kLookAtMappingsEvery) {
+    last_look_at_mappings = last_look;
+    shared_mb = child->MeasureSharedMappingsMb();
+  }
+  usage.resident_mb += shared_mb + options.fence.ScratchMb(child->FirstStarted());
   cpu_s = std::max(cpu_s, usage.cpu_s);  // it may have vanished meanwhile
   peak_mb = std::max(peak_mb, usage.resident_mb);
   if (usage.resident_mb > options.memory_mb) {
@@ -304,7 +324,7 @@ Outcome<void> OutsideMethod::State::Look() {
 
 /// Says how a program ended from which no whole line will come any more.
 Failure OutsideMethod::State::HowItEnded() {
-  const std::string part(child->PartOfLine().substr(0, 100));
+  const std::string part = WithoutFolder(std::string(child->PartOfLine().substr(0, 1000))).substr(0, 100);
   if (child->PartOfLine().size() > kLongestReply) {
     return {Status::kBadOutput,
             fmt::format("said a line of more than {} MiB: {}", kLongestReply >> 20, Printable(part))};
@@ -314,8 +334,9 @@ Failure OutsideMethod::State::HowItEnded() {
   const std::string end = child->Finish(0);
   std::string reason = "ended with " + end;
   if (!part.empty()) reason += ", amid the line " + Printable(part);
-  if (const std::string words = errors.LastLine(); !words.empty())
+  if (const std::string words = WithoutFolder(errors.LastLine()); !words.empty()) {
     reason += "; its last words: " + Printable(words, 200);
+  }
   // An exit code is the program's own word, an exception for instance; a signal may be the machine's.
   return {end.starts_with("exit code") ? Status::kFailed : Status::kCrashed, std::move(reason)};
 }
@@ -373,6 +394,18 @@ OutsideReply OutsideMethod::Step(const Payload& step) {
   return reply;
 }
 
+/// What a program says of its attachments would be another reason every time, by where they lay.
+std::string OutsideMethod::State::WithoutFolder(std::string text) const {
+  if (!attachment_root) return text;
+  const std::string folder = attachment_root->path().string();
+  for (std::size_t at = 0; (at = text.find(folder, at)) != std::string::npos;) {
+    const std::size_t own = at + folder.size();  // below it, each has a folder of its own
+    const bool is_named = own < text.size() && text[own] == '/';
+    text.replace(at, folder.size() + (is_named ? 1 + AttachmentFolder::kNameLength : 0), "FILES");
+  }
+  return text;
+}
+
 /// Stops a program that gave no answer that can be read; charges what it used.
 OutsideReply OutsideMethod::State::ReplyOf(Outcome<Json> said) {
   if (!said) Stop(0);
@@ -384,10 +417,11 @@ OutsideReply OutsideMethod::State::ReplyOf(Outcome<Json> said) {
   if (!said) {
     reply.status = said.error().status;
     reply.reason = said.error().reason;
+    reply.was_asked = said.error().was_asked;
   } else if ((*said)["type"] == "no_answer") {
     reply.status = Status::kUnsolved;
     const std::string why = (*said)["reason"].get<std::string>();
-    reply.reason = "gave no answer: " + Printable(why, 200);
+    reply.reason = "gave no answer: " + Printable(WithoutFolder(why), 200);
   } else {
     reply.status = Status::kOk;
     reply.answer = std::make_unique<Json>(std::move((*said)["answer"]));

@@ -38,10 +38,11 @@ double LongestAskSeconds(double time_s);
 struct OutsideReply {
   Status status = Status::kFailed;  ///< kOk: `answer` is what it said; else it gave none, and why
   std::string reason;
-  JsonPtr answer;      ///< an object, whose numbers are finite
-  double cpu_s = 0;    ///< of the program since its last reply; zero when it ended before it was looked at
-  double peak_mb = 0;  ///< the largest resident size seen while it worked on this; looked at 50 times a second
-  int repeated = 0;    ///< lines that were passed over before this reply, because they answered what had an answer
+  bool was_asked = true;  ///< false: something of this machine, which `reason` tells, is to blame: no answer of its own
+  JsonPtr answer;         ///< an object, whose numbers are finite
+  double cpu_s = 0;       ///< of the program since its last reply; zero when it ended before it was looked at
+  double peak_mb = 0;     ///< the largest resident size seen while it worked on this; looked at 50 times a second
+  int repeated = 0;       ///< lines that were passed over before this reply, because they answered what had an answer
 };
 
 /// A program that answers problems over its standard input and output. Started at its first problem, kept for

@@ -15,6 +15,7 @@ OutsideReply SeatedProgram::Note(OutsideReply reply) {
   cpu_s_ += reply.cpu_s;
   peak_mb_ = std::max(peak_mb_, reply.peak_mb);
   repeated_ += reply.repeated;
+  was_asked_ = reply.was_asked;
   if (reply.status != Status::kOk) failure_ = CellResult::Ended(reply.status, reply.reason);
   return reply;
 }

@@ -20,6 +20,8 @@ class SeatedProgram : public LiveProgram {
 
   /// Tells how it failed, if it has.
   const std::optional<CellResult>& failure() const { return failure_; }
+  /// False when it has failed since this machine kept us from asking it.
+  bool was_asked() const { return was_asked_; }
   double cpu_s() const { return cpu_s_; }
   double peak_mb() const { return peak_mb_; }
   int repeated() const { return repeated_; }
@@ -35,6 +37,7 @@ class SeatedProgram : public LiveProgram {
   const std::string id_;
   int sessions_ = 0;
   std::optional<CellResult> failure_;
+  bool was_asked_ = true;
   double cpu_s_ = 0, peak_mb_ = 0;
   int repeated_ = 0;
   Digest answers_;

@@ -2,11 +2,16 @@
 
 #include <fcntl.h>
 #include <linux/close_range.h>
+#include <linux/sched.h>
+#include <poll.h>
+#include <sched.h>
 #include <signal.h>
 #include <sys/mman.h>
+#include <sys/mount.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,6 +23,7 @@
 #include <set>
 #include <utility>
 
+#include "bench/process/machine.h"
 #include "bench/process/pinned_environment.h"
 #include "bench/process/process_tree.h"
 
@@ -29,8 +35,7 @@ bool IsProgram(const std::string& path) {
   return ::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) && ::access(path.c_str(), X_OK) == 0;
 }
 
-constexpr int kTold = STDERR_FILENO + 1;  // the descriptor of ChildOptions::told
-constexpr int kChunksPerReceive = 16;     // a child that never stops talking must not keep us from looking at the clock
+constexpr int kChunksPerReceive = 16;  // a child that never stops talking must not keep us from looking at the clock
 
 std::vector<char*> Pointers(std::vector<std::string>& texts) {
   std::vector<char*> pointers;
@@ -39,13 +44,16 @@ std::vector<char*> Pointers(std::vector<std::string>& texts) {
   return pointers;
 }
 
+constexpr int kNotContained = -1;  // in the place of an errno
+
 struct Pipe {
   Descriptor read, write;
 };
 
 Result<Pipe> MakePipe() {
   std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) return Fail({}, "no pipe can be made: {}", std::strerror(errno));
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+    return Fail({kThisMachine}, "no pipe can be made: {}", std::strerror(errno));
   return Pipe{Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
@@ -65,36 +73,84 @@ void LimitProgram() {
   Limit(RLIMIT_CORE, 0);
 }
 
-/// Turns a forked child into the program. Only system calls are safe here.
-[[noreturn]] void BecomeProgram(const char* path, char* const* argv, char* const* envp, int input, int output,
-                                int errors, int told, int report, pid_t parent, bool limited) {
-  ::setpgid(0, 0);
-  ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // orphans below it stay below it, where they can be found
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(0);  // we died before the line above
-  for (const int number : {SIGINT, SIGTERM, SIGPIPE, SIGCHLD, SIGXFSZ}) ::signal(number, SIG_DFL);
-  if (limited) LimitProgram();
-  ::dup2(input, STDIN_FILENO);
-  ::dup2(output, STDOUT_FILENO);
-  if (errors >= 0) ::dup2(errors, STDERR_FILENO);
-  if (report == kTold) report = ::dup(report);
-  if (told >= 0) ::dup2(told, kTold);
-  ::close_range(told >= 0 ? kTold + 1 : kTold, ~0U, CLOSE_RANGE_CLOEXEC);
-  if (told == kTold) ::fcntl(kTold, F_SETFD, 0);
-  ::execve(path, argv, envp);
-  const int reason = errno;
-  if (::write(report, &reason, sizeof reason) < 0) ::_exit(126);
+/// What a forked child becomes, all made ready before: between fork and exec only system calls are safe.
+struct Becoming {
+  const char* path;
+  char* const* argv;
+  char* const* envp;
+  int input, output, errors;  ///< -1 = it keeps ours
+  int report;                 ///< where it writes why it cannot become the program
+  int parent;                 ///< a pidfd of ours
+  bool limited, contained;
+  std::string user_map, group_map;
+  std::vector<Descriptor> told;
+};
+
+/// Forks into a space of processes of its own, with the privileges there (not here) that a fence needs to begin.
+pid_t ForkContained() {
+  clone_args how{};
+  how.flags = CLONE_NEWUSER | CLONE_NEWPID | CLONE_NEWNS;
+  how.exit_signal = SIGCHLD;
+  return static_cast<pid_t>(::syscall(SYS_clone3, &how, sizeof how));
+}
+
+bool WriteTo(const char* path, std::string_view text) {
+  const int file = ::open(path, O_WRONLY | O_CLOEXEC);
+  const bool written = file >= 0 && ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  if (file >= 0) ::close(file);
+  return written;
+}
+
+/// Makes a new space of processes what a fence expects of the one around it: we are ourselves there, and /proc tells
+/// it.
+bool SettleIn(const Becoming& child) {
+  return WriteTo("/proc/self/setgroups", "deny") && WriteTo("/proc/self/uid_map", child.user_map) &&
+         WriteTo("/proc/self/gid_map", child.group_map) &&
+         ::mount("proc", "/proc", "proc", MS_NOSUID | MS_NODEV | MS_NOEXEC, nullptr) == 0;
+}
+
+[[noreturn]] void GiveUp(const Becoming& child, int reason) {
+  if (::write(child.report, &reason, sizeof reason) < 0) ::_exit(126);
   ::_exit(127);
 }
 
-/// A file in memory that holds `text`, to be read from its beginning.
-Result<Descriptor> HoldText(std::string_view text) {
-  Descriptor held(::memfd_create("told", MFD_CLOEXEC));
-  if (held.number() < 0 || ::write(held.number(), text.data(), text.size()) != static_cast<ssize_t>(text.size()) ||
-      ::lseek(held.number(), 0, SEEK_SET) != 0) {
-    return Fail({}, "what a program is told cannot be held: {}", std::strerror(errno));
+/// Turns a forked child into the program.
+[[noreturn]] void BecomeProgram(const Becoming& child) {
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // orphans below it stay below it, where they can be found
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  pollfd parent{child.parent, POLLIN, 0};
+  if (::poll(&parent, 1, 0) != 0) ::_exit(0);  // we died before the line above
+  for (const int number : {SIGINT, SIGTERM, SIGPIPE, SIGCHLD, SIGXFSZ}) ::signal(number, SIG_DFL);
+  if (child.contained && !SettleIn(child)) GiveUp(child, kNotContained);
+  if (child.limited) LimitProgram();
+  ::dup2(child.input, STDIN_FILENO);
+  ::dup2(child.output, STDOUT_FILENO);
+  if (child.errors >= 0) ::dup2(child.errors, STDERR_FILENO);
+  ::close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);
+  for (std::size_t i = 0; i < child.told.size(); ++i) {
+    const int wanted = STDERR_FILENO + 1 + static_cast<int>(i);
+    // Those of what is told were opened last, behind two pipes and the report: none is overwritten that is still
+    // wanted.
+    if (::dup2(child.told[i].number(), wanted) < 0 || ::lseek(wanted, 0, SEEK_SET) != 0) GiveUp(child, errno);
   }
-  return held;
+  ::execve(child.path, child.argv, child.envp);
+  GiveUp(child, errno);
+}
+
+/// A file in memory that holds a text.
+Result<Descriptor> MakeFile(const std::string& text) {
+  Descriptor file(::memfd_create("text", MFD_CLOEXEC));
+  if (file.number() < 0 || ::write(file.number(), text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
+    return Fail({kThisMachine}, "no file in memory can be made: {}", std::strerror(errno));
+  }
+  return file;
+}
+
+/// Starts a program where the kernel grants it no space of its own.
+Result<ChildProcess> StartUncontained(ChildOptions options) {
+  options.contained = false;
+  return ChildProcess::Start(options);
 }
 
 /// The children of this process that are spoken to. Where it adopts orphans, all others are such.
@@ -161,25 +217,36 @@ Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
     errors = Descriptor(::open(options.error_file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666));
     if (errors.number() < 0) return Fail({options.error_file, 0, 0}, "cannot write: {}", std::strerror(errno));
   }
-  Descriptor told;
-  if (!options.told.empty()) {
-    ASSIGN_OR_RETURN(told, HoldText(options.told));
-  }
-  // Everything that allocates happens before fork: between fork and exec only system calls are safe.
   std::vector<std::string> argument_texts = {options.program};
   argument_texts.insert(argument_texts.end(), options.arguments.begin(), options.arguments.end());
   std::vector<std::string> environment_texts = ClosedEnvironment();
   if (options.limited) std::erase_if(environment_texts, [](const auto& text) { return text.starts_with("PWD="); });
   const std::vector<char*> argv = Pointers(argument_texts);
   const std::vector<char*> envp = Pointers(environment_texts);
-  ::signal(SIGPIPE, SIG_IGN);
-  const pid_t parent = ::getpid();
-  const pid_t pid = ::fork();
-  if (pid == 0) {
-    BecomeProgram(path.c_str(), argv.data(), envp.data(), input->read.number(), output->write.number(), errors.number(),
-                  told.number(), report->write.number(), parent, options.limited);
+  const Descriptor ourselves(static_cast<int>(::syscall(SYS_pidfd_open, ::getpid(), 0)));
+  if (ourselves.number() < 0) return Fail({kThisMachine}, "no process can be watched: {}", std::strerror(errno));
+  Becoming child{.path = path.c_str(),
+                 .argv = argv.data(),
+                 .envp = envp.data(),
+                 .input = input->read.number(),
+                 .output = output->write.number(),
+                 .errors = errors.number(),
+                 .report = report->write.number(),
+                 .parent = ourselves.number(),
+                 .limited = options.limited,
+                 .contained = options.contained,
+                 .user_map = fmt::format("{0} {0} 1", ::geteuid()),
+                 .group_map = fmt::format("{0} {0} 1", ::getegid()),
+                 .told = {}};
+  for (const std::string& text : options.told) {
+    ASSIGN_OR_RETURN(auto file, MakeFile(text));
+    child.told.push_back(std::move(file));
   }
-  if (pid < 0) return Fail({}, "no process can be started: {}", std::strerror(errno));
+  ::signal(SIGPIPE, SIG_IGN);
+  const pid_t pid = options.contained ? ForkContained() : ::fork();
+  if (pid == 0) BecomeProgram(child);
+  if (pid < 0 && options.contained && errno != EAGAIN && errno != ENOMEM) return StartUncontained(options);
+  if (pid < 0) return Fail({kThisMachine}, "no process can be started: {}", std::strerror(errno));
   ManagedChildren().insert(pid);
   report->write.Close();
   int reason = 0;
@@ -189,6 +256,7 @@ Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
   if (count > 0) {
     ::waitpid(pid, nullptr, 0);
     ManagedChildren().erase(pid);
+    if (reason == kNotContained) return StartUncontained(options);
     return Fail({path, 0, 0}, "cannot be executed: {}", std::strerror(reason));
   }
   ::fcntl(input->write.number(), F_SETFL, O_NONBLOCK);
@@ -268,6 +336,13 @@ std::optional<std::string> ChildProcess::NextLine() {
 ProcessUsage ChildProcess::Measure() const { return pid_ < 0 ? ProcessUsage{} : MeasureTree(pid_); }
 
 ProcessUsage ChildProcess::MeasureAlone() const { return pid_ < 0 ? ProcessUsage{} : MeasureProcess(pid_); }
+
+double ChildProcess::MeasureSharedMappingsMb() const { return pid_ < 0 ? 0 : etude::MeasureSharedMappingsMb(pid_); }
+
+pid_t ChildProcess::FirstStarted() const {
+  const std::vector<pid_t> started = pid_ < 0 ? std::vector<pid_t>() : ChildrenOf(pid_);
+  return started.empty() ? -1 : started.front();
+}
 
 bool ChildProcess::HasEnded() const {
   siginfo_t info{};

@@ -29,8 +29,11 @@ struct ChildOptions {
   std::string program;  ///< a path, or a name to be found in PATH
   std::vector<std::string> arguments = {};
   std::string error_file = {};  ///< its standard error is appended here; "" = it shares ours
-  bool limited = false;   ///< it is not ours: it gains no privileges, is kept within ProgramLimits, not told our folder
-  std::string told = {};  ///< what it can read from descriptor 3; "" = it has none
+  bool limited = false;  ///< it is not ours: it gains no privileges, is kept within ProgramLimits, not told our folder
+  /// It is the first process of a space of its own, where the kernel grants one: with it, and it goes with us, end all
+  /// that it has started, whatever they were at.
+  bool contained = false;
+  std::vector<std::string> told = {};  ///< what it can read from its descriptors 3, 4, …
 };
 
 /// Makes what a child leaves behind from now on a child of this process, which ends it with the child. For processes
@@ -39,11 +42,12 @@ void AdoptOrphans();
 
 /// A child that is spoken to in lines: its standard input and output are ours. It runs in the pinned
 /// environment, leads a process group of its own (a terminal's Ctrl-C does not reach it), inherits no other
-/// files, and dies with us. Killed, with all that it has started, and reaped by the destructor.
+/// files than those asked for, and dies with us. Killed, with all that it has started, and reaped by the destructor.
 /// Starting one makes this process ignore SIGPIPE, so that sending to a dead child is no crash of ours.
 class ChildProcess {
  public:
-  /// Fails when the program cannot be found or executed, or `error_file` not be written.
+  /// Fails when the program cannot be found or executed, or `error_file` not be written; when no process can be
+  /// started, with an error of this machine (machine.h).
   static Result<ChildProcess> Start(const ChildOptions& options);
   ChildProcess(ChildProcess&& other) noexcept;
   ChildProcess& operator=(ChildProcess&& other) noexcept;
@@ -68,6 +72,10 @@ class ChildProcess {
   ProcessUsage Measure() const;
   /// The usage of the child alone.
   ProcessUsage MeasureAlone() const;
+  /// MeasureSharedMappingsMb of the child and its descendants.
+  double MeasureSharedMappingsMb() const;
+  /// The first process that the child has started and that is there; -1 when there is none.
+  pid_t FirstStarted() const;
   /// True if the program itself has ended; what it has started may still hold its output open.
   bool HasEnded() const;
   /// Ends its input, gives it `patience_ms` to end by itself, then kills it; kills what it has started either

@@ -1,14 +1,20 @@
 #include "bench/process/fence.h"
 
 #include <fmt/core.h>
+#include <linux/magic.h>
 #include <poll.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/statfs.h>
 
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 
 #include "bench/process/child_process.h"
+#include "bench/process/machine.h"
+#include "bench/process/system_calls.h"
 
 namespace etude {
 namespace {
@@ -40,11 +46,13 @@ std::vector<std::string> Limiter() {
   return {*prlimit, fmt::format("--nproc={0}:{0}", threads), "--"};
 }
 
-/// The first line that a command says; "" when it says none in time.
-std::string FirstLineOf(const FencedCommand& command) {
-  auto child = ChildProcess::Start({.program = command.words[0],
-                                    .arguments = {command.words.begin() + 1, command.words.end()},
-                                    .told = command.told});
+/// The first line that a fenced command says, a refusal of the fence among them; "" when it says none in time.
+std::string FirstLineOf(const Fence& fence, const std::vector<std::string>& command) {
+  std::vector<std::string> words = {"-c", R"(exec "$0" "$@" 2>&1)"};
+  FencedCommand fenced = fence.Around(command, {});
+  words.insert(words.end(), fenced.words.begin(), fenced.words.end());
+  auto child = ChildProcess::Start(
+      {.program = "sh", .arguments = std::move(words), .contained = true, .told = std::move(fenced.told)});
   if (!child) return ToString(child.error());
   pollfd watched{child->output(), POLLIN, 0};
   for (bool open = true; open && ::poll(&watched, 1, kTrialMs) > 0;) {
@@ -64,21 +72,41 @@ Fence Fence::Of(const std::string& program) {
 
 Fence Fence::Find() {
   Fence none;
-  const auto program = FindProgram("bwrap"), shell = FindProgram("sh");
-  if (!program || !shell) {
+  const auto program = FindProgram("bwrap");
+  if (!program) {
     none.description_ = "none (bubblewrap is not installed)";
     return none;
   }
   Fence fence = Of(*program);
-  // It tells its version from within the whole fence. A refusal is told on standard error.
-  std::vector<std::string> trial = {*shell, "-c", R"(exec "$0" "$@" 2>&1)"};
-  const FencedCommand fenced = fence.Around({*program, "--version"}, {});
-  trial.insert(trial.end(), fenced.words.begin(), fenced.words.end());
-  const std::string said = FirstLineOf({std::move(trial), fenced.told});
+  // It tells its version from within the whole fence.
+  const std::string said = FirstLineOf(fence, {*program, "--version"});
   fence.description_ = said;
   if (said.starts_with("bubblewrap ")) return fence;
   none.description_ = fmt::format("none ({})", said.empty() ? "bubblewrap says nothing" : said);
   return none;
+}
+
+Result<void> Fence::Try() const {
+  if (!IsUp()) return {};
+  const std::string said = FirstLineOf(*this, {program_, "--version"});
+  if (said.starts_with("bubblewrap ")) return {};
+  return Fail({kThisMachine}, "nothing can be run in the fence: {}", said.empty() ? "it says nothing" : said);
+}
+
+double Fence::ScratchMb(pid_t inside) const {
+  if (!IsUp()) return 0;
+  double bytes = 0;
+  std::set<dev_t> seen;  // a folder may be one with another, or not be there yet
+  if (struct stat ours{}; ::stat(kScratch[0], &ours) == 0) seen.insert(ours.st_dev);
+  for (const char* folder : kScratch) {
+    const std::string path = fmt::format("/proc/{}/root{}", inside, folder);
+    struct stat status {};
+    struct statfs system {};
+    if (::stat(path.c_str(), &status) != 0 || !seen.insert(status.st_dev).second) continue;
+    if (::statfs(path.c_str(), &system) != 0 || system.f_type != TMPFS_MAGIC) continue;
+    bytes += static_cast<double>(system.f_blocks - system.f_bfree) * static_cast<double>(system.f_bsize);
+  }
+  return bytes / (1 << 20);
 }
 
 bool Fence::IsOfSystem(const fs::path& path) {
@@ -128,8 +156,11 @@ FencedCommand Fence::Around(const std::vector<std::string>& command, const std::
   }
   words.insert(words.end(), masks.begin(), masks.end());
   Add(words, {"--remount-ro", "/dev", "--remount-ro", "/", "--chdir", start.empty() ? kScratch[0] : start.string()});
-  FencedCommand fenced{{program_, "--args", "3", "--"}};
-  for (const std::string& word : words) fenced.told += word + '\0';
+  std::string filter = SystemCallFilter();
+  if (!filter.empty()) Add(words, {"--seccomp", "4"});
+  FencedCommand fenced{{program_, "--args", "3", "--"}, {""}};
+  for (const std::string& word : words) fenced.told[0] += word + '\0';
+  if (!filter.empty()) fenced.told.push_back(std::move(filter));
   const std::vector<std::string> limiter = Limiter();
   fenced.words.insert(fenced.words.end(), limiter.begin(), limiter.end());
   fenced.words.insert(fenced.words.end(), command.begin(), command.end());

@@ -1,16 +1,20 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "engine/base/result.h"
 
 namespace etude {
 
 /// The words that run a program behind a fence, and what bubblewrap is told besides: what programs inside could read in
 /// its command line must not name our folders.
 struct FencedCommand {
-  std::vector<std::string> words;  ///< a path and arguments
-  std::string told = {};           ///< what descriptor 3 gives (ChildOptions::told)
+  std::vector<std::string> words;      ///< a path and arguments
+  std::vector<std::string> told = {};  ///< what descriptors 3 and 4 give (ChildOptions::told)
 };
 
 /// A fence around programs that are not ours, made by bubblewrap where the kernel lets it: user, process, mount, ipc
@@ -38,6 +42,12 @@ class Fence {
   /// Has programs inside see a folder empty, and a file not at all, even where the system or what is shown holds it.
   void Hide(const std::filesystem::path& path) { hidden_.push_back(path); }
   const std::vector<std::filesystem::path>& hidden() const { return hidden_; }
+
+  /// Memory in the scratch folders that a process inside sees.
+  double ScratchMb(pid_t inside) const;
+
+  /// Fails, with an error of this machine, when nothing can be run inside now, though it could.
+  Result<void> Try() const;
 
   /// The words that run `command`, a path and arguments, inside, in the folder `start` ("" = /tmp); `command` itself
   /// without a fence. It sees `shown`, files and folders by absolute paths, beside the system.

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -105,6 +106,24 @@ ProcessUsage MeasureTree(pid_t root) {
     sum.processes += usage.processes;
   }
   return sum;
+}
+
+double MeasureSharedMappingsMb(pid_t root) {
+  std::map<unsigned long, unsigned long> sizes;  // by inode, of the process that maps most of it
+  for (const pid_t process : ProcessTree(root)) {
+    std::map<unsigned long, unsigned long> own;
+    const std::string maps = ReadProcFile(fmt::format("/proc/{}/maps", process));
+    constexpr std::string_view kName = "/dev/zero (deleted)\n";  // what the kernel calls them
+    for (std::size_t at = 0; (at = maps.find(kName, at)) != std::string::npos; at += kName.size()) {
+      unsigned long begin = 0, end = 0, inode = 0;
+      const char* line = maps.c_str() + maps.rfind('\n', at) + 1;  // npos + 1 = 0
+      if (std::sscanf(line, "%lx-%lx %*2c%*c%*1[s]%*s %*s %lu", &begin, &end, &inode) == 3) own[inode] += end - begin;
+    }
+    for (const auto& [inode, size] : own) sizes[inode] = std::max(sizes[inode], size);
+  }
+  double bytes = 0;
+  for (const auto& [inode, size] : sizes) bytes += static_cast<double>(size);
+  return bytes / (1024 * 1024);
 }
 
 HeldTree::HeldTree(pid_t root) {

@@ -44,6 +44,9 @@ std::vector<pid_t> ChildrenOf(pid_t parent);
 
 /// Zeros for what has vanished.
 ProcessUsage MeasureTree(pid_t root);
+/// The size of all mappings that a tree shares and no file backs: they may hold memory that is in nobody's resident
+/// size. Takes some 0.1 ms a process.
+double MeasureSharedMappingsMb(pid_t root);
 /// The process alone, without its descendants.
 ProcessUsage MeasureProcess(pid_t process);
 

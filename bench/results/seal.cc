@@ -26,7 +26,7 @@ bool IsSealed(const fs::path& from_folder) {
   for (const char* name : {kSealFile, kSignedFile, kSignatureFile}) {
     if (first == name || first == TemporaryName(name)) return false;
   }
-  return first != kJournalFile && !IsMadeFromResults(first);
+  return first != kJournalFile && first != kLockFile && !IsMadeFromResults(first);
 }
 
 Result<Digests> DigestsOf(const fs::path& folder) {

@@ -13,6 +13,8 @@ namespace etude {
 constexpr const char* kSealFile = "seal.json";
 /// Stand beside it where its owner has signed the run (signature.h).
 constexpr const char *kSignedFile = "signed.b2", *kSignatureFile = "signed.b2.minisig";
+/// Locked by whoever writes into the folder, and gone when it is done; no result.
+constexpr const char* kLockFile = "lock";
 
 /// True if a part of a result folder is made from the results, and may be made again: `report`, `video`. Such parts are
 /// not sealed.

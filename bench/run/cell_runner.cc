@@ -4,9 +4,11 @@
 #include <ctime>
 #include <exception>
 #include <fstream>
+#include <new>
 #include <nlohmann/json.hpp>
 
 #include "bench/outside/seated_program.h"
+#include "bench/run/machine_trial.h"
 #include "engine/base/digest.h"
 
 namespace etude {
@@ -37,6 +39,14 @@ double ReadPeakMemoryMb() {
     if (line.starts_with("VmHWM:")) return std::stod(line.substr(6)) / 1024;
   }
   return 0;
+}
+
+/// How a cell ended in which something was thrown. How much memory there is is the machine's matter, and the status one
+/// that depends on it.
+CellResult Thrown(const std::string& when, const std::exception& error) {
+  const bool is_short = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+  return CellResult::Ended(is_short ? Status::kOutOfMemory : Status::kFailed,
+                           when + (is_short ? "there is no more memory" : error.what()));
 }
 
 /// Methods of one scenario differ in name, so their files do too.
@@ -90,7 +100,6 @@ void CellRunner::Open(int condition, int trial) {
   condition_ = condition;
   trial_ = trial;
   problem_.reset();
-  why_no_world_.clear();
   const Stopwatch watch;
   const WorldKey key = scenario_.KeyOf(trial);
   try {
@@ -100,7 +109,7 @@ void CellRunner::Open(int condition, int trial) {
     if (runs_built_in && !world_->WhySkipped()) world_->PrepareShared();
   } catch (const std::exception& error) {
     world_.reset();
-    why_no_world_ = std::string("the world cannot be built: ") + error.what();
+    why_no_world_ = Thrown("the world cannot be built: ", error);
   }
   world_usage_ = {.world_wall_s = watch.WallSeconds(), .world_cpu_s = watch.CpuSecondsUsed()};
 }
@@ -108,12 +117,14 @@ void CellRunner::Open(int condition, int trial) {
 FinishedCell CellRunner::Run(std::size_t method) {
   FinishedCell cell{scenario_.IdentityOf(condition_, trial_, method), std::exchange(world_usage_, {})};
   peak_memory_.Begin();
+  why_not_run_.clear();
   const Stopwatch watch;
   try {
     cell.row.result = RunMethod(method, cell.usage);
   } catch (const std::exception& error) {
-    cell.row.result = CellResult::Ended(Status::kFailed, std::string("the method threw: ") + error.what());
+    cell.row.result = Thrown("the method threw: ", error);
   }
+  cell.why_not_run = why_not_run_;
   cell.usage.wall_s = watch.WallSeconds();
   cell.usage.cpu_s += watch.CpuSecondsUsed();
   cell.usage.peak_mb = std::max(cell.usage.peak_mb, peak_memory_.Mb());
@@ -123,8 +134,12 @@ FinishedCell CellRunner::Run(std::size_t method) {
 }
 
 CellResult CellRunner::RunMethod(std::size_t method, CellUsage& usage) {
-  if (!world_) return CellResult::Ended(Status::kFailed, why_no_world_);
+  if (!world_) return why_no_world_;
   if (const auto why = world_->WhySkipped()) return CellResult::Ended(Status::kSkipped, *why);
+  if (auto tried = TryRenderer(scenario_); !tried) {
+    why_not_run_ = ToString(tried.error());
+    return {};
+  }
   if (!outside_.contains(method)) return world_->Run(IndexInTask(method));
   return scenario_.scenario().methods[method].RunsInTask() ? RunWithProgram(method, usage) : AskOutside(method, usage);
 }
@@ -156,6 +171,7 @@ CellResult CellRunner::RunWithProgram(std::size_t method, CellUsage& usage) {
   auto result = world_->RunWith(program, IndexInTask(method));
   usage.cpu_s += program.cpu_s();
   usage.peak_mb = program.peak_mb();
+  if (!program.was_asked()) why_not_run_ = program.failure()->reason;
   if (program.failure()) return *program.failure();
   if (!result) return CellResult::Ended(Status::kBadOutput, ToString(result.error()));
   result->digests.emplace_back("answers", program.AnswersDigest());
@@ -174,6 +190,7 @@ CellResult CellRunner::AskOutside(std::size_t method, CellUsage& usage) {
   const OutsideReply reply = outside_.at(method).Ask(SettingId(), **setting, problem_id, *problem_);
   usage.cpu_s += reply.cpu_s;
   usage.peak_mb = reply.peak_mb;
+  if (!reply.was_asked) why_not_run_ = reply.reason;
   if (reply.status != Status::kOk) return CellResult::Ended(reply.status, reply.reason);
   auto judged = JudgeAnswer(*world_, *reply.answer);
   if (!judged) return CellResult::Ended(Status::kBadOutput, ToString(judged.error()));

@@ -14,6 +14,8 @@ namespace etude {
 struct FinishedCell {
   Row row;
   CellUsage usage;
+  /// What of this machine kept the method from being asked; "" = it was. Such a cell has no row.
+  std::string why_not_run = {};
 };
 
 /// Scores an answer that did not come from a built-in method; its fingerprint stands among the digests of the cell.
@@ -30,7 +32,8 @@ class CellRunner {
 
   /// Builds the world. Whatever goes wrong in it is told by every cell.
   void Open(int condition, int trial);
-  /// Runs a method in the open world. A task that throws gives a failed row.
+  /// Runs a method in the open world. A task that throws gives a failed row, and one that gets no more memory
+  /// `out_of_memory`.
   FinishedCell Run(std::size_t method);
 
  private:
@@ -60,7 +63,8 @@ class CellRunner {
   std::map<std::size_t, OutsideMethod> outside_;  ///< by method
   int condition_ = 0, trial_ = 0;
   std::unique_ptr<TaskWorld> world_;
-  std::string why_no_world_;
+  CellResult why_no_world_;
+  std::string why_not_run_;  ///< the cell that is being run
   CellUsage world_usage_;
   PeakMemory peak_memory_;
   std::unique_ptr<Payload> setting_, problem_;  ///< of the open world, once asked for

@@ -139,6 +139,7 @@ Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(d
     return Fail({options.output, 0, 0}, "already holds a run; --overwrite replaces it, -o chooses another folder");
   }
   ASSIGN_OR_RETURN(auto claimed, RunFolder::Claim(options.output, false));
+  outcome.why_unlocked = claimed.why_unlocked();
   RETURN_IF_ERROR(WriteFileAtomically(fs::path(options.output) / "manifest.json", shards.manifest));
   if (!shards.other_libraries.empty()) RETURN_IF_ERROR(RecordOtherLibraries(options.output, shards.other_libraries));
   Json host = DescribeHost(options.command_line, 0, 0);

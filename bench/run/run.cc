@@ -8,6 +8,7 @@
 #include "bench/process/clock.h"
 #include "bench/results/folder.h"
 #include "bench/run/journal.h"
+#include "bench/run/machine_trial.h"
 #include "bench/run/manifest.h"
 #include "bench/run/run_folder.h"
 #include "bench/run/suite.h"
@@ -177,6 +178,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   ASSIGN_OR_RETURN(const auto state, CheckFolder(folder, options));
   ASSIGN_OR_RETURN(const auto scenarios, PrepareToRun(suite, options));
   ASSIGN_OR_RETURN(const Fence fence, FenceFor(scenarios, options.outside, folder, options.key));
+  if (!options.resume || state != FolderState::kFinished) RETURN_IF_ERROR(TryMachine(scenarios, fence));
   const Plan plan(scenarios);
   ASSIGN_OR_RETURN(const auto manifest, WriteJson(MakeManifest(suite, scenarios, options.program_version)));
   ASSIGN_OR_RETURN(const auto build, BuildDigest());
@@ -219,6 +221,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
                      .seconds = SecondsSince(start),
                      .stopped = !*whole,
                      .fence = ProgramsOf(scenarios).empty() ? "" : fence.description(),
+                     .why_unlocked = claimed.why_unlocked(),
                      .damaged_lines = std::move(opened.damaged)};
   if (outcome.stopped) return outcome;
   claimed.Keep();

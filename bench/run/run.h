@@ -53,8 +53,9 @@ struct RunOutcome {
   std::size_t cells = 0;  ///< that have their row
   std::size_t cells_ok = 0;
   double seconds = 0;
-  bool stopped = false;    ///< ended early; the journal holds what was done
-  std::string fence = {};  ///< what methods outside ran in; "" = there were none
+  bool stopped = false;           ///< ended early; the journal holds what was done
+  std::string fence = {};         ///< what methods outside ran in; "" = there were none
+  std::string why_unlocked = {};  ///< nothing kept other runs out of the folder; "" = a lock did
   /// Lines of the journal gone on with that were not as they had been written; their cells were run again.
   std::vector<int> damaged_lines = {};
 };

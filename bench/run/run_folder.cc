@@ -2,9 +2,12 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -24,9 +27,9 @@ namespace fs = std::filesystem;
 /// The name of a part of a result folder, or of one that was being written.
 bool IsPartOfRun(const fs::path& name) {
   static const std::vector<std::string> parts = {
-      "manifest.json", "host.json",  kJournalFile,        kSealFile,   "cells.jsonl", "timings.jsonl",
-      "series",        "recordings", "summary.json",      "report",    "video",       "stderr",
-      kColumnsFolder,  kTimesFolder, kOtherLibrariesFile, kSignedFile, kSignatureFile};
+      "manifest.json", "host.json",  kJournalFile,        kSealFile,   "cells.jsonl",  "timings.jsonl",
+      "series",        "recordings", "summary.json",      "report",    "video",        "stderr",
+      kColumnsFolder,  kTimesFolder, kOtherLibrariesFile, kSignedFile, kSignatureFile, kLockFile};
   return std::any_of(parts.begin(), parts.end(),
                      [&](const std::string& part) { return name == part || name == TemporaryName(part); });
 }
@@ -62,13 +65,11 @@ Result<RunFolder> RunFolder::Claim(const fs::path& path, bool keep_contents) {
   const bool made = !fs::exists(path, error);
   fs::create_directories(path, error);
   if (error) return Fail(place, "cannot be made: {}", error.message());
-  RunFolder folder(path, made, ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (::flock(folder.lock_, LOCK_EX | LOCK_NB) != 0) {
-    folder.is_ours_ = false;
-    return Fail(place, "another run is writing into it; choose another folder with -o");
-  }
+  RunFolder folder(path, made);
+  RETURN_IF_ERROR(folder.Lock());
   if (keep_contents) return folder;
   for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
+    if (entry->path().filename() == kLockFile) continue;
     fs::remove_all(entry->path(), error);
     if (error) break;
   }
@@ -76,13 +77,39 @@ Result<RunFolder> RunFolder::Claim(const fs::path& path, bool keep_contents) {
   return folder;
 }
 
+Result<void> RunFolder::Lock() {
+  const fs::path file = path_ / kLockFile;
+  while (true) {
+    lock_ = ::open(file.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, S_IWUSR);
+    if (lock_ < 0 && (errno == EROFS || errno == EACCES)) return {};  // nobody writes here
+    if (lock_ < 0) return Fail({file.string(), 0, 0}, "cannot be made: {}", std::strerror(errno));
+    if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+      const int reason = errno;
+      if (reason != EWOULDBLOCK) {
+        why_unlocked_ = std::strerror(reason);
+        return {};
+      }
+      ::close(std::exchange(lock_, -1));
+      is_ours_ = false;
+      return Fail({path_.string(), 0, 0}, "another run is writing into it; choose another folder with -o");
+    }
+    // The run that had it before may have taken it away meanwhile.
+    struct stat locked {
+    }, named{};
+    if (::fstat(lock_, &locked) == 0 && ::stat(file.c_str(), &named) == 0 && locked.st_ino == named.st_ino) return {};
+    ::close(std::exchange(lock_, -1));
+  }
+}
+
 RunFolder::RunFolder(RunFolder&& other) noexcept
     : path_(std::move(other.path_)),
       is_ours_(std::exchange(other.is_ours_, false)),
-      lock_(std::exchange(other.lock_, -1)) {}
+      lock_(std::exchange(other.lock_, -1)),
+      why_unlocked_(std::move(other.why_unlocked_)) {}
 
 RunFolder::~RunFolder() {
   std::error_code ignored;
+  if (lock_ >= 0) fs::remove(path_ / kLockFile, ignored);
   if (is_ours_) fs::remove_all(path_, ignored);
   if (lock_ >= 0) ::close(lock_);
 }

@@ -23,20 +23,26 @@ Result<FolderState> LookAtFolder(const std::filesystem::path& path);
 /// it made it.
 class RunFolder {
  public:
-  /// Makes the folder and locks it against other runs; empties it unless it is to be continued.
+  /// Makes the folder and locks it against other runs, where the file system has locks; empties it unless it is to be
+  /// continued. What is locked is a file that nobody may read: behind a fence, where nothing can be written, no method
+  /// opens it, let alone locks it.
   static Result<RunFolder> Claim(const std::filesystem::path& path, bool keep_contents);
   RunFolder(RunFolder&& other) noexcept;
   ~RunFolder();
 
   /// Says that there is something in it worth keeping from now on.
   void Keep() { is_ours_ = false; }
+  /// Why it could not be locked; "" = it is.
+  const std::string& why_unlocked() const { return why_unlocked_; }
 
  private:
-  RunFolder(std::filesystem::path path, bool made, int lock) : path_(std::move(path)), is_ours_(made), lock_(lock) {}
+  RunFolder(std::filesystem::path path, bool made) : path_(std::move(path)), is_ours_(made) {}
+  Result<void> Lock();
 
   std::filesystem::path path_;
-  bool is_ours_;  ///< made by this run, and nothing in it yet that is worth keeping
-  int lock_;      ///< the lock ends with the process, however that ends
+  bool is_ours_;   ///< made by this run, and nothing in it yet that is worth keeping
+  int lock_ = -1;  ///< the lock ends with the process, however that ends
+  std::string why_unlocked_;
 };
 
 /// Writes the results of a whole run into its folder: cells, series, recordings, summary, timings and, last,

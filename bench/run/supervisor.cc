@@ -15,6 +15,7 @@
 
 #include "bench/process/child_process.h"
 #include "bench/process/clock.h"
+#include "bench/process/machine.h"
 #include "bench/run/outside_programs.h"
 #include "bench/run/plan.h"
 #include "bench/run/worker.h"
@@ -88,7 +89,8 @@ class Supervisor {
       if (options_.stop != nullptr && *options_.stop) return false;
       RETURN_IF_ERROR(Step());
     }
-    return true;
+    if (not_run_ == 0) return true;
+    return Fail({kThisMachine}, "{} cells were not run: {}", not_run_, why_not_run_);
   }
 
  private:
@@ -214,6 +216,12 @@ class Supervisor {
       return worker.built;
     }
     Order& order = worker.orders.front();
+    if (line.starts_with(kNotRun)) {
+      if (not_run_++ == 0) why_not_run_ = line.substr(std::string_view(kNotRun).size());
+      order.methods.erase(order.methods.begin());
+      StartNextMethod(worker);
+      return true;
+    }
     const auto head = ReadCellLineHead(line);
     if (!head || head->cell != plan_.CellAt(order.world, order.methods.front())) return false;
     order.methods.erase(order.methods.begin());
@@ -226,7 +234,7 @@ class Supervisor {
   Result<void> Replace(Worker& worker, Status status, const std::string& reason) {
     worker.process.Finish();
     if (!worker.ready && ++deaths_in_setup_ == kMostDeathsInSetup) {
-      return Fail({}, "{} workers in a row failed in their set-up: {}", kMostDeathsInSetup, reason);
+      return Fail({kThisMachine}, "{} workers in a row failed in their set-up: {}", kMostDeathsInSetup, reason);
     }
     if (!worker.orders.empty()) {
       Order order = std::move(worker.orders.front());
@@ -271,6 +279,8 @@ class Supervisor {
   std::vector<Worker> workers_;
   std::vector<Pace> paces_;  ///< by scenario
   int deaths_in_setup_ = 0;  ///< since a worker last became ready
+  std::size_t not_run_ = 0;  ///< cells
+  std::string why_not_run_;  ///< the first of them
 };
 
 }  // namespace

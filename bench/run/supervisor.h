@@ -37,8 +37,9 @@ using Deliver = std::function<Result<void>(const DeliveredCell& cell)>;
 /// than the scenario's limits allow is ended and takes only the cell in progress with it: that cell's row becomes
 /// `crashed`, `timeout` or `out_of_memory`, with the reason, and a new worker runs the world's other methods.
 /// When it ends while it builds the world, all methods of the world get that row. One that dies in its set-up
-/// holds no world and costs no cell. False when stopped early; fails when no worker can start, or when several in a row
-/// die in their set-up.
+/// holds no world and costs no cell. False when stopped early; fails, with an error of this machine (machine.h), when
+/// no worker can start, when several in a row die in their set-up, and in the end when cells could not be run, which
+/// then were not delivered.
 Result<bool> RunOrders(const SuiteSetup& setup, const Plan& plan, std::vector<Order> orders,
                        const SupervisorOptions& options, const Deliver& deliver);
 

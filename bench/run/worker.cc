@@ -37,7 +37,9 @@ Result<void> Execute(const Json& order, std::span<const std::unique_ptr<CellRunn
   out << kWorldBuilt << '\n' << std::flush;
   for (const Json& method : order.at("methods")) {
     const auto number = method.get<std::size_t>();
-    out << EncodeCellLine(first_cell + number, runner.Run(number)) << '\n' << std::flush;
+    FinishedCell cell = runner.Run(number);
+    const std::string why = cell.why_not_run;
+    out << (why.empty() ? EncodeCellLine(first_cell + number, std::move(cell)) : kNotRun + why) << '\n' << std::flush;
   }
   return {};
 }

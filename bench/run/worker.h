@@ -8,12 +8,15 @@ namespace etude {
 constexpr const char* kWorkerReady = "ready";
 /// The line that it says when an ordered world is built, before the cells of it.
 constexpr const char* kWorldBuilt = "built";
+/// The beginning of the line that stands in the place of a cell's when this machine kept it from being run; why
+/// follows.
+constexpr const char* kNotRun = "not run: ";
 
 /// The whole life of a worker process (`etude worker`): one line of set-up,
 /// `{"setup": …, "error_folder": "…", "fence": …}`, answered by kWorkerReady; then one line per order,
 /// `{"world": [scenario, condition, trial], "first_cell": 12, "methods": [0, 2]}` with the number of the world's first
-/// cell, answered by kWorldBuilt and one line per method, in order (cell_line.h). Ends when `in` does. Returns the exit
-/// code; 2 when it is told something that it cannot understand.
+/// cell, answered by kWorldBuilt and one line per method, in order (cell_line.h, or kNotRun). Ends when `in` does.
+/// Returns the exit code; 2 when it is told something that it cannot understand.
 int RunWorker(std::istream& in, std::ostream& out);
 
 }  // namespace etude

@@ -67,13 +67,6 @@ class OutsideMethods(EtudeCase):
                 self.assertEqual(row["status"], "bad_output")
                 self.assertIn(wrong[row["method"]][1], row["reason"])
 
-    def test_a_program_that_cannot_be_found_fails_its_cells_only(self):
-        rows = self.run_suite(self.write("none.yaml", IK + "  - {name: none, exec: [no-such-program]}\n"), code=1)
-        none = [row for row in rows if row["method"] == "none"]
-        self.assertEqual({row["status"] for row in none}, {"failed"})
-        self.assertIn("no program 'no-such-program' in PATH", none[0]["reason"])
-        self.assertEqual({row["status"] for row in rows if row["method"] != "none"} - {"ok", "unsolved"}, set())
-
     def test_a_fence_changes_no_result_and_is_told_of(self):
         suite = self.write("suite.yaml", IK + outside("good", EXAMPLES / "ik_dls.py") + outside("crashes", HOSTILE, "crashes"))
         self.run_suite(suite, "--jobs", 2, code=1)

@@ -530,6 +530,68 @@ def lets_a_child_eat_memory(problem):
     time.sleep(LIFE_S)
 
 
+def hides_memory_in_files(problem):
+    """Three scratch folders, of which none is full."""
+    for folder in ("/tmp", "/var/tmp", "/dev/shm"):
+        for part in range(3):
+            with open(f"{folder}/zoo-hidden-{part}", "wb") as file:
+                for _ in range(60):
+                    file.write(bytes(1 << 20))
+    time.sleep(1)
+    victimise("held 540 MB in files")
+
+
+def hides_memory_behind_descriptors(problem):
+    try:
+        files = [os.memfd_create("zoo") for _ in range(9)]
+    except OSError:
+        return
+    for file in files:
+        for _ in range(60):
+            os.write(file, bytes(1 << 20))
+    time.sleep(1)
+    victimise("held 540 MB behind descriptors")
+
+
+def hides_memory_in_segments(problem):
+    """Only fenced: elsewhere they would outlive it."""
+    libc = ctypes.CDLL(None, use_errno=True)
+    libc.shmat.restype = ctypes.c_void_p
+    for _ in range(9 if is_fenced() else 0):
+        number = libc.shmget(0, 60 << 20, 0o1600)
+        if number < 0:
+            return
+        place = libc.shmat(number, None, 0)
+        ctypes.memset(place, 1, 60 << 20)
+        libc.shmdt(ctypes.c_void_p(place))
+    if is_fenced():
+        time.sleep(1)
+        victimise("held 540 MB in segments")
+
+
+def hides_memory_in_mappings(problem):
+    import mmap
+    shared = mmap.mmap(-1, 540 << 20)
+    for part in range(0, 540, 60):
+        shared[part << 20:(part + 60) << 20] = bytes(60 << 20)
+        shared.madvise(mmap.MADV_DONTNEED)
+    time.sleep(1)
+    victimise("held 540 MB in mappings")
+
+
+def speaks_to_the_host(problem):
+    try:
+        socket.socket(40, socket.SOCK_STREAM).close()  # AF_VSOCK
+        victimise("opened a socket to the host of this machine")
+    except OSError:
+        pass
+
+
+def reads_the_users_keys(problem):
+    if ctypes.CDLL(None, use_errno=True).syscall({"x86_64": 250, "aarch64": 219}[os.uname().machine], 0, -3, 0) >= 0:
+        victimise("reached the user's keys")
+
+
 def floods_standard_error(problem):
     for _ in range(300):
         sys.stderr.write("x" * 99999 + "\n")

@@ -228,12 +228,58 @@ TEST(OutsideMethod, ASettingThatKillsItSparesTheOthers) {
   EXPECT_EQ(Ask(method, "p", "harmless").status, Status::kOk);
 }
 
-TEST(OutsideMethod, AProgramThatCannotBeStartedFails) {
+TEST(OutsideMethod, FilesInItsScratchFoldersAreItsMemory) {
+  if (!FenceOfMethods().IsUp()) GTEST_SKIP() << FenceOfMethods().description();
+  OutsideOptions options = Behaving("is_good", FenceOfMethods());
+  options.command = {"sh", "-c", "for f in /tmp /var/tmp /dev/shm; do head -c 90M /dev/zero >$f/a; done; sleep 20"};
+  OutsideMethod method(options);
+  const OutsideReply reply = Ask(method);
+  EXPECT_EQ(reply.status, Status::kOutOfMemory);
+  EXPECT_EQ(reply.reason, "in its start: held more than 200 MB of memory");
+}
+
+TEST(OutsideMethod, WhatOfThisMachineKeepsUsFromAskingItIsNoAnswerOfIt) {
+  const char* const before = ::getenv("TMPDIR");
+  const std::string told = before == nullptr ? "" : before;
+  const std::string file = ::testing::TempDir() + "no-folder";
+  const OutsideOptions options = Behaving("is_good");
+  std::ofstream(file) << "";
+  for (const std::string& folder : {std::string("/no/such/folder"), file, std::string("/proc"), std::string("tests")}) {
+    ::setenv("TMPDIR", folder.c_str(), 1);
+    OutsideMethod method(options);
+    const OutsideReply reply = Ask(method);
+    EXPECT_FALSE(reply.was_asked);
+    EXPECT_THAT(reply.reason, StartsWith("in its start: TMPDIR=" + folder + ": "));
+  }
+  before == nullptr ? ::unsetenv("TMPDIR") : ::setenv("TMPDIR", told.c_str(), 1);
+  OutsideMethod fenceless(Behaving("is_good", Fence::Of("/bin/false")));
+  const OutsideReply reply = Ask(fenceless);
+  EXPECT_FALSE(reply.was_asked);
+  EXPECT_THAT(reply.reason, HasSubstr("nothing can be run in the fence"));
+  OutsideMethod good(Behaving("is_good"));
+  EXPECT_TRUE(Ask(good).was_asked);
+}
+
+TEST(OutsideMethod, ReasonsDoNotNameTheFoldersOfAttachments) {
+  OutsideOptions options = Behaving("is_good");
+  options.command = {"sh", "-c",
+                     "read hello; echo '{\"type\":\"hello\",\"protocol\":1,\"name\":\"n\",\"version\":\"1\"}';"
+                     "read setting; echo '{\"type\":\"ready\"}'; read problem;"
+                     "echo \"$problem\" | sed 's/.*\"files\":\"\\([^\"]*\\)\".*/cannot read \\1\\/a.txt/' >&2; exit 1"};
+  OutsideMethod method(options);
+  for (int i = 0; i < 2; ++i) {
+    const OutsideReply reply =
+        method.Ask("s", Show({{"size", 1}}), "p", Show({{"question", 2}}, {{"a.txt", "inside"}}));
+    EXPECT_EQ(reply.reason, "ended with exit code 1; its last words: 'cannot read FILES/a.txt'");
+  }
+}
+
+TEST(OutsideMethod, AProgramThatCannotBeFoundIsNotAsked) {
   OutsideOptions options = Behaving("is_good");
   options.command = {"no-such-program"};
   OutsideMethod method(options);
   const OutsideReply reply = Ask(method);
-  EXPECT_EQ(reply.status, Status::kFailed);
+  EXPECT_FALSE(reply.was_asked);
   EXPECT_THAT(reply.reason, HasSubstr("no program 'no-such-program' in PATH"));
 }
 

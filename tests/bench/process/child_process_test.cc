@@ -199,6 +199,38 @@ TEST(ChildProcess, DiesWithUs) {
   ::close(report[1]);
 }
 
+/// A child that has started another, which left its group and notices nothing; ended by a kill of the child alone, from
+/// elsewhere. Whether the other one is ended, too, though nobody of us does it.
+bool IsEndedWithTheChild(bool contained) {
+  auto child = ChildProcess::Start(
+      {.program = "/bin/sh", .arguments = {"-c", "setsid sleep 100 & echo; read x"}, .contained = contained});
+  EXPECT_TRUE(child);
+  ReadLine(*child);
+  const pid_t other = child->FirstStarted();
+  const std::vector<pid_t> ours = ChildrenOf(::getpid());
+  EXPECT_EQ(ours.size(), 1u);
+  ::kill(ours.at(0), SIGKILL);
+  const bool is_ended = VanishesSoon(other);
+  ::kill(other, SIGKILL);
+  return is_ended;
+}
+
+TEST(ChildProcess, InASpaceOfItsOwnItTakesAllThatItHasStartedWithIt) {
+  auto child = ChildProcess::Start({.program = "/bin/sh", .arguments = {"-c", "echo $$"}, .contained = true});
+  ASSERT_TRUE(child);
+  if (ReadLine(*child) != "1") GTEST_SKIP() << "the kernel grants no space of its own";
+  child->Finish();
+  EXPECT_TRUE(IsEndedWithTheChild(true));
+  EXPECT_FALSE(IsEndedWithTheChild(false)) << "the control: else nobody ends it";
+}
+
+TEST(ChildProcess, ReadsWhatItIsToldFromItsDescriptors) {
+  auto child = ChildProcess::Start(
+      {.program = "/bin/sh", .arguments = {"-c", "cat <&3; echo; cat <&4; echo"}, .told = {"one", "two"}});
+  ASSERT_TRUE(child);
+  EXPECT_THAT(LinesUntilEnd(*child), ::testing::ElementsAre("one", "two"));
+}
+
 TEST(ChildProcess, RunsInThePinnedEnvironmentWhateverOursIs) {
   ::setenv("LP_NUM_THREADS", "7", 1);
   ChildProcess child = Shell("env");
@@ -313,6 +345,20 @@ TEST(ChildProcess, MeasuresItselfAndAllThatItHasStarted) {
   EXPECT_GT(after.cpu_s, before.cpu_s + 0.01);
   child.Finish();
   EXPECT_EQ(child.Measure().resident_mb, 0);
+}
+
+TEST(ChildProcess, MeasuresMappingsThatHoldMoreThanIsResident) {
+  auto child = ChildProcess::Start(
+      {.program = "python3",
+       .arguments = {"-c",
+                     "import mmap, os, sys\n"
+                     "shared = mmap.mmap(-1, 50 << 20); private = mmap.mmap(-1, 70 << 20, mmap.MAP_PRIVATE)\n"
+                     "shared.write(bytes(50 << 20)); shared.madvise(mmap.MADV_DONTNEED)\n"
+                     "os.fork(); print('made', flush=True); sys.stdin.read()\n"}});
+  ASSERT_TRUE(child);
+  EXPECT_EQ(ReadLine(*child), "made");
+  EXPECT_EQ(ReadLine(*child), "made");
+  EXPECT_NEAR(child->MeasureSharedMappingsMb(), 50, 0.1);
 }
 
 }  // namespace

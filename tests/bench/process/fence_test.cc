@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "bench/process/child_process.h"
+#include "bench/process/machine.h"
 
 namespace etude {
 namespace {
@@ -21,14 +22,19 @@ const Fence& TheFence() {
   return fence;
 }
 
+Result<ChildProcess> Start(const FencedCommand& command) {
+  return ChildProcess::Start({.program = command.words[0],
+                              .arguments = {command.words.begin() + 1, command.words.end()},
+                              .limited = true,
+                              .contained = !command.told.empty(),
+                              .told = command.told});
+}
+
 /// All that a script says in the fence.
 std::string Say(const Fence& fence, const std::string& script, const std::vector<fs::path>& shown = {},
                 const fs::path& start = {}) {
   const FencedCommand command = fence.Around({"/bin/sh", "-c", script + " 2>&1"}, shown, start);
-  auto child = ChildProcess::Start({.program = command.words[0],
-                                    .arguments = {command.words.begin() + 1, command.words.end()},
-                                    .limited = true,
-                                    .told = command.told});
+  auto child = Start(command);
   std::string said;
   for (bool open = true; open;) {
     pollfd watched{child->output(), POLLIN, 0};
@@ -107,6 +113,41 @@ TEST_F(FenceTest, CanWriteOnlyToScratchFoldersThatGoWithIt) {
 
 TEST_F(FenceTest, ScratchFoldersAreBounded) {
   EXPECT_EQ(Say(TheFence(), "head -c 300M /dev/zero >/tmp/a; wc -c </tmp/a"), "268435456\n");
+}
+
+TEST_F(FenceTest, WhatIsInScratchFoldersIsCounted) {
+  const std::string script = "for f in /tmp /var/tmp /dev/shm; do head -c 20M /dev/zero >$f/a; done; echo; read x";
+  auto child = Start(TheFence().Around({"/bin/sh", "-c", script}, {}));
+  while (child->Receive() && !child->NextLine()) ::usleep(1000);
+  EXPECT_NEAR(TheFence().ScratchMb(child->FirstStarted()), 60, 1);
+  EXPECT_EQ(Fence().ScratchMb(child->FirstStarted()), 0);
+}
+
+TEST_F(FenceTest, RefusesMemoryThatCannotBeCountedAndSocketsThatCannotBeFenced) {
+  std::ofstream(folder_ + "/tries.py") << R"(
+import ctypes, errno, os, socket
+libc = ctypes.CDLL(None, use_errno=True)
+def call(*words): return 'made' if libc.syscall(*words) >= 0 else errno.errorcode[ctypes.get_errno()]
+def open_socket(family):
+    try: return socket.socket(family, socket.SOCK_STREAM).close() or 'made'
+    except OSError as error: return errno.errorcode[error.errno]
+try: memory = os.memfd_create('x') and 'made'
+except OSError as error: memory = errno.errorcode[error.errno]
+numbers = {'x86_64': (29, 250), 'aarch64': (194, 219)}[os.uname().machine]
+print(memory, call(numbers[0], 0, 4096, 0o1600), call(numbers[1], 0, -3, 0), call(425, 1, 0),
+      open_socket(socket.AF_UNIX), open_socket(socket.AF_INET), open_socket(40))
+)";
+  const std::string script = "/usr/bin/python3 " + folder_ + "/tries.py";
+  EXPECT_EQ(Say(TheFence(), script, {folder_}), "ENOSYS ENOSYS ENOSYS ENOSYS made made EAFNOSUPPORT\n");
+  EXPECT_THAT(Say(Fence(), script), ::testing::StartsWith("made made ")) << "the control";
+}
+
+TEST_F(FenceTest, ToldAgainItSaysWhetherAnythingCanBeRunInside) {
+  EXPECT_TRUE(TheFence().Try());
+  EXPECT_TRUE(Fence().Try());
+  const auto broken = Fence::Of("/bin/false").Try();
+  ASSERT_FALSE(broken);
+  EXPECT_TRUE(IsOfThisMachine(broken.error()));
 }
 
 TEST_F(FenceTest, OfTemporaryFoldersItSeesWhatItIsShown) {

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "bench/files/temporary_folder.h"
+#include "bench/process/machine.h"
 #include "tests/bench/run/prepared.h"
 
 namespace etude {
@@ -107,6 +108,19 @@ TEST_F(SupervisorTest, AWorkerThatTalksNonsenseGivesBadOutput) {
     ASSERT_TRUE(whole && *whole);
     ExpectAll(Status::kBadOutput, "its worker answered with something else");
   }
+}
+
+TEST_F(SupervisorTest, CellsThatThisMachineKeepsFromBeingRunHaveNoRowAndEndTheRunWithTheCause) {
+  FinishedCell finished;
+  finished.row.result = CellResult::Ended(Status::kOk, "");
+  const auto whole = RunWith("echo ready\nread -r order\necho built\ncat <<'END'\n" + EncodeCellLine(0, finished) +
+                             "\nEND\necho not run: no room left\nwhile read -r order; do echo built; "
+                             "echo not run: no room at all; echo not run: no room; done\n");
+  ASSERT_FALSE(whole);
+  EXPECT_TRUE(IsOfThisMachine(whole.error()));
+  EXPECT_EQ(ToString(whole.error()),
+            fmt::format("this machine: {} cells were not run: no room left", plan_.cell_count() - 1));
+  EXPECT_EQ(rows_.size(), 1u);
 }
 
 TEST_F(SupervisorTest, AnAnswerForAnotherCellIsNotTaken) {

@@ -1,0 +1,86 @@
+#include "bench/run/machine_trial.h"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "bench/files/files.h"
+#include "bench/files/temporary_folder.h"
+#include "bench/process/child_process.h"
+#include "bench/process/machine.h"
+#include "sim/render/renderer.h"
+
+namespace etude {
+namespace {
+
+bool Draws(const PreparedScenario& scenario) { return scenario.scenario().task == "capture"; }
+
+/// A copy of this process tries to make a renderer: where memory is short, its libraries end the process that asks.
+Result<void> TryRendererInACopy() {
+  constexpr int kNotLoaded = 2;
+  const pid_t copy = ::fork();
+  if (copy == 0) {
+    const int silence = ::open("/dev/null", O_WRONLY);
+    ::dup2(silence, STDERR_FILENO);
+    ::_exit(!LoadRenderer() ? kNotLoaded : SharedRenderer() ? 0 : 1);
+  }
+  if (copy < 0) return Fail({}, "no process can be started: {}", std::strerror(errno));
+  int status = 0;
+  while (::waitpid(copy, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kNotLoaded) RETURN_IF_ERROR(LoadRenderer());
+  return Fail({}, "nothing can be drawn: OSMesa gets no memory, or gives no context");
+}
+
+/// A fence that is there, and merely has no process or memory left today, is no reason to run programs without it.
+Result<void> CheckFence(const Fence& fence) {
+  for (const int shortage : {EAGAIN, ENOMEM, EMFILE, ENFILE}) {
+    if (!fence.IsUp() && fence.description().find(std::strerror(shortage)) != std::string::npos) {
+      return Fail({}, "nothing can be run in the fence: {}", fence.description());
+    }
+  }
+  return {};
+}
+
+Result<void> Try(std::span<const PreparedScenario> scenarios, const Fence& fence) {
+  RETURN_IF_ERROR(ChildProcess::Start({.program = "/bin/sh", .arguments = {"-c", ":"}}));
+  if (std::ranges::any_of(scenarios, Draws)) RETURN_IF_ERROR(TryRendererInACopy());
+  bool is_first = true;
+  for (const PreparedScenario& scenario : scenarios) {
+    for (const MethodEntry& method : scenario.scenario().methods) {
+      if (method.exec.empty()) continue;
+      if (auto found = FindProgram(method.exec.front()); !found) {
+        return Fail({}, "method {} of scenario {} cannot be asked: {}", method.name, scenario.scenario().name,
+                    ToString(found.error()));
+      }
+      if (!std::exchange(is_first, false)) continue;
+      RETURN_IF_ERROR(CheckFence(fence));
+      ASSIGN_OR_RETURN(const auto folder, TemporaryFolder::Make("trial"));
+      if (auto kept = WriteFileAtomically(folder.path() / "file", "a file of some bytes\n"); !kept) {
+        return Fail({folder.path().parent_path().string()}, "takes no temporary files: {}", kept.error().message);
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> TryMachine(std::span<const PreparedScenario> scenarios, const Fence& fence) {
+  auto tried = Try(scenarios, fence);
+  if (tried || IsOfThisMachine(tried.error())) return tried;
+  return tl::unexpected(OfThisMachine(tried.error()));
+}
+
+Result<void> TryRenderer(const PreparedScenario& scenario) {
+  if (Draws(scenario)) RETURN_IF_ERROR(SharedRenderer());
+  return {};
+}
+
+}  // namespace etude

@@ -1,0 +1,170 @@
+"""Kills of a run, its workers and the launchers of its methods, alone and together, at random moments of the first 300 ms that
+the last of them lives (every other time: that a fence stands): whoever is still there five seconds later was left behind for good.
+
+`scripts/soak attack` goes on where it was ended: a round is a line of out/soak/attack/kills.jsonl, its moment thrown from its
+number."""
+import argparse
+import concurrent.futures
+import itertools
+import json
+import os
+import pathlib
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+TARGETS = [combination for size in (1, 2, 3) for combination in itertools.combinations(("run", "worker", "launcher"), size)]
+SCENARIO = """scenario: attack
+question: Who is left?
+task: ik
+trials: 4
+methods:
+  - {name: hangs, exec: [sh, -c, 'sleep 900 & exec sleep 900']}
+"""
+WINDOW_S, PATIENCE_S = 0.3, 5
+
+
+def children(process):
+    try:
+        return [int(number) for task in os.listdir(f"/proc/{process}/task")
+                for number in pathlib.Path(f"/proc/{process}/task/{task}/children").read_text().split()]
+    except OSError:
+        return []
+
+
+def marked(mark):
+    """The processes of a round, by the home that they were given, and what is not dead of them."""
+    found = {}
+    for process in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            if b"HOME=" + mark.encode() + b"\0" in process.joinpath("environ").read_bytes():
+                found[int(process.name)] = process.joinpath("cmdline").read_bytes().replace(b"\0", b" ").decode()[:120]
+        except OSError:
+            continue  # it has just ended, or is nobody's of ours
+    return found
+
+
+def kill_once(etude, targets, moment_s, at_fence=False):
+    """One round: the moment counts from when the last target appears, or from when a fence has just been begun. Gives who is
+    left, and how many were killed."""
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="attack-"))
+    try:
+        (folder / "attack.yaml").write_text(SCENARIO)
+        environment = {"HOME": str(folder), "PATH": os.environ["PATH"]}
+        run = subprocess.Popen([etude, "run", folder / "attack.yaml", "-o", folder / "out", "--jobs", "2"],
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=environment, cwd=folder)
+        deadline, workers, launchers = time.monotonic() + 60, [], []
+        while run.poll() is None and time.monotonic() < deadline:
+            workers = children(run.pid)
+            launchers = [launcher for worker in workers for launcher in children(worker)]
+            if at_fence:
+                if any(children(launcher) for launcher in launchers):
+                    break
+                continue  # it is a matter of milliseconds
+            if targets == ("run",) or (workers if "launcher" not in targets else launchers):
+                break
+            time.sleep(0.002)
+        time.sleep(moment_s)
+        workers = children(run.pid)
+        launchers = [launcher for worker in workers for launcher in children(worker)]
+        victims = ([run.pid] if "run" in targets else []) + (workers if "worker" in targets else [])
+        victims += launchers if "launcher" in targets else []
+        # Those who were below a victim have to go; who is started in their place is nobody's concern.
+        below, look = set(), list(victims)
+        while look:
+            process = look.pop()
+            if process not in below:
+                below.add(process)
+                look += children(process)
+        for victim in victims:
+            try:
+                os.kill(victim, 9)
+            except ProcessLookupError:
+                pass
+        deadline = time.monotonic() + PATIENCE_S
+        if "run" in targets:
+            run.wait()
+            while (left := marked(str(folder))) and time.monotonic() < deadline:
+                time.sleep(0.05)
+        else:
+            def alive():
+                return {number: words for number, words in marked(str(folder)).items() if number in below}
+            while (left := alive()) and time.monotonic() < deadline:
+                time.sleep(0.05)
+            run.kill()
+            run.wait()
+            deadline = time.monotonic() + PATIENCE_S
+            while (late := marked(str(folder))) and time.monotonic() < deadline:
+                time.sleep(0.05)
+            left |= late
+        for process in left:
+            try:
+                os.kill(process, 9)
+            except ProcessLookupError:
+                pass
+        return left, len(victims)
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def loads(count):
+    """So many processes that want a processor; they go with us."""
+    spin = "import ctypes; ctypes.CDLL(None).prctl(1, 9, 0, 0, 0)\nwhile True: pass"
+    return [subprocess.Popen([sys.executable, "-c", spin]) for _ in range(count)]
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="scripts/soak attack", description=__doc__)
+    parser.add_argument("--rounds", type=int, default=500, help="of each kind of kill")
+    parser.add_argument("--load", type=int, default=4, help="processes that want a processor meanwhile, beside the rounds")
+    parser.add_argument("--jobs", type=int, default=8, help="rounds at a time: they are each other's load, too")
+    parser.add_argument("--hours", type=float, default=24, help="after which it stops, to go on another time")
+    parser.add_argument("--etude", default=os.environ.get("ETUDE", "build/release/etude"))
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/soak/attack"))
+    options = parser.parse_args()
+    etude = os.path.abspath(options.etude)
+    options.out.mkdir(parents=True, exist_ok=True)
+    record = options.out / "kills.jsonl"
+    done = {}
+    if record.exists():
+        for line in record.read_text().splitlines():
+            entry = json.loads(line)
+            done[entry["targets"], entry["round"]] = entry
+    end = time.monotonic() + 3600 * options.hours
+    load = loads(options.load)
+    try:
+        with record.open("a") as out, concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+            def play(targets, number):
+                name = "+".join(targets)
+                if time.monotonic() > end:
+                    return
+                moment = WINDOW_S * random.Random(f"{name}/{number}").random() ** 3  # most of them early
+                left, victims = kill_once(etude, targets, moment, at_fence=number % 2 == 1)
+                entry = {"targets": name, "round": number, "moment_s": round(moment, 4), "killed": victims,
+                         "left": sorted(left.values())}
+                done[name, number] = entry
+                out.write(json.dumps(entry) + "\n")
+                out.flush()
+                if left:
+                    print(f"{name}, round {number}: left behind {entry['left']}", flush=True)
+
+            wanted = [(targets, number) for number in range(options.rounds) for targets in TARGETS]
+            games = [pool.submit(play, *game) for game in wanted if ("+".join(game[0]), game[1]) not in done]
+            for game in games:
+                game.result()
+    finally:
+        for process in load:
+            process.kill()
+    print(f"{'killed':<22} {'rounds':>7} {'processes killed':>17} {'rounds with some left':>22}")
+    for targets in TARGETS:
+        entries = [entry for (name, _), entry in done.items() if name == "+".join(targets)]
+        print(f"{'+'.join(targets):<22} {len(entries):>7} {sum(entry['killed'] for entry in entries):>17} "
+              f"{sum(bool(entry['left']) for entry in entries):>22}")
+    return any(entry["left"] for entry in done.values())
+
+
+if __name__ == "__main__":
+    sys.exit(main())

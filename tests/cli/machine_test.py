@@ -1,0 +1,167 @@
+"""What this machine does to a run is told as the machine's: refused before the first cell, or a cell that is not run; never an
+answer of a method. And what a file system without locks, or a kill of anybody, leaves."""
+import json
+import os
+import pathlib
+import random
+import resource
+import shutil
+import subprocess
+import sys
+import unittest
+
+from etude_case import ETUDE, IK, EtudeCase
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "attack"))
+import kills  # noqa: E402
+
+TRANSITION = """scenario: t
+question: Does it run?
+task: transition
+clips: ['builtin:clap', 'builtin:sway']
+trials: 2
+sweep: {wait_s: [1, 3]}
+methods:
+  - {name: cut, choice: now, join: cut}
+  - {name: outside, exec: [PYTHON, METHOD]}
+"""
+CAPTURE = """scenario: c
+question: Does it run?
+task: capture
+clips: ['builtin:clap']
+duration_s: 0.1
+trials: 1
+methods:
+  - {name: plain}
+"""
+# Answers with the frame asked at; of a folder that it is told, and can write to, it makes a file at its first answer.
+METHOD = """import json, os, shutil, sys
+for line in sys.stdin:
+    message = json.loads(line)
+    if message["type"] == "hello":
+        reply = {"type": "hello", "protocol": 1, "name": "m", "version": "1"}
+    elif message["type"] == "setting":
+        reply = {"type": "ready"}
+    else:
+        reply = {"type": "answer", "id": message["id"],
+                 "answer": {"leave_frame": message["problem"]["request_frame"], "enter_frame": 0}}
+        for folder in sys.argv[1:]:
+            if os.access(folder, os.W_OK) and os.path.isdir(folder):
+                shutil.rmtree(folder)
+                open(folder, "w").close()
+    print(json.dumps(reply), flush=True)
+"""
+MB = 1 << 20
+PYTHON = "/usr/bin/python3"  # a fence shows what is the system's
+LIBRARY = "/usr/lib/x86_64-linux-gnu/libOSMesa.so.8"
+
+
+def limit(kind, value):
+    return lambda: resource.setrlimit(kind, (value, value))
+
+
+class Machine(EtudeCase):
+    def setUp(self):
+        super().setUp()
+        self.method = self.folder / "method.py"
+        self.method.write_text(METHOD)
+        self.outside = self.write("t.yaml", TRANSITION.replace("PYTHON", PYTHON).replace("METHOD", str(self.method)))
+        self.capture = self.write("c.yaml", CAPTURE)
+
+    def run_here(self, *arguments, environment=None, before=None, wrapped=(), **more):
+        return subprocess.run([*wrapped, ETUDE, "run", *map(str, arguments)], capture_output=True, text=True, timeout=120,
+                              env=os.environ | (environment or {}), preexec_fn=before, **more)
+
+    def test_what_the_machine_refuses_is_refused_with_its_cause_and_nothing_is_written(self):
+        (self.folder / "file").touch()
+        (self.folder / "relative").mkdir()
+        nobody = {"user": 65534} if os.getuid() == 0 else {}  # nothing limits root's processes
+        self.folder.chmod(0o777)
+        settings = [
+            ("TMPDIR is not there", self.outside, "no folder for temporary files", {"environment": {"TMPDIR": "/nonexistent"}}),
+            ("TMPDIR is a file", self.outside, "no folder for temporary files",
+             {"environment": {"TMPDIR": str(self.folder / "file")}}),
+            ("TMPDIR cannot be written", self.outside, "TMPDIR=/proc: takes no temporary files",
+             {"environment": {"TMPDIR": "/proc"}}),
+            ("TMPDIR is relative", self.outside, "begins with /", {"environment": {"TMPDIR": "relative"}, "cwd": self.folder}),
+            ("TMPDIR is full", self.outside, "File too large", {"before": limit(resource.RLIMIT_FSIZE, 0)}),
+            ("few processes", self.outside, "Resource temporarily unavailable",
+             {"before": limit(resource.RLIMIT_NPROC, 1), **nobody}),
+            ("few files", self.outside, "Too many open files", {"before": limit(resource.RLIMIT_NOFILE, 8)}),
+            ("little address space", self.outside, "", {"before": limit(resource.RLIMIT_AS, 96 * MB)}),
+            ("little address space to draw in", self.capture, "OSMesa", {"before": limit(resource.RLIMIT_AS, 256 * MB)}),
+            ("no renderer", self.capture, "OSMesa cannot be loaded",
+             {"wrapped": ["bwrap", "--dev-bind", "/", "/", "--ro-bind", "/dev/null", LIBRARY]}),
+            ("no program", self.outside, "method outside of scenario t cannot be asked: ", {}),
+        ]
+        for name, scenario, cause, how in settings:
+            with self.subTest(name):
+                if name == "no program":
+                    scenario = self.write("none.yaml", pathlib.Path(scenario).read_text().replace(PYTHON, "no-such"))
+                if name == "no renderer" and not os.path.exists(LIBRARY):
+                    continue
+                refused = self.run_here(scenario, "-o", self.out, **how)
+                self.assertEqual(refused.returncode, 3, refused.stderr)
+                self.assertIn(cause, refused.stderr)
+                self.assertIn("etude: this machine: ", refused.stderr)
+                self.assertNotIn("etude-temporary", refused.stderr)
+                self.assertFalse(self.out.exists())
+        self.run_suite(self.outside)  # the control
+
+    def test_what_it_refuses_in_mid_run_is_not_run_and_resuming_runs_it(self):
+        folder = self.folder / "temporary"
+        folder.mkdir()
+        whole = self.folder / "whole"
+        scenario = self.write("taken.yaml", pathlib.Path(self.outside).read_text().replace(
+            str(self.method), f"{self.method}, {folder}"))
+        self.run_suite(scenario, out=whole)
+        taken = self.run_here(scenario, "-o", self.out, "--jobs", "1", "--no-fence", environment={"TMPDIR": str(folder)})
+        self.assertEqual(taken.returncode, 3, taken.stderr)
+        self.assertRegex(taken.stderr, r"etude: this machine: [1-3] cells were not run: .*; what was done is kept, --resume")
+        self.assertFalse((self.out / "cells.jsonl").exists())
+        self.run_suite(scenario, "--resume")
+        self.assert_same_results(whole, self.out)
+
+    @unittest.skipUnless(shutil.which("strace"), "needs strace")
+    def test_where_there_are_no_locks_a_run_goes_on_and_says_so(self):
+        scenario, whole = self.write("ik.yaml", IK), self.folder / "whole"
+        self.run_suite(scenario, out=whole)
+        for error, words in (("ENOLCK", "No locks available"), ("ENOSYS", "Function not implemented"),
+                             ("EOPNOTSUPP", "Operation not supported"), ("EIO", "Input/output error")):
+            run = self.run_here(scenario, "-o", self.out, "--overwrite", wrapped=[
+                "strace", "-f", "-o", "/dev/null", "-e", "trace=flock", "-e", f"inject=flock:error={error}"])
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertIn(f"{self.out}: could not be locked ({words})", run.stderr)
+            self.assert_same_results(whole, self.out)
+            self.assertFalse((self.out / "lock").exists())
+        held = self.run_here(scenario, "-o", self.out, "--overwrite", wrapped=[
+            "strace", "-f", "-o", "/dev/null", "-e", "trace=flock", "-e", "inject=flock:error=EAGAIN"])
+        self.assertEqual(held.returncode, 2)
+        self.assertIn("another run is writing into it", held.stderr)
+
+    def test_nobody_but_a_run_locks_its_folder(self):
+        """A method that sees the folder of another run may lock all that it can open there."""
+        many = IK.replace("trials: 4", "trials: 3000")
+        first = subprocess.Popen([ETUDE, "run", self.write("many.yaml", many), "-o", self.out], stderr=subprocess.DEVNULL)
+        self.wait_for_cells(self.out)
+        lock = self.out / "lock"
+        script = f"exec 9<{lock} && echo opened; exec 9>>{lock} && echo opened"
+        seen = subprocess.run(["bwrap", "--unshare-user", "--ro-bind", "/", "/", "--cap-drop", "ALL", "sh", "-c", script],
+                              capture_output=True, text=True)
+        held = self.etude("run", self.folder / "many.yaml", "-o", self.out, "--resume")
+        first.kill()
+        first.wait()
+        self.assertEqual(seen.stdout, "")
+        self.assertEqual(held.returncode, 2)
+        self.assertIn("another run is writing into it", held.stderr)
+
+    def test_a_kill_of_anybody_leaves_nobody(self):
+        dice = random.Random(1)
+        for number in range(10):
+            targets = kills.TARGETS[number % len(kills.TARGETS)]
+            left, _ = kills.kill_once(ETUDE, targets, dice.uniform(0, 0.05), at_fence=number % 2 == 1)
+            self.assertEqual(left, {}, targets)
+
+
+if __name__ == "__main__":
+    unittest.main()
