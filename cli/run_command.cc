@@ -122,6 +122,7 @@ int ShowOutcome(const RunOutcome& outcome) {
 }
 
 namespace {
+
 /// Says that nothing keeps a second run out of the folder.
 void TellUnlocked(const RunOutcome& outcome) {
   if (outcome.why_unlocked.empty()) return;
