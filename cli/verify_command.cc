@@ -72,8 +72,9 @@ void DefineVerify(CLI::App& app, Action& action) {
   options->replay.sample = 10;
   CLI::App* command = app.add_subcommand("verify", "Whether a run says what its cells say, and these come out again");
   command->add_option("folder", options->replay.folder, "A result folder")->required();
-  command->add_option("--sample", options->replay.sample,
-                      "Run so many cells again, beside all that left a recording; 0 = none")
+  command
+      ->add_option("--sample", options->replay.sample,
+                   "Run so many cells again, beside all that left a recording; 0 = none")
       ->check(CLI::Range(0, 10'000'000))
       ->capture_default_str();
   command->add_option("--sign", options->sign, "If all agrees, sign it with this secret key (minisign -G -W)");

@@ -57,8 +57,8 @@ TailRules TailRulesOf(const FinishedRun& run);
 /// (timeout, crashed, out of memory; one sentence per scenario and status), or every cell was skipped.
 std::vector<std::string> WhyIncomplete(const FinishedRun& run);
 
-/// One sentence per method that gave no answer (ok or unsolved) in any of its cells, with the most frequent causes, unless
-/// all of them were skipped.
+/// One sentence per method that gave no answer (ok or unsolved) in any of its cells, with the most frequent causes,
+/// unless all of them were skipped.
 std::vector<std::string> DescribeSilentMethods(const FinishedRun& run);
 
 /// True if a move makes the gate fail.

@@ -19,9 +19,9 @@ namespace fs = std::filesystem;
 
 using Bytes = std::vector<unsigned char>;
 
-// Of minisign's files: https://jedisct1.github.io/minisign/#signature-format. A key begins with its algorithm (2 bytes); a
-// secret one goes on with those of its password and its sum (2, 2) and their salt and costs (32, 8, 8), which are zero
-// without a password. Then stand the key's number, the key and, of a secret one, the sum.
+// Of minisign's files: https://jedisct1.github.io/minisign/#signature-format. A key begins with its algorithm (2
+// bytes); a secret one goes on with those of its password and its sum (2, 2) and their salt and costs (32, 8, 8), which
+// are zero without a password. Then stand the key's number, the key and, of a secret one, the sum.
 constexpr std::size_t kNumber = 8, kBeforeSecret = 54, kSum = 32;
 constexpr std::size_t kSecretSize = kBeforeSecret + kNumber + crypto_sign_SECRETKEYBYTES + kSum;
 constexpr std::size_t kPublicSize = 2 + kNumber + crypto_sign_PUBLICKEYBYTES;
@@ -119,8 +119,9 @@ Result<void> SignRun(const fs::path& folder, const std::string& secret_key) {
     return Fail({secret_key}, "is no secret key of minisign; minisign -G -W makes one");
   }
   if (key[2] != 0 || key[3] != 0) {
-    return Fail({secret_key}, "is a secret key with a password, which nobody here can be asked for; "
-                              "minisign -G -W makes one without");
+    return Fail({secret_key},
+                "is a secret key with a password, which nobody here can be asked for; "
+                "minisign -G -W makes one without");
   }
   ASSIGN_OR_RETURN(const auto digests, ListDigests(folder));
   const unsigned char* const number = key.data() + kBeforeSecret;

@@ -12,8 +12,8 @@ namespace etude {
 ///     signed.b2          the BLAKE2b digest of seal.json and of every sealed file, as `b2sum` writes and checks it
 ///     signed.b2.minisig  the signature of that file, as `minisign -S` writes and `minisign -V` checks it (Ed25519)
 
-/// Writes both into the folder of a sealed run. `secret_key` is a file that `minisign -G -W` made; one with a password is
-/// refused.
+/// Writes both into the folder of a sealed run. `secret_key` is a file that `minisign -G -W` made; one with a password
+/// is refused.
 Result<void> SignRun(const std::filesystem::path& folder, const std::string& secret_key);
 
 /// Checks both. `public_key` is minisign's file, or its text (RW…). Fails naming the first file that is not as it was
