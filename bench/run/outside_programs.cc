@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 
 #include "bench/outside/program_view.h"
@@ -32,10 +31,6 @@ Result<void> CheckPrograms(const std::string& file, std::span<const PreparedScen
 }
 
 namespace {
-
-/// Where Etude's own program and data, and clips that anybody has, may lie in the system.
-constexpr std::array kHiddenInSystem = {"/usr/bin/etude", "/usr/local/bin/etude", "/usr/share/etude",
-                                        "/usr/local/share/etude", "/usr/share/assimp"};
 
 fs::path Canonical(const fs::path& path) {
   std::error_code error;
@@ -113,8 +108,12 @@ Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const Outsid
       RETURN_IF_ERROR(CheckShown(scenario, method, ViewOf(command, method.files), folder, key));
     }
   }
-  for (const char* path : kHiddenInSystem) fence.Hide(path);
-  fence.Hide(fs::read_symlink("/proc/self/exe", error));
+  // Our own program and scenarios where they are installed, but not the examples, which methods import; and clips that
+  // anybody has.
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  fence.Hide(program);
+  fence.Hide(program.parent_path().parent_path() / "share/etude/scenarios");
+  fence.Hide("/usr/share/assimp");
   if (!folder.empty()) fence.Hide(fs::absolute(folder).lexically_normal());
   return fence;
 }

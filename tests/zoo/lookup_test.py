@@ -17,15 +17,15 @@ SEED = "2"
 # By task and seat: what a scenario says beside its name, and the keys of its method.
 TASKS = {
     "ik": ("trials: 3\nsweep: {joint_noise_deg: [2, 5]}\n", ""),
-    "tracking": ("trials: 2\nclips: ['builtin:clap']\nseconds: 0.5\n", ""),
+    "tracking": ("trials: 2\nclips: ['builtin:boxing']\nduration_s: 0.5\n", ""),
     "transition": ("trials: 2\nclips: ['builtin:*']\n", ""),
-    "detection": ("trials: 2\nsweep: {noise: [0, 1]}\n", ""),
-    "search": ("trials: 2\n", ""),
-    "coach/recogniser": ("trials: 1\nsweep: {noise: [0, 1]}\n", ", seat: recogniser"),
+    "detection": ("trials: 2\nclips: ['builtin:*']\nevents: 4\nsweep: {noise: [1, 2]}\n", ""),
+    "search": ("trials: 2\nclips: ['builtin:*']\nframes: 500\nqueries: 3\n", ""),
+    "coach/recogniser": ("trials: 1\nsweep: {noise: [1, 2]}\n", ", seat: recogniser"),
     "coach/policy": ("trials: 1\n", ", seat: policy"),
     "coach/learner": ("trials: 1\n", ", seat: learner"),
-    "capture": ("trials: 1\nseconds: 0.2\n", ""),
-    "capture/segmenter": ("trials: 1\nseconds: 0.2\n", ", seat: segmenter"),
+    "capture": ("trials: 1\nclips: ['builtin:boxing']\nduration_s: 0.1\n", ""),
+    "capture/segmenter": ("trials: 1\nclips: ['builtin:boxing']\nduration_s: 0.1\n", ", seat: segmenter"),
 }
 
 

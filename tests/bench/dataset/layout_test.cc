@@ -36,11 +36,6 @@ TEST(Layout, GivesConditionsOneNameEachThatCannotLeaveTheirFolder) {
   }
 }
 
-TEST(Layout, NumbersTrialsInThreeDigitsOrMore) {
-  EXPECT_EQ(TrialName(7), "007");
-  EXPECT_EQ(TrialName(12345), "12345");
-}
-
 constexpr char kScenario[] = R"(
 scenario: ik
 question: Which answers are there?
@@ -89,6 +84,11 @@ TEST_F(Predictions, AreFoundUnderTheNamesOfTheirWorlds) {
   EXPECT_FALSE((*files)[2]);
   EXPECT_EQ((*files)[3]->filename(), "001.JSON");
   EXPECT_TRUE(faults_.empty());
+}
+
+TEST_F(Predictions, NameTrialsByThreeDigitsOrMore) {
+  EXPECT_EQ(WorldName(scenarios_[0], 0, 7), "007");
+  EXPECT_EQ(WorldName(scenarios_[0], 1, 12345), "12345");
 }
 
 TEST_F(Predictions, ThatAnswerNoWorldAreExtra) {

@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(
         Hostility{"exits", Status::kFailed, R"(ended with exit code 3, amid the line '{"type": "ans')"},
         Hostility{"prints_garbage", Status::kBadOutput,
                   R"(said something that is not JSON: 'loading model \x1b[1m100%\x1b[0m')"},
-        Hostility{"answers_nan", Status::kBadOutput, "said something that is not JSON near byte 52: '"},
+        Hostility{"answers_nan", Status::kBadOutput, "said something that is not JSON near byte 68: '"},
         Hostility{"answers_beyond_doubles", Status::kBadOutput, "said a number that is too large: '"},
         Hostility{"answers_deeply", Status::kBadOutput, "said something nested more than 32 deep: '[[[["},
         Hostility{"answers_a_key_twice", Status::kBadOutput, "named the key 'number' twice in one object: '"},
@@ -316,7 +316,8 @@ TEST(OutsideMethod, AttachmentsLieInAFolderWhileItWorks) {
         "read hello; echo '{\"type\":\"hello\",\"protocol\":1,\"name\":\"cat\",\"version\":\"1\"}';"
         "read setting; echo '{\"type\":\"ready\"}'; read problem;"
         "folder=$(echo \"$problem\" | sed 's/.*\"files\":\"\\([^\"]*\\)\".*/\\1/');"
-        "echo \"{\\\"type\\\":\\\"answer\\\",\\\"id\\\":\\\"p\\\",\\\"answer\\\":{\\\"folder\\\":\\\"$folder\\\","
+        "id=$(echo \"$problem\" | sed 's/.*\"id\":\"\\([^\"]*\\)\".*/\\1/');"
+        "echo \"{\\\"type\\\":\\\"answer\\\",\\\"id\\\":\\\"$id\\\",\\\"answer\\\":{\\\"folder\\\":\\\"$folder\\\","
         "\\\"text\\\":\\\"$(cat \"$folder/a.txt\")\\\"}}\"; read x"};
     OutsideMethod method(options);
     const OutsideReply reply =

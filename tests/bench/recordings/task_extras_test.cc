@@ -13,7 +13,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 template <typename Extras>
-std::string Complaint(Result<Extras> (*read)(const std::string&), const std::string& json) {
+std::string ComplaintOfExtras(Result<Extras> (*read)(const std::string&), const std::string& json) {
   const auto extras = read(json);
   return extras ? "none" : ToString(extras.error());
 }
@@ -67,7 +67,7 @@ TEST(DetectionExtras, AreRefusedNamingThePlaceWhatWasFoundAndWhatItMeans) {
   const auto with = [&](const std::string& old, const std::string& now) {
     std::string text = good;
     text.replace(text.rfind(old), old.size(), now);
-    return Complaint(ReadDetectionExtras, text);
+    return ComplaintOfExtras(ReadDetectionExtras, text);
   };
   EXPECT_EQ(with("0.25", "0.25"), "none") << "a control";
   EXPECT_EQ(with("0.25", R"("high")"), R"(events[1].score: "high" is no number (how right it looked to the method))");
@@ -81,8 +81,8 @@ TEST(DetectionExtras, AreRefusedNamingThePlaceWhatWasFoundAndWhatItMeans) {
   EXPECT_THAT(with(R"("version":1)", R"("version":2)"), HasSubstr("version: 2; allowed: 1"));
   EXPECT_THAT(with("etude-detection", "etude-coach"),
               HasSubstr(R"(format: "etude-coach"; allowed: "etude-detection")"));
-  EXPECT_EQ(Complaint(ReadDetectionExtras, "[1]"), "no JSON object, but a list of 1");
-  EXPECT_THAT(Complaint(ReadDetectionExtras, "{"), HasSubstr("no JSON object: not valid JSON"));
+  EXPECT_EQ(ComplaintOfExtras(ReadDetectionExtras, "[1]"), "no JSON object, but a list of 1");
+  EXPECT_THAT(ComplaintOfExtras(ReadDetectionExtras, "{"), HasSubstr("no JSON object: not valid JSON"));
 }
 
 TEST(CoachExtras, SurviveWritingAndReading) {
@@ -123,7 +123,7 @@ TEST(IkExtras, LeaveEmptyWhateverIsNotWhatItShouldBe) {
   ASSERT_TRUE(read) << ToString(read.error());
   EXPECT_TRUE(read->iterations.empty() && read->targets_m.empty());
   EXPECT_THAT(read->axis_error_max_deg, ElementsAre(1, 2));
-  EXPECT_THAT(Complaint(ReadIkExtras, "3"), HasSubstr("no JSON object"));
+  EXPECT_THAT(ComplaintOfExtras(ReadIkExtras, "3"), HasSubstr("no JSON object"));
 }
 
 TEST(TransitionExtras, SurviveWritingAndReading) {
