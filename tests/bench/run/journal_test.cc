@@ -172,13 +172,6 @@ TEST_F(JournalTest, KnowsWhatItBelongsToAsLongAsOneCopyOfItsHeadIsGood) {
   EXPECT_THAT(Complaint(), HasSubstr("not the head of a journal, and no copy of it follows"));
 }
 
-TEST_F(JournalTest, RefusesACellTwice) {
-  WriteTwo();
-  const std::string text = Text();
-  Rewrite(text + text.substr(EndOfHead(text)));
-  EXPECT_THAT(Complaint(), HasSubstr("journal.jsonl:5: cell 3 (small/joint_noise_deg=2/001/least-squares) stands in"));
-}
-
 TEST_F(JournalTest, RefusesACellOfAnotherShard) {
   auto journal = Journal::Begin(folder(), {"m", "b", {1, 2}});
   ASSERT_TRUE(journal);
