@@ -13,6 +13,8 @@ ETUDE = pathlib.Path(os.environ["ETUDE"])
 PYTHON = "/usr/bin/python3"
 LOOKUP = pathlib.Path(__file__).with_name("lookup.py")
 SEED = "2"
+# What the first step of these seats tells is the same in every world.
+TOLD_NOTHING_AT_FIRST = ["coach/policy", "coach/learner"]
 
 # By task and seat: what a scenario says beside its name, and the keys of its method.
 TASKS = {
@@ -84,6 +86,8 @@ class Lookup(unittest.TestCase):
 
     def test_of_a_plain_seed_every_task_is_found(self):
         for task in os.environ.get("ETUDE_LOOKUP_TASKS", " ".join(TASKS)).split():
+            if task in TOLD_NOTHING_AT_FIRST:
+                continue
             with self.subTest(task):
                 found, rows = self.release(task, "--seed", SEED)
                 self.assertGreaterEqual(len([one for one in found if one.startswith("the world of p")]), 1)
