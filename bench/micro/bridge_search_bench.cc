@@ -133,8 +133,8 @@ struct LibraryKind {
 /// Makes libraries when they are asked for, and holds one at a time: a million frames in every form take gigabytes.
 class Libraries {
  public:
-  explicit Libraries(std::vector<SourceClip> seeds) : seeds_(std::move(seeds)) {}
-  bool HasCaptures() const { return std::ranges::any_of(seeds_, &SourceClip::captured); }
+  explicit Libraries(std::vector<SeedClip> seeds) : seeds_(std::move(seeds)) {}
+  bool HasCaptures() const { return std::ranges::any_of(seeds_, &SeedClip::captured); }
   const Measured& Of(const LibraryKind& kind) {
     if (!held_ || kind.Name() != held_name_) {
       held_.reset();
@@ -145,7 +145,7 @@ class Libraries {
   }
 
  private:
-  std::vector<SourceClip> seeds_;
+  std::vector<SeedClip> seeds_;
   std::string held_name_;
   std::unique_ptr<Measured> held_;
 };
@@ -288,7 +288,7 @@ void RegisterAll(Libraries& libraries) {
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
-  std::vector<etude::SourceClip> seeds = etude::LoadSeeds({argv + 1, argv + argc});
+  std::vector<etude::SeedClip> seeds = etude::LoadSeeds({argv + 1, argv + argc});
   benchmark::AddCustomContext("frames of the seeds", etude::MakeUp(seeds));
   etude::Libraries libraries(std::move(seeds));
   etude::RegisterAll(libraries);

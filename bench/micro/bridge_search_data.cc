@@ -51,7 +51,7 @@ bool StaysOut(std::size_t seed) { return seed % 5 == 1; }
 
 }  // namespace
 
-std::vector<SourceClip> LoadSeeds(const std::vector<std::string>& files) {
+std::vector<SeedClip> LoadSeeds(const std::vector<std::string>& files) {
   std::vector<std::string> references = files;
   if (files.empty()) {
     for (const char* name : {"01_01", "01_03", "Boxing_Toes"}) {
@@ -66,14 +66,14 @@ std::vector<SourceClip> LoadSeeds(const std::vector<std::string>& files) {
     std::fprintf(stderr, "%s\n", ToString(library.error()).c_str());
     std::exit(2);
   }
-  std::vector<SourceClip> seeds;
+  std::vector<SeedClip> seeds;
   for (const LibraryClip& clip : library->clips) {
     seeds.push_back({clip.name, !clip.name.starts_with(kBuiltinPrefix), clip.motion});
   }
   return seeds;
 }
 
-std::string MakeUp(std::span<const SourceClip> seeds) {
+std::string MakeUp(std::span<const SeedClip> seeds) {
   std::string text;
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     const std::string seed = seeds[i].name + " " + std::to_string(seeds[i].motion.poses.size());
@@ -82,7 +82,7 @@ std::string MakeUp(std::span<const SourceClip> seeds) {
   return text;
 }
 
-SearchData MakeSearchData(std::span<const SourceClip> seeds, int count) {
+SearchData MakeSearchData(std::span<const SeedClip> seeds, int count) {
   std::vector<BodyMotion> known, foreign;
   for (std::size_t i = 0; i < seeds.size(); ++i) (StaysOut(i) ? foreign : known).push_back(seeds[i].motion);
   const WorldKey world{.suite_seed = 1, .scenario = "bridge_search_bench", .trial = 0};
@@ -96,7 +96,7 @@ SearchData MakeSearchData(std::span<const SourceClip> seeds, int count) {
   return data;
 }
 
-SearchData MakeCapturedData(std::span<const SourceClip> seeds) {
+SearchData MakeCapturedData(std::span<const SeedClip> seeds) {
   SearchData data;
   std::vector<Grades> foreign;
   for (std::size_t i = 0; i < seeds.size(); ++i) {

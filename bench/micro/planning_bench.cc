@@ -19,7 +19,7 @@ namespace {
 MotionLibrary MakeClips() {
   constexpr int kClips = 8, kLength = 1000;
   std::vector<BodyMotion> seeds;
-  for (SourceClip& seed : LoadSeeds({})) seeds.push_back(std::move(seed.motion));
+  for (SeedClip& seed : LoadSeeds({})) seeds.push_back(std::move(seed.motion));
   RandomStream dice({.suite_seed = 1, .scenario = "planning_bench", .trial = 0}, "library");
   std::vector<BodyMotion> clips(1);
   for (const BodyMotion& part : VariedLibrary(seeds, kClips * kLength, dice)) {
