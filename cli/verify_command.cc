@@ -19,6 +19,7 @@ namespace {
 
 struct VerifyCommandOptions {
   ReplayOptions replay;
+  std::string key_file;     ///< of secret worlds, "" = none
   std::string sign, check;  ///< keys, "" = none
 };
 
@@ -36,6 +37,7 @@ Result<void> AddReport(const std::string& folder, std::vector<Verified>& all) {
 Result<int> VerifyCommand(VerifyCommandOptions options) {
   const Interrupt interrupt;
   ReplayOptions& replay = options.replay;
+  ASSIGN_OR_RETURN(replay.key, TakeSecretKey(options.key_file));
   replay.stop = interrupt.requested();
   replay.sealing = Sealing::kIgnored;  // that is told, and no reason to look no further
   replay.recorded_too = true;
@@ -79,6 +81,7 @@ void DefineVerify(CLI::App& app, Action& action) {
       ->capture_default_str();
   command->add_option("--sign", options->sign, "If all agrees, sign it with this secret key (minisign -G -W)");
   command->add_option("--check", options->check, "Check its signature with this public key, or file of one (minisign)");
+  AddSeedFile(*command, options->key_file);
   AddOutsideRules(*command, options->replay.outside);
   AddJobs(*command, options->replay.jobs);
   command->callback([=, &action] { action = [=] { return Finish(VerifyCommand(*options)); }; });

@@ -221,7 +221,8 @@ Outcome<void> OutsideMethod::State::Start() {
   cpu_s = cpu_charged_s = shared_mb = 0;
   last_look_at_mappings = {};
   auto reply = Exchange(*hello, StartSeconds(), ReadHello);
-  if (!reply && reply.error().status == Status::kCrashed) {  // or was it the fence?
+  const bool ended = !reply && (reply.error().status == Status::kCrashed || reply.error().status == Status::kFailed);
+  if (ended) {  // or was it the fence?
     if (auto tried = options.fence.Try(); !tried) return NotAsked(tried.error());
     reply.error().reason += kHint;
   }

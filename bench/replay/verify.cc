@@ -89,9 +89,9 @@ Result<std::vector<Verified>> VerifyRun(const ReplayOptions& options, bool repla
   all.push_back({"rows: those that the manifest asks for", run.incomplete});
   if (!run.incomplete.empty()) return all;
   ASSIGN_OR_RETURN(all.emplace_back(), VerifySummary(folder, run, WorkerCount(options.jobs)));
-  ASSIGN_OR_RETURN(const auto prepared, PrepareRun(folder / "manifest.json"));
-  ASSIGN_OR_RETURN(all.emplace_back(), VerifyRecordings(folder, run, prepared));
   if (!replays) return all;
+  ASSIGN_OR_RETURN(const auto prepared, PrepareRun(folder / "manifest.json", options.key));
+  ASSIGN_OR_RETURN(all.emplace_back(), VerifyRecordings(folder, run, prepared));
   ASSIGN_OR_RETURN(all.emplace_back(), VerifyCells(options, prepared));
   return all;
 }

@@ -102,7 +102,7 @@ class Verify(EtudeCase):
                     seal["files"]["recordings/ik~other.json"] = ""
                     (self.out / "seal.json").write_text(json.dumps(seal))
                 reseal(self.out)
-                replays = found_by == "cells"
+                replays = found_by in ("cells", "recordings")
                 found, text = self.differences("--sample", 24 if replays else 0)
                 self.assertIn(found_by, [words.lstrip("0123456789 ") or "cells" for words in found], text)
                 self.assertIn("agrees   seal.json", text)
