@@ -16,7 +16,7 @@ using testing::kDec;
 using testing::kIntel;
 using testing::kMips;
 
-std::string Complaint(const std::string& bytes) {
+std::string C3dComplaint(const std::string& bytes) {
   const auto read = ReadC3d(bytes, "a.c3d");
   return read ? "(read)" : ToString(read.error());
 }
@@ -76,19 +76,19 @@ TEST(C3d, TakesWhatIsNoNumberForAGap) {
 
 TEST(C3d, RefusesWhatIsDamaged) {
   const std::string good = C3dWriter(kIntel, true).Write();
-  EXPECT_EQ(Complaint("HIERARCHY"), "a.c3d: no C3D file");
-  EXPECT_EQ(Complaint(good.substr(0, good.size() - 20)), "a.c3d: is cut short: 2 of 3 frames are there");
+  EXPECT_EQ(C3dComplaint("HIERARCHY"), "a.c3d: no C3D file");
+  EXPECT_EQ(C3dComplaint(good.substr(0, good.size() - 20)), "a.c3d: is cut short: 2 of 3 frames are there");
   std::string other = good;
   other[512 + 3] = 7;
-  EXPECT_THAT(Complaint(other), HasSubstr("a machine of kind 7; allowed: 84 (Intel), 85 (DEC), 86 (MIPS)"));
+  EXPECT_THAT(C3dComplaint(other), HasSubstr("a machine of kind 7; allowed: 84 (Intel), 85 (DEC), 86 (MIPS)"));
   C3dWriter furlongs(kIntel, true), none(kIntel, true), flat(kIntel, true);
   furlongs.unit = "fl";
   none.points = 0;
   flat.scale = 0;
-  EXPECT_EQ(Complaint(furlongs.Write()), "a.c3d: units 'fl'; allowed: m, cm, mm, in, ft");
-  EXPECT_THAT(Complaint(none.Write()), HasSubstr("holds no points"));
-  EXPECT_THAT(Complaint(flat.Write()), HasSubstr("POINT:SCALE is"));
-  for (std::size_t cut = 0; cut < good.size(); cut += 37) EXPECT_NE(Complaint(good.substr(0, cut)), "(read)") << cut;
+  EXPECT_EQ(C3dComplaint(furlongs.Write()), "a.c3d: units 'fl'; allowed: m, cm, mm, in, ft");
+  EXPECT_THAT(C3dComplaint(none.Write()), HasSubstr("holds no points"));
+  EXPECT_THAT(C3dComplaint(flat.Write()), HasSubstr("POINT:SCALE is"));
+  for (std::size_t cut = 0; cut < good.size(); cut += 37) EXPECT_NE(C3dComplaint(good.substr(0, cut)), "(read)") << cut;
 }
 
 }  // namespace

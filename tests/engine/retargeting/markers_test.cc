@@ -11,10 +11,10 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr std::size_t kFrames = 40;
+constexpr std::size_t kTakeFrames = 40;
 
 /// Somebody who stands, facing +Z, and sways; metres, Y up.
-BodyPose Standing(std::size_t frame) {
+BodyPose StandingAt(std::size_t frame) {
   const double sway = 0.01 * static_cast<double>(frame);
   BodyPose pose;
   const auto put = [&](Role role, double x, double y, double z) { pose[role] = {x + sway, y, z}; };
@@ -40,8 +40,8 @@ BodyPose Standing(std::size_t frame) {
 MarkerMotion Take(const std::vector<std::string>& names,
                   const std::function<std::vector<glm::dvec3>(const BodyPose&)>& markers_of) {
   MarkerMotion take{.rate_hz = 50, .names = names, .frames = {}};
-  for (std::size_t t = 0; t < kFrames; ++t) {
-    const auto places = markers_of(Standing(t));
+  for (std::size_t t = 0; t < kTakeFrames; ++t) {
+    const auto places = markers_of(StandingAt(t));
     take.frames.emplace_back(places.begin(), places.end());
   }
   return take;
@@ -57,7 +57,7 @@ MarkerMotion OwnJoints() {
 double FurthestJoint(const BodyMotion& motion, std::size_t first = 0) {
   double furthest = 0;
   for (std::size_t t = 0; t < motion.poses.size(); ++t) {
-    BodyPose wanted = Standing(first + t);
+    BodyPose wanted = StandingAt(first + t);
     for (glm::dvec3& joint : wanted.joints) joint.y -= 0.02;  // the floor is under the toes
     for (const Role role : AllRoles())
       furthest = std::max(furthest, glm::distance(motion.poses[t][role], wanted[role]));
@@ -70,7 +70,7 @@ TEST(Markers, OfOurOwnNamesAreTheJoints) {
   ASSERT_TRUE(bodies) << ToString(bodies.error());
   ASSERT_EQ(bodies->size(), 1u);
   EXPECT_EQ(bodies->front().motion.rate_hz, 50);
-  EXPECT_EQ(bodies->front().motion.poses.size(), kFrames);
+  EXPECT_EQ(bodies->front().motion.poses.size(), kTakeFrames);
   EXPECT_LT(FurthestJoint(bodies->front().motion), 1e-12);
   EXPECT_EQ(bodies->front().note, "Etude's joints");
 }
@@ -141,7 +141,7 @@ TEST(Markers, OfPlugInGaitGiveJointsInsideTheLimbs) {
   EXPECT_NEAR(hip.x, 0.33 * width + 0.0073, 1e-9);
   EXPECT_NEAR(hip.y + 0.02, 0.9 + 0.0829 - 0.30 * width - 0.0109, 1e-9);
   EXPECT_NEAR(hip.z, 0.0265 + f - 0.24 * depth - 0.0099, 1e-9);
-  BodyPose wanted = Standing(0);
+  BodyPose wanted = StandingAt(0);
   for (const Role role : AllRoles()) {
     EXPECT_LT(glm::distance(pose[role], wanted[role] - glm::dvec3(0, 0.02, 0)), 0.015) << RoleName(role);
   }
@@ -199,7 +199,7 @@ TEST(Markers, OfTwoPeopleAreTwoBodies) {
   for (std::string& name : take.names) name = "Ann:" + name;
   const MarkerMotion other = OwnJoints();
   for (const std::string& name : other.names) take.names.push_back("Bob:" + name);
-  for (std::size_t t = 0; t < kFrames; ++t) {
+  for (std::size_t t = 0; t < kTakeFrames; ++t) {
     take.frames[t].insert(take.frames[t].end(), other.frames[t].begin(), other.frames[t].end());
   }
   const auto bodies = FindMarkerBodies(take, "a.c3d");
