@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/base/angles.h"
 #include "engine/base/names.h"
 
 namespace etude {
@@ -55,6 +56,8 @@ Skeleton SmplSkeleton() {
                                .rest = {.translation = joint.offset},
                                .is_end_site = joint.is_end_site});
   }
+  // The recordings have Z up, and turn the pelvis there: so does who rests.
+  skeleton.joints.front().rest.rotation = glm::angleAxis(kPi / 2, glm::dvec3(1, 0, 0));
   return skeleton;
 }
 
