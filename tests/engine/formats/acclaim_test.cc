@@ -85,14 +85,14 @@ TEST(Acclaim, TurnsBonesInTheirOwnAxes) {
 TEST(Acclaim, RefusesWhatIsNoneByItsPlace) {
   EXPECT_EQ(AcclaimComplaint(""), "a.asf: no bones; allowed: an Acclaim skeleton with :root and :bonedata");
   EXPECT_THAT(AcclaimComplaint(Without("dof rx ry rz", "dof rx l")),
-              HasSubstr("a.asf:18:12: channel 'l'; allowed: rx"));
-  EXPECT_THAT(AcclaimComplaint(Without("axis 0 0 90 XYZ", "axis 0 0 90 XQZ")), HasSubstr("a.asf:17:17: axes 'XQZ'"));
+              HasSubstr("a.asf:19:12: channel 'l'; allowed: rx"));
+  EXPECT_THAT(AcclaimComplaint(Without("axis 0 0 90 XYZ", "axis 0 0 90 XQZ")), HasSubstr("a.asf:18:17: axes 'XQZ'"));
   EXPECT_THAT(AcclaimComplaint(Without("    name lower", "    name upper")),
               HasSubstr("the bone 'upper' stands here twice"));
   EXPECT_THAT(AcclaimComplaint(Without("    upper lower\n", "")), HasSubstr("the bone 'lower' hangs on nothing"));
   EXPECT_THAT(AcclaimComplaint(Without("root upper", "root upper upper")), HasSubstr("hangs on something already"));
   EXPECT_THAT(AcclaimComplaint(Without("root upper", "root arm")), HasSubstr("no bone is called 'arm'"));
-  EXPECT_THAT(AcclaimComplaint(Without("length 2", "length nan")), HasSubstr("a.asf:16:12: "));
+  EXPECT_THAT(AcclaimComplaint(Without("length 2", "length nan")), HasSubstr("a.asf:17:12: "));
   EXPECT_THAT(AcclaimComplaint(Without("direction 1 0 0", "direction 1 0")), HasSubstr("a number is missing"));
   const auto skeleton = ReadAcclaimSkeleton(kSkeleton, "a.asf");
   ASSERT_TRUE(skeleton);

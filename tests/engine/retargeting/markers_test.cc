@@ -99,7 +99,7 @@ TEST(Markers, OfPlugInGaitGiveJointsInsideTheLimbs) {
        "Me:LPSI", "Me:RPSI", "Me:LKNE", "Me:RKNE", "Me:LANK", "Me:RANK", "Me:LTOE", "Me:RTOE", "Me:LTHI"},
       [&](const BodyPose& pose) {
         const auto around = [&](Role role, double x, double y, double z) { return pose[role] + glm::dvec3(x, y, z); };
-        const glm::dvec3 pelvis = pose[Role::kHipCentre] + glm::dvec3(0, 0.0829, 0.0265);
+        const glm::dvec3 pelvis = pose[Role::kHipCentre] + glm::dvec3(0, 0.0829, -0.0265);
         return std::vector<glm::dvec3>{around(Role::kHead, 0.07, 0, 0.09),
                                        around(Role::kHead, -0.07, 0, 0.09),
                                        around(Role::kHead, 0.07, 0, -0.09),
@@ -140,7 +140,7 @@ TEST(Markers, OfPlugInGaitGiveJointsInsideTheLimbs) {
   const glm::dvec3 hip = pose[Role::kLeftHip];
   EXPECT_NEAR(hip.x, 0.33 * width + 0.0073, 1e-9);
   EXPECT_NEAR(hip.y + 0.02, 0.9 + 0.0829 - 0.30 * width - 0.0109, 1e-9);
-  EXPECT_NEAR(hip.z, 0.0265 + f - 0.24 * depth - 0.0099, 1e-9);
+  EXPECT_NEAR(hip.z, -0.0265 + f - 0.24 * depth - 0.0099, 1e-9);
   BodyPose wanted = StandingAt(0);
   for (const Role role : AllRoles()) {
     EXPECT_LT(glm::distance(pose[role], wanted[role] - glm::dvec3(0, 0.02, 0)), 0.015) << RoleName(role);
