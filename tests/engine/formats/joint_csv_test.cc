@@ -69,8 +69,7 @@ TEST(JointCsv, RefusesUnknownHeadingsHalfJointsAndRaggedRows) {
   const std::string timed = "time_s,head_x_m,head_y_m,head_z_m\n";
   EXPECT_EQ(complaint((timed + "0.2,1,2,3\n0.1,1,2,3\n0,1,2,3\n").c_str()),
             "m.csv:3: time 0.1 s after 0.2 s; allowed: a clock that does not run backwards");
-  EXPECT_EQ(complaint((timed + "1,1,2,3\n1,1,2,3\n").c_str()),
-            "m.csv:3: most rows tell the time of the row before; allowed: a clock that runs");
+  EXPECT_EQ(complaint((timed + "1,1,2,3\n1,1,2,3\n").c_str()), "(read)");
 }
 
 }  // namespace
