@@ -87,12 +87,11 @@ std::string DigestOf(const std::vector<std::string>& texts) {
 /// and its compiler, linear algebra and orderings below Ceres, codecs of pictures, the genetic search. Ceres, Eigen,
 /// GLM and Random123 are part of our own build, which a journal's head names. What only draws pages or reads fonts is
 /// not here, so that its updates change no run's identity.
-constexpr std::array kDecisiveLibraries = {"libc.",        "libm.",       "libstdc++.",   "libOSMesa.", "libglapi.",
-                                           "libLLVM",      "libblas.",    "liblapack.",   "libatlas",   "libopenblas",
-                                           "libgfortran.", "libcholmod.", "libcxsparse.", "libamd.",    "libcamd.",
-                                           "libcolamd.",   "libccolamd.", "libmetis.",    "libhwy.",    "libjpeg.",
-                                           "libpng",       "libz.",       "libOpenEXR",   "libImath",   "libIex",
-                                           "libtinygltf.", "libstb.",     "libpagmo.",    "libnlopt.",  "libipopt."};
+constexpr std::array kDecisiveLibraries = {
+    "libc.",       "libm.",       "libstdc++.",   "libOSMesa.",  "libglapi.",    "libLLVM",   "libblas.", "liblapack.",
+    "libatlas",    "libopenblas", "libgfortran.", "libcholmod.", "libcxsparse.", "libamd.",   "libcamd.", "libcolamd.",
+    "libccolamd.", "libmetis.",   "libhwy.",      "libjpeg.",    "libpng",       "libz.",     "libzip.",  "libOpenEXR",
+    "libImath",    "libIex",      "libtinygltf.", "libstb.",     "libpagmo.",    "libnlopt.", "libipopt."};
 
 /// The builds of the decisive libraries, by name: the first half of their build IDs.
 Json DescribeLibraries() {

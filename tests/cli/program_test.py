@@ -15,7 +15,7 @@ LIBRARIES = {
     "libOpenEXR-3_1": "pictures of numbers", "libImath-3_1": "halves, for OpenEXR", "libpng16": "pictures",
     "libjpeg": "pictures that were compressed",
     "libcairo": "draws sheets and films",
-    "libtinygltf": "figures",
+    "libtinygltf": "figures", "libzip": "motions of AMASS",
     "libxml2": "tags, calibrations", "libyaml-cpp": "scenarios",
     "libglog": "Ceres's", "libcholmod": "Ceres's", "libcxsparse": "Ceres's", "libspqr": "Ceres's",
     "liblapack": "Ceres's", "libblas": "Ceres's",

@@ -160,7 +160,7 @@ methods: [{name: hue}]
 
     def test_lists_what_a_scenario_can_name(self):
         for what, words in {"methods": "capture", "metrics": "position_error_cm", "clips": "builtin:clap",
-                            "scenarios": "scenarios/quick", "recordings": "transition_frames"}.items():
+                            "scenarios": "quick/ik ", "recordings": "transition_frames"}.items():
             result = self.etude("list", what)
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertIn(words, result.stdout)
