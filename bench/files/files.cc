@@ -35,7 +35,8 @@ Result<void> CheckReadable(const std::filesystem::path& path) {
 bool Synced(int file) { return ::fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP; }
 
 Result<void> Sync(const std::filesystem::path& path, int flags) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags);
+  int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags);
+  if (file < 0 && errno == EACCES) file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags);  // such as a lock
   if (file < 0) return Fail({path.string()}, "cannot be opened to synchronise it: {}", std::strerror(errno));
   const int failed = Synced(file) ? 0 : errno;
   ::close(file);
