@@ -1,0 +1,77 @@
+"""Etude where it is installed: found by name from any folder, by any user, with the bytes of the tree that it was built in.
+ETUDE_ROOT=1 (heavy): a package, in a bare Debian root that mmdebstrap makes; skipped where there is none to be had."""
+import os
+import pathlib
+import shutil
+import subprocess
+import unittest
+
+from etude_case import ETUDE, EtudeCase
+
+BUILD = pathlib.Path(ETUDE).resolve().parent
+SUITE = "quick/ik"
+
+
+class Installed(EtudeCase):
+    def same_as_here(self, out, suite, *options):
+        here = self.folder / "here"
+        self.assertEqual(self.etude("run", suite, *options, "-o", here).returncode, 0)
+        for name in ("cells.jsonl", "summary.json"):
+            self.assertEqual((here / name).read_bytes(), (out / name).read_bytes(), name)
+
+    def test_a_prefix_that_was_moved_finds_what_it_ships(self):
+        prefix, moved, empty = self.folder / "prefix", self.folder / "moved", self.folder / "empty"
+        subprocess.run(["cmake", "--install", BUILD, "--prefix", prefix], check=True, stdout=subprocess.DEVNULL)
+        prefix.rename(moved)
+        empty.mkdir()
+        etude = moved / "bin" / "etude"
+
+        def run(*words):
+            return subprocess.run([etude, *map(str, words)], cwd=empty, capture_output=True, text=True)
+
+        self.assertIn("full/ik_weights ", run("list", "scenarios").stdout)
+        result = run("run", SUITE, "--trials", 6, "-o", "out")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.same_as_here(empty / "out", SUITE, "--trials", 6)
+        manifest = (empty / "out" / "manifest.json").read_text()
+        for path in str(moved), str(BUILD), "/usr/share":
+            self.assertNotIn(path, manifest)
+        # What is here wins, and that is said; a copy is a start.
+        self.assertEqual(run("scenario", "copy", SUITE, "quick").returncode, 0)
+        wins = run("run", "quick", "--trials", 6, "-o", "mine")
+        self.assertIn("quick: what is here is run, not what comes with etude under that name", wins.stderr)
+        twice = run("scenario", "copy", SUITE, "quick")
+        self.assertEqual(twice.returncode, 2)
+        self.assertIn("is there already; nothing was copied", twice.stderr)
+        unknown = run("run", "ful/ik_weights")
+        self.assertEqual(unknown.returncode, 2)
+        self.assertIn("did you mean 'full/ik_weights'?", unknown.stderr)
+        self.assertIn("@software{etude,", run("cite", "out").stdout)
+        self.assertTrue((moved / "share" / "man" / "man1" / "etude-run.1").exists())
+
+    @unittest.skipUnless(os.environ.get("ETUDE_ROOT"), "heavy")
+    def test_a_package_runs_in_a_bare_root_as_an_ordinary_user(self):
+        if os.geteuid() != 0 or not shutil.which("mmdebstrap"):
+            self.skipTest("needs root and mmdebstrap")
+        subprocess.run(["cpack", "-G", "DEB", "-B", self.folder], cwd=BUILD, check=True, stdout=subprocess.DEVNULL)
+        package = next(self.folder.glob("etude_*.deb"))
+        root = self.folder / "root"
+        made = subprocess.run(["mmdebstrap", "--variant=apt", "--mode=root", "bookworm", root,
+                               f"--customize-hook=copy-in {package} /tmp",
+                               f'--customize-hook=chroot "$1" apt-get install -y -q /tmp/{package.name}',
+                               '--customize-hook=chroot "$1" useradd -m ann'], capture_output=True, text=True)
+        if made.returncode != 0 and not (root / "usr" / "bin").exists():
+            self.skipTest("no mirror is to be had: " + made.stderr[-300:])
+        self.assertEqual(made.returncode, 0, made.stderr[-2000:])
+        self.assertFalse((root / "usr" / "bin" / "c++").exists(), "a compiler came along")
+        script = ("mount -t proc proc {0}/proc && chroot {0} su ann -c "
+                  "'cd && etude run quick -o out && etude gate out --baseline /usr/share/etude/scenarios/baselines/quick.json"
+                  " && etude report out --no-video'").format(root)
+        ran = subprocess.run(["unshare", "--mount", "sh", "-c", script], capture_output=True, text=True)
+        self.assertEqual(ran.returncode, 0, ran.stdout[-2000:] + ran.stderr[-2000:])
+        self.assertIn("Gate: pass", ran.stdout)
+        self.same_as_here(root / "home" / "ann" / "out", "quick")
+
+
+if __name__ == "__main__":
+    unittest.main()
