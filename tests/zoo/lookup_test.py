@@ -13,8 +13,9 @@ ETUDE = pathlib.Path(os.environ["ETUDE"])
 PYTHON = "/usr/bin/python3"
 LOOKUP = pathlib.Path(__file__).with_name("lookup.py")
 SEED = "2"
-# What the first step of these seats tells is the same in every world.
-TOLD_NOTHING_AT_FIRST = ["coach/policy", "coach/learner"]
+# What the first step of these seats tells is the same in every world; a request for a transition names public clips and a
+# frame, and no number that was measured.
+TOLD_NOTHING_AT_FIRST = ["coach/policy", "coach/learner", "transition"]
 
 # By task and seat: what a scenario says beside its name, and the keys of its method.
 TASKS = {
