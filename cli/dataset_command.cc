@@ -63,6 +63,18 @@ int ScoreCommand(const ScoreOptions& given) {
   return ShowOutcome(outcome->run);
 }
 
+/// A command that first takes the key of its secret worlds.
+template <typename Options>
+Action WithKey(std::shared_ptr<Options> options, std::shared_ptr<std::string> key_file,
+               int (*command)(const Options&)) {
+  return [=] {
+    auto key = TakeSecretKey(*key_file, options->seed.has_value());
+    if (!key) return Complain(key.error());
+    options->key = std::move(*key);
+    return command(*options);
+  };
+}
+
 }  // namespace
 
 void DefineExport(CLI::App& app, Action& action) {
@@ -75,14 +87,7 @@ void DefineExport(CLI::App& app, Action& action) {
   AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map);
   auto key_file = std::make_shared<std::string>();
   AddSeedFile(*command, *key_file);
-  command->callback([=, &action] {
-    action = [=] {
-      auto key = TakeSecretKey(*key_file, options->seed.has_value());
-      if (!key) return Complain(key.error());
-      options->key = std::move(*key);
-      return ExportCommand(*options);
-    };
-  });
+  command->callback([=, &action] { action = WithKey(options, key_file, ExportCommand); });
 }
 
 void DefineScore(CLI::App& app, const std::string& command_line, Action& action) {
@@ -101,14 +106,7 @@ void DefineScore(CLI::App& app, const std::string& command_line, Action& action)
   AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map);
   auto key_file = std::make_shared<std::string>();
   AddSeedFile(*command, *key_file);
-  command->callback([=, &action] {
-    action = [=] {
-      auto key = TakeSecretKey(*key_file, options->seed.has_value());
-      if (!key) return Complain(key.error());
-      options->key = std::move(*key);
-      return ScoreCommand(*options);
-    };
-  });
+  command->callback([=, &action] { action = WithKey(options, key_file, ScoreCommand); });
 }
 
 }  // namespace etude

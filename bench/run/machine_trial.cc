@@ -13,12 +13,16 @@
 #include "bench/files/temporary_folder.h"
 #include "bench/process/child_process.h"
 #include "bench/process/machine.h"
+#include "bench/tasks/registry.h"
 #include "sim/render/renderer.h"
 
 namespace etude {
 namespace {
 
-bool Draws(const PreparedScenario& scenario) { return scenario.scenario().task == "capture"; }
+bool Draws(const PreparedScenario& prepared) {
+  const Scenario& scenario = prepared.scenario();
+  return IsFilmed(scenario) || FindTaskKind(scenario.task)->platform != nullptr;
+}
 
 /// A copy of this process tries to make a renderer: where memory is short, its libraries end the process that asks.
 Result<void> TryRendererInACopy() {

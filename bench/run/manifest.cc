@@ -14,7 +14,6 @@
 #include "bench/model/recording.h"
 #include "bench/process/pinned_environment.h"
 #include "bench/results/folder.h"
-#include "bench/tasks/base/sensor_key.h"
 #include "bench/tasks/registry.h"
 #include "bench/training/genetic_search.h"
 #include "engine/base/digest.h"
@@ -45,14 +44,6 @@ Json DescribeClips(const ClipLibrary& library) {
                      {"note", clip.note}});
   }
   return clips;
-}
-
-/// True if a task of another kind sees by the cameras of the capture task.
-bool IsFilmed(const Scenario& scenario) {
-  return std::ranges::any_of(scenario.conditions, [](const Condition& condition) {
-    const Node* sensor = condition.node.Find(kSensorKey);
-    return sensor != nullptr && sensor->scalar == kCameraSensor;
-  });
 }
 
 /// Describes the clips, then the recordings of people.

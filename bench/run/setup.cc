@@ -9,6 +9,7 @@
 #include <set>
 
 #include "bench/scenario/methods.h"
+#include "bench/tasks/base/sensor_key.h"
 #include "bench/tasks/registry.h"
 
 namespace etude {
@@ -179,6 +180,13 @@ Result<std::unique_ptr<LabelledStreams>> LoadRecordings(const ScenarioSetup& set
 }
 
 }  // namespace
+
+bool IsFilmed(const Scenario& scenario) {
+  return std::ranges::any_of(scenario.conditions, [](const Condition& condition) {
+    const Node* sensor = condition.node.Find(kSensorKey);
+    return sensor != nullptr && sensor->scalar == kCameraSensor;
+  });
+}
 
 Result<std::optional<int>> CountRecordedPeople(const ScenarioSetup& setup, const StreamSource& source,
                                                const SourceTexts& texts) {

@@ -94,6 +94,9 @@ class PreparedScenario {
   std::vector<std::unique_ptr<Task>> tasks_;  ///< one per condition
 };
 
+/// True if a task of another kind sees by the cameras of the capture task.
+bool IsFilmed(const Scenario& scenario);
+
 /// The number of people that a scenario's recordings show; nothing where its worlds are not made of them. `texts` hold
 /// its labels.
 Result<std::optional<int>> CountRecordedPeople(const ScenarioSetup& setup, const StreamSource& source,
