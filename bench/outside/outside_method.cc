@@ -33,6 +33,9 @@ constexpr int kDyingMs = 1000;     // from closing its output to its end
 constexpr int kEndingMs = 500;     // from the end of its input to its own
 constexpr double kLongestS = 1e9;  // beyond any run, within what the clock can hold
 
+/// Of a reply to what has not been read: it was said before the question.
+Error TooEarly() { return {{}, "answered before it was asked"}; }
+
 /// Told whether there is a fence or not: the same program fails with the same words everywhere.
 constexpr const char* kHint = " (a fence shows it the system and what its key 'files' lists)";
 
@@ -80,6 +83,8 @@ struct OutsideMethod::State {
   template <typename Read>
   auto Exchange(const std::string& line, double seconds, Read read, Looks looks = Looks::kAlways)
       -> Outcome<typename decltype(read(line))::value_type>;
+  template <typename Read>
+  Outcome<void> HearBefore(Read read);
   bool IsRepeated(const std::string& line) const;
   Outcome<std::string> WaitForLine(Clock::time_point deadline, double seconds);
   Outcome<void> Look();
@@ -185,8 +190,10 @@ Outcome<Json> OutsideMethod::State::Solve(const std::string& setting_id, const P
   if (!files) return NotAsked(files.error());
   const auto line = ProblemLine(problem_id, *problem.json, files->path());
   if (!line) return OurFailure(line.error());
+  const auto read = [&](const std::string& said) { return ReadAnswer(said, problem_id); };
+  RETURN_IF_ERROR(HearBefore(read));  // it may be put again, and what has come till now answers its last time
   answered.erase(problem_id);
-  auto answer = Exchange(*line, options.time_s, [&](const std::string& said) { return ReadAnswer(said, problem_id); });
+  auto answer = Exchange(*line, options.time_s, read);
   answered.insert(problem_id);
   return answer;
 }
@@ -242,12 +249,28 @@ Outcome<void> OutsideMethod::State::TellSetting(const std::string& id, const Pay
   return {};
 }
 
+/// Hears what was said since the last reply: answers given again are passed over, one to the question to come is
+/// refused.
+template <typename Read>
+Outcome<void> OutsideMethod::State::HearBefore(Read read) {
+  child->Receive(kLongestReply);
+  while (const auto said = child->NextLine()) {
+    if (!IsRepeated(*said)) {
+      const auto reply = read(WithoutFolder(*said));
+      return BadOutput(reply ? TooEarly() : reply.error());
+    }
+    ++repeated;
+  }
+  return {};
+}
+
 /// Says a line and gives what `read` makes of the reply.
 template <typename Read>
 auto OutsideMethod::State::Exchange(const std::string& line, double seconds, Read read, Looks looks)
     -> Outcome<typename decltype(read(line))::value_type> {
   const auto limit = std::chrono::duration<double>(std::min(seconds, kLongestS));
   const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(limit);
+  RETURN_IF_ERROR(HearBefore(read));
   child->Send(line);  // one that no longer listens is noticed by its silence
   while (true) {
     const auto said = WaitForLine(deadline, seconds);
@@ -262,6 +285,7 @@ auto OutsideMethod::State::Exchange(const std::string& line, double seconds, Rea
       const auto again = read(WithoutFolder(*said));
       return BadOutput((again ? reply : again).error());
     }
+    if (child->UnreadBytes() > line.size()) return BadOutput(TooEarly());
     if (looks == Looks::kAlways || Clock::now() >= last_look + kLookEvery) {
       RETURN_IF_ERROR(Look());
     }

@@ -6,6 +6,7 @@
 #include <poll.h>
 #include <sched.h>
 #include <signal.h>
+#include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <sys/mount.h>
 #include <sys/prctl.h>
@@ -303,6 +304,12 @@ bool ChildProcess::SendOn() {
   unsent_.clear();
   sent_ = 0;
   return all_sent;
+}
+
+std::size_t ChildProcess::UnreadBytes() const {
+  int in_pipe = 0;
+  if (::ioctl(input_, FIONREAD, &in_pipe) != 0) in_pipe = 0;
+  return static_cast<std::size_t>(in_pipe) + unsent_.size() - sent_;
 }
 
 bool ChildProcess::Receive(std::size_t longest_line) {

@@ -57,6 +57,8 @@ class ChildProcess {
   /// calls of Receive and Send. False when the child no longer listens.
   bool Send(const std::string& line);
   bool HasUnsent() const { return sent_ < unsent_.size(); }
+  /// The bytes sent that the child has not read yet.
+  std::size_t UnreadBytes() const;
   /// The descriptors for poll(): `output` is readable when the child has said something or ended; `input` is writable
   /// when something unsent can be sent on.
   int output() const { return output_; }

@@ -20,9 +20,13 @@ def say(**message):
     write(json.dumps(message) + "\n")
 
 
-def answer(problem, **instead):
+def answer_to(problem, **instead):
     number = {"number": problem["number"]} if "number" in problem else {}
-    say(**{"type": "answer", "id": problem["id"], "answer": ANSWER} | number | instead)
+    return {"type": "answer", "id": problem["id"], "answer": ANSWER} | number | instead
+
+
+def answer(problem, **instead):
+    say(**answer_to(problem, **instead))
 
 
 def tells_its_settings(problem):
@@ -180,6 +184,8 @@ hangs_in_a_session = at_step(2, hangs)
 prints_garbage_in_a_session = at_step(2, prints_garbage)
 answers_a_session_twice = at_step(2, lambda step: (answer(step), answer(step)))
 answers_another_step = at_step(2, lambda step: answer(step, number=7))
+answers_the_next_step_as_well = at_step(1, lambda step: write("".join(
+    json.dumps(answer_to(step, number=number)) + "\n" for number in [1, 2])))
 gives_up_in_a_session = at_step(2, lambda step: gives_up(step))
 
 

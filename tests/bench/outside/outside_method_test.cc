@@ -375,17 +375,17 @@ TEST_P(HostileInASession, EndsTheSessionAndTheNextOneBeginsAnew) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(OutsideMethod, HostileInASession,
-                         ::testing::Values(Hostility{"dies_in_a_session", Status::kFailed,
-                                                     "ended with exit code 1; its last words: 'out of luck'"},
-                                           Hostility{"hangs_in_a_session", Status::kTimeout, "took longer than 0.1 s"},
-                                           Hostility{"prints_garbage_in_a_session", Status::kBadOutput,
-                                                     "at step 2: said something that is not JSON: 'loading model"},
-                                           Hostility{"answers_another_step", Status::kBadOutput,
-                                                     "at step 2: answered another step than 2: "},
-                                           Hostility{"gives_up_in_a_session", Status::kUnsolved,
-                                                     "gave no answer: 'no way\\x0aout'"}),
-                         [](const auto& tested) { return tested.param.behaviour; });
+INSTANTIATE_TEST_SUITE_P(
+    OutsideMethod, HostileInASession,
+    ::testing::Values(
+        Hostility{"dies_in_a_session", Status::kFailed, "ended with exit code 1; its last words: 'out of luck'"},
+        Hostility{"hangs_in_a_session", Status::kTimeout, "took longer than 0.1 s"},
+        Hostility{"prints_garbage_in_a_session", Status::kBadOutput,
+                  "at step 2: said something that is not JSON: 'loading model"},
+        Hostility{"answers_another_step", Status::kBadOutput, "at step 2: answered another step than 2: "},
+        Hostility{"answers_the_next_step_as_well", Status::kBadOutput, "answered before it was asked"},
+        Hostility{"gives_up_in_a_session", Status::kUnsolved, "gave no answer: 'no way\\x0aout'"}),
+    [](const auto& tested) { return tested.param.behaviour; });
 
 TEST(LiveSession, AnswersAreToSayTheirStep) {
   OutsideMethod method(Behaving("says_no_number"));
