@@ -8,6 +8,7 @@ install(TARGETS etude RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 install(TARGETS etude_training_pagmo LIBRARY DESTINATION "${ETUDE_MODULES}")
 
 install(DIRECTORY scenarios examples DESTINATION share/etude PATTERN __pycache__ EXCLUDE PATTERN node_modules EXCLUDE)
+install(PROGRAMS ci/gate DESTINATION share/etude/ci)
 install(DIRECTORY docs/schemas DESTINATION share/etude)
 install(DIRECTORY docs/ DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs" PATTERN schemas EXCLUDE)
 install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION "${CMAKE_INSTALL_DOCDIR}")

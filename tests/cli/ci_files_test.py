@@ -1,91 +1,163 @@
-"""The workflow files of docs/ci: they are YAML, and what they call is there."""
+"""The files of ci/, whose own steps are run in the repository of examples/ci-repository with the variables that servers set."""
+import os
 import pathlib
 import re
+import shutil
+import subprocess
 import unittest
 
 import yaml
-from etude_case import EtudeCase
+from etude_case import ETUDE, EtudeCase
 
 ROOT = pathlib.Path(__file__).parents[2]
-CI = ROOT / "docs" / "ci"
+CI = ROOT / "ci"
+EXAMPLE = ROOT / "examples" / "ci-repository"
 
 
-def scripts_in(node):
-    """Every shell script of a workflow: GitHub's `run`, GitLab's `…script`."""
-    if isinstance(node, dict):
-        for key, value in node.items():
-            if key == "run" and isinstance(value, str):
-                yield value
-            elif key in ("script", "before_script", "after_script"):
-                yield from value
-            else:
-                yield from scripts_in(value)
-    elif isinstance(node, list):
-        for value in node:
-            yield from scripts_in(value)
+def fill_in(text, known):
+    """A server's ${{ … }}, of which each must be known."""
+    return re.sub(r"\$\{\{ *(.*?) *\}\}", lambda match: known[match[1]], str(text))
 
 
-def settings_in(node):
-    """SUITE and BASELINE, wherever a workflow sets them."""
-    found = {}
-    if isinstance(node, dict):
-        for key, value in node.items():
-            found.update({key: value} if key in ("SUITE", "BASELINE") else settings_in(value))
+def holds(condition, known):
+    """Whether a step of an action runs, by the few forms that ours have; one that fails ends those without always()."""
+    words = condition.replace("&&", " and ").replace("always()", "True")
+    return eval(re.sub(r"\b(?:inputs|github)\.\w+", lambda match: repr(known[match[0]]), words), {})  # noqa: S307: our own files
+
+
+def containerfile(text):
+    """Its instructions: (name, words)."""
+    lines = re.sub(r"\\\n", " ", re.sub(r"^#.*\n", "", text, flags=re.M)).splitlines()
+    found = [line.split(None, 1) for line in lines if line.strip()]
+    for instruction in found:
+        if len(instruction) != 2 or instruction[0] not in ("FROM", "COPY", "RUN", "CMD"):
+            raise ValueError(f"no instruction: {' '.join(instruction)}")
+        if instruction[0] == "RUN":
+            subprocess.run(["sh", "-n", "-c", instruction[1]], check=True, stderr=subprocess.DEVNULL)
+    if [name for name, _ in found].index("FROM") != 0:
+        raise ValueError("FROM must be first")
     return found
 
 
 class CiFiles(EtudeCase):
-    def complaints(self, text):
-        """What is wrong with a workflow, and how many calls of etude were checked."""
-        workflow = yaml.safe_load(text)
-        found, calls = [], 0
-        known = self.etude("--help").stdout
-        script = "\n".join(scripts_in(workflow)).replace("\\\n", " ")
-        for call in re.findall(r"build/release/etude ([^;&|\n]*)", script):
-            calls += 1
-            command, *words = call.split()
-            if not re.search(rf"^  {re.escape(command)} ", known, re.M):
-                found.append(f"no command '{command}'")
+    def setUp(self):
+        super().setUp()
+        self.repository, self.prefix = self.folder / "repository", self.folder / "prefix"
+        shutil.copytree(EXAMPLE, self.repository)
+        for folder in "bin", "share/etude":
+            (self.prefix / folder).mkdir(parents=True)
+        (self.prefix / "bin" / "etude").symlink_to(ETUDE)
+        (self.prefix / "share" / "etude" / "ci").symlink_to(CI)
+        for program in "gh", "curl":   # what the servers are told, is kept
+            (self.prefix / "bin" / program).write_text(f'#!/bin/sh\necho "$@" >> {self.folder}/{program}\n')
+            (self.prefix / "bin" / program).chmod(0o755)
+        self.environment = {"PATH": f"{self.prefix}/bin:/usr/bin:/bin", "HOME": str(self.folder), "CI": "true"}
+
+    def bash(self, script, variables):
+        return subprocess.run(["bash", "-eo", "pipefail", "-c", script], cwd=self.repository, capture_output=True, text=True,
+                              env={**self.environment, **variables}, timeout=120)
+
+    def run_action(self, **changed):
+        """Takes the steps of ci/action.yml as GitHub would: (the failed step or None, the job's summary, outputs)."""
+        action = yaml.safe_load((CI / "action.yml").read_text())
+        workflow = yaml.safe_load((self.repository / ".github/workflows/etude.yml").read_text())
+        call = next(step for step in workflow["jobs"]["gate"]["steps"] if "/ci@" in step.get("uses", ""))
+        given = {**call["with"], **changed}
+        self.assertLessEqual(set(given), set(action["inputs"]))
+        known = {f"inputs.{name}": given.get(name, one.get("default")) for name, one in action["inputs"].items()}
+        self.assertNotIn(None, known.values(), "a required input is missing")
+        known |= {"runner.os": "Linux", "runner.arch": "X64", "github.token": "secret", "github.event.number": "7",
+                  "github.event_name": "pull_request"}
+        files = {name: self.folder / name for name in ("GITHUB_STEP_SUMMARY", "GITHUB_OUTPUT", "GITHUB_PATH")}
+        for path in files.values():
+            path.write_text("")
+        failed, ran = None, 0
+        for step in action["runs"]["steps"]:
+            condition = step.get("if", "True")
+            if (failed and "always()" not in condition) or not holds(condition, known):
                 continue
-            help_text = self.etude(command, "--help").stdout
-            found += [f"{command} knows no '{word}'" for word in words
-                      if word.startswith("-") and not re.search(rf"^  (-\w,)?{re.escape(word)}\b|^  {re.escape(word)}[ ,]",
-                                                                help_text, re.M)]
-        for path in re.findall(r"(?<![\w/.])scripts/[\w/-]+", script) + list(settings_in(workflow).values()):
-            if not (ROOT / path).exists():
-                found.append(f"no such file: {path}")
-        for preset in re.findall(r"--preset (\S+)", script):
-            if f'"name": "{preset}"' not in (ROOT / "CMakePresets.json").read_text():
-                found.append(f"no preset '{preset}'")
-        return found, calls
+            ran += 1
+            if "uses" in step:
+                self.assertRegex(step["uses"], r"^actions/(cache|upload-artifact)@v4$")
+                for value in step["with"].values():
+                    fill_in(value, known)
+                continue
+            variables = {name: fill_in(value, known) for name, value in step.get("env", {}).items()}
+            result = self.bash(step["run"], {**variables, **{name: str(path) for name, path in files.items()},
+                                             "GITHUB_ACTION_PATH": str(CI), "GITHUB_REPOSITORY": "ann/solver"})
+            if result.returncode != 0:
+                failed = step["name"]
+            for line in files["GITHUB_OUTPUT"].read_text().splitlines():
+                name, value = line.split("=", 1)
+                known[f"steps.{step.get('id')}.outputs.{name}"] = value
+            files["GITHUB_OUTPUT"].write_text("")
+        self.assertEqual(ran, 6)
+        return failed, files["GITHUB_STEP_SUMMARY"].read_text(), known["steps.gate.outputs.verdict"]
 
-    def test_call_what_is_there(self):
-        files = sorted(CI.glob("*.yml"))
-        self.assertEqual([path.name for path in files], ["etude-gate.yml", "gitlab-ci.yml"])
-        for path in files:
-            with self.subTest(path.name):
-                text = path.read_text()
-                found, calls = self.complaints(text)
-                self.assertEqual(found, [])
-                self.assertGreaterEqual(calls, 3)
-                self.assertEqual(sorted(settings_in(yaml.safe_load(text))), ["BASELINE", "SUITE"])
-                for shown in "report/gate.md", "report/gate.xml":
-                    self.assertIn(shown, text)
+    def test_the_example_passes_on_github_and_a_worse_solver_does_not(self):
+        failed, summary, verdict = self.run_action()
+        self.assertEqual((failed, verdict), (None, "pass"), summary)
+        self.assertIn("Etude gate of ik: pass", summary)
+        self.assertIn("84 same", summary)
+        self.assertIn("pr comment 7 --repo ann/solver --body-file out/etude/report/gate.md", (self.folder / "gh").read_text())
+        for name in "gate.xml", "index.html":
+            self.assertTrue((self.repository / "out/etude/report" / name).exists(), name)
 
-    def test_are_found_wrong_when_they_are(self):
-        text = (CI / "etude-gate.yml").read_text()
-        for old, new, complaint in [("etude gate out/ci", "etude judge out/ci", "no command 'judge'"),
-                                    ("--baseline \"$B", "--base \"$B", "gate knows no '--base'"),
-                                    ("-o out/ci", "-O out/ci", "run knows no '-O'"),
-                                    ("scripts/setup", "scripts/install", "no such file: scripts/install"),
-                                    ("baselines/quick.json", "baselines/slow.json", "no such file: scenarios/baselines/"),
-                                    ("preset release", "preset fast", "no preset 'fast'")]:
+        solver = self.repository / "solver.py"
+        solver.write_text(solver.read_text().replace("DAMPING = 1e-3", "DAMPING = 1.0"))
+        failed, summary, verdict = self.run_action()
+        self.assertEqual((failed, verdict), ("Run and gate", "regression"))
+        self.assertRegex(summary, r"\*\*worse\*\* \| ik-weights \| joint\\_noise\\_deg=5 \| ours \| effector position error \|")
+        self.assertIn("72 same", summary)  # the others are what they were
+
+    def test_what_is_missing_is_told_in_the_summary(self):
+        summary, right = self.folder / "summary", {"SUITE": "quick/ik", "METHOD": "{name: ours, exec: [python3, solver.py]}",
+                                                   "BASELINE": "no.json", "ARGUMENTS": "--trials 1"}
+        for wrong, complaint in [({}, "no.json: no such file; --update makes it"),
+                                 ({"SUITE": "quick/ikk"}, "did you mean 'quick/ik'?"),
+                                 ({"SUITE": "quick"}, "SUITE quick is not one scenario"),
+                                 ({"SUITE": "solver.py"}, "solver.py is here: write METHOD into it"),
+                                 ({"BASELINE": ""}, "SUITE and BASELINE must be set")]:
             with self.subTest(complaint):
-                self.assertIn(old, text)
-                found, _ = self.complaints(text.replace(old, new))
-                self.assertTrue(any(complaint in one for one in found), found)
-        with self.assertRaises(yaml.YAMLError):
-            self.complaints(text.replace("jobs:", "jobs: ["))
+                result = self.bash(str(CI / "gate"), right | wrong | {"GITHUB_STEP_SUMMARY": str(summary)})
+                self.assertEqual(result.returncode, 2)
+                self.assertIn("## Etude gate: bad input", summary.read_text())
+                self.assertIn(complaint, summary.read_text())
+                summary.unlink()
+                shutil.rmtree(self.repository / "out")
+
+    def test_the_example_passes_on_gitlab(self):
+        template = yaml.safe_load((CI / "gitlab-ci.yml").read_text())
+        own = yaml.safe_load((self.repository / ".gitlab-ci.yml").read_text())
+        job = own["etude"]
+        base = template[job.pop("extends")]
+        self.assertTrue(own["include"][0]["remote"].endswith("/ci/gitlab-ci.yml"))
+        variables = base["variables"] | job["variables"]
+        self.assertEqual(set(variables), set(base["variables"]), "a variable that the template does not know")
+        variables |= {"CI_PROJECT_DIR": str(self.repository), "CI_API_V4_URL": "https://host/api/v4", "CI_PROJECT_ID": "3",
+                      "CI_MERGE_REQUEST_IID": "7", "ETUDE_NOTE_TOKEN": "secret", "ETUDE_REPOSITORY": ""}
+        result = self.bash("\n".join(base["before_script"] + base["script"]), variables)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("Gate: pass", result.stdout)
+        self.assertEqual(self.bash("\n".join(base["after_script"]), variables).returncode, 0)
+        self.assertIn("body=<out/etude/report/gate.md https://host/api/v4/projects/3/merge_requests/7/notes",
+                      (self.folder / "curl").read_text())
+        junit = base["artifacts"]["reports"]["junit"].replace("$RUN", variables["RUN"])
+        self.assertTrue((self.repository / junit).exists())
+
+    def test_what_brings_etude_is_written_as_shells_and_builders_read_it(self):
+        for script in "gate", "install":
+            subprocess.run(["bash", "-n", CI / script], check=True)
+        found = containerfile((CI / "Containerfile").read_text())
+        self.assertEqual([name for name, _ in found], ["FROM", "COPY", "RUN", "RUN", "CMD"])
+        for wrong in "RUM true\n", "FROM\n", "FROM debian:12\nRUN (true\n", "RUN true\nFROM debian:12\n":
+            with self.subTest(wrong), self.assertRaises((ValueError, subprocess.CalledProcessError)):
+                containerfile(wrong)
+        text = (CI / "install").read_text()
+        for name in re.findall(r"--preset (\S+)", text):
+            self.assertIn(f'"name": "{name}"', (ROOT / "CMakePresets.json").read_text())
+        self.assertTrue((ROOT / "scripts/setup").exists())
+        self.assertIn("scripts/setup", text)
 
 
 if __name__ == "__main__":

@@ -2,10 +2,12 @@
 ETUDE_ROOT=1 (heavy): a package, in a bare Debian root that mmdebstrap makes; skipped where there is none to be had."""
 import os
 import pathlib
+import shlex
 import shutil
 import subprocess
 import unittest
 
+from ci_files_test import CI, containerfile
 from etude_case import ETUDE, EtudeCase
 
 BUILD = pathlib.Path(ETUDE).resolve().parent
@@ -56,21 +58,24 @@ class Installed(EtudeCase):
         subprocess.run(["cpack", "-G", "DEB", "-B", self.folder], cwd=BUILD, check=True, stdout=subprocess.DEVNULL)
         package = next(self.folder.glob("etude_*.deb"))
         root = self.folder / "root"
+        # What ci/Containerfile does, in a root that needs no builder of containers.
+        image = containerfile((CI / "Containerfile").read_text())
+        self.assertEqual(image[:2], [["FROM", "debian:12"], ["COPY", "etude_*.deb /tmp/"]])
+        steps = [f"chroot \"$1\" sh -c {shlex.quote(words)}" for name, words in image if name == "RUN"]
         made = subprocess.run(["mmdebstrap", "--variant=apt", "--mode=root", "bookworm", root,
                                f"--customize-hook=copy-in {package} /tmp",
-                               f'--customize-hook=chroot "$1" apt-get install -y -q /tmp/{package.name}',
-                               '--customize-hook=chroot "$1" useradd -m ann'], capture_output=True, text=True)
+                               *(f"--customize-hook={step}" for step in steps)], capture_output=True, text=True)
         if made.returncode != 0 and not (root / "usr" / "bin").exists():
             self.skipTest("no mirror is to be had: " + made.stderr[-300:])
         self.assertEqual(made.returncode, 0, made.stderr[-2000:])
         self.assertFalse((root / "usr" / "bin" / "c++").exists(), "a compiler came along")
-        script = ("mount -t proc proc {0}/proc && chroot {0} su ann -c "
+        script = ("mount -t proc proc {0}/proc && chroot {0} su etude -c "
                   "'cd && etude run quick -o out && etude gate out --baseline /usr/share/etude/scenarios/baselines/quick.json"
                   " && etude report out --no-video'").format(root)
         ran = subprocess.run(["unshare", "--mount", "sh", "-c", script], capture_output=True, text=True)
         self.assertEqual(ran.returncode, 0, ran.stdout[-2000:] + ran.stderr[-2000:])
         self.assertIn("Gate: pass", ran.stdout)
-        self.same_as_here(root / "home" / "ann" / "out", "quick")
+        self.same_as_here(root / "home" / "etude" / "out", "quick")
 
 
 if __name__ == "__main__":

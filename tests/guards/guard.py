@@ -17,7 +17,7 @@ sys.dont_write_bytecode = True  # the sources stay as they are
 from rooms import NEVER_INCLUDES, may_include
 
 LAYERS = ["engine", "sim", "bench", "reports", "cli"]
-FOLDERS = LAYERS + ["tests", "docs", "scripts", "scenarios", "examples", "cmake"]  # where pages stand
+FOLDERS = LAYERS + ["tests", "docs", "scripts", "scenarios", "examples", "cmake", "ci"]  # where pages stand
 
 # Heavy libraries, by the start of their include, and the only folders that may know them.
 DOORS = {
