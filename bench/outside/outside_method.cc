@@ -215,13 +215,19 @@ Outcome<void> OutsideMethod::State::Start() {
   command.front() = std::move(*program);
   ProgramView view = ViewOf(command, options.files);
   view.shown.emplace_back(attachment_root->path());
+  std::vector<std::string> environment;
+  if (const std::filesystem::path python = PythonFolder(); !python.empty()) {
+    view.shown.push_back(python / "etude");
+    environment.push_back("PYTHONPATH=" + python.string());
+  }
   const FencedCommand fenced = options.fence.Around(view.command, view.shown, view.start);
   auto started = ChildProcess::Start({.program = fenced.words.front(),
                                       .arguments = {fenced.words.begin() + 1, fenced.words.end()},
                                       .error_file = errors.path(),
                                       .limited = true,
                                       .contained = options.fence.IsUp(),
-                                      .told = fenced.told});
+                                      .told = fenced.told,
+                                      .environment = std::move(environment)});
   if (!started) return NotAsked(started.error());
   child = std::move(*started);
   answered.clear();

@@ -39,4 +39,15 @@ ProgramView ViewOf(const std::vector<std::string>& command, const std::vector<st
   return view;
 }
 
+fs::path PythonFolder() {
+  std::error_code error;
+  const auto holds_package = [&](const fs::path& folder) { return fs::exists(folder / "etude/__init__.py", error); };
+  fs::path above = fs::read_symlink("/proc/self/exe", error).parent_path();
+  if (const fs::path installed = above.parent_path() / "share/etude/python"; holds_package(installed)) return installed;
+  for (; above.has_relative_path(); above = above.parent_path()) {
+    if (holds_package(above / "python")) return above / "python";
+  }
+  return {};
+}
+
 }  // namespace etude

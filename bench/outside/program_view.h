@@ -19,4 +19,8 @@ struct ProgramView {
 /// script (the first file it names). It starts in the first folder that it is shown.
 ProgramView ViewOf(const std::vector<std::string>& command, const std::vector<std::string>& files);
 
+/// The folder of Etude's Python package, which every program is shown and its PYTHONPATH leads to: `share/etude/python`
+/// beside an installed program, else `python` in a folder above it; "" where there is none.
+std::filesystem::path PythonFolder();
+
 }  // namespace etude

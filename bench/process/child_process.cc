@@ -222,6 +222,7 @@ Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
   argument_texts.insert(argument_texts.end(), options.arguments.begin(), options.arguments.end());
   std::vector<std::string> environment_texts = ClosedEnvironment();
   if (options.limited) std::erase_if(environment_texts, [](const auto& text) { return text.starts_with("PWD="); });
+  environment_texts.insert(environment_texts.end(), options.environment.begin(), options.environment.end());
   const std::vector<char*> argv = Pointers(argument_texts);
   const std::vector<char*> envp = Pointers(environment_texts);
   const Descriptor ourselves(static_cast<int>(::syscall(SYS_pidfd_open, ::getpid(), 0)));

@@ -12,9 +12,8 @@ throughout, and is shown the picture for a second, which fills its samples.
 import os
 
 import cv2
+import etude
 import numpy
-
-from etude_method import run_seat
 
 SUBTRACTORS = {"mog2": cv2.createBackgroundSubtractorMOG2, "knn": cv2.createBackgroundSubtractorKNN}
 HISTORY = 500
@@ -22,33 +21,32 @@ SECOND = 30  # pictures
 PERSON = 255  # shadows are 127
 
 
-def prepare(setting, options, files):
-    cv2.setNumThreads(1)
-    return options
+@etude.method(task="capture", seat="segmenter", name="opencv-subtractor", version=cv2.__version__)
+class Subtractor:
+    def __init__(self, options):
+        cv2.setNumThreads(1)
+        self.options = options
 
+    def begin(self, session, files):
+        cv2.setRNGSeed(1)  # the same for every camera: KNN throws dice
+        kind, history = self.options.get("subtractor", "mog2"), self.options.get("history", HISTORY)
+        self.subtractor, self.rate = SUBTRACTORS[kind](history=history), 1 / history
+        if not self.options.get("empty_room", True):
+            self.rate = -1  # learns fast at first
+            return
+        background = cv2.imread(os.path.join(files, session.background))
+        self.subtractor.apply(background, learningRate=1)
+        if kind == "knn":
+            for _ in range(SECOND):
+                self.subtractor.apply(background)
 
-def begin(options, session, files):
-    cv2.setRNGSeed(1)  # the same for every camera: KNN throws dice
-    kind, history = options.get("subtractor", "mog2"), options.get("history", HISTORY)
-    subtractor = SUBTRACTORS[kind](history=history)
-    if not options.get("empty_room", True):
-        return subtractor, -1  # learns fast at first
-    background = cv2.imread(os.path.join(files, session["background"]))
-    subtractor.apply(background, learningRate=1)
-    if kind == "knn":
-        for _ in range(SECOND):
-            subtractor.apply(background)
-    return subtractor, 1 / history
-
-
-def step(memory, seen, files):
-    subtractor, rate = memory
-    found = subtractor.apply(cv2.imread(os.path.join(files, seen["picture"])), learningRate=rate)
-    pixels = (found == PERSON).ravel(order="F")
-    ends = numpy.flatnonzero(numpy.diff(pixels)) + 1
-    runs = numpy.diff(ends, prepend=0, append=pixels.size).tolist()
-    return {"mask": {"size": list(found.shape), "counts": [0] * int(pixels[0]) + runs}}
+    def step(self, seen, files):
+        found = self.subtractor.apply(cv2.imread(os.path.join(files, seen.picture)), learningRate=self.rate)
+        pixels = (found == PERSON).ravel(order="F")
+        ends = numpy.flatnonzero(numpy.diff(pixels)) + 1
+        runs = numpy.diff(ends, prepend=0, append=pixels.size).tolist()
+        return {"mask": {"size": list(found.shape), "counts": [0] * int(pixels[0]) + runs}}
 
 
 if __name__ == "__main__":
-    run_seat("opencv-subtractor", cv2.__version__, prepare, begin, step)
+    etude.serve(Subtractor)

@@ -4,7 +4,7 @@ import os
 import re
 from operator import sub
 
-from etude_method import run_seat
+import etude
 
 MOST = 24
 CHANGED = bytes(abs(difference - 255) > MOST for difference in range(511))  # from -255 on
@@ -16,22 +16,18 @@ def read_green(path):
     return int(width), int(height), pixels[1::3]
 
 
-def prepare(setting, options, files):
-    return None
+@etude.method(task="capture", seat="segmenter", name="green-difference-python", version="1.0")
+class GreenDifference:
+    def begin(self, session, files):
+        self.width, self.height, self.empty = read_green(os.path.join(files, session.background))
 
-
-def begin(kept, session, files):
-    return read_green(os.path.join(files, session["background"]))
-
-
-def step(background, seen, files):
-    width, height, empty = background
-    _, _, green = read_green(os.path.join(files, seen["picture"]))
-    changed = bytes(CHANGED[difference + 255] for difference in map(sub, green, empty))
-    columns = b"".join(changed[x::width] for x in range(width))
-    runs = [run.end() - run.start() for run in re.finditer(rb"\x00+|\x01+", columns)]
-    return {"mask": {"size": [height, width], "counts": [0] * columns[0] + runs}}
+    def step(self, seen, files):
+        _, _, green = read_green(os.path.join(files, seen.picture))
+        changed = bytes(CHANGED[difference + 255] for difference in map(sub, green, self.empty))
+        columns = b"".join(changed[x::self.width] for x in range(self.width))
+        runs = [run.end() - run.start() for run in re.finditer(rb"\x00+|\x01+", columns)]
+        return {"mask": {"size": [self.height, self.width], "counts": [0] * columns[0] + runs}}
 
 
 if __name__ == "__main__":
-    run_seat("green-difference-python", "1.0", prepare, begin, step)
+    etude.serve(GreenDifference)

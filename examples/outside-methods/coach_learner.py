@@ -4,17 +4,9 @@ move that it has not been shown slowly. It never forgets, and never loses patien
 """
 from collections import deque
 
-from etude_method import run_seat
+import etude
 
 LAG = 10  # frames
-
-
-def prepare(setting, options, files):
-    return setting["joints"]
-
-
-def begin(joints, session, files):
-    return {"joints": joints, "past": deque(maxlen=LAG), "shown": set(), "slow": None}
 
 
 def hanging(pose, joints):
@@ -28,17 +20,25 @@ def hanging(pose, joints):
     return pose
 
 
-def step(memory, told, files):
-    if "test" in told:
-        return {"right": told["test"]["move"] in memory["shown"]}
-    if told["clip"].startswith("slow_"):
-        memory["shown"].add(told["clip"].removeprefix("slow_"))
-    memory["past"].append(told)
-    then = memory["past"][0]
-    knows = then["move"] is None or then["move"] in memory["shown"]
-    pose = then["pose"] if knows else hanging(then["pose"], memory["joints"])
-    return {"pose": pose, "right": told["move"] in memory["shown"], "given_up": False}
+@etude.method(task="coach", seat="learner", name="coach-learner-python", version="1.0")
+class Follower:
+    def __init__(self, setting):
+        self.joints = setting.joints
+
+    def begin(self, session):
+        self.past, self.shown = deque(maxlen=LAG), set()
+
+    def step(self, told):
+        if told.test is not None:
+            return {"right": told.test.move in self.shown}
+        if told.clip.startswith("slow_"):
+            self.shown.add(told.clip.removeprefix("slow_"))
+        self.past.append(told)
+        then = self.past[0]
+        knows = then.move is None or then.move in self.shown
+        pose = then.pose if knows else hanging(then.pose, self.joints)
+        return {"pose": pose, "right": told.move in self.shown, "given_up": False}
 
 
 if __name__ == "__main__":
-    run_seat("coach-learner-python", "1.0", prepare, begin, step)
+    etude.serve(Follower)

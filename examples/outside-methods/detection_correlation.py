@@ -4,7 +4,7 @@ along the learner's stream; where they correlate well enough, the move has been 
 """
 import math
 
-from etude_method import run
+import etude
 
 # The angle at the middle joint.
 ANGLES = [("shoulder_centre", "left_shoulder", "left_elbow"), ("left_shoulder", "left_elbow", "left_wrist"),
@@ -37,38 +37,37 @@ def normalised(rows):
     return [x / length for x in numbers]
 
 
-def prepare(setting, options, files):
-    moves = {}
-    for move in setting["moves"]:
-        step = STRIDE * move["rate_hz"] / 30
-        count = int(len(move["poses"]) / step)
-        moves[move["name"]] = normalised([angles_of(move["poses"][int(i * step)], setting["joints"])
-                                          for i in range(count)])
-    return setting["joints"], moves
+@etude.method(task="detection", name="detection-correlation-python", version="1.0")
+class Correlation:
+    def __init__(self, setting):
+        self.joints, self.moves = setting.joints, {}
+        for move in setting.moves:
+            step = STRIDE * move.rate_hz / 30
+            count = int(len(move.poses) / step)
+            self.moves[move.name] = normalised([angles_of(move.poses[int(i * step)], self.joints) for i in range(count)])
 
-
-def answer(kept, problem, files):
-    joints, moves = kept
-    rows = [angles_of(frame["pose"], joints) for frame in problem["frames"]]
-    alike = {}  # by move: the frame at which a performance would end -> how well it correlates
-    for move, taught in moves.items():
-        span = STRIDE * (len(taught) // len(ANGLES))
-        alike[move] = {start + span - 1: sum(x * y for x, y in zip(taught, normalised(rows[start:start + span:STRIDE])))
-                       for start in range(0, len(rows) - span + 1, STRIDE)}
-    events, alarms = [], []
-    for event in problem["events"]:
-        window = range(event["begin_frame"], event["end_frame"])
-        seen = {end: value for end, value in alike[event["move"]].items() if end in window}
-        right = [end for end, value in sorted(seen.items()) if value >= ENOUGH]
-        events.append({"right_at_frame": right[0] if right else None, "score": max(seen.values(), default=-1.0)})
-    for move, found in alike.items():
-        last = -math.inf
-        for end, value in sorted(found.items()):
-            if value >= ENOUGH and end - last > len(moves[move]) // len(ANGLES) * STRIDE / 2:  # once per performance
-                alarms.append({"move": move, "frame": end})
-                last = end
-    return {"events": events, "alarms": alarms}
+    def answer(self, problem):
+        rows = [angles_of(frame.pose, self.joints) for frame in problem.frames]
+        alike = {}  # by move: the frame at which a performance would end -> how well it correlates
+        for move, taught in self.moves.items():
+            span = STRIDE * (len(taught) // len(ANGLES))
+            alike[move] = {start + span - 1: sum(x * y for x, y in
+                                                 zip(taught, normalised(rows[start:start + span:STRIDE])))
+                           for start in range(0, len(rows) - span + 1, STRIDE)}
+        events, alarms = [], []
+        for event in problem.events:
+            window = range(event.begin_frame, event.end_frame)
+            seen = {end: value for end, value in alike[event.move].items() if end in window}
+            right = [end for end, value in sorted(seen.items()) if value >= ENOUGH]
+            events.append({"right_at_frame": right[0] if right else None, "score": max(seen.values(), default=-1.0)})
+        for move, found in alike.items():
+            last = -math.inf
+            for end, value in sorted(found.items()):  # once per performance
+                if value >= ENOUGH and end - last > len(self.moves[move]) // len(ANGLES) * STRIDE / 2:
+                    alarms.append({"move": move, "frame": end})
+                    last = end
+        return {"events": events, "alarms": alarms}
 
 
 if __name__ == "__main__":
-    run("detection-correlation-python", "1.0", prepare, answer)
+    etude.serve(Correlation)

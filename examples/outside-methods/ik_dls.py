@@ -7,7 +7,7 @@ worse is taken back and tried again with more damping (Levenberg 1944).
 """
 import math
 
-from etude_method import run
+import etude
 
 IDENTITY = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
 
@@ -116,10 +116,9 @@ def is_solved(tree, lacks):
                for i in range(0, len(lacks), 6))
 
 
-def prepare(tree, options, files):
-    """Which angles move which effector: those of its joint and of the joints above it."""
-    tree["max_steps"] = min(tree["max_steps"], options.get("max_steps", 100))
-    tree["affects"] = []
+def prepare(setting, options):
+    """The setting, and which angles move which effector: those of its joint and of the joints above it."""
+    tree = {**setting, "max_steps": min(setting["max_steps"], options.get("max_steps", 100)), "affects": []}
     for effector in tree["effectors"]:
         moves, joint = [False] * len(tree["angles"]), effector["joint"]
         while joint is not None:
@@ -131,7 +130,7 @@ def prepare(tree, options, files):
     return tree
 
 
-def answer(tree, problem, files):
+def answer(tree, problem):
     root, targets = problem["root"], problem["targets"]
     limits = [(math.radians(a["lower_deg"]), math.radians(a["upper_deg"])) for a in tree["angles"]]
     angles = [math.radians(a) for a in problem["start_angles_deg"]]
@@ -156,5 +155,14 @@ def answer(tree, problem, files):
     return {"angles_deg": degrees, "iterations": steps, "fk_evaluations": steps + 1}
 
 
+@etude.method(task="ik", name="ik-dls-python", version="1.0")
+class DampedLeastSquares:
+    def __init__(self, setting, options):
+        self.tree = prepare(setting.to_json(), options)
+
+    def answer(self, problem):
+        return answer(self.tree, problem)
+
+
 if __name__ == "__main__":
-    run("ik-dls-python", "1.0", prepare, answer)
+    etude.serve(DampedLeastSquares)

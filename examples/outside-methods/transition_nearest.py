@@ -6,7 +6,7 @@ Poses are compared as Etude lays them on each other: hip centre over hip centre 
 """
 import math
 
-from etude_method import run
+import etude
 
 LOOK_AHEAD = 2  # poses this many frames later are compared as well, so that the motions agree and not only the poses
 
@@ -27,29 +27,29 @@ def laid_down(pose, joints):
     return laid
 
 
-def prepare(setting, options, files):
-    laid = [[laid_down(pose, setting["joints"]) for pose in clip["poses"]] for clip in setting["clips"]]
-    return setting["rate_hz"], laid
-
-
 def distance(a, b):
     return sum((x - y) ** 2 for x, y in zip(a, b))
 
 
-def answer(kept, problem, files):
-    rate_hz, clips = kept
-    source, target = clips[problem["from"]], clips[problem["to"]]
-    first = problem["request_frame"]
-    last = min(len(source) - 1, first + int(problem["max_wait_s"] * rate_hz))
-    best = None
-    for leave in range(first, last + 1):
-        for enter in range(len(target) - 1):
-            later = min(LOOK_AHEAD, len(source) - 1 - leave, len(target) - 1 - enter)
-            gap = distance(source[leave], target[enter]) + distance(source[leave + later], target[enter + later])
-            if best is None or gap < best[0]:
-                best = (gap, leave, enter)
-    return {"leave_frame": best[1], "enter_frame": best[2], "join": "inertialised-spring", "matched": True}
+@etude.method(task="transition", name="transition-nearest-python", version="1.0")
+class Nearest:
+    def __init__(self, setting):
+        self.rate_hz = setting.rate_hz
+        self.clips = [[laid_down(pose, setting.joints) for pose in clip.poses] for clip in setting.clips]
+
+    def answer(self, problem):
+        source, target = self.clips[problem.from_], self.clips[problem.to]
+        first = problem.request_frame
+        last = min(len(source) - 1, first + int(problem.max_wait_s * self.rate_hz))
+        best = None
+        for leave in range(first, last + 1):
+            for enter in range(len(target) - 1):
+                later = min(LOOK_AHEAD, len(source) - 1 - leave, len(target) - 1 - enter)
+                gap = distance(source[leave], target[enter]) + distance(source[leave + later], target[enter + later])
+                if best is None or gap < best[0]:
+                    best = (gap, leave, enter)
+        return {"leave_frame": best[1], "enter_frame": best[2], "join": "inertialised-spring", "matched": True}
 
 
 if __name__ == "__main__":
-    run("transition-nearest-python", "1.0", prepare, answer)
+    etude.serve(Nearest)

@@ -6,22 +6,16 @@
 Options: `cameras`, the first so many of each problem's cameras alone (all).
 """
 import pathlib
-import sys
 
+import etude
 from answer import answer, estimate
 
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "outside-methods"))
-from etude_method import run  # noqa: E402
 
-
-def prepare(setting, options, files):
-    return setting["joints"], options.get("cameras")
-
-
-def poses(kept, problem, files):
-    joints, cameras = kept
-    return {"poses": answer(problem, estimate(pathlib.Path(files), problem), joints, cameras)}
+@etude.method(task="capture", name="movenet-lightning", version="1.0")
+def poses(problem, setting, options, files):
+    told = problem.to_json()
+    return {"poses": answer(told, estimate(pathlib.Path(files), told), setting.joints, options.get("cameras"))}
 
 
 if __name__ == "__main__":
-    run("movenet-lightning", "1.0", prepare, poses)
+    etude.serve(poses)

@@ -149,12 +149,11 @@ class Gate(EtudeCase):
         self.assertFalse(self.baseline.exists())
 
     def test_a_method_s_own_exception_is_its_failure_and_not_the_machine_s(self):
-        shutil.copy(EXAMPLES / "etude_method.py", self.folder)
         solver = (EXAMPLES / "ik_dls.py").read_text()
         self.assertEqual(self.run_program(solver).returncode, 0)
         self.gate(self.now, "--baseline", self.baseline, "--update", expect=0)
         shutil.rmtree(self.now)
-        head = "def answer(tree, problem, files):\n"
+        head = "def answer(tree, problem):\n"
         self.assertIn(head, solver)
         raises = solver.replace(head, head + "    if sum(map(ord, str(problem))) % 2:\n        raise ValueError('no')\n")
         self.assertEqual(self.run_program(raises).returncode, 0)

@@ -1,0 +1,34 @@
+"""Etude from Python: runs as tables, methods of your own, scenarios run from a notebook (docs/python.md).
+
+Nothing but the standard library is imported, and what is not used is not loaded; numpy, pandas and matplotlib are taken
+where they are there.
+"""
+import importlib
+
+__version__ = "0.1.0"
+
+_HOMES = {
+    "etude.program": ("EtudeError", "find_program"),
+    "etude.results": ("load", "Run", "Table", "Column", "Pairs", "Verdict", "Motion", "Series"),
+    "etude.catalogue": ("metrics", "joints"),
+    "etude.commands": ("run", "report", "gate", "compare", "score"),
+    "etude.conversation": ("method", "serve", "NoAnswer"),
+}
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+__all__ = [*_HOME_OF, "plot", "problems"]
+
+
+def __getattr__(name):
+    if name in _HOME_OF:
+        return getattr(importlib.import_module(_HOME_OF[name]), name)
+    if name in ("plot", "problems"):
+        return importlib.import_module("etude." + name)
+    if name[:1].isupper():  # IkProblem, CoachPolicyAnswer, …
+        problems = importlib.import_module("etude.problems")
+        if hasattr(problems, name):
+            return getattr(problems, name)
+    raise AttributeError(f"etude has no {name!r}; it has {', '.join(__all__)}, and the classes of etude.problems")
+
+
+def __dir__():
+    return __all__

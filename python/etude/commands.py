@@ -1,0 +1,221 @@
+"""Scenarios run, reported, gated, compared and scored by the program."""
+import contextlib
+import hashlib
+import json
+import os
+import pathlib
+import re
+from dataclasses import dataclass
+
+from etude.conversation import Player, spec_of
+from etude.program import EtudeError, cache_folder, call
+from etude.results import load
+from etude.shipping import ship, write_once
+
+
+def run(scenario, *, methods=(), trials=None, output=None, seed=None, clips=(), jobs=None, overwrite=False, resume=False,
+        fenced=True, progress=True, program=None):
+    """Runs a scenario and gives its Run, as load does.
+
+    scenario: a file, a folder of them, what comes with etude (`"quick/ik"`), or a dict with the keys of a scenario.
+    methods: further ones, of @etude.method or as dicts with the keys of a scenario's entry; those of @etude.method go into
+    the scenarios of their task. output: the result folder, out/NAME-SEED by default; it must be new unless `overwrite` or
+    `resume`. progress: True shows it on standard error, a function is called with (cells done, cells).
+
+    Raises EtudeError, whose `run` is the run where one is there all the same (exit code 1: a method has no answer).
+    """
+    if isinstance(scenario, dict) or methods:
+        scenario = _write_scenario(scenario, methods, program)
+    arguments = ["run", os.fspath(scenario)]
+    for flag, value in (("--trials", trials), ("-o", output), ("--seed", seed), ("--jobs", jobs)):
+        if value is not None:
+            arguments += [flag, os.fspath(value) if isinstance(value, os.PathLike) else str(value)]
+    if clips:
+        arguments += ["--clips", *map(os.fspath, clips)]
+    arguments += ["--overwrite"] * overwrite + ["--resume"] * resume + ["--no-fence"] * (not fenced)
+    code, printed, said = call(*arguments, program=program, progress=progress, allowed=(0, 1))
+    next_ = re.search(r"^Next: etude report (.*)$", printed, re.MULTILINE)
+    folder = output if output is not None else next_ and next_[1].strip("'\"")
+    if folder is None:
+        raise EtudeError("the run does not tell its folder; name it by output=", code, printed + said)
+    found = load(folder, program=program)
+    if code:
+        raise EtudeError(_why_no_answer(printed, said), code, printed + said, found)
+    return found
+
+
+def _why_no_answer(printed, said):
+    lines = [line.strip() for line in (said + printed).splitlines() if " × " in line or "ok or unsolved" in line]
+    return "; ".join(dict.fromkeys(lines)) or "a method has no answer"
+
+
+def _write_scenario(scenario, methods, program):
+    """A scenario, or a folder of them, with the methods in it; named by its contents."""
+    entries = [(spec_of(each).task, ship(each)) if not isinstance(each, dict) else (None, each) for each in methods]
+    if isinstance(scenario, dict):
+        told = dict(scenario)
+        told["methods"] = [*told.get("methods", []), *_fitting(entries, told.get("task"))]
+        _refuse_unused(entries, {told.get("task")})
+        return _keep({f"{told.get('scenario', 'scenario')}.yaml": json.dumps(told, indent=1, ensure_ascii=False)})
+    texts = _texts_of(os.fspath(scenario), program)
+    tasks = {name: _value_of("task", text) for name, text in texts.items()}
+    _refuse_unused(entries, set(tasks.values()))
+    kept = _keep({name: _with_methods(name, text, _fitting(entries, tasks[name])) for name, text in texts.items()},
+                 os.path.splitext(os.path.basename(os.fspath(scenario)))[0])
+    return kept
+
+
+def _fitting(entries, task):
+    return [entry for wanted, entry in entries if wanted in (None, task)]
+
+
+def _refuse_unused(entries, tasks):
+    for wanted, entry in entries:
+        if wanted is not None and wanted not in tasks:
+            raise EtudeError(f"method '{entry['name']}' is of task '{wanted}'; the scenario has "
+                             f"{', '.join(sorted(map(str, tasks)))}")
+
+
+def _texts_of(scenario, program):
+    """The texts of a file, a folder, or a scenario that comes with etude, by file name."""
+    import tempfile
+    path = pathlib.Path(scenario)
+    with contextlib.ExitStack() as stack:
+        if not path.exists():
+            scratch = stack.enter_context(tempfile.TemporaryDirectory())
+            call("scenario", "copy", scenario, scratch, program=program)
+            files = sorted(pathlib.Path(scratch).rglob("*.yaml"))
+        else:
+            files = sorted(path.glob("*.yaml")) if path.is_dir() else [path]
+        if not files:
+            raise EtudeError(f"{scenario}: holds no *.yaml")
+        return {file.name: file.read_text(encoding="utf-8") for file in files}
+
+
+def _value_of(key, text):
+    found = re.search(rf"^{key}:\s*['\"]?([\w-]+)", text, re.MULTILINE)
+    return found[1] if found else None
+
+
+def _with_methods(name, text, entries):
+    """The text of a scenario with entries at the end of its list of methods, which stays as it is otherwise."""
+    if re.search(r"^include:", text, re.MULTILINE):
+        raise EtudeError(f"{name}: includes another file, which a copy would not find: write the methods into it")
+    if not entries:
+        return text
+    lines = text.splitlines(keepends=True)
+    heads = [i for i, line in enumerate(lines) if re.match(r"methods:\s*(#.*)?$", line.rstrip("\n"))]
+    if len(heads) != 1:
+        raise EtudeError(f"{name}: has no list of methods with a line each, to which others could be added")
+    end = heads[0] + 1
+    indent = None
+    for i in range(end, len(lines)):
+        item = re.match(r"(\s*)- ", lines[i])
+        if indent is None and item:
+            indent = item[1]
+        if lines[i].strip() and not lines[i].lstrip().startswith("#") and not lines[i].startswith(" ") and \
+                not (item and item[1] == indent):
+            break
+        if lines[i].strip():
+            end = i + 1
+    added = [f"{indent or ''}- {json.dumps(entry, ensure_ascii=False)}\n" for entry in entries]
+    if not lines[end - 1].endswith("\n"):
+        lines[end - 1] += "\n"
+    return "".join(lines[:end] + added + lines[end:])
+
+
+def _keep(texts, suite=None):
+    """The path of scenario files below the cache, in a folder that is named by what is in them."""
+    digest = hashlib.sha256(json.dumps(sorted(texts.items())).encode()).hexdigest()[:16]
+    folder = cache_folder() / "scenarios" / digest
+    if len(texts) > 1:
+        folder /= suite or "suite"
+    for name, text in texts.items():
+        write_once(folder / name, text.encode())
+    return folder if len(texts) > 1 else folder / next(iter(texts))
+
+
+def report(run, *, video=True, progress=True, program=None):
+    """Writes a run's page, tables and films; gives the path of the page."""
+    folder = pathlib.Path(getattr(run, "folder", run))
+    call("report", folder, *([] if video else ["--no-video"]), program=program, progress=progress)
+    return folder / "report" / "index.html"
+
+
+@dataclass(frozen=True)
+class Gate:
+    """A gate's judgement; true when it passed. `text` is all that it says, a line a check."""
+    passed: bool
+    text: str
+
+    def __bool__(self):
+        return self.passed
+
+
+def gate(run, baseline=None, *, update=False, program=None):
+    """Holds a run against its expectations and a baseline. Raises EtudeError when it cannot be judged (exit code 3:
+    incomplete)."""
+    flags = [] if baseline is None else ["--baseline", os.fspath(baseline)]
+    code, printed, _ = call("gate", getattr(run, "folder", run), *flags, *["--update"] * update, program=program,
+                            allowed=(0, 1))
+    return Gate(code == 0, printed.strip())
+
+
+def compare(a, b, *, program=None):
+    """What differs between two runs of the same worlds, as text."""
+    return call("compare", getattr(a, "folder", a), getattr(b, "folder", b), program=program)[1].strip()
+
+
+def score(target, predictions, output, *, name=None, alone=False, allow_missing=False, jobs=None, progress=True,
+          program=None):
+    """Scores answers and gives the Run.
+
+    target: a data set that `etude export` wrote. predictions: a folder of answers; or a method of @etude.method, which is
+    then asked here, in this process and without a fence, all problems of a setting at once where it takes batches, and
+    whose answers are kept in the folder `output` + ".answers".
+    """
+    if hasattr(predictions, "__etude__"):
+        name = name or spec_of(predictions).name
+        answers = pathlib.Path(f"{os.fspath(output)}.answers")
+        _answer_all(pathlib.Path(target), predictions, answers, progress)
+        predictions, allow_missing = answers, True
+    arguments = ["score", os.fspath(target), os.fspath(predictions), "-o", os.fspath(output)]
+    arguments += ["--name", name] if name else []
+    arguments += ["--alone"] * alone + ["--allow-missing"] * allow_missing
+    arguments += ["--jobs", str(jobs)] if jobs is not None else []
+    code, printed, said = call(*arguments, program=program, progress=progress, allowed=(0, 1))
+    found = load(output, program=program)
+    if code:
+        raise EtudeError(_why_no_answer(printed, said), code, printed + said, found)
+    return found
+
+
+def _answer_all(target, method, answers, progress):
+    """Asks a method all problems of its task in a data set. What it has no answer to stays missing."""
+    from etude.conversation import NoAnswer
+    from etude.messages import plain
+    player, spec, inputs = Player(method), spec_of(method), target / "inputs"
+    if not inputs.is_dir():
+        raise EtudeError(f"{target}: is no data set that `etude export` wrote: it has no folder 'inputs'")
+    settings = [path for path in sorted(inputs.rglob("setting.json")) if _task_of(inputs, path) == spec.task]
+    if not settings:
+        raise EtudeError(f"{target}: has no problem of task '{spec.task}'")
+    for done, path in enumerate(settings):
+        player.set(json.loads(path.read_text()), spec.options, str(path.parent))
+        files = sorted(path.parent.glob("*/problem.json"))
+        found = player.answers([json.loads(file.read_text()) for file in files], [str(file.parent) for file in files])
+        for file, answer in zip(files, found):
+            if not isinstance(answer, NoAnswer):
+                kept = answers / path.parent.relative_to(inputs) / f"{file.parent.name}.json"
+                kept.parent.mkdir(parents=True, exist_ok=True)
+                kept.write_text(json.dumps(answer, allow_nan=False, default=plain))
+        if callable(progress):
+            progress(done + 1, len(settings))
+
+
+def _task_of(inputs, setting):
+    """The task of a setting's scenario, of the index beside it."""
+    import csv
+    scenario = setting.relative_to(inputs).parts[0]
+    with open(inputs / "index.csv", newline="") as file:
+        return next((row["task"] for row in csv.DictReader(file) if row["scenario"] == scenario), None)

@@ -1,0 +1,195 @@
+"""Methods in Python: `@etude.method`, and the protocol in which Etude asks them (docs/outside-methods.md)."""
+import inspect
+import json
+import sys
+
+PROTOCOL = 1
+TASKS = {  # task -> its seats; "" = the program answers whole problems
+    "ik": [""], "tracking": [""], "transition": [""], "pose-distance": [""], "search": [""], "detection": [""],
+    "capture": ["", "segmenter"], "coach": ["recogniser", "policy", "learner"],
+}
+
+
+class NoAnswer(Exception):
+    """The method has no answer to this problem; the message tells why."""
+
+
+class Spec:
+    """What @method says of a method."""
+
+    def __init__(self, task, seat, name, version, options, time_s, files, batch):
+        self.task, self.seat, self.name, self.version = task, seat, name, version
+        self.options, self.time_s, self.files, self.batch = options, time_s, files, batch
+
+
+def method(task, seat="", *, name=None, version="1", options=None, time_s=None, files=(), batch=False):
+    """Makes a method of a function or a class, which stays what it was and can be called as before.
+
+    A function is given a problem and returns its answer. It may ask, by the names of its arguments, for `setting`,
+    `options` (of the scenario, a dict) and `files` (the folder of attachments) as well. With `batch`, it is given a list
+    of problems and returns a list of answers: a run asks for one at a time, etude.score for all of a setting at once.
+
+    A class is made anew for every setting, by `__init__(self, …)` with any of `setting`, `options`, `files`, and has
+    `answer(self, problem)`. With a `seat` in a loop it has `begin(self, session)`, which may be missing, and
+    `step(self, seen)`: what is remembered of one session must not change another.
+
+    Settings, problems and steps are the dataclasses of etude.problems. An answer is one, or a dict, or, where an answer
+    is one thing, that thing: a list of angles, an array. Raise NoAnswer(why) where there is none.
+
+    task, seat: as in a scenario. name, version: what the program calls itself. options, time_s, files: the keys of its
+    entry in a scenario, for etude.run. Raises ValueError for a task or a seat that is not there.
+    """
+    if task not in TASKS:
+        raise ValueError(f"no task {task!r}; there are {', '.join(TASKS)}")
+    if seat not in TASKS[task]:
+        raise ValueError(f"task {task!r} has no seat {seat!r}; it has {', '.join(repr(s) for s in TASKS[task])}")
+    if batch and seat:
+        raise ValueError("a seat is asked step by step: there are no batches")
+
+    def mark(what):
+        if not seat and inspect.isclass(what) and not hasattr(what, "answer"):
+            raise ValueError(f"class {what.__name__} has no answer(self, problem)")
+        if seat and not hasattr(what, "step"):
+            raise ValueError(f"{what.__name__} has no step(self, seen): a seat needs a class")
+        what.__etude__ = Spec(task, seat, name or what.__name__.replace("_", "-").lower(), version,
+                              dict(options or {}), time_s, [str(file) for file in files], batch)
+        return what
+
+    return mark
+
+
+def spec_of(what):
+    """What @method said of it. Raises TypeError when it never did."""
+    spec = getattr(what, "__etude__", None)
+    if spec is None:
+        raise TypeError(f"{getattr(what, '__name__', what)!r} is no method: write @etude.method(task=…) above it")
+    return spec
+
+
+def _class_names(spec):
+    """The classes of its setting, of what it is asked, and of its answer."""
+    from etude import problems
+    task = "".join(word.capitalize() for word in spec.task.split("-"))
+    seated = task + spec.seat.capitalize()
+    asked = seated + ("Step" if spec.seat else "Problem")
+    return (getattr(problems, task + "Setting"), getattr(problems, asked), getattr(problems, seated + "Answer"),
+            getattr(problems, seated + "Begin", getattr(problems, task + "Begin", None)))
+
+
+def _call(function, first, **offered):
+    """Calls it with `first` and those of `offered` that it has arguments for."""
+    parameters = inspect.signature(function).parameters.values()
+    takes_all = any(parameter.kind is parameter.VAR_KEYWORD for parameter in parameters)
+    names = [parameter.name for parameter in parameters]
+    return function(*first, **{name: value for name, value in offered.items() if takes_all or name in names})
+
+
+class Player:
+    """A method at work: settings, problems and steps as dicts in, answers as dicts out."""
+
+    def __init__(self, what):
+        self.what, self.spec = what, spec_of(what)
+        self._setting_class, self._asked_class, self._answer_class, self._begin_class = _class_names(self.spec)
+        self._offered, self._instance = {}, None
+
+    def set(self, setting, options, files=None):
+        """A setting is in force from now on; `files` is the folder of its attachments, or None."""
+        self._offered = {"setting": self._setting_class.of(setting), "options": dict(options), "files": files}
+        if inspect.isclass(self.what):
+            self._instance = _call(self.what, (), **self._offered)
+
+    def begin(self, session, files=None):
+        if hasattr(self._instance, "begin"):
+            _call(self._instance.begin, (self._begin_class.of(session),), files=files)
+
+    def step(self, seen, files=None):
+        return self._told(_call(self._instance.step, (self._asked_class.of(seen),), files=files))
+
+    def answer(self, problem, files=None):
+        return self.answers([problem], [files])[0]
+
+    def answers(self, problems, files):
+        """The answers of several problems, with the folders of their attachments; a NoAnswer in the place of one that
+        has none."""
+        asked = [self._asked_class.of(problem) for problem in problems]
+        if self.spec.batch:
+            answers = list(_call(self._function(), (asked,), **{**self._offered, "files": files}))
+            if len(answers) != len(asked):
+                raise ValueError(f"{len(asked)} problems, but {len(answers)} answers")
+            return [self._told(answer) for answer in answers]
+        found = []
+        for problem, folder in zip(asked, files):
+            try:
+                found.append(self._told(_call(self._function(), (problem,), **{**self._offered, "files": folder or
+                                                                              self._offered.get("files")})))
+            except NoAnswer as reason:
+                found.append(reason)
+        return found
+
+    def _function(self):
+        return self.what if self._instance is None else self._instance.answer
+
+    def _told(self, answer):
+        """An answer as an object of JSON."""
+        from etude.messages import Message, plain
+        if isinstance(answer, NoAnswer):
+            return answer
+        if isinstance(answer, Message):
+            return answer.to_json()
+        if isinstance(answer, dict):
+            return answer
+        needed = [name for name, field in self._answer_class.__dataclass_fields__.items() if _is_needed(field)]
+        if answer is None or len(needed) != 1:
+            raise TypeError(f"{self.spec.name} answered {type(answer).__name__}; an answer is a dict or an "
+                            f"etude.{self._answer_class.__name__}")
+        return {needed[0]: plain(answer) if hasattr(answer, "tolist") else answer}
+
+
+def _is_needed(field):
+    import dataclasses
+    return field.default is dataclasses.MISSING
+
+
+def serve(what, lines=None, output=None):
+    """Speaks for a method until the input ends: the last line of a program that Etude starts.
+
+    Standard output belongs to the protocol: what methods print goes to standard error, which Etude keeps.
+    """
+    from etude.messages import plain
+    spec, player, options = spec_of(what), Player(what), {}
+    lines = sys.stdin if lines is None else lines
+    if output is None:
+        output, sys.stdout = sys.stdout, sys.stderr
+
+    def say(**message):
+        output.write(json.dumps(message, allow_nan=False, default=plain) + "\n")
+        output.flush()
+
+    for line in lines:
+        message = json.loads(line)
+        kind, files = message["type"], message.get("files")
+        reply = {"id": message["id"], **({"number": message["number"]} if "number" in message else {})} \
+            if kind in ("problem", "step") else {}
+        if kind == "hello":
+            if message["protocol"] != PROTOCOL:
+                sys.exit(f"speaks protocol {PROTOCOL}, was asked for {message['protocol']}")
+            if message["task"] != spec.task:
+                sys.exit(f"is a method of task '{spec.task}', was asked for '{message['task']}'")
+            options = message["options"]
+            say(type="hello", protocol=PROTOCOL, name=spec.name, version=str(spec.version))
+        elif kind == "setting":
+            player.set(message["setting"], options, files)
+            say(type="ready")
+        elif kind == "begin":
+            player.begin(message["begin"], files)
+            say(type="ready")
+        elif kind in ("problem", "step"):
+            try:
+                answer = player.step(message["step"], files) if kind == "step" else player.answer(message["problem"],
+                                                                                                  files)
+            except NoAnswer as reason:
+                answer = reason
+            if isinstance(answer, NoAnswer):
+                say(type="no_answer", reason=str(answer), **reply)
+            else:
+                say(type="answer", answer=answer, **reply)

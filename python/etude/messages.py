@@ -1,0 +1,72 @@
+"""What problems, steps and answers have in common: dataclasses that are read from JSON and turned into it."""
+import dataclasses
+
+
+class Message:
+    """A dataclass whose fields are the keys of an object of the protocol (`from_` is its `from`).
+
+    It can also be read like the object itself: `problem["root"]`, `problem.get("ask")`, `"ask" in step`.
+    """
+
+    HOLDS = {}  # by key: the class of what it holds, or [class] of a list's values
+
+    @classmethod
+    def of(cls, told):
+        """Makes one of an object as json.loads gives it. Keys that it does not know are for later versions: left out."""
+        found = {}
+        for name in cls.__dataclass_fields__:
+            key = _key(name)
+            if key not in told:
+                continue
+            kind, value = cls.HOLDS.get(key), told[key]
+            if value is not None and kind is not None:
+                value = [kind[0].of(each) for each in value] if isinstance(kind, list) else kind.of(value)
+            found[name] = value
+        return cls(**found)
+
+    def to_json(self):
+        """The object, of dicts and lists alone; what may be left out and is None is left out."""
+        told = {}
+        for field in dataclasses.fields(self):
+            value = getattr(self, field.name)
+            if value is not None or field.default is dataclasses.MISSING:
+                told[_key(field.name)] = _unfolded(value)
+        return told
+
+    def get(self, key, otherwise=None):
+        value = getattr(self, _name(key), None)
+        return otherwise if value is None else value
+
+    def __getitem__(self, key):
+        name = _name(key)
+        if name not in self.__dataclass_fields__:
+            raise KeyError(key)
+        return getattr(self, name)
+
+    def __contains__(self, key):
+        return self.get(key) is not None
+
+
+def _unfolded(value):
+    if isinstance(value, Message):
+        return value.to_json()
+    if isinstance(value, list) and value and isinstance(value[0], Message):
+        return [_unfolded(each) for each in value]
+    return value
+
+
+def _key(name):
+    return name.rstrip("_")
+
+
+def _name(key):
+    return key + "_" if key == "from" else key
+
+
+def plain(value):
+    """For json.dumps(default=plain): messages, and whatever has a `tolist`, such as numpy's arrays and numbers."""
+    if isinstance(value, Message):
+        return value.to_json()
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    raise TypeError(f"{type(value).__name__} is nothing that JSON knows")

@@ -1,0 +1,676 @@
+"""Problems and answers of every task. Written by python/make_problems.py from docs/schemas/protocol.schema.json."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar, List, Optional
+
+from etude.messages import Message
+
+Pose = List[float]
+Vector = List[float]
+Rotation = List[List[float]]
+
+
+@dataclass
+class IkJoint(Message):
+    """A joint of the body that a solver turns.
+
+    parent: null: it is the root.
+    offset_m: From the parent, in the parent's frame.
+    axes: What it turns about, in order.
+    first_angle: Of the setting's angles.
+    """
+    name: str
+    parent: Optional[int]
+    offset_m: Vector
+    rest: Rotation
+    axes: List[str]
+    first_angle: int
+
+
+@dataclass
+class IkAngle(Message):
+    """One degree of freedom."""
+    name: str
+    lower_deg: float
+    upper_deg: float
+
+
+@dataclass
+class IkEffector(Message):
+    """The free end of a limb.
+
+    joint: The joint it hangs on.
+    offset_m: In that joint's frame.
+    """
+    name: str
+    joint: int
+    offset_m: Vector
+
+
+@dataclass
+class IkRoot(Message):
+    """Where the joint without parent is; it does not move."""
+    position_m: Vector
+    rotation: Rotation
+
+
+@dataclass
+class IkTarget(Message):
+    """Where an effector shall be."""
+    effector: str
+    position_m: Vector
+    rotation: Rotation
+
+
+@dataclass
+class IkFrame(Message):
+    """A frame of the motion to follow."""
+    HOLDS: ClassVar[dict] = {"root": IkRoot, "targets": [IkTarget]}
+    root: IkRoot
+    targets: List[IkTarget]
+
+
+@dataclass
+class IkSetting(Message):
+    """The body, and what is asked.
+
+    joints: Parents first.
+    max_steps: What built-in solvers stop at, as the goals.
+    asked: What effectors are to meet of their targets.
+    """
+    HOLDS: ClassVar[dict] = {"joints": [IkJoint], "angles": [IkAngle], "effectors": [IkEffector]}
+    joints: List[IkJoint]
+    angles: List[IkAngle]
+    effectors: List[IkEffector]
+    max_steps: int
+    position_goal_cm: float
+    orientation_goal_deg: float
+    asked: List[str]
+
+
+@dataclass
+class IkProblem(Message):
+    """One pose to be found.
+
+    start_angles_deg: Where to begin, within all limits.
+    targets: Per effector, in order.
+    """
+    HOLDS: ClassVar[dict] = {"root": IkRoot, "targets": [IkTarget]}
+    root: IkRoot
+    start_angles_deg: List[float]
+    targets: List[IkTarget]
+
+
+@dataclass
+class IkAnswer(Message):
+    """The pose found.
+
+    angles_deg: As many as the setting's angles.
+    iterations: The method's own steps.
+    fk_evaluations: Its passes of forward kinematics over the whole tree.
+    """
+    angles_deg: List[float]
+    iterations: Optional[int] = None
+    fk_evaluations: Optional[int] = None
+
+
+@dataclass
+class TrackingSetting(Message):
+    """How far frames are apart, and what built-in solvers stop at in each.
+
+    max_steps: What built-in solvers stop at, as the goals.
+    """
+    rate_hz: float
+    max_steps: int
+    position_goal_cm: float
+    orientation_goal_deg: float
+
+
+@dataclass
+class TrackingProblem(Message):
+    """A motion to be followed, by a body of its own.
+
+    joints: Parents first.
+    start_angles_deg: Where to begin in the first frame.
+    """
+    HOLDS: ClassVar[dict] = {"joints": [IkJoint], "angles": [IkAngle], "effectors": [IkEffector], "frames": [IkFrame]}
+    joints: List[IkJoint]
+    angles: List[IkAngle]
+    effectors: List[IkEffector]
+    start_angles_deg: List[float]
+    frames: List[IkFrame]
+
+
+@dataclass
+class TrackingAnswer(Message):
+    """The angles of every frame.
+
+    angles_deg: Per frame as many as the problem's angles.
+    iterations: Per frame the method's own steps.
+    """
+    angles_deg: List[List[float]]
+    iterations: Optional[List[int]] = None
+
+
+@dataclass
+class TransitionClip(Message):
+    """A clip of the library.
+
+    poses: One per frame.
+    file: The same as BVH.
+    """
+    name: str
+    poses: List[Pose]
+    file: str
+
+
+@dataclass
+class TransitionSetting(Message):
+    """The library of clips.
+
+    joints: The twenty joints, in the order of poses.
+    parents: Per joint the one above it; null for the first.
+    """
+    HOLDS: ClassVar[dict] = {"clips": [TransitionClip]}
+    rate_hz: float
+    joints: List[str]
+    parents: List[Optional[int]]
+    clips: List[TransitionClip]
+
+
+@dataclass
+class TransitionProblem(Message):
+    """A request to go over into another clip.
+
+    from: The clip that is shown.
+    to: The clip wanted.
+    request_frame: Of the clip shown, the frame at which it is asked for.
+    max_wait_s: How long the caller would like to wait at most.
+    """
+    from_: int
+    to: int
+    request_frame: int
+    max_wait_s: float
+
+
+@dataclass
+class TransitionStop(Message):
+    """A clip played on the way."""
+    clip: int
+    enter_frame: int
+    leave_frame: int
+
+
+@dataclass
+class TransitionAnswer(Message):
+    """Where the one clip is left and the other entered; or why there is no way.
+
+    leave_frame: Of the clip shown, request_frame at the earliest: the last one shown.
+    enter_frame: Of the clip wanted, any but its last: takes the place of leave_frame.
+    through: Clips played on the way, 16 at most.
+    join: Any built-in one (etude list methods); cut by default.
+    join_s: How long minimum-jerk or planted-feet take, 0 to 5.
+    fades: Only with join_s: the old clip goes on while it fades out.
+    between: Up to 300 poses of the method's own making, shown after leave_frame in its place and heading.
+    between_start: Only with between: the method's version of leave_frame.
+    matched: The two frames were chosen because they are alike.
+    unsolved: Why there is no way.
+    """
+    HOLDS: ClassVar[dict] = {"through": [TransitionStop]}
+    leave_frame: Optional[int] = None
+    enter_frame: Optional[int] = None
+    through: Optional[List[TransitionStop]] = None
+    join: Optional[str] = None
+    join_s: Optional[float] = None
+    fades: Optional[bool] = None
+    between: Optional[List[Pose]] = None
+    between_start: Optional[Pose] = None
+    matched: Optional[bool] = None
+    unsolved: Optional[str] = None
+
+
+@dataclass
+class PoseDistancePair(Message):
+    """Two poses."""
+    a: Pose
+    b: Pose
+
+
+@dataclass
+class PoseDistanceSetting(Message):
+    """The body.
+
+    joints: The twenty joints, in the order of poses.
+    parents: Per joint the one above it; null for the first.
+    """
+    joints: List[str]
+    parents: List[Optional[int]]
+
+
+@dataclass
+class PoseDistanceProblem(Message):
+    """Pairs of poses."""
+    HOLDS: ClassVar[dict] = {"pairs": [PoseDistancePair]}
+    pairs: List[PoseDistancePair]
+
+
+@dataclass
+class PoseDistanceAnswer(Message):
+    """How unlike each pair is.
+
+    distances: Per pair, 0 or more, larger = more unlike, on any scale.
+    alike: Per pair whether a transition would go unnoticed.
+    """
+    distances: List[float]
+    alike: List[bool]
+
+
+@dataclass
+class SearchTerm(Message):
+    """What a grade is of."""
+    feature: str
+    term: str
+    weight: float
+
+
+@dataclass
+class SearchSetting(Message):
+    """The library, and what is asked of it.
+
+    file: Frames times 24 numbers, little-endian IEEE 754 of 64 bits, frame by frame.
+    """
+    HOLDS: ClassVar[dict] = {"terms": [SearchTerm]}
+    file: str
+    frames: int
+    terms: List[SearchTerm]
+    query: str
+    threshold: float
+
+
+@dataclass
+class SearchProblem(Message):
+    """The frames asked about.
+
+    queries: 24 grades each.
+    """
+    queries: List[List[float]]
+
+
+@dataclass
+class SearchAnswer(Message):
+    """What was found.
+
+    found: Per query frames of the library, from 0.
+    """
+    found: List[List[int]]
+
+
+@dataclass
+class KeyTarget(Message):
+    """An angle of a key pose.
+
+    feature: One of paper A's ten.
+    """
+    feature: str
+    degrees: float
+    tolerance_deg: float
+
+
+@dataclass
+class KeyPose(Message):
+    """What a move looks like at a beat."""
+    HOLDS: ClassVar[dict] = {"targets": [KeyTarget]}
+    beat: float
+    targets: List[KeyTarget]
+
+
+@dataclass
+class Move(Message):
+    """A move that may be performed.
+
+    poses: Of one perfect performance.
+    file: The same as BVH.
+    """
+    HOLDS: ClassVar[dict] = {"key_poses": [KeyPose]}
+    name: str
+    tempo_bpm: float
+    beats: float
+    rate_hz: float
+    poses: List[Pose]
+    file: str
+    key_poses: List[KeyPose]
+
+
+@dataclass
+class DetectionSetting(Message):
+    """The moves.
+
+    joints: The twenty joints, in the order of poses.
+    parents: Per joint the one above it; null for the first.
+    """
+    HOLDS: ClassVar[dict] = {"moves": [Move]}
+    joints: List[str]
+    parents: List[Optional[int]]
+    moves: List[Move]
+
+
+@dataclass
+class DetectionFrame(Message):
+    """What the sensor saw in a frame.
+
+    states: Per joint a letter: tracked, inferred, not tracked.
+    """
+    pose: Pose
+    states: str
+    body_seen: bool
+
+
+@dataclass
+class DetectionEvent(Message):
+    """A performance that was asked for.
+
+    begin_frame: The first of its window.
+    end_frame: The first after it.
+    """
+    move: str
+    begin_frame: int
+    end_frame: int
+
+
+@dataclass
+class DetectionProblem(Message):
+    """A session, as a sensor saw it.
+
+    file: The positions as TRC.
+    """
+    HOLDS: ClassVar[dict] = {"frames": [DetectionFrame], "events": [DetectionEvent]}
+    rate_hz: float
+    frames: List[DetectionFrame]
+    events: List[DetectionEvent]
+    file: str
+
+
+@dataclass
+class DetectionCall(Message):
+    """What is said of an event.
+
+    right_at_frame: In its window, when it is called right; null when it is wrong.
+    score: Higher = righter, on any scale.
+    """
+    right_at_frame: Optional[int]
+    score: float
+
+
+@dataclass
+class DetectionAlarm(Message):
+    """A move taken for performed."""
+    move: str
+    frame: int
+
+
+@dataclass
+class DetectionAnswer(Message):
+    """Who danced right.
+
+    events: Per event, in order.
+    alarms: Every time a move is taken for performed, wherever.
+    """
+    HOLDS: ClassVar[dict] = {"events": [DetectionCall], "alarms": [DetectionAlarm]}
+    events: List[DetectionCall]
+    alarms: List[DetectionAlarm]
+
+
+@dataclass
+class CaptureStroke(Message):
+    """A limb that the annotator marks with a line.
+
+    from: A joint.
+    to: A joint.
+    """
+    from_: str
+    to: str
+
+
+@dataclass
+class CaptureSetting(Message):
+    """The pictures, and what the annotator marks in them.
+
+    image_width: Pixels.
+    image_height: Pixels.
+    joints: The twenty joints, in the order of poses.
+    parents: Per joint the one above it; null for the first.
+    discs: Joints marked with a point.
+    """
+    HOLDS: ClassVar[dict] = {"strokes": [CaptureStroke]}
+    rate_hz: float
+    image_width: int
+    image_height: int
+    joints: List[str]
+    parents: List[Optional[int]]
+    strokes: List[CaptureStroke]
+    discs: List[str]
+
+
+@dataclass
+class CapturePoint(Message):
+    """A point whose place is known.
+
+    pixel: u right, v down; (0.5, 0.5) is the centre of the first pixel.
+    """
+    world_m: Vector
+    pixel: List[float]
+
+
+@dataclass
+class CaptureCamera(Message):
+    """A camera and its film.
+
+    background: A picture of the empty room.
+    pictures: PNG, one per frame.
+    """
+    HOLDS: ClassVar[dict] = {"calibration": [CapturePoint]}
+    calibration: List[CapturePoint]
+    background: str
+    pictures: List[str]
+
+
+@dataclass
+class CaptureProblem(Message):
+    """A film by several cameras.
+
+    frames: How many.
+    limb_lengths_m: Of the person filmed, by name.
+    marks: By segmenter, then [camera][frame]: null, or strokes and discs in pixels.
+    """
+    HOLDS: ClassVar[dict] = {"cameras": [CaptureCamera]}
+    frames: int
+    limb_lengths_m: dict
+    cameras: List[CaptureCamera]
+    marks: dict
+
+
+@dataclass
+class CaptureAnswer(Message):
+    """The motion.
+
+    poses: Per frame a pose, or null where there is none.
+    """
+    poses: List[Optional[Pose]]
+
+
+@dataclass
+class CaptureSegmenterBegin(Message):
+    """A camera's film begins.
+
+    camera: From 1.
+    background: A picture of the empty room, binary PPM.
+    """
+    camera: int
+    background: str
+    seat: Optional[str] = None
+
+
+@dataclass
+class CaptureSegmenterStep(Message):
+    """The next picture.
+
+    picture: Binary PPM.
+    """
+    picture: str
+
+
+@dataclass
+class CaptureMask(Message):
+    """COCO's uncompressed run lengths, down the columns.
+
+    size: Height, width.
+    counts: Background and person in turn, background first.
+    """
+    size: List[int]
+    counts: List[int]
+
+
+@dataclass
+class CaptureSegmenterAnswer(Message):
+    """What has changed against the empty room."""
+    HOLDS: ClassVar[dict] = {"mask": CaptureMask}
+    mask: CaptureMask
+
+
+@dataclass
+class CoachRepetition(Message):
+    """A performance of the dance."""
+    move: str
+
+
+@dataclass
+class CoachDance(Message):
+    """What is danced, in order."""
+    HOLDS: ClassVar[dict] = {"repetitions": [CoachRepetition]}
+    title: str
+    tempo_bpm: float
+    rate_hz: float
+    repetitions: List[CoachRepetition]
+
+
+@dataclass
+class CoachSetting(Message):
+    """The moves of the dance, at the song's tempo.
+
+    joints: The twenty joints, in the order of poses.
+    parents: Per joint the one above it; null for the first.
+    """
+    HOLDS: ClassVar[dict] = {"moves": [Move], "dance": CoachDance}
+    joints: List[str]
+    parents: List[Optional[int]]
+    moves: List[Move]
+    dance: CoachDance
+
+
+@dataclass
+class CoachBegin(Message):
+    """A session begins."""
+    seat: str
+
+
+@dataclass
+class CoachAsk(Message):
+    """What is asked for from this frame on."""
+    move: Optional[str]
+
+
+@dataclass
+class CoachRecogniserStep(Message):
+    """What the sensor reports.
+
+    states: Per joint a letter: tracked, inferred, not tracked.
+    """
+    HOLDS: ClassVar[dict] = {"ask": CoachAsk}
+    pose: Pose
+    states: str
+    body_seen: bool
+    ask: Optional[CoachAsk] = None
+
+
+@dataclass
+class CoachRecogniserAnswer(Message):
+    """How right it looks.
+
+    asked: 0 to 1: of the performance asked for, so far.
+    spotted: The same of every move, asked for or not.
+    """
+    asked: float
+    spotted: Optional[List[float]] = None
+
+
+@dataclass
+class CoachVerdict(Message):
+    """Of a window that has just closed."""
+    move: Optional[str]
+    repetition: int
+    verdict: str
+    mistake: str
+    evidence: float
+
+
+@dataclass
+class CoachPolicyStep(Message):
+    """What the coach shows, and how it went."""
+    HOLDS: ClassVar[dict] = {"verdicts": [CoachVerdict]}
+    mode: str
+    move: Optional[str]
+    repetition: int
+    verdicts: List[CoachVerdict]
+
+
+@dataclass
+class CoachPolicyAnswer(Message):
+    """What the coach shall do.
+
+    correct: Interrupt the dance now, or as soon as there is one.
+    """
+    correct: bool
+
+
+@dataclass
+class CoachTest(Message):
+    """After the session: whether a move is danced right.
+
+    after: So many performances' time later.
+    """
+    move: str
+    after: int
+
+
+@dataclass
+class CoachLearnerStep(Message):
+    """What the coach shows; or, after the session, a test alone.
+
+    say: A short word to the learner.
+    hint: What to do better.
+    events: What the coach has just decided.
+    """
+    HOLDS: ClassVar[dict] = {"test": CoachTest}
+    pose: Optional[Pose] = None
+    mode: Optional[str] = None
+    clip: Optional[str] = None
+    clip_frame: Optional[int] = None
+    move: Optional[str] = None
+    repetition: Optional[int] = None
+    say: Optional[str] = None
+    hint: Optional[str] = None
+    events: Optional[List[str]] = None
+    test: Optional[CoachTest] = None
+
+
+@dataclass
+class CoachLearnerAnswer(Message):
+    """What the learner does.
+
+    pose: Its own, a quarter of a second later.
+    right: Of the performance that it dances; null: neither.
+    """
+    pose: Optional[Pose] = None
+    right: Optional[bool] = None
+    given_up: Optional[bool] = None

@@ -1,0 +1,337 @@
+"""A run as tables, pairs, verdicts, motions and series. Nothing is judged here: verdicts are those of its summary."""
+import json
+import math
+import pathlib
+import re
+from dataclasses import dataclass, field
+from typing import Optional
+
+from etude import catalogue
+from etude.program import EtudeError, call, nearest
+from etude.tables import Column, Table, condition_text, numpy_or_none, read_npy, table_of_columns, tables_of_rows
+
+__all__ = ["load", "Run", "Table", "Column", "Pairs", "Verdict", "Motion", "Series"]
+
+
+def load(folder, *, unsealed=False, program=None):
+    """Reads the result folder of a finished run.
+
+    The program checks its seal, so that a value that somebody changed is refused; `unsealed` reads it all the same.
+    Raises EtudeError.
+    """
+    folder = pathlib.Path(folder)
+    if not (folder / "manifest.json").is_file():
+        raise EtudeError(f"{folder}: is no result folder: it has no manifest.json", 2)
+    if not (folder / "summary.json").is_file():
+        raise EtudeError(f"{folder}: did not come to its end; etude.run(…, resume=True) goes on with it", 3)
+    if not unsealed:
+        call("cite", folder, program=program)
+    return Run(folder, catalogue.metrics(program), catalogue.joints(program))
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """A paired comparison of the summary: method − baseline in the same worlds.
+
+    verdict: on these worlds, "better", "worse", "no difference", "inconclusive" or "untested"; beyond: for others like
+    them, None where there are too few units. against: "baseline" or "rival", the strongest other method. details: all
+    that the summary says of it.
+    """
+    scenario: str
+    condition: str
+    metric: str
+    baseline: str
+    method: str
+    against: str
+    pairs: int
+    difference: Optional[float]
+    ci95_low: Optional[float]
+    ci95_high: Optional[float]
+    p_holm: Optional[float]
+    verdict: str
+    why_open: str
+    beyond: Optional[str]
+    beyond_why_open: str
+    details: dict = field(repr=False, compare=False, hash=False)
+
+
+class Pairs:
+    """The worlds in which two methods have a value, in order: condition, trial, clip, baseline, method and their
+    difference, method − baseline, a list or an array each.
+
+    only_baseline, only_method, neither: how many other worlds there are. verdict: what the run's summary says of the
+    two; None where it compares them not, or where there are several conditions.
+    """
+
+    def __init__(self, metric, method_name, baseline_name, found, counts, verdict, scenario):
+        self.metric, self.method_name, self.baseline_name, self.scenario = metric, method_name, baseline_name, scenario
+        self.unit = metric.unit if metric else ""
+        self.condition, self.trial, self.clip = ([each[i] for each in found] for i in range(3))
+        numpy = numpy_or_none()
+        as_array = numpy.array if numpy else list
+        self.baseline, self.method = (as_array([each[i] for each in found]) for i in (3, 4))
+        self.difference = as_array([each[4] - each[3] for each in found])
+        self.only_baseline, self.only_method, self.neither = counts
+        self.verdict = verdict
+
+    def __len__(self):
+        return len(self.trial)
+
+    def to_pandas(self):
+        import pandas
+        frame = pandas.DataFrame({"condition": self.condition, "trial": self.trial, "clip": self.clip,
+                                  self.baseline_name: self.baseline, self.method_name: self.method,
+                                  "difference": self.difference})
+        frame.attrs["unit"] = self.unit
+        return frame
+
+    def __repr__(self):
+        unit = f" {self.unit}" if self.unit else ""
+        says = f"; {self.verdict.verdict}" if self.verdict else ""
+        return f"<Pairs {self.metric.id if self.metric else ''}: {self.method_name} − {self.baseline_name},{unit} " \
+               f"{len(self)} worlds{says}>"
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A motion of a recording. positions_m: frames × joints × 3 in metres, Y up, an array where numpy is there, else
+    lists; joints: their names, parents: the joint above each (None for the first)."""
+    cell: str
+    name: str
+    rate_hz: float
+    joints: tuple
+    parents: tuple
+    positions_m: object = field(repr=False)
+    unit: str = "m"
+
+    def __len__(self):
+        return len(self.positions_m)
+
+
+@dataclass(frozen=True)
+class Series:
+    """A curve of one cell: `values` along `axis` ("frame", "iteration", …). names: what whole numbers in it stand for."""
+    cell: str
+    condition: str
+    trial: int
+    method: str
+    name: str
+    axis: str
+    unit: str
+    values: object = field(repr=False)
+    names: Optional[list] = field(default=None, repr=False)
+
+    def __len__(self):
+        return len(self.values)
+
+
+class Run:
+    """A finished run. run["ik-weights"]: the Table of a scenario. summary, manifest: those files, as read."""
+
+    def __init__(self, folder, metrics, joints):
+        self.folder = pathlib.Path(folder)
+        self.metrics, self._joints = metrics, joints
+        self.summary = json.loads((self.folder / "summary.json").read_text(encoding="utf-8"))
+        self.manifest = json.loads((self.folder / "manifest.json").read_text(encoding="utf-8"))
+        self._scenarios = {each["name"]: each for each in self.summary["scenarios"]}
+        self._tables = None
+
+    @property
+    def tables(self):
+        """The tables by scenario."""
+        if self._tables is None:
+            columns = self.folder / "columns"
+            if columns.is_dir():
+                found = dict(table_of_columns(each, self.metrics) for each in sorted(columns.iterdir()))
+                self._tables = {name: found[name] for name in self._scenarios if name in found}
+            else:
+                self._tables = tables_of_rows(self.folder / "cells.jsonl", self.metrics)
+        return self._tables
+
+    @property
+    def scenarios(self):
+        return list(self._scenarios)
+
+    def __getitem__(self, scenario):
+        return self.tables[self._named(scenario)]
+
+    def methods(self, scenario=None):
+        return list(self._scenarios[self._named(scenario)]["methods"])
+
+    def verdicts(self, scenario=None, metric=None):
+        """Every comparison that the page tells, in its order: against baselines, then against the strongest rivals."""
+        found = []
+        for name, summary in self._scenarios.items():
+            for condition in summary["conditions"]:
+                for against, comparisons in (("baseline", condition["comparisons"]), ("rival", condition["rivals"])):
+                    found += [_verdict(name, condition_text(condition["condition"]), against, each)
+                              for each in comparisons]
+        if scenario is not None:
+            self._named(scenario)
+        return [each for each in found if scenario in (None, each.scenario) and metric in (None, each.metric)]
+
+    def pairs(self, method, baseline, metric=None, *, scenario=None, condition=None):
+        """Two methods in the same worlds. metric: the scenario's first by default. scenario: may be left out where one
+        alone has both methods. condition: as rows have it ("joint_noise_deg=15"); all by default."""
+        if scenario is None:
+            both = [name for name, each in self._scenarios.items() if {method, baseline} <= set(each["methods"])]
+            if len(both) != 1:
+                raise EtudeError(f"{'no scenario has' if not both else 'several scenarios have'} both '{method}' and "
+                                 f"'{baseline}': name one by scenario=; there are "
+                                 + ", ".join(f"{name} ({', '.join(each['methods'])})"
+                                             for name, each in self._scenarios.items()))
+            scenario = both[0]
+        scenario = self._named(scenario)
+        summary, table = self._scenarios[scenario], self[scenario]
+        for name in (method, baseline):
+            if name not in summary["methods"]:
+                raise EtudeError(f"{scenario}: no method '{name}'{nearest(name, summary['methods'])}; there are "
+                                 f"{', '.join(summary['methods'])}")
+        conditions = [condition_text(each["condition"]) for each in summary["conditions"]]
+        if condition is not None and condition not in conditions:
+            raise EtudeError(f"{scenario}: no condition '{condition}'; there are {', '.join(conditions)}")
+        metric = metric or summary["headline_metrics"][0]
+        values, methods = table[metric], table["method"]
+        clips = table["clip"] if "clip" in table else [None] * len(table)
+        worlds = {}
+        for i, (of, trial) in enumerate(zip(table["condition"], table["trial"])):
+            name = methods[i]
+            if name in (method, baseline) and condition in (None, of):
+                world = worlds.setdefault((of, trial), [clips[i], None, None])
+                if name == baseline:
+                    world[1] = values[i]
+                if name == method:
+                    world[2] = values[i]
+        found = [(*key, *world) for key, world in worlds.items() if world[1] is not None and world[2] is not None]
+        counts = (sum(world[1] is not None and world[2] is None for world in worlds.values()),
+                  sum(world[1] is None and world[2] is not None for world in worlds.values()),
+                  sum(world[1] is None and world[2] is None for world in worlds.values()))
+        one = condition or (conditions[0] if len(conditions) == 1 else None)
+        said = [each for each in self.verdicts(scenario, metric)
+                if (each.method, each.baseline, each.condition) == (method, baseline, one)]
+        return Pairs(self.metrics.get(metric), method, baseline, found, counts, said[0] if said else None, scenario)
+
+    def recorded(self):
+        """The cells that left a recording."""
+        return [_cell_of(path) for path in sorted((self.folder / "recordings").glob("*.json"))]
+
+    def motion(self, cell, name="truth"):
+        """A motion of a cell's recording.
+
+        cell: as rows have it, or a row. name: "truth", another of its tracks ("sensed", "solution", …), or a method,
+        whose own motion in the same world it is. Raises EtudeError with what there is.
+        """
+        cell = cell["cell"] if isinstance(cell, dict) else cell
+        recorded = self.recorded()
+        world, _, own = cell.rpartition("/")
+        methods = self._scenarios.get(cell.partition("/")[0], {"methods": []})["methods"]
+        if name in methods and name != own:
+            cell, own = f"{world}/{name}", name
+        if cell not in recorded:
+            raise EtudeError(f"cell '{cell}' left no recording: the scenario's key `video` says which do"
+                             f"{nearest(cell, recorded)}; there are {', '.join(recorded) or 'none'}")
+        path = self.folder / "recordings" / (cell.replace("/", "~") + ".json")
+        tracks = {track["name"]: track for track in json.loads(path.read_text(encoding="utf-8"))["tracks"]}
+        if name == own:
+            name = next((each for each in ("recovered", "solution", "coach", "sensed") if each in tracks), name)
+        if name not in tracks:
+            raise EtudeError(f"cell '{cell}' recorded no '{name}'{nearest(name, tracks)}; there are {', '.join(tracks)}")
+        return _motion(cell, tracks[name], self._joints)
+
+    def series(self, name=None, *, scenario=None, method=None, condition=None, trial=None):
+        """The curves of cells by the name of the curve; all curves without one."""
+        wanted = [self._named(scenario)] if scenario is not None else self.scenarios
+        known = set()
+        for each in wanted:
+            read = _series_of_columns if (self.folder / "columns").is_dir() else _series_of_lines
+            for of, trial_of, by, cell, told, values in read(self, each):
+                known.add(told["name"])
+                if (name in (None, told["name"]) and method in (None, by) and condition in (None, of)
+                        and trial in (None, trial_of)):
+                    metric = self.metrics.get(told["name"])
+                    unit = metric.unit if metric else _unit_of(told["name"])
+                    yield Series(cell, of, trial_of, by, told["name"], told["axis"], unit, values, told.get("names"))
+        if name is not None and name not in known:
+            raise EtudeError(f"no curve '{name}'{nearest(name, known)}; there are {', '.join(sorted(known)) or 'none'}")
+
+    def _named(self, scenario):
+        if scenario is None and len(self._scenarios) == 1:
+            return next(iter(self._scenarios))
+        if scenario not in self._scenarios:
+            raise EtudeError(f"{self.folder}: no scenario '{scenario}'{nearest(scenario, self._scenarios)}; there are "
+                             f"{', '.join(self._scenarios)}")
+        return scenario
+
+    def __repr__(self):
+        lines = [f"<Run {self.folder}, seed {self.manifest.get('seed')}"]
+        for name, each in self._scenarios.items():
+            lines.append(f"  {name} ({each['task']}): {len(each['conditions'])} condition"
+                         f"{'s' * (len(each['conditions']) != 1)}; {', '.join(each['methods'])}")
+        return "\n".join(lines) + ">"
+
+
+def _verdict(scenario, condition, against, told):
+    beyond = told.get("beyond") or {}
+    return Verdict(scenario, condition, told["metric"], told["baseline"], told["method"], against, told["pairs"],
+                   told["difference"], told["ci95_low"], told["ci95_high"], told["p_holm"], told["verdict"],
+                   told["why_open"], beyond.get("verdict"), beyond.get("why_open", ""), told)
+
+
+def _cell_of(path):
+    return path.name[:-len(".json")].replace("~", "/")
+
+
+def _motion(cell, track, joints):
+    names, above = tuple(name for name, _ in joints), tuple(parent for _, parent in joints)
+    numpy = numpy_or_none()
+    if numpy:
+        positions = numpy.array(track["poses"], dtype=float).reshape(len(track["poses"]), len(names), 3)
+    else:
+        positions = [[pose[3 * i:3 * i + 3] for i in range(len(names))] for pose in track["poses"]]
+    return Motion(cell, track["name"], track["rate_hz"], names, above, positions)
+
+
+def _unit_of(name):
+    """The unit that a curve's name ends with, "" where it has none."""
+    found = re.search(r"_(cm|deg|mm|s|mps3|cmps)$", name)
+    return found[1] if found else ""
+
+
+def _series_of_lines(run, scenario):
+    path = run.folder / "series" / f"{scenario}.jsonl"
+    if not path.is_file():
+        return
+    numpy = numpy_or_none()
+    with open(path, encoding="utf-8") as lines:
+        for line in lines:
+            told = json.loads(line)
+            _, condition, trial, method = _split(told["cell"])
+            for each in told["series"]:
+                values = [math.nan if value is None else value for value in each.pop("values")]
+                yield condition, trial, method, told["cell"], each, numpy.array(values) if numpy else values
+
+
+def _split(cell):
+    """scenario, condition, trial, method of a cell; a condition may hold slashes."""
+    scenario, rest = cell.split("/", 1)
+    condition, trial, method = rest.rsplit("/", 2)
+    return scenario, condition, int(trial), method
+
+
+def _series_of_columns(run, scenario):
+    folder = run.folder / "columns" / scenario
+    index = json.loads((folder / "index.json").read_text(encoding="utf-8"))
+    methods, trials = index["methods"], index["trials"]
+    conditions = [condition_text(each) for each in index["conditions"]]
+    names = {each["name"]: each for kind in index["kinds"] for each in kind["series"]}
+    for name, told in names.items():
+        values, ends = (read_npy(folder / "series" / f"{name}{ending}.npy") for ending in ("", ".ends"))
+        begin = 0
+        for at, end in enumerate(ends):
+            end = int(end)
+            if end > begin:
+                condition, trial = conditions[at // (trials * len(methods))], at // len(methods) % trials
+                method = methods[at % len(methods)]
+                cell = f"{scenario}/{condition}/{trial:03d}/{method}"
+                yield condition, trial, method, cell, told, values[begin:end]
+            begin = end

@@ -1,0 +1,249 @@
+"""A method as a program of its own: a folder that Etude can start it from, today and when the run is repeated.
+
+A method of a module is imported by its file. One of a notebook, of `__main__`, or made within a function is sent by its
+source, with what it uses of its surroundings: functions, classes, modules, numbers, texts, lists and dicts of them, and
+numpy's arrays, as they are at that moment. What else it uses is refused, by name.
+"""
+import ast
+import builtins
+import hashlib
+import inspect
+import linecache
+import os
+import pathlib
+import pprint
+import symtable
+import sys
+import textwrap
+import types
+
+from etude.conversation import spec_of
+from etude.program import cache_folder
+
+PLAIN = (type(None), bool, int, float, complex, str, bytes)
+LARGEST = 1_000_000  # characters of a value that is written as source
+
+
+def ship(method):
+    """The entry of a scenario's `methods` (a dict) for a method of @method. Its folder is named by what is in it, below
+    etude.program.cache_folder(), so that the same method is the same entry.
+
+    Raises ValueError, which names what cannot be sent and why.
+    """
+    spec = spec_of(method)
+    module = sys.modules.get(method.__module__)
+    granted = list(spec.files)
+    if _is_importable(method, module):
+        top, name = _root_of(module)
+        granted.append(str(top))
+        source = f"import sys\nsys.path.insert(0, {str(top)!r})\nfrom {name} import {method.__qualname__} as asked\n"
+        arrays = {}
+    else:
+        pieces = _Pieces()
+        pieces.add(method, f"method '{spec.name}'")
+        source, arrays = pieces.text(method.__name__), pieces.arrays
+    source = f'"""Written by etude.run."""\n{source}\nimport etude\netude.serve(asked)\n'
+    folder = _write(source, arrays)
+    entry = {"name": spec.name, "exec": [_interpreter(granted), str(folder / "program.py")],
+             "files": [str(folder), *granted]}
+    if spec.seat:
+        entry["seat"] = spec.seat
+    if spec.options:
+        entry["options"] = spec.options
+    if spec.time_s is not None:
+        entry["time_s"] = spec.time_s
+    return entry
+
+
+def _is_importable(method, module):
+    return (module is not None and method.__module__ != "__main__" and getattr(module, "__file__", None)
+            and "<locals>" not in method.__qualname__)
+
+
+def _root_of(module):
+    """The folder to import a module from, and its name there."""
+    path = pathlib.Path(module.__file__).resolve()
+    return path.parents[module.__name__.count(".") + (path.name == "__init__.py")], module.__name__
+
+
+def _interpreter(granted):
+    """The Python that runs us, which the fence must show where it is none of the system's."""
+    system = ("/usr", "/bin", "/opt", "/nix")
+    for prefix in dict.fromkeys([sys.prefix, sys.base_prefix]):
+        if not prefix.startswith(system):
+            granted.append(prefix)
+    return sys.executable
+
+
+def _write(source, arrays):
+    """The folder of a program: its source, its arrays and a copy of what of this package speaks for it."""
+    here = pathlib.Path(__file__).resolve().parent
+    files = {"program.py": source.encode(), **{f"{name}.npy": data for name, data in arrays.items()}}
+    for name in ("__init__.py", "conversation.py", "messages.py", "problems.py"):
+        files[f"etude/{name}"] = (here / name).read_bytes()
+    digest = hashlib.sha256()
+    for name, data in sorted(files.items()):
+        digest.update(f"{name} {len(data)}\n".encode() + data)
+    folder = cache_folder() / "methods" / digest.hexdigest()[:16]
+    for name, data in files.items():
+        write_once(folder / name, data)
+    return folder
+
+
+def write_once(path, data):
+    """Writes a file whose folder is named by its contents: whole, or not at all."""
+    if path.exists() and path.read_bytes() == data:
+        return
+    path.parent.mkdir(parents=True, exist_ok=True)
+    partial = path.with_name(f".{path.name}.{os.getpid()}")
+    partial.write_bytes(data)
+    partial.replace(path)
+
+
+class _Pieces:
+    """What a method is made of, in the order in which it must be written."""
+
+    def __init__(self):
+        self.arrays, self._seen, self._lines, self._imports = {}, {}, [], []
+
+    def add(self, thing, whose):
+        """A function or class of a notebook, after all that it uses."""
+        name = thing.__name__
+        if name == "<lambda>":
+            raise ValueError(f"{whose} is a lambda, which has no source of its own: write it with def")
+        try:
+            source = _source_of(thing)
+        except (OSError, TypeError, SyntaxError):
+            raise ValueError(f"{whose} cannot be sent: the source of '{name}' is not known (it was typed where none is "
+                             "kept; put it into a file)") from None
+        self._seen[name] = thing
+        for used in _names_used(source, whose):
+            if used != name:
+                self._add_used(used, *_find(thing, used, whose), whose)
+        self._lines.append(source)
+
+    def _add_used(self, name, is_there, value, whose):
+        if not is_there:
+            if hasattr(builtins, name):
+                return
+            raise ValueError(f"{whose} uses '{name}', which is not defined")
+        if name in self._seen:
+            if self._seen[name] is not value:
+                raise ValueError(f"{whose} uses '{name}', which means something else elsewhere in it; rename one")
+            return
+        if isinstance(value, types.ModuleType):
+            self._seen[name] = value
+            self._imports.append(f"import {value.__name__} as {name}")
+        elif isinstance(value, (types.FunctionType, type)) and _is_ours(value):
+            self.add(value, whose)
+            if value.__name__ != name:
+                self._lines.append(f"{name} = {value.__name__}\n")
+                self._seen[name] = value
+        elif getattr(value, "__module__", None) and getattr(value, "__qualname__", "<").isidentifier() and \
+                getattr(sys.modules.get(value.__module__), value.__qualname__, None) is value:
+            self._seen[name] = value
+            self._imports.append(f"from {value.__module__} import {value.__qualname__} as {name}")
+        elif type(value).__module__ == "numpy" and type(value).__name__ == "ndarray" and value.dtype != object:
+            self._add_array(name, value)
+        elif _is_plain(value):
+            text = pprint.pformat(value, width=120, compact=True, sort_dicts=False)
+            if len(text) > LARGEST:
+                raise ValueError(f"{whose} uses '{name}', a {type(value).__name__} too large to be sent; read it from a "
+                                 "file that its `files` lists")
+            self._seen[name] = value
+            self._lines.append(f"{name} = {text}\n")
+        else:
+            raise ValueError(f"{whose} uses '{name}', an open {type(value).__name__}, which cannot be sent: make it within "
+                             "the method, or in a class's __init__, or read it from a file that its `files` lists")
+
+    def _add_array(self, name, value):
+        import io
+        import numpy
+        data = io.BytesIO()
+        numpy.save(data, value)
+        self.arrays[name] = data.getvalue()
+        self._seen[name] = value
+        self._lines.append(f"import numpy as _numpy, os as _os\n"
+                           f"{name} = _numpy.load(_os.path.join(_os.path.dirname(__file__), {name + '.npy'!r}))\n")
+
+    def text(self, asked):
+        return "\n".join(["import etude", *self._imports, *self._lines, f"asked = {asked}\n"])
+
+
+def _names_used(source, whose):
+    """The names that a piece of source takes from around it, its decorators and defaults among them."""
+    found = {}
+
+    def look(table):
+        for symbol in table.get_symbols():
+            if table.get_type() == "module":
+                if symbol.is_referenced() and not symbol.is_assigned():
+                    found[symbol.get_name()] = None
+            elif symbol.is_global() and symbol.is_referenced():
+                found[symbol.get_name()] = None
+            elif symbol.is_declared_global() and symbol.is_assigned():
+                raise ValueError(f"{whose} sets the global '{symbol.get_name()}', which it would not keep: remember it in "
+                                 "a class")
+        for child in table.get_children():
+            look(child)
+
+    try:
+        look(symtable.symtable(source, "method", "exec"))
+    except SyntaxError as error:  # a nonlocal without its function
+        raise ValueError(f"{whose} cannot be sent by its source: {error}. A state of the function around it is open: "
+                         "remember it in a class") from None
+    found.pop("__class__", None)
+    return list(found)
+
+
+def _functions_of(thing):
+    if isinstance(thing, types.FunctionType):
+        return [thing]
+    found = [getattr(each, "__func__", each) for each in vars(thing).values()]
+    return [each for each in found if isinstance(each, types.FunctionType) and each.__module__ == thing.__module__]
+
+
+def _source_of(thing):
+    """The source of a function or class. A notebook's classes belong to no file: they are found by their functions."""
+    if isinstance(thing, types.FunctionType) or not _functions_of(thing):
+        return textwrap.dedent(inspect.getsource(thing))
+    code = _functions_of(thing)[0].__code__
+    lines = linecache.getlines(code.co_filename, _functions_of(thing)[0].__globals__)
+    for node in ast.walk(ast.parse("".join(lines))):
+        if isinstance(node, ast.ClassDef) and node.name == thing.__name__ and \
+                node.lineno <= code.co_firstlineno <= node.end_lineno:
+            first = min([node.lineno, *(each.lineno for each in node.decorator_list)])
+            return textwrap.dedent("".join(lines[first - 1:node.end_lineno]))
+    raise OSError("not found")
+
+
+def _find(thing, name, whose):
+    """Whether a name that a function or class uses is there, and what it stands for."""
+    for function in _functions_of(thing):
+        if name not in function.__code__.co_freevars:
+            continue
+        try:
+            value = function.__closure__[function.__code__.co_freevars.index(name)].cell_contents
+        except ValueError:
+            return False, None
+        if isinstance(value, (list, dict, set, bytearray)):
+            raise ValueError(f"{whose} uses '{name}', an open {type(value).__name__} of the function around it, which cannot "
+                             "be sent: what is put into it would be lost. A tuple can be sent; remember in a class")
+        return True, value
+    around = vars(sys.modules[thing.__module__]) if thing.__module__ in sys.modules else {}
+    for function in _functions_of(thing):
+        around = function.__globals__
+    return (True, around[name]) if name in around else (False, None)
+
+
+def _is_ours(value):
+    """Whether a function or class is of a notebook, or made within a function."""
+    return value.__module__ == "__main__" or "<locals>" in value.__qualname__
+
+
+def _is_plain(value):
+    if isinstance(value, (list, tuple, set, frozenset)) and type(value) in (list, tuple, set, frozenset):
+        return all(_is_plain(each) for each in value)
+    if type(value) is dict:
+        return all(_is_plain(key) and _is_plain(each) for key, each in value.items())
+    return type(value) in PLAIN and (not isinstance(value, float) or value == value and abs(value) != float("inf"))
