@@ -1,12 +1,7 @@
 """Kills of a run, its workers and the launchers of its methods, alone and together, at random moments of the first 300 ms that
 the last of them lives (every other time: that a fence stands): whoever is still there five seconds later was left behind for good.
-
-`scripts/soak attack` goes on where it was ended: a round is a line of out/soak/attack/kills.jsonl, its moment thrown from its
-number."""
-import argparse
-import concurrent.futures
+A round's moment is thrown from its number."""
 import itertools
-import json
 import os
 import pathlib
 import random
@@ -110,61 +105,14 @@ def kill_once(etude, targets, moment_s, at_fence=False):
         shutil.rmtree(folder, ignore_errors=True)
 
 
+def round_of(etude, targets, number):
+    name = "+".join(targets)
+    moment = WINDOW_S * random.Random(f"{name}/{number}").random() ** 3  # most of them early
+    left, victims = kill_once(etude, targets, moment, at_fence=number % 2 == 1)
+    return {"kind": name, "round": number, "moment_s": round(moment, 4), "killed": victims, "wrong": sorted(left.values())}
+
+
 def loads(count):
     """So many processes that want a processor; they go with us."""
     spin = "import ctypes; ctypes.CDLL(None).prctl(1, 9, 0, 0, 0)\nwhile True: pass"
     return [subprocess.Popen([sys.executable, "-c", spin]) for _ in range(count)]
-
-
-def main():
-    parser = argparse.ArgumentParser(prog="scripts/soak attack", description=__doc__)
-    parser.add_argument("--rounds", type=int, default=500, help="of each kind of kill")
-    parser.add_argument("--load", type=int, default=4, help="processes that want a processor meanwhile, beside the rounds")
-    parser.add_argument("--jobs", type=int, default=8, help="rounds at a time: they are each other's load, too")
-    parser.add_argument("--hours", type=float, default=24, help="after which it stops, to go on another time")
-    parser.add_argument("--etude", default=os.environ.get("ETUDE", "build/release/etude"))
-    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/soak/attack"))
-    options = parser.parse_args()
-    etude = os.path.abspath(options.etude)
-    options.out.mkdir(parents=True, exist_ok=True)
-    record = options.out / "kills.jsonl"
-    done = {}
-    if record.exists():
-        for line in record.read_text().splitlines():
-            entry = json.loads(line)
-            done[entry["targets"], entry["round"]] = entry
-    end = time.monotonic() + 3600 * options.hours
-    load = loads(options.load)
-    try:
-        with record.open("a") as out, concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-            def play(targets, number):
-                name = "+".join(targets)
-                if time.monotonic() > end:
-                    return
-                moment = WINDOW_S * random.Random(f"{name}/{number}").random() ** 3  # most of them early
-                left, victims = kill_once(etude, targets, moment, at_fence=number % 2 == 1)
-                entry = {"targets": name, "round": number, "moment_s": round(moment, 4), "killed": victims,
-                         "left": sorted(left.values())}
-                done[name, number] = entry
-                out.write(json.dumps(entry) + "\n")
-                out.flush()
-                if left:
-                    print(f"{name}, round {number}: left behind {entry['left']}", flush=True)
-
-            wanted = [(targets, number) for number in range(options.rounds) for targets in TARGETS]
-            games = [pool.submit(play, *game) for game in wanted if ("+".join(game[0]), game[1]) not in done]
-            for game in games:
-                game.result()
-    finally:
-        for process in load:
-            process.kill()
-    print(f"{'killed':<22} {'rounds':>7} {'processes killed':>17} {'rounds with some left':>22}")
-    for targets in TARGETS:
-        entries = [entry for (name, _), entry in done.items() if name == "+".join(targets)]
-        print(f"{'+'.join(targets):<22} {len(entries):>7} {sum(entry['killed'] for entry in entries):>17} "
-              f"{sum(bool(entry['left']) for entry in entries):>22}")
-    return any(entry["left"] for entry in done.values())
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -13,6 +13,7 @@ import unittest
 from etude_case import ETUDE, IK, EtudeCase
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "attack"))
+import damage  # noqa: E402
 import kills  # noqa: E402
 
 TRANSITION = """scenario: t
@@ -161,6 +162,12 @@ class Machine(EtudeCase):
             targets = kills.TARGETS[number % len(kills.TARGETS)]
             left, _ = kills.kill_once(ETUDE, targets, dice.uniform(0, 0.05), at_fence=number % 2 == 1)
             self.assertEqual(left, {}, targets)
+
+    def test_a_damaged_file_is_refused_or_read_aright(self):
+        made = damage.Damage(ETUDE, self.folder)
+        rounds = [made.round(number) for number in range(12)]
+        self.assertEqual([entry for entry in rounds if entry["wrong"]], [])
+        self.assertIn(2, {entry["exit"] for entry in rounds})
 
 
 if __name__ == "__main__":

@@ -1,0 +1,167 @@
+"""Damaged files: of a sealed run, of one that is read all the same (--unsealed), of an interrupted run's journal, of a shard, a
+baseline and a pack. A damage is thrown from its round's number; then a command reads the file. What is sealed must be refused by its
+file's name; what is gone on with must give the same bytes or be refused; and nothing may end in a signal, or in more than one
+complaint."""
+import json
+import os
+import pathlib
+import random
+import shutil
+import subprocess
+
+SCENARIO = """scenario: s
+question: What is read of a damaged run?
+task: ik
+trials: 3
+sweep: {joint_noise_deg: [2, 5]}
+methods:
+  - {name: fixed, solver: ccd, weights: fixed}
+  - {name: least-squares, solver: damped-least-squares}
+video: {compare: [fixed, least-squares], trials: [0]}
+"""
+RESULTS = ("cells.jsonl", "summary.json")
+READERS = {
+    "report": ["report", "--no-video", "RUN"],
+    "gate": ["gate", "RUN", "--baseline", "BASELINE"],
+    "compare": ["compare", "RUN", "WHOLE"],
+    "rows": ["rows", "RUN"],
+    "replay": ["replay", "RUN"],
+    "verify": ["verify", "RUN"],
+}
+CAN_UNSEALED = ("report", "gate", "compare", "rows", "replay")
+
+
+def damaged(content, dice):
+    """The bytes of a file after one accident; never the same as before."""
+    kind = dice.choice(["flip", "cut", "empty", "double a line", "lose a line", "swap lines", "zeros", "another number", "noise"])
+    now = bytearray(content)
+    lines = content.splitlines(keepends=True)
+    place = dice.randrange(max(1, len(now)))
+    if kind == "flip" and now:
+        now[place] ^= 1 << dice.randrange(8)
+    elif kind == "cut":
+        now = now[:place]
+    elif kind == "empty":
+        now = bytearray()
+    elif kind == "double a line" and lines:
+        at = dice.randrange(len(lines))
+        now = b"".join(lines[:at + 1] + lines[at:])
+    elif kind == "lose a line" and lines:
+        at = dice.randrange(len(lines))
+        now = b"".join(lines[:at] + lines[at + 1:])
+    elif kind == "swap lines" and len(lines) > 1:
+        at, other = dice.sample(range(len(lines)), 2)
+        lines[at], lines[other] = lines[other], lines[at]
+        now = b"".join(lines)
+    elif kind == "zeros":
+        now[place:place + 512] = bytes(len(now[place:place + 512]))
+    elif kind == "another number":
+        digits = [i for i, byte in enumerate(now) if chr(byte).isdigit()]
+        for at in digits and [dice.choice(digits)]:
+            now[at] = ord(dice.choice([each for each in "0123456789" if ord(each) != now[at]]))
+    elif kind == "noise":
+        now[place:place + 8] = dice.randbytes(8)
+    return kind, bytes(now) if bytes(now) != content else content + b"\xff"
+
+
+class Damage:
+    """Makes what is damaged once; each round damages a copy."""
+
+    def __init__(self, etude, folder):
+        self.etude, self.folder = etude, pathlib.Path(folder)
+        self.scenario = self.folder / "s.yaml"
+        self.scenario.write_text(SCENARIO)
+        self.whole, self.baseline, self.pack = self.folder / "whole", self.folder / "baseline.json", self.folder / "cell.pack"
+        self.must("run", self.scenario, "-o", self.whole, "--jobs", "1")
+        self.must("gate", self.whole, "--update", "--baseline", self.baseline)
+        cell = json.loads((self.whole / "cells.jsonl").read_text().splitlines()[0])["cell"]
+        self.must("replay", self.whole, "--cell", cell, "--pack", self.pack)
+        self.shards = [self.folder / f"shard-{i}" for i in (1, 2)]
+        for i, shard in enumerate(self.shards, 1):
+            self.must("run", self.scenario, "-o", shard, "--jobs", "1", "--shard", f"{i}/2")
+        self.interrupted = self.folder / "interrupted"
+        self.interrupt()
+
+    def call(self, *words):
+        return subprocess.run([self.etude, *map(str, words)], capture_output=True, timeout=120, cwd=self.folder)
+
+    def must(self, *words):
+        result = self.call(*words)
+        if result.returncode != 0:
+            raise SystemExit(f"etude {words[0]}: {result.stderr.decode(errors='replace')}")
+
+    def interrupt(self):
+        """A run that was killed when half of its cells were done."""
+        shutil.rmtree(self.interrupted, ignore_errors=True)
+        run = subprocess.Popen([self.etude, "run", self.scenario, "-o", self.interrupted, "--jobs", "1", "--sync-seconds", "0",
+                                "--trials", "60"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        journal = self.interrupted / "journal.jsonl"
+        while run.poll() is None and not (journal.exists() and journal.read_bytes().count(b"\n") > 30):
+            pass
+        run.kill()
+        run.wait()
+        if not journal.exists():
+            return self.interrupt()
+        self.resumed = self.folder / "resumed"
+        shutil.rmtree(self.resumed, ignore_errors=True)
+        shutil.copytree(self.interrupted, self.resumed)
+        self.must("run", self.scenario, "-o", self.resumed, "--jobs", "1", "--trials", "60", "--resume")
+
+    def round(self, number):
+        """Gives what was damaged how, what read it, and what was wrong with how that ended; "" when nothing was."""
+        dice = random.Random(f"damage/{number}")
+        what = dice.choice(["sealed", "sealed", "unsealed", "unsealed", "journal", "shard", "baseline", "pack"])
+        copy = self.folder / f"round-{number}"
+        try:
+            source = {"journal": self.interrupted, "shard": self.shards[1], "baseline": self.baseline,
+                      "pack": self.pack}.get(what, self.whole)
+            shutil.copytree(source, copy) if source.is_dir() else shutil.copyfile(source, copy)
+            files = [path for path in sorted(copy.rglob("*")) if path.is_file() and path.name != "lock"
+                     and "report" not in path.relative_to(copy).parts] or [copy]  # a report can be made again
+            if what == "journal":
+                files = [copy / "journal.jsonl"]
+            file = dice.choice(files)
+            kind, content = damaged(file.read_bytes(), dice)
+            file.write_bytes(content)
+            reader = dice.choice(sorted(CAN_UNSEALED if what == "unsealed" else READERS))
+            if what in ("sealed", "unsealed"):
+                words = [copy if word == "RUN" else word for word in READERS[reader]] + ["--unsealed"] * (what == "unsealed")
+            else:
+                reader, words = {
+                    "journal": ("run --resume", ["run", self.scenario, "-o", copy, "--jobs", "1", "--trials", "60", "--resume"]),
+                    "shard": ("merge", ["merge", self.shards[0], copy, "-o", f"{copy}-merged"]),
+                    "baseline": ("gate", ["gate", self.whole, "--baseline", copy]),
+                    "pack": ("replay", ["replay", copy]),
+                }[what]
+            words = [{"BASELINE": self.baseline, "WHOLE": self.whole}.get(word, word) for word in words]
+            result = self.call(*words)
+            wrong = self.wrong(what, reader, file, copy, result)
+            return {"round": number, "damaged": what, "file": file.name, "kind": kind, "reader": reader,
+                    "exit": result.returncode, "wrong": wrong}
+        finally:
+            for left in (copy, pathlib.Path(f"{copy}-merged")):
+                shutil.rmtree(left) if left.is_dir() else left.unlink(missing_ok=True)
+
+    def wrong(self, what, reader, file, copy, result):
+        said = result.stderr.decode(errors="replace")
+        complaints = [line for line in said.splitlines() if line.startswith("etude: ")]
+        if result.returncode not in (0, 1, 2):
+            return f"ended with {result.returncode}: {said[-300:]}"
+        if result.returncode == 2 and len(complaints) != 1:
+            return f"{len(complaints)} complaints: {said[-300:]}"
+        if b"nan" in result.stdout.lower().split():
+            return "printed NaN"
+        if what == "sealed" and reader != "verify" and (result.returncode != 2 or file.name not in said and
+                                                        file.name != "seal.json"):
+            return f"a damaged {file.name} was read: {said[-300:]}"
+        if what == "sealed" and reader == "verify" and result.returncode == 0:
+            return "verified a damaged run"
+        if what == "journal" and result.returncode == 0 and not self.same(copy, self.resumed):
+            return "went on to other results"
+        if what == "shard" and result.returncode == 0 and not self.same(pathlib.Path(f"{copy}-merged"), self.whole):
+            return "merged other results"
+        return ""
+
+    @staticmethod
+    def same(a, b):
+        return all((a / name).read_bytes() == (b / name).read_bytes() for name in RESULTS)
