@@ -109,7 +109,7 @@ Result<int> ListCommand(Listing what, const std::string& scenario_folder) {
 
 enum class KeysFormat {
   kText,      ///< for people at a terminal
-  kMarkdown,  ///< docs/keys.md
+  kMarkdown,  ///< docs/reference/keys.md
   kSchema,    ///< docs/schemas/scenario.schema.json
 };
 
@@ -133,7 +133,7 @@ int ListKeysCommand(KeysFormat format) {
 enum class MetricsFormat {
   kTable,     ///< a line each, for people at a terminal
   kJson,      ///< everything, with the test vectors (docs/schemas/metrics.schema.json)
-  kMarkdown,  ///< docs/metrics.md
+  kMarkdown,  ///< docs/reference/metrics.md
 };
 
 int PrintTable() {
@@ -162,11 +162,12 @@ void DefineList(CLI::App& app, Action& action) {
   };
   list("methods", "Tasks, what their methods are made of, and solvers", Listing::kMethods);
   list("clips", "Built-in clips", Listing::kClips);
-  list("recordings", "The page docs/recordings.md: what recordings hold beside motions", Listing::kRecordings);
+  list("recordings", "The page docs/reference/recordings.md: what recordings hold beside motions",
+       Listing::kRecordings);
   auto json = std::make_shared<bool>(false), markdown = std::make_shared<bool>(false);
   CLI::App* metrics = command->add_subcommand("metrics", "Metrics with their definitions");
   CLI::Option* as_json = metrics->add_flag("--json", *json, "Everything, with the test vectors, for other programs");
-  metrics->add_flag("--markdown", *markdown, "The page docs/metrics.md")->excludes(as_json);
+  metrics->add_flag("--markdown", *markdown, "The page docs/reference/metrics.md")->excludes(as_json);
   metrics->callback([=, &action] {
     const MetricsFormat format = *json       ? MetricsFormat::kJson
                                  : *markdown ? MetricsFormat::kMarkdown
@@ -175,7 +176,7 @@ void DefineList(CLI::App& app, Action& action) {
   });
   auto as_page = std::make_shared<bool>(false), as_schema = std::make_shared<bool>(false);
   CLI::App* keys = command->add_subcommand("keys", "Every key of a scenario file");
-  CLI::Option* page = keys->add_flag("--markdown", *as_page, "The page docs/keys.md");
+  CLI::Option* page = keys->add_flag("--markdown", *as_page, "The page docs/reference/keys.md");
   keys->add_flag("--schema", *as_schema, "The JSON Schema docs/schemas/scenario.schema.json, for editors")
       ->excludes(page);
   keys->callback([=, &action] {

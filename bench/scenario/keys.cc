@@ -63,7 +63,7 @@ std::string KeysAsMarkdown() {
   std::string page =
       "# Every key of a scenario file\n\n"
       "Written by `etude list keys --markdown`; a test compares the two. How they go together: "
-      "[scenarios.md](scenarios.md).\nWords in (parentheses) say what happens when nothing is written; every other "
+      "[scenarios.md](../scenarios.md).\nWords in (parentheses) say what happens when nothing is written; every other "
       "default could be written as it stands.\n";
   for (const KeyGroup& group : AllKeyGroups()) {
     page += fmt::format("\n## {}{}\n\n| key | allowed | default | meaning |\n|---|---|---|---|\n", group.title,

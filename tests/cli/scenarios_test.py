@@ -119,7 +119,7 @@ class Scenarios(EtudeCase):
 
     def test_the_page_of_keys_is_the_programs(self):
         page = self.etude("list", "keys", "--markdown").stdout
-        self.assertEqual(page, pathlib.Path("docs/keys.md").read_text())
+        self.assertEqual(page, pathlib.Path("docs/reference/keys.md").read_text())
         listed = self.etude("list", "keys").stdout
         for key in ("joint_noise_deg", "oracle", "memory_mb", "together", "at_least"):
             self.assertIn(f"`{key}`", page)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A second implementation of every metric, written from docs/metrics.md alone, in Python's standard library.
+"""A second implementation of every metric, written from docs/reference/metrics.md alone, in Python's standard library.
 
     etude list metrics --json | python3 second_implementation.py
 

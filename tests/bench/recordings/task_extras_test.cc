@@ -147,9 +147,9 @@ TEST(TransitionExtras, SurviveWritingAndReading) {
 }
 
 TEST(TaskExtras, AreTheOnesThatThePageTellsOf) {
-  const auto page = ReadWholeFile("docs/recordings.md");
+  const auto page = ReadWholeFile("docs/reference/recordings.md");
   ASSERT_TRUE(page) << ToString(page.error());
-  EXPECT_EQ(*page, RecordingsAsMarkdown()) << "write it anew: etude list recordings > docs/recordings.md";
+  EXPECT_EQ(*page, RecordingsAsMarkdown()) << "write it anew: etude list recordings > docs/reference/recordings.md";
   EXPECT_THAT(*page, HasSubstr("- `moves`: those that may be asked for\n  - `name`: of a move that was taught\n"));
   EXPECT_THAT(*page, HasSubstr("- `version`: always 1\n"));
 }

@@ -122,7 +122,8 @@ TEST(Documents, OfScenariosInTheRepositoryAreRead) {
 }
 
 TEST(Documents, ListEveryKeyAsTheProgramDoes) {
-  EXPECT_EQ(ReadPage("keys.md"), KeysAsMarkdown()) << "write it anew: etude list keys --markdown > docs/keys.md";
+  EXPECT_EQ(ReadPage("reference/keys.md"), KeysAsMarkdown())
+      << "write it anew: etude list keys --markdown > docs/reference/keys.md";
 }
 
 TEST(Documents, HoldTheSchemaThatTheProgramWrites) {

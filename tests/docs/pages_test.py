@@ -1,0 +1,163 @@
+"""README and the guide, taken at their word: every ```sh block is run, in the order of its page, in one scratch folder per page
+with the built program first in PATH. What a block is stands behind its `sh`:
+
+    ```sh            run here and on every change
+    ```sh heavy      takes long: run where ETUDE_HEAVY=1
+    ```sh not-run    needs what no test has (another machine, films); its options must be known, and NOT_RUN counts it
+"""
+import os
+import pathlib
+import re
+import subprocess
+import tempfile
+import unittest
+
+import commands_page
+
+ETUDE = pathlib.Path(os.environ["ETUDE"]).resolve()
+ROOT = pathlib.Path(__file__).parents[2]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs" / "guide").glob("*.md"))]
+NOT_RUN = {"README.md": 1, "ci.md": 1, "cite.md": 1, "cluster.md": 2, "coach.md": 1, "install.md": 4, "own-cameras.md": 3,
+           "own-recordings.md": 2}
+WORDS = 700  # at most, on each page
+
+
+class Wrong(Exception):
+    pass
+
+
+def blocks(text):
+    """The shell blocks of a page: (line, kind, commands). A command anywhere else would be tried by nobody: it is an error."""
+    found, fence, commands = [], None, []
+    for number, line in enumerate(text.splitlines(), 1):
+        if line.startswith("```") and fence is None:
+            fence, commands = (number, line[3:].strip()), []
+        elif line.startswith("```"):
+            if fence[1].split(" ")[0] in ("", "sh", "bash", "console"):
+                if fence[1] not in ("sh", "sh heavy", "sh not-run"):
+                    raise Wrong(f"line {fence[0]}: '```{fence[1]}' is none of: sh, sh heavy, sh not-run")
+                found.append((fence[0], fence[1][3:], "\n".join(commands)))
+            fence = None
+        elif fence:
+            commands.append(line)
+        elif re.match(r" {4,}\S", line):
+            raise Wrong(f"line {number}: commands stand in ```sh blocks")
+    if fence:
+        raise Wrong(f"line {fence[0]}: this block does not end")
+    return found
+
+
+def words(text):
+    """Those that a reader sees."""
+    return len(re.sub(r"<!--.*?-->|!\[.*?\]\(.*?\)|\]\(.*?\)|^\|[-|: ]+\|$", " ", text, flags=re.S | re.M).split())
+
+
+def anchors(text):
+    """What a link behind # can name on a page: its headings as GitHub writes them."""
+    text = re.sub(r"^```.*?^```$", "", text, flags=re.S | re.M)
+    return {re.sub(r"[^\w -]", "", re.sub(r"\[(.*?)\]\(.*?\)", r"\1", heading).lower()).replace(" ", "-")
+            for heading in re.findall(r"^#+ +(.*?) *$", text, re.M)}
+
+
+def dead_links(root, pages):
+    """Links of pages to files and headings that are not there, and how many were looked at."""
+    dead, count = [], 0
+    for page in pages:
+        text = re.sub(r"^```.*?^```$|`[^`\n]*`", "", page.read_text(), flags=re.S | re.M)
+        for link in re.findall(r"\]\(([^)\s]+)\)", text):
+            if re.match(r"[a-z]+:", link):
+                continue
+            count += 1
+            path, _, anchor = link.partition("#")
+            target = (page.parent / path).resolve() if path else page
+            if not target.exists() or (anchor and target.suffix == ".md" and anchor not in anchors(target.read_text())):
+                dead.append(f"{page.relative_to(root)}: {link}")
+    return dead, count
+
+
+def unknown_options(commands):
+    """Options of `etude` in commands that are not run, and that its help does not have."""
+    found = []
+    for call in re.findall(r"(?:^|[|&;(]) *etude (\w[\w-]*)([^|&;\n]*)", commands.replace("\\\n", " "), re.M):
+        page = subprocess.run([ETUDE, call[0], "--help"], capture_output=True, text=True)
+        if f"Usage: etude {call[0]} " not in page.stdout:
+            found.append(call[0])
+        for option in re.findall(r"(?<=\s)(-o|--[\w-]+)(?=[\s=]|$)", call[1].split(" -- ")[0]):
+            if not re.search(rf"(?<![\w-]){option}(?![\w-])", page.stdout):
+                found.append(f"{call[0]} {option}")
+    return found
+
+
+def run_page(text, heavy):
+    """Runs a page's blocks: how many were. Raises Wrong with the line and what was printed."""
+    count = 0
+    with tempfile.TemporaryDirectory() as scratch:
+        folder, home = pathlib.Path(scratch) / "here", pathlib.Path(scratch) / "home"
+        folder.mkdir()
+        (home / "bin").mkdir(parents=True)
+        (home / "bin" / "etude").symlink_to(ETUDE)
+        environment = {"PATH": f"{home}/bin:/usr/bin:/bin", "HOME": str(home), "LANG": "C.UTF-8"}
+        for line, kind, commands in blocks(text):
+            if kind == "not-run":
+                if unknown := unknown_options(commands):
+                    raise Wrong(f"line {line}: etude knows no {', '.join(unknown)}")
+            elif kind == "" or heavy:
+                result = subprocess.run(["bash", "-euo", "pipefail", "-c", commands], cwd=folder, env=environment, text=True,
+                                        stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+                if result.returncode != 0:
+                    raise Wrong(f"line {line}: exit code {result.returncode}\n{commands}\n\n{result.stdout[-3000:]}")
+                count += 1
+    return count
+
+
+class Pages(unittest.TestCase):
+    def test_every_block_runs(self):
+        heavy, ran = bool(os.environ.get("ETUDE_HEAVY")), 0
+        for page in PAGES:
+            with self.subTest(page.name):
+                try:
+                    ran += run_page(page.read_text(), heavy)
+                except Wrong as error:
+                    self.fail(f"{page.relative_to(ROOT)}, {error}")
+        self.assertGreaterEqual(ran, 30)
+
+    def test_what_is_not_run_is_counted(self):
+        self.assertEqual(NOT_RUN, {page.name: count for page in PAGES
+                                   if (count := sum(kind == "not-run" for _, kind, _ in blocks(page.read_text())))})
+
+    def test_pages_are_short(self):
+        self.assertEqual([f"{page.name}: {count} words" for page in PAGES if (count := words(page.read_text())) > WORDS], [])
+        self.assertEqual(words("one [two](three.md) <!-- four -->\n|---|\n![five](six.png)"), 2)
+
+    def test_links_lead_somewhere(self):
+        listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", "*.md"], cwd=ROOT, capture_output=True, text=True)
+        dead, count = dead_links(ROOT, [ROOT / name for name in listed.stdout.splitlines() if (ROOT / name).exists()])
+        self.assertEqual(dead, [])
+        self.assertGreater(count, 200)
+        with tempfile.TemporaryDirectory() as scratch:
+            page = pathlib.Path(scratch).resolve() / "page.md"
+            page.write_text("# A b: `c`\n[1](#a-b-c) [2](#d) [3](no.md) [4](page.md#a-b-c) `[5](no.md)` [6](https://host/x)\n")
+            self.assertEqual(dead_links(page.parent, [page]), (["page.md: #d", "page.md: no.md"], 4))
+
+    def test_the_reference_has_every_command(self):
+        self.assertEqual((ROOT / "docs/reference/commands.md").read_text(), commands_page.page(ETUDE),
+                         "write it anew: scripts/docs")
+
+    def test_what_is_wrong_is_found(self):
+        for text, complaint in [("```sh\necho fine\nfalse\n```\n", "line 1: exit code 1"),
+                                ("```sh\nfalse | cat\n```\n", "exit code 1"),
+                                ("\n```sh\netude runn quick\n```\n", "line 2: exit code"),
+                                ("```bash\ntrue\n```\n", "is none of"),
+                                ("```sh skip\ntrue\n```\n", "is none of"),
+                                ("```\netude run\n```\n", "is none of"),
+                                ("    etude run quick\n", "commands stand in"),
+                                ("```sh\ntrue\n", "does not end"),
+                                ("```sh not-run\netude run quick --job 4\n```\n", "etude knows no run --job"),
+                                ("```sh not-run\netude runn quick\n```\n", "etude knows no runn")]:
+            with self.subTest(complaint), self.assertRaisesRegex(Wrong, re.escape(complaint)):
+                run_page(text, heavy=False)
+        self.assertEqual(run_page("```sh\necho 1 > a\n```\n```sh heavy\nfalse\n```\n```sh\ntest -f a\n```\n", heavy=False), 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
