@@ -1,4 +1,4 @@
-"""The tables of verdicts in docs/results.md are what the program measures, and keep what the page promises."""
+"""The tables of verdicts in docs/findings/verdicts.md are what the program measures, and keep what the page promises."""
 
 import os
 import re
@@ -15,7 +15,7 @@ def rows(markdown):
 
 class Published(unittest.TestCase):
     def test_the_page_tells_what_the_program_measures(self):
-        page = Path("docs/results.md").read_text()
+        page = Path("docs/findings/verdicts.md").read_text()
         published = re.search(r"<!-- verdicts -->\n(.*?)<!-- /verdicts -->", page, re.S).group(1)
         command = [os.environ["ETUDE"], "gate", "--self-test", "--verdicts", "--repetitions", "10000"]
         measured = subprocess.run(command, capture_output=True, text=True, check=False)
