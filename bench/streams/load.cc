@@ -104,7 +104,8 @@ std::vector<NamedStream> StreamsOf(const ClipLibrary& library) {
                        .person = "",
                        .stream = StreamOf(clip.motion),
                        .start_s = 0,
-                       .description = fmt::format("clip, {:.1f} s", clip.motion.DurationSeconds()),
+                       .description = fmt::format("clip, {:.1f} s{}{}", clip.motion.DurationSeconds(),
+                                                  clip.note.empty() ? "" : ", ", clip.note),
                        .motion = clip.motion});
   }
   return streams;
@@ -113,7 +114,8 @@ std::vector<NamedStream> StreamsOf(const ClipLibrary& library) {
 Result<std::vector<NamedStream>> LoadStream(const std::string& reference, const StreamReading& reading,
                                             const StreamOptions& options) {
   if (IsClip(reference)) {
-    ASSIGN_OR_RETURN(const ClipLibrary library, LoadClips({reference}, {}));
+    ASSIGN_OR_RETURN(const ClipLibrary library,
+                     LoadClips({reference}, {}, {.roles = {}, .body = {.may_overstretch = true}}));
     return StreamsOf(library);
   }
   ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(reference));

@@ -104,8 +104,10 @@ glm::dvec3 Knee(const BodyPose& pose, Role hip, Role knee, Role ankle) {
 
 /// Checks that left is left throughout a motion, in the body's own frame, so that it may lie or turn over (ours).
 /// Refused, naming `file`: a left arm on the side of the right leg; feet that point backwards, or, when `map` has
-/// composed them forward, knees that stand out backwards. Straight knees prove nothing and pass.
-Result<void> CheckSides(std::span<const BodyPose> poses, const JointMap& map, const std::string& file) {
+/// composed them forward, knees that stand out backwards. Straight knees prove nothing and pass; where they
+/// `may_overstretch`, so do those that a depth sensor bends back by up to 20° (OpenNI: 3 to 17°), and a note is left.
+Result<std::string> CheckSides(std::span<const BodyPose> poses, const JointMap& map, const std::string& file,
+                               bool may_overstretch) {
   double arms = 0;
   double toes = 0;
   double knees = 0;
@@ -127,10 +129,14 @@ Result<void> CheckSides(std::span<const BodyPose> poses, const JointMap& map, co
     return Fail({file}, "the feet point backwards: left and right are swapped, or the axes are left-handed");
   }
   constexpr double kStandsOut = 0.01;
-  if (!has_feet && knees < -kStandsOut * count) {
-    return Fail({file}, "the knees bend backwards: left and right are swapped, or the axes are left-handed");
+  if (has_feet || knees >= -kStandsOut * count) return std::string();
+  const double sine = std::min(-2 * knees / count, 1.0);  // of half the angle, where both halves of a leg are equal
+  const double overstretched = 2 * Degrees(std::asin(sine));
+  if (may_overstretch && overstretched <= 20) {
+    return fmt::format("; the knees overstretch by {:.0f} degrees in the mean: a sensor's, or left and right swapped",
+                       overstretched);
   }
-  return {};
+  return Fail({file}, "the knees bend backwards: left and right are swapped, or the axes are left-handed");
 }
 
 using enum Role;
@@ -349,13 +355,13 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
   if (options.drop_t_pose) done.dropped_frames = CountForeignTPose(clip, sampler, done.up);
 
   ASSIGN_OR_RETURN(auto poses, Resampled(clip, sampler, done.dropped_frames, options.rate_hz, done.up, file));
-  RETURN_IF_ERROR(CheckSides(poses, map, file));
+  ASSIGN_OR_RETURN(const std::string overstretched, CheckSides(poses, map, file, options.may_overstretch));
   const double stature = FindStature(rest, poses);
   if (stature < kSmallestBody) return Fail({file}, "the body's joints all lie in one point; it needs a size");
   FindUnit(stature, options.metres_per_unit, done);
   done.floor = FloorOf(poses, options.floor);
   SetDown(poses, done);
-  done.note = Note(done, map, lies_along_z);
+  done.note = Note(done, map, lies_along_z) + overstretched;
   done.motion = {.rate_hz = options.rate_hz, .poses = std::move(poses)};
   return done;
 }

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "engine/base/names.h"
@@ -59,9 +61,19 @@ bool FourthsAreStates(const NumberRows& table, const RowLayout& layout) {
   return some_tracked;
 }
 
+/// Says whether the first column holds whole numbers alone.
+bool CountsWhole(const NumberRows& table) {
+  for (std::size_t t = 0; t < table.RowCount(); ++t) {
+    if (table.Row(t)[0] != std::floor(table.Row(t)[0])) return false;
+  }
+  return true;
+}
+
 /// Returns how many seconds the first column counts by, from the middle step between rows: seconds, frames at 30 Hz,
-/// milliseconds or microseconds. Nothing when the clock stands still or leaps.
-std::optional<double> SecondsPerCount(const NumberRows& table) {
+/// milliseconds or microseconds. Whole numbers with a step below 16 are frames of which some were left out: no sensor
+/// of skeletons is faster than 60 Hz. Remarks on frames left out. Nothing when the clock stands still or leaps.
+std::optional<double> SecondsPerCount(const NumberRows& table, std::vector<std::string>& remarks) {
+  constexpr double kFastestMilliseconds = 16;
   std::vector<double> steps;
   for (std::size_t t = 1; t < table.RowCount(); ++t) {
     const double step = table.Row(t)[0] - table.Row(t - 1)[0];
@@ -70,7 +82,10 @@ std::optional<double> SecondsPerCount(const NumberRows& table) {
   if (steps.empty()) return table.RowCount() == 1 ? std::optional(1 / kJudgedRateHz) : std::nullopt;
   const double step = UpperMedian(std::move(steps));
   if (step < 1) return 1.0;
-  if (step < 5) return 1 / kJudgedRateHz;  // frames, of which some are missing
+  if (step < (CountsWhole(table) ? kFastestMilliseconds : 5)) {
+    if (step >= 2) remarks.push_back(fmt::format("the first column counts frames at 30 Hz, a row every {:g}", step));
+    return 1 / kJudgedRateHz;
+  }
   if (step <= 1000) return 1e-3;
   if (step <= 1e6) return 1e-6;
   return std::nullopt;
@@ -129,7 +144,8 @@ Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string&
   recording.tells_states = FourthsAreStates(table, *layout);
   recording.tells_times = layout->first == 1 && !reading.rate_hz;
   recording.rate_hz = reading.rate_hz.value_or(kJudgedRateHz);
-  const auto unit = recording.tells_times ? SecondsPerCount(table) : std::optional(1 / recording.rate_hz);
+  const auto unit =
+      recording.tells_times ? SecondsPerCount(table, recording.remarks) : std::optional(1 / recording.rate_hz);
   if (!unit) return Fail({file, table.lines.front(), 1}, "a first column that is no clock and counts no frames");
   recording.seconds_per_count = *unit;
   for (std::size_t t = 0; t < table.RowCount(); ++t) {

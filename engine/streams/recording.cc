@@ -58,6 +58,26 @@ Result<void> CheckRoles(const StreamRecording& recording, const std::string& fil
   return {};
 }
 
+/// Refuses a TRC file that lacks a joint: tells which names it has that are no joint's.
+Result<void> CheckMarkerNames(const std::vector<std::string>& names, const std::string& file) {
+  constexpr int kNamesLine = 4;
+  constexpr std::size_t kMostTold = 8;
+  std::vector<std::string> unknown, missing;
+  for (const std::string& name : names) {
+    if (!FindRole(name)) unknown.push_back(Quote(name));
+  }
+  for (const Role role : AllRoles()) {
+    if (std::ranges::find(names, RoleName(role)) == names.end()) missing.emplace_back(RoleName(role));
+  }
+  if (missing.empty() || unknown.empty()) return {};  // without unknown names CheckRoles tells what is missing
+  const std::size_t more = unknown.size() - std::min(unknown.size(), kMostTold);
+  unknown.resize(unknown.size() - more);
+  const std::string rest = more > 0 ? fmt::format(" and {} more", more) : "";
+  return Fail({file, kNamesLine},
+              "unknown marker names {}{}; needed, and not here: {} (`etude clip convert` knows other sets of markers)",
+              Join(unknown), rest, Join(missing));
+}
+
 /// The middle distance between two joints, over the frames that have both; 0 when none has.
 double MiddleDistance(const StreamRecording& recording, Role a, Role b) {
   std::vector<double> lengths;
@@ -210,6 +230,7 @@ Result<StreamRecording> ReadEtudeCsv(std::string_view text, const std::string& f
 
 Result<StreamRecording> ReadTrcStream(std::string_view text, const std::string& file) {
   ASSIGN_OR_RETURN(const MarkerMotion markers, ReadTrc(text, file));
+  RETURN_IF_ERROR(CheckMarkerNames(markers.names, file));
   StreamRecording recording{
       .format = StreamFormat::kTrc, .tells_times = true, .is_level = true, .rate_hz = markers.rate_hz};
   for (const auto& places : markers.frames) {

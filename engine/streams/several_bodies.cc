@@ -25,7 +25,8 @@ class Bodies {
 
   /// Puts one body into the recording's frames: the one asked for, by first appearance, else the one in most frames,
   /// of those the one that moves most. Files of crowded rooms hold furniture that was taken for a person for a while.
-  Result<void> Choose(const StreamReading& reading, const std::string& file, StreamRecording& recording) const;
+  /// Before that, bodies that continue each other become one (JoinContinued).
+  Result<void> Choose(const StreamReading& reading, const std::string& file, StreamRecording& recording);
 
  private:
   struct Seen {
@@ -38,7 +39,13 @@ class Bodies {
     std::vector<Seen> frames;
   };
 
+  /// Joins bodies of which one begins where another ends: a tracker that loses a person for a moment gives them a new
+  /// name (ours). They are a second apart at most, and joints half a trunk in the mean; the nearest pair comes first,
+  /// and a body continues one other. Remarks on each.
+  void JoinContinued(StreamRecording& recording);
+
   static double PathOf(const Body& body);
+  static std::optional<double> GapInTrunks(const Seen& before, const Seen& after);
 
   std::vector<Body> bodies_;
 };
@@ -62,8 +69,65 @@ double Bodies::PathOf(const Body& body) {
   return path;
 }
 
-Result<void> Bodies::Choose(const StreamReading& reading, const std::string& file, StreamRecording& recording) const {
+/// Returns how far joints are apart in the mean, of those that both frames have, in trunks; nothing without a trunk.
+std::optional<double> Bodies::GapInTrunks(const Seen& before, const Seen& after) {
+  const auto &hips = before.places[Index(Role::kHipCentre)], &neck = before.places[Index(Role::kShoulderCentre)];
+  double sum = 0;
+  int joints = 0;
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    if (!before.places[i] || !after.places[i]) continue;
+    sum += glm::distance(*before.places[i], *after.places[i]);
+    ++joints;
+  }
+  if (joints == 0 || !hips || !neck || *hips == *neck) return std::nullopt;
+  return sum / joints / glm::distance(*hips, *neck);
+}
+
+void Bodies::JoinContinued(StreamRecording& recording) {
+  constexpr double kLongestBreak = 1, kFarthest = 0.5;
+  struct Pair {
+    double gap;
+    std::size_t before, after;
+  };
+  std::vector<Pair> pairs;
+  const auto begin_of = [](const Body& body) { return body.frames.front().frame; };
+  for (std::size_t a = 0; a < bodies_.size(); ++a) {
+    const Seen& end = bodies_[a].frames.back();
+    const auto first = std::ranges::upper_bound(bodies_, end.frame, {}, begin_of);  // by first appearance
+    for (auto b = static_cast<std::size_t>(first - bodies_.begin()); b < bodies_.size(); ++b) {
+      const Seen& begin = bodies_[b].frames.front();
+      if (recording.frames[begin.frame].time_s - recording.frames[end.frame].time_s > kLongestBreak) break;
+      const auto gap = GapInTrunks(end, begin);
+      if (gap && *gap <= kFarthest) pairs.push_back({*gap, a, b});
+    }
+  }
+  std::ranges::stable_sort(pairs, {}, &Pair::gap);
+  std::vector<std::optional<std::size_t>> next(bodies_.size());
+  std::vector<bool> continues(bodies_.size(), false);
+  for (const Pair& pair : pairs) {
+    if (next[pair.before] || continues[pair.after]) continue;
+    next[pair.before] = pair.after;
+    continues[pair.after] = true;
+  }
+  std::vector<Body> joined;
+  for (std::size_t a = 0; a < bodies_.size(); ++a) {
+    if (continues[a]) continue;
+    Body body = std::move(bodies_[a]);
+    for (auto b = next[a]; b; b = next[*b]) {
+      const Body& later = bodies_[*b];
+      recording.remarks.push_back(fmt::format("body {} goes on as body {} from frame {} on: taken for one person",
+                                              body.id, later.id, begin_of(later)));
+      body.frames.insert(body.frames.end(), later.frames.begin(), later.frames.end());
+      body.id = later.id;
+    }
+    joined.push_back(std::move(body));
+  }
+  bodies_ = std::move(joined);
+}
+
+Result<void> Bodies::Choose(const StreamReading& reading, const std::string& file, StreamRecording& recording) {
   if (bodies_.empty()) return {};
+  JoinContinued(recording);
   std::size_t chosen = 0;
   if (reading.body) {
     chosen = static_cast<std::size_t>(*reading.body);

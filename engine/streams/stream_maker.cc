@@ -180,7 +180,7 @@ Result<void> StreamMaker::Add(const RecordedFrame& frame, std::vector<SensedFram
       stream.push_back(Sensed(frame));
     } else if (before_ && time <= before_->time_s + kSameTime) {
       stream.push_back(Sensed(*before_));
-    } else if (before_ && frame.time_s - before_->time_s <= kLongestGap) {
+    } else if (before_ && frame.time_s - before_->time_s <= kLongestGap + kSameTime) {
       const double part = (time - before_->time_s) / (frame.time_s - before_->time_s);
       stream.push_back(Sensed(Between(*before_, frame, part)));
     } else {

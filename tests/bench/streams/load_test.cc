@@ -1,7 +1,9 @@
 #include "bench/streams/load.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "bench/clips/clip_library.h"
 #include "bench/files/files.h"
 #include "bench/files/temporary_folder.h"
 #include "bench/streams/teach.h"
@@ -89,6 +91,57 @@ TEST(LoadStreams, AFolderPassesOverWhatIsNoneAndTellsWhatIsBroken) {
   EXPECT_EQ(loaded->passed_over, 1);
   EXPECT_EQ(loaded->refused.size(), 1u);
   EXPECT_FALSE(LoadStreams({(root / "broken.csv").string()}, {}, {}));
+}
+
+/// A body as OpenNI's sensors give it to BVH, without fingers and toes, facing +Z; knees `back` cm behind the line from
+/// hip to ankle.
+std::string OpenNiBvh(double back) {
+  const std::string channels = "CHANNELS 3 Zrotation Xrotation Yrotation\n";
+  const auto joint = [&](const std::string& name, double x, double y, double z, const std::string& children) {
+    const std::string below = children.empty() ? "End Site\n{\nOFFSET 0 0 0\n}\n" : children;
+    return fmt::format("JOINT {}\n{{\nOFFSET {} {} {}\n{}{}}}\n", name, x, y, z, channels, below);
+  };
+  const auto arm = [&](const std::string& side, double left, double up) {
+    return joint(side + "_SHOULDER#", left * 15, up, 0,
+                 joint(side + "_ELBOW", left * 28, 0, 0, joint(side + "_HAND", left * 25, 0, 0, "")));
+  };
+  const auto leg = [&](const std::string& side, double left, double down) {
+    return joint(side + "_HIP#", left * 9, down, 0,
+                 joint(side + "_KNEE", 0, -40, -back, joint(side + "_FOOT", 0, -40, back, "")));
+  };
+  const std::string root = arm("LEFT", 1, 28) + arm("RIGHT", -1, 28) + leg("LEFT", 1, -18) + leg("RIGHT", -1, -18) +
+                           joint("NECK#", 0, 28, 0, joint("HEAD", 0, 23, 0, ""));
+  const int joints = 14;
+  std::string text =
+      "HIERARCHY\nROOT TORSO#\n{\nOFFSET 0 98 0\nCHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation "
+      "Yrotation\n" +
+      root + "}\nMOTION\nFrames: 30\nFrame Time: 0.033333\n";
+  for (int t = 0; t < 30; ++t) {
+    text += "0 98 0 0 0 0";
+    for (int value = 0; value < 3 * joints; ++value) text += fmt::format(" {}", value == 0 ? t : 0);  // the first turns
+    text += '\n';
+  }
+  return text;
+}
+
+TEST(LoadStreams, KneesThatASensorOverstretchesAreToldAndThoseThatBendBackwardsRefused) {
+  const auto folder = TemporaryFolder::Make("openni");
+  ASSERT_TRUE(folder);
+  const std::string path = (std::filesystem::path(folder->path()) / "wave.bvh").string();
+  const auto load = [&](double back) {
+    EXPECT_TRUE(WriteFileAtomically(path, OpenNiBvh(back)));
+    return LoadStream(path, {}, {});
+  };
+  const auto straight = load(0), bent = load(9), overstretched = load(4);
+  ASSERT_TRUE(straight) << ToString(straight.error());
+  EXPECT_EQ(straight->front().description.find("overstretch"), std::string::npos);
+  ASSERT_FALSE(bent);  // by 25 degrees: no sensor's slip
+  EXPECT_NE(ToString(bent.error()).find("the knees bend backwards"), std::string::npos);
+  ASSERT_TRUE(overstretched) << ToString(overstretched.error());
+  EXPECT_EQ(overstretched->front().stream.frames.size(), 30u);
+  EXPECT_NE(overstretched->front().description.find("the knees overstretch by 11 degrees"), std::string::npos)
+      << overstretched->front().description;
+  EXPECT_FALSE(LoadClips({path}, {})) << "a clip of a scenario is no sensor's";
 }
 
 }  // namespace

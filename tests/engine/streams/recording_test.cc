@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "engine/formats/joint_csv.h"
 #include "engine/formats/trc.h"
 #include "engine/streams/stream_maker.h"
@@ -98,8 +100,17 @@ TEST(Streams, AClockMayCountMicrosecondsMillisecondsSecondsOrFrames) {
   const std::string rows = KinectV1Text(WavingMotion());
   for (const double step : {1e6 / 30, 1e3 / 30, 1.0 / 30, 1.0})
     EXPECT_EQ(Made(WithClock(rows, 100 * step, step)).stream.frames.size(), 60u) << step;
-  // UTKinect keeps every other frame.
+  // UTKinect keeps every other frame, or every sixth: no sensor counts milliseconds at 166 Hz.
   EXPECT_EQ(Made(WithClock(rows, 252, 2)).stream.frames.size(), 119u);
+  const MadeStream sixth = Made(WithClock(rows, 252, 6));
+  EXPECT_EQ(sixth.stream.frames.size(), 355u);
+  EXPECT_EQ(sixth.lost_frames, 0u);  // rows 0.2 s apart, however their difference is rounded
+  EXPECT_NEAR(sixth.start_s, 252 / 30.0, 1e-9);
+  const auto read = ReadStreamRecording(WithClock(rows, 252, 6), "s");
+  EXPECT_EQ(read->remarks, std::vector<std::string>{"the first column counts frames at 30 Hz, a row every 6"});
+  // Whole milliseconds of 60 Hz, and parts of milliseconds at any rate, stay what they are.
+  EXPECT_EQ(Made(WithClock(rows, 1000, 17)).stream.frames.size(), 31u);
+  EXPECT_EQ(Made(WithClock(rows, 1000.5, 8)).stream.frames.size(), 15u);
 }
 
 TEST(Streams, OfSeveralBodiesTheOneSeenLongestIsTakenUnlessAnotherIsAskedFor) {
@@ -111,6 +122,54 @@ TEST(Streams, OfSeveralBodiesTheOneSeenLongestIsTakenUnlessAnotherIsAskedFor) {
   EXPECT_EQ(ReadStreamRecording(text, "s")->remarks.size(), 1u);
   EXPECT_TRUE(ReadStreamRecording(text, "s", {.body = 1})->frames[0].places[0] == std::nullopt);
   EXPECT_EQ(ComplaintOf(text, {.body = 2}), "s: body 2 of 2, counted from 0");
+}
+
+/// A frame's body in NTU's text, under another name and so far to the side.
+std::string NtuBody(const std::string& id, double aside) {
+  BodyMotion motion = WavingMotion(1);
+  for (glm::dvec3& joint : motion.poses[0].joints) joint.x += aside;
+  const std::string text = NtuText(motion);
+  return id + text.substr(text.find(" 0 1 1"));
+}
+
+TEST(Streams, ABodyThatGoesOnUnderAnotherNameIsOnePerson) {
+  const auto text = [](double second_aside, int missing) {
+    std::string frames;
+    for (int t = 0; t < 21; ++t) {
+      const bool is_lost = t >= 11 && t < 11 + missing;
+      const std::string person = t < 11 ? NtuBody("11", 0) : NtuBody("22", second_aside);
+      frames += is_lost ? "1\n" + NtuBody("33", 3) : "2\n" + person + NtuBody("33", 3);
+    }
+    return "21\n" + frames;
+  };
+  const auto shown = [](const StreamRecording& recording) {
+    return std::ranges::count_if(recording.frames, [](const RecordedFrame& f) { return f.places[0].has_value(); });
+  };
+  const auto joined = ReadStreamRecording(text(0.1, 2), "s", {.body = 0});
+  ASSERT_TRUE(joined) << ToString(joined.error());
+  EXPECT_EQ(shown(*joined), 19);
+  EXPECT_EQ(joined->remarks.front(), "body 11 goes on as body 22 from frame 13 on: taken for one person");
+  EXPECT_EQ(joined->remarks.back(), "2 bodies, of which body 0");
+  // Somebody else, who stands a metre aside, is not joined; nor whoever comes while the first is still seen.
+  const auto other = ReadStreamRecording(text(1, 2), "s", {.body = 0});
+  EXPECT_EQ(shown(*other), 11);
+  EXPECT_EQ(other->remarks, std::vector<std::string>{"3 bodies, of which body 0"});
+  const std::string both = "2\n2\n" + NtuBody("11", 0) + NtuBody("22", 0.1) + "1\n" + NtuBody("22", 0.1);
+  EXPECT_EQ(ReadStreamRecording(both, "s")->remarks,
+            std::vector<std::string>{"2 bodies, of which body 1, in the most frames"});
+}
+
+TEST(Streams, MarkersOfOtherNamesAreTold) {
+  const std::string trc = WriteTrc(WavingMotion(2), "m");
+  EXPECT_EQ(ComplaintOf(std::string(trc).replace(trc.find("head"), 4, "C7")),
+            "s:4: unknown marker names 'C7'; needed, and not here: head (`etude clip convert` knows other sets of "
+            "markers)");
+  MarkerMotion markers;
+  for (int i = 0; i < 39; ++i) markers.names.push_back(fmt::format("M{}", i));
+  markers.frames.resize(2, std::vector<std::optional<glm::dvec3>>(39, glm::dvec3(1)));
+  const std::string complaint = ComplaintOf(WriteTrc(markers, "m"));
+  EXPECT_NE(complaint.find("'M7' and 31 more; needed, and not here: hip_centre, spine"), std::string::npos)
+      << complaint;
 }
 
 TEST(Streams, RefusalsSayWhereAndWhatIsAllowed) {
