@@ -1,5 +1,7 @@
 #include "bench/outside/program_view.h"
 
+#include <algorithm>
+
 #include "bench/process/fence.h"
 
 namespace etude {
@@ -31,6 +33,11 @@ ProgramView ViewOf(const std::vector<std::string>& command, const std::vector<st
     view.command.push_back(path.string());
     if (!is_file || Fence::IsOfSystem(path)) continue;
     const fs::path folder = path.parent_path();
+    // A virtual environment's Python is a link, which nothing can be laid over; with its folder it is shown already.
+    const bool is_shown = fs::is_symlink(path, error) && std::ranges::any_of(view.shown, [&](const fs::path& one) {
+                            return std::ranges::mismatch(one, path).in1 == one.end();
+                          });
+    if (is_shown) continue;
     view.shown.push_back(view.shown.empty() && !Fence::HoldsScratch(folder) ? folder : path);
   }
   for (const fs::path& path : view.shown) {

@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import re
+import warnings
 from dataclasses import dataclass
 
 from etude.conversation import Player, spec_of
@@ -22,7 +23,8 @@ def run(scenario, *, methods=(), trials=None, output=None, seed=None, clips=(), 
     the scenarios of their task. output: the result folder, out/NAME-SEED by default; it must be new unless `overwrite` or
     `resume`. progress: True shows it on standard error, a function is called with (cells done, cells).
 
-    Raises EtudeError, whose `run` is the run where one is there all the same (exit code 1: a method has no answer).
+    Warns when no cell is ok. Raises EtudeError, whose `run` is the run where one is there all the same: exit code 1, a
+    method has no answer.
     """
     if isinstance(scenario, dict) or methods:
         scenario = _write_scenario(scenario, methods, program)
@@ -39,14 +41,19 @@ def run(scenario, *, methods=(), trials=None, output=None, seed=None, clips=(), 
     if folder is None:
         raise EtudeError("the run does not tell its folder; name it by output=", code, printed + said)
     found = load(folder, program=program)
-    if code:
-        raise EtudeError(_why_no_answer(printed, said), code, printed + said, found)
+    return _judged(found, code, printed, said)
+
+
+def _judged(found, code, printed, said):
+    """The run; raises where a method has no answer, warns where nobody met its goal."""
+    if code == 0:
+        return found
+    lines = [line.strip() for line in (said + printed).splitlines()]
+    causes = [line for line in lines if "ok or unsolved" in line or " × " in line]
+    if causes:
+        raise EtudeError("; ".join(dict.fromkeys(causes)), code, printed + said, found)
+    warnings.warn(next((line for line in lines if "cells ok" in line), "no cell is ok"), stacklevel=3)
     return found
-
-
-def _why_no_answer(printed, said):
-    lines = [line.strip() for line in (said + printed).splitlines() if " × " in line or "ok or unsolved" in line]
-    return "; ".join(dict.fromkeys(lines)) or "a method has no answer"
 
 
 def _write_scenario(scenario, methods, program):
@@ -116,7 +123,7 @@ def _with_methods(name, text, entries):
         if lines[i].strip() and not lines[i].lstrip().startswith("#") and not lines[i].startswith(" ") and \
                 not (item and item[1] == indent):
             break
-        if lines[i].strip():
+        if lines[i].strip() and not lines[i].lstrip().startswith("#"):
             end = i + 1
     added = [f"{indent or ''}- {json.dumps(entry, ensure_ascii=False)}\n" for entry in entries]
     if not lines[end - 1].endswith("\n"):
@@ -185,9 +192,7 @@ def score(target, predictions, output, *, name=None, alone=False, allow_missing=
     arguments += ["--jobs", str(jobs)] if jobs is not None else []
     code, printed, said = call(*arguments, program=program, progress=progress, allowed=(0, 1))
     found = load(output, program=program)
-    if code:
-        raise EtudeError(_why_no_answer(printed, said), code, printed + said, found)
-    return found
+    return _judged(found, code, printed, said)
 
 
 def _answer_all(target, method, answers, progress):

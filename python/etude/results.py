@@ -56,8 +56,8 @@ class Verdict:
 
 
 class Pairs:
-    """The worlds in which two methods have a value, in order: condition, trial, clip, baseline, method and their
-    difference, method − baseline, a list or an array each.
+    """The worlds in which two methods have a value, in order: condition, trial, clip, units (what each was drawn from),
+    baseline, method and their difference, method − baseline, a list or an array each.
 
     only_baseline, only_method, neither: how many other worlds there are. verdict: what the run's summary says of the
     two; None where it compares them not, or where there are several conditions.
@@ -66,7 +66,7 @@ class Pairs:
     def __init__(self, metric, method_name, baseline_name, found, counts, verdict, scenario):
         self.metric, self.method_name, self.baseline_name, self.scenario = metric, method_name, baseline_name, scenario
         self.unit = metric.unit if metric else ""
-        self.condition, self.trial, self.clip = ([each[i] for each in found] for i in range(3))
+        self.condition, self.trial, self.clip, self.units = ([each[i] for each in found] for i in (0, 1, 2, 5))
         numpy = numpy_or_none()
         as_array = numpy.array if numpy else list
         self.baseline, self.method = (as_array([each[i] for each in found]) for i in (3, 4))
@@ -192,12 +192,12 @@ class Run:
             raise EtudeError(f"{scenario}: no condition '{condition}'; there are {', '.join(conditions)}")
         metric = metric or summary["headline_metrics"][0]
         values, methods = table[metric], table["method"]
-        clips = table["clip"] if "clip" in table else [None] * len(table)
+        clips, units = (table[name] if name in table else [None] * len(table) for name in ("clip", "units"))
         worlds = {}
         for i, (of, trial) in enumerate(zip(table["condition"], table["trial"])):
             name = methods[i]
             if name in (method, baseline) and condition in (None, of):
-                world = worlds.setdefault((of, trial), [clips[i], None, None])
+                world = worlds.setdefault((of, trial), [clips[i], None, None, (units[i] or [None])[0]])
                 if name == baseline:
                     world[1] = values[i]
                 if name == method:

@@ -21,6 +21,7 @@ from etude.conversation import spec_of
 from etude.program import cache_folder
 
 PLAIN = (type(None), bool, int, float, complex, str, bytes)
+SYSTEM = ("/usr/", "/bin/", "/lib", "/opt/", "/nix/")  # what every program is shown
 LARGEST = 1_000_000  # characters of a value that is written as source
 
 
@@ -34,14 +35,15 @@ def ship(method):
     module = sys.modules.get(method.__module__)
     granted = list(spec.files)
     if _is_importable(method, module):
-        top, name = _root_of(module)
-        granted.append(str(top))
-        source = f"import sys\nsys.path.insert(0, {str(top)!r})\nfrom {name} import {method.__qualname__} as asked\n"
+        top = _folder_of(module)
+        granted.append(top)
+        source = f"import sys\nsys.path.insert(0, {top!r})\nfrom {module.__name__} import {method.__qualname__} as asked\n"
         arrays = {}
     else:
         pieces = _Pieces()
         pieces.add(method, f"method '{spec.name}'")
         source, arrays = pieces.text(method.__name__), pieces.arrays
+        granted += pieces.folders
     source = f'"""Written by etude.run."""\n{source}\nimport etude\netude.serve(asked)\n'
     folder = _write(source, arrays)
     entry = {"name": spec.name, "exec": [_interpreter(granted), str(folder / "program.py")],
@@ -60,17 +62,16 @@ def _is_importable(method, module):
             and "<locals>" not in method.__qualname__)
 
 
-def _root_of(module):
-    """The folder to import a module from, and its name there."""
+def _folder_of(module):
+    """The folder that a module is imported from."""
     path = pathlib.Path(module.__file__).resolve()
-    return path.parents[module.__name__.count(".") + (path.name == "__init__.py")], module.__name__
+    return str(path.parents[module.__name__.count(".") + (path.name == "__init__.py")])
 
 
 def _interpreter(granted):
     """The Python that runs us, which the fence must show where it is none of the system's."""
-    system = ("/usr", "/bin", "/opt", "/nix")
     for prefix in dict.fromkeys([sys.prefix, sys.base_prefix]):
-        if not prefix.startswith(system):
+        if not f"{prefix}/".startswith(SYSTEM):
             granted.append(prefix)
     return sys.executable
 
@@ -104,7 +105,7 @@ class _Pieces:
     """What a method is made of, in the order in which it must be written."""
 
     def __init__(self):
-        self.arrays, self._seen, self._lines, self._imports = {}, {}, [], []
+        self.arrays, self.folders, self._seen, self._lines, self._imports = {}, [], {}, [], []
 
     def add(self, thing, whose):
         """A function or class of a notebook, after all that it uses."""
@@ -133,7 +134,9 @@ class _Pieces:
             return
         if isinstance(value, types.ModuleType):
             self._seen[name] = value
-            self._imports.append(f"import {value.__name__} as {name}")
+            if value.__name__ == name == "etude":
+                return
+            self._import(value, f"import {value.__name__} as {name}")
         elif isinstance(value, (types.FunctionType, type)) and _is_ours(value):
             self.add(value, whose)
             if value.__name__ != name:
@@ -142,7 +145,7 @@ class _Pieces:
         elif getattr(value, "__module__", None) and getattr(value, "__qualname__", "<").isidentifier() and \
                 getattr(sys.modules.get(value.__module__), value.__qualname__, None) is value:
             self._seen[name] = value
-            self._imports.append(f"from {value.__module__} import {value.__qualname__} as {name}")
+            self._import(sys.modules[value.__module__], f"from {value.__module__} import {value.__qualname__} as {name}")
         elif type(value).__module__ == "numpy" and type(value).__name__ == "ndarray" and value.dtype != object:
             self._add_array(name, value)
         elif _is_plain(value):
@@ -156,6 +159,14 @@ class _Pieces:
             raise ValueError(f"{whose} uses '{name}', an open {type(value).__name__}, which cannot be sent: make it within "
                              "the method, or in a class's __init__, or read it from a file that its `files` lists")
 
+    def _import(self, module, line):
+        """One of our own folders must be shown and in the path; what Python brings is there."""
+        if getattr(module, "__file__", None) and module.__name__.partition(".")[0] != "etude":
+            folder = _folder_of(module)
+            if not f"{folder}/".startswith((*SYSTEM, sys.prefix, sys.base_prefix)) and folder not in self.folders:
+                self.folders.append(folder)
+        self._imports.append(line)
+
     def _add_array(self, name, value):
         import io
         import numpy
@@ -167,7 +178,8 @@ class _Pieces:
                            f"{name} = _numpy.load(_os.path.join(_os.path.dirname(__file__), {name + '.npy'!r}))\n")
 
     def text(self, asked):
-        return "\n".join(["import etude", *self._imports, *self._lines, f"asked = {asked}\n"])
+        paths = [f"import sys\nsys.path[:0] = {self.folders!r}"] if self.folders else []
+        return "\n".join([*paths, "import etude", *self._imports, *self._lines, f"asked = {asked}\n"])
 
 
 def _names_used(source, whose):

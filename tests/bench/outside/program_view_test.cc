@@ -47,6 +47,16 @@ TEST_F(ProgramViewTest, ShowsWhatFilesListAndOfTheCommandTheFilesAlone) {
   EXPECT_EQ(view.start, In("other"));
 }
 
+TEST_F(ProgramViewTest, ShowsALinkWithTheFolderThatItLiesInAndNotOnceMore) {
+  fs::create_symlink("/bin/sh", In("mine/python"));
+  EXPECT_THAT(ViewOf({In("mine/python"), In("other/weights.bin")}, {In("mine")}).shown,
+              ElementsAre(In("mine"), In("other/weights.bin")));
+}
+
+TEST_F(ProgramViewTest, FindsThePythonPackageOfTheTree) {
+  EXPECT_EQ(PythonFolder(), fs::current_path() / "python");
+}
+
 TEST_F(ProgramViewTest, NamesFilesOfOursByAbsolutePathsAndNoPlainWords) {
   // Tests are run at the top of the tree.
   const fs::path here = fs::current_path();

@@ -1,0 +1,177 @@
+"""The page's pictures as matplotlib figures, which are returned: nothing is drawn on a screen. Values stand in their
+metric's unit, shares as shares. Intervals, estimates and budgets are the summary's."""
+import statistics
+import sys
+
+from matplotlib.figure import Figure
+
+from etude.program import EtudeError
+from etude.results import Pairs
+from etude.tables import condition_text
+
+COLOURS = ("#41464b", "#1ea194", "#9c5201", "#8b19e6", "#316f93", "#ae8f16", "#470014", "#02175b")  # the page's, in order
+DASHES = ("-", "-", "-", "-", "--", "--", ":", ":")
+BAND, QUIET = "#e4e2da", "#8a8a86"
+SWARM = 0.18
+
+
+def estimation(pairs, **named):
+    """The estimation plot of two methods: both world by world, joined; then the paired differences, with the summary's
+    intervals over worlds and over clips, and shaded what does not matter (Gardner & Altman 1986).
+
+    pairs: of Run.pairs. Or a Run, with the arguments of Run.pairs after it: estimation(run, method="a", baseline="b").
+    A pair that the summary does not compare has no interval.
+    """
+    if not isinstance(pairs, Pairs):
+        pairs = pairs.pairs(**named)
+    if not len(pairs):
+        raise EtudeError(f"no world in which both '{pairs.method_name}' and '{pairs.baseline_name}' have a value")
+    figure = Figure(figsize=(8, 3.6), layout="constrained")
+    values, differences = figure.subplots(1, 2)
+    names = sorted({unit for unit in pairs.units if unit is not None})
+    colours = [_colour(names.index(unit)) if unit is not None else None for unit in pairs.units]
+    left, right = ([place + offset for offset in _aside(of)] for place, of in ((0, pairs.baseline), (1, pairs.method)))
+    values.plot([left, right], [list(pairs.baseline), list(pairs.method)], color=QUIET, linewidth=0.5, alpha=0.5, zorder=1)
+    for x, y, own in ((left, pairs.baseline, 0), (right, pairs.method, 1)):
+        values.scatter(x, y, s=14, c=[colour or _colour(own) for colour in colours], zorder=2)
+    values.set_xticks([0, 1], [pairs.baseline_name, pairs.method_name])
+    values.set_xlim(-0.5, 1.5)
+    values.set_ylabel(_label(pairs.metric))
+    _differences(differences, pairs, names, colours)
+    condition = pairs.condition[0] if len(set(pairs.condition)) == 1 and pairs.condition[0] != "-" else ""
+    says = f": {pairs.verdict.verdict} on these worlds" if pairs.verdict else ""
+    beyond = f", {pairs.verdict.beyond} beyond them" if pairs.verdict and pairs.verdict.beyond else ""
+    figure.suptitle(f"“{pairs.method_name}” against “{pairs.baseline_name}”{', ' if condition else ''}{condition}"
+                    f"{says}{beyond}", fontsize="medium")
+    return _shown(figure)
+
+
+def _differences(axes, pairs, names, colours):
+    matters = pairs.metric.practical_threshold if pairs.metric else 0
+    axes.axhspan(-matters, matters, color=BAND, zorder=0)
+    axes.axhline(0, color=QUIET, linewidth=0.8, zorder=1)
+    axes.scatter(_aside(pairs.difference), pairs.difference, s=14, c=[colour or _colour(1) for colour in colours], zorder=2)
+    ticks, labels = [0], ["each world"]
+    told = pairs.verdict.details if pairs.verdict else None
+    if told and told["difference"] is not None:
+        by_mean = pairs.metric is not None and pairs.metric.aggregate == "mean"
+        _interval(axes, 1, told["difference"], told["ci95_low"], told["ci95_high"])
+        ticks.append(1)
+        labels.append("their mean" if by_mean else "their median")
+        beyond = told.get("beyond") or {}
+        if names and beyond.get("mean") is not None:
+            for i, name in enumerate(names):
+                of_unit = [value for value, unit in zip(pairs.difference, pairs.units) if unit == name]
+                axes.scatter([2], [sum(of_unit) / len(of_unit)], s=26, color=_colour(i), zorder=2)
+            _interval(axes, 2.25, beyond["mean"], beyond["ci95_low"], beyond["ci95_high"])
+            ticks.append(2)
+            labels.append("mean, units")
+    axes.set_xticks(ticks, labels)
+    axes.set_xlim(-0.5, ticks[-1] + 0.5)
+    axes.set_ylabel(f"{pairs.method_name} minus {pairs.baseline_name}" + (f", {pairs.unit}" if pairs.unit else ""))
+
+
+def curves(run, name, *, scenario=None, condition=None):
+    """A curve of every method over its steps: the median of all cells, of which one that has ended keeps its last value,
+    as on the page. name: of a series, such as "position_error_max_cm"."""
+    scenario = run._named(scenario)
+    found, axis, unit = {}, "", ""
+    for each in run.series(name, scenario=scenario, condition=condition):
+        if len(each):
+            found.setdefault(each.method, []).append(each.values)
+            axis, unit = each.axis, each.unit
+    if not found:
+        raise EtudeError(f"{scenario}: no cell has the curve '{name}'")
+    figure = Figure(figsize=(8, 3.6), layout="constrained")
+    axes = figure.subplots()
+    drawn = []
+    for i, method in enumerate(run.methods(scenario)):
+        if method in found:
+            median = median_curve(found[method])
+            drawn += median
+            axes.plot(median, DASHES[i % len(DASHES)], color=_colour(i), label=method)
+    if min(drawn) > 0 and max(drawn) / min(drawn) > 100:
+        axes.set_yscale("log")
+    metric = run.metrics.get(name)
+    axes.set_xlabel(axis)
+    axes.set_ylabel(_label(metric) if metric else f"{name.rsplit('_', 1)[0].replace('_', ' ')}, {unit}" if unit else name)
+    axes.set_title(f"{scenario}: median{'' if condition in (None, '-') else ', ' + condition}", fontsize="medium")
+    axes.legend(fontsize="small", frameon=False, loc="center left", bbox_to_anchor=(1, 0.5))
+    return _shown(figure)
+
+
+def median_curve(several):
+    """The median at every step; what has ended keeps its last value."""
+    longest = max(len(each) for each in several)
+    return [statistics.median(float(each[min(step, len(each) - 1)]) for each in several) for step in range(longest)]
+
+
+def error_budget(run, *, scenario=None, condition=None, method=None):
+    """What each stage costs, as a waterfall from a method's error down to what is left, with the summary's intervals."""
+    wanted = [scenario] if scenario is not None else run.scenarios
+    for each in run.summary["scenarios"]:
+        for of in each["conditions"] if each["name"] in wanted else ():
+            for budget in of.get("error_budgets", ()):
+                if condition in (None, condition_text(of["condition"])) and method in (None, budget["method"]):
+                    return _waterfall(budget, run.metrics.get(budget["metric"]))
+    raise EtudeError("no error budget: methods of it differ in their `oracle` alone")
+
+
+def _waterfall(budget, metric):
+    figure = Figure(figsize=(6, 0.4 * (len(budget["shares"]) + 2) + 1), layout="constrained")
+    axes = figure.subplots()
+    left, bars = budget["total"], [(budget["method"], 0, budget["total"], None)]
+    for share in budget["shares"]:
+        bars.append((share["stage"], left, left - share["mean"], share))
+        left -= share["mean"]
+    bars.append(("what is left", 0, budget["rest"], None))
+    for i, (_, begin, end, share) in enumerate(bars):
+        axes.barh(i, end - begin, left=begin, height=0.5, color=_colour(0 if share is None else 2 if end > begin else 1))
+        if share and share["mean_ci95_low"] is not None:
+            axes.plot([begin - share["mean_ci95_low"], begin - share["mean_ci95_high"]], [i, i], color="black", linewidth=1.5)
+    axes.set_yticks(range(len(bars)), [bar[0] for bar in bars])
+    axes.invert_yaxis()
+    axes.set_xlabel(_label(metric))
+    axes.set_title(f"“{budget['method']}”: mean of {budget['worlds']} worlds", fontsize="medium")
+    return _shown(figure)
+
+
+def _colour(i):
+    return COLOURS[i % len(COLOURS)]
+
+
+def _label(metric):
+    if metric is None:
+        return ""
+    better = {"lower": "\nlower is better", "higher": "\nhigher is better"}.get(metric.direction, "")
+    return f"{metric.label}{', ' + metric.unit if metric.unit else ''}{better}"
+
+
+def _interval(axes, x, estimate, low, high):
+    if low is not None and high is not None:
+        axes.plot([x, x], [low, high], color="black", linewidth=2, zorder=3, gid="interval")
+    axes.plot([x], [estimate], "o", color="black", markersize=6, zorder=3, gid="estimate")
+
+
+def _aside(values):
+    """How far dots stand aside, so that those of like values do not hide each other."""
+    low, high = min(values), max(values)
+    bins = {}
+    for i, value in enumerate(values):
+        bins.setdefault(round(40 * (value - low) / (high - low)) if high > low else 0, []).append(i)
+    offsets = [0.0] * len(values)
+    most = max(map(len, bins.values()))
+    for places in bins.values():
+        for k, i in enumerate(places):
+            offsets[i] = 2 * SWARM * (k - (len(places) - 1) / 2) / max(most - 1, 6)
+    return offsets
+
+
+def _shown(figure):
+    """The figure, which a notebook shows when it is the value of a cell."""
+    if "IPython" in sys.modules:
+        from IPython import get_ipython
+        if get_ipython() is not None:
+            from IPython.core.pylabtools import select_figure_formats
+            select_figure_formats(get_ipython(), {"png"})
+    return figure
