@@ -17,7 +17,7 @@ SUITE = "quick/ik"
 class Installed(EtudeCase):
     def same_as_here(self, out, suite, *options):
         here = self.folder / "here"
-        self.assertEqual(self.etude("run", suite, *options, "-o", here).returncode, 0)
+        subprocess.run([ETUDE, "run", suite, *map(str, options), "-o", here], check=True, capture_output=True)
         for name in ("cells.jsonl", "summary.json"):
             self.assertEqual((here / name).read_bytes(), (out / name).read_bytes(), name)
 
