@@ -220,7 +220,7 @@ def table_of_columns(folder, metrics):
     named = [text or None for text in index["texts"]]
     readers = {}
     for key in conditions[0] if conditions else ():
-        readers[key] = lambda key=key: spread([each[key] for each in conditions], 1, trials * len(methods))
+        readers[key] = lambda key=key: spread([_as_row_has_it(each[key]) for each in conditions], 1, trials * len(methods))
     readers["scenario"] = lambda: spread([index["scenario"]], 1, length)
     readers["condition"] = lambda: spread([condition_text(each) for each in conditions], 1, trials * len(methods))
     readers["trial"] = lambda: spread(range(trials), len(conditions), len(methods))
@@ -255,6 +255,14 @@ def table_of_columns(folder, metrics):
         return why
 
     return index["scenario"], Table(index["scenario"], index["task"], length, readers, nulls, metrics, reasons, digests)
+
+
+def _as_row_has_it(text):
+    """A swept value, of which an index has the text: a number where it is one."""
+    try:
+        return float(text)
+    except ValueError:
+        return text
 
 
 def condition_text(condition):
