@@ -1,6 +1,8 @@
 # `cmake --install`, and packages of it (`cpack -G DEB`): the program, its modules, and what it finds beside itself by name.
 # The tree may be moved as a whole: nothing of it holds the prefix.
 include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 set(ETUDE_MODULES "${CMAKE_INSTALL_LIBDIR}/etude")
 file(RELATIVE_PATH modules_from_program "/${CMAKE_INSTALL_BINDIR}" "/${ETUDE_MODULES}")
 set_target_properties(etude PROPERTIES INSTALL_RPATH "$ORIGIN/${modules_from_program}")
@@ -32,6 +34,18 @@ install(FILES "${made}/etude" DESTINATION share/bash-completion/completions)
 install(FILES "${made}/_etude" DESTINATION share/zsh/vendor-completions)
 install(FILES "${made}/etude.fish" DESTINATION share/fish/vendor_completions.d)
 
+# The library, for `find_package(Etude)`.
+set(config "${CMAKE_INSTALL_LIBDIR}/cmake/Etude")
+install(TARGETS etude_shared EXPORT EtudeTargets
+  LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library NAMELINK_COMPONENT development)
+install(DIRECTORY engine/api/etude DESTINATION include COMPONENT development FILES_MATCHING PATTERN "*.h")
+install(EXPORT EtudeTargets NAMESPACE etude:: DESTINATION "${config}" COMPONENT development)
+file(WRITE "${CMAKE_BINARY_DIR}/EtudeConfig.cmake"
+  "include(CMakeFindDependencyMacro)\nfind_dependency(glm)\ninclude(\"\${CMAKE_CURRENT_LIST_DIR}/EtudeTargets.cmake\")\n")
+write_basic_package_version_file("${CMAKE_BINARY_DIR}/EtudeConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
+install(FILES "${CMAKE_BINARY_DIR}/EtudeConfig.cmake" "${CMAKE_BINARY_DIR}/EtudeConfigVersion.cmake"
+  DESTINATION "${config}" COMPONENT development)
+
 set(CPACK_PACKAGE_NAME etude)
 set(CPACK_PACKAGE_VENDOR "The Etude authors")
 set(CPACK_PACKAGE_CONTACT "The Etude authors <etude@localhost>")
@@ -40,8 +54,16 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL program library development)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME etude)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libetude)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libetude-dev)
 # What is linked is found out; what is opened, started or read by name is told. The clips are those of the quick suite.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "libosmesa6, ffmpeg, fonts-dejavu-core, bubblewrap, assimp-testmodels")
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS python3)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libosmesa6, ffmpeg, fonts-dejavu-core, bubblewrap, assimp-testmodels")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS python3)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libetude (= ${PROJECT_VERSION}), libglm-dev")
 include(CPack)

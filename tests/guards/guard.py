@@ -33,7 +33,7 @@ DOORS = {
     "Random123/": ["sim/random"],
     "xxhash.h": ["engine/base"],
     "sodium.h": ["bench/results"],
-    "nlohmann/": ["bench", "engine/formats/deepmimic.cc", "engine/formats/gltf", "engine/formats/json_text.cc",
+    "nlohmann/": ["bench", "cli", "engine/formats/deepmimic.cc", "engine/formats/gltf", "engine/formats/json_text.cc",
                   "engine/formats/json_text.h", "engine/streams", "reports"],
     "boost/": ["bench/statistics"],
     "hwy/": ["engine/kinematics/solvers", "engine/transitions/search", "engine/vision"],
@@ -47,7 +47,7 @@ DOORS = {
     "opencv2/": ["bench/micro"],
 }
 # What a header may include from outside: small, or only names.
-LIGHT_HEADERS = ("glm/", "fmt/", "tl/", "nlohmann/json_fwd.hpp")
+LIGHT_HEADERS = ("etude/", "glm/", "fmt/", "tl/", "nlohmann/json_fwd.hpp")
 
 BANNED = [
     (r"std::hash\b", "differs between standard libraries; use Fingerprint"),
@@ -284,6 +284,7 @@ class Types:
     """Two types of one name in headers: their members would be mixed up by the linker, without a word."""
 
     DEFINITION = re.compile(r"(?:class|struct) ([A-Z]\w*) *(?:final )?(?:: .*)?\{")
+    OWN_NAMES = "engine/api/etude"  # in a namespace of their own
 
     def __init__(self, root):
         self.places = {}
@@ -293,7 +294,7 @@ class Types:
                     self.places.setdefault(name, set()).add(path)
 
     def definitions(self, path):
-        for number, line in enumerate(path.read_text().splitlines(), 1):
+        for number, line in enumerate(path.read_text().splitlines(), 1) if self.OWN_NAMES not in path.as_posix() else ():
             if found := self.DEFINITION.match(line):
                 yield number, found.group(1)
 

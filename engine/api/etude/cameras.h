@@ -1,0 +1,58 @@
+#pragma once
+
+#include <etude/base.h>
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace etude::engine {
+
+/// A camera with its lens. Its own axes are x right, y down, z forward. Pixels: u right, v down, the centre of the
+/// first one at (0.5, 0.5). Distortion is Brown's and Conrady's, with OpenCV's coefficients.
+struct Camera {
+  std::string name;
+  int width = 640, height = 480;
+  double fx = 600, fy = 600, cx = 320, cy = 240, skew = 0;
+  double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;
+  glm::dmat3 R_CW{1};
+  glm::dvec3 p_WC{0};
+};
+
+/// Reads the cameras of a rig from a file of Etude, OpenCV, Pose2Sim, Anipose or Qualisys, told by its content. Throws
+/// BadInput for anything else.
+ETUDE_API std::vector<Camera> ReadRig(std::string_view text, const std::string& file);
+
+/// Returns the pixel at which the camera shows a point; nothing for one behind it, or beyond what its lens shows.
+ETUDE_API std::optional<glm::dvec2> Project(const Camera& camera, const glm::dvec3& p_WQ);
+
+/// A point measured in the world, and the pixel that shows it.
+struct PointPair {
+  glm::dvec3 p_WQ{0};
+  glm::dvec2 pixel{0};
+};
+
+struct CalibratedCamera {
+  Camera camera;
+  double rms_px = 0;  ///< root mean square distance of the pairs' pixels from where the camera shows their points
+};
+
+/// Finds the camera of least squared reprojection error. Throws BadInput, saying why, for pairs that do not determine
+/// one: fewer than six, in one plane, or of no picture.
+ETUDE_API CalibratedCamera Calibrate(std::span<const PointPair> pairs, int width, int height);
+
+struct TriangulatedPoint {
+  glm::dvec3 p_WQ{0};
+  double residual_px = 0;  ///< root mean square distance of the sightings from it
+};
+
+/// Triangulates a point from the pixels of two or more cameras, one each, or nothing where a camera does not show it.
+/// Nothing for fewer than two, or rays that are nearly parallel. Throws BadInput when there are not as many pixels as
+/// cameras.
+ETUDE_API std::optional<TriangulatedPoint> Triangulate(std::span<const Camera> cameras,
+                                                       std::span<const std::optional<glm::dvec2>> pixels);
+
+}  // namespace etude::engine

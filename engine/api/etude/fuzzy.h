@@ -1,0 +1,60 @@
+#pragma once
+
+#include <etude/motion.h>
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace etude::engine {
+
+/// The ten pose features of a frame: degrees, but for Posture (standing = 80).
+inline constexpr std::size_t kFeatureCount = 10;
+using Features = std::array<double, kFeatureCount>;
+
+/// Returns the features' names in their order: "RH", "LH", "RHE", "LHE", "Posture", "Trunk", "RF", "LF", "RFK", "LFK".
+ETUDE_API std::array<std::string_view, kFeatureCount> FeatureNames();
+
+/// Returns the features of every frame. How high the body's hips stand is read off the limbs of its first frame.
+ETUDE_API std::vector<Features> ComputeFeatures(const Motion& motion);
+
+/// Returns the fuzzy distance of two frames, from 0: the weighted Euclidean distance of their 24 grades of membership.
+ETUDE_API double FuzzyDistance(const Features& a, const Features& b);
+
+/// A pair of frames that count as one: the playing clip is left at `from`, the wanted one entered at `to`.
+struct TransitionPoint {
+  int from = 0;
+  int to = 0;
+  double distance = 0;
+};
+
+struct BridgeOptions {
+  int min_clips = 2;       ///< a bridge frame's ten terms occur together in so many clips at least
+  double threshold = 0.4;  ///< frames match below this fuzzy distance; a larger one finds more ways, and worse ones
+};
+
+/// Clips made ready for transitions: performed by the body of the first, and tagged.
+class ETUDE_API Bridges {
+ public:
+  /// Throws BadInput for no clips, a clip without frames or of another rate than the first, or options out of range.
+  explicit Bridges(std::span<const Motion> clips, const BridgeOptions& options = {});
+  Bridges(Bridges&&) noexcept;
+  Bridges& operator=(Bridges&&) noexcept;
+  ~Bridges();
+
+  /// Returns the bridge frames of a clip, rising: frames in poses that several clips share, with the head held quiet.
+  std::span<const int> FramesOf(int clip) const;
+
+  /// Finds the first pair of bridge frames that match while clip `from` goes on from `frame` for `budget_s` seconds at
+  /// most. Throws BadInput for a clip or frame that there is not.
+  std::optional<TransitionPoint> Find(int from, int frame, int to, double budget_s = 1) const;
+
+ private:
+  struct Library;
+  std::unique_ptr<Library> library_;
+};
+
+}  // namespace etude::engine

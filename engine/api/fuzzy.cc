@@ -1,0 +1,112 @@
+#include <etude/fuzzy.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/api/convert.h"
+#include "engine/fuzzy/distance.h"
+#include "engine/fuzzy/features.h"
+#include "engine/fuzzy/membership.h"
+#include "engine/transitions/library/body_proportions.h"
+#include "engine/transitions/library/bridge_frames.h"
+#include "engine/transitions/library/transition_points.h"
+
+namespace etude::engine {
+namespace {
+
+/// The largest fuzzy distance that there is: eight features, weights of which sum to so much, off by all their grades.
+constexpr double kFarthest = 6;
+
+Grades GradesOf(const Features& features) {
+  PoseFeatures told;
+  std::ranges::copy(features, told.values.begin());
+  for (const double value : features) {
+    if (!std::isfinite(value)) throw BadInput("a feature that is not finite");
+  }
+  return Fuzzify(told);
+}
+
+std::vector<BodyMotion> ToBodyMotions(std::span<const Motion> clips) {
+  if (clips.empty()) throw BadInput("no clips");
+  std::vector<BodyMotion> motions;
+  for (const Motion& clip : clips) {
+    const auto number = motions.size();
+    if (clip.poses.empty()) throw BadInput(fmt::format("clip {}: no frames", number));
+    if (clip.rate_hz != clips.front().rate_hz) {
+      throw BadInput(
+          fmt::format("clip {}: {} Hz; allowed: that of clip 0, {} Hz", number, clip.rate_hz, clips.front().rate_hz));
+    }
+    motions.push_back(ToBodyMotion(clip));
+  }
+  return motions;
+}
+
+}  // namespace
+
+std::array<std::string_view, kFeatureCount> FeatureNames() {
+  std::array<std::string_view, kFeatureCount> names;
+  std::ranges::transform(AllFeatures(), names.begin(), FeatureName);
+  return names;
+}
+
+std::vector<Features> ComputeFeatures(const Motion& motion) {
+  const BodyMotion body = ToBodyMotion(motion);
+  std::vector<Features> features;
+  if (body.poses.empty()) return features;
+  const double hips = StandingHipHeight(body.poses.front());
+  if (hips <= 0) throw BadInput("frame 0: a body without legs");
+  for (const BodyPose& pose : body.poses) features.push_back(etude::ComputeFeatures(pose, hips).values);
+  return features;
+}
+
+double FuzzyDistance(const Features& a, const Features& b) {
+  return ComputeDistance(GradesOf(a), GradesOf(b), PaperWeights()).value;
+}
+
+struct Bridges::Library {
+  std::vector<TaggedClip> tagged;
+  MatchRules rules;
+
+  const TaggedClip& Of(int clip) const {
+    if (clip >= 0 && clip < static_cast<int>(tagged.size())) return tagged[clip];
+    throw BadInput(fmt::format("clip {}; allowed: 0 to {}", clip, tagged.size() - 1));
+  }
+};
+
+Bridges::Bridges(std::span<const Motion> clips, const BridgeOptions& options) : library_(std::make_unique<Library>()) {
+  if (options.min_clips < 1) throw BadInput(fmt::format("min_clips {}; allowed: 1 or more", options.min_clips));
+  if (!(options.threshold > 0 && options.threshold <= kFarthest)) {
+    throw BadInput(fmt::format("threshold {}; allowed: above 0, up to {}", options.threshold, kFarthest));
+  }
+  const std::vector<BodyMotion> motions = ToBodyMotions(clips);
+  const BodyPose& first = motions.front().poses.front();
+  const double hips = StandingHipHeight(first);
+  if (hips <= 0) throw BadInput("clip 0: a body without legs");
+  TagRules rules;
+  rules.min_clips = options.min_clips;
+  library_->tagged = TagClips(PerformedBy(MakeBodyProportions(first, hips), motions), hips, rules);
+  library_->rules.threshold = options.threshold;
+}
+
+Bridges::Bridges(Bridges&&) noexcept = default;
+Bridges& Bridges::operator=(Bridges&&) noexcept = default;
+Bridges::~Bridges() = default;
+
+std::span<const int> Bridges::FramesOf(int clip) const { return library_->Of(clip).bridge_frames; }
+
+std::optional<TransitionPoint> Bridges::Find(int from, int frame, int to, double budget_s) const {
+  const TaggedClip& playing = library_->Of(from);
+  const TaggedClip& next = library_->Of(to);
+  if (frame < 0 || frame >= playing.FrameCount()) {
+    throw BadInput(fmt::format("frame {} of clip {}; allowed: 0 to {}", frame, from, playing.FrameCount() - 1));
+  }
+  constexpr double kLongestWait = 3600;
+  if (!(budget_s >= 0 && budget_s <= kLongestWait)) {
+    throw BadInput(fmt::format("a budget of {} s; allowed: 0 to {}", budget_s, kLongestWait));
+  }
+  const auto found = FindTransitionPoint(playing, WaitWindow(playing, frame, budget_s), next, library_->rules);
+  if (!found) return std::nullopt;
+  return TransitionPoint{found->from, found->to, found->distance.value};
+}
+
+}  // namespace etude::engine
