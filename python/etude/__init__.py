@@ -15,13 +15,13 @@ _HOMES = {
     "etude.conversation": ("method", "serve", "NoAnswer"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
-__all__ = [*_HOME_OF, "plot", "problems"]
+__all__ = [*_HOME_OF, "engine", "plot", "problems"]
 
 
 def __getattr__(name):
     if name in _HOME_OF:
         return getattr(importlib.import_module(_HOME_OF[name]), name)
-    if name in ("plot", "problems"):
+    if name in ("engine", "plot", "problems"):
         return importlib.import_module("etude." + name)
     if name[:1].isupper():  # IkProblem, CoachPolicyAnswer, …
         problems = importlib.import_module("etude.problems")

@@ -1,0 +1,6 @@
+"""The engine on arrays: the module `etude_engine`, a wheel of its own (docs/python.md#the-engine-on-arrays)."""
+try:
+    from etude_engine import *  # noqa: F401, F403
+except ImportError as error:
+    raise ImportError("etude.engine is the module etude_engine: python3 -m build --wheel --no-isolation python/engine, then "
+                      "pip install the wheel") from error
