@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes etude/problems.py, the dataclasses of docs/schemas/protocol.schema.json; tests/python holds the two together."""
+"""Writes etude/problems.py, the dataclasses of docs/schemas/protocol.schema.json. tests/python holds the two together.
+"""
 import json
 import pathlib
 import textwrap

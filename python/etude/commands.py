@@ -14,14 +14,14 @@ from etude.results import load
 from etude.shipping import ship, write_once
 
 
-def run(scenario, *, methods=(), trials=None, output=None, seed=None, clips=(), jobs=None, overwrite=False, resume=False,
-        fenced=True, progress=True, program=None):
+def run(scenario, *, methods=(), trials=None, output=None, seed=None, clips=(), jobs=None, overwrite=False,
+        resume=False, fenced=True, progress=True, program=None):
     """Runs a scenario and gives its Run, as load does.
 
     scenario: a file, a folder of them, what comes with etude (`"quick/ik"`), or a dict with the keys of a scenario.
-    methods: further ones, of @etude.method or as dicts with the keys of a scenario's entry; those of @etude.method go into
-    the scenarios of their task. output: the result folder, out/NAME-SEED by default; it must be new unless `overwrite` or
-    `resume`. progress: True shows it on standard error, a function is called with (cells done, cells).
+    methods: further ones, of @etude.method or as dicts with the keys of a scenario's entry; those of @etude.method go
+    into the scenarios of their task. output: the result folder, out/NAME-SEED by default; it must be new unless
+    `overwrite` or `resume`. progress: True shows it on standard error, a function is called with (cells done, cells).
 
     Warns when no cell is ok. Raises EtudeError, whose `run` is the run where one is there all the same: exit code 1, a
     method has no answer.
@@ -177,9 +177,9 @@ def score(target, predictions, output, *, name=None, alone=False, allow_missing=
           program=None):
     """Scores answers and gives the Run.
 
-    target: a data set that `etude export` wrote. predictions: a folder of answers; or a method of @etude.method, which is
-    then asked here, in this process and without a fence, all problems of a setting at once where it takes batches, and
-    whose answers are kept in the folder `output` + ".answers".
+    target: a data set that `etude export` wrote. predictions: a folder of answers; or a method of @etude.method, which
+    is then asked here, in this process and without a fence, all problems of a setting at once where it takes batches,
+    and whose answers are kept in the folder `output` + ".answers".
     """
     if hasattr(predictions, "__etude__"):
         name = name or spec_of(predictions).name

@@ -26,8 +26,8 @@ def method(task, seat="", *, name=None, version="1", options=None, time_s=None, 
     """Makes a method of a function or a class, which stays what it was and can be called as before.
 
     A function is given a problem and returns its answer. It may ask, by the names of its arguments, for `setting`,
-    `options` (of the scenario, a dict) and `files` (the folder of attachments) as well. With `batch`, it is given a list
-    of problems and returns a list of answers: a run asks for one at a time, etude.score for all of a setting at once.
+    `options` (of the scenario, a dict) and `files` (the folder of attachments) as well. With `batch`, it is given a
+    list of problems and returns a list of answers: a run asks for one at a time, etude.score for all of a setting.
 
     A class is made anew for every setting, by `__init__(self, …)` with any of `setting`, `options`, `files`, and has
     `answer(self, problem)`. With a `seat` in a loop it has `begin(self, session)`, which may be missing, and
@@ -173,7 +173,7 @@ def serve(what, lines=None, output=None):
         if kind == "hello":
             if message["protocol"] != PROTOCOL:
                 sys.exit(f"speaks protocol {PROTOCOL}, was asked for {message['protocol']}")
-            if message["task"] != spec.task:
+            if message.get("task", spec.task) != spec.task:
                 sys.exit(f"is a method of task '{spec.task}', was asked for '{message['task']}'")
             options = message["options"]
             say(type="hello", protocol=PROTOCOL, name=spec.name, version=str(spec.version))

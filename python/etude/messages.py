@@ -12,13 +12,12 @@ class Message:
 
     @classmethod
     def of(cls, told):
-        """Makes one of an object as json.loads gives it. Keys that it does not know are for later versions: left out."""
+        """Makes one of an object as json.loads gives it. Keys that it does not know are for later versions, and left
+        out; what is missing is None."""
         found = {}
-        for name in cls.__dataclass_fields__:
+        for name in (field.name for field in dataclasses.fields(cls)):
             key = _key(name)
-            if key not in told:
-                continue
-            kind, value = cls.HOLDS.get(key), told[key]
+            kind, value = cls.HOLDS.get(key), told.get(key)
             if value is not None and kind is not None:
                 value = [kind[0].of(each) for each in value] if isinstance(kind, list) else kind.of(value)
             found[name] = value

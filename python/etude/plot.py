@@ -9,7 +9,8 @@ from etude.program import EtudeError
 from etude.results import Pairs
 from etude.tables import condition_text
 
-COLOURS = ("#41464b", "#1ea194", "#9c5201", "#8b19e6", "#316f93", "#ae8f16", "#470014", "#02175b")  # the page's, in order
+# The page's, in its order.
+COLOURS = ("#41464b", "#1ea194", "#9c5201", "#8b19e6", "#316f93", "#ae8f16", "#470014", "#02175b")
 DASHES = ("-", "-", "-", "-", "--", "--", ":", ":")
 BAND, QUIET = "#e4e2da", "#8a8a86"
 SWARM = 0.18
@@ -31,7 +32,8 @@ def estimation(pairs, **named):
     names = sorted({unit for unit in pairs.units if unit is not None})
     colours = [_colour(names.index(unit)) if unit is not None else None for unit in pairs.units]
     left, right = ([place + offset for offset in _aside(of)] for place, of in ((0, pairs.baseline), (1, pairs.method)))
-    values.plot([left, right], [list(pairs.baseline), list(pairs.method)], color=QUIET, linewidth=0.5, alpha=0.5, zorder=1)
+    values.plot([left, right], [list(pairs.baseline), list(pairs.method)], color=QUIET, linewidth=0.5, alpha=0.5,
+                zorder=1)
     for x, y, own in ((left, pairs.baseline, 0), (right, pairs.method, 1)):
         values.scatter(x, y, s=14, c=[colour or _colour(own) for colour in colours], zorder=2)
     values.set_xticks([0, 1], [pairs.baseline_name, pairs.method_name])
@@ -50,7 +52,8 @@ def _differences(axes, pairs, names, colours):
     matters = pairs.metric.practical_threshold if pairs.metric else 0
     axes.axhspan(-matters, matters, color=BAND, zorder=0)
     axes.axhline(0, color=QUIET, linewidth=0.8, zorder=1)
-    axes.scatter(_aside(pairs.difference), pairs.difference, s=14, c=[colour or _colour(1) for colour in colours], zorder=2)
+    axes.scatter(_aside(pairs.difference), pairs.difference, s=14, c=[colour or _colour(1) for colour in colours],
+                 zorder=2)
     ticks, labels = [0], ["each world"]
     told = pairs.verdict.details if pairs.verdict else None
     if told and told["difference"] is not None:
@@ -72,8 +75,8 @@ def _differences(axes, pairs, names, colours):
 
 
 def curves(run, name, *, scenario=None, condition=None):
-    """A curve of every method over its steps: the median of all cells, of which one that has ended keeps its last value,
-    as on the page. name: of a series, such as "position_error_max_cm"."""
+    """A curve of every method over its steps: the median of all cells, of which one that has ended keeps its last
+    value, as on the page. name: of a series, such as "position_error_max_cm"."""
     scenario = run._named(scenario)
     found, axis, unit = {}, "", ""
     for each in run.series(name, scenario=scenario, condition=condition):
@@ -92,9 +95,8 @@ def curves(run, name, *, scenario=None, condition=None):
             axes.plot(median, DASHES[i % len(DASHES)], color=_colour(i), label=method)
     if min(drawn) > 0 and max(drawn) / min(drawn) > 100:
         axes.set_yscale("log")
-    metric = run.metrics.get(name)
     axes.set_xlabel(axis)
-    axes.set_ylabel(_label(metric) if metric else f"{name.rsplit('_', 1)[0].replace('_', ' ')}, {unit}" if unit else name)
+    axes.set_ylabel(_label(run.metrics[name]) if name in run.metrics else f"{name} ({unit})" if unit else name)
     axes.set_title(f"{scenario}: median{'' if condition in (None, '-') else ', ' + condition}", fontsize="medium")
     axes.legend(fontsize="small", frameon=False, loc="center left", bbox_to_anchor=(1, 0.5))
     return _shown(figure)
@@ -107,7 +109,7 @@ def median_curve(several):
 
 
 def error_budget(run, *, scenario=None, condition=None, method=None):
-    """What each stage costs, as a waterfall from a method's error down to what is left, with the summary's intervals."""
+    """What each stage costs: a waterfall from a method's error down to what is left, with the summary's intervals."""
     wanted = [scenario] if scenario is not None else run.scenarios
     for each in run.summary["scenarios"]:
         for of in each["conditions"] if each["name"] in wanted else ():
@@ -126,9 +128,11 @@ def _waterfall(budget, metric):
         left -= share["mean"]
     bars.append(("what is left", 0, budget["rest"], None))
     for i, (_, begin, end, share) in enumerate(bars):
-        axes.barh(i, end - begin, left=begin, height=0.5, color=_colour(0 if share is None else 2 if end > begin else 1))
+        colour = _colour(0 if share is None else 2 if end > begin else 1)
+        axes.barh(i, end - begin, left=begin, height=0.5, color=colour)
         if share and share["mean_ci95_low"] is not None:
-            axes.plot([begin - share["mean_ci95_low"], begin - share["mean_ci95_high"]], [i, i], color="black", linewidth=1.5)
+            ends = [begin - share["mean_ci95_low"], begin - share["mean_ci95_high"]]
+            axes.plot(ends, [i, i], color="black", linewidth=1.5)
     axes.set_yticks(range(len(bars)), [bar[0] for bar in bars])
     axes.invert_yaxis()
     axes.set_xlabel(_label(metric))

@@ -16,9 +16,9 @@ _TENTH = re.compile(r" *(\d+) %  (\d+)/(\d+) ")
 class EtudeError(Exception):
     """What the program complained of, or what of a run cannot be had.
 
-    text: the complaint. place: `file:line:column` where it names one, else "". exit_code: the program's (1: a method has
-    no answer; 2: bad input, nothing was written; 3: this machine hindered it), None where none ran. said: all that it
-    said on standard error. run: the run that is there all the same, else None.
+    text: the complaint. place: `file:line:column` where it names one, else "". exit_code: the program's (1: a method
+    has no answer; 2: bad input, nothing was written; 3: this machine hindered it), None where none ran. said: all that
+    it said on standard error. run: the run that is there all the same, else None.
     """
 
     def __init__(self, text, exit_code=None, said="", run=None):
@@ -47,8 +47,8 @@ def find_program(program=None):
     for path in [shutil.which("etude"), *beside]:
         if path and os.access(path, os.X_OK) and os.path.isfile(path):
             return os.fspath(path)
-    raise EtudeError(f"no program 'etude': not in PATH, not beside the package ({', '.join(map(str, beside))}), and ETUDE "
-                     "in the environment names none")
+    raise EtudeError(f"no program 'etude': not in PATH, not beside the package ({', '.join(map(str, beside))}), and "
+                     "ETUDE in the environment names none")
 
 
 def call(*arguments, program=None, progress=False, allowed=(0,)):

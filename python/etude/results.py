@@ -110,7 +110,7 @@ class Motion:
 
 @dataclass(frozen=True)
 class Series:
-    """A curve of one cell: `values` along `axis` ("frame", "iteration", …). names: what whole numbers in it stand for."""
+    """A curve of one cell: `values` along `axis` ("frame", "iteration", …). names: what its whole numbers stand for."""
     cell: str
     condition: str
     trial: int
@@ -191,8 +191,8 @@ class Run:
         if condition is not None and condition not in conditions:
             raise EtudeError(f"{scenario}: no condition '{condition}'; there are {', '.join(conditions)}")
         metric = metric or summary["headline_metrics"][0]
-        values, methods = table[metric], table["method"]
-        clips, units = (table[name] if name in table else [None] * len(table) for name in ("clip", "units"))
+        values, methods = list(table[metric]), list(table["method"])
+        clips, units = (list(table[name]) if name in table else [None] * len(table) for name in ("clip", "units"))
         worlds = {}
         for i, (of, trial) in enumerate(zip(table["condition"], table["trial"])):
             name = methods[i]
@@ -235,7 +235,8 @@ class Run:
         if name == own:
             name = next((each for each in ("recovered", "solution", "coach", "sensed") if each in tracks), name)
         if name not in tracks:
-            raise EtudeError(f"cell '{cell}' recorded no '{name}'{nearest(name, tracks)}; there are {', '.join(tracks)}")
+            raise EtudeError(f"cell '{cell}' recorded no '{name}'{nearest(name, tracks)}; there are "
+                             f"{', '.join(tracks)}")
         return _motion(cell, tracks[name], self._joints)
 
     def series(self, name=None, *, scenario=None, method=None, condition=None, trial=None):

@@ -37,7 +37,8 @@ def ship(method):
     if _is_importable(method, module):
         top = _folder_of(module)
         granted.append(top)
-        source = f"import sys\nsys.path.insert(0, {top!r})\nfrom {module.__name__} import {method.__qualname__} as asked\n"
+        source = (f"import sys\nsys.path.insert(0, {top!r})\n"
+                  f"from {module.__name__} import {method.__qualname__} as asked\n")
         arrays = {}
     else:
         pieces = _Pieces()
@@ -145,19 +146,20 @@ class _Pieces:
         elif getattr(value, "__module__", None) and getattr(value, "__qualname__", "<").isidentifier() and \
                 getattr(sys.modules.get(value.__module__), value.__qualname__, None) is value:
             self._seen[name] = value
-            self._import(sys.modules[value.__module__], f"from {value.__module__} import {value.__qualname__} as {name}")
+            self._import(sys.modules[value.__module__],
+                         f"from {value.__module__} import {value.__qualname__} as {name}")
         elif type(value).__module__ == "numpy" and type(value).__name__ == "ndarray" and value.dtype != object:
             self._add_array(name, value)
         elif _is_plain(value):
             text = pprint.pformat(value, width=120, compact=True, sort_dicts=False)
             if len(text) > LARGEST:
-                raise ValueError(f"{whose} uses '{name}', a {type(value).__name__} too large to be sent; read it from a "
-                                 "file that its `files` lists")
+                raise ValueError(f"{whose} uses '{name}', a {type(value).__name__} too large to be sent; read it from "
+                                 "a file that its `files` lists")
             self._seen[name] = value
             self._lines.append(f"{name} = {text}\n")
         else:
-            raise ValueError(f"{whose} uses '{name}', an open {type(value).__name__}, which cannot be sent: make it within "
-                             "the method, or in a class's __init__, or read it from a file that its `files` lists")
+            raise ValueError(f"{whose} uses '{name}', an open {type(value).__name__}, which cannot be sent: make it "
+                             "within the method, or in a class's __init__, or read it from a file that its `files` lists")
 
     def _import(self, module, line):
         """One of our own folders must be shown and in the path; what Python brings is there."""
@@ -194,8 +196,8 @@ def _names_used(source, whose):
             elif symbol.is_global() and symbol.is_referenced():
                 found[symbol.get_name()] = None
             elif symbol.is_declared_global() and symbol.is_assigned():
-                raise ValueError(f"{whose} sets the global '{symbol.get_name()}', which it would not keep: remember it in "
-                                 "a class")
+                raise ValueError(f"{whose} sets the global '{symbol.get_name()}', which it would not keep: remember "
+                                 "it in a class")
         for child in table.get_children():
             look(child)
 
@@ -239,8 +241,8 @@ def _find(thing, name, whose):
         except ValueError:
             return False, None
         if isinstance(value, (list, dict, set, bytearray)):
-            raise ValueError(f"{whose} uses '{name}', an open {type(value).__name__} of the function around it, which cannot "
-                             "be sent: what is put into it would be lost. A tuple can be sent; remember in a class")
+            raise ValueError(f"{whose} uses '{name}', an open {type(value).__name__} of the function around it, which "
+                             "cannot be sent: what is put into it would be lost. A tuple can be sent; remember in a class")
         return True, value
     around = vars(sys.modules[thing.__module__]) if thing.__module__ in sys.modules else {}
     for function in _functions_of(thing):

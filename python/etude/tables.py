@@ -43,6 +43,10 @@ class Column(collections.abc.Sequence):
         value = value.item() if hasattr(value, "item") else value
         return None if isinstance(value, float) and math.isnan(value) else value
 
+    def __iter__(self):
+        values = self.values.tolist() if hasattr(self.values, "tolist") else self.values
+        return (None if isinstance(value, float) and value != value else value for value in values)
+
     def __array__(self, dtype=None, copy=None):
         import numpy
         return numpy.asarray(self.values, dtype=dtype)
@@ -98,8 +102,8 @@ class Table:
         """The cells whose columns are as wanted: `table.where(method="adaptive", joint_noise_deg=15)`."""
         kept = range(len(self))
         for name, value in wanted.items():
-            column = self[name]
-            kept = [i for i in kept if column[i] == value]
+            values = list(self[name])
+            kept = [i for i in kept if values[i] == value]
         readers = {name: (lambda name=name: _take(self[name].values, kept)) for name in self._readers}
         digests = [name for name in self._readers if name not in self.columns]
         return Table(self.scenario, self.task, len(kept), readers, self.null_columns, self._metrics,
@@ -220,7 +224,8 @@ def table_of_columns(folder, metrics):
     named = [text or None for text in index["texts"]]
     readers = {}
     for key in conditions[0] if conditions else ():
-        readers[key] = lambda key=key: spread([_as_row_has_it(each[key]) for each in conditions], 1, trials * len(methods))
+        of_conditions = [_as_row_has_it(each[key]) for each in conditions]
+        readers[key] = lambda values=of_conditions: spread(values, 1, trials * len(methods))
     readers["scenario"] = lambda: spread([index["scenario"]], 1, length)
     readers["condition"] = lambda: spread([condition_text(each) for each in conditions], 1, trials * len(methods))
     readers["trial"] = lambda: spread(range(trials), len(conditions), len(methods))

@@ -148,7 +148,8 @@ class OutsideMethods(EtudeCase):
         told = "".join(json.dumps(message) + "\n" for message in asked)
         answers = []
         for program in (["python3", EXAMPLES / "coach_policy.py"], ["node", EXAMPLES / "coach_policy.mjs"]):
-            said = subprocess.run(program, input=told, capture_output=True, text=True, check=True).stdout
+            said = subprocess.run(program, input=told, capture_output=True, text=True, check=True,
+                                  env={**os.environ, "PYTHONPATH": str(ROOT / "python")}).stdout
             answers.append([json.loads(line) for line in said.splitlines()][1:])  # without its name
         self.assertEqual(*answers)
         self.assertEqual({message["answer"]["correct"] for message in answers[0] if "answer" in message}, {True, False})

@@ -115,7 +115,8 @@ class Shipped(PythonCase):
         appends, counts, _ = make([], 1.0)
         lambdas = etude.method(task="ik")(lambda problem: problem.start_angles_deg)
         for method, says in ((reads, "uses 'opened', an open TextIOWrapper"), (appends, "uses 'kept', an open list"),
-                             (counts, "nonlocal 'count'.*remember it in a class"), (misses, "'not_there', which is not def"),
+                             (counts, "nonlocal 'count'.*remember it in a class"), 
+                             (misses, "'not_there', which is not def"),
                              (lambdas, "is a lambda")):
             with self.assertRaisesRegex(ValueError, says):
                 shipping.ship(method)

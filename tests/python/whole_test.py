@@ -32,7 +32,7 @@ for line in sys.stdin:
     elif kind in ("setting", "begin"):
         reply = {"type": "ready"}
     else:
-        reply = {**{key: told[key] for key in ("id", "number") if key in told}, "type": "no_answer", "reason": "a mirror"}
+        reply = {**{key: told[key] for key in ("id", "number") if key in told}, "type": "no_answer", "reason": "mirror"}
     print(json.dumps(reply), flush=True)
 """
 
@@ -43,8 +43,8 @@ class Whole(PythonCase):
         mirror.write_text(MIRROR)
         for task, seats in conversation.TASKS.items():
             for seat in seats:
-                told = subprocess.run([ETUDE, "check-method", "--no-fence", "--task", task, *["--seat", seat] * bool(seat),
-                                       "--", sys.executable, mirror, task, seat or "-"], capture_output=True, text=True)
+                told = subprocess.run([ETUDE, "check-method", "--no-fence", "--task", task,
+                                       *["--seat", seat] * bool(seat), "--", sys.executable, mirror, task, seat or "-"], capture_output=True, text=True)
                 lines = told.stderr.splitlines()
                 self.assertIn("same", lines, (task, seat, told.stdout))
                 self.assertEqual([line for line in lines if "LOST" in line], [], (task, seat))
@@ -74,14 +74,15 @@ class Whole(PythonCase):
     def test_a_wheel_is_built_and_installed_without_a_network(self):
         source = self.folder / "source"
         shutil.copytree(ROOT / "python", source, ignore=shutil.ignore_patterns("__pycache__"))
-        subprocess.run([sys.executable, "-m", "build", "--no-isolation", "--wheel", "-o", self.folder, source], check=True,
-                       capture_output=True, cwd=self.folder)
+        subprocess.run([sys.executable, "-m", "build", "--no-isolation", "--wheel", "-o", self.folder, source],
+                       check=True, capture_output=True, cwd=self.folder)
         wheel, = self.folder.glob("*.whl")
         self.assertTrue(wheel.name.endswith("-py3-none-any.whl"), wheel)
         clean = self.folder / "clean"
         subprocess.run([sys.executable, "-m", "venv", clean], check=True, capture_output=True)
         environment = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
-        subprocess.run([clean / "bin/pip", "install", "--no-index", wheel], check=True, capture_output=True, env=environment)
+        subprocess.run([clean / "bin/pip", "install", "--no-index", wheel], check=True, capture_output=True,
+                       env=environment)
         script = self.folder / "script.py"
         script.write_text(
             "import etude, sys\n"
@@ -95,6 +96,26 @@ class Whole(PythonCase):
         told = subprocess.run([clean / "bin/python", script], capture_output=True, text=True, cwd=self.folder,
                               env=environment)
         self.assertEqual((told.stdout, told.returncode), ("deg\n", 0), told.stderr)
+
+    def test_installed_it_is_found_by_python_and_by_programs_in_the_fence(self):
+        prefix = self.folder / "prefix"
+        subprocess.run(["cmake", "--install", pathlib.Path(ETUDE).resolve().parent, "--prefix", prefix], check=True,
+                       capture_output=True)
+        (self.folder / "mine.py").write_text("import etude\n"
+                                             "assert '/prefix/share/etude/python/' in etude.__file__, etude.__file__\n"
+                                             "@etude.method(task='ik')\n"
+                                             "def mine(problem):\n"
+                                             "    return problem.start_angles_deg\n"
+                                             "etude.serve(mine)\n")
+        code = ("import site, sys; site.addsitedir(sys.argv[1]); import etude\n"
+                "print(etude.find_program())\n"
+                f"run = etude.run({ {**SCENARIO, 'trials': 1, 'video': {}}!r}, output='run', progress=False,\n"
+                "                methods=[{'name': 'mine', 'exec': ['/usr/bin/python3', 'mine.py']}])\n"
+                "print(*run['ik'].where(method='mine')['status'])\n")
+        environment = {key: value for key, value in os.environ.items() if key not in ("PYTHONPATH", "ETUDE")}
+        told = subprocess.run([sys.executable, "-c", code, prefix / "lib/python3/dist-packages"], capture_output=True,
+                              text=True, cwd=self.folder, env=environment)
+        self.assertEqual(told.stdout, f"{prefix}/bin/etude\nunsolved unsolved\n", told.stderr)
 
     @unittest.skipUnless(all(map(importlib.util.find_spec, ("nbclient", "ipykernel", "matplotlib", "pandas"))),
                          "needs scripts/setup --python")
@@ -110,7 +131,7 @@ class Whole(PythonCase):
         shown = [output for cell in notebook.cells for output in cell.get("outputs", [])]
         pictures = [output for output in shown if "image/png" in output.get("data", {})]
         self.assertGreaterEqual(len(pictures), 2)
-        text = "".join(output.get("text", "") + "".join(output.get("data", {}).get("text/plain", "")) for output in shown)
+        text = "".join(output.get("text", "") + output.get("data", {}).get("text/plain", "") for output in shown)
         self.assertIn("mine", text)
         self.assertIn("on these worlds;", text)
         self.assertIn("mine against ", text)

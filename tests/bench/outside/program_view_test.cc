@@ -53,9 +53,7 @@ TEST_F(ProgramViewTest, ShowsALinkWithTheFolderThatItLiesInAndNotOnceMore) {
               ElementsAre(In("mine"), In("other/weights.bin")));
 }
 
-TEST_F(ProgramViewTest, FindsThePythonPackageOfTheTree) {
-  EXPECT_EQ(PythonFolder(), fs::current_path() / "python");
-}
+TEST_F(ProgramViewTest, FindsThePythonPackageOfTheTree) { EXPECT_EQ(PythonFolder(), fs::current_path() / "python"); }
 
 TEST_F(ProgramViewTest, NamesFilesOfOursByAbsolutePathsAndNoPlainWords) {
   // Tests are run at the top of the tree.
