@@ -42,7 +42,7 @@ def find_program(program=None):
                 return os.path.abspath(found)
             raise EtudeError(f"{origin}: '{given}' is no program")
     package = pathlib.Path(__file__).resolve().parent
-    beside = [package.parents[2] / "bin" / "etude"] if len(package.parents) > 2 else []
+    beside = [package.parents[3] / "bin" / "etude"] if len(package.parents) > 3 else []
     beside += [package.parents[1] / "build" / build / "etude" for build in BUILDS]
     for path in [shutil.which("etude"), *beside]:
         if path and os.access(path, os.X_OK) and os.path.isfile(path):

@@ -115,7 +115,7 @@ class Shipped(PythonCase):
         appends, counts, _ = make([], 1.0)
         lambdas = etude.method(task="ik")(lambda problem: problem.start_angles_deg)
         for method, says in ((reads, "uses 'opened', an open TextIOWrapper"), (appends, "uses 'kept', an open list"),
-                             (counts, "nonlocal 'count'.*remember it in a class"), 
+                             (counts, "nonlocal 'count'.*remember it in a class"),
                              (misses, "'not_there', which is not def"),
                              (lambdas, "is a lambda")):
             with self.assertRaisesRegex(ValueError, says):
@@ -164,7 +164,7 @@ class Runs(PythonCase):
                               env={**os.environ, "PYTHONPATH": path})
         assert told.returncode == 0, told.stderr
         ik_dls.DampedLeastSquares.__etude__.options = {"max_steps": 7}
-        program = {"name": "program", "exec": [sys.executable, f"{examples}/ik_dls.py"], "options": {"max_steps": 7}}
+        program = {"name": "program", "exec": ["python3", f"{examples}/ik_dls.py"], "options": {"max_steps": 7}}
         cls.shared, cls.seen = cls.shared_folder(), []
         cls.scenario = cls.shared / "ik.yaml"
         cls.scenario.write_text(IN_LINES)
