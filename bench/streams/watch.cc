@@ -39,6 +39,7 @@ std::optional<std::size_t> Classify(const SeenStream& seen, int begin, int end, 
     const Evidence evidence = follower->Update(seen[static_cast<std::size_t>(t)]);
     for (std::size_t m = 0; m < moves; ++m) best[m] = std::max(best[m], evidence.spotted[m]);
   }
+  if (const auto whole = follower->Whole()) return whole;
   const auto highest = std::ranges::max_element(best);
   if (highest == best.end() || *highest <= 0) return std::nullopt;
   return static_cast<std::size_t>(highest - best.begin());

@@ -56,6 +56,9 @@ class MoveFollower {
   /// before does not count. Without a move, closes the window.
   virtual void Ask(std::optional<std::size_t> move) = 0;
   virtual Evidence Update(const SeenFrame& frame) = 0;
+  /// Returns the taught move that all of what was seen so far looks most like as one performance, for who is told where
+  /// performances begin and end; nothing: this follower knows the ends of passages only.
+  virtual std::optional<std::size_t> Whole() const { return std::nullopt; }
 };
 
 /// A recogniser that was taught its moves: constant from then on, and shared by all streams it follows.

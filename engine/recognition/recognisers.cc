@@ -6,6 +6,7 @@
 #include "engine/recognition/example_recognisers.h"
 #include "engine/recognition/key_pose.h"
 #include "engine/recognition/learnt_model.h"
+#include "engine/recognition/whole_body.h"
 
 namespace etude {
 namespace {
@@ -110,8 +111,17 @@ std::span<const RecogniserKind> AllRecognisers() {
        .description =
            "ours: learnt, for who is asked by a clock that keeps the music's time; taught by people before a coach",
        .needs_examples = true,
+       .teach =
+           [](std::span<const TaughtMove> taught, const RecogniserOptions& options) {
+             return MakeLearntRecogniser(taught, options.weights, BuiltinCoachedModel(), ByClock::kYes);
+           }},
+      {.name = "whole-body",
+       .description =
+           "ours, for recorded people: learnt's judgement; sides and names by the three nearest whole bodies",
+       .needs_examples = true,
        .teach = [](std::span<const TaughtMove> taught, const RecogniserOptions& options) {
-         return MakeLearntRecogniser(taught, options.weights, BuiltinCoachedModel(), ByClock::kYes);
+         return MakeWholeBodyRecogniser(taught, options.weights,
+                                        MakeLearntRecogniser(taught, options.weights, BuiltinLearntModel()));
        }}};
   return recognisers;
 }

@@ -105,7 +105,7 @@ glm::dvec3 Knee(const BodyPose& pose, Role hip, Role knee, Role ankle) {
 /// Checks that left is left throughout a motion, in the body's own frame, so that it may lie or turn over (ours).
 /// Refused, naming `file`: a left arm on the side of the right leg; feet that point backwards, or, when `map` has
 /// composed them forward, knees that stand out backwards. Straight knees prove nothing and pass; where they
-/// `may_overstretch`, so do those that a depth sensor bends back by up to 20° (OpenNI: 3 to 17°), and a note is left.
+/// `may_overstretch`, so do those that a depth sensor bends back by up to 30° (OpenNI: 3 to 26°), and a note is left.
 Result<std::string> CheckSides(std::span<const BodyPose> poses, const JointMap& map, const std::string& file,
                                bool may_overstretch) {
   double arms = 0;
@@ -132,7 +132,7 @@ Result<std::string> CheckSides(std::span<const BodyPose> poses, const JointMap& 
   if (has_feet || knees >= -kStandsOut * count) return std::string();
   const double sine = std::min(-2 * knees / count, 1.0);  // of half the angle, where both halves of a leg are equal
   const double overstretched = 2 * Degrees(std::asin(sine));
-  if (may_overstretch && overstretched <= 20) {
+  if (may_overstretch && overstretched <= 30) {
     return fmt::format("; the knees overstretch by {:.0f} degrees in the mean: a sensor's, or left and right swapped",
                        overstretched);
   }

@@ -19,7 +19,7 @@ struct BodyOptions {
   std::optional<UpAxis> up = std::nullopt;
   std::optional<double> floor = std::nullopt;  ///< its height along that axis, in the file's unit
   bool drop_t_pose = true;                     ///< a leading one that the motion jumps away from
-  bool may_overstretch = false;  ///< knees stand out backwards by up to 20° in the mean: told, not refused
+  bool may_overstretch = false;  ///< knees stand out backwards by up to 30° in the mean: told, not refused
 };
 
 /// A clip as the twenty joints: metres, Y up, feet on the floor.

@@ -26,6 +26,10 @@ std::vector<TaughtMove> Taught() {
            .examples = {StreamOf(Swing(kHigh, 0, 2))}}};
 }
 
+bool IsTrained(const RecogniserKind& kind) {
+  return kind.name == "learnt" || kind.name == "coached" || kind.name == "whole-body";
+}
+
 class AnyRecogniser : public ::testing::TestWithParam<const RecogniserKind*> {
  protected:
   /// The evidence at the end of a window in which "left" was asked for.
@@ -38,7 +42,7 @@ class AnyRecogniser : public ::testing::TestWithParam<const RecogniserKind*> {
     return *FollowStream(*recogniser, 2, SeeStream(stream, {}), {{AskedMove{1, {30, End(stream)}}}});
   }
   /// What it learnt of dances it may only rank elsewhere: its scale is not these moves'.
-  static bool IsLearnt() { return GetParam()->name == "learnt" || GetParam()->name == "coached"; }
+  static bool IsLearnt() { return IsTrained(*GetParam()); }
   static int End(const SkeletonStream& stream) { return static_cast<int>(stream.frames.size()) - 15; }
 };
 
@@ -106,7 +110,7 @@ TEST_P(AnyRecogniser, LivesThroughWhatSensorsLoseAndThroughAnyRate) {
 std::vector<const RecogniserKind*> Kinds(bool with_learnt) {
   std::vector<const RecogniserKind*> kinds;
   for (const RecogniserKind& kind : AllRecognisers()) {
-    const bool is_learnt = kind.name == "learnt" || kind.name == "coached";
+    const bool is_learnt = IsTrained(kind);
     if (with_learnt || !is_learnt) kinds.push_back(&kind);
   }
   return kinds;
