@@ -59,6 +59,18 @@ Result<std::optional<SecretKey>> TakeSecretKey(const std::string& file, bool has
   return key;
 }
 
+Action WithSecretKey(CLI::App& command, const std::optional<std::uint64_t>* seed, std::optional<SecretKey>& key,
+                     const Action& act) {
+  auto file = std::make_shared<std::string>();
+  AddSeedFile(command, *file);
+  return [=, &key] {
+    auto taken = TakeSecretKey(*file, seed != nullptr && seed->has_value());
+    if (!taken) return Complain(taken.error());
+    key = std::move(*taken);
+    return act();
+  };
+}
+
 CLI::Option* AddJobs(CLI::App& command, int& jobs) {
   return command.add_option("-j,--jobs", jobs, "Worker processes (default: one per processor)")
       ->check(CLI::Range(1, 1024));

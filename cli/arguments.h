@@ -36,6 +36,10 @@ CLI::Option* AddSeed(CLI::App& command, std::optional<std::uint64_t>& seed, cons
 CLI::Option* AddSeedFile(CLI::App& command, std::string& file);
 /// Reads the key of secret worlds, if there is one; says when others can read its file, and refuses a seed beside it.
 Result<std::optional<SecretKey>> TakeSecretKey(const std::string& file, bool has_seed = false);
+/// Adds --seed-file, and makes an action that takes the key into `key` before it goes on to `act`, or complains. `seed`
+/// is that of --seed; null where there is none. Both belong to what `act` keeps.
+Action WithSecretKey(CLI::App& command, const std::optional<std::uint64_t>* seed, std::optional<SecretKey>& key,
+                     const Action& act);
 /// Adds -j, --jobs.
 CLI::Option* AddJobs(CLI::App& command, int& jobs);
 /// Adds --overwrite.

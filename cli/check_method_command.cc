@@ -2,29 +2,41 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "bench/outside/conformance.h"
 #include "bench/outside/outside_method.h"
 #include "bench/process/child_process.h"
 #include "bench/tasks/registry.h"
 #include "cli/commands.h"
+#include "cli/facts.h"
 #include "engine/base/names.h"
 
 namespace etude {
 namespace {
 
-int CheckMethodCommand(OutsideOptions options, const std::string& seat, bool is_fenced) {
+int CheckMethodCommand(OutsideOptions options, const std::string& seat, bool is_fenced, bool as_json) {
   AdoptOrphans();
   if (is_fenced) options.fence = Fence::Find();
-  fmt::print("fence: {}\n", options.fence.description());
+  if (!as_json) fmt::print("fence: {}\n", options.fence.description());
+  Json checks_made = Json::array();
   int checks = 0, passed = 0;
   const auto all_passed = CheckConformance(options, seat, [&](const ConformanceCheck& check) {
     ++checks;
     passed += check.passed ? 1 : 0;
+    checks_made.push_back({{"check", check.name}, {"passed", check.passed}, {"found", check.found}});
+    if (as_json) return;
     fmt::print("{}  {}: {}\n", check.passed ? "passed" : "FAILED", check.name, check.found);
     std::fflush(stdout);
   });
   if (!all_passed) return Complain(all_passed.error());
+  if (as_json) {
+    const auto printed = PrintFacts(
+        "check-method",
+        {{"passed", *all_passed}, {"fence", options.fence.description()}, {"checks", std::move(checks_made)}});
+    if (!printed) return Complain(printed.error());
+    return *all_passed ? kSuccess : kNothingWorked;
+  }
   fmt::print("{} of {} checks passed{}\n", passed, checks,
              *all_passed ? "" : "; docs/outside-methods.md tells what a method has to do");
   return *all_passed ? kSuccess : kNothingWorked;
@@ -37,7 +49,7 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
     std::vector<std::string> command, files;
     std::string task, seat;
     double time_s = 10, memory_mb = 4096;
-    bool is_fenced = true;
+    bool is_fenced = true, as_json = false;
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("check-method", "Test whether a program speaks the protocol of methods");
@@ -58,6 +70,7 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
   command->add_option("--files", options->files, "What the fence shows it (default: its own folder)")
       ->allow_extra_args(false);
   command->add_flag("!--no-fence", options->is_fenced, "Run it without a fence, to debug it");
+  AddJson(*command, options->as_json);
   command->callback([=, &action] {
     action = [=] {
       return CheckMethodCommand({.command = options->command,
@@ -65,7 +78,7 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
                                  .time_s = options->time_s,
                                  .memory_mb = options->memory_mb,
                                  .files = options->files},
-                                options->seat, options->is_fenced);
+                                options->seat, options->is_fenced, options->as_json);
     };
   });
 }

@@ -2,19 +2,26 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "bench/files/files.h"
 #include "bench/results/folder.h"
 #include "cli/commands.h"
+#include "cli/facts.h"
 #include "engine/base/digest.h"
 
 namespace etude {
 namespace {
 
-Result<int> CiteCommand(const std::string& folder) {
+Result<int> CiteCommand(const std::string& folder, bool as_json) {
   ASSIGN_OR_RETURN(const auto run, LoadRunOutline(folder));
   ASSIGN_OR_RETURN(const auto manifest, ReadWholeFile(folder + "/manifest.json"));
   const std::string digest = Digest().Add(std::string_view(manifest)).Hex();
+  if (as_json) {
+    RETURN_IF_ERROR(PrintFacts(
+        "cite", {{"suite", run.suite}, {"made_by", run.program_version}, {"seed", run.seed}, {"manifest", digest}}));
+    return kSuccess;
+  }
   fmt::print(
       "@software{{etude,\n"
       "  title   = {{Etude: a deterministic benchmark for interactive human motion}},\n"
@@ -35,7 +42,9 @@ void DefineCite(CLI::App& app, Action& action) {
   auto folder = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("cite", "BibTeX, and the sentence that names a run in a paper");
   command->add_option("folder", *folder, "A result folder")->required();
-  command->callback([=, &action] { action = [=] { return Finish(CiteCommand(*folder)); }; });
+  auto as_json = std::make_shared<bool>(false);
+  AddJson(*command, *as_json);
+  command->callback([=, &action] { action = [=] { return Finish(CiteCommand(*folder, *as_json)); }; });
 }
 
 }  // namespace etude

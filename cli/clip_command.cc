@@ -3,12 +3,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "bench/clips/clip_library.h"
 #include "bench/clips/convert.h"
 #include "bench/files/files.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
+#include "cli/facts.h"
 #include "cli/move_table.h"
 #include "cli/output_file.h"
 #include "engine/base/names.h"
@@ -165,7 +167,7 @@ void DefineContacts(CLI::App& clip, Action& action) {
 struct ClipMapOptions {
   std::string clip;
   std::string output;  ///< a joint-map file, "" = only printed
-  bool overwrite = false;
+  bool overwrite = false, as_json = false;
   std::string joint_map;
 };
 
@@ -185,6 +187,16 @@ std::vector<std::string> UnusedJoints(const Skeleton& skeleton, const JointMap& 
     if (!joint.is_end_site && std::ranges::none_of(map.points, plays)) unused.push_back(Quote(joint.name));
   }
   return unused;
+}
+
+Json RolesAsJson(const Skeleton& skeleton, const JointMap& map) {
+  Json roles = Json::array();
+  for (const Role role : AllRoles()) {
+    roles.push_back({{"role", RoleName(role)},
+                     {"joint", skeleton.joints[map[role].joint].name},
+                     {"composed", std::ranges::find(map.composed, role) != map.composed.end()}});
+  }
+  return roles;
 }
 
 /// Writes a map file for a skeleton whose roles were not found: every role to be filled in, and the names to choose
@@ -214,11 +226,15 @@ Result<int> ClipMapCommand(const ClipMapOptions& options) {
     }
     return tl::unexpected(map.error());
   }
-  PrintRoles(skeleton, *map);
-  PrintList("joints without a role:", UnusedJoints(skeleton, *map));
+  if (options.as_json) {
+    RETURN_IF_ERROR(PrintFacts("clip map", {{"clip", options.clip}, {"roles", RolesAsJson(skeleton, *map)}}));
+  } else {
+    PrintRoles(skeleton, *map);
+    PrintList("joints without a role:", UnusedJoints(skeleton, *map));
+  }
   if (!writes) return kSuccess;
   RETURN_IF_ERROR(WriteFileAtomically(options.output, WriteJointMapFile(skeleton, *map)));
-  TellWritten(options.output);
+  TellWritten(options.output, options.as_json ? stderr : stdout);
   return kSuccess;
 }
 
@@ -229,6 +245,7 @@ void DefineMap(CLI::App& clip, Action& action) {
   command->add_option("-o,--output", options->output,
                       "Write it as a joint-map file, to be edited; also when roles are missing");
   command->add_option("--joint-map", options->joint_map, "Roles that are taught already");
+  AddJson(*command, options->as_json);
   AddOverwrite(*command, options->overwrite);
   command->callback([=, &action] { action = [=] { return Finish(ClipMapCommand(*options)); }; });
 }

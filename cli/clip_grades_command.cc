@@ -3,11 +3,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "bench/clips/clip_library.h"
 #include "bench/files/files.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
+#include "cli/facts.h"
 #include "cli/output_file.h"
 #include "engine/fuzzy/fuzzy_motion.h"
 
@@ -18,7 +20,7 @@ struct ClipGradesOptions {
   std::vector<std::string> clips;
   std::string output;                   ///< a CSV file of one clip, "" = none
   std::string fuzzy = "builtin:paper";  ///< builtin:NAME or a file (docs/fuzzy-system.md)
-  bool overwrite = false;
+  bool overwrite = false, as_json = false;
   ClipReading reading;
 };
 
@@ -67,6 +69,22 @@ void PrintSimilarities(const ClipLibrary& clips, const std::vector<FuzzyMotion>&
   }
 }
 
+Json FactsOf(const ClipLibrary& clips, const std::vector<FuzzyMotion>& motions, const FuzzySystem& system) {
+  Json told = Json::array(), similarities = Json::array();
+  for (std::size_t a = 0; a < motions.size(); ++a) {
+    Json poses = Json::object();
+    for (const std::string& pose : system.rules.poses) poses[pose] = std::ranges::count(motions[a].poses, pose);
+    told.push_back({{"clip", clips.clips[a].name}, {"frames", motions[a].grades.size()}, {"poses", std::move(poses)}});
+    for (std::size_t b = a + 1; b < motions.size(); ++b) {
+      const auto similarity =
+          ComputeMotionSimilarity(motions[a].grades, motions[b].grades, {.weights = system.weights});
+      if (!similarity) continue;
+      similarities.push_back({{"a", clips.clips[a].name}, {"b", clips.clips[b].name}, {"similarity", *similarity}});
+    }
+  }
+  return {{"clips", std::move(told)}, {"similarities", std::move(similarities)}};
+}
+
 Result<int> ClipGradesCommand(const ClipGradesOptions& options) {
   if (!options.output.empty()) RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
   ASSIGN_OR_RETURN(const auto system, ReadFuzzy(options.fuzzy));
@@ -78,13 +96,18 @@ Result<int> ClipGradesCommand(const ClipGradesOptions& options) {
   std::vector<FuzzyMotion> motions;
   for (const LibraryClip& clip : clips.clips) {
     motions.push_back(FuzzifyMotion(clip.motion, StandingHipHeight(clip.motion.poses.front()), system));
+    if (options.as_json) continue;
     fmt::print("{}: {} frames; {}\n", clip.name, motions.back().grades.size(),
                PoseShares(motions.back(), system.rules));
   }
-  if (motions.size() > 1) PrintSimilarities(clips, motions, system.weights);
+  if (options.as_json) {
+    RETURN_IF_ERROR(PrintFacts("clip grades", FactsOf(clips, motions, system)));
+  } else if (motions.size() > 1) {
+    PrintSimilarities(clips, motions, system.weights);
+  }
   if (options.output.empty()) return kSuccess;
   RETURN_IF_ERROR(WriteFileAtomically(options.output, GradesCsv(motions.front())));
-  TellWritten(options.output);
+  TellWritten(options.output, options.as_json ? stderr : stdout);
   return kSuccess;
 }
 
@@ -98,6 +121,7 @@ void DefineGrades(CLI::App& clip, Action& action) {
   command->add_option("-o,--output", options->output, "A table (.csv) of one clip, a line per frame");
   command->add_option("--fuzzy", options->fuzzy, "Fuzzy system: builtin:NAME or a file")->capture_default_str();
   AddOverwrite(*command, options->overwrite);
+  AddJson(*command, options->as_json);
   AddClipReading(*command, options->reading);
   command->callback([=, &action] { action = [=] { return Finish(ClipGradesCommand(*options)); }; });
 }

@@ -3,10 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "bench/finished_runs/finished_runs.h"
 #include "bench/gate/comparison.h"
 #include "cli/commands.h"
+#include "cli/facts.h"
 #include "cli/move_table.h"
 #include "reports/gate_table.h"
 #include "reports/words/judged.h"
@@ -32,12 +34,18 @@ std::string ScopeSentence(const FinishedRun& run) {
   return fmt::format("All on these worlds; nothing is said about {}.", fmt::join(others, ", "));
 }
 
-Result<int> CompareCommand(const std::string& a, const std::string& b, Sealing sealing) {
+Result<int> CompareCommand(const std::string& a, const std::string& b, Sealing sealing, bool as_json) {
   ASSIGN_OR_RETURN(const auto run_a, LoadWholeRun(a, sealing));
   ASSIGN_OR_RETURN(const auto run_b, LoadWholeRun(b, sealing));
   Snapshot before = TakeSnapshot(run_a), after = TakeSnapshot(run_b);
   const std::vector<std::string> incomparable = DropIncomparable(before, after);
   const SnapshotComparison comparison = CompareSnapshots(before, after, {});
+  if (as_json) {
+    Json facts = FactsOf(comparison);
+    facts["incomparable"] = incomparable;
+    RETURN_IF_ERROR(PrintFacts("compare", std::move(facts)));
+    return kSuccess;
+  }
   PrintMoves(comparison, "A", "B", comparison.moves.size());
   PrintList("Only in A:", comparison.only_before);
   PrintList("Only in B:", comparison.only_after);
@@ -60,7 +68,9 @@ void DefineCompare(CLI::App& app, Action& action) {
   command->add_option("b", *b, "Another")->required();
   auto sealing = std::make_shared<Sealing>();
   AddUnsealed(*command, *sealing);
-  command->callback([=, &action] { action = [=] { return Finish(CompareCommand(*a, *b, *sealing)); }; });
+  auto as_json = std::make_shared<bool>(false);
+  AddJson(*command, *as_json);
+  command->callback([=, &action] { action = [=] { return Finish(CompareCommand(*a, *b, *sealing, *as_json)); }; });
 }
 
 }  // namespace etude

@@ -38,7 +38,7 @@ int ComplainOfFaults(const ScoreOptions& options, const PredictionFaults& faults
 }
 
 int ExportAll(const ExportOptions& options) {
-  const auto outcome = ExportSuite(options, ProgressOf("worlds"));
+  const auto outcome = ExportSuite(options, ProgressOf("parts of worlds (problems made, written, truths)"));
   if (!outcome) return Complain(outcome.error());
   fmt::print("{} problems in {}{}\nNext: give away {}/inputs, then etude score {} PREDICTIONS -o RESULT\n",
              outcome->problems, options.output,
@@ -63,18 +63,6 @@ int ScoreCommand(const ScoreOptions& given) {
   return ShowOutcome(outcome->run);
 }
 
-/// A command that first takes the key of its secret worlds.
-template <typename Options>
-Action WithKey(std::shared_ptr<Options> options, std::shared_ptr<std::string> key_file,
-               int (*command)(const Options&)) {
-  return [=] {
-    auto key = TakeSecretKey(*key_file, options->seed.has_value());
-    if (!key) return Complain(key.error());
-    options->key = std::move(*key);
-    return command(*options);
-  };
-}
-
 }  // namespace
 
 void DefineExport(CLI::App& app, Action& action) {
@@ -85,9 +73,8 @@ void DefineExport(CLI::App& app, Action& action) {
   command->add_option("-o,--output", options->output, "Folder of the data set")->required();
   command->add_flag("--films", options->films, "Each camera's take as an MP4, too, beside its pictures");
   AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map);
-  auto key_file = std::make_shared<std::string>();
-  AddSeedFile(*command, *key_file);
-  command->callback([=, &action] { action = WithKey(options, key_file, ExportCommand); });
+  const Action act = WithSecretKey(*command, &options->seed, options->key, [=] { return ExportCommand(*options); });
+  command->callback([=, &action] { action = act; });
 }
 
 void DefineScore(CLI::App& app, const std::string& command_line, Action& action) {
@@ -104,9 +91,8 @@ void DefineScore(CLI::App& app, const std::string& command_line, Action& action)
   command->add_flag("--allow-missing", options->allow_missing, "A world without answer is a failed cell");
   AddJobs(*command, options->jobs);
   AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map);
-  auto key_file = std::make_shared<std::string>();
-  AddSeedFile(*command, *key_file);
-  command->callback([=, &action] { action = WithKey(options, key_file, ScoreCommand); });
+  const Action act = WithSecretKey(*command, &options->seed, options->key, [=] { return ScoreCommand(*options); });
+  command->callback([=, &action] { action = act; });
 }
 
 }  // namespace etude

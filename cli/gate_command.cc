@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "bench/calibration/verdict_rates.h"
 #include "bench/files/files.h"
@@ -14,6 +15,7 @@
 #include "bench/gate/self_test.h"
 #include "bench/results/folder.h"
 #include "cli/commands.h"
+#include "cli/facts.h"
 #include "cli/move_table.h"
 #include "reports/gate_report.h"
 #include "reports/gate_table.h"
@@ -29,6 +31,7 @@ struct GateOptions {
   int repetitions = 40;       ///< of the self-test: pairs of seeds
   std::optional<int> trials;  ///< of the self-test: worlds per condition, else the scenario's
   bool verdicts = false;      ///< of the self-test: measure the verdicts beyond a run's worlds instead
+  bool as_json = false;
   Sealing sealing = Sealing::kRequired;
 };
 
@@ -79,6 +82,19 @@ void PrintReport(const GateReport& report) {
   fmt::print("Gate: {}\n", GateVerdictWords(GateVerdictOf(report)));
 }
 
+Json FactsOf(const GateReport& report) {
+  Json facts = {{"verdict", GateVerdictWords(GateVerdictOf(report))}, {"made_by", report.program_version}};
+  facts.update(FactsOf(report.comparison));
+  Json& expectations = facts["expectations"] = Json::array();
+  for (const GateExpectation& e : report.expectations) {
+    expectations.push_back(
+        {{"scenario", e.scenario}, {"ruling", RulingName(e.result.ruling)}, {"text", e.result.text}});
+  }
+  facts["silent"] = report.silent;
+  facts["incomplete"] = report.incomplete;
+  return facts;
+}
+
 Result<int> Judge(const GateOptions& options, const FinishedRun& run) {
   std::optional<Snapshot> baseline;
   if (!options.baseline.empty()) {
@@ -92,7 +108,11 @@ Result<int> Judge(const GateOptions& options, const FinishedRun& run) {
   const fs::path folder = fs::path(options.target) / "report";
   RETURN_IF_ERROR(WriteFileAtomically(folder / "gate.md", WriteGateMarkdown(report)));
   RETURN_IF_ERROR(WriteFileAtomically(folder / "gate.xml", WriteGateJunit(report)));
-  PrintReport(report);
+  if (options.as_json) {
+    RETURN_IF_ERROR(PrintFacts("gate", FactsOf(report)));
+  } else {
+    PrintReport(report);
+  }
   return ExitCode(GateVerdictOf(report));
 }
 
@@ -194,8 +214,9 @@ void DefineGate(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("gate", "Pass or fail a run, for a CI server");
   command->add_option("folder", options->target, "A result folder (with --self-test: a scenario file, or nothing)");
   CLI::Option* baseline = command->add_option("--baseline", options->baseline, "What the run is held against");
-  command->add_flag("--update", options->update, "Write the baseline from this run, and show what moved")
-      ->needs(baseline);
+  CLI::Option* update =
+      command->add_flag("--update", options->update, "Write the baseline from this run, and show what moved");
+  update->needs(baseline);
   CLI::Option* self_test =
       command->add_flag("--self-test", options->self_test, "Measure the gate's own false alarms and power")
           ->excludes(baseline);
@@ -209,6 +230,8 @@ void DefineGate(CLI::App& app, Action& action) {
       ->check(CLI::Range(1, 1000000))
       ->needs(self_test);
   AddUnsealed(*command, options->sealing);
+  CLI::Option* json = AddJson(*command, options->as_json);
+  json->excludes(self_test, update);
   command->callback([=, &action] { action = [=] { return Finish(GateCommand(*options)); }; });
 }
 

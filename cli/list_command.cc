@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "bench/metrics/catalogue.h"
 #include "bench/metrics/export.h"
@@ -12,6 +13,7 @@
 #include "bench/scenario/scenario.h"
 #include "bench/tasks/registry.h"
 #include "cli/commands.h"
+#include "cli/facts.h"
 #include "engine/base/names.h"
 #include "engine/kinematics/solvers/ik_solver.h"
 #include "sim/choreography/move.h"
@@ -25,12 +27,51 @@ void PrintSolvers() {
   for (const IkSolver& solver : AllIkSolvers()) fmt::print("  {:<20}  {}\n", solver.name, solver.description);
 }
 
+Json TasksAsJson() {
+  Json tasks = Json::array(), solvers = Json::array();
+  for (const TaskKind& kind : AllTaskKinds()) {
+    Json keys = Json::array();
+    for (const KeyInfo& key : kind.method_keys) keys.push_back({{"key", key.key}, {"allowed", key.AllowedWhere()}});
+    tasks.push_back({{"task", kind.name},
+                     {"question", kind.question},
+                     {"headline_metrics", kind.default_metrics},
+                     {"keys", std::move(keys)}});
+  }
+  for (const IkSolver& solver : AllIkSolvers()) {
+    solvers.push_back({{"solver", solver.name}, {"description", solver.description}});
+  }
+  return {{"tasks", std::move(tasks)}, {"solvers", std::move(solvers)}};
+}
+
 void ListTasks() {
   for (const TaskKind& kind : AllTaskKinds()) {
     fmt::print("{:<11} {}\n{:<11} headline metrics: {}\n", kind.name, kind.question, "", Join(kind.default_metrics));
     for (const KeyInfo& key : kind.method_keys) fmt::print("{:<11}   {}: {}\n", "", key.key, key.AllowedWhere());
   }
   PrintSolvers();
+}
+
+Result<Json> ClipsAsJson() {
+  Json moves = Json::array(), acts = Json::array(), songs = Json::array();
+  for (const std::string& name : BuiltinMoveNames()) {
+    ASSIGN_OR_RETURN(const auto move, LoadBuiltinMove(name));
+    moves.push_back({{"clip", "builtin:" + name},
+                     {"seconds", move.motion.DurationSeconds()},
+                     {"beats", move.beats},
+                     {"tempo_bpm", move.tempo_bpm},
+                     {"key_poses", move.key_poses.size()}});
+  }
+  for (const std::string& name : BuiltinActNames()) {
+    ASSIGN_OR_RETURN(const auto act, LoadBuiltinMove(name));
+    acts.push_back({{"clip", "builtin:" + name}, {"seconds", act.motion.DurationSeconds()}});
+  }
+  for (const std::string& name : BuiltinSongNames()) {
+    ASSIGN_OR_RETURN(const auto song, LoadBuiltinSongOutline(name));
+    songs.push_back({{"clip", "builtin:" + name},
+                     {"seconds", static_cast<double>(song.CountFrames()) / kJudgedRateHz},
+                     {"tempo_bpm", song.tempo_bpm}});
+  }
+  return Json{{"moves", std::move(moves)}, {"acts", std::move(acts)}, {"songs", std::move(songs)}};
 }
 
 Result<int> ListClips() {
@@ -55,6 +96,29 @@ Result<int> ListClips() {
   fmt::print(
       "Your own: BVH, glTF and DeepMimic files, 'dance.glb#Jump', patterns such as '~/mocap/*.bvh' (docs/clips.md).\n");
   return kSuccess;
+}
+
+/// Gives the scenarios of files, or all that come with the program by their names.
+Result<Json> ScenariosAsJson(const std::string& folder) {
+  std::vector<std::string> names = ShippedScenarios();
+  if (!folder.empty()) {
+    ASSIGN_OR_RETURN(names, FindScenarioFiles({folder}));
+  }
+  Json list = Json::array();
+  for (const std::string& name : names) {
+    SourceTexts texts;
+    ASSIGN_OR_RETURN(const auto scenarios, ReadScenarios(folder.empty() ? FindShipped(name).string() : name, texts));
+    for (const Scenario& scenario : scenarios) {
+      list.push_back({{"name", name},
+                      {"scenario", scenario.name},
+                      {"task", scenario.task},
+                      {"question", scenario.question},
+                      {"trials", scenario.trials},
+                      {"conditions", scenario.conditions.size()},
+                      {"methods", MethodNames(scenario)}});
+    }
+  }
+  return Json{{"scenarios", std::move(list)}};
 }
 
 /// Lists what comes with the program, a line each, by the names that `etude run` takes.
@@ -90,6 +154,17 @@ Result<int> ListScenarios(const std::string& folder) {
 }
 
 enum class Listing { kMethods, kScenarios, kClips, kRecordings };
+
+Result<int> ListAsJson(Listing what, const std::string& scenario_folder) {
+  if (what == Listing::kMethods) {
+    RETURN_IF_ERROR(PrintFacts("list methods", TasksAsJson()));
+    return kSuccess;
+  }
+  const bool is_clips = what == Listing::kClips;
+  ASSIGN_OR_RETURN(auto facts, is_clips ? ClipsAsJson() : ScenariosAsJson(scenario_folder));
+  RETURN_IF_ERROR(PrintFacts(is_clips ? "list clips" : "list scenarios", std::move(facts)));
+  return kSuccess;
+}
 
 Result<int> ListCommand(Listing what, const std::string& scenario_folder) {
   switch (what) {
@@ -156,9 +231,11 @@ void DefineList(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("list", "List what a scenario can name");
   command->require_subcommand(1);
   const auto list = [&](const char* name, const char* help, Listing what) {
-    command->add_subcommand(name, help)->callback([=, &action] {
-      action = [=] { return Finish(ListCommand(what, "")); };
-    });
+    CLI::App* listing = command->add_subcommand(name, help);
+    auto as_json = std::make_shared<bool>(false);
+    if (what != Listing::kRecordings) AddJson(*listing, *as_json);
+    listing->callback(
+        [=, &action] { action = [=] { return Finish(*as_json ? ListAsJson(what, "") : ListCommand(what, "")); }; });
   };
   list("methods", "Tasks, what their methods are made of, and solvers", Listing::kMethods);
   list("clips", "Built-in clips", Listing::kClips);
@@ -186,7 +263,14 @@ void DefineList(CLI::App& app, Action& action) {
   auto folder = std::make_shared<std::string>();
   CLI::App* scenarios = command->add_subcommand("scenarios", "Scenarios that come with etude, or those of a folder");
   scenarios->add_option("folder", *folder, "A folder, a file, or a name such as quick");
-  scenarios->callback([=, &action] { action = [=] { return Finish(ListCommand(Listing::kScenarios, *folder)); }; });
+  auto scenarios_json = std::make_shared<bool>(false);
+  AddJson(*scenarios, *scenarios_json);
+  scenarios->callback([=, &action] {
+    action = [=] {
+      return Finish(*scenarios_json ? ListAsJson(Listing::kScenarios, *folder)
+                                    : ListCommand(Listing::kScenarios, *folder));
+    };
+  });
 }
 
 }  // namespace etude

@@ -129,6 +129,7 @@ int Main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
+    if (!app.remaining(true).empty()) return ComplainOfArguments(app, help_or_version);
     return app.exit(help_or_version);
   } catch (const CLI::ParseError& error) {
     return ComplainOfArguments(app, error);

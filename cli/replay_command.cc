@@ -4,13 +4,17 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 
+#include "bench/gate/baseline_file.h"
 #include "bench/replay/replay.h"
 #include "bench/results/folder.h"
 #include "bench/run/outside_programs.h"
 #include "cli/commands.h"
+#include "cli/facts.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
+#include "cli/progress_bar.h"
 
 namespace etude {
 namespace {
@@ -20,7 +24,8 @@ struct ReplayCommandOptions {
   std::vector<std::string> cells;  ///< by name; none: all
   std::size_t sample = 0;          ///< this many of them, drawn by the run's seed; 0 = all
   std::string pack_file;           ///< into which the one cell is packed instead, "" = none
-  bool overwrite = false;
+  std::string baseline;            ///< whose values are told beside those of the cells, "" = none
+  bool overwrite = false, as_json = false;
   int jobs = 0;
   OutsideRules outside;
   std::string key_file;
@@ -31,10 +36,60 @@ void PrintDifference(const CellCheck& check) {
   fmt::print("differs: {}\n  first at {}: {} then, {} now\n", check.cell, check.stage, check.then, check.now);
 }
 
+/// A metric of a cell in a baseline, and as it came now.
+struct BaselineValue {
+  std::string metric;
+  std::optional<double> baseline, now;
+};
+
+/// Finds what a baseline holds of a cell: nothing when it does not know it.
+std::vector<BaselineValue> ValuesOf(const Snapshot& baseline, const Row& row) {
+  std::vector<BaselineValue> values;
+  for (const SnapshotScenario& scenario : baseline.scenarios) {
+    if (scenario.name != row.scenario) continue;
+    for (const SnapshotCells& cells : scenario.cells) {
+      if (cells.condition != CompactLabel(row.condition) || cells.method != row.method) continue;
+      for (const SnapshotValues& metric : cells.metrics) {
+        if (row.trial >= static_cast<int>(metric.values.size())) continue;
+        values.push_back({metric.metric, metric.values[row.trial], ValueOf(row, metric.metric)});
+      }
+    }
+  }
+  return values;
+}
+
+void PrintBaseline(const std::string& file, const std::vector<BaselineValue>& values) {
+  const auto text = [](const std::optional<double>& value) { return value ? fmt::format("{}", *value) : "no value"; };
+  if (values.empty()) fmt::print("  {} does not know this cell\n", file);
+  for (const BaselineValue& value : values) {
+    const bool same = value.baseline == value.now;
+    fmt::print("  {}: {} in the baseline, {}\n", value.metric, text(value.baseline),
+               same ? "and now" : text(value.now) + " now");
+  }
+}
+
+Json FactsOf(const std::vector<CellCheck>& checks, const Snapshot* baseline) {
+  const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
+  Json cells = Json::array();
+  for (const CellCheck& check : checks) {
+    Json& cell = cells.emplace_back(Json{{"cell", check.cell}, {"same", check.same}});
+    if (!check.same) cell.update({{"stage", check.stage}, {"then", check.then}, {"now", check.now}});
+    if (baseline == nullptr || !check.row) continue;
+    for (const BaselineValue& value : ValuesOf(*baseline, *check.row)) {
+      cell["baseline"][value.metric] = {number(value.baseline), number(value.now)};
+    }
+  }
+  return {{"cells", std::move(cells)}};
+}
+
 Result<int> ReplayFile(const std::string& file, const OutsideRules& outside, const std::optional<SecretKey>& key,
-                       const Interrupt& interrupt) {
+                       bool as_json, const Interrupt& interrupt) {
   ASSIGN_OR_RETURN(const auto check, ReplayPack(file, outside, key, interrupt.requested()));
   if (!check) return TellStopped({{}, "stopped; its cell was not run again"});
+  if (as_json) {
+    RETURN_IF_ERROR(PrintFacts("replay", FactsOf({*check}, nullptr)));
+    return check->same ? kSuccess : kNothingWorked;
+  }
   if (!check->same) {
     PrintDifference(*check);
     return kNothingWorked;
@@ -60,9 +115,14 @@ Result<int> ReplayCommand(const ReplayCommandOptions& options) {
     if (!options.cells.empty() || !options.pack_file.empty() || options.sample > 0) {
       return Fail({options.target}, "is no result folder; --cell, --sample and --pack need one");
     }
-    return ReplayFile(options.target, options.outside, key, interrupt);
+    return ReplayFile(options.target, options.outside, key, options.as_json, interrupt);
   }
   if (!options.pack_file.empty()) return Pack(options);
+  std::optional<Snapshot> baseline;
+  if (!options.baseline.empty()) {
+    if (options.cells.empty()) return Fail({}, "--baseline is told beside cells: name them with --cell");
+    ASSIGN_OR_RETURN(baseline, LoadBaseline(options.baseline));
+  }
   ASSIGN_OR_RETURN(const auto checks, ReplayRun({.folder = options.target,
                                                  .cells = options.cells,
                                                  .sample = options.sample,
@@ -70,12 +130,18 @@ Result<int> ReplayCommand(const ReplayCommandOptions& options) {
                                                  .outside = options.outside,
                                                  .key = key,
                                                  .sealing = options.sealing,
-                                                 .stop = interrupt.requested()}));
+                                                 .stop = interrupt.requested(),
+                                                 .on_progress = ProgressOf("cells")}));
   const auto same = std::ranges::count(checks, true, &CellCheck::same);
+  if (options.as_json) RETURN_IF_ERROR(PrintFacts("replay", FactsOf(checks, baseline ? &*baseline : nullptr)));
   for (const CellCheck& check : checks) {
+    if (options.as_json) break;
     if (!check.same) PrintDifference(check);
+    if (!baseline || !check.row) continue;
+    if (check.same) fmt::print("{}\n", check.cell);
+    PrintBaseline(options.baseline, ValuesOf(*baseline, *check.row));
   }
-  fmt::print("{} of {} cells came out the same\n", same, checks.size());
+  if (!options.as_json) fmt::print("{} of {} cells came out the same\n", same, checks.size());
   if (*interrupt.requested()) {
     std::fflush(stdout);
     return TellStopped({{}, "stopped; the other cells were not run again"});
@@ -98,6 +164,8 @@ void DefineReplay(CLI::App& app, Action& action) {
   AddSeedFile(*command, options->key_file);
   command->add_option("--pack", options->pack_file, "Write the cell, with its scenario and clips, into this one file");
   AddOverwrite(*command, options->overwrite);
+  command->add_option("--baseline", options->baseline, "Beside each --cell, its values in this baseline file");
+  AddJson(*command, options->as_json);
   AddJobs(*command, options->jobs);
   command->callback([=, &action] { action = [=] { return Finish(ReplayCommand(*options)); }; });
 }

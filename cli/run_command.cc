@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "bench/finished_runs/finished_runs.h"
@@ -16,6 +17,7 @@
 #include "bench/statistics/bootstrap.h"
 #include "bench/statistics/distributions.h"
 #include "cli/commands.h"
+#include "cli/facts.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
@@ -177,7 +179,7 @@ int MergeCommand(const MergeOptions& given) {
   return TellStopped({{}, "stopped; the shards are as they were, and there is no merged run"});
 }
 
-constexpr double kSampleSeconds = 10;
+constexpr double kSampleSeconds = 0.8;
 
 std::string Duration(double seconds) {
   if (seconds < 100) return fmt::format("{:.0f} s", std::max(seconds, 1.0));
@@ -214,9 +216,28 @@ void Print(const ScenarioForecast& one) {
              SmallestFinding(one.units, one.comparisons), CountUnits(one.units, one.unit));
 }
 
-int DryRunCommand(const RunOptions& options) {
+Json FactsOf(const Forecast& forecast) {
+  Json scenarios = Json::array();
+  for (const ScenarioForecast& one : forecast.scenarios) {
+    scenarios.push_back({{"scenario", one.name},
+                         {"task", one.task},
+                         {"conditions", one.conditions},
+                         {"worlds", one.worlds},
+                         {"methods", one.methods},
+                         {"comparisons", one.comparisons},
+                         {"units", one.units},
+                         {"seconds_per_world", one.seconds_per_world}});
+  }
+  return {{"seconds", forecast.seconds}, {"workers", forecast.workers}, {"scenarios", std::move(scenarios)}};
+}
+
+int DryRunCommand(const RunOptions& options, bool as_json) {
   const auto forecast = DryRun(options, kSampleSeconds);
   if (!forecast) return Complain(forecast.error());
+  if (as_json) {
+    const auto printed = PrintFacts("run --dry-run", FactsOf(*forecast));
+    return printed ? kSuccess : Complain(printed.error());
+  }
   std::size_t cells = 0;
   for (const ScenarioForecast& one : forecast->scenarios) {
     Print(one);
@@ -247,8 +268,9 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   AddJobs(*command, options->jobs);
   const auto world_options =
       AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map);
-  auto key_file = std::make_shared<std::string>();
-  AddSeedFile(*command, *key_file);
+  auto dry_run = std::make_shared<bool>(false), as_json = std::make_shared<bool>(false);
+  const Action act = WithSecretKey(*command, &options->seed, options->key,
+                                   [=] { return *dry_run ? DryRunCommand(*options, *as_json) : RunCommand(*options); });
   CLI::Option* shard_option =
       command->add_option("--shard", *shard, "Run part i of n, as i/n; etude merge makes one run of all parts");
   CLI::Option* overwrite = AddOverwrite(*command, options->overwrite, "Replace a folder that already holds a run");
@@ -262,9 +284,10 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   command->add_option("--sync-mebibytes", options->sync.mebibytes, "… and after so much at most")
       ->check(NumberWithin(0, 1024, "size in MiB"))
       ->capture_default_str();
-  auto dry_run = std::make_shared<bool>(false);
-  command->add_flag("--dry-run", *dry_run, "Only tell how long it would take, and what differences it could show")
-      ->excludes(shard_option, overwrite, resume);
+  CLI::Option* dry =
+      command->add_flag("--dry-run", *dry_run, "Only tell how long it would take, and what differences it could show");
+  dry->excludes(shard_option, overwrite, resume);
+  AddJson(*command, *as_json)->needs(dry);
   CLI::Option* from = command->add_option("--from", options->from, "Repeat the run that this manifest.json describes");
   for (CLI::Option* option : world_options) from->excludes(option);
   from->excludes(command->add_option("--library", options->libraries,
@@ -285,10 +308,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
         if (!part) return Complain({{}, "--shard: " + part.error().message});
         options->shard = *part;
       }
-      auto key = TakeSecretKey(*key_file, options->seed.has_value());
-      if (!key) return Complain(key.error());
-      options->key = std::move(*key);
-      return *dry_run ? DryRunCommand(*options) : RunCommand(*options);
+      return act();
     };
   });
 }
@@ -319,16 +339,8 @@ void DefineMerge(CLI::App& app, const std::string& command_line, Action& action)
   command->add_option("-o,--output", options->output, "Result folder")->required();
   AddOverwrite(*command, options->overwrite, "Replace a folder that already holds a run");
   AddOtherLibraries(*command, options->other_libraries);
-  auto key_file = std::make_shared<std::string>();
-  AddSeedFile(*command, *key_file);
-  command->callback([=, &action] {
-    action = [=] {
-      auto key = TakeSecretKey(*key_file);
-      if (!key) return Complain(key.error());
-      options->key = std::move(*key);
-      return MergeCommand(*options);
-    };
-  });
+  const Action act = WithSecretKey(*command, nullptr, options->key, [=] { return MergeCommand(*options); });
+  command->callback([=, &action] { action = act; });
 }
 
 }  // namespace etude

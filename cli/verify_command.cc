@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <iterator>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "bench/replay/verify.h"
 #include "bench/results/folder.h"
 #include "bench/results/seal.h"
 #include "bench/results/signature.h"
 #include "cli/commands.h"
+#include "cli/facts.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
 #include "reports/report.h"
@@ -21,6 +23,7 @@ struct VerifyCommandOptions {
   ReplayOptions replay;
   std::string key_file;     ///< of secret worlds, "" = none
   std::string sign, check;  ///< keys, "" = none
+  bool as_json = false;
 };
 
 /// The report, if there is one.
@@ -54,16 +57,23 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
   RETURN_IF_ERROR(AddReport(replay.folder, all));
   if (*interrupt.requested()) return TellStopped({{}, "stopped; nothing was found out"});
   std::size_t agree = 0;
+  Json checks = Json::array();
   for (const Verified& one : all) {
     agree += one.differences.empty() ? 1 : 0;
+    checks.push_back({{"what", one.what}, {"differences", one.differences}});
+    if (options.as_json) continue;
     if (one.differences.empty()) fmt::print("agrees   {}\n", one.what);
     PrintList("differs  " + one.what, one.differences);
   }
-  fmt::print("{} of {} agree. Nobody can verify what it says of times and machines.\n", agree, all.size());
+  if (options.as_json) {
+    RETURN_IF_ERROR(PrintFacts("verify", {{"agrees", agree == all.size()}, {"checks", std::move(checks)}}));
+  } else {
+    fmt::print("{} of {} agree. Nobody can verify what it says of times and machines.\n", agree, all.size());
+  }
   if (agree < all.size()) return kNothingWorked;
   if (options.sign.empty()) return kSuccess;
   RETURN_IF_ERROR(SignRun(replay.folder, options.sign));
-  TellWritten(replay.folder + "/" + kSignatureFile);
+  TellWritten(replay.folder + "/" + kSignatureFile, options.as_json ? stderr : stdout);
   return kSuccess;
 }
 
@@ -84,6 +94,7 @@ void DefineVerify(CLI::App& app, Action& action) {
   AddSeedFile(*command, options->key_file);
   AddOutsideRules(*command, options->replay.outside);
   AddJobs(*command, options->replay.jobs);
+  AddJson(*command, options->as_json);
   command->callback([=, &action] { action = [=] { return Finish(VerifyCommand(*options)); }; });
 }
 

@@ -82,7 +82,8 @@ JunitCase CaseOf(const MetricMove& move, const GateReport& report) {
   const GateTableRow row = TableRow(move);
   std::string detail = fmt::format("{}: {} -> {}, difference {}, p {}, in {} worlds", row.verdict, row.before,
                                    row.after, row.difference, row.p, row.worlds);
-  for (const TailLine& line : TailLines(move, report.run_folder, kMostWorldsOfCase, report.runs_programs)) {
+  for (const TailLine& line :
+       TailLines(move, report.run_folder, kMostWorldsOfCase, report.runs_programs, report.baseline_file)) {
     detail += "\n" + line.world + (line.replay.empty() ? "" : ": " + line.replay);
   }
   return {fmt::format("{}, {}: {}", row.condition, row.method, row.metric), RulingOf(move), std::move(detail)};
@@ -142,7 +143,7 @@ std::string WriteGateJunit(const GateReport& report) {
   for (const MetricMove& move : report.comparison.moves) {
     suite_of(move.identity.scenario).cases.push_back(CaseOf(move, report));
   }
-  return WriteJunitXml(report.suite + " gate", suites);
+  return WriteJunitXml(report.suite + " gate", suites, report.program_version);
 }
 
 }  // namespace etude

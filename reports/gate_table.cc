@@ -161,7 +161,8 @@ std::vector<std::string> GateSentences(const GateReport& report) {
 }
 
 std::vector<TailLine> TailLines(const MetricMove& move, const std::string& run_folder, std::size_t most,
-                                bool runs_programs) {
+                                bool runs_programs, const std::string& baseline) {
+  const std::string beside = baseline.empty() ? "" : " --baseline " + ShellWord(baseline);
   const MoveIdentity& identity = move.identity;
   const std::string folder = run_folder.empty() ? "RUN" : ShellWord(run_folder);
   const std::string about = identity.scenario + (identity.condition == "-" ? "" : ", " + identity.condition);
@@ -171,10 +172,10 @@ std::vector<TailLine> TailLines(const MetricMove& move, const std::string& run_f
     const TailWorld& world = move.tail[i];
     const std::string cell =
         fmt::format("{}/{}/{:03}/{}", identity.scenario, identity.condition, world.trial, identity.method);
-    lines.push_back(
-        {fmt::format("{}, trial {}, {}: {} {}", about, world.trial, identity.method, label,
-                     ValuesText(world, identity.metric)),
-         fmt::format("etude replay {}{} --cell {}", folder, runs_programs ? " --allow-exec" : "", ShellWord(cell))});
+    lines.push_back({fmt::format("{}, trial {}, {}: {} {}", about, world.trial, identity.method, label,
+                                 ValuesText(world, identity.metric)),
+                     fmt::format("etude replay {}{} --cell {}{}", folder, runs_programs ? " --allow-exec" : "",
+                                 ShellWord(cell), beside)});
   }
   if (move.tail.size() > most) {
     lines.push_back(
@@ -194,7 +195,7 @@ std::vector<TailLine> TailLines(const GateReport& report, bool failing, std::siz
       left_out += std::ssize(move.tail);
       continue;
     }
-    for (TailLine& line : TailLines(move, report.run_folder, most_each, report.runs_programs))
+    for (TailLine& line : TailLines(move, report.run_folder, most_each, report.runs_programs, report.baseline_file))
       lines.push_back(std::move(line));
   }
   if (left_out > 0) lines.push_back({fmt::format("… and {} of other comparisons", Plural(left_out, "more world")), ""});

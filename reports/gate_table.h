@@ -43,9 +43,9 @@ struct TailLine {
 
 /// Writes one line for each of the first `most` far worse worlds of a move, the worst first, and one for how many more
 /// there are. `run_folder` is where its cells can be replayed; "" puts `RUN` there. `runs_programs`: replaying must be
-/// allowed to.
+/// allowed to. `baseline` is the file that their values are told beside; "" = none.
 std::vector<TailLine> TailLines(const MetricMove& move, const std::string& run_folder, std::size_t most,
-                                bool runs_programs = false);
+                                bool runs_programs = false, const std::string& baseline = "");
 
 /// Writes the lines of the moves that fail, or of those that do not: `most_each` worlds of one and `most` lines in all.
 std::vector<TailLine> TailLines(const GateReport& report, bool failing, std::size_t most_each, std::size_t most);

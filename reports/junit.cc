@@ -69,7 +69,8 @@ std::vector<JunitCase> CasesOf(const RunData& run, const ScenarioSummary& scenar
 
 }  // namespace
 
-std::string WriteJunitXml(const std::string& name, const std::vector<JunitSuite>& suites) {
+std::string WriteJunitXml(const std::string& name, const std::vector<JunitSuite>& suites,
+                          const std::string& version) {
   std::string body;
   std::size_t all = 0, all_failed = 0, all_skipped = 0;
   for (const JunitSuite& suite : suites) {
@@ -81,8 +82,9 @@ std::string WriteJunitXml(const std::string& name, const std::vector<JunitSuite>
       cases += CaseXml(suite.name, c);
     }
     body += fmt::format(
-        "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\">\n{}  </testsuite>\n",
-        EscapeMarkup(suite.name), suite.cases.size(), failed, skipped, cases);
+        "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\">\n"
+        "    <properties><property name=\"etude\" value=\"{}\"/></properties>\n{}  </testsuite>\n",
+        EscapeMarkup(suite.name), suite.cases.size(), failed, skipped, EscapeMarkup(version), cases);
     all += suite.cases.size();
     all_failed += failed;
     all_skipped += skipped;
@@ -96,7 +98,7 @@ std::string WriteJunitXml(const std::string& name, const std::vector<JunitSuite>
 std::string WriteJunit(const RunData& run) {
   std::vector<JunitSuite> suites;
   for (const ScenarioSummary& scenario : run.scenarios) suites.push_back({scenario.name, CasesOf(run, scenario)});
-  return WriteJunitXml(run.suite, suites);
+  return WriteJunitXml(run.suite, suites, run.program_version);
 }
 
 }  // namespace etude

@@ -21,8 +21,8 @@ struct JunitSuite {
   std::vector<JunitCase> cases;
 };
 
-/// Writes JUnit XML as CI systems read it, its counts made from the cases.
-std::string WriteJunitXml(const std::string& name, const std::vector<JunitSuite>& suites);
+/// Writes JUnit XML as CI systems read it, its counts made from the cases. `version` is Etude's, a property of each suite.
+std::string WriteJunitXml(const std::string& name, const std::vector<JunitSuite>& suites, const std::string& version);
 
 /// Writes the run as JUnit XML: a suite per scenario; in it a case per expectation (failed when unmet, skipped when it
 /// could not be decided), one that holds when every cell has its row, and one that holds when no cell crashed, failed,

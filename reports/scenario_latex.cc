@@ -162,7 +162,7 @@ std::string ConditionFloats(const ScenarioSummary& scenario, const ConditionSumm
 }  // namespace
 
 std::string ScenarioLatex(const RunData& run, const ScenarioSummary& scenario) {
-  std::string text(kHead);
+  std::string text = fmt::format("{}% Etude {}.\n", kHead, run.program_version);
   for (const ConditionSummary& condition : scenario.conditions) text += ConditionFloats(scenario, condition);
   return text + PaperALatex(scenario) + PaperBLatex(run, scenario);
 }

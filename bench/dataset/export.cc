@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -118,6 +119,8 @@ std::string Quoted(const std::string& text) {
 
 class Exporter {
  public:
+  static constexpr std::size_t kParts = 3;  ///< of a world: its problem is made, written, its truth written
+
   Exporter(const PreparedScenario& scenario, fs::path folder, bool films)
       : scenario_(scenario), folder_(std::move(folder)), films_(films) {}
 
@@ -127,9 +130,9 @@ class Exporter {
     return SavePayload(*setting, folder_ / "inputs" / place, "setting.json");
   }
 
-  /// Adds the world's line to `index`.
+  /// Adds the world's line to `index`; `on_part` is called of each of kParts that is done.
   Result<void> SaveWorld(int condition, int trial, const std::string& place, ExportOutcome& outcome,
-                         std::vector<std::string>& index) {
+                         std::vector<std::string>& index, const std::function<void(std::size_t)>& on_part) {
     const auto world = scenario_.task(condition).MakeWorld(scenario_.KeyOf(trial), /*keeps_motion=*/false);
     const std::string path = place + "/" + WorldName(scenario_, condition, trial);
     const Row row = scenario_.IdentityOf(condition, trial, 0);
@@ -148,8 +151,10 @@ class Exporter {
     {
       const auto problem = world->MakeProblem();
       if (!problem) return About(path, problem.error());
+      on_part(1);
       RETURN_IF_ERROR(SavePayload(*problem, folder_ / "inputs" / path, "problem.json"));
       if (films_) RETURN_IF_ERROR(SaveFilms(*problem, condition, path));
+      on_part(2);
     }
     const auto truth = world->MakeTruth();
     if (!truth) return About(path, truth.error());
@@ -201,7 +206,8 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress
   const Plan plan(scenarios);
   ExportOutcome outcome;
   std::vector<std::string> index;
-  on_progress(0, plan.world_count());
+  const std::size_t parts = plan.world_count() * Exporter::kParts;
+  on_progress(0, parts);
   for (std::size_t w = 0; w < plan.world_count(); ++w) {
     const World& world = plan.world(w);
     const PreparedScenario& scenario = plan.scenario_of(w);
@@ -210,8 +216,9 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress
     if (world.trial == 0) {
       RETURN_IF_ERROR(exporter.SaveSetting(world.condition, place));
     }
-    RETURN_IF_ERROR(exporter.SaveWorld(world.condition, world.trial, place, outcome, index));
-    on_progress(w + 1, plan.world_count());
+    RETURN_IF_ERROR(exporter.SaveWorld(world.condition, world.trial, place, outcome, index,
+                                       [&](std::size_t part) { on_progress(w * Exporter::kParts + part, parts); }));
+    on_progress((w + 1) * Exporter::kParts, parts);
   }
   const auto save = [&](const char* name, const std::string& text) {
     return WriteFileAtomically(folder.partial() / name, text);

@@ -40,7 +40,8 @@ struct ExportOutcome {
 /// Secret worlds stand under names, and in an order, that tell nothing of their trials; the index leaves out trial and
 /// clip. Whole or not at all, and on its disk. Refused, before anything is written: a folder that holds something, or
 /// that another export is writing. The process is to be in the pinned environment, which makes the pictures the same on
-/// every machine. `on_progress` is told of worlds.
+/// every machine. `on_progress` is told of thirds of worlds: problems made,
+/// written with their films, truths written.
 Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress& on_progress);
 
 /// Takes away what an export to this folder has left that was killed.

@@ -124,6 +124,13 @@ Result<void> CompareKept(const fs::path& folder, const RunData& run, std::size_t
   return {};
 }
 
+/// Returns what the line of a row holds.
+Row WithoutFiles(Row row) {
+  row.result.series.clear();
+  row.result.recording.reset();
+  return row;
+}
+
 }  // namespace
 
 bool IsRecorded(const PreparedRun& run, const Row& row) {
@@ -162,6 +169,7 @@ Result<std::vector<CellCheck>> ReplayRun(const ReplayOptions& options) {
   if (!options.without_programs) RETURN_IF_ERROR(CheckPrograms(options.folder, prepared.scenarios, options.outside));
   ASSIGN_OR_RETURN(const Fence fence, FenceFor(prepared.scenarios, options.outside, options.folder, options.key));
   std::map<std::size_t, CellCheck> checks;
+  if (options.on_progress) options.on_progress(0, chosen.size());
   const auto whole = RunOrders(
       prepared.suite, plan, OrdersOf(plan, chosen),
       {.program = ThisProgram(), .error_folder = "", .fence = fence, .jobs = options.jobs, .stop = options.stop},
@@ -169,7 +177,10 @@ Result<std::vector<CellCheck>> ReplayRun(const ReplayOptions& options) {
         ASSIGN_OR_RETURN(const auto finished, cell.Read(plan));
         const std::size_t place = cell.head.cell;
         CellCheck& check = checks[place] = CompareRows(RowAt(run, place), finished.row);
-        return check.same ? CompareKept(options.folder, run, place, finished.row, check) : Result<void>();
+        if (check.same) RETURN_IF_ERROR(CompareKept(options.folder, run, place, finished.row, check));
+        if (!options.cells.empty()) check.row = WithoutFiles(finished.row);
+        if (options.on_progress) options.on_progress(checks.size(), chosen.size());
+        return {};
       });
   if (!whole) return tl::unexpected(whole.error());
   std::vector<CellCheck> list;

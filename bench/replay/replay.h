@@ -9,6 +9,7 @@
 #include "bench/model/row.h"
 #include "bench/results/folder.h"
 #include "bench/run/outside_programs.h"
+#include "engine/base/progress.h"
 #include "engine/base/result.h"
 
 namespace etude {
@@ -23,6 +24,8 @@ struct CellCheck {
   /// "recording"; "" when the same.
   std::string stage;
   std::string then, now;  ///< what stood there, what came now
+  /// What came now, of a cell that was asked for by its name; without curves and recording.
+  std::optional<Row> row = std::nullopt;
 };
 
 /// Compares a row with the one that came when the cell was run again: stage by stage, then status, then metrics.
@@ -39,6 +42,7 @@ struct ReplayOptions {
   std::optional<SecretKey> key = {};  ///< of secret worlds
   Sealing sealing = Sealing::kRequired;
   const std::atomic<bool>* stop = nullptr;
+  OnProgress on_progress = {};  ///< is told of cells
 };
 
 /// True if the run keeps a recording of the trial of this row.

@@ -1,5 +1,7 @@
 #include "bench/run/dry_run.h"
 
+#include <cmath>
+#include <numeric>
 #include <set>
 
 #include "bench/process/clock.h"
@@ -24,18 +26,33 @@ int CountUnitsOf(const PreparedScenario& prepared) {
   return static_cast<int>(units.size());
 }
 
+/// Returns a step by which all of so many conditions are visited, each time far from those before: costs rise and fall
+/// along a sweep.
+int StepOver(int conditions) {
+  constexpr double kGolden = 0.618;
+  int step = std::max(1, static_cast<int>(std::lround(kGolden * conditions)));
+  while (std::gcd(step, conditions) != 1) ++step;
+  return step;
+}
+
+/// Measures first worlds until the time is up. The first of all pays for what a worker makes once, and counts only
+/// where it is the only one.
 double MeasureSecondsPerWorld(const PreparedScenario& prepared, const Fence& fence, double until,
                               Clock::time_point start) {
   const Scenario& scenario = prepared.scenario();
-  const auto began = Clock::now();
+  const int conditions = static_cast<int>(scenario.conditions.size());
+  const int step = StepOver(conditions), worlds = conditions * scenario.trials;
   CellRunner runner(prepared, "", fence);
-  int condition = 0;
+  double first = 0, others = 0;
+  int world = 0;
   do {
-    runner.Open(condition, 0);
+    const auto began = Clock::now();
+    runner.Open(world * step % conditions, world / conditions);
     for (std::size_t method = 0; method < scenario.methods.size(); ++method) runner.Run(method);
-    ++condition;
-  } while (condition < static_cast<int>(scenario.conditions.size()) && SecondsSince(start) < until);
-  return SecondsSince(began) / condition;
+    (world == 0 ? first : others) += SecondsSince(began);
+    ++world;
+  } while (world < worlds && SecondsSince(start) < until);
+  return world == 1 ? first : others / (world - 1);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ struct ScenarioForecast {
   std::size_t worlds = 0;      ///< of each condition
   std::size_t conditions = 0;  ///< values of what is swept
   std::size_t methods = 0;
-  double seconds_per_world = 0;  ///< all methods of a world, measured on the first world of the first conditions
+  double seconds_per_world = 0;  ///< all methods of a world, measured on first worlds of conditions
   int comparisons = 0;           ///< judged together
   SamplingUnit unit = SamplingUnit::kWorld;
   int units = 0;  ///< of the first condition; worlds where every world is its own
@@ -26,7 +26,7 @@ struct Forecast {
   int workers = 1;
 };
 
-/// Reads and checks everything as Run does, writes nothing, and runs a first world of the conditions until
+/// Reads and checks everything as Run does, writes nothing, and runs first worlds of conditions until
 /// `sample_seconds` have passed, one of each scenario at least.
 Result<Forecast> DryRun(const RunOptions& options, double sample_seconds);
 

@@ -104,8 +104,11 @@ class Gate(EtudeCase):
         self.assertIn(commands[0][1], (self.out / "report" / "gate.md").read_text())
         self.assertIn(commands[0][1], (self.out / "report" / "gate.xml").read_text())
         folder, cell = commands[0]
-        replayed = self.etude("replay", folder, "--cell", cell)
+        self.assertIn(f"--cell {cell} --baseline {self.baseline}", text)
+        replayed = self.etude("replay", folder, "--cell", cell, "--baseline", self.baseline)
         self.assertEqual(replayed.returncode, 0, replayed.stdout + replayed.stderr)
+        self.assertIn(f"  {line['metric']}: {line['values'][0]} in the baseline, {whole[0]} now\n", replayed.stdout)
+        self.assertIn(" in the baseline, and now\n", replayed.stdout)
 
     def test_an_update_shows_what_moved_and_is_the_new_standard(self):
         self.make_baseline()

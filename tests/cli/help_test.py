@@ -39,6 +39,12 @@ class Help(EtudeCase):
                         if word.startswith("-") and word != "-":
                             self.assertRegex(seen[path], rf"(?m)^  (-\w,)?{re.escape(word)}\b|^  {re.escape(word)}[ ,]", line)
 
+    def test_of_no_command_names_the_nearest(self):
+        for words in (["help", "repotr"], ["repotr", "--help"], ["help", "clip", "inof"]):
+            asked = self.etude(*words)
+            self.assertEqual((asked.returncode, asked.stdout), (2, ""), words)
+            self.assertIn("did you mean '" + ("info" if "clip" in words else "report") + "'", asked.stderr)
+
     def test_completion_knows_every_command_and_its_options(self):
         script = self.write("complete.bash", self.etude("completion", "bash").stdout + """
 _try() { COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _etude; echo "${COMPREPLY[*]}"; }

@@ -83,7 +83,7 @@ TEST(GateMarkdown, NamesEveryFarWorseWorldWithBothValuesAndItsReplayCommand) {
   EXPECT_THAT(text,
               HasSubstr("**Worlds that are far worse:**\n\n- ik-weights, joint\\_noise\\_deg=5, trial 7, adaptive: "
                         "effector orientation error 0.0500° → no value (failed): `etude replay 'out/my run' "
-                        "--cell ik-weights/joint_noise_deg=5/007/adaptive`\n"));
+                        "--cell ik-weights/joint_noise_deg=5/007/adaptive --baseline quick.json`\n"));
   EXPECT_THAT(text, HasSubstr("trial 3, adaptive: effector orientation error 0.0500° → 60.0°: `"));
   EXPECT_THAT(text, Not(HasSubstr("… and")));
 }
@@ -154,6 +154,7 @@ TEST(GateMarkdown, IsCutBeforeAPullRequestRefusesIt) {
 
 TEST(GateJunit, HasACaseForAllThatWasJudged) {
   const std::string xml = WriteGateJunit(Example());
+  EXPECT_THAT(xml, HasSubstr("<property name=\"etude\" value=\"1.1\"/>"));
   EXPECT_THAT(xml, HasSubstr("<testsuites name=\"quick gate\" tests=\"9\" failures=\"2\" errors=\"0\" skipped=\"1\">"));
   EXPECT_THAT(xml, HasSubstr("name=\"every cell can be judged\"/>"));
   EXPECT_THAT(xml, HasSubstr("name=\"joint_noise_deg=5, adaptive: effector orientation error\"><failure"));

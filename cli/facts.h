@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/files/json.h"
+#include "bench/gate/comparison.h"
+#include "engine/base/result.h"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace etude {
+
+/// Adds --json, of every command that tells facts.
+CLI::Option* AddJson(CLI::App& command, bool& as_json);
+
+/// Prints what a command found out as one line of JSON: "command", "etude" (the version) and `facts`, an object. Its
+/// schema is the entry of that name in docs/schemas/facts.schema.json.
+Result<void> PrintFacts(const std::string& command, Json facts);
+
+/// Returns the moves of a comparison that are not "same", and what stands on one side alone.
+Json FactsOf(const SnapshotComparison& comparison);
+
+}  // namespace etude
