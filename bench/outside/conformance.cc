@@ -12,6 +12,7 @@
 #include "bench/outside/seated_program.h"
 #include "bench/process/clock.h"
 #include "bench/tasks/registry.h"
+#include "engine/base/angles.h"
 #include "engine/base/named.h"
 #include "engine/base/names.h"
 #include "engine/document/node.h"
@@ -26,14 +27,18 @@ struct Recipe {
   const char* task;
   std::vector<std::string> clips;
   std::array<const char*, 2> conditions;
+  const char* plain_method = "";  ///< a built-in one that solves the worlds, where some may stay unsolved
 };
 
 const std::vector<Recipe>& Recipes() {
   static const std::vector<Recipe> recipes = {
       {"transition", {"builtin:clap", "builtin:sway", "builtin:boxing"}, {"{wait_s: 1}", "{wait_s: 3}"}},
       {"detection", {"builtin:clap", "builtin:sway"}, {"{events: 4}", "{events: 8, noise: 2}"}},
-      {"ik", {}, {"{joint_noise_deg: 5}", "{joint_noise_deg: 15}"}},
-      {"tracking", {"builtin:clap"}, {"{duration_s: 0.2}", "{duration_s: 0.4, rate_hz: 15}"}},
+      {"ik", {}, {"{joint_noise_deg: 5}", "{joint_noise_deg: 15}"}, "{name: plain, solver: damped-least-squares}"},
+      {"tracking",
+       {"builtin:clap"},
+       {"{duration_s: 0.2}", "{duration_s: 0.4, rate_hz: 15}"},
+       "{name: plain, solver: damped-least-squares}"},
       {"pose-distance",
        {"builtin:clap", "builtin:sway"},
        {"{pairs: blindspots}", "{pairs: frames, pairs_per_world: 5}"}},
@@ -54,9 +59,11 @@ Result<Specimen> MakeSpecimen(const TaskKind& kind, const Recipe& recipe, const 
   ASSIGN_OR_RETURN(const auto node, ParseYaml(condition, specimen.setting_id));
   Fields fields(node, "a specimen of task " + kind.name);
   std::vector<Node> methods;
-  if (!seat.empty()) {
-    ASSIGN_OR_RETURN(methods.emplace_back(), ParseYaml("{name: specimen, seat: " + seat + "}", specimen.setting_id));
+  const std::string method = seat.empty() ? recipe.plain_method : "{name: specimen, seat: " + seat + "}";
+  if (!method.empty()) {
+    ASSIGN_OR_RETURN(methods.emplace_back(), ParseYaml(method, specimen.setting_id));
   }
+  specimen.has_plain_method = seat.empty() && !method.empty();
   TaskInput input{fields, methods, *specimen.clips};
   ASSIGN_OR_RETURN(auto task, kind.make(input));
   specimen.task = std::move(task);
@@ -83,6 +90,17 @@ struct Attempt {
   std::string fault;    ///< why it must not be like that; "" = it may
   bool was_put = true;  ///< else the program could not be started
 };
+
+/// Returns an answer with all angles, the numbers below keys that end in "_deg", multiplied by `factor`.
+Json WithAngles(const Json& answer, double factor, bool is_angle = false) {
+  if (answer.is_number()) return is_angle ? Json(answer.get<double>() * factor) : answer;
+  if (!answer.is_structured()) return answer;
+  Json changed = answer;
+  for (auto& [key, value] : changed.items()) {
+    value = WithAngles(value, factor, is_angle || (answer.is_object() && key.ends_with("_deg")));
+  }
+  return changed;
+}
 
 /// A program in a seat that is told more than it knows of.
 class ProgramWithUnknownKeys final : public SeatedProgram {
@@ -119,6 +137,7 @@ class ConformanceTest {
     const std::string end = method_.End(kLongestEndingMs);
     Report("ends when its input ends", end == "exit code 0",
            end == "signal 9 (Killed)" ? fmt::format("still ran {} s later", kLongestEndingMs / 1000) : end);
+    if (solves_nothing_ && specimens_[0].has_plain_method) CheckAgainstPlain();
     return all_passed_;
   }
 
@@ -192,7 +211,27 @@ class ConformanceTest {
     Report("gives answers that can be scored", true,
            fmt::format("{} of {} scored as solved; at most {:.3g} s (allowed: {:g} s) and {:.0f} MB", solved,
                        first_.size(), slowest_s_, time_s_, peak_mb_));
+    solves_nothing_ = solved == 0;
     return {};
+  }
+
+  /// Says of a method that solved nothing whether a plain one does, and how the answers would be right.
+  void CheckAgainstPlain() {
+    int plain = 0, in_radians = 0;
+    for (std::size_t i = 0; i < first_.size(); ++i) {
+      TaskWorld& world = *specimens_[0].problems[i].world;
+      plain += world.Run(0).status == Status::kOk ? 1 : 0;
+      const Json answer = Json::parse(first_[i].said, nullptr, false);
+      if (first_[i].status != Status::kUnsolved || !answer.is_object()) continue;
+      const auto judged = world.Judge(WithAngles(answer, Degrees(1)));
+      in_radians += judged && judged->status == Status::kOk ? 1 : 0;
+    }
+    if (plain == 0) return;
+    const std::string unit =
+        in_radians == 0 ? ""
+                        : fmt::format("; taken for radians, its angles solve {}: degrees are asked for", in_radians);
+    Report("solves what a plain method solves", false,
+           fmt::format("none of {}, of which damped-least-squares solves {}{}", first_.size(), plain, unit));
   }
 
   /// Says what is wrong with a second attempt at problem `i` of the first setting; "" when nothing is.
@@ -261,7 +300,7 @@ class ConformanceTest {
   std::vector<Attempt> first_;  ///< at the problems of the first setting
   double slowest_s_ = 0, peak_mb_ = 0;
   int repeated_ = 0;
-  bool all_passed_ = true;
+  bool all_passed_ = true, solves_nothing_ = false;
 };
 
 }  // namespace

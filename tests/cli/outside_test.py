@@ -117,10 +117,19 @@ class OutsideMethods(EtudeCase):
         self.assertEqual(allowed.returncode, 0, allowed.stderr)
         self.assertTrue(mark.exists())
 
+    def radians(self):
+        """The example solver, which answers radians for degrees."""
+        text = (EXAMPLES / "ik_dls.py").read_text()
+        for file in EXAMPLES.glob("*.py"):
+            shutil.copy(file, self.folder)
+        return self.write("ik_radians.py", text.replace("math.degrees(a) for", "a for"))
+
     def test_check_method_tells_what_a_method_does_wrong(self):
         for command, code, words in [
                 ([EXAMPLES / "ik_dls.py"], 0, "9 of 9 checks passed"),
                 ([HOSTILE, "crashes"], 1, "FAILED  gives answers that can be scored: crashed: ended with signal 11"),
+                ([self.radians()], 1, "FAILED  solves what a plain method solves: none of 3, of which damped-least-squares "
+                 "solves 3; taken for radians, its angles solve 3: degrees are asked for"),
                 ([HOSTILE, "answers_twice", json.dumps({"angles_deg": [0] * 29})], 1, "FAILED  answers every question once")]:
             result = self.etude("check-method", "--task", "ik", "--", "python3", *command)
             self.assertEqual(result.returncode, code, result.stdout + result.stderr)
