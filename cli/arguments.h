@@ -44,10 +44,11 @@ Action WithSecretKey(CLI::App& command, const std::optional<std::uint64_t>* seed
 CLI::Option* AddJobs(CLI::App& command, int& jobs);
 /// Adds --overwrite.
 CLI::Option* AddOverwrite(CLI::App& command, bool& overwrite, const std::string& help = "Replace a file that is there");
-/// Adds --seed, --trials, --clips and --joint-map, of every command that makes worlds of scenarios.
-std::array<CLI::Option*, 4> AddWorldOptions(CLI::App& command, std::optional<std::uint64_t>& seed,
+/// Adds --seed, --trials, --clips, --joint-map, --unit and --up, of every command that makes worlds of scenarios; the
+/// last two become lines of a joint-map file in `clip_facts`. The third option is --clips.
+std::array<CLI::Option*, 6> AddWorldOptions(CLI::App& command, std::optional<std::uint64_t>& seed,
                                             std::optional<int>& trials, std::vector<std::string>& clips,
-                                            std::string& joint_map);
+                                            std::string& joint_map, std::string& clip_facts);
 /// Adds --unsealed, of every command that reads a run.
 void AddUnsealed(CLI::App& command, Sealing& sealing);
 /// Adds --no-fence and --allow-exec, of every command that runs methods outside.

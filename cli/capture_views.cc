@@ -9,9 +9,12 @@
 #include "cli/capture.h"
 #include "cli/output_file.h"
 #include "engine/formats/bvh.h"
+#include "engine/formats/c3d.h"
 #include "engine/formats/gltf/gltf.h"
 #include "engine/formats/joint_csv.h"
 #include "engine/formats/trc.h"
+#include "engine/retargeting/joint_arrays.h"
+#include "sim/choreography/canonical_body.h"
 
 namespace etude {
 namespace {
@@ -75,6 +78,10 @@ std::string BytesOf(Clip clip, const BodyMotion& motion, MotionFormat format, co
       return WriteTrc(motion, name);
     case MotionFormat::kCsv:
       return WriteJointCsv(motion);
+    case MotionFormat::kC3d:
+      return WriteC3d(motion);
+    case MotionFormat::kNpz:
+      return WriteBodyNpz(motion, StandingPose());
   }
   return {};
 }

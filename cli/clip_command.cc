@@ -112,9 +112,12 @@ Result<int> ClipConvertCommand(const ClipConvertOptions& given) {
 
 void DefineConvert(CLI::App& clip, Action& action) {
   auto options = std::make_shared<ClipConvertOptions>();
-  CLI::App* command = clip.add_subcommand("convert", "To BVH, GLB, TRC or CSV");
+  CLI::App* command = clip.add_subcommand("convert", "To BVH, GLB, TRC, CSV, C3D or NPZ");
   command->add_option("input", options->input, "A clip")->required();
-  command->add_option("output", options->output, "The file to write: .bvh, .glb, .trc (OpenSim) or .csv")->required();
+  command
+      ->add_option("output", options->output,
+                   "The file to write: .bvh, .glb, .trc (OpenSim), .csv, .c3d or .npz (NumPy)")
+      ->required();
   command->add_option("--trim", options->trim, "Only this part, seconds: FROM:TO, such as 1.5:4 or 2:");
   command->add_option("--rate", options->rate_hz, "Frames per second (default: the clip's; of bodies 30)")
       ->check(NumberWithin(1, 1000, "rate in Hz"));
@@ -130,7 +133,7 @@ void DefineConvert(CLI::App& clip, Action& action) {
   command->footer(
       "\nWithout --ground, --retarget or --character a file keeps its own skeleton, unit and axes (GLB: metres, Y "
       "up).\n"
-      "TRC and CSV hold the twenty joints of the body.");
+      "TRC, CSV, C3D and NPZ hold the twenty joints of the body.");
   command->callback([=, &action] { action = [=] { return Finish(ClipConvertCommand(*options)); }; });
 }
 
@@ -199,13 +202,25 @@ Json RolesAsJson(const Skeleton& skeleton, const JointMap& map) {
   return roles;
 }
 
-/// Writes a map file for a skeleton whose roles were not found: every role to be filled in, and the names to choose
-/// from.
-std::string EmptyMapFile(const Skeleton& skeleton) {
-  std::string text = "# Write the joint behind each role. Roles that are found anyway may be left out.\nroles:\n";
-  for (const Role role : AllRoles()) text += fmt::format("  # {}:\n", RoleName(role));
+/// Writes a map file for a skeleton whose roles were not all found: those that are, those to be filled in with what the
+/// build proposes, and the names to choose from.
+std::string UnfinishedMapFile(const Skeleton& skeleton) {
+  const PartialRoles roles = FindRolesInPart(skeleton);
+  std::string text =
+      "# Write the joint behind each role that is missing. Hands, feet, spine and head may be left out.\nroles:\n";
+  for (const Role role : AllRoles()) {
+    const int found = roles.found[Index(role)], proposed = roles.proposed[Index(role)];
+    if (found >= 0) {
+      text += fmt::format("  {}: {}\n", RoleName(role), QuotedInYaml(skeleton.joints[found].name));
+    } else if (proposed >= 0) {
+      text += fmt::format("  # {}: {}  # by its build, confidence {:.2f}\n", RoleName(role),
+                          QuotedInYaml(skeleton.joints[proposed].name), roles.confidence);
+    } else {
+      text += fmt::format("  # {}:\n", RoleName(role));
+    }
+  }
   text += "# The joints of the file:\n";
-  for (const Joint& joint : skeleton.joints) text += fmt::format("#   {}\n", Quote(joint.name));
+  for (const Joint& joint : skeleton.joints) text += fmt::format("#   {}\n", QuotedInYaml(joint.name));
   return text;
 }
 
@@ -220,7 +235,7 @@ Result<int> ClipMapCommand(const ClipMapOptions& options) {
   if (!map) {
     // A map that is there already is mended, and may be the very file that would be written.
     if (options.joint_map.empty() && writes) {
-      RETURN_IF_ERROR(WriteFileAtomically(options.output, EmptyMapFile(skeleton)));
+      RETURN_IF_ERROR(WriteFileAtomically(options.output, UnfinishedMapFile(skeleton)));
       TellWritten(options.output);
       fmt::print("Next: fill it in, then --joint-map {}\n", options.output);
     }

@@ -1,8 +1,6 @@
 #include "cli/clip_reading.h"
 
 #include <CLI/CLI.hpp>
-#include <charconv>
-#include <utility>
 
 #include "bench/clips/references.h"
 #include "bench/files/files.h"
@@ -10,25 +8,6 @@
 #include "engine/base/names.h"
 
 namespace etude {
-namespace {
-
-Result<double> ReadUnit(const std::string& text) {
-  constexpr std::pair<std::string_view, double> kUnits[] = {{"m", 1},       {"cm", 0.01},   {"mm", 0.001},
-                                                            {"in", 0.0254}, {"ft", 0.3048}, {"cmu", 0.0254 / 0.45}};
-  for (const auto& [name, metres] : kUnits) {
-    if (text == name) return metres;
-  }
-  double metres = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), metres);
-  constexpr double kSmallest = 1e-6, kLargest = 1e3;
-  if (error == std::errc() && end == text.data() + text.size() && metres >= kSmallest && metres <= kLargest) {
-    return metres;
-  }
-  return Fail({}, "--unit: {} is no unit; allowed: m, cm, mm, in, ft, cmu (5.64 cm), or how many metres one unit has",
-              Quote(text));
-}
-
-}  // namespace
 
 void AddClipReading(CLI::App& command, ClipReading& reading) {
   command.add_option("--joint-map", reading.joint_map, "Which joints play which roles (etude clip map writes one)");
@@ -46,7 +25,7 @@ Result<OpenOptions> ReadOptions(const ClipReading& reading) {
     options.roles = std::move(roles);
   }
   if (!reading.unit.empty()) {
-    ASSIGN_OR_RETURN(const auto metres, ReadUnit(reading.unit));
+    ASSIGN_OR_RETURN(const auto metres, ReadUnit(reading.unit, {"--unit"}));
     options.body.metres_per_unit = metres;
   }
   if (!reading.up.empty()) options.body.up = reading.up == "z" ? UpAxis::kZ : UpAxis::kY;

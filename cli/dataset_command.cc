@@ -72,7 +72,7 @@ void DefineExport(CLI::App& app, Action& action) {
   command->add_option("scenarios", options->scenarios, "Scenario files, or folders of them")->required();
   command->add_option("-o,--output", options->output, "Folder of the data set")->required();
   command->add_flag("--films", options->films, "Each camera's take as an MP4, too, beside its pictures");
-  AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map);
+  AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map, options->clip_facts);
   const Action act = WithSecretKey(*command, &options->seed, options->key, [=] { return ExportCommand(*options); });
   command->callback([=, &action] { action = act; });
 }
@@ -90,7 +90,7 @@ void DefineScore(CLI::App& app, const std::string& command_line, Action& action)
   command->add_flag("--alone", options->alone, "Do not run the scenarios' own methods beside it");
   command->add_flag("--allow-missing", options->allow_missing, "A world without answer is a failed cell");
   AddJobs(*command, options->jobs);
-  AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map);
+  AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map, options->clip_facts);
   const Action act = WithSecretKey(*command, &options->seed, options->key, [=] { return ScoreCommand(*options); });
   command->callback([=, &action] { action = act; });
 }

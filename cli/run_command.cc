@@ -145,6 +145,7 @@ int RunCommand(const RunOptions& given) {
   interrupt.reset();  // all is written
   if (!outcome) return Complain(outcome.error());
   TellUnlocked(*outcome);
+  for (const RefusedClip& one : outcome->refused) Complain({{one.clip}, "left out: " + one.why});
   const std::string folder = outcome->folder.string();
   for (const int line : outcome->damaged_lines) {
     Complain(
@@ -266,8 +267,10 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   command->add_option("-o,--output", options->output,
                       "Result folder (default: out/<suite>-<seed>; of secret worlds, their digest)");
   AddJobs(*command, options->jobs);
-  const auto world_options =
-      AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map);
+  const auto world_options = AddWorldOptions(*command, options->seed, options->trials, options->clips,
+                                             options->joint_map, options->clip_facts);
+  CLI::Option* skip_refused = command->add_flag("--skip-refused", options->skip_refused,
+                                                "Leave out clips that cannot be read; the manifest names them");
   auto dry_run = std::make_shared<bool>(false), as_json = std::make_shared<bool>(false);
   const Action act = WithSecretKey(*command, &options->seed, options->key,
                                    [=] { return *dry_run ? DryRunCommand(*options, *as_json) : RunCommand(*options); });
@@ -290,6 +293,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   AddJson(*command, *as_json)->needs(dry);
   CLI::Option* from = command->add_option("--from", options->from, "Repeat the run that this manifest.json describes");
   for (CLI::Option* option : world_options) from->excludes(option);
+  from->excludes(skip_refused);
   from->excludes(command->add_option("--library", options->libraries,
                                      "NAME=CLIPS: a library beside the scenarios', every condition once more for it"));
   CLI::Option* streams = command->add_option(

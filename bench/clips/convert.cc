@@ -9,10 +9,12 @@
 
 #include "engine/base/names.h"
 #include "engine/formats/bvh.h"
+#include "engine/formats/c3d.h"
 #include "engine/formats/gltf/gltf.h"
 #include "engine/formats/joint_csv.h"
 #include "engine/formats/trc.h"
 #include "engine/motion/edit.h"
+#include "engine/retargeting/joint_arrays.h"
 #include "engine/retargeting/proportions.h"
 #include "engine/retargeting/rig.h"
 #include "sim/character/characters.h"
@@ -137,8 +139,10 @@ Result<Converted> ConvertBodies(std::vector<SourceClip> sources, MotionFormat fo
     const std::string& name = opened.source.name;
     if (format == MotionFormat::kTrc) converted.bytes = WriteTrc(motion, name);
     if (format == MotionFormat::kCsv) converted.bytes = WriteJointCsv(motion);
+    if (format == MotionFormat::kC3d) converted.bytes = WriteC3d(motion);
     // The rest pose of a body with its own proportions: standing as the canonical one does.
     if (!is_canonical && clips.empty()) rest = Retarget({.poses = {rest}}, motion.poses.front()).poses.front();
+    if (format == MotionFormat::kNpz) converted.bytes = WriteBodyNpz(motion, rest);
     clips.push_back(RigClip(motion, rest, opened.source.clip.name));
   }
   converted.note = clips.size() == 1 ? "as a body: " + note : fmt::format("{} clips as bodies", clips.size());
@@ -176,7 +180,9 @@ Result<MotionFormat> FormatOfName(const std::string& path) {
   if (extension == ".glb") return MotionFormat::kGlb;
   if (extension == ".trc") return MotionFormat::kTrc;
   if (extension == ".csv") return MotionFormat::kCsv;
-  return Fail({path, 0, 0}, "is no name of a format that is written; allowed: .bvh, .glb, .trc, .csv");
+  if (extension == ".c3d") return MotionFormat::kC3d;
+  if (extension == ".npz") return MotionFormat::kNpz;
+  return Fail({path, 0, 0}, "is no name of a format that is written; allowed: .bvh, .glb, .trc, .csv, .c3d, .npz");
 }
 
 Result<Converted> ConvertClips(std::vector<SourceClip> clips, MotionFormat format, const ConvertOptions& options) {
@@ -189,7 +195,7 @@ Result<Converted> ConvertClips(std::vector<SourceClip> clips, MotionFormat forma
                 "only GLB holds several animations; choose one of the {} with FILE#NAME: {}", clips.size(),
                 Join(names));
   }
-  const bool has_only_joints = format == MotionFormat::kTrc || format == MotionFormat::kCsv;
+  const bool has_only_joints = format != MotionFormat::kBvh && format != MotionFormat::kGlb;
   const bool as_body = options.ground || options.retarget || has_figure || has_only_joints;
   return as_body ? ConvertBodies(std::move(clips), format, options)
                  : ConvertOwnSkeletons(std::move(clips), format, options);

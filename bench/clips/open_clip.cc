@@ -18,10 +18,12 @@
 #include "engine/formats/deepmimic.h"
 #include "engine/formats/gltf/gltf.h"
 #include "engine/formats/joint_csv.h"
+#include "engine/formats/motive_csv.h"
 #include "engine/formats/npz.h"
 #include "engine/formats/text_scanner.h"
 #include "engine/formats/trc.h"
 #include "engine/motion/edit.h"
+#include "engine/retargeting/joint_arrays.h"
 #include "engine/retargeting/markers.h"
 #include "engine/retargeting/rig.h"
 #include "sim/camera/jpeg.h"
@@ -116,6 +118,26 @@ Result<Clip> ReadAcclaim(std::string_view bytes, const std::string& path, Capped
   return ReadAcclaimMotion(bytes, skeleton, path);
 }
 
+/// The roles that the bones of a VRM file play; spine, hands, feet and the crown are found as usual.
+std::optional<TaughtRoles> RolesOfBones(const std::map<std::string, int>& bones, const Skeleton& skeleton) {
+  constexpr std::pair<const char*, Role> kBones[] = {
+      {"leftUpperArm", Role::kLeftShoulder}, {"rightUpperArm", Role::kRightShoulder},
+      {"leftLowerArm", Role::kLeftElbow},    {"rightLowerArm", Role::kRightElbow},
+      {"leftHand", Role::kLeftWrist},        {"rightHand", Role::kRightWrist},
+      {"leftUpperLeg", Role::kLeftHip},      {"rightUpperLeg", Role::kRightHip},
+      {"leftLowerLeg", Role::kLeftKnee},     {"rightLowerLeg", Role::kRightKnee},
+      {"leftFoot", Role::kLeftAnkle},        {"rightFoot", Role::kRightAnkle},
+      {"neck", Role::kShoulderCentre}};
+  TaughtRoles roles;
+  for (const auto& [bone, role] : kBones) {
+    const auto found = bones.find(bone);
+    if (found == bones.end()) continue;
+    const std::string& name = skeleton.joints[found->second].name;
+    if (skeleton.Find(name) == found->second) roles.joints[role] = {name, {}};
+  }
+  return roles.joints.empty() ? std::nullopt : std::optional(std::move(roles));
+}
+
 /// Makes clips of the bodies that markers show.
 Result<ClipFile> FileOfMarkers(ClipFormat format, const MarkerMotion& markers, const std::string& path, char up = 0) {
   ASSIGN_OR_RETURN(const auto bodies, FindMarkerBodies(markers, path, up));
@@ -172,6 +194,11 @@ std::optional<Result<ClipFile>> ReadMarkers(std::string_view bytes, const std::s
     if (!read) return tl::unexpected(read.error());
     return FileOfMarkers(ClipFormat::kC3d, read->markers, path, read->up);
   }
+  if (IsMotiveCsv(bytes)) {
+    const auto read = ReadMotiveCsv(bytes, path);
+    if (!read) return tl::unexpected(read.error());
+    return FileOfMarkers(ClipFormat::kMotive, *read, path, 'Y');
+  }
   const std::string_view heading = bytes.substr(0, bytes.find('\n'));
   if (heading.starts_with("PathFileType")) {
     const auto read = ReadTrc(bytes, path);
@@ -215,13 +242,31 @@ Result<void> KeepWanted(const SplitReference& wanted, const Character& figure, s
   return {};
 }
 
-const TaughtRoles* TaughtBy(const OpenOptions& options) { return options.roles ? &*options.roles : nullptr; }
+/// The roles that are taught by the user, else by the file.
+const TaughtRoles* TaughtBy(const OpenOptions& options, const std::optional<TaughtRoles>& file) {
+  if (options.roles && !options.roles->joints.empty()) return &*options.roles;
+  return file ? &*file : nullptr;
+}
+
+/// Roots clips at the hips whose file roots them at the chest or the head, unless meshes need their skeleton as it is.
+void RootAtHips(Clip& clip, bool has_meshes, std::vector<std::string>& remarks) {
+  const auto has_scales = [](const LocalPose& pose) {
+    return std::ranges::any_of(pose, [](const LocalTransform& local) { return local.scale != glm::dvec3(1); });
+  };
+  const int root = has_meshes ? -1 : FindNewRoot(clip.skeleton);
+  if (root < 0 || has_scales(RestPose(clip.skeleton)) || std::ranges::any_of(clip.frames, has_scales)) return;
+  remarks.push_back(fmt::format("rooted at {} instead of {}", Quote(clip.skeleton.joints[root].name),
+                                Quote(clip.skeleton.joints[0].name)));
+  clip = WithRootAt(clip, root);
+}
 
 /// Finds the ground of a file with several clips. A skeleton without roles has none; UnderstandClip says what it lacks.
 std::optional<Ground> GroundOf(const ClipFile& file, const std::string& path, const OpenOptions& options) {
   if (file.clips.size() < 2) return std::nullopt;
-  const auto map = FindJointMap(file.clips.front().skeleton, path, TaughtBy(options));
-  return map ? FindGround(file.clips, *map, options.body) : std::nullopt;
+  const auto map = FindJointMap(file.clips.front().skeleton, path, TaughtBy(options, file.roles));
+  BodyOptions told = options.body;
+  if (options.roles && !told.up) told.up = options.roles->up;
+  return map ? FindGround(file.clips, *map, told) : std::nullopt;
 }
 
 /// Opens a clip of our own skeleton, which has a joint of the name of every role, exactly there.
@@ -245,12 +290,12 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
 }  // namespace
 
 std::string_view FormatName(ClipFormat format) {
-  constexpr std::array kNames = {"BVH", "glTF", "GLB", "DeepMimic", "Acclaim", "AMASS",
-                                 "C3D", "TRC",  "CSV", "recording", "built-in"};
+  constexpr std::array kNames = {"BVH", "glTF", "GLB", "DeepMimic", "Acclaim", "AMASS",     "C3D",
+                                 "TRC", "CSV",  "NPZ", "NPY",       "Motive",  "recording", "built-in"};
   return kNames[static_cast<std::size_t>(format)];
 }
 
-Result<ClipFile> ReadClipFile(const std::string& path) {
+Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::string>& layout) {
   CappedReader reader;
   ASSIGN_OR_RETURN(const auto bytes, reader.Read(path));
   TextScanner scanner(bytes, path);
@@ -260,8 +305,22 @@ Result<ClipFile> ReadClipFile(const std::string& path) {
   ClipFile file;
   if (IsZip(bytes)) {
     ASSIGN_OR_RETURN(const auto arrays, ReadNpz(bytes, path));
+    if (IsBodyNpz(arrays)) {
+      ASSIGN_OR_RETURN(const auto motion, ReadBodyNpz(arrays, path));
+      file = FileOfOne(ClipFormat::kNpz, RigClip(motion, StandingPose(), fs::path(path).stem().string()));
+      file.notes = {"Etude's own arrays"};
+      return file;
+    }
     ASSIGN_OR_RETURN(auto clip, ReadAmass(arrays, path));
     return FileOfOne(ClipFormat::kAmass, std::move(clip));
+  }
+  if (IsNpy(bytes)) {
+    ASSIGN_OR_RETURN(const auto array, ReadNpy(bytes, path));
+    std::string note;
+    ASSIGN_OR_RETURN(const auto joints, JointsOfArray(array, layout, path, note));
+    ASSIGN_OR_RETURN(file, FileOfMarkers(ClipFormat::kNpy, joints, path));
+    for (std::string& told : file.notes) told += "; " + note;
+    return file;
   }
   if (auto markers = ReadMarkers(bytes, path)) return *std::move(markers);
   if (IsRecording(bytes)) return FileOfRecording(bytes, path);
@@ -277,6 +336,7 @@ Result<ClipFile> ReadClipFile(const std::string& path) {
             bytes, path, [&](const std::string& uri) { return ReadBeside(path, uri, reader); }, DecodeTexture));
     file.figure = std::move(content.character);
     file.clips = std::move(content.clips);
+    file.roles = RolesOfBones(content.bones, file.figure.skeleton);
     return file;
   }
   if (IsAcclaimMotion(bytes)) {
@@ -288,27 +348,30 @@ Result<ClipFile> ReadClipFile(const std::string& path) {
     return Fail(scanner.At(first),
                 "{}; allowed: BVH (it begins with HIERARCHY), glTF 2.0 (.glb, .gltf), Acclaim's .amc, AMASS's .npz, "
                 "C3D, TRC, joint "
-                "CSV, DeepMimic's motions",
+                "CSV, Motive's CSV, .npy of joints, DeepMimic's motions",
                 WhatElse(bytes, std::string(first.text)));
   }
-  ASSIGN_OR_RETURN(auto clip, ReadBvh(bytes, path));
-  return FileOfOne(ClipFormat::kBvh, std::move(clip));
+  ASSIGN_OR_RETURN(auto clip, ReadBvh(bytes, path, &file.remarks));
+  ClipFile read = FileOfOne(ClipFormat::kBvh, std::move(clip));
+  read.remarks = std::move(file.remarks);
+  return read;
 }
 
 Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const OpenOptions& options) {
   if (reference.starts_with(kBuiltinPrefix)) return ReadBuiltin(reference);
   const SplitReference wanted = InRun(Split(reference));
-  ASSIGN_OR_RETURN(auto file, ReadClipFile(FileOf(wanted.path)));
+  ASSIGN_OR_RETURN(auto file, ReadClipFile(FileOf(wanted.path), wanted.animation));
   const std::string stem = fs::path(FileOf(wanted.path)).stem().string();
   const bool is_gltf = file.format == ClipFormat::kGltf || file.format == ClipFormat::kGlb;
   const bool is_one = !is_gltf && file.format != ClipFormat::kRecording && file.clips.size() == 1;
   if (is_one) {
-    if (wanted.animation) {
+    if (wanted.animation && file.format != ClipFormat::kNpy) {
       return Fail({wanted.path, 0, 0}, "a {} file has one motion; '#{}' chooses one of a glTF file",
                   FormatName(file.format), *wanted.animation);
     }
-    return std::vector<SourceClip>{{stem, wanted.path, file.format, std::move(file.clips.front()), nullptr,
-                                    std::nullopt, file.notes.empty() ? "" : file.notes.front()}};
+    const std::string source = wanted.path + (wanted.animation ? "#" + *wanted.animation : "");
+    return std::vector<SourceClip>{{stem, source, file.format, std::move(file.clips.front()), nullptr, std::nullopt,
+                                    file.notes.empty() ? "" : file.notes.front(), file.remarks}};
   }
   std::map<std::string, std::string> notes;
   for (std::size_t i = 0; i < file.notes.size(); ++i) notes[file.clips[i].name] = file.notes[i];
@@ -320,21 +383,30 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   for (Clip& clip : file.clips) {
     const std::string animation = "#" + clip.name;
     const std::string note = notes[clip.name];
-    clips.push_back({stem + animation, wanted.path + animation, file.format, std::move(clip), figure, ground, note});
+    clips.push_back({stem + animation, wanted.path + animation, file.format, std::move(clip), figure, ground, note,
+                     file.remarks, file.roles});
   }
   return clips;
 }
 
 Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options) {
   const bool is_body = source.format == ClipFormat::kBuiltin || !source.note.empty();
+  const bool is_file = source.format != ClipFormat::kBuiltin && source.format != ClipFormat::kRecording;
+  if (is_file && options.roles) source.clip.rate_hz = options.roles->rate_hz.value_or(source.clip.rate_hz);
   if (is_body) return UnderstandBuiltin(std::move(source), options.body);
-  ASSIGN_OR_RETURN(auto map, FindJointMap(source.clip.skeleton, source.source, TaughtBy(options)));
+  RootAtHips(source.clip, source.character != nullptr, source.remarks);
+  ASSIGN_OR_RETURN(auto map, FindJointMap(source.clip.skeleton, source.source, TaughtBy(options, source.roles)));
   BodyOptions told = options.body;
+  if (options.roles) {
+    if (!told.metres_per_unit) told.metres_per_unit = options.roles->metres_per_unit;
+    if (!told.up) told.up = options.roles->up;
+  }
   if (source.ground) {
     told.up = source.ground->up;
     told.floor = source.ground->floor;
   }
   ASSIGN_OR_RETURN(auto body, ToBodyMotion(source.clip, map, source.source, told));
+  for (const std::string& remark : source.remarks) body.note += "; " + remark;
   return OpenedClip{std::move(source), std::move(map), std::move(body)};
 }
 

@@ -16,9 +16,24 @@
 
 namespace etude {
 
-enum class ClipFormat { kBvh, kGltf, kGlb, kDeepMimic, kAcclaim, kAmass, kC3d, kTrc, kCsv, kRecording, kBuiltin };
+enum class ClipFormat {
+  kBvh,
+  kGltf,
+  kGlb,
+  kDeepMimic,
+  kAcclaim,
+  kAmass,
+  kC3d,
+  kTrc,
+  kCsv,
+  kNpz,
+  kNpy,
+  kMotive,
+  kRecording,
+  kBuiltin
+};
 /// Returns the name of a format: "BVH", "glTF", "GLB", "DeepMimic", "Acclaim", "AMASS", "C3D", "TRC", "CSV",
-/// "recording" or "built-in".
+/// "NPZ", "NPY", "Motive", "recording" or "built-in".
 std::string_view FormatName(ClipFormat format);
 
 /// The content of a motion file.
@@ -26,17 +41,20 @@ struct ClipFile {
   ClipFormat format = ClipFormat::kBvh;
   Character figure;         ///< a skeleton, and meshes if the file has any
   std::vector<Clip> clips;  ///< on that skeleton; a glTF file may have none, and one of markers several people
-  std::vector<std::string> notes = {};  ///< of clips that are bodies already: how they were made of markers
+  std::vector<std::string> notes = {};    ///< of clips that are bodies already: how they were made of markers
+  std::vector<std::string> remarks = {};  ///< what reading had to repair
+  std::optional<TaughtRoles> roles = {};  ///< what a VRM file's own table of bones tells
 };
 
 /// The largest size of a file, or of a .gltf with its buffers, bytes; more is refused before memory is taken.
 constexpr std::uintmax_t kLargestClipFile = 500'000'000;
 
-/// Reads a BVH or glTF file, a motion of DeepMimic, an Acclaim motion (AMC), one of AMASS (.npz), or markers of C3D,
-/// TRC or joint CSV (FindMarkerBodies), told by its content, whatever it is called. The buffers of a .gltf are read
+/// Reads a BVH or glTF file, a motion of DeepMimic, an Acclaim motion (AMC), one of AMASS (.npz), an .npz of our own,
+/// an array of joints (.npy, in `layout`: JointsOfArray), or markers of C3D, TRC, Motive's CSV or joint CSV
+/// (FindMarkerBodies), told by its content, whatever it is called. The buffers of a .gltf are read
 /// from its own folder and below only, links leading out of it are refused. An AMC's skeleton is the ASF beside it:
 /// "01.asf" of "01_01.amc", else the only one of its folder.
-Result<ClipFile> ReadClipFile(const std::string& path);
+Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::string>& layout = std::nullopt);
 
 /// The options with which a clip is opened.
 struct OpenOptions {
@@ -55,6 +73,8 @@ struct SourceClip {
   std::shared_ptr<const Character> character;
   std::optional<Ground> ground = {};  ///< of all clips of the file, where there are several
   std::string note = {};  ///< of a body that was made of markers: it is in metres already, and stands on the floor
+  std::vector<std::string> remarks = {};  ///< what reading the file had to repair: they end the body's note
+  std::optional<TaughtRoles> roles = {};  ///< ClipFile::roles; those of OpenOptions come first
 };
 
 /// Reads the clips of one file or built-in name (as ExpandReference gives them): one of a BVH, all animations of a

@@ -199,6 +199,7 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress
   run.trials = options.trials;
   run.clips = options.clips;
   run.joint_map = options.joint_map;
+  run.clip_facts = options.clip_facts;
   ASSIGN_OR_RETURN(const auto suite, ReadSuite(run));
   ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(suite));
   ASSIGN_OR_RETURN(auto folder, NewFolder::Begin(options.output));

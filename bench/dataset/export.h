@@ -18,6 +18,7 @@ struct ExportOptions {
   std::optional<int> trials;           ///< else each scenario's own
   std::vector<std::string> clips;      ///< replaces the scenarios' clips when not empty
   std::string joint_map;               ///< replaces the scenarios' joint maps when not empty
+  std::string clip_facts = {};         ///< RunOptions::clip_facts
   bool films = false;                  ///< of each camera of a capture, beside its pictures
   std::string output;
   std::string program_version;

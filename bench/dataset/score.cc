@@ -28,11 +28,13 @@ Result<SuiteSetup> ReadTarget(const ScoreOptions& options) {
     run.trials = options.trials;
     run.clips = options.clips;
     run.joint_map = options.joint_map;
+    run.clip_facts = options.clip_facts;
     return ReadSuite(run);
   }
-  if (options.seed || options.trials || !options.clips.empty() || !options.joint_map.empty()) {
+  if (options.seed || options.trials || !options.clips.empty() || !options.joint_map.empty() ||
+      !options.clip_facts.empty()) {
     return Fail({manifest.string(), 0, 0},
-                "tells seed, trials and clips itself; leave out --seed, --trials, --clips, --joint-map");
+                "tells seed, trials and clips itself; leave out --seed, --trials, --clips, --joint-map, --unit, --up");
   }
   ASSIGN_OR_RETURN(auto suite, ReadManifest(manifest));
   RETURN_IF_ERROR(OpenSeeds(options.key, {manifest.string()}, suite));

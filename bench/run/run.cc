@@ -1,5 +1,6 @@
 #include "bench/run/run.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -223,6 +224,11 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
                      .fence = ProgramsOf(scenarios).empty() ? "" : fence.description(),
                      .why_unlocked = claimed.why_unlocked(),
                      .damaged_lines = std::move(opened.damaged)};
+  for (const ScenarioSetup& setup : suite.scenarios) {
+    for (const RefusedClip& one : setup.refused) {
+      if (std::ranges::find(outcome.refused, one) == outcome.refused.end()) outcome.refused.push_back(one);
+    }
+  }
   if (outcome.stopped) return outcome;
   claimed.Keep();
   Json host = DescribeHost(options.command_line, WorkerCount(options.jobs), outcome.seconds);

@@ -11,6 +11,7 @@
 #include "bench/run/outside_programs.h"
 #include "bench/run/plan.h"
 #include "bench/run/secret_key.h"
+#include "bench/run/setup.h"
 #include "engine/base/result.h"
 
 namespace etude {
@@ -26,6 +27,8 @@ struct RunOptions {
   std::vector<std::string> streams;  ///< in the place of simulated people or the scenarios' recordings, when not empty
   std::string labels;                ///< of `streams`, or of `clips`
   std::string joint_map;             ///< replaces the scenarios' joint maps when not empty
+  std::string clip_facts = {};       ///< further lines of that file, such as "unit: cm\n"
+  bool skip_refused = false;         ///< leave out clips that cannot be read; the manifest names them
   std::string output;                ///< "" = out/<suite>-<seed>, and "-<i>-of-<n>" for a shard
   bool overwrite = false;            ///< replace a folder that already holds a run
   bool resume = false;               ///< go on with the run that the folder holds
@@ -53,9 +56,10 @@ struct RunOutcome {
   std::size_t cells = 0;  ///< that have their row
   std::size_t cells_ok = 0;
   double seconds = 0;
-  bool stopped = false;           ///< ended early; the journal holds what was done
-  std::string fence = {};         ///< what methods outside ran in; "" = there were none
-  std::string why_unlocked = {};  ///< nothing kept other runs out of the folder; "" = a lock did
+  bool stopped = false;                   ///< ended early; the journal holds what was done
+  std::string fence = {};                 ///< what methods outside ran in; "" = there were none
+  std::vector<RefusedClip> refused = {};  ///< left out of all scenarios together, each once
+  std::string why_unlocked = {};          ///< nothing kept other runs out of the folder; "" = a lock did
   /// Lines of the journal gone on with that were not as they had been written; their cells were run again.
   std::vector<int> damaged_lines = {};
 };

@@ -89,6 +89,9 @@ Json EncodeSetup(const SuiteSetup& setup) {
                          {"clips", scenario.clips},
                          {"joint_map", scenario.joint_map},
                          {"digest", scenario.digest}});
+    for (const RefusedClip& one : scenario.refused) {
+      scenarios.back()["refused"].push_back({{"clip", one.clip}, {"why", one.why}});
+    }
     if (!scenario.streams.empty()) scenarios.back()["streams"] = scenario.streams;
     if (!scenario.labels.empty()) scenarios.back()["labels"] = scenario.labels;
     for (const NamedClips& library : scenario.libraries) {
@@ -132,6 +135,9 @@ Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
                                  scenario.value("joint_map", ""), scenario.at("digest").get<std::string>()});
       setup.scenarios.back().streams = scenario.value("streams", std::vector<std::string>{});
       setup.scenarios.back().labels = scenario.value("labels", std::vector<std::string>{});
+      for (const Json& one : scenario.value("refused", Json::array())) {
+        setup.scenarios.back().refused.push_back({one.at("clip").get<std::string>(), one.at("why").get<std::string>()});
+      }
       for (const Json& library : scenario.value("libraries", Json::array())) {
         setup.scenarios.back().libraries.push_back(
             {library.at("name").get<std::string>(), library.at("clips").get<std::vector<std::string>>()});

@@ -17,6 +17,13 @@ namespace etude {
 /// The most cells of one run: the places of their rows are held in memory.
 inline constexpr std::size_t kMostCells = 10'000'000;
 
+/// A clip that a run was to leave out because it cannot be read or understood.
+struct RefusedClip {
+  std::string clip;  ///< a reference
+  std::string why;
+  friend bool operator==(const RefusedClip&, const RefusedClip&) = default;
+};
+
 /// The inputs of a scenario's worlds beside the texts that it stands in: enough to make them again anywhere.
 struct ScenarioSetup {
   std::string file;  ///< a key of SuiteSetup::sources
@@ -29,6 +36,7 @@ struct ScenarioSetup {
   std::vector<NamedClips> libraries = {};  ///< the scenario's own, and those of --library
   std::vector<std::string> streams = {};   ///< recordings; the scenario's own, or those of --streams
   std::vector<std::string> labels = {};    ///< keys of SuiteSetup::sources
+  std::vector<RefusedClip> refused = {};   ///< what `clips` and `libraries` were to name as well
 };
 
 /// A method whose answers are known already (etude score).

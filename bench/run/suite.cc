@@ -6,6 +6,8 @@
 #include <set>
 #include <string_view>
 
+#include "bench/clips/open_clip.h"
+#include "bench/clips/references.h"
 #include "bench/files/files.h"
 #include "bench/run/manifest.h"
 #include "bench/run/shipped.h"
@@ -56,6 +58,57 @@ Result<void> KeepNamedFiles(const Scenario& scenario, SourceTexts& texts) {
         return Fail(file.node->place, "{}", ToString(kept.error()));
       }
     }
+  }
+  return {};
+}
+
+/// Keeps the text of a joint map, with further lines; gives the name that it is kept under.
+Result<std::string> KeepJointMap(const std::string& file, const std::string& more, SourceTexts& texts) {
+  RETURN_IF_ERROR(KeepText(file, texts));
+  if (more.empty()) return file;
+  std::string name = file + "(" + more.substr(0, more.size() - 1) + ")";
+  std::ranges::replace(name, '\n', ',');
+  texts[name] = (file.empty() ? "" : texts.at(file) + "\n") + more;
+  return name;
+}
+
+/// Keeps those of `references` that give clips, each of its own, and notes the others.
+Result<std::vector<std::string>> OnlyUnderstood(const std::vector<std::string>& references, const OpenOptions& how,
+                                                const Place& place, std::vector<RefusedClip>& refused) {
+  std::vector<std::string> understood;
+  for (const std::string& reference : references) {
+    ASSIGN_OR_RETURN(const auto expanded, ExpandReference(reference, place));
+    for (const std::string& one : expanded) {
+      auto clips = ReadClips(one, how);
+      if (!clips) refused.push_back({one, ToString(clips.error())});
+      if (!clips) continue;
+      for (SourceClip& clip : *clips) {
+        const std::string source = clip.source;
+        if (const auto opened = UnderstandClip(std::move(clip), how); opened) {
+          understood.push_back(source);
+        } else {
+          refused.push_back({source, ToString(opened.error())});
+        }
+      }
+    }
+  }
+  if (!references.empty() && understood.empty()) {
+    return Fail(place, "--skip-refused: none of its {} clips is understood, the first because {}", refused.size(),
+                refused.empty() ? "there is none" : refused.front().why);
+  }
+  return understood;
+}
+
+Result<void> LeaveOutRefused(ScenarioSetup& setup, const SourceTexts& texts) {
+  OpenOptions how;
+  if (!setup.joint_map.empty()) {
+    ASSIGN_OR_RETURN(auto roles, ReadJointMapFile(texts.at(setup.joint_map), setup.joint_map));
+    how.roles = std::move(roles);
+  }
+  const Place place{setup.file, 0, 0};
+  ASSIGN_OR_RETURN(setup.clips, OnlyUnderstood(setup.clips, how, place, setup.refused));
+  for (NamedClips& library : setup.libraries) {
+    ASSIGN_OR_RETURN(library.clips, OnlyUnderstood(library.clips, how, place, setup.refused));
   }
   return {};
 }
@@ -131,12 +184,14 @@ Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const s
   // Clips of no library are not loaded where there are libraries, and none where there are recordings.
   std::vector<std::string> clips = replaced ? options.clips : scenario.clips;
   if (!scenario.libraries.empty() || !scenario.streams.files.empty()) clips.clear();
-  const std::string& joint_map = options.joint_map.empty() ? scenario.joint_map : options.joint_map;
-  RETURN_IF_ERROR(KeepText(joint_map, sources));
+  ASSIGN_OR_RETURN(
+      const auto joint_map,
+      KeepJointMap(options.joint_map.empty() ? scenario.joint_map : options.joint_map, options.clip_facts, sources));
   RETURN_IF_ERROR(KeepNamedFiles(scenario, sources));
   ScenarioSetup setup{file,   scenario.name,      SeedOf(options).value_or(scenario.seed.value_or(1)),
                       trials, std::move(clips),   joint_map,
                       digest, scenario.libraries, scenario.streams.files};
+  if (options.skip_refused) RETURN_IF_ERROR(LeaveOutRefused(setup, sources));
   ASSIGN_OR_RETURN(setup.labels, KeepLabels(scenario.streams.labels, sources));
   ASSIGN_OR_RETURN(const auto people, CountRecordedPeople(setup, scenario.streams, sources));
   if (people) setup.trials = std::min(trials, *people);  // a person is judged once

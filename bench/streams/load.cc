@@ -114,8 +114,7 @@ std::vector<NamedStream> StreamsOf(const ClipLibrary& library) {
 Result<std::vector<NamedStream>> LoadStream(const std::string& reference, const StreamReading& reading,
                                             const StreamOptions& options) {
   if (IsClip(reference)) {
-    ASSIGN_OR_RETURN(const ClipLibrary library,
-                     LoadClips({reference}, {}, {.roles = {}, .body = {.may_overstretch = true}}));
+    ASSIGN_OR_RETURN(const ClipLibrary library, LoadClips({reference}, {}));
     return StreamsOf(library);
   }
   ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(reference));

@@ -19,13 +19,14 @@ namespace etude {
 /// stands a second time becomes "<name>#2", so that every joint can be told. A rate within 0.01 % of a
 /// whole number is taken as that number: files print few digits of it (.0083333 means 120 Hz). One
 /// frame more than announced is dropped: some exporters announce the number of their last frame
-/// (Boxing_Toes of assimp's models).
+/// (Boxing_Toes of assimp's models). Where all OFFSETs are 0 and joints have positions, the first frame's places
+/// are the rest pose. `remarks` is told of both, in plain words.
 ///
 /// Refused, with line and column: whatever is not in the grammar, a second ROOT, a frame that is not
 /// one line with a number for every channel, another number of frames than announced, no frames, frame
 /// times outside 0.1 ms…10 s, nesting over 128, over 1,024 joints, names over 500 bytes, frames that would take over 1
 /// GB (an hour of 25 joints at 120 Hz), told before any of them is read.
-Result<Clip> ReadBvh(std::string_view bytes, const std::string& file);
+Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vector<std::string>* remarks = nullptr);
 
 /// Writes a clip as BVH: the root and every joint that leaves its offset in some frame with three positions, every
 /// joint with Z, X, Y rotations in degrees; six decimals. Every joint is where it is in the clip, in all frames and

@@ -289,9 +289,23 @@ std::string NameWithoutFolderAndExtension(std::string_view file) {
   return std::string(base.substr(0, base.find_last_of('.')));
 }
 
+/// Says whether no joint below the root has a place at rest, but one in the frames.
+bool LeavesPlacesToFrames(const Skeleton& skeleton, const LocalPose& frame) {
+  bool is_placed = false;
+  for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
+    if (skeleton.joints[i].parent < 0) continue;
+    if (skeleton.joints[i].rest.translation != glm::dvec3(0)) return false;
+    is_placed = is_placed || frame[i].translation != glm::dvec3(0);
+  }
+  return is_placed;
+}
+
 }  // namespace
 
-Result<Clip> ReadBvh(std::string_view bytes, const std::string& file) {
+Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vector<std::string>* remarks) {
+  const auto remark = [&](std::string text) {
+    if (remarks != nullptr) remarks->push_back(std::move(text));
+  };
   TextScanner scanner(bytes, file);
   ASSIGN_OR_RETURN(auto hierarchy, ReadBvhHierarchy(scanner));
   ASSIGN_OR_RETURN(auto header, ReadMotionHeader(scanner, hierarchy.skeleton.joints.size()));
@@ -311,10 +325,20 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file) {
     RETURN_IF_ERROR(ReadFrame(scanner, hierarchy.channels, clip.frames.size(), clip.frames.back()));
   }
   // Exporters that announce their last frame's number write one frame more: read like everybody does.
-  if (clip.frames.size() == announced + 1) clip.frames.pop_back();
+  if (clip.frames.size() == announced + 1) {
+    clip.frames.pop_back();
+    remark(fmt::format("{} rows where {} frames are announced: the last row was dropped", announced + 1, announced));
+  }
   if (clip.frames.size() != announced) {
     return Fail(scanner.At(header.frames_place), "{} frames announced; the file holds {}", announced,
                 clip.frames.size());
+  }
+  if (LeavesPlacesToFrames(clip.skeleton, clip.frames.front())) {
+    for (std::size_t i = 0; i < clip.skeleton.joints.size(); ++i) {
+      if (clip.skeleton.joints[i].parent < 0) continue;
+      clip.skeleton.joints[i].rest.translation = clip.frames.front()[i].translation;
+    }
+    remark("all OFFSETs are 0: the first frame's places are taken for the rest pose");
   }
   return clip;
 }

@@ -14,6 +14,7 @@
 namespace etude {
 namespace {
 
+constexpr std::string_view kMagic = "\x93NUMPY";
 constexpr std::size_t kMostMembers = 1000;
 constexpr std::uint64_t kMostUnpacked = std::uint64_t{512} << 20;
 
@@ -58,8 +59,7 @@ std::optional<std::vector<double>> NumbersOf(std::string_view type, std::string_
 }
 
 /// Reads an .npy file; nothing when it holds no plain numbers.
-Result<std::optional<NumberArray>> ReadNpy(std::string_view bytes, const std::string& file) {
-  constexpr std::string_view kMagic = "\x93NUMPY";
+Result<std::optional<NumberArray>> ReadMember(std::string_view bytes, const std::string& file) {
   const Place place{file};
   if (!bytes.starts_with(kMagic) || bytes.size() < 12) return Fail(place, "is no .npy file");
   const bool is_first = bytes[6] == 1;  // later versions tell the header's length by four bytes
@@ -114,6 +114,14 @@ Result<std::string> Unpack(zip_t* archive, zip_uint64_t member, std::uint64_t& l
 
 }  // namespace
 
+bool IsNpy(std::string_view bytes) { return bytes.starts_with(kMagic); }
+
+Result<NumberArray> ReadNpy(std::string_view bytes, const std::string& file) {
+  ASSIGN_OR_RETURN(auto array, ReadMember(bytes, file));
+  if (!array) return Fail({file}, "holds no plain numbers; allowed: floats and whole numbers, little-endian");
+  return *std::move(array);
+}
+
 bool IsZip(std::string_view bytes) { return bytes.starts_with("PK\x03\x04"); }
 
 Result<Npz> ReadNpz(std::string_view bytes, const std::string& file) {
@@ -140,7 +148,7 @@ Result<Npz> ReadNpz(std::string_view bytes, const std::string& file) {
     if (!key.ends_with(kEnding)) continue;
     key.resize(key.size() - kEnding.size());
     ASSIGN_OR_RETURN(const auto unpacked, Unpack(archive.get(), i, left, file));
-    ASSIGN_OR_RETURN(auto array, ReadNpy(unpacked, file + "/" + key));
+    ASSIGN_OR_RETURN(auto array, ReadMember(unpacked, file + "/" + key));
     if (array) {
       read.arrays[key] = std::move(*array);
     } else {

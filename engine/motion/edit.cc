@@ -256,4 +256,53 @@ Clip WithOneRoot(Clip clip) {
   return clip;
 }
 
+Clip WithRootAt(const Clip& clip, int joint) {
+  const std::vector<Joint>& old = clip.skeleton.joints;
+  std::vector<int> parents;
+  for (const Joint& one : old) parents.push_back(one.parent);
+  for (int child = joint, parent = old[joint].parent; parent >= 0;) {
+    const int next = old[parent].parent;
+    parents[parent] = child;
+    child = std::exchange(parent, next);
+  }
+  parents[joint] = -1;
+  // Parents first again: each joint as soon as its parent has its place, in the old order.
+  std::vector<int> order, place(old.size(), -1);
+  while (order.size() < old.size()) {
+    for (int i = 0; i < static_cast<int>(old.size()); ++i) {
+      if (place[i] >= 0 || (parents[i] >= 0 && place[parents[i]] < 0)) continue;
+      place[i] = static_cast<int>(order.size());
+      order.push_back(i);
+    }
+  }
+  Clip rooted{.name = clip.name, .skeleton = {}, .rate_hz = clip.rate_hz, .frames = {}};
+  std::vector<GlobalTransform> globals;
+  const auto in_order = [&](const LocalPose& pose) {
+    ComputeGlobals(clip.skeleton, pose, globals);
+    LocalPose moved;
+    for (const int i : order) {
+      const bool is_root = parents[i] < 0;
+      const GlobalTransform parent = is_root ? GlobalTransform{} : globals[parents[i]];
+      if (!is_root && parents[i] == old[i].parent) {
+        moved.push_back(pose[i]);
+        continue;
+      }
+      const glm::dmat3 back = glm::transpose(parent.axes);
+      moved.push_back({.translation = back * (globals[i].position - parent.position),
+                       .rotation = glm::normalize(glm::quat_cast(back * globals[i].axes))});
+    }
+    return moved;
+  };
+  const LocalPose rest = in_order(RestPose(clip.skeleton));
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const int parent = parents[order[k]];
+    rooted.skeleton.joints.push_back({.name = old[order[k]].name,
+                                      .parent = parent < 0 ? -1 : place[parent],
+                                      .rest = rest[k],
+                                      .is_end_site = old[order[k]].is_end_site});
+  }
+  for (const LocalPose& frame : clip.frames) rooted.frames.push_back(in_order(frame));
+  return rooted;
+}
+
 }  // namespace etude

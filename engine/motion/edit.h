@@ -36,6 +36,11 @@ Clip WithWorldAxesAtRest(Clip clip);
 /// Returns the same motion with a single root: several come under one that stands still at the origin.
 Clip WithOneRoot(Clip clip);
 
+/// Returns the same motion of a skeleton whose root is `joint`, by index: the joints on the way from it to the old root
+/// change their order, all others stay under their parents. Joints are where they were in the world, in every frame and
+/// at rest. Needs unit scales.
+Clip WithRootAt(const Clip& clip, int joint);
+
 /// Returns a joint's name with its first word for a side changed: "LeftArm" ↔ "RightArm", "upperarm.l" ↔ "upperarm.r",
 /// "L_Elbow", "lShldr", "Bip01 L Thigh", "mixamorig:LeftArm". Words end at signs, blanks and where capitals begin; what
 /// stands in front of a colon is not looked at. Other names come back as they are: "Collar", "lowerback", "L5".

@@ -6,6 +6,8 @@
 #include <initializer_list>
 #include <vector>
 
+#include "engine/motion/support.h"
+
 namespace etude {
 namespace {
 
@@ -77,25 +79,45 @@ MotionStatistics ComputeStatistics(const BodyMotion& motion) {
   for (const BodyPose& pose : motion.poses) statures.push_back(Stature(pose));
   found.stature_m = Quantile(std::move(statures), 0.5);
   MeasureSpeeds(motion, found);
-  found.foot_slide_m_s = FootSlide(motion);
+  found.foot_slide = MeasureFootSlide(motion);
   found.lowest_foot_m = LowestPoint(motion, {kLeftFoot, kLeftAnkle, kRightFoot, kRightAnkle});
   return found;
 }
 
-double FootSlide(const BodyMotion& motion) {
-  constexpr double kLifted = 0.025;  // metres: a foot this high no longer stands
-  if (motion.poses.size() < 2) return 0;
-  double sum = 0;
-  for (const Role foot : {kLeftFoot, kRightFoot}) {
-    const double floor = LowestPoint(motion, {foot});
-    for (std::size_t f = 0; f + 1 < motion.poses.size(); ++f) {
-      const glm::dvec3& here = motion.poses[f][foot];
-      const double standing = std::clamp(2.0 - std::exp2((here.y - floor) / kLifted), 0.0, 1.0);
-      sum += standing * Horizontal(motion.poses[f + 1][foot] - here) * motion.rate_hz;
+FootSlide MeasureFootSlide(const BodyMotion& motion) {
+  constexpr double kFloorQuantile = 0.25;
+  constexpr Role kFeet[2][2] = {{kLeftAnkle, kLeftFoot}, {kRightAnkle, kRightFoot}};
+  const std::vector<BodyPose> velocities = JointVelocities(motion.poses, motion.rate_hz);
+  const std::vector<Bearing> bearing = FindBearing(motion.poses, motion.rate_hz, kFootRules);
+  std::vector<double> lowest;
+  for (const BodyPose& pose : motion.poses) {
+    lowest.push_back(std::ranges::min(pose.joints, {}, [](const glm::dvec3& joint) { return joint.y; }).y);
+  }
+  FootSlide slide;
+  if (motion.poses.empty()) return slide;
+  const double reach = Quantile(lowest, kFloorQuantile) + kFootRules.height;
+  std::array<double, 2> sum{}, stances{};
+  for (std::size_t f = 0; f < motion.poses.size(); ++f) {
+    const bool is_carried = bearing[f].rests.none() && lowest[f] <= reach;
+    for (std::size_t side = 0; side < 2; ++side) {
+      std::optional<double> slowest;
+      for (const Role joint : kFeet[side]) {
+        const bool is_low = motion.poses[f][joint].y <= lowest[f] + kFootRules.lowest;
+        if (!bearing[f].rests[Index(joint)] && !(is_carried && is_low)) continue;
+        const double speed = Horizontal(velocities[f][joint]);
+        slowest = std::min(slowest.value_or(speed), speed);
+      }
+      if (!slowest) continue;
+      sum[side] += *slowest;
+      ++stances[side];
     }
   }
-  constexpr double kFeet = 2;
-  return sum / (kFeet * static_cast<double>(motion.poses.size() - 1));
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (stances[side] > 0) slide.of_foot[side] = sum[side] / stances[side];
+    slide.stance_share[side] = stances[side] / static_cast<double>(motion.poses.size());
+  }
+  if (stances[0] + stances[1] > 0) slide.mean = (sum[0] + sum[1]) / (stances[0] + stances[1]);
+  return slide;
 }
 
 }  // namespace etude

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "engine/motion/body.h"
 
 namespace etude {
@@ -7,6 +10,20 @@ namespace etude {
 /// Returns the stature of a pose in its own unit: the way along the limbs from the ankles over knees, hips, spine and
 /// neck to the head (both legs' mean), divided by the 0.92 of a body that it covers.
 double Stature(const BodyPose& pose);
+
+/// How fast feet move along the floor while they stand, metres per second. None: nothing ever stood.
+struct FootSlide {
+  std::optional<double> mean;                    ///< over all frames in which a foot stands, of both feet
+  std::array<std::optional<double>, 2> of_foot;  ///< by side, in Side's order
+  std::array<double, 2> stance_share{};          ///< the share of the frames in which the foot stands
+};
+
+/// Measures how feet slide. A foot stands with its toes or its ankle where FindBearing finds them at rest by
+/// kFootRules. In a frame where nothing of the body is at rest, its lowest joints stand all the same, unless they are
+/// higher above the floor than SupportRules::height: so glides and treadmills slide, and jumps do not. The floor is the
+/// lower quartile of the heights of the body's lowest joint: one low frame moves it no more than a jump does. A foot
+/// that rolls slides no faster than the slower of its standing joints; velocities are those of JointVelocities.
+FootSlide MeasureFootSlide(const BodyMotion& motion);
 
 /// Overall measures of a motion, in metres and seconds.
 struct MotionStatistics {
@@ -16,18 +33,12 @@ struct MotionStatistics {
   double speed_p95_m_s = 0;
   double speed_peak_m_s = 0;
   Role fastest = Role::kHead;  ///< the joint of the peak
-  double foot_slide_m_s = 0;   ///< FootSlide
+  FootSlide foot_slide;        ///< MeasureFootSlide
   double lowest_foot_m = 0;    ///< lowest ankle or toe of either foot over the clip; near 0 for a clip on the floor
 };
 
 /// Measures a motion of at least one frame; of one frame all speeds are 0. A speed is the way from one frame to the
 /// next.
 MotionStatistics ComputeStatistics(const BodyMotion& motion);
-
-/// Returns the mean over frames and feet of the toes' horizontal speed, weighted by how much they stand: the weight is
-/// clamp(2 − 2^(h / 2.5 cm), 0, 1) at height h above the floor (Zhang et al. 2018, "Mode-adaptive neural networks").
-/// Heights are above each foot's own lowest point, so that it need not be known where the floor is. Metres per second;
-/// 0 of a single frame.
-double FootSlide(const BodyMotion& motion);
 
 }  // namespace etude

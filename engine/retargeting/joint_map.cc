@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
+#include "engine/base/angles.h"
+#include "engine/base/directions.h"
 #include "engine/base/names.h"
+#include "engine/retargeting/anatomy.h"
 #include "engine/retargeting/limb_finder.h"
 #include "engine/retargeting/limbs.h"
 #include "engine/retargeting/map_file.h"
@@ -40,7 +44,10 @@ class MapFinder {
     RETURN_IF_ERROR(CheckTree());
     RETURN_IF_ERROR(CheckSides());
     FindTips(places_, is_taught_);
-    return places_.map();
+    JointMap map = places_.map();
+    map.by_anatomy = by_anatomy_;
+    map.confidence = confidence_;
+    return map;
   }
 
  private:
@@ -62,6 +69,7 @@ class MapFinder {
 
   Result<void> FindLimbs() {
     std::vector<std::string> missing;
+    std::vector<Role> missing_roles;
     for (const Limb& limb : kLimbs) {
       const std::array<int, 3> taught = {places_.JointOf(limb.roles[0]), places_.JointOf(limb.roles[1]),
                                          places_.JointOf(limb.roles[2])};
@@ -72,13 +80,33 @@ class MapFinder {
           places_.Set(limb.roles[i], found.joints[i]);
           continue;
         }
+        missing_roles.push_back(limb.roles[i]);
         missing.emplace_back(RoleName(limb.roles[i]));
         // Beside joints of one scheme, the name that this scheme has for the missing one.
         if (found.scheme != nullptr) missing.back() += fmt::format(" (a '{}')", found.scheme->joints[i]);
       }
     }
     if (missing.empty()) return {};
-    return Fail({file_}, "no joint found for {}; {}", Join(missing), NamesSeen(skeleton_));
+    const AnatomyProposal proposal = ProposeByAnatomy(tree_);
+    const bool agrees = std::ranges::all_of(AllRoles(), [&](Role role) {
+      return proposal.joints[Index(role)] < 0 || !places_.Has(role) ||
+             places_.JointOf(role) == proposal.joints[Index(role)];
+    });
+    if (agrees && proposal.confidence >= kSureAnatomy) {
+      for (const Role role : missing_roles) places_.Set(role, proposal.joints[Index(role)]);
+      by_anatomy_ = std::move(missing_roles);
+      confidence_ = proposal.confidence;
+      return {};
+    }
+    std::string guess;
+    if (agrees && proposal.confidence > 0) {
+      guess = fmt::format(
+          "by its build {} could be {} (confidence {:.2f}; used from {:.1f} on): etude clip map writes "
+          "that to be edited; ",
+          RoleName(missing_roles[0]), Quote(tree_.NameOf(proposal.joints[Index(missing_roles[0])])),
+          proposal.confidence, kSureAnatomy);
+    }
+    return Fail({file_}, "no joint found for {}; {}{}", Join(missing), guess, NamesSeen(skeleton_));
   }
 
   Result<void> FindPelvis() {
@@ -107,7 +135,8 @@ class MapFinder {
 
   void FindNeckAndHead() {
     const auto is_above_pelvis = [&](int joint) { return tree_.HangsFrom(joint, places_.JointOf(kHipCentre)); };
-    const int head = FindInMiddle(HeadNames(), is_above_pelvis);
+    int head = FindInMiddle(HeadNames(), is_above_pelvis);
+    if (head < 0) head = HeadByBuild();
     if (!places_.Has(kHead) && head >= 0) places_.Set(kHead, head);
     if (places_.Has(kShoulderCentre)) return;
     // CMU's "Neck" lies on the chest joint that it hangs from, its "Neck1" at the neck's base. Limbs serve as the
@@ -121,6 +150,31 @@ class MapFinder {
     const int carrier = tree_.CommonAncestor(places_.JointOf(kLeftShoulder), places_.JointOf(kRightShoulder));
     places_.Compose(kShoulderCentre, std::max(carrier, 0),
                     0.5 * (places_.RestOf(kLeftShoulder) + places_.RestOf(kRightShoulder)));
+  }
+
+  /// The joint below the top of what goes straight on from the trunk beyond the shoulders, or −1: limbs aside, the
+  /// joint is farther than the shoulders by 0.15 of the trunk and no more than by 0.8.
+  int HeadByBuild() const {
+    const int carrier = tree_.CommonAncestor(places_.JointOf(kLeftShoulder), places_.JointOf(kRightShoulder));
+    const glm::dvec3 neck = 0.5 * (places_.RestOf(kLeftShoulder) + places_.RestOf(kRightShoulder));
+    const glm::dvec3 trunk = neck - 0.5 * (places_.RestOf(kLeftHip) + places_.RestOf(kRightHip));
+    constexpr double kNearest = 0.15, kFarthest = 0.8, kAside = Radians(30);
+    double highest = kNearest;
+    int head = -1;
+    for (int joint = std::max(carrier, 0) + 1; carrier >= 0 && joint < tree_.size(); ++joint) {
+      const glm::dvec3 on = tree_.RestOf(joint) - neck;
+      const double height = glm::dot(on, trunk) / glm::dot(trunk, trunk);
+      const auto is_of_limb = [&](const Limb& limb) {
+        const int top = places_.JointOf(limb.roles[0]);
+        return joint == top || tree_.HangsFrom(joint, top);
+      };
+      if (!(height > highest && height <= kFarthest) || AngleBetween(on, trunk) > kAside) continue;
+      if (!tree_.HangsFrom(joint, carrier) || std::ranges::any_of(kLimbs, is_of_limb)) continue;
+      highest = height;
+      head = joint;
+    }
+    const bool is_end = head >= 0 && skeleton_.joints[head].is_end_site && tree_.ParentOf(head) != carrier;
+    return is_end ? tree_.ParentOf(head) : head;
   }
 
   /// The joint nearest to half the way from the pelvis to the base of the neck.
@@ -193,6 +247,8 @@ class MapFinder {
   const SkeletonTree tree_;
   const JointNames names_;
   std::string prefix_;  ///< of the limbs' names
+  std::vector<Role> by_anatomy_;
+  double confidence_ = 1;
   std::array<bool, kRoleCount> is_taught_{};
   JointMapDraft places_;
 };
@@ -201,6 +257,43 @@ class MapFinder {
 
 Result<JointMap> FindJointMap(const Skeleton& skeleton, const std::string& file, const TaughtRoles* taught) {
   return MapFinder(skeleton, file).Find(taught);
+}
+
+PartialRoles FindRolesInPart(const Skeleton& skeleton) {
+  const SkeletonTree tree(skeleton);
+  const JointNames names(skeleton);
+  PartialRoles roles;
+  roles.found.fill(-1);
+  roles.proposed.fill(-1);
+  for (const Limb& limb : kLimbs) {
+    const FoundLimb found = FindLimb(names, tree, limb.is_arm ? ArmSchemes() : LegSchemes(), limb.side, {-1, -1, -1});
+    for (std::size_t i = 0; i < 3; ++i) roles.found[Index(limb.roles[i])] = found.joints[i];
+  }
+  for (const auto& [role, role_names] : {std::pair(kShoulderCentre, NeckNames()), std::pair(kHead, HeadNames())}) {
+    for (const std::string_view name : role_names) {
+      const std::vector<NamedJoint> found = names.Find(name);
+      if (roles.found[Index(role)] < 0 && !found.empty()) roles.found[Index(role)] = found.front().joint;
+    }
+  }
+  const AnatomyProposal proposal = ProposeByAnatomy(tree);
+  roles.confidence = proposal.confidence;
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    if (roles.found[i] < 0) roles.proposed[i] = proposal.joints[i];
+  }
+  return roles;
+}
+
+int FindNewRoot(const Skeleton& skeleton) {
+  const SkeletonTree tree(skeleton);
+  const JointNames names(skeleton);
+  std::array<int, 4> tops{};
+  for (std::size_t i = 0; i < kLimbs.size(); ++i) {
+    tops[i] =
+        FindLimb(names, tree, kLimbs[i].is_arm ? ArmSchemes() : LegSchemes(), kLimbs[i].side, {-1, -1, -1}).joints[0];
+    if (tops[i] < 0) return -1;
+  }
+  const int chest = tree.CommonAncestor(tops[0], tops[1]), pelvis = tree.CommonAncestor(tops[2], tops[3]);
+  return chest >= 0 && pelvis >= 0 && tree.HangsFrom(pelvis, chest) ? pelvis : -1;
 }
 
 BodyPose Evaluate(const JointMap& map, const std::vector<GlobalTransform>& globals) {

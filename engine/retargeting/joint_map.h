@@ -21,6 +21,9 @@ struct JointMap {
   std::array<RolePoint, kRoleCount> points;  ///< by Index(role)
   /// The roles that no joint or end site of the skeleton plays: points that ride on a neighbouring joint.
   std::vector<Role> composed;
+  /// The roles that no name told, but the skeleton's build (ProposeByAnatomy), and how sure that is.
+  std::vector<Role> by_anatomy = {};
+  double confidence = 1;
 
   const RolePoint& operator[](Role role) const { return points[Index(role)]; }
 };
@@ -40,11 +43,26 @@ struct TaughtRoles;
 ///   straight on from forearm and trunk, foot forward, in the proportions of paper B's body. Files
 ///   carry end sites at 0 cm and at 1.6 m.
 ///
+/// Where names fail, the build tells the limbs (anatomy.h), if it does so at a confidence of 0.9 and more and no role
+/// that a name tells is another joint's by build.
+///
 /// Refused: missing limbs (listed with the names that are there), hips without a common joint, a knee not below its hip
 /// and the like, hips not on opposite sides of the joint that carries them. Whether left is left shows when the body
 /// moves (ToBodyMotion). `taught` roles are taken as they are, before any name is looked for, and checked like the
 /// others; a joint that is not there is refused at its place in the joint-map file.
 Result<JointMap> FindJointMap(const Skeleton& skeleton, const std::string& file, const TaughtRoles* taught = nullptr);
+
+/// What can be told of a skeleton whose roles are not all found.
+struct PartialRoles {
+  std::array<int, kRoleCount> found;     ///< joints by names, by Index(role); −1: none
+  std::array<int, kRoleCount> proposed;  ///< by build, of limbs that names do not tell; −1: none
+  double confidence = 0;                 ///< of what is proposed
+};
+PartialRoles FindRolesInPart(const Skeleton& skeleton);
+
+/// The joint that a skeleton must be rooted at for its hips to carry its shoulders (WithRootAt): that of the hips where
+/// a file is rooted at the chest or the head. −1 where nothing need change or no limbs are told by names.
+int FindNewRoot(const Skeleton& skeleton);
 
 /// Returns one frame of a clip as the twenty joints, in the file's unit and axes. `globals` is ComputeGlobals's output
 /// for that frame.

@@ -6,6 +6,8 @@
 namespace etude {
 namespace {
 
+using enum Language;
+
 // Where a scheme names the collar bone "shoulder" or a helper "hip", a more specific row must come before the one
 // that would take these for the joint.
 constexpr LimbNames kArmSchemes[] = {
@@ -31,6 +33,24 @@ constexpr LimbNames kArmSchemes[] = {
     {{"shldr", "forearm", "hand"}},              // Poser
     {{"shldrbend", "forearmbend", "hand"}},      // Daz Genesis
     {{"humerus", "radius", "wrist"}},            // Acclaim: CMU's originals
+    {{"humerus", "elbow", "wrist"}},             // seen in hand-made rigs
+    {{"humerus", "forearm", "hand"}},            // likewise
+    {{"humerus", "radius", "hand"}},             // likewise
+    {{"humerus", "ulna", "hand"}},               // OpenSim's bodies, SKEL
+    {{"acromial", "elbow", "radiushand"}},       // OpenSim's joints
+    {{"armupper", "armlower", "handwrist"}},     // Meta Quest
+    {{"uparm", "lowarm", "wrist"}},              // Meta's MHR
+    {{"shoulder", "elbow", "radiocarpal"}},      // H-Anim 2
+    {{"腕", "ひじ", "手首"}, kJapanese},         // MikuMikuDance
+    {{"腕", "肘", "手首"}, kJapanese},
+    {{"上腕", "前腕", "手"}, kJapanese},
+    {{"肩", "肘", "手首"}, kJapanese},
+    {{"bras", "avantbras", "main"}, kFrench},
+    {{"bras", "avantbras", "poignet"}, kFrench},
+    {{"bras", "coude", "poignet"}, kFrench},
+    {{"bras", "coude", "main"}, kFrench},
+    {{"epaule", "coude", "poignet"}, kFrench},
+    {{"epaule", "coude", "main"}, kFrench},
 };
 
 constexpr LimbNames kLegSchemes[] = {
@@ -53,12 +73,38 @@ constexpr LimbNames kLegSchemes[] = {
     {{"upperleg", "shin", "foot"}},            // likewise
     {{"thighstretch", "legstretch", "foot"}},  // Auto-Rig Pro
     {{"femur", "tibia", "foot"}},              // Acclaim
+    {{"femur", "tibia", "ankle"}},             // seen in hand-made rigs
+    {{"femur", "knee", "ankle"}},              // likewise
+    {{"femur", "tibia", "talus"}},             // OpenSim's bodies, SKEL
+    {{"femur", "tibia", "calcn"}},             // OpenSim's bodies where the subtalar joint is left out
+    {{"hip", "walkerknee", "ankle"}},          // OpenSim's joints
+    {{"upperleg", "lowerleg", "footankle"}},   // Meta Quest
+    {{"hip", "knee", "talocrural"}},           // H-Anim 2
+    {{"足", "ひざ", "足首"}, kJapanese},       // MikuMikuDance
+    {{"足", "膝", "足首"}, kJapanese},
+    {{"太もも", "すね", "足"}, kJapanese},
+    {{"大腿", "下腿", "足"}, kJapanese},
+    {{"股関節", "膝", "足首"}, kJapanese},
+    {{"cuisse", "jambe", "pied"}, kFrench},
+    {{"cuisse", "jambe", "cheville"}, kFrench},
+    {{"cuisse", "mollet", "pied"}, kFrench},
+    {{"cuisse", "tibia", "pied"}, kFrench},
+    {{"cuisse", "genou", "cheville"}, kFrench},
+    {{"hanche", "genou", "cheville"}, kFrench},
+    {{"hanche", "genou", "pied"}, kFrench},
 };
 
 // Kinect, and our own role, call that place the middle of the shoulders.
-constexpr std::string_view kNeckNames[] = {"shouldercentre", "shouldercenter", "spineshoulder",
-                                           "neck",           "necklower",      "upperneck"};
-constexpr std::string_view kHeadNames[] = {"head"};
+constexpr std::string_view kNeckNames[] = {"shouldercentre",
+                                           "shouldercenter",
+                                           "spineshoulder",
+                                           "neck",
+                                           "necklower",
+                                           "upperneck",
+                                           "vc7",
+                                           "首",
+                                           "cou"};                                         // "vc7": H-Anim
+constexpr std::string_view kHeadNames[] = {"head", "skullbase", "cranium", "頭", "tete"};  // "skullbase": H-Anim
 
 constexpr std::pair<std::string_view, Finger> kFingerNames[] = {
     {"thumb", Finger::kThumb}, {"mid", Finger::kMiddle},    {"index", Finger::kIndex},
@@ -73,6 +119,28 @@ constexpr std::size_t kMostFound = 16;
 bool IsLower(char c) { return c >= 'a' && c <= 'z'; }
 bool IsUpper(char c) { return c >= 'A' && c <= 'Z'; }
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+bool IsBeyondAscii(char c) { return static_cast<unsigned char>(c) >= 0x80; }
+
+/// Returns a name in UTF-8 with Latin-1's accented letters as plain ones, also where the accent is a character of its
+/// own (as macOS writes names).
+std::string WithoutAccents(std::string_view name) {
+  constexpr std::string_view kPlain =
+      "AAAAAA?CEEEEIIII?NOOOOO?OUUUUY??aaaaaa?ceeeeiiii?nooooo?ouuuuy?y";  // from U+00C0
+  std::string plain;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const auto here = static_cast<unsigned char>(name[i]);
+    const unsigned char next = i + 1 < name.size() ? static_cast<unsigned char>(name[i + 1]) : 0;
+    const bool is_latin = here == 0xc3 && next >= 0x80 && next < 0xc0 && kPlain[next - 0x80] != '?';
+    const bool is_accent = (here == 0xcc && next >= 0x80) || (here == 0xcd && next >= 0x80 && next < 0xb0);
+    if (is_latin) plain += kPlain[next - 0x80];
+    if (is_latin || is_accent) {
+      ++i;
+    } else {
+      plain += name[i];
+    }
+  }
+  return plain;
+}
 
 /// Says whether a new word begins at `i`, within a word: "upLeg", "Bip01", "LHip" (where the next letter is small
 /// again).
@@ -90,7 +158,7 @@ std::vector<std::string> WordsOf(std::string_view name) {
   bool is_inside = false;
   for (std::size_t i = 0; i < name.size(); ++i) {
     const char c = name[i];
-    const bool is_part = IsLower(c) || IsUpper(c) || IsDigit(c);
+    const bool is_part = IsLower(c) || IsUpper(c) || IsDigit(c) || IsBeyondAscii(c);
     if (is_part && (!is_inside || BeginsWord(name, i))) words.emplace_back();
     if (is_part) words.back() += IsUpper(c) ? static_cast<char>(c - 'A' + 'a') : c;
     is_inside = is_part;
@@ -139,7 +207,7 @@ void JointNames::AddReadings(const Joint& joint, int index) {
   std::string_view name = joint.name;
   name.remove_prefix(name.find_last_of(":|") + 1);
   if (name.size() > kLongestName) return;
-  std::vector<std::string> words = WordsOf(name);
+  std::vector<std::string> words = WordsOf(WithoutAccents(name));
   PutSideBeforeNumber(words);
   for (std::size_t suffixes = 0; !words.empty(); ++suffixes) {
     std::string rest;
@@ -166,11 +234,18 @@ std::vector<NamedJoint> JointNames::FindAny(std::span<const std::string> forms) 
   return found;
 }
 
-std::vector<NamedJoint> JointNames::Find(std::string_view name, Side side) const {
-  const std::string whole = side == Side::kLeft ? "left" : "right";
-  const std::string letter = whole.substr(0, 1);
+std::vector<NamedJoint> JointNames::Find(std::string_view name, Side side, Language language) const {
+  constexpr std::string_view kSides[3][2][3] = {{{"left", "l", ""}, {"right", "r", ""}},
+                                                {{"gauche", "g", ""}, {"droit", "droite", "d"}},
+                                                {{"左", "l", "left"}, {"右", "r", "right"}}};
   const std::string plain(name);
-  return FindAny(std::array{whole + plain, plain + whole, letter + plain, plain + letter});
+  std::vector<std::string> forms;
+  for (const std::string_view word : kSides[static_cast<int>(language)][side == Side::kLeft ? 0 : 1]) {
+    if (word.empty()) continue;
+    forms.push_back(std::string(word) + plain);
+    forms.push_back(plain + std::string(word));
+  }
+  return FindAny(forms);
 }
 
 std::vector<NamedJoint> JointNames::Find(std::string_view name) const {

@@ -12,9 +12,13 @@
 
 namespace etude {
 
+/// The language that a scheme writes sides in: left, right, l, r; gauche, droit, droite, g, d; 左, 右, l, r.
+enum class Language { kEnglish, kFrench, kJapanese };
+
 /// The names that one naming scheme gives to the three joints of a limb, without the side.
 struct LimbNames {
   std::array<std::string_view, 3> joints;  ///< from the trunk outwards
+  Language language = Language::kEnglish;
 };
 
 /// Lists the schemes of arms: shoulder, elbow, wrist. A scheme counts only when it names all three, since one word
@@ -43,13 +47,14 @@ struct NamedJoint {
 /// begins; case does not count. What stands before a colon or a bar, words in front and technical words behind
 /// ("JNT", "joint", "bone", a number) may be there or not: "mixamorig:LeftArm", "Character1_LeftArm", "l_arm_JNT" and
 /// "LeftArm_09" are all the left "arm"; "LeftForeArm" is not, for "fore" stands behind the side. A side is written
-/// "LeftArm", "L_Arm", "lArm", "ArmLeft", "Arm.L". End sites have no names of their own.
+/// "LeftArm", "L_Arm", "lArm", "ArmLeft", "Arm.L". Letters beyond ASCII are part of words; Latin ones count without
+/// their accents ("Épaule" is "epaule"). End sites have no names of their own.
 class JointNames {
  public:
   explicit JointNames(const Skeleton& skeleton);
 
   /// Finds at most sixteen joints of that name: those with the fewest suffixes first, then in the skeleton's order.
-  std::vector<NamedJoint> Find(std::string_view name, Side side) const;
+  std::vector<NamedJoint> Find(std::string_view name, Side side, Language language = Language::kEnglish) const;
   /// Finds joints of the middle: "Neck", "J_Bip_C_Neck".
   std::vector<NamedJoint> Find(std::string_view name) const;
 

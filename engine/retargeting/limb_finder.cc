@@ -48,7 +48,7 @@ using Candidates = std::array<std::vector<NamedJoint>, 3>;
 Candidates CandidatesOf(const JointNames& names, const LimbNames& scheme, Side side, const std::array<int, 3>& taught) {
   Candidates candidates;
   for (std::size_t i = 0; i < 3; ++i) {
-    candidates[i] = names.Find(scheme.joints[i], side);
+    candidates[i] = names.Find(scheme.joints[i], side, scheme.language);
     if (taught[i] >= 0) candidates[i] = {{.joint = taught[i], .prefix = "", .suffixes = 0}};
   }
   if (taught == std::array{-1, -1, -1}) return candidates;

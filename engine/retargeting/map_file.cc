@@ -1,6 +1,8 @@
 #include "engine/retargeting/map_file.h"
 
 #include <algorithm>
+#include <charconv>
+#include <utility>
 
 #include "engine/base/names.h"
 #include "engine/document/fields.h"
@@ -15,8 +17,9 @@ std::vector<std::string> AllRoleNames() {
   return names;
 }
 
-/// Puts a name in double quotes, as YAML reads it back.
-std::string Quoted(std::string_view name) {
+}  // namespace
+
+std::string QuotedInYaml(std::string_view name) {
   std::string quoted = "\"";
   for (const char c : name) {
     const auto code = static_cast<unsigned char>(c);
@@ -30,19 +33,42 @@ std::string Quoted(std::string_view name) {
   return quoted + "\"";
 }
 
-}  // namespace
+Result<double> ReadUnit(std::string_view text, const Place& place) {
+  constexpr std::pair<std::string_view, double> kNames[] = {{"m", 1},       {"cm", 0.01},   {"mm", 0.001},
+                                                            {"in", 0.0254}, {"ft", 0.3048}, {"cmu", 0.0254 / 0.45}};
+  for (const auto& [name, metres] : kNames) {
+    if (text == name) return metres;
+  }
+  double metres = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), metres);
+  constexpr double kSmallest = 1e-6, kLargest = 1e3;
+  if (error == std::errc() && end == text.data() + text.size() && metres >= kSmallest && metres <= kLargest) {
+    return metres;
+  }
+  return Fail(place, "{} is no unit; allowed: m, cm, mm, in, ft, cmu (5.64 cm), or how many metres one unit has",
+              Quote(text));
+}
 
 Result<TaughtRoles> ReadJointMapFile(std::string_view yaml, const std::string& file) {
   ASSIGN_OR_RETURN(const auto document, ParseYaml(yaml, file));
   Fields fields(document, "a joint map");
   const Node* roles = fields.Raw("roles");
+  const Node* unit = fields.Raw("unit");
+  const std::string up = fields.Choice("up", {"y", "z"}, "");
+  constexpr double kSlowest = 0.1, kFastest = 10'000;
+  TaughtRoles taught;
+  taught.rate_hz = fields.OptionalNumber("rate", {kSlowest, kFastest});
   RETURN_IF_ERROR(fields.Finish());
+  if (!up.empty()) taught.up = up == "z" ? UpAxis::kZ : UpAxis::kY;
+  if (unit != nullptr) {
+    ASSIGN_OR_RETURN(taught.metres_per_unit, ReadUnit(unit->scalar, unit->place));
+  }
+  if (roles == nullptr && (unit != nullptr || taught.up || taught.rate_hz)) return taught;
   if (roles == nullptr || roles->kind != Node::Kind::kMapping || roles->entries.empty()) {
     return Fail(roles == nullptr ? document.place : roles->place,
                 "'roles' must name joints (left_elbow: LForeArm), found {}",
                 roles == nullptr ? "nothing" : Describe(*roles));
   }
-  TaughtRoles taught;
   for (const Node::Entry& entry : roles->entries) {
     const std::optional<Role> role = FindRole(entry.key);
     if (!role) return Fail(entry.place, "{}", UnknownName("role", entry.key, AllRoleNames()));
@@ -61,18 +87,19 @@ std::string WriteJointMapFile(const Skeleton& skeleton, const JointMap& map) {
     const std::string& name = skeleton.joints[joint].name;
     const bool is_composed = std::ranges::find(map.composed, role) != map.composed.end();
     if (is_composed) {
-      text += fmt::format("  # {}: no joint; a point that rides on {}\n", RoleName(role), Quoted(name));
+      text += fmt::format("  # {}: no joint; a point that rides on {}\n", RoleName(role), QuotedInYaml(name));
     } else if (skeleton.Find(name) != joint) {
-      text += fmt::format("  # {}: the joint {} that is not the first of this name\n", RoleName(role), Quoted(name));
+      text +=
+          fmt::format("  # {}: the joint {} that is not the first of this name\n", RoleName(role), QuotedInYaml(name));
     } else {
-      text += fmt::format("  {}: {}\n", RoleName(role), Quoted(name));
+      text += fmt::format("  {}: {}\n", RoleName(role), QuotedInYaml(name));
     }
   }
   text += "# Joints without a role:\n";
   for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
     const bool is_used =
         std::ranges::any_of(map.points, [&](const RolePoint& point) { return point.joint == static_cast<int>(i); });
-    if (!is_used) text += fmt::format("#   {}\n", Quoted(skeleton.joints[i].name));
+    if (!is_used) text += fmt::format("#   {}\n", QuotedInYaml(skeleton.joints[i].name));
   }
   return text;
 }

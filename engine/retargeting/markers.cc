@@ -74,6 +74,15 @@ std::vector<MarkerSet> MakeSets() {
       "HALPE_26", {{Role::kHipCentre, {"hip"}}, {Role::kShoulderCentre, {"neck"}}, {Role::kHead, {"nose", "head"}}},
       with_toes, "l", "r"));
   sets.push_back(MakeSet("COCO", {{Role::kHead, {"left_ear", "right_ear"}}}, pose_limbs, "left_", "right_"));
+  sets.push_back(MakeSet("Motive's bones", {{Role::kShoulderCentre, {"neck"}}, {Role::kHead, {"head"}}},
+                         {{Role::kLeftShoulder, {"?uarm"}},
+                          {Role::kLeftElbow, {"?farm"}},
+                          {Role::kLeftWrist, {"?hand"}},
+                          {Role::kLeftHip, {"?thigh"}},
+                          {Role::kLeftKnee, {"?shin"}},
+                          {Role::kLeftAnkle, {"?foot"}},
+                          {Role::kLeftFoot, {"?toe"}}},
+                         "l", "r"));
   MarkerSet augmented = MakeSet("OpenCap's augmented markers", {},
                                 {{Role::kLeftShoulder, {"?_shoulder_study"}},
                                  {Role::kLeftElbow, {"?_lelbow_study", "?_melbow_study"}},

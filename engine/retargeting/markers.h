@@ -16,9 +16,9 @@ struct MarkerBody {
   std::string note;   ///< the marker set, and what was filled in, in plain words
 };
 
-/// Finds the bodies that markers show, by their names: Etude's own joints, OpenPose's BODY_25, COCO, HALPE_26, the
-/// augmented markers of OpenCap and Pose2Sim, Plug-in Gait. Case, and what stands before the last ':', do not count;
-/// each such prefix is a person. Joint centres (ours where no source is named):
+/// Finds the bodies that markers show, by their names: Etude's own joints, OpenPose's BODY_25, COCO, HALPE_26, Motive's
+/// bones, the augmented markers of OpenCap and Pose2Sim, Plug-in Gait. Case, and what stands before the last ':', do
+/// not count; each such prefix is a person. Joint centres (ours where no source is named):
 /// - the middle of the markers on both sides of a joint, where a set has both;
 /// - hips from the four markers of the pelvis by the regression of Harrington et al. (2007);
 /// - of Plug-in Gait, knees and ankles 5 and 3.5 cm inward from their one marker, across the limb; shoulders 4.5 cm

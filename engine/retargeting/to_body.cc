@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "engine/base/angles.h"
@@ -96,47 +97,68 @@ glm::dvec3 Forward(const BodyPose& pose) {
 
 glm::dvec3 Toe(const BodyPose& pose, Role ankle, Role toe) { return Direction(pose[toe] - pose[ankle]); }
 
-/// Returns how far the knee stands out from the straight line, in lengths of the leg.
-glm::dvec3 Knee(const BodyPose& pose, Role hip, Role knee, Role ankle) {
-  const double leg = glm::distance(pose[hip], pose[knee]) + glm::distance(pose[knee], pose[ankle]);
-  return leg > 0 ? (pose[knee] - 0.5 * (pose[hip] + pose[ankle])) / leg : glm::dvec3(0);
+/// Returns how far the middle joint of a limb stands out from the straight line, in lengths of the limb.
+glm::dvec3 StandsOut(const BodyPose& pose, Role upper, Role middle, Role end) {
+  const double length = glm::distance(pose[upper], pose[middle]) + glm::distance(pose[middle], pose[end]);
+  return length > 0 ? (pose[middle] - 0.5 * (pose[upper] + pose[end])) / length : glm::dvec3(0);
 }
 
-/// Checks that left is left throughout a motion, in the body's own frame, so that it may lie or turn over (ours).
-/// Refused, naming `file`: a left arm on the side of the right leg; feet that point backwards, or, when `map` has
-/// composed them forward, knees that stand out backwards. Straight knees prove nothing and pass; where they
-/// `may_overstretch`, so do those that a depth sensor bends back by up to 30° (OpenNI: 3 to 26°), and a note is left.
-Result<std::string> CheckSides(std::span<const BodyPose> poses, const JointMap& map, const std::string& file,
-                               bool may_overstretch) {
-  double arms = 0;
-  double toes = 0;
-  double knees = 0;
+/// Returns by how far a joint of a limb is bent, radians; below 0 towards the wrong side of `forward`.
+double Bend(const glm::dvec3& forward, const glm::dvec3& upper, const glm::dvec3& middle, const glm::dvec3& end) {
+  const double angle = AngleBetween(middle - upper, end - middle);
+  return glm::dot(forward, middle - 0.5 * (upper + end)) < 0 ? -angle : angle;
+}
+
+/// What a motion shows of its sides, in the body's own frame, so that it may lie or turn over.
+struct Sides {
+  double arms = 0, toes = 0, knees = 0, elbows = 0;  ///< sums over frames (and limbs): above 0 as people are made
+  std::vector<double> knee_bends;                    ///< Bend of either knee by frame
+};
+
+Sides LookAtSides(std::span<const BodyPose> poses) {
+  Sides sides;
   for (const BodyPose& pose : poses) {
     const glm::dvec3 forward = Forward(pose);
-    arms += glm::dot(Across(pose, kLeftShoulder, kRightShoulder), Across(pose, kLeftHip, kRightHip));
-    toes += glm::dot(forward, Toe(pose, kLeftAnkle, kLeftFoot) + Toe(pose, kRightAnkle, kRightFoot));
-    knees +=
-        glm::dot(forward, Knee(pose, kLeftHip, kLeftKnee, kLeftAnkle) + Knee(pose, kRightHip, kRightKnee, kRightAnkle));
+    sides.arms += glm::dot(Across(pose, kLeftShoulder, kRightShoulder), Across(pose, kLeftHip, kRightHip));
+    for (const auto& [hip, knee, ankle, toe] : {std::tuple(kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot),
+                                                std::tuple(kRightHip, kRightKnee, kRightAnkle, kRightFoot)}) {
+      sides.toes += glm::dot(forward, Toe(pose, ankle, toe));
+      sides.knees += glm::dot(forward, StandsOut(pose, hip, knee, ankle));
+      sides.knee_bends.push_back(Bend(forward, pose[hip], pose[knee], pose[ankle]));
+    }
+    for (const auto& [shoulder, elbow, wrist] :
+         {std::tuple(kLeftShoulder, kLeftElbow, kLeftWrist), std::tuple(kRightShoulder, kRightElbow, kRightWrist)}) {
+      sides.elbows -= glm::dot(forward, StandsOut(pose, shoulder, elbow, wrist));
+    }
   }
-  if (arms < 0) {
+  return sides;
+}
+
+/// Checks that left is left throughout a motion (ours), and returns by how far its knees overstretch on the average,
+/// radians; 0 unless by 3° and more. Refused, naming `file`: a left arm on the side of the right leg; feet that point
+/// backwards, or, when `map` has composed them forward, knees that stand out backwards: straight ones prove nothing.
+/// Depth sensors overstretch knees: that is believed up to 35° (19 frames of 20) while elbows bend as they should.
+Result<double> CheckSides(std::span<const BodyPose> poses, const JointMap& map, const std::string& file) {
+  const Sides sides = LookAtSides(poses);
+  if (sides.arms < 0) {
     return Fail({file}, "the left arm is on the side of the right leg; left and right are mixed up");
   }
   // Per foot and frame. Feet that hang down from a lying body point backwards a little.
   constexpr double kBackwards = 0.35;
   const auto count = static_cast<double>(2 * poses.size());
   const bool has_feet = std::ranges::find(map.composed, kLeftFoot) == map.composed.end();
-  if (has_feet && toes < -kBackwards * count) {
+  if (has_feet && sides.toes < -kBackwards * count) {
     return Fail({file}, "the feet point backwards: left and right are swapped, or the axes are left-handed");
   }
-  constexpr double kStandsOut = 0.01;
-  if (has_feet || knees >= -kStandsOut * count) return std::string();
-  const double sine = std::min(-2 * knees / count, 1.0);  // of half the angle, where both halves of a leg are equal
-  const double overstretched = 2 * Degrees(std::asin(sine));
-  if (may_overstretch && overstretched <= 30) {
-    return fmt::format("; the knees overstretch by {:.0f} degrees in the mean: a sensor's, or left and right swapped",
-                       overstretched);
+  constexpr double kStandsOut = 0.01, kMostOverstretched = Radians(35);
+  const bool are_backwards = LowerPercentile(sides.knee_bends, 0.05) < -kMostOverstretched || sides.elbows < 0;
+  if (!has_feet && sides.knees < -kStandsOut * count && are_backwards) {
+    return Fail({file}, "the knees bend backwards: left and right are swapped, or the axes are left-handed");
   }
-  return Fail({file}, "the knees bend backwards: left and right are swapped, or the axes are left-handed");
+  constexpr double kTold = Radians(3);
+  double mean = 0;
+  for (const double bend : sides.knee_bends) mean -= bend / count;
+  return mean >= kTold ? mean : 0;
 }
 
 using enum Role;
@@ -243,24 +265,54 @@ Result<std::vector<BodyPose>> Resampled(const Clip& clip, BodySampler& sampler, 
   return poses;
 }
 
-/// Returns the stature in the file's unit: the rest pose's, which all clips of a file share, unless it is not made like
-/// the body that moves (some files leave all offsets to the frames).
-double FindStature(const BodyPose& rest, const std::vector<BodyPose>& poses) {
-  const double at_rest = Stature(rest);
-  const double moving = LowerPercentile(OverFrames(poses, Stature), 0.5);
-  return at_rest > 0.5 * moving && at_rest < 2 * moving ? at_rest : moving;
+/// The unit under which a stature is that of a person, or null.
+const Unit* UnitOf(double stature) {
+  const auto is_human = [&](const Unit& unit) {
+    return stature * unit.metres >= kSmallestStature && stature * unit.metres <= kLargestStature;
+  };
+  const auto* const found = std::ranges::find_if(kUnits, is_human);
+  return found == kUnits.end() ? nullptr : found;
 }
 
-void FindUnit(double stature, const std::optional<double>& given, BodyConversion& done) {
-  done.unit = given ? "given" : "unknown";
-  done.metres_per_unit = given.value_or(kDefaultStature / stature);
-  if (given) return;
-  for (const Unit& unit : kUnits) {
-    const double metres = stature * unit.metres;
-    if (metres < kSmallestStature || metres > kLargestStature) continue;
-    done.unit = unit.name;
-    done.metres_per_unit = unit.metres;
+/// Finds the unit by the stature. That of the rest pose counts, which all clips of a file share, unless the body that
+/// moves is made otherwise: some files leave all offsets to the frames, others scale the hips in them alone. `remark`
+/// says so. Refused, naming `file`: a given unit under which the body is no body, with the one that it is likely in.
+Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, const std::optional<double>& given,
+                      const std::string& file, BodyConversion& done, std::string& remark) {
+  constexpr double kAlike = 1.25;
+  const double at_rest = Stature(rest), moving = LowerPercentile(OverFrames(poses, Stature), 0.5);
+  const double ratio = moving / at_rest;
+  const bool is_alike = ratio > 1 / kAlike && ratio < kAlike;
+  const double stature = is_alike ? at_rest : moving;
+  if (stature < kSmallestBody) return Fail({file}, "the body's joints all lie in one point; it needs a size");
+  const Unit* const unit = UnitOf(stature);
+  if (given) {
+    constexpr double kSmallest = 0.4, kLargest = 4;
+    const double told = stature * *given;
+    const std::string likely =
+        unit == nullptr ? "" : fmt::format("; its unit is likely the {}: {:.2f} m", unit->name, stature * unit->metres);
+    if (told < kSmallest || told > kLargest) {
+      return Fail({file}, "in the unit given (1 unit = {:.4g} cm) the body is {:.3g} m tall; allowed: {:g} to {:g} m{}",
+                  100 * *given, told, kSmallest, kLargest, likely);
+    }
+    if ((told < kSmallestStature || told > kLargestStature) && unit != nullptr) {
+      remark += fmt::format("; {:.2f} m tall in the unit given{}", told, likely);
+    }
+    done.unit = "given";
+    done.metres_per_unit = *given;
+    return {};
   }
+  done.unit = unit == nullptr ? "unknown" : unit->name;
+  done.metres_per_unit = unit == nullptr ? kDefaultStature / stature : unit->metres;
+  // Whether the frames leave the rest pose's places out or scale them tells a rest pose of a size.
+  if (is_alike || at_rest < kSmallestBody) return {};
+  const Unit* const of_rest = UnitOf(at_rest);
+  remark += fmt::format("; the frames show a body {:.3g} times as tall as the rest pose", ratio);
+  if (unit != nullptr || of_rest == nullptr) return {};
+  done.unit = "scaled";
+  done.metres_per_unit = of_rest->metres / ratio;
+  remark += fmt::format(": scaled back to its {:.2f} m ({})", at_rest * of_rest->metres, of_rest->name);
+  return {};
 }
 
 double FindFloor(const std::vector<BodyPose>& poses) {
@@ -286,7 +338,7 @@ void SetDown(std::vector<BodyPose>& poses, const BodyConversion& done) {
   }
 }
 
-std::string Note(const BodyConversion& done, const JointMap& map, bool lies_along_z) {
+std::string Note(const BodyConversion& done, const JointMap& map, bool lies_along_z, const std::string& remarks) {
   std::string note = fmt::format("1 unit = {:.4g} cm", 100 * done.metres_per_unit);
   note += done.unit == "unknown" ? fmt::format(" (unknown unit, scaled to a stature of {:.2f} m)", kDefaultStature)
                                  : fmt::format(" ({})", done.unit);
@@ -301,7 +353,13 @@ std::string Note(const BodyConversion& done, const JointMap& map, bool lies_alon
     for (Role role : map.composed) names.emplace_back(RoleName(role));
     note += "; not in the file, composed: " + Join(names);
   }
-  return note;
+  if (!map.by_anatomy.empty()) {
+    std::vector<std::string> names;
+    for (Role role : map.by_anatomy) names.emplace_back(RoleName(role));
+    note += fmt::format("; told by the skeleton's build, not by names (confidence {:.2f}): {}", map.confidence,
+                        Join(names));
+  }
+  return note + remarks;
 }
 
 }  // namespace
@@ -355,13 +413,14 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
   if (options.drop_t_pose) done.dropped_frames = CountForeignTPose(clip, sampler, done.up);
 
   ASSIGN_OR_RETURN(auto poses, Resampled(clip, sampler, done.dropped_frames, options.rate_hz, done.up, file));
-  ASSIGN_OR_RETURN(const std::string overstretched, CheckSides(poses, map, file, options.may_overstretch));
-  const double stature = FindStature(rest, poses);
-  if (stature < kSmallestBody) return Fail({file}, "the body's joints all lie in one point; it needs a size");
-  FindUnit(stature, options.metres_per_unit, done);
+  ASSIGN_OR_RETURN(const double overstretch, CheckSides(poses, map, file));
+  std::string remarks;
+  RETURN_IF_ERROR(FindUnit(rest, poses, options.metres_per_unit, file, done, remarks));
+  if (overstretch > 0)
+    remarks += fmt::format("; the knees overstretch by {:.0f}° on the average", Degrees(overstretch));
   done.floor = FloorOf(poses, options.floor);
   SetDown(poses, done);
-  done.note = Note(done, map, lies_along_z) + overstretched;
+  done.note = Note(done, map, lies_along_z, remarks);
   done.motion = {.rate_hz = options.rate_hz, .poses = std::move(poses)};
   return done;
 }

@@ -19,13 +19,12 @@ struct BodyOptions {
   std::optional<UpAxis> up = std::nullopt;
   std::optional<double> floor = std::nullopt;  ///< its height along that axis, in the file's unit
   bool drop_t_pose = true;                     ///< a leading one that the motion jumps away from
-  bool may_overstretch = false;  ///< knees stand out backwards by up to 30° in the mean: told, not refused
 };
 
 /// A clip as the twenty joints: metres, Y up, feet on the floor.
 struct BodyConversion {
   double metres_per_unit = 0;
-  std::string unit;  ///< "centimetre", "CMU", …; "unknown" when none gave a human stature; "given"
+  std::string unit;  ///< "centimetre", "CMU", …; "unknown" when none gave a human stature; "scaled", "given"
   UpAxis up = UpAxis::kY;
   double floor = 0;                ///< height of the floor in the file's unit, along its up axis
   std::size_t dropped_frames = 0;  ///< at the clip's beginning: a T-pose
@@ -40,15 +39,17 @@ struct BodyConversion {
 /// - resampled to `rate_hz` by turning joints (SampleFrame), the first frame kept as it is;
 /// - unit: the one of metre, foot, CMU (1/0.45 inch), inch, cm, mm under which the body's stature lies
 ///   within 1.45 and 2.1 m; none does (children, toys): scaled to a stature of 1.70 m. The stature is the way from
-///   ankle over knee, hip, spine and neck to the head, divided by 0.92, at rest; if that is less than half or more than
-///   double of the median over the frames, that median;
+///   ankle over knee, hip, spine and neck to the head, divided by 0.92, at rest; if the median over the frames is more
+///   than 1.25 times as much or little, that median (said), and where no unit fits that, the rest pose's unit, by which
+///   the frames' scale is undone;
 /// - floor: the lowest joint (finger tips aside), 5th percentile over the frames, comes to y = 0. Where it
 ///   stands on the floor and where it faces stay as in the file. Clips of one file share a floor: tell them FindGround;
 ///   one that stays farther from it than its legs are long has another root, and its own floor.
 ///
-/// Refused, naming `file`: no frames, over an hour, over half a million poses, a body of no size, one whose left arm is
-/// on the side of its right leg, or whose feet point backwards (for composed feet: whose knees do): left and right are
-/// swapped then, or the axes left-handed.
+/// Refused, naming `file`: no frames, over an hour, over half a million poses, a body of no size, a given unit under
+/// which it is not 0.4 to 4 m tall, one whose left arm is on the side of its right leg, or whose feet point backwards
+/// (for composed feet: whose knees do, by over 25° or with the elbows): left and right are swapped then, or the axes
+/// left-handed. Knees that overstretch less are told.
 Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const std::string& file,
                                     const BodyOptions& options = {});
 

@@ -7,6 +7,7 @@
 
 #include "bench/files/json.h"
 #include "engine/base/names.h"
+#include "reports/clips/remarks.h"
 #include "reports/words/figures.h"
 
 namespace etude {
@@ -56,7 +57,9 @@ BodyFacts FactsOfBody(const OpenedClip& clip) {
                   .floor = body.floor,
                   .dropped_t_pose = body.dropped_frames > 0,
                   .note = body.note,
-                  .motion = ComputeStatistics(body.motion)};
+                  .motion = ComputeStatistics(body.motion),
+                  .remarks = {}};
+  facts.remarks = RemarksOn(body.motion, facts.motion);
   for (const Role role : AllRoles()) {
     facts.joints[Index(role)] = clip.source.clip.skeleton.joints[clip.map[role].joint].name;
   }
@@ -76,6 +79,8 @@ ClipFacts FactsWithoutClip(const std::string& reference, Error complaint) {
   return facts;
 }
 
+Json OrNull(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
 Json JsonOf(const BodyFacts& body) {
   Json roles = Json::object();
   for (const Role role : AllRoles()) {
@@ -83,6 +88,7 @@ Json JsonOf(const BodyFacts& body) {
     roles[std::string(RoleName(role))] = {{"joint", body.joints[Index(role)]}, {"composed", composed}};
   }
   const MotionStatistics& motion = body.motion;
+  const FootSlide& slide = motion.foot_slide;
   return {{"unit", body.unit},
           {"metres_per_unit", body.metres_per_unit},
           {"up", body.up == UpAxis::kY ? "y" : "z"},
@@ -95,8 +101,13 @@ Json JsonOf(const BodyFacts& body) {
           {"speed_p95_m_s", motion.speed_p95_m_s},
           {"speed_peak_m_s", motion.speed_peak_m_s},
           {"fastest", RoleName(motion.fastest)},
-          {"foot_slide_m_s", motion.foot_slide_m_s},
+          {"foot_slide_m_s", OrNull(slide.mean)},
+          {"foot_slide_left_m_s", OrNull(slide.of_foot[0])},
+          {"foot_slide_right_m_s", OrNull(slide.of_foot[1])},
+          {"stance_left_share", slide.stance_share[0]},
+          {"stance_right_share", slide.stance_share[1]},
           {"lowest_foot_m", motion.lowest_foot_m},
+          {"remarks", body.remarks},
           {"roles", std::move(roles)}};
 }
 
@@ -155,15 +166,29 @@ std::string FigureLine(const FigureFacts& figure) {
                                     figure.materials.empty() ? std::string(kNoValue) : Join(figure.materials)));
 }
 
+std::string CmPerSecond(const std::optional<double>& speed_m_s) {
+  return speed_m_s ? fmt::format("{:.1f} cm/s", 100 * *speed_m_s) : std::string(kNoValue);
+}
+
 std::string BodyLines(const BodyFacts& body) {
   const MotionStatistics& motion = body.motion;
+  const FootSlide& slide = motion.foot_slide;
+  std::string feet = "no foot ever stands";
+  if (slide.mean) {
+    feet = "standing feet slide " + CmPerSecond(slide.mean);
+    if (slide.of_foot[0] && slide.of_foot[1]) {
+      feet += fmt::format(" (left {}, right {})", CmPerSecond(slide.of_foot[0]), CmPerSecond(slide.of_foot[1]));
+    }
+  }
+  std::string remarks;
+  for (const std::string& remark : body.remarks) remarks += Line("remark", remark);
   return Line("body",
               fmt::format("{:.2f} m tall; {}; {} up", motion.stature_m, body.note, body.up == UpAxis::kY ? "Y" : "Z")) +
          Line("motion",
-              fmt::format("travels {:.1f} m; fastest joint: median {:.2f}, 95 % {:.2f}, peak {:.2f} m/s ({}); "
-                          "feet slide {:.1f} cm/s",
+              fmt::format("travels {:.1f} m; fastest joint: median {:.2f}, 95 % {:.2f}, peak {:.2f} m/s ({}); {}",
                           motion.travelled_m, motion.speed_median_m_s, motion.speed_p95_m_s, motion.speed_peak_m_s,
-                          RoleName(motion.fastest), 100 * motion.foot_slide_m_s));
+                          RoleName(motion.fastest), feet)) +
+         remarks;
 }
 
 std::vector<std::string> RoleItems(const BodyFacts& body) {
@@ -204,7 +229,7 @@ ClipFacts FactsOf(const OpenedClip& clip) {
 Result<std::string> FactsAsJson(const std::vector<ClipFacts>& facts) {
   Json clips = Json::array();
   for (const ClipFacts& clip : facts) clips.push_back(JsonOf(clip));
-  return WriteJson({{"schema_version", 1}, {"clips", std::move(clips)}});
+  return WriteJson({{"schema_version", 2}, {"clips", std::move(clips)}});
 }
 
 std::string FactsAsText(const ClipFacts& facts, const ClipFacts* before) {
@@ -224,8 +249,8 @@ std::string FactsAsLine(const ClipFacts& facts) {
   std::string text = fmt::format("{} · {:.1f} s at {:.4g} Hz · {}", FormatName(*facts.format), facts.duration_s,
                                  facts.rate_hz, Plural(static_cast<long long>(facts.joints), "joint"));
   if (!facts.body) return text;
-  return text + fmt::format(" · {:.2f} m tall · feet slide {:.1f} cm/s · {}", facts.body->motion.stature_m,
-                            100 * facts.body->motion.foot_slide_m_s, facts.body->note);
+  return text + fmt::format(" · {:.2f} m tall · feet slide {} · {}", facts.body->motion.stature_m,
+                            CmPerSecond(facts.body->motion.foot_slide.mean), facts.body->note);
 }
 
 }  // namespace etude

@@ -29,6 +29,7 @@ struct BodyFacts {
   bool dropped_t_pose = false;
   std::string note;
   MotionStatistics motion;
+  std::vector<std::string> remarks;  ///< RemarksOn
 };
 
 /// The facts of a clip, as `etude clip info` tells them; what cannot be known is left out, with the complaint.

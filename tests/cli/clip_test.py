@@ -4,6 +4,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import unittest
@@ -230,6 +231,12 @@ class Render(Clips):
             self.refuses("render", *arguments, says=[says], leaves=path)
 
 
+def lopsided(text):
+    """A body whose build does not tell its arms: one upper arm is twice as long."""
+    return re.sub(r"(JOINT LeftForeArm\s*\{\s*OFFSET)\s+(\S+)\s+(\S+)\s+(\S+)",
+                  lambda m: " ".join([m[1]] + [str(2 * float(number)) for number in m.groups()[1:]]), text)
+
+
 class Map(Clips):
     def test_a_map_that_was_written_is_read_back_as_the_same(self):
         path = self.folder / "map.yaml"
@@ -240,21 +247,38 @@ class Map(Clips):
         self.refuses("map", WALK, "-o", path, says=["--overwrite"])
 
     def test_names_nobody_knows_are_taught_by_a_file(self):
-        odd = WALK.read_text()
+        odd = lopsided(WALK.read_text())
+        known = self.write("known.bvh", odd)
         for name, number in (("LeftForeArm", 1), ("RightForeArm", 2)):
             odd = odd.replace(f"JOINT {name}\n", f"JOINT Q{number}\n")
         clip = self.write("odd.bvh", odd)
         template = self.folder / "odd.yaml"
         self.refuses("map", clip, "-o", template, says=["no joint found for", "left_elbow", "'Q1'"])
         self.assertIn("# left_elbow:", template.read_text())
-        self.assertIn("'Q1'", template.read_text())
+        self.assertIn('"Q1"', template.read_text())
+        self.assertEqual(template.read_text().count("\n  # "), 20 - 12)  # what names tell is kept: ten limb joints, neck, head
         taught = self.write("taught.yaml", "roles:\n  left_elbow: Q1\n  right_elbow: Q2\n")
-        self.assert_same_places(self.places(WALK), self.places(clip, "--joint-map", taught), 1e-9)
+        self.assert_same_places(self.places(known), self.places(clip, "--joint-map", taught), 1e-9)
         wrong = self.write("wrong.yaml", "roles:\n  left_elbw: Q1\n")
         self.refuses("info", clip, "--joint-map", wrong, says=["wrong.yaml:2:3: ", "did you mean 'left_elbow'?"])
 
+    def test_where_names_fail_the_build_tells_and_it_is_said(self):
+        odd = WALK.read_text()
+        for i, name in enumerate(re.findall(r"JOINT (\S+)", odd)):
+            odd = re.sub(rf"JOINT {name}\b", f"JOINT ボーン{i}", odd)
+        clip = self.write("odd.bvh", odd)
+        (told,) = self.info(clip)
+        self.assertIn("told by the skeleton's build, not by names (confidence ", told["body"]["note"])
+        self.assertRegex(told["body"]["roles"]["left_knee"]["joint"], "^ボーン")
+        self.assertIn("left_knee = 'ボーン", self.works("info", clip))
+        (ours,), limbs = self.info(WALK), ("shoulder", "elbow", "wrist", "hip", "knee", "ankle")
+        names = re.findall(r"JOINT (\S+)", WALK.read_text())
+        for role in (f"{side}_{limb}" for side in ("left", "right") for limb in limbs):
+            joint = names[int(told["body"]["roles"][role]["joint"].removeprefix("ボーン"))]
+            self.assertEqual(joint, ours["body"]["roles"][role]["joint"], role)
+
     def test_a_run_keeps_what_it_was_taught(self):
-        odd = self.write("odd.bvh", WALK.read_text().replace("JOINT LeftForeArm\n", "JOINT Q1\n"))
+        odd = self.write("odd.bvh", lopsided(WALK.read_text()).replace("JOINT LeftForeArm\n", "JOINT Q1\n"))
         taught = pathlib.Path(self.write("taught.yaml", "roles:\n  left_elbow: Q1\n"))
         scenario = self.write("t.yaml", f"""scenario: t
 question: Does it run?

@@ -143,6 +143,202 @@ class Formats(EtudeCase):
                 numpy.testing.assert_allclose(b[name] - [2, floor, 0], a[name], atol=1e-5)
         self.refused(self.c3d(["A", "B"], 3, lambda t, i: (0, 0, 0)), "its markers (A, B) are of no set known here")
 
+    def body(self, reference):
+        """A built-in move's frames × 20 × 3, metres, and its names."""
+        frames = self.joints(reference)
+        return list(frames[0]), numpy.array([[frame[name] for name in frames[0]] for frame in frames])
+
+    def assert_read_back(self, path, places, most=1e-5, **options):
+        names, read = self.body(path)
+        self.assertEqual(read.shape, places.shape)
+        floor = read[0, names.index("head"), 1] - places[0, names.index("head"), 1]  # a file of markers finds its own
+        self.assertLess(abs(floor), 0.05)
+        numpy.testing.assert_allclose(read - [0, floor, 0], places, atol=most)
+
+    def test_c3d_is_written_in_floats(self):
+        names, places = self.body("builtin:sway")
+        path = self.folder / "sway.c3d"
+        self.assertEqual(self.etude("clip", "convert", "builtin:sway", path).returncode, 0)
+        data = path.read_bytes()
+        points, frames = struct.unpack("<H", data[2:4])[0], struct.unpack("<H", data[8:10])[0]
+        scale, start = struct.unpack("<fH", data[12:18])
+        self.assertEqual((points, frames, scale, len(data) % 512), (20, len(places), -1, 0))
+        floats = numpy.frombuffer(data, "<f4", frames * points * 4, 512 * (start - 1)).reshape(frames, points, 4)
+        numpy.testing.assert_allclose(floats[:, :, :3] / 1000, places, atol=1e-6)
+        self.assertTrue((floats[:, :, 3] == 0).all())
+        self.assertIn(b"left_shoulder".ljust(15), data)
+        self.assert_read_back(path, places)
+
+    def test_npz_is_written_for_numpy(self):
+        names, places = self.body("builtin:groove")
+        path = self.folder / "groove.npz"
+        self.assertEqual(self.etude("clip", "convert", "builtin:groove", path).returncode, 0)
+        with numpy.load(path) as arrays:
+            self.assertEqual(list(arrays["names"]), names)
+            self.assertEqual((float(arrays["rate_hz"]), arrays["unit"][0], arrays["up"][0]), (30, "m", "y"))
+            numpy.testing.assert_allclose(arrays["positions"], places, atol=1e-9)
+            turned = numpy.zeros_like(places)
+            axes = numpy.zeros(places.shape + (3,))
+            for j, parent in enumerate(arrays["parents"].astype(int)):
+                w, x, y, z = (arrays["rotations"][:, j, k] for k in range(4))
+                own = numpy.moveaxis(numpy.array([
+                    [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                    [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                    [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]]), 2, 0)
+                above = axes[:, parent] if parent >= 0 else numpy.broadcast_to(numpy.eye(3), own.shape)
+                origin = turned[:, parent] if parent >= 0 else 0
+                turned[:, j] = origin + numpy.einsum("tij,tj->ti", above, arrays["translations"][:, j])
+                axes[:, j] = above @ own
+            numpy.testing.assert_allclose(turned, places, atol=1e-9)
+        self.assertEqual(self.info(path)["clips"][0]["format"], "NPZ")
+        self.assert_read_back(path, places, 1e-9)
+
+    def test_arrays_of_joints_in_a_named_layout(self):
+        names, places = self.body("builtin:sway")
+        path = self.folder / "poses.npy"
+        numpy.save(path, (1000 * places).astype("f4"))
+        told = self.info(path)["clips"][0]
+        self.assertIn("layout etude, 1 unit = 0.1 cm, no rate in the file: 30 Hz are assumed", told["body"]["note"])
+        self.assert_read_back(path, places)
+        order = ["hip_centre", "right_hip", "right_knee", "right_ankle", "left_hip", "left_knee", "left_ankle", "spine",
+                 "shoulder_centre", "head", "head", "left_shoulder", "left_elbow", "left_wrist", "right_shoulder",
+                 "right_elbow", "right_wrist"]
+        numpy.save(path, places[:, [names.index(name) for name in order]])
+        self.refused(path, "17 joints of several layouts; allowed: ")
+        read = self.joints(f"{path}#h36m")
+        wrists = numpy.array([frame["left_wrist"] - frame["right_knee"] for frame in read])
+        expected = places[:, names.index("left_wrist")] - places[:, names.index("right_knee")]
+        numpy.testing.assert_allclose(wrists, expected, atol=1e-6)
+        self.refused(f"{path}#body_25", "17 joints in the layout 'body_25'")
+        numpy.save(path, places[:, :, :2])
+        self.refused(path, "allowed: frames × joints × 3")
+        path.write_bytes(path.read_bytes()[:200])
+        self.refused(path, "poses.npy")
+
+    MOTIVE = {"Hip": "hip_centre", "Ab": "spine", "Neck": "shoulder_centre", "Head": "head", "LUArm": "left_shoulder",
+              "LFArm": "left_elbow", "LHand": "left_wrist", "RUArm": "right_shoulder", "RFArm": "right_elbow",
+              "RHand": "right_wrist", "LThigh": "left_hip", "LShin": "left_knee", "LFoot": "left_ankle", "LToe": "left_foot",
+              "RThigh": "right_hip", "RShin": "right_knee", "RFoot": "right_ankle", "RToe": "right_foot"}
+
+    def motive(self, places, names, unit="Centimeters", space="Global"):
+        bones = [f"Ann:{bone}" for bone in self.MOTIVE]
+        rows = [["Format Version", "1.23", "Take Name", "t", "Capture Frame Rate", "30.000000", "Export Frame Rate",
+                 "30.000000", "Length Units", unit, "Coordinate Space", space], [],
+                ["", "Type"] + 7 * len(bones) * ["Bone"], ["", "Name"] + [bone for bone in bones for _ in range(7)],
+                ["", "ID"] + 7 * len(bones) * ["1"], ["", ""] + len(bones) * (4 * ["Rotation"] + 3 * ["Position"]),
+                ["Frame", "Time (Seconds)"] + len(bones) * list("XYZWXYZ")]
+        for t, frame in enumerate(places):
+            row = [t, t / 30]
+            for role in self.MOTIVE.values():
+                row += [0, 0, 0, 1, *(100 * frame[names.index(role)])]
+            rows.append(row)
+        path = self.folder / "take.csv"
+        with open(path, "w", newline="") as file:
+            csv.writer(file).writerows(rows)
+        return path
+
+    def test_a_take_of_motive_by_its_bones(self):
+        names, places = self.body("builtin:sway")
+        path = self.motive(places, names)
+        told = self.info(path)["clips"][0]
+        self.assertEqual((told["format"], told["rate_hz"]), ("Motive", 30))
+        read = self.joints(path)
+        for role in ("left_elbow", "right_ankle", "head"):
+            ours = places[:, names.index(role)] - places[:, names.index("left_hip")]
+            numpy.testing.assert_allclose([frame[role] - frame["left_hip"] for frame in read], ours, atol=1e-6)
+        self.refused(self.motive(places, names, unit="Feet"), "Length Units 'Feet'; allowed: Meters")
+        self.refused(self.motive(places, names, space="Local"), "allowed: Global")
+
+    def test_the_bones_of_a_vrm_file_are_those_of_its_table(self):
+        path = self.folder / "a.glb"
+        self.assertEqual(self.etude("clip", "convert", "builtin:sway", path).returncode, 0)
+        before = self.info(path)["clips"][0]["body"]
+        data = path.read_bytes()
+        length = struct.unpack("<I", data[12:16])[0]
+        scene, rest = json.loads(data[20:20 + length]), data[20 + length:]
+        bones = {"left_shoulder": "leftUpperArm", "left_elbow": "leftLowerArm", "left_wrist": "leftHand",
+                 "left_hip": "leftUpperLeg", "left_knee": "leftLowerLeg", "left_ankle": "leftFoot"}
+        bones |= {role.replace("left", "right"): bone.replace("left", "right") for role, bone in bones.items()}
+        bones["shoulder_centre"] = "neck"
+        nodes = {node.get("name"): i for i, node in enumerate(scene["nodes"])}
+        table = {bone: {"node": nodes[role]} for role, bone in bones.items()}
+        for i, node in enumerate(scene["nodes"]):
+            node["name"] = f"X{i}"
+        for extension in ({"VRMC_vrm_animation": {"humanoid": {"humanBones": table}}},
+                          {"VRM": {"humanoid": {"humanBones": [{"bone": bone, **node} for bone, node in table.items()]}}}):
+            text = json.dumps(scene | {"extensions": extension}).encode()
+            text += b" " * (-len(text) % 4)
+            size = struct.pack("<II", 12 + 8 + len(text) + len(rest), len(text))
+            path.write_bytes(data[:8] + size[:4] + size[4:] + data[16:20] + text + rest)
+            body = self.info(path)["clips"][0]["body"]
+            self.assertNotIn("by the skeleton's build", body["note"])
+            for role in bones:
+                self.assertEqual(body["roles"][role]["joint"], f"X{nodes[role]}")
+            self.assertAlmostEqual(body["stature_m"], before["stature_m"], places=5)
+
+    def turned(self, name, unit=1.0):
+        """A BVH of the sway in another unit."""
+        path = self.folder / name
+        self.assertEqual(self.etude("clip", "convert", "builtin:sway", path).returncode, 0)
+        if unit != 1:
+            lines = path.read_text().splitlines()
+            start = lines.index("MOTION") + 3
+            for i, line in enumerate(lines):
+                words = line.split()
+                if "OFFSET" in line:
+                    lines[i] = "OFFSET " + " ".join(str(unit * float(word)) for word in words[1:])
+                elif i >= start and words:
+                    lines[i] = " ".join([str(unit * float(word)) for word in words[:3]] + words[3:])
+            path.write_text("\n".join(lines) + "\n")
+        return path
+
+    def test_units_told_that_make_no_body_are_refused(self):
+        path = self.turned("metres.bvh")
+        result = self.etude("clip", "info", path, "--unit", "cm")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("m tall; allowed: 0.4 to 4 m; its unit is likely the metre: 1.", result.stderr)
+
+    def scenario(self):
+        return self.write("t.yaml", """scenario: t
+question: Does it run?
+task: transition
+clips: ['builtin:sway']
+trials: 1
+methods: [{name: cut, choice: now, join: cut}]
+""")
+
+    def test_a_run_is_told_the_unit_and_keeps_it(self):
+        clips = [self.turned("child.bvh", unit=50), self.turned("other.bvh", unit=50)]
+        told = ["--clips", *clips, "--unit", "cm", "--up", "y"]
+        result = self.etude("run", self.scenario(), "-o", self.out, *told)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        manifest = json.loads((self.out / "manifest.json").read_text())
+        self.assertIn("unit: cm\nup: y\n", manifest["sources"].values())
+        again = self.etude("run", "--from", self.out / "manifest.json", "-o", self.folder / "again")
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertEqual((self.out / "cells.jsonl").read_bytes(), (self.folder / "again" / "cells.jsonl").read_bytes())
+        refused = self.etude("run", self.scenario(), "-o", self.folder / "no", "--clips", *clips, "--unit", "mm")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("in the unit given (1 unit = 0.1 cm)", refused.stderr)
+
+    def test_a_run_leaves_out_what_is_refused_when_asked(self):
+        self.turned("a.bvh"), self.turned("b.bvh")
+        (self.folder / "broken.bvh").write_text("HIERARCHY\nROOT\n")
+        pattern = self.folder / "*.bvh"
+        strict = self.etude("run", self.scenario(), "-o", self.out, "--clips", pattern)
+        self.assertEqual(strict.returncode, 2)
+        self.assertIn("broken.bvh", strict.stderr)
+        result = self.etude("run", self.scenario(), "-o", self.out, "--clips", pattern, "--skip-refused")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stderr.count("left out: "), 1)
+        setup = json.loads((self.out / "manifest.json").read_text())["scenarios"][0]
+        self.assertEqual([one["clip"] for one in setup["refused"]], [str(self.folder / "broken.bvh")])
+        self.assertEqual(len(setup["clips"]), 2)
+        alone = self.etude("run", self.scenario(), "-o", self.folder / "no", "--clips", self.folder / "broken.bvh",
+                           "--skip-refused")
+        self.assertEqual(alone.returncode, 2)
+        self.assertIn("none of its 1 clips is understood", alone.stderr)
+
     def test_what_a_run_recorded_is_a_clip(self):
         path = self.write("capture.yaml", """scenario: c
 question: Is it there?

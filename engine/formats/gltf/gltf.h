@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,6 +18,8 @@ namespace etude {
 struct GltfContent {
   Character character;
   std::vector<Clip> clips;  ///< named as in the file, in one line; unnamed or doubled names are numbered
+  /// The joints that a VRM file (0.x, 1.0) or VRM animation calls bones, by their names there: "leftUpperArm".
+  std::map<std::string, int> bones = {};
 };
 
 /// Gives the bytes of a file that a .gltf names, relative to the .gltf's own folder. `uri` has been checked: relative,

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -355,6 +356,27 @@ Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const
   return model;
 }
 
+/// The nodes that a VRM file's own table names; what is no such table is passed over.
+std::map<std::string, int> BoneTable(const tinygltf::Model& model) {
+  std::map<std::string, int> nodes;
+  const auto add = [&](const std::string& bone, const tinygltf::Value& value) {
+    if (value.Has("node") && value.Get("node").IsInt()) nodes[bone] = value.Get("node").GetNumberAsInt();
+  };
+  for (const char* extension : {"VRMC_vrm", "VRMC_vrm_animation", "VRM"}) {
+    const auto found = model.extensions.find(extension);
+    if (found == model.extensions.end() || !found->second.Has("humanoid")) continue;
+    const tinygltf::Value& humanoid = found->second.Get("humanoid");
+    if (!humanoid.Has("humanBones")) continue;
+    const tinygltf::Value& bones = humanoid.Get("humanBones");
+    for (const std::string& bone : bones.Keys()) add(bone, bones.Get(bone));
+    for (std::size_t i = 0; bones.IsArray() && i < bones.ArrayLen(); ++i) {
+      const tinygltf::Value& bone = bones.Get(i);
+      if (bone.Has("bone") && bone.Get("bone").IsString()) add(bone.Get("bone").Get<std::string>(), bone);
+    }
+  }
+  return nodes;
+}
+
 /// Returns a file's name without folder and ending: "dances/robot.glb" → "robot".
 std::string Stem(const std::string& file) {
   const std::string name = file.substr(file.find_last_of('/') + 1);
@@ -374,6 +396,10 @@ Result<GltfContent> ReadGltf(std::string_view bytes, const std::string& file, co
   RETURN_IF_ERROR(ReadGltfMeshes(parsed, nodes, decode, content.character));
   ASSIGN_OR_RETURN(auto clips, ReadGltfClips(parsed, nodes));
   content.clips = std::move(clips);
+  for (const auto& [bone, node] : BoneTable(*model)) {
+    const bool is_node = node >= 0 && node < static_cast<int>(nodes.joint_of.size());
+    if (is_node && nodes.joint_of[node] >= 0) content.bones[bone] = nodes.joint_of[node];
+  }
   return content;
 }
 

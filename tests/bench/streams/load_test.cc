@@ -139,9 +139,8 @@ TEST(LoadStreams, KneesThatASensorOverstretchesAreToldAndThoseThatBendBackwardsR
   EXPECT_NE(ToString(bent.error()).find("the knees bend backwards"), std::string::npos);
   ASSERT_TRUE(overstretched) << ToString(overstretched.error());
   EXPECT_EQ(overstretched->front().stream.frames.size(), 30u);
-  EXPECT_NE(overstretched->front().description.find("the knees overstretch by 11 degrees"), std::string::npos)
+  EXPECT_NE(overstretched->front().description.find("the knees overstretch by 11° on the average"), std::string::npos)
       << overstretched->front().description;
-  EXPECT_FALSE(LoadClips({path}, {})) << "a clip of a scenario is no sensor's";
 }
 
 }  // namespace

@@ -1,6 +1,9 @@
 // What exporters write beyond the letter of the format; none of it may change the motion.
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "engine/formats/bvh.h"
 #include "tests/engine/formats/small_bvh.h"
 
@@ -115,6 +118,29 @@ TEST(BvhHabits, IncludeJointsWithoutOrWithFewChannels) {
   const glm::dquat expected =
       glm::angleAxis(glm::radians(30.0), glm::dvec3(1, 0, 0)) * glm::angleAxis(glm::radians(40.0), glm::dvec3(0, 0, 1));
   EXPECT_NEAR(std::abs(glm::dot(two->frames[0][1].rotation, expected)), 1, 1e-15);
+}
+
+TEST(BvhHabits, OfARowTooManyAreTold) {
+  std::vector<std::string> remarks;
+  ASSERT_TRUE(ReadBvh(kSmallBvh, "small.bvh", &remarks));
+  EXPECT_TRUE(remarks.empty()) << "the control";
+  const auto clip = ReadBvh(Replaced(kSmallBvh, "Frames: 2", "Frames: 1"), "small.bvh", &remarks);
+  ASSERT_TRUE(clip);
+  EXPECT_EQ(clip->frames.size(), 1u);
+  EXPECT_EQ(remarks, (std::vector<std::string>{"2 rows where 1 frames are announced: the last row was dropped"}));
+}
+
+TEST(BvhHabits, IncludePlacesInTheChannelsAlone) {
+  std::string text = Replaced(kSmallBvh, "OFFSET 0 10 0\n    CHANNELS 3",
+                              "OFFSET 0 0 0\n    CHANNELS 6 Xposition Yposition Zposition");
+  text = Replaced(Replaced(text, "OFFSET 5 0 0", "OFFSET 0 0 0"), "90 0 0 0 0 0", "90 0 0 0 10 1 0 0 0");
+  text = Replaced(text, "0 0 0 90 0 0", "0 0 0 0 11 1 90 0 0");
+  std::vector<std::string> remarks;
+  const auto clip = ReadBvh(text, "places.bvh", &remarks);
+  ASSERT_TRUE(clip) << ToString(clip.error());
+  EXPECT_EQ(clip->skeleton.joints[1].rest.translation, glm::dvec3(0, 10, 1));
+  EXPECT_EQ(clip->frames[1][1].translation, glm::dvec3(0, 11, 1));
+  EXPECT_EQ(remarks.size(), 1u);
 }
 
 }  // namespace

@@ -344,6 +344,30 @@ TEST(WithSidesSwapped, TakesASideGluedToTheNameWhereTheOtherOneIsThereToo) {
   EXPECT_EQ(NamesOf(WithSidesSwapped(WithSidesSwapped(skeleton))), NamesOf(skeleton));
 }
 
+// ---- WithRootAt ----
+
+TEST(WithRootAt, LeavesEveryJointWhereItWas) {
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    const Clip clip = WithoutScales(RandomClip(seed));
+    for (int root = 0; root < static_cast<int>(clip.skeleton.joints.size()); ++root) {
+      const Clip rooted = WithRootAt(clip, root);
+      ASSERT_EQ(rooted.frames.size(), clip.frames.size());
+      EXPECT_EQ(rooted.skeleton.joints[0].name, clip.skeleton.joints[root].name);
+      EXPECT_EQ(rooted.skeleton.joints[0].parent, -1);
+      std::vector<GlobalTransform> before, after;
+      for (std::size_t f = 0; f < clip.frames.size(); ++f) {
+        ComputeGlobals(clip.skeleton, clip.frames[f], before);
+        ComputeGlobals(rooted.skeleton, rooted.frames[f], after);
+        for (std::size_t i = 0; i < before.size(); ++i) {
+          const int same = rooted.skeleton.Find(clip.skeleton.joints[i].name);
+          ASSERT_GE(same, 0);
+          EXPECT_LT(glm::distance(before[i].position, after[same].position), 1e-9);
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 
 }  // namespace etude

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/base/angles.h"
@@ -46,7 +48,7 @@ TEST(ComputeStatistics, MeasuresABodyThatIsCarriedAlong) {
   EXPECT_NEAR(found.speed_median_m_s, 0.5, 1e-12);
   EXPECT_NEAR(found.speed_p95_m_s, 0.5, 1e-12);
   EXPECT_NEAR(found.speed_peak_m_s, 0.5, 1e-12);
-  EXPECT_NEAR(found.foot_slide_m_s, 0.5, 1e-12);
+  EXPECT_NEAR(found.foot_slide.mean.value(), 0.5, 1e-12);
   EXPECT_NEAR(found.lowest_foot_m, 0.02, 1e-12);
 }
 
@@ -61,45 +63,67 @@ TEST(ComputeStatistics, NamesTheFastestJointAndOrdersTheSpeeds) {
   EXPECT_NEAR(found.speed_median_m_s, 5.05, 1e-9);
   EXPECT_NEAR(found.speed_p95_m_s, 9.505, 1e-9);
   EXPECT_EQ(found.travelled_m, 0);
-  EXPECT_EQ(found.foot_slide_m_s, 0);
+  EXPECT_EQ(found.foot_slide.mean, 0);
 }
 
 TEST(ComputeStatistics, GivesNoSpeedsForASingleFrame) {
   const MotionStatistics found = ComputeStatistics({.rate_hz = 30, .poses = {Standing()}});
   EXPECT_EQ(found.speed_peak_m_s, 0);
   EXPECT_EQ(found.speed_median_m_s, 0);
-  EXPECT_EQ(found.foot_slide_m_s, 0);
+  EXPECT_EQ(found.foot_slide.mean, 0);
   EXPECT_NEAR(found.stature_m, 1.5 / 0.92, 1e-12);
 }
 
-TEST(FootSlide, IsTheSpeedOfFeetOnTheFloorWhereverThatIs) {
+TEST(FootSlide, OfAStiffBodyThatGlidesIsItsSpeedWhereverTheFloorIs) {
   for (const double floor : {0.0, -3.0, 0.7}) {
-    const auto slide = [&](BodyPose& pose, double t) { Shift(pose, {0.1 * t, floor, 0}); };
-    EXPECT_NEAR(FootSlide(Moving(20, slide)), 0.1, 1e-12);
-    EXPECT_NEAR(FootSlide(Moving(20, slide, 120)), 0.1, 1e-12);
+    for (const double speed : {0.1, 1.0, 3.0}) {
+      const auto glide = [&](BodyPose& pose, double t) { Shift(pose, {speed * t, floor, 0}); };
+      for (const double rate : {30, 120}) {
+        const FootSlide slide = MeasureFootSlide(Moving(20, glide, rate));
+        EXPECT_NEAR(slide.mean.value(), speed, 1e-9);
+        EXPECT_NEAR(slide.of_foot[0].value(), speed, 1e-9);
+        EXPECT_EQ(slide.stance_share, (std::array{1.0, 1.0}));
+      }
+    }
   }
-  // One of two feet.
-  EXPECT_NEAR(FootSlide(Moving(20, [](BodyPose& pose, double t) { pose[kLeftFoot].z += 0.1 * t; })), 0.05, 1e-12);
+}
+
+TEST(FootSlide, IsNotMovedByOneLowFrame) {
+  BodyMotion glide = Moving(60, [](BodyPose& pose, double t) { Shift(pose, {t, 0, 0}); });
+  Shift(glide.poses[20], {0, -0.3, 0});
+  EXPECT_NEAR(MeasureFootSlide(glide).mean.value(), 1, 1e-9);
+}
+
+TEST(FootSlide, IsToldOfEitherFoot) {
+  const FootSlide slide = MeasureFootSlide(Moving(20, [](BodyPose& pose, double t) { pose[kLeftFoot].z += 0.1 * t; }));
+  EXPECT_NEAR(slide.of_foot[0].value(), 0.1, 1e-12);
+  EXPECT_NEAR(slide.of_foot[1].value(), 0, 1e-12);
+  EXPECT_NEAR(slide.mean.value(), 0.05, 1e-12);
+  const FootSlide lifted = MeasureFootSlide(Moving(20, [](BodyPose& pose, double t) {
+    for (const Role joint : {kLeftFoot, kLeftAnkle}) pose[joint] += glm::dvec3(t, 0.4, 0);
+  }));
+  EXPECT_FALSE(lifted.of_foot[0]) << "a foot that never stands has none";
+  EXPECT_EQ(lifted.of_foot[1], 0);
+  EXPECT_EQ(lifted.stance_share, (std::array{0.0, 1.0}));
 }
 
 TEST(FootSlide, IsNothingWhereFeetStandWhileTheBodyMoves) {
-  EXPECT_EQ(FootSlide(Moving(20,
-                             [](BodyPose& pose, double t) {
-                               const BodyPose before = pose;
-                               Shift(pose, {t, 0, -2 * t});
-                               for (const Role foot : {kLeftFoot, kRightFoot}) pose[foot] = before[foot];
-                             })),
-            0);
+  const FootSlide slide = MeasureFootSlide(Moving(20, [](BodyPose& pose, double t) {
+    const BodyPose before = pose;
+    Shift(pose, {t, 0, -2 * t});
+    for (const Role foot : {kLeftFoot, kRightFoot}) pose[foot] = before[foot];
+  }));
+  EXPECT_EQ(slide.mean, 0);
 }
 
-TEST(FootSlide, CountsALiftedFootByItsHeight) {
-  // The first frame stands on the floor and moves nothing; from then on the feet slide at the height h.
-  for (const double height : {0.0, 0.01, 0.0125, 0.02, 0.025, 0.3}) {
-    const double slide = FootSlide(Moving(12, [&](BodyPose& pose, double t) {
-      if (t > 0) Shift(pose, {0.1 * (t - 1 / 30.0), height, 0});
-    }));
-    EXPECT_NEAR(slide, 0.1 * (10.0 / 11) * std::max(0.0, 2 - std::pow(2, height / 0.025)), 1e-12) << height;
-  }
+TEST(FootSlide, CountsNoFlight) {
+  // Two metres a second forward, in the air for the middle third of the time.
+  const FootSlide slide = MeasureFootSlide(Moving(90, [](BodyPose& pose, double t) {
+    const double flown = std::clamp(t - 1, 0.0, 1.0);
+    Shift(pose, {0, 0.5 * std::sin(kPi * flown), 2 * flown});
+  }));
+  EXPECT_LT(slide.mean.value(), 0.2);
+  EXPECT_NEAR(slide.stance_share[0], 2.0 / 3, 0.05);
 }
 
 /// A foot that swings forward by 0.6 m and 0.15 m high in every first half second, and stands in the second; the
@@ -120,11 +144,12 @@ void Walk(BodyPose& pose, double t) {
 
 TEST(FootSlide, IsSmallInAWalkAndGrowsBySlidingOfTheWhole) {
   const BodyMotion walk = Moving(121, Walk);
-  // Feet move while they leave the floor: 2 cm/s of a walk of 60 cm/s.
-  EXPECT_LT(FootSlide(walk), 0.02);
+  // Feet move while they leave the floor: some cm/s of a walk of 60 cm/s.
+  EXPECT_LT(MeasureFootSlide(walk).mean.value(), 0.03);
+  EXPECT_GT(MeasureFootSlide(walk).stance_share[0], 0.4);
   BodyMotion sliding = walk;
   for (std::size_t f = 0; f < sliding.poses.size(); ++f) Shift(sliding.poses[f], {0, 0, -0.6 * f / 30.0});
-  EXPECT_GT(FootSlide(sliding), 0.2);
+  EXPECT_GT(MeasureFootSlide(sliding).mean.value(), 0.4);
 }
 
 }  // namespace

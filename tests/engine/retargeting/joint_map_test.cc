@@ -59,6 +59,7 @@ TEST(JointMap, TakesTheFirstOfTwoNecksThatStandAboveTheChest) {
 
 TEST(JointMap, RefusesAClipWithTheListOfMissingRolesAndOfItsJoints) {
   Skeleton horse = testing::PersonSkeleton();
+  horse.joints[horse.Find("LeftForeArm")].rest.translation *= 2;  // nor is it built like a person
   horse.joints[horse.Find("LeftForeArm")].name = "LeftForeHoof";
   for (const char* name : {"RightUpLeg", "RightLeg", "RightFoot"}) horse.joints[horse.Find(name)].name = "Wheel";
   const auto map = FindJointMap(horse, "horse.bvh");
@@ -67,6 +68,32 @@ TEST(JointMap, RefusesAClipWithTheListOfMissingRolesAndOfItsJoints) {
               HasSubstr("horse.bvh: no joint found for left_elbow (a 'forearm'), right_hip, right_knee, right_ankle; "
                         "joints in the file: 'Hips', 'Spine', 'Neck', 'Head', 'LeftShoulder'"));
   EXPECT_THAT(map.error().message, HasSubstr("'LeftForeHoof'"));
+}
+
+TEST(JointMap, TakesTheHeadThatIsThereWhateverItIsCalled) {
+  Skeleton rigify = testing::PersonSkeleton();
+  rigify.joints[rigify.Find("Neck")].name = "spine.004";
+  rigify.joints[rigify.Find("Head")].name = "spine.006";
+  const auto map = FindJointMap(rigify, "rigify.glb");
+  ASSERT_TRUE(map) << ToString(map.error());
+  EXPECT_EQ((*map)[kHead].joint, rigify.Find("Head_End"));
+  ExpectNear(BodyAtRest(rigify, *map)[kHead], {0, 165, 0});
+}
+
+TEST(JointMap, GivesTheRolesThatAreThereWhereOthersAreMissing) {
+  Skeleton odd = testing::PersonSkeleton();
+  for (const char* name : {"LeftLeg", "RightLeg"}) {
+    odd.joints[odd.Find(name)].rest.translation *= 0.4;
+    odd.joints[odd.Find(name)].name = name[0] == 'L' ? "Q1" : "Q2";
+  }
+  ASSERT_FALSE(FindJointMap(odd, "odd.bvh"));
+  const PartialRoles roles = FindRolesInPart(odd);
+  for (const auto& [role, name] : {std::pair(kLeftHip, "LeftUpLeg"), std::pair(kRightAnkle, "RightFoot"),
+                                   std::pair(kLeftElbow, "LeftForeArm"), std::pair(kHead, "Head")}) {
+    EXPECT_EQ(roles.found[Index(role)], odd.Find(name)) << name;
+  }
+  EXPECT_EQ(roles.found[Index(kLeftKnee)], -1);
+  EXPECT_LT(roles.confidence, 0.9);
 }
 
 TEST(JointMap, RefusesTwoHalvesWithoutACommonJoint) {

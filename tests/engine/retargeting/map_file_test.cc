@@ -21,6 +21,16 @@ TEST(JointMapFile, NamesJointsByRole) {
   EXPECT_EQ(taught->joints.at(kHead).place.line, 3);
 }
 
+TEST(JointMapFile, MayTellUnitUpAndRateAlone) {
+  const auto taught = ReadJointMapFile("unit: cm\nup: z\nrate: 59.94\n", "map.yaml");
+  ASSERT_TRUE(taught) << ToString(taught.error());
+  EXPECT_TRUE(taught->joints.empty());
+  EXPECT_EQ(taught->metres_per_unit, 0.01);
+  EXPECT_EQ(taught->up, UpAxis::kZ);
+  EXPECT_EQ(taught->rate_hz, 59.94);
+  EXPECT_EQ(ReadJointMapFile("unit: 0.25\n", "map.yaml")->metres_per_unit, 0.25);
+}
+
 TEST(JointMapFile, ComplainsWhereItIsWrong) {
   struct Case {
     const char* yaml;
@@ -36,6 +46,9 @@ TEST(JointMapFile, ComplainsWhereItIsWrong) {
            Case{"{}\n", "'roles' must name joints (left_elbow: LForeArm), found nothing"},
            Case{"- head\n", "a joint map must be a mapping"},
            Case{"roles: {head: Head, head: Neck}\n", "map.yaml:1:"},
+           Case{"unit: cubit\n", "map.yaml:1:7: 'cubit' is no unit; allowed: m, cm, mm, in, ft, cmu"},
+           Case{"up: x\n", "map.yaml:1:5: "},
+           Case{"rate: 0\n", "map.yaml:1:7: "},
        }) {
     const auto taught = ReadJointMapFile(wrong.yaml, "map.yaml");
     ASSERT_FALSE(taught) << wrong.yaml;

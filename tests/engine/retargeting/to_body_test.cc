@@ -1,5 +1,6 @@
 #include "engine/retargeting/to_body.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -282,6 +283,59 @@ TEST(ToBodyMotion, RefusesKneesThatBendBackwardsWhereFeetAreComposed) {
       EXPECT_THAT(body.error().message, HasSubstr("the knees bend backwards"));
     }
   }
+}
+
+TEST(ToBodyMotion, TellsOfKneesThatOverstretchAsDepthSensorsDo) {
+  Skeleton bare = testing::PersonSkeleton();
+  for (Joint& joint : bare.joints) {
+    if (joint.name.ends_with("ToeBase") || joint.name.ends_with("ToeBase_End")) joint.rest.translation = {0, 0, 0};
+  }
+  for (const double degrees : {2.0, 10.0, 26.0, 40.0}) {
+    for (const int elbows : {1, -1}) {
+      Clip clip = AtRest(bare);
+      LowerArms(clip, 0);
+      for (const char* side : {"Left", "Right"}) {
+        At(clip, 0, side + std::string("Leg")).rotation = Turn(-Radians(degrees), {1, 0, 0});
+      }
+      // Arms that hang: forearms forward are as people's.
+      At(clip, 0, "LeftForeArm").rotation = Turn(-0.3 * elbows, {0, 1, 0});
+      At(clip, 0, "RightForeArm").rotation = Turn(0.3 * elbows, {0, 1, 0});
+      const auto body = Convert(clip);
+      const bool is_believed = degrees < 3 || (degrees < 35 && elbows > 0);
+      ASSERT_EQ(body.has_value(), is_believed) << degrees << " " << elbows;
+      if (!is_believed) continue;
+      const std::string said = fmt::format("; the knees overstretch by {:.0f}° on the average", degrees);
+      EXPECT_EQ(body->note.find(said) != std::string::npos, degrees > 3) << body->note;
+    }
+  }
+}
+
+TEST(ToBodyMotion, UndoesAScaleOnTheHipsThatTheRestPoseHasNot) {
+  for (const double scale : {0.01, 0.5, 2.0, 2.5}) {
+    Clip clip = AtRest(Scaled(0.01), 3);
+    for (LocalPose& frame : clip.frames) frame[0].scale = glm::dvec3(scale);
+    const auto body = Convert(clip);
+    ASSERT_TRUE(body) << ToString(body.error());
+    EXPECT_NEAR(Stature(body->motion.poses[0]), 1.60 / 0.92, 1e-9) << scale;
+    EXPECT_THAT(body->note,
+                HasSubstr(fmt::format("the frames show a body {:.3g} times as tall as the rest pose", scale)));
+  }
+  Clip alike = AtRest(Scaled(0.01), 3);
+  for (LocalPose& frame : alike.frames) frame[0].scale = glm::dvec3(1.05);
+  EXPECT_EQ(Convert(alike)->unit, "metre");
+}
+
+TEST(ToBodyMotion, RefusesAUnitUnderWhichTheBodyIsNone) {
+  const auto tiny = Convert(AtRest(Scaled(0.01)), {.metres_per_unit = 0.01});
+  ASSERT_FALSE(tiny);
+  EXPECT_EQ(tiny.error().message,
+            "in the unit given (1 unit = 1 cm) the body is 0.0174 m tall; allowed: 0.4 to 4 m; its unit is likely the "
+            "metre: 1.74 m");
+  EXPECT_FALSE(Convert(AtRest(Scaled(1)), {.metres_per_unit = 1}));
+  const auto child = Convert(AtRest(Scaled(1)), {.metres_per_unit = 0.0055});
+  ASSERT_TRUE(child);
+  EXPECT_THAT(child->note, HasSubstr("0.96 m tall in the unit given; its unit is likely the centimetre: 1.74 m"));
+  EXPECT_EQ(Convert(AtRest(Scaled(1)), {.metres_per_unit = 0.01})->note, "1 unit = 1 cm (given)");
 }
 
 TEST(ToBodyMotion, UnderstandsPushUps) {

@@ -7,10 +7,12 @@
 #include "engine/formats/deepmimic.h"
 #include "engine/formats/gltf/gltf.h"
 #include "engine/formats/joint_csv.h"
+#include "engine/formats/motive_csv.h"
 #include "engine/formats/npz.h"
 #include "engine/formats/rigid_targets.h"
 #include "engine/formats/trc.h"
 #include "engine/motion/character.h"
+#include "engine/retargeting/joint_arrays.h"
 #include "engine/retargeting/joint_map.h"
 #include "engine/retargeting/map_file.h"
 #include "engine/retargeting/markers.h"
@@ -192,6 +194,33 @@ void NpzFile(std::string_view bytes) {
   if (clip) MakeBody(*clip);
 }
 
+void NpyFile(std::string_view bytes) {
+  const auto array = ReadNpy(bytes, kFile);
+  if (!array) return;
+  std::string note;
+  const auto joints = JointsOfArray(*array, std::nullopt, kFile, note);
+  if (joints) (void)FindMarkerBodies(*joints, kFile);
+}
+
+std::string NpySeed() {
+  static constexpr char kHead[] =
+      "\x93NUMPY\x01\x00\x46\x00{'descr': '<f4', 'fortran_order': False, 'shape': (2, 26, 3), }";
+  std::string bytes(kHead, sizeof kHead - 1);
+  bytes.resize(80, ' ');
+  bytes.back() = '\n';
+  return bytes + std::string(4 * 2 * 26 * 3, '\x3f');
+}
+
+void MotiveFile(std::string_view bytes) {
+  const auto markers = ReadMotiveCsv(bytes, kFile);
+  if (markers) (void)FindMarkerBodies(*markers, kFile, 'Y');
+}
+
+constexpr const char* kMotiveTake =
+    "Format Version,1.23,Export Frame Rate,120,Length Units,Meters,Coordinate Space,Global\n\n,Type,Bone,Bone,Bone\n"
+    ",Name,A:LUArm,A:LUArm,A:LUArm\n,ID,1,1,1\n,,Position,Position,Position\nFrame,Time (Seconds),X,Y,Z\n"
+    "0,0.0,1,2,3\n1,0.0083,1,,3\n";
+
 void Map(std::string_view bytes) {
   const auto taught = ReadJointMapFile(bytes, kFile);
   if (!taught) return;
@@ -255,6 +284,8 @@ std::vector<Target> MotionTargets() {
        NpzFile,
        [] { return std::vector{FromHexadecimal(kAmassInHexadecimal)}; },
        {"'shape': (", "<f8", "NUMPY"}},
+      {"npy", NpyFile, [] { return std::vector{NpySeed()}; }, {"'shape': (", "<f8", "NUMPY", "17", "25"}},
+      {"motive", MotiveFile, [] { return std::vector<std::string>{kMotiveTake}; }, {"Marker", "Local", "nan", ",,,"}},
       {"joint-map", Map, MapSeeds, {"hip_centre", "_End", "right_foot"}},
   };
 }

@@ -1,0 +1,134 @@
+#include "engine/formats/motive_csv.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "engine/base/names.h"
+
+namespace etude {
+namespace {
+
+constexpr std::size_t kLargestTake = std::size_t{64} << 20;
+constexpr std::size_t kMostColumns = 20'000;
+
+std::string_view NextLine(std::string_view& text, int& line) {
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  std::string_view here = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  ++line;
+  if (here.ends_with('\r')) here.remove_suffix(1);
+  return here;
+}
+
+std::vector<std::string_view> CommaCells(std::string_view line) {
+  std::vector<std::string_view> cells;
+  while (cells.size() <= kMostColumns) {
+    const std::size_t comma = line.find(',');
+    std::string_view cell = line.substr(0, comma);
+    if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
+    cells.push_back(cell);
+    if (comma == std::string_view::npos) break;
+    line.remove_prefix(comma + 1);
+  }
+  return cells;
+}
+
+std::string_view CellAt(const std::vector<std::string_view>& cells, std::size_t i) {
+  return i < cells.size() ? cells[i] : std::string_view{};
+}
+
+/// The value behind a key of the first line.
+std::string_view ValueBehind(const std::vector<std::string_view>& cells, std::string_view key) {
+  const auto at = static_cast<std::size_t>(std::ranges::find(cells, key) - cells.begin());
+  return CellAt(cells, at + 1);
+}
+
+std::optional<double> MotiveNumber(std::string_view cell) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+/// The columns of a place: X, Y, Z.
+struct PlaceColumns {
+  std::string name;
+  std::array<std::size_t, 3> at{};
+};
+
+/// Finds the places of everything of that type in the table's headings.
+std::vector<PlaceColumns> PlaceColumnsOf(std::string_view type, const std::vector<std::string_view>& types,
+                                         const std::vector<std::string_view>& names,
+                                         const std::vector<std::string_view>& kinds,
+                                         const std::vector<std::string_view>& axes) {
+  std::vector<PlaceColumns> places;
+  for (std::size_t i = 2; i + 2 < axes.size(); ++i) {
+    const bool is_place = CellAt(types, i) == type && CellAt(kinds, i) == "Position" && axes[i] == "X" &&
+                          axes[i + 1] == "Y" && axes[i + 2] == "Z";
+    if (is_place) places.push_back({std::string(CellAt(names, i)), {i, i + 1, i + 2}});
+  }
+  return places;
+}
+
+}  // namespace
+
+bool IsMotiveCsv(std::string_view text) {
+  return text.starts_with("Format Version,") || text.starts_with(
+                                                    "\xEF\xBB\xBF"
+                                                    "Format Version,");
+}
+
+Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& file) {
+  if (text.size() > kLargestTake) return Fail({file}, "{} bytes; allowed: {}", text.size(), kLargestTake);
+  int line = 0;
+  const auto facts = CommaCells(NextLine(text, line));
+  const Place first{file, line, 0};
+  const std::string_view unit = ValueBehind(facts, "Length Units"), space = ValueBehind(facts, "Coordinate Space");
+  const double metres = unit == "Meters" ? 1 : unit == "Centimeters" ? 0.01 : unit == "Millimeters" ? 0.001 : 0;
+  if (metres == 0) return Fail(first, "Length Units {}; allowed: Meters, Centimeters, Millimeters", Quote(unit));
+  if (!space.empty() && space != "Global") return Fail(first, "Coordinate Space {}; allowed: Global", Quote(space));
+  auto rate = MotiveNumber(ValueBehind(facts, "Export Frame Rate"));
+  if (!rate) rate = MotiveNumber(ValueBehind(facts, "Capture Frame Rate"));
+  constexpr double kFastest = 10'000;
+  if (!rate || *rate <= 0 || *rate > kFastest) return Fail(first, "no Export Frame Rate from 0 to {:g}", kFastest);
+
+  std::vector<std::string_view> types, names, kinds, axes;
+  while (!text.empty() && CellAt(axes, 0) != "Frame") {
+    kinds = axes;
+    axes = CommaCells(NextLine(text, line));
+    if (CellAt(axes, 1) == "Type") types = axes;
+    if (CellAt(axes, 1) == "Name") names = axes;
+  }
+  if (axes.size() > kMostColumns) return Fail({file, line, 0}, "more than {} columns", kMostColumns);
+  std::vector<PlaceColumns> places = PlaceColumnsOf("Bone", types, names, kinds, axes);
+  if (places.empty()) places = PlaceColumnsOf("Marker", types, names, kinds, axes);
+  if (places.empty() || places.size() > 1000) {
+    return Fail({file, line, 0}, "{} bones or markers with a Position; allowed: 1 to 1000", places.size());
+  }
+
+  MarkerMotion motion{.rate_hz = *rate, .names = {}, .frames = {}};
+  for (const PlaceColumns& place : places) motion.names.push_back(place.name);
+  while (!text.empty()) {
+    const std::string_view here = NextLine(text, line);
+    if (here.find_first_not_of(", ") == std::string_view::npos) continue;
+    const auto cells = CommaCells(here);
+    auto& frame = motion.frames.emplace_back();
+    for (const PlaceColumns& place : places) {
+      glm::dvec3 at(0);
+      bool is_seen = true;
+      for (int axis = 0; axis < 3; ++axis) {
+        const std::string_view cell = CellAt(cells, place.at[static_cast<std::size_t>(axis)]);
+        const auto value = MotiveNumber(cell);
+        if (!cell.empty() && !value) return Fail({file, line, 0}, "{} is no number", Quote(cell));
+        is_seen = is_seen && value;
+        if (is_seen) at[axis] = metres * *value;
+      }
+      frame.push_back(is_seen ? std::optional(at) : std::nullopt);
+    }
+  }
+  return motion;
+}
+
+}  // namespace etude

@@ -1,0 +1,199 @@
+#include "engine/retargeting/joint_arrays.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string_view>
+
+#include "engine/base/names.h"
+#include "engine/retargeting/rig.h"
+
+namespace etude {
+namespace {
+
+struct JointLayout {
+  std::string_view name;
+  std::vector<std::string_view> joints;  ///< as FindMarkerBodies knows them, or names that it passes over
+};
+
+const std::vector<JointLayout>& Layouts() {
+  static const std::vector<JointLayout> layouts = [] {
+    std::vector<JointLayout> made;
+    JointLayout own{"etude", {}};
+    for (const Role role : AllRoles()) own.joints.push_back(RoleName(role));
+    made.push_back(std::move(own));
+    const std::vector<std::string_view> body = {
+        "hip_centre",      "left_hip",    "right_hip",    "spine1",     "left_knee",     "right_knee",
+        "spine",           "left_ankle",  "right_ankle",  "spine3",     "left_foot",     "right_foot",
+        "shoulder_centre", "left_collar", "right_collar", "head",       "left_shoulder", "right_shoulder",
+        "left_elbow",      "right_elbow", "left_wrist",   "right_wrist"};
+    made.push_back({"smpl", body});
+    made.push_back({"smpl", body});
+    for (const std::string_view hand : {"left_hand", "right_hand"}) made.back().joints.push_back(hand);
+    made.push_back({"h36m",
+                    {"hip_centre", "right_hip", "right_knee", "right_ankle", "left_hip", "left_knee", "left_ankle",
+                     "spine", "shoulder_centre", "nose", "head", "left_shoulder", "left_elbow", "left_wrist",
+                     "right_shoulder", "right_elbow", "right_wrist"}});
+    made.push_back({"coco",
+                    {"nose", "left_eye", "right_eye", "left_ear", "right_ear", "left_shoulder", "right_shoulder",
+                     "left_elbow", "right_elbow", "left_wrist", "right_wrist", "left_hip", "right_hip", "left_knee",
+                     "right_knee", "left_ankle", "right_ankle"}});
+    made.push_back(
+        {"body_25", {"Nose", "Neck",    "RShoulder", "RElbow", "RWrist",  "LShoulder", "LElbow", "LWrist", "MidHip",
+                     "RHip", "RKnee",   "RAnkle",    "LHip",   "LKnee",   "LAnkle",    "REye",   "LEye",   "REar",
+                     "LEar", "LBigToe", "LSmallToe", "LHeel",  "RBigToe", "RSmallToe", "RHeel"}});
+    made.push_back({"halpe_26", {"Nose",    "LEye",      "REye",      "LEar",   "REar", "LShoulder", "RShoulder",
+                                 "LElbow",  "RElbow",    "LWrist",    "RWrist", "LHip", "RHip",      "LKnee",
+                                 "RKnee",   "LAnkle",    "RAnkle",    "Head",   "Neck", "Hip",       "LBigToe",
+                                 "RBigToe", "LSmallToe", "RSmallToe", "LHeel",  "RHeel"}});
+    return made;
+  }();
+  return layouts;
+}
+
+/// The unit in which the joints of a frame spread as a person's do, over 0.8 to 2.3 m; else metres.
+double UnitOfSpread(const MarkerMotion& motion) {
+  std::vector<double> spreads;
+  for (const auto& frame : motion.frames) {
+    glm::dvec3 low(1e300), high(-1e300);
+    for (const auto& place : frame) {
+      if (!place) continue;
+      low = glm::min(low, *place);
+      high = glm::max(high, *place);
+    }
+    if (low.x <= high.x) spreads.push_back(std::max({high.x - low.x, high.y - low.y, high.z - low.z}));
+  }
+  if (spreads.empty()) return 1;
+  std::ranges::nth_element(spreads, spreads.begin() + static_cast<std::ptrdiff_t>(spreads.size() / 2));
+  const double spread = spreads[spreads.size() / 2];
+  for (const double unit : {1.0, 0.01, 0.001}) {
+    if (spread * unit >= 0.8 && spread * unit <= 2.3) return unit;
+  }
+  return 1;
+}
+
+std::string ShapeOf(const NumberArray& array) {
+  std::vector<std::string> sizes;
+  for (const std::size_t size : array.shape) sizes.push_back(std::to_string(size));
+  return array.shape.empty() ? "one number" : Join(sizes, " × ");
+}
+
+NumberArray ArrayOf(std::vector<std::size_t> shape, std::vector<double> values = {}) {
+  return {.shape = std::move(shape), .values = std::move(values)};
+}
+
+void Add(const glm::dvec3& v, NumberArray& array) {
+  for (int axis = 0; axis < 3; ++axis) array.values.push_back(v[axis]);
+}
+
+}  // namespace
+
+std::vector<std::string> JointLayoutNames() {
+  std::vector<std::string> names;
+  for (const JointLayout& layout : Layouts()) {
+    if (names.empty() || names.back() != layout.name) names.emplace_back(layout.name);
+  }
+  return names;
+}
+
+Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional<std::string>& layout,
+                                   const std::string& file, std::string& note) {
+  if (array.shape.size() != 3 || array.shape[2] != 3 || array.shape[0] == 0) {
+    return Fail({file}, "an array of {}; allowed: frames × joints × 3", ShapeOf(array));
+  }
+  const std::size_t frames = array.shape[0], joints = array.shape[1];
+  const auto fits = [&](const JointLayout& one) { return one.joints.size() == joints; };
+  const auto is_named = [&](const JointLayout& one) { return fits(one) && (!layout || *layout == one.name); };
+  const auto count = std::ranges::count_if(Layouts(), is_named);
+  if (count != 1) {
+    return Fail({file}, "{} joints{}; allowed: {}#LAYOUT, LAYOUT one of {} with as many joints", joints,
+                layout      ? " in the layout " + Quote(*layout)
+                : count > 1 ? " of several layouts"
+                            : " of no layout",
+                file, Join(JointLayoutNames()));
+  }
+  const JointLayout& found = *std::ranges::find_if(Layouts(), is_named);
+  MarkerMotion motion{.rate_hz = kJudgedRateHz, .names = {}, .frames = {}};
+  for (const std::string_view joint : found.joints) motion.names.emplace_back(joint);
+  for (std::size_t f = 0; f < frames; ++f) {
+    auto& frame = motion.frames.emplace_back(joints);
+    for (std::size_t j = 0; j < joints; ++j) {
+      const double* at = &array.values[3 * (f * joints + j)];
+      if (std::isnan(at[0]) || std::isnan(at[1]) || std::isnan(at[2])) continue;
+      constexpr double kMost = 1e9;
+      if (std::abs(at[0]) > kMost || std::abs(at[1]) > kMost || std::abs(at[2]) > kMost) {
+        return Fail({file}, "frame {}, joint {} lies beyond ±{:g}", f, j, kMost);
+      }
+      frame[j] = glm::dvec3(at[0], at[1], at[2]);
+    }
+  }
+  const double unit = UnitOfSpread(motion);
+  for (auto& frame : motion.frames) {
+    for (auto& place : frame) {
+      if (place) *place *= unit;
+    }
+  }
+  note = fmt::format("layout {}, 1 unit = {:g} cm, no rate in the file: {:g} Hz are assumed", found.name, 100 * unit,
+                     kJudgedRateHz);
+  return motion;
+}
+
+std::string WriteBodyNpz(const BodyMotion& motion, const BodyPose& rest) {
+  const Clip clip = RigClip(motion, rest, "");
+  const std::size_t frames = motion.poses.size();
+  NumberArray positions = ArrayOf({frames, kRoleCount, 3}), translations = positions,
+              offsets = ArrayOf({kRoleCount, 3});
+  NumberArray rotations = ArrayOf({frames, kRoleCount, 4}), parents = ArrayOf({kRoleCount});
+  std::vector<std::string> names;
+  for (const Joint& joint : clip.skeleton.joints) {
+    names.push_back(joint.name);
+    parents.values.push_back(joint.parent);
+    Add(joint.rest.translation, offsets);
+  }
+  std::vector<GlobalTransform> globals;
+  for (const LocalPose& frame : clip.frames) {
+    ComputeGlobals(clip.skeleton, frame, globals);
+    for (std::size_t i = 0; i < frame.size(); ++i) {
+      Add(globals[i].position, positions);
+      Add(frame[i].translation, translations);
+      const glm::dquat& turn = frame[i].rotation;
+      for (const double part : {turn.w, turn.x, turn.y, turn.z}) rotations.values.push_back(part);
+    }
+  }
+  return WriteNpz({{"positions", std::move(positions)},
+                   {"translations", std::move(translations)},
+                   {"rotations", std::move(rotations)},
+                   {"offsets", std::move(offsets)},
+                   {"parents", std::move(parents)},
+                   {"rate_hz", ArrayOf({}, {motion.rate_hz})}},
+                  {{"names", std::move(names)}, {"unit", {"m"}}, {"up", {"y"}}});
+}
+
+bool IsBodyNpz(const Npz& arrays) { return arrays.arrays.contains("positions") && arrays.arrays.contains("rate_hz"); }
+
+Result<BodyMotion> ReadBodyNpz(const Npz& arrays, const std::string& file) {
+  const NumberArray &positions = arrays.arrays.at("positions"), &rate = arrays.arrays.at("rate_hz");
+  const bool is_body = positions.shape.size() == 3 && positions.shape[0] > 0 && positions.shape[1] == kRoleCount &&
+                       positions.shape[2] == 3;
+  if (!is_body) {
+    return Fail({file}, "positions of {}; allowed: frames × 20 × 3", ShapeOf(positions));
+  }
+  constexpr double kSlowest = 0.1, kFastest = 10'000;
+  if (rate.values.size() != 1 || !(rate.values[0] >= kSlowest && rate.values[0] <= kFastest)) {
+    return Fail({file}, "rate_hz: allowed: one number from {:g} to {:g}", kSlowest, kFastest);
+  }
+  BodyMotion motion{.rate_hz = rate.values[0], .poses = std::vector<BodyPose>(positions.shape[0])};
+  for (std::size_t i = 0; i < positions.values.size(); ++i) {
+    constexpr double kMost = 1e9;
+    if (!(std::abs(positions.values[i]) <= kMost)) {
+      return Fail({file}, "positions of frame {}: {} is beyond ±{:g}", i / (3 * kRoleCount), positions.values[i],
+                  kMost);
+    }
+    motion.poses[i / (3 * kRoleCount)].joints[i / 3 % kRoleCount][static_cast<int>(i % 3)] = positions.values[i];
+  }
+  return motion;
+}
+
+}  // namespace etude

@@ -1,0 +1,44 @@
+#include "reports/clips/remarks.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/engine/motion/standing_body.h"
+
+namespace etude {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// The standing body for two seconds, lifted by `height` metres from `from` to `to`, seconds, moving at `speed`.
+std::vector<std::string> RemarksOnLifted(double height, double from, double to, double speed = 0) {
+  BodyMotion motion{.rate_hz = 30, .poses = {}};
+  for (int f = 0; f < 60; ++f) {
+    BodyPose pose = Standing();
+    const bool is_lifted = f >= 30 * from && f < 30 * to;
+    for (glm::dvec3& joint : pose.joints) joint += glm::dvec3(speed * f / 30, is_lifted ? height : 0, 0);
+    motion.poses.push_back(pose);
+  }
+  return RemarksOn(motion, ComputeStatistics(motion));
+}
+
+TEST(Remarks, AreNoneOnWhatPeopleDo) {
+  EXPECT_THAT(RemarksOnLifted(0, 0, 0), IsEmpty());
+  EXPECT_THAT(RemarksOnLifted(0.5, 0.5, 1.3), IsEmpty()) << "a jump";
+  EXPECT_THAT(RemarksOnLifted(-0.04, 0.5, 1.3), IsEmpty()) << "feet are soft";
+  EXPECT_THAT(RemarksOnLifted(0, 0, 0, 9), IsEmpty()) << "a sprint";
+}
+
+TEST(Remarks, AreMadeOnWhatNobodyDoes) {
+  EXPECT_THAT(RemarksOnLifted(0, 0, 0, 17),
+              ElementsAre("the fastest joint moves at 17.0 m/s in the median frame; is the frame time right?"));
+  EXPECT_THAT(RemarksOnLifted(-0.12, 1, 1.2),
+              ElementsAre("left_foot is 12 cm below the floor at 1.00 s; 10 % of the frames are over 5 cm deep"));
+  EXPECT_THAT(RemarksOnLifted(0.3, 0.5, 1.7),
+              ElementsAre(HasSubstr("no joint is within 15 cm of the floor for 1.2 s")));
+}
+
+}  // namespace
+}  // namespace etude
