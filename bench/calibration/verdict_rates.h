@@ -66,8 +66,8 @@ struct VerdictRepetitions {
 /// Draws a design's samples and judges each as the only comparison of its run.
 VerdictRates MeasureVerdicts(const SampleDesign& design, const VerdictRepetitions& repetitions);
 
-/// Returns the designs of docs/results.md: 6, 8, 12 and 30 units × 1, 3 and 10 worlds each × correlations of 0, 0.5 and
-/// 0.9 × every law; then 60 worlds of two units each of 6, 8, 12 and 30.
+/// Returns the designs of docs/findings/verdicts.md: 6, 8, 12 and 30 units × 1, 3 and 10 worlds each × correlations of
+/// 0, 0.5 and 0.9 × every law; then 60 worlds of two units each of 6, 8, 12 and 30.
 std::vector<SampleDesign> PublishedDesigns();
 
 /// Measures each design; `done` gets the number measured so far after each.
@@ -78,7 +78,7 @@ std::vector<VerdictRates> MeasureAll(std::span<const SampleDesign> designs, cons
 /// below 6.5 % for certain (95 % interval); without an effect, intervals that hold the truth in at least 93 %.
 bool KeepsPromise(const VerdictRates& rates);
 
-/// Returns the tables of docs/results.md.
+/// Returns the tables of docs/findings/verdicts.md.
 std::string VerdictRatesMarkdown(std::span<const VerdictRates> rates);
 
 }  // namespace etude

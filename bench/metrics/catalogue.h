@@ -50,8 +50,8 @@ struct MetricInfo {
   Aggregate aggregate = Aggregate::kMedian;
   Reading reading = Reading::kAmount;
   bool is_success = false;  ///< it tells whether, or how far, a cell reached what its task is about; `ok` does not
-  double practical = 0;    ///< the smallest difference that matters, in the metric's unit
-  std::string definition;  ///< one sentence
+  double practical = 0;     ///< the smallest difference that matters, in the metric's unit
+  std::string definition;   ///< one sentence
 
   std::string practical_reason;     ///< why nobody would act on less than `practical`
   std::string formula;              ///< the definition to the letter: frames, denominators, edge cases
@@ -62,7 +62,7 @@ struct MetricInfo {
   std::string domain = {};  ///< "Inverse kinematics", …: its heading on the page
 };
 
-/// All files of bench/metrics/catalogue, in the order of tables and of docs/metrics.md.
+/// All files of bench/metrics/catalogue, in the order of tables and of docs/reference/metrics.md.
 std::span<const MetricInfo> AllMetrics();
 /// Null when there is no such metric.
 const MetricInfo* FindMetric(std::string_view id);

@@ -24,7 +24,7 @@ struct GivenCorrection {
   std::optional<int> act_frame;  ///< the act's first frame, way there excluded; empty: the session ended before
 };
 
-/// A coached session (docs/metrics.md, Coach). Performances and corrections in order of time.
+/// A coached session (docs/reference/metrics.md, Coach). Performances and corrections in order of time.
 struct CoachedSession {
   double rate_hz = 30;  ///< > 0
   int frames = 0;       ///< > 0

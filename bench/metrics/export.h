@@ -8,7 +8,7 @@ namespace etude {
 /// (docs/schemas/metrics.schema.json): one line of JSON.
 std::string MetricsJson();
 
-/// docs/metrics.md.
+/// docs/reference/metrics.md.
 std::string MetricsPage();
 
 }  // namespace etude

@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// The errors of end effectors at their targets (docs/metrics.md: position_error_cm, position_error_max_cm,
+/// The errors of end effectors at their targets (docs/reference/metrics.md: position_error_cm, position_error_max_cm,
 /// orientation_error_deg, …_max_deg, solved_*).
 struct IkErrorSummary {
   double position_cm = 0;      ///< mean over the effectors
@@ -47,7 +47,7 @@ constexpr double PenalisedCost(double spent, double limit, bool solved) {
   return solved && spent <= limit ? spent : 2 * limit;
 }
 
-/// The errors of following a motion, frame by frame (docs/metrics.md, Tracking).
+/// The errors of following a motion, frame by frame (docs/reference/metrics.md, Tracking).
 struct TrackedFrame {
   IkErrorSummary errors;
   bool keeps_limits = true;

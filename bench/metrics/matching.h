@@ -10,8 +10,8 @@
 namespace etude {
 
 /// The outcome of testing a distance against a threshold on the pairs of frames that a transition could have used:
-/// every bridge frame of the old clip that the wait allows with every bridge frame of the new one (docs/metrics.md,
-/// Matching).
+/// every bridge frame of the old clip that the wait allows with every bridge frame of the new one
+/// (docs/reference/metrics.md, Matching).
 struct MatchTally {
   std::int64_t pairs = 0;
   std::int64_t matching = 0;        ///< their distance is below the threshold

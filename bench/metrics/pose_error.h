@@ -27,7 +27,7 @@ double FrameMpjpeMm(const BodyPose& found, const BodyPose& truth);
 /// The mean joint error after `AlignSimilarity` of this frame.
 double FramePaMpjpeMm(const BodyPose& found, const BodyPose& truth);
 
-/// The errors of a recovered motion against the true one (docs/metrics.md), over all joints and frames.
+/// The errors of a recovered motion against the true one (docs/reference/metrics.md), over all joints and frames.
 struct PoseErrors {
   double mpjpe_mm = 0;
   double pa_mpjpe_mm = 0;

@@ -10,7 +10,8 @@
 
 namespace etude {
 
-/// A join as it was shown, beside the clips it joins (docs/metrics.md, Transitions). All at the judged rate, metres.
+/// A join as it was shown, beside the clips it joins (docs/reference/metrics.md, Transitions). All at the judged rate,
+/// metres.
 struct JoinView {
   std::span<const BodyPose> shown;   ///< the spliced motion
   std::span<const BodyPose> left;    ///< the old clip: left[f] is its own frame where shown[f] stands, from 0 on

@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// The smoothness of a motion around given frames (docs/metrics.md, Transitions). Motions are judged
+/// The smoothness of a motion around given frames (docs/reference/metrics.md, Transitions). Motions are judged
 /// at 30 Hz, in metres, of a body whose hips stand at 0.90 m.
 
 /// The unevenness of a motion close to a transition point.

@@ -28,7 +28,7 @@ std::string WriteIkExtras(const IkExtras& extras);
 Result<IkExtras> ReadIkExtras(const std::string& json);
 
 /// The extras of task `transition`: a transition that has a way, some seconds before and after it. Tracks "coach",
-/// "left" and "wanted" (docs/recordings.md): what measures of the join look at.
+/// "left" and "wanted" (docs/reference/recordings.md): what measures of the join look at.
 struct TransitionExtras {
   /// A transition point: two frames, at which the motion changed clips. Frames count in their clips.
   struct Point {
@@ -141,7 +141,7 @@ std::string WriteCoachExtras(const CoachExtras& extras);
 /// Fails, naming the key, when a key is missing or of another kind.
 Result<CoachExtras> ReadCoachExtras(const std::string& json);
 
-/// The page docs/recordings.md: the keys of all of them, in Markdown.
+/// The page docs/reference/recordings.md: the keys of all of them, in Markdown.
 std::string RecordingsAsMarkdown();
 
 }  // namespace etude

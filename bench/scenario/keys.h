@@ -17,7 +17,7 @@ struct KeyGroup {
 /// Every key that a scenario file can hold: those of all scenarios, then those of each task and of its methods.
 std::vector<KeyGroup> AllKeyGroups();
 
-/// AllKeyGroups as the reference page docs/keys.md.
+/// AllKeyGroups as the reference page docs/reference/keys.md.
 std::string KeysAsMarkdown();
 /// AllKeyGroups as the JSON Schema docs/schemas/scenario.schema.json, by which editors complete and check scenario
 /// files.

@@ -62,7 +62,7 @@ struct BodyPose {
   const glm::dvec3& operator[](Role role) const { return joints[Index(role)]; }
 };
 
-/// The rate at which all motions are judged (docs/metrics.md).
+/// The rate at which all motions are judged (docs/reference/metrics.md).
 constexpr double kJudgedRateHz = 30.0;
 
 /// A sequence of frames at a fixed rate: what sensors see, pipelines produce and metrics judge.

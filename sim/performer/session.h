@@ -39,7 +39,8 @@ struct SessionEvent {
   std::optional<double> first_right_s = {};
 
   bool IsRight() const { return truth == Truth::kRight; }
-  /// Returns the end of the time in which the event is judged: half a second after its last beat (docs/metrics.md).
+  /// Returns the end of the time in which the event is judged: half a second after its last beat
+  /// (docs/reference/metrics.md).
   double WindowEnd() const { return end_s + 0.5; }
 };
 

@@ -14,8 +14,8 @@ inline std::optional<double> Share(std::int64_t part, std::int64_t whole) {
   return static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// An event is one scripted performance of a move that was truly right or wrong (docs/metrics.md); grey ones are none.
-/// Positive = "right".
+/// An event is one scripted performance of a move that was truly right or wrong (docs/reference/metrics.md); grey ones
+/// are none. Positive = "right".
 struct JudgedEvent {
   bool is_right = false;      ///< the truth
   bool called_right = false;  ///< what the recogniser said by the end of the event's window
@@ -53,8 +53,8 @@ std::vector<std::pair<double, double>> RocCurve(std::span<const JudgedEvent> eve
 /// The point of the ROC at which the events were called. Empty without a right or a wrong one.
 std::optional<std::pair<double, double>> OperatedAt(std::span<const JudgedEvent> events);
 
-/// The largest F1 that any threshold on the scores reaches: what the scores are worth, whatever threshold was set. Empty
-/// without a right or a wrong event.
+/// The largest F1 that any threshold on the scores reaches: what the scores are worth, whatever threshold was set.
+/// Empty without a right or a wrong event.
 std::optional<double> BestF1(std::span<const JudgedEvent> events);
 
 /// A value and its 95 % interval.
@@ -63,8 +63,8 @@ struct WithInterval {
 };
 
 /// The area under the ROC of all events with an interval over the groups that they came from: jackknife, one group left
-/// out at a time (Efron and Tibshirani 1993, chapter 11), ± 1.96 standard errors, within [0, 1]. `groups` holds the group
-/// of each event. Empty without an area, or when a single group holds all right or all wrong events.
+/// out at a time (Efron and Tibshirani 1993, chapter 11), ± 1.96 standard errors, within [0, 1]. `groups` holds the
+/// group of each event. Empty without an area, or when a single group holds all right or all wrong events.
 std::optional<WithInterval> JackknifedAuc(std::span<const JudgedEvent> events, std::span<const int> groups);
 
 /// A time until something happened, or until it was given up waiting for.
@@ -73,9 +73,9 @@ struct Wait {
   bool happened = false;  ///< false: censored, it took longer than `seconds`, which may be infinite
 };
 
-/// The estimated share still waiting (Kaplan and Meier 1958): (time, share) after each time at which a wait ended, after
-/// (the earliest time, 1). What was given up is at risk until then, and after what happens at the same time. Empty
-/// without waits.
+/// The estimated share still waiting (Kaplan and Meier 1958): (time, share) after each time at which a wait ended,
+/// after (the earliest time, 1). What was given up is at risk until then, and after what happens at the same time.
+/// Empty without waits.
 std::vector<std::pair<double, double>> SurvivalCurve(std::span<const Wait> waits);
 
 /// The median waiting time: the first time at which the survival curve is ½ or less. Empty when it never is.

@@ -15,7 +15,7 @@ namespace etude {
 /// The performances asked for that are right or wrong, not grey, and how each was judged (one judgement per event).
 std::vector<JudgedEvent> JudgedEvents(const DetectionWorld& world, std::span<const Judgement> judgements);
 
-/// The metrics of a session (docs/metrics.md).
+/// The metrics of a session (docs/reference/metrics.md).
 void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, const Repertoire& repertoire,
                   CellResult& result);
 

@@ -20,7 +20,7 @@ namespace etude {
 /// Counts the pairs of frames that a fuzzy choice may take, and those that its rules match.
 MatchTally TallyMatches(const Stage& stage, const TransitionRequest& request, const TransitionWay& way);
 
-/// The metrics of a transition that has a way (docs/metrics.md), the worst transition point counting where an
+/// The metrics of a transition that has a way (docs/reference/metrics.md), the worst transition point counting where an
 /// in-between made two.
 void ScoreTransition(const TransitionOutcome& outcome, const Stage& stage, CellResult& result);
 

@@ -11,7 +11,7 @@
 namespace etude {
 
 /// The proportions of the body that performs all clips when transitions are judged: its hips stand at 0.90 m
-/// (docs/metrics.md).
+/// (docs/reference/metrics.md).
 BodyProportions JudgedProportions();
 
 /// The rules by which a library is made ready for transitions.
@@ -40,8 +40,8 @@ struct Stage {
 /// Shorter clips have no unbroken window of eleven frames to be judged by.
 constexpr int kShortestClip = 13;
 
-/// The jumps that a transition between these two clips is compared with, in centimetres (docs/metrics.md): the clips
-/// asked for set the standard, not one played in between.
+/// The jumps that a transition between these two clips is compared with, in centimetres (docs/reference/metrics.md):
+/// the clips asked for set the standard, not one played in between.
 std::vector<double> NaturalJumpsOf(const Stage& stage, int from, int to);
 /// The limit of the calmer of the two: the smaller of both clips' own.
 double CalmerLimitCm(const Stage& stage, int from, int to);

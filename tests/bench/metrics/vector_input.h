@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// The pieces that the inputs of test vectors are made of (docs/metrics.md, "The vectors' inputs"). All throw
+/// The pieces that the inputs of test vectors are made of (docs/reference/metrics.md, "The vectors' inputs"). All throw
 /// Json::exception for what does not fit; `EvaluateMetric` turns that into an Error.
 
 /// [x, y, z].
