@@ -142,7 +142,7 @@ class Anatomist {
           const double ratio = std::log(upper / lower / std::sqrt(wanted.upper_low * wanted.upper_high));
           const double ending = end > 0 ? std::log(end / lower / std::sqrt(wanted.end_low * wanted.end_high)) : 0;
           const double rank = met * std::exp(-0.1 * (ratio * ratio + 0.3 * ending * ending));
-          if (rank <= best_rank) continue;
+          if (!(rank > best_rank)) continue;  // bones of no length give no rank
           best_rank = rank;
           best.at = {i, j, k};
           best.met = met;

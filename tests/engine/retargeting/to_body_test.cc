@@ -150,7 +150,7 @@ TEST(ToBodyMotion, TakesTheUnitThatIsGiven) {
   const auto body = Convert(AtRest(Scaled(1)), {.metres_per_unit = 0.02});
   ASSERT_TRUE(body) << ToString(body.error());
   EXPECT_EQ(body->unit, "given");
-  EXPECT_EQ(body->note, "1 unit = 2 cm (given)");
+  EXPECT_THAT(body->note, HasSubstr("1 unit = 2 cm (given); 3.48 m tall in the unit given"));
   EXPECT_NEAR(Stature(body->motion.poses[0]), 2 * 1.60 / 0.92, 1e-12);
 }
 
