@@ -24,11 +24,13 @@ constexpr const char* kCalibrateExamples =
     "picture tells the world: lay the board on the floor there (--world floor). A film will do for a folder.\n\n"
     "The file that is written is YAML that OpenCV reads, too: "
     "cv::FileStorage(\"rig.yaml\")[\"left\"][\"camera_matrix\"].\n"
-    "`etude capture` also takes the calibrations of OpenCV, Pose2Sim, Anipose and Qualisys as they are.\n\n"
+    "`etude capture` also takes calibrations of OpenCV, Pose2Sim, Anipose, FreeMoCap, Caliscope, Qualisys, EasyMocap "
+    "and COLMAP.\n\n"
     "Try:\n"
     "  etude calibrate --print board.png --board 8x8x0.1                a board of 80 cm, squares of 10 cm\n"
     "  etude calibrate left/ right/ --board 8x8x0.1 -o rig.yaml         folders of PNG or JPG pictures\n"
     "  etude calibrate left.mp4 right.mp4 --board 8x8x0.1 -o rig.yaml   films that run alike\n"
+    "  etude calibrate a.mp4 b.mp4 --board charuco:4x5x0.054 -o rig.yaml   a board of OpenCV's, squares counted\n"
     "  etude calibrate pairs.csv --size 1920x1080 -o rig.yaml           measured points";
 
 }  // namespace
@@ -41,8 +43,10 @@ void DefineCalibrate(CLI::App& app, Action& action) {
                       "A file of point pairs; or for each camera a folder of pictures or a film");
   command->add_option("-o,--output", options->output, "The rig to write (YAML)");
   command
-      ->add_option("--board", options->boards,
-                   "COLUMNSxROWSxSQUARE, squares and metres, @FIRST_CODE for a second board with codes of its own")
+      ->add_option(
+          "--board", options->boards,
+          "COLUMNSxROWSxSQUARE, squares and metres, @FIRST_CODE for a second board with codes of its own; or one of "
+          "OpenCV's: chess:9x6x0.025, charuco:5x7x0.04 (its dictionary, print and layout are found)")
       ->capture_default_str();
   command->add_option("--method", options->method, "Of point pairs")
       ->check(CLI::IsMember(CalibrationNames()))
@@ -57,8 +61,10 @@ void DefineCalibrate(CLI::App& app, Action& action) {
   command->add_option("--world", options->world, "How the board of the first picture stands: floor or wall")
       ->check(CLI::IsMember({"floor", "wall"}))
       ->capture_default_str();
-  command->add_option("--every", options->every, "Look at every so many frames of a film")
-      ->check(CLI::Range(1, 100000))
+  command
+      ->add_option("--every", options->every,
+                   "Look at every so many frames of a film (0: 30; for a board of OpenCV's, about 100 frames in all)")
+      ->check(CLI::Range(0, 100000))
       ->capture_default_str();
   command->add_option("--print", options->print, "Write the board as a picture (PNG) to be printed, and nothing else");
   AddOverwrite(*command, options->overwrite);

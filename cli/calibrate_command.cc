@@ -12,6 +12,7 @@
 #include "cli/commands.h"
 #include "cli/output_file.h"
 #include "engine/base/angles.h"
+#include "engine/base/order_statistics.h"
 #include "engine/boards/board_views.h"
 #include "engine/cameras/camera_parameters.h"
 #include "engine/cameras/pairs_file.h"
@@ -192,9 +193,15 @@ Result<BoardCounts> AddFolder(std::size_t camera, const fs::path& folder, BoardV
 }
 
 /// Every `every`-th picture of a film; a picture's number names its moment.
-Result<BoardCounts> AddFilm(std::size_t camera, const fs::path& film, int every, BoardViews& views) {
+Result<BoardCounts> AddFilm(std::size_t camera, const fs::path& film, const CalibrateOptions& options,
+                            BoardViews& views) {
   BoardCounts counts;
   ASSIGN_OR_RETURN(const FilmFacts facts, ProbeFilm(film));
+  constexpr int kUsual = 30, kPictures = 100;
+  const bool is_printed = ReadPrintedBoard(options.boards.front()).has_value();
+  const int every = options.every > 0 ? options.every
+                    : is_printed      ? std::max(1, static_cast<int>(facts.frames) / kPictures)
+                                      : kUsual;
   ASSIGN_OR_RETURN(Decoder decoder, Decoder::Start(film, facts));
   ColourImage frame;
   for (int i = 0;; ++i) {
@@ -205,22 +212,73 @@ Result<BoardCounts> AddFilm(std::size_t camera, const fs::path& film, int every,
   }
 }
 
+/// The board that is looked for: one of OpenCV's, or our own.
+Result<BoardViews> SearchFor(const CalibrateOptions& options) {
+  const auto printed = ReadPrintedBoard(options.boards.front());
+  if (!printed) {
+    ASSIGN_OR_RETURN(const auto boards, ReadBoards(options.boards));
+    return BoardViews(boards);
+  }
+  ASSIGN_OR_RETURN(const PrintedBoard board, *printed);
+  if (!HasPrintedBoards()) {
+    return Fail({},
+                "--board {}: this program was built without OpenCV's detectors; scripts/setup --boards, and build it "
+                "again",
+                options.boards.front());
+  }
+  if (options.boards.size() > 1)
+    return Fail({}, "--board: one chessboard or ChArUco board; there are {}", options.boards.size());
+  if (!board.is_charuco && (board.columns + board.rows) % 2 == 0 && options.inputs.size() > 1) {
+    return Fail(
+        {},
+        "--board {}: turned by 180° it looks the same, so two cameras cannot be joined; allowed: columns + rows "
+        "odd",
+        options.boards.front());
+  }
+  return BoardViews(board);
+}
+
+/// Residuals of each view: those three times as far off as most are of pictures that were blurred or moved.
+std::vector<TargetView> WithoutBlurred(const RefinedRig& rig, std::span<const TargetView> views) {
+  std::vector<double> rms;
+  for (const TargetView& view : views) {
+    rms.push_back(ReprojectionRms(rig.cameras[view.camera], rig.targets[view.target], view.pairs));
+  }
+  constexpr double kFar = 3, kLeastPx = 0.3;
+  const double limit = std::max(kLeastPx, kFar * UpperMedian(rms));
+  std::vector<TargetView> kept;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (rms[i] <= limit) kept.push_back(views[i]);
+  }
+  return kept;
+}
+
 Result<Calibrated> FromPictures(const CalibrateOptions& options) {
-  ASSIGN_OR_RETURN(const auto boards, ReadBoards(options.boards));
-  BoardViews search(boards);
+  ASSIGN_OR_RETURN(BoardViews search, SearchFor(options));
   for (std::size_t camera = 0; camera < options.inputs.size(); ++camera) {
     const fs::path input = options.inputs[camera];
     ASSIGN_OR_RETURN(const BoardCounts counts, fs::is_directory(input) ? AddFolder(camera, input, search)
-                                                                       : AddFilm(camera, input, options.every, search));
+                                                                       : AddFilm(camera, input, options, search));
     fmt::print("{}: {} pictures, {} of them with a board, {} corners\n", options.inputs[camera], counts.looked,
                counts.with_board, counts.corners);
   }
-  ASSIGN_OR_RETURN(auto refined, CalibrateFromPlanes(search.sizes(), search.views(), RefineOptionsOf(options)));
+  std::vector<TargetView> views = search.views();
+  ASSIGN_OR_RETURN(auto refined, CalibrateFromPlanes(search.sizes(), views, RefineOptionsOf(options)));
+  if (!search.Told().empty()) {
+    fmt::print("the board: {}\n", search.Told());
+    std::vector<TargetView> kept = WithoutBlurred(refined, views);
+    if (kept.size() < views.size()) {
+      fmt::print("{} of {} pictures of boards left out: three times as far off as most\n", views.size() - kept.size(),
+                 views.size());
+      views = std::move(kept);
+      ASSIGN_OR_RETURN(refined, CalibrateFromPlanes(search.sizes(), views, RefineOptionsOf(options)));
+    }
+  }
   TurnToStance(options.world == "floor" ? BoardStance::kOnFloor : BoardStance::kOnWall, refined.cameras);
   Calibrated rig;
   rig.rms_px = refined.camera_rms_px;
   rig.points.resize(refined.cameras.size());
-  for (const TargetView& view : search.views()) rig.points[view.camera] += view.pairs.size();
+  for (const TargetView& view : views) rig.points[view.camera] += view.pairs.size();
   for (std::size_t i = 0; i < refined.cameras.size(); ++i) {
     fs::path input = options.inputs[i];
     if (!input.has_filename()) input = input.parent_path();

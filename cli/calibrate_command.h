@@ -16,7 +16,7 @@ struct CalibrateOptions {
   bool skew = false;
   std::string size;             ///< "1920x1080", of the pictures of point pairs as CSV
   std::string world = "floor";  ///< floor or wall: how the first board stands
-  int every = 30;               ///< of a film, every so many frames are looked at
+  int every = 0;                ///< of a film, every so many frames are looked at; 0: 30, of OpenCV's boards 100 in all
   std::string print;            ///< a PNG: the board itself, to be printed
   bool overwrite = false;
 };

@@ -10,6 +10,9 @@
 #include "engine/cameras/rig_file.h"
 #include "engine/keypoints/agreement.h"
 #include "engine/keypoints/pixel_fit.h"
+#include "engine/keypoints/place_rig.h"
+#include "engine/keypoints/recover_person.h"
+#include "engine/keypoints/synchronise_people.h"
 #include "engine/motion/body.h"
 #include "engine/motion/clip.h"
 #include "reports/films/decoder.h"
@@ -18,7 +21,8 @@ namespace etude {
 
 struct CaptureCommandOptions {
   std::vector<std::string> films;
-  std::string rig;                   ///< a calibration that ReadRig knows
+  std::string rig;                   ///< a calibration: a file or a folder that ReadRigFile or ReadRigPair knows
+  PlaceOptions place;                ///< its unit, up axis and floor
   std::string keypoints;             ///< a folder with an entry for each film
   std::string marks;                 ///< likewise, of annotation pictures
   bool silhouettes = false;          ///< neither: the films alone tell
@@ -35,7 +39,7 @@ struct CaptureCommandOptions {
   int person = 1;
   double smooth_hz = 0;
   double longest_gap_s = 0.5;
-  double outlier_px = 0;  ///< 0: 3 % of the picture's longer side
+  double outlier_px = 0;  ///< 0: by the residuals, at most 3 % of the picture's longer side
   double sync_s = 0;      ///< the films' clocks may differ by this; 0: they agree
   bool overwrite = false;
 };
@@ -48,10 +52,30 @@ struct FilmedView {
   PixelFit fit;  ///< from the rig's pixels to the film's
 };
 
+/// The films of a session and the rig that took them, as its file has it.
+struct FilmedSession {
+  std::vector<FilmedView> views;
+  RigFile rig;
+};
+
 /// Opens the films with their cameras of the rig. Fails for fewer than two, for cameras that are missing or named
-/// twice, for sizes that `--fit` does not explain, and for films of different rates, or of different lengths without
-/// `--sync`.
-Result<std::vector<FilmedView>> OpenFilms(const CaptureCommandOptions& options);
+/// twice, for sizes that `--fit` does not explain, and without `--sync` for films of different lengths.
+Result<FilmedSession> OpenFilms(const CaptureCommandOptions& options);
+
+/// The cameras and people from which a person is recovered.
+struct SeenFilms {
+  std::vector<ProjectionMatrix> cameras;  ///< without their lenses, as are the people
+  std::vector<SeenPeople> people;         ///< at the first film's times
+  std::vector<FilmClock> clocks;          ///< of each film
+};
+
+/// Reads the keypoints or marks of all films, finds how they lie in the rig's pictures and in time, and says so.
+/// `views` learn how their pictures were turned.
+Result<SeenFilms> SeeFilms(const CaptureCommandOptions& options, const RecoverPersonOptions& recover,
+                           std::vector<FilmedView>& views);
+
+/// Prints what was mended of a person and what still is doubtful, a line each.
+void TellMends(const RecoveredPerson& person, const std::vector<FilmedView>& views);
 
 /// Writes a clip, and the same as twenty joints, in the format that the file's name tells.
 Result<void> WriteMotion(const std::string& path, Clip clip, const BodyMotion& motion);
@@ -81,7 +105,7 @@ std::vector<CameraPair> PairsOf(std::size_t films);
 
 /// Captures from keypoints or marks, or from the films alone: then the motion of the only person who moves in them, by
 /// outlines. Compares it with `reference`, if there is one. False when it was interrupted.
-Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, FilmedSession session,
                               const std::optional<MarkerMotion>& reference);
 Result<bool> CaptureUnmarked(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
                              const std::optional<MarkerMotion>& reference);

@@ -31,10 +31,18 @@ constexpr const char* kCaptureExamples =
     "near.\n"
     "--person 2 asks for the one seen second most. Films that did not begin at the same moment are set in time by how\n"
     "their keypoints move: --sync 1 looks up to a second either way, to fractions of a frame.\n\n"
-    "The rig is what `etude calibrate` wrote, or a calibration of OpenCV, Pose2Sim, Anipose or Qualisys. Films are\n"
-    "matched to its cameras by name (cam01.mp4 is cam_01), or in the order of --cameras. Films of other sizes than "
-    "the\n"
-    "rig's are refused until --fit says what was done to them: letterbox (scaled, bars added), stretch, crop.\n\n"
+    "The rig is what `etude calibrate` wrote, or a calibration of OpenCV, Pose2Sim, Anipose, FreeMoCap, Caliscope or\n"
+    "Qualisys; of EasyMocap (intri.yml, extri.yml), OpenCV stereo (intrinsics.yml, extrinsics.yml) or COLMAP "
+    "(cameras.txt,\n"
+    "images.txt) the folder, or the first file. Its unit and up axis are found from the person, said, and set by "
+    "--rig-unit,\n"
+    "--rig-up, --floor. Films are matched to its cameras by name (cam01.mp4 is cam_01), or in the order of --cameras.\n"
+    "Films of other sizes than the rig's are refused until --fit says what was done to them: letterbox (scaled, bars\n"
+    "added), stretch, crop.\n\n"
+    "Said, and mended: left and right exchanged in a camera, somebody else's keypoints, a film that is late by up to "
+    "half\n"
+    "a second or runs at a slightly other rate, pictures that are turned or mirrored, keypoints of unfitted "
+    "pictures.\n\n"
     "With --reference FILE.trc a table tells how far the triangulated keypoints are from it, for all cameras and\n"
     "every pair. Made of the same keypoints, that is agreement, not error. With --silhouettes it is the joints'\n"
     "distance, and error; every pair of cameras is then captured by itself, which takes its time.\n\n"
@@ -57,14 +65,29 @@ Result<int> CaptureCommand(const CaptureCommandOptions& options) {
     ASSIGN_OR_RETURN(const auto text, ReadWholeFile(options.reference));
     ASSIGN_OR_RETURN(reference, ReadTrc(text, options.reference));
   }
-  ASSIGN_OR_RETURN(const auto views, OpenFilms(options));
-  const FilmFacts& facts = views.front().facts;
-  if (reference && std::abs(reference->rate_hz - facts.rate_hz) > 0.01) {
-    return Fail({options.reference}, "{:g} frames a second, the films {:g}", reference->rate_hz, facts.rate_hz);
+  RETURN_IF_ERROR(CheckPlace(options.place));
+  ASSIGN_OR_RETURN(FilmedSession session, OpenFilms(options));
+  const FilmFacts facts = session.views.front().facts;
+  fmt::print("{} films, {} frames at {:g} Hz\n", session.views.size(), facts.frames, facts.rate_hz);
+  if (reference && std::abs(reference->rate_hz - facts.rate_hz) > kOneRate * facts.rate_hz) {
+    fmt::print("reference: resampled from {:g} to {:g} Hz, straight between its frames\n", reference->rate_hz,
+               facts.rate_hz);
+    reference = AtRate(std::move(*reference), facts.rate_hz);
   }
-  fmt::print("{} films, {} frames at {:g} Hz\n", views.size(), facts.frames, facts.rate_hz);
-  ASSIGN_OR_RETURN(const bool is_whole, options.silhouettes ? CaptureUnmarked(options, views, reference)
-                                                            : CaptureKeypoints(options, views, reference));
+  bool is_whole = false;
+  if (options.silhouettes) {
+    const auto place = PlaceRig(session.rig, options.place);
+    if (!place) return Fail({options.rig}, "{}", place.error().message);
+    for (FilmedView& view : session.views) {
+      if (view.fit.quarter_turns != 0) {
+        return Fail({view.path.string()}, "its pictures are turned, and outlines do not tell which way; turn the film");
+      }
+      view.camera.camera = Placed(*place, view.camera.camera);
+    }
+    ASSIGN_OR_RETURN(is_whole, CaptureUnmarked(options, session.views, reference));
+  } else {
+    ASSIGN_OR_RETURN(is_whole, CaptureKeypoints(options, std::move(session), reference));
+  }
   return is_whole ? kSuccess : TellStopped({{options.film}, "stopped; there is no film"});
 }
 
@@ -76,6 +99,19 @@ void DefineCapture(CLI::App& app, Action& action) {
   command->add_option("films", options->films, "A film of each camera, all begun at the same moment (else: --sync)")
       ->required();
   command->add_option("--rig", options->rig, "The calibrated cameras")->required();
+  command
+      ->add_option("--rig-unit", options->place.unit,
+                   fmt::format("The rig's unit of length: {}, metres in one unit, or auto (a person has 0.5 to 2.2 m)",
+                               RigUnits()))
+      ->capture_default_str();
+  command
+      ->add_option("--rig-up", options->place.up,
+                   "The rig's axis that points up: x, y, z, -x, -y, -z, floor (square to where feet rest), or auto")
+      ->capture_default_str();
+  command
+      ->add_option("--floor", options->place.floor,
+                   "What becomes height 0: keep (the rig's), feet, a height in m, or auto (feet where they told up)")
+      ->capture_default_str();
   command->add_option("--cameras", options->cameras, "The rig's cameras in the order of the films: left,right")
       ->delimiter(',')
       ->allow_extra_args(false);  // films may follow
@@ -118,7 +154,8 @@ void DefineCapture(CLI::App& app, Action& action) {
       ->capture_default_str();
   command
       ->add_option("--outlier", options->outlier_px,
-                   "A keypoint further than this from where the others say is left out, px (0: 3 % of the picture)")
+                   "A keypoint further than this from where the others say is left out, px (0: eight deviations of the "
+                   "residuals, at most 3 % of the picture)")
       ->check(NumberWithin(0, 10000, "distance in px"))
       ->capture_default_str();
   command

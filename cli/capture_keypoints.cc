@@ -7,42 +7,17 @@
 #include <optional>
 
 #include "bench/files/files.h"
-#include "bench/keypoints/read_people.h"
 #include "cli/capture.h"
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "engine/formats/trc.h"
 #include "engine/keypoints/agreement.h"
-#include "engine/keypoints/recover_person.h"
-#include "engine/keypoints/synchronise_people.h"
 #include "reports/films/overlay_film.h"
 
 namespace etude {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Reads the people of a film, moved into the rig's pixels.
-Result<SeenPeople> ReadPeople(const CaptureCommandOptions& options, const FilmedView& view) {
-  const bool is_marks = !options.marks.empty();
-  ASSIGN_OR_RETURN(const fs::path entry,
-                   EntryOfFilm(is_marks ? options.marks : options.keypoints, view.path.stem().string()));
-  ASSIGN_OR_RETURN(PeopleOfFilm film, is_marks ? ReadMarkedPictures(entry) : ReadKeypoints(entry, options.layout));
-  if (film.frames.size() != static_cast<std::size_t>(view.facts.frames)) {
-    return Fail({entry.string()}, "{} frames, the film {} {}", film.frames.size(), view.path.string(),
-                view.facts.frames);
-  }
-  if (film.width != 0 && (film.width != view.facts.width || film.height != view.facts.height)) {
-    return Fail({entry.string()}, "of pictures of {} x {} pixels, the film {} x {}", film.width, film.height,
-                view.facts.width, view.facts.height);
-  }
-  for (auto& frame : film.frames) {
-    for (SeenPerson& person : frame) {
-      for (Keypoint& keypoint : person.keypoints) keypoint.pixel = view.fit.ToRig(keypoint.pixel);
-    }
-  }
-  return std::move(film.frames);
-}
 
 RecoverPersonOptions RecoverOptionsOf(const CaptureCommandOptions& options, const std::vector<FilmedView>& views) {
   double longer_side = 0;
@@ -54,44 +29,11 @@ RecoverPersonOptions RecoverOptionsOf(const CaptureCommandOptions& options, cons
   recover.person = static_cast<std::size_t>(options.person - 1);
   recover.cutoff_hz = options.smooth_hz;
   recover.longest_gap_s = options.longest_gap_s;
-  if (options.outlier_px > 0) recover.triangulate.robust.outlier_px = options.outlier_px;
+  constexpr double kLeastShare = 0.004;  // of the picture's longer side: what rounding and lenses leave
+  recover.least_outlier_px = kLeastShare * longer_side;
+  if (options.outlier_px > 0) recover.triangulate.robust.outlier_px = recover.least_outlier_px = options.outlier_px;
+  recover.mends = recover.match.may_be_swapped = true;
   return recover;
-}
-
-/// The cameras and people from which a person is recovered.
-struct SeenFilms {
-  std::vector<ProjectionMatrix> cameras;  ///< without their lenses, as are the people
-  std::vector<SeenPeople> people;         ///< at the first film's times
-  std::vector<double> offsets;            ///< of each film, frames (`EstimateOffsets`)
-};
-
-/// Finds the films' clocks, prints them, and brings all people to the first one's time.
-void Synchronise(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
-                 const RecoverPersonOptions& recover, SeenFilms& films) {
-  const double rate = recover.rate_hz;
-  const std::size_t frames = films.people.front().size();
-  std::size_t shortest = frames;
-  for (const SeenPeople& people : films.people) shortest = std::min(shortest, people.size());
-  // Beyond half of a film there is too little in common to judge by.
-  const int most =
-      std::clamp(static_cast<int>(std::lround(options.sync_s * rate)), 1, std::max(1, static_cast<int>(shortest / 2)));
-  const SyncOptions clocks{.most_frames = most, .most_px = recover.triangulate.robust.outlier_px};
-  const std::vector<ClockOffset> found = EstimateOffsets(films.cameras, films.people, {clocks, recover.match.follow});
-  std::string untold;
-  fmt::print("clocks, after {}'s:", views.front().camera.name);
-  constexpr double kMsPerSecond = 1000;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    films.offsets[i] = found[i].frames;
-    if (!found[i].is_told) untold += (untold.empty() ? "" : ", ") + views[i].camera.name;
-    films.people[i] = PeopleInTime(films.people[i], films.offsets[i], frames, recover.match.follow);
-    if (i == 0) continue;
-    fmt::print("{} {} {:+.2f} frames ({:+.0f} ms)", i == 1 ? "" : ",", views[i].camera.name, films.offsets[i],
-               kMsPerSecond * films.offsets[i] / rate);
-  }
-  fmt::print("\n");
-  if (untold.empty()) return;
-  fmt::print("no keypoints tell the clock of {}: people hardly move, or it is further off than --sync {:g}\n", untold,
-             options.sync_s);
 }
 
 void PrintPeople(const RecoveredPerson& person, const std::vector<FilmedView>& views) {
@@ -114,8 +56,8 @@ void PrintPeople(const RecoveredPerson& person, const std::vector<FilmedView>& v
 void PrintReport(const RecoveredPerson& person, const std::vector<FilmedView>& views) {
   const LimbLengths& l = person.body.lengths;
   constexpr double kCmPerMetre = 100;
-  fmt::print("points: {:.1f} % found, {:.1f} px off the keypoints (median)", 100 * person.report.found,
-             person.report.residual_px);
+  fmt::print("points: {:.1f} % found, {:.1f} px off the keypoints (median), outliers beyond {:.1f} px",
+             100 * person.report.found, person.report.residual_px, person.outlier_px);
   for (std::size_t i = 0; i < views.size(); ++i) {
     fmt::print("{} {} {:.1f} %", i == 0 ? "; left out:" : ",", views[i].camera.name, 100 * person.report.rejected[i]);
   }
@@ -160,11 +102,12 @@ std::vector<ComparedColumn> CompareWithReference(const MarkerMotion& reference, 
 
 /// Writes the skeleton drawn over the films. False when it was interrupted.
 Result<bool> WriteFilm(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
-                       const RecoveredPerson& person, std::size_t chosen, const std::vector<double>& offsets) {
+                       const RecoveredPerson& person, std::size_t chosen, const std::vector<FilmClock>& clocks) {
   std::vector<OverlayView> overlays;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const FilmedView& view = views[i];
-    overlays.push_back({view.camera.name, view.path, view.facts, view.camera.camera, view.fit, offsets[i], {}});
+    overlays.push_back(
+        {view.camera.name, view.path, view.facts, view.camera.camera, view.fit, clocks[i].offset, {}, clocks[i].drift});
     for (auto seen : person.people[chosen].seen[i]) {
       // Matched persons are told without the lens.
       for (Keypoint& keypoint : seen ? std::span<Keypoint>(seen->keypoints) : std::span<Keypoint>()) {
@@ -191,19 +134,29 @@ std::size_t ChosenOf(const RecoveredPerson& person, std::size_t number) {
 
 }  // namespace
 
-Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, FilmedSession session,
                               const std::optional<MarkerMotion>& reference) {
-  SeenFilms films;
-  for (const FilmedView& view : views) {
-    ASSIGN_OR_RETURN(SeenPeople people, ReadPeople(options, view));
-    films.people.push_back(UndistortPeople(view.camera.camera, std::move(people)));
-    films.cameras.push_back(MatrixOf(view.camera.camera));
-  }
+  std::vector<FilmedView>& views = session.views;
   const RecoverPersonOptions recover = RecoverOptionsOf(options, views);
-  films.offsets.resize(views.size());
-  if (options.sync_s > 0) Synchronise(options, views, recover, films);
-  ASSIGN_OR_RETURN(const RecoveredPerson person, RecoverPerson(films.cameras, films.people, recover));
+  ASSIGN_OR_RETURN(SeenFilms films, SeeFilms(options, recover, views));
+  ASSIGN_OR_RETURN(RecoveredPerson located, LocatePerson(films.cameras, films.people, recover));
+  const auto place = PlaceRig(session.rig, located.landmarks, recover.rate_hz, options.place);
+  if (!place) return Fail({options.rig}, "{}", place.error().message);
+  fmt::print("rig, {}: {}\n", session.rig.format, place->told);
+  if (!place->IsNone()) {
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      views[i].camera.camera = Placed(*place, views[i].camera.camera);
+      films.cameras[i] = MatrixOf(views[i].camera.camera);
+    }
+    for (LandmarkPlaces& frame : located.landmarks) {
+      for (auto& point : frame) {
+        if (point) point = (*place)(*point);
+      }
+    }
+  }
+  ASSIGN_OR_RETURN(const RecoveredPerson person, FitLocated(std::move(located), recover));
   PrintPeople(person, views);
+  TellMends(person, views);
   PrintReport(person, views);
   PrintFit(person);
   RETURN_IF_ERROR(WriteMotion(options.output, person.clip, person.motion));
@@ -220,7 +173,7 @@ Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, const std::v
         CompareWithReference(*reference, person, films, recover), views, options));
   }
   if (options.film.empty()) return true;
-  return WriteFilm(options, views, person, ChosenOf(person, recover.person), films.offsets);
+  return WriteFilm(options, views, person, ChosenOf(person, recover.person), films.clocks);
 }
 
 }  // namespace etude

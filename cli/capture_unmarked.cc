@@ -123,7 +123,7 @@ Result<bool> WriteFilm(const CaptureCommandOptions& options, const std::vector<F
                        const BodyMotion& motion) {
   std::vector<OverlayView> overlays;
   for (const FilmedView& view : views) {
-    overlays.push_back({view.camera.name, view.path, view.facts, view.camera.camera, view.fit, 0, {}});
+    overlays.push_back({view.camera.name, view.path, view.facts, view.camera.camera, view.fit, 0, {}, 0});
     overlays.back().keypoints.resize(motion.poses.size());
   }
   const Interrupt interrupt;

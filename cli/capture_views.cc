@@ -49,21 +49,64 @@ Result<NamedCamera> CameraOfFilm(const CaptureCommandOptions& options, const std
               NamesOf(rig));
 }
 
+/// The files of a rig: one, or two that belong together, beside each other or in a folder.
+struct RigPaths {
+  fs::path first, second;
+};
+
+Result<RigPaths> RigPathsOf(const fs::path& path) {
+  constexpr std::pair<const char*, const char*> kPairs[] = {
+      {"intri.yml", "extri.yml"}, {"intrinsics.yml", "extrinsics.yml"}, {"cameras.txt", "images.txt"}};
+  const bool is_folder = fs::is_directory(path);
+  const fs::path folder = is_folder ? path : path.parent_path();
+  for (const auto& [inside, outside] : kPairs) {
+    const bool is_named = path.filename() == inside || path.filename() == outside;
+    if (!is_named && !(is_folder && fs::exists(folder / inside))) continue;
+    if (!fs::exists(folder / inside) || !fs::exists(folder / outside)) {
+      return Fail({path.string()}, "needed beside each other: {} and {}", inside, outside);
+    }
+    return RigPaths{folder / inside, folder / outside};
+  }
+  if (is_folder) {
+    return Fail({path.string()},
+                "a folder without intri.yml and extri.yml, intrinsics.yml and extrinsics.yml, or "
+                "cameras.txt and images.txt; else name the file");
+  }
+  return RigPaths{path, {}};
+}
+
+Result<RigFile> OpenRig(const std::string& path) {
+  ASSIGN_OR_RETURN(const RigPaths paths, RigPathsOf(path));
+  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(paths.first.string()));
+  if (paths.second.empty()) return ReadRigFile(text, path);
+  ASSIGN_OR_RETURN(const auto other, ReadWholeFile(paths.second.string()));
+  return ReadRigPair(text, other, paths.first.string());
+}
+
+/// How films run: of one rate as many frames, of others as long.
 Result<void> CheckTogether(const std::vector<FilmedView>& views, bool may_differ_in_time) {
   const FilmedView& first = views.front();
-  constexpr double kSameRate = 1e-3;
   for (const FilmedView& view : views) {
-    if (!(std::abs(view.facts.rate_hz - first.facts.rate_hz) <= kSameRate * first.facts.rate_hz)) {
-      return Fail({view.path.string()}, "{:g} frames a second, {} {:g}; films must run alike", view.facts.rate_hz,
-                  first.path.string(), first.facts.rate_hz);
+    if (!(view.facts.rate_hz > 0)) {
+      return Fail({view.path.string()}, "it does not tell how many frames a second it has");
     }
-    if (!may_differ_in_time && view.facts.frames != first.facts.frames) {
+    if (may_differ_in_time) continue;
+    const bool is_one_rate = std::abs(view.facts.rate_hz - first.facts.rate_hz) <= kOneRate * first.facts.rate_hz;
+    if (is_one_rate && view.facts.frames != first.facts.frames) {
       return Fail({view.path.string()}, "{} frames, {} {}; cut them alike, or let keypoints tell the time (--sync)",
                   view.facts.frames, first.path.string(), first.facts.frames);
     }
+    const double seconds = static_cast<double>(view.facts.frames) / view.facts.rate_hz;
+    const double wanted = static_cast<double>(first.facts.frames) / first.facts.rate_hz;
+    const double frame = 1 / std::min(view.facts.rate_hz, first.facts.rate_hz);
+    constexpr double kFrames = 1.5;
+    if (!is_one_rate && std::abs(seconds - wanted) > kFrames * frame) {
+      return Fail({view.path.string()},
+                  "{:.3g} s at {:g} frames a second, {} {:.3g} s at {:g} frames a second; cut them alike, or let "
+                  "keypoints tell the time (--sync)",
+                  seconds, view.facts.rate_hz, first.path.string(), wanted, first.facts.rate_hz);
+    }
   }
-  if (!(first.facts.rate_hz > 0))
-    return Fail({first.path.string()}, "it does not tell how many frames a second it has");
   return {};
 }
 
@@ -88,9 +131,9 @@ std::string BytesOf(Clip clip, const BodyMotion& motion, MotionFormat format, co
 
 }  // namespace
 
-Result<std::vector<FilmedView>> OpenFilms(const CaptureCommandOptions& options) {
-  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(options.rig));
-  ASSIGN_OR_RETURN(const auto rig, ReadRig(text, options.rig));
+Result<FilmedSession> OpenFilms(const CaptureCommandOptions& options) {
+  ASSIGN_OR_RETURN(RigFile rig_file, OpenRig(options.rig));
+  const std::vector<NamedCamera>& rig = rig_file.cameras;
   constexpr std::size_t kMostFilms = 64;
   if (options.films.size() < 2 || options.films.size() > kMostFilms) {
     return Fail({}, "{} film{}; allowed: 2 to {}, one of each camera", options.films.size(),
@@ -109,7 +152,18 @@ Result<std::vector<FilmedView>> OpenFilms(const CaptureCommandOptions& options) 
         return Fail({view.path.string()}, "camera {} has {} already", view.camera.name, other.path.string());
       }
     }
-    const Intrinsics& in = view.camera.camera.intrinsics;
+    Intrinsics& in = view.camera.camera.intrinsics;
+    if (in.width == 0) {  // the rig does not tell: its pictures are the film's
+      in.width = view.facts.width;
+      in.height = view.facts.height;
+    }
+    const bool is_turned = options.fit == "none" && in.width != in.height && in.width == view.facts.height &&
+                           in.height == view.facts.width;
+    if (is_turned) {  // keypoints will tell which way
+      view.fit = {.quarter_turns = 1, .size = {in.width, in.height}};
+      views.push_back(std::move(view));
+      continue;
+    }
     const auto fit =
         FitPictures(*FindFitMode(options.fit), {in.width, in.height}, {view.facts.width, view.facts.height});
     if (!fit) return Fail({view.path.string()}, "{}", fit.error().message);
@@ -117,7 +171,7 @@ Result<std::vector<FilmedView>> OpenFilms(const CaptureCommandOptions& options) 
     views.push_back(std::move(view));
   }
   RETURN_IF_ERROR(CheckTogether(views, options.sync_s > 0));
-  return views;
+  return FilmedSession{std::move(views), std::move(rig_file)};
 }
 
 Result<void> WriteMotion(const std::string& path, Clip clip, const BodyMotion& motion) {

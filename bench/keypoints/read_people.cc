@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "bench/files/files.h"
 #include "bench/files/json.h"
+#include "bench/keypoints/keypoint_lists.h"
 #include "engine/keypoints/people.h"
 #include "engine/vision/strokes.h"
 #include "sim/sensors/image_files.h"
@@ -20,7 +22,6 @@ namespace fs = std::filesystem;
 
 constexpr double kOurPixelCentre = 0.5;
 constexpr double kLargestPixel = 1e6;
-constexpr std::size_t kMostPeople = 64;
 
 /// Orders names with the numbers in them by their value: frame 9 comes before frame 10.
 bool NaturallyBefore(const fs::path& a, const fs::path& b) {
@@ -59,27 +60,6 @@ Result<std::vector<fs::path>> FilesIn(const fs::path& folder, const char* ending
   return files;
 }
 
-/// Returns the member of that name, or null where there is none.
-const Json* Member(const Json& json, const char* name) {
-  const auto found = json.is_object() ? json.find(name) : json.end();
-  return json.is_object() && found != json.end() ? &*found : nullptr;
-}
-
-Result<const KeypointLayout*> LayoutOf(std::size_t count, const std::string& named, const Place& place) {
-  std::vector<const KeypointLayout*> fitting;
-  std::string counts;
-  for (const KeypointLayout& layout : KeypointLayouts()) {
-    if (layout.landmarks.size() == count && (named.empty() || named == layout.name)) fitting.push_back(&layout);
-    counts += (counts.empty() ? "" : ", ") + fmt::format("{} ({})", layout.name, layout.landmarks.size());
-  }
-  if (fitting.size() == 1) return fitting.front();
-  if (fitting.empty()) {
-    return Fail(place, "{} keypoints a person{}; allowed: {}", count, named.empty() ? "" : ", not " + named, counts);
-  }
-  return Fail(place, "{} keypoints a person may be {} or {}; tell which one by --layout", count, fitting[0]->name,
-              fitting[1]->name);
-}
-
 /// Python writes a number that is none as a bare NaN, which JSON does not know: estimators say so of what they did not
 /// see. As null, which it does.
 std::string WithNullForNan(std::string text) {
@@ -97,66 +77,48 @@ std::string WithNullForNan(std::string text) {
   return text;
 }
 
-/// Reads the triples x, y, confidence of a list; a point with a null was not seen.
-Result<std::vector<Keypoint>> Triples(const Json* list, const Place& place) {
-  if (list == nullptr || !list->is_array() || list->size() % 3 != 0) {
-    return Fail(place, "no list of keypoints; allowed: x, y, confidence of each");
-  }
-  std::vector<Keypoint> points;
-  for (std::size_t i = 0; i < list->size(); i += 3) {
-    double v[3];
-    if ((*list)[i].is_null() || (*list)[i + 1].is_null() || (*list)[i + 2].is_null()) {
-      points.emplace_back();
-      continue;
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Json& number = (*list)[i + k];
-      v[k] = number.is_number() ? number.get<double>() : std::nan("");
-      if (!(std::abs(v[k]) <= kLargestPixel)) return Fail(place, "a keypoint's number is {}", number.dump());
-    }
-    points.push_back({glm::dvec2(v[0], v[1]) + kOurPixelCentre, v[2]});
-  }
-  return points;
+bool IsAnySeen(const SeenPerson& person) {
+  return std::ranges::any_of(person.keypoints, [](const Keypoint& keypoint) { return keypoint.confidence > 0; });
 }
 
-Result<SeenPerson> ToPerson(const std::vector<Keypoint>& points, const std::string& layout, const Place& place) {
-  ASSIGN_OR_RETURN(const KeypointLayout* order, LayoutOf(points.size(), layout, place));
-  SeenPerson person;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].confidence > 0) {
-      person[order->landmarks[i]] = {points[i].pixel, std::min(points[i].confidence, 1.0)};
-    }
-  }
-  return person;
-}
-
-Result<std::vector<SeenPerson>> ReadOpenPoseFrame(const fs::path& file, const std::string& layout) {
+Result<std::vector<SeenPerson>> ReadFrame(const fs::path& file, const std::string& layout) {
   const Place place{file.string()};
   ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(file));
   ASSIGN_OR_RETURN(const Json json, ReadJson(WithNullForNan(text), file.string()));
+  std::vector<SeenPerson> frame;
+  if (json.is_array()) {  // MMPose's: a list of people
+    ASSIGN_OR_RETURN(auto people, PeopleOfList(json, layout, {}, place));
+    std::ranges::copy_if(people, std::back_inserter(frame), IsAnySeen);
+    return frame;
+  }
   const Json* people = Member(json, "people");
   if (people == nullptr || !people->is_array())
-    return Fail(place, "no list 'people'; allowed: JSON as OpenPose writes it");
+    return Fail(place, "no list 'people'; allowed: JSON as OpenPose writes it, or MMPose's list of people");
   if (people->size() > kMostPeople) return Fail(place, "{} people; allowed: {}", people->size(), kMostPeople);
-  std::vector<SeenPerson> frame;
   for (const Json& person : *people) {
     ASSIGN_OR_RETURN(const auto points, Triples(Member(person, "pose_keypoints_2d"), place));
     if (points.empty()) continue;
-    ASSIGN_OR_RETURN(const SeenPerson seen, ToPerson(points, layout, place));
-    const auto is_seen = [](const Keypoint& keypoint) { return keypoint.confidence > 0; };
-    if (std::ranges::any_of(seen.keypoints, is_seen)) frame.push_back(seen);
+    ASSIGN_OR_RETURN(const SeenPerson seen, ToPerson(points, layout, {}, place));
+    if (IsAnySeen(seen)) frame.push_back(seen);
   }
   return frame;
 }
 
-Result<PeopleOfFilm> ReadOpenPose(const fs::path& folder, const std::string& layout) {
+Result<PeopleOfFilm> ReadFolder(const fs::path& folder, const std::string& layout) {
   ASSIGN_OR_RETURN(const auto files, FilesIn(folder, ".json"));
   PeopleOfFilm film;
   for (const fs::path& file : files) {
-    ASSIGN_OR_RETURN(auto frame, ReadOpenPoseFrame(file, layout));
+    ASSIGN_OR_RETURN(auto frame, ReadFrame(file, layout));
     film.frames.push_back(std::move(frame));
   }
   return film;
+}
+
+/// The names that a COCO file's category gives its keypoints.
+std::vector<std::string> NamesOf(const Json& json) {
+  const Json* categories = Member(json, "categories");
+  if (categories == nullptr || !categories->is_array() || categories->empty()) return {};
+  return TextsOf(Member(categories->front(), "keypoints"));
 }
 
 struct CocoPerson {
@@ -185,15 +147,15 @@ Result<std::map<double, std::size_t>> FramesOf(const Json& images, PeopleOfFilm&
   return frames;
 }
 
-Result<PeopleOfFilm> ReadCoco(const fs::path& file, const std::string& layout) {
-  const Place place{file.string()};
-  ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(file));
-  ASSIGN_OR_RETURN(const Json json, ReadJson(WithNullForNan(text), file.string()));
+Result<PeopleOfFilm> ReadCoco(const Json& json, const std::string& layout, const Place& place) {
   const Json *images = Member(json, "images"), *annotations = Member(json, "annotations");
   if (images == nullptr || !images->is_array() || annotations == nullptr || !annotations->is_array()) {
-    return Fail(place,
-                "no lists 'images' and 'annotations'; allowed: COCO's keypoint files, or a folder of OpenPose's JSON");
+    return Fail(
+        place,
+        "no lists 'images' and 'annotations'; allowed: COCO's keypoint files and results, AlphaPose's, MMPose's, "
+        "MediaPipe's landmarks, or a folder of OpenPose's JSON");
   }
+  const std::vector<std::string> names = NamesOf(json);
   PeopleOfFilm film;
   ASSIGN_OR_RETURN(const auto frames, FramesOf(*images, film, place));
   std::vector<CocoPerson> people;
@@ -211,7 +173,7 @@ Result<PeopleOfFilm> ReadCoco(const fs::path& file, const std::string& layout) {
   for (CocoPerson& person : people) {
     // Flags, when a 2 is among them; else scores.
     for (Keypoint& point : person.points) point.confidence /= most > 1 ? 2 : 1;
-    ASSIGN_OR_RETURN(const SeenPerson seen, ToPerson(person.points, layout, place));
+    ASSIGN_OR_RETURN(const SeenPerson seen, ToPerson(person.points, layout, names, place));
     if (film.frames[person.frame].size() >= kMostPeople)
       return Fail(place, "more than {} people in a frame", kMostPeople);
     film.frames[person.frame].push_back(seen);
@@ -221,8 +183,48 @@ Result<PeopleOfFilm> ReadCoco(const fs::path& file, const std::string& layout) {
 
 }  // namespace
 
-Result<PeopleOfFilm> ReadKeypoints(const fs::path& path, const std::string& layout) {
-  return fs::is_directory(path) ? ReadOpenPose(path, layout) : ReadCoco(path, layout);
+namespace {
+
+/// Takes keypoints within 0…1 as shares of the film's pictures.
+void Denormalise(const FilmOfKeypoints& of, PeopleOfFilm& film) {
+  constexpr double kMost = 1.1;
+  constexpr int kSmallPicture = 16;
+  if (of.width < kSmallPicture || of.height < kSmallPicture) return;
+  std::size_t seen = 0;
+  for (const auto& frame : film.frames) {
+    for (const SeenPerson& person : frame) {
+      for (const Keypoint& keypoint : person.keypoints) {
+        const glm::dvec2 p = keypoint.pixel - kOurPixelCentre;
+        if (keypoint.confidence <= 0) continue;
+        if (std::abs(p.x) > kMost || std::abs(p.y) > kMost) return;
+        ++seen;
+      }
+    }
+  }
+  if (seen == 0) return;
+  for (auto& frame : film.frames) {
+    for (SeenPerson& person : frame) {
+      for (Keypoint& keypoint : person.keypoints) {
+        keypoint.pixel = (keypoint.pixel - kOurPixelCentre) * glm::dvec2(of.width, of.height);
+      }
+    }
+  }
+  film.told = fmt::format("keypoints within 0 to 1 taken as shares of {} x {} pixels", of.width, of.height);
+}
+
+Result<PeopleOfFilm> ReadFile(const fs::path& file, const std::string& layout, const FilmOfKeypoints& of) {
+  ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(file));
+  ASSIGN_OR_RETURN(const Json json, ReadJson(WithNullForNan(text), file.string()));
+  const Place place{file.string()};
+  return IsKeypointList(json) ? ReadKeypointList(json, layout, of, place) : ReadCoco(json, layout, place);
+}
+
+}  // namespace
+
+Result<PeopleOfFilm> ReadKeypoints(const fs::path& path, const std::string& layout, const FilmOfKeypoints& of) {
+  ASSIGN_OR_RETURN(PeopleOfFilm film, fs::is_directory(path) ? ReadFolder(path, layout) : ReadFile(path, layout, of));
+  Denormalise(of, film);
+  return film;
 }
 
 Result<PeopleOfFilm> ReadMarkedPictures(const fs::path& folder) {

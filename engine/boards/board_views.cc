@@ -10,7 +10,7 @@ Result<std::size_t> BoardViews::Add(std::size_t camera, const std::string& momen
     return Fail({}, "{} x {} pixels, the pictures before it {} x {}", picture.width, picture.height, size.width,
                 size.height);
   }
-  const std::vector<SeenCorner> corners = FindBoards(picture, boards_);
+  const std::vector<SeenCorner> corners = printed_ ? printed_->Find(picture) : FindBoards(picture, boards_);
   std::map<std::size_t, TargetView> by_board;
   for (const SeenCorner& corner : corners) {
     const glm::dvec2 place = PlaceOf(boards_[corner.board], corner.corner);

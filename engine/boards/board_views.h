@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "engine/base/result.h"
 #include "engine/boards/board.h"
 #include "engine/boards/find_boards.h"
+#include "engine/boards/printed_board.h"
 #include "engine/cameras/planes.h"
 #include "engine/cameras/refine.h"
 
@@ -20,6 +22,9 @@ namespace etude {
 class BoardViews {
  public:
   explicit BoardViews(std::vector<Board> boards) : boards_(std::move(boards)) {}
+  /// Looks for one board of OpenCV's instead.
+  explicit BoardViews(const PrintedBoard& board)
+      : boards_{{.columns = board.columns, .rows = board.rows, .square = board.square}}, printed_(board) {}
 
   /// Adds a picture of the camera of that number, counted from 0. Fails when its size is not that of the camera's
   /// pictures before it.
@@ -30,9 +35,12 @@ class BoardViews {
   const std::vector<TargetView>& views() const { return views_; }
   /// The sizes of the cameras' pictures, by camera.
   const std::vector<PictureSize>& sizes() const { return sizes_; }
+  /// What was found out about a board of OpenCV's; "" of our own.
+  std::string Told() const { return printed_ ? printed_->Told() : ""; }
 
  private:
   const std::vector<Board> boards_;
+  std::optional<PrintedBoardFinder> printed_;
   std::map<std::pair<std::string, std::size_t>, std::size_t> targets_;  ///< of moment and board
   std::vector<TargetView> views_;
   std::vector<PictureSize> sizes_;

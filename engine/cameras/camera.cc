@@ -1,12 +1,15 @@
 #include "engine/cameras/camera.h"
 
 #include <cassert>
+#include <cmath>
+
+#include "engine/base/angles.h"
 
 namespace etude {
 namespace {
 
-/// The derivatives of (x', y') by x (first column) and by y.
-glm::dmat2 JacobianOf(const Distortion& d, const glm::dvec2& ray) {
+/// The derivatives of (x', y') by x (first column) and by y, of five coefficients.
+glm::dmat2 BrownJacobian(const Distortion& d, const glm::dvec2& ray) {
   const double x = ray.x, y = ray.y, r2 = x * x + y * y;
   const double gain = 1 + r2 * (d.k1 + r2 * (d.k2 + r2 * d.k3));
   const double slope = 2 * (d.k1 + r2 * (2 * d.k2 + r2 * 3 * d.k3));  // of `gain`, by r², twice
@@ -15,18 +18,85 @@ glm::dmat2 JacobianOf(const Distortion& d, const glm::dvec2& ray) {
           gain + y * y * slope + 6 * d.p1 * y + 2 * d.p2 * x};
 }
 
-}  // namespace
-
-glm::dvec2 Distort(const Distortion& d, const glm::dvec2& ray) {
+glm::dvec2 Brown(const Distortion& d, const glm::dvec2& ray) {
   const double x = ray.x, y = ray.y, r2 = x * x + y * y;
   const double gain = 1 + r2 * (d.k1 + r2 * (d.k2 + r2 * d.k3));
   return {x * gain + 2 * d.p1 * x * y + d.p2 * (r2 + 2 * x * x), y * gain + d.p1 * (r2 + 2 * y * y) + 2 * d.p2 * x * y};
 }
 
+bool HasFiveCoefficients(const Distortion& d) {
+  return !d.is_fisheye && d == Distortion{.k1 = d.k1, .k2 = d.k2, .p1 = d.p1, .p2 = d.p2, .k3 = d.k3};
+}
+
+/// The homography from an upright sensor to a tilted one.
+glm::dmat3 TiltOf(double tau_x, double tau_y) {
+  const double cx = std::cos(tau_x), sx = std::sin(tau_x), cy = std::cos(tau_y), sy = std::sin(tau_y);
+  const glm::dmat3 about_x(1, 0, 0, 0, cx, -sx, 0, sx, cx), about_y(cy, 0, sy, 0, 1, 0, -sy, 0, cy);
+  const glm::dmat3 R = about_y * about_x;
+  return glm::dmat3(R[2][2], 0, 0, 0, R[2][2], 0, -R[2][0], -R[2][1], 1) * R;
+}
+
+/// Brown and Conrady's model of all fourteen coefficients.
+glm::dvec2 FullBrown(const Distortion& d, const glm::dvec2& ray) {
+  const double r2 = glm::dot(ray, ray);
+  const double gain = (1 + r2 * (d.k1 + r2 * (d.k2 + r2 * d.k3))) / (1 + r2 * (d.k4 + r2 * (d.k5 + r2 * d.k6)));
+  glm::dvec2 out = gain * ray;
+  out.x += 2 * d.p1 * ray.x * ray.y + d.p2 * (r2 + 2 * ray.x * ray.x) + r2 * (d.s1 + r2 * d.s2);
+  out.y += d.p1 * (r2 + 2 * ray.y * ray.y) + 2 * d.p2 * ray.x * ray.y + r2 * (d.s3 + r2 * d.s4);
+  if (d.tau_x == 0 && d.tau_y == 0) return out;
+  const glm::dvec3 tilted = TiltOf(d.tau_x, d.tau_y) * glm::dvec3(out, 1);
+  return glm::dvec2(tilted) / tilted.z;
+}
+
+double FisheyeRadius(const Distortion& d, double angle) {
+  const double a2 = angle * angle;
+  return angle * (1 + a2 * (d.k1 + a2 * (d.k2 + a2 * (d.k3 + a2 * d.k4))));
+}
+
+double FisheyeSlope(const Distortion& d, double angle) {
+  const double a2 = angle * angle;
+  return 1 + a2 * (3 * d.k1 + a2 * (5 * d.k2 + a2 * (7 * d.k3 + a2 * 9 * d.k4)));
+}
+
+constexpr int kMostSteps = 30;
+constexpr double kCloseEnough = 1e-12;
+
+/// The ray in front of the camera that a fisheye shows at `distorted`.
+std::optional<glm::dvec2> UndistortFisheye(const Distortion& d, const glm::dvec2& distorted) {
+  const double wanted = glm::length(distorted);
+  if (wanted == 0) return distorted;
+  constexpr double kWidest = 0.4999 * kPi;
+  double angle = std::min(wanted, kWidest);
+  for (int step = 0; step < kMostSteps; ++step) {
+    const double slope = FisheyeSlope(d, angle);
+    if (!(slope > 0) || !(angle > 0) || !(angle < 0.5 * kPi)) return std::nullopt;
+    const double missing = wanted - FisheyeRadius(d, angle);
+    angle += missing / slope;
+    if (std::abs(missing) < kCloseEnough) return std::tan(angle) / wanted * distorted;
+  }
+  return std::nullopt;
+}
+
+glm::dmat2 JacobianOf(const Distortion& d, const glm::dvec2& ray) {
+  if (HasFiveCoefficients(d)) return BrownJacobian(d, ray);
+  constexpr double kStep = 1e-6;
+  const glm::dvec2 x(kStep, 0), y(0, kStep);
+  return {(Distort(d, ray + x) - Distort(d, ray - x)) / (2 * kStep),
+          (Distort(d, ray + y) - Distort(d, ray - y)) / (2 * kStep)};
+}
+
+}  // namespace
+
+glm::dvec2 Distort(const Distortion& d, const glm::dvec2& ray) {
+  if (HasFiveCoefficients(d)) return Brown(d, ray);
+  if (!d.is_fisheye) return FullBrown(d, ray);
+  const double radius = glm::length(ray);
+  return radius > 0 ? FisheyeRadius(d, std::atan(radius)) / radius * ray : ray;
+}
+
 std::optional<glm::dvec2> Undistort(const Distortion& distortion, const glm::dvec2& distorted) {
   if (distortion.IsNone()) return distorted;
-  constexpr int kMostSteps = 30;
-  constexpr double kCloseEnough = 1e-12;
+  if (distortion.is_fisheye) return UndistortFisheye(distortion, distorted);
   glm::dvec2 ray = distorted;
   for (int step = 0; step < kMostSteps; ++step) {
     const glm::dmat2 jacobian = JacobianOf(distortion, ray);

@@ -6,17 +6,23 @@
 
 namespace etude {
 
-/// The distortion of a lens: Brown and Conrady's model with OpenCV's coefficients and signs. With r² = x² + y², the ray
-/// through (x, y, 1) in the camera's frame becomes that through
+/// The distortion of a lens: OpenCV's models with its coefficients and signs. With r² = x² + y², Brown and Conrady's
+/// takes the ray through (x, y, 1) in the camera's frame to that through
 ///
-///     x' = x (1 + k1 r² + k2 r⁴ + k3 r⁶) + 2 p1 x y + p2 (r² + 2 x²)
-///     y' = y (1 + k1 r² + k2 r⁴ + k3 r⁶) + p1 (r² + 2 y²) + 2 p2 x y
+///     x' = x g + 2 p1 x y + p2 (r² + 2 x²) + s1 r² + s2 r⁴,    g = (1 + k1 r² + k2 r⁴ + k3 r⁶) / (1 + k4 r² + k5 r⁴ +
+///     k6 r⁶) y' = y g + p1 (r² + 2 y²) + 2 p2 x y + s3 r² + s4 r⁴
 ///
-/// which the intrinsics turn into a pixel. With all coefficients zero the camera is a pinhole.
+/// and a sensor tilted by tau_x, then tau_y about its axes shows that where it meets it. A fisheye (Kannala and Brandt
+/// 2006) shows a ray that is θ from the axis at the distance θ (1 + k1 θ² + k2 θ⁴ + k3 θ⁶ + k4 θ⁸) from it instead. The
+/// intrinsics turn the result into a pixel. With all coefficients zero and no fisheye the camera is a pinhole.
 struct Distortion {
-  double k1 = 0, k2 = 0;  ///< radial; k1 < 0 is a barrel
-  double p1 = 0, p2 = 0;  ///< tangential: a lens that is not parallel to the sensor
-  double k3 = 0;          ///< radial, the sixth power
+  double k1 = 0, k2 = 0;                  ///< radial; k1 < 0 is a barrel
+  double p1 = 0, p2 = 0;                  ///< tangential: a lens that is not parallel to the sensor
+  double k3 = 0;                          ///< radial, the sixth power
+  double k4 = 0, k5 = 0, k6 = 0;          ///< the rational model's denominator; of a fisheye k4 alone
+  double s1 = 0, s2 = 0, s3 = 0, s4 = 0;  ///< thin prism
+  double tau_x = 0, tau_y = 0;            ///< tilt of the sensor, radians
+  bool is_fisheye = false;
 
   bool IsNone() const { return *this == Distortion{}; }
   friend bool operator==(const Distortion&, const Distortion&) = default;
@@ -26,7 +32,8 @@ struct Distortion {
 glm::dvec2 Distort(const Distortion& distortion, const glm::dvec2& ray);
 
 /// Returns the (x, y) nearest to the axis that `Distort` takes to `distorted`, by Newton's method to 1e-12; nothing
-/// when there is none: beyond the radius at which the model turns back on itself, it shows no lens.
+/// when there is none: beyond the radius at which the model turns back on itself, it shows no lens; of a fisheye
+/// nothing that is not in front of the camera.
 std::optional<glm::dvec2> Undistort(const Distortion& distortion, const glm::dvec2& distorted);
 
 /// The intrinsics of a camera in pixels. Image axes: u right, v down, origin at the top left corner; the centre of

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <glm/gtc/quaternion.hpp>
 #include <vector>
 
 namespace etude {
@@ -32,6 +35,46 @@ bool IsRotation(const glm::dmat3& R) {
   return off < kTolerance;
 }
 
+std::vector<double> CoefficientsOf(const Distortion& d) {
+  if (d.is_fisheye) return {d.k1, d.k2, d.k3, d.k4};
+  const std::array all = {d.k1, d.k2, d.p1, d.p2, d.k3, d.k4, d.k5, d.k6, d.s1, d.s2, d.s3, d.s4, d.tau_x, d.tau_y};
+  std::size_t count = all.size();
+  for (const std::size_t fewer : {12, 8, 5}) {
+    if (std::all_of(all.begin() + static_cast<std::ptrdiff_t>(fewer), all.end(), [](double c) { return c == 0; })) {
+      count = fewer;
+    }
+  }
+  return {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
+Result<Distortion> DistortionOf(const OpenCvParameters& p) {
+  std::vector<double> c = p.distortion;
+  const std::size_t count = c.size();
+  if (p.is_fisheye) {
+    if (count != 0 && count != 4) return Fail({}, "{} distortion coefficients of a fisheye; allowed: 0 or 4", count);
+    c.resize(4);
+    return Distortion{.k1 = c[0], .k2 = c[1], .k3 = c[2], .k4 = c[3], .is_fisheye = true};
+  }
+  if (count != 0 && count != 4 && count != 5 && count != 8 && count != 12 && count != 14) {
+    return Fail({}, "{} distortion coefficients; allowed: 0, 4 (k1, k2, p1, p2), 5 (and k3), 8, 12 or 14", count);
+  }
+  c.resize(14);
+  return Distortion{.k1 = c[0],
+                    .k2 = c[1],
+                    .p1 = c[2],
+                    .p2 = c[3],
+                    .k3 = c[4],
+                    .k4 = c[5],
+                    .k5 = c[6],
+                    .k6 = c[7],
+                    .s1 = c[8],
+                    .s2 = c[9],
+                    .s3 = c[10],
+                    .s4 = c[11],
+                    .tau_x = c[12],
+                    .tau_y = c[13]};
+}
+
 }  // namespace
 
 OpenCvParameters ParametersOf(const Camera& camera) {
@@ -40,9 +83,10 @@ OpenCvParameters ParametersOf(const Camera& camera) {
   return {.width = static_cast<double>(in.width),
           .height = static_cast<double>(in.height),
           .camera_matrix = {in.fx, in.skew, in.cx - kOurPixelCentre, 0, in.fy, in.cy - kOurPixelCentre, 0, 0, 1},
-          .distortion = {d.k1, d.k2, d.p1, d.p2, d.k3},
+          .distortion = CoefficientsOf(d),
           .R = camera.R_CW,
-          .T = -(camera.R_CW * camera.p_WC)};
+          .T = -(camera.R_CW * camera.p_WC),
+          .is_fisheye = d.is_fisheye};
 }
 
 Result<Camera> CameraOf(const OpenCvParameters& p) {
@@ -51,9 +95,6 @@ Result<Camera> CameraOf(const OpenCvParameters& p) {
   }
   const std::vector<double>& K = p.camera_matrix;
   if (K.size() != 9) return Fail({}, "the camera matrix has {} numbers; allowed: 9", K.size());
-  if (p.distortion.size() != 4 && p.distortion.size() != 5) {
-    return Fail({}, "{} distortion coefficients; allowed: 4 (k1, k2, p1, p2) or 5 (and k3)", p.distortion.size());
-  }
   if (!AreFinite(p)) return Fail({}, "a number that is not finite");
   if (!(K[0] > 0) || !(K[4] > 0)) return Fail({}, "focal lengths of {:g} and {:g}; allowed: above 0", K[0], K[4]);
   if (K[3] != 0 || K[6] != 0 || K[7] != 0 || K[8] != 1) {
@@ -68,11 +109,22 @@ Result<Camera> CameraOf(const OpenCvParameters& p) {
                        .cx = K[2] + kOurPixelCentre,
                        .cy = K[5] + kOurPixelCentre,
                        .skew = K[1]};
-  camera.distortion = {p.distortion[0], p.distortion[1], p.distortion[2], p.distortion[3],
-                       p.distortion.size() == 5 ? p.distortion[4] : 0};
+  ASSIGN_OR_RETURN(camera.distortion, DistortionOf(p));
   camera.R_CW = p.R;
   camera.p_WC = -(glm::transpose(p.R) * p.T);
   return camera;
+}
+
+glm::dmat3 MatrixOfRodrigues(const glm::dvec3& vector) {
+  const double angle = glm::length(vector);
+  return angle > 0 ? glm::mat3_cast(glm::angleAxis(angle, vector / angle)) : glm::dmat3(1);
+}
+
+Result<glm::dmat3> RotationOf(std::span<const double> n, std::string_view what) {
+  if (n.size() == 3) return MatrixOfRodrigues({n[0], n[1], n[2]});
+  if (n.size() != 9)
+    return Fail({}, "{} has {} numbers; allowed: 3 (Rodrigues' vector) or 9 (a matrix)", what, n.size());
+  return glm::transpose(glm::dmat3(n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8]));
 }
 
 std::optional<std::vector<double>> NumbersOf(std::string_view text) {
@@ -144,7 +196,9 @@ std::string WriteOpenCvCamera(const Camera& camera) {
   const OpenCvParameters p = ParametersOf(camera);
   const glm::dmat3& R = p.R;
   return fmt::format("%YAML:1.0\n---\nimage_width: {}\nimage_height: {}\n", p.width, p.height) +
-         Matrix("camera_matrix", 3, 3, p.camera_matrix) + Matrix("distortion_coefficients", 5, 1, p.distortion) +
+         Matrix("camera_matrix", 3, 3, p.camera_matrix) +
+         Matrix("distortion_coefficients", static_cast<int>(p.distortion.size()), 1, p.distortion) +
+         (p.is_fisheye ? "fisheye: 1\n" : "") +
          Matrix("R", 3, 3, {R[0][0], R[1][0], R[2][0], R[0][1], R[1][1], R[2][1], R[0][2], R[1][2], R[2][2]}) +
          Matrix("T", 3, 1, {p.T.x, p.T.y, p.T.z});
 }
@@ -153,7 +207,8 @@ Result<Camera> ReadOpenCvCamera(std::string_view text) {
   OpenCvParameters p{.width = NumberNamed(text, "image_width"),
                      .height = NumberNamed(text, "image_height"),
                      .camera_matrix = MatrixNamed(text, "camera_matrix"),
-                     .distortion = MatrixNamed(text, "distortion_coefficients")};
+                     .distortion = MatrixNamed(text, "distortion_coefficients"),
+                     .is_fisheye = NumberNamed(text, "fisheye") != 0};
   for (const char* name : {"R", "T"}) {
     if (!Behind(text, name)) continue;
     const std::vector<double> values = MatrixNamed(text, name);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <map>
@@ -29,27 +30,46 @@ glm::dvec3 RodriguesOf(const glm::dmat3& R) {
   return sine > 0 ? 2 * std::atan2(sine, q.w) / sine * axis : glm::dvec3(0);
 }
 
-glm::dmat3 MatrixOfRodrigues(const glm::dvec3& vector) {
-  const double angle = glm::length(vector);
-  return angle > 0 ? glm::mat3_cast(glm::angleAxis(angle, vector / angle)) : glm::dmat3(1);
-}
-
 std::string Table(const NamedCamera& named) {
   const OpenCvParameters p = ParametersOf(named.camera);
   const std::vector<double>& K = p.camera_matrix;
-  const std::size_t coefficients = p.distortion[4] == 0 ? 4 : 5;
+  const std::size_t all = p.distortion.size(), coefficients = all == 5 && p.distortion[4] == 0 ? 4 : all;
   const glm::dvec3 rotation = RodriguesOf(p.R * glm::transpose(kZUpOfYUp));
   const auto row = [&](std::size_t i) { return Vector(std::span(K).subspan(3 * i, 3)); };
   return fmt::format("[{0}]\nname = \"{0}\"\nsize = {1}\nmatrix = [ {2}, {3}, {4}]\n", named.name,
                      Vector(std::array{p.width, p.height}), row(0), row(1), row(2)) +
-         fmt::format("distortions = {}\nrotation = {}\ntranslation = {}\nfisheye = false\n\n",
+         fmt::format("distortions = {}\nrotation = {}\ntranslation = {}\nfisheye = {}\n\n",
                      Vector(std::span(p.distortion).first(coefficients)),
-                     Vector(std::array{rotation.x, rotation.y, rotation.z}), Vector(std::array{p.T.x, p.T.y, p.T.z}));
+                     Vector(std::array{rotation.x, rotation.y, rotation.z}), Vector(std::array{p.T.x, p.T.y, p.T.z}),
+                     p.is_fisheye);
 }
 
 std::string_view Trimmed(std::string_view text) {
   const std::size_t from = text.find_first_not_of(" \t\r"), to = text.find_last_not_of(" \t\r");
   return from == std::string_view::npos ? std::string_view{} : text.substr(from, to - from + 1);
+}
+
+/// Files with six digits hold rotations that are none to the last one: the nearest, by Newton's iteration; what is no
+/// rotation at all stays as it is.
+glm::dmat3 Orthonormal(const glm::dmat3& R) {
+  const glm::dmat3 off = R * glm::transpose(R) - glm::dmat3(1);
+  constexpr double kRounded = 1e-3;
+  for (int i = 0; i < 3; ++i) {
+    if (!(glm::length(off[i]) < kRounded)) return R;
+  }
+  glm::dmat3 near = R;
+  for (int step = 0; step < 3; ++step) near = 0.5 * (near + glm::transpose(glm::inverse(near)));
+  return near;
+}
+
+/// A line's value without its comment.
+std::string_view WithoutComment(std::string_view line) {
+  bool in_string = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"') in_string = !in_string;
+    if (line[i] == '#' && !in_string) return line.substr(0, i);
+  }
+  return line;
 }
 
 using Keys = std::map<std::string, std::string, std::less<>>;
@@ -58,7 +78,7 @@ Result<NamedCamera> ReadTable(const std::string& name, const Keys& keys, int lin
   const Place place{.file = {}, .line = line, .column = 1};
   std::map<std::string, std::vector<double>> values;
   for (const auto& [key, count] : std::map<std::string, std::size_t>{
-           {"size", 2}, {"matrix", 9}, {"distortions", 0}, {"rotation", 3}, {"translation", 3}}) {
+           {"size", 2}, {"matrix", 9}, {"distortions", 0}, {"rotation", 0}, {"translation", 3}}) {
     const auto found = keys.find(key);
     if (found == keys.end()) return Fail(place, "camera {} has no {}", name, key);
     const auto numbers = NumbersOf(found->second);
@@ -68,17 +88,17 @@ Result<NamedCamera> ReadTable(const std::string& name, const Keys& keys, int lin
     }
     values[key] = *numbers;
   }
-  if (const auto fisheye = keys.find("fisheye"); fisheye != keys.end() && fisheye->second != "false") {
-    return Fail(place, "camera {} is a fisheye; allowed: fisheye = false", name);
-  }
-  const auto& r = values["rotation"];
   const auto& t = values["translation"];
+  const auto fisheye = keys.find("fisheye");
+  const auto R = RotationOf(values["rotation"], "rotation");
+  if (!R) return Fail(place, "camera {}: {}", name, R.error().message);
   const OpenCvParameters p{.width = values["size"][0],
                            .height = values["size"][1],
                            .camera_matrix = values["matrix"],
                            .distortion = values["distortions"],
-                           .R = MatrixOfRodrigues({r[0], r[1], r[2]}) * kZUpOfYUp,
-                           .T = {t[0], t[1], t[2]}};
+                           .R = Orthonormal(*R) * kZUpOfYUp,
+                           .T = {t[0], t[1], t[2]},
+                           .is_fisheye = fisheye != keys.end() && fisheye->second == "true"};
   const auto camera = CameraOf(p);
   if (!camera) return Fail(place, "camera {}: {}", name, camera.error().message);
   std::string shown = name;
@@ -102,28 +122,41 @@ Result<std::vector<NamedCamera>> ReadPose2SimCalibration(std::string_view text) 
   Keys keys;
   int line = 0, table_line = 0;
   const auto finish = [&]() -> Result<void> {
-    if (keys.contains("matrix") || keys.contains("rotation")) {
+    const auto ignored = keys.find("ignore");  // Caliscope's
+    const bool is_ignored = ignored != keys.end() && ignored->second == "true";
+    if (!is_ignored && (keys.contains("matrix") || keys.contains("rotation"))) {
       ASSIGN_OR_RETURN(auto camera, ReadTable(name, keys, table_line));
       cameras.push_back(std::move(camera));
     }
     keys.clear();
     return {};
   };
-  while (!text.empty()) {
+  const auto next_line = [&] {
     const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view here = Trimmed(text.substr(0, end));
+    const std::string_view here = Trimmed(WithoutComment(text.substr(0, end)));
     text.remove_prefix(std::min(end + 1, text.size()));
     ++line;
-    if (here.empty() || here.front() == '#') continue;
-    if (here.front() == '[' && here.back() == ']') {
+    return here;
+  };
+  while (!text.empty()) {
+    const std::string_view here = next_line();
+    if (here.empty()) continue;
+    const std::size_t equals = here.find('=');
+    if (here.front() == '[' && here.back() == ']' && equals == std::string_view::npos) {
       RETURN_IF_ERROR(finish());
       name = here.substr(1, here.size() - 2);
+      // Caliscope's tables are cameras.0, cameras.1, …
+      if (constexpr std::string_view kOf = "cameras."; name.starts_with(kOf)) name = "cam_" + name.substr(kOf.size());
       table_line = line;
       continue;
     }
-    const std::size_t equals = here.find('=');
     if (equals == std::string_view::npos) return Fail({{}, line, 1}, "neither a table nor a key: {}", here);
-    keys[std::string(Trimmed(here.substr(0, equals)))] = Trimmed(here.substr(equals + 1));
+    std::string& value = keys[std::string(Trimmed(here.substr(0, equals)))];
+    value = Trimmed(here.substr(equals + 1));
+    // A list may go on over lines.
+    while (value.starts_with('[') && std::ranges::count(value, '[') > std::ranges::count(value, ']') && !text.empty()) {
+      value += std::string(" ").append(next_line());
+    }
   }
   RETURN_IF_ERROR(finish());
   if (cameras.empty()) return Fail({}, "no camera");

@@ -22,8 +22,11 @@ struct NamedCamera {
 /// world.
 std::string WritePose2SimCalibration(std::span<const NamedCamera> cameras);
 
-/// Reads what WritePose2SimCalibration or Pose2Sim has written; other tables (`metadata`) are skipped. Fails, naming
-/// line and camera, when a table lacks one of those keys or they are no camera's, and for fisheye lenses.
+/// Reads what WritePose2SimCalibration, Pose2Sim, Anipose, FreeMoCap or Caliscope has written: tables with those keys,
+/// named `[cam_01]` or `[cameras.1]` ("cam_1"), `rotation` as Rodrigues' vector or matrix, lists over several lines;
+/// other tables (`metadata`) and Caliscope's ignored cameras are skipped. These files tell neither unit nor axes:
+/// metres and Pose2Sim's Z up are assumed. Fails, naming line and camera, when a table lacks one of those keys or they
+/// are no camera's.
 Result<std::vector<NamedCamera>> ReadPose2SimCalibration(std::string_view text);
 
 }  // namespace etude

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "engine/cameras/opencv_file.h"
+#include "engine/cameras/rig_pairs.h"
 #include "engine/document/fields.h"
 
 namespace etude {
@@ -97,9 +98,6 @@ Result<NamedCamera> ReadCamera(const xmlNode* node) {
   if (name.empty()) return Fail(place, "a camera without a serial number");
   if (transform == nullptr) return Fail(place, "camera {} has no transform", name);
   if (intrinsic == nullptr) return Fail(place, "camera {} has no intrinsic", name);
-  if (const std::string turned = Text(node, "viewrotation"); !turned.empty() && turned != "0") {
-    return Fail(place, "camera {}: its pictures are turned (viewrotation=\"{}\"); allowed: 0", name, turned);
-  }
   ASSIGN_OR_RETURN(OpenCvParameters p, InsideOf(node, intrinsic));
   Numbers of(transform);
   // By rows: the camera's axes (x right, y up, z behind) in QTM's world, whose z is up.
@@ -172,25 +170,6 @@ std::string FileStorageName(std::string name) {
   return name;
 }
 
-Result<std::vector<double>> MatrixAt(const Node& camera, std::string_view key, std::size_t rows, std::size_t columns) {
-  const Node* matrix = camera.Find(key);
-  if (matrix == nullptr) return Fail(camera.place, "no {}", key);
-  const Node* data = matrix->Find("data");
-  if (data == nullptr || data->kind != Node::Kind::kSequence) {
-    return Fail(matrix->place, "{} is {}; allowed: a matrix of OpenCV with rows, cols, dt, data", key,
-                Describe(*matrix));
-  }
-  std::vector<double> values;
-  for (const Node& item : data->items) {
-    ASSIGN_OR_RETURN(const double value, AsNumber(item));
-    values.push_back(value);
-  }
-  if (rows != 0 && values.size() != rows * columns) {
-    return Fail(data->place, "{} has {} numbers; allowed: {}", key, values.size(), rows * columns);
-  }
-  return values;
-}
-
 Result<double> NumberAt(const Node& camera, std::string_view key) {
   const Node* number = camera.Find(key);
   if (number == nullptr) return Fail(camera.place, "no {}", key);
@@ -208,6 +187,10 @@ Result<Camera> ReadCamera(const Node& node) {
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) p.R[column][row] = R[static_cast<std::size_t>(3 * row + column)];
     p.T[row] = T[static_cast<std::size_t>(row)];
+  }
+  if (const Node* fisheye = node.Find("fisheye")) {
+    ASSIGN_OR_RETURN(const double flag, AsNumber(*fisheye));
+    p.is_fisheye = flag != 0;
   }
   auto camera = CameraOf(p);
   if (!camera) return Fail(node.place, "{}", camera.error().message);
@@ -238,20 +221,58 @@ std::string WithoutDirective(std::string_view text) {
   return plain;
 }
 
-Result<std::vector<NamedCamera>> Read(std::string_view text, const std::string& file) {
+const glm::dmat3 kYUpOfZUp(0, 0, 1, 1, 0, 0, 0, 1, 0);  // (x, y, z) is our (y, z, x)
+
+Result<RigFile> Read(std::string_view text, const std::string& file) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return Fail({}, "nothing in it");
-  if (text[first] == '<') return ReadQualisysCalibration(text);
+  if (text[first] == '<') {
+    ASSIGN_OR_RETURN(auto cameras, ReadQualisysCalibration(text));
+    return RigFile{std::move(cameras), "Qualisys", kYUpOfZUp, 0.001};
+  }
   if (text.starts_with("%YAML") || text.find("opencv-matrix") != std::string_view::npos) {
     ASSIGN_OR_RETURN(const Node root, ParseYaml(WithoutDirective(text), file));
-    if (root.Find("cameras") != nullptr) return ReadOwnRig(root);
+    if (root.Find("cameras") != nullptr) {
+      ASSIGN_OR_RETURN(auto cameras, ReadOwnRig(root));
+      return RigFile{std::move(cameras), "OpenCV's YAML"};
+    }
+    for (const char* key : {"names", "M1", "R1"}) {
+      if (root.Find(key) == nullptr) continue;
+      return Fail({},
+                  "half of a calibration; beside it needed: EasyMocap's intri.yml and extri.yml, or OpenCV's "
+                  "intrinsics.yml and extrinsics.yml");
+    }
     ASSIGN_OR_RETURN(const Camera camera, ReadOpenCvCamera(text));
-    return std::vector<NamedCamera>{{"camera", camera}};
+    return RigFile{{{"camera", camera}}, "OpenCV's YAML"};
   }
-  if (text[first] == '[' || text.find("\n[") != std::string_view::npos) return ReadPose2SimCalibration(text);
+  if (text[first] == '[' || text.find("\n[") != std::string_view::npos) {
+    ASSIGN_OR_RETURN(auto cameras, ReadPose2SimCalibration(text));
+    return RigFile{
+        std::move(cameras),
+        text.find("[cameras.") != std::string_view::npos ? "Caliscope" : "TOML of Pose2Sim, Anipose or FreeMoCap",
+        kYUpOfZUp};
+  }
   return Fail({},
-              "no calibration; allowed: a rig of etude calibrate, YAML of OpenCV, TOML of Pose2Sim or Anipose, XML "
-              "of Qualisys");
+              "no calibration; allowed: a rig of etude calibrate, YAML of OpenCV, TOML of Pose2Sim, Anipose, FreeMoCap "
+              "or Caliscope, XML of Qualisys; EasyMocap's, OpenCV's or COLMAP's pair of files");
+}
+
+/// The checks that all formats share.
+Result<RigFile> Checked(Result<RigFile> rig, const std::string& file) {
+  if (!rig) {
+    Error error = rig.error();
+    if (error.place.file.empty()) error.place.file = file;
+    return tl::unexpected(std::move(error));
+  }
+  const std::vector<NamedCamera>& cameras = rig->cameras;
+  if (cameras.size() > kMostCamerasRead)
+    return Fail({file}, "{} cameras; allowed: {}", cameras.size(), kMostCamerasRead);
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (cameras[i].name == cameras[j].name) return Fail({file}, "two cameras of the name {}", cameras[i].name);
+    }
+  }
+  return rig;
 }
 
 }  // namespace
@@ -266,21 +287,28 @@ std::string WriteRig(std::span<const NamedCamera> cameras) {
   return fmt::format("{}cameras: [ {} ]\n{}", kYamlDirective, names, bodies);
 }
 
-Result<std::vector<NamedCamera>> ReadRig(std::string_view text, const std::string& file) {
+Result<RigFile> ReadRigFile(std::string_view text, const std::string& file) {
   if (text.size() > kLargestText) return Fail({file}, "{} bytes; allowed: {}", text.size(), kLargestText);
-  auto rig = Read(text, file);
-  if (!rig) {
-    Error error = rig.error();
-    error.place.file = file;
-    return tl::unexpected(std::move(error));
+  return Checked(Read(text, file), file);
+}
+
+Result<RigFile> ReadRigPair(std::string_view inside, std::string_view outside, const std::string& file) {
+  constexpr std::size_t kLargestPair = 64 * kLargestText;  // COLMAP lists points, too
+  if (inside.size() + outside.size() > kLargestPair) {
+    return Fail({file}, "{} bytes; allowed: {}", inside.size() + outside.size(), kLargestPair);
   }
-  if (rig->size() > kMostCamerasRead) return Fail({file}, "{} cameras; allowed: {}", rig->size(), kMostCamerasRead);
-  for (std::size_t i = 0; i < rig->size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if ((*rig)[i].name == (*rig)[j].name) return Fail({file}, "two cameras of the name {}", (*rig)[i].name);
-    }
-  }
-  return rig;
+  if (inside.find("opencv-matrix") == std::string_view::npos) return Checked(ReadColmap(inside, outside), file);
+  const auto parse = [&](std::string_view text) { return ParseYaml(WithoutDirective(text), file); };
+  ASSIGN_OR_RETURN(const Node intrinsics, parse(inside));
+  ASSIGN_OR_RETURN(const Node extrinsics, parse(outside));
+  return Checked(intrinsics.Find("M1") != nullptr ? ReadOpenCvStereo(intrinsics, extrinsics)
+                                                  : ReadEasyMocap(intrinsics, extrinsics),
+                 file);
+}
+
+Result<std::vector<NamedCamera>> ReadRig(std::string_view text, const std::string& file) {
+  ASSIGN_OR_RETURN(RigFile rig, ReadRigFile(text, file));
+  return std::move(rig.cameras);
 }
 
 }  // namespace etude

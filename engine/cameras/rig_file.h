@@ -16,8 +16,9 @@ namespace etude {
 /// sensor's range, beyond 16384. Distortion coefficients are plain numbers either way (Pose2Sim's converter divides
 /// them by 64, too, which leaves next to nothing of the lens). Poses are millimetres, Z up, the camera's y up and z
 /// behind; ours is metres, Y up: QTM's (x, y, z) is our (y, z, x), as with ReadPose2SimCalibration. The picture is
-/// `fov_video`, where there is one, else the whole sensor. Fails, with line, for what is no such file, cameras whose
-/// pictures are turned (`viewrotation`; export them unturned), and numbers that are no camera's.
+/// `fov_video`, where there is one, else the whole sensor, as the sensor has it: a `viewrotation` turns what is seen of
+/// it, and is left to who reads the pictures. Fails, with line, for what is no such file and numbers that are no
+/// camera's.
 Result<std::vector<NamedCamera>> ReadQualisysCalibration(std::string_view text);
 
 /// Writes a rig as one YAML file that OpenCV's cv::FileStorage reads, too: `cameras` lists the names, and under each
@@ -26,11 +27,27 @@ Result<std::vector<NamedCamera>> ReadQualisysCalibration(std::string_view text);
 /// "camera_" stands before a first digit.
 std::string WriteRig(std::span<const NamedCamera> cameras);
 
-/// Reads the cameras of a rig from any of the files that are in use, told apart by what is in them:
+/// What a calibration holds, told as if its world had the usual unit and axes of its format.
+struct RigFile {
+  std::vector<NamedCamera> cameras;  ///< metres, Y up; a picture of 0 x 0 pixels: the file does not tell its size
+  std::string format;                ///< as people call it
+  glm::dmat3 R_WF{1};                ///< from the file's axes to the cameras' world
+  double unit_m = 1;                 ///< metres in the file's unit of length, as they were taken
+  bool has_unit = true;              ///< false: lengths mean nothing (COLMAP)
+};
+
+/// Reads a rig from one file of those that are in use, told apart by what is in them:
 /// - what WriteRig has written; or one camera as OpenCV writes it (WriteOpenCvCamera), named "camera";
-/// - TOML of Pose2Sim or Anipose (ReadPose2SimCalibration);
+/// - TOML of Pose2Sim, Anipose, FreeMoCap or Caliscope (ReadPose2SimCalibration);
 /// - XML of Qualisys Track Manager (ReadQualisysCalibration).
 /// Fails with the place, what was found and what is allowed; over 64 cameras or 1 MiB are refused.
+Result<RigFile> ReadRigFile(std::string_view text, const std::string& file);
+
+/// Reads a rig from two files (`rig_pairs.h`): EasyMocap's `intri.yml` and `extri.yml`, OpenCV's stereo
+/// `intrinsics.yml` and `extrinsics.yml`, COLMAP's `cameras.txt` and `images.txt`.
+Result<RigFile> ReadRigPair(std::string_view inside, std::string_view outside, const std::string& file);
+
+/// Reads the cameras of ReadRigFile.
 Result<std::vector<NamedCamera>> ReadRig(std::string_view text, const std::string& file);
 
 }  // namespace etude

@@ -79,6 +79,25 @@ MarkerMotion JointMarkers(const BodyMotion& motion) {
   return markers;
 }
 
+MarkerMotion AtRate(MarkerMotion markers, double rate_hz) {
+  if (std::abs(markers.rate_hz - rate_hz) <= kOneRate * rate_hz || markers.frames.empty()) return markers;
+  MarkerMotion out{rate_hz, markers.names, {}};
+  const double last = static_cast<double>(markers.frames.size() - 1);
+  for (std::size_t frame = 0;; ++frame) {
+    constexpr double kSameTime = 1e-9;
+    const double at = static_cast<double>(frame) * markers.rate_hz / rate_hz;
+    if (at > last + kSameTime) return out;
+    const auto before = static_cast<std::size_t>(at + kSameTime);
+    const double share = std::max(0.0, at - static_cast<double>(before));
+    auto& places = out.frames.emplace_back(markers.frames[before]);
+    if (share < kSameTime) continue;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const auto& next = markers.frames[before + 1][i];
+      if (places[i]) places[i] = next ? std::optional(glm::mix(*places[i], *next, share)) : std::nullopt;
+    }
+  }
+}
+
 std::vector<MarkerAgreement> CompareMarkers(const MarkerMotion& motion, const MarkerMotion& reference) {
   std::vector<MarkerAgreement> agreements;
   for (std::size_t marker = 0; marker < reference.names.size(); ++marker) {

@@ -20,6 +20,13 @@ std::vector<LandmarkPlaces> ToLandmarks(const MarkerMotion& markers);
 MarkerMotion JointMarkers(std::span<const LandmarkPlaces> frames, double rate_hz);
 MarkerMotion JointMarkers(const BodyMotion& motion);
 
+/// Two rates are one where they differ by less than this share: 29.97 and 30 frames a second.
+constexpr double kOneRate = 0.002;
+
+/// Resamples markers: frame k is at k / rate_hz seconds, on the straight line between the frames around it; nothing
+/// where one of these is missing or the recording has ended. Of one rate (`kOneRate`) frames stay as they are.
+MarkerMotion AtRate(MarkerMotion markers, double rate_hz);
+
 /// The distance between two recordings of one marker.
 struct MarkerAgreement {
   std::string name;

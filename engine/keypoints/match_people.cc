@@ -9,6 +9,7 @@
 
 #include "engine/base/order_statistics.h"
 #include "engine/cameras/triangulation.h"
+#include "engine/keypoints/mend_people.h"
 
 namespace etude {
 namespace {
@@ -144,16 +145,22 @@ class Joiner {
       const auto found = other.entries.find(frame);
       if (found != other.entries.end()) shared.push_back({frame, entry, found->second});
     }
-    std::vector<double> errors;
     constexpr std::size_t kMostFrames = 60;
     const std::size_t stride = std::max<std::size_t>(1, shared.size() / kMostFrames);
-    for (std::size_t i = 0; i < shared.size(); i += stride) {
-      const Shared& at = shared[i];
-      AddErrors(one.camera, people_[one.camera][at.frame][at.one], other.camera,
-                people_[other.camera][at.frame][at.other], errors);
-    }
-    constexpr std::size_t kFewest = 8;
-    return errors.size() < kFewest ? std::numeric_limits<double>::infinity() : UpperMedian(std::move(errors));
+    const auto error_of = [&](bool is_swapped) {
+      std::vector<double> errors;
+      for (std::size_t i = 0; i < shared.size(); i += stride) {
+        const Shared& at = shared[i];
+        const SeenPerson& first = people_[one.camera][at.frame][at.one];
+        AddErrors(one.camera, is_swapped ? WithSidesSwapped(first) : first, other.camera,
+                  people_[other.camera][at.frame][at.other], errors);
+      }
+      constexpr std::size_t kFewest = 8;
+      return errors.size() < kFewest ? std::numeric_limits<double>::infinity() : UpperMedian(std::move(errors));
+    };
+    const double error = error_of(false);
+    if (!options_.may_be_swapped || !(error >= options_.largest_error)) return error;
+    return std::min(error, error_of(true));
   }
 
   void AddErrors(std::size_t camera_a, const SeenPerson& a, std::size_t camera_b, const SeenPerson& b,

@@ -39,6 +39,8 @@ struct MatchOptions {
   /// person's height in the pictures, median over time: estimators are off by 1–2 % of it, other people by 10 % and
   /// more *(ours)*.
   double largest_error = 0.06;
+  /// A camera may have exchanged left and right: tracks that do not fit are tried with their sides swapped, too.
+  bool may_be_swapped = false;
 };
 
 /// One person as all cameras saw it.

@@ -16,12 +16,12 @@ constexpr std::array<std::string_view, kLandmarkCount> kNames = {
     "RWrist",    "LHip",  "RHip",    "LKnee",     "RKnee", "LAnkle",    "RAnkle",    "Neck",   "Head",   "LBigToe",
     "LSmallToe", "LHeel", "RBigToe", "RSmallToe", "RHeel", "MidHip",    "LHand",     "RHand"};
 
-/// The landmarks of a list of their names, apart by blanks.
+/// The landmarks of a list of their names, apart by blanks; "-" is none.
 std::vector<Landmark> Listed(std::string_view names) {
   std::vector<Landmark> landmarks;
   while (!names.empty()) {
     const std::size_t end = std::min(names.find(' '), names.size());
-    landmarks.push_back(*FindLandmark(names.substr(0, end)));
+    landmarks.push_back(FindLandmark(names.substr(0, end)).value_or(Landmark::kNoLandmark));
     names.remove_prefix(std::min(end + 1, names.size()));
   }
   return landmarks;
@@ -38,6 +38,7 @@ std::optional<Landmark> FindLandmark(std::string_view name) {
 }
 
 std::span<const KeypointLayout> KeypointLayouts() {
+  constexpr std::size_t kFaceAndHands = 68 + 42;
   static const std::vector<KeypointLayout> layouts = {
       {"coco",
        Listed("Nose LEye REye LEar REar LShoulder RShoulder LElbow RElbow LWrist RWrist LHip RHip LKnee RKnee LAnkle "
@@ -54,6 +55,20 @@ std::span<const KeypointLayout> KeypointLayouts() {
       {"halpe_26_hands",
        Listed("Nose LEye REye LEar REar LShoulder RShoulder LElbow RElbow LWrist RWrist LHip RHip LKnee RKnee LAnkle "
               "RAnkle Head Neck MidHip LBigToe RBigToe LSmallToe RSmallToe LHeel RHeel LHand RHand")},
+      {"coco_18",
+       Listed("Nose Neck RShoulder RElbow RWrist LShoulder LElbow LWrist RHip RKnee RAnkle LHip LKnee LAnkle REye LEye "
+              "REar LEar")},
+      {"mediapipe",
+       Listed("Nose - LEye - - REye - LEar REar - - LShoulder RShoulder LElbow RElbow LWrist RWrist - - - - - - LHip "
+              "RHip LKnee RKnee LAnkle RAnkle LHeel RHeel LBigToe RBigToe")},
+      {"coco_wholebody",
+       Listed("Nose LEye REye LEar REar LShoulder RShoulder LElbow RElbow LWrist RWrist LHip RHip LKnee RKnee LAnkle "
+              "RAnkle LBigToe LSmallToe LHeel RBigToe RSmallToe RHeel"),
+       kFaceAndHands},
+      {"halpe_136",
+       Listed("Nose LEye REye LEar REar LShoulder RShoulder LElbow RElbow LWrist RWrist LHip RHip LKnee RKnee LAnkle "
+              "RAnkle Head Neck MidHip LBigToe RBigToe LSmallToe RSmallToe LHeel RHeel"),
+       kFaceAndHands},
   };
   return layouts;
 }
@@ -68,6 +83,30 @@ const KeypointLayout* FindKeypointLayout(std::string_view name) {
   const auto layouts = KeypointLayouts();
   const auto found = std::ranges::find(layouts, name, &KeypointLayout::name);
   return found == layouts.end() ? nullptr : &*found;
+}
+
+Landmark LandmarkOfName(std::string_view name) {
+  std::string bare;
+  for (const char c : name) {
+    if (c >= 'a' && c <= 'z') bare += c;
+    if (c >= 'A' && c <= 'Z') bare += static_cast<char>(c - 'A' + 'a');
+  }
+  if (bare == "midhip" || bare == "hip" || bare == "pelvis" || bare == "root") return Landmark::kMidHip;
+  if (bare == "headtop" || bare == "tophead") return Landmark::kHead;
+  for (const std::string_view side : {"left", "right"}) {
+    if (bare.starts_with(side)) bare = std::string(side.substr(0, 1)) + std::string(bare.substr(side.size()));
+    if (bare.ends_with(side))
+      bare = std::string(side.substr(0, 1)) + std::string(bare.substr(0, bare.size() - side.size()));
+  }
+  for (const std::string_view side : {"l", "r"}) {
+    if (bare == std::string(side) + "footindex") bare = std::string(side) + "bigtoe";
+  }
+  for (std::size_t i = 0; i < kLandmarkCount; ++i) {
+    std::string own(kNames[i]);
+    for (char& c : own) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    if (own == bare) return static_cast<Landmark>(i);
+  }
+  return Landmark::kNoLandmark;
 }
 
 double HeightPx(const SeenPerson& person) {

@@ -43,6 +43,7 @@ enum class Landmark {
   kMidHip,
   kLeftHand,
   kRightHand,
+  kNoLandmark,  ///< in layouts: a point that nothing here needs
 };
 
 constexpr std::size_t kLandmarkCount = 28;
@@ -57,15 +58,20 @@ std::optional<Landmark> FindLandmark(std::string_view name);
 struct KeypointLayout {
   std::string name;
   std::vector<Landmark> landmarks;
+  std::size_t more = 0;  ///< points of face and hands that follow, and are passed over
 };
 
-/// Returns all layouts: "coco" (17 points), "body_25" and "body_25b" (25 each, in different orders; OpenPose),
-/// "halpe_26"; "halpe_26_hands" (ours): the same and the finger tips, which are all landmarks, as `etude export` writes
-/// marks.
+/// Returns all layouts: "coco" (17 points), "coco_18" (OpenPose's), "body_25" and "body_25b" (25 each, in different
+/// orders; OpenPose), "halpe_26", "mediapipe" (33), "coco_wholebody" (133), "halpe_136"; "halpe_26_hands" (ours):
+/// halpe_26 and the finger tips, which are all landmarks, as `etude export` writes marks.
 std::span<const KeypointLayout> KeypointLayouts();
 std::vector<std::string> KeypointLayoutNames();
 /// Finds a layout by its name; null when there is none.
 const KeypointLayout* FindKeypointLayout(std::string_view name);
+
+/// Finds the landmark that estimators give one of these names, whatever its case and breaks: "left_shoulder",
+/// "LShoulder", "Left Big Toe", "mid_hip"; kNoLandmark for other names.
+Landmark LandmarkOfName(std::string_view name);
 
 /// The pixel at which a picture shows a landmark, and the estimator's confidence: 0 = not seen, 1 = sure.
 struct Keypoint {

@@ -4,6 +4,30 @@
 
 namespace etude {
 
+glm::dvec2 PixelFit::ToFilm(const glm::dvec2& rig) const {
+  glm::dvec2 p = scale * rig + shift;
+  if (is_mirrored) p.x = size.x - p.x;
+  switch (quarter_turns) {
+    case 1:
+      return {size.y - p.y, p.x};
+    case 2:
+      return size - p;
+    case 3:
+      return {p.y, size.x - p.x};
+    default:
+      return p;
+  }
+}
+
+glm::dvec2 PixelFit::ToRig(const glm::dvec2& film) const {
+  glm::dvec2 p = film;
+  if (quarter_turns == 1) p = {film.y, size.y - film.x};
+  if (quarter_turns == 2) p = size - film;
+  if (quarter_turns == 3) p = {size.x - film.y, film.x};
+  if (is_mirrored) p.x = size.x - p.x;
+  return (p - shift) / scale;
+}
+
 std::optional<FitMode> FindFitMode(std::string_view name) {
   if (name == "none") return FitMode::kNone;
   if (name == "letterbox") return FitMode::kLetterbox;
@@ -21,12 +45,12 @@ Result<PixelFit> FitPictures(FitMode mode, const glm::dvec2& rig, const glm::dve
                   film.y, rig.x, rig.y);
     case FitMode::kLetterbox: {
       const double scale = std::min(film.x / rig.x, film.y / rig.y);
-      return PixelFit{glm::dvec2(scale), 0.5 * (film - scale * rig)};
+      return PixelFit{.scale = glm::dvec2(scale), .shift = 0.5 * (film - scale * rig)};
     }
     case FitMode::kStretch:
-      return PixelFit{film / rig, glm::dvec2(0)};
+      return PixelFit{.scale = film / rig};
     case FitMode::kCrop:
-      return PixelFit{glm::dvec2(1), 0.5 * (film - rig)};
+      return PixelFit{.shift = 0.5 * (film - rig)};
   }
   return PixelFit{};
 }

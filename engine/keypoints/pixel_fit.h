@@ -9,14 +9,18 @@
 
 namespace etude {
 
-/// The map from the rig's pixels to a film's: film = scale · rig + shift, each axis by itself.
+/// The map from the rig's pixels to a film's: scale · rig + shift, each axis by itself; then mirrored, then turned.
 struct PixelFit {
   glm::dvec2 scale{1};
   glm::dvec2 shift{0};
+  int quarter_turns = 0;     ///< clockwise, 0 to 3
+  bool is_mirrored = false;  ///< left and right, before it is turned
+  glm::dvec2 size{0};        ///< of the film's picture before it is turned; of one that is turned or mirrored
 
-  glm::dvec2 ToFilm(const glm::dvec2& rig) const { return scale * rig + shift; }
-  glm::dvec2 ToRig(const glm::dvec2& film) const { return (film - shift) / scale; }
-  bool IsNone() const { return scale == glm::dvec2(1) && shift == glm::dvec2(0); }
+  glm::dvec2 ToFilm(const glm::dvec2& rig) const;
+  glm::dvec2 ToRig(const glm::dvec2& film) const;
+  bool IsNone() const { return *this == PixelFit{}; }
+  friend bool operator==(const PixelFit&, const PixelFit&) = default;
 };
 
 /// The way pictures of one size were made from those of another.

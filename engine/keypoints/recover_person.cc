@@ -146,8 +146,8 @@ RecoverPersonOptions UsualRecovery(double rate_hz, double longer_side_px) {
   return options;
 }
 
-Result<RecoveredPerson> RecoverPerson(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
-                                      const RecoverPersonOptions& options) {
+Result<RecoveredPerson> LocatePerson(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
+                                     const RecoverPersonOptions& options) {
   assert(cameras.size() >= 2 && cameras.size() == people.size());
   RecoveredPerson person;
   person.people = MatchPeople(cameras, people, options.match);
@@ -163,8 +163,20 @@ Result<RecoveredPerson> RecoverPerson(std::span<const ProjectionMatrix> cameras,
   if (options.person >= in_space.size()) {
     return Fail({}, "person {}: {} seen by two cameras or more", options.person + 1, in_space.size());
   }
-  const MatchedPerson& wanted = person.people[in_space[options.person]];
-  person.landmarks = TriangulatePerson(cameras, wanted, options.triangulate, &person.report);
+  MatchedPerson& wanted = person.people[in_space[options.person]];
+  TriangulateOptions triangulate = options.triangulate;
+  if (options.mends) {
+    const double least = triangulate.least_confidence;
+    person.mends = MendPerson(cameras, people, least, wanted);
+    triangulate.robust.outlier_px =
+        OutlierLimit(cameras, wanted, least, options.least_outlier_px, triangulate.robust.outlier_px);
+  }
+  person.outlier_px = triangulate.robust.outlier_px;
+  person.landmarks = TriangulatePerson(cameras, wanted, triangulate, &person.report);
+  return person;
+}
+
+Result<RecoveredPerson> FitLocated(RecoveredPerson person, const RecoverPersonOptions& options) {
   BridgePoints(person.landmarks, static_cast<std::size_t>(std::lround(options.longest_gap_s * options.rate_hz)));
   if (options.cutoff_hz > 0) SmoothPoints(person.landmarks, options.rate_hz, options.cutoff_hz);
   ASSIGN_OR_RETURN(const CaptureBody body, MedianBody(person.landmarks));
@@ -177,6 +189,12 @@ Result<RecoveredPerson> RecoverPerson(std::span<const ProjectionMatrix> cameras,
   person.motion.rate_hz = options.rate_hz;
   for (const TreeState& state : held) person.motion.poses.push_back(ToBodyPose(body, state));
   return person;
+}
+
+Result<RecoveredPerson> RecoverPerson(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
+                                      const RecoverPersonOptions& options) {
+  ASSIGN_OR_RETURN(RecoveredPerson person, LocatePerson(cameras, people, options));
+  return FitLocated(std::move(person), options);
 }
 
 }  // namespace etude

@@ -8,6 +8,7 @@
 #include "engine/base/result.h"
 #include "engine/cameras/camera.h"
 #include "engine/keypoints/keypoint_motion.h"
+#include "engine/keypoints/mend_people.h"
 #include "engine/kinematics/capture_body.h"
 #include "engine/kinematics/tree.h"
 #include "engine/motion/body.h"
@@ -31,9 +32,11 @@ struct RecoverPersonOptions {
   double rate_hz = 30;
   MatchOptions match;
   TriangulateOptions triangulate;
-  std::size_t person = 0;      ///< which of those found, the one seen most first
-  double longest_gap_s = 0.5;  ///< longer ones are not bridged
-  double cutoff_hz = 0;        ///< places are smoothed below this; 0: not at all
+  std::size_t person = 0;       ///< which of those found, the one seen most first
+  double longest_gap_s = 0.5;   ///< longer ones are not bridged
+  double cutoff_hz = 0;         ///< places are smoothed below this; 0: not at all
+  bool mends = false;           ///< MendPerson, and `triangulate.robust.outlier_px` becomes the most of OutlierLimit
+  double least_outlier_px = 0;  ///< … and this its least
 };
 
 /// Returns the options for pictures whose longer side has so many pixels: outliers are 3 % of it off, and somebody who
@@ -45,6 +48,8 @@ struct RecoveredPerson {
   std::vector<MatchedPerson> people;      ///< everybody that was found
   std::vector<LandmarkPlaces> landmarks;  ///< of the person asked for, bridged and smoothed
   TriangulationReport report;
+  std::vector<Mend> mends;  ///< of the person asked for
+  double outlier_px = 0;    ///< the limit that was used
   CaptureBody body;
   Clip clip;                  ///< metres, Y up
   BodyMotion motion;          ///< the same as twenty joints
@@ -54,11 +59,18 @@ struct RecoveredPerson {
 /// Removes the lens's distortion from keypoints in the camera's own pixels.
 SeenPeople UndistortPeople(const Camera& camera, SeenPeople people);
 
-/// Recovers the motion of one person from the keypoints of everybody: MatchPeople, TriangulatePerson, BridgePoints,
-/// SmoothPoints, then the person's own body (MedianBody) and its poses (FitPerson). Fails when nobody is seen by two
-/// cameras, there are not so many people, or some limb never was seen.
+/// Finds everybody and the points of the person asked for: MatchPeople, (MendPerson,) TriangulatePerson. Fails when
+/// nobody is seen by two cameras, or there are not so many people.
 /// @param cameras at least two, without their lenses, as are the pixels (`UndistortPeople`)
 /// @param people of each camera, as many frames, taken at the same times (else `EstimateOffsets`, `PeopleInTime`)
+Result<RecoveredPerson> LocatePerson(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
+                                     const RecoverPersonOptions& options);
+
+/// Recovers the motion of a person whose landmarks are known: BridgePoints, SmoothPoints, then the person's own body
+/// (MedianBody) and its poses (FitPerson). Fails when some limb never was seen.
+Result<RecoveredPerson> FitLocated(RecoveredPerson person, const RecoverPersonOptions& options);
+
+/// Recovers the motion of one person from the keypoints of everybody: LocatePerson, FitLocated.
 Result<RecoveredPerson> RecoverPerson(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                                       const RecoverPersonOptions& options);
 

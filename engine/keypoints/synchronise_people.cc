@@ -138,16 +138,172 @@ std::vector<ClockOffset> EstimateOffsets(std::span<const ProjectionMatrix> camer
   return offsets;
 }
 
-SeenPeople PeopleInTime(const SeenPeople& people, double offset, std::size_t frames, const FollowOptions& options) {
-  if (offset == 0 && people.size() == frames) return people;
+namespace {
+
+/// The people of one camera, and where its clock stands.
+struct ClockedFilm {
+  std::vector<MovingPerson> people;
+  FilmClock clock;
+};
+
+class ClockFinder {
+ public:
+  ClockFinder(std::span<const ProjectionMatrix> cameras, std::vector<ClockedFilm> films, std::size_t frames,
+              double least_confidence)
+      : films_(std::move(films)), geometry_(cameras.size()), frames_(frames), least_confidence_(least_confidence) {
+    for (std::size_t a = 0; a < cameras.size(); ++a) {
+      for (std::size_t b = 0; b < cameras.size(); ++b) {
+        geometry_[a].push_back(a == b ? std::nullopt : EpipolarGeometry::Of(cameras[a], cameras[b]));
+      }
+    }
+  }
+
+  std::vector<FoundClock> Find(int most_frames) {
+    std::vector<FoundClock> found(films_.size());
+    for (std::size_t c = 0; c < films_.size(); ++c) found[c].clock = films_[c].clock;
+    constexpr int kRounds = 2;
+    constexpr double kHalf = 0.5;
+    for (int round = 0; round < kRounds; ++round) {
+      for (std::size_t c = 1; c < films_.size(); ++c) {
+        // First against those before it, whose clocks are found already.
+        const std::size_t others = round == 0 ? c : films_.size();
+        const FilmClock given = films_[c].clock;
+        const auto before = LossOf(c, given, others);
+        if (!before) continue;
+        const auto [clock, after] = Search(c, given, *before, round == 0 ? most_frames : 0, others);
+        if (!(after < kHalf * *before) || after == *before) continue;
+        films_[c].clock = found[c].clock = clock;
+        if (!found[c].is_mended) found[c].before = *before;
+        found[c].after = after;
+        found[c].is_mended = true;
+      }
+    }
+    return found;
+  }
+
+ private:
+  /// The mean loss over keypoints; of each person whoever fits best in each of the first `others` cameras.
+  std::optional<double> LossOf(std::size_t c, const FilmClock& clock, std::size_t others) const {
+    constexpr std::size_t kMostFrames = 60;
+    const std::size_t stride = std::max<std::size_t>(1, frames_ / kMostFrames);
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t frame = 0; frame < frames_; frame += stride) {
+      const auto time = static_cast<double>(frame);
+      const std::vector<SeenPerson> here = PeopleAt(films_[c], clock, time);
+      for (std::size_t o = 0; !here.empty() && o < others; ++o) {
+        if (o == c || !geometry_[o][c]) continue;
+        const std::vector<SeenPerson> there = PeopleAt(films_[o], films_[o].clock, time);
+        for (const SeenPerson& person : here) {
+          std::pair<double, std::size_t> best{0, 0};
+          for (const SeenPerson& somebody : there) {
+            const auto pair = PairLoss(*geometry_[o][c], somebody, person);
+            if (pair.second > 0 && (best.second == 0 || pair.first * static_cast<double>(best.second) <
+                                                            best.first * static_cast<double>(pair.second))) {
+              best = pair;
+            }
+          }
+          sum += best.first;
+          count += best.second;
+        }
+      }
+    }
+    constexpr std::size_t kFewest = 60;
+    return count < kFewest ? std::nullopt : std::optional(sum / static_cast<double>(count));
+  }
+
+  static std::vector<SeenPerson> PeopleAt(const ClockedFilm& film, const FilmClock& clock, double time) {
+    std::vector<SeenPerson> people;
+    for (const MovingPerson& person : film.people) {
+      if (auto at = person.At(clock.FrameAt(time))) people.push_back(std::move(*at));
+    }
+    return people;
+  }
+
+  std::pair<double, std::size_t> PairLoss(const EpipolarGeometry& geometry, const SeenPerson& a,
+                                          const SeenPerson& b) const {
+    constexpr double kLeastPx = 1.5, kShare = 0.01;
+    const double scale = std::max(kLeastPx, kShare * HeightPx(b));
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < kLandmarkCount; ++i) {
+      const Keypoint &p = a.keypoints[i], &q = b.keypoints[i];
+      if (std::min(p.confidence, q.confidence) < least_confidence_) continue;
+      const double px = geometry.DistancePx(p.pixel, q.pixel);
+      sum += px * px / (px * px + scale * scale);
+      ++count;
+    }
+    return {sum, count};
+  }
+
+  std::pair<FilmClock, double> Search(std::size_t c, const FilmClock& given, double before, int most_frames,
+                                      std::size_t others) const {
+    const double middle = 0.5 * static_cast<double>(frames_);
+    const auto moved = [&](double shift, double stretch) {  // `stretch`: frames over half of the film
+      const double drift = stretch / std::max(1.0, middle);
+      return FilmClock{given.offset + shift - stretch, given.drift + drift};
+    };
+    double shift = 0, stretch = 0, least = before;
+    const auto look_at = [&](double s, double t) {
+      const auto loss = LossOf(c, moved(s, t), others);
+      if (!loss || !(*loss < least)) return false;
+      shift = s;
+      stretch = t;
+      least = *loss;
+      return true;
+    };
+    for (int s = -most_frames; s <= most_frames; ++s) look_at(s, 0);
+    const double coarse = shift;
+    constexpr double kMostStretch = 3;
+    for (double t = -kMostStretch; most_frames > 0 && t <= kMostStretch; t += 1) {
+      for (double s = -2; s <= 2; s += 1) look_at(coarse + s, t);
+    }
+    constexpr double kFirstStep = 0.5, kLastStep = 0.002;
+    for (double step = kFirstStep; step > kLastStep;) {
+      const double s = shift, t = stretch;
+      const bool is_better =
+          look_at(s + step, t) || look_at(s - step, t) || look_at(s, t + step) || look_at(s, t - step);
+      if (!is_better) step *= 0.5;
+    }
+    return {moved(shift, stretch), least};
+  }
+
+  std::vector<ClockedFilm> films_;
+  std::vector<std::vector<std::optional<EpipolarGeometry>>> geometry_;
+  std::size_t frames_;
+  double least_confidence_;
+};
+
+}  // namespace
+
+std::vector<FoundClock> FindClocks(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
+                                   std::span<const FilmClock> given, int most_frames, const FollowOptions& options) {
+  std::vector<std::vector<PersonTrack>> tracks;
+  for (const SeenPeople& of_camera : people) tracks.push_back(FollowPeople(of_camera, options));
+  std::vector<ClockedFilm> films(people.size());
+  for (std::size_t c = 0; c < people.size(); ++c) {
+    films[c].clock = given[c];
+    for (const PersonTrack& track : tracks[c]) films[c].people.emplace_back(people[c], track);
+  }
+  const std::size_t frames = people.empty() ? 0 : people.front().size();
+  return ClockFinder(cameras, std::move(films), frames, options.least_confidence).Find(most_frames);
+}
+
+SeenPeople PeopleInTime(const SeenPeople& people, const FilmClock& clock, std::size_t frames,
+                        const FollowOptions& options) {
+  if (clock == FilmClock{} && people.size() == frames) return people;
   SeenPeople in_time(frames);
   for (const PersonTrack& track : FollowPeople(people, options)) {
     const MovingPerson person(people, track);
     for (std::size_t frame = 0; frame < frames; ++frame) {
-      if (const auto there = person.At(static_cast<double>(frame) - offset)) in_time[frame].push_back(*there);
+      if (const auto there = person.At(clock.FrameAt(static_cast<double>(frame)))) in_time[frame].push_back(*there);
     }
   }
   return in_time;
+}
+
+SeenPeople PeopleInTime(const SeenPeople& people, double offset, std::size_t frames, const FollowOptions& options) {
+  return PeopleInTime(people, FilmClock{offset, 0}, frames, options);
 }
 
 }  // namespace etude

@@ -83,7 +83,7 @@ class FilmRoll {
 
   /// Gives the picture nearest to that frame of the motion, which is no earlier than the one before.
   Result<const ColourImage*> At(std::size_t frame) {
-    const long wanted = std::clamp(std::lround(static_cast<double>(frame) - view_->offset), 0l,
+    const long wanted = std::clamp(std::lround((static_cast<double>(frame) - view_->offset) / (1 + view_->drift)), 0l,
                                    static_cast<long>(view_->facts.frames) - 1);
     for (; shown_ < wanted; ++shown_) {
       ASSIGN_OR_RETURN(const bool is_there, decoder_.Next(picture_));

@@ -24,6 +24,7 @@ struct OverlayView {
   PixelFit fit;                                      ///< from the rig's pixels to the film's
   double offset = 0;                                 ///< its frame k was taken at k + offset of the motion's frames
   std::vector<std::optional<SeenPerson>> keypoints;  ///< of each frame of the motion, in the film's pixels; dots
+  double drift = 0;                                  ///< … at (1 + drift) k + offset, if its rate is another one
 };
 
 /// Writes the films side by side, each with the skeleton as its camera would show it (lines) and the keypoints that it

@@ -1,5 +1,6 @@
 #include "bench/keypoints/read_people.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -85,6 +86,69 @@ TEST_F(ReadPeople, ReadsCocoWithFlagsOrScores) {
   EXPECT_EQ(flags->width, 640);
   const auto scores = ReadKeypoints(Write("scores.json", coco("0.25")), "");
   EXPECT_DOUBLE_EQ(scores->frames[1][0][Landmark::kNose].confidence, 0.25);
+}
+
+TEST_F(ReadPeople, ReadsResultsOfAlphaPoseAndCocoInTheFramesThatTheirImagesName) {
+  const auto result = [&](const std::string& image, const std::string& x) {
+    return R"({"image_id": )" + image + R"(, "category_id": 1, "keypoints": [)" + Triples(17, x + ", 2, 0.5") + "]}";
+  };
+  const FilmOfKeypoints film{.width = 640, .height = 480, .frames = 4};
+  const auto alpha =
+      ReadKeypoints(Write("alpha.json", "[" + result("\"v_0.jpg\"", "10") + "," + result("\"v_3.jpg\"", "13") + "," +
+                                            result("\"v_3.jpg\"", "14") + "]"),
+                    "", film);
+  ASSERT_TRUE(alpha) << ToString(alpha.error());
+  ASSERT_EQ(alpha->frames.size(), 4u);
+  EXPECT_TRUE(alpha->frames[1].empty());
+  EXPECT_EQ(alpha->frames[3].size(), 2u);
+  EXPECT_EQ(alpha->frames[3][1][Landmark::kNose].pixel, glm::dvec2(14.5, 2.5));
+  const auto from_one =
+      ReadKeypoints(Write("coco.json", "[" + result("1", "10") + "," + result("4", "13") + "]"), "", film);
+  ASSERT_TRUE(from_one) << ToString(from_one.error());
+  EXPECT_EQ(from_one->frames[0].size(), 1u) << "1 to 4 of four frames count from 1";
+  EXPECT_EQ(from_one->told, "");
+  const auto within = ReadKeypoints(Write("within.json", "[" + result("1", "10") + "]"), "", film);
+  EXPECT_EQ(within->frames[1].size(), 1u);
+  EXPECT_THAT(within->told, HasSubstr("taken as counted from 0"));
+  EXPECT_THAT(Reason(Write("noname.json", "[" + result("\"last\"", "1") + "]")), HasSubstr("image_id has no number"));
+}
+
+TEST_F(ReadPeople, ReadsMmposeByTheNamesThatItGives) {
+  std::string names, points, scores;
+  const char* kOrder[] = {"left_hip",    "left_knee",     "left_ankle", "right_hip",  "right_knee",
+                          "right_ankle", "left_shoulder", "left_elbow", "left_wrist", "right_shoulder",
+                          "right_elbow", "right_wrist",   "nose",       "tail"};
+  for (std::size_t i = 0; i < std::size(kOrder); ++i) {
+    const char* comma = i == 0 ? "" : ", ";
+    names += fmt::format("{}\"{}\": \"{}\"", comma, i, kOrder[i]);
+    points += fmt::format("{}[{}, 7]", comma, 20 + i);
+    scores += fmt::format("{}0.75", comma);
+  }
+  const std::string info =
+      R"("instance_info": [{"frame_id": 1, "instances": []}, {"frame_id": 2, "instances": [{"keypoints": [)" + points +
+      R"(], "keypoint_scores": [)" + scores + "]}]}]}";
+  const FilmOfKeypoints film{.width = 640, .height = 480, .frames = 2};
+  const auto read =
+      ReadKeypoints(Write("m.json", R"({"meta_info": {"keypoint_id2name": {)" + names + "}}, " + info), "", film);
+  ASSERT_TRUE(read) << ToString(read.error());
+  ASSERT_EQ(read->frames.size(), 2u);
+  EXPECT_EQ(read->frames[1][0][Landmark::kRightHip].pixel, glm::dvec2(23.5, 7.5));
+  EXPECT_DOUBLE_EQ(read->frames[1][0][Landmark::kNose].confidence, 0.75);
+  EXPECT_THAT(Reason(Write("nameless.json", "{" + info)), HasSubstr("14 keypoints a person; allowed: coco (17)"));
+}
+
+TEST_F(ReadPeople, TakesSharesOfThePicture) {
+  std::string points;
+  for (int i = 0; i < 33; ++i)
+    points += std::string(i == 0 ? "" : ", ") + R"({"x": 0.25, "y": 0.5, "z": 0, "visibility": 0.9})";
+  const auto path = Write("p.json", R"([{"pose_landmarks": [)" + points + R"(]}, {"pose_landmarks": null}])");
+  const auto read = ReadKeypoints(path, "", {.width = 640, .height = 480, .frames = 2});
+  ASSERT_TRUE(read) << ToString(read.error());
+  EXPECT_EQ(read->frames[0][0][Landmark::kLeftHeel].pixel, glm::dvec2(160, 240));
+  EXPECT_TRUE(read->frames[1].empty());
+  EXPECT_THAT(read->told, HasSubstr("shares of 640 x 480 pixels"));
+  EXPECT_EQ(ReadKeypoints(path, "")->frames[0][0][Landmark::kNose].pixel, glm::dvec2(0.75, 1))
+      << "of an unknown film: pixels";
 }
 
 TEST_F(ReadPeople, RefusesWithTheFileAndTheReason) {

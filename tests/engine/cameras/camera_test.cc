@@ -136,5 +136,36 @@ TEST(Camera, SkewMovesAPixelByItsHeight) {
   EXPECT_NEAR(Project(matrix, {0, 1.5, 0})->x, 320 - 40 * 0.125, 1e-9);
 }
 
+TEST(Distortion, OfMoreCoefficientsAndFisheyesIsUndone) {
+  const Distortion all{.k1 = -0.12,
+                       .k2 = 0.05,
+                       .p1 = 0.001,
+                       .p2 = -0.0015,
+                       .k3 = 0.01,
+                       .k4 = 0.02,
+                       .k5 = -0.01,
+                       .k6 = 0.004,
+                       .s1 = 0.002,
+                       .s2 = -0.001,
+                       .s3 = 0.001,
+                       .s4 = 0.0005,
+                       .tau_x = 0.01,
+                       .tau_y = -0.02};
+  const Distortion fisheye{.k1 = -0.02, .k2 = 0.004, .k3 = -0.001, .k4 = 0.0003, .is_fisheye = true};
+  for (const Distortion& d : {all, fisheye, Distortion{.is_fisheye = true}}) {
+    for (const glm::dvec2 ray : {glm::dvec2(0, 0), {0.3, -0.2}, {-0.5, 0.4}, {0.01, 0.6}}) {
+      const auto back = Undistort(d, Distort(d, ray));
+      ASSERT_TRUE(back);
+      EXPECT_LT(glm::distance(*back, ray), 1e-9);
+    }
+  }
+  // A fisheye without coefficients shows angles: 45 degrees to the right at π/4.
+  EXPECT_NEAR(Distort({.is_fisheye = true}, {1, 0}).x, 0.78539816339744831, 1e-15);
+  EXPECT_FALSE(Undistort({.is_fisheye = true}, {1.6, 0})) << "behind the camera";
+  // The rational model with equal numerator and denominator is none.
+  const Distortion equal{.k1 = 0.1, .k2 = 0.02, .k3 = 0.01, .k4 = 0.1, .k5 = 0.02, .k6 = 0.01};
+  EXPECT_LT(glm::distance(Distort(equal, {0.4, 0.3}), glm::dvec2(0.4, 0.3)), 1e-15);
+}
+
 }  // namespace
 }  // namespace etude

@@ -105,11 +105,30 @@ std::string Broken(const std::string& from, const std::string& to) {
   return read ? "" : ToString(read.error());
 }
 
+TEST(Pose2SimFile, ReadsFisheyesMatricesAndListsOverLines) {
+  NamedCamera fisheye = Crooked();
+  fisheye.camera.distortion = {.k1 = -0.02, .k2 = 0.004, .k3 = -0.001, .k4 = 0.0003, .is_fisheye = true};
+  const auto back = ReadPose2SimCalibration(WritePose2SimCalibration(std::vector{fisheye}));
+  ASSERT_TRUE(back) << ToString(back.error());
+  EXPECT_EQ(back->front().camera.distortion, fisheye.camera.distortion);
+  const auto caliscope = ReadPose2SimCalibration(
+      "[cameras.3]\nsize = [640, 480] # px\nmatrix = [\n [600.0, 0.0, 320.0],\n [0.0, 600.0, 240.0],\n [0.0, 0.0, "
+      "1.0],\n]\n"
+      "distortions = []\nrotation = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]\ntranslation = [0.0, 0.0, "
+      "2.0]\n"
+      "[cameras.4]\nignore = true\nmatrix = [1]\n");
+  ASSERT_TRUE(caliscope) << ToString(caliscope.error());
+  ASSERT_EQ(caliscope->size(), 1u);
+  EXPECT_EQ(caliscope->front().name, "cam_3");
+  // Z up: the file's x, which the camera looks along, is our z.
+  EXPECT_LT(glm::distance(caliscope->front().camera.p_WC, glm::dvec3(0, 0, -2)), 1e-12);
+}
+
 TEST(Pose2SimFile, SaysWhatIsWrong) {
   EXPECT_NE(Broken("rotation", "rotatoin").find("camera cam_01 has no rotation"), std::string::npos);
   EXPECT_NE(Broken("1681.25", "-1681.25").find("focal lengths"), std::string::npos);
   EXPECT_NE(Broken("1681.25", "abc").find("no list of numbers"), std::string::npos);
-  EXPECT_NE(Broken("fisheye = false", "fisheye = true").find("fisheye"), std::string::npos);
+  EXPECT_NE(Broken("fisheye = false", "distortions = [1, 2]").find("2 distortion coefficients"), std::string::npos);
   EXPECT_NE(Broken("1088.0, 1920.0", "1088.0").find("size has 1 numbers"), std::string::npos);
   EXPECT_NE(Broken("1088.0", "nan").find("pixels"), std::string::npos);
   EXPECT_FALSE(ReadPose2SimCalibration(""));

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/image.h"
+#include "engine/base/result.h"
+#include "engine/boards/board.h"
+#include "engine/boards/find_boards.h"
+
+namespace etude {
+
+/// A board of OpenCV's: a chessboard, or a ChArUco board.
+struct PrintedBoard {
+  bool is_charuco = false;
+  int columns = 0, rows = 0;  ///< squares, 3 to 64 a side
+  double square = 0;          ///< metres
+};
+
+/// Reads "chess:9x6x0.025" or "charuco:4x5x0.054"; nothing of texts that begin otherwise. Fails for wrong numbers.
+std::optional<Result<PrintedBoard>> ReadPrintedBoard(std::string_view text);
+
+/// True when this program was built with OpenCV's detectors (libopencv-contrib-dev; `scripts/setup --boards`).
+bool HasPrintedBoards();
+
+/// Finds the corners of one such board in pictures, by OpenCV's `findChessboardCornersSB` and `aruco::detectMarkers`.
+/// Of a ChArUco board the dictionary, whether it is printed inverted, where its first marker is (both layouts of even
+/// rows) and how large markers are is found in the pictures themselves. A corner counts where both markers beside it
+/// are seen, and is refined by `cornerSubPix`. A chessboard must be seen whole; its top left square is the black one of
+/// columns + rows odd, else 180° are left open.
+class PrintedBoardFinder {
+ public:
+  explicit PrintedBoardFinder(const PrintedBoard& board);
+  ~PrintedBoardFinder();
+  PrintedBoardFinder(PrintedBoardFinder&&) noexcept;
+
+  /// Returns the corners by rows, pixels of ours; none where there is no board, or without OpenCV.
+  std::vector<SeenCorner> Find(const ColourImage& picture);
+
+  /// Says what was found out about the board: "DICT_4X4_1000, inverted, markers 0.75 of a square".
+  std::string Told() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace etude

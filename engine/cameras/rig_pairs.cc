@@ -1,0 +1,228 @@
+#include "engine/cameras/rig_pairs.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+#include <map>
+#include <string>
+
+#include "engine/cameras/opencv_file.h"
+#include "engine/document/fields.h"
+
+namespace etude {
+
+Result<std::vector<double>> MatrixAt(const Node& camera, std::string_view key, std::size_t rows, std::size_t columns) {
+  const Node* matrix = camera.Find(key);
+  if (matrix == nullptr) return Fail(camera.place, "no {}", key);
+  const Node* data = matrix->Find("data");
+  if (data == nullptr || data->kind != Node::Kind::kSequence) {
+    return Fail(matrix->place, "{} is {}; allowed: a matrix of OpenCV with rows, cols, dt, data", key,
+                Describe(*matrix));
+  }
+  std::vector<double> values;
+  for (const Node& item : data->items) {
+    ASSIGN_OR_RETURN(const double value, AsNumber(item));
+    values.push_back(value);
+  }
+  if (rows != 0 && values.size() != rows * columns) {
+    return Fail(data->place, "{} has {} numbers; allowed: {}", key, values.size(), rows * columns);
+  }
+  return values;
+}
+
+namespace {
+
+/// From a world with Z up, or one that is a camera's frame, to ours.
+const glm::dmat3 kOursOfZUp(0, 0, 1, 1, 0, 0, 0, 1, 0);
+
+/// Moves the file's world into ours and makes the camera; without a size where the file tells none.
+Result<NamedCamera> CameraIn(const std::string& name, OpenCvParameters p, const glm::dmat3& R_WF, const Place& place) {
+  p.R = p.R * glm::transpose(R_WF);
+  const bool is_sizeless = p.width == 0 && p.height == 0;
+  if (is_sizeless) p.width = p.height = 1;
+  auto camera = CameraOf(p);
+  if (!camera) return Fail(place, "camera {}: {}", name, camera.error().message);
+  if (is_sizeless) camera->intrinsics.width = camera->intrinsics.height = 0;
+  return NamedCamera{name, *camera};
+}
+
+}  // namespace
+
+Result<RigFile> ReadEasyMocap(const Node& intrinsics, const Node& extrinsics) {
+  const Node* names = intrinsics.Find("names");
+  if (names == nullptr) return Fail(intrinsics.place, "no list 'names'");
+  ASSIGN_OR_RETURN(const auto listed, AsTexts(*names));
+  RigFile rig{.cameras = {}, .format = "EasyMocap", .R_WF = kOursOfZUp};
+  for (const std::string& name : listed) {
+    OpenCvParameters p;
+    ASSIGN_OR_RETURN(p.camera_matrix, MatrixAt(intrinsics, "K_" + name, 3, 3));
+    ASSIGN_OR_RETURN(p.distortion, MatrixAt(intrinsics, "dist_" + name, 0, 0));
+    for (const auto& [key, side] : {std::pair("W_", &p.width), {"H_", &p.height}}) {
+      const Node* node = intrinsics.Find(key + name);
+      if (node == nullptr) continue;
+      ASSIGN_OR_RETURN(*side, AsNumber(*node));
+    }
+    const std::string as_matrix = "Rot_" + name;
+    const bool has_matrix = extrinsics.Find(as_matrix) != nullptr;
+    ASSIGN_OR_RETURN(const auto rotation, MatrixAt(extrinsics, has_matrix ? as_matrix : "R_" + name, 0, 0));
+    ASSIGN_OR_RETURN(p.R, RotationOf(rotation, "R_" + name));
+    ASSIGN_OR_RETURN(const auto T, MatrixAt(extrinsics, "T_" + name, 3, 1));
+    p.T = {T[0], T[1], T[2]};
+    ASSIGN_OR_RETURN(auto camera, CameraIn(name, std::move(p), rig.R_WF, names->place));
+    rig.cameras.push_back(std::move(camera));
+  }
+  if (rig.cameras.empty()) return Fail(names->place, "no camera");
+  return rig;
+}
+
+Result<RigFile> ReadOpenCvStereo(const Node& intrinsics, const Node& extrinsics) {
+  RigFile rig{.cameras = {}, .format = "OpenCV stereo", .R_WF = kOursOfZUp};
+  for (const char* number : {"1", "2"}) {
+    OpenCvParameters p;
+    ASSIGN_OR_RETURN(p.camera_matrix, MatrixAt(intrinsics, std::string("M") + number, 3, 3));
+    ASSIGN_OR_RETURN(p.distortion, MatrixAt(intrinsics, std::string("D") + number, 0, 0));
+    if (*number == '2') {
+      ASSIGN_OR_RETURN(const auto rotation, MatrixAt(extrinsics, "R", 0, 0));
+      ASSIGN_OR_RETURN(p.R, RotationOf(rotation, "R"));
+      ASSIGN_OR_RETURN(const auto T, MatrixAt(extrinsics, "T", 3, 1));
+      p.T = {T[0], T[1], T[2]};
+    }
+    ASSIGN_OR_RETURN(auto camera,
+                     CameraIn(*number == '1' ? "left" : "right", std::move(p), rig.R_WF, intrinsics.place));
+    rig.cameras.push_back(std::move(camera));
+  }
+  return rig;
+}
+
+namespace {
+
+struct ColmapLine {
+  int number = 0;
+  std::vector<std::string> words;
+};
+
+/// The lines that are no comments; empty ones, too, since images may see no points.
+std::vector<ColmapLine> LinesOf(std::string_view text) {
+  std::vector<ColmapLine> lines;
+  for (int number = 1; !text.empty(); ++number) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string_view here = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (here.starts_with('#')) continue;
+    ColmapLine line{number, {}};
+    while (true) {
+      const std::size_t from = here.find_first_not_of(" \t\r");
+      if (from == std::string_view::npos) break;
+      const std::size_t to = std::min(here.find_first_of(" \t\r", from), here.size());
+      line.words.emplace_back(here.substr(from, to - from));
+      here.remove_prefix(to);
+    }
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+Result<std::vector<double>> NumbersFrom(const ColmapLine& line, std::size_t first, std::size_t last) {
+  std::vector<double> numbers;
+  for (std::size_t i = first; i < last; ++i) {
+    double value = 0;
+    const std::string& word = line.words[i];
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value)) {
+      return Fail({{}, line.number, 0}, "'{}' is no number", word);
+    }
+    numbers.push_back(value);
+  }
+  return numbers;
+}
+
+/// Where each parameter of a model goes: f (both), x, y (focal lengths), u, v (principal point), then distortion.
+struct ColmapModel {
+  std::string_view focal;
+  std::vector<std::size_t> distortion;  ///< their places among OpenCV's
+  bool is_fisheye = false;
+};
+
+const std::map<std::string, ColmapModel, std::less<>>& ColmapModels() {
+  static const std::map<std::string, ColmapModel, std::less<>> models = {
+      {"SIMPLE_PINHOLE", {"f", {}}},
+      {"PINHOLE", {"xy", {}}},
+      {"SIMPLE_RADIAL", {"f", {0}}},
+      {"RADIAL", {"f", {0, 1}}},
+      {"OPENCV", {"xy", {0, 1, 2, 3}}},
+      {"FULL_OPENCV", {"xy", {0, 1, 2, 3, 4, 5, 6, 7}}},
+      {"OPENCV_FISHEYE", {"xy", {0, 1, 2, 3}, true}},
+      {"SIMPLE_RADIAL_FISHEYE", {"f", {0}, true}},
+      {"RADIAL_FISHEYE", {"f", {0, 1}, true}}};
+  return models;
+}
+
+Result<OpenCvParameters> InsideOf(const ColmapLine& line) {
+  const Place place{{}, line.number, 0};
+  constexpr std::size_t kBefore = 4;
+  if (line.words.size() < kBefore) return Fail(place, "no camera; allowed: CAMERA_ID MODEL WIDTH HEIGHT PARAMS");
+  const auto model = ColmapModels().find(line.words[1]);
+  if (model == ColmapModels().end()) {
+    std::string names;
+    for (const auto& [name, one] : ColmapModels()) names += (names.empty() ? "" : ", ") + name;
+    return Fail(place, "camera model {}; allowed: {}", line.words[1], names);
+  }
+  const ColmapModel& of = model->second;
+  const std::size_t wanted = of.focal.size() + 2 + of.distortion.size();
+  if (line.words.size() != kBefore + wanted) {
+    return Fail(place, "{} parameters of {}; allowed: {}", line.words.size() - kBefore, model->first, wanted);
+  }
+  ASSIGN_OR_RETURN(const auto n, NumbersFrom(line, 2, line.words.size()));
+  const std::size_t at = 2 + of.focal.size();
+  constexpr double kPixelCentre = 0.5;
+  OpenCvParameters p{.width = n[0], .height = n[1]};
+  p.camera_matrix = {n[2], 0, n[at] - kPixelCentre, 0, n[at - 1], n[at + 1] - kPixelCentre, 0, 0, 1};
+  p.is_fisheye = of.is_fisheye;
+  p.distortion.resize(of.is_fisheye ? 4 : 8);
+  for (std::size_t i = 0; i < of.distortion.size(); ++i) p.distortion[of.distortion[i]] = n[at + 2 + i];
+  return p;
+}
+
+std::string StemOf(std::string path) {
+  path.erase(0, path.find_last_of('/') + 1);
+  return path.substr(0, path.find_last_of('.'));
+}
+
+}  // namespace
+
+Result<RigFile> ReadColmap(std::string_view cameras, std::string_view images) {
+  std::map<std::string, OpenCvParameters> inside;
+  for (const ColmapLine& line : LinesOf(cameras)) {
+    if (line.words.empty()) continue;
+    ASSIGN_OR_RETURN(inside[line.words.front()], InsideOf(line));
+  }
+  RigFile rig{.cameras = {}, .format = "COLMAP", .R_WF = kOursOfZUp, .has_unit = false};
+  bool is_points = false;
+  for (const ColmapLine& line : LinesOf(images)) {
+    if (is_points || line.words.empty()) {
+      is_points = false;
+      continue;
+    }
+    is_points = true;
+    const Place place{{}, line.number, 0};
+    constexpr std::size_t kWords = 10;
+    if (line.words.size() < kWords) {
+      return Fail(place,
+                  "no image; allowed: IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME, and its points on the next line");
+    }
+    const auto camera = inside.find(line.words[8]);
+    if (camera == inside.end()) return Fail(place, "camera {} is not in cameras.txt", line.words[8]);
+    ASSIGN_OR_RETURN(const auto n, NumbersFrom(line, 1, 8));
+    OpenCvParameters p = camera->second;
+    p.R = glm::mat3_cast(glm::normalize(glm::dquat(n[0], n[1], n[2], n[3])));
+    p.T = {n[4], n[5], n[6]};
+    ASSIGN_OR_RETURN(auto named, CameraIn(StemOf(line.words[9]), std::move(p), rig.R_WF, place));
+    rig.cameras.push_back(std::move(named));
+  }
+  if (rig.cameras.empty()) return Fail({}, "no image in images.txt");
+  return rig;
+}
+
+}  // namespace etude

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/cameras/camera.h"
+#include "engine/keypoints/match_people.h"
+#include "engine/keypoints/pixel_fit.h"
+
+namespace etude {
+
+/// One film's keypoints as their file has them, and how its pictures are said to have come of the rig's.
+struct PictureOfFilm {
+  Camera camera;
+  PixelFit fit;           ///< as said
+  glm::dvec2 film_px{0};  ///< the size of the film's pictures
+  SeenPeople people;      ///< in the file's pixels
+};
+
+/// How the keypoints of a film are to be read.
+struct PictureGuess {
+  PixelFit fit;
+  std::string told;  ///< "" where it is as said
+};
+
+/// Finds how keypoints lie in the rig's pictures *(ours)*: as said by `fit`, or, one camera after the other and each
+/// time the one that gains most, turned by quarters or mirrored, where that brings the keypoints to less than half of
+/// the distance from the other cameras' epipolar lines (median over frames, people that fit best and either labelling,
+/// as a share of the height) and they were more than 0.3 % off (what errs by itself is never halved). Where pictures were fitted, keypoints of all films may
+/// be the rig's own pixels instead (an estimator that ran on the original pictures): whichever misses less. Of two
+/// cameras, and where a second guess is nearly as good, `told` says so.
+std::vector<PictureGuess> GuessPictures(std::span<const PictureOfFilm> films, double least_confidence);
+
+}  // namespace etude

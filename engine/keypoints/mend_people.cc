@@ -1,0 +1,398 @@
+#include "engine/keypoints/mend_people.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "engine/base/order_statistics.h"
+#include "engine/cameras/robust_triangulation.h"
+#include "engine/cameras/triangulation.h"
+
+namespace etude {
+
+Landmark OtherSide(Landmark landmark) {
+  const std::string_view name = LandmarkName(landmark);
+  std::string other(name);
+  if (name.front() == 'L') other.front() = 'R';
+  if (name.front() == 'R') other.front() = 'L';
+  return FindLandmark(other).value_or(landmark);
+}
+
+namespace {
+
+using enum Landmark;
+
+constexpr std::size_t kGroups = 2;  // arms, legs
+
+/// The pairs of a group, left and right.
+const std::vector<std::pair<Landmark, Landmark>>& PairsOf(std::size_t group) {
+  static const std::array<std::vector<std::pair<Landmark, Landmark>>, kGroups> pairs = {
+      {{{kLeftEye, kRightEye},
+        {kLeftEar, kRightEar},
+        {kLeftShoulder, kRightShoulder},
+        {kLeftElbow, kRightElbow},
+        {kLeftWrist, kRightWrist},
+        {kLeftHand, kRightHand}},
+       {{kLeftHip, kRightHip},
+        {kLeftKnee, kRightKnee},
+        {kLeftAnkle, kRightAnkle},
+        {kLeftBigToe, kRightBigToe},
+        {kLeftSmallToe, kRightSmallToe},
+        {kLeftHeel, kRightHeel}}}};
+  return pairs[group];
+}
+
+void SwapGroup(SeenPerson& person, std::size_t group) {
+  for (const auto& [left, right] : PairsOf(group)) std::swap(person[left], person[right]);
+}
+
+}  // namespace
+
+SeenPerson WithSidesSwapped(const SeenPerson& person) {
+  SeenPerson swapped = person;
+  for (std::size_t group = 0; group < kGroups; ++group) SwapGroup(swapped, group);
+  return swapped;
+}
+
+namespace {
+
+class Mender {
+ public:
+  Mender(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people, double least_confidence,
+         MatchedPerson& person)
+      : cameras_(cameras), people_(people), least_confidence_(least_confidence), person_(person) {
+    geometry_.resize(cameras.size());
+    for (std::size_t a = 0; a < cameras.size(); ++a) {
+      for (std::size_t b = 0; b < cameras.size(); ++b) {
+        geometry_[a].push_back(a == b ? std::nullopt : EpipolarGeometry::Of(cameras[a], cameras[b]));
+      }
+    }
+    frames_ = person.seen.empty() ? 0 : person.seen.front().size();
+    for (auto& group : flips_) group.assign(cameras.size(), std::vector<bool>(frames_));
+  }
+
+  std::vector<Mend> Run() {
+    FindPersonAgain();
+    scale_px_ = ScalePx();
+    for (std::size_t group = 0; group < kGroups; ++group) SwapBack(group);
+    for (std::size_t group = 0; group < kGroups; ++group) Face(group);
+    TellSwaps();
+    return std::move(mends_);
+  }
+
+ private:
+  std::optional<double> DistancePx(std::size_t a, const Keypoint& p, std::size_t b, const Keypoint& q) const {
+    if (p.confidence < least_confidence_ || q.confidence < least_confidence_ || !geometry_[a][b]) return std::nullopt;
+    return std::abs(geometry_[a][b]->DistancePx(p.pixel, q.pixel));
+  }
+
+  /// The median distance of a person in camera `c` from the person in camera `o`, as a share of the height; of the
+  /// better labelling. Nothing where they share too little.
+  std::optional<double> MisfitOf(std::size_t c, const SeenPerson& one, std::size_t o, const SeenPerson& other) const {
+    std::optional<double> least;
+    for (const bool is_swapped : {false, true}) {
+      const SeenPerson labelled = is_swapped ? WithSidesSwapped(one) : one;
+      std::vector<double> distances;
+      for (std::size_t i = 0; i < kLandmarkCount; ++i) {
+        if (const auto px = DistancePx(c, labelled.keypoints[i], o, other.keypoints[i])) distances.push_back(*px);
+      }
+      constexpr std::size_t kFewest = 5;
+      if (distances.size() < kFewest) continue;
+      const double misfit = UpperMedian(std::move(distances)) / std::max(1.0, HeightPx(one));
+      if (!least || misfit < *least) least = misfit;
+    }
+    return least;
+  }
+
+  /// The median over the other cameras.
+  std::optional<double> MisfitOf(std::size_t c, std::size_t frame, const SeenPerson& one) const {
+    std::vector<double> misfits;
+    for (std::size_t o = 0; o < cameras_.size(); ++o) {
+      if (o == c || !person_.seen[o][frame]) continue;
+      if (const auto misfit = MisfitOf(c, one, o, *person_.seen[o][frame])) misfits.push_back(*misfit);
+    }
+    if (misfits.empty()) return std::nullopt;
+    return LowerPercentile(misfits, 0.5);
+  }
+
+  void FindPersonAgain() {
+    std::vector<Mend> found(cameras_.size()), nobody(cameras_.size());
+    constexpr double kOff = 0.05, kBetter = 1.0 / 3;
+    for (std::size_t frame = 0; frame < frames_; ++frame) {
+      for (std::size_t round = 0; round < cameras_.size(); ++round) {
+        // The worst camera first: what it shows spoils the others' figures, too.
+        std::optional<std::size_t> worst;
+        double most = kOff;
+        std::size_t seeing = 0;
+        std::optional<SeenPerson> instead;
+        bool has_better = false;
+        for (std::size_t c = 0; c < cameras_.size(); ++c) {
+          if (!person_.seen[c][frame]) continue;
+          ++seeing;
+          const auto misfit = MisfitOf(c, frame, *person_.seen[c][frame]);
+          if (!misfit || *misfit <= kOff) continue;
+          for (const SeenPerson& candidate : people_[c][frame]) {
+            const auto other = MisfitOf(c, frame, candidate);
+            if (other && *other < kBetter * *misfit && (!has_better || *misfit > most)) {
+              worst = c;
+              most = *misfit;
+              instead = candidate;
+              has_better = true;
+            }
+          }
+          if (!has_better && *misfit > most) {
+            worst = c;
+            most = *misfit;
+          }
+        }
+        if (!worst || (!has_better && seeing < 3)) break;
+        person_.seen[*worst][frame] = has_better ? instead : std::nullopt;
+        (has_better ? found : nobody)[*worst].frames.push_back(frame);
+      }
+    }
+    for (std::size_t c = 0; c < cameras_.size(); ++c) {
+      for (auto* list : {&found, &nobody}) {
+        Mend& mend = (*list)[c];
+        mend.frames.erase(std::unique(mend.frames.begin(), mend.frames.end()), mend.frames.end());
+        if (mend.frames.empty()) continue;
+        mend.camera = c;
+        mend.kind = list == &found ? Mend::Kind::kOtherPerson : Mend::Kind::kNobody;
+        mends_.push_back(mend);
+      }
+    }
+  }
+
+  /// Twice the robust standard deviation of the epipolar distances, of the better labelling of every pair.
+  double ScalePx() const {
+    std::vector<double> distances;
+    for (std::size_t frame = 0; frame < frames_; ++frame) {
+      for (std::size_t a = 0; a < cameras_.size(); ++a) {
+        for (std::size_t b = a + 1; b < cameras_.size(); ++b) {
+          const auto &one = person_.seen[a][frame], &other = person_.seen[b][frame];
+          if (!one || !other) continue;
+          for (std::size_t group = 0; group < kGroups; ++group) {
+            for (const auto& [l, r] : PairsOf(group)) {
+              const auto ll = DistancePx(a, (*one)[l], b, (*other)[l]), rr = DistancePx(a, (*one)[r], b, (*other)[r]);
+              const auto lr = DistancePx(a, (*one)[l], b, (*other)[r]), rl = DistancePx(a, (*one)[r], b, (*other)[l]);
+              if (!ll || !rr || !lr || !rl) continue;
+              const bool is_swapped = *lr + *rl < *ll + *rr;
+              distances.push_back(is_swapped ? *lr : *ll);
+              distances.push_back(is_swapped ? *rl : *rr);
+            }
+          }
+        }
+      }
+    }
+    constexpr double kLeastPx = 0.7;
+    return distances.empty() ? kLeastPx : std::max(kLeastPx, 2 * 1.4826 * UpperMedian(std::move(distances)));
+  }
+
+  double Loss(double px) const { return px * px / (px * px + scale_px_ * scale_px_); }
+
+  /// What it costs in a frame to leave a group as it is, and to swap it.
+  std::array<double, 2> CostsOf(std::size_t group, std::size_t c, std::size_t frame) const {
+    std::array<double, 2> costs{};
+    const auto& one = person_.seen[c][frame];
+    if (!one) return costs;
+    for (std::size_t o = 0; o < cameras_.size(); ++o) {
+      const auto& other = person_.seen[o][frame];
+      if (o == c || !other) continue;
+      for (const auto& [l, r] : PairsOf(group)) {
+        for (const auto& [p, q, way] : {std::tuple(l, l, 0), {r, r, 0}, {l, r, 1}, {r, l, 1}}) {
+          if (const auto px = DistancePx(c, (*one)[p], o, (*other)[q]))
+            costs[static_cast<std::size_t>(way)] += Loss(*px);
+        }
+      }
+    }
+    return costs;
+  }
+
+  struct Course {
+    std::vector<bool> is_swapped;
+    double gain = 0;  ///< over leaving everything as it is
+  };
+
+  Course CourseOf(std::size_t group, std::size_t c) const {
+    constexpr double kChange = 1.5;
+    std::vector<std::array<bool, 2>> from(frames_);  // whether the best way into a state came from the swapped one
+    std::array<double, 2> total{};
+    double as_it_is = 0;
+    for (std::size_t frame = 0; frame < frames_; ++frame) {
+      const auto costs = CostsOf(group, c, frame);
+      as_it_is += costs[0];
+      std::array<double, 2> next{};
+      for (std::size_t state = 0; state < 2; ++state) {
+        const double stay = total[state], change = total[1 - state] + kChange;
+        from[frame][state] = change < stay ? state == 0 : state == 1;
+        next[state] = std::min(stay, change) + costs[state];
+      }
+      total = next;
+    }
+    Course course{std::vector<bool>(frames_), as_it_is - std::min(total[0], total[1])};
+    bool state = total[1] < total[0];
+    for (std::size_t frame = frames_; frame-- > 0;) {
+      course.is_swapped[frame] = state && person_.seen[c][frame].has_value();
+      state = from[frame][state ? 1 : 0];
+    }
+    return course;
+  }
+
+  void Flip(std::size_t group, std::size_t c, std::size_t frame) {
+    if (!person_.seen[c][frame]) return;
+    SwapGroup(*person_.seen[c][frame], group);
+    flips_[group][c][frame] = !flips_[group][c][frame];
+  }
+
+  void SwapBack(std::size_t group) {
+    constexpr double kLeastGain = 1.5;
+    for (std::size_t round = 0; round < 3 * cameras_.size(); ++round) {
+      Course best;
+      std::size_t camera = 0;
+      for (std::size_t c = 0; c < cameras_.size(); ++c) {
+        Course course = CourseOf(group, c);
+        if (course.gain > best.gain + 1e-9) {
+          best = std::move(course);
+          camera = c;
+        }
+      }
+      if (!(best.gain > kLeastGain)) return;
+      for (std::size_t frame = 0; frame < frames_; ++frame) {
+        if (best.is_swapped[frame]) Flip(group, camera, frame);
+      }
+    }
+  }
+
+  std::optional<glm::dvec3> PlaceOf(std::size_t frame, Landmark landmark) const {
+    std::vector<Sighting> sightings;
+    for (std::size_t c = 0; c < cameras_.size(); ++c) {
+      const auto& seen = person_.seen[c][frame];
+      if (seen && (*seen)[landmark].confidence >= least_confidence_) {
+        sightings.push_back({cameras_[c], (*seen)[landmark].pixel});
+      }
+    }
+    const TriangulatedPoint point = Triangulate(sightings);
+    return point.status == PointStatus::kOk ? std::optional(point.position) : std::nullopt;
+  }
+
+  std::optional<glm::dvec3> MiddleOf(std::size_t frame, Landmark a, Landmark b) const {
+    const auto p = PlaceOf(frame, a), q = PlaceOf(frame, b);
+    return p && q ? std::optional(0.5 * (*p + *q)) : std::nullopt;
+  }
+
+  /// Which way the body looks, of what has no side or takes both: nothing where that is not seen.
+  std::optional<glm::dvec3> ForwardOf(std::size_t frame) const {
+    auto from = MiddleOf(frame, kLeftHeel, kRightHeel), to = MiddleOf(frame, kLeftBigToe, kRightBigToe);
+    if (!from) from = MiddleOf(frame, kLeftAnkle, kRightAnkle);
+    if (!from || !to) {
+      from = MiddleOf(frame, kLeftEar, kRightEar);
+      to = PlaceOf(frame, kNose);
+    }
+    return from && to ? std::optional(*to - *from) : std::nullopt;
+  }
+
+  /// Above 0 where left is on the left; nothing where it is not seen or says little.
+  std::optional<double> Chirality(std::size_t group, std::size_t frame) const {
+    const auto hips = MiddleOf(frame, kLeftHip, kRightHip), shoulders = MiddleOf(frame, kLeftShoulder, kRightShoulder);
+    const auto left = PlaceOf(frame, group == 0 ? kLeftShoulder : kLeftHip);
+    const auto right = PlaceOf(frame, group == 0 ? kRightShoulder : kRightHip);
+    const auto forward = ForwardOf(frame);
+    if (!hips || !shoulders || !left || !right || !forward) return std::nullopt;
+    const glm::dvec3 facing = glm::cross(*left - *right, *shoulders - *hips);
+    const double cosine = glm::dot(facing, *forward) / (glm::length(facing) * glm::length(*forward));
+    constexpr double kSaysLittle = 0.3;
+    return std::abs(cosine) > kSaysLittle ? std::optional(cosine) : std::nullopt;
+  }
+
+  bool HasFlip(std::size_t group, std::size_t frame) const {
+    return std::ranges::any_of(flips_[group], [&](const std::vector<bool>& camera) { return camera[frame]; });
+  }
+
+  /// Where sides were swapped back, whether they lie as a body's do tells which of the cameras was wrong.
+  void Face(std::size_t group) {
+    std::vector<std::optional<double>> sides;
+    for (std::size_t frame = 0; frame < frames_; ++frame) sides.push_back(Chirality(group, frame));
+    const auto is_wrong = [&](std::size_t first, std::size_t last, double share) {
+      std::size_t wrong = 0, told = 0;
+      for (std::size_t frame = first; frame < last; ++frame) {
+        if (!sides[frame]) continue;
+        ++told;
+        if (*sides[frame] < 0) ++wrong;
+      }
+      return told > 0 && static_cast<double>(wrong) >= share * static_cast<double>(told);
+    };
+    const auto flip_all = [&](std::size_t first, std::size_t last) {
+      for (std::size_t frame = first; frame < last; ++frame) {
+        for (std::size_t c = 0; c < cameras_.size(); ++c) Flip(group, c, frame);
+      }
+    };
+    constexpr double kNearlyAll = 0.9, kMost = 0.6;
+    if (frames_ > 0 && is_wrong(0, frames_, kNearlyAll)) return flip_all(0, frames_);
+    for (std::size_t first = 0; first < frames_;) {
+      if (!HasFlip(group, first)) {
+        ++first;
+        continue;
+      }
+      std::size_t last = first;
+      while (last < frames_ && HasFlip(group, last)) ++last;
+      if (is_wrong(first, last, kMost)) flip_all(first, last);
+      first = last;
+    }
+  }
+
+  void TellSwaps() {
+    for (std::size_t c = 0; c < cameras_.size(); ++c) {
+      Mend both{Mend::Kind::kSwappedSides, c, {}}, arms{Mend::Kind::kSwappedArms, c, {}},
+          legs{Mend::Kind::kSwappedLegs, c, {}};
+      for (std::size_t frame = 0; frame < frames_; ++frame) {
+        const bool arm = flips_[0][c][frame], leg = flips_[1][c][frame];
+        if (arm || leg) (arm && leg ? both : arm ? arms : legs).frames.push_back(frame);
+      }
+      for (Mend* mend : {&both, &arms, &legs}) {
+        if (!mend->frames.empty()) mends_.push_back(std::move(*mend));
+      }
+    }
+  }
+
+  std::span<const ProjectionMatrix> cameras_;
+  std::span<const SeenPeople> people_;
+  double least_confidence_;
+  MatchedPerson& person_;
+  std::vector<std::vector<std::optional<EpipolarGeometry>>> geometry_;
+  std::size_t frames_ = 0;
+  double scale_px_ = 1;
+  std::array<std::vector<std::vector<bool>>, kGroups> flips_;  ///< [group][camera][frame]
+  std::vector<Mend> mends_;
+};
+
+}  // namespace
+
+std::vector<Mend> MendPerson(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
+                             double least_confidence, MatchedPerson& person) {
+  return Mender(cameras, people, least_confidence, person).Run();
+}
+
+double OutlierLimit(std::span<const ProjectionMatrix> cameras, const MatchedPerson& person, double least_confidence,
+                    double least_px, double most_px) {
+  std::vector<double> residuals;
+  const std::size_t frames = person.seen.empty() ? 0 : person.seen.front().size();
+  for (std::size_t frame = 0; frame < frames; ++frame) {
+    for (std::size_t i = 0; i < kLandmarkCount; ++i) {
+      std::vector<WeightedSighting> sightings;
+      for (std::size_t c = 0; c < cameras.size(); ++c) {
+        const auto& seen = person.seen[c][frame];
+        if (!seen || seen->keypoints[i].confidence < least_confidence) continue;
+        sightings.push_back({{cameras[c], seen->keypoints[i].pixel}, seen->keypoints[i].confidence});
+      }
+      const auto point = TriangulateRobustly(sightings, {most_px});
+      if (point) residuals.push_back(point->residual_px);
+    }
+  }
+  constexpr double kDeviations = 8, kDeviationOfMedian = 1.4826;
+  if (residuals.empty()) return most_px;
+  return std::clamp(kDeviations * kDeviationOfMedian * UpperMedian(std::move(residuals)), least_px, most_px);
+}
+
+}  // namespace etude
