@@ -79,9 +79,20 @@ TEST(Quote, ShowsWhatAReaderSees) {
   EXPECT_EQ(Quote("\tx\x7f"), "'?x?'");
   EXPECT_EQ(Quote("左ひじ"), "'左ひじ'");
   EXPECT_EQ(Quote("Épaule 😀"), "'Épaule 😀'");
-  EXPECT_EQ(Quote("\x83\x6a\xff\xc3"), "'?j?" "?'") << "no UTF-8";
-  EXPECT_EQ(Quote("a\u202eb\u0085"), "'a?" "?" "?b?" "?'") << "turns the direction of writing; controls";
-  EXPECT_EQ(Quote("\xc0\xaf"), "'?" "?'") << "written longer than need be";
+  EXPECT_EQ(Quote("\x83\x6a\xff\xc3"),
+            "'?j?"
+            "?'")
+      << "no UTF-8";
+  EXPECT_EQ(Quote("a\u202eb\u0085"),
+            "'a?"
+            "?"
+            "?b?"
+            "?'")
+      << "turns the direction of writing; controls";
+  EXPECT_EQ(Quote("\xc0\xaf"),
+            "'?"
+            "?'")
+      << "written longer than need be";
   std::string many;
   for (int i = 0; i < 41; ++i) many += "腕";
   EXPECT_EQ(Quote(many), "'" + many.substr(0, 120) + "…'");
