@@ -277,7 +277,8 @@ Result<std::pair<glm::dvec3, bool>> UpOf(const RigFile& rig, const glm::dvec3& p
   const double off = Degrees(AngleBetween(usual, person));
   const double tilt = Degrees(AngleBetween(usual, plane.up)), accuracy = Degrees(plane.accuracy);
   constexpr double kTold = 3, kTilted = 8, kSure = 3;
-  const bool is_level = tilt < std::max(kSure * accuracy, kTilted);
+  // Caliscope's axes are some board's; where a format has its own, feet on a beam are no reason to tilt the world.
+  const bool is_level = rig.format != "Caliscope" || tilt < std::max(kSure * accuracy, kTilted);
   if (options.up == "auto" && camera.empty() && rig.has_unit && off < kFar && is_level) {
     told = fmt::format("up is {} (the person leans {:.0f}° from it)", usual_name(), off);
     if (tilt > std::max(kSure * accuracy, kTold)) {
