@@ -220,12 +220,6 @@ Result<BoardViews> SearchFor(const CalibrateOptions& options) {
     return BoardViews(boards);
   }
   ASSIGN_OR_RETURN(const PrintedBoard board, *printed);
-  if (!HasPrintedBoards()) {
-    return Fail({},
-                "--board {}: this program was built without OpenCV's detectors; scripts/setup --boards, and build it "
-                "again",
-                options.boards.front());
-  }
   if (options.boards.size() > 1)
     return Fail({}, "--board: one chessboard or ChArUco board; there are {}", options.boards.size());
   if (!board.is_charuco && (board.columns + board.rows) % 2 == 0 && options.inputs.size() > 1) {
@@ -235,7 +229,8 @@ Result<BoardViews> SearchFor(const CalibrateOptions& options) {
         "odd",
         options.boards.front());
   }
-  return BoardViews(board);
+  ASSIGN_OR_RETURN(auto finder, MakePrintedBoardFinder(board));
+  return BoardViews(board, std::move(finder));
 }
 
 /// Residuals of each view: those three times as far off as most are of pictures that were blurred or moved.

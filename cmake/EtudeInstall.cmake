@@ -8,6 +8,9 @@ file(RELATIVE_PATH modules_from_program "/${CMAKE_INSTALL_BINDIR}" "/${ETUDE_MOD
 set_target_properties(etude PROPERTIES INSTALL_RPATH "$ORIGIN/${modules_from_program}")
 install(TARGETS etude RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 install(TARGETS etude_training_pagmo LIBRARY DESTINATION "${ETUDE_MODULES}")
+if(TARGET etude_boards_opencv)  # optional, and not in packages, which would need all of OpenCV
+  install(TARGETS etude_boards_opencv LIBRARY DESTINATION "${ETUDE_MODULES}" COMPONENT boards)
+endif()
 
 install(DIRECTORY scenarios examples DESTINATION share/etude PATTERN __pycache__ EXCLUDE PATTERN node_modules EXCLUDE)
 install(PROGRAMS ci/gate DESTINATION share/etude/ci)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,8 +24,8 @@ class BoardViews {
  public:
   explicit BoardViews(std::vector<Board> boards) : boards_(std::move(boards)) {}
   /// Looks for one board of OpenCV's instead.
-  explicit BoardViews(const PrintedBoard& board)
-      : boards_{{.columns = board.columns, .rows = board.rows, .square = board.square}}, printed_(board) {}
+  BoardViews(const PrintedBoard& board, std::unique_ptr<PrintedBoardFinder> finder)
+      : boards_{{.columns = board.columns, .rows = board.rows, .square = board.square}}, printed_(std::move(finder)) {}
 
   /// Adds a picture of the camera of that number, counted from 0. Fails when its size is not that of the camera's
   /// pictures before it.
@@ -40,7 +41,7 @@ class BoardViews {
 
  private:
   const std::vector<Board> boards_;
-  std::optional<PrintedBoardFinder> printed_;
+  std::unique_ptr<PrintedBoardFinder> printed_;
   std::map<std::pair<std::string, std::size_t>, std::size_t> targets_;  ///< of moment and board
   std::vector<TargetView> views_;
   std::vector<PictureSize> sizes_;

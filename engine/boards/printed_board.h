@@ -23,9 +23,6 @@ struct PrintedBoard {
 /// Reads "chess:9x6x0.025" or "charuco:4x5x0.054"; nothing of texts that begin otherwise. Fails for wrong numbers.
 std::optional<Result<PrintedBoard>> ReadPrintedBoard(std::string_view text);
 
-/// True when this program was built with OpenCV's detectors (libopencv-contrib-dev; `scripts/setup --boards`).
-bool HasPrintedBoards();
-
 /// Finds the corners of one such board in pictures, by OpenCV's `findChessboardCornersSB` and `aruco::detectMarkers`.
 /// Of a ChArUco board the dictionary, whether it is printed inverted, where its first marker is (both layouts of even
 /// rows) and how large markers are is found in the pictures themselves. A corner counts where both markers beside it
@@ -33,19 +30,19 @@ bool HasPrintedBoards();
 /// columns + rows odd, else 180° are left open.
 class PrintedBoardFinder {
  public:
-  explicit PrintedBoardFinder(const PrintedBoard& board);
-  ~PrintedBoardFinder();
-  PrintedBoardFinder(PrintedBoardFinder&&) noexcept;
+  virtual ~PrintedBoardFinder() = default;
 
-  /// Returns the corners by rows, pixels of ours; none where there is no board, or without OpenCV.
-  std::vector<SeenCorner> Find(const ColourImage& picture);
+  /// Returns the corners by rows, pixels of ours; none where there is no board.
+  virtual std::vector<SeenCorner> Find(const ColourImage& picture) = 0;
 
-  /// Says what was found out about the board: "DICT_4X4_1000, inverted, markers 0.75 of a square".
-  std::string Told() const;
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
+  /// Says what was found out about the board: "DICT_4X4, inverted, markers about 0.75 of a square".
+  virtual std::string Told() const = 0;
 };
+
+/// What the module engine/boards/opencv offers: nobody who looks for no such board waits for OpenCV to be loaded.
+using MakesPrintedBoardFinder = std::unique_ptr<PrintedBoardFinder>(const PrintedBoard& board);
+
+/// Fails where the module was not built (libopencv-contrib-dev; `scripts/setup --boards`).
+Result<std::unique_ptr<PrintedBoardFinder>> MakePrintedBoardFinder(const PrintedBoard& board);
 
 }  // namespace etude

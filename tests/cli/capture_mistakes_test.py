@@ -5,6 +5,7 @@ format, and one mistake at a time. `--table` prints the errors instead of testin
 """
 import json
 import math
+import os
 import shutil
 import subprocess
 import sys
@@ -318,6 +319,7 @@ MISTAKES = {"none": None, "sides swapped in 20 frames": "cam2: left and right ex
             "two people, identities cross": None}
 
 
+HEAVY = "ETUDE_HEAVY" in os.environ  # all of them; else some of each kind
 FEWEST = ("none", "sides swapped in 20 frames", "late by 0.4 frames", "mirrored", "turned by 180")
 
 
@@ -362,25 +364,25 @@ class Mistakes(EtudeCase):
             self.assertIn(words, told)
 
     def test_every_rig_gives_the_person_back(self):
-        for rig in RIGS:
+        for rig in RIGS if HEAVY else RIGS[2:9:2]:
             with self.subTest(rig):
                 told, errors, height = self.capture(rig, lens=Lens(LENS[:4]))
                 self.check(told, errors)
                 self.assertLess(abs(height), 15, told)
 
     def test_every_lens(self):
-        for lens in [Lens(LENS[:n]) for n in (0, 14)] + [Lens([-0.02, 0.004, -0.001, 0.0003], True)]:
+        for lens in [Lens(LENS[:n]) for n in ((0, 14) if HEAVY else (14,))] + [Lens([-0.02, 0.004, -0.001, 0.0003], True)]:
             with self.subTest(lens.coefficients):
                 self.check(*self.capture(lens=lens)[:2])
 
     def test_every_kind_of_keypoints(self):
-        for kind in KEYPOINTS[1:]:
+        for kind in KEYPOINTS[1:] if HEAVY else KEYPOINTS[1::2]:
             with self.subTest(kind):
                 self.check(*self.capture(keypoints=kind)[:2])
 
     def test_every_mistake_is_told_and_mended(self):
         for mistake, words in MISTAKES.items():
-            for cameras in (2,) if mistake in FEWEST else (4,):  # --table has both of all
+            for cameras in (2,) if mistake in FEWEST else (4,) if HEAVY else ():  # --table has both of all
                 with self.subTest(mistake, cameras=cameras):
                     told, errors, _ = self.capture(mistake=mistake, cameras=cameras)
                     self.check(told, errors, words=words)

@@ -44,7 +44,7 @@ DOORS = {
     "glog/": ["engine/bundle_adjustment", "engine/kinematics/solvers"],
     "kdl/": ["bench/micro"],
     "Simbody.h": ["bench/micro"],
-    "opencv2/": ["bench/micro", "engine/boards/printed_board.cc"],
+    "opencv2/": ["bench/micro", "engine/boards/opencv"],
 }
 # What a header may include from outside: small, or only names.
 LIGHT_HEADERS = ("etude/", "glm/", "fmt/", "tl/", "nlohmann/json_fwd.hpp")

@@ -12,7 +12,7 @@ namespace etude {
 namespace {
 
 constexpr double kStature = 1.80;
-constexpr int kFrames = 16;
+constexpr int kUnmarkedFrames = 16;
 
 /// Steps sideways while an arm and a leg swing.
 TreeState Moving(const SilhouetteBody& body, int frame) {
@@ -45,7 +45,7 @@ struct FilmOfWalker {
   std::vector<BodyPose> truth;
 
   explicit FilmOfWalker(bool moves) {
-    for (int k = 0; k < kFrames; ++k) truth.push_back(ToBodyPose(body, Moving(body, moves ? k : 0)));
+    for (int k = 0; k < kUnmarkedFrames; ++k) truth.push_back(ToBodyPose(body, Moving(body, moves ? k : 0)));
     for (std::size_t c = 0; c < cameras.size(); ++c) {
       ColourImage room(cameras[c].intrinsics.width, cameras[c].intrinsics.height);
       for (int y = 0; y < room.height; ++y) {
@@ -54,7 +54,7 @@ struct FilmOfWalker {
       rooms.push_back(room);
       pictures.emplace_back();
       Mask mask = RayCast(body, Moving(body, 0), cameras[c]);
-      for (int k = 0; k < kFrames; ++k) {
+      for (int k = 0; k < kUnmarkedFrames; ++k) {
         if (moves && k > 0) mask = RayCast(body, Moving(body, k), cameras[c]);
         ColourImage& picture = pictures.back().emplace_back(room);
         for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
@@ -87,9 +87,9 @@ TEST(RecoverUnmarked, FindsThePersonTheStatureAndTheRoomInFilmsAlone) {
     }
   }
   EXPECT_LT(unlike, all / 200) << "pixels of the rooms that are not the room's";
-  EXPECT_EQ(found->silhouettes[2].size(), static_cast<std::size_t>(kFrames));
+  EXPECT_EQ(found->silhouettes[2].size(), static_cast<std::size_t>(kUnmarkedFrames));
   // The clip is the same motion.
-  EXPECT_EQ(found->clip.frames.size(), static_cast<std::size_t>(kFrames));
+  EXPECT_EQ(found->clip.frames.size(), static_cast<std::size_t>(kUnmarkedFrames));
 }
 
 TEST(RecoverUnmarked, IsToldRoomsAndStature) {

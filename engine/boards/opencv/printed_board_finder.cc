@@ -1,0 +1,257 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <opencv2/aruco.hpp>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+
+#include "engine/boards/printed_board.h"
+
+namespace etude {
+namespace {
+
+/// OpenCV's smaller dictionaries are the beginnings of these.
+constexpr std::array<std::pair<cv::aruco::PREDEFINED_DICTIONARY_NAME, const char*>, 9> kDictionaries = {
+    {{cv::aruco::DICT_4X4_1000, "DICT_4X4"},
+     {cv::aruco::DICT_5X5_1000, "DICT_5X5"},
+     {cv::aruco::DICT_6X6_1000, "DICT_6X6"},
+     {cv::aruco::DICT_7X7_1000, "DICT_7X7"},
+     {cv::aruco::DICT_ARUCO_ORIGINAL, "DICT_ARUCO_ORIGINAL"},
+     {cv::aruco::DICT_APRILTAG_16h5, "DICT_APRILTAG_16h5"},
+     {cv::aruco::DICT_APRILTAG_25h9, "DICT_APRILTAG_25h9"},
+     {cv::aruco::DICT_APRILTAG_36h10, "DICT_APRILTAG_36h10"},
+     {cv::aruco::DICT_APRILTAG_36h11, "DICT_APRILTAG_36h11"}}};
+
+using Quad = std::vector<cv::Point2f>;
+
+cv::Mat GrayOf(const ColourImage& picture) {
+  cv::Mat colour(picture.height, picture.width, CV_8UC3, const_cast<Rgb8*>(picture.pixels.data()));
+  cv::Mat gray;
+  cv::cvtColor(colour, gray, cv::COLOR_RGB2GRAY);
+  return gray;
+}
+
+cv::Point2f Mapped(const cv::Mat& H, double x, double y) {
+  const double w = H.at<double>(2, 0) * x + H.at<double>(2, 1) * y + H.at<double>(2, 2);
+  return {static_cast<float>((H.at<double>(0, 0) * x + H.at<double>(0, 1) * y + H.at<double>(0, 2)) / w),
+          static_cast<float>((H.at<double>(1, 0) * x + H.at<double>(1, 1) * y + H.at<double>(1, 2)) / w)};
+}
+
+/// From a marker's square, whose corners are at (±1, ±1), to the picture.
+cv::Mat HomographyOfQuad(const Quad& quad) {
+  const Quad unit = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  return cv::getPerspectiveTransform(unit, quad);
+}
+
+double Distance(const cv::Point2f& a, const cv::Point2f& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
+class OpenCvFinder : public PrintedBoardFinder {
+ public:
+  explicit OpenCvFinder(const PrintedBoard& wanted) : board(wanted) {
+    cv::setNumThreads(1);
+    parameters->detectInvertedMarker = true;
+  }
+  std::vector<SeenCorner> Find(const ColourImage& picture) override;
+  std::string Told() const override;
+
+ private:
+  const PrintedBoard board;
+  cv::Ptr<cv::aruco::DetectorParameters> parameters = cv::aruco::DetectorParameters::create();
+  std::array<std::size_t, kDictionaries.size()> votes{};
+  std::optional<std::size_t> dictionary;
+  std::array<std::size_t, 2> layouts{};  ///< pictures that speak for a first marker in the second and the first square
+  std::map<int, std::size_t> shares;     ///< of a marker's side in a square's, in hundredths
+  std::array<std::size_t, 2> inversion{};  ///< markers that are printed black on white, and inverted
+
+  std::map<int, Quad> Detect(const cv::Mat& gray, std::size_t which) const {
+    std::vector<int> ids;
+    std::vector<Quad> quads;
+    cv::aruco::detectMarkers(gray, cv::aruco::getPredefinedDictionary(kDictionaries[which].first), quads, ids,
+                             parameters);
+    std::map<int, Quad> markers;
+    const int count = board.columns * board.rows / 2 + 1;
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      if (ids[i] < count) markers[ids[i]] = quads[i];
+    }
+    return markers;
+  }
+
+  std::map<int, Quad> Markers(const cv::Mat& gray) {
+    if (dictionary) return Detect(gray, *dictionary);
+    std::map<int, Quad> best;
+    for (std::size_t i = 0; i < kDictionaries.size(); ++i) {
+      std::map<int, Quad> markers = Detect(gray, i);
+      votes[i] += markers.size();
+      if (markers.size() > best.size()) best = std::move(markers);
+    }
+    const auto most = std::ranges::max_element(votes);
+    std::size_t others = 0;
+    for (const std::size_t vote : votes) others = std::max(others, vote == *most ? 0 : vote);
+    constexpr std::size_t kEnough = 20;
+    if (*most >= kEnough && *most > 3 * others) dictionary = static_cast<std::size_t>(most - votes.begin());
+    return best;
+  }
+
+  /// The square of a marker; of layout 1 the first square holds one.
+  std::array<int, 2> SquareOf(int id, int layout) const {
+    for (int row = 0; row < board.rows; ++row) {
+      for (int column = 0; column < board.columns; ++column) {
+        if ((column + row) % 2 != (layout == 0 ? 1 : 0)) continue;
+        if (id-- == 0) return {column, row};
+      }
+    }
+    return {-1, -1};
+  }
+
+  struct Predicted {
+    std::array<int, 2> corner;
+    cv::Point2f place;
+    double apart = 0;  ///< how far both markers' words for it are apart, in markers
+    double square_px = 0;
+  };
+
+  /// What both markers beside each corner say of it, if markers have that share of a square.
+  std::vector<Predicted> Predict(const std::map<int, Quad>& markers, int layout, double share) const {
+    std::map<std::array<int, 2>, std::vector<std::pair<cv::Point2f, double>>> said;
+    for (const auto& [id, quad] : markers) {
+      const auto [column, row] = SquareOf(id, layout);
+      if (column < 0) continue;
+      const cv::Mat H = HomographyOfQuad(quad);
+      for (const auto& [dx, dy] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
+        const std::array<int, 2> corner = {column + (dx > 0 ? 0 : -1), row + (dy > 0 ? 0 : -1)};
+        if (corner[0] < 0 || corner[1] < 0 || corner[0] >= board.columns - 1 || corner[1] >= board.rows - 1) continue;
+        said[corner].emplace_back(Mapped(H, dx / share, dy / share), Distance(quad[0], quad[2]) / std::sqrt(2.0));
+      }
+    }
+    std::vector<Predicted> predicted;
+    for (const auto& [corner, words] : said) {
+      if (words.size() != 2) continue;
+      const double marker = 0.5 * (words[0].second + words[1].second);
+      predicted.push_back({corner, 0.5f * (words[0].first + words[1].first),
+                           Distance(words[0].first, words[1].first) / marker, marker / share});
+    }
+    return predicted;
+  }
+
+  std::vector<SeenCorner> FindCharuco(const cv::Mat& gray) {
+    const std::map<int, Quad> markers = Markers(gray);
+    constexpr std::size_t kFewest = 3;
+    if (markers.size() < kFewest) return {};
+    // The layout and share with which markers agree best about the corners between them.
+    double least = 1e9;
+    int layout = 0, share = 75;
+    std::vector<Predicted> best;
+    for (int way = 0; way < 2; ++way) {
+      for (int hundredths = 40; hundredths <= 95; ++hundredths) {
+        std::vector<Predicted> predicted = Predict(markers, way, hundredths / 100.0);
+        if (predicted.size() < 2 || predicted.size() < best.size()) continue;
+        double sum = 0;
+        for (const Predicted& one : predicted) sum += one.apart / static_cast<double>(predicted.size());
+        if (predicted.size() == best.size() && sum >= least) continue;
+        least = sum;
+        layout = way;
+        share = hundredths;
+        best = std::move(predicted);
+      }
+    }
+    constexpr double kMostApart = 0.2;
+    if (best.empty() || least > kMostApart) return {};
+    ++layouts[static_cast<std::size_t>(layout)];
+    ++shares[share];
+    for (const auto& [id, quad] : markers) CountInversion(gray, quad);
+    std::vector<SeenCorner> corners;
+    for (const Predicted& one : best) {
+      Quad refined = {one.place};
+      const int half = std::clamp(static_cast<int>(0.12 * one.square_px), 2, 12);
+      const cv::Rect inside(half + 2, half + 2, gray.cols - 2 * half - 4, gray.rows - 2 * half - 4);
+      if (one.apart > kMostApart || !inside.contains(one.place)) continue;
+      cv::cornerSubPix(gray, refined, {half, half}, {-1, -1},
+                       {cv::TermCriteria::EPS + cv::TermCriteria::COUNT, 40, 0.01});
+      if (Distance(refined[0], one.place) > half) continue;
+      corners.push_back({0, {one.corner[0], one.corner[1]}, {refined[0].x + 0.5, refined[0].y + 0.5}});
+    }
+    std::ranges::sort(corners, {}, [](const SeenCorner& c) { return std::pair(c.corner.row, c.corner.column); });
+    return corners;
+  }
+
+  /// A marker has a rim of one module, black but where it is inverted.
+  void CountInversion(const cv::Mat& gray, const Quad& quad) {
+    const cv::Mat H = HomographyOfQuad(quad);
+    double rim = 0, outside = 0;
+    for (int i = 0; i < 8; ++i) {
+      const double along = -0.8 + 0.2 * i;
+      for (const auto& [sum, at] : {std::pair(&rim, 0.93), {&outside, 1.12}}) {
+        const cv::Point2f p = Mapped(H, along, -at);
+        const cv::Point whole(cvRound(p.x), cvRound(p.y));
+        if (whole.x >= 0 && whole.y >= 0 && whole.x < gray.cols && whole.y < gray.rows)
+          *sum += gray.at<std::uint8_t>(whole);
+      }
+    }
+    ++inversion[rim > outside ? 1 : 0];
+  }
+
+  std::vector<SeenCorner> FindChess(const cv::Mat& gray) const {
+    const cv::Size inner(board.columns - 1, board.rows - 1);
+    Quad found;
+    if (!cv::findChessboardCornersSB(gray, inner, found, cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_ACCURACY))
+      return {};
+    const auto at = [&](int column, int row) { return found[static_cast<std::size_t>(row * inner.width + column)]; };
+    const auto value = [&](const cv::Point2f& p) {
+      const cv::Point whole(std::clamp(cvRound(p.x), 0, gray.cols - 1), std::clamp(cvRound(p.y), 0, gray.rows - 1));
+      return static_cast<int>(gray.at<std::uint8_t>(whole));
+    };
+    // Squares (1, 1) and (2, 1) are between corners; (1, 1) has the first square's colour.
+    const cv::Point2f same = 0.25f * (at(0, 0) + at(1, 0) + at(0, 1) + at(1, 1));
+    const cv::Point2f other = inner.width > 2 ? 0.25f * (at(1, 0) + at(2, 0) + at(1, 1) + at(2, 1))
+                                              : 0.25f * (at(0, 1) + at(1, 1) + at(0, 2) + at(1, 2));
+    if ((board.columns + board.rows) % 2 != 0 && value(same) > value(other)) std::ranges::reverse(found);
+    std::vector<SeenCorner> corners;
+    for (int row = 0; row < inner.height; ++row) {
+      for (int column = 0; column < inner.width; ++column) {
+        const cv::Point2f p = at(column, row);
+        corners.push_back({0, {column, row}, {p.x + 0.5, p.y + 0.5}});
+      }
+    }
+    return corners;
+  }
+};
+
+std::vector<SeenCorner> OpenCvFinder::Find(const ColourImage& picture) {
+  const cv::Mat gray = GrayOf(picture);
+  try {
+    return board.is_charuco ? FindCharuco(gray) : FindChess(gray);
+  } catch (const cv::Exception&) {
+    return {};  // a picture that OpenCV cannot use shows no board
+  }
+}
+
+std::string OpenCvFinder::Told() const {
+  if (!board.is_charuco) return "a chessboard";
+  const auto most = std::ranges::max_element(votes);
+  if (*most == 0) return "no marker of any dictionary";
+  int share = 0;
+  std::size_t times = 0;
+  for (const auto& [hundredths, count] : shares) {
+    if (count > times) share = hundredths;
+    times = std::max(times, count);
+  }
+  return fmt::format("{}{}{}, markers about 0.{:02} of a square",
+                     kDictionaries[static_cast<std::size_t>(most - votes.begin())].second,
+                     inversion[1] > inversion[0] ? ", inverted" : "",
+                     board.rows % 2 == 0 && layouts[1] > layouts[0] ? ", a marker in the first square" : "", share);
+}
+
+std::unique_ptr<PrintedBoardFinder> MakeOpenCvFinder(const PrintedBoard& board) {
+  return std::make_unique<OpenCvFinder>(board);
+}
+
+}  // namespace
+}  // namespace etude
+
+extern "C" __attribute__((visibility("default"))) etude::MakesPrintedBoardFinder* const etude_boards_opencv =
+    &etude::MakeOpenCvFinder;
