@@ -279,7 +279,7 @@ class Metrics(EtudeCase):
 
     def test_the_page_is_the_programs(self):
         page = self.etude("list", "metrics", "--markdown").stdout
-        self.assertEqual((ROOT / "docs" / "metrics.md").read_text(), page,
+        self.assertEqual((ROOT / "docs" / "reference" / "metrics.md").read_text(), page,
                          "write it anew: scripts/docs")
 
     def test_the_table_names_every_metric(self):
