@@ -1,4 +1,5 @@
 #include <etude/cameras.h>
+#include <fmt/format.h>
 
 #include "engine/api/convert.h"
 #include "engine/cameras/camera.h"
@@ -13,6 +14,10 @@ namespace {
 Camera FromEngineCamera(std::string name, const etude::Camera& camera) {
   const Intrinsics& in = camera.intrinsics;
   const Distortion& lens = camera.distortion;
+  if (lens != Distortion{lens.k1, lens.k2, lens.p1, lens.p2, lens.k3}) {
+    throw BadInput(
+        fmt::format("camera '{}': a lens of another model; allowed: Brown and Conrady's (k1, k2, p1, p2, k3)", name));
+  }
   return {.name = std::move(name),
           .width = in.width,
           .height = in.height,

@@ -282,8 +282,9 @@ Result<std::pair<glm::dvec3, bool>> UpOf(const RigFile& rig, const glm::dvec3& p
   if (options.up == "auto" && camera.empty() && rig.has_unit && off < kFar && is_level) {
     told = fmt::format("up is {} (the person leans {:.0f}° from it)", usual_name(), off);
     if (tilt > std::max(kSure * accuracy, kTold)) {
-      told +=
-          fmt::format(", though the floor under the feet is {:.0f}° off level: --rig-up floor would right it", tilt);
+      told += fmt::format(
+          ", though the floor under the feet is {:.0f}° off level; if they stood on a level floor, give --rig-up floor",
+          tilt);
     }
     return std::pair(usual, false);
   }

@@ -36,7 +36,7 @@ void RemarkOnPenetration(const BodyMotion& motion, std::vector<std::string>& rem
 }
 
 void RemarkOnFloating(const BodyMotion& motion, std::vector<std::string>& remarks) {
-  constexpr double kHigh = 0.15, kLongestJump_s = 1;
+  constexpr double kHigh = 0.25, kLongestJump_s = 1;
   std::size_t longest = 0, last = 0, run = 0;
   for (std::size_t f = 0; f < motion.poses.size(); ++f) {
     run = motion.poses[f][LowestJoint(motion.poses[f])].y > kHigh ? run + 1 : 0;
@@ -48,7 +48,7 @@ void RemarkOnFloating(const BodyMotion& motion, std::vector<std::string>& remark
   if (seconds <= kLongestJump_s) return;
   const double from = static_cast<double>(last + 1 - longest) / motion.rate_hz;
   remarks.push_back(
-      fmt::format("floats: no joint is within 15 cm of the floor for {:.1f} s from {:.2f} s on; are there "
+      fmt::format("floats: no joint is within 25 cm of the floor for {:.1f} s from {:.2f} s on; are there "
                   "steps, or is the floor elsewhere?",
                   seconds, from));
 }

@@ -318,6 +318,18 @@ Result<void> OpenOwnCameras(const TaskInput& input, StudioOptions& options) {
       return Fail(named->place, "camera '{}' of '{}' takes pictures of {} × {} pixels; allowed: 1 to {} a side",
                   camera.name, named->scalar, in.width, in.height, kLargestPicture);
     }
+    const Distortion& lens = camera.camera.distortion;
+    if (lens != Distortion{lens.k1, lens.k2, lens.p1, lens.p2, lens.k3}) {
+      return Fail(named->place,
+                  "camera '{}' of '{}' has a lens of another model; allowed in scenarios: Brown and Conrady's (k1, k2, "
+                  "p1, p2, k3)",
+                  camera.name, named->scalar);
+    }
+    constexpr double kFarthest = 100;
+    if (const double far = glm::length(camera.camera.p_WC); far > kFarthest) {
+      return Fail(named->place, "camera '{}' of '{}' is {:.0f} m away; allowed: {:g}. Is the file in metres?",
+                  camera.name, named->scalar, far, kFarthest);
+    }
     own.push_back(camera.camera);
   }
   return {};

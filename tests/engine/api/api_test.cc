@@ -95,7 +95,10 @@ TEST(ApiKinematics, RefusesWhatDoesNotFit) {
   EXPECT_THAT(Refusal([&] { Kinematics{circle}; }), Not(testing::IsEmpty()));
   const Kinematics body(AdultBody());
   EXPECT_THAT(Refusal([&] { body.Limbs({}); }), HasSubstr("0 angles; allowed: 29"));
-  EXPECT_THAT(Refusal([&] { body.Solve(TreePose{{}, std::vector<double>(29)}, std::span<const Target>()); }), Not(testing::IsEmpty()));
+  EXPECT_THAT(Refusal([&] {
+                body.Solve(TreePose{{}, std::vector<double>(29)}, std::span<const Target>());
+              }),
+              Not(testing::IsEmpty()));
   IkBatch batch = SomeProblems(body, 2);
   batch.starts.pop_back();
   EXPECT_THAT(Refusal([&] { body.Solve(batch); }), HasSubstr("57 start angles; allowed: 58"));

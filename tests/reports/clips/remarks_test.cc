@@ -37,7 +37,7 @@ TEST(Remarks, AreMadeOnWhatNobodyDoes) {
   EXPECT_THAT(RemarksOnLifted(-0.12, 1, 1.2),
               ElementsAre("left_foot is 12 cm below the floor at 1.00 s; 10 % of the frames are over 5 cm deep"));
   EXPECT_THAT(RemarksOnLifted(0.3, 0.5, 1.7),
-              ElementsAre(HasSubstr("no joint is within 15 cm of the floor for 1.2 s")));
+              ElementsAre(HasSubstr("no joint is within 25 cm of the floor for 1.2 s")));
 }
 
 }  // namespace

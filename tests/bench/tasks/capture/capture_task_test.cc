@@ -286,6 +286,11 @@ TEST(CaptureTask, FilmsWithOnesOwnCameras) {
   std::vector<NamedCamera> huge = mine;
   huge[1].camera.intrinsics.width = 5000;
   EXPECT_THAT(refusal(huge), HasSubstr("camera 'c1' of 'mine.toml' takes pictures of 5000 × 300"));
+  std::vector<NamedCamera> rational = mine, in_millimetres = mine;
+  rational[1].camera.distortion.k4 = 0.1;
+  EXPECT_THAT(refusal(rational), HasSubstr("camera 'c1' of 'mine.toml' has a lens of another model"));
+  in_millimetres[2].camera.p_WC *= 1000;
+  EXPECT_THAT(refusal(in_millimetres), HasSubstr("Is the file in metres?"));
   const auto nameless = Make("rig: file\nmethods:\n- {name: a}\n");
   ASSERT_FALSE(nameless);
   EXPECT_THAT(ToString(nameless.error()), HasSubstr("needs 'rig_file'"));
