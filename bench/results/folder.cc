@@ -85,7 +85,7 @@ Result<void> LoadTimes(const fs::path& folder, RunData& run) {
 Result<void> LoadManifest(const fs::path& folder, RunData& run) {
   ASSIGN_OR_RETURN(const auto manifest, ReadJsonFile(folder / "manifest.json"));
   ASSIGN_OR_RETURN(const auto host, ReadJsonFile(folder / "host.json"));
-  const Place place{(folder / "manifest.json").string(), 0, 0};
+  Place place{(folder / "manifest.json").string(), 0, 0};
   try {
     const int schema = manifest.at("schema").get<int>();
     if (schema != kResultSchema) return Fail(place, "schema {}; this program reads {}", schema, kResultSchema);
@@ -95,13 +95,14 @@ Result<void> LoadManifest(const fs::path& folder, RunData& run) {
                      seed.is_string() ? ParseSeed(seed.get<std::string>()) : Result<Seed>(seed.get<std::uint64_t>()));
     run.seed = keyed.Public();
     run.key_digest = keyed.Digest();
+    run.program_version = manifest.at("etude").get<std::string>();
+    place.file = (folder / "host.json").string();
     run.fence = host.value("fence", "");
     for (const Json& shard : host.value("shards", Json::array())) {
       if (const std::string fence = shard.value("fence", ""); run.fence.empty() || fence.starts_with("none")) {
         run.fence = fence;
       }
     }
-    run.program_version = manifest.at("etude").get<std::string>();
     run.command_line = host.at("command_line").get<std::string>();
     run.host = host.at("host").get<std::string>();
     std::error_code none;
@@ -110,7 +111,7 @@ Result<void> LoadManifest(const fs::path& folder, RunData& run) {
     }
     run.wall_seconds = host.at("wall_seconds").get<double>();
   } catch (const Json::exception& error) {
-    return Fail(place, "not a manifest: {}", error.what());
+    return Fail(place, "is not as a run writes it: {}", error.what());
   }
   return {};
 }

@@ -165,7 +165,7 @@ class Machine(EtudeCase):
 
     def test_a_damaged_file_is_refused_or_read_aright(self):
         made = damage.Damage(ETUDE, self.folder)
-        rounds = [made.round(number) for number in range(12)]
+        rounds = [made.round(number) for number in (*range(11), 753)]  # that one: a key of host.json
         self.assertEqual([entry for entry in rounds if entry["wrong"]], [])
         self.assertIn(2, {entry["exit"] for entry in rounds})
 
