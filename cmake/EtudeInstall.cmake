@@ -7,7 +7,7 @@ set(ETUDE_MODULES "${CMAKE_INSTALL_LIBDIR}/etude")
 file(RELATIVE_PATH modules_from_program "/${CMAKE_INSTALL_BINDIR}" "/${ETUDE_MODULES}")
 set_target_properties(etude PROPERTIES INSTALL_RPATH "$ORIGIN/${modules_from_program}")
 install(TARGETS etude RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
-install(TARGETS etude_training_pagmo LIBRARY DESTINATION "${ETUDE_MODULES}")
+install(TARGETS etude_training_pagmo etude_clips_assimp LIBRARY DESTINATION "${ETUDE_MODULES}")
 if(TARGET etude_boards_opencv)  # optional, and not in packages, which would need all of OpenCV
   install(TARGETS etude_boards_opencv LIBRARY DESTINATION "${ETUDE_MODULES}" COMPONENT boards)
 endif()

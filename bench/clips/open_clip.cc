@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 
+#include "bench/clips/fbx.h"
 #include "bench/clips/references.h"
 #include "bench/files/files.h"
 #include "bench/model/recording.h"
@@ -72,10 +73,8 @@ Result<ColourImage> DecodeTexture(std::string_view bytes, std::size_t most_pixel
   return bytes.starts_with("\x89PNG") ? DecodeColourPng(bytes, most_pixels) : ReadJpeg(bytes, most_pixels);
 }
 
-/// Describes a file of another format by its first bytes: some are often met, and easily made into one of ours.
-std::string WhatElse(std::string_view bytes, const std::string& first_word) {
-  const bool is_fbx = bytes.starts_with("Kaydara FBX Binary") || bytes.starts_with("; FBX");
-  if (is_fbx) return "an FBX file, which Blender turns into glTF";
+/// Describes a file of another format by its first word.
+std::string WhatElse(const std::string& first_word) {
   if (first_word.empty()) return "an empty file";
   if (first_word == ":") return "an Acclaim skeleton, whose motions are the .amc files beside it";
   return "a file that begins with " + Quote(first_word);
@@ -290,8 +289,8 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
 }  // namespace
 
 std::string_view FormatName(ClipFormat format) {
-  constexpr std::array kNames = {"BVH", "glTF", "GLB", "DeepMimic", "Acclaim", "AMASS",     "C3D",
-                                 "TRC", "CSV",  "NPZ", "NPY",       "Motive",  "recording", "built-in"};
+  constexpr std::array kNames = {"BVH", "glTF", "GLB", "FBX", "DeepMimic", "Acclaim",   "AMASS",   "C3D",
+                                 "TRC", "CSV",  "NPZ", "NPY", "Motive",    "recording", "built-in"};
   return kNames[static_cast<std::size_t>(format)];
 }
 
@@ -328,12 +327,17 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     ASSIGN_OR_RETURN(auto clip, ReadDeepMimicMotion(bytes, path));
     return FileOfOne(ClipFormat::kDeepMimic, std::move(clip));
   }
-  if (bytes.starts_with("glTF") || first.text == "{") {
-    file.format = first.text == "{" ? ClipFormat::kGltf : ClipFormat::kGlb;
-    ASSIGN_OR_RETURN(
-        auto content,
-        ReadGltf(
-            bytes, path, [&](const std::string& uri) { return ReadBeside(path, uri, reader); }, DecodeTexture));
+  const bool is_fbx = IsFbx(bytes);
+  if (is_fbx || bytes.starts_with("glTF") || first.text == "{") {
+    file.format = is_fbx ? ClipFormat::kFbx : first.text == "{" ? ClipFormat::kGltf : ClipFormat::kGlb;
+    std::string glb;
+    if (is_fbx) {
+      ASSIGN_OR_RETURN(glb, GlbOfFbx(bytes, path));
+    }
+    ASSIGN_OR_RETURN(auto content,
+                     ReadGltf(
+                         is_fbx ? glb : bytes, path,
+                         [&](const std::string& uri) { return ReadBeside(path, uri, reader); }, DecodeTexture));
     file.figure = std::move(content.character);
     file.clips = std::move(content.clips);
     file.roles = RolesOfBones(content.bones, file.figure.skeleton);
@@ -345,11 +349,12 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
   }
   constexpr std::string_view kBvhStart = "HIERARCHY";
   if (!std::ranges::equal(first.text, kBvhStart, {}, [](char c) { return c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c; })) {
-    return Fail(scanner.At(first),
-                "{}; allowed: BVH (it begins with HIERARCHY), glTF 2.0 (.glb, .gltf), Acclaim's .amc, AMASS's .npz, "
-                "C3D, TRC, joint "
-                "CSV, Motive's CSV, .npy of joints, DeepMimic's motions",
-                WhatElse(bytes, std::string(first.text)));
+    return Fail(
+        scanner.At(first),
+        "{}; allowed: BVH (it begins with HIERARCHY), glTF 2.0 (.glb, .gltf), FBX, Acclaim's .amc, AMASS's .npz, "
+        "C3D, TRC, joint "
+        "CSV, Motive's CSV, .npy of joints, DeepMimic's motions",
+        WhatElse(std::string(first.text)));
   }
   ASSIGN_OR_RETURN(auto clip, ReadBvh(bytes, path, &file.remarks));
   ClipFile read = FileOfOne(ClipFormat::kBvh, std::move(clip));
@@ -362,8 +367,9 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   const SplitReference wanted = InRun(Split(reference));
   ASSIGN_OR_RETURN(auto file, ReadClipFile(FileOf(wanted.path), wanted.animation));
   const std::string stem = fs::path(FileOf(wanted.path)).stem().string();
-  const bool is_gltf = file.format == ClipFormat::kGltf || file.format == ClipFormat::kGlb;
-  const bool is_one = !is_gltf && file.format != ClipFormat::kRecording && file.clips.size() == 1;
+  const bool has_animations =
+      file.format == ClipFormat::kGltf || file.format == ClipFormat::kGlb || file.format == ClipFormat::kFbx;
+  const bool is_one = !has_animations && file.format != ClipFormat::kRecording && file.clips.size() == 1;
   if (is_one) {
     if (wanted.animation && file.format != ClipFormat::kNpy) {
       return Fail({wanted.path, 0, 0}, "a {} file has one motion; '#{}' chooses one of a glTF file",

@@ -20,6 +20,7 @@ enum class ClipFormat {
   kBvh,
   kGltf,
   kGlb,
+  kFbx,
   kDeepMimic,
   kAcclaim,
   kAmass,
@@ -32,7 +33,7 @@ enum class ClipFormat {
   kRecording,
   kBuiltin
 };
-/// Returns the name of a format: "BVH", "glTF", "GLB", "DeepMimic", "Acclaim", "AMASS", "C3D", "TRC", "CSV",
+/// Returns the name of a format: "BVH", "glTF", "GLB", "FBX", "DeepMimic", "Acclaim", "AMASS", "C3D", "TRC", "CSV",
 /// "NPZ", "NPY", "Motive", "recording" or "built-in".
 std::string_view FormatName(ClipFormat format);
 

@@ -292,6 +292,93 @@ class Formats(EtudeCase):
             path.write_text("\n".join(lines) + "\n")
         return path
 
+    # Joint: parent, place in the parent (cm), turn about x, y, z (degrees) at a time in seconds, all after a turn of its own.
+    FBX_BODY = {
+        "Hips": (None, (0, 95, 0), lambda t: (0, 40 * t, 0), (0, 0, 0)),
+        "Spine": ("Hips", (0, 20, 0), lambda t: (10 * t, 0, 0), (0, 0, 0)), "Neck": ("Spine", (0, 30, 0), None, (0, 0, 0)),
+        "Head": ("Neck", (0, 12, 0), None, (0, 0, 0)),
+        **{f"{side}{name}": (f"{side}{parent}" if near else parent, (sign * x, y, z), turns, pre)
+           for side, sign in (("Left", 1), ("Right", -1))
+           for name, parent, near, (x, y, z), turns, pre in (
+               ("Arm", "Spine", 0, (18, 26, 0), lambda t: (0, 0, -50 * t), (0, 0, 0)),
+               ("ForeArm", "Arm", 1, (28, 0, 0), lambda t: (0, -45 * t, 15 * t), (90, 0, 0)),
+               ("Hand", "ForeArm", 1, (25, 0, 0), None, (0, 0, 0)), ("UpLeg", "Hips", 0, (9, -5, 0), None, (0, 0, 0)),
+               ("Leg", "UpLeg", 1, (0, -43, 0), lambda t: (20 * t, 0, 0), (0, 0, 0)),
+               ("Foot", "Leg", 1, (0, -42, 0), None, (0, 0, 0)), ("ToeBase", "Foot", 1, (0, -5, 14), None, (0, 0, 0)))}}
+
+    def fbx(self, name, unit_cm, up, frames=31, rate=30):
+        """An FBX file in text, and the places of its joints by frame in metres, Y up, by forward kinematics of our own."""
+        def euler(degrees):  # about x first, then y, then z
+            x, y, z = (turn(numpy.radians(a) * axis) for a, axis in zip(degrees, numpy.eye(3)))
+            return z @ y @ x
+        stand = numpy.eye(3) if up == "y" else numpy.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]])  # Y up to Z up
+        objects, links = [], []
+        ids = {joint: 1000 + i for i, joint in enumerate(self.FBX_BODY)}
+        times = ",".join(str(t * 46186158000 // rate) for t in range(frames))
+        triple = lambda label, kind, v: f'P: "{label}", "{kind}", "", "A",{",".join(repr(float(c)) for c in v)}\n'
+        for joint, (parent, place, turns, pre) in self.FBX_BODY.items():
+            if parent is None:
+                place, pre = stand @ place, (90 if up == "z" else 0, 0, 0)
+            objects.append(f'Model: {ids[joint]}, "Model::{joint}", "LimbNode" {{\nVersion: 232\nProperties70: {{\n'
+                           + triple("Lcl Translation", "Lcl Translation", numpy.array(place) / unit_cm)
+                           + 'P: "RotationActive", "bool", "", "",1\n' + triple("PreRotation", "Vector3D", pre) + "}\n}\n")
+            links.append(f'C: "OO",{ids[joint]},{ids.get(parent, 0)}\n')
+            if turns is None:
+                continue
+            node = ids[joint] + 1000
+            objects.append(f'AnimationCurveNode: {node}, "AnimCurveNode::R", "" {{\n}}\n')
+            links += [f'C: "OO",{node},2\n', f'C: "OP",{node},{ids[joint]}, "Lcl Rotation"\n']
+            for k, axis in enumerate("XYZ"):
+                curve = 10 * node + k
+                values = ",".join(repr(float(turns(t / rate)[k])) for t in range(frames))
+                objects.append(f'AnimationCurve: {curve}, "AnimCurve::", "" {{\nDefault: 0\nKeyVer: 4008\n'
+                               f"KeyTime: *{frames} {{\na: {times}\n}}\nKeyValueFloat: *{frames} {{\na: {values}\n}}\n"
+                               f"KeyAttrFlags: *1 {{\na: 24836\n}}\nKeyAttrDataFloat: *4 {{\na: 0,0,0,0\n}}\n"
+                               f"KeyAttrRefCount: *1 {{\na: {frames}\n}}\n}}\n")
+                links.append(f'C: "OP",{curve},{node}, "d|{axis}"\n')
+        path = self.folder / name
+        path.write_text(
+            "; FBX 7.4.0 project file\nFBXHeaderExtension:  {\nFBXHeaderVersion: 1003\nFBXVersion: 7400\n}\n"
+            "GlobalSettings:  {\nVersion: 1000\nProperties70:  {\n"
+            + "".join(f'P: "{key}", "int", "Integer", "",{value}\n' for key, value in (
+                ("UpAxis", 1 if up == "y" else 2), ("UpAxisSign", 1), ("FrontAxis", 2 if up == "y" else 1), ("FrontAxisSign", 1),
+                ("CoordAxis", 0), ("CoordAxisSign", 1)))
+            + f'P: "UnitScaleFactor", "double", "Number", "",{float(unit_cm)}\nP: "TimeMode", "enum", "", "",6\n}}\n}}\n'
+            'Objects:  {\nAnimationStack: 1, "AnimStack::Walk", "" {\n}\nAnimationLayer: 2, "AnimLayer::Base", "" {\n}\n'
+            + "".join(objects) + '}\nConnections:  {\nC: "OO",2,1\n' + "".join(links) + "}\n")
+        places = []
+        for t in range(frames):
+            turned, placed = {}, {}
+            for joint, (parent, place, turns, pre) in self.FBX_BODY.items():
+                own = euler(pre) @ (euler(turns(t / rate)) if turns else numpy.eye(3))
+                turned[joint] = turned[parent] @ own if parent else own
+                placed[joint] = placed[parent] + turned[parent] @ place if parent else numpy.array(place, float)
+            places.append({joint: place / 100 for joint, place in placed.items()})
+        return path, places
+
+    def test_fbx_in_text_by_units_and_axes(self):
+        for unit_cm, up in ((1, "y"), (100, "z")):
+            path, places = self.fbx(f"body-{up}.fbx", unit_cm, up)
+            self.assertIn("FBX, 31 frames at 30 Hz", self.etude("clip", "info", path).stdout)
+            joints = self.joints(path, "--rate", 30)
+            self.assertEqual(len(joints), 31)
+            for frame, truth in zip(joints, places):
+                for role, joint in (("left_wrist", "LeftHand"), ("right_elbow", "RightForeArm"), ("left_ankle", "LeftFoot"),
+                                    ("right_knee", "RightLeg"), ("left_shoulder", "LeftArm")):
+                    apart = frame[role] - frame["hip_centre"] - truth[joint] + (truth["LeftUpLeg"] + truth["RightUpLeg"]) / 2
+                    self.assertLess(numpy.linalg.norm(apart), 1e-4, (up, role))
+
+    def test_fbx_of_a_studio_tool(self):
+        told = self.etude("clip", "info", "/usr/share/assimp/models/FBX/huesitos.fbx").stdout  # binary, with a mesh
+        self.assertIn("FBX, 40 frames at 25 Hz", told)
+
+    def test_an_fbx_file_cut_anywhere_is_refused_in_one_line(self):
+        path, _ = self.fbx("whole.fbx", 1, "y")
+        text = path.read_text()
+        for share in (0.1, 0.5, 0.9):
+            path.write_text(text[:int(len(text) * share)])
+            self.refused(path, "whole.fbx: ")
+
     def test_units_told_that_make_no_body_are_refused(self):
         path = self.turned("metres.bvh")
         result = self.etude("clip", "info", path, "--unit", "cm")

@@ -39,6 +39,7 @@ DOORS = {
     "hwy/": ["engine/kinematics/solvers", "engine/transitions/search", "engine/vision"],
     "libxml/": ["engine/cameras", "engine/transitions/tags_file"],
     "pagmo/": ["bench/training"],
+    "assimp/": ["bench/clips/assimp", "bench/micro"],
     "nanoflann.hpp": ["bench/micro"],
     "ceres/": ["engine/bundle_adjustment", "engine/cameras", "engine/kinematics/solvers"],
     "glog/": ["engine/bundle_adjustment", "engine/kinematics/solvers"],

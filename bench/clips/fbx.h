@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "engine/base/result.h"
+
+namespace etude {
+
+/// The function of the module `etude_clips_assimp.so`: makes a GLB file of the bytes of an FBX file. What it says is
+/// that file, or, when it returns false, a complaint.
+using GlbOfFbxBytes = bool(std::string_view bytes, std::string& said);
+
+/// True of an FBX file, binary or text.
+bool IsFbx(std::string_view bytes);
+
+/// Makes a GLB file of the motion of an FBX file: its nodes and animations in metres, the Y axis up. Meshes, materials,
+/// cameras and lights are left out. assimp reads it in a child process of limited memory and processor time, for files
+/// are a stranger's and may be hostile. Fails when the module is not there, and when the file is damaged, too large or
+/// ends the child.
+Result<std::string> GlbOfFbx(std::string_view bytes, const std::string& path);
+
+}  // namespace etude
