@@ -82,8 +82,7 @@ JunitCase CaseOf(const MetricMove& move, const GateReport& report) {
   const GateTableRow row = TableRow(move);
   std::string detail = fmt::format("{}: {} -> {}, difference {}, p {}, in {} worlds", row.verdict, row.before,
                                    row.after, row.difference, row.p, row.worlds);
-  for (const TailLine& line :
-       TailLines(move, report.run_folder, kMostWorldsOfCase, report.runs_programs, report.baseline_file)) {
+  for (const TailLine& line : TailLines({&move}, report, kMostWorldsOfCase)) {
     detail += "\n" + line.world + (line.replay.empty() ? "" : ": " + line.replay);
   }
   return {fmt::format("{}, {}: {}", row.condition, row.method, row.metric), RulingOf(move), std::move(detail)};

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <tuple>
+#include <utility>
 
 namespace etude {
 namespace {
@@ -160,45 +163,60 @@ std::vector<std::string> GateSentences(const GateReport& report) {
   return sentences;
 }
 
-std::vector<TailLine> TailLines(const MetricMove& move, const std::string& run_folder, std::size_t most,
-                                bool runs_programs, const std::string& baseline) {
-  const std::string beside = baseline.empty() ? "" : " --baseline " + ShellWord(baseline);
-  const MoveIdentity& identity = move.identity;
-  const std::string folder = run_folder.empty() ? "RUN" : ShellWord(run_folder);
-  const std::string about = identity.scenario + (identity.condition == "-" ? "" : ", " + identity.condition);
-  const std::string label = GateWordsFor(identity.metric).label;
+std::vector<TailLine> TailLines(const std::vector<const MetricMove*>& moves, const GateReport& report,
+                                std::size_t most) {
+  if (moves.empty()) return {};
+  const std::string beside = report.baseline_file.empty() ? "" : " --baseline " + ShellWord(report.baseline_file);
+  const std::string folder = report.run_folder.empty() ? "RUN" : ShellWord(report.run_folder);
+  const MoveIdentity& one = moves.front()->identity;
+  const std::string about = one.scenario + (one.condition == "-" ? "" : ", " + one.condition);
+  std::vector<std::pair<int, std::string>> worlds;  // trial, and what is far worse there
+  std::map<int, std::size_t> places;
+  for (const MetricMove* move : moves) {
+    const std::string& metric = move->identity.metric;
+    const std::string label = metric == kOkShare ? "" : GateWordsFor(metric).label + " ";
+    for (const TailWorld& world : move->tail) {
+      const auto [place, is_new] = places.emplace(world.trial, worlds.size());
+      if (is_new) worlds.emplace_back(world.trial, "");
+      std::string& text = worlds[place->second].second;
+      text += (text.empty() ? "" : "; ") + label + ValuesText(world, metric);
+    }
+  }
   std::vector<TailLine> lines;
-  for (std::size_t i = 0; i < std::min(most, move.tail.size()); ++i) {
-    const TailWorld& world = move.tail[i];
-    const std::string cell =
-        fmt::format("{}/{}/{:03}/{}", identity.scenario, identity.condition, world.trial, identity.method);
-    lines.push_back({fmt::format("{}, trial {}, {}: {} {}", about, world.trial, identity.method, label,
-                                 ValuesText(world, identity.metric)),
-                     fmt::format("etude replay {}{} --cell {}{}", folder, runs_programs ? " --allow-exec" : "",
+  for (std::size_t i = 0; i < std::min(most, worlds.size()); ++i) {
+    const auto& [trial, text] = worlds[i];
+    const std::string cell = fmt::format("{}/{}/{:03}/{}", one.scenario, one.condition, trial, one.method);
+    lines.push_back({fmt::format("{}, trial {}, {}: {}", about, trial, one.method, text),
+                     fmt::format("etude replay {}{} --cell {}{}", folder, report.runs_programs ? " --allow-exec" : "",
                                  ShellWord(cell), beside)});
   }
-  if (move.tail.size() > most) {
-    lines.push_back(
-        {fmt::format("… and {} of {}, {}, {}", Plural(std::ssize(move.tail) - std::ssize(lines), "more world"), about,
-                     identity.method, label),
-         ""});
+  if (worlds.size() > most) {
+    const auto more = std::ssize(worlds) - std::ssize(lines);
+    lines.push_back({fmt::format("… and {} of {}, {}", Plural(more, "more world"), about, one.method), ""});
   }
   return lines;
 }
 
 std::vector<TailLine> TailLines(const GateReport& report, bool failing, std::size_t most_each, std::size_t most) {
-  std::vector<TailLine> lines;
-  long long left_out = 0;
+  std::vector<std::vector<const MetricMove*>> methods;  // in the order of the run
+  std::map<std::tuple<std::string, std::string, std::string>, std::size_t> places;
   for (const MetricMove& move : report.comparison.moves) {
     if (move.tail.empty() || IsRegression(move) != failing) continue;
+    const MoveIdentity& one = move.identity;
+    const auto [place, is_new] = places.emplace(std::tuple(one.scenario, one.condition, one.method), methods.size());
+    if (is_new) methods.emplace_back();
+    methods[place->second].push_back(&move);
+  }
+  std::vector<TailLine> lines;
+  std::size_t left_out = 0;
+  for (const auto& moves : methods) {
     if (lines.size() >= most) {
-      left_out += std::ssize(move.tail);
+      ++left_out;
       continue;
     }
-    for (TailLine& line : TailLines(move, report.run_folder, most_each, report.runs_programs, report.baseline_file))
-      lines.push_back(std::move(line));
+    for (TailLine& line : TailLines(moves, report, most_each)) lines.push_back(std::move(line));
   }
-  if (left_out > 0) lines.push_back({fmt::format("… and {} of other comparisons", Plural(left_out, "more world")), ""});
+  if (left_out > 0) lines.push_back({fmt::format("… and worlds of {}", Plural(left_out, "more method")), ""});
   return lines;
 }
 

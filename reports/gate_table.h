@@ -37,17 +37,18 @@ std::string CompareSentence(const SnapshotComparison& comparison);
 
 /// A world that is far worse, in words.
 struct TailLine {
-  std::string world;   ///< "ik-weights, joint_noise_deg=5, trial 7, fixed: orientation error 0.05° → 60.1°"
+  std::string
+      world;  ///< "ik-weights, joint_noise_deg=5, trial 7, fixed: ok → unsolved; orientation error 0.05° → 60.1°"
   std::string replay;  ///< "etude replay out/now --cell …", fit for a shell; "" for a line that only counts the rest
 };
 
-/// Writes one line for each of the first `most` far worse worlds of a move, the worst first, and one for how many more
-/// there are. `run_folder` is where its cells can be replayed; "" puts `RUN` there. `runs_programs`: replaying must be
-/// allowed to. `baseline` is the file that their values are told beside; "" = none.
-std::vector<TailLine> TailLines(const MetricMove& move, const std::string& run_folder, std::size_t most,
-                                bool runs_programs = false, const std::string& baseline = "");
+/// Writes one line for each of the first `most` far worse worlds of one method under one condition, whose `moves` these
+/// are: worlds that lost their answer first, then the worst of each metric. A last line counts the others.
+std::vector<TailLine> TailLines(const std::vector<const MetricMove*>& moves, const GateReport& report,
+                                std::size_t most);
 
-/// Writes the lines of the moves that fail, or of those that do not: `most_each` worlds of one and `most` lines in all.
+/// Writes the lines of the moves that fail, or of those that do not: `most_each` worlds of a method and about `most`
+/// lines in all.
 std::vector<TailLine> TailLines(const GateReport& report, bool failing, std::size_t most_each, std::size_t most);
 
 }  // namespace etude

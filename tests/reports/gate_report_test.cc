@@ -91,13 +91,26 @@ TEST(GateMarkdown, NamesEveryFarWorseWorldWithBothValuesAndItsReplayCommand) {
 TEST(GateMarkdown, CountsTheFarWorseWorldsThatItDoesNotName) {
   GateReport report = Example();
   MetricMove move = TailMove(Movement::kWorse);
-  move.tail.resize(30, move.tail.back());
+  for (int trial = 100; trial < 125; ++trial) move.tail.push_back({trial, 0.05, 60.05, 'o', 'u', false});
   report.comparison.moves = {move};
   EXPECT_THAT(WriteGateMarkdown(report), HasSubstr("- … and 25 more worlds of ik-weights, joint\\_noise\\_deg=5"));
   report.comparison.moves.assign(200, move);
+  for (int i = 0; i < 200; ++i) report.comparison.moves[i].identity.condition = std::to_string(i);
   const std::string text = WriteGateMarkdown(report);
   EXPECT_LT(text.size(), 65536u);
-  EXPECT_THAT(text, HasSubstr("more worlds of other comparisons"));
+  EXPECT_THAT(text, HasSubstr("… and worlds of 193 more methods"));
+}
+
+TEST(GateTail, TellsAWorldOnceHoweverManyMetricsAreFarWorse) {
+  GateReport report = Example();
+  MetricMove ended = TailMove(Movement::kWorse), error = ended;
+  ended.identity.metric = kOkShare;
+  ended.tail = {{3, 1.0, 0.0, 'o', 'u', false}};
+  report.comparison.moves = {ended, error};
+  const auto lines = TailLines(report, true, 5, 40);
+  ASSERT_EQ(lines.size(), 5u);
+  EXPECT_THAT(lines[0].world,
+              HasSubstr("trial 3, adaptive: ok → unsolved; effector orientation error 0.0500° → 60.0°"));
 }
 
 TEST(GateMarkdown, ShowsFarWorseWorldsThatAreTooFewToFailAmongWhatElseMoved) {
@@ -122,13 +135,17 @@ TEST(GateTail, QuotesWhatAShellWouldTakeApartAndTellsStatuses) {
   MetricMove move = TailMove(Movement::kWorse);
   move.identity.condition = "poses={uniform: 0.5}";
   move.identity.metric = kOkShare;
-  const auto lines = TailLines(move, "it's", 1);
+  GateReport report;
+  report.run_folder = "it's";
+  const auto lines = TailLines({&move}, report, 1);
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_EQ(lines[0].replay, "etude replay 'it'\\''s' --cell 'ik-weights/poses={uniform: 0.5}/007/adaptive'");
-  EXPECT_THAT(lines[0].world, HasSubstr("cells that ended ok ok → failed"));
+  EXPECT_THAT(lines[0].world, HasSubstr("trial 7, adaptive: ok → failed"));
   EXPECT_THAT(lines[1].world, HasSubstr("… and 4 more worlds of"));
-  EXPECT_THAT(TailLines(move, "", 1)[0].replay, HasSubstr("etude replay RUN --cell "));
-  EXPECT_THAT(TailLines(move, "", 1, true)[0].replay, HasSubstr("etude replay RUN --allow-exec --cell "));
+  report.run_folder = "";
+  EXPECT_THAT(TailLines({&move}, report, 1)[0].replay, HasSubstr("etude replay RUN --cell "));
+  report.runs_programs = true;
+  EXPECT_THAT(TailLines({&move}, report, 1)[0].replay, HasSubstr("etude replay RUN --allow-exec --cell "));
 }
 
 TEST(GateMarkdown, SaysThatNothingWasComparedWithoutABaseline) {
