@@ -20,6 +20,7 @@ PAGES = [ROOT / "README.md", *sorted((ROOT / "docs" / "guide").glob("*.md"))]
 NOT_RUN = {"README.md": 1, "ci.md": 1, "cite.md": 1, "cluster.md": 2, "coach.md": 1, "install.md": 4, "own-cameras.md": 3,
            "own-recordings.md": 2}
 WORDS = 700  # at most, on each page
+MADE = {ROOT / "docs" / "reference" / f"{name}.md" for name in ("commands", "keys", "metrics", "recordings")}  # by the program
 
 
 class Wrong(Exception):
@@ -48,8 +49,9 @@ def blocks(text):
 
 
 def words(text):
-    """Those that a reader sees."""
-    return len(re.sub(r"<!--.*?-->|!\[.*?\]\(.*?\)|\]\(.*?\)|^\|[-|: ]+\|$", " ", text, flags=re.S | re.M).split())
+    """Those that a reader sees: a table's lines are none."""
+    seen = re.sub(r"<!--.*?-->|!\[.*?\]\(.*?\)|\]\(.*?\)", " ", text, flags=re.S)
+    return sum(bool(re.search(r"\w", word)) for word in seen.split())
 
 
 def anchors(text):
@@ -128,6 +130,28 @@ class Pages(unittest.TestCase):
     def test_pages_are_short(self):
         self.assertEqual([f"{page.name}: {count} words" for page in PAGES if (count := words(page.read_text())) > WORDS], [])
         self.assertEqual(words("one [two](three.md) <!-- four -->\n|---|\n![five](six.png)"), 2)
+
+    def test_all_pages_together_are_short(self):
+        written = [page for page in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))] if page not in MADE]
+        total = sum(words(page.read_text()) for page in written)
+        print(f"{total} words on {len(written)} pages")
+        self.assertLessEqual(total, 40_000)
+
+    def test_findings_have_their_form(self):
+        pages = sorted(set((ROOT / "docs" / "findings").glob("*.md")) - {ROOT / "docs/findings/README.md"})
+        self.assertGreater(len(pages), 15)
+        listed = (ROOT / "docs/findings/README.md").read_text()
+        for page in pages:
+            with self.subTest(page.name):
+                text = page.read_text()
+                places = [text.find(part) for part in ("\n**Answer.**", "\n|--", "\n**Where it fails.**", "\n**How it was measured.**")]
+                self.assertNotIn(-1, places)
+                self.assertEqual(places[2:], sorted(places[2:]))
+                self.assertLess(places[0], places[2])
+                answer = re.match(r".*?(?=\n\n|\n<!--|$)", text[places[0] + 1:], re.S)[0]
+                self.assertEqual(len(re.findall(r"[.!?](?=\s|$)", answer.partition("**Answer.**")[2])), 3, "sentences")
+                self.assertLessEqual(words(text), 1_200)
+                self.assertIn(f"]({page.name})", listed)
 
     def test_links_lead_somewhere(self):
         listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", "*.md"], cwd=ROOT, capture_output=True, text=True)

@@ -128,20 +128,66 @@ class Figures(unittest.TestCase):
         self.assert_right("<!-- table: quick\nrows: a | b\ncolumns: s/n=1/{row}/jump_cm | s/n=1/{row}/jump_cm, max\n-->\n"
                           "| | median | max |\n|---|---|---|\n| a | 2 | 1,234.5 |\n| b | 3.13 | 1,236 |\n<!-- end -->\n")
 
-    def test_are_taken_from_runs_that_are_too_large_to_keep(self):
+    def a_run(self, **changes):
+        """A run's folder, and a tree whose version, metrics and scenarios are those of the run."""
         run = self.root / "run"
         run.mkdir()
-        (run / "manifest.json").write_text('{"suite":"large","seed":3}')
-        rows = [{"scenario": "s", "condition": "-", "method": "a", "trial": i, "jump_cm": float(i)} for i in range(5)]
+        asks = "# a comment\nscenario: s\ntrials: 5\n"
+        manifest = {"suite": "large", "seed": 3, "etude": "0.2.0", "metrics": {"jump_cm": 1, "wait_s": 1},
+                    "scenarios": [{"name": "s", "file": "s.yaml"}], "sources": {"s.yaml": asks}} | changes
+        (run / "manifest.json").write_text(json.dumps(manifest))
+        (run / "seal.json").write_text('{"files":{"cells.jsonl":"abc"}}')
+        rows = [{"scenario": "s", "condition": "-", "method": "a", "trial": i, "jump_cm": float(i), "digest_world": str(i)}
+                for i in range(5)]
         (run / "cells.jsonl").write_text("\n".join(map(json.dumps, rows)) + "\n")
-        text = "2 of 5" + bound("2 = large: s/-/a/jump_cm", "5 = large: s/-/a/jump_cm, worlds")
-        self.assert_flagged(text, "no scenarios/baselines/large.json")
+        (self.root / "CMakeLists.txt").write_text("project(etude VERSION 0.2.0 LANGUAGES CXX)\n")
+        (self.root / "bench" / "metrics" / "catalogue").mkdir(parents=True)
+        (self.root / "bench" / "metrics" / "catalogue" / "1.yaml").write_text("metrics:\n  - id: jump_cm\n    label: jump\n")
+        (self.root / "scenarios" / "s.yaml").write_text(asks.replace("a comment", "another"))
+        return run
+
+    LARGE = ("2 of 5" + bound("2 = large: s/-/a/jump_cm", "5 = large: s/-/a/jump_cm, worlds") +
+             "\n<!-- age -->\n<!-- end of age -->\n")
+
+    def test_are_taken_from_runs_that_are_too_large_to_keep(self):
+        run = self.a_run()
+        self.assert_flagged(self.LARGE, "no scenarios/baselines/large.json")
         code, output = self.figures("--take", "large", run)
         self.assertEqual(code, 0, output)
+        self.assert_flagged(self.LARGE, "README.md:7: the age of its results is another now")
+        self.figures("--write")
+        text = (self.root / "README.md").read_text()
         self.assert_right(text)
         self.assert_flagged(text.replace("2 ", "3 "), "3 is 2 in large")
         self.assert_flagged(text.replace("jump_cm\n", "jump_cm, mean\n"), "was not taken")
         self.assertEqual(self.figures("--take", "small", run)[0], 2)
+
+    def test_say_how_old_their_results_are(self):
+        run = self.a_run()
+        self.of_page(self.LARGE)
+        self.figures("--take", "large", run)
+        kept = json.loads((self.root / "docs/figures/large.json").read_text())
+        self.assertEqual(kept["of"]["metrics"], {"jump_cm": 1})  # what no figure is of does not age it
+        self.assertEqual(kept["runs"], [{"suite": "large", "seed": 3, "cells": "abc"}])
+        self.assertEqual(list(kept["of"]["stages"]), ["s"])
+        catalogue, scenario = self.root / "bench/metrics/catalogue/1.yaml", self.root / "scenarios/s.yaml"
+        for file, old, new, says in [
+                (None, "", "", f"seed 3: `large` ({kept['of']['taken']}, cells `abc`). Their metrics and scenarios are the same since."),
+                (self.root / "CMakeLists.txt", "0.2.0", "0.3.0", "Etude 0.2.0, seed 3, not run again with 0.3.0: `large`"),
+                (catalogue, "    label", "    version: 2\n    label", "Changed since: metric `jump_cm` (1, now 2)."),
+                (catalogue, "jump_cm", "jump_m", "metric `jump_cm` (1, now gone)"),
+                (scenario, "trials: 5", "trials: 6", "scenario `s`"),
+                (scenario, "# another", "# a third comment\n", None)]:
+            with self.subTest(new):
+                page = (self.root / "README.md").read_text()
+                if file:
+                    file.write_text(file.read_text().replace(old, new))
+                self.figures("--write")
+                now = (self.root / "README.md").read_text()
+                self.assertIn(says or page, now)
+                self.assertEqual(self.figures()[0], 0)
+        self.assert_flagged(now.split("<!-- age")[0], "binds large and does not say once how old they are")
+        self.assert_flagged(now + now[now.index("<!-- age"):], "binds large and does not say once how old they are")
 
 
 if __name__ == "__main__":
