@@ -13,6 +13,7 @@
 #include "reports/plots/marks.h"
 #include "reports/scenario_card.h"
 #include "reports/transitions/recorded_requests.h"
+#include "reports/viewer/recorded_worlds.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"
@@ -64,9 +65,10 @@ std::string SimulatedRows(const ScenarioSummary& scenario, std::size_t& rows) {
   return html;
 }
 
-// A second line of defence behind the escaping: the page may load nothing from anywhere.
+// A second line of defence behind the escaping: the page may load nothing from anywhere but the motions beside it.
 constexpr std::string_view kPolicy =
-    "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:; media-src data:";
+    "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline' 'self' file:; img-src data:; media-src "
+    "data:";
 
 // A page carries only the styles that it uses.
 std::string Styles(const RunData& run) {
@@ -76,7 +78,8 @@ std::string Styles(const RunData& run) {
   const bool shows_transitions = std::ranges::any_of(
       run.scenarios, [&](const ScenarioSummary& scenario) { return !RecordedRequestsOf(run, scenario).empty(); });
   return std::string(ReportCss()) + MarksCss() + std::string(shows_curves ? PaperCss() : "") +
-         std::string(shows_transitions ? TransitionsCss() : "");
+         std::string(shows_transitions ? TransitionsCss() : "") +
+         std::string(run.recordings.empty() ? "" : ViewerCss());
 }
 
 std::string Head(const RunData& run) {
@@ -186,7 +189,11 @@ std::string WritePage(const RunData& run, const Media& media, std::span<const Re
   html += ChartJs();
   html += "</script><script>";
   html += ReportJs();
-  html += "</script></body></html>\n";
+  html += "</script>";
+  if (const std::string index = ViewerIndexHtml(run); !index.empty()) {
+    html += fmt::format("{}<script type=\"module\">{}</script>", index, ViewerJs());
+  }
+  html += "</body></html>\n";
   return html;
 }
 

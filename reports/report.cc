@@ -11,6 +11,7 @@
 #include "reports/number_table.h"
 #include "reports/page.h"
 #include "reports/paper/paper_b_section.h"
+#include "reports/viewer/world_script.h"
 #include "reports/words/escape.h"
 
 namespace etude {
@@ -36,7 +37,7 @@ void AddTables(const RunData& run, std::vector<ReportText>& texts) {
   }
 }
 
-// The motions that captures recovered, for any program that reads BVH.
+// The motions that captures recovered, for any program that reads BVH, and those that the page shows.
 Result<void> AddMotions(const RunData& run, std::vector<ReportText>& texts) {
   for (const CellRecording& recorded : run.recordings) {
     const auto row = std::ranges::find(run.rows, recorded.cell, &Row::Id);
@@ -46,6 +47,7 @@ Result<void> AddMotions(const RunData& run, std::vector<ReportText>& texts) {
     std::ranges::replace(name, '/', '~');
     texts.push_back({fs::path("motions") / (name + ".bvh"), std::move(extras.bvh)});
   }
+  for (const RecordedWorld& world : RecordedWorlds(run)) texts.push_back({world.file, WorldScript(run, world)});
   return {};
 }
 

@@ -19,6 +19,7 @@
 #include "reports/plots/growth.h"
 #include "reports/plots/plot_section.h"
 #include "reports/transitions/transition_section.h"
+#include "reports/viewer/recorded_worlds.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 
@@ -206,6 +207,7 @@ std::string WriteScenarioCard(const RunData& run, std::size_t index, const Scena
   html += Plates(scenario, media);
   html += ScenarioFilms(scenario, media);
   html += Charts(run, scenario, index);
+  html += WatchHtml(run, index);
   html += Methods(findings);
   html += AcrossTableHtml(scenario);
   html += Expectations(scenario);

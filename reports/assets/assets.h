@@ -8,6 +8,9 @@ namespace etude {
 std::string_view ChartJs();
 std::string_view ReportCss();
 std::string_view ReportJs();
+/// Gives styles and script of pages that show motions (reports/viewer).
+std::string_view ViewerCss();
+std::string_view ViewerJs();
 /// Gives the styles of pages that show curves of the papers or of growth.
 std::string_view PaperCss();
 /// Gives the styles of pages that show what reports/transitions makes.

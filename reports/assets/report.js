@@ -83,6 +83,13 @@
     const titled = figure.querySelector('use[data-t="' + dot.dataset.t + '"] title');
     line('p', titled?.textContent ?? 'trial ' + Number(trial));
     ids.forEach((id) => line('code', "etude replay DIR --cell '" + id.replaceAll("'", "'\\''") + "'"));
+    const seen = ids.filter((id) => window.etudeViewer?.has(id));
+    if (seen.length) {
+      const watch = line('button', 'Watch the motion');
+      watch.className = 'watched';
+      watch.dataset.cell = seen[0];
+      watch.dataset.others = JSON.stringify(seen.slice(1));
+    }
     const article = figure.closest('.card');
     const film = article.querySelector('.film') ?? document.querySelector('.film');
     if (film && ids.some((id) => JSON.parse(article.dataset.recorded ?? '[]').includes(id))) {

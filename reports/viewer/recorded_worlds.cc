@@ -1,0 +1,79 @@
+#include "reports/viewer/recorded_worlds.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "bench/files/json.h"
+#include "reports/words/escape.h"
+#include "reports/words/figures.h"
+#include "reports/words/judged.h"
+
+namespace etude {
+
+std::string RecordedWorld::Name() const {
+  const Row& row = *cells.front().row;
+  const std::string condition = ConditionLabel(row.condition);
+  return fmt::format("{}{}trial {}", condition, condition.empty() ? "" : ", ", row.trial);
+}
+
+std::vector<RecordedWorld> RecordedWorlds(const RunData& run) {
+  std::map<std::string_view, const Recording*> recordings;
+  for (const CellRecording& recorded : run.recordings) {
+    const bool moves =
+        std::ranges::any_of(recorded.recording.tracks, [](const Track& track) { return !track.motion.poses.empty(); });
+    if (moves) recordings.emplace(recorded.cell, &recorded.recording);
+  }
+  std::vector<RecordedWorld> worlds;
+  if (recordings.empty()) return worlds;
+  std::map<std::string, std::size_t> places;  // of worlds
+  for (const Row& row : run.rows) {
+    const auto recorded = recordings.find(row.Id());
+    const auto scenario = std::ranges::find(run.scenarios, row.scenario, &ScenarioSummary::name);
+    if (recorded == recordings.end() || scenario == run.scenarios.end()) continue;
+    const std::string world = fmt::format("{}/{}/{}", row.scenario, CompactLabel(row.condition), row.trial);
+    const auto [place, is_new] = places.emplace(world, worlds.size());
+    if (is_new) {
+      const auto index = static_cast<std::size_t>(scenario - run.scenarios.begin());
+      const auto before = std::ranges::count(worlds, index, &RecordedWorld::scenario);
+      worlds.push_back({.scenario = index,
+                        .file = fmt::format("motions/{}-{}.js", FileNameOf(scenario->name, index), before + 1),
+                        .cells = {}});
+    }
+    worlds[place->second].cells.push_back({&row, recorded->second});
+  }
+  for (RecordedWorld& world : worlds) {
+    std::ranges::stable_sort(world.cells, {}, [&](const RecordedCell& cell) {
+      return IndexOf(run.scenarios[world.scenario], cell.row->method);
+    });
+  }
+  return worlds;
+}
+
+std::string ViewerIndexHtml(const RunData& run) {
+  Json files = Json::object();
+  for (const RecordedWorld& world : RecordedWorlds(run)) {
+    for (const RecordedCell& cell : world.cells) files[world.file].push_back(cell.row->Id());
+  }
+  if (files.empty()) return "";
+  return fmt::format("<script type=\"application/json\" id=\"motions\">{}</script>",
+                     EscapeScriptJson(files.dump(-1, ' ', false, Json::error_handler_t::replace)));
+}
+
+std::string WatchHtml(const RunData& run, std::size_t scenario) {
+  std::string html;
+  std::size_t total = 0;
+  for (const RecordedWorld& world : RecordedWorlds(run)) {
+    if (world.scenario != scenario || ++total > kMostListed) continue;
+    html += fmt::format(" <button type=\"button\" data-cell=\"{}\">▶ {}</button>",
+                        EscapeMarkup(world.cells.front().row->Id()), EscapeMarkup(world.Name()));
+  }
+  if (html.empty()) return "";
+  return fmt::format("<p class=\"watch\" hidden>Motions, to walk round:{}</p>{}", html,
+                     LeftOutHtml(total, kMostListed, "recorded worlds", "report/motions"));
+}
+
+}  // namespace etude

@@ -1,0 +1,346 @@
+#include "reports/viewer/world_script.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "bench/files/json.h"
+#include "bench/recordings/task_extras.h"
+#include "engine/base/base64.h"
+#include "engine/motion/support.h"
+#include "reports/transitions/recorded_requests.h"
+#include "reports/words/judged.h"
+
+namespace etude {
+namespace {
+
+/// How a track of a recording is shown.
+struct TrackLook {
+  std::string_view task, track;
+  std::string_view label;  ///< "": the method
+  std::string_view kind;   ///< "shown", "ghost" (what errors are taken against), "partner" (stands aside)
+  std::vector<std::string_view> against = {};
+  bool has_contacts = false;
+};
+
+const std::vector<TrackLook>& Looks() {
+  static const std::vector<TrackLook> looks = {
+      {"ik", "truth", "truth", "ghost"},
+      {"ik", "start", "start", "ghost"},
+      {"ik", "solution", "", "shown", {"truth"}},
+      {"transition", "coach", "", "shown", {"left", "wanted"}, true},
+      {"transition", "left", "clip left", "ghost"},
+      {"transition", "wanted", "clip wanted", "ghost"},
+      {"capture", "truth", "truth", "ghost", {}, true},
+      {"capture", "recovered", "", "shown", {"truth"}},
+      {"detection", "truth", "performer", "ghost", {}, true},
+      {"detection", "sensed", "as sensed", "shown", {"truth"}},
+      {"coach", "coach", "coach", "partner"},
+      {"coach", "truth", "learner", "ghost", {}, true},
+      {"coach", "sensed", "learner as sensed", "shown", {"truth"}},
+  };
+  return looks;
+}
+
+TrackLook LookOf(const std::string& task, const std::string& track) {
+  const auto found =
+      std::ranges::find_if(Looks(), [&](const TrackLook& look) { return look.task == task && look.track == track; });
+  return found == Looks().end() ? TrackLook{task, track, track, "shown"} : *found;
+}
+
+/// What the distance of a joint from the bodies that it is held against means, in the unit of the task's headline.
+std::pair<std::string_view, std::string_view> ErrorOf(const std::string& task) {
+  if (task == "capture") return {"distance from the true joint", "mm"};
+  if (task == "ik") return {"distance from the true joint", "cm"};
+  if (task == "transition") return {"distance from the clip played", "cm"};
+  return {"error of the sensor", "cm"};
+}
+
+bool AreEqual(const BodyPose& a, const BodyPose& b) { return a.joints == b.joints; }
+
+/// Without the frames at the end that repeat the one before them: the last one lasts.
+std::span<const BodyPose> UntilItRests(const BodyMotion& motion) {
+  std::span<const BodyPose> poses = motion.poses;
+  while (poses.size() > 1 && AreEqual(poses.back(), poses[poses.size() - 2])) poses = poses.first(poses.size() - 1);
+  return poses;
+}
+
+Json ContactsOf(const BodyMotion& motion) {
+  Json runs = Json::array();
+  const FootContacts contacts = FindFootContacts(motion.poses, motion.rate_hz);
+  for (std::size_t side = 0; side < contacts.size(); ++side) {
+    const std::vector<bool>& stands = contacts[side];
+    for (std::size_t begin = 0; begin < stands.size();) {
+      std::size_t end = begin;
+      while (end < stands.size() && stands[end]) ++end;
+      if (end > begin) runs.push_back({side, begin, end});
+      begin = end + 1;
+    }
+  }
+  return runs;
+}
+
+/// Gathers one world's data; `cell` counts its cells.
+class Writer {
+ public:
+  explicit Writer(const RecordedWorld& world, const std::string& task) : world_(world), task_(task) {}
+
+  Json Write(const ScenarioSummary& scenario, const std::string& title) {
+    const auto [error, unit] = ErrorOf(task_);
+    json_ = {{"file", world_.file},
+             {"title", title},
+             {"rate_hz", RateHz()},
+             {"floor_m", 0},
+             {"error", error},
+             {"unit", unit},
+             {"notes", Json::array()},
+             {"cells", Json::array()},
+             {"bodies", Json::array()},
+             {"targets_m", Json::array()},
+             {"steps", Json::array()},
+             {"marks", Json::array()}};
+    for (cell_ = 0; cell_ < world_.cells.size(); ++cell_) {
+      const RecordedCell& cell = world_.cells[cell_];
+      json_["cells"].push_back({{"id", cell.row->Id()},
+                                {"method", cell.row->method},
+                                {"colour", IndexOf(scenario, cell.row->method)},
+                                {"status", StatusName(cell.row->result.status)},
+                                {"reason", cell.row->result.reason}});
+      const int begin = AddExtras(cell.row->method, *cell.recording);
+      for (const Track& track : cell.recording->tracks) {
+        if (!track.motion.poses.empty()) AddTrack(cell, track, track.name == "wanted" ? begin + wanted_ : begin);
+      }
+    }
+    FindReferences();
+    StartAtZero();
+    if (task_ == "ik") json_["floor_m"] = lowest_;
+    return std::move(json_);
+  }
+
+ private:
+  struct Body {
+    std::string track;
+    const BodyMotion* motion;
+    int begin;
+    std::size_t cell;
+  };
+
+  double RateHz() const {
+    for (const Track& track : world_.cells.front().recording->tracks) {
+      if (!track.motion.poses.empty()) return track.motion.rate_hz;
+    }
+    return kJudgedRateHz;
+  }
+
+  void AddTrack(const RecordedCell& cell, const Track& track, int begin) {
+    const TrackLook look = LookOf(task_, track.name);
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      if (bodies_[i].track != track.name || bodies_[i].begin != begin || look.label.empty()) continue;
+      if (!std::ranges::equal(UntilItRests(*bodies_[i].motion), UntilItRests(track.motion), AreEqual)) continue;
+      json_["bodies"][i]["cell"] = -1;
+      return;
+    }
+    bodies_.push_back({track.name, &track.motion, begin, cell_});
+    BodyMotion moving{.rate_hz = track.motion.rate_hz, .poses = {}};
+    const std::span<const BodyPose> poses = UntilItRests(track.motion);
+    moving.poses.assign(poses.begin(), poses.end());
+    const QuantisedMotion motion = Quantise(moving);
+    std::string bytes;
+    for (const std::uint16_t step : motion.steps)
+      bytes += {static_cast<char>(step & 255), static_cast<char>(step >> 8)};
+    for (const BodyPose& pose : poses) {
+      for (const glm::dvec3& joint : pose.joints) lowest_ = std::min(lowest_, joint.y);
+    }
+    json_["bodies"].push_back({{"label", look.label.empty() ? cell.row->method : std::string(look.label)},
+                               {"cell", cell_},
+                               {"kind", look.kind},
+                               {"begin", begin},
+                               {"frames", track.motion.poses.size()},
+                               {"against", Json::array()},
+                               {"low_m", {motion.low.x, motion.low.y, motion.low.z}},
+                               {"step_m", motion.step},
+                               {"data", Base64(bytes)},
+                               {"contacts", look.has_contacts ? ContactsOf(track.motion) : Json::array()}});
+  }
+
+  // A body that several methods share is there for each of them.
+  void FindReferences() {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      for (const std::string_view track : LookOf(task_, bodies_[i].track).against) {
+        for (std::size_t j = 0; j < bodies_.size(); ++j) {
+          const bool shared = json_["bodies"][j]["cell"] == -1;
+          if (bodies_[j].track == track && (shared || bodies_[j].cell == bodies_[i].cell)) {
+            json_["bodies"][i]["against"].push_back(j);
+          }
+        }
+      }
+    }
+  }
+
+  void StartAtZero() {
+    int first = 0;
+    for (const Json& body : json_["bodies"]) first = std::min(first, body["begin"].get<int>());
+    for (Json& body : json_["bodies"]) body["begin"] = body["begin"].get<int>() - first;
+    for (Json& mark : json_["marks"]) {
+      for (const char* key : {"frame", "end"}) mark[key] = mark[key].get<int>() - first;
+    }
+  }
+
+  void Mark(std::string_view lane, int frame, int end, std::string_view kind, const std::string& text) {
+    Json mark = {{"lane", lane}, {"frame", frame}, {"end", std::max(frame, end)}, {"kind", kind}, {"text", text}};
+    Json& marks = json_["marks"];
+    if (std::ranges::find(marks, mark) == marks.end()) marks.push_back(std::move(mark));
+  }
+
+  /// Adds what a cell's extras tell, and gives the frame of the world at which its recording begins: transitions have
+  /// their requests at the same time.
+  int AddExtras(const std::string& method, const Recording& recording) {
+    wanted_ = 0;
+    const auto add = [&](const auto& extras) {
+      if (extras) return Add(method, *extras);
+      json_["notes"].push_back(fmt::format("The marks of {} cannot be read: {}", method, extras.error().message));
+      return 0;
+    };
+    if (task_ == "ik") return add(ReadIkExtras(recording.extras_json));
+    if (task_ == "transition") return add(ReadTransitionFacts(recording, method));
+    if (task_ == "detection") return add(ReadDetectionExtras(recording.extras_json));
+    if (task_ == "coach") return add(ReadCoachExtras(recording.extras_json));
+    return 0;
+  }
+
+  int Add(const std::string&, const IkExtras& extras) {
+    json_["steps"].push_back({{"cell", cell_},
+                              {"iterations", extras.iterations},
+                              {"off_cm", extras.position_error_max_cm},
+                              {"off_deg", extras.axis_error_max_deg}});
+    Json targets = Json::array();
+    for (const std::optional<glm::dvec3>& target : extras.targets_m) {
+      if (target) targets.push_back({target->x, target->y, target->z});
+    }
+    json_["targets_m"] = targets;
+    return 0;
+  }
+
+  int Add(const std::string& method, const TransitionFacts& extras) {
+    const std::vector<int>& frames = extras.transition_frames;
+    const int begin = -extras.request_frame.value_or(frames.empty() ? 0 : frames.front());
+    if (extras.request_frame) Mark("request", 0, 0, "request", "the next clip is asked for");
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      std::string text = fmt::format("{} → {}", extras.from, extras.to);
+      if (i < extras.points.size()) {
+        const PointFacts& point = extras.points[i];
+        const auto frame = [](const std::optional<int>& of) { return of ? fmt::format(" frame {}", *of) : ""; };
+        text = fmt::format("{}{} → {}{}", point.from, frame(point.from_frame), point.to, frame(point.to_frame));
+        if (point.distance) text += fmt::format(", fuzzy distance {:.3g}", *point.distance);
+      }
+      Mark(method, begin + frames[i], begin + frames[i], "transition", text);
+    }
+    if (!frames.empty()) wanted_ = frames.back();
+    return begin;
+  }
+
+  /// Marks a judgement: a hit where it agrees with the truth, which is neither where the truth itself is not sure.
+  void MarkJudgement(std::string_view lane, int frame, const std::string& truth, bool called_right,
+                     const std::string& text) {
+    const bool agrees = (truth == "right") == called_right;
+    Mark(lane, frame, frame, truth == "grey" ? "grey" : agrees ? "hit" : "miss", text);
+  }
+
+  static std::string Performed(const std::string& move, const std::string& truth, const std::string& faults) {
+    return fmt::format("{}: {}{}", move, truth, faults.empty() || faults == "none" ? "" : " (" + faults + ")");
+  }
+
+  int Add(const std::string& method, const DetectionExtras& extras) {
+    for (const DetectionExtras::Event& event : extras.events) {
+      Mark("danced", event.begin_frame, event.end_frame, event.truth, Performed(event.move, event.truth, event.fault));
+      MarkJudgement(
+          method, event.called_frame.value_or(event.end_frame), event.truth, event.called_right,
+          fmt::format("{}: {}, score {:.2f}", event.move, event.called_right ? "praised" : "not praised", event.score));
+    }
+    for (const DetectionExtras::Alarm& alarm : extras.alarms) {
+      Mark(method, alarm.frame, alarm.frame, "miss", "false alarm: " + alarm.move);
+    }
+    return 0;
+  }
+
+  int Add(const std::string& method, const CoachExtras& extras) {
+    const std::string lane = world_.cells.size() > 1 ? " of " + method : "";
+    for (const CoachExtras::Performance& danced : extras.performances) {
+      Mark("danced" + lane, danced.begin_frame, danced.end_frame, danced.truth,
+           Performed(danced.move, danced.truth, danced.faults));
+      if (danced.called == "unjudged") continue;
+      MarkJudgement("judged" + lane, danced.end_frame, danced.truth, danced.called == "right",
+                    fmt::format("{}: called {}", danced.move, danced.called));
+    }
+    for (const int frame : extras.corrections) {
+      std::string why;
+      for (const CoachExtras::Decision& decision : extras.decisions) {
+        if (decision.frame == frame && !decision.why.empty()) why = ": " + decision.why;
+      }
+      Mark("coach" + lane, frame, frame, "correction", "corrects" + why);
+    }
+    for (const int frame : extras.transitions) Mark("coach" + lane, frame, frame, "transition", "changes clips");
+    for (std::size_t i = 0; i < extras.words.size(); ++i) {
+      const CoachExtras::Words& words = extras.words[i];
+      const int end = i + 1 < extras.words.size() ? extras.words[i + 1].begin_frame : words.begin_frame + 60;
+      const std::string both = words.say + (words.say.empty() || words.hint.empty() ? "" : ": ") + words.hint;
+      if (!both.empty()) Mark("says" + lane, words.begin_frame, end, "words", both);
+    }
+    return 0;
+  }
+
+  const RecordedWorld& world_;
+  const std::string& task_;
+  std::size_t cell_ = 0;
+  int wanted_ = 0;  ///< of the cell's recording, the frame from which the wanted clip goes on
+  double lowest_ = 0;
+  std::vector<Body> bodies_;  ///< as json_["bodies"]
+  Json json_;
+};
+
+}  // namespace
+
+glm::dvec3 QuantisedMotion::At(std::size_t frame, Role role) const {
+  const std::size_t at = 3 * (kRoleCount * frame + Index(role));
+  return low + step * glm::dvec3(steps[at], steps[at + 1], steps[at + 2]);
+}
+
+QuantisedMotion Quantise(const BodyMotion& motion) {
+  if (motion.poses.empty()) return {};
+  QuantisedMotion quantised{.low = motion.poses.front().joints.front(), .step = 0, .steps = {}};
+  glm::dvec3 high = quantised.low;
+  for (const BodyPose& pose : motion.poses) {
+    for (const glm::dvec3& joint : pose.joints) {
+      quantised.low = glm::min(quantised.low, joint);
+      high = glm::max(high, joint);
+    }
+  }
+  const glm::dvec3 range = high - quantised.low;
+  constexpr double kMost = 65535;
+  quantised.step = std::max({range.x, range.y, range.z}) / kMost;
+  quantised.steps.reserve(3 * kRoleCount * motion.poses.size());
+  for (const BodyPose& pose : motion.poses) {
+    for (const glm::dvec3& joint : pose.joints) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const double steps = quantised.step > 0 ? (joint[axis] - quantised.low[axis]) / quantised.step : 0;
+        quantised.steps.push_back(static_cast<std::uint16_t>(std::clamp(std::round(steps), 0.0, kMost)));
+      }
+    }
+  }
+  return quantised;
+}
+
+std::string WorldScript(const RunData& run, const RecordedWorld& world) {
+  const Row& row = *world.cells.front().row;
+  std::string title = fmt::format("{}, {}", run.scenarios[world.scenario].name, world.Name());
+  if (!row.clip.empty()) title += fmt::format(", {}", row.clip);
+  const Json json = Writer(world, row.task).Write(run.scenarios[world.scenario], title);
+  return fmt::format("etudeMotion({});\n", json.dump(-1, ' ', true, Json::error_handler_t::replace));
+}
+
+}  // namespace etude

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "engine/motion/body.h"
+#include "reports/viewer/recorded_worlds.h"
+
+namespace etude {
+
+/// A motion in 16-bit steps: joint j of frame f is at low + step · steps[60 f + 3 j + axis], metres.
+struct QuantisedMotion {
+  glm::dvec3 low{0};
+  double step = 0;  ///< of all axes; a place is off by at most half of it, and by the rounding of doubles
+  std::vector<std::uint16_t> steps;
+
+  glm::dvec3 At(std::size_t frame, Role role) const;
+};
+/// The step is the widest axis' range by 65,535: as fine as 16 bits allow. A motion that stands still has step 0.
+QuantisedMotion Quantise(const BodyMotion& motion);
+
+/// Writes the motions of one world as the script beside the page that the viewer loads: `etudeMotion({…});`, in ASCII.
+///
+///     {"file": …, "title": …, "rate_hz": 30, "floor_m": 0, "error": what errors are, "unit": "mm" or "cm",
+///      "notes": [what could not be read],
+///      "cells": [{"id", "method", "colour": as the page's, "status", "reason"}],
+///      "bodies": [{"label", "cell": index into cells or -1 (all of them), "kind": "shown", "ghost" or "partner",
+///                  "begin": frame of the world, "frames": as many, the last one lasts, "against": [bodies, the last
+///                  that is there counts], "low_m": [x, y, z], "step_m", "data": Base64 of the steps, little-endian,
+///                  "contacts": [[side, begin, end]]}],
+///      "targets_m": [[x, y, z]], "steps": [{"cell", "iterations", "off_cm", "off_deg"}],
+///      "marks": [{"lane", "frame", "end", "kind", "text"}]}
+std::string WorldScript(const RunData& run, const RecordedWorld& world);
+
+}  // namespace etude
