@@ -41,7 +41,7 @@ std::string FindingBadge(const MethodFinding& finding, std::string_view words) {
   const std::string_view sign = VerdictSign(finding.verdict);
   return fmt::format("<span class=\"badge {}\" title=\"{}\"><span role=\"img\" aria-label=\"{}\">{}</span> {}</span>",
                      VerdictClass(finding.verdict), EscapeMarkup(finding.sentence), finding.Words(),
-                     here_only ? fmt::format("({})", sign) : std::string(sign), words);
+                     here_only ? fmt::format("({})", sign) : std::string(sign), EscapeMarkup(words));
 }
 
 std::string VerdictBadge(const std::optional<Verdict>& verdict) {

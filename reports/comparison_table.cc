@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <span>
+#include <tuple>
 #include <vector>
 
 #include "reports/badge.h"
@@ -19,6 +22,13 @@ constexpr std::string_view kAllComparisons = "the CSV file of comparisons in rep
 /// One comparison as the texts of its cells, not yet escaped.
 struct Line {
   std::string condition, metric, methods, pairs, difference, interval, p, effect, beyond, notes;
+};
+
+/// A comparison that is shown, and the condition that it was made under.
+struct Shown {
+  const ConditionSummary* condition;
+  const Comparison* comparison;
+  Against against;
 };
 
 int Worlds(const Comparison& c) { return c.pairs + c.only_baseline + c.only_method + c.neither; }
@@ -60,39 +70,38 @@ Line LineOf(const ConditionSummary& condition, const Comparison& c, SamplingUnit
   return line;
 }
 
-/// Writes the figures as a row, and below them over the whole width the notes.
-std::string RowHtml(const Line& line, const Comparison& c, bool swept, int columns) {
-  std::string html =
-      fmt::format("<tr{}><td>{}</td>", line.notes.empty() ? "" : " class=\"noted\"", EscapeMarkup(line.methods));
+/// Writes one comparison as a row. What only experts look for is marked "more": the page's script shows it when asked.
+std::string RowHtml(const ScenarioSummary& scenario, const Shown& shown, bool swept) {
+  const Comparison& c = *shown.comparison;
+  const Line line = LineOf(*shown.condition, c, scenario.unit);
+  const std::string place = fmt::format("{}/{}/000/", scenario.name, CompactLabel(shown.condition->condition));
+  std::string cells = place + c.method;  // those of the first trial, to begin with
+  for (const std::string& baseline : BaselinesOf({&c, shown.condition})) cells += "\n" + place + baseline;
+  std::string html = fmt::format("<tr data-ids=\"{}\"><td>{}</td>", EscapeMarkup(cells), EscapeMarkup(line.methods));
   if (swept) html += fmt::format("<td>{}</td>", EscapeMarkup(line.condition));
-  for (const std::string& figure : {line.pairs, line.difference, line.interval, line.p, line.effect}) {
-    html += fmt::format("<td class=\"n\">{}</td>", EscapeMarkup(figure));
-  }
+  const auto number = [&](const std::string& text, std::optional<double> value, const char* style = "n") {
+    html += fmt::format("<td class=\"{}\" data-v=\"{}\">{}</td>", style, ExactText(value), EscapeMarkup(text));
+  };
+  number(line.difference, c.difference);
+  number(line.interval, c.ci_low);
   const auto& beyond = c.beyond.verdict;
-  html += fmt::format("<td>{}</td><td>{}</td></tr>", VerdictBadge(c.verdict),
-                      beyond ? VerdictBadge(*beyond) : EscapeMarkup(line.beyond));
-  if (line.notes.empty()) return html;
-  return html + fmt::format("<tr class=\"note\"><td colspan=\"{}\">{}</td></tr>", columns, EscapeMarkup(line.notes));
+  html += fmt::format("<td>{}</td><td>{}</td>", VerdictBadge(c.verdict),
+                      beyond ? VerdictBadge(*beyond) : std::string(kNoValue));
+  number(line.pairs, c.pairs, "n more");
+  number(line.p, c.p_holm, "n more");
+  number(line.effect, c.effect_size, "n more");
+  return html + fmt::format("<td class=\"more\">{}</td></tr>", EscapeMarkup(line.notes));
 }
 
 std::string Legend(const ScenarioSummary& scenario) {
-  return fmt::format(
-      "Difference: method − baseline in the same world, the median (of shares and penalised costs the mean); its 95 % "
-      "interval is a BCa bootstrap (of shares adjusted Wald; †: percentile, where BCa is undefined). p: Wilcoxon’s "
-      "signed ranks (where the mean counts, sign flips), corrected over this scenario’s {} (Holm). Effect: "
-      "rank-biserial "
-      "correlation, −1 to +1, + is better. Better or worse: p ≤ 0.05, an interval on one side of zero, and a "
-      "difference that matters. No difference: the interval within what matters. Where one method alone failed, p "
-      "counts that world as its loss, and the verdict must hold with and without. For {}: the mean over {} of their "
-      "own mean "
-      "differences decides, however many worlds each gave; with fewer than 6 there is no such verdict.",
-      Plural(scenario.family, "comparison"), OtherUnits(scenario.unit), TheseUnits(scenario.unit));
+  return fmt::format("p is corrected over this scenario’s {} (Holm).", Plural(scenario.family, "comparison"));
 }
 
 std::string BeyondCsv(const Beyond& beyond) {
   return fmt::format("{},{},{},{},{},{},{},{},{}\n", beyond.units, ExactText(beyond.difference), ExactText(beyond.low),
-                     ExactText(beyond.high), ExactText(beyond.test.p), EscapeCsv(beyond.test.how), ExactText(beyond.p_holm),
-                     beyond.verdict ? VerdictName(*beyond.verdict) : "", EscapeCsv(beyond.why_open));
+                     ExactText(beyond.high), ExactText(beyond.test.p), EscapeCsv(beyond.test.how),
+                     ExactText(beyond.p_holm), beyond.verdict ? VerdictName(*beyond.verdict) : "",
+                     EscapeCsv(beyond.why_open));
 }
 
 /// Visits every condition's comparisons with baselines, then those with the strongest other method.
@@ -104,12 +113,58 @@ void ForEachComparison(const ScenarioSummary& scenario, Visit visit) {
   }
 }
 
-std::size_t CountOf(const ScenarioSummary& scenario) {
-  std::size_t count = 0;
-  for (const ConditionSummary& condition : scenario.conditions) {
-    count += condition.comparisons.size() + condition.rivals.size();
+/// Gives every comparison once: those with the strongest other method leave out pairs that were compared already,
+/// whichever way round. In the order of metrics, methods, conditions.
+std::vector<Shown> DistinctOf(const ScenarioSummary& scenario) {
+  std::vector<Shown> all;
+  ForEachComparison(scenario, [&](const ConditionSummary& condition, const Comparison& c, Against against) {
+    all.push_back({&condition, &c, against});
+  });
+  std::ranges::stable_sort(all, {}, [](const Shown& shown) { return shown.against; });
+  std::set<std::tuple<const ConditionSummary*, std::string, std::string, std::string>> seen;
+  std::erase_if(all, [&](const Shown& shown) {
+    const auto [first, second] = std::minmax(shown.comparison->method, shown.comparison->baseline);
+    return !seen.insert({shown.condition, shown.comparison->metric, first, second}).second;
+  });
+  const auto place = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::ranges::find(names, name) - names.begin();
+  };
+  std::ranges::stable_sort(all, {}, [&](const Shown& shown) {
+    return std::tuple(place(scenario.headline_metrics, shown.comparison->metric), shown.against,
+                      place(scenario.methods, shown.comparison->method));
+  });
+  return all;
+}
+
+/// Writes comparisons as a table, a body per metric. `left` rows may be written at most, and are counted down.
+std::string TableHtml(const ScenarioSummary& scenario, std::span<const Shown> shown, std::size_t& left) {
+  const bool swept = scenario.conditions.size() > 1;
+  std::string html =
+      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Comparisons\"><table class=\"data\"><thead>"
+      "<tr><th scope=\"col\">Methods</th>";
+  if (swept) html += "<th scope=\"col\">Condition</th>";
+  html += fmt::format(
+      "<th scope=\"col\" class=\"n\">Difference</th><th scope=\"col\" class=\"n\">95 % interval</th>"
+      "<th scope=\"col\">On {}</th><th scope=\"col\">For {}</th>",
+      TheseUnits(scenario.unit), OtherUnits(scenario.unit));
+  for (const char* head : {"Worlds", "p (Holm)", "Effect"}) {
+    html += fmt::format("<th scope=\"col\" class=\"n more\">{}</th>", head);
   }
-  return count;
+  html += "<th scope=\"col\" class=\"more\">Mind</th></tr></thead>";
+  const std::string* metric = nullptr;
+  for (const Shown& one : shown) {
+    if (left == 0) break;
+    --left;
+    if (metric == nullptr || *metric != one.comparison->metric) {
+      html += fmt::format(
+          "{}<tbody data-group=\"{}\"><tr class=\"group\"><th scope=\"rowgroup\" colspan=\"{}\">{}</th></tr>",
+          metric == nullptr ? "" : "</tbody>", EscapeMarkup(WordsFor(one.comparison->metric).label), swept ? 10 : 9,
+          EscapeMarkup(MetricHeading(one.comparison->metric)));
+      metric = &one.comparison->metric;
+    }
+    html += RowHtml(scenario, one, swept);
+  }
+  return html + "</tbody></table></div>";
 }
 
 /// Says "holds", or why no common verdict counts.
@@ -162,61 +217,43 @@ std::string MetricHeading(const std::string& metric) {
   return fmt::format("{} ({}{}{} matters)", words.label, direction, direction.empty() ? "" : ", ", matters);
 }
 
+std::size_t CountComparisons(const ScenarioSummary& scenario) { return DistinctOf(scenario).size(); }
+
 std::string ComparisonTableHtml(const ScenarioSummary& scenario) {
-  if (CountOf(scenario) == 0) return "";
-  const bool swept = scenario.conditions.size() > 1;
-  std::string html =
-      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Every comparison\"><table><thead><tr>"
-      "<th scope=\"col\">Methods</th>";
-  if (swept) html += "<th scope=\"col\">Condition</th>";
-  for (const char* head : {"Pairs", "Difference", "95 % interval", "p (Holm)", "Effect"}) {
-    html += fmt::format("<th scope=\"col\" class=\"n\">{}</th>", head);
+  const std::vector<Shown> all = DistinctOf(scenario);
+  if (all.empty()) return "";
+  const auto others = std::ranges::find_if(
+      all, [&](const Shown& shown) { return shown.comparison->metric != all.front().comparison->metric; });
+  const std::span<const Shown> lead(all.begin(), others), rest(others, all.end());
+  std::size_t left = kMostTableRows;
+  std::string html = TableHtml(scenario, lead, left);
+  if (!rest.empty() && left > 0) {
+    html += fmt::format("<details><summary>and {} more, by the other metrics</summary>{}</details>", rest.size(),
+                        TableHtml(scenario, rest, left));
   }
-  html += fmt::format("<th scope=\"col\">On {}</th><th scope=\"col\">For {}</th></tr></thead>",
-                      TheseUnits(scenario.unit), OtherUnits(scenario.unit));
-  const int columns = swept ? 9 : 8;
-  std::size_t rows = 0;
-  const auto add_group = [&](const std::string& metric, Against against) {
-    std::string group;
-    // Conditions of the same methods stand under each other.
-    for (const std::string& method : scenario.methods) {
-      for (const Judged& j : JudgedOf(scenario, method, metric, against)) {
-        if (++rows > kMostTableRows) continue;
-        group += RowHtml(LineOf(*j.condition, *j.comparison, scenario.unit), *j.comparison, swept, columns);
-      }
-    }
-    if (group.empty()) return;
-    html += fmt::format("<tbody><tr class=\"group\"><th scope=\"rowgroup\" colspan=\"{}\">{}{}</th></tr>{}</tbody>",
-                        columns, EscapeMarkup(MetricHeading(metric)),
-                        against == Against::kRival ? ", against the strongest other method" : "", group);
-  };
-  for (const Against against : {Against::kBaseline, Against::kRival}) {
-    for (const std::string& metric : scenario.headline_metrics) add_group(metric, against);
-  }
-  return html + "</table></div>" + LeftOutHtml(rows, kMostTableRows, "comparisons", kAllComparisons) +
+  return html + LeftOutHtml(all.size(), kMostTableRows, "comparisons", kAllComparisons) +
          fmt::format("<p class=\"quiet legend\">{}</p>", EscapeMarkup(Legend(scenario)));
 }
 
 std::string ComparisonTableMarkdown(const ScenarioSummary& scenario) {
-  const std::size_t count = CountOf(scenario);
-  if (count == 0) return "";
+  const std::vector<Shown> all = DistinctOf(scenario);
+  if (all.empty()) return "";
   std::string text = fmt::format(
       "\n<details><summary>Every comparison ({})</summary>\n\n"
-      "| metric | methods | condition | pairs | difference (95 % interval) | p (Holm) | effect | on {} | for {} | mind "
+      "| metric | methods | condition | difference (95 % interval) | on {} | for {} | worlds | p (Holm) | effect | "
+      "mind "
       "|\n"
       "|---|---|---|---|---|---|---|---|---|---|\n",
-      count, TheseUnits(scenario.unit), OtherUnits(scenario.unit));
-  std::size_t rows = 0;
-  ForEachComparison(scenario, [&](const ConditionSummary& condition, const Comparison& c, Against against) {
-    if (++rows > kMostTableRows) return;
-    const Line line = LineOf(condition, c, scenario.unit);
-    text +=
-        fmt::format("| {} | {}{} | {} | {} | {} ({}) | {} | {} | {} | {} | {} |\n", EscapeMarkdown(line.metric),
-                    EscapeMarkdown(line.methods), against == Against::kRival ? " (strongest other)" : "",
-                    EscapeMarkdown(line.condition), line.pairs, line.difference, line.interval, EscapeMarkdown(line.p),
-                    line.effect, VerdictName(c.verdict), line.beyond, EscapeMarkdown(line.notes));
-  });
-  const std::string rest = LeftOutWords(rows, kMostTableRows, "comparisons", kAllComparisons);
+      all.size(), TheseUnits(scenario.unit), OtherUnits(scenario.unit));
+  for (const Shown& shown : std::span(all).first(std::min(all.size(), kMostTableRows))) {
+    const Comparison& c = *shown.comparison;
+    const Line line = LineOf(*shown.condition, c, scenario.unit);
+    text += fmt::format("| {} | {}{} | {} | {} ({}) | {} | {} | {} | {} | {} | {} |\n", EscapeMarkdown(line.metric),
+                        EscapeMarkdown(line.methods), shown.against == Against::kRival ? " (strongest other)" : "",
+                        EscapeMarkdown(line.condition), line.difference, line.interval, VerdictName(c.verdict),
+                        line.beyond, line.pairs, EscapeMarkdown(line.p), line.effect, EscapeMarkdown(line.notes));
+  }
+  const std::string rest = LeftOutWords(all.size(), kMostTableRows, "comparisons", kAllComparisons);
   if (!rest.empty()) text += fmt::format("\n{}\n", EscapeMarkdown(rest));
   return text + fmt::format("\n{}\n\n</details>\n", EscapeMarkdown(Legend(scenario)));
 }
@@ -233,8 +270,8 @@ std::string ComparisonTableCsv(const ScenarioSummary& scenario) {
     csv += fmt::format("{},{},{},{},{},", c.pairs, c.differing, c.only_baseline, c.only_method, c.neither);
     csv += fmt::format("{},{},{},{},{},{},{},", ExactText(c.difference), ExactText(c.ci_low), ExactText(c.ci_high),
                        IntervalKindName(c.interval), ExactText(c.mean), ExactText(c.mean_low), ExactText(c.mean_high));
-    csv += fmt::format("{},{},{},{},{},", ExactText(c.signed_rank.p), EscapeCsv(c.signed_rank.how), ExactText(c.sign_flip.p),
-                       EscapeCsv(c.sign_flip.how), ExactText(c.p_holm));
+    csv += fmt::format("{},{},{},{},{},", ExactText(c.signed_rank.p), EscapeCsv(c.signed_rank.how),
+                       ExactText(c.sign_flip.p), EscapeCsv(c.sign_flip.how), ExactText(c.p_holm));
     csv += fmt::format("{},{},{},{},", ExactText(c.effect_size),
                        ExactText(c.pairs > 0 ? std::optional(c.share_better) : std::nullopt), VerdictName(c.verdict),
                        EscapeCsv(Notes(c)));
@@ -247,8 +284,8 @@ std::string ComparisonTableCsv(const ScenarioSummary& scenario) {
 std::string AcrossTableHtml(const ScenarioSummary& scenario) {
   if (scenario.across.empty()) return "";
   std::string html =
-      "<h3>What holds under all of them</h3><div class=\"scroll\" tabindex=\"0\" role=\"region\" "
-      "aria-label=\"What holds under all\"><table><thead><tr>";
+      "<p class=\"quiet legend\">What holds under all of them:</p><div class=\"scroll\" tabindex=\"0\" role=\"region\" "
+      "aria-label=\"What holds under all\"><table class=\"data\"><thead><tr>";
   for (const std::string& heading : HeadingsOf(scenario)) {
     html += fmt::format("<th scope=\"col\">{}</th>", EscapeMarkup(heading));
   }

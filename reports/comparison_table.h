@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <string_view>
 
 #include "bench/model/summary.h"
 #include "reports/words/figures.h"
@@ -13,8 +15,26 @@ std::string MetricHeading(const std::string& metric);
 /// Writes a difference with its unit, short: tables have no room for "percentage points".
 std::string ShortDifference(double difference, const MetricWords& words);
 
-/// Writes every comparison of one scenario as a table, a row each: pairs, difference with its interval, corrected p,
-/// effect size, verdict, and what to know before believing it. "" when nothing is compared.
+/// Explains the columns of such tables.
+inline constexpr std::string_view kComparisonLegend =
+    "A difference is method − baseline in the same world: the median over worlds, of shares and penalised costs the "
+    "mean; "
+    "its 95 % interval is a BCa bootstrap (of shares adjusted Wald; †: percentile, where BCa is undefined). p is of "
+    "Wilcoxon’s signed ranks (where the mean counts, of sign flips), corrected over the scenario’s comparisons (Holm). "
+    "Effect is the rank-biserial correlation, −1 to +1, + is better. Better or worse needs p ≤ 0.05, an interval on "
+    "one "
+    "side of zero, and a difference that matters; no difference, an interval within what matters. Where one method "
+    "alone "
+    "failed, p counts that world as its loss, and the verdict must hold with and without. Beyond these worlds the mean "
+    "over clips, people or libraries of their own mean differences decides; with fewer than 6 there is no such "
+    "verdict.";
+
+/// Counts the comparisons that the tables below show: every pair of methods by each headline metric and condition once.
+std::size_t CountComparisons(const ScenarioSummary& scenario);
+
+/// Writes every comparison of one scenario once, a row each: difference with its interval, both verdicts, worlds,
+/// corrected p, effect size, and what to know before believing it; those by other metrics than the first are folded
+/// away. "" when nothing is compared.
 std::string ComparisonTableHtml(const ScenarioSummary& scenario);
 
 /// Writes the same as a Markdown table that is folded away.

@@ -52,8 +52,13 @@ JunitCase NoCellBroke(const ScenarioFindings& findings) {
 
 /// Makes a case that cannot fail, but tells readers of CI the answer.
 JunitCase TheAnswer(const ScenarioFindings& findings) {
-  std::string said = findings.headline + (findings.headline.empty() ? "" : ".\n") + findings.answer.sentence;
-  if (findings.rival.is_compared) said += "\n" + findings.rival.sentence;
+  std::string said = findings.headline;
+  for (const MethodFinding* finding : {&findings.answer, &findings.rival}) {
+    if (!finding->is_compared || (finding == &findings.rival && finding->sentence == findings.answer.sentence))
+      continue;
+    said += fmt::format("{}{}: {}", said.empty() ? "" : "\n", finding->BothVerdicts(), finding->sentence);
+    if (!finding->why_open.empty()) said += fmt::format(" Open: {}.", finding->why_open);
+  }
   return {"the question has an answer", MetWhen(true), "", std::move(said)};
 }
 
@@ -69,8 +74,7 @@ std::vector<JunitCase> CasesOf(const RunData& run, const ScenarioSummary& scenar
 
 }  // namespace
 
-std::string WriteJunitXml(const std::string& name, const std::vector<JunitSuite>& suites,
-                          const std::string& version) {
+std::string WriteJunitXml(const std::string& name, const std::vector<JunitSuite>& suites, const std::string& version) {
   std::string body;
   std::size_t all = 0, all_failed = 0, all_skipped = 0;
   for (const JunitSuite& suite : suites) {

@@ -21,7 +21,8 @@ struct JunitSuite {
   std::vector<JunitCase> cases;
 };
 
-/// Writes JUnit XML as CI systems read it, its counts made from the cases. `version` is Etude's, a property of each suite.
+/// Writes JUnit XML as CI systems read it, its counts made from the cases. `version` is Etude's, a property of each
+/// suite.
 std::string WriteJunitXml(const std::string& name, const std::vector<JunitSuite>& suites, const std::string& version);
 
 /// Writes the run as JUnit XML: a suite per scenario; in it a case per expectation (failed when unmet, skipped when it

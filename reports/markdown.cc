@@ -9,43 +9,53 @@
 #include "reports/paper/paper_a.h"
 #include "reports/paper/paper_b_section.h"
 #include "reports/transitions/transition_section.h"
+#include "reports/words/answer.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"
+#include "reports/words/judged.h"
 
 namespace etude {
 namespace {
 
-/// Writes both verdicts: "better on these clips, inconclusive for other clips".
-std::string BothVerdicts(const MethodFinding& finding) {
-  if (!finding.is_compared || finding.beyond.on_these_only) return finding.Words();
-  return fmt::format("{}, {} for {}", finding.Words(), VerdictWords(finding.beyond.verdict), OtherUnits(finding.unit));
+std::string FindingText(const MethodFinding& finding) {
+  return fmt::format("**{}**: {}{}", finding.BothVerdicts(), EscapeMarkdown(finding.sentence),
+                     finding.why_open.empty() ? "" : EscapeMarkdown(fmt::format(" Open: {}.", finding.why_open)));
 }
 
-/// Writes the answer in a line, then with its figures.
+/// Writes the answer against the baseline, and against the strongest other method where that is another one.
 std::string AnswerText(const ScenarioFindings& findings) {
-  std::string text;
-  if (!findings.headline.empty()) text += fmt::format("**{}**\n\n", EscapeMarkdown(findings.headline));
-  text += fmt::format("**{}**: {}\n", BothVerdicts(findings.answer), EscapeMarkdown(findings.answer.sentence));
-  if (!findings.rival.is_compared) return text;
-  return text + fmt::format("\nAgainst the strongest other method, **{}**: {}\n", BothVerdicts(findings.rival),
-                            EscapeMarkdown(findings.rival.sentence));
+  std::string text = FindingText(findings.answer) + "\n";
+  const bool is_another = findings.rival.is_compared && findings.rival.sentence != findings.answer.sentence;
+  return is_another ? text + "\nThe strongest other: " + FindingText(findings.rival) + "\n" : text;
 }
 
-std::string MethodsText(const ScenarioFindings& findings) {
-  const std::size_t others = findings.methods.size() > 1 ? findings.methods.size() : 0;
-  if (others + findings.yardsticks.size() == 0) return "";
-  std::string text = "\n| method | against | verdict | |\n|---|---|---|---|\n";
-  for (std::size_t i = 0; i < std::min(others, kMostListed); ++i) {
-    const MethodFinding& method = findings.methods[i];
-    text += fmt::format("| {} | {} | {} | {} |\n", EscapeMarkdown(method.method), EscapeMarkdown(method.baseline),
-                        BothVerdicts(method), EscapeMarkdown(method.sentence));
+std::string FiguresText(const KeyFigures& figures) {
+  if (figures.methods.empty()) return "";
+  std::string text = "\n| |", rule = "|---|";
+  for (const std::string& label : figures.labels) {
+    text += fmt::format(" {} |", EscapeMarkdown(label));
+    rule += "--:|";
   }
-  for (const std::string& yardstick : findings.yardsticks) {
-    text += fmt::format("| {} | | yardstick | Compared with none: what the others are measured by. |\n",
-                        EscapeMarkdown(yardstick));
+  text += "\n" + rule + "\n";
+  for (const KeyFigures::Method& method : figures.methods) {
+    text += fmt::format("| {} |", EscapeMarkdown(method.name));
+    for (const std::string& value : method.values) text += fmt::format(" {} |", EscapeMarkdown(value));
+    text += "\n";
   }
-  const std::string rest = LeftOutWords(others, kMostListed, "methods", "the CSV file of comparisons in report/tables");
+  return text;
+}
+
+/// Tells what the worlds are, and what each method is in a sentence; "" where nobody said.
+std::string WhatIsComparedText(const ScenarioSummary& scenario) {
+  std::string text = scenario.description.empty() ? "" : "\n" + EscapeMarkdown(scenario.description) + "\n";
+  if (scenario.descriptions.empty()) return text;
+  text += "\n";
+  for (std::size_t i = 0; i < std::min(scenario.descriptions.size(), kMostListed); ++i) {
+    text += fmt::format("- {}: {}\n", EscapeMarkdown(MethodLabel(scenario, scenario.methods[i])),
+                        EscapeMarkdown(scenario.descriptions[i]));
+  }
+  const std::string rest = LeftOutWords(scenario.methods.size(), kMostListed, "methods", "manifest.json");
   return rest.empty() ? text : text + "\n" + EscapeMarkdown(rest) + "\n";
 }
 
@@ -53,8 +63,8 @@ std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
   const ScenarioFindings findings = FindingsOf(run, scenario);
   std::string text = fmt::format("\n## {}\n\n{}\n\n{}", EscapeMarkdown(scenario.name),
                                  EscapeMarkdown(scenario.question), AnswerText(findings));
-  text += MethodsText(findings) + PosePairsMarkdown(run, scenario) + OverviewTableMarkdown(scenario) + '\n';
-  text += AcrossTableMarkdown(scenario);
+  text += FiguresText(findings.figures) + WhatIsComparedText(scenario) + OverviewTableMarkdown(scenario);
+  text += ComparisonTableMarkdown(scenario) + AcrossTableMarkdown(scenario) + '\n';
   for (const ExpectationResult& e : scenario.expectations) {
     const std::string_view ruling = e.ruling == Ruling::kMet     ? "met"
                                     : e.ruling == Ruling::kUnmet ? "**not met**"
@@ -72,15 +82,22 @@ std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
   }
   const std::string rest = LeftOutWords(findings.reasons.size(), kMostListed, "reasons", "cells.jsonl");
   if (!rest.empty()) text += fmt::format("  - {}\n", EscapeMarkdown(rest));
-  return text + TransitionsMarkdown(RecordedRequestsOf(run, scenario)) + PaperAMarkdown(scenario) +
-         PaperBMarkdown(run, scenario) + ComparisonTableMarkdown(scenario);
+  return text + PosePairsMarkdown(run, scenario) + TransitionsMarkdown(RecordedRequestsOf(run, scenario)) +
+         PaperAMarkdown(scenario) + PaperBMarkdown(run, scenario);
 }
 
 }  // namespace
 
 std::string WriteMarkdown(const RunData& run) {
-  std::string text = fmt::format("# {}\n\n{}\n", EscapeMarkdown(run.suite), FindingsOf(run).sentence);
+  std::string text = fmt::format("# {}\n\n{}\n\n", EscapeMarkdown(run.suite), FindingsOf(run).sentence);
+  for (const ScenarioSummary& scenario : run.scenarios) {
+    const std::string headline = HeadlineOf(scenario, MethodInQuestion(scenario),
+                                            scenario.headline_metrics.empty() ? "" : scenario.headline_metrics.front());
+    if (!headline.empty())
+      text += fmt::format("- **{}** {}\n", EscapeMarkdown(scenario.name), EscapeMarkdown(headline));
+  }
   for (const ScenarioSummary& scenario : run.scenarios) text += ScenarioText(run, scenario);
+  text += fmt::format("\n{}\n\n{}\n", EscapeMarkdown(kSigns), EscapeMarkdown(kComparisonLegend));
   text += fmt::format("\nEtude {}, {}.\n", EscapeMarkdown(run.program_version), DescribeWorlds(run));
   return text;
 }

@@ -1,11 +1,15 @@
 #include "reports/overview_table.h"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
+#include <span>
 #include <vector>
 
 #include "reports/badge.h"
+#include "reports/words/cell_series.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"
@@ -15,14 +19,12 @@ namespace etude {
 namespace {
 
 constexpr std::string_view kAllNumbers = "the CSV file in report/tables";
-constexpr std::string_view kSigns =
-    "First sign: against the method’s baseline; second: against the strongest other method. ▲ better, ▼ worse, = no "
-    "difference that matters, ? undecided, · not compared; in brackets on these worlds only, not for other clips, "
-    "people "
-    "or libraries. Medians; means of shares, scores and penalised costs.";
 
 struct OverviewCell {
   std::string value;
+  std::string interval = {};             ///< of the value, "" without
+  std::string counted = {};              ///< "10 of 12" where cells have no value, else ""
+  std::optional<double> sorted_by = {};  ///< the value as a number
   const Comparison* baseline = nullptr;  ///< against the baseline, where there is one
   const Comparison* rival = nullptr;     ///< against the strongest other method, where there is one
 
@@ -31,7 +33,9 @@ struct OverviewCell {
 
 struct OverviewRow {
   std::string method, condition;
-  std::vector<OverviewCell> cells;  ///< one per headline metric
+  std::string cell = {};                 ///< one of the row's cells, a recorded one where there is one
+  std::string kept = {};                 ///< its attribute, where it was recorded
+  std::vector<OverviewCell> cells = {};  ///< one per metric asked for
   bool is_yardstick = false;
 };
 
@@ -46,33 +50,121 @@ OverviewCell CellOf(const ConditionSummary& condition, const MethodSummary& meth
   OverviewCell cell{std::string(kNoValue)};
   const MetricWords words = WordsFor(metric);
   if (const MetricSummary* summary = FindSummary(method, metric)) {
-    cell.value = FormatValue(TypicalValue(*summary, words), words);
+    cell.sorted_by = TypicalValue(*summary, words);
+    cell.value = FormatValue(cell.sorted_by, words);
+    if (summary->ci_low) cell.interval = FormatInterval(summary->ci_low, summary->ci_high, words);
+    const int all = summary->present + summary->missing;
+    if (summary->missing > 0) cell.counted = fmt::format("{} of {}", FormatCount(summary->present), FormatCount(all));
   }
   cell.baseline = FindPaired(condition.comparisons, method.method, metric);
   cell.rival = FindPaired(condition.rivals, method.method, metric);
   return cell;
 }
 
+/// Gives the headline metrics, then all others that any method has.
+std::vector<std::string> AllMetricsOf(const ScenarioSummary& scenario) {
+  std::vector<std::string> metrics = scenario.headline_metrics;
+  for (const ConditionSummary& condition : scenario.conditions) {
+    for (const MethodSummary& method : condition.methods) {
+      for (const MetricSummary& metric : method.metrics) {
+        if (std::ranges::find(metrics, metric.id) == metrics.end()) metrics.push_back(metric.id);
+      }
+    }
+  }
+  return metrics;
+}
+
+/// Finds a cell of every method under every condition, a recorded one where there is one.
+class ExampleCells {
+ public:
+  ExampleCells(const RunData& run, const ScenarioSummary& scenario) : kept_(run) {
+    for (const Row& row : run.rows) {
+      if (row.scenario != scenario.name) continue;
+      std::string& cell = cells_[{ConditionLabel(row.condition), row.method}];
+      if (cell.empty() || (kept_.Attribute(cell).empty() && !kept_.Attribute(row.Id()).empty())) cell = row.Id();
+    }
+  }
+
+  void Show(OverviewRow& row, const std::string& method) const {
+    const auto found = cells_.find({row.condition, method});
+    if (found == cells_.end()) return;
+    row.cell = found->second;
+    row.kept = kept_.Attribute(row.cell);
+  }
+
+ private:
+  KeptCells kept_;
+  std::map<std::pair<std::string, std::string>, std::string> cells_;
+};
+
 bool HasRivals(const ScenarioSummary& scenario) {
   return std::ranges::any_of(scenario.conditions, [](const ConditionSummary& c) { return !c.rivals.empty(); });
 }
 
-std::vector<OverviewRow> RowsOf(const ScenarioSummary& scenario) {
+std::vector<OverviewRow> RowsOf(const RunData& run, const ScenarioSummary& scenario,
+                                std::span<const std::string> metrics) {
   std::vector<OverviewRow> rows;
-  if (scenario.headline_metrics.size() < 2) return rows;
+  const ExampleCells examples(run, scenario);
   // Conditions of the same method stand under each other.
   for (const std::string& name : scenario.methods) {
     for (const ConditionSummary& condition : scenario.conditions) {
       const auto method = std::ranges::find(condition.methods, name, &MethodSummary::method);
       if (method == condition.methods.end() || method->attempted == 0) continue;
-      OverviewRow row{
-          MethodLabel(scenario, name), ConditionLabel(condition.condition), {}, IsYardstick(scenario, name)};
-      for (const std::string& metric : scenario.headline_metrics)
-        row.cells.push_back(CellOf(condition, *method, metric));
+      OverviewRow row{.method = MethodLabel(scenario, name),
+                      .condition = ConditionLabel(condition.condition),
+                      .is_yardstick = IsYardstick(scenario, name)};
+      for (const std::string& metric : metrics) row.cells.push_back(CellOf(condition, *method, metric));
+      examples.Show(row, name);
       rows.push_back(std::move(row));
     }
   }
   return rows;
+}
+
+std::string_view ArrowOf(Direction direction) {
+  if (direction == Direction::kNeither) return "";
+  return direction == Direction::kLowerIsBetter ? "<span role=\"img\" aria-label=\"; lower is better\">↓</span>"
+                                                : "<span role=\"img\" aria-label=\"; higher is better\">↑</span>";
+}
+
+std::string CellHtml(const OverviewCell& cell, bool is_headline, bool has_rivals, SamplingUnit unit) {
+  std::string html = fmt::format("<td class=\"n{}\" data-v=\"{}\">{}", is_headline ? "" : " more",
+                                 ExactText(cell.sorted_by), EscapeMarkup(cell.value));
+  if (cell.IsCompared()) {
+    const auto mark = [&](const Comparison* c) { return c == nullptr ? "·" : ComparisonMark(*c, unit); };
+    html += fmt::format(" <span class=\"mark\">{}</span>", mark(cell.baseline));
+    if (has_rivals) html += fmt::format(" <span class=\"mark\">{}</span>", mark(cell.rival));
+  }
+  if (!cell.interval.empty()) html += fmt::format(" <small>{}</small>", cell.interval);
+  if (!cell.counted.empty()) html += fmt::format(" <small>{}</small>", cell.counted);
+  return html + "</td>";
+}
+
+/// Lists which values are missing and why, those of one reason together.
+std::string MissingHtml(const RunData& run, const ScenarioSummary& scenario) {
+  std::map<std::string, std::vector<std::string>> metrics_of;
+  for (const ConditionSummary& condition : scenario.conditions) {
+    for (const MethodSummary& method : condition.methods) {
+      for (const MetricSummary& metric : method.metrics) {
+        if (metric.missing == 0) continue;
+        const std::string label = ConditionLabel(condition.condition);
+        metrics_of[fmt::format("{}{}{}, {} of {}: {}", method.method, label.empty() ? "" : ", ", label, metric.missing,
+                               metric.missing + metric.present,
+                               MissingReasons(run, scenario.name, condition.condition, method.method, metric.id))]
+            .push_back(WordsFor(metric.id).label);
+      }
+    }
+  }
+  if (metrics_of.empty()) return "";
+  std::string html = "<details><summary>Missing values, and why</summary><ul class=\"reasons\">";
+  std::size_t count = 0;
+  for (const auto& [why, metrics] : metrics_of) {
+    if (++count > kMostListed) break;
+    html += fmt::format("<li>{} <span class=\"quiet\">{}</span></li>", EscapeMarkup(why),
+                        EscapeMarkup(fmt::format("({})", fmt::join(metrics, ", "))));
+  }
+  return html + "</ul>" + LeftOutHtml(metrics_of.size(), kMostListed, "reasons", "the CSV file in report/tables") +
+         "</details>";
 }
 
 constexpr std::string_view kLegend =
@@ -123,40 +215,38 @@ std::vector<PosePair> PairsOf(const RunData& run, const ScenarioSummary& scenari
 
 }  // namespace
 
-std::string OverviewTableHtml(const ScenarioSummary& scenario) {
-  const std::vector<OverviewRow> rows = RowsOf(scenario);
-  if (rows.empty()) return "";
+std::string OverviewTableHtml(const RunData& run, const ScenarioSummary& scenario) {
+  const std::vector<std::string> metrics = AllMetricsOf(scenario);
+  const std::vector<OverviewRow> rows = RowsOf(run, scenario, metrics);
+  if (rows.empty() || metrics.empty()) return "";
   const bool swept = scenario.conditions.size() > 1, has_rivals = HasRivals(scenario);
-  std::string html = fmt::format(
-      "<details{}><summary>All methods at a glance</summary><div class=\"scroll\" tabindex=\"0\" role=\"region\" "
-      "aria-label=\"All methods at a glance\"><table class=\"glance\"><thead><tr><th scope=\"col\">Method</th>",
-      swept ? "" : " open");
+  const std::size_t headline = scenario.headline_metrics.size();
+  std::string html =
+      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Every method by every metric\"><table "
+      "class=\"data glance\"><thead><tr><th scope=\"col\">Method</th>";
   if (swept) html += "<th scope=\"col\">Condition</th>";
-  for (const std::string& metric : scenario.headline_metrics) {
-    const MetricWords words = WordsFor(metric);
-    const std::string_view direction = DirectionWords(words.direction);
-    html += fmt::format("<th scope=\"col\" class=\"n\">{}<small>{}</small></th>", EscapeMarkup(words.label), direction);
+  for (std::size_t i = 0; i < metrics.size(); ++i) {
+    const MetricWords words = WordsFor(metrics[i]);
+    html += fmt::format("<th scope=\"col\" class=\"n{}\" title=\"{}\">{}{}</th>", i < headline ? "" : " more",
+                        EscapeMarkup(metrics[i]), EscapeMarkup(words.label), ArrowOf(words.direction));
   }
   html += "</tr></thead><tbody>";
   for (const OverviewRow& row : std::span(rows).first(std::min(rows.size(), kMostTableRows))) {
-    html += fmt::format("<tr{}><th scope=\"row\">{}</th>", row.is_yardstick ? " class=\"yardstick\"" : "",
-                        EscapeMarkup(row.method));
+    html +=
+        fmt::format("<tr{} data-ids=\"{}\"{}><th scope=\"row\">{}</th>", row.is_yardstick ? " class=\"yardstick\"" : "",
+                    EscapeMarkup(row.cell), row.kept, EscapeMarkup(row.method));
     if (swept) html += fmt::format("<td>{}</td>", EscapeMarkup(row.condition));
-    for (const OverviewCell& cell : row.cells) {
-      const auto mark = [&](const Comparison* c) { return c == nullptr ? "·" : ComparisonMark(*c, scenario.unit); };
-      html += fmt::format("<td class=\"n\">{}<span class=\"mark\">{}</span>", EscapeMarkup(cell.value),
-                          cell.IsCompared() ? mark(cell.baseline) : "");
-      if (has_rivals) html += fmt::format("<span class=\"mark\">{}</span>", cell.IsCompared() ? mark(cell.rival) : "");
-      html += "</td>";
-    }
+    for (std::size_t i = 0; i < metrics.size(); ++i)
+      html += CellHtml(row.cells[i], i < headline, has_rivals, scenario.unit);
     html += "</tr>";
   }
   return html + "</tbody></table></div>" + LeftOutHtml(rows.size(), kMostTableRows, "rows", kAllNumbers) +
-         fmt::format("<p class=\"quiet legend\">{}</p></details>", kSigns);
+         MissingHtml(run, scenario);
 }
 
 std::string OverviewTableMarkdown(const ScenarioSummary& scenario) {
-  const std::vector<OverviewRow> rows = RowsOf(scenario);
+  if (scenario.headline_metrics.size() < 2) return "";
+  const std::vector<OverviewRow> rows = RowsOf({}, scenario, scenario.headline_metrics);
   if (rows.empty()) return "";
   const bool swept = scenario.conditions.size() > 1, has_rivals = HasRivals(scenario);
   std::string head = "| method |", rule = "|---|";
@@ -178,15 +268,15 @@ std::string OverviewTableMarkdown(const ScenarioSummary& scenario) {
     text += '\n';
   }
   const std::string rest = LeftOutWords(rows.size(), kMostTableRows, "rows", kAllNumbers);
-  return fmt::format("{}\n{}{}{}\n", text, rest, rest.empty() ? "" : " ", kSigns);
+  return rest.empty() ? text : fmt::format("{}\n{}\n", text, rest);
 }
 
 std::string PosePairsHtml(const RunData& run, const ScenarioSummary& scenario) {
   const std::vector<PosePair> pairs = PairsOf(run, scenario);
   if (pairs.empty()) return "";
   std::string html =
-      "<details open><summary>Pair by pair</summary><div class=\"scroll\" tabindex=\"0\" role=\"region\" "
-      "aria-label=\"Pair by pair\"><table class=\"glance\"><thead><tr><th scope=\"col\">Poses</th>"
+      "<details><summary>Pair by pair</summary><div class=\"scroll\" tabindex=\"0\" role=\"region\" "
+      "aria-label=\"Pair by pair\"><table class=\"data glance\"><thead><tr><th scope=\"col\">Poses</th>"
       "<th scope=\"col\" class=\"n\">Apart</th>";
   for (const std::string& method : scenario.methods) {
     html += fmt::format("<th scope=\"col\" class=\"n\">{}</th>", EscapeMarkup(method));

@@ -7,6 +7,8 @@
 
 #include "reports/assets/assets.h"
 #include "reports/badge.h"
+#include "reports/comparison_table.h"
+#include "reports/overview_table.h"
 #include "reports/paper/paper_a.h"
 #include "reports/paper/paper_b_section.h"
 #include "reports/plots/growth.h"
@@ -91,23 +93,25 @@ std::string Head(const RunData& run) {
       kPolicy, EscapeMarkup(run.suite), Styles(run));
 }
 
-std::string Contents(const RunData& run, const std::vector<ScenarioFindings>& findings) {
-  std::string html = "<nav aria-label=\"Questions\"><ol class=\"contents\">";
+/// Lists the answers, a line each, with whom the method in question is held against.
+std::string Answers(const RunData& run, const std::vector<ScenarioFindings>& findings) {
+  std::string html = "<nav aria-label=\"Answers\"><ol class=\"answers\">";
   for (std::size_t i = 0; i < run.scenarios.size(); ++i) {
     const ScenarioSummary& scenario = run.scenarios[i];
-    html += fmt::format("<li><a href=\"#{}\"><span>{}</span><span class=\"badges\">{}{}</span></a></li>", CardAnchor(i),
-                        EscapeMarkup(scenario.question.empty() ? scenario.name : scenario.question),
-                        FindingBadge(findings[i].answer, "baseline"), FindingBadge(findings[i].rival, "best other"));
+    const std::string& headline = findings[i].headline;
+    html += fmt::format("<li><a href=\"#{}\"><b>{}</b> <span>{}</span><span class=\"badges\">{}{}</span></a></li>",
+                        CardAnchor(i), EscapeMarkup(scenario.name),
+                        EscapeMarkup(headline.empty() ? scenario.question : headline),
+                        FindingBadge(findings[i].answer, findings[i].answer.baseline),
+                        findings[i].rival.baseline == findings[i].answer.baseline
+                            ? ""
+                            : FindingBadge(findings[i].rival, findings[i].rival.baseline));
   }
-  return html +
-         "</ol><p class=\"quiet legend\">The method that each question is about, against its baseline and against the "
-         "strongest other method: ▲ better, ▼ worse, = no difference that matters, ? undecided, ± it depends on the "
-         "condition. In brackets: on these worlds only, not for other clips, people or libraries like "
-         "theirs.</p></nav>";
+  return html + "</ol></nav>";
 }
 
-constexpr std::string_view kHowToRead = R"(<section class="how"><h2>How to read this</h2>
-<p>A <b>world</b> is one simulated trial whose truth is known; every method meets the same worlds, so differences are
+constexpr std::string_view kHowToRead =
+    R"(<p>A <b>world</b> is one simulated trial whose truth is known; every method meets the same worlds, so differences are
 taken world by world. <b>Better</b> and <b>worse</b> mean that the interval of the difference lies clear of zero and
 matters in practice; <b>no difference</b>, that it lies within what would matter; <b>inconclusive</b>, that nothing is
 settled, and never that there is no difference.</p>
@@ -115,8 +119,14 @@ settled, and never that there is no difference.</p>
 measured. <b>Beyond them</b> (for other clips, other people): there a clip counts once, however many worlds were drawn
 from it, and with fewer than six clips there is no such verdict.</p>
 <p>Status <b>ok</b> means that a cell was measured, not that it reached anything: success has shares of its own. Whatever
-failed is counted and named; a missing value is shown as —, never as zero.</p></section>
+failed is counted and named; a missing value is shown as —, never as zero.</p>
 )";
+
+/// Explains verdicts, signs and columns, once for all questions.
+std::string HowToRead() {
+  return fmt::format("<details class=\"how\"><summary>How to read this</summary>{}<p>{}</p><p>{}</p></details>\n",
+                     kHowToRead, kSigns, kComparisonLegend);
+}
 
 /// Says how much of a large run the pictures show.
 std::string LeftOutSentence(const RunData& run) {
@@ -128,7 +138,7 @@ std::string LeftOutSentence(const RunData& run) {
 }
 
 std::string Footer(const RunData& run) {
-  std::string html = "<footer><dl>";
+  std::string html = "<footer><details><summary>How it was run</summary><dl>";
   const auto entry = [&](std::string_view name, const std::string& value) {
     if (!value.empty()) html += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", name, EscapeMarkup(value));
   };
@@ -136,13 +146,12 @@ std::string Footer(const RunData& run) {
   entry("Worlds", DescribeWorlds(run));
   entry("Took", run.wall_seconds > 0 ? FormatNumber(run.wall_seconds) + " s" : "");
   entry("Machine", run.host);
-  entry("Unsealed", run.unsealed);
   entry("Command", run.command_line);
-  html += "</dl><p>All tables as CSV and LaTeX: <code>report/tables/</code>";
-  if (std::ranges::find(run.scenarios, "capture", &ScenarioSummary::task) != run.scenarios.end()) {
-    html += "; recovered motions as BVH, pictures with depth and labels as EXR beside them";
-  }
-  return html + ".</p></footer>";
+  html += "</dl></details><p>";
+  if (!run.unsealed.empty()) html += fmt::format("<b>Unsealed</b> {} ", EscapeMarkup(run.unsealed));
+  return html +
+         "<a href=\"summary.md\">As Markdown</a>, <a href=\"junit.xml\">as JUnit</a>, <a href=\"../summary.json\">as "
+         "JSON</a>.</p></footer>";
 }
 
 /// Writes captures of real films beside the simulated takes of a run, as a section of its page; "" when there are none.
@@ -179,11 +188,11 @@ std::string WritePage(const RunData& run, const Media& media, std::span<const Re
       "</p><h1>The {} suite</h1><p class=\"verdict\">{}</p></header>",
       MarkDefsSvg(), CardAnchor(0), EscapeMarkup(run.suite),
       EscapeMarkup(FindingsOf(run).sentence + LeftOutSentence(run)));
+  html += Answers(run, findings);
   html += FilmElement(media.film, true);
-  html += Contents(run, findings);
   for (std::size_t i = 0; i < run.scenarios.size(); ++i) html += WriteScenarioCard(run, i, findings[i], media);
   html += RealTakesSection(run, real);
-  html += kHowToRead;
+  html += HowToRead();
   html += Footer(run);
   html += "</main><script>";
   html += ChartJs();

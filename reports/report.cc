@@ -43,9 +43,7 @@ Result<void> AddMotions(const RunData& run, std::vector<ReportText>& texts) {
     const auto row = std::ranges::find(run.rows, recorded.cell, &Row::Id);
     if (row == run.rows.end() || row->task != "capture") continue;
     ASSIGN_OR_RETURN(auto extras, ReadCaptureExtras(recorded.recording.extras_json));
-    std::string name = recorded.cell;
-    std::ranges::replace(name, '/', '~');
-    texts.push_back({fs::path("motions") / (name + ".bvh"), std::move(extras.bvh)});
+    texts.push_back({fs::path("motions") / MotionFileOf(recorded.cell), std::move(extras.bvh)});
   }
   for (const RecordedWorld& world : RecordedWorlds(run)) texts.push_back({world.file, WorldScript(run, world)});
   return {};

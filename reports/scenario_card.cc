@@ -12,16 +12,17 @@
 #include "reports/badge.h"
 #include "reports/charts.h"
 #include "reports/comparison_table.h"
-#include "reports/number_table.h"
 #include "reports/overview_table.h"
 #include "reports/paper/paper_a.h"
 #include "reports/paper/paper_b_section.h"
 #include "reports/plots/growth.h"
+#include "reports/plots/marks.h"
 #include "reports/plots/plot_section.h"
 #include "reports/transitions/transition_section.h"
 #include "reports/viewer/recorded_worlds.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
+#include "reports/words/judged.h"
 
 namespace etude {
 namespace {
@@ -53,67 +54,72 @@ std::string ChartFigure(const Chart& chart, const std::string& id) {
       EscapeScriptJson(chart.json));
 }
 
-std::string Charts(const RunData& run, const ScenarioSummary& scenario, std::size_t index) {
+/// Writes a part of the card that opens; "" without anything in it.
+std::string Folded(const std::string& title, const std::string& html, std::string_view style = "") {
+  if (html.empty()) return "";
+  return fmt::format("<details{}><summary>{}</summary>{}</details>", style, EscapeMarkup(title), html);
+}
+
+std::string OtherPictures(const RunData& run, const ScenarioSummary& scenario, std::size_t index) {
   std::string html = PlotSectionHtml(run, scenario);
   if (const auto chart = CurveChart(run, scenario)) {
     html += fmt::format("<div class=\"charts\">{}</div>", ChartFigure(*chart, fmt::format("chart-{}-curves", index)));
   }
-  return html.empty() ? "<p class=\"quiet\">No cell gave a value that could be drawn.</p>" : html;
+  return html.empty() ? "" : "<div class=\"plots\">" + html + "</div>";
 }
 
-std::string Methods(const ScenarioFindings& findings) {
-  // With one alternative the table would only repeat the answer.
-  const std::size_t others = findings.methods.size() > 1 ? findings.methods.size() : 0;
-  if (others + findings.yardsticks.size() == 0) return "";
-  std::string html = "<ul class=\"methods\" aria-label=\"Every method compared with its baseline\">";
-  for (std::size_t i = 0; i < std::min(others, kMostListed); ++i) {
-    const MethodFinding& method = findings.methods[i];
-    html +=
-        fmt::format("<li title=\"{}\">{} <span class=\"name\">{}</span> <span class=\"quiet\">against {}</span></li>",
-                    EscapeMarkup(method.sentence), VerdictBadges(method), EscapeMarkup(method.method),
-                    EscapeMarkup(method.baseline));
+/// Tells what the worlds are, and what each method is in a sentence.
+std::string WhatIsCompared(const ScenarioSummary& scenario) {
+  std::string html;
+  if (!scenario.description.empty()) html += fmt::format("<p>{}</p>", EscapeMarkup(scenario.description));
+  html += "<dl class=\"compared\">";
+  for (std::size_t i = 0; i < std::min(scenario.methods.size(), kMostListed); ++i) {
+    const std::string& method = scenario.methods[i];
+    html += fmt::format("<div><dt>{}{}</dt><dd>{}</dd></div>", MarkKeySvg(i, i),
+                        EscapeMarkup(MethodLabel(scenario, method)),
+                        i < scenario.descriptions.size() ? EscapeMarkup(scenario.descriptions[i]) : "");
   }
-  for (const std::string& yardstick : findings.yardsticks) {
-    html += fmt::format(
-        "<li title=\"Compared with none: what the others are measured by.\"><span class=\"badge same\">"
-        "yardstick</span> <span class=\"name\">{}</span></li>",
-        EscapeMarkup(yardstick));
-  }
-  return html + "</ul>" + LeftOutHtml(others, kMostListed, "methods", "the CSV file of comparisons in report/tables");
+  return html + "</dl>" + LeftOutHtml(scenario.methods.size(), kMostListed, "methods", "manifest.json");
 }
 
 std::string Expectations(const ScenarioSummary& scenario) {
   if (scenario.expectations.empty()) return "";
-  std::string html = "<ul class=\"expectations\">", figures;
+  std::string html = "<ul class=\"expectations\">";
+  int met = 0, unmet = 0;
   for (const ExpectationResult& e : scenario.expectations) {
-    const bool met = e.ruling == Ruling::kMet, unmet = e.ruling == Ruling::kUnmet;
-    html += fmt::format("<li class=\"{}\"><b>{}</b> <span>{}</span></li>",
-                        met     ? "met"
-                        : unmet ? "unmet"
-                                : "undecided",
-                        met     ? "✓ expected and met"
-                        : unmet ? "✗ expected, not met"
-                                : "? could not be decided",
-                        EscapeMarkup(e.text));
-    figures += fmt::format("<li><b>{}</b> {}</li>", EscapeMarkup(e.text), EscapeMarkup(e.detail));
+    const bool is_met = e.ruling == Ruling::kMet, is_unmet = e.ruling == Ruling::kUnmet;
+    met += is_met;
+    unmet += is_unmet;
+    html += fmt::format("<li class=\"{}\"><b>{}</b> {} <span class=\"quiet\">{}</span></li>",
+                        is_met     ? "met"
+                        : is_unmet ? "unmet"
+                                   : "undecided",
+                        is_met     ? "✓ met"
+                        : is_unmet ? "✗ not met"
+                                   : "? undecided",
+                        EscapeMarkup(e.text), EscapeMarkup(e.detail));
   }
-  return html + "</ul><details><summary>Figures behind the expectations</summary><ul class=\"reasons\">" + figures +
-         "</ul></details>";
+  const std::string title = fmt::format("Expected: {} of {} met{}", met, scenario.expectations.size(),
+                                        unmet > 0 ? fmt::format(", {} not", unmet) : "");
+  return Folded(title, html + "</ul>", unmet > 0 ? " class=\"unmet\"" : "");
 }
 
-std::string Failures(const ScenarioFindings& findings) {
-  if (findings.reasons.empty()) return "";
-  std::string html = "<details><summary>Cells that did not end ok, and why</summary><ul class=\"reasons\">";
-  for (const ReasonCount& reason : std::span(findings.reasons).first(std::min(findings.reasons.size(), kMostListed))) {
-    html += fmt::format("<li><b>{} × {}</b> in {}: {}</li>", FormatCount(reason.cells), StatusName(reason.status),
-                        EscapeMarkup(reason.method), EscapeMarkup(reason.reason));
+/// Finds the first cell of a scenario that ended so, to be run again.
+std::string FirstCellOf(const RunData& run, const ScenarioSummary& scenario, const ReasonCount& reason) {
+  for (const Row& row : run.rows) {
+    if (row.scenario == scenario.name && row.method == reason.method && row.result.status == reason.status &&
+        row.result.reason == reason.reason) {
+      return row.Id();
+    }
   }
-  return html + "</ul>" + LeftOutHtml(findings.reasons.size(), kMostListed, "reasons", "cells.jsonl") + "</details>";
+  return "";
 }
 
-// How the cells ended, as a bar whose widths are shares; the words below it say the same.
-std::string StatusBar(const ScenarioFindings& findings) {
-  std::string html = "<div class=\"status\"><div class=\"bar\" aria-hidden=\"true\">";
+/// Tells how the cells ended, what was reached, and why some failed; open is how many are not ok.
+std::string Failures(const RunData& run, const ScenarioSummary& scenario, const ScenarioFindings& findings) {
+  int others = 0;
+  for (const ReasonCount& reason : findings.reasons) others += reason.cells;
+  std::string html = "<div class=\"bar\" aria-hidden=\"true\">";
   for (const auto& [status, count] : findings.statuses) {
     html += fmt::format("<i class=\"s-{}\" style=\"flex-grow:{}\"></i>", StatusName(status), count);
   }
@@ -121,7 +127,20 @@ std::string StatusBar(const ScenarioFindings& findings) {
   for (const SuccessFinding& success : findings.successes) {
     html += fmt::format("<p>{}</p>", EscapeMarkup(SuccessSentence(success)));
   }
-  return html + "</div>";
+  if (!findings.reasons.empty()) {
+    html += "<ul class=\"reasons\">";
+    for (const ReasonCount& reason :
+         std::span(findings.reasons).first(std::min(findings.reasons.size(), kMostListed))) {
+      html += fmt::format("<li data-ids=\"{}\"><b>{} × {}</b> in {}: {}</li>",
+                          EscapeMarkup(FirstCellOf(run, scenario, reason)), FormatCount(reason.cells),
+                          StatusName(reason.status), EscapeMarkup(reason.method), EscapeMarkup(reason.reason));
+    }
+    html += "</ul>" + LeftOutHtml(findings.reasons.size(), kMostListed, "reasons", "cells.jsonl");
+  }
+  const std::string title =
+      others == 0 ? fmt::format("All {} ended ok", Plural(findings.cells, "cell"))
+                  : fmt::format("Where it fails: {} of {} not ok", FormatCount(others), Plural(findings.cells, "cell"));
+  return Folded(title, "<div class=\"status\">" + html + "</div>");
 }
 
 /// Lists the cells of a scenario that kept a recording, as JSON for the page's script.
@@ -133,15 +152,51 @@ std::string RecordedCells(const RunData& run, const ScenarioSummary& scenario) {
   return cells.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// Writes the answer in a line, then with its figures: against the baseline, and against the strongest other method.
+/// Writes verdicts and sentence of a finding; why nothing is decided stands in the badges' tip.
+std::string AnswerHtml(const MethodFinding& finding, std::string_view begin) {
+  return fmt::format("<p class=\"answer\"{}>{}{} {}</p>",
+                     finding.why_open.empty() ? "" : fmt::format(" title=\"{}\"", EscapeMarkup(finding.why_open)),
+                     begin, VerdictBadges(finding), EscapeMarkup(finding.sentence));
+}
+
+/// Writes the answer against the baseline, and against the strongest other method where that is another one.
 std::string Answer(const ScenarioFindings& findings) {
-  std::string html;
-  if (!findings.headline.empty()) html += fmt::format("<p class=\"headline\">{}</p>", EscapeMarkup(findings.headline));
-  html += fmt::format("<p class=\"answer\">{} {}</p>", VerdictBadges(findings.answer),
-                      EscapeMarkup(findings.answer.sentence));
-  if (!findings.rival.is_compared) return html;
-  return html + fmt::format("<p class=\"answer\"><b>Against the strongest other method.</b> {} {}</p>",
-                            VerdictBadges(findings.rival), EscapeMarkup(findings.rival.sentence));
+  std::string html = AnswerHtml(findings.answer, "");
+  const bool is_another = findings.rival.is_compared && findings.rival.sentence != findings.answer.sentence;
+  return is_another ? html + AnswerHtml(findings.rival, "<b>The strongest other:</b> ") : html;
+}
+
+/// Writes a few figures of the method in question, its baseline and the strongest other one.
+std::string FiguresHtml(const KeyFigures& figures) {
+  if (figures.methods.empty()) return "";
+  std::string html = "<table class=\"figures\"><thead><tr><td></td>";
+  for (const std::string& label : figures.labels) html += fmt::format("<th scope=\"col\">{}</th>", EscapeMarkup(label));
+  html += "</tr></thead><tbody>";
+  for (const KeyFigures::Method& method : figures.methods) {
+    html += fmt::format("<tr><th scope=\"row\">{}</th>", EscapeMarkup(method.name));
+    for (const std::string& value : method.values) html += fmt::format("<td>{}</td>", EscapeMarkup(value));
+    html += "</tr>";
+  }
+  return html + "</tbody></table>";
+}
+
+/// Links every file that tells more of a scenario.
+std::string Files(const RunData& run, const ScenarioSummary& scenario, std::size_t index) {
+  const std::string tables = "tables/" + FileNameOf(scenario.name, index);
+  std::string html = "<ul class=\"files\">";
+  const auto link = [&](const std::string& path, std::string_view what) {
+    html += fmt::format("<li><a href=\"{}\">{}</a> {}</li>", EscapeMarkup(UrlPath(path)), EscapeMarkup(path), what);
+  };
+  link(tables + ".csv", "all numbers");
+  link(tables + "-comparisons.csv", "all comparisons");
+  link(tables + ".tex", "both for LaTeX");
+  link("../manifest.json", "the scenario’s text, and all that repeats the run");
+  for (const CellRecording& recorded : run.recordings) {
+    const auto row = std::ranges::find(run.rows, recorded.cell, &Row::Id);
+    if (row == run.rows.end() || row->scenario != scenario.name || row->task != "capture") continue;
+    link("motions/" + MotionFileOf(recorded.cell), "recovered motion");
+  }
+  return Folded("Files", html + "</ul>");
 }
 
 std::string ScenarioFilms(const ScenarioSummary& scenario, const Media& media) {
@@ -167,7 +222,7 @@ std::string Plates(const ScenarioSummary& scenario, const Media& media) {
   std::string html;
   for (const ScenarioPicture& shown : media.plates) {
     if (shown.scenario != scenario.name) continue;
-    html += fmt::format("<details open><summary>{}</summary>{}</details>", EscapeMarkup(shown.picture.caption),
+    html += fmt::format("<figure>{1}<figcaption>{0}</figcaption></figure>", EscapeMarkup(shown.picture.caption),
                         ImageElement(shown.picture));
   }
   return html;
@@ -202,28 +257,26 @@ std::string WriteScenarioCard(const RunData& run, std::size_t index, const Scena
                                  anchor, anchor, EscapeMarkup(RecordedCells(run, scenario)));
   html += fmt::format("<p class=\"eyebrow\">{}</p><h2 id=\"{}-title\">{}</h2>", EscapeMarkup(scenario.name), anchor,
                       EscapeMarkup(scenario.question.empty() ? scenario.name : scenario.question));
-  html += Answer(findings);
-  html += Strip(scenario, media);
-  html += Plates(scenario, media);
-  html += ScenarioFilms(scenario, media);
-  html += Charts(run, scenario, index);
+  html += "<div class=\"lead\"><div>" + Answer(findings) + FiguresHtml(findings.figures) + "</div>";
+  const std::string picture = LeadPictureHtml(run, scenario);
+  html +=
+      picture.empty() ? "<p class=\"quiet\">No cell gave a value that could be drawn.</p></div>" : picture + "</div>";
   html += WatchHtml(run, index);
-  html += Methods(findings);
-  html += AcrossTableHtml(scenario);
+  html += Folded("Film and stills", ScenarioFilms(scenario, media) + Strip(scenario, media) + Plates(scenario, media));
+  html += Folded(fmt::format("What is compared: {}", Plural(std::ssize(scenario.methods), "method")),
+                 WhatIsCompared(scenario));
+  html += Folded("Every method by every metric", OverviewTableHtml(run, scenario));
+  html += Folded(fmt::format("Every comparison ({})", CountComparisons(scenario)),
+                 ComparisonTableHtml(scenario) + AcrossTableHtml(scenario));
   html += Expectations(scenario);
-  html += StatusBar(findings);
+  html += Failures(run, scenario, findings);
+  html += Folded("All pictures", OtherPictures(run, scenario, index));
   html += PosePairsHtml(run, scenario);
-  html += OverviewTableHtml(scenario);
   html += TransitionsHtml(RecordedRequestsOf(run, scenario));
   html += PaperAHtml(scenario);
   html += PaperBHtml(run, scenario);
   html += GrowthHtml(run, scenario);
-  html += Failures(findings);
-  if (const std::string table = ComparisonTableHtml(scenario); !table.empty()) {
-    html += fmt::format("<details><summary>Every comparison</summary>{}</details>", table);
-  }
-  html += fmt::format("<details><summary>All numbers</summary>{}</details></article>", NumberTableHtml(run, scenario));
-  return html;
+  return html + Files(run, scenario, index) + "</article>";
 }
 
 }  // namespace etude

@@ -1,12 +1,12 @@
-#include "reports/page.h"
-
 #include <fmt/core.h>
 
 #include <algorithm>
 
 #include "reports/comparison_table.h"
+#include "reports/page.h"
 #include "reports/paper/paper_a.h"
 #include "reports/paper/paper_b_section.h"
+#include "reports/words/answer.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"
@@ -114,14 +114,19 @@ Group OfMetric(const ScenarioSummary& scenario, const ConditionSummary& conditio
 std::string Caption(const ScenarioSummary& scenario, const ConditionSummary& condition) {
   const std::string label = ConditionLabel(condition.condition);
   const std::string& title = scenario.question.empty() ? scenario.name : scenario.question;
+  std::string answer;
+  if (const std::string asked = MethodInQuestion(scenario); !asked.empty() && !scenario.headline_metrics.empty()) {
+    const MethodFinding found = CompareInWords(scenario, asked, scenario.headline_metrics.front(), Against::kBaseline);
+    if (found.is_compared) answer = fmt::format(" {} ({})", found.sentence, found.BothVerdicts()) + ".";
+  }
   return fmt::format(
-      "{}{} Medians (of shares means) with their 95 % intervals; n: cells that have the value, of those attempted. "
+      "{}{}{} Medians (of shares means) with their 95 % intervals; n: cells that have the value, of those attempted. "
       "Difference: method − baseline in the same world, its median (of shares and penalised costs its mean) with its "
       "95 % interval; a second row compares with the strongest other method. The last columns hold the verdict on {} "
       "and "
       "the one for {} (--: none, with fewer than 6 of them). p is Holm-corrected over this scenario’s {}: ",
-      title, label.empty() ? "" : fmt::format(" ({})", label), TheseUnits(scenario.unit), OtherUnits(scenario.unit),
-      Plural(scenario.family, "comparison"));
+      title, label.empty() ? "" : fmt::format(" ({})", label), answer, TheseUnits(scenario.unit),
+      OtherUnits(scenario.unit), Plural(scenario.family, "comparison"));
 }
 
 constexpr std::string_view kStarsCaption =

@@ -52,7 +52,8 @@ struct ComparedMethod {
   std::string against;      ///< the method it is compared with; the first is its own
   bool has_oracle = false;  ///< part of its work is done by the truth: it shows what could be, and competes with none
   std::vector<std::string> oracle = {};  ///< which stages the truth stands for
-  std::string settings = {};  ///< all else that is said of it, the same text for the same; "" = of an outside method
+  std::string settings = {};     ///< all else that is said of it, the same text for the same; "" = of an outside method
+  std::string description = {};  ///< what it is, in a sentence, or the settings that it has
 };
 
 /// The comparisons and expectations of a scenario, without how its worlds are made: all that judging its rows takes.
@@ -60,13 +61,14 @@ struct Study {
   std::string scenario;
   std::string task;
   std::string question;
+  std::string description = {};  ///< what its worlds are, in a sentence; "" = nobody said
   SamplingUnit unit = SamplingUnit::kWorld;
   int trials = 1;
   std::vector<ComparedMethod> methods;              ///< at least one
   std::vector<std::vector<SweptValue>> conditions;  ///< at least one
   std::vector<std::string> metrics;                 ///< headline metrics, most important first
   std::vector<std::string> across;  ///< swept parameters under all of whose values a verdict must be the same
-  std::string rival;                                ///< the method that all others must beat; "" = the best is found
+  std::string rival;                ///< the method that all others must beat; "" = the best is found
   std::vector<Expectation> expectations;
   GateRules gate;
 };

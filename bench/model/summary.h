@@ -174,7 +174,9 @@ struct ScenarioSummary {
   std::vector<ConditionSummary> conditions;
   std::vector<ExpectationResult> expectations;
   int family = 0;  ///< comparisons in all conditions and headline metrics, over which Holm's correction runs
-  std::vector<AcrossVerdict> across = {};  ///< empty where verdicts need not hold across anything
+  std::vector<AcrossVerdict> across = {};      ///< empty where verdicts need not hold across anything
+  std::string description = {};                ///< what its worlds are, in a sentence; "" = nobody said
+  std::vector<std::string> descriptions = {};  ///< what each method is, in a sentence; empty where nobody said of any
 };
 
 }  // namespace etude

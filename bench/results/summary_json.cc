@@ -139,7 +139,9 @@ constexpr std::tuple kKeys<ScenarioSummary> = {Key("name", &ScenarioSummary::nam
                                                Key("comparisons_in_family", &ScenarioSummary::family),
                                                Key("conditions", &ScenarioSummary::conditions),
                                                Key("expectations", &ScenarioSummary::expectations),
-                                               Key("across", &ScenarioSummary::across, When::kIfAny)};
+                                               Key("across", &ScenarioSummary::across, When::kIfAny),
+                                               Key("description", &ScenarioSummary::description, When::kIfAny),
+                                               Key("descriptions", &ScenarioSummary::descriptions, When::kIfAny)};
 
 std::span<const Named<IntervalKind>> NamesOf(IntervalKind) { return kIntervalKinds; }
 std::span<const Named<Ruling>> NamesOf(Ruling) { return kRulings; }
@@ -204,7 +206,8 @@ Json Encode(const Value& value) {
     Json json;
     const auto write = [&](const auto& key) {
       Json held = Encode(value.*key.member);
-      if (key.when == When::kAlways || !held.empty()) json[key.name] = std::move(held);
+      const bool is_empty = held.empty() || held == Json("");
+      if (key.when == When::kAlways || !is_empty) json[key.name] = std::move(held);
     };
     std::apply([&](const auto&... key) { (write(key), ...); }, kKeys<Value>);
     return json;

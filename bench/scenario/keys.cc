@@ -117,7 +117,8 @@ Json SweepSchema(const TaskKind& kind) {
 Json MethodSchema(const TaskKind& kind) {
   std::vector<KeyInfo> keys;
   for (const KeyInfo& common : OutsideMethodFields().Describe()) {
-    if (!kind.seats.empty() || common.key == "name" || common.key == "against") keys.push_back(common);
+    const bool has_every_method = common.key == "name" || common.key == "against" || common.key == "description";
+    if (!kind.seats.empty() || has_every_method) keys.push_back(common);
   }
   keys.insert(keys.end(), kind.method_keys.begin(), kind.method_keys.end());
   if (!kind.has_problems) return MappingSchema(keys);

@@ -51,7 +51,7 @@ Result<MethodEntry> ReadBuiltIn(const Node& node, const TaskKind& kind) {
   Fields method(node, "a method of task " + kind.name);
   MethodEntry entry;
   entry.name = ReadPlainName(method, "name");
-  for (const char* key : {"against", "exec"}) method.Raw(key);
+  for (const char* key : {"against", "exec", "description"}) method.Raw(key);
   CheckKeysOfBuiltIn(method, kind);
   RETURN_IF_ERROR(method.Finish());
   return entry;
@@ -87,7 +87,7 @@ Result<MethodEntry> ReadMethod(const Node& node, const TaskKind& kind) {
   entry->node = node;
   std::erase_if(entry->node.entries, [&](const Node::Entry& key) {
     const bool is_outside = std::ranges::find(kProgramKeys, key.key) != std::end(kProgramKeys);
-    return key.key == "against" || (!entry->seat.empty() && is_outside);
+    return key.key == "against" || key.key == "description" || (!entry->seat.empty() && is_outside);
   });
   return entry;
 }
@@ -113,6 +113,9 @@ const FieldTable<MethodEntry>& OutsideMethodFields() {
         [](Fields& method, MethodEntry& entry) { entry.name = ReadPlainName(method, "name"); }},
        {{"against", TextKind("a method"), "(the first method)", "The method it is compared with."},
         [](Fields&, MethodEntry&) {}},  // read when all names are known
+       {{"description", TextKind("a sentence"), "(its settings)",
+         "What it is, for those who read the results; changes nothing of them."},
+        [](Fields&, MethodEntry&) {}},  // of every method alike
        {{"exec",
          {"a list: a program and its arguments",
           R"({"type":"array","minItems":1,"items":{"type":["string","number"],"minLength":1}})"},
@@ -166,6 +169,7 @@ std::vector<MethodEntry> ReadMethods(Fields& fields, const TaskKind& kind) {
   for (std::size_t i = 0; i < methods.size(); ++i) {  // only now are all names known
     Fields method(list->items[i], "a method");
     methods[i].against = method.Choice("against", names, names.front());
+    methods[i].description = method.Text("description", "");
     if (!method.ok()) return complain(method.Finish().error());
   }
   return methods;

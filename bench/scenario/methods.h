@@ -13,7 +13,7 @@ ValueKind PlainNameKind();
 /// Reads such a name.
 std::string ReadPlainName(Fields& fields, std::string_view key);
 
-/// The keys of a method outside; a built-in one has `name` and `against` of them, and its task's.
+/// The keys of a method outside; a built-in one has `name`, `against` and `description` of them, and its task's.
 const FieldTable<MethodEntry>& OutsideMethodFields();
 
 /// Reads `methods`: what every method has (its name, whom it is compared with) and all of those outside.

@@ -146,6 +146,9 @@ const FieldTable<Scenario>& ScenarioFields() {
         [](Fields& fields, Scenario& s) { s.name = ReadPlainName(fields, "scenario"); }},
        {{"question", TextKind("a text"), "", "What is asked, in one sentence."},
         [](Fields& fields, Scenario& s) { s.question = fields.RequiredText("question"); }},
+       Key::Text("description", &Scenario::description, "a sentence",
+                 "What its worlds are, for those who read the results; changes nothing of them.")
+           .WhenAbsent("(none)"),
        {{"task", NameKind(NamesOf(AllTaskKinds())), "", "The kind of question."},
         [](Fields& fields, Scenario& s) { s.task = fields.Choice("task", NamesOf(AllTaskKinds()), ""); }},
        Key::Texts("clips", &Scenario::clips, "a list of `builtin:NAME`, `builtin:*`, BVH and glTF files, patterns",
@@ -346,12 +349,26 @@ std::string SettingsOf(const MethodEntry& method) {
   return text ? *text : "";
 }
 
+/// Says what a method is where its file does not: "solver ccd, weights fixed", "a program".
+std::string DescriptionOf(const MethodEntry& method) {
+  if (!method.description.empty()) return method.description;
+  std::string text = method.exec.empty() ? "" : "a program";
+  for (const Node::Entry& entry : method.node.entries) {
+    if (entry.key == "name" || entry.key == "exec" || entry.value.kind == Node::Kind::kMapping) continue;
+    std::string value = entry.value.scalar;
+    for (const Node& item : entry.value.items) value += (value.empty() ? "" : " and ") + item.scalar;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", entry.key, value);
+  }
+  return text;
+}
+
 }  // namespace
 
 Study StudyOf(const Scenario& scenario) {
   Study study{.scenario = scenario.name,
               .task = scenario.task,
               .question = scenario.question,
+              .description = scenario.description,
               .unit = scenario.unit,
               .trials = scenario.trials,
               .methods = {},
@@ -364,7 +381,8 @@ Study StudyOf(const Scenario& scenario) {
   for (const MethodEntry& method : scenario.methods) {
     const Node* oracle = method.node.Find("oracle");
     const bool has_oracle = oracle != nullptr && (oracle->kind != Node::Kind::kSequence || !oracle->items.empty());
-    study.methods.push_back({method.name, method.against, has_oracle, StagesOf(oracle), SettingsOf(method)});
+    study.methods.push_back(
+        {method.name, method.against, has_oracle, StagesOf(oracle), SettingsOf(method), DescriptionOf(method)});
   }
   for (const Condition& condition : scenario.conditions) study.conditions.push_back(condition.swept);
   return study;

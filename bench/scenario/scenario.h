@@ -63,6 +63,7 @@ struct MethodEntry {
   std::optional<double> time_s;   ///< a method outside: its own limit per problem or step, instead of Limits::time_s
   std::string seat = {};          ///< a method outside: its seat in the task's loop; "" = it is asked once a world
   std::vector<std::string> files = {};  ///< a method outside: what a fence shows it; empty = its program's own folder
+  std::string description = {};         ///< what it is, in a sentence, for those who read results; "" = nobody said
 
   /// True when its task runs it, wholly or around its seat.
   bool RunsInTask() const { return exec.empty() || !seat.empty(); }
@@ -80,6 +81,7 @@ struct Scenario {
   std::string file;
   std::string name;
   std::string question;
+  std::string description;  ///< what its worlds are, in a sentence; "" = nobody said
   std::string task;
   std::vector<std::string> clips;     ///< references as written
   std::vector<NamedClips> libraries;  ///< instead of `clips`: every condition once for each

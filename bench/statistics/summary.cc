@@ -187,7 +187,12 @@ ConditionFindings MeasureCondition(const Study& study, const ConditionTable& tab
 ScenarioSummary JudgeFindings(const Study& study, const ScenarioTable& table, std::vector<ConditionFindings> findings,
                               std::uint64_t seed) {
   ScenarioSummary summary{study.scenario, study.task, study.question, study.unit, {}, study.metrics, {}, {}};
-  for (const ComparedMethod& entry : study.methods) summary.methods.push_back(entry.name);
+  summary.description = study.description;
+  for (const ComparedMethod& entry : study.methods) {
+    summary.methods.push_back(entry.name);
+    summary.descriptions.push_back(entry.description);
+  }
+  if (std::ranges::all_of(summary.descriptions, &std::string::empty)) summary.descriptions.clear();
   summary.family =
       JudgeTogether(findings, study.unit, &ConditionFindings::against_baselines, &ConditionSummary::comparisons);
   JudgeTogether(findings, study.unit, &ConditionFindings::against_rivals, &ConditionSummary::rivals);

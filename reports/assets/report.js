@@ -1,5 +1,5 @@
-// Draws every <canvas data-chart="id"> from the JSON island of that id, a line per method; and tells of a dot of the
-// other pictures which row it is.
+// Draws every <canvas data-chart="id"> from the JSON island of that id, a line per method; tells of a dot or a row which
+// cells it shows and how to run them again; sorts, filters and copies tables; saves pictures.
 (() => {
   'use strict';
   const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -65,50 +65,205 @@
   draw();
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', draw);
 
-  // A dot's row: which cells it shows, their values, and how to run them again.
-  const card = document.createElement('div');
-  card.className = 'row-card';
-  card.setAttribute('role', 'status');
-  card.hidden = true;
+  const make = (tag, text, properties = {}) => Object.assign(document.createElement(tag), {textContent: text, ...properties});
+  const button = (text, label, use, style = '') => {
+    const made = make('button', text, {type: 'button', className: style, onclick: use});
+    if (label) made.setAttribute('aria-label', label);
+    return made;
+  };
+  document.documentElement.classList.add('js');
+
+  // What a dot or a row shows, and how to run it again: `etude replay` of the folder that this page lies in.
+  const folder = location.protocol === 'file:' ? decodeURIComponent(location.pathname).replace(/\/report\/[^/]*$/, '') : '.';
+  const word = (text) => /^[\w.\/=,:@%+-]+$/.test(text) ? text : "'" + text.replaceAll("'", "'\\''") + "'";
+  const card = make('div', '', {className: 'row-card', hidden: true});
+  card.setAttribute('role', 'dialog');
+  card.setAttribute('aria-label', 'Cells');
   document.body.append(card);
   let picked = null;
-  const close = () => { card.hidden = true; picked?.classList.remove('picked'); picked = null; };
-  const line = (tag, text) => { const e = document.createElement(tag); e.textContent = text; card.append(e); return e; };
-  const show = (dot) => {
+  const close = () => {
+    if (card.hidden) return;
+    const back = card.contains(document.activeElement) ? picked : null;
+    card.hidden = true;
+    picked?.classList.remove('picked');
+    picked = null;
+    back?.focus();
+  };
+  const cellsOf = (shown) => {
+    if (shown.dataset.ids) return shown.dataset.ids.split('\n');
+    const of = shown.closest('figure').dataset, trial = shown.dataset.t.padStart(3, '0');
+    return (of.a ? [of.a, of.b] : [shown.parentElement.dataset.m]).map((m) => [of.s, of.c, trial, m].join('/'));
+  };
+  const titleOf = (shown) => {
+    if (shown.dataset.ids) return shown.innerText.replace(/\s+/g, ' ').trim();
+    const titled = shown.closest('figure').querySelector('use[data-t="' + shown.dataset.t + '"] title');
+    return titled?.textContent ?? 'trial ' + Number(shown.dataset.t);
+  };
+  const show = (shown) => {
     close();
-    const figure = dot.closest('figure'), of = figure.dataset, trial = dot.dataset.t.padStart(3, '0');
-    const methods = of.a ? [of.a, of.b] : [dot.parentElement.dataset.m];
-    const ids = methods.map((m) => [of.s, of.c, trial, m].join('/'));
-    card.replaceChildren();
-    const titled = figure.querySelector('use[data-t="' + dot.dataset.t + '"] title');
-    line('p', titled?.textContent ?? 'trial ' + Number(trial));
-    ids.forEach((id) => line('code', "etude replay DIR --cell '" + id.replaceAll("'", "'\\''") + "'"));
-    const seen = ids.filter((id) => window.etudeViewer?.has(id));
-    if (seen.length) {
-      const watch = line('button', 'Watch the motion');
-      watch.className = 'watched';
-      watch.dataset.cell = seen[0];
-      watch.dataset.others = JSON.stringify(seen.slice(1));
-    }
-    const article = figure.closest('.card');
+    const cells = cellsOf(shown), article = shown.closest('.card');
+    const kept = JSON.parse(article.dataset.recorded ?? '[]');
+    card.replaceChildren(make('p', titleOf(shown)));
+    cells.forEach((id) => card.append(make('code', 'etude replay ' + word(folder) + ' --cell ' + word(id))));
     const film = article.querySelector('.film') ?? document.querySelector('.film');
-    if (film && ids.some((id) => JSON.parse(article.dataset.recorded ?? '[]').includes(id))) {
-      const link = line('a', 'It was recorded: to the film');
-      film.id ||= 'film-' + of.s;
-      link.href = '#' + film.id;
+    if (film && cells.some((id) => kept.includes(id))) {
+      film.id ||= 'film-of-' + article.id;
+      card.append(make('a', 'It was recorded: to the film', {href: '#' + film.id, onclick: () => film.closest('details')?.setAttribute('open', '')}));
     }
-    const button = line('button', '×');
-    button.setAttribute('aria-label', 'Close');
-    button.addEventListener('click', close);
+    const end = button('×', 'Close', close);
+    card.append(end);
     card.hidden = false;
-    picked = dot;
-    dot.classList.add('picked');
+    picked = shown;
+    shown.classList.add('picked');
+    // For scripts that add to it, such as one that shows the motion of a cell that was recorded.
+    card.dispatchEvent(new CustomEvent('etude:cells', {bubbles: true, detail: {cells, kept: cells.filter((id) => kept.includes(id)), card}}));
+    end.focus();
   };
   document.addEventListener('click', (event) => {
     const dot = event.target.closest?.('use[data-t]');
     if (dot) show(dot);
   });
   document.addEventListener('keydown', (event) => { if (event.key === 'Escape') close(); });
+
+  // One stop of the Tab key per picture; arrows go from dot to dot, Enter opens one.
+  document.querySelectorAll('figure svg').forEach((svg) => {
+    const dots = [...svg.querySelectorAll('use[data-t]')];
+    if (!dots.length) return;
+    svg.setAttribute('role', 'group');
+    dots.forEach((dot, i) => {
+      dot.setAttribute('tabindex', i ? '-1' : '0');
+      dot.setAttribute('role', 'button');
+      if (!dot.querySelector('title')) dot.setAttribute('aria-label', 'trial ' + dot.dataset.t + ' ' + (dot.parentElement.dataset.m ?? ''));
+    });
+    svg.addEventListener('keydown', (event) => {
+      const at = dots.indexOf(document.activeElement);
+      if (at < 0) return;
+      const step = {ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1}[event.key];
+      if (event.key === 'Enter' || event.key === ' ') show(dots[at]);
+      else if (step) {
+        const next = dots[(at + step + dots.length) % dots.length];
+        dots[at].setAttribute('tabindex', '-1');
+        next.setAttribute('tabindex', '0');
+        next.focus();
+      } else return;
+      event.preventDefault();
+    });
+  });
+  document.querySelectorAll('tr[data-ids], li[data-ids]').forEach((row) => {
+    if (row.dataset.ids) (row.tagName === 'TR' ? row.cells[0] : row).append(button('', 'Run it again', () => show(row), 'rerun'));
+  });
+
+  // A picture as a file: with the colours that it has here, and the marks that it points to.
+  const PAINTS = ['fill', 'stroke', 'stroke-width', 'stroke-dasharray', 'fill-opacity', 'stroke-opacity', 'opacity', 'font-size', 'font-family', 'paint-order'];
+  const save = (svg, name) => {
+    const copy = svg.cloneNode(true), there = svg.querySelectorAll('*');
+    copy.querySelectorAll('*').forEach((e, i) => {
+      const style = getComputedStyle(there[i]);
+      PAINTS.forEach((p) => e.style.setProperty(p, style.getPropertyValue(p)));
+    });
+    copy.prepend(document.querySelector('.defs defs').cloneNode(true));
+    copy.setAttribute('xmlns', 'http://www.w3.org/2000/svg');
+    const url = URL.createObjectURL(new Blob([new XMLSerializer().serializeToString(copy)], {type: 'image/svg+xml'}));
+    make('a', '', {href: url, download: name + '.svg'}).click();
+    setTimeout(() => URL.revokeObjectURL(url), 1000);
+  };
+  document.querySelectorAll('figure:has(> svg, .panels svg) > figcaption').forEach((caption, i) => {
+    const figure = caption.parentElement;
+    caption.append(button('', 'Save this picture as SVG', () => figure.querySelectorAll('svg').forEach((svg, k) =>
+        save(svg, [figure.dataset.s ?? 'picture', i + 1, k + 1].join('-'))), 'save'));
+  });
+
+  // Tables: sorted by a click on a heading, filtered, copied, with columns to choose from.
+  const LATEX = {'\\': '\\textbackslash{}', '~': '\\textasciitilde{}', '^': '\\textasciicircum{}', '−': '$-$', '°': '$^\\circ$', '±': '$\\pm$'};
+  const ESCAPES = {
+    TSV: (text) => text,
+    Markdown: (text) => text.replace(/[\\`*_[\]<>#|&$~]/g, '\\$&'),
+    LaTeX: (text) => text.replace(/[\\{}&%$#_~^−°±]/g, (c) => LATEX[c] ?? '\\' + c),
+  };
+  const ROWS = {
+    TSV: (rows) => rows.map((row) => row.join('\t')),
+    Markdown: (rows) => rows.map((row) => '| ' + row.join(' | ') + ' |').toSpliced(1, 0, '|' + rows[0].map(() => '---|').join('')),
+    LaTeX: (rows) => ['\\begin{tabular}{' + rows[0].map(() => 'l').join('') + '}', '\\toprule', ...rows.map((row) => row.join(' & ') + ' \\\\').toSpliced(1, 0, '\\midrule'),
+                      '\\bottomrule', '\\end{tabular}'],
+  };
+  const visible = (cell) => !cell.classList.contains('off') && (!cell.classList.contains('more') || cell.classList.contains('shown'));
+  const textOf = (cell) => cell.innerText.replace(/\s+/g, ' ').trim();
+  const copy = (table, as) => {
+    const groups = table.querySelector('[data-group]');
+    const cells = (row, before) => [...(groups ? [before] : []), ...[...row.cells].filter(visible).map(textOf)].map(ESCAPES[as]);
+    const rows = [cells(table.tHead.rows[0], 'Metric')];
+    for (const body of table.tBodies) {
+      for (const row of body.rows) if (!row.hidden && !row.classList.contains('group')) rows.push(cells(row, body.dataset.group));
+    }
+    const text = ROWS[as](rows).join('\n') + '\n';
+    table.dispatchEvent(new CustomEvent('etude:copied', {bubbles: true, detail: text}));
+    return navigator.clipboard?.writeText(text).catch(() => {});
+  };
+  const keyOf = (row, column) => {
+    const cell = row.cells[column], value = cell?.dataset.v;
+    return value === undefined ? textOf(cell) : value === '' ? Infinity : Number(value);
+  };
+  const sort = (table, head, column) => {
+    const was = head.getAttribute('aria-sort');
+    for (const other of table.tHead.rows[0].cells) other.removeAttribute('aria-sort');
+    const way = was === 'ascending' ? -1 : was === 'descending' ? 0 : 1;
+    if (way) head.setAttribute('aria-sort', way > 0 ? 'ascending' : 'descending');
+    for (const body of table.tBodies) {
+      const rows = [...body.rows].filter((row) => !row.classList.contains('group'));
+      rows.forEach((row, i) => row.dataset.at ??= i);
+      const compare = (a, b) => {
+        const x = keyOf(a, column), y = keyOf(b, column);
+        if (x === Infinity || y === Infinity) return (x === Infinity) - (y === Infinity);  // no value: last either way
+        return way * (typeof x === 'number' ? x - y : x.localeCompare(y, 'en', {numeric: true}));
+      };
+      rows.sort((a, b) => (way && compare(a, b)) || a.dataset.at - b.dataset.at);
+      body.append(...rows);
+    }
+  };
+  const choose = (table, tools) => {
+    if (tools.querySelector('.menu')) return tools.querySelector('.menu').remove();
+    const menu = make('div', '', {className: 'menu'});
+    [...table.tHead.rows[0].cells].forEach((head, column) => {
+      if (!column) return;
+      const box = make('input', '', {type: 'checkbox', checked: visible(head)});
+      box.onchange = () => {
+        for (const row of table.rows) {
+          const cell = row.cells[column];
+          if (!cell || row.classList.contains('group')) continue;
+          cell.classList.toggle('shown', box.checked);
+          cell.classList.toggle('off', !box.checked);
+        }
+      };
+      const label = make('label', '');
+      label.append(box, ' ' + head.textContent);
+      menu.append(label);
+    });
+    tools.append(menu);
+    menu.querySelector('input')?.focus();
+  };
+  document.querySelectorAll('table.data').forEach((table) => {
+    const scroll = table.closest('.scroll'), tools = make('div', '', {className: 'tools'});
+    const filter = make('input', '', {type: 'search', placeholder: 'Filter'});
+    filter.setAttribute('aria-label', 'Filter rows');
+    filter.oninput = () => {
+      const wanted = filter.value.toLowerCase().split(/\s+/);
+      for (const body of table.tBodies) {
+        for (const row of body.rows) {
+          const text = ((body.dataset.group ?? '') + ' ' + row.textContent).toLowerCase();
+          row.hidden = !row.classList.contains('group') && !wanted.every((part) => text.includes(part));
+        }
+        body.hidden = [...body.rows].every((row) => row.hidden || row.classList.contains('group'));
+      }
+    };
+    tools.append(filter, ...Object.keys(ROWS).map((as) => button(as, 'Copy as ' + as, () => copy(table, as))));
+    if (table.tHead.rows[0].cells.length > 3) tools.append(button('Columns', '', () => choose(table, tools)));
+    scroll.before(tools);
+    [...table.tHead.rows[0].cells].forEach((head, column) => {
+      const by = button('', '', () => sort(table, head, column), 'sort');
+      by.append(...head.childNodes);
+      head.append(by);
+    });
+  });
 
   const video = document.querySelector('video');
   if (video && matchMedia('(prefers-reduced-motion: reduce)').matches) { video.autoplay = false; video.pause(); }

@@ -693,21 +693,18 @@ window.etudeViewer = {
   files: writers,
   flat: false,
 };
-const cellsOf = (element) => {
-  const {cell, others, scenario, condition, trial, method} = element.dataset;
-  if (cell !== undefined) return [cell, ...(others ? JSON.parse(others) : [])];
-  return [[scenario, condition || '-', String(trial).padStart(3, '0'), method].join('/')];
-};
-const tryOpen = (event) => {
-  const element = event.target.closest?.('[data-cell], [data-scenario][data-trial][data-method]');
-  if (!element || opened) return;
-  const cells = cellsOf(element);
-  if (!cells.some(window.etudeViewer.has)) return;
+document.addEventListener('click', (event) => {
+  const cell = event.target.closest?.('button[data-cell]')?.dataset.cell;
+  if (cell === undefined || opened || !window.etudeViewer.has(cell)) return;
   event.preventDefault();
-  window.etudeViewer.open(...cells);
-};
-document.addEventListener('click', tryOpen);
-document.addEventListener('keydown', (event) => {
-  if (event.key === 'Enter' && !event.target.closest?.('button, a, summary, input, select')) tryOpen(event);
+  window.etudeViewer.open(cell);
+});
+// The page's card of a dot or a row: it gets a button where a motion is there.
+document.addEventListener('etude:cells', ({detail: {cells, card}}) => {
+  const known = cells.filter(window.etudeViewer.has);
+  if (!known.length) return;
+  const watch = Object.assign(document.createElement('button'), {type: 'button', textContent: 'Watch the motion', className: 'watched',
+                                                                 onclick: () => window.etudeViewer.open(...known)});
+  card.querySelector('code').before(watch);
 });
 document.querySelectorAll('.watch').forEach((line) => { line.hidden = false; });

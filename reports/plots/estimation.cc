@@ -10,6 +10,7 @@
 
 #include "reports/plots/marks.h"
 #include "reports/plots/panel.h"
+#include "reports/words/cell_series.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 
@@ -19,6 +20,7 @@ namespace {
 struct Found {
   const Row* row = nullptr;
   std::optional<double> baseline, method;
+  std::string baseline_cell, method_cell;
 };
 
 std::vector<std::string> UnitNames(const std::map<int, Found>& found) {
@@ -37,8 +39,6 @@ constexpr std::size_t kMostNamed = 16;
 struct Cast {
   std::size_t baseline = 0, method = 0;
 };
-
-std::string Attributes(int trial) { return fmt::format(" data-t=\"{}\"", trial); }
 
 class Plot {
  public:
@@ -60,8 +60,8 @@ class Plot {
       const PairedWorld& world = pairs_.worlds[i];
       const double y1 = axis.At(world.baseline), y2 = axis.At(world.method);
       lines += fmt::format("M{:.0f} {:.1f}L{:.0f} {:.1f}", kBaselineX + left[i], y1, kMethodX + right[i], y2);
-      dots += Dot(cast_.baseline, world, kBaselineX + left[i], y1, "") +
-              Dot(cast_.method, world, kMethodX + right[i], y2, "");
+      dots += Dot(cast_.baseline, world, world.baseline_cell, kBaselineX + left[i], y1, "") +
+              Dot(cast_.method, world, world.method_cell, kMethodX + right[i], y2, "");
     }
     return BeginPanel(kHeight, fmt::format("{} under both methods", words_.plain_label)) + UprightGrid(axis) +
            fmt::format("<path class=\"pairs\" d=\"{}\"/>", lines) + dots +
@@ -83,7 +83,7 @@ class Plot {
     std::string dots;
     for (std::size_t i = 0; i < places.size(); ++i) {
       const PairedWorld& world = pairs_.worlds[i];
-      dots += Dot(cast_.method, world, kWorldsX + aside[i], places[i], Title(world));
+      dots += Dot(cast_.method, world, world.method_cell, kWorldsX + aside[i], places[i], Title(world));
     }
     const double high = axis.At(practical), low = axis.At(-practical);
     const std::string band = fmt::format("<rect class=\"band\" x=\"{}\" y=\"{:.1f}\" width=\"{}\" height=\"{:.1f}\"/>",
@@ -126,8 +126,10 @@ class Plot {
                        FormatNumber(world.method), words_.suffix);
   }
 
-  std::string Dot(std::size_t shape, const PairedWorld& world, double x, double y, const std::string& title) const {
-    return MarkUse(shape, ShowsUnits() ? world.unit : shape, x, y, Attributes(world.trial), title);
+  std::string Dot(std::size_t shape, const PairedWorld& world, const std::string& cell, double x, double y,
+                  const std::string& title) const {
+    return MarkUse(shape, ShowsUnits() ? world.unit : shape, x, y, fmt::format(" data-t=\"{}\"{}", world.trial, cell),
+                   title);
   }
 
   /// Draws a bar from low to high with a dot for the estimate, all in the metric's unit.
@@ -176,7 +178,6 @@ class Plot {
 std::string Caption(const ScenarioSummary& scenario, const Judged& judged, const PairedDots& pairs) {
   const Comparison& c = *judged.comparison;
   const MetricWords words = WordsFor(c.metric);
-  const MetricInfo* info = FindMetric(c.metric);
   const std::string unit = UnitOf(words);
   const std::string_view direction = DirectionWords(words.direction);
   std::string text = fmt::format("“{}” against “{}”", c.method, c.baseline);
@@ -184,18 +185,9 @@ std::string Caption(const ScenarioSummary& scenario, const Judged& judged, const
   if (!condition.empty()) text += ", " + condition;
   text += fmt::format(": {}{}{}{}", words.plain_label, unit.empty() ? "" : ", " + unit, direction.empty() ? "" : "; ",
                       direction);
-  text += fmt::format(". Each dot a world, {}", pairs.units.empty() ? "coloured by method"
-                                                : scenario.unit == SamplingUnit::kClipPair
-                                                    ? "coloured by the clip left"
-                                                    : "coloured by what it was drawn from");
   if (pairs.worlds.size() < pairs.total) {
     text += fmt::format(" ({} of {} drawn, at equal steps)", FormatCount(static_cast<long long>(pairs.worlds.size())),
                         FormatCount(static_cast<long long>(pairs.total)));
-  }
-  text += ". Then the paired differences with 95 % intervals";
-  if (info != nullptr) {
-    text += fmt::format("; shaded: less than {:g}{}, which does not matter", info->practical * words.scale,
-                        words.difference_suffix);
   }
   return fmt::format("{}. On {}: {}; for {}: {}.", text, TheseUnits(scenario.unit), VerdictName(c.verdict),
                      OtherUnits(scenario.unit), ShortBeyond(c, scenario.unit));
@@ -241,6 +233,7 @@ PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, c
   const Comparison& c = *judged.comparison;
   const double scale = WordsFor(c.metric).scale;
   std::map<int, Found> found;
+  const KeptCells kept(run);
   for (const Row& row : run.rows) {
     if (row.scenario != scenario.name || row.condition != judged.condition->condition) continue;
     if (row.method != c.baseline && row.method != c.method) continue;
@@ -248,7 +241,9 @@ PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, c
     if (!value || !std::isfinite(*value)) continue;
     Found& world = found[row.trial];
     world.row = &row;
-    (row.method == c.method ? world.method : world.baseline) = scale * *value;
+    const bool is_method = row.method == c.method;
+    (is_method ? world.method : world.baseline) = scale * *value;
+    (is_method ? world.method_cell : world.baseline_cell) = kept.Attribute(row.Id());
   }
   std::erase_if(found, [](const auto& entry) { return !entry.second.baseline || !entry.second.method; });
 
@@ -263,6 +258,8 @@ PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, c
     pair.trial = trial;
     pair.baseline = *world.baseline;
     pair.method = *world.method;
+    pair.baseline_cell = world.baseline_cell;
+    pair.method_cell = world.method_cell;
     if (world.row->units.empty()) continue;
     pair.unit =
         static_cast<std::size_t>(std::ranges::lower_bound(pairs.units, world.row->units.front()) - pairs.units.begin());
@@ -276,10 +273,24 @@ std::string EstimationHtml(const ScenarioSummary& scenario, const Judged& judged
   const Plot plot(scenario, judged, pairs);
   return fmt::format(
       "<figure class=\"worlds\" data-s=\"{}\" data-c=\"{}\" data-a=\"{}\" data-b=\"{}\"><figcaption>{}</figcaption>"
-      "<div class=\"panels\">{}{}</div>{}</figure>",
+      "<div class=\"panels\">{}{}</div></figure>",
       EscapeMarkup(scenario.name), EscapeMarkup(CompactLabel(judged.condition->condition)), EscapeMarkup(c.baseline),
-      EscapeMarkup(c.method), EscapeMarkup(Caption(scenario, judged, pairs)), plot.Values(), plot.Differences(),
-      UnitLegendHtml(pairs));
+      EscapeMarkup(c.method), EscapeMarkup(Caption(scenario, judged, pairs)), plot.Values(), plot.Differences());
+}
+
+std::string EstimationLegend(const ScenarioSummary& scenario, const std::string& metric) {
+  const MetricWords words = WordsFor(metric);
+  const MetricInfo* info = FindMetric(metric);
+  std::string text =
+      fmt::format("Left both methods, a dot a world, coloured by {}; right their differences with 95 % intervals",
+                  IsEveryWorldItsOwn(scenario.unit)          ? "method"
+                  : scenario.unit == SamplingUnit::kClipPair ? "the clip left"
+                                                             : "what it was drawn from");
+  if (info != nullptr) {
+    text += fmt::format("; shaded: less than {:g}{}, which does not matter", info->practical * words.scale,
+                        words.difference_suffix);
+  }
+  return text + ".";
 }
 
 std::string UnitLegendHtml(const PairedDots& pairs) {
@@ -313,17 +324,18 @@ std::string LeftOutStripHtml(const Comparison& c, SamplingUnit unit) {
   for (const LeftOut& left : c.beyond.left_out) values.push_back(left.difference * words.scale);
   Axis axis = AxisAroundZero(values);
   axis.from = 12, axis.to = kPanelRight;
-  std::string svg = BeginPanel(kStripHeight, text) +
-                    fmt::format("<rect class=\"band\" x=\"{:.1f}\" y=\"{}\" width=\"{:.1f}\" height=\"{}\"/>",
-                                axis.At(-practical), kStripTop, std::max(1.0, axis.At(practical) - axis.At(-practical)),
-                                kStripBottom - kStripTop) +
-                    LyingGrid(axis, kStripTop, kStripBottom) +
-                    fmt::format("<path class=\"zero\" d=\"M{:.1f} {}V{}\"/>", axis.At(0), kStripTop, kStripBottom);
+  std::string svg =
+      BeginPanel(kStripHeight, text) +
+      fmt::format("<rect class=\"band\" x=\"{:.1f}\" y=\"{}\" width=\"{:.1f}\" height=\"{}\"/>", axis.At(-practical),
+                  kStripTop, std::max(1.0, axis.At(practical) - axis.At(-practical)), kStripBottom - kStripTop) +
+      LyingGrid(axis, kStripTop, kStripBottom) +
+      fmt::format("<path class=\"zero\" d=\"M{:.1f} {}V{}\"/>", axis.At(0), kStripTop, kStripBottom);
   const LeftOut& extreme = Extreme(c.beyond, PracticalOf(c));
   for (const LeftOut& left : c.beyond.left_out) {
     svg += fmt::format("<path class=\"left{}\" d=\"M{:.1f} {}V{}\"><title>{}</title></path>",
                        &left == &extreme ? " extreme" : "", axis.At(left.difference * words.scale), kStripTop + 6,
-                       kStripBottom - 6, EscapeMarkup(fmt::format("without {}: {}", left.unit, Amount(left.difference, words))));
+                       kStripBottom - 6,
+                       EscapeMarkup(fmt::format("without {}: {}", left.unit, Amount(left.difference, words))));
   }
   svg += fmt::format("<circle class=\"estimate\" cx=\"{:.1f}\" cy=\"{}\" r=\"4.5\"/></svg>",
                      axis.At(*c.beyond.difference * words.scale), (kStripTop + kStripBottom) / 2);

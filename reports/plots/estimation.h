@@ -14,6 +14,7 @@ struct PairedWorld {
   int trial = 0;
   std::size_t unit = 0;  ///< index of PairedDots::units; of several units (clip left × clip entered) the first
   double baseline = 0, method = 0;
+  std::string baseline_cell = {}, method_cell = {};  ///< attributes of the dots, where those cells were recorded
 
   double Difference() const { return method - baseline; }
 };
@@ -35,6 +36,9 @@ PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, c
 /// aggregate with its 95 % interval, the units' means with theirs, and shaded what does not matter. Dots are coloured
 /// by unit, or by method where worlds are units. "" without worlds.
 std::string EstimationHtml(const ScenarioSummary& scenario, const Judged& judged, const PairedDots& pairs);
+
+/// Says in words what such plots show of this metric, once for all of them.
+std::string EstimationLegend(const ScenarioSummary& scenario, const std::string& metric);
 
 /// Names the units' colours; "" where worlds are units.
 std::string UnitLegendHtml(const PairedDots& pairs);

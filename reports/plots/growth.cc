@@ -184,7 +184,7 @@ std::string GrowthHtml(const RunData& run, const ScenarioSummary& scenario) {
   std::string html;
   for (const Growth& growth : ComputeGrowth(run, scenario)) {
     const std::string label = growth.label.empty() ? "" : EscapeMarkup(", " + growth.label);
-    html += fmt::format("<details open><summary>How a search grows with the library{}</summary>{}", label,
+    html += fmt::format("<details><summary>How a search grows with the library{}</summary>{}", label,
                         CurveLegend(scenario.methods, "Medians over the trials; both axes are logarithmic."));
     html += "<div class=\"growth\">";
     html += Figure("Distances computed per query", growth.distances, scenario.methods);

@@ -3,90 +3,96 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 #include <vector>
 
 #include "reports/plots/estimation.h"
 #include "reports/plots/verdict_curves.h"
 #include "reports/plots/verdict_tables.h"
 #include "reports/words/answer.h"
+#include "reports/words/escape.h"
 #include "reports/words/figures.h"
 
 namespace etude {
 namespace {
 
-constexpr std::size_t kMostOpen = 4;    // conditions whose pictures are not folded away
-constexpr std::size_t kMostFolded = 8;  // plots
+constexpr std::size_t kMostPlots = 12;
 constexpr std::size_t kMostStrips = 12;
 
-std::string Folded(std::string_view title, const std::string& html) {
-  return html.empty() ? "" : fmt::format("<details><summary>{}</summary>{}</details>", title, html);
+/// Gives the place of the condition whose worlds are shown first: that of the largest difference which is asked about.
+std::size_t LeadCondition(const ScenarioSummary& scenario, const std::string& metric) {
+  std::size_t lead = 0;
+  double largest = -1;
+  const std::vector<Judged> judged = JudgedOf(scenario, MethodInQuestion(scenario), metric, Against::kBaseline);
+  for (const Judged& j : judged) {
+    const double size = std::abs(j.comparison->difference.value_or(0));
+    if (size <= largest) continue;
+    largest = size;
+    lead = static_cast<std::size_t>(j.condition - scenario.conditions.data());
+  }
+  return lead;
 }
 
-std::string PlotOf(const RunData& run, const ScenarioSummary& scenario, const Judged& judged) {
-  return EstimationHtml(scenario, judged, PairedWorldsOf(run, scenario, judged)) +
-         LeftOutStripHtml(*judged.comparison, scenario.unit);
-}
-
-/// The pictures that stand open, and those that are folded away.
+/// Pictures of comparisons, each pair of methods once under each condition; what explains them is said once.
 class Section {
  public:
   Section(const RunData& run, const ScenarioSummary& scenario) : run_(run), scenario_(scenario) {}
 
-  void Add(const Judged& judged, std::size_t condition, bool is_asked) {
-    if (is_asked && condition < kMostOpen) {
-      open_ += PlotOf(run_, scenario_, judged);
-      return;
+  void AddAll(const std::string& method, Against against, const std::string& metric) {
+    const std::vector<Judged> baselines = JudgedOf(scenario_, method, metric, Against::kBaseline);
+    for (const Judged& judged : JudgedOf(scenario_, method, metric, against)) {
+      const bool is_drawn = std::ranges::any_of(baselines, [&](const Judged& other) {
+        return other.condition == judged.condition && other.comparison->baseline == judged.comparison->baseline;
+      });
+      if (against == Against::kRival && is_drawn) continue;
+      if (++count_ <= kMostPlots) Add(judged);
     }
-    if (++folded_count_ <= kMostFolded) folded_ += PlotOf(run_, scenario_, judged);
   }
 
-  std::string Html() const {
-    return open_ +
-           Folded("The other comparisons, world by world",
-                  folded_.empty() ? "" : folded_ + LeftOutHtml(folded_count_, kMostFolded, "plots", "cells.jsonl"));
-  }
+  std::string Html() const { return html_ + LeftOutHtml(count_, kMostPlots, "plots", "cells.jsonl"); }
 
  private:
+  void Add(const Judged& judged) {
+    const PairedDots pairs = PairedWorldsOf(run_, scenario_, judged);
+    const std::string plot = EstimationHtml(scenario_, judged, pairs);
+    if (plot.empty()) return;
+    const std::string& metric = judged.comparison->metric;
+    if (metric != explained_) {
+      html_ += "<p class=\"quiet legend\">" + EscapeMarkup(EstimationLegend(scenario_, metric)) + "</p>";
+      explained_ = metric;
+    }
+    if (std::string units = UnitLegendHtml(pairs); units != units_) html_ += units_ = std::move(units);
+    html_ += plot + LeftOutStripHtml(*judged.comparison, scenario_.unit);
+  }
+
   const RunData& run_;
   const ScenarioSummary& scenario_;
-  std::string open_, folded_;
-  std::size_t folded_count_ = 0;
+  std::string html_, explained_, units_;
+  std::size_t count_ = 0;
 };
 
 std::string Comparisons(const RunData& run, const ScenarioSummary& scenario, const std::string& metric) {
   Section section(run, scenario);
   const std::string asked = MethodInQuestion(scenario);
-  const auto add_all = [&](const std::string& method, Against against, const std::string& by, bool is_asked) {
-    const std::vector<Judged> judged = JudgedOf(scenario, method, by, against);
-    for (std::size_t i = 0; i < judged.size(); ++i) {
-      const auto baseline = JudgedOf(scenario, method, by, Against::kBaseline);
-      // A rival that is the baseline has its plot already.
-      if (against == Against::kRival && i < baseline.size() &&
-          baseline[i].comparison->baseline == judged[i].comparison->baseline) {
-        continue;
-      }
-      section.Add(judged[i], i, is_asked);
-    }
-  };
-  add_all(asked, Against::kBaseline, metric, true);
-  add_all(asked, Against::kRival, metric, true);
+  section.AddAll(asked, Against::kBaseline, metric);
+  section.AddAll(asked, Against::kRival, metric);
   for (const std::string& method : scenario.methods) {
-    if (method != asked) add_all(method, Against::kBaseline, metric, false);
+    if (method != asked) section.AddAll(method, Against::kBaseline, metric);
   }
   for (const std::string& other : scenario.headline_metrics) {
-    if (other != metric) add_all(asked, Against::kBaseline, other, false);
+    if (other != metric) section.AddAll(asked, Against::kBaseline, other);
   }
   return section.Html();
 }
 
-std::string Strips(const RunData& run, const ScenarioSummary& scenario, const std::string& metric) {
-  std::string open, folded;
+std::string OtherStrips(const RunData& run, const ScenarioSummary& scenario, const std::string& metric) {
+  const std::size_t lead = LeadCondition(scenario, metric);
+  std::string html;
   for (std::size_t i = 0; i < std::min(scenario.conditions.size(), kMostStrips); ++i) {
-    (i < kMostOpen ? open : folded) += StripsHtml(run, scenario, scenario.conditions[i], metric);
+    if (i != lead) html += StripsHtml(run, scenario, scenario.conditions[i], metric);
   }
-  if (open.empty()) return "";
-  if (!folded.empty()) folded = "<div class=\"panels\">" + folded + "</div>";
-  return fmt::format("<div class=\"panels\">{}</div>", open) + Folded("The same under the other conditions", folded);
+  return html.empty() ? "" : "<div class=\"panels\">" + html + "</div>";
 }
 
 // Each with the condition that it is of, where there are several.
@@ -108,14 +114,17 @@ std::string Budgets(const ScenarioSummary& scenario) {
 
 }  // namespace
 
+std::string LeadPictureHtml(const RunData& run, const ScenarioSummary& scenario) {
+  if (scenario.headline_metrics.empty() || scenario.conditions.empty()) return "";
+  const std::string& metric = scenario.headline_metrics.front();
+  return StripsHtml(run, scenario, scenario.conditions[LeadCondition(scenario, metric)], metric);
+}
+
 std::string PlotSectionHtml(const RunData& run, const ScenarioSummary& scenario) {
   if (scenario.headline_metrics.empty()) return "";
   const std::string& metric = scenario.headline_metrics.front();
-  const std::string strips = Strips(run, scenario, metric);
-  if (strips.empty()) return "";
-  return fmt::format("<div class=\"plots\">{}{}{}{}{}{}</div>", strips, VerdictCurvesHtml(run, scenario),
-                     VerdictTablesHtml(run, scenario), Budgets(scenario), Comparisons(run, scenario, metric),
-                     SurvivalHtml(run, scenario));
+  return OtherStrips(run, scenario, metric) + Comparisons(run, scenario, metric) + Budgets(scenario) +
+         SurvivalHtml(run, scenario) + VerdictCurvesHtml(run, scenario) + VerdictTablesHtml(run, scenario);
 }
 
 }  // namespace etude

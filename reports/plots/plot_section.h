@@ -6,9 +6,12 @@
 
 namespace etude {
 
-/// Draws a scenario's pictures of worlds by its first headline metric: every method's values, what is censored, and the
-/// method in question against its baseline and against the strongest other one as estimation plots, with what leaving
-/// one unit out does. Some of the other methods' plots follow, folded away; "" when no cell has a value.
+/// Draws the one picture that an answer stands beside: every method's values of the first headline metric, under the
+/// condition where the method in question differs most from its baseline; "" when no cell has a value.
+std::string LeadPictureHtml(const RunData& run, const ScenarioSummary& scenario);
+
+/// Draws all other pictures of worlds: the strips of the other conditions, comparisons as estimation plots with what
+/// leaving one unit out does, the method in question first, error budgets, and what is censored; "" when there is none.
 std::string PlotSectionHtml(const RunData& run, const ScenarioSummary& scenario);
 
 // The pictures that it is made of, besides those with a header of their own.
@@ -23,8 +26,8 @@ std::string StripsHtml(const RunData& run, const ScenarioSummary& scenario, cons
 std::string ErrorBudgetHtml(const ErrorBudget& budget, const std::string& condition);
 
 /// Curves of what is censored in this scenario (solver steps of what was not solved, waits without an end), a line per
-/// method and a panel per condition; "" where nothing is. What never is done stays in the denominator to the end, so that
-/// a method which gives up early gains nothing by it.
+/// method and a panel per condition; "" where nothing is. What never is done stays in the denominator to the end, so
+/// that a method which gives up early gains nothing by it.
 std::string SurvivalHtml(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

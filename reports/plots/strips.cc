@@ -1,5 +1,3 @@
-#include "reports/plots/plot_section.h"
-
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -8,6 +6,8 @@
 
 #include "reports/plots/marks.h"
 #include "reports/plots/panel.h"
+#include "reports/plots/plot_section.h"
+#include "reports/words/cell_series.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/judged.h"
@@ -21,6 +21,7 @@ constexpr std::size_t kMostDots = 100;  // of one row
 struct Dot {
   int trial = 0;
   double value = 0;
+  std::string cell = {};  ///< its attribute, where it was recorded
 };
 
 /// The dots of one method, with quartiles and typical value of all its values.
@@ -53,11 +54,13 @@ StripRow RowOf(std::size_t method, const std::vector<Dot>& dots, const MetricWor
 std::vector<StripRow> RowsOf(const RunData& run, const ScenarioSummary& scenario, const ConditionSummary& condition,
                              const std::string& metric, const MetricWords& words) {
   std::vector<std::vector<Dot>> dots(std::min(scenario.methods.size(), kMostListed));
+  const KeptCells kept(run);
   for (const Row& row : run.rows) {
     if (row.scenario != scenario.name || row.condition != condition.condition) continue;
     const std::size_t index = IndexOf(scenario, row.method);
     const auto value = ValueOf(row, metric);
-    if (index < dots.size() && value && std::isfinite(*value)) dots[index].push_back({row.trial, words.scale * *value});
+    if (index < dots.size() && value && std::isfinite(*value))
+      dots[index].push_back({row.trial, words.scale * *value, kept.Attribute(row.Id())});
   }
   std::vector<StripRow> rows;
   for (std::size_t i = 0; i < dots.size(); ++i) {
@@ -73,15 +76,19 @@ std::string Strip(const StripRow& row, const Axis& axis, double top, const Scena
   std::vector<double> places;
   for (const Dot& dot : row.dots) places.push_back(axis.At(dot.value));
   const std::vector<double> aside = SwarmOffsets(places, kSpread);
-  const std::string label = fmt::format("{} · {}{}", MethodLabel(scenario, method), FormatNumber(row.typical), words.suffix);
+  const std::string label =
+      fmt::format("{} {}{}", MethodLabel(scenario, method), FormatNumber(row.typical), words.suffix);
   std::string svg = PanelText(2, top + 10, label, "start", 48) + fmt::format("<g data-m=\"{}\">", EscapeMarkup(method));
   for (std::size_t i = 0; i < places.size(); ++i) {
-    svg += MarkUse(row.method, row.method, places[i], middle + aside[i], fmt::format(" data-t=\"{}\"", row.dots[i].trial));
+    svg += MarkUse(row.method, row.method, places[i], middle + aside[i],
+                   fmt::format(" data-t=\"{}\"{}", row.dots[i].trial, row.dots[i].cell));
   }
   const double from = axis.At(row.low), to = axis.At(row.high), at = axis.At(row.typical);
-  return svg + fmt::format("</g><path class=\"box\" d=\"M{:.1f} {:.1f}V{:.1f}M{:.1f} {:.1f}V{:.1f}M{:.1f} {:.1f}H{:.1f}\"/>",
-                           from, middle - 4, middle + 4, to, middle - 4, middle + 4, from, middle, to) +
-         fmt::format("<path class=\"typical\" d=\"M{:.1f} {:.1f}V{:.1f}\"/>", at, middle - kSpread - 2, middle + kSpread + 2);
+  return svg +
+         fmt::format("</g><path class=\"box\" d=\"M{:.1f} {:.1f}V{:.1f}M{:.1f} {:.1f}V{:.1f}M{:.1f} {:.1f}H{:.1f}\"/>",
+                     from, middle - 4, middle + 4, to, middle - 4, middle + 4, from, middle, to) +
+         fmt::format("<path class=\"typical\" d=\"M{:.1f} {:.1f}V{:.1f}\"/>", at, middle - kSpread - 2,
+                     middle + kSpread + 2);
 }
 
 std::string Caption(const ConditionSummary& condition, const MetricWords& words, const std::vector<StripRow>& rows) {
@@ -90,7 +97,7 @@ std::string Caption(const ConditionSummary& condition, const MetricWords& words,
   text += fmt::format("{}{}{}", text.empty() ? "" : ": ", words.plain_label, unit.empty() ? "" : ", " + unit);
   const std::string_view direction = DirectionWords(words.direction);
   if (!direction.empty()) text += fmt::format("; {}", direction);
-  text += fmt::format(". Dots: worlds; thick line: {}; box: the middle half", words.by_mean ? "mean" : "median");
+  text += fmt::format(". Dots: worlds; line: {}", words.by_mean ? "mean" : "median");
   const bool is_thinned = std::ranges::any_of(rows, [](const StripRow& row) { return row.dots.size() < row.total; });
   return text + (is_thinned ? fmt::format(" (at most {} dots a row, at equal steps).", kMostDots) : ".");
 }
@@ -121,8 +128,8 @@ std::string StripsHtml(const RunData& run, const ScenarioSummary& scenario, cons
   return fmt::format(
       "<figure class=\"worlds\" data-s=\"{}\" data-c=\"{}\"><figcaption>{}</figcaption>{}{}{}</svg></figure>",
       EscapeMarkup(scenario.name), EscapeMarkup(CompactLabel(condition.condition)),
-      EscapeMarkup(Caption(condition, words, rows)), BeginPanel(bottom + kFoot, described),
-      LyingGrid(axis, 0, bottom), strips);
+      EscapeMarkup(Caption(condition, words, rows)), BeginPanel(bottom + kFoot, described), LyingGrid(axis, 0, bottom),
+      strips);
 }
 
 }  // namespace etude

@@ -174,10 +174,10 @@ std::string AllCandidates(const RecordedRequest& world) {
          "taken. Worse: it matches, but another ranks before it.</p>";
 }
 
-std::string WorldHtml(const RecordedRequest& world, bool open) {
+std::string WorldHtml(const RecordedRequest& world) {
   std::string html =
-      fmt::format("<details class=\"transitions\"{}><summary>Why each transition went where it went: {}, {}</summary>",
-                  open ? " open" : "", EscapeMarkup(world.Request()), EscapeMarkup(world.Name()));
+      fmt::format("<details class=\"transitions\"><summary>Why each transition went where it went: {}, {}</summary>",
+                  EscapeMarkup(world.Request()), EscapeMarkup(world.Name()));
   html += WaysTable(world) + Distances(world) + AllCandidates(world);
   return html + LeftOutHtml(world.transitions.size(), kMostMethods, "methods", "the folder recordings") + "</details>";
 }
@@ -264,7 +264,7 @@ std::string MostlyBy(const PerFeature& partials) {
 
 std::string TransitionsHtml(const std::vector<RecordedRequest>& worlds) {
   std::string html;
-  for (std::size_t i = 0; i < std::min(worlds.size(), kMostWorlds); ++i) html += WorldHtml(worlds[i], i == 0);
+  for (std::size_t i = 0; i < std::min(worlds.size(), kMostWorlds); ++i) html += WorldHtml(worlds[i]);
   return html + LeftOutHtml(worlds.size(), kMostWorlds, "requests", "the folder recordings");
 }
 

@@ -28,15 +28,13 @@ std::string_view VerbFor(double difference, const MetricWords& words) {
   return difference < 0 ? "lowers" : "raises";
 }
 
-std::string_view ChangeWords(const MetricWords& words) { return words.by_mean ? "mean change" : "median change"; }
-
 std::string ClearSentence(const Comparison& c, const std::string& other, const MetricWords& words) {
   const double difference = *c.difference;
   const bool worse = c.verdict == Verdict::kWorse;
   const std::string worlds = WorldsWon(worse ? 1 - c.share_better : c.share_better, c.pairs);
   if (difference == 0) {
-    return fmt::format("“{}” has the {} {} than {} on {}, with equal halves on the others — {}", c.method,
-                       worse ? "worse" : "better", words.label, other, worlds, VerdictName(c.verdict));
+    return fmt::format("“{}” has the {} {} than {} on {}, with equal halves on the others", c.method,
+                       worse ? "worse" : "better", words.label, other, worlds);
   }
   // "Lowers by 12.3 (10.1–14.0)": the verb carries the sign, so the interval is turned with it.
   std::optional<double> low = c.ci_low, high = c.ci_high;
@@ -44,39 +42,36 @@ std::string ClearSentence(const Comparison& c, const std::string& other, const M
     low = -*c.ci_high;
     high = -*c.ci_low;
   }
-  return fmt::format("“{}” {} the {} by {} (95 % CI {}) compared with {}, on {} — {}", c.method,
-                     VerbFor(difference, words), words.label, Amount(std::abs(difference), words),
-                     FormatInterval(low, high, words), other, worlds, VerdictName(c.verdict));
+  return fmt::format("“{}” {} the {} by {} (95 % CI {}) against {}, on {}", c.method, VerbFor(difference, words),
+                     words.label, Amount(std::abs(difference), words), FormatInterval(low, high, words), other, worlds);
 }
 
 /// Writes the sentence without its end: on which worlds, and why it is open.
 std::string SentenceFor(const Comparison& c, const std::string& other, const MetricWords& words) {
   if (c.pairs == 0 || !c.difference) {
-    return fmt::format("“{}” could not be compared with {} by {}: no world gave both a value — inconclusive",
-                       c.method, other, words.label);
+    return fmt::format("“{}” could not be compared with {} by {}: no world gave both a value", c.method, other,
+                       words.label);
   }
   if (!c.ci_low) {
-    return fmt::format("“{}” and {} met in {} only: too few to judge the {} — inconclusive", c.method, other,
-                       Plural(c.pairs, "world"), words.label);
+    return fmt::format("“{}” and {} met in {} only: too few to judge the {}", c.method, other, Plural(c.pairs, "world"),
+                       words.label);
   }
-  const std::string figures =
-      fmt::format("{} {} (95 % CI {}) on {}", ChangeWords(words), Amount(*c.difference, words),
-                  FormatInterval(c.ci_low, c.ci_high, words), Plural(c.pairs, "world"));
+  const std::string figures = fmt::format("{} (95 % CI {}) on {}", Amount(*c.difference, words),
+                                          FormatInterval(c.ci_low, c.ci_high, words), Plural(c.pairs, "world"));
   switch (c.verdict) {
     case Verdict::kBetter:
     case Verdict::kWorse:
       return ClearSentence(c, other, words);
     case Verdict::kNoDifference:
-      return fmt::format("“{}” makes no difference that matters to the {} compared with {}: {} — no difference",
-                         c.method, words.label, other, figures);
+      return fmt::format("“{}” makes no difference that matters to the {} against {}: {}", c.method, words.label, other,
+                         figures);
     case Verdict::kInconclusive:
       break;
   }
-  return fmt::format("It is open whether “{}” changes the {} compared with {}: {} — inconclusive", c.method,
-                     words.label, other, figures);
+  return fmt::format("It is open whether “{}” changes the {} against {}: {}", c.method, words.label, other, figures);
 }
 
-// ": median change 5.1° (noise=5) to 12.3° (noise=20)"
+// ": 5.1° (95 % CI 4.0–6.2; noise=5) to 12.3° (10.0–14.1; noise=20), on 60 worlds each"
 std::string RangeOfChanges(const std::vector<Judged>& judged, const MetricWords& words) {
   std::vector<Judged> known;
   std::ranges::copy_if(judged, std::back_inserter(known),
@@ -84,26 +79,37 @@ std::string RangeOfChanges(const std::vector<Judged>& judged, const MetricWords&
   if (known.empty()) return "";
   const auto [smallest, largest] =
       std::ranges::minmax_element(known, {}, [](const Judged& j) { return std::abs(*j.comparison->difference); });
-  const auto end = [&](const Judged& j) {
-    return fmt::format("{} ({})", Amount(*j.comparison->difference, words), ConditionLabel(j.condition->condition));
+  const auto end = [&](const Judged& j, std::string_view what) {
+    const Comparison& c = *j.comparison;
+    const std::string interval =
+        c.ci_low ? fmt::format("{}{}; ", what, FormatInterval(c.ci_low, c.ci_high, words)) : "";
+    return fmt::format("{} ({}{})", Amount(*c.difference, words), interval, ConditionLabel(j.condition->condition));
   };
-  return fmt::format(": {} {} to {}", ChangeWords(words), end(*smallest), end(*largest));
-}
-
-// All conditions agree that it is better, or worse: "lowers the error under both conditions".
-std::string ClearSentenceOverConditions(const std::vector<Judged>& judged, const MetricWords& words) {
-  const Comparison& first = *judged.front().comparison;
-  return fmt::format("“{}” {} the {} compared with {} under {}{} — {}", first.method,
-                     VerbFor(*first.difference, words), words.label, OthersOf(judged), AllConditions(judged.size()), RangeOfChanges(judged, words),
-                     VerdictName(first.verdict));
+  const auto [fewest, most] = std::ranges::minmax(known, {}, [](const Judged& j) { return j.comparison->pairs; });
+  const int few = fewest.comparison->pairs, many = most.comparison->pairs;
+  return fmt::format(": {} to {}, on {} each", end(*smallest, "95 % CI "), end(*largest, ""),
+                     few == many ? Plural(many, "world") : fmt::format("{} to {}", few, Plural(many, "world")));
 }
 
 std::string SentenceOverConditions(const std::vector<Judged>& judged, const MetricWords& words) {
   const Comparison& first = *judged.front().comparison;
+  const std::string others = OthersOf(judged), range = RangeOfChanges(judged, words);
+  const std::string under = AllConditions(judged.size());
   const auto verdict = CommonVerdict(judged);
-  if (verdict == Verdict::kBetter || verdict == Verdict::kWorse) return ClearSentenceOverConditions(judged, words);
-  return fmt::format("“{}” compared with {} by {} is {}{}", first.method, OthersOf(judged), words.label,
-                     CountVerdicts(VerdictsOf(judged), judged.size()), RangeOfChanges(judged, words));
+  if (verdict == Verdict::kBetter || verdict == Verdict::kWorse) {
+    return fmt::format("“{}” {} the {} against {} under {}{}", first.method, VerbFor(*first.difference, words),
+                       words.label, others, under, range);
+  }
+  if (verdict == Verdict::kNoDifference) {
+    return fmt::format("“{}” makes no difference that matters to the {} against {} under {}{}", first.method,
+                       words.label, others, under, range);
+  }
+  if (verdict == Verdict::kInconclusive) {
+    return fmt::format("It is open whether “{}” changes the {} against {} under {}{}", first.method, words.label,
+                       others, under, range);
+  }
+  return fmt::format("“{}” against {} by {} is {}{}", first.method, others, words.label,
+                     CountVerdicts(VerdictsOf(judged), judged.size()), range);
 }
 
 // A method that fails in hard worlds must not look better for being judged on the easy ones alone.
@@ -128,8 +134,8 @@ constexpr double kTelling = 2;
 // A value that is nearer to zero than this part of what matters is as good as none: a ratio to it says nothing.
 constexpr double kLeastOfThreshold = 0.1;
 
-std::optional<double> TypicalOf(const ConditionSummary& condition, const std::string& method,
-                                const std::string& metric, const MetricWords& words) {
+std::optional<double> TypicalOf(const ConditionSummary& condition, const std::string& method, const std::string& metric,
+                                const MetricWords& words) {
   const auto found = std::ranges::find(condition.methods, method, &MethodSummary::method);
   const MetricSummary* summary = found == condition.methods.end() ? nullptr : FindSummary(*found, metric);
   return summary == nullptr ? std::nullopt : TypicalValue(*summary, words);
@@ -154,23 +160,40 @@ std::string CostPhrase(const std::vector<Judged>& judged, const CostRatio& ratio
 std::string VerdictPhrase(const std::vector<Judged>& judged) {
   const std::string others = OthersOf(judged);
   const auto verdict = CommonVerdict(judged);
-  if (!verdict) return fmt::format("against {} it depends: {}", others, CountVerdicts(VerdictsOf(judged), judged.size()));
+  if (!verdict)
+    return fmt::format("against {} it depends: {}", others, CountVerdicts(VerdictsOf(judged), judged.size()));
   switch (*verdict) {
     case Verdict::kBetter:
       return "better than " + others;
     case Verdict::kWorse:
       return "worse than " + others;
     case Verdict::kNoDifference:
-      return fmt::format("no different from {} in the {}", others, WordsFor(judged.front().comparison->metric).label);
+      return "no different from " + others;
     case Verdict::kInconclusive:
       break;
   }
   return "undecided against " + others;
 }
 
-std::string PhraseOf(const std::vector<Judged>& judged) {
+/// Writes the difference with its sign and unit, over conditions the least and the largest: " (−0.949 mm)"; "" without.
+std::string ChangeOf(const std::vector<Judged>& judged, std::string_view what) {
+  std::optional<double> low, high;
+  for (const Judged& j : judged) {
+    const auto& difference = j.comparison->difference;
+    if (!difference) continue;
+    low = std::min(low.value_or(*difference), *difference);
+    high = std::max(high.value_or(*difference), *difference);
+  }
+  if (!low) return "";
+  const MetricWords words = WordsFor(judged.front().comparison->metric);
+  const std::string range = *low == *high ? FormatNumber(*low * words.scale) : FormatInterval(low, high, words);
+  return fmt::format(" ({}{}{}{})", what, *low > 0 ? "+" : "", range, words.difference_suffix);
+}
+
+std::string PhraseOf(const std::vector<Judged>& judged, std::string_view what = "") {
   const auto ratio = CommonVerdict(judged) == Verdict::kWorse ? CostRatioOf(judged) : std::nullopt;
-  return ratio ? fmt::format("{} of {}", CostPhrase(judged, *ratio), OthersOf(judged)) : VerdictPhrase(judged);
+  return ratio ? fmt::format("{} of {}", CostPhrase(judged, *ratio), OthersOf(judged))
+               : VerdictPhrase(judged) + ChangeOf(judged, what);
 }
 
 /// Finds the largest ratio by which the rival leads in another headline metric; "" without any.
@@ -201,23 +224,30 @@ std::string AgainstRival(const ScenarioSummary& scenario, const std::string& met
   if (rival == baseline) return elsewhere.empty() ? ", the strongest other method" : ", but " + elsewhere;
   const auto verdict = CommonVerdict(judged);
   const bool twice_better = verdict == Verdict::kBetter && of_baseline == Verdict::kBetter;
-  const std::string phrase = twice_better ? "better than the strongest other one too, " + rival : PhraseOf(judged);
+  const std::string phrase =
+      twice_better ? "better than the strongest other one too, " + rival + ChangeOf(judged, "") : PhraseOf(judged);
   const bool is_led = verdict == Verdict::kWorse;
   return "; " + (elsewhere.empty() ? phrase : is_led ? phrase + " and " + elsewhere : phrase + ", but " + elsewhere);
 }
 
-/// Writes how a method did against another, over all its conditions, in a sentence with the figures that carry it and
-/// the verdict on these worlds. `judged` must not be empty.
+/// Writes the means of units, where a claim beyond these worlds counts them: " Mean of 8 clips 2.39 cm (−6.3 to 11.0)."
+std::string MeanOfUnits(const Comparison& c, const MetricWords& words, SamplingUnit unit) {
+  if (IsEveryWorldItsOwn(unit) || !c.beyond.low || !c.beyond.difference) return "";
+  return fmt::format(" Mean of {} {} ({}).", CountUnits(c.beyond.units, unit), Amount(*c.beyond.difference, words),
+                     FormatInterval(c.beyond.low, c.beyond.high, words));
+}
+
+/// Writes how a method did against another, over all its conditions, in a sentence with the figures that carry its
+/// verdicts, which stand beside it. `judged` must not be empty.
 std::string SentenceOf(const std::vector<Judged>& judged, SamplingUnit unit) {
   const Comparison& first = *judged.front().comparison;
   const MetricWords words = WordsFor(first.metric);
   const bool swept = judged.size() > 1;
-  const std::string sentence = swept ? SentenceOverConditions(judged, words) : SentenceFor(first, OthersOf(judged), words);
-  const bool is_open = !swept && first.verdict == Verdict::kInconclusive && first.pairs > 0;
-  const std::string why = is_open && !first.why_open.empty() ? ": " + first.why_open : "";
-  std::string beyond = BeyondInWords(judged, unit).words;
-  beyond.front() = beyond.front() == 'o' ? 'O' : 'F';
-  return fmt::format("{} on {}{}. {}.{}", sentence, TheseUnits(unit), why, beyond, UnpairedWords(judged));
+  std::string sentence = swept ? SentenceOverConditions(judged, words) : SentenceFor(first, OthersOf(judged), words);
+  if (!IsEveryWorldItsOwn(unit) && first.beyond.units > 0) {
+    sentence += fmt::format(" of {}", CountUnits(first.beyond.units, unit));
+  }
+  return fmt::format("{}.{}{}", sentence, swept ? "" : MeanOfUnits(first, words, unit), UnpairedWords(judged));
 }
 
 }  // namespace
@@ -244,7 +274,8 @@ std::optional<CostRatio> CostRatioOf(const std::vector<Judged>& judged) {
 std::string HeadlineOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric) {
   const std::vector<Judged> judged = JudgedOf(scenario, method, metric, Against::kBaseline);
   if (judged.empty()) return "";
-  std::string text = fmt::format("“{}”: {}{}", method, PhraseOf(judged),
+  const std::string what = WordsFor(metric).label + " ";
+  std::string text = fmt::format("“{}”: {}{}", method, PhraseOf(judged, what),
                                  AgainstRival(scenario, method, metric, OthersOf(judged), CommonVerdict(judged)));
   if (BeyondInWords(judged, scenario.unit).on_these_only) text += fmt::format(", on {}", TheseUnits(scenario.unit));
   return text;
@@ -265,7 +296,8 @@ MethodFinding CompareInWords(const ScenarioSummary& scenario, const std::string&
           .is_compared = true,
           .verdict = CommonVerdict(judged),
           .beyond = BeyondInWords(judged, scenario.unit),
-          .sentence = SentenceOf(judged, scenario.unit)};
+          .sentence = SentenceOf(judged, scenario.unit),
+          .why_open = judged.size() == 1 ? judged.front().comparison->why_open : ""};
 }
 
 std::string MethodInQuestion(const ScenarioSummary& scenario) {

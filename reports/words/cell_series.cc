@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "reports/words/escape.h"
+
 namespace etude {
 
 CellSeriesIndex::CellSeriesIndex(const RunData& run) {
@@ -18,6 +20,14 @@ const std::vector<double>* CellSeriesIndex::Find(const Row& row, std::string_vie
   if (cell == cells_.end()) return nullptr;
   const Series* series = FindByName(*cell->second, name);
   return series == nullptr ? nullptr : &series->values;
+}
+
+KeptCells::KeptCells(const RunData& run) {
+  for (const CellRecording& recorded : run.recordings) cells_.insert(recorded.cell);
+}
+
+std::string KeptCells::Attribute(const std::string& cell) const {
+  return cells_.contains(cell) ? " data-cell=\"" + EscapeMarkup(cell) + "\"" : "";
 }
 
 bool KeepsSeries(const RunData& run, const ScenarioSummary& scenario, std::string_view name) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <map>
+#include <set>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -18,6 +20,18 @@ class CellSeriesIndex {
 
  private:
   std::map<const Row*, const std::vector<Series>*> cells_;
+};
+
+/// Knows which cells of a run kept a recording. The run must outlive it.
+class KeptCells {
+ public:
+  explicit KeptCells(const RunData& run);
+
+  /// Gives the attribute by which the page's scripts know a recorded cell, ` data-cell="ID"`; "" for any other cell.
+  std::string Attribute(const std::string& cell) const;
+
+ private:
+  std::set<std::string_view> cells_;
 };
 
 /// Is true when any cell of this scenario keeps a series of that name.

@@ -180,6 +180,22 @@ std::string EscapeCsv(std::string_view text) {
   return out + '"';
 }
 
+std::string MotionFileOf(const std::string& cell) {
+  std::string name = cell;
+  std::ranges::replace(name, '/', '~');
+  return name + ".bvh";
+}
+
+std::string UrlPath(std::string_view path) {
+  std::string out;
+  for (const char c : path) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_plain = std::isalnum(byte) != 0 || std::string_view("-_.~/").find(c) != std::string_view::npos;
+    out += is_plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
+  }
+  return out;
+}
+
 std::string FileNameOf(const std::string& scenario, std::size_t index) {
   std::string name = scenario;
   std::ranges::replace_if(

@@ -26,4 +26,10 @@ std::string EscapeCsv(std::string_view text);
 /// file of the user: only harmless characters reach a path, and no two scenarios of a run share a name.
 std::string FileNameOf(const std::string& scenario, std::size_t index);
 
+/// Gives the name of the file that holds the motion which a cell recovered.
+std::string MotionFileOf(const std::string& cell);
+
+/// Writes a relative path as the target of a link: whatever is no plain character becomes "%XX".
+std::string UrlPath(std::string_view path);
+
 }  // namespace etude

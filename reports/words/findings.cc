@@ -1,6 +1,9 @@
 #include "reports/words/findings.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -77,7 +80,124 @@ class Successes {
   std::vector<std::pair<std::string, Sums>> sums_;
 };
 
+/// Processor times of a scenario's cells, by method.
+class Times {
+ public:
+  void Add(const RunData& run, const Row& row, std::size_t place) {
+    if (const auto seconds = CpuSecondsOf(run, row, place)) seconds_[row.method].push_back(*seconds);
+  }
+
+  std::optional<double> MedianOf(const std::string& method) {
+    const auto found = seconds_.find(method);
+    if (found == seconds_.end()) return std::nullopt;
+    const auto middle = found->second.begin() + static_cast<std::ptrdiff_t>(found->second.size() / 2);
+    std::ranges::nth_element(found->second, middle);
+    return *middle;
+  }
+
+ private:
+  std::map<std::string, std::vector<double>> seconds_;
+};
+
+std::string TimeText(std::optional<double> seconds) {
+  if (!seconds) return std::string(kNoValue);
+  return *seconds < 1 ? FormatNumber(*seconds * 1000) + " ms" : FormatNumber(*seconds) + " s";
+}
+
+/// Writes a method's values by a metric, over conditions from the least to the largest: "0.06–0.08°".
+std::string ValuesOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric) {
+  const MetricWords words = WordsFor(metric);
+  std::optional<double> low, high;
+  for (const ConditionSummary& condition : scenario.conditions) {
+    const auto found = std::ranges::find(condition.methods, method, &MethodSummary::method);
+    const MetricSummary* summary = found == condition.methods.end() ? nullptr : FindSummary(*found, metric);
+    const auto value = summary == nullptr ? std::nullopt : TypicalValue(*summary, words);
+    if (!value) continue;
+    low = std::min(low.value_or(*value), *value);
+    high = std::max(high.value_or(*value), *value);
+  }
+  return low == high ? FormatValue(low, words) : FormatInterval(low, high, words) + words.suffix;
+}
+
+/// Writes the share of a method's cells that reached their goal, or where nobody says what that is, that were measured.
+std::string SuccessOf(const ScenarioFindings& findings, const ScenarioSummary& scenario, const std::string& method) {
+  if (!findings.successes.empty()) {
+    const SuccessFinding& success = findings.successes.front();
+    const auto found = std::ranges::find(success.shares, method, &std::pair<std::string, double>::first);
+    return found == success.shares.end() ? std::string(kNoValue) : FormatValue(found->second, WordsFor(success.metric));
+  }
+  int ok = 0, attempted = 0;
+  for (const ConditionSummary& condition : scenario.conditions) {
+    const auto found = std::ranges::find(condition.methods, method, &MethodSummary::method);
+    if (found == condition.methods.end()) continue;
+    ok += found->ok;
+    attempted += found->attempted;
+  }
+  return FormatShare(ok, attempted);
+}
+
+/// Names whom the method in question is held against: its baselines, then the strongest others; none twice.
+std::vector<std::string> OthersBeside(const ScenarioSummary& scenario, const std::string& asked,
+                                      const std::string& metric) {
+  std::vector<std::string> names;
+  for (const Against against : {Against::kBaseline, Against::kRival}) {
+    for (const Judged& judged : JudgedOf(scenario, asked, metric, against)) {
+      for (std::string& name : BaselinesOf(judged)) {
+        if (std::ranges::find(names, name) == names.end()) names.push_back(std::move(name));
+      }
+    }
+  }
+  constexpr std::size_t kMost = 3;
+  names.resize(std::min(names.size(), kMost));
+  return names;
+}
+
+/// Counts the worlds in which `asked` is better than another method, over all conditions, ties as halves.
+std::string WorldsWonAgainst(const ScenarioSummary& scenario, const std::string& asked, const std::string& other,
+                             const std::string& metric) {
+  for (const Against against : {Against::kBaseline, Against::kRival}) {
+    double won = 0, pairs = 0;
+    for (const Judged& judged : JudgedOf(scenario, asked, metric, against)) {
+      if (judged.comparison->baseline != other) continue;
+      won += judged.comparison->share_better * judged.comparison->pairs;
+      pairs += judged.comparison->pairs;
+    }
+    if (pairs > 0) return fmt::format("{:g} of {}", std::round(2 * won) / 2, FormatCount(std::llround(pairs)));
+  }
+  return "";  // it was chosen on half of the worlds
+}
+
+KeyFigures KeyFiguresOf(const ScenarioSummary& scenario, const std::string& asked, Times& times,
+                        const ScenarioFindings& findings) {
+  KeyFigures figures;
+  const std::string& metric = findings.metric;
+  std::vector<std::string> names = OthersBeside(scenario, asked, metric);
+  if (names.empty()) return figures;
+  names.insert(names.begin(), asked);
+  for (const std::string& name : names) figures.methods.push_back({name, {}});
+  const auto add = [&](std::string label, const auto& value_of) {
+    figures.labels.push_back(std::move(label));
+    for (KeyFigures::Method& method : figures.methods) method.values.push_back(value_of(method.name));
+  };
+  add(WordsFor(metric).label, [&](const std::string& method) { return ValuesOf(scenario, method, metric); });
+  add(findings.successes.empty() ? "ended ok" : WordsFor(findings.successes.front().metric).plain_label,
+      [&](const std::string& method) { return SuccessOf(findings, scenario, method); });
+  if (times.MedianOf(asked)) {
+    add("processor time a cell", [&](const std::string& method) { return TimeText(times.MedianOf(method)); });
+  }
+  add(fmt::format("worlds “{}” wins", asked), [&](const std::string& method) {
+    return method == asked ? "" : WorldsWonAgainst(scenario, asked, method, metric);
+  });
+  return figures;
+}
+
 }  // namespace
+
+std::string MethodFinding::BothVerdicts() const {
+  if (!is_compared) return Words();
+  if (beyond.on_these_only) return fmt::format("{}, no verdict for {}", Words(), OtherUnits(unit));
+  return fmt::format("{}, {} for {}", Words(), VerdictWords(beyond.verdict), OtherUnits(unit));
+}
 
 const MetricSummary* FindSummary(const MethodSummary& method, const std::string& metric) {
   return FindByName(method.metrics, metric, &MetricSummary::id);
@@ -106,14 +226,17 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
   std::map<Status, int> statuses;
   std::map<std::tuple<Status, std::string, std::string>, int> reasons;
   Successes successes;
-  ForEachRow(run, [&](const Row& row, std::size_t) {
+  Times times;
+  ForEachRow(run, [&](const Row& row, std::size_t place) {
     if (row.scenario != scenario.name) return;
     ++findings.cells;
     ++statuses[row.result.status];
     if (row.result.status != Status::kOk) ++reasons[{row.result.status, row.method, row.result.reason}];
     successes.Add(row);
+    times.Add(run, row, place);
   });
   findings.successes = successes.Of(scenario);
+  if (!asked.empty()) findings.figures = KeyFiguresOf(scenario, asked, times, findings);
   findings.statuses.assign(statuses.begin(), statuses.end());
   for (const auto& [key, cells] : reasons) {
     findings.reasons.push_back({std::get<0>(key), std::get<1>(key), std::get<2>(key), cells});

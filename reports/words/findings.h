@@ -1,12 +1,12 @@
 #pragma once
 
+#include <fmt/core.h>
+
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
-
-#include <fmt/core.h>
 
 #include "bench/model/run_data.h"
 #include "reports/words/judged.h"
@@ -23,13 +23,26 @@ struct MethodFinding {
   std::string method;
   std::string baseline;  ///< whom it was compared with; the strongest other one may be another under each condition
   SamplingUnit unit = SamplingUnit::kWorld;
-  bool is_compared = false;        ///< by this metric at all
+  bool is_compared = false;             ///< by this metric at all
   std::optional<Verdict> verdict = {};  ///< on these worlds; empty when it depends on the condition
-  BeyondFinding beyond = {};       ///< for others like them
-  std::string sentence = {};       ///< plain words with the figures that carry them, and both verdicts
+  BeyondFinding beyond = {};            ///< for others like them
+  std::string sentence = {};            ///< plain words with the figures that carry the verdicts
+  std::string why_open = {};            ///< why nothing is decided, where that can be said of one condition
 
   /// Writes the verdict in words: "better on these clips".
   std::string Words() const { return fmt::format("{} on {}", VerdictWords(verdict), TheseUnits(unit)); }
+  /// Writes both verdicts: "better on these clips, inconclusive for other clips".
+  std::string BothVerdicts() const;
+};
+
+/// The method in question beside its baseline and the strongest other one: a few figures of each.
+struct KeyFigures {
+  struct Method {
+    std::string name;
+    std::vector<std::string> values;  ///< one per label, with its unit; "" where it has no meaning
+  };
+  std::vector<std::string> labels;  ///< headline metric, success, processor time, worlds won; what is known
+  std::vector<Method> methods;      ///< the one in question first; empty where nothing is compared
 };
 
 /// The count of cells that ended in one way for one reason.
@@ -49,10 +62,11 @@ struct SuccessFinding {
 
 /// All findings on one scenario, in words; the page and the Markdown say the same.
 struct ScenarioFindings {
-  std::string metric;  ///< the first headline metric, which the answer is about; "" without any
+  std::string metric;    ///< the first headline metric, which the answer is about; "" without any
   std::string headline;  ///< the answer in one line: against the baseline, and against the strongest other method
   MethodFinding answer;  ///< against the baseline
   MethodFinding rival;   ///< against the strongest other method; not compared in older runs, or where there is none
+  KeyFigures figures;
   std::vector<MethodFinding> methods;  ///< every method compared with another, in the scenario's order
   std::vector<std::string> yardsticks;
   int cells = 0;

@@ -53,8 +53,8 @@ std::string VerdictsInWords(const std::vector<Judged>& judged, const std::vector
     return without == 0 ? text : fmt::format("{}, no verdict under {} of {}", text, without, judged.size());
   }
   const Beyond& beyond = judged.front().comparison->beyond;
-  const std::string why = beyond.verdict == Verdict::kInconclusive && !beyond.why_open.empty() ? ": " + beyond.why_open
-                                                                                                : std::string();
+  const std::string why =
+      beyond.verdict == Verdict::kInconclusive && !beyond.why_open.empty() ? ": " + beyond.why_open : std::string();
   return fmt::format("{} ({}){}", VerdictName(*beyond.verdict),
                      FiguresOf(beyond, WordsFor(judged.front().comparison->metric), unit), why);
 }
@@ -116,8 +116,7 @@ std::string CountVerdicts(const std::vector<Verdict>& verdicts, std::size_t cond
     if (count == 0) continue;
     if (!text.empty()) text += ", ";
     text += fmt::format("{} under {}", VerdictName(verdict),
-                        count == conditions ? AllConditions(count)
-                                            : fmt::format("{} of {}", count, conditions));
+                        count == conditions ? AllConditions(count) : fmt::format("{} of {}", count, conditions));
   }
   return text;
 }

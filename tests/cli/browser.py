@@ -73,13 +73,17 @@ class Browser:
                     raise RuntimeError(f"{method}: {answer['error']}")
                 return answer["result"]
 
-    def set(self, width=1280, height=800, **features):
+    def set(self, width=1280, height=800, media="", **features):
         """The size of the window, and what it says of its reader: prefers_color_scheme="dark"."""
         self.send("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
-        self.send("Emulation.setEmulatedMedia",
+        self.send("Emulation.setEmulatedMedia", media=media,
                   features=[{"name": name.replace("_", "-"), "value": value} for name, value in features.items()])
 
-    def open(self, path):
+    def open(self, path, width=None, scheme="light", media="", forced=False, script=True):
+        """Shows a file; at a width with a colour scheme, forced colours or without scripts, or as it was set before."""
+        if width is not None:
+            self.set(width, 900, media, prefers_color_scheme=scheme, forced_colors="active" if forced else "none")
+        self.send("Emulation.setScriptExecutionDisabled", value=not script)
         self.send("Page.navigate", url=path.resolve().as_uri())
         while self.receive().get("method") != "Page.loadEventFired":
             pass

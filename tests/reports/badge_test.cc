@@ -40,8 +40,10 @@ TEST(Badges, PutWhatHoldsHereOnlyInBrackets) {
   EXPECT_EQ(ComparisonSign(c), "▲");
   c.verdict = Verdict::kInconclusive;
   EXPECT_EQ(ComparisonSign(c), "?");
-  EXPECT_THAT(FindingBadge(Found(SamplingUnit::kClip, true, std::nullopt), "baseline"), HasSubstr(">(▲)</span> baseline"));
-  EXPECT_THAT(FindingBadge(Found(SamplingUnit::kClip, false, Verdict::kBetter), "baseline"), HasSubstr(">▲</span> baseline"));
+  EXPECT_THAT(FindingBadge(Found(SamplingUnit::kClip, true, std::nullopt), "baseline"),
+              HasSubstr(">(▲)</span> baseline"));
+  EXPECT_THAT(FindingBadge(Found(SamplingUnit::kClip, false, Verdict::kBetter), "baseline"),
+              HasSubstr(">▲</span> baseline"));
   EXPECT_EQ(FindingBadge(MethodFinding{}, "baseline"), "");
 }
 

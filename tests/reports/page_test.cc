@@ -37,7 +37,9 @@ std::vector<std::string> OutsideReferences(const std::string& page) {
   std::vector<std::string> found;
   for (auto it = std::sregex_iterator(markup.begin(), markup.end(), reference); it != std::sregex_iterator(); ++it) {
     const std::string target = (*it)[2];
-    if (!target.starts_with("data:") && !target.starts_with("#")) found.push_back(it->str());
+    const bool is_link =
+        (*it)[1] == "href" && std::regex_match(target, std::regex("(\\.\\./)?[A-Za-z0-9_%~-][A-Za-z0-9_./%~-]*"));
+    if (!target.starts_with("data:") && !target.starts_with("#") && !is_link) found.push_back(it->str());
   }
   return found;
 }
@@ -98,6 +100,32 @@ TEST(Page, TellsEveryScenarioItsAnswerAndEveryFailuresReason) {
   EXPECT_GE(checked, 3);
 }
 
+TEST(Page, AnswersBeforeAnythingElseAndFoldsTheRest) {
+  RunData run = ExampleRun();
+  run.scenarios[0].description = "Clips change";
+  run.scenarios[0].descriptions = {"cuts at once", "", "paper A’s <way>", "", ""};
+  const std::string page = WritePage(run, {});
+  const std::size_t card = page.find("<article"), fold = page.find("<details", card);
+  ASSERT_LT(card, fold);
+  const std::string shown = page.substr(card, fold - card);
+  EXPECT_THAT(shown, HasSubstr(EscapeMarkup(FindingsOf(run, run.scenarios[0]).answer.sentence)));
+  EXPECT_THAT(shown, HasSubstr("<table class=\"figures\">"));
+  EXPECT_THAT(shown, HasSubstr("<svg"));
+  EXPECT_LT(page.find("<ol class=\"answers\">"), card);
+  EXPECT_THAT(page.substr(0, card), HasSubstr(EscapeMarkup(FindingsOf(run, run.scenarios[0]).headline)));
+  EXPECT_THAT(page.substr(fold), HasSubstr("<p>Clips change</p>"));
+  EXPECT_THAT(page.substr(fold), HasSubstr("paper A’s &lt;way&gt;</dd>"));
+  EXPECT_THAT(page, Not(HasSubstr("<details open")));
+}
+
+TEST(Page, LinksTheFilesOfEveryScenario) {
+  const std::string page = WritePage(ExampleRun(), {});
+  for (const char* file : {"tables/capture.csv", "tables/capture-comparisons.csv", "tables/capture.tex",
+                           "../manifest.json", "../summary.json", "summary.md", "junit.xml"}) {
+    EXPECT_THAT(page, HasSubstr(std::string("<a href=\"") + file + "\">")) << file;
+  }
+}
+
 TEST(Page, PointsToNothingOutsideItself) {
   Media media;
   media.film.mp4 = "film";
@@ -106,6 +134,11 @@ TEST(Page, PointsToNothingOutsideItself) {
   // The control: the search must find what must not be there.
   EXPECT_THAT(OutsideReferences("<img src=\"https://example.org/a.png\">"), ::testing::SizeIs(1));
   EXPECT_THAT(OutsideReferences("<link rel=stylesheet>"), ::testing::SizeIs(1));
+  for (const char* target :
+       {"https://example.org", "//example.org", "javascript:alert(1)", "../../etc/passwd", "/etc/passwd"}) {
+    EXPECT_THAT(OutsideReferences(std::string("<a href=\"") + target + "\">"), ::testing::SizeIs(1)) << target;
+  }
+  EXPECT_THAT(OutsideReferences("<a href=\"tables/a.csv\"><a href=\"../summary.json\">"), ::testing::IsEmpty());
 }
 
 TEST(Page, ItsChartsAreDataThatParses) {
@@ -132,8 +165,14 @@ TEST(Page, SurvivesHostileNames) {
   scenario.conditions[0].methods[1].method = hostile;
   scenario.conditions[0].comparisons[0].method = hostile;
   scenario.expectations = {{hostile, Ruling::kUnmet, hostile}};
+  scenario.description = hostile;
+  scenario.descriptions.assign(scenario.methods.size(), hostile);
+  run.recordings.push_back({hostile + "/-/000/" + hostile, {}});
 
   const std::string page = WritePage(run, {});
+  EXPECT_THAT(OutsideReferences(page), ::testing::IsEmpty());
+  const std::string summary = WriteMarkdown(run);
+  EXPECT_THAT(summary, Not(HasSubstr("<script>")));
   EXPECT_THAT(page, Not(HasSubstr("<script>alert")));
   for (const std::string& island : IslandsOf(page)) {
     EXPECT_TRUE(nlohmann::json::accept(island)) << island;
@@ -150,8 +189,8 @@ TEST(Page, ShowsAMissingValueAsADashWithItsReason) {
     row.result.Missing(metric.id, "the seam lies in the clip's last frame");
   }
   const std::string page = WritePage(run, {});
-  EXPECT_THAT(page, HasSubstr("<td class=\"n\">—</td><td class=\"n\">—</td><td class=\"n\">—</td><td class=\"n\">0</td>"
-                              "<td>12 of 12: 12 × the seam lies in the clip&#39;s last frame</td>"));
+  EXPECT_THAT(page, HasSubstr("data-v=\"\">— <small>0 of 12</small></td>"));
+  EXPECT_THAT(page, HasSubstr("<li>now, 12 of 12: 12 × the seam lies in the clip&#39;s last frame"));
 }
 
 TEST(Page, SaysWhyThereIsNoFilm) {
@@ -183,7 +222,7 @@ TEST(Page, OfHundredsOfMethodsCutsItsListsAndSaysSo) {
     condition.methods.back().method = condition.comparisons.back().method = name;
   }
   const std::string page = WritePage(run, {});
-  EXPECT_THAT(page, HasSubstr("464 more methods are left out here"));
+  EXPECT_THAT(page, HasSubstr("465 more methods are left out here"));
   EXPECT_THAT(page, HasSubstr("more rows are left out here; the CSV file in report/tables has all."));
   EXPECT_THAT(page, HasSubstr("more comparisons are left out here"));
 }

@@ -1,5 +1,3 @@
-#include "reports/page.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +5,7 @@
 #include <sstream>
 
 #include "reports/number_table.h"
+#include "reports/page.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "tests/reports/support/count_of.h"

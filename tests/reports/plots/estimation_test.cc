@@ -5,6 +5,7 @@
 
 #include "reports/plots/plot_section.h"
 #include "tests/reports/support/count_of.h"
+#include "tests/reports/support/example_run.h"
 #include "tests/reports/support/unit_run.h"
 
 namespace etude {
@@ -65,7 +66,7 @@ TEST(Estimation, DrawsEveryWorldTwiceAndItsDifferenceOnce) {
   EXPECT_EQ(CountOf(html, " data-t="), static_cast<int>(3 * pairs.worlds.size()));
   EXPECT_THAT(html, HasSubstr("<title>trial 5 · clip-1: "));
   EXPECT_THAT(html, HasSubstr("class=\"band\""));
-  EXPECT_THAT(html, HasSubstr("shaded: less than 1 mm, which does not matter"));
+  EXPECT_THAT(EstimationLegend(capture, "mpjpe_mm"), HasSubstr("shaded: less than 1 mm, which does not matter"));
   EXPECT_THAT(html, HasSubstr("On these clips: better; for other clips: on these clips only (4 clips)."));
   EXPECT_THAT(html, HasSubstr("data-s=\"capture\" data-c=\"-\" data-a=\"before-ik\" data-b=\"ccd-adaptive\""));
   EXPECT_THAT(UnitLegendHtml(pairs), HasSubstr("clip-3"));
@@ -78,7 +79,7 @@ TEST(Estimation, ColoursByMethodWhereWorldsAreUnits) {
   EXPECT_TRUE(pairs.units.empty());
   EXPECT_EQ(UnitLegendHtml(pairs), "");
   const std::string html = EstimationHtml(ik, JudgedIn(ik, 0), pairs);
-  EXPECT_THAT(html, HasSubstr("coloured by method"));
+  EXPECT_THAT(EstimationLegend(ik, "orientation_error_deg"), HasSubstr("coloured by method"));
   EXPECT_EQ(CountOf(html, "class=\"f0\""), 12);      // the baseline, once a world
   EXPECT_EQ(CountOf(html, "class=\"f1\""), 2 * 12);  // the method, and its differences
 }
@@ -102,19 +103,47 @@ TEST(Strips, ShowEveryMethodsDistributionWithItsMiddle) {
   const std::string html = StripsHtml(run, capture, capture.conditions[0], "mpjpe_mm");
   EXPECT_EQ(CountOf(html, "class=\"typical\""), 3);
   EXPECT_EQ(CountOf(html, "<use "), 12 + 11 + 11);
-  EXPECT_THAT(html, HasSubstr(">before-ik · 71.4 mm</text>"));
+  EXPECT_THAT(html, HasSubstr(">before-ik 71.4 mm</text>"));
   EXPECT_EQ(StripsHtml(run, capture, capture.conditions[0], "sparc"), "");
 }
 
-TEST(PlotSection, ShowsTheQuestionOpenAndTheRestFolded) {
+TEST(PlotSection, BeginsWithTheQuestionAndDrawsNoPairTwice) {
   const RunData run = UnitRun();
   const std::string html = PlotSectionHtml(run, run.scenarios[0]);
-  const std::size_t fold = html.find("<details>");
-  ASSERT_NE(fold, std::string::npos);
-  EXPECT_THAT(html.substr(0, fold), HasSubstr("data-a=\"now\" data-b=\"wait-for-end\""));
-  EXPECT_THAT(html.substr(0, fold), HasSubstr("data-a=\"gate-inertialised\" data-b=\"wait-for-end\""));
-  EXPECT_THAT(html.substr(fold), HasSubstr("data-a=\"now\" data-b=\"fuzzy-bridge\""));
+  const auto place = [&](const char* other, const char* method) {
+    const std::string pair = std::string("data-a=\"") + other + "\" data-b=\"" + method + "\"";
+    EXPECT_EQ(CountOf(html, pair), 1) << pair;
+    return html.find(pair);
+  };
+  EXPECT_LT(place("now", "wait-for-end"), place("gate-inertialised", "wait-for-end"));
+  EXPECT_LT(place("gate-inertialised", "wait-for-end"), place("now", "fuzzy-bridge"));
+  EXPECT_EQ(CountOf(html, "which does not matter"), 1);
   EXPECT_EQ(PlotSectionHtml(run, ScenarioSummary{}), "");
+}
+
+TEST(LeadPicture, IsOfTheConditionWithTheLargestDifference) {
+  const RunData run = ExampleRun();
+  ScenarioSummary ik = run.scenarios[2];
+  for (std::size_t i = 0; i < ik.conditions.size(); ++i) {
+    for (Comparison& c : ik.conditions[i].comparisons) c.difference = i == 1 ? -9 : -1;
+  }
+  const std::string label = CompactLabel(ik.conditions[1].condition);
+  EXPECT_THAT(LeadPictureHtml(run, ik), HasSubstr("data-c=\"" + label + "\""));
+  EXPECT_EQ(CountOf(LeadPictureHtml(run, ik), "<figure"), 1);
+  EXPECT_THAT(PlotSectionHtml(run, ik),
+              Not(HasSubstr("<figure class=\"worlds\" data-s=\"" + ik.name + "\" data-c=\"" + label +
+                            "\"><figcaption>" + ConditionLabel(ik.conditions[1].condition) + ": effector")));
+}
+
+TEST(Dots, CarryTheNameOfARecordedCell) {
+  RunData run = UnitRun();
+  const ScenarioSummary& capture = run.scenarios[3];
+  EXPECT_THAT(PlotSectionHtml(run, capture) + LeadPictureHtml(run, capture), Not(HasSubstr("data-cell")));
+  run.recordings.push_back({"capture/-/005/ccd-adaptive", {}});
+  EXPECT_EQ(CountOf(LeadPictureHtml(run, capture), "data-t=\"5\" data-cell=\"capture/-/005/ccd-adaptive\""), 1);
+  const std::string html =
+      EstimationHtml(capture, JudgedIn(capture, 2), PairedWorldsOf(run, capture, JudgedIn(capture, 2)));
+  EXPECT_EQ(CountOf(html, "data-cell=\"capture/-/005/ccd-adaptive\""), 2);  // its value, and its difference
 }
 
 using ::testing::EndsWith;

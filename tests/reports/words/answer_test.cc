@@ -54,8 +54,8 @@ std::string HeadlineOfSolvers(const ScenarioSummary& scenario) {
 
 TEST(Headline, AnswersAgainstTheBaselineAndAgainstTheBestOther) {
   EXPECT_EQ(HeadlineOfSolvers(Solvers()),
-            "“adaptive”: better than “fixed”; no different from “gauss-newton” in the effector orientation error, but "
-            "needs 140 × the solver steps");
+            "“adaptive”: better than “fixed” (effector orientation error −1.00°); no different from “gauss-newton” "
+            "(+1.00°), but needs 140 × the solver steps");
 }
 
 TEST(Headline, NamesTheRatioWhereTheRivalIsBetterByTheQuestionsMetric) {
@@ -64,7 +64,7 @@ TEST(Headline, NamesTheRatioWhereTheRivalIsBetterByTheQuestionsMetric) {
   scenario.headline_metrics = {"iterations"};
   EXPECT_EQ(
       HeadlineOf(scenario, "adaptive", "iterations"),
-      "“adaptive”: no different from “fixed” in the solver steps; needs 140 × the solver steps of “gauss-newton”");
+      "“adaptive”: no different from “fixed” (solver steps +1.00); needs 140 × the solver steps of “gauss-newton”");
 }
 
 TEST(Headline, GivesTheRangeOfRatiosOverConditions) {
@@ -72,6 +72,15 @@ TEST(Headline, GivesTheRangeOfRatiosOverConditions) {
   scenario.conditions.push_back(scenario.conditions.front());
   scenario.conditions[1].methods[2] = Method("gauss-newton", 0.05, 8);
   EXPECT_THAT(HeadlineOfSolvers(scenario), HasSubstr("needs 70.0 to 140 × the solver steps"));
+}
+
+TEST(Headline, GivesTheLeastAndTheLargestDifferenceOverConditions) {
+  ScenarioSummary scenario = Solvers();
+  scenario.conditions.push_back(scenario.conditions.front());
+  scenario.conditions[1].comparisons[0].difference = -7.85;
+  EXPECT_THAT(HeadlineOfSolvers(scenario), HasSubstr("than “fixed” (effector orientation error −7.85 to −1.00°);"));
+  for (ConditionSummary& condition : scenario.conditions) condition.comparisons[0].difference.reset();
+  EXPECT_THAT(HeadlineOfSolvers(scenario), HasSubstr("better than “fixed”;"));
 }
 
 TEST(Headline, SaysThatNothingIsDecided) {
@@ -105,20 +114,23 @@ TEST(Headline, NamesBothRivalsWhereHalvesOfTheWorldsChoseDifferently) {
 TEST(Headline, SaysBetterTwiceInOneBreath) {
   ScenarioSummary scenario = Solvers();
   scenario.conditions[0].rivals = {Compared("orientation_error_deg", "gauss-newton", Verdict::kBetter)};
-  EXPECT_EQ(HeadlineOfSolvers(scenario),
-            "“adaptive”: better than “fixed”; better than the strongest other one too, “gauss-newton”");
+  EXPECT_EQ(
+      HeadlineOfSolvers(scenario),
+      "“adaptive”: better than “fixed” (effector orientation error −1.00°); better than the strongest other one too, "
+      "“gauss-newton” (−1.00°)");
 }
 
 TEST(Headline, NamesABaselineThatIsTheBestOtherOnce) {
   ScenarioSummary scenario = Solvers();
   scenario.conditions[0].rivals = {Compared("orientation_error_deg", "fixed", Verdict::kBetter)};
-  EXPECT_EQ(HeadlineOfSolvers(scenario), "“adaptive”: better than “fixed”, the strongest other method");
+  EXPECT_EQ(HeadlineOfSolvers(scenario),
+            "“adaptive”: better than “fixed” (effector orientation error −1.00°), the strongest other method");
 }
 
 TEST(Headline, OfARunWithoutRivalsAnswersOnce) {
   ScenarioSummary scenario = Solvers();
   scenario.conditions[0].rivals.clear();
-  EXPECT_EQ(HeadlineOfSolvers(scenario), "“adaptive”: better than “fixed”");
+  EXPECT_EQ(HeadlineOfSolvers(scenario), "“adaptive”: better than “fixed” (effector orientation error −1.00°)");
   scenario.conditions[0].comparisons.clear();
   EXPECT_EQ(HeadlineOfSolvers(scenario), "");
 }

@@ -62,5 +62,11 @@ TEST(EscapeLatex, GivesLettersThatNoFontOfLatexHasAsNumbers) {
   EXPECT_EQ(EscapeLatex("\xff"), "{}[U+FFFD]");
 }
 
+TEST(UrlPath, LetsNoCharacterSpeakMarkupOrLeaveTheFolder) {
+  EXPECT_EQ(UrlPath("motions/a~b_1.bvh"), "motions/a~b_1.bvh");
+  EXPECT_EQ(UrlPath("a b\"<é:?#%"), "a%20b%22%3C%C3%A9%3A%3F%23%25");
+  EXPECT_EQ(MotionFileOf("capture/-/000/a"), "capture~-~000~a.bvh");
+}
+
 }  // namespace
 }  // namespace etude

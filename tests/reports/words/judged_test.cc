@@ -73,8 +73,7 @@ TEST(Beyond, CountsConditions) {
       InWords({OnClips(Verdict::kBetter, Verdict::kBetter, 9), OnClips(Verdict::kBetter, Verdict::kInconclusive, 9),
                OnClips(Verdict::kBetter, std::nullopt, 3)},
               SamplingUnit::kClip);
-  EXPECT_EQ(found.words,
-            "for other clips: better under 1 of 3, inconclusive under 1 of 3, no verdict under 1 of 3");
+  EXPECT_EQ(found.words, "for other clips: better under 1 of 3, inconclusive under 1 of 3, no verdict under 1 of 3");
   EXPECT_FALSE(found.verdict.has_value());
 }
 
