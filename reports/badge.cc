@@ -45,8 +45,7 @@ std::string FindingBadge(const MethodFinding& finding, std::string_view words) {
 }
 
 std::string VerdictBadge(const std::optional<Verdict>& verdict) {
-  return fmt::format("<span class=\"badge {}\"><span aria-hidden=\"true\">{}</span> {}</span>", VerdictClass(verdict),
-                     VerdictSign(verdict), VerdictWords(verdict));
+  return fmt::format("<span class=\"badge {}\">{}</span>", VerdictClass(verdict), VerdictWords(verdict));
 }
 
 std::string VerdictBadges(const MethodFinding& finding) {

@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// Writes a verdict as a coloured label of HTML, sign and word, so that colour says nothing alone. Nothing stands for
+/// Writes a verdict as a coloured label of HTML, its word, so that colour says nothing alone. Nothing stands for
 /// "it depends" on the condition.
 std::string VerdictBadge(const std::optional<Verdict>& verdict);
 

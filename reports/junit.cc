@@ -54,8 +54,7 @@ JunitCase NoCellBroke(const ScenarioFindings& findings) {
 JunitCase TheAnswer(const ScenarioFindings& findings) {
   std::string said = findings.headline;
   for (const MethodFinding* finding : {&findings.answer, &findings.rival}) {
-    if (!finding->is_compared || (finding == &findings.rival && finding->sentence == findings.answer.sentence))
-      continue;
+    if (!finding->is_compared || (finding == &findings.rival && !HasOtherRival(findings))) continue;
     said += fmt::format("{}{}: {}", said.empty() ? "" : "\n", finding->BothVerdicts(), finding->sentence);
     if (!finding->why_open.empty()) said += fmt::format(" Open: {}.", finding->why_open);
   }

@@ -26,8 +26,7 @@ std::string FindingText(const MethodFinding& finding) {
 /// Writes the answer against the baseline, and against the strongest other method where that is another one.
 std::string AnswerText(const ScenarioFindings& findings) {
   std::string text = FindingText(findings.answer) + "\n";
-  const bool is_another = findings.rival.is_compared && findings.rival.sentence != findings.answer.sentence;
-  return is_another ? text + "\nThe strongest other: " + FindingText(findings.rival) + "\n" : text;
+  return HasOtherRival(findings) ? text + "\nThe strongest other: " + FindingText(findings.rival) + "\n" : text;
 }
 
 std::string FiguresText(const KeyFigures& figures) {

@@ -1,7 +1,6 @@
 #include "reports/overview_table.h"
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -160,8 +159,9 @@ std::string MissingHtml(const RunData& run, const ScenarioSummary& scenario) {
   std::size_t count = 0;
   for (const auto& [why, metrics] : metrics_of) {
     if (++count > kMostListed) break;
-    html += fmt::format("<li>{} <span class=\"quiet\">{}</span></li>", EscapeMarkup(why),
-                        EscapeMarkup(fmt::format("({})", fmt::join(metrics, ", "))));
+    const std::string more = metrics.size() > 1 ? fmt::format(" and {} more", metrics.size() - 1) : "";
+    html += fmt::format("<li>{} <span class=\"quiet\">({}{})</span></li>", EscapeMarkup(why),
+                        EscapeMarkup(metrics.front()), more);
   }
   return html + "</ul>" + LeftOutHtml(metrics_of.size(), kMostListed, "reasons", "the CSV file in report/tables") +
          "</details>";

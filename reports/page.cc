@@ -25,7 +25,7 @@ namespace {
 
 constexpr const char* kMetric = "mpjpe_mm";
 
-std::string Row(std::string_view style, const std::array<std::string, 5>& cells) {
+std::string TakeRow(std::string_view style, const std::array<std::string, 5>& cells) {
   std::string html = fmt::format("<tr{}>", style);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     html += fmt::format("<td{}>{}</td>", i < 3 ? "" : " class=\"n\"", EscapeMarkup(cells[i]));
@@ -42,9 +42,9 @@ std::string RealRows(const RealTake& take) {
   std::string html;
   for (const RealDistance& distance : take.distances) {
     const std::string cameras = distance.cameras == "all" ? fmt::format("all {}", take.films.size()) : distance.cameras;
-    html += Row("", {fmt::format("real: {}, {}", take.name, Plural(take.frames, "frame")),
-                     fmt::format("{} ({})", take.recovery, MeasureOf(take)), cameras, Millimetres(distance.median_mm),
-                     Millimetres(distance.p95_mm)});
+    html += TakeRow("", {fmt::format("real: {}, {}", take.name, Plural(take.frames, "frame")),
+                         fmt::format("{} ({})", take.recovery, MeasureOf(take)), cameras,
+                         Millimetres(distance.median_mm), Millimetres(distance.p95_mm)});
   }
   return html;
 }
@@ -58,10 +58,10 @@ std::string SimulatedRows(const ScenarioSummary& scenario, std::size_t& rows) {
       if (metric == nullptr || !metric->median) continue;
       if (++rows > kMostTableRows) continue;
       const std::string label = ConditionLabel(condition.condition);
-      html +=
-          Row(" class=\"quiet\"", {fmt::format("simulated: {}{}{}", scenario.name, label.empty() ? "" : ", ", label),
-                                   MethodLabel(scenario, method.method) + " (error)", std::string(kNoValue),
-                                   Millimetres(metric->median), std::string(kNoValue)});
+      html += TakeRow(" class=\"quiet\"",
+                      {fmt::format("simulated: {}{}{}", scenario.name, label.empty() ? "" : ", ", label),
+                       MethodLabel(scenario, method.method) + " (error)", std::string(kNoValue),
+                       Millimetres(metric->median), std::string(kNoValue)});
     }
   }
   return html;
@@ -99,20 +99,18 @@ std::string Answers(const RunData& run, const std::vector<ScenarioFindings>& fin
   for (std::size_t i = 0; i < run.scenarios.size(); ++i) {
     const ScenarioSummary& scenario = run.scenarios[i];
     const std::string& headline = findings[i].headline;
-    html += fmt::format("<li><a href=\"#{}\"><b>{}</b> <span>{}</span><span class=\"badges\">{}{}</span></a></li>",
-                        CardAnchor(i), EscapeMarkup(scenario.name),
-                        EscapeMarkup(headline.empty() ? scenario.question : headline),
-                        FindingBadge(findings[i].answer, findings[i].answer.baseline),
-                        findings[i].rival.baseline == findings[i].answer.baseline
-                            ? ""
-                            : FindingBadge(findings[i].rival, findings[i].rival.baseline));
+    html += fmt::format("<li><a href=\"#{}\"><b>{}</b><span class=\"badges\">{}{}</span><span>{}</span></a></li>",
+                        CardAnchor(i), EscapeMarkup(scenario.name), FindingBadge(findings[i].answer, ""),
+                        HasOtherRival(findings[i]) ? FindingBadge(findings[i].rival, "") : "",
+                        EscapeMarkup(headline.empty() ? scenario.question : headline));
   }
   return html + "</ol></nav>";
 }
 
 constexpr std::string_view kHowToRead =
     R"(<p>A <b>world</b> is one simulated trial whose truth is known; every method meets the same worlds, so differences are
-taken world by world. <b>Better</b> and <b>worse</b> mean that the interval of the difference lies clear of zero and
+taken world by world. In pictures a dot is a world, a thick line the median (of shares the mean), a box the middle half.
+<b>Better</b> and <b>worse</b> mean that the interval of the difference lies clear of zero and
 matters in practice; <b>no difference</b>, that it lies within what would matter; <b>inconclusive</b>, that nothing is
 settled, and never that there is no difference.</p>
 <p>Each comparison has two verdicts. <b>On these worlds</b> (these clips, these people): the differences that were

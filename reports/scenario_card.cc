@@ -137,9 +137,9 @@ std::string Failures(const RunData& run, const ScenarioSummary& scenario, const 
     }
     html += "</ul>" + LeftOutHtml(findings.reasons.size(), kMostListed, "reasons", "cells.jsonl");
   }
-  const std::string title =
-      others == 0 ? fmt::format("All {} ended ok", Plural(findings.cells, "cell"))
-                  : fmt::format("Where it fails: {} of {} not ok", FormatCount(others), Plural(findings.cells, "cell"));
+  const std::string title = others == 0
+                                ? fmt::format("All {} ok", Plural(findings.cells, "cell"))
+                                : fmt::format("Fails: {} of {}", FormatCount(others), Plural(findings.cells, "cell"));
   return Folded(title, "<div class=\"status\">" + html + "</div>");
 }
 
@@ -162,8 +162,7 @@ std::string AnswerHtml(const MethodFinding& finding, std::string_view begin) {
 /// Writes the answer against the baseline, and against the strongest other method where that is another one.
 std::string Answer(const ScenarioFindings& findings) {
   std::string html = AnswerHtml(findings.answer, "");
-  const bool is_another = findings.rival.is_compared && findings.rival.sentence != findings.answer.sentence;
-  return is_another ? html + AnswerHtml(findings.rival, "<b>The strongest other:</b> ") : html;
+  return HasOtherRival(findings) ? html + AnswerHtml(findings.rival, "<b>The strongest other:</b> ") : html;
 }
 
 /// Writes a few figures of the method in question, its baseline and the strongest other one.
@@ -265,14 +264,14 @@ std::string WriteScenarioCard(const RunData& run, std::size_t index, const Scena
   html += Folded("Film and stills", ScenarioFilms(scenario, media) + Strip(scenario, media) + Plates(scenario, media));
   html += Folded(fmt::format("What is compared: {}", Plural(std::ssize(scenario.methods), "method")),
                  WhatIsCompared(scenario));
-  html += Folded("Every method by every metric", OverviewTableHtml(run, scenario));
-  html += Folded(fmt::format("Every comparison ({})", CountComparisons(scenario)),
+  html += Folded("All metrics", OverviewTableHtml(run, scenario));
+  html += Folded(fmt::format("All {}", Plural(static_cast<long long>(CountComparisons(scenario)), "comparison")),
                  ComparisonTableHtml(scenario) + AcrossTableHtml(scenario));
   html += Expectations(scenario);
   html += Failures(run, scenario, findings);
   html += Folded("All pictures", OtherPictures(run, scenario, index));
   html += PosePairsHtml(run, scenario);
-  html += TransitionsHtml(RecordedRequestsOf(run, scenario));
+  html += Folded("Transitions explained", TransitionsHtml(RecordedRequestsOf(run, scenario)));
   html += PaperAHtml(scenario);
   html += PaperBHtml(run, scenario);
   html += GrowthHtml(run, scenario);

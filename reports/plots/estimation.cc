@@ -175,22 +175,17 @@ class Plot {
   Cast cast_;
 };
 
-std::string Caption(const ScenarioSummary& scenario, const Judged& judged, const PairedDots& pairs) {
+std::string Caption(const Judged& judged, const PairedDots& pairs) {
   const Comparison& c = *judged.comparison;
   const MetricWords words = WordsFor(c.metric);
-  const std::string unit = UnitOf(words);
-  const std::string_view direction = DirectionWords(words.direction);
-  std::string text = fmt::format("“{}” against “{}”", c.method, c.baseline);
-  const std::string condition = ConditionLabel(judged.condition->condition);
-  if (!condition.empty()) text += ", " + condition;
-  text += fmt::format(": {}{}{}{}", words.plain_label, unit.empty() ? "" : ", " + unit, direction.empty() ? "" : "; ",
-                      direction);
+  const std::string unit = UnitOf(words), condition = ConditionLabel(judged.condition->condition);
+  std::string text = fmt::format("“{}” against “{}”{}{}: {}{}{}", c.method, c.baseline, condition.empty() ? "" : ", ",
+                                 condition, words.plain_label, unit.empty() ? "" : ", ", unit);
   if (pairs.worlds.size() < pairs.total) {
     text += fmt::format(" ({} of {} drawn, at equal steps)", FormatCount(static_cast<long long>(pairs.worlds.size())),
                         FormatCount(static_cast<long long>(pairs.total)));
   }
-  return fmt::format("{}. On {}: {}; for {}: {}.", text, TheseUnits(scenario.unit), VerdictName(c.verdict),
-                     OtherUnits(scenario.unit), ShortBeyond(c, scenario.unit));
+  return text;
 }
 
 constexpr double kStripHeight = 58, kStripTop = 6, kStripBottom = 36;
@@ -275,7 +270,7 @@ std::string EstimationHtml(const ScenarioSummary& scenario, const Judged& judged
       "<figure class=\"worlds\" data-s=\"{}\" data-c=\"{}\" data-a=\"{}\" data-b=\"{}\"><figcaption>{}</figcaption>"
       "<div class=\"panels\">{}{}</div></figure>",
       EscapeMarkup(scenario.name), EscapeMarkup(CompactLabel(judged.condition->condition)), EscapeMarkup(c.baseline),
-      EscapeMarkup(c.method), EscapeMarkup(Caption(scenario, judged, pairs)), plot.Values(), plot.Differences());
+      EscapeMarkup(c.method), EscapeMarkup(Caption(judged, pairs)), plot.Values(), plot.Differences());
 }
 
 std::string EstimationLegend(const ScenarioSummary& scenario, const std::string& metric) {

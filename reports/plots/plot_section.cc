@@ -17,7 +17,7 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kMostPlots = 12;
+constexpr std::size_t kMostPlots = 8;
 constexpr std::size_t kMostStrips = 12;
 
 /// Gives the place of the condition whose worlds are shown first: that of the largest difference which is asked about.
@@ -63,7 +63,11 @@ class Section {
       explained_ = metric;
     }
     if (std::string units = UnitLegendHtml(pairs); units != units_) html_ += units_ = std::move(units);
-    html_ += plot + LeftOutStripHtml(*judged.comparison, scenario_.unit);
+    html_ += plot;
+    const bool is_asked = judged.comparison->method == MethodInQuestion(scenario_);
+    if (is_asked && metric == scenario_.headline_metrics.front()) {
+      html_ += LeftOutStripHtml(*judged.comparison, scenario_.unit);
+    }
   }
 
   const RunData& run_;

@@ -76,8 +76,7 @@ std::string Strip(const StripRow& row, const Axis& axis, double top, const Scena
   std::vector<double> places;
   for (const Dot& dot : row.dots) places.push_back(axis.At(dot.value));
   const std::vector<double> aside = SwarmOffsets(places, kSpread);
-  const std::string label =
-      fmt::format("{} {}{}", MethodLabel(scenario, method), FormatNumber(row.typical), words.suffix);
+  const std::string label = fmt::format("{} {}", MethodLabel(scenario, method), FormatNumber(row.typical));
   std::string svg = PanelText(2, top + 10, label, "start", 48) + fmt::format("<g data-m=\"{}\">", EscapeMarkup(method));
   for (std::size_t i = 0; i < places.size(); ++i) {
     svg += MarkUse(row.method, row.method, places[i], middle + aside[i],
@@ -97,9 +96,8 @@ std::string Caption(const ConditionSummary& condition, const MetricWords& words,
   text += fmt::format("{}{}{}", text.empty() ? "" : ": ", words.plain_label, unit.empty() ? "" : ", " + unit);
   const std::string_view direction = DirectionWords(words.direction);
   if (!direction.empty()) text += fmt::format("; {}", direction);
-  text += fmt::format(". Dots: worlds; line: {}", words.by_mean ? "mean" : "median");
   const bool is_thinned = std::ranges::any_of(rows, [](const StripRow& row) { return row.dots.size() < row.total; });
-  return text + (is_thinned ? fmt::format(" (at most {} dots a row, at equal steps).", kMostDots) : ".");
+  return text + (is_thinned ? fmt::format(" (at most {} dots a row, at equal steps)", kMostDots) : "");
 }
 
 }  // namespace

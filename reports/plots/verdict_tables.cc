@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kMostTabled = 4;
+constexpr std::size_t kMostTabled = 1;
 constexpr std::size_t kMostMethods = 16;
 constexpr std::size_t kMostSessions = 5;
 constexpr std::size_t kMostMoves = 60;  // of a confusion: its cells grow with the square

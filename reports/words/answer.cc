@@ -11,7 +11,7 @@ namespace etude {
 namespace {
 
 std::string Amount(double difference, const MetricWords& words) {
-  return FormatNumber(difference * words.scale) + words.difference_suffix;
+  return FormatNumber(difference * words.scale) + (words.is_share ? " pp" : words.difference_suffix);
 }
 
 // "58 of 60 worlds", or a share when ties (which count half) leave no whole number.
@@ -94,19 +94,20 @@ std::string RangeOfChanges(const std::vector<Judged>& judged, const MetricWords&
 std::string SentenceOverConditions(const std::vector<Judged>& judged, const MetricWords& words) {
   const Comparison& first = *judged.front().comparison;
   const std::string others = OthersOf(judged), range = RangeOfChanges(judged, words);
-  const std::string under = AllConditions(judged.size());
+  // Of two, both are named in the range.
+  const std::string under = judged.size() > 2 ? " under " + AllConditions(judged.size()) : "";
   const auto verdict = CommonVerdict(judged);
   if (verdict == Verdict::kBetter || verdict == Verdict::kWorse) {
-    return fmt::format("“{}” {} the {} against {} under {}{}", first.method, VerbFor(*first.difference, words),
-                       words.label, others, under, range);
+    return fmt::format("“{}” {} the {} against {}{}{}", first.method, VerbFor(*first.difference, words), words.label,
+                       others, under, range);
   }
   if (verdict == Verdict::kNoDifference) {
-    return fmt::format("“{}” makes no difference that matters to the {} against {} under {}{}", first.method,
-                       words.label, others, under, range);
+    return fmt::format("“{}” makes no difference that matters to the {} against {}{}{}", first.method, words.label,
+                       others, under, range);
   }
   if (verdict == Verdict::kInconclusive) {
-    return fmt::format("It is open whether “{}” changes the {} against {} under {}{}", first.method, words.label,
-                       others, under, range);
+    return fmt::format("It is open whether “{}” changes the {} against {}{}{}", first.method, words.label, others,
+                       under, range);
   }
   return fmt::format("“{}” against {} by {} is {}{}", first.method, others, words.label,
                      CountVerdicts(VerdictsOf(judged), judged.size()), range);
@@ -187,7 +188,7 @@ std::string ChangeOf(const std::vector<Judged>& judged, std::string_view what) {
   if (!low) return "";
   const MetricWords words = WordsFor(judged.front().comparison->metric);
   const std::string range = *low == *high ? FormatNumber(*low * words.scale) : FormatInterval(low, high, words);
-  return fmt::format(" ({}{}{}{})", what, *low > 0 ? "+" : "", range, words.difference_suffix);
+  return fmt::format(" ({}{}{}{})", what, *low > 0 ? "+" : "", range, words.is_share ? " pp" : words.difference_suffix);
 }
 
 std::string PhraseOf(const std::vector<Judged>& judged, std::string_view what = "") {
@@ -296,6 +297,7 @@ MethodFinding CompareInWords(const ScenarioSummary& scenario, const std::string&
           .is_compared = true,
           .verdict = CommonVerdict(judged),
           .beyond = BeyondInWords(judged, scenario.unit),
+          .others = OthersOf(judged),
           .sentence = SentenceOf(judged, scenario.unit),
           .why_open = judged.size() == 1 ? judged.front().comparison->why_open : ""};
 }

@@ -162,7 +162,7 @@ std::string WorldsWonAgainst(const ScenarioSummary& scenario, const std::string&
       won += judged.comparison->share_better * judged.comparison->pairs;
       pairs += judged.comparison->pairs;
     }
-    if (pairs > 0) return fmt::format("{:g} of {}", std::round(2 * won) / 2, FormatCount(std::llround(pairs)));
+    if (pairs > 0) return fmt::format("{:g}/{}", std::round(2 * won) / 2, std::llround(pairs));
   }
   return "";  // it was chosen on half of the worlds
 }
@@ -183,9 +183,9 @@ KeyFigures KeyFiguresOf(const ScenarioSummary& scenario, const std::string& aske
   add(findings.successes.empty() ? "ended ok" : WordsFor(findings.successes.front().metric).plain_label,
       [&](const std::string& method) { return SuccessOf(findings, scenario, method); });
   if (times.MedianOf(asked)) {
-    add("processor time a cell", [&](const std::string& method) { return TimeText(times.MedianOf(method)); });
+    add("processor time", [&](const std::string& method) { return TimeText(times.MedianOf(method)); });
   }
-  add(fmt::format("worlds “{}” wins", asked), [&](const std::string& method) {
+  add("worlds won", [&](const std::string& method) {
     return method == asked ? "" : WorldsWonAgainst(scenario, asked, method, metric);
   });
   return figures;
@@ -197,6 +197,10 @@ std::string MethodFinding::BothVerdicts() const {
   if (!is_compared) return Words();
   if (beyond.on_these_only) return fmt::format("{}, no verdict for {}", Words(), OtherUnits(unit));
   return fmt::format("{}, {} for {}", Words(), VerdictWords(beyond.verdict), OtherUnits(unit));
+}
+
+bool HasOtherRival(const ScenarioFindings& findings) {
+  return findings.rival.is_compared && findings.rival.others != findings.answer.others;
 }
 
 const MetricSummary* FindSummary(const MethodSummary& method, const std::string& metric) {

@@ -26,6 +26,7 @@ struct MethodFinding {
   bool is_compared = false;             ///< by this metric at all
   std::optional<Verdict> verdict = {};  ///< on these worlds; empty when it depends on the condition
   BeyondFinding beyond = {};            ///< for others like them
+  std::string others = {};              ///< all whom it was compared with: “a” or “b”
   std::string sentence = {};            ///< plain words with the figures that carry the verdicts
   std::string why_open = {};            ///< why nothing is decided, where that can be said of one condition
 
@@ -74,6 +75,9 @@ struct ScenarioFindings {
   std::vector<SuccessFinding> successes;         ///< by every metric that tells success (MetricInfo::is_success)
   std::vector<ReasonCount> reasons;              ///< of every cell that is not ok, most frequent first
 };
+/// Is true where the strongest other method is another one than the baseline, so that there is more to tell.
+bool HasOtherRival(const ScenarioFindings& findings);
+
 ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario);
 
 /// The whole run in one sentence, and the counts that it speaks of.

@@ -173,8 +173,7 @@ TEST(Findings, GiveAFewFiguresOfTheMethodItsBaselineAndTheStrongestOther) {
   EXPECT_EQ(figures.methods[0].name, "wait-for-end");
   EXPECT_EQ(figures.methods[1].name, "now");
   EXPECT_EQ(figures.methods[2].name, "gate-inertialised");
-  EXPECT_EQ(figures.labels, (std::vector<std::string>{"jump at the seam", "ended ok", "processor time a cell",
-                                                      "worlds “wait-for-end” wins"}));
+  EXPECT_EQ(figures.labels, (std::vector<std::string>{"jump at the seam", "ended ok", "processor time", "worlds won"}));
   EXPECT_EQ(figures.methods[2].values[0], "6.40 cm");
   EXPECT_EQ(figures.methods[1].values[2], "250 ms");
   EXPECT_EQ(figures.methods[2].values[2], "2.00 s");
