@@ -21,7 +21,9 @@ constexpr const char* kCalibrateExamples =
     "pictures with every camera, the board tilted this way and that and filling the picture's corners; pictures of "
     "one\n"
     "moment have one name in every folder, and some moments must show the board to two cameras at once. The first\n"
-    "picture tells the world: lay the board on the floor there (--world floor). A film will do for a folder.\n\n"
+    "picture tells the world: lay the board on the floor there (--world floor). A film will do for a folder; films of "
+    "a\n"
+    "moving board that did not begin at the same moment are set in step, and how late each is is said.\n\n"
     "The file that is written is YAML that OpenCV reads, too: "
     "cv::FileStorage(\"rig.yaml\")[\"left\"][\"camera_matrix\"].\n"
     "`etude capture` also takes calibrations of OpenCV, Pose2Sim, Anipose, FreeMoCap, Caliscope, Qualisys, EasyMocap "
@@ -30,6 +32,7 @@ constexpr const char* kCalibrateExamples =
     "  etude calibrate --print board.png --board 8x8x0.1                a board of 80 cm, squares of 10 cm\n"
     "  etude calibrate left/ right/ --board 8x8x0.1 -o rig.yaml         folders of PNG or JPG pictures\n"
     "  etude calibrate left.mp4 right.mp4 --board 8x8x0.1 -o rig.yaml   films that run alike\n"
+    "  etude calibrate a.mp4 b.mp4 --board charuco:5x7x0.04 --sync 2 --picture found.png -o rig.yaml\n"
     "  etude calibrate a.mp4 b.mp4 --board charuco:4x5x0.054 -o rig.yaml   a board of OpenCV's, squares counted\n"
     "  etude calibrate pairs.csv --size 1920x1080 -o rig.yaml           measured points";
 
@@ -63,9 +66,18 @@ void DefineCalibrate(CLI::App& app, Action& action) {
       ->capture_default_str();
   command
       ->add_option("--every", options->every,
-                   "Look at every so many frames of a film (0: 30; for a board of OpenCV's, about 100 frames in all)")
+                   "Look at every so many frames of a film (0: 30; for a board of OpenCV's, 200 frames or less in all)")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
+  command
+      ->add_option("--sync", options->sync_s,
+                   "Films of boards may be late by this much, s; how much is found from the board (0: up to two of the "
+                   "pictures that are looked at)")
+      ->check(NumberWithin(0, 60, "time in s"))
+      ->capture_default_str();
+  command->add_option("--picture", options->picture, "Draw what was found where, and how far off, too (PNG)");
+  command->add_option("--beside", options->beside,
+                      "Another calibration of these cameras: focal lengths, distances and residuals of both");
   command->add_option("--print", options->print, "Write the board as a picture (PNG) to be printed, and nothing else");
   AddOverwrite(*command, options->overwrite);
   command->footer(kCalibrateExamples);

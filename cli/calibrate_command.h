@@ -1,9 +1,14 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/arguments.h"
+#include "engine/base/result.h"
+#include "engine/boards/board.h"
+#include "engine/cameras/pose2sim_file.h"
+#include "engine/cameras/refine.h"
 
 namespace etude {
 
@@ -17,9 +22,27 @@ struct CalibrateOptions {
   std::string size;             ///< "1920x1080", of the pictures of point pairs as CSV
   std::string world = "floor";  ///< floor or wall: how the first board stands
   int every = 0;                ///< of a film, every so many frames are looked at; 0: 30, of OpenCV's boards 100 in all
+  double sync_s = 0;            ///< films of boards may be late by this; 0: by two looks
+  std::string picture;          ///< a PNG: what was found where, "" = none
+  std::string beside;           ///< another calibration of these cameras to compare with, "" = none
   std::string print;            ///< a PNG: the board itself, to be printed
   bool overwrite = false;
 };
+
+/// A rig with what is told about it at the terminal.
+struct Calibrated {
+  std::vector<NamedCamera> cameras;
+  std::vector<double> rms_px;
+  std::vector<std::size_t> points;
+  std::vector<std::optional<IntrinsicsDeviation>> deviations;
+};
+
+/// Reads "COLUMNSxROWSxSQUARE[@FIRST_CODE]".
+Result<Board> ReadCodedBoard(const std::string& text);
+RefineOptions RefineOptionsOf(const CalibrateOptions& options);
+
+/// Finds boards in folders of pictures or films, sets films in step, and calibrates; says what it finds.
+Result<Calibrated> CalibrateFromPictures(const CalibrateOptions& options);
 
 /// `etude calibrate`: finds the cameras of a rig from point pairs or pictures of boards, or (`print`) draws a board.
 int CalibrateCommand(const CalibrateOptions& options);

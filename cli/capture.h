@@ -16,6 +16,7 @@
 #include "engine/motion/body.h"
 #include "engine/motion/clip.h"
 #include "reports/films/decoder.h"
+#include "reports/films/overlay_film.h"
 
 namespace etude {
 
@@ -30,6 +31,7 @@ struct CaptureCommandOptions {
   double stature_m = 0;              ///< of silhouettes: the person's, 0 = found
   std::string output;                ///< BVH, GLB, TRC or CSV by its ending
   std::string points;                ///< a TRC of the triangulated keypoints, "" = none
+  std::string report;                ///< an HTML page of all that was found, "" = none
   std::string film;                  ///< an MP4 of the skeleton over the films, "" = none
   std::string reference;             ///< a TRC to compare the triangulated keypoints with, "" = none
   std::string distances;             ///< a file of these comparisons, "" = none
@@ -67,15 +69,30 @@ struct SeenFilms {
   std::vector<ProjectionMatrix> cameras;  ///< without their lenses, as are the people
   std::vector<SeenPeople> people;         ///< at the first film's times
   std::vector<FilmClock> clocks;          ///< of each film
+  std::vector<std::string> told;          ///< the lines that were printed
 };
+
+/// Prints a line and keeps it for the page.
+void Tell(std::vector<std::string>& told, const std::string& line);
 
 /// Reads the keypoints or marks of all films, finds how they lie in the rig's pictures and in time, and says so.
 /// `views` learn how their pictures were turned.
 Result<SeenFilms> SeeFilms(const CaptureCommandOptions& options, const RecoverPersonOptions& recover,
                            std::vector<FilmedView>& views);
 
-/// Prints what was mended of a person and what still is doubtful, a line each.
-void TellMends(const RecoveredPerson& person, const std::vector<FilmedView>& views);
+/// Tells what was mended of a person and what still is doubtful, a line each.
+void TellMends(const RecoveredPerson& person, const std::vector<FilmedView>& views, std::vector<std::string>& told);
+
+/// Writes the page of `--report`, with an overlay film inside, out of `film` where that was written. False when it was
+/// interrupted.
+/// @param views whose cameras are placed
+/// @param chosen which of the person's `people`
+Result<bool> WriteReport(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+                         const RecoveredPerson& person, std::size_t chosen, const SeenFilms& films);
+
+/// Gives the films with what is drawn over them.
+std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const RecoveredPerson& person,
+                                    std::size_t chosen, const std::vector<FilmClock>& clocks);
 
 /// Writes a clip, and the same as twenty joints, in the format that the file's name tells.
 Result<void> WriteMotion(const std::string& path, Clip clip, const BodyMotion& motion);

@@ -49,11 +49,12 @@ constexpr const char* kCaptureExamples =
     "Try:\n"
     "  etude capture --rig rig.yaml cam1.mp4 cam2.mp4 --keypoints json/ -o motion.bvh\n"
     "  etude capture --rig Calib.toml cam*.mp4 --keypoints openpose/ --layout body_25b --fit letterbox \\\n"
-    "                -o motion.trc --points keypoints.trc --film overlay.mp4 --smooth 6\n"
+    "                -o motion.trc --points keypoints.trc --film overlay.mp4 --smooth 6 --report page.html\n"
     "  etude capture --rig rig.yaml cam1.mp4 cam2.mp4 --silhouettes --stature 1.8 -o motion.bvh --film overlay.mp4";
 
 Result<int> CaptureCommand(const CaptureCommandOptions& options) {
-  for (const std::string* path : {&options.output, &options.points, &options.film, &options.distances}) {
+  for (const std::string* path :
+       {&options.output, &options.points, &options.film, &options.report, &options.distances}) {
     if (!path->empty()) RETURN_IF_ERROR(CheckOutput(*path, options.overwrite));
   }
   RETURN_IF_ERROR(FormatOfName(options.output));
@@ -135,6 +136,10 @@ void DefineCapture(CLI::App& app, Action& action) {
   command->add_option("-o,--output", options->output, "The motion to write: .bvh, .glb, .trc or .csv")->required();
   command->add_option("--points", options->points, "Write the triangulated keypoints, too (.trc)");
   command->add_option("--film", options->film, "Write the skeleton drawn over the films, too (.mp4)");
+  command
+      ->add_option("--report", options->report,
+                   "Write a page of it all: film, residuals over time, mends, body (.html)")
+      ->excludes(silhouettes);
   auto* reference = command->add_option("--reference", options->reference,
                                         "Compare the triangulated keypoints with these markers (.trc)");
   command

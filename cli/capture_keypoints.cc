@@ -101,25 +101,10 @@ std::vector<ComparedColumn> CompareWithReference(const MarkerMotion& reference, 
 }
 
 /// Writes the skeleton drawn over the films. False when it was interrupted.
-Result<bool> WriteFilm(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
-                       const RecoveredPerson& person, std::size_t chosen, const std::vector<FilmClock>& clocks) {
-  std::vector<OverlayView> overlays;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    const FilmedView& view = views[i];
-    overlays.push_back(
-        {view.camera.name, view.path, view.facts, view.camera.camera, view.fit, clocks[i].offset, {}, clocks[i].drift});
-    for (auto seen : person.people[chosen].seen[i]) {
-      // Matched persons are told without the lens.
-      for (Keypoint& keypoint : seen ? std::span<Keypoint>(seen->keypoints) : std::span<Keypoint>()) {
-        const auto rig = DistortPixel(view.camera.camera, keypoint.pixel);
-        keypoint = rig && keypoint.confidence > 0 ? Keypoint{view.fit.ToFilm(*rig), keypoint.confidence} : Keypoint{};
-      }
-      overlays.back().keypoints.push_back(seen);
-    }
-  }
+Result<bool> WriteFilm(const CaptureCommandOptions& options, const std::vector<OverlayView>& overlays,
+                       const BodyMotion& motion) {
   const Interrupt interrupt;
-  auto is_whole =
-      UnlessInterrupted(WriteOverlayFilm(options.film, overlays, person.motion, WatchFilms(interrupt)), interrupt);
+  auto is_whole = UnlessInterrupted(WriteOverlayFilm(options.film, overlays, motion, WatchFilms(interrupt)), interrupt);
   if (is_whole && *is_whole) TellWritten(options.film);
   return is_whole;
 }
@@ -134,6 +119,25 @@ std::size_t ChosenOf(const RecoveredPerson& person, std::size_t number) {
 
 }  // namespace
 
+std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const RecoveredPerson& person,
+                                    std::size_t chosen, const std::vector<FilmClock>& clocks) {
+  std::vector<OverlayView> overlays;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const FilmedView& view = views[i];
+    overlays.push_back(
+        {view.camera.name, view.path, view.facts, view.camera.camera, view.fit, clocks[i].offset, {}, clocks[i].drift});
+    for (auto seen : person.people[chosen].seen[i]) {
+      // Matched persons are told without the lens.
+      for (Keypoint& keypoint : seen ? std::span<Keypoint>(seen->keypoints) : std::span<Keypoint>()) {
+        const auto rig = DistortPixel(view.camera.camera, keypoint.pixel);
+        keypoint = rig && keypoint.confidence > 0 ? Keypoint{view.fit.ToFilm(*rig), keypoint.confidence} : Keypoint{};
+      }
+      overlays.back().keypoints.push_back(seen);
+    }
+  }
+  return overlays;
+}
+
 Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, FilmedSession session,
                               const std::optional<MarkerMotion>& reference) {
   std::vector<FilmedView>& views = session.views;
@@ -142,7 +146,7 @@ Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, FilmedSessio
   ASSIGN_OR_RETURN(RecoveredPerson located, LocatePerson(films.cameras, films.people, recover));
   const auto place = PlaceRig(session.rig, located.landmarks, recover.rate_hz, options.place);
   if (!place) return Fail({options.rig}, "{}", place.error().message);
-  fmt::print("rig, {}: {}\n", session.rig.format, place->told);
+  Tell(films.told, fmt::format("rig, {}: {}", session.rig.format, place->told));
   if (!place->IsNone()) {
     for (std::size_t i = 0; i < views.size(); ++i) {
       views[i].camera.camera = Placed(*place, views[i].camera.camera);
@@ -156,7 +160,7 @@ Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, FilmedSessio
   }
   ASSIGN_OR_RETURN(const RecoveredPerson person, FitLocated(std::move(located), recover));
   PrintPeople(person, views);
-  TellMends(person, views);
+  TellMends(person, views, films.told);
   PrintReport(person, views);
   PrintFit(person);
   RETURN_IF_ERROR(WriteMotion(options.output, person.clip, person.motion));
@@ -172,8 +176,14 @@ Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, FilmedSessio
                     options.reference),
         CompareWithReference(*reference, person, films, recover), views, options));
   }
-  if (options.film.empty()) return true;
-  return WriteFilm(options, views, person, ChosenOf(person, recover.person), films.clocks);
+  const std::size_t chosen = ChosenOf(person, recover.person);
+  if (!options.film.empty()) {
+    ASSIGN_OR_RETURN(const bool is_whole,
+                     WriteFilm(options, OverlaysOf(views, person, chosen, films.clocks), person.motion));
+    if (!is_whole) return false;
+  }
+  if (options.report.empty()) return true;
+  return WriteReport(options, views, person, chosen, films);
 }
 
 }  // namespace etude

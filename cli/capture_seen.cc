@@ -35,7 +35,8 @@ Result<SeenPeople> ReadPeople(const CaptureCommandOptions& options, const Filmed
 }
 
 /// Brings all people into the rig's pictures and says what was done for that.
-void FitPeople(std::vector<FilmedView>& views, std::vector<SeenPeople>& people, double least_confidence) {
+void FitPeople(std::vector<FilmedView>& views, std::vector<SeenPeople>& people, double least_confidence,
+               std::vector<std::string>& told_lines) {
   std::vector<PictureOfFilm> films;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const FilmedView& view = views[i];
@@ -49,7 +50,7 @@ void FitPeople(std::vector<FilmedView>& views, std::vector<SeenPeople>& people, 
     if (told.empty() && view.fit.quarter_turns != 0) {
       told = "pictures turned by 90° clockwise (their size and the other cameras say so)";
     }
-    if (!told.empty()) fmt::print("{}: {}\n", view.camera.name, told);
+    if (!told.empty()) Tell(told_lines, fmt::format("{}: {}", view.camera.name, told));
     for (auto& frame : people[i]) {
       for (SeenPerson& person : frame) {
         for (Keypoint& keypoint : person.keypoints) keypoint.pixel = guess.fit.ToRig(keypoint.pixel);
@@ -75,18 +76,19 @@ void Synchronise(const CaptureCommandOptions& options, const std::vector<FilmedV
   const SyncOptions clocks{.most_frames = most, .most_px = recover.triangulate.robust.outlier_px};
   const std::vector<ClockOffset> found = EstimateOffsets(films.cameras, films.people, {clocks, recover.match.follow});
   std::string untold;
-  fmt::print("clocks, after {}'s:", views.front().camera.name);
+  std::string told = fmt::format("clocks, after {}'s:", views.front().camera.name);
   for (std::size_t i = 0; i < views.size(); ++i) {
     films.clocks[i].offset = found[i].frames;
     if (!found[i].is_told) untold += (untold.empty() ? "" : ", ") + views[i].camera.name;
     if (i == 0) continue;
-    fmt::print("{} {} {:+.2f} frames ({:+.0f} ms)", i == 1 ? "" : ",", views[i].camera.name, films.clocks[i].offset,
-               kMsPerSecond * films.clocks[i].offset / rate);
+    told += fmt::format("{} {} {:+.2f} frames ({:+.0f} ms)", i == 1 ? "" : ",", views[i].camera.name,
+                        films.clocks[i].offset, kMsPerSecond * films.clocks[i].offset / rate);
   }
-  fmt::print("\n");
+  Tell(films.told, told);
   if (untold.empty()) return;
-  fmt::print("no keypoints tell the clock of {}: people hardly move, or it is further off than --sync {:g}\n", untold,
-             options.sync_s);
+  Tell(films.told,
+       fmt::format("no keypoints tell the clock of {}: people hardly move, or it is further off than --sync {:g}",
+                   untold, options.sync_s));
 }
 
 /// The clocks that the films' own rates say; said where they differ.
@@ -97,22 +99,24 @@ void ClocksOfRates(const std::vector<FilmedView>& views, SeenFilms& films) {
     if (own == rate) continue;
     const bool is_one = std::abs(own - rate) <= kOneRate * rate;
     if (!is_one) films.clocks[i].drift = rate / own - 1;
-    fmt::print("{}: {:g} frames a second beside {:g}, {}\n", views[i].camera.name, own, rate,
-               is_one ? "taken as one rate" : "its keypoints resampled by cubics between its frames");
+    Tell(films.told,
+         fmt::format("{}: {:g} frames a second beside {:g}, {}", views[i].camera.name, own, rate,
+                     is_one ? "taken as one rate" : "its keypoints resampled by cubics between its frames"));
   }
 }
 
 /// Names films that seem late where keypoints err too much to mend them.
 void DoubtClocks(const std::vector<FilmedView>& views, const RecoverPersonOptions& recover, int most,
-                 const SeenFilms& films) {
+                 SeenFilms& films) {
   const SyncOptions clocks{.most_frames = most, .most_px = recover.triangulate.robust.outlier_px};
   const auto guessed = EstimateOffsets(films.cameras, films.people, {clocks, recover.match.follow});
   for (std::size_t i = 1; i < views.size(); ++i) {
     const double frames = guessed[i].frames;
     if (!guessed[i].is_told || std::abs(frames) < 1) continue;
-    fmt::print("doubtful: {}: its frames seem {:.1f} frames {} than {}'s; --sync {:.1f} would set it\n",
-               views[i].camera.name, std::abs(frames), frames > 0 ? "later" : "earlier", views.front().camera.name,
-               std::ceil(10 * (std::abs(frames) + 2) / recover.rate_hz) / 10);
+    Tell(films.told,
+         fmt::format("doubtful: {}: its frames seem {:.1f} frames {} than {}'s; --sync {:.1f} would set it",
+                     views[i].camera.name, std::abs(frames), frames > 0 ? "later" : "earlier",
+                     views.front().camera.name, std::ceil(10 * (std::abs(frames) + 2) / recover.rate_hz) / 10));
   }
 }
 
@@ -144,7 +148,8 @@ void MendClocks(const std::vector<FilmedView>& views, const RecoverPersonOptions
       told += fmt::format(" in the middle of the film, and its rate is {:.4f} Hz: {:.2f} frames over it",
                           rate / (1 + now.drift), std::abs(drift));
     }
-    fmt::print("{}: {}; mended (loss {:.2f} to {:.3f})\n", views[i].camera.name, told, found[i].before, found[i].after);
+    Tell(films.told, fmt::format("{}: {}; mended (loss {:.2f} to {:.3f})", views[i].camera.name, told, found[i].before,
+                                 found[i].after));
   }
 }
 
@@ -174,7 +179,7 @@ Result<SeenFilms> SeeFilms(const CaptureCommandOptions& options, const RecoverPe
     ASSIGN_OR_RETURN(SeenPeople people, ReadPeople(options, view));
     films.people.push_back(std::move(people));
   }
-  FitPeople(views, films.people, recover.triangulate.least_confidence);
+  FitPeople(views, films.people, recover.triangulate.least_confidence, films.told);
   for (std::size_t i = 0; i < views.size(); ++i) {
     films.people[i] = UndistortPeople(views[i].camera.camera, std::move(films.people[i]));
     films.cameras.push_back(MatrixOf(views[i].camera.camera));
@@ -189,7 +194,12 @@ Result<SeenFilms> SeeFilms(const CaptureCommandOptions& options, const RecoverPe
   return films;
 }
 
-void TellMends(const RecoveredPerson& person, const std::vector<FilmedView>& views) {
+void Tell(std::vector<std::string>& told, const std::string& line) {
+  fmt::print("{}\n", line);
+  told.push_back(line);
+}
+
+void TellMends(const RecoveredPerson& person, const std::vector<FilmedView>& views, std::vector<std::string>& told) {
   for (const Mend& mend : person.mends) {
     const char* what = "";
     switch (mend.kind) {
@@ -209,18 +219,19 @@ void TellMends(const RecoveredPerson& person, const std::vector<FilmedView>& vie
         what = "keypoints that are not this person's left out";
         break;
     }
-    fmt::print("mended: {}: {}, frames {}\n", views[mend.camera].camera.name, what, FramesText(mend.frames));
+    Tell(told, fmt::format("mended: {}: {}, frames {}", views[mend.camera].camera.name, what, FramesText(mend.frames)));
   }
   constexpr double kDoubtful = 0.1;
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (person.report.rejected[i] <= kDoubtful) continue;
-    fmt::print("doubtful: {}: {:.0f} % of its keypoints disagree with the other cameras'\n", views[i].camera.name,
-               100 * person.report.rejected[i]);
+    Tell(told, fmt::format("doubtful: {}: {:.0f} % of its keypoints disagree with the other cameras'",
+                           views[i].camera.name, 100 * person.report.rejected[i]));
   }
   constexpr double kDoubtfulError = 0.03;
   for (const MatchedPerson& one : person.people) {
     if (one.cameras < 2 || one.error <= kDoubtfulError) continue;
-    fmt::print("doubtful: rays miss by {:.1f} % of a person's height; estimators err by 1 to 2 %\n", 100 * one.error);
+    Tell(told, fmt::format("doubtful: rays miss by {:.1f} % of a person's height; estimators err by 1 to 2 %",
+                           100 * one.error));
     break;
   }
 }

@@ -2,7 +2,8 @@
 
 namespace etude {
 
-Result<std::size_t> BoardViews::Add(std::size_t camera, const std::string& moment, const ColourImage& picture) {
+Result<std::size_t> BoardViews::Add(std::size_t camera, const std::string& moment, const ColourImage& picture,
+                                    int look) {
   if (camera >= sizes_.size()) sizes_.resize(camera + 1);
   PictureSize& size = sizes_[camera];
   if (size.width == 0) size = {picture.width, picture.height};
@@ -19,9 +20,15 @@ Result<std::size_t> BoardViews::Add(std::size_t camera, const std::string& momen
   for (auto& [board, view] : by_board) {
     view.camera = camera;
     view.target = targets_.try_emplace({moment, board}, targets_.size()).first->second;
-    views_.push_back(std::move(view));
+    sightings_.push_back({std::move(view), board, look});
   }
   return corners.size();
+}
+
+std::vector<TargetView> BoardViews::views() const {
+  std::vector<TargetView> views;
+  for (const BoardSighting& sighting : sightings_) views.push_back(sighting.view);
+  return views;
 }
 
 void TurnToStance(BoardStance stance, std::span<Camera> cameras) {

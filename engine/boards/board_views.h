@@ -17,6 +17,13 @@
 
 namespace etude {
 
+/// A board in one picture of a camera.
+struct BoardSighting {
+  TargetView view;        ///< of the target that the board is at this picture's moment
+  std::size_t board = 0;  ///< which of the boards
+  int look = -1;          ///< which of the film's pictures that were looked at, from 0; −1: of no film
+};
+
 /// Looks for boards in the pictures of a rig's cameras and collects what they show for `CalibrateFromPlanes`. A board
 /// at one moment is a target of its own: it may be carried about between pictures, but pictures of one moment show it
 /// at one place.
@@ -30,10 +37,13 @@ class BoardViews {
   /// Adds a picture of the camera of that number, counted from 0. Fails when its size is not that of the camera's
   /// pictures before it.
   /// @param moment names when it was taken: pictures of the same moment show boards at the same places
+  /// @param look which of its film's pictures that are looked at, equally far apart, from 0; −1: of no film
   /// @return how many corners it shows
-  Result<std::size_t> Add(std::size_t camera, const std::string& moment, const ColourImage& picture);
+  Result<std::size_t> Add(std::size_t camera, const std::string& moment, const ColourImage& picture, int look = -1);
 
-  const std::vector<TargetView>& views() const { return views_; }
+  /// Every board in every picture, in the order of `Add`.
+  const std::vector<BoardSighting>& sightings() const { return sightings_; }
+  std::vector<TargetView> views() const;
   /// The sizes of the cameras' pictures, by camera.
   const std::vector<PictureSize>& sizes() const { return sizes_; }
   /// What was found out about a board of OpenCV's; "" of our own.
@@ -43,7 +53,7 @@ class BoardViews {
   const std::vector<Board> boards_;
   std::unique_ptr<PrintedBoardFinder> printed_;
   std::map<std::pair<std::string, std::size_t>, std::size_t> targets_;  ///< of moment and board
-  std::vector<TargetView> views_;
+  std::vector<BoardSighting> sightings_;
   std::vector<PictureSize> sizes_;
 };
 

@@ -216,4 +216,29 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
   return RefineRig(guess, kept, options);
 }
 
+Result<RefinedRig> PlaceBoards(std::span<const Camera> cameras, std::span<const TargetView> views) {
+  RigGuess guess{.cameras = {cameras.begin(), cameras.end()}, .targets = {}};
+  std::vector<std::optional<std::size_t>> number;
+  std::vector<TargetView> kept;
+  for (const TargetView& view : views) {
+    const Camera& camera = cameras[view.camera];
+    std::vector<PointPair> pinhole;
+    for (const PointPair& pair : view.pairs) {
+      if (const auto pixel = UndistortPixel(camera, pair.pixel)) pinhole.push_back({pair.world, *pixel});
+    }
+    const auto homography = HomographyOf(pinhole);
+    if (!homography) continue;
+    if (view.target >= number.size()) number.resize(view.target + 1);
+    auto& as = number[view.target];
+    if (!as) {
+      as = guess.targets.size();
+      const TargetPlace pose_CW{camera.R_CW, -(camera.R_CW * camera.p_WC)};
+      guess.targets.push_back(Product(Inverse(pose_CW), PoseOfPlane(camera.intrinsics, *homography)));
+    }
+    kept.push_back({view.camera, *as, view.pairs});
+  }
+  if (kept.empty()) return Fail({}, "no board with four corners or more");
+  return RefineRig(guess, kept, {.lens = LensModel::kAsInCamera, .hold_cameras = true});
+}
+
 }  // namespace etude

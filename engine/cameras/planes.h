@@ -37,4 +37,8 @@ struct PictureSize {
 Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::span<const TargetView> views,
                                        const RefineOptions& options = {});
 
+/// Finds the places of flat boards that bring known cameras' residuals to their least: `cameras` as they are, lenses
+/// undone, whatever their world. Views as with `CalibrateFromPlanes`. Fails when no camera shows a board.
+Result<RefinedRig> PlaceBoards(std::span<const Camera> cameras, std::span<const TargetView> views);
+
 }  // namespace etude

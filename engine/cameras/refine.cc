@@ -100,11 +100,15 @@ class Bundle {
     for (const TargetPlace& target : guess.targets) targets_.push_back(ToBlock(target.R_WT, target.p_WT));
     for (const TargetView& view : views) AddView(view);
     for (IntrinsicsBlock& intrinsics : intrinsics_) Hold(intrinsics);
-    problem_.SetParameterBlockConstant(targets_.front().data());
+    if (!options.hold_cameras) problem_.SetParameterBlockConstant(targets_.front().data());
+    for (PoseBlock& camera : cameras_) {
+      if (options.hold_cameras) problem_.SetParameterBlockConstant(camera.data());
+    }
   }
 
   std::size_t points() const { return points_; }
   std::size_t parameters() const {
+    if (options_.hold_cameras) return targets_.size() * kPoseCount;
     const std::size_t free_intrinsics = options_.hold_intrinsics ? 0 : kIntrinsicsCount - held_.size();
     return intrinsics_.size() * (free_intrinsics + kPoseCount) + (targets_.size() - 1) * kPoseCount;
   }
@@ -130,6 +134,7 @@ class Bundle {
 
   /// Computes the parameters' deviations from the inverse of JᵀJ. Fails when the views leave a parameter undetermined.
   Result<std::vector<IntrinsicsDeviation>> Deviations() {
+    if (options_.hold_cameras) return std::vector<IntrinsicsDeviation>(intrinsics_.size());
     const Eigen::MatrixXd normal = NormalMatrix();
     const Eigen::VectorXd scale = normal.diagonal().cwiseSqrt();
     for (Eigen::Index i = 0; i < scale.size(); ++i) {
@@ -197,7 +202,7 @@ class Bundle {
   }
 
   void Hold(IntrinsicsBlock& intrinsics) {
-    if (options_.hold_intrinsics) {
+    if (options_.hold_intrinsics || options_.hold_cameras) {
       problem_.SetParameterBlockConstant(intrinsics.data());
     } else if (!held_.empty()) {
       problem_.SetManifold(intrinsics.data(), new ceres::SubsetManifold(kIntrinsicsCount, held_));

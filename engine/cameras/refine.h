@@ -39,6 +39,8 @@ struct RefineOptions {
   /// Holds focal lengths, principal points and lenses as the start has them: rigs whose cameras were calibrated one by
   /// one and then set up.
   bool hold_intrinsics = false;
+  /// Holds everything of the cameras and frees the first target instead: how well known cameras explain views.
+  bool hold_cameras = false;
   int most_iterations = 200;
 };
 
@@ -61,7 +63,7 @@ struct RefinedRig {
   double rms_px = 0;
   std::size_t points = 0;  ///< N
   std::size_t parameters = 0;  ///< p, the free ones. With errors of σ a coordinate, rms_px is near σ √2 √((2N−p) / 2N)
-  std::vector<IntrinsicsDeviation> deviations;
+  std::vector<IntrinsicsDeviation> deviations;  ///< of held cameras all 0
 };
 
 /// Finds the cameras and places of targets that make the sum of squared reprojection errors smallest (`refined`;

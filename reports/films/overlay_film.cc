@@ -104,7 +104,7 @@ class FilmRoll {
 }  // namespace
 
 Result<bool> WriteOverlayFilm(const std::filesystem::path& path, std::span<const OverlayView> views,
-                              const BodyMotion& motion, const FilmWatch& watch) {
+                              const BodyMotion& motion, const FilmWatch& watch, Picture* middle) {
   int width = 0, height = 0;
   const std::vector<Box> boxes = Layout(views, width, height);
   std::vector<ViewPainter> painters;
@@ -124,6 +124,7 @@ Result<bool> WriteOverlayFilm(const std::filesystem::path& path, std::span<const
       painters[i].Draw(canvas, *picture, motion.poses[frame], frame);
     }
     RETURN_IF_ERROR(encoder.Add(canvas.Pixels()));
+    if (middle && frame == motion.poses.size() / 2) *middle = PictureOf(canvas, middle->caption);
     watch.Tell(path, frame + 1, motion.poses.size());
   }
   RETURN_IF_ERROR(encoder.Finish());

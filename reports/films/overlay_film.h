@@ -30,7 +30,8 @@ struct OverlayView {
 /// Writes the films side by side, each with the skeleton as its camera would show it (lines) and the keypoints that it
 /// was made of (dots). As many frames as `motion` has. Fails when a film cannot be read or ffmpeg cannot be started.
 /// False when it was stopped; there is no file then.
+/// @param middle where there is one, it becomes the frame in the middle
 Result<bool> WriteOverlayFilm(const std::filesystem::path& path, std::span<const OverlayView> views,
-                              const BodyMotion& motion, const FilmWatch& watch);
+                              const BodyMotion& motion, const FilmWatch& watch, Picture* middle = nullptr);
 
 }  // namespace etude

@@ -6,6 +6,7 @@ format, and one mistake at a time. `--table` prints the errors instead of testin
 import json
 import math
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -389,6 +390,27 @@ class Mistakes(EtudeCase):
                     if mistake == "none":
                         for word in ("mended", "doubtful", "turned", "exchanged"):
                             self.assertNotIn(word, told)
+
+    def test_the_page_tells_films_residuals_and_mends(self):
+        page = self.folder / "page.html"
+        told, errors, _ = self.capture(mistake=FEWEST[0], cameras=2, more=("--report", page))
+        self.check(told, errors)
+        html = page.read_text()
+        for line in told.splitlines():
+            if line.startswith(("mended", "rig,")) or "; mended" in line:
+                self.assertIn(line.replace("'", "&#39;"), html)
+        self.assertIn("src=\"data:video/mp4;base64,", html)
+        self.assertNotRegex(html, r"(src|href)=\"(?!data:|#)")
+        for camera in list(PLACES)[:2]:
+            row = re.search(rf"<td>{camera}</td>((<td class=\"n\">[^<]*</td>)+)", html)
+            self.assertIsNotNone(row, camera)
+            frames, median = re.findall(r">([\d.]+)", row[1])[:2]
+            self.assertGreater(int(frames), FRAMES / 2)
+            self.assertLess(float(median), 2)
+        curves = re.findall(r"<path class=\"line\"[^>]* d=\"(M[^\"]+)\"", html)
+        self.assertGreaterEqual(len([c for c in curves if c.count("L") > FRAMES / 2]), 4)  # two cameras, two feet
+        self.assertRegex(html, r"<td>shank</td><td class=\"n\">4[23]\.")
+        self.assertIn("there already", self.capture(more=("--report", page))[0])
 
     def test_what_is_no_person_is_refused_with_the_factor(self):
         told, errors, _ = self.capture("Pose2Sim", more=("--rig-unit", "cm"))

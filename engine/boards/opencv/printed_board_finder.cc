@@ -142,13 +142,15 @@ class OpenCvFinder : public PrintedBoardFinder {
     const std::map<int, Quad> markers = Markers(gray);
     constexpr std::size_t kFewest = 3;
     if (markers.size() < kFewest) return {};
-    // The layout and share with which markers agree best about the corners between them.
+    // The layout and share with which most corners are agreed about by both markers beside them, and then best.
+    constexpr double kMostApart = 0.2;
     double least = 1e9;
     int layout = 0, share = 75;
     std::vector<Predicted> best;
     for (int way = 0; way < 2; ++way) {
       for (int hundredths = 40; hundredths <= 95; ++hundredths) {
         std::vector<Predicted> predicted = Predict(markers, way, hundredths / 100.0);
+        std::erase_if(predicted, [](const Predicted& one) { return one.apart > kMostApart; });
         if (predicted.size() < 2 || predicted.size() < best.size()) continue;
         double sum = 0;
         for (const Predicted& one : predicted) sum += one.apart / static_cast<double>(predicted.size());
@@ -159,8 +161,7 @@ class OpenCvFinder : public PrintedBoardFinder {
         best = std::move(predicted);
       }
     }
-    constexpr double kMostApart = 0.2;
-    if (best.empty() || least > kMostApart) return {};
+    if (best.empty()) return {};
     ++layouts[static_cast<std::size_t>(layout)];
     ++shares[share];
     for (const auto& [id, quad] : markers) CountInversion(gray, quad);
@@ -169,7 +170,7 @@ class OpenCvFinder : public PrintedBoardFinder {
       Quad refined = {one.place};
       const int half = std::clamp(static_cast<int>(0.12 * one.square_px), 2, 12);
       const cv::Rect inside(half + 2, half + 2, gray.cols - 2 * half - 4, gray.rows - 2 * half - 4);
-      if (one.apart > kMostApart || !inside.contains(one.place)) continue;
+      if (!inside.contains(one.place)) continue;
       cv::cornerSubPix(gray, refined, {half, half}, {-1, -1},
                        {cv::TermCriteria::EPS + cv::TermCriteria::COUNT, 40, 0.01});
       if (Distance(refined[0], one.place) > half) continue;

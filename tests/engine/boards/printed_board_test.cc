@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "engine/base/image.h"
@@ -25,6 +27,61 @@ ColourImage PictureOfChessboard(const PrintedBoard& board, int size, int left, i
     }
   }
   return picture;
+}
+
+/// The first markers of DICT_4X4, modules by rows, 1 for white; as OpenCV draws them.
+constexpr std::array<std::uint16_t, 10> kMarkers = {0xb532, 0x0f9a, 0x332d, 0x9946, 0x549e,
+                                                    0x79cd, 0x9e2e, 0xc4f2, 0xfeda, 0xcf56};
+
+/// A ChArUco board of markers in every second square: from the second square on, or from the first one; `is_inverted`
+/// exchanges black and white of all.
+ColourImage PictureOfCharuco(const PrintedBoard& board, bool is_inverted, bool is_first) {
+  constexpr int kModule = 8, kRim = 8, kSquare = 6 * kModule + 2 * kRim, kLeft = 50, kTop = 40;
+  ColourImage picture(2 * kLeft + board.columns * kSquare, 2 * kTop + board.rows * kSquare);
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const int inside_x = x - kLeft, inside_y = y - kTop;
+      const int column = inside_x / kSquare, row = inside_y / kSquare;
+      bool is_white = true;
+      if (inside_x >= 0 && inside_y >= 0 && column < board.columns && row < board.rows) {
+        is_white = (column + row) % 2 == (is_first ? 0 : 1);
+        const int u = (inside_x % kSquare - kRim) / kModule, v = (inside_y % kSquare - kRim) / kModule;
+        const bool is_marker = inside_x % kSquare >= kRim && inside_y % kSquare >= kRim && u < 6 && v < 6;
+        if (is_white && is_marker) {
+          const bool is_code = u > 0 && v > 0 && u < 5 && v < 5;
+          const auto id = static_cast<std::size_t>((row * board.columns + column) / 2);
+          is_white = is_code && (kMarkers[id] >> (15 - 4 * (v - 1) - (u - 1)) & 1) != 0;
+        }
+      }
+      const std::uint8_t light = is_white != is_inverted ? 225 : 25;
+      picture.At(x, y) = {light, light, light};
+    }
+  }
+  return picture;
+}
+
+TEST(PrintedBoard, CornersOfCharucoAreNamedInBothPrintsAndLayouts) {
+  const PrintedBoard board{.is_charuco = true, .columns = 5, .rows = 4, .square = 0.03};
+  for (const bool is_inverted : {false, true}) {
+    for (const bool is_first : {false, true}) {
+      SCOPED_TRACE(testing::Message() << is_inverted << is_first);
+      const auto finder = MakePrintedBoardFinder(board);
+      if (!finder) GTEST_SKIP() << ToString(finder.error());
+      const ColourImage picture = PictureOfCharuco(board, is_inverted, is_first);
+      const std::vector<SeenCorner> seen = (*finder)->Find(picture);
+      ASSERT_EQ(seen.size(), 12u);
+      for (const SeenCorner& each : seen) {
+        EXPECT_NEAR(each.pixel.x, 50 + 64 * (each.corner.column + 1), 0.1);
+        EXPECT_NEAR(each.pixel.y, 40 + 64 * (each.corner.row + 1), 0.1);
+      }
+      const std::string told = (*finder)->Told();
+      EXPECT_TRUE(told.starts_with("DICT_4X4")) << told;
+      EXPECT_EQ(told.find("inverted") != std::string::npos, is_inverted) << told;
+      EXPECT_EQ(told.find("a marker in the first square") != std::string::npos, is_first) << told;
+      EXPECT_NE(told.find("0.7"), std::string::npos) << told;
+      EXPECT_TRUE((*finder)->Find(ColourImage(320, 240)).empty());
+    }
+  }
 }
 
 TEST(PrintedBoard, IsReadFromItsText) {

@@ -1,0 +1,125 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "bench/files/files.h"
+#include "bench/files/temporary_folder.h"
+#include "cli/capture.h"
+#include "cli/output_file.h"
+#include "cli/progress_bar.h"
+#include "engine/base/order_statistics.h"
+#include "reports/capture_page.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The median distance of a frame's keypoints to the points that all cameras make, as the camera shows them.
+std::optional<double> ResidualOf(const ProjectionMatrix& camera, const SeenPerson& seen, const LandmarkPlaces& places) {
+  std::vector<double> distances;
+  for (std::size_t i = 0; i < kLandmarkCount; ++i) {
+    if (!(seen.keypoints[i].confidence > 0) || !places[i]) continue;
+    if (const auto pixel = Project(camera, *places[i]))
+      distances.push_back(glm::distance(*pixel, seen.keypoints[i].pixel));
+  }
+  if (distances.empty()) return std::nullopt;
+  return UpperMedian(distances);
+}
+
+std::vector<TakeCurve> FeetOf(const BodyMotion& motion) {
+  constexpr double kCm = 100;
+  std::vector<TakeCurve> feet;
+  for (const auto& [name, ankle, toe] : {std::tuple("left foot", Role::kLeftAnkle, Role::kLeftFoot),
+                                         {"right foot", Role::kRightAnkle, Role::kRightFoot}}) {
+    TakeCurve& curve = feet.emplace_back(TakeCurve{name, {}});
+    for (const BodyPose& pose : motion.poses) curve.values.push_back(kCm * std::min(pose[ankle].y, pose[toe].y));
+  }
+  return feet;
+}
+
+std::string VerdictOf(const RecoveredPerson& person, const std::vector<FilmedView>& views, std::size_t told_doubts) {
+  constexpr double kPercent = 100;
+  return fmt::format(
+      "{} cameras, {} frames at {:g} Hz: {:.1f} % of the points found, {:.1f} px off the keypoints in the "
+      "median; {}.",
+      views.size(), person.motion.poses.size(), person.motion.rate_hz, kPercent * person.report.found,
+      person.report.residual_px,
+      told_doubts == 0 ? "nothing is doubtful" : fmt::format("{} told below to be doubtful", told_doubts));
+}
+
+CapturePage PageOf(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+                   const RecoveredPerson& person, std::size_t chosen, const SeenFilms& films) {
+  CapturePage page;
+  page.title = fs::path(options.output).stem().string();
+  page.rate_hz = person.motion.rate_hz;
+  page.told = films.told;
+  const auto doubts = std::ranges::count_if(page.told, [](const std::string& s) { return s.starts_with("doubtful"); });
+  page.verdict = VerdictOf(person, views, static_cast<std::size_t>(doubts));
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    CapturedCamera& camera = page.cameras.emplace_back();
+    camera.name = camera.residual_px.name = views[i].camera.name;
+    camera.left_out = person.report.rejected[i];
+    const auto& seen = person.people[chosen].seen[i];
+    for (std::size_t frame = 0; frame < person.landmarks.size(); ++frame) {
+      const bool is_seen = frame < seen.size() && seen[frame];
+      camera.residual_px.values.push_back(is_seen ? ResidualOf(films.cameras[i], *seen[frame], person.landmarks[frame])
+                                                  : std::nullopt);
+    }
+  }
+  page.feet_cm = FeetOf(person.motion);
+  const LimbLengths& l = person.body.lengths;
+  constexpr double kCm = 100;
+  for (const auto& [name, metres] : {std::pair("shank", l.shank),
+                                     {"thigh", l.thigh},
+                                     {"trunk", l.trunk},
+                                     {"upper arm", l.upper_arm},
+                                     {"forearm", l.forearm},
+                                     {"hips", l.hip_width},
+                                     {"shoulders", l.shoulder_width}}) {
+    page.lengths_cm.emplace_back(name, kCm * metres);
+  }
+  const MarkerMotion points = JointMarkers(person.landmarks, person.motion.rate_hz);
+  for (const MarkerAgreement& row : CompareMarkers(JointMarkers(person.motion), points)) {
+    if (row.frames > 0) page.fit.emplace_back(row.name, std::array{row.median_mm, row.p95_mm});
+  }
+  page.version = ETUDE_VERSION;
+  page.command = "etude capture --rig " + options.rig;
+  for (const std::string& film : options.films) page.command += " " + film;
+  page.command +=
+      fmt::format(" {} -o {}", options.marks.empty() ? "--keypoints " + options.keypoints : "--marks " + options.marks,
+                  options.output);
+  return page;
+}
+
+}  // namespace
+
+Result<bool> WriteReport(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+                         const RecoveredPerson& person, std::size_t chosen, const SeenFilms& films) {
+  CapturePage page = PageOf(options, views, person, chosen, films);
+  page.still.caption =
+      "The skeleton as each camera would show it (lines; left blue, right orange), and the keypoints it was made of "
+      "(green).";
+  page.film = options.film;
+  ASSIGN_OR_RETURN(const TemporaryFolder folder, TemporaryFolder::Make("capture-report"));
+  const fs::path film = folder.path() / "overlay.mp4";
+  const Interrupt interrupt;
+  ASSIGN_OR_RETURN(const bool is_whole,
+                   UnlessInterrupted(WriteOverlayFilm(film, OverlaysOf(views, person, chosen, films.clocks),
+                                                      person.motion, WatchFilms(interrupt), &page.still),
+                                     interrupt));
+  if (!is_whole) return false;
+  constexpr std::uintmax_t kMostBytes = 16'000'000;
+  std::error_code unreadable;
+  if (fs::file_size(film, unreadable) <= kMostBytes && !unreadable) {
+    ASSIGN_OR_RETURN(page.mp4, ReadWholeFile(film.string()));
+  }
+  RETURN_IF_ERROR(WriteFileAtomically(options.report, WriteCapturePage(page)));
+  TellWritten(options.report);
+  return true;
+}
+
+}  // namespace etude

@@ -1,0 +1,150 @@
+#include "engine/boards/film_steps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <tuple>
+
+namespace etude {
+namespace {
+
+/// Of a camera, a board and a look.
+using SightingKey = std::tuple<std::size_t, std::size_t, int>;
+using SightingMap = std::map<SightingKey, const BoardSighting*>;
+
+const glm::dvec2* PixelOf(const SightingMap& map, const SightingKey& key, const glm::dvec3& corner) {
+  const auto found = map.find(key);
+  if (found == map.end()) return nullptr;
+  for (const PointPair& pair : found->second->view.pairs) {
+    if (pair.world == corner) return &pair.pixel;
+  }
+  return nullptr;
+}
+
+/// The corners of a sighting `share` of a look later, −0.5 to 0.5: those that a look beside shows, too.
+std::vector<PointPair> CornersBetween(const SightingMap& map, const SightingKey& key, const BoardSighting& sighting,
+                                      double share) {
+  constexpr double kNow = 1e-6;
+  if (std::abs(share) < kNow) return sighting.view.pairs;
+  const auto& [camera, board, look] = key;
+  std::vector<PointPair> moved;
+  for (const PointPair& pair : sighting.view.pairs) {
+    const glm::dvec2* const before = PixelOf(map, {camera, board, look - 1}, pair.world);
+    const glm::dvec2* const after = PixelOf(map, {camera, board, look + 1}, pair.world);
+    if (before && after) {
+      const glm::dvec2 speed = 0.5 * (*after - *before), bend = 0.5 * (*after + *before) - pair.pixel;
+      moved.push_back({pair.world, pair.pixel + share * speed + share * share * bend});
+    } else if (before || after) {
+      const glm::dvec2 speed = after ? *after - pair.pixel : pair.pixel - *before;
+      moved.push_back({pair.world, pair.pixel + share * speed});
+    }
+  }
+  return moved;
+}
+
+/// Of moments that several films see, at most kMostMoments, evenly; a sighting keeps its neighbours.
+std::vector<BoardSighting> Thinned(std::span<const BoardSighting> sightings) {
+  constexpr std::size_t kMostMoments = 60;
+  std::map<std::size_t, std::size_t> cameras;  // of each target
+  for (const BoardSighting& s : sightings) ++cameras[s.view.target];
+  std::size_t shared = 0;
+  for (const auto& [target, count] : cameras) shared += count > 1 ? 1 : 0;
+  if (cameras.size() <= kMostMoments || shared == 0) return {sightings.begin(), sightings.end()};
+  // Blocks of looks: neighbours tell speeds.
+  constexpr int kBlock = 6;
+  const std::size_t blocks = std::max<std::size_t>(1, (cameras.size() + kMostMoments - 1) / kMostMoments);
+  std::vector<BoardSighting> kept;
+  for (const BoardSighting& s : sightings) {
+    if (static_cast<std::size_t>(s.look / kBlock) % blocks == 0) kept.push_back(s);
+  }
+  return kept;
+}
+
+}  // namespace
+
+std::vector<TargetView> ViewsInStep(std::span<const BoardSighting> sightings, std::span<const double> period_s,
+                                    std::span<const double> late_s) {
+  SightingMap map;
+  for (const BoardSighting& s : sightings) map[{s.view.camera, s.board, s.look}] = &s;
+  std::map<std::pair<std::size_t, int>, std::size_t> targets;  // of a board and the first film's look
+  std::size_t count = 0;
+  const auto target_of = [&](std::size_t board, int look) {
+    const auto [at, is_new] = targets.try_emplace({board, look}, count);
+    count += is_new ? 1 : 0;
+    return at->second;
+  };
+  std::vector<TargetView> views;
+  for (const BoardSighting& s : sightings) {
+    const std::size_t camera = s.view.camera;
+    const double period = period_s[camera];
+    // The look of the first film that is nearest in time, and where this film's time stands then.
+    const int look = static_cast<int>(std::lround((s.look * period - late_s[camera]) / period_s[0]));
+    const double share = (look * period_s[0] + late_s[camera]) / period - s.look;
+    constexpr double kHalf = 0.5 + 1e-9;
+    std::vector<PointPair> pairs;
+    if (std::abs(share) <= kHalf) pairs = CornersBetween(map, {camera, s.board, s.look}, s, share);
+    constexpr std::size_t kFewest = 4;
+    if (pairs.size() >= kFewest) {
+      views.push_back({camera, target_of(s.board, look), std::move(pairs)});
+    } else {
+      views.push_back({camera, count++, s.view.pairs});
+    }
+  }
+  return views;
+}
+
+Result<FilmSteps> FindFilmSteps(std::span<const PictureSize> sizes, std::span<const BoardSighting> sightings,
+                                std::span<const double> period_s, double most_s, const RefineOptions& options,
+                                const OnProgress& on_progress) {
+  FilmSteps steps{.late_s = std::vector<double>(sizes.size())};
+  const std::vector<BoardSighting> tried = Thinned(sightings);
+  RefineOptions quick = options;
+  constexpr int kQuick = 25;
+  quick.most_iterations = kQuick;
+  const auto residual = [&](std::span<const double> late_s) -> Result<double> {
+    ASSIGN_OR_RETURN(const RefinedRig rig, CalibrateFromPlanes(sizes, ViewsInStep(tried, period_s, late_s), quick));
+    return rig.rms_px;
+  };
+  // Where nothing can be calibrated in step, it may be later on.
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const auto in_step = residual(steps.late_s);
+  steps.before_px = steps.after_px = in_step ? *in_step : kNever;
+  const std::size_t rounds = sizes.size() > 2 ? 2 : 1;
+  const double step_s = 0.5 * period_s[0];
+  const int wide = std::max(1, static_cast<int>(std::floor(most_s / step_s)));
+  constexpr int kHalvings = 5;
+  const std::size_t all = rounds * (sizes.size() - 1) * static_cast<std::size_t>(2 * wide + 1 + 2 * kHalvings);
+  std::size_t done = 0;
+  for (std::size_t round = 0; round < rounds; ++round) {
+    for (std::size_t film = 1; film < sizes.size(); ++film) {
+      std::vector<double> late_s = steps.late_s;
+      double best_s = late_s[film], least = steps.after_px;
+      const auto look_at = [&](double s) {
+        late_s[film] = s;
+        const auto px = residual(late_s);
+        if (on_progress) on_progress(std::min(all, ++done), all);
+        if (!px || !(*px < least)) return;
+        least = *px;
+        best_s = s;
+      };
+      for (int i = -wide; i <= wide; ++i) look_at(i * step_s);
+      double half = 0.5 * step_s;
+      for (int i = 0; i < kHalvings; ++i, half *= 0.5) {
+        const double middle = best_s;
+        look_at(middle - half);
+        look_at(middle + half);
+      }
+      constexpr double kMended = 0.9;
+      if (!(least < kMended * steps.after_px)) continue;
+      steps.after_px = least;
+      steps.late_s[film] = best_s;
+    }
+  }
+  if (on_progress) on_progress(all, all);
+  if (!std::isfinite(steps.after_px)) return tl::unexpected(in_step.error());
+  return steps;
+}
+
+}  // namespace etude

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reports/films/film.h"
+
+namespace etude {
+
+/// A line over the frames of a take; frames without a value are gaps.
+struct TakeCurve {
+  std::string name;
+  std::vector<std::optional<double>> values;
+};
+
+/// One camera of a captured take.
+struct CapturedCamera {
+  std::string name;
+  TakeCurve residual_px;  ///< median over keypoints of their distance to the point made of all cameras
+  double left_out = 0;    ///< share of keypoints that disagreed with the other cameras'
+};
+
+/// What `etude capture` found, for people to read.
+struct CapturePage {
+  std::string title;
+  std::string verdict;  ///< a sentence or two
+  double rate_hz = 30;
+  std::string mp4;                ///< the overlay film's bytes, or "" where it is too heavy for a page
+  std::string film;               ///< where it is written, "" = nowhere
+  Picture still;                  ///< the frame in the middle
+  std::vector<std::string> told;  ///< what was found out, mended or is doubtful, a line each
+  std::vector<CapturedCamera> cameras;
+  std::vector<TakeCurve> feet_cm;                                  ///< heights above the floor
+  std::vector<std::pair<std::string, double>> lengths_cm;          ///< of limbs
+  std::vector<std::pair<std::string, std::array<double, 2>>> fit;  ///< of joints: median and 95 %, mm
+  std::string version, command;
+};
+
+/// Writes one HTML page that holds all it needs and forbids itself the network, in the manner of a run's page.
+std::string WriteCapturePage(const CapturePage& page);
+
+}  // namespace etude
