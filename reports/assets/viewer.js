@@ -51,14 +51,14 @@ const prepare = (world) => {
       }
     }
   }
-  // The scale ends where one error in ten is greater, of those that can be seen beside the greatest.
+  // One error in ten is beyond the scale, of those that are seen beside the greatest.
   const greatest = everyError.reduce((a, b) => Math.max(a, b), 0), seen = everyError.filter((e) => e > greatest / 50).sort((a, b) => a - b);
   const high = seen[Math.floor(.9 * (seen.length - 1))] || 1, power = 10 ** Math.floor(Math.log10(high));
   world.most = [1, 2, 3, 5, 10].find((n) => n * power >= high * .999) * power;
   return world;
 };
 const isThere = (body, t) => t > body.begin - 1e-6 && t < body.begin + body.frames - 1 + 1e-6;
-// Joints at a time in frames of the world: between two frames in a straight line, outside of them the nearest.
+// Joints at a time in the world's frames: between two frames in a straight line.
 const place = (body, t, steps = false, out = new Float32Array(3 * COUNT)) => {
   const at = Math.min(Math.max(t - body.begin, 0), body.stored - 1), f = Math.floor(at + 1e-6);
   const part = steps ? 0 : at - f, p = body.places, from = f * 3 * COUNT, to = Math.min(f + 1, body.stored - 1) * 3 * COUNT;
@@ -104,8 +104,7 @@ const standing = (left, up) => {
   return times([Math.cos(half), ...x.map((v) => v * Math.sin(half))], first);
 };
 
-// ---- Files: the motion shown, as other programs read it. Turning joints with arms held out at rest; limbs turn by the
-// shortest way, and every joint is where it is shown.
+// ---- Files for other programs: arms held out at rest, limbs turn the shortest way, joints are where they are shown.
 const restOf = (body) => PARENT.map((parent, j) => {
   if (parent < 0) return [0, 0, 0];
   const p = place(body, body.begin), length = Math.hypot(...sub(jointOf(p, j), jointOf(p, parent)));
@@ -213,7 +212,7 @@ const limbsOf = (scene, ghosts) => [...scene.items.filter((item) => item.ghost =
   return [...jointOf(p, from), wide * ends[0], ...jointOf(p, to), wide * ends[1], ...jointOf(c, from), ghosts ? .1 : 1, ...jointOf(c, to), 1];
 })), ...ghosts ? [] : scene.spots.map(({at, radius, colour, squash}) => [...at, radius, ...at, radius, ...colour, 1, ...colour, squash])];
 const glRenderer = (canvas, onLost) => {
-  // Edges are smoothed where that costs nothing: not where the processor draws.
+  // Smooth edges, but where the processor draws.
   const options = {stencil: true, alpha: false};
   const gl = canvas.getContext('webgl2', {...options, antialias: true, failIfMajorPerformanceCaveat: true}) ??
       canvas.getContext('webgl2', {...options, antialias: false});
@@ -236,7 +235,7 @@ const glRenderer = (canvas, onLost) => {
     }
     return {program, at};
   };
-  // A capsule from a to b, whose ends have radii a.w and b.w; its shadow is laid on the floor along the light.
+  // A capsule from a to b with radii a.w and b.w; its shadow is laid on the floor along the light.
   const limbs = build(`layout(location=0) in vec4 v; layout(location=1) in vec4 a; layout(location=2) in vec4 b;
     layout(location=3) in vec4 ca; layout(location=4) in vec4 cb;
     uniform mat4 m; uniform float ground; uniform bool isShadow; out vec3 n; out vec3 w; out vec4 c;
@@ -329,7 +328,7 @@ const glRenderer = (canvas, onLost) => {
   }};
 };
 const flatRenderer = (canvas) => {
-  const context = canvas.getContext('2d');
+  const context = canvas.getContext('2d', {willReadFrequently: true});
   const css = (c) => `rgb(${c.map((x) => Math.round(255 * x)).join()})`;
   return {kind: '2D canvas', draw(scene, view) {
     const {width, height} = canvas, {project, focus} = cameraOf(view, width, height);
@@ -369,7 +368,7 @@ const flatRenderer = (canvas) => {
 };
 
 // ---- The dialog.
-const KEYS = 'k plays and stops; ← → a frame, with Shift a second; on the picture arrows turn it; + − nearer, farther; 0 the first view; ' +
+const KEYS = 'k plays and stops; ← → a frame, with Shift a second; on the picture arrows turn it; + − zoom; 0 the first view; ' +
     '[ ] last, next moment; Home End first, last frame; s side by side; e colour by error; Escape closes.';
 const make = (tag, attributes = {}, ...children) => {
   const element = document.createElement(tag);
@@ -445,7 +444,7 @@ const show = (world, cells) => {
   const nearer = button('+', () => zoom(.87), {'aria-label': 'Nearer'}), farther = button('−', () => zoom(1.15), {'aria-label': 'Farther'});
   const slider = make('input', {type: 'range', min: 0, max: last, value: 0, 'aria-label': 'Time', oninput: () => { stop(); seek(Number(slider.value)); }});
   const speed = make('select', {'aria-label': 'Speed', onchange: () => { state.speed = Number(speed.value); }},
-      ...[.1, .25, .5, 1, 2].map((s) => make('option', {value: s, selected: s === 1}, s === 1 ? 'full speed' : `× ${s}`)));
+      ...[.1, .25, .5, 1, 2].map((s) => make('option', {value: s, selected: s === 1}, `speed × ${s}`)));
   const apart = button('Side by side', () => { state.apart = !state.apart; layOut(); home(); refresh(); });
   const byError = button('Colour by error', () => { state.byError = !state.byError; refresh(); });
   const scale = make('div', {class: 'scale'}, `${world.error}, ${world.unit}`, make('i'),
@@ -490,7 +489,7 @@ const show = (world, cells) => {
     seek(ahead ? ahead.frame : way > 0 ? last : 0);
   };
 
-  // Joints by error: what the colours say, for those who do not see them.
+  // What the colours say, for those who do not see them.
   const table = make('div', {class: 'table', tabindex: 0, role: 'region', 'aria-label': 'Error by joint'});
   let cellsNow = [];
   const tabulate = () => {
@@ -555,7 +554,7 @@ const show = (world, cells) => {
           make('details', {}, make('summary', {}, 'Keys'), make('p', {}, KEYS)))));
 
   const colours = {page: rgb('--page'), ghost: rgb('--quiet'), accent: rgb('--accent'), methods: world.cells.map((c) => rgb(`--m${c.colour % 8}`))};
-  let renderer, canvas, dirty = true, ticking, before = 0, toldAt = 0;
+  let renderer, canvas, dirty = true, ticking, before = 0, toldAt = 0, sharpest = 2, slow = 0;
   const turn = (dx, dy) => {
     view.yaw -= dx;
     view.pitch = Math.min(Math.max(view.pitch + dy, .02), 1.5);
@@ -578,7 +577,7 @@ const show = (world, cells) => {
     fit();
   };
   const fit = () => {
-    const sharp = Math.min(devicePixelRatio || 1, 2);
+    const sharp = Math.min(devicePixelRatio, sharpest);
     canvas.width = Math.max(1, Math.round(stage.clientWidth * sharp));
     canvas.height = Math.max(1, Math.round(stage.clientHeight * sharp));
     dirty = true;
@@ -644,6 +643,12 @@ const show = (world, cells) => {
       if (state.t > last) state.t = last;
       dirty = true;
     }
+    // Too slow: half as sharp, then without WebGL.
+    slow = state.playing && now - before > 50 ? slow + 1 : 0;
+    if (slow > 9) {
+      slow = 0;
+      if (sharpest > .5) { sharpest = .5; fit(); } else if (renderer.kind === 'WebGL2') setUp(true);
+    }
     before = now;
     if (dirty) {
       dirty = false;
@@ -681,7 +686,7 @@ const show = (world, cells) => {
 
 window.etudeViewer = {
   has: (cell) => fileOf(cell) !== undefined,
-  // Opens the world of these cells; they are shown, others of the world can be chosen.
+  // Opens their world; others of its cells can be chosen.
   open: (...cells) => {
     const known = cells.filter((cell) => fileOf(cell) !== undefined);
     if (opened || !known.length) return Promise.resolve(false);

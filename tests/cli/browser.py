@@ -8,7 +8,7 @@ import tempfile
 
 CHROMIUM = shutil.which("chromium")
 # Pictures drawn by the processor: no test may depend on a graphics card.
-SWITCHES = ["--headless", "--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+SWITCHES = ["--headless", "--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
             "--no-first-run", "--hide-scrollbars", "--remote-debugging-pipe"]
 
 
