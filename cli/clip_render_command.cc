@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "bench/files/files.h"
+#include "cli/arguments.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
 #include "cli/output_file.h"
@@ -22,6 +23,7 @@ struct ClipRenderOptions {
   std::string size;  ///< "200x260", "" = 200 × 260 for pictures of a sheet, 720 × 720 for films
   int frames = 0;    ///< per clip; 0 = 12 of one clip, 8 of several
   int columns = 0;   ///< 0 = 6 of one clip, a line each of several
+  int jobs = 0;
   bool overwrite = false;
   ClipReading reading;
 };
@@ -98,7 +100,7 @@ Result<bool> WriteFilm(const ClipRenderOptions& options) {
   }
   ASSIGN_OR_RETURN(auto renderer, Renderer::Create());
   const Interrupt interrupt;
-  const FilmOptions film{ViewNamed(options.view), size.width, size.height, WatchFilms(interrupt)};
+  const FilmOptions film{ViewNamed(options.view), size.width, size.height, WatchFilms(interrupt, options.jobs)};
   return UnlessInterrupted(FilmClip(std::move(actors.front()), film, options.output, *renderer), interrupt);
 }
 
@@ -138,6 +140,7 @@ void DefineRender(CLI::App& clip, Action& action) {
       ->check(CLI::Range(1, 1000));
   command->add_option("--columns", options->columns, "Sheet: pictures beside each other")->check(CLI::Range(1, 100));
   command->add_option("--trim", options->trim, "Only this part, seconds: FROM:TO, such as 1.5:4 or 2:");
+  AddJobs(*command, options->jobs);
   AddOverwrite(*command, options->overwrite);
   AddClipReading(*command, options->reading);
   command->callback([=, &action] { action = [=] { return Finish(ClipRenderCommand(*options)); }; });

@@ -10,11 +10,10 @@ namespace {
 
 constexpr int kBarWidth = 32;
 
-std::string Remaining(const Progress& progress) {
-  const std::size_t here = progress.cells_done - progress.cells_before;
-  if (here == 0 || progress.cells_done == progress.cells) return "";
-  const double each = progress.seconds / static_cast<double>(here);
-  return fmt::format(", about {:.0f} s to go", each * static_cast<double>(progress.cells - progress.cells_done));
+/// Says how long `left` more take when `done` took `seconds`.
+std::string Remaining(std::size_t done, std::size_t left, double seconds) {
+  if (done == 0 || left == 0) return "";
+  return fmt::format(", about {:.0f} s to go", seconds / static_cast<double>(done) * static_cast<double>(left));
 }
 
 /// Prints without a throw when nobody listens any more (fmt::print throws): that must not end a run.
@@ -36,7 +35,7 @@ void ProgressBar::Show(const Progress& progress) {
   Show(share,
        fmt::format("{}/{} cells, {} ok, {:.0f} s", progress.cells_done, progress.cells, progress.cells_ok,
                    progress.seconds),
-       Remaining(progress));
+       Remaining(progress.cells_done - progress.cells_before, progress.cells - progress.cells_done, progress.seconds));
 }
 
 void ProgressBar::Show(double share, const std::string& what, const std::string& remaining) {
@@ -48,25 +47,26 @@ void ProgressBar::Show(double share, const std::string& what, const std::string&
     Print(fmt::format("\r\033[K[{}] {}{}{}", bar, what, remaining, share >= 1 ? "\n" : ""));
   } else if (const int tenths = static_cast<int>(share * 10); tenths > tenths_shown_) {
     tenths_shown_ = tenths;
-    Print(fmt::format("{:3d} %  {}\n", tenths * 10, what));
+    Print(fmt::format("{:3d} %  {}{}\n", tenths * 10, what, remaining));
   }
 }
 
 OnProgress ProgressOf(std::string what) {
-  return [=, bar = ProgressBar(ProgressBar::Begins::kWhenItTakesLong)](std::size_t done, std::size_t all) mutable {
+  return [=, bar = ProgressBar(ProgressBar::Begins::kWhenItTakesLong), began = Clock::now()](std::size_t done,
+                                                                                             std::size_t all) mutable {
     bar.Show(all == 0 ? 1 : static_cast<double>(done) / static_cast<double>(all),
-             fmt::format("{}/{} {}", done, all, what));
+             fmt::format("{}/{} {}", done, all, what), Remaining(done, all - done, SecondsSince(began)));
   };
 }
 
-FilmWatch WatchFilms(const Interrupt& interrupt) {
+FilmWatch WatchFilms(const Interrupt& interrupt, int jobs) {
   const auto tell = [of = std::string(), tell = OnProgress()](const std::string& file, std::size_t done,
                                                               std::size_t frames) mutable {
     if (file != of) tell = ProgressOf("frames of " + file);
     of = file;
     tell(done, frames);
   };
-  return {.progress = tell, .stop = interrupt.requested()};
+  return {.progress = tell, .stop = interrupt.requested(), .jobs = jobs};
 }
 
 }  // namespace etude

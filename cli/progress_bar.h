@@ -20,7 +20,7 @@ class ProgressBar {
   };
   explicit ProgressBar(Begins begins = Begins::kAtOnce);
   void Show(const Progress& progress);
-  /// Shows how far the work is: `share` is 0…1, `remaining` is shown on a terminal only.
+  /// Shows how far the work is: `share` is 0…1.
   void Show(double share, const std::string& what, const std::string& remaining = "");
 
  private:
@@ -33,10 +33,12 @@ class ProgressBar {
   int tenths_shown_ = -1;
 };
 
-/// Makes a callback that shows how far some work is ("12/300 clips") once it takes long.
+/// Makes a callback that shows how far some work is, and how long the rest may take ("12/300 clips, about 40 s to go"),
+/// once it takes long.
 OnProgress ProgressOf(std::string what);
 
-/// Makes a watch that shows of each film how many of its frames are drawn, and that Ctrl-C stops.
-FilmWatch WatchFilms(const Interrupt& interrupt);
+/// Makes a watch that shows of each film how many of its frames are drawn and how long the rest may take, and that
+/// Ctrl-C stops. `jobs` processes draw; 0 = one per processor.
+FilmWatch WatchFilms(const Interrupt& interrupt, int jobs = 0);
 
 }  // namespace etude

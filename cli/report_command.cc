@@ -6,6 +6,7 @@
 
 #include "bench/files/files.h"
 #include "bench/results/folder.h"
+#include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
@@ -24,13 +25,13 @@ Result<std::vector<RealTake>> ReadRealTakes(const std::vector<std::string>& file
 }
 
 Result<int> ReportCommand(const std::string& folder, const std::vector<std::string>& real, ReportOptions options,
-                          Sealing sealing) {
+                          Sealing sealing, int jobs) {
   ASSIGN_OR_RETURN(options.real, ReadRealTakes(real));
   ASSIGN_OR_RETURN(const auto run, LoadRun(folder, sealing));
   TellUnsealed(run);
   RETURN_IF_ERROR(CheckRowsAgainstSummary(folder, run));
   const Interrupt interrupt;
-  options.watch = WatchFilms(interrupt);
+  options.watch = WatchFilms(interrupt, jobs);
   ASSIGN_OR_RETURN(const bool is_whole, WriteReport(run, folder, options));
   if (!is_whole) return TellStopped({{folder, 0, 0}, "stopped; the tables are written, the page is not"});
   TellWritten(folder + "/report/index.html");
@@ -69,10 +70,12 @@ void DefineReport(CLI::App& app, Action& action) {
                       "Beside it, captures of real films: files that `etude capture --distances` wrote");
   auto sealing = std::make_shared<Sealing>();
   AddUnsealed(*command, *sealing);
+  auto jobs = std::make_shared<int>(0);
+  AddJobs(*command, *jobs);
   command->callback([=, &action] {
     action = [=] {
       return Finish(
-          ReportCommand(*folder, *real, {.pictures = !*no_video, .whole_sessions = *whole_sessions}, *sealing));
+          ReportCommand(*folder, *real, {.pictures = !*no_video, .whole_sessions = *whole_sessions}, *sealing, *jobs));
     };
   });
 }

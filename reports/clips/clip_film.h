@@ -66,7 +66,7 @@ class Shot {
   /// Widens `bounds` so that it holds these frames' figures.
   void Include(const std::vector<int>& frames, ViewBounds& bounds) const;
   /// Draws a frame, with a dot on the left hand and the left foot.
-  void Draw(Canvas& canvas, const Box& box, const Studio& studio, Renderer& renderer, int frame) const;
+  void Draw(Canvas& canvas, const Box& box, Studio& studio, Renderer& renderer, int frame) const;
 
  private:
   ClipActor actor_;

@@ -27,7 +27,7 @@ void DrawTitle(Canvas& canvas, const ClipFacts& facts, double y, double room) {
 
 /// Draws a clip's pictures in rows of `columns`, from `y` downwards.
 void DrawPictures(Canvas& canvas, const Shot& shot, const std::vector<int>& frames, const SheetOptions& options,
-                  double y, const Studio& studio, Renderer& renderer) {
+                  double y, Studio& studio, Renderer& renderer) {
   for (int k = 0; k < static_cast<int>(frames.size()); ++k) {
     const int frame = frames[static_cast<std::size_t>(k)];
     const int column = k % options.columns, row = k / options.columns;
@@ -102,7 +102,7 @@ Result<std::string> DrawContactSheet(std::vector<ClipActor> actors, const SheetO
   }
   ViewBounds bounds;
   for (std::size_t i = 0; i < shots.size(); ++i) shots[i].Include(frames[i], bounds);
-  const Studio studio(options.width, options.height, kSheetDetail, bounds);
+  Studio studio(options.width, options.height, kSheetDetail, bounds);
 
   Canvas canvas(width, height);
   canvas.FillBox({0, 0, static_cast<double>(width), static_cast<double>(height)}, kBackdrop);

@@ -2,10 +2,13 @@
 
 #include <cairo.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "engine/base/angles.h"
+#include "reports/films/pixel_lanes.h"
 
 namespace etude {
 namespace {
@@ -44,6 +47,33 @@ void SetFont(cairo_t* cr, double size, bool bold) {
 cairo_status_t AppendBytes(void* out, const unsigned char* data, unsigned length) {
   static_cast<std::string*>(out)->append(reinterpret_cast<const char*>(data), length);
   return CAIRO_STATUS_SUCCESS;
+}
+
+// How much of each pixel a rounded upper left corner covers.
+Image<double> CornerCover(int radius) {
+  Image<double> cover(radius, radius);
+  if (radius == 0) return cover;
+  CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_A8, radius, radius), cairo_surface_destroy);
+  const Context context(cairo_create(surface.get()), cairo_destroy);
+  OutlineBox(context.get(), {0, 0, 4.0 * radius, 4.0 * radius}, radius);
+  cairo_fill(context.get());
+  cairo_surface_flush(surface.get());
+  const unsigned char* rows = cairo_image_surface_get_data(surface.get());
+  for (int y = 0; y < radius; ++y) {
+    for (int x = 0; x < radius; ++x)
+      cover.At(x, y) = rows[y * cairo_image_surface_get_stride(surface.get()) + x] / 255.0;
+  }
+  return cover;
+}
+
+std::uint32_t Between(std::uint32_t under, std::uint32_t over, double share) {
+  std::uint32_t pixel = 0;
+  for (const int shift : {0, 8, 16}) {
+    const double level =
+        std::lerp(static_cast<double>(under >> shift & 255), static_cast<double>(over >> shift & 255), share);
+    pixel |= static_cast<std::uint32_t>(level + 0.5) << shift;
+  }
+  return pixel;
 }
 
 // One character shorter; UTF-8 continuation bytes go with the byte that leads them.
@@ -113,6 +143,25 @@ void Canvas::DrawImage(const ColourImage& image, const Box& box, double radius) 
   cairo_pattern_set_extend(cairo_get_source(cr), CAIRO_EXTEND_PAD);
   cairo_paint(cr);
   cairo_restore(cr);
+}
+
+void Canvas::Put(const Image<std::uint32_t>& picture, int left, int top, int radius) {
+  cairo_surface_t* surface = state_->surface.get();
+  cairo_surface_flush(surface);
+  unsigned char* bytes = cairo_image_surface_get_data(surface);
+  const int stride = cairo_image_surface_get_stride(surface);
+  const Image<double> corner = CornerCover(radius);
+  for (int y = 0; y < picture.height; ++y) {
+    auto* row = reinterpret_cast<std::uint32_t*>(bytes + static_cast<std::ptrdiff_t>(top + y) * stride) + left;
+    const std::uint32_t* from = &picture.At(0, y);
+    const int edge = std::min(y, picture.height - 1 - y);
+    const int round = edge < radius ? std::min(radius, picture.width / 2) : 0;
+    std::copy(from + round, from + picture.width - round, row + round);
+    for (int x = 0; x < round; ++x) {
+      for (const int at : {x, picture.width - 1 - x}) row[at] = Between(row[at], from[at], corner.At(x, edge));
+    }
+  }
+  cairo_surface_mark_dirty(surface);
 }
 
 void Canvas::DrawMask(const Mask& mask, const Box& box, const Paint& paint) {
@@ -201,6 +250,25 @@ ColourImage Canvas::Pixels() const {
     }
   }
   return image;
+}
+
+Image<std::uint32_t> Canvas::Copy() const {
+  cairo_surface_flush(state_->surface.get());
+  const unsigned char* bytes = cairo_image_surface_get_data(state_->surface.get());
+  const int stride = cairo_image_surface_get_stride(state_->surface.get());
+  Image<std::uint32_t> picture(width(), height());
+  for (int y = 0; y < picture.height; ++y) {
+    const auto* row = reinterpret_cast<const std::uint32_t*>(bytes + static_cast<std::ptrdiff_t>(y) * stride);
+    std::copy_n(row, picture.width, &picture.At(0, y));
+  }
+  return picture;
+}
+
+void Canvas::ToI420(std::uint8_t* planes) const {
+  cairo_surface_flush(state_->surface.get());
+  const unsigned char* bytes = cairo_image_surface_get_data(state_->surface.get());
+  const int stride = cairo_image_surface_get_stride(state_->surface.get());
+  PixelsToI420(bytes, stride, width(), height(), planes);
 }
 
 std::string Canvas::Png() const {

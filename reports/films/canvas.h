@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
 #include <span>
@@ -35,6 +36,8 @@ class Canvas {
   /// Fills a box with a shade from `top` at its upper edge to `bottom` at its lower one.
   void FillShade(const Box& box, const Paint& top, const Paint& bottom);
   void DrawImage(const ColourImage& image, const Box& box, double radius = 0);
+  /// Copies a picture of pixels 0x00RRGGBB to that place, pixel for pixel, with rounded corners; it must fit.
+  void Put(const Image<std::uint32_t>& picture, int left, int top, int radius = 0);
   /// Paints where the mask is set, the mask stretched over the box.
   void DrawMask(const Mask& mask, const Box& box, const Paint& paint);
   void DrawLine(const glm::dvec2& from, const glm::dvec2& to, double width, const Paint& paint);
@@ -48,6 +51,11 @@ class Canvas {
   double TextWidth(const std::string& text, double size, bool bold = false) const;
 
   ColourImage Pixels() const;
+  /// Gives the pixels as 0x00RRGGBB.
+  Image<std::uint32_t> Copy() const;
+  /// Gives the picture as encoders take it (I420): a byte of lightness for every pixel, then two planes of half the
+  /// width and height with its two differences of colour (BT.601, 16…235). Sides must be even.
+  void ToI420(std::uint8_t* planes) const;
   /// Gives the picture as the bytes of a PNG file.
   std::string Png() const;
 

@@ -130,7 +130,7 @@ ViewBounds ConvergenceStage::BoundsOf(const IkRace& race) const {
   return bounds;
 }
 
-ColourImage ConvergenceStage::Picture(Renderer& renderer, const BodyPose& pose, const Paint& colour) const {
+Image<std::uint32_t> ConvergenceStage::Picture(Renderer& renderer, const BodyPose& pose, const Paint& colour) const {
   const BodyPose body = Placed(pose);
   Canvas canvas(static_cast<int>(box_.width), static_cast<int>(box_.height));
   studio_.Draw(canvas, box_, renderer, BodyOf(body, colour), {}, &ghost_);
@@ -141,17 +141,23 @@ ColourImage ConvergenceStage::Picture(Renderer& renderer, const BodyPose& pose, 
     marks.emplace_back(studio_.PixelOf(box_, body[kIkEnds[i]]), studio_.PixelOf(box_, Placed(*targets_[i])));
   }
   DrawMarks(canvas, marks, colour);
-  return canvas.Pixels();
+  return canvas.Copy();
 }
 
 ConvergencePanel::ConvergencePanel(const IkPath& path, const ConvergenceStage& stage, const Paint& colour)
-    : path_(path), stage_(stage), colour_(colour) {}
+    : path_(path), stage_(stage), colour_(colour) {
+  std::size_t seen = 0;
+  for (std::size_t entry = 0; entry < path.poses.size(); ++entry) {
+    if (LargestShift(path.poses[seen], path.poses[entry]) > kVisible) seen = entry;
+    seen_.push_back(seen);
+  }
+}
 
 void ConvergencePanel::Draw(Canvas& canvas, const Box& panel, Renderer& renderer, double iteration) {
   const std::size_t entry = path_.EntryAt(iteration);
-  const BodyPose& pose = path_.poses[entry];
-  if (!drawn_ || LargestShift(drawn_->pose, pose) > kVisible) drawn_ = {pose, stage_.Picture(renderer, pose, colour_)};
-  canvas.DrawImage(drawn_->picture, panel, kPanelRadius);
+  const std::size_t seen = seen_[entry];
+  if (!drawn_ || drawn_->entry != seen) drawn_ = {seen, stage_.Picture(renderer, path_.poses[seen], colour_)};
+  canvas.Put(drawn_->picture, static_cast<int>(panel.x), static_cast<int>(panel.y), kPanelRadius);
 
   const double x = panel.x + 18, room = panel.width * kWordsShare - 18;
   const auto figure = [&](double y, const std::string& label, const std::string& value, const Paint& paint) {

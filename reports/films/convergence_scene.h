@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "reports/films/canvas.h"
 #include "reports/films/error_plot.h"
@@ -19,7 +20,7 @@ class ConvergenceStage {
   ConvergenceStage(const IkRace& race, Renderer& renderer, int width, int height);
 
   /// Draws a body of that colour over the ghost. Rings mark its end effectors' targets, dots where the effectors are.
-  ColourImage Picture(Renderer& renderer, const BodyPose& pose, const Paint& colour) const;
+  Image<std::uint32_t> Picture(Renderer& renderer, const BodyPose& pose, const Paint& colour) const;
 
  private:
   glm::dvec3 Placed(const glm::dvec3& point) const;
@@ -31,7 +32,7 @@ class ConvergenceStage {
   double lift_;  ///< metres, so that nobody is below the floor
   BodyPose truth_;
   IkTargets targets_;
-  Studio studio_;
+  mutable Studio studio_;  ///< keeps its last picture
   Mask ghost_, rim_;
 };
 
@@ -46,14 +47,15 @@ class ConvergencePanel {
 
  private:
   struct Drawn {
-    BodyPose pose;
-    ColourImage picture;
+    std::size_t entry;
+    Image<std::uint32_t> picture;
   };
 
   const IkPath& path_;
   const ConvergenceStage& stage_;
   Paint colour_;
-  std::optional<Drawn> drawn_;  ///< time only goes forward: the latest picture is the one that is needed again
+  std::vector<std::size_t> seen_;  ///< by entry: the latest one that looks different from the one before it
+  std::optional<Drawn> drawn_;     ///< time only goes forward: the latest picture is the one that is needed again
 };
 
 /// Paper B's figures 5.1 and 5.2 in motion: a body settling under two methods side by side, and their errors drawing

@@ -7,6 +7,7 @@
 #include "bench/files/temporary_folder.h"
 #include "bench/films/encoder.h"
 #include "engine/formats/wav.h"
+#include "reports/films/film_workers.h"
 #include "reports/films/look.h"
 #include "sim/music/music.h"
 
@@ -38,17 +39,29 @@ class SoundFile {
 
 Result<std::string> Encode(Scene& scene, const std::filesystem::path& path, const FilmWatch& watch) {
   ASSIGN_OR_RETURN(const SoundFile sound, SoundFile::Make(scene));
-  ASSIGN_OR_RETURN(auto encoder, Encoder::Start(path, kFilmWidth, kFilmHeight, kFilmRate, sound.path()));
-  for (int frame = 0; frame < scene.Frames(); ++frame) {
-    if (watch.IsStopped()) return Fail({}, "it was stopped");
-    RETURN_IF_ERROR(encoder.Add(scene.Draw(frame).Pixels()));
-    watch.Tell(path, static_cast<std::size_t>(frame + 1), static_cast<std::size_t>(scene.Frames()));
-  }
-  RETURN_IF_ERROR(encoder.Finish());
+  const auto draw = [&](int frame) { return scene.Draw(frame); };
+  ASSIGN_OR_RETURN(const bool is_whole, EncodeFrames(path, scene.Frames(), kFilmRate, draw, watch, sound.path()));
+  if (!is_whole) return Fail({}, "it was stopped");
   return ReadWholeFile(path);
 }
 
 }  // namespace
+
+Result<bool> EncodeFrames(const std::filesystem::path& path, int frames, int rate_hz,
+                          const std::function<Canvas(int frame)>& draw, const FilmWatch& watch,
+                          const std::filesystem::path& sound) {
+  ASSIGN_OR_RETURN(auto workers, FilmWorkers::Start(frames, watch.jobs, draw));
+  ASSIGN_OR_RETURN(auto encoder,
+                   Encoder::Start(path, workers.width(), workers.height(), rate_hz, sound, Encoder::Form::kI420));
+  for (int frame = 0; frame < frames; ++frame) {
+    if (watch.IsStopped()) return false;
+    ASSIGN_OR_RETURN(const auto picture, workers.Next());
+    RETURN_IF_ERROR(encoder.Add(picture));
+    watch.Tell(path, static_cast<std::size_t>(frame + 1), static_cast<std::size_t>(frames));
+  }
+  RETURN_IF_ERROR(encoder.Finish());
+  return true;
+}
 
 Canvas BeginFrame(const std::string& heading) {
   Canvas canvas(kFilmWidth, kFilmHeight);

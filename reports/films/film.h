@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/result.h"
 #include "reports/films/canvas.h"
 
 namespace etude {
@@ -18,6 +19,7 @@ constexpr int kFilmRate = 30;
 struct FilmWatch {
   std::function<void(const std::string& file, std::size_t done, std::size_t frames)> progress = {};
   const std::atomic<bool>* stop = nullptr;
+  int jobs = 0;  ///< processes that draw; 0 = one per processor
 
   void Tell(const std::filesystem::path& film, std::size_t done, std::size_t frames) const {
     if (progress) progress(film.filename().string(), done, frames);
@@ -56,11 +58,18 @@ class Scene {
   virtual int PosterFrame() const = 0;
   /// Describes in words what is to be seen.
   virtual std::string Words() const = 0;
-  /// Gives a canvas of kFilmWidth × kFilmHeight. Frames are asked for in order, the poster's before them.
+  /// Gives a canvas of kFilmWidth × kFilmHeight. Frames are asked for in any order, also by copies of this process;
+  /// what a scene keeps from one to the next must not change them.
   virtual Canvas Draw(int frame) = 0;
   /// Gives the times at which a beat clicks, seconds since the film began, ascending; none in a silent film.
   virtual std::vector<double> Beats() const { return {}; }
 };
+
+/// Encodes frames that FilmWorkers draw into `path`, with a sound file or none. False when `watch` stopped it: there is
+/// no file then.
+Result<bool> EncodeFrames(const std::filesystem::path& path, int frames, int rate_hz,
+                          const std::function<Canvas(int frame)>& draw, const FilmWatch& watch,
+                          const std::filesystem::path& sound = {});
 
 /// Makes an empty canvas of a film's size, with its heading in the uppermost 52 pixels.
 Canvas BeginFrame(const std::string& heading);

@@ -12,7 +12,7 @@ inline constexpr Paint kInk{0.95, 0.955, 0.96, 1};
 inline constexpr Paint kSoftInk{0.80, 0.83, 0.85, 1};
 inline constexpr Paint kAccent{0.42, 0.76, 0.80, 1};
 inline constexpr Paint kWarm{0.96, 0.68, 0.33, 1};
-inline constexpr double kPanelRadius = 10;
+inline constexpr int kPanelRadius = 10;
 
 /// Gives the colour that a method has on the page too, by its index in the scenario (reports/plots/marks.h).
 Paint MethodPaint(std::size_t method);

@@ -1,6 +1,7 @@
 #include "reports/films/studio.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "engine/base/smoothstep.h"
@@ -18,27 +19,43 @@ constexpr double kGridLine = 0.008;
 // The floor becomes the backdrop between these distances from the origin; the shadow ends with it, before the room's
 // wall.
 constexpr double kFadeFrom = 1.2, kFadeTo = 2.4;
-constexpr glm::dvec3 kFloorPaint{0.205, 0.226, 0.248};
-constexpr glm::dvec3 kGridPaint{0.36, 0.40, 0.43};
-constexpr glm::dvec3 kBackdropPaint{0.125, 0.142, 0.158};
-constexpr double kShadowLeaves = 0.55;
-constexpr glm::dvec3 kGhostPaint{0.80, 0.84, 0.87};
-constexpr double kGhostStrength = 0.34;
+constexpr glm::vec3 kFloorPaint{0.205, 0.226, 0.248};
+constexpr glm::vec3 kGridPaint{0.36, 0.40, 0.43};
+constexpr glm::vec3 kBackdropPaint{0.125, 0.142, 0.158};
+constexpr float kShadowLeaves = 0.55f;
+constexpr glm::vec3 kGhostPaint{0.80, 0.84, 0.87};
+constexpr float kGhostStrength = 0.34f;
 
 Camera CameraOf(const Intrinsics& inside) { return LookAt(inside, kEye, kTarget); }
 
 /// Gives the share of a pixel that the lines of the grid across one axis cover.
-double LineCover(double x, double footprint) {
-  const double nearest = std::abs(x - kGridSpacing * std::round(x / kGridSpacing));
-  const double half = kGridLine / 2;
-  const double covered = std::min(nearest + footprint / 2, half) - std::max(nearest - footprint / 2, -half);
-  return std::clamp(covered / footprint, 0.0, 1.0);
+float LineCover(float x, float footprint) {
+  constexpr float kSpacing = kGridSpacing, kHalf = kGridLine / 2;
+  const float nearest = std::abs(x - kSpacing * std::floor(x / kSpacing + 0.5f));
+  const float covered = std::min(nearest + footprint / 2, kHalf) - std::max(nearest - footprint / 2, -kHalf);
+  return std::min(std::max(covered / footprint, 0.0f), 1.0f);
 }
 
-Rgb8 ToPixel(const glm::dvec3& paint) {
-  const glm::dvec3 rounded = glm::clamp(paint, 0.0, 1.0) * 255.0 + 0.5;
-  return {static_cast<std::uint8_t>(rounded.x), static_cast<std::uint8_t>(rounded.y),
-          static_cast<std::uint8_t>(rounded.z)};
+std::uint32_t ToLevel(float share) { return static_cast<std::uint32_t>(static_cast<int>(share * 255.0f + 0.5f)); }
+std::uint32_t ToPixel(const glm::vec3& paint) {
+  return ToLevel(paint.r) << 16 | ToLevel(paint.g) << 8 | ToLevel(paint.b);
+}
+
+/// Gives a pixel of the floor: `line` of the grid's colour, lit as `light` says, seen as `fade` says.
+std::uint32_t FloorPixel(float line, float light, float fade) {
+  const auto level = [&](int i) {
+    const float paint = (kFloorPaint[i] + (kGridPaint[i] - kFloorPaint[i]) * line) * light;
+    return ToLevel(kBackdropPaint[i] + (paint - kBackdropPaint[i]) * fade);
+  };
+  return level(0) << 16 | level(1) << 8 | level(2);
+}
+
+std::uint32_t Veiled(std::uint32_t pixel) {
+  const auto level = [&](int i, int shift) {
+    const float under = static_cast<float>(pixel >> shift & 255) / 255;
+    return ToLevel(under + (kGhostPaint[i] - under) * kGhostStrength) << shift;
+  };
+  return level(0, 16) | level(1, 8) | level(2, 0);
 }
 
 constexpr double kFreeRoom = 0.45;
@@ -77,7 +94,9 @@ void Studio::Include(const Figure& placed, ViewBounds& bounds) {
   }
 }
 
-Studio::Studio(int width, int height, double detail, const ViewBounds& bounds) {
+Studio::Studio(int width, int height, double detail, const ViewBounds& bounds)
+    : small_(width, height),
+      shrinker_(static_cast<int>(width * detail), static_cast<int>(height * detail), width, height) {
   Intrinsics inside;
   inside.width = static_cast<int>(width * detail);
   inside.height = static_cast<int>(height * detail);
@@ -90,54 +109,91 @@ Studio::Studio(int width, int height, double detail, const ViewBounds& bounds) {
   inside.cy = inside.height * (1 - kBorder) - inside.fy * bounds.high.y;
   camera_ = CameraOf(inside);
 
-  rays_.reserve(static_cast<std::size_t>(inside.width) * inside.height);
+  const std::size_t pixels = static_cast<std::size_t>(inside.width) * inside.height;
+  for (std::vector<float>* part : {&floor_.x, &floor_.z, &floor_.fade}) part->resize(pixels);
+  floor_.footprint.resize(pixels, 1);
   const glm::dmat3 R_WC = glm::transpose(camera_.R_CW);
   for (int y = 0; y < inside.height; ++y) {
     for (int x = 0; x < inside.width; ++x) {
       const glm::dvec3 way = R_WC * glm::dvec3((x + 0.5 - inside.cx) / inside.fx, (y + 0.5 - inside.cy) / inside.fy, 1);
-      Ray ray;
-      if (way.y < 0) {
-        const double reach = -kEye.y / way.y;
-        const glm::dvec3 point = kEye + reach * way;
-        ray.floor = {point.x, point.z};
-        ray.fade = 1 - Smoothstep(kFadeFrom, kFadeTo, glm::length(ray.floor));
-        // Seen from above at a slant, a pixel covers more floor along the line of sight than across.
-        ray.footprint = reach / inside.fx * std::sqrt(glm::length(way) / -way.y);
-      }
-      rays_.push_back(ray);
+      if (!(way.y < 0)) continue;
+      const double reach = -kEye.y / way.y;
+      const glm::dvec3 point = kEye + reach * way;
+      const double fade = 1 - Smoothstep(kFadeFrom, kFadeTo, glm::length(glm::dvec2(point.x, point.z)));
+      if (!(fade > 0)) continue;
+      const std::size_t i = static_cast<std::size_t>(y) * inside.width + x;
+      floor_.x[i] = static_cast<float>(point.x);
+      floor_.z[i] = static_cast<float>(point.z);
+      floor_.fade[i] = static_cast<float>(fade);
+      // Seen from above at a slant, a pixel covers more floor along the line of sight than across.
+      floor_.footprint[i] = static_cast<float>(reach / inside.fx * std::sqrt(glm::length(way) / -way.y));
+      floor_.seen = Union(floor_.seen, {x, y, x + 1, y + 1});
+    }
+  }
+  lit_ = shaded_ = large_ = Image<std::uint32_t>(inside.width, inside.height, ToPixel(kBackdropPaint));
+}
+
+void Studio::PaintFloor(const FloorMove& placement) {
+  // The floor as the figure knows it: the placement undone.
+  const float cosine = static_cast<float>(std::cos(placement.yaw)), sine = static_cast<float>(std::sin(placement.yaw));
+  const float move_x = static_cast<float>(placement.x), move_z = static_cast<float>(placement.z);
+  for (int y = floor_.seen.top; y < floor_.seen.bottom; ++y) {
+    const std::size_t first = static_cast<std::size_t>(y) * lit_.width + floor_.seen.left;
+    const float *xs = &floor_.x[first], *zs = &floor_.z[first];
+    const float *fades = &floor_.fade[first], *footprints = &floor_.footprint[first];
+    std::uint32_t *lit = &lit_.pixels[first], *shaded = &shaded_.pixels[first];
+    for (int i = 0; i < floor_.seen.Width(); ++i) {
+      const float x = xs[i] - move_x, z = zs[i] - move_z;
+      const float line =
+          std::max(LineCover(cosine * x - sine * z, footprints[i]), LineCover(sine * x + cosine * z, footprints[i]));
+      lit[i] = FloorPixel(line, 1, fades[i]);
+      shaded[i] = FloorPixel(line, kShadowLeaves, fades[i]);
+    }
+  }
+}
+
+void Studio::Compose(const PixelRect& rect, const Mask* ghost) {
+  for (int y = rect.top; y < rect.bottom; ++y) {
+    const std::size_t first = static_cast<std::size_t>(y) * lit_.width + rect.left;
+    const std::uint8_t* seen = &figures_.bytes[4 * first];
+    const std::uint32_t *lit = &lit_.pixels[first], *shaded = &shaded_.pixels[first];
+    std::uint32_t* out = &large_.pixels[first];
+    for (int i = 0; i < rect.Width(); ++i) {
+      const std::uint32_t r = seen[4 * i], g = seen[4 * i + 1], b = seen[4 * i + 2], what = seen[4 * i + 3];
+      const std::uint32_t body = r << 16 | g << 8 | b;
+      const std::uint32_t ground = what == Overlay::kNothing ? lit[i] : shaded[i];
+      out[i] = what == Overlay::kBody ? body : ground;
+    }
+    for (int i = 0; ghost != nullptr && i < rect.Width(); ++i) {
+      if (ghost->pixels[first + i] != 0 && seen[4 * i + 3] != Overlay::kBody) out[i] = Veiled(out[i]);
     }
   }
 }
 
 void Studio::Draw(Canvas& canvas, const Box& box, Renderer& renderer, const Figure& placed, const FloorMove& placement,
-                  const Mask* ghost) const {
-  View view = renderer.Render(Room{}, {placed}, camera_, Targets::kAll);
-  const double cosine = std::cos(placement.yaw), sine = std::sin(placement.yaw);
-  for (std::size_t i = 0; i < rays_.size(); ++i) {
-    const std::uint32_t label = view.labels.pixels[i];
-    if (label >= kFirstBodyPart) continue;
-    const Ray& ray = rays_[i];
-    glm::dvec3 paint = kBackdropPaint;
-    if (ray.fade > 0) {
-      // The floor as the figure knows it: the placement undone.
-      const double x = ray.floor.x - placement.x, z = ray.floor.y - placement.z;
-      const double line =
-          std::max(LineCover(cosine * x - sine * z, ray.footprint), LineCover(sine * x + cosine * z, ray.footprint));
-      glm::dvec3 floor = glm::mix(kFloorPaint, kGridPaint, line);
-      if (label == static_cast<std::uint32_t>(Part::kShadow)) floor *= kShadowLeaves;
-      paint = glm::mix(paint, floor, ray.fade);
-    }
-    if (ghost != nullptr && ghost->pixels[i] != 0) paint = glm::mix(paint, kGhostPaint, kGhostStrength);
-    view.colour.pixels[i] = ToPixel(paint);
+                  const Mask* ghost) {
+  assert(box.width == small_.width && box.height == small_.height);
+  PixelRect changed = figures_.drawn;
+  renderer.DrawFigures({placed}, camera_, figures_);
+  changed = Union(changed, figures_.drawn);
+  const bool is_first = !painted_;
+  if (is_first || painted_->yaw != placement.yaw || painted_->x != placement.x || painted_->z != placement.z) {
+    PaintFloor(placement);
+    painted_ = placement;
+    changed = Union(changed, floor_.seen);
   }
-  canvas.DrawImage(view.colour, box, kPanelRadius);
+  if (is_first || ghost != nullptr || has_ghost_) changed = {0, 0, large_.width, large_.height};
+  has_ghost_ = ghost != nullptr;
+  Compose(changed, ghost);
+  shrinker_.Shrink(large_, changed, small_);
+  canvas.Put(small_, static_cast<int>(box.x), static_cast<int>(box.y), kPanelRadius);
 }
 
 Mask Studio::Silhouette(Renderer& renderer, const Figure& placed) const {
-  const LabelImage labels = renderer.Render(Room{}, {placed}, camera_, Targets::kAll).labels;
-  Mask mask(labels.width, labels.height);
-  std::ranges::transform(labels.pixels, mask.pixels.begin(),
-                         [](std::uint32_t label) { return label >= kFirstBodyPart; });
+  Overlay seen;
+  renderer.DrawFigures({placed}, camera_, seen);
+  Mask mask(seen.width, seen.height);
+  for (std::size_t i = 0; i < mask.pixels.size(); ++i) mask.pixels[i] = seen.bytes[4 * i + 3] == Overlay::kBody;
   return mask;
 }
 

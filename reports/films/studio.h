@@ -1,12 +1,15 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <vector>
 
 #include "engine/base/image.h"
 #include "engine/cameras/camera.h"
 #include "engine/motion/body.h"
 #include "reports/films/canvas.h"
+#include "reports/films/pixel_lanes.h"
 #include "sim/render/renderer.h"
 
 namespace etude {
@@ -29,23 +32,35 @@ class Studio {
   Studio(int width, int height, double detail, const ViewBounds& bounds);
 
   /// Draws a figure that `placement` has put in place; the grid moves with it. `ghost` (null = none), a Silhouette of
-  /// another figure, shimmers behind this one.
+  /// another figure, shimmers behind this one. The box has the studio's size and begins at a whole pixel. What has not
+  /// changed since the last picture is not drawn again.
   void Draw(Canvas& canvas, const Box& box, Renderer& renderer, const Figure& placed, const FloorMove& placement,
-            const Mask* ghost = nullptr) const;
+            const Mask* ghost = nullptr);
   /// Gives the pixels, as fine as the studio draws, where a figure that was put in place is seen.
   Mask Silhouette(Renderer& renderer, const Figure& placed) const;
   /// Gives the place in the box where a point is seen.
   glm::dvec2 PixelOf(const Box& box, const glm::dvec3& point) const;
 
  private:
-  struct Ray {
-    glm::dvec2 floor{0};   ///< where it meets the floor: x, z
-    double fade = 0;       ///< how much the floor is still seen there; 0 for the backdrop
-    double footprint = 0;  ///< metres of floor below one pixel
+  /// Where the rays of pixels meet the floor, one number per pixel.
+  struct Floor {
+    std::vector<float> x, z;       ///< metres
+    std::vector<float> fade;       ///< how much the floor is still seen there; 0 for the backdrop
+    std::vector<float> footprint;  ///< metres of floor below one pixel
+    PixelRect seen{};              ///< outside is only backdrop
   };
 
+  void PaintFloor(const FloorMove& placement);
+  void Compose(const PixelRect& rect, const Mask* ghost);
+
   Camera camera_;  ///< of pictures drawn larger than shown, and shrunk
-  std::vector<Ray> rays_;
+  Floor floor_;
+  std::optional<FloorMove> painted_;    ///< how the floor lies in the next two
+  Image<std::uint32_t> lit_, shaded_;   ///< the empty studio, in the light and in a shadow
+  Overlay figures_;                     ///< of the last picture
+  bool has_ghost_ = false;              ///< likewise
+  Image<std::uint32_t> large_, small_;  ///< the last picture
+  Shrinker shrinker_;
 };
 
 /// Turns a figure about the vertical axis and shifts it on the floor.

@@ -88,18 +88,18 @@ ViewBounds TransitionStage::BoundsOf(const TransitionRace& race, int first, int 
   return bounds;
 }
 
-ColourImage TransitionStage::Picture(Renderer& renderer, const TransitionPath& path, std::size_t index, int frame,
-                                     std::optional<int> ghost) const {
+Image<std::uint32_t> TransitionStage::Picture(Renderer& renderer, const TransitionPath& path, std::size_t index,
+                                              int frame, std::optional<int> ghost) const {
   const FloorMove& placement = placements_[index][static_cast<std::size_t>(frame)];
   const auto placed = [&](int at) {
-    return Placed(PosedFigure(bear_, path.motion.poses[static_cast<std::size_t>(at)]), placement);
+    return Placed(PosedFigure(bear_, path.motion.poses[static_cast<std::size_t>(at)], true), placement);
   };
   std::optional<Mask> shadow;
   if (ghost) shadow = studio_.Silhouette(renderer, placed(*ghost));
   Canvas canvas(width_, height_);
   const Box whole{0, 0, static_cast<double>(width_), static_cast<double>(height_)};
   studio_.Draw(canvas, whole, renderer, placed(frame), placement, shadow ? &*shadow : nullptr);
-  return canvas.Pixels();
+  return canvas.Copy();
 }
 
 Box TransitionPanel::BodyBox(const Box& column) {
@@ -146,7 +146,7 @@ void TransitionPanel::DrawBody(Canvas& canvas, const Box& box, Renderer& rendere
                    kPanelRadius + kRim);
   }
   canvas.FillBox(plate, kPlate, kPanelRadius);
-  canvas.DrawImage(drawn_->picture, box, kPanelRadius);
+  canvas.Put(drawn_->picture, static_cast<int>(box.x), static_cast<int>(box.y), kPanelRadius);
   constexpr double kMarkRoom = 90;
   if (!path_.IsRecordedAt(time)) {
     canvas.FillBox(box, kVeil, kPanelRadius);

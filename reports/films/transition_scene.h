@@ -20,8 +20,8 @@ class TransitionStage {
   TransitionStage(const TransitionRace& race, int first, int last, int width, int height);
 
   /// Draws a path's frame; `ghost`, another frame of it, shimmers behind.
-  ColourImage Picture(Renderer& renderer, const TransitionPath& path, std::size_t index, int frame,
-                      std::optional<int> ghost) const;
+  Image<std::uint32_t> Picture(Renderer& renderer, const TransitionPath& path, std::size_t index, int frame,
+                               std::optional<int> ghost) const;
 
  private:
   ViewBounds BoundsOf(const TransitionRace& race, int first, int last) const;
@@ -29,7 +29,7 @@ class TransitionStage {
   int width_, height_;
   Character bear_;
   std::vector<std::vector<FloorMove>> placements_;  ///< by path and frame
-  Studio studio_;
+  mutable Studio studio_;                           ///< keeps its last picture
 };
 
 /// One method's column of the film that compares transitions: the performer, how jerky it is, and the distances at its
@@ -50,7 +50,7 @@ class TransitionPanel {
   struct Drawn {
     int frame;
     std::optional<int> ghost;
-    ColourImage picture;
+    Image<std::uint32_t> picture;
   };
   void DrawBody(Canvas& canvas, const Box& box, Renderer& renderer, int time);
   void DrawWords(Canvas& canvas, const Box& box, int time) const;

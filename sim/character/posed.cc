@@ -165,9 +165,11 @@ std::vector<GlobalTransform> FilledGlobals(const Character& character, const Bod
   return globals;
 }
 
-Figure PosedFigure(const Character& character, const BodyPose& pose) {
-  return FigureAt(character, StillSurfaces(character, PartsOfJoints(character.skeleton)),
-                  FilledGlobals(character, pose));
+Figure PosedFigure(const Character& character, const BodyPose& pose, bool is_closed) {
+  Figure figure =
+      FigureAt(character, StillSurfaces(character, PartsOfJoints(character.skeleton)), FilledGlobals(character, pose));
+  for (Surface& surface : figure.surfaces) surface.is_closed = is_closed;
+  return figure;
 }
 
 RecordedFigure::RecordedFigure(std::shared_ptr<const Character> character, Clip clip, const JointMap& map,

@@ -18,7 +18,8 @@ Figure PosedFigure(const Character& character, const LocalPose& pose, const glm:
 
 /// Returns a character bound to BodySkeleton(StandingPose()) in a body's pose. A body of other proportions is filled
 /// too: each part is as large as the limb that it clothes, hips and chest as wide as their joints are apart.
-Figure PosedFigure(const Character& character, const BodyPose& pose);
+/// `is_closed`: its meshes are, as those of the bear and the mannequin (`Surface::is_closed`).
+Figure PosedFigure(const Character& character, const BodyPose& pose, bool is_closed = false);
 
 /// Computes the joints of such a character in `pose`; their axes are scaled as its limbs are.
 std::vector<GlobalTransform> FilledGlobals(const Character& character, const BodyPose& pose);

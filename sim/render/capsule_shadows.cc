@@ -206,4 +206,21 @@ std::vector<PixelRect> ThrowCapsuleShadows(const KeptRoom& kept, const Room& roo
   return touched;
 }
 
+void MarkCapsuleShadows(const KeptRoom& kept, const std::vector<Figure>& figures, Overlay& overlay) {
+  const std::vector<Caster> casters = CastersOf(figures, /*is_interior=*/false, kept.lamp.lamp);
+  if (casters.empty()) return;
+  for (const RoomTile& tile : kept.lamp.tiles) {
+    const TileShade shade = Shade(casters, /*with_contacts=*/false, kept.lamp, tile, tile.pixels, overlay.width);
+    if (!shade.is_dark) continue;
+    overlay.drawn = Union(overlay.drawn, tile.pixels);
+    for (int y = tile.pixels.top; y < tile.pixels.bottom; ++y) {
+      const float* darkness = &shade.darkness[static_cast<std::size_t>(y - tile.pixels.top) * kRoomTileSize];
+      std::uint8_t* pixel = &overlay.bytes[4 * (static_cast<std::size_t>(y) * overlay.width + tile.pixels.left)];
+      for (int x = 0; x < tile.pixels.Width(); ++x, pixel += 4) {
+        if (darkness[x] > 0 && pixel[3] == Overlay::kNothing) pixel[3] = Overlay::kShadow;
+      }
+    }
+  }
+}
+
 }  // namespace etude

@@ -15,4 +15,7 @@ namespace etude {
 std::vector<PixelRect> ThrowCapsuleShadows(const KeptRoom& kept, const Room& room, const std::vector<Figure>& figures,
                                            Targets targets, const RowRange& rows, View& view);
 
+/// Marks where the capsules of figures darken the studio's room, in pixels of the overlay that show nothing else.
+void MarkCapsuleShadows(const KeptRoom& kept, const std::vector<Figure>& figures, Overlay& overlay);
+
 }  // namespace etude

@@ -209,6 +209,11 @@ void main() {
 }
 )glsl";
 
+constexpr const char* kShadowMark = R"glsl(
+layout(location = 0) out vec4 colour;
+void main() { colour = vec4(0.0, 0.0, 0.0, 0.5); }
+)glsl";
+
 }  // namespace
 
 std::string CapsuleVertexShader() { return AssembleShader({kCapsuleBox, kBodyPlace}); }
@@ -227,5 +232,6 @@ std::string SurfaceFragmentShader(Skin skin) {
 }
 std::string SurfaceShadowVertexShader() { return AssembleShader({kCorner, kShadowPlace}); }
 std::string SurfaceShadowFragmentShader() { return AssembleShader({kRoomGeometry, kShadowLight, kShadow}); }
+std::string ShadowMarkFragmentShader() { return AssembleShader({kShadowMark}); }
 
 }  // namespace etude

@@ -3,6 +3,8 @@
 #include <GL/osmesa.h>
 #include <dlfcn.h>
 
+#include <cstdlib>
+
 #ifdef __SANITIZE_ADDRESS__
 // OSMesa keeps 480 bytes of every destroyed context, fontconfig what it once read. The sanitizer asks every program
 // that links this file for what it shall not report, so that neither the tests nor a run by hand needs LSAN_OPTIONS.
@@ -37,6 +39,10 @@ struct OsMesa {
 };
 
 Result<OsMesa> OpenOsMesa() {
+  // Work in parallel is done by processes, which may be copies of this one: GL keeps no threads, not for its cache
+  // either.
+  ::setenv("LP_NUM_THREADS", "0", 0);
+  ::setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
   void* library = ::dlopen("libOSMesa.so.8", RTLD_LAZY | RTLD_LOCAL);
   if (library == nullptr) return Fail({}, "OSMesa cannot be loaded: {}", ::dlerror());
   OsMesa functions;

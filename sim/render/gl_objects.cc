@@ -18,7 +18,7 @@ GLint WrapOf(Texture::Beyond beyond) {
   return GL_REPEAT;
 }
 
-constexpr std::uint8_t kUndrawnAlpha = 255, kUndrawnLabel = 255;
+constexpr std::uint8_t kUndrawnAlpha = Overlay::kNothing, kUndrawnLabel = 255;
 static_assert(static_cast<int>(Part::kBystander) < kUndrawnLabel);
 
 Rgb8 Darkest(const Rgb8& a, const Rgb8& b) { return {std::min(a.r, b.r), std::min(a.g, b.g), std::min(a.b, b.b)}; }
@@ -192,6 +192,14 @@ void FrameTargets::Read(const PixelRect& rect, int top_row, Targets targets, Vie
     float* row = &view.depth.At(rect.left, rect.top + y - top_row);
     for (int x = 0; x < width; ++x) row[x] = depths[x] == 0 ? row[x] : depths[x];
   }
+}
+
+void FrameTargets::Read(const PixelRect& rect, Overlay& overlay) {
+  gl_.ReadBuffer(GL_COLOR_ATTACHMENT0);
+  gl_.PixelStorei(GL_PACK_ROW_LENGTH, overlay.width);
+  gl_.ReadPixels(rect.left, rect.top, rect.Width(), rect.Height(), GL_RGBA, GL_UNSIGNED_BYTE,
+                 &overlay.bytes[4 * (static_cast<std::size_t>(rect.top) * overlay.width + rect.left)]);
+  gl_.PixelStorei(GL_PACK_ROW_LENGTH, 0);
 }
 
 }  // namespace etude

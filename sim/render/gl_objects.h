@@ -88,6 +88,8 @@ class FrameTargets {
   /// Copies what was drawn in a rectangle out of GL into the pictures of `view`, which have their size already and
   /// begin with `top_row`.
   void Read(const PixelRect& rect, int top_row, Targets targets, View& view);
+  /// Copies what was drawn in a rectangle into an overlay as it is.
+  void Read(const PixelRect& rect, Overlay& overlay);
 
  private:
   void Grow(int width, int height);

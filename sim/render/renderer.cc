@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
+#include <cstring>
 
 #include "sim/render/capsule_shadows.h"
 #include "sim/render/empty_room.h"
@@ -30,6 +31,7 @@ struct Programs {
   GLuint painted = 0;
   GLuint textured = 0;
   GLuint surface_shadow = 0;
+  GLuint shadow_mark = 0;
 };
 
 Result<Programs> LinkAll(const GlContext& context) {
@@ -49,6 +51,7 @@ Result<Programs> LinkAll(const GlContext& context) {
       {programs.painted, SurfaceVertexShader(), SurfaceFragmentShader(Skin::kPaint), corner},
       {programs.textured, SurfaceVertexShader(), SurfaceFragmentShader(Skin::kTexture), corner},
       {programs.surface_shadow, SurfaceShadowVertexShader(), SurfaceShadowFragmentShader(), corner},
+      {programs.shadow_mark, SurfaceShadowVertexShader(), ShadowMarkFragmentShader(), corner},
   };
   for (const auto& want : wanted) {
     ASSIGN_OR_RETURN(const auto program, context.LinkProgram(want.vertex, want.fragment, want.attributes));
@@ -184,6 +187,19 @@ struct Renderer::State {
     gl.Disablei(GL_BLEND, 0);
   }
 
+  // Of the studio's floor only; bodies are drawn over it.
+  void MarkShadowsOfSurfaces(const Room& room, const Camera& camera) {
+    gl.UseProgram(programs.shadow_mark);
+    SetPixelGeometry(gl, programs.shadow_mark, camera, room);
+    for (const GLenum plane : {GL_CLIP_DISTANCE0, GL_CLIP_DISTANCE1}) gl.Enable(plane);
+    if (all_closed) gl.Enable(GL_CULL_FACE);  // the half of a closed body that faces the lamp throws all of its shadow
+    for (const VertexStream* stream : {&surfaces, &painted, &textured}) {
+      if (!stream->IsEmpty()) stream->Draw();
+    }
+    gl.Disable(GL_CULL_FACE);
+    for (const GLenum plane : {GL_CLIP_DISTANCE0, GL_CLIP_DISTANCE1}) gl.Disable(plane);
+  }
+
   void UseOnBodies(GLuint program, const Shot& shot) {
     Use(program, shot);
     SetPixelGeometry(gl, program, shot.camera, shot.room);
@@ -258,6 +274,23 @@ struct Renderer::State {
     for (const PixelRect& rect : rects) targets.Read(rect, top_row, asked, view);
   }
 
+  void DrawOver(const KeptRoom& kept, const std::vector<Figure>& figures, const Camera& camera, Overlay& overlay) {
+    const Room room;
+    const std::vector<PixelRect> rects =
+        TouchedPixels(room, figures, camera, {0, camera.intrinsics.height}, /*with_wall=*/false);
+    if (rects.empty()) return;
+    Begin(kept, camera);
+    Upload(figures, camera.p_WC);
+    targets.WriteOnly(true, false, false);
+    targets.Clear(rects);
+    MarkShadowsOfSurfaces(room, camera);
+    DrawBodies({room, camera, rects, false, false}, PaintsOf(figures));
+    for (const PixelRect& rect : rects) {
+      targets.Read(rect, overlay);
+      overlay.drawn = Union(overlay.drawn, rect);
+    }
+  }
+
   std::unique_ptr<GlContext> context;
   const GlFunctions& gl;
   Programs programs;
@@ -314,6 +347,23 @@ View Renderer::RenderRows(const Room& room, const std::vector<Figure>& figures, 
   state_->DrawTouched(kept, room, figures, camera, targets, TouchedPixels(room, figures, camera, rows), rows.first,
                       view);
   return view;
+}
+
+void Renderer::DrawFigures(const std::vector<Figure>& figures, const Camera& camera, Overlay& overlay) {
+  const int width = camera.intrinsics.width, height = camera.intrinsics.height;
+  state_->context->MakeCurrent();
+  if (overlay.width != width || overlay.height != height) {
+    overlay = {width, height, std::vector(4 * static_cast<std::size_t>(width) * height, std::uint8_t{255}), {}};
+  }
+  const PixelRect& last = overlay.drawn;
+  for (int y = last.top; y < last.bottom; ++y) {
+    std::memset(&overlay.bytes[4 * (static_cast<std::size_t>(y) * width + last.left)], Overlay::kNothing,
+                4 * static_cast<std::size_t>(last.Width()));
+  }
+  overlay.drawn = {};
+  const KeptRoom& kept = state_->rooms.FindOrDraw({}, camera);
+  state_->DrawOver(kept, figures, camera, overlay);
+  MarkCapsuleShadows(kept, figures, overlay);
 }
 
 ColourImage Renderer::RenderSmooth(const Room& room, const std::vector<Figure>& figures, const Camera& camera) {

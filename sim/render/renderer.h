@@ -30,6 +30,10 @@ class Renderer {
   View RenderRows(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets,
                   const RowRange& rows);
 
+  /// Draws figures as they look in the studio, and marks where their shadows fall on its floor; the room is not drawn.
+  /// An overlay of this size is used again.
+  void DrawFigures(const std::vector<Figure>& figures, const Camera& camera, Overlay& overlay);
+
   /// Draws the same picture with smooth edges, for people to look at: at twice the size, then averaged, at about four
   /// times the cost. At most kLargestPicture / 2 wide and high.
   ColourImage RenderSmooth(const Room& room, const std::vector<Figure>& figures, const Camera& camera);

@@ -1,5 +1,7 @@
 #include "sim/render/scene.h"
 
+#include <algorithm>
+
 namespace etude {
 namespace {
 
@@ -54,6 +56,11 @@ bool operator==(const Interior& a, const Interior& b) {
   return a.low == b.low && a.high == b.high && a.floor == b.floor && a.wall == b.wall && a.ceiling == b.ceiling &&
          a.skirting == b.skirting && a.studio == b.studio && a.rug == b.rug && a.rug_paint == b.rug_paint &&
          a.lights == b.lights && Same(a.furniture, b.furniture) && Same(a.pictures, b.pictures);
+}
+
+PixelRect Union(const PixelRect& a, const PixelRect& b) {
+  if (a.IsEmpty() || b.IsEmpty()) return a.IsEmpty() ? b : a;
+  return {std::min(a.left, b.left), std::min(a.top, b.top), std::max(a.right, b.right), std::max(a.bottom, b.bottom)};
 }
 
 PartColours PerformerColours() {

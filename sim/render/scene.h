@@ -151,6 +151,27 @@ struct View {
   DepthImage depth;   ///< metres along the viewing axis; infinity where only the clear colour is seen
 };
 
+/// Pixels left ≤ x < right, top ≤ y < bottom.
+struct PixelRect {
+  int left = 0, top = 0, right = 0, bottom = 0;
+  int Width() const { return right - left; }
+  int Height() const { return bottom - top; }
+  bool IsEmpty() const { return right <= left || bottom <= top; }
+};
+
+/// Returns the smallest rectangle that holds both; an empty one holds nothing.
+PixelRect Union(const PixelRect& a, const PixelRect& b);
+
+/// What figures alone show, for pictures whose ground is somebody else's.
+struct Overlay {
+  /// The fourth byte: what is seen in a pixel.
+  enum Seen : std::uint8_t { kBody = 0, kShadow = 128, kNothing = 255 };
+
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> bytes;  ///< four a pixel: red, green, blue (of a body), and what is seen
+  PixelRect drawn{};                ///< everything outside is kNothing
+};
+
 /// Rows `first` to `end` − 1 of a picture.
 struct RowRange {
   int first = 0;
@@ -159,14 +180,6 @@ struct RowRange {
 
 /// The pictures that a caller needs: colour alone is the fastest; pictures that are not needed are left empty.
 enum class Targets { kColour, kColourAndLabels, kAll };
-
-/// Pixels left ≤ x < right, top ≤ y < bottom.
-struct PixelRect {
-  int left = 0, top = 0, right = 0, bottom = 0;
-  int Width() const { return right - left; }
-  int Height() const { return bottom - top; }
-  bool IsEmpty() const { return right <= left || bottom <= top; }
-};
 
 /// The largest picture, pixels per side.
 constexpr int kLargestPicture = 4096;

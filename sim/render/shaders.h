@@ -31,6 +31,8 @@ std::string SurfaceFragmentShader(Skin skin);
 /// Draw the same triangles, thrown from the lamp onto the floor or the wall.
 std::string SurfaceShadowVertexShader();
 std::string SurfaceShadowFragmentShader();
+/// Only marks where they fall (Overlay::kShadow).
+std::string ShadowMarkFragmentShader();
 
 // GLSL that several programs share.
 

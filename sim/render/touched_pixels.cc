@@ -114,9 +114,6 @@ std::vector<Extent> ExtentsOf(const std::vector<Surface>& surfaces) {
 }
 
 int Area(const PixelRect& rect) { return rect.Width() * rect.Height(); }
-PixelRect Union(const PixelRect& a, const PixelRect& b) {
-  return {std::min(a.left, b.left), std::min(a.top, b.top), std::max(a.right, b.right), std::max(a.bottom, b.bottom)};
-}
 
 // Two rectangles become one where that has hardly more pixels.
 void Merge(std::vector<PixelRect>& rects) {
@@ -136,7 +133,7 @@ void Merge(std::vector<PixelRect>& rects) {
 }  // namespace
 
 std::vector<PixelRect> TouchedPixels(const Room& room, const std::vector<Figure>& figures, const Camera& camera,
-                                     const RowRange& rows) {
+                                     const RowRange& rows, bool with_wall) {
   std::vector<PixelRect> rects;
   for (const Figure& figure : figures) {
     SeenRect body(camera), on_floor(camera), on_wall(camera);
@@ -146,7 +143,7 @@ std::vector<PixelRect> TouchedPixels(const Room& room, const std::vector<Figure>
       if (!room.casts_shadows || room.interior != nullptr) continue;
       const Extent open{{-kInfinity, 0, kWallZ}, glm::dvec3(kInfinity)};
       on_floor.Add(ThrownOnto(extent, kLamp, 1, 0, open));
-      on_wall.Add(ThrownOnto(extent, kLamp, 2, kWallZ, open));
+      if (with_wall) on_wall.Add(ThrownOnto(extent, kLamp, 2, kWallZ, open));
     }
     for (const SeenRect* seen : {&body, &on_floor, &on_wall}) rects.push_back(seen->Pixels(rows));
   }

@@ -50,13 +50,13 @@ TEST(Encoder, GivesTheSameBytesForTheSamePictures) {
 }
 
 TEST(Encoder, SaysThatTheProgramIsMissing) {
-  const auto encoder = Encoder::Start(FilmPath(), 64, 48, 30, {}, "no-such-encoder");
+  const auto encoder = Encoder::Start(FilmPath(), 64, 48, 30, {}, Encoder::Form::kRgb, "no-such-encoder");
   ASSERT_FALSE(encoder.has_value());
   EXPECT_THAT(ToString(encoder.error()), HasSubstr("no-such-encoder could not be started"));
 }
 
 TEST(Encoder, ReportsAProgramThatGivesUpInsteadOfDying) {
-  auto encoder = Encoder::Start(FilmPath(), 64, 48, 30, {}, "false");
+  auto encoder = Encoder::Start(FilmPath(), 64, 48, 30, {}, Encoder::Form::kRgb, "false");
   ASSERT_TRUE(encoder.has_value());
   Result<void> added;
   for (int i = 0; i < 500 && added; ++i) added = encoder->Add(ColourImage(64, 48));
