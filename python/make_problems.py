@@ -8,13 +8,14 @@ import textwrap
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PLAIN = {"number": "float", "integer": "int", "string": "str", "boolean": "bool", "object": "dict", "null": "None"}
 WIDTH = 120
+BASES = {"metric_problem": "Cell"}
 HEAD = '''"""Problems and answers of every task. Written by python/make_problems.py from docs/schemas/protocol.schema.json."""
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import ClassVar, List, Optional
 
-from etude.messages import Message
+from etude.messages import Cell, Message
 
 Pose = List[float]
 Vector = List[float]
@@ -55,7 +56,7 @@ def held(schema, definitions):
 def write_class(name, schema, definitions):
     known = schema["properties"]
     required = schema.get("required", [])
-    lines = ["", "", "@dataclass", f"class {class_name(name)}(Message):"]
+    lines = ["", "", "@dataclass", f"class {class_name(name)}({BASES.get(name, 'Message')}):"]
     told = [f"{key}: {value['description']}" for key, value in known.items() if "description" in value]
     doc = schema["description"]
     if told:

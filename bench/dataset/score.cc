@@ -1,5 +1,6 @@
 #include "bench/dataset/score.h"
 
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "bench/files/files.h"
@@ -7,6 +8,7 @@
 #include "bench/process/clock.h"
 #include "bench/run/cell_runner.h"
 #include "bench/run/manifest.h"
+#include "bench/run/outside_metrics.h"
 #include "bench/run/run_folder.h"
 #include "bench/run/suite.h"
 #include "bench/run/supervisor.h"
@@ -76,7 +78,8 @@ Result<CellResult> JudgeFile(TaskWorld& world, const fs::path& file) {
 }
 
 /// Judges the answer in `file` to world `w`; what is wrong with it goes into `faults`.
-Row JudgeWorld(const Plan& plan, std::size_t w, const std::optional<fs::path>& file, PredictionFaults& faults) {
+Row JudgeWorld(const Plan& plan, std::size_t w, const std::optional<fs::path>& file, OutsideMetrics& metrics,
+               PredictionFaults& faults) {
   const PreparedScenario& scenario = plan.scenario_of(w);
   const World& world = plan.world(w);
   const std::size_t method = plan.MethodCount(w) - 1;
@@ -84,7 +87,8 @@ Row JudgeWorld(const Plan& plan, std::size_t w, const std::optional<fs::path>& f
     return scenario.EndedRow(world.condition, world.trial, method, status, reason);
   };
   const bool is_filmed = scenario.scenario().recordings.KeepsTrial(world.trial);
-  const auto built = scenario.task(world.condition).MakeWorld(scenario.KeyOf(world.trial), is_filmed);
+  const auto built =
+      scenario.task(world.condition).MakeWorld(scenario.KeyOf(world.trial), is_filmed || !metrics.empty());
   if (const auto why = built->WhySkipped()) {
     if (file) faults.extra.push_back(fmt::format("{}.json ({})", NameOf(plan, w), *why));
     return ended(Status::kSkipped, *why);
@@ -100,6 +104,10 @@ Row JudgeWorld(const Plan& plan, std::size_t w, const std::optional<fs::path>& f
   }
   Row row = scenario.IdentityOf(world.condition, world.trial, method);
   row.result = *std::move(judged);
+  if (const std::string why = metrics.Measure(row.Id(), row.result); !why.empty()) {
+    faults.broken.push_back(why);
+  }
+  if (!is_filmed) row.result.recording.reset();
   scenario.CompleteMetrics(world.condition, row);
   return row;
 }
@@ -126,12 +134,15 @@ class Meter {
 };
 
 /// Puts a row per answer into `cells`. False when stopped.
-Result<bool> JudgeAll(const Plan& plan, const ScoreOptions& options, CellTable& cells, PredictionFaults& faults,
-                      Meter& meter) {
+Result<bool> JudgeAll(const Plan& plan, const ScoreOptions& options, const Fence& fence, CellTable& cells,
+                      PredictionFaults& faults, Meter& meter) {
+  std::map<const PreparedScenario*, OutsideMetrics> metrics;
   ASSIGN_OR_RETURN(const auto files, FindPredictions(options.predictions, plan, faults));
   for (std::size_t w = 0; w < plan.world_count(); ++w) {
     if (options.stop != nullptr && *options.stop) return false;
-    Row row = JudgeWorld(plan, w, files[w], faults);
+    const PreparedScenario& scenario = plan.scenario_of(w);
+    OutsideMetrics& measuring = metrics.try_emplace(&scenario, scenario, "", fence).first->second;
+    Row row = JudgeWorld(plan, w, files[w], measuring, faults);
     meter.Count(row.result.status);
     const std::size_t cell = plan.CellAt(w, plan.MethodCount(w) - 1);
     cells.Put(cell, EncodeCellLine(cell, {std::move(row), {}}));
@@ -167,11 +178,12 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
   ASSIGN_OR_RETURN(const auto scenarios, PrepareTarget(suite, options));
 
   ASSIGN_OR_RETURN(const Fence fence, FenceFor(scenarios, options.outside, options.output, options.key));
+  RETURN_IF_ERROR(CheckMetricVectors(scenarios, fence));
   const Plan plan(scenarios);
   CellTable cells(plan.cell_count());
   Meter meter(plan.cell_count(), on_progress);
   ScoreOutcome outcome{.run = {.folder = options.output}, .faults = {}};
-  ASSIGN_OR_RETURN(const auto judged, JudgeAll(plan, options, cells, outcome.faults, meter));
+  ASSIGN_OR_RETURN(const auto judged, JudgeAll(plan, options, fence, cells, outcome.faults, meter));
   if (options.allow_missing) outcome.faults.missing.clear();
   outcome.run.stopped = !judged;
   if (outcome.run.stopped || !outcome.faults.empty()) return outcome;

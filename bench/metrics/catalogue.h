@@ -1,10 +1,13 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "engine/base/result.h"
 
 namespace etude {
 
@@ -64,7 +67,12 @@ struct MetricInfo {
 
 /// All files of bench/metrics/catalogue, in the order of tables and of docs/reference/metrics.md.
 std::span<const MetricInfo> AllMetrics();
-/// Null when there is no such metric.
+/// Adds a metric that a scenario brings along, so that FindMetric finds it: whoever reads a scenario or its run does so
+/// first. Fails when the id is the catalogue's own, or was added with another definition: the values of two never mix.
+Result<void> AddMetric(MetricInfo metric);
+/// What was added, by id.
+const std::map<std::string, MetricInfo, std::less<>>& AddedMetrics();
+/// A metric of the catalogue, or one that was added. Null when there is no such metric.
 const MetricInfo* FindMetric(std::string_view id);
 
 }  // namespace etude

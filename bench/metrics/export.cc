@@ -63,6 +63,8 @@ Json EncodeMetric(const MetricInfo& metric) {
           {"vectors", std::move(vectors)}};
 }
 
+constexpr std::array kReadings = {"amount", "yes-no", "share", "score"};  // in the order of Reading
+
 constexpr std::string_view kIntroduction = R"(# Metrics
 
 Written by `etude list metrics --markdown`; a test compares. What every number of `cells.jsonl` means, precisely enough
@@ -157,6 +159,44 @@ std::string MetricsPage() {
     page += Section(metric);
   }
   return page;
+}
+
+Json AddedMetricsJson() {
+  Json list = Json::array();
+  for (const auto& [id, metric] : AddedMetrics()) {
+    list.push_back(EncodeMetric(metric));
+    list.back()["reads"] = kReadings[static_cast<std::size_t>(metric.reading)];
+  }
+  return list;
+}
+
+Result<void> ReadAddedMetrics(const Json& list, const Place& place) {
+  const auto place_of = [](const auto& words, const Json& word) {
+    const auto found = std::ranges::find(words, word.get<std::string>());
+    if (found == words.end()) throw Json::other_error::create(501, "unknown word " + word.dump(), nullptr);
+    return found - words.begin();
+  };
+  constexpr std::array kDirections = {"lower", "higher", "neither"};
+  constexpr std::array kAggregates = {"median", "mean"};
+  for (const Json& each : list) {
+    MetricInfo metric;
+    try {
+      metric.id = each.at("id").get<std::string>();
+      metric.version = each.at("version").get<int>();
+      metric.label = each.at("label").get<std::string>();
+      metric.unit = each.at("unit").get<std::string>();
+      metric.direction = static_cast<Direction>(place_of(kDirections, each.at("direction")));
+      metric.aggregate = static_cast<Aggregate>(place_of(kAggregates, each.at("aggregate")));
+      metric.reading = static_cast<Reading>(place_of(kReadings, each.at("reads")));
+      metric.practical = each.at("practical_threshold").get<double>();
+      metric.definition = each.at("definition").get<std::string>();
+      metric.domain = each.at("domain").get<std::string>();
+    } catch (const Json::exception& error) {
+      return Fail(place, "not a metric of a run's own: {}", error.what());
+    }
+    if (auto added = AddMetric(std::move(metric)); !added) return Fail(place, "{}", added.error().message);
+  }
+  return {};
 }
 
 }  // namespace etude

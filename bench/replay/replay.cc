@@ -47,7 +47,8 @@ Result<std::set<std::size_t>> ChooseCells(const ReplayOptions& options, const Ru
   for (const PreparedScenario& one : prepared.scenarios) {
     for (const MethodEntry& method : one.scenario().methods) {
       const bool is_left_out = scored && method.name == scored->name;
-      if (is_left_out || (options.without_programs && !method.exec.empty())) {
+      const bool asks = !method.exec.empty() || !one.scenario().outside_metrics.empty();
+      if (is_left_out || (options.without_programs && asks)) {
         left_out.emplace(one.scenario().name, method.name);
       }
     }

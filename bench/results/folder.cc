@@ -8,6 +8,7 @@
 
 #include "bench/files/files.h"
 #include "bench/files/json.h"
+#include "bench/metrics/export.h"
 #include "bench/results/columns.h"
 #include "bench/results/row_json.h"
 #include "bench/results/seal.h"
@@ -90,6 +91,7 @@ Result<void> LoadManifest(const fs::path& folder, RunData& run) {
     const int schema = manifest.at("schema").get<int>();
     if (schema != kResultSchema) return Fail(place, "schema {}; this program reads {}", schema, kResultSchema);
     run.suite = manifest.at("suite").get<std::string>();
+    RETURN_IF_ERROR(ReadAddedMetrics(manifest.value("own_metrics", Json::array()), place));
     const Json& seed = manifest.at("seed");
     ASSIGN_OR_RETURN(const Seed keyed,
                      seed.is_string() ? ParseSeed(seed.get<std::string>()) : Result<Seed>(seed.get<std::uint64_t>()));

@@ -21,10 +21,10 @@ namespace {
 constexpr std::string_view kSumBegin = R"(,"sum":")", kSumEnd = R"("})";
 constexpr std::size_t kSumSize = kSumBegin.size() + 16 + kSumEnd.size();
 
-/// The metric's place in the catalogue; its size when it has none.
-std::size_t PlaceInCatalogue(const std::string& id) {
-  const MetricInfo* metric = FindMetric(id);
-  return metric == nullptr ? AllMetrics().size() : static_cast<std::size_t>(metric - AllMetrics().data());
+/// The metric's place in the catalogue; nothing when it is a scenario's own.
+std::optional<std::size_t> PlaceInCatalogue(const std::string& id) {
+  if (AddedMetrics().contains(id)) return std::nullopt;
+  return static_cast<std::size_t>(FindMetric(id) - AllMetrics().data());
 }
 
 /// The reason why this cell cannot be written as it is, or "".
@@ -76,9 +76,10 @@ class LineReader {
   explicit LineReader(std::string_view text) : at_(text.data()), end_(text.data() + text.size()) {}
 
   bool is_good() const { return good_; }
+  bool IsNext(std::string_view text) const { return good_ && Rest().starts_with(text); }
   /// Passes over `text` if it is next.
   bool Skip(std::string_view text) {
-    if (!good_ || !std::string_view(at_, static_cast<std::size_t>(end_ - at_)).starts_with(text)) return false;
+    if (!IsNext(text)) return false;
     at_ += text.size();
     return true;
   }
@@ -193,7 +194,8 @@ std::string EncodeCellLine(std::size_t cell, FinishedCell finished) {
   line.AddText("]");
   std::vector<const std::string*> why;
   line.AddList("values", result.metrics, [&](const MetricValue& metric) {
-    line.Add("{},", PlaceInCatalogue(metric.id));
+    const auto place = PlaceInCatalogue(metric.id);
+    place ? line.Add("{},", *place) : line.Add("\"{}\",", metric.id);
     if (metric.value) return line.Add("{}", *metric.value);
     line.AddText("null");
     why.push_back(&metric.null_reason);
@@ -240,11 +242,17 @@ Result<FinishedCell> DecodeCellLine(std::string_view line, Row identity, const P
     cell.usage = ReadUsage(reader);
     std::vector<std::size_t> missing;
     reader.ReadList(R"(,"values":[)", [&] {
-      const auto place_in_catalogue = reader.ReadNumber<std::size_t>();
+      std::string id;
+      if (reader.IsNext("\"")) {
+        id = reader.ReadString();
+        if (!AddedMetrics().contains(id)) reader.Refuse();
+      } else {
+        const auto place_in_catalogue = reader.ReadNumber<std::size_t>();
+        if (place_in_catalogue >= AllMetrics().size()) reader.Refuse();
+        if (reader.is_good()) id = AllMetrics()[place_in_catalogue].id;
+      }
       reader.Expect(",");
-      if (place_in_catalogue >= AllMetrics().size()) reader.Refuse();
       if (!reader.is_good()) return;
-      const std::string& id = AllMetrics()[place_in_catalogue].id;
       if (reader.Skip("null")) {
         missing.push_back(result.metrics.size());
         result.Missing(id, "");

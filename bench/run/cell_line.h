@@ -11,8 +11,8 @@ namespace etude {
 
 /// A finished cell as a worker answers it and as the journal keeps it: one line of JSON with its number in the plan,
 /// all that is not said by that number (Plan::IdentityOf), what it took, and a sum of the text. Metrics go by their
-/// place in the catalogue, which is the same for all that one build writes. Short, and always in the same order, so
-/// that a line is read in a microsecond and passed on without being read at all.
+/// place in the catalogue, which is the same for all that one build writes, or a scenario's own by their names. Short,
+/// and always in the same order, so that a line is read in a microsecond and passed on without being read at all.
 ///
 ///     {"cell":12,"status":"unsolved","reason":"…","usage":[wall_s,cpu_s,peak_mb,world_wall_s,world_cpu_s],
 ///      "values":[3,0.5,4,null],"why":["no truth"],"digests":["world","0123456789abcdef"],

@@ -49,11 +49,6 @@ CellResult Thrown(const std::string& when, const std::exception& error) {
                            when + (is_short ? "there is no more memory" : error.what()));
 }
 
-/// Methods of one scenario differ in name, so their files do too.
-std::string ErrorFileOf(const std::string& folder, const PreparedScenario& scenario, const MethodEntry& method) {
-  return folder.empty() ? "" : folder + "/" + scenario.scenario().name + "~" + method.name + ".txt";
-}
-
 }  // namespace
 
 Result<CellResult> JudgeAnswer(TaskWorld& world, const Json& answer) {
@@ -77,7 +72,7 @@ double CellRunner::PeakMemory::Mb() {
 }
 
 CellRunner::CellRunner(const PreparedScenario& scenario, std::string error_folder, const Fence& fence)
-    : scenario_(scenario), error_folder_(std::move(error_folder)) {
+    : scenario_(scenario), error_folder_(std::move(error_folder)), metrics_(scenario, error_folder_, fence) {
   const Scenario& told = scenario.scenario();
   for (std::size_t m = 0; m < told.methods.size(); ++m) {
     const MethodEntry& method = told.methods[m];
@@ -87,7 +82,7 @@ CellRunner::CellRunner(const PreparedScenario& scenario, std::string error_folde
                                        .options_json = method.options_json,
                                        .time_s = method.time_s.value_or(told.limits.time_s),
                                        .memory_mb = told.limits.memory_mb,
-                                       .error_file = ErrorFileOf(error_folder_, scenario, method),
+                                       .error_file = ErrorFileOf(error_folder_, told, method.name),
                                        .fence = fence,
                                        .files = method.files,
                                        .seed = scenario.setup().seed}));
@@ -103,7 +98,8 @@ void CellRunner::Open(int condition, int trial) {
   const Stopwatch watch;
   const WorldKey key = scenario_.KeyOf(trial);
   try {
-    world_ = scenario_.task(condition).MakeWorld(key, scenario_.scenario().recordings.KeepsTrial(trial));
+    const bool keeps_motion = !metrics_.empty() || scenario_.scenario().recordings.KeepsTrial(trial);
+    world_ = scenario_.task(condition).MakeWorld(key, keeps_motion);
     const auto& methods = scenario_.scenario().methods;
     const bool runs_built_in = std::ranges::any_of(methods, &MethodEntry::RunsInTask);
     if (runs_built_in && !world_->WhySkipped()) world_->PrepareShared();
@@ -124,11 +120,13 @@ FinishedCell CellRunner::Run(std::size_t method) {
   } catch (const std::exception& error) {
     cell.row.result = Thrown("the method threw: ", error);
   }
-  cell.why_not_run = why_not_run_;
   cell.usage.wall_s = watch.WallSeconds();
   cell.usage.cpu_s += watch.CpuSecondsUsed();
   cell.usage.peak_mb = std::max(cell.usage.peak_mb, peak_memory_.Mb());
-  if (!scenario_.scenario().recordings.KeepsMethod(cell.row.method)) cell.row.result.recording.reset();
+  if (why_not_run_.empty()) why_not_run_ = metrics_.Measure(cell.row.Id(), cell.row.result);
+  cell.why_not_run = why_not_run_;
+  const RecordingSelection& kept = scenario_.scenario().recordings;
+  if (!kept.KeepsTrial(trial_) || !kept.KeepsMethod(cell.row.method)) cell.row.result.recording.reset();
   scenario_.CompleteMetrics(condition_, cell.row);
   return cell;
 }

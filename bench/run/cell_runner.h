@@ -7,6 +7,7 @@
 #include "bench/model/row.h"
 #include "bench/outside/outside_method.h"
 #include "bench/process/clock.h"
+#include "bench/run/outside_metrics.h"
 #include "bench/run/setup.h"
 
 namespace etude {
@@ -61,6 +62,7 @@ class CellRunner {
   const PreparedScenario& scenario_;
   const std::string error_folder_;
   std::map<std::size_t, OutsideMethod> outside_;  ///< by method
+  OutsideMetrics metrics_;
   int condition_ = 0, trial_ = 0;
   std::unique_ptr<TaskWorld> world_;
   CellResult why_no_world_;

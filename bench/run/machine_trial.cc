@@ -57,10 +57,9 @@ Result<void> Try(std::span<const PreparedScenario> scenarios, const Fence& fence
   if (std::ranges::any_of(scenarios, Draws)) RETURN_IF_ERROR(TryRendererInACopy());
   bool is_first = true;
   for (const PreparedScenario& scenario : scenarios) {
-    for (const MethodEntry& method : scenario.scenario().methods) {
-      if (method.exec.empty()) continue;
-      if (auto found = FindProgram(method.exec.front()); !found) {
-        return Fail({}, "method {} of scenario {} cannot be asked: {}", method.name, scenario.scenario().name,
+    for (const auto& [program, role] : ProgramsIn(scenario.scenario())) {
+      if (auto found = FindProgram(program->exec.front()); !found) {
+        return Fail({}, "{} {} of scenario {} cannot be asked: {}", role, program->name, scenario.scenario().name,
                     ToString(found.error()));
       }
       if (!std::exchange(is_first, false)) continue;

@@ -11,6 +11,7 @@
 
 #include "bench/files/files.h"
 #include "bench/metrics/catalogue.h"
+#include "bench/metrics/export.h"
 #include "bench/model/recording.h"
 #include "bench/process/pinned_environment.h"
 #include "bench/results/folder.h"
@@ -150,6 +151,7 @@ Json MakeManifest(const SuiteSetup& suite, std::span<const PreparedScenario> sce
   for (const TaskKind& kind : AllTaskKinds()) {
     for (const std::string& id : kind.metrics) json["metrics"][id] = FindMetric(id)->version;
   }
+  if (!AddedMetrics().empty()) json["own_metrics"] = AddedMetricsJson();
   for (std::size_t s = 0; s < scenarios.size(); ++s) {
     json["scenarios"][s]["loaded_clips"] = DescribeMotions(scenarios[s]);
     const TaskKind& kind = *FindTaskKind(IsFilmed(scenarios[s].scenario()) ? "capture" : scenarios[s].scenario().task);

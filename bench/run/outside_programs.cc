@@ -15,9 +15,9 @@ namespace fs = std::filesystem;
 std::vector<std::string> ProgramsOf(std::span<const PreparedScenario> scenarios) {
   std::vector<std::string> programs;
   for (const PreparedScenario& scenario : scenarios) {
-    for (const MethodEntry& method : scenario.scenario().methods) {
-      if (method.exec.empty()) continue;
-      programs.push_back(fmt::format("{} ({}/{})", fmt::join(method.exec, " "), scenario.scenario().name, method.name));
+    for (const ScenarioProgram& program : ProgramsIn(scenario.scenario())) {
+      programs.push_back(fmt::format("{} ({}/{})", fmt::join(program.entry->exec, " "), scenario.scenario().name,
+                                     program.entry->name));
     }
   }
   return programs;
@@ -48,8 +48,8 @@ bool IsOursInSystem(const fs::path& folder, const fs::path& program) {
   return Fence::IsOfSystem(folder) && depth >= (Holds("/opt", folder) ? 3 : 4) && !Holds(folder, program);
 }
 
-/// Refuses what a method of secret worlds would be shown and must not see.
-Result<void> CheckShown(const PreparedScenario& scenario, const MethodEntry& method, const ProgramView& view,
+/// Refuses what a program of secret worlds would be shown and must not see.
+Result<void> CheckShown(const PreparedScenario& scenario, const ScenarioProgram& program, const ProgramView& view,
                         const fs::path& folder, const std::optional<SecretKey>& key) {
   const std::pair<const char*, fs::path> secrets[] = {
       {"the scenario", scenario.setup().file}, {"the run's folder", folder}, {"the key", key ? key->file : fs::path()}};
@@ -57,24 +57,25 @@ Result<void> CheckShown(const PreparedScenario& scenario, const MethodEntry& met
     for (const auto& [what, path] : secrets) {
       if (path.empty() || !Holds(Canonical(shown), Canonical(path))) continue;
       return Fail({scenario.setup().file},
-                  "method '{}' would be shown '{}', which holds {} of secret worlds ('{}'); its key 'files' lists what "
+                  "{} '{}' would be shown '{}', which holds {} of secret worlds ('{}'); its key 'files' lists what "
                   "it needs",
-                  method.name, shown.string(), what, path.string());
+                  program.role, program.entry->name, shown.string(), what, path.string());
     }
   }
   return {};
 }
 
 /// Refuses files that are not there.
-Result<void> CheckFiles(const PreparedScenario& scenario, const MethodEntry& method) {
+Result<void> CheckFiles(const PreparedScenario& scenario, const ScenarioProgram& program) {
   std::error_code error;
-  for (const std::string& file : method.files) {
+  for (const std::string& file : program.entry->files) {
     if (Fence::HoldsScratch(Canonical(file))) {
-      return Fail({scenario.setup().file}, "'files' of method '{}': '{}' holds a folder that programs write to",
-                  method.name, file);
+      return Fail({scenario.setup().file}, "'files' of {} '{}': '{}' holds a folder that programs write to",
+                  program.role, program.entry->name, file);
     }
     if (fs::exists(file, error)) continue;
-    return Fail({scenario.setup().file}, "'files' of method '{}': '{}' is no file or folder", method.name, file);
+    return Fail({scenario.setup().file}, "'files' of {} '{}': '{}' is no file or folder", program.role,
+                program.entry->name, file);
   }
   return {};
 }
@@ -90,11 +91,10 @@ Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const Outsid
   for (const PreparedScenario& scenario : scenarios) {
     const bool is_secret = !scenario.setup().seed.IsPlain();
     ours.push_back(Canonical(scenario.setup().file).parent_path());
-    for (const MethodEntry& method : scenario.scenario().methods) {
-      if (method.exec.empty()) continue;
-      RETURN_IF_ERROR(CheckFiles(scenario, method));
-      std::vector<std::string> command = method.exec;
-      if (const auto program = FindProgram(command.front())) command.front() = *program;
+    for (const ScenarioProgram& program : ProgramsIn(scenario.scenario())) {
+      RETURN_IF_ERROR(CheckFiles(scenario, program));
+      std::vector<std::string> command = program.entry->exec;
+      if (const auto found = FindProgram(command.front())) command.front() = *found;
       for (const fs::path& mine : ours) {
         if (IsOursInSystem(mine, Canonical(command.front()))) fence.Hide(mine);
       }
@@ -105,7 +105,7 @@ Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const Outsid
                     "without one, and the page says so",
                     fence.description());
       }
-      RETURN_IF_ERROR(CheckShown(scenario, method, ViewOf(command, method.files), folder, key));
+      RETURN_IF_ERROR(CheckShown(scenario, program, ViewOf(command, program.entry->files), folder, key));
     }
   }
   // Our own program and scenarios where they are installed, but not the examples, which methods import; and clips that

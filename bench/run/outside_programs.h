@@ -18,7 +18,7 @@ struct OutsideRules {
   bool allow_exec = false;  ///< also those that a manifest or a pack names, which may come from anybody
 };
 
-/// "python3 my_solver.py (ik-weights/mine)" of every method that is a program.
+/// "python3 my_solver.py (ik-weights/mine)" of every method and metric that is a program.
 std::vector<std::string> ProgramsOf(std::span<const PreparedScenario> scenarios);
 
 /// Refuses to run the programs that `file` names unless that is allowed, and lists them.

@@ -11,6 +11,7 @@
 #include "bench/run/journal.h"
 #include "bench/run/machine_trial.h"
 #include "bench/run/manifest.h"
+#include "bench/run/outside_metrics.h"
 #include "bench/run/run_folder.h"
 #include "bench/run/suite.h"
 #include "bench/run/supervisor.h"
@@ -179,7 +180,10 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   ASSIGN_OR_RETURN(const auto state, CheckFolder(folder, options));
   ASSIGN_OR_RETURN(const auto scenarios, PrepareToRun(suite, options));
   ASSIGN_OR_RETURN(const Fence fence, FenceFor(scenarios, options.outside, folder, options.key));
-  if (!options.resume || state != FolderState::kFinished) RETURN_IF_ERROR(TryMachine(scenarios, fence));
+  if (!options.resume || state != FolderState::kFinished) {
+    RETURN_IF_ERROR(TryMachine(scenarios, fence));
+    RETURN_IF_ERROR(CheckMetricVectors(scenarios, fence));
+  }
   const Plan plan(scenarios);
   ASSIGN_OR_RETURN(const auto manifest, WriteJson(MakeManifest(suite, scenarios, options.program_version)));
   ASSIGN_OR_RETURN(const auto build, BuildDigest());

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "bench/scenario/judging.h"
 #include "bench/scenario/methods.h"
 #include "bench/tasks/base/sensor_key.h"
 #include "bench/tasks/registry.h"
@@ -305,7 +306,7 @@ Row PreparedScenario::EndedRow(int condition, int trial, std::size_t method, Sta
 void PreparedScenario::CompleteMetrics(int condition, Row& row) const {
   CellResult& result = row.result;
   if (result.status == Status::kOk) return;
-  for (const std::string& id : FindTaskKind(scenario_.task)->metrics) {
+  for (const std::string& id : MetricsOf(*FindTaskKind(scenario_.task), scenario_)) {
     const bool reported = std::any_of(result.metrics.begin(), result.metrics.end(),
                                       [&](const MetricValue& metric) { return metric.id == id; });
     if (reported) continue;

@@ -150,7 +150,11 @@ class Supervisor {
     const MethodEntry& method = methods[order.methods.front()];
     const double limit_s = LimitsOf(order).time_s;
     const double ask_s = method.exec.empty() ? 0 : LongestAskSeconds(method.time_s.value_or(limit_s)) + kGraceS;
-    worker.deadline = After(ask_s + (method.RunsInTask() ? limit_s : 0));
+    double measure_s = 0;
+    for (const OutsideMetric& metric : plan_.scenario_of(order.world).scenario().outside_metrics) {
+      measure_s += LongestAskSeconds(metric.program.time_s.value_or(limit_s)) + kGraceS;
+    }
+    worker.deadline = After(ask_s + measure_s + (method.RunsInTask() ? limit_s : 0));
   }
 
   Result<void> Step() {

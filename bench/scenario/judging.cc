@@ -16,15 +16,10 @@ bool Contains(const std::vector<std::string>& names, const std::string& name) {
 std::vector<std::string> ReadMetricList(Fields& fields, const std::string& task,
                                         const std::vector<std::string>& known) {
   const char* key = "metrics";
-  std::vector<std::string> metrics = fields.Texts(key);
-  for (std::size_t i = 0; i < metrics.size(); ++i) {
-    const Place& place = fields.node().Find(key)->items[i].place;
-    if (!Contains(known, metrics[i])) {
-      fields.Complain(place, UnknownName("metric of task " + task, metrics[i], known));
-    } else if (std::find(metrics.begin(), metrics.begin() + static_cast<std::ptrdiff_t>(i), metrics[i]) !=
-               metrics.begin() + static_cast<std::ptrdiff_t>(i)) {
-      fields.Complain(place, fmt::format("the metric '{}' stands here twice", metrics[i]));
-    }
+  std::vector<std::string> metrics;
+  const std::vector<std::string> names = fields.Texts(key);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    NoteMetric(fields, task, known, names[i], fields.node().Find(key)->items[i].place, metrics);
   }
   return metrics;
 }
@@ -103,9 +98,21 @@ std::vector<std::string> MetricsOf(const TaskKind& kind) {
   return all;
 }
 
-std::vector<std::string> ReadMetrics(Fields& fields, const TaskKind& kind) {
-  std::vector<std::string> metrics = ReadMetricList(fields, kind.name, MetricsOf(kind));
-  return metrics.empty() ? kind.default_metrics : metrics;
+std::vector<std::string> MetricsOf(const TaskKind& kind, const Scenario& scenario) {
+  std::vector<std::string> metrics = MetricsOf(kind);
+  for (const OutsideMetric& own : scenario.outside_metrics) metrics.push_back(own.info.id);
+  return metrics;
+}
+
+void NoteMetric(Fields& fields, const std::string& task, const std::vector<std::string>& known, const std::string& name,
+                const Place& place, std::vector<std::string>& metrics) {
+  if (!Contains(known, name)) {
+    fields.Complain(place, UnknownName("metric of task " + task, name, known));
+  } else if (Contains(metrics, name)) {
+    fields.Complain(place, fmt::format("the metric '{}' stands here twice", name));
+  } else {
+    metrics.push_back(name);
+  }
 }
 
 FieldTable<Expectation> ExpectationFields(const Scenario& scenario, const std::vector<std::string>& metrics) {

@@ -8,8 +8,12 @@ namespace etude {
 /// The metrics that a task's cells report.
 std::vector<std::string> MetricsOf(const TaskKind& kind);
 
-/// Reads `metrics`: the headline metrics; the task's own when the file names none. Complaints stay in `fields`.
-std::vector<std::string> ReadMetrics(Fields& fields, const TaskKind& kind);
+/// Those and the scenario's own.
+std::vector<std::string> MetricsOf(const TaskKind& kind, const Scenario& scenario);
+
+/// Adds a metric to a list of them. Complains of one that is not `known`, or stands there already.
+void NoteMetric(Fields& fields, const std::string& task, const std::vector<std::string>& known, const std::string& name,
+                const Place& place, std::vector<std::string>& metrics);
 
 // The keys of `expect`, `gate` and its `time_ratios`: they name methods and conditions of `scenario`, which must
 // outlive the tables, and `metrics` of its task.

@@ -8,6 +8,7 @@
 #include "bench/keys/key_schema.h"
 #include "bench/scenario/judging.h"
 #include "bench/scenario/methods.h"
+#include "bench/scenario/outside_metrics.h"
 #include "bench/scenario/scenario.h"
 #include "bench/scenario/sources.h"
 #include "bench/scenario/sweep.h"
@@ -46,6 +47,8 @@ std::vector<KeyGroup> AllKeyGroups() {
       Group("sweep", "A sweep, beside the task's parameters", SweepKeys()),
       Group("sweep.PARAMETER", "A range of values", RangeFields(kMostConditions).Describe()),
       Group("methods[]", "A method", OutsideMethodFields().Describe()),
+      Group("metrics[]", "A metric of one's own, of another program", OutsideMetricFields().Describe()),
+      Group("metrics[].vectors[]", "A test vector", MetricExampleFields().Describe()),
       Group("expect[]", "An expectation", ExpectationFields(any, {}).Describe()),
       Group("video", "What is kept for films", VideoFields(any).Describe()),
       Group("limits", "Limits", LimitFields().Describe()),
@@ -134,11 +137,13 @@ Json TaskSchema(const TaskKind& kind) {
   const Json metric{{"enum", MetricsOf(kind)}}, metrics = {{"properties", {{"metrics", ListOf(metric)}}}};
   properties["sweep"] = SweepSchema(kind);
   properties["methods"] = ListOf(Ref(kind.name + "-method"));
-  properties["metrics"] = ListOf(metric);
-  properties["expect"] = ListOf({{"properties", {{"metric", metric}}}});
-  properties["gate"] = metrics;
+  const Json own{{"properties", {{"metrics", {{"contains", {{"type", "object"}}}}}}}, {"required", {"metrics"}}};
+  const Json ours{{"expect", ListOf({{"properties", {{"metric", metric}}}})}, {"gate", metrics}};
+  properties["metrics"] = ListOf({{"anyOf", {metric, Ref("outside-metric")}}});
   return {{"description", kind.question},
           {"properties", std::move(properties)},
+          {"if", own},  // its expectations may name metrics of its own
+          {"else", {{"properties", ours}}},
           {"propertyNames", Names(kind.condition_keys)},
           {"dependencies", ConditionSchemas(kind.condition_keys, false)}};
 }
@@ -205,6 +210,7 @@ Json ScenarioSchema() {
 std::string KeysAsSchema() {
   Json definitions{{"scenario", AnyScenarioSchema()},
                    {"outside-method", MappingSchema(OutsideMethodFields().Describe())},
+                   {"outside-metric", MappingSchema(OutsideMetricFields().Describe())},
                    {"range", MappingSchema(RangeFields(kMostConditions).Describe())}};
   for (const TaskKind& kind : AllTaskKinds()) {
     definitions[kind.name] = TaskSchema(kind);

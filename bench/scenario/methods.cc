@@ -32,7 +32,7 @@ std::string ReadOptions(Fields& method) {
 
 void ReadProgram(Fields& method, MethodEntry& entry) {
   entry.exec = method.Texts("exec");
-  if (!entry.exec.empty() && !entry.exec.front().empty()) return;
+  if (method.node().Find("exec") == nullptr || (!entry.exec.empty() && !entry.exec.front().empty())) return;
   method.Complain(method.Raw("exec")->place,
                   "'exec' needs a program and its arguments, such as [python3, my_solver.py]");
 }

@@ -11,6 +11,7 @@
 #include "bench/keys/key_schema.h"
 #include "bench/scenario/judging.h"
 #include "bench/scenario/methods.h"
+#include "bench/scenario/outside_metrics.h"
 #include "bench/scenario/sources.h"
 #include "bench/scenario/sweep.h"
 #include "bench/tasks/registry.h"
@@ -207,13 +208,17 @@ const FieldTable<Scenario>& ScenarioFields() {
         when_right([](Fields& fields, Scenario& s, const TaskKind&) {
           s.rival = fields.Choice("rival", MethodNames(s), "");
         })},
-       {{"metrics", ListKind("a list of metrics that the task reports", TextKind("")), "(the task's)",
-         "The headline metrics, most important first."},
-        when_right([](Fields& fields, Scenario& s, const TaskKind& kind) { s.metrics = ReadMetrics(fields, kind); })},
+       {{"metrics", HeadlineKind(), "(the task's)",
+         "The headline metrics, most important first. A mapping is a metric of one's own; where there are only such, "
+         "the "
+         "task's come first."},
+        when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
+          s.metrics = ReadHeadline(fields, kind, s.outside_metrics);
+        })},
        {{"expect", ListKind("a list of expectations", MappingKind("", ExpectationFields(unread, {}).Describe())), "[]",
          "What should come out, judged after the run."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
-          s.expectations = ReadListed(fields, "expect", "an expectation", ExpectationFields(s, MetricsOf(kind)));
+          s.expectations = ReadListed(fields, "expect", "an expectation", ExpectationFields(s, MetricsOf(kind, s)));
         })},
        {{"video", MappingKind("a mapping", VideoFields(unread).Describe()), "(no motion is kept)",
          "Which motions are kept for the report's films."},
@@ -229,7 +234,7 @@ const FieldTable<Scenario>& ScenarioFields() {
          "What `etude gate` holds against a baseline."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
           s.gate.metrics = s.metrics;
-          ReadNested(fields, "gate", GateFields(s, MetricsOf(kind)), s.gate);
+          ReadNested(fields, "gate", GateFields(s, MetricsOf(kind, s)), s.gate);
         })}}};
   return table;
 }
@@ -277,6 +282,15 @@ bool RecordingSelection::KeepsMethod(std::string_view name) const {
 }
 
 std::vector<std::string> MethodNames(const Scenario& scenario) { return NamesOf(scenario.methods); }
+
+std::vector<ScenarioProgram> ProgramsIn(const Scenario& scenario) {
+  std::vector<ScenarioProgram> programs;
+  for (const MethodEntry& method : scenario.methods) {
+    if (!method.exec.empty()) programs.push_back({&method});
+  }
+  for (const OutsideMetric& metric : scenario.outside_metrics) programs.push_back({&metric.program, "metric"});
+  return programs;
+}
 
 namespace {
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/keys/field_table.h"
+#include "bench/metrics/catalogue.h"
 #include "bench/model/study.h"
 #include "bench/tasks/base/task.h"
 #include "engine/document/node.h"
@@ -69,6 +70,22 @@ struct MethodEntry {
   bool RunsInTask() const { return exec.empty() || !seat.empty(); }
 };
 
+/// A cell of which a metric's value is known.
+struct MetricExample {
+  std::string title;
+  std::string cell_json;           ///< an object as the metric's program is given it: `tracks`, `extras`
+  std::optional<double> expected;  ///< nothing: the metric has no value
+  double tolerance = 1e-9;         ///< absolute
+  Place place;
+};
+
+/// A metric that another program measures on the motions of a cell (docs/outside-methods.md).
+struct OutsideMetric {
+  MetricInfo info;
+  MethodEntry program;  ///< its name is the metric's
+  std::vector<MetricExample> vectors;
+};
+
 /// The time and memory that one cell, or the building of one world, may take before it is ended.
 struct Limits {
   double time_s = 300;
@@ -90,11 +107,12 @@ struct Scenario {
   SamplingUnit unit = SamplingUnit::kWorld;
   int trials = 10;
   std::optional<std::uint64_t> seed;
-  std::vector<Condition> conditions;  ///< at least one
-  std::vector<MethodEntry> methods;   ///< at least one
-  std::vector<std::string> metrics;   ///< headline metrics; the task's own when the file names none
-  std::vector<std::string> across;    ///< swept parameters under all of whose values a verdict must be the same
-  std::string rival;                  ///< "" = the best method is found
+  std::vector<Condition> conditions;                ///< at least one
+  std::vector<MethodEntry> methods;                 ///< at least one
+  std::vector<std::string> metrics;                 ///< headline metrics; the task's own when the file names none
+  std::vector<OutsideMetric> outside_metrics = {};  ///< those that other programs measure; headline metrics, too
+  std::vector<std::string> across;  ///< swept parameters under all of whose values a verdict must be the same
+  std::string rival;                ///< "" = the best method is found
   std::vector<Expectation> expectations;
   RecordingSelection recordings;
   Limits limits;
@@ -102,6 +120,14 @@ struct Scenario {
 };
 
 std::vector<std::string> MethodNames(const Scenario& scenario);
+
+/// A program that a scenario starts.
+struct ScenarioProgram {
+  const MethodEntry* entry = nullptr;
+  const char* role = "method";  ///< or "metric"
+};
+/// The methods that are programs, then the metrics.
+std::vector<ScenarioProgram> ProgramsIn(const Scenario& scenario);
 
 /// Adds those of `libraries` whose names the scenario does not know: all of its conditions once more for each. A
 /// scenario without libraries has those alone from then on.

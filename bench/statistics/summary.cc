@@ -19,6 +19,10 @@ std::vector<const MetricInfo*> MetricsIn(const ConditionTable& table) {
     const auto reports = [&](const MethodColumns& method) { return method.Reports(metric.id); };
     if (std::any_of(table.methods.begin(), table.methods.end(), reports)) present.push_back(&metric);
   }
+  for (const auto& [id, metric] : AddedMetrics()) {
+    const auto reports = [&](const MethodColumns& method) { return method.Reports(metric.id); };
+    if (std::any_of(table.methods.begin(), table.methods.end(), reports)) present.push_back(&metric);
+  }
   return present;
 }
 

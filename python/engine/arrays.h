@@ -24,6 +24,7 @@ using py::literals::operator""_a;
 void AddMotions(py::module_& module);
 void AddKinematics(py::module_& module);
 void AddCameras(py::module_& module);
+void AddStreams(py::module_& module);
 
 using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();

@@ -8,4 +8,5 @@ PYBIND11_MODULE(etude_engine, module) {
   AddMotions(module);
   AddKinematics(module);
   AddCameras(module);
+  AddStreams(module);
 }

@@ -33,6 +33,12 @@ def metrics(program=None):
     return _read(find_program(program))[0]
 
 
+def own(manifest):
+    """The metrics of a run's own, by their ids."""
+    return {each["id"]: Metric(**{key: value for key, value in each.items() if key != "reads"})
+            for each in manifest.get("own_metrics", [])}
+
+
 def joints(program=None):
     """The twenty joints in the order of poses: each one's name, and its parent's (None for the first)."""
     return _read(find_program(program))[1]

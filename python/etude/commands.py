@@ -14,20 +14,21 @@ from etude.results import load
 from etude.shipping import ship, write_once
 
 
-def run(scenario, *, methods=(), trials=None, output=None, seed=None, clips=(), jobs=None, overwrite=False,
+def run(scenario, *, methods=(), metrics=(), trials=None, output=None, seed=None, clips=(), jobs=None, overwrite=False,
         resume=False, fenced=True, progress=True, program=None):
     """Runs a scenario and gives its Run, as load does.
 
     scenario: a file, a folder of them, what comes with etude (`"quick/ik"`), or a dict with the keys of a scenario.
     methods: further ones, of @etude.method or as dicts with the keys of a scenario's entry; those of @etude.method go
-    into the scenarios of their task. output: the result folder, out/NAME-SEED by default; it must be new unless
+    into the scenarios of their task. metrics: further ones of every scenario, of @etude.metric or as dicts; the scenario's
+    headline metrics stay. output: the result folder, out/NAME-SEED by default; it must be new unless
     `overwrite` or `resume`. progress: True shows it on standard error, a function is called with (cells done, cells).
 
     Warns when no cell is ok. Raises EtudeError, whose `run` is the run where one is there all the same: exit code 1, a
     method has no answer.
     """
-    if isinstance(scenario, dict) or methods:
-        scenario = _write_scenario(scenario, methods, program)
+    if isinstance(scenario, dict) or methods or metrics:
+        scenario = _write_scenario(scenario, methods, metrics, program)
     arguments = ["run", os.fspath(scenario)]
     for flag, value in (("--trials", trials), ("-o", output), ("--seed", seed), ("--jobs", jobs)):
         if value is not None:
@@ -56,18 +57,22 @@ def _judged(found, code, printed, said):
     return found
 
 
-def _write_scenario(scenario, methods, program):
-    """A scenario, or a folder of them, with the methods in it; named by its contents."""
+def _write_scenario(scenario, methods, metrics, program):
+    """A scenario, or a folder of them, with the methods and metrics in it; named by its contents."""
+    measures = [each if isinstance(each, dict) else _metric(each) for each in metrics]
     entries = [(spec_of(each).task, ship(each)) if not isinstance(each, dict) else (None, each) for each in methods]
     if isinstance(scenario, dict):
         told = dict(scenario)
         told["methods"] = [*told.get("methods", []), *_fitting(entries, told.get("task"))]
+        if measures:
+            told["metrics"] = [*told.get("metrics", []), *measures]
         _refuse_unused(entries, {told.get("task")})
         return _keep({f"{told.get('scenario', 'scenario')}.yaml": json.dumps(told, indent=1, ensure_ascii=False)})
     texts = _texts_of(os.fspath(scenario), program)
     tasks = {name: _value_of("task", text) for name, text in texts.items()}
     _refuse_unused(entries, set(tasks.values()))
-    kept = _keep({name: _with_methods(name, text, _fitting(entries, tasks[name])) for name, text in texts.items()},
+    kept = _keep({name: _with_metrics(name, _with_methods(name, text, _fitting(entries, tasks[name])), measures)
+                  for name, text in texts.items()},
                  os.path.splitext(os.path.basename(os.fspath(scenario)))[0])
     return kept
 
@@ -129,6 +134,27 @@ def _with_methods(name, text, entries):
     if not lines[end - 1].endswith("\n"):
         lines[end - 1] += "\n"
     return "".join(lines[:end] + added + lines[end:])
+
+
+def _metric(each):
+    if spec_of(each).task != "metric":
+        raise TypeError(f"'{spec_of(each).name}' is no metric: write @etude.metric(…) above it")
+    return ship(each)
+
+
+def _with_metrics(name, text, entries):
+    """The text of a scenario with entries at the end of its list of metrics, which stays as it is otherwise."""
+    if not entries:
+        return text
+    added = ", ".join(json.dumps(entry, ensure_ascii=False) for entry in entries)
+    heads = list(re.finditer(r"^metrics:[ \t]*(.*)$", text, re.MULTILINE))
+    if not heads:
+        return text.rstrip("\n") + f"\nmetrics: [{added}]\n"
+    listed = re.compile(r"^metrics:[ \t]*\[([^\[\]{}#]*)\]", re.MULTILINE).match(text, heads[0].start())
+    if len(heads) > 1 or not listed:
+        raise EtudeError(f"{name}: has no list of metrics in brackets, to which others could be added")
+    names = listed[1].strip().rstrip(",")
+    return text[:listed.start()] + f"metrics: [{names}{', ' if names else ''}{added}]" + text[listed.end():]
 
 
 def _keep(texts, suite=None):

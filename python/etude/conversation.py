@@ -58,11 +58,52 @@ def method(task, seat="", *, name=None, version="1", options=None, time_s=None, 
     return mark
 
 
+class MetricSpec(Spec):
+    """What @metric says of a metric. facts: the keys of its entry in a scenario beside those of a program."""
+
+    def __init__(self, name, version, options, time_s, files, facts):
+        super().__init__("metric", "", name, version, options, time_s, files, False)
+        self.facts = facts
+
+
+def metric(id, unit="", direction="lower", version=1, vectors=(), *, practical=None, aggregate=None, reads=None,
+           label=None, definition=None, options=None, time_s=None, files=()):
+    """Makes a metric of a function, which stays what it was and can be called as before.
+
+    It is given a finished cell, an etude.MetricProblem: `cell.motion("truth")` and so on are positions in metres,
+    `cell.extras` what the task keeps beside them (docs/reference/recordings.md). It may ask, by the names of its
+    arguments, for `setting` (an etude.MetricSetting: joints, task) and `options` as well. It returns a number; raise
+    NoAnswer(why) where there is none. What it answers must depend on the cell alone.
+
+    id: its name in rows and tables, small letters, digits and '_'. direction: "lower", "higher" or "neither" is better.
+    version: to be raised with every change of what it measures. vectors: cells whose value is known, checked before a
+    run's first cell: (cell, value) or dicts with the keys cell, expected, tolerance, title; value None: there is none.
+    A track of such a cell has `poses`, or `frames` and `joints_m`, by joint, and the others are at the origin.
+    practical: the smallest difference that matters. aggregate, reads, label, definition, options, time_s, files: the
+    keys of its entry in a scenario. Raises ValueError for a direction that is not there.
+    """
+    if direction not in ("lower", "higher", "neither"):
+        raise ValueError(f"no direction {direction!r}; there are lower, higher, neither")
+    told = [each if isinstance(each, dict) else {"cell": each[0], "expected": each[1]} for each in vectors]
+    facts = {"unit": unit, "direction": direction, "version": version, "practical": practical, "aggregate": aggregate,
+             "reads": reads, "label": label, "definition": definition, "vectors": told or None}
+
+    def mark(what):
+        if inspect.isclass(what):
+            raise ValueError(f"{what.__name__} is a class; a metric is a function of one cell")
+        what.__etude__ = MetricSpec(id, str(version), dict(options or {}), time_s, [str(file) for file in files],
+                                    {key: value for key, value in facts.items() if value not in (None, "")})
+        return what
+
+    return mark
+
+
 def spec_of(what):
-    """What @method said of it. Raises TypeError when it never did."""
+    """What @method or @metric said of it. Raises TypeError when neither did."""
     spec = getattr(what, "__etude__", None)
     if spec is None:
-        raise TypeError(f"{getattr(what, '__name__', what)!r} is no method: write @etude.method(task=…) above it")
+        raise TypeError(f"{getattr(what, '__name__', what)!r} is no method and no metric: write "
+                        "@etude.method(task=…) or @etude.metric(…) above it")
     return spec
 
 

@@ -46,6 +46,26 @@ class Message:
         return self.get(key) is not None
 
 
+class Cell(Message):
+    """The motions of a finished cell, which a metric is given."""
+
+    def track(self, name):
+        """The motion of that name: rate_hz, and poses of sixty numbers. Raises KeyError with what there is."""
+        for track in self.tracks:
+            if track.name == name:
+                return track
+        raise KeyError(f"no track '{name}'; there are {', '.join(track.name for track in self.tracks)}")
+
+    def motion(self, name):
+        """That motion's positions, frames × joints × 3 in metres: an array where numpy is there, else lists."""
+        frames = [[pose[at:at + 3] for at in range(0, len(pose), 3)] for pose in self.track(name).poses]
+        try:
+            import numpy
+        except ImportError:
+            return frames
+        return numpy.array(frames, dtype=float)
+
+
 def _unfolded(value):
     if isinstance(value, Message):
         return value.to_json()

@@ -4,7 +4,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar, List, Optional
 
-from etude.messages import Message
+from etude.messages import Cell, Message
 
 Pose = List[float]
 Vector = List[float]
@@ -674,3 +674,54 @@ class CoachLearnerAnswer(Message):
     pose: Optional[Pose] = None
     right: Optional[bool] = None
     given_up: Optional[bool] = None
+
+
+@dataclass
+class MetricSetting(Message):
+    """What a metric is measured on: cells of one scenario.
+
+    metric: Its name in the scenario.
+    task: The scenario's.
+    unit: Of positions: m.
+    joints: In the order of poses.
+    parents: The joint above each; null of the first.
+    """
+    metric: str
+    version: int
+    task: str
+    unit: str
+    joints: List[str]
+    parents: List[Optional[str]]
+
+
+@dataclass
+class MetricTrack(Message):
+    """A motion of a cell.
+
+    name: truth, solution, sensed, …
+    """
+    name: str
+    rate_hz: float
+    poses: List[Pose]
+
+
+@dataclass
+class MetricProblem(Cell):
+    """A finished cell, as a recording keeps it (docs/reference/recordings.md).
+
+    extras: What the task keeps beside motions.
+    """
+    HOLDS: ClassVar[dict] = {"tracks": [MetricTrack]}
+    tracks: List[MetricTrack]
+    extras: dict
+
+
+@dataclass
+class MetricAnswer(Message):
+    """The metric's value.
+
+    value: Null where there is none.
+    reason: Why there is none.
+    """
+    value: Optional[float]
+    reason: Optional[str] = None

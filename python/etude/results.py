@@ -130,9 +130,10 @@ class Run:
 
     def __init__(self, folder, metrics, joints):
         self.folder = pathlib.Path(folder)
-        self.metrics, self._joints = metrics, joints
+        self._joints = joints
         self.summary = json.loads((self.folder / "summary.json").read_text(encoding="utf-8"))
         self.manifest = json.loads((self.folder / "manifest.json").read_text(encoding="utf-8"))
+        self.metrics = {**metrics, **catalogue.own(self.manifest)}
         self._scenarios = {each["name"]: each for each in self.summary["scenarios"]}
         self._tables = None
 

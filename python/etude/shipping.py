@@ -8,6 +8,7 @@ import ast
 import builtins
 import hashlib
 import inspect
+import json
 import linecache
 import os
 import pathlib
@@ -18,6 +19,7 @@ import textwrap
 import types
 
 from etude.conversation import spec_of
+from etude.messages import plain
 from etude.program import cache_folder
 
 PLAIN = (type(None), bool, int, float, complex, str, bytes)
@@ -26,7 +28,7 @@ LARGEST = 1_000_000  # characters of a value that is written as source
 
 
 def ship(method):
-    """The entry of a scenario's `methods` (a dict) for a method of @method. Its folder is named by what is in it, below
+    """The entry of a scenario's `methods` or `metrics` (a dict) for one of @method or @metric. Its folder is named by what is in it, below
     etude.program.cache_folder(), so that the same method is the same entry.
 
     Raises ValueError, which names what cannot be sent and why.
@@ -42,13 +44,14 @@ def ship(method):
         arrays = {}
     else:
         pieces = _Pieces()
-        pieces.add(method, f"method '{spec.name}'")
+        pieces.add(method, f"{'metric' if spec.task == 'metric' else 'method'} '{spec.name}'")
         source, arrays = pieces.text(method.__name__), pieces.arrays
         granted += pieces.folders
     source = f'"""Written by etude.run."""\n{source}\nimport etude\netude.serve(asked)\n'
-    folder = _write(source, arrays)
+    folder = _write(source, arrays, "metrics" if spec.task == "metric" else "methods")
     entry = {"name": spec.name, "exec": [_interpreter(granted), str(folder / "program.py")],
              "files": [str(folder), *granted]}
+    entry.update(json.loads(json.dumps(getattr(spec, "facts", {}), default=plain)))
     if spec.seat:
         entry["seat"] = spec.seat
     if spec.options:
@@ -77,8 +80,8 @@ def _interpreter(granted):
     return sys.executable
 
 
-def _write(source, arrays):
-    """The folder of a program: its source, its arrays and a copy of what of this package speaks for it."""
+def _write(source, arrays, room):
+    """The folder of a program, in that room of the cache: its source, its arrays and a copy of what of this package speaks for it."""
     here = pathlib.Path(__file__).resolve().parent
     files = {"program.py": source.encode(), **{f"{name}.npy": data for name, data in arrays.items()}}
     for name in ("__init__.py", "conversation.py", "messages.py", "problems.py"):
@@ -86,7 +89,7 @@ def _write(source, arrays):
     digest = hashlib.sha256()
     for name, data in sorted(files.items()):
         digest.update(f"{name} {len(data)}\n".encode() + data)
-    folder = cache_folder() / "methods" / digest.hexdigest()[:16]
+    folder = cache_folder() / room / digest.hexdigest()[:16]
     for name, data in files.items():
         write_once(folder / name, data)
     return folder

@@ -198,6 +198,64 @@ class Cameras(unittest.TestCase):
         self.assertIn("HIERARCHY", found.bvh)
 
 
+def wave(turns, frames=40):
+    """A right hand that circles so many times."""
+    poses = np.repeat(standing()[None], frames, axis=0)
+    at = 2 * np.pi * turns * np.arange(frames) / frames
+    for role, radius in (("right_wrist", .2), ("right_hand", .28)):
+        poses[:, engine.ROLES.index(role), 1] += radius * np.sin(at)
+        poses[:, engine.ROLES.index(role), 2] += radius * (1 - np.cos(at))
+    return poses
+
+
+class Streams(unittest.TestCase):
+    def test_a_recogniser_tells_the_move_that_it_was_taught(self):
+        moves = [("once", [engine.Motion(wave(1))]), ("thrice", [engine.Motion(wave(3))])]
+        for kind in ("whole-body", "dtw", "nearest"):
+            taught = engine.Recogniser(moves, kind)
+            likeness = {}
+            for name, turns in (("once", 1), ("thrice", 3)):
+                for asked in (0, 1):
+                    stream = taught.follow()
+                    stream.ask(asked)
+                    told = [stream.update(pose) for pose in wave(turns)]
+                    self.assertEqual([each[1].shape for each in told], [(2,)] * 40)
+                    self.assertTrue(all(0 <= each[0] <= 1 for each in told))
+                    self.assertEqual([each[0] for each in told], sorted(each[0] for each in told))
+                    likeness[name, asked] = told[-1][0]
+            self.assertGreater(likeness["once", 0], likeness["thrice", 0], kind)
+            self.assertGreater(likeness["thrice", 1], likeness["once", 1], kind)
+        again = taught.follow()
+        again.ask(0)
+        unseen = [again.update(pose, "n" * 20, False) for pose in wave(1)]
+        self.assertLess(unseen[-1][0], likeness["once", 0])
+
+    def test_the_person_is_what_changed(self):
+        room = np.full((60, 80, 3), 120, np.uint8)
+        picture = room.copy()
+        picture[10:50, 30:45] = (200, 40, 40)
+        finder = engine.PersonFinder(room, "rgb")
+        mask = finder.find(picture)
+        self.assertEqual((mask.dtype, mask.shape), (np.dtype(bool), (60, 80)))
+        self.assertTrue((mask == (picture != room).any(axis=2)).all())
+        picture[55:57, 2:4] = 0  # noise beside
+        self.assertTrue((finder.find(picture) == mask).all())
+        self.assertFalse(engine.PersonFinder(room).find(room).any())
+        wide = np.zeros((60, 160, 3), np.uint8)
+        wide[:, ::2] = picture
+        self.assertTrue((finder.find(wide[:, ::2]) == mask).all())  # a view
+        for bad, says in ((lambda: finder.find(picture[:50]), "allowed: .60, 80, 3."),
+                          (lambda: engine.PersonFinder(room, "magic"), "no segmenter 'magic'; allowed: rgb, "),
+                          (lambda: engine.PersonFinder(np.zeros((0, 4, 3), np.uint8)), "a side of 0 pixels"),
+                          (lambda: engine.Recogniser([]), "no moves"),
+                          (lambda: engine.Recogniser([("a", [])]), "a"),
+                          (lambda: engine.Recogniser([("a", [engine.Motion(wave(1))])], "key-pose"), "whole-body, dtw"),
+                          (lambda: engine.Recogniser([("a", [engine.Motion(wave(1))])]).follow(0), "0 Hz"),
+                          (lambda: engine.Recogniser([("a", [engine.Motion(wave(1))])]).follow().ask(1), "move 1; allowed: 0")):
+            with self.assertRaisesRegex(engine.BadInput, says):
+                bad()
+
+
 class Stub(unittest.TestCase):
     def test_the_stub_knows_every_name_and_no_other(self):
         stub = ast.parse((ROOT / "python/engine/etude_engine.pyi").read_text())
@@ -258,6 +316,12 @@ class Fuzz(unittest.TestCase):
             "bridges": lambda: engine.Bridges([engine.Motion(numbers.normal(size=(4, 20, 3)))], dice.randrange(-1, 3),
                                               dice.choice([0.4, -1, float("nan")])).find(dice.randrange(-1, 3),
                                                                                        dice.randrange(-9, 9), 0, 1e9),
+            "finder": lambda: engine.PersonFinder(anything((4, 5, 3)), dice.choice(["rgb", "hue", "running", "?"]),
+                                                  dice.random() < .5).find(anything((4, 5, 3))),
+            "recogniser": lambda: engine.Recogniser(
+                [("a", [engine.Motion(anything((3, 20, 3)))]), (dice.choice("ab"), [engine.Motion(numbers.normal(size=(4, 20, 3)))])],
+                dice.choice(["dtw", "nearest", "whole-body", "?"])).follow(dice.choice([30, 0, 1e9])).update(
+                    anything((20, 3)), dice.choice(["", "t" * 20, "q" * 20]), dice.random() < .5),
             "project": lambda: engine.project(rig()[0], anything((4, 3))),
             "calibrate": lambda: engine.calibrate(anything((8, 3)), anything((8, 2)), dice.choice([640, 0, -1]), 480),
             "triangulate": lambda: engine.triangulate(rig()[:dice.randrange(3)], anything((2, 4, 2))),

@@ -153,6 +153,58 @@ print(json.dumps(shipping.ship(Mine)))
 """
 
 
+@etude.metric("first_m", unit="m", vectors=[
+    ({"tracks": [{"name": "solution", "rate_hz": 30, "frames": 1, "joints_m": {"hip_centre": [[2, 0, 0]]}}]}, 3.0)])
+def first_m(cell):
+    return cell.motion("solution")[-1][0][0] + shift
+
+
+shift = 1.0
+
+
+class Metrics(PythonCase):
+    def test_a_metric_of_python_is_a_column_with_its_unit_and_its_headline_stays(self):
+        run = etude.run({**SCENARIO, "video": {"trials": [0, 1, 2, 3, 4, 5]}}, metrics=[first_m], progress=False,
+                        output=self.folder / "run")
+        column = run["ik"]["first_m"]
+        self.assertEqual((column.unit, column.metric.version, column.metric.direction), ("m", 1, "lower"))
+        self.assertEqual(run.summary["scenarios"][0]["headline_metrics"], [*SCENARIO["metrics"], "first_m"])
+        table = run["ik"]
+        for cell, value in zip(table["cell"], column):
+            self.assertEqual(float(run.motion(cell, cell.rpartition("/")[2]).positions_m[-1][0][0]) + 1, value)
+        self.assertEqual(len(run.pairs("adaptive", "fixed", "first_m").difference), 12)
+
+    def test_a_vector_that_fails_ends_the_run_before_it_begins(self):
+        wrong = etude.metric("first_m", unit="m", vectors=[
+            {"cell": {"tracks": [{"name": "solution", "rate_hz": 30, "frames": 1}]}, "expected": 2.5}])(first_m)
+        self.addCleanup(etude.metric("first_m", unit="m"), first_m)
+        with self.assertRaisesRegex(etude.EtudeError, "expected 2.5, found 1") as told:
+            etude.run(SCENARIO, metrics=[wrong], progress=False, output=self.folder / "run")
+        self.assertEqual(told.exception.exit_code, 2)
+
+    def test_lists_of_scenarios_keep_theirs_and_what_cannot_be_sent_is_refused(self):
+        entry = {"name": "mine", "exec": ["x"]}
+        added = '{"name": "mine", "exec": ["x"]}'
+        for text, then in (("a: 1\nmetrics: [x, y]\nb: 2\n", f"a: 1\nmetrics: [x, y, {added}]\nb: 2\n"),
+                           ("metrics: [x,\n  y]\n", f"metrics: [x,\n  y, {added}]\n"),
+                           ("a: 1\n", f"a: 1\nmetrics: [{added}]\n")):
+            self.assertEqual(commands._with_metrics("s.yaml", text, [entry]), then)
+        with self.assertRaisesRegex(etude.EtudeError, "no list of metrics in brackets"):
+            commands._with_metrics("s.yaml", "metrics:\n  - x\n", [entry])
+        kept = []
+
+        @etude.metric("sums")
+        def sums(cell):
+            kept.append(cell)
+            return len(kept)
+
+        with self.assertRaisesRegex(ValueError, "metric 'sums' uses 'kept', an open list"):
+            shipping.ship(sums)
+        self.assertNotEqual(shipping.ship(first_m)["exec"][1].split("/")[-3], "methods")
+        with self.assertRaisesRegex(TypeError, "is no metric"):
+            etude.run(SCENARIO, metrics=[make([], 1.0)[2]], output=self.folder / "run")
+
+
 class Runs(PythonCase):
     @classmethod
     def setUpClass(cls):

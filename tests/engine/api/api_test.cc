@@ -2,11 +2,16 @@
 #include <etude/capture.h>
 #include <etude/fuzzy.h>
 #include <etude/kinematics.h>
+#include <etude/recognition.h>
+#include <etude/vision.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/gauss_newton.h"
+#include "engine/recognition/recognise.h"
+#include "engine/recognition/recognisers.h"
+#include "engine/vision/person_finder.h"
 
 namespace etude::engine {
 namespace {
@@ -121,6 +126,63 @@ TEST(ApiCameras, RefusesWhatDeterminesNoCamera) {
   EXPECT_THAT(Refusal([&] { Capture(two, none); }), HasSubstr("0 frames"));
   const std::vector<SeenPeople> short_lists(2, SeenPeople(1, {SeenPerson(3)}));
   EXPECT_THAT(Refusal([&] { Capture(two, short_lists); }), HasSubstr("3 keypoints; allowed: those of layout coco, 17"));
+}
+
+/// A standing body whose right arm swings so many times, its joints told apart by their places alone.
+Motion Swinging(double turns) {
+  Motion motion;
+  for (int frame = 0; frame < 40; ++frame) {
+    Pose& pose = motion.poses.emplace_back();
+    for (std::size_t i = 0; i < kRoleCount; ++i) pose.joints[i] = {0.1 * static_cast<double>(i % 5), 0.1 * i, 0.02 * i};
+    const double angle = 6.283185307179586 * turns * frame / 40;
+    pose[Role::kRightHand] += glm::dvec3(0, 0.3 * std::sin(angle), 0.3 * std::cos(angle));
+  }
+  return motion;
+}
+
+TEST(ApiRecognition, FollowsAsTheEngineDoesToTheLastBit) {
+  const std::vector<TaughtMove> moves = {{"once", {Swinging(1)}}, {"thrice", {Swinging(3)}}};
+  for (const std::string kind : {"whole-body", "dtw", "nearest"}) {
+    RecogniserStream stream = Recogniser(moves, {.kind = kind}).Follow();
+    stream.Ask(1);
+    std::vector<etude::TaughtMove> taught;
+    SkeletonStream shown;
+    for (const TaughtMove& move : moves) {
+      etude::TaughtMove& told = taught.emplace_back(etude::TaughtMove{.name = move.name});
+      BodyMotion body;
+      for (const Pose& pose : move.examples.front().poses) body.poses.push_back({pose.joints});
+      told.examples.push_back(StreamOf(body));
+      shown = told.examples.back();
+    }
+    const auto recogniser = MakeRecogniser({.kind = FindRecogniser(kind)}, taught);
+    ASSERT_TRUE(recogniser);
+    FilterOptions filter;
+    filter.kind = FilterKind::kHolt;
+    const std::vector<AskedMove> asked = {{1, {0, 40}}};
+    const auto trace = FollowStream(**recogniser, 2, SeeStream(shown, filter), asked);
+    ASSERT_TRUE(trace);
+    for (int frame = 0; frame < 40; ++frame) {
+      const Evidence evidence = stream.Update({.pose = Swinging(3).poses[frame], .seen = {}});
+      EXPECT_EQ(evidence.asked, trace->asked[frame]) << kind << frame;
+      EXPECT_THAT(evidence.spotted, testing::ElementsAreArray(trace->SpottedAt(frame)));
+    }
+    EXPECT_GT(trace->asked[39], 0) << kind;
+  }
+}
+
+TEST(ApiVision, FindsThePersonThatTheEngineFinds) {
+  ColourImage room(40, 30, {90, 120, 150}), picture = room;
+  for (int y = 5; y < 25; ++y) {
+    for (int x = 10; x < 20; ++x) picture.At(x, y) = {200, 60, static_cast<std::uint8_t>(40 + x)};
+  }
+  const auto bytes = [](const ColourImage& image) {
+    return std::span(reinterpret_cast<const std::uint8_t*>(image.pixels.data()), 3 * image.pixels.size());
+  };
+  PersonFinder finder(bytes(room), 40, 30);
+  const Mask wanted = ExtractPerson(room, picture, {.segmenter = Segmenter::kHueGated, .change = {}});
+  EXPECT_EQ(finder.Find(bytes(picture)), wanted.pixels);
+  EXPECT_EQ(std::ranges::count(wanted.pixels, 1), 200);
+  EXPECT_THAT(Refusal([&] { finder.Find(bytes(room).subspan(3)); }), HasSubstr("allowed: 40 x 30 x 3"));
 }
 
 }  // namespace

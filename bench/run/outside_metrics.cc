@@ -1,0 +1,113 @@
+#include "bench/run/outside_metrics.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "bench/process/machine.h"
+#include "bench/results/row_json.h"
+#include "bench/tasks/base/answer_fields.h"
+#include "bench/tasks/base/pose_json.h"
+
+namespace etude {
+namespace {
+
+constexpr std::size_t kLongestReason = 200;
+
+Payload SettingOf(const MetricInfo& info, const std::string& task) {
+  Json setting{{"metric", info.id}, {"version", info.version}, {"task", task}, {"unit", "m"}};
+  setting.update(DescribeBody());
+  return PayloadOf(std::move(setting));
+}
+
+/// A metric's value as its program told it, or why there is none.
+MetricValue ValueIn(const std::string& id, const OutsideReply& reply) {
+  const auto missing = [&](std::string why) { return MetricValue{id, std::nullopt, std::move(why)}; };
+  if (reply.status == Status::kUnsolved) return missing(reply.reason);  // "gave no answer: …"
+  if (reply.status != Status::kOk) return missing(fmt::format("its program: {}", reply.reason));
+  AnswerFields fields(*reply.answer);
+  const Json* value = fields.Raw("value");
+  std::string why = fields.Has("reason") ? fields.Text("reason", kLongestReason) : "";
+  if (value == nullptr || !(value->is_number() || value->is_null())) {
+    fields.Note({{}, "value: " + (value == nullptr ? "missing" : ShowJson(*value) + " is no number and not null")});
+  } else if (value->is_null() && why.empty()) {
+    fields.Note({{}, "value: null without a 'reason'"});
+  }
+  if (auto read = fields.Finish(); !read) return missing("its program answered " + ToString(read.error()));
+  return value->is_null() ? missing(std::move(why)) : MetricValue{id, value->get<double>(), ""};
+}
+
+std::string Show(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : "null"; }
+
+}  // namespace
+
+std::string ErrorFileOf(const std::string& folder, const Scenario& scenario, const std::string& program) {
+  return folder.empty() ? "" : folder + "/" + scenario.name + "~" + program + ".txt";
+}
+
+OutsideMetrics::OutsideMetrics(const PreparedScenario& scenario, const std::string& error_folder, const Fence& fence)
+    : scenario_(scenario) {
+  const Scenario& told = scenario.scenario();
+  for (const OutsideMetric& metric : told.outside_metrics) {
+    const MethodEntry& program = metric.program;
+    programs_.emplace_back(OutsideOptions{.command = program.exec,
+                                          .task = "metric",
+                                          .options_json = program.options_json,
+                                          .time_s = program.time_s.value_or(told.limits.time_s),
+                                          .memory_mb = told.limits.memory_mb,
+                                          .error_file = ErrorFileOf(error_folder, told, "metric~" + program.name),
+                                          .fence = fence,
+                                          .files = program.files,
+                                          .seed = scenario.setup().seed});
+    settings_.push_back(SettingOf(metric.info, told.task));
+  }
+}
+
+OutsideReply OutsideMetrics::Ask(std::size_t metric, const std::string& id, const Payload& cell) {
+  const std::string& name = scenario_.scenario().name;
+  return programs_[metric].Ask(name + "/" + scenario_.scenario().outside_metrics[metric].info.id, settings_[metric], id,
+                               cell);
+}
+
+std::string OutsideMetrics::Measure(const std::string& cell, CellResult& result) {
+  if (programs_.empty() || !result.recording) return "";
+  auto json = EncodeRecording(*result.recording);
+  if (!json) json = Json::object();  // which the cell's line tells of
+  const Payload told = PayloadOf(*std::move(json));
+  for (std::size_t m = 0; m < programs_.size(); ++m) {
+    const OutsideReply reply = Ask(m, cell, told);
+    if (!reply.was_asked) return reply.reason;
+    result.metrics.push_back(ValueIn(scenario_.scenario().outside_metrics[m].info.id, reply));
+  }
+  return "";
+}
+
+Result<void> OutsideMetrics::CheckVectors() {
+  for (std::size_t m = 0; m < programs_.size(); ++m) {
+    const OutsideMetric& metric = scenario_.scenario().outside_metrics[m];
+    for (std::size_t v = 0; v < metric.vectors.size(); ++v) {
+      const MetricExample& vector = metric.vectors[v];
+      ASSIGN_OR_RETURN(auto cell, ReadJson(vector.cell_json, vector.place.file));
+      const OutsideReply reply = Ask(m, fmt::format("vector/{}", v), PayloadOf(std::move(cell)));
+      if (!reply.was_asked) return tl::unexpected(OfThisMachine({{}, reply.reason}));
+      const MetricValue found = ValueIn(metric.info.id, reply);
+      const bool agrees = vector.expected && found.value
+                              ? std::abs(*found.value - *vector.expected) <= vector.tolerance
+                              // What failed has said no null.
+                              : !vector.expected && !found.value && found.null_reason.find("its program") != 0;
+      if (agrees) continue;
+      return Fail(vector.place, "metric '{}', test vector {}{}: expected {}, found {}{}", metric.info.id, v + 1,
+                  vector.title.empty() ? "" : " (" + vector.title + ")", Show(vector.expected), Show(found.value),
+                  found.value ? "" : fmt::format(" ({})", found.null_reason));
+    }
+  }
+  return {};
+}
+
+Result<void> CheckMetricVectors(std::span<const PreparedScenario> scenarios, const Fence& fence) {
+  for (const PreparedScenario& scenario : scenarios) {
+    RETURN_IF_ERROR(OutsideMetrics(scenario, "", fence).CheckVectors());
+  }
+  return {};
+}
+
+}  // namespace etude

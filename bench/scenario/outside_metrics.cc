@@ -1,0 +1,209 @@
+#include "bench/scenario/outside_metrics.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "bench/files/json.h"
+#include "bench/keys/key_schema.h"
+#include "bench/scenario/judging.h"
+#include "bench/scenario/methods.h"
+#include "engine/base/names.h"
+#include "engine/motion/body.h"
+
+namespace etude {
+namespace {
+
+constexpr int kMostExampleFrames = 10'000;
+constexpr const char* kIdPattern = "^[a-z][a-z0-9_]{0,59}$";
+/// What a row of cells.jsonl holds beside metrics.
+constexpr std::string_view kRowKeys[] = {"cell",  "scenario", "task",   "condition", "trial",        "clip",
+                                         "units", "method",   "status", "reason",    "null_reasons", "ok_share"};
+/// Their cells keep no motion.
+constexpr std::string_view kTasksWithoutMotion[] = {"pose-distance", "search"};
+
+bool IsMetricId(const std::string& name) {
+  const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
+  return !name.empty() && name.size() <= 60 && name[0] >= 'a' && std::ranges::all_of(name, plain) &&
+         !name.starts_with("digest_") && std::ranges::find(kRowKeys, name) == std::end(kRowKeys);
+}
+
+void ReadName(Fields& metric, OutsideMetric& own) {
+  own.info.id = own.program.name = metric.RequiredText("name");
+  if (!metric.ok() || IsMetricId(own.info.id)) return;
+  metric.Complain(metric.node().Find("name")->place,
+                  fmt::format("'{}' is no name of a metric; allowed: small letters, digits and '_', at most 60, "
+                              "beginning with a letter, and no name of what rows hold already",
+                              own.info.id));
+}
+
+/// Puts `poses` in the place of `frames` and `joints_m`: joints that are not told of are at the origin.
+Result<void> SpellOut(Json& track, const Place& place) {
+  if (!track.is_object()) return Fail(place, "a track must be a mapping, found {}", ShowJson(track));
+  if (track.contains("poses")) return {};
+  const Json frames = track.value("frames", Json());
+  if (!frames.is_number_integer() || frames < 1 || frames > kMostExampleFrames) {
+    return Fail(place, "a track needs 'poses', or 'frames', from 1 to {}, and 'joints_m'; found {}", kMostExampleFrames,
+                ShowJson(track));
+  }
+  const std::size_t roles = AllRoles().size();
+  Json poses(frames.get<std::size_t>(), Json(3 * roles, 0.0));
+  const Json joints = track.value("joints_m", Json::object());
+  for (const auto& [name, places] : joints.items()) {
+    const auto role = FindRole(name);
+    if (!role) return Fail(place, "'joints_m' has '{}', which is none of the twenty joints", name);
+    if (!places.is_array() || places.size() != poses.size()) {
+      return Fail(place, "'{}' must be at {} places, found {}", name, poses.size(), ShowJson(places));
+    }
+    for (std::size_t f = 0; f < places.size(); ++f) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!places[f].is_array() || places[f].size() != 3 || !places[f][axis].is_number()) {
+          return Fail(place, "'{}' must be [x, y, z] in each frame, found {}", name, ShowJson(places[f]));
+        }
+        poses[f][3 * static_cast<std::size_t>(*role) + axis] = places[f][axis];
+      }
+    }
+  }
+  track.erase("frames");
+  track.erase("joints_m");
+  track["poses"] = std::move(poses);
+  return {};
+}
+
+void ReadCell(Fields& fields, MetricExample& example) {
+  const Node* node = fields.Raw("cell");
+  if (node == nullptr) return;
+  example.place = fields.node().place;
+  Json cell = ToJson(*node);
+  if (!cell.is_object() || !cell.contains("tracks") || !cell["tracks"].is_array()) {
+    return fields.Complain(node->place, "'cell' must be a mapping with a list 'tracks', found " + Describe(*node));
+  }
+  for (Json& track : cell["tracks"]) {
+    if (auto told = SpellOut(track, node->place); !told) return fields.Complain(node->place, told.error().message);
+  }
+  if (!cell.contains("extras")) cell["extras"] = Json::object();
+  const auto text = WriteJson(cell);
+  text ? void(example.cell_json = *text) : fields.Complain(node->place, text.error().message);
+}
+
+void ReadExpected(Fields& fields, MetricExample& example) {
+  const Node* node = fields.Raw("expected");
+  const Json value = node == nullptr ? Json() : ToJson(*node);
+  if (value.is_number()) example.expected = value.get<double>();
+  if (node == nullptr || value.is_number() || value.is_null() || value == "null") return;
+  fields.Complain(node->place, "'expected' must be a number or null, found " + Describe(*node));
+}
+
+}  // namespace
+
+const FieldTable<MetricExample>& MetricExampleFields() {
+  using Key = Field<MetricExample>;
+  static const FieldTable<MetricExample> table{
+      {Key::Text("title", &MetricExample::title, "a text", "What it is about.").WhenAbsent("(none)"),
+       {{"cell",
+         {"a mapping: `tracks`, each with `name`, `rate_hz` and `poses`, or `frames` and `joints_m`; `extras`",
+          R"({"type":"object","required":["tracks"]})"},
+         "",
+         "What the program is given; joints that `joints_m` does not tell of are at the origin."},
+        ReadCell},
+       {{"expected",
+         {"a number, or null where the metric has no value", R"({"type":["number","null","string"]})"},
+         "null",
+         "What it must answer."},
+        ReadExpected},
+       Key::Number("tolerance", &MetricExample::tolerance, {0, 1e9}, "How far from it the answer may be.")}};
+  return table;
+}
+
+const FieldTable<OutsideMetric>& OutsideMetricFields() {
+  using Key = Field<OutsideMetric>;
+  static const FieldTable<OutsideMetric> table = [] {
+    const auto info = [](auto member) { return Path(&OutsideMetric::info, member); };
+    std::vector<Field<OutsideMetric>> fields = {
+        {{"name", TextKind("a letter, then at most 59 of a…z, 0…9, '_'", kIdPattern), "",
+          "Its id in rows and tables; no metric of ours."},
+         ReadName}};
+    for (auto& field : FieldsOf<OutsideMetric>(OutsideMethodFields(), &OutsideMetric::program, Keep::kThese,
+                                               {"exec", "options", "files", "time_s"})) {
+      if (field.info.key == "exec") {
+        field.info.fallback = "";
+        field.info.meaning = "The program that measures: never one with a method's.";
+      }
+      if (field.info.key == "time_s") field.info.meaning = "How long it may take over one cell.";
+      fields.push_back(std::move(field));
+    }
+    Append<OutsideMetric>(
+        {Key::Text("unit", info(&MetricInfo::unit), "a text", "Of its values: `mm`, `deg`.").WhenAbsent("(none)"),
+         Key::Name("direction", info(&MetricInfo::direction),
+                   {{"lower", Direction::kLowerIsBetter},
+                    {"higher", Direction::kHigherIsBetter},
+                    {"neither", Direction::kNeither}},
+                   "Which values are better."),
+         Key::Number("version", info(&MetricInfo::version), {1, 1e6},
+                     "To be raised with every change of what it measures: two never mix."),
+         {{"practical", NumberKind({1e-12, 1e12}), "(1; without a unit .01)", "The smallest difference that matters."},
+          [](Fields& metric, OutsideMetric& own) {
+            own.info.practical = metric.Number("practical", own.info.unit.empty() ? 0.01 : 1, {1e-12, 1e12});
+          }},
+         Key::Name("aggregate", info(&MetricInfo::aggregate),
+                   {{"median", Aggregate::kMedian}, {"mean", Aggregate::kMean}}, "How a run sums up its cells."),
+         Key::Name("reads", info(&MetricInfo::reading),
+                   {{"amount", Reading::kAmount},
+                    {"yes-no", Reading::kYesNo},
+                    {"share", Reading::kShare},
+                    {"score", Reading::kScore}},
+                   "What kind of value it is: all but an amount are 0…1 and shown in per cent."),
+         Key::Text("label", info(&MetricInfo::label), "a text", "For people.").WhenAbsent("(`name`)"),
+         Key::Text("definition", info(&MetricInfo::definition), "a text", "What it measures, in one sentence.")
+             .WhenAbsent("(none)"),
+         {{"vectors", ListKind("a list of test vectors", MappingKind("", MetricExampleFields().Describe())), "[]",
+           "Cells whose value is known: the program must give it before the first cell is run."},
+          [](Fields& metric, OutsideMetric& own) {
+            own.vectors = ReadListed(metric, "vectors", "a test vector", MetricExampleFields());
+          }}},
+        fields);
+    return FieldTable<OutsideMetric>{std::move(fields)};
+  }();
+  return table;
+}
+
+ValueKind HeadlineKind() {
+  return {"a list of metrics that the task reports, and of mappings",
+          R"({"type":"array","items":{"anyOf":[{"type":"string"},{"$ref":"#/definitions/outside-metric"}]}})"};
+}
+
+std::vector<std::string> ReadHeadline(Fields& fields, const TaskKind& kind, std::vector<OutsideMetric>& own) {
+  const Node* list = fields.Raw("metrics");
+  if (list != nullptr && list->kind != Node::Kind::kSequence) fields.Texts("metrics");  // complains of it
+  if (list == nullptr || list->items.empty()) return kind.default_metrics;
+  const auto is_own = [](const Node& item) { return item.kind == Node::Kind::kMapping; };
+  std::vector<std::string> names;
+  if (std::ranges::all_of(list->items, is_own)) names = kind.default_metrics;
+  std::vector<std::string> known = MetricsOf(kind);
+  for (const Node& item : list->items) {
+    if (!is_own(item)) {
+      NoteMetric(fields, kind.name, known, item.scalar, item.place, names);
+      continue;
+    }
+    if (std::ranges::find(kTasksWithoutMotion, kind.name) != std::end(kTasksWithoutMotion)) {
+      fields.Complain(item.place,
+                      fmt::format("cells of task {} keep no motion that a metric could be given", kind.name));
+    }
+    auto read = ReadMapping(item, "a metric of one's own", OutsideMetricFields());
+    if (!read) {
+      fields.Complain(read.error().place, read.error().message);
+      continue;
+    }
+    MetricInfo& info = read->info;
+    if (info.label.empty()) info.label = info.id;
+    info.domain = "Of the run's own";
+    if (auto added = AddMetric(info); !added) fields.Complain(item.place, added.error().message);
+    known.push_back(info.id);
+    NoteMetric(fields, kind.name, known, info.id, item.place, names);
+    own.push_back(*std::move(read));
+  }
+  return names;
+}
+
+}  // namespace etude

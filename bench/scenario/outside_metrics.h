@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/scenario/scenario.h"
+#include "engine/document/fields.h"
+
+namespace etude {
+
+/// The keys of a metric that another program measures, and of one of its test vectors.
+const FieldTable<OutsideMetric>& OutsideMetricFields();
+const FieldTable<MetricExample>& MetricExampleFields();
+
+/// The values of `metrics`: names, and mappings of OutsideMetricFields.
+ValueKind HeadlineKind();
+
+/// Reads `metrics`: the headline metrics; the task's own when the file names none of them. Metrics of the scenario's
+/// own go into `own`, too, and are added to the catalogue (AddMetric). Complaints stay in `fields`.
+std::vector<std::string> ReadHeadline(Fields& fields, const TaskKind& kind, std::vector<OutsideMetric>& own);
+
+}  // namespace etude
