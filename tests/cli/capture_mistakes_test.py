@@ -393,7 +393,7 @@ class Mistakes(EtudeCase):
 
     def test_the_page_tells_films_residuals_and_mends(self):
         page = self.folder / "page.html"
-        told, errors, _ = self.capture(mistake=FEWEST[0], cameras=2, more=("--report", page))
+        told, errors, _ = self.capture(mistake=FEWEST[1], cameras=2, more=("--report", page))
         self.check(told, errors)
         html = page.read_text()
         for line in told.splitlines():
