@@ -55,7 +55,7 @@ std::string VerdictBadges(const MethodFinding& finding) {
                        VerdictSign(verdict), words);
   };
   if (IsEveryWorldItsOwn(finding.unit) && finding.beyond.as_on_these) {
-    return badge(finding.verdict, fmt::format("{} and {} like them", finding.Words(), others));
+    return badge(finding.verdict, fmt::format("{} and others", finding.Words()));
   }
   std::string here = badge(finding.verdict, finding.Words());
   if (!finding.is_compared) return here;

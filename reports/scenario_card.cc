@@ -99,7 +99,7 @@ std::string Expectations(const ScenarioSummary& scenario) {
                                    : "? undecided",
                         EscapeMarkup(e.text), EscapeMarkup(e.detail));
   }
-  const std::string title = fmt::format("Expected: {} of {} met{}", met, scenario.expectations.size(),
+  const std::string title = fmt::format("Expectations: {}/{} met{}", met, scenario.expectations.size(),
                                         unmet > 0 ? fmt::format(", {} not", unmet) : "");
   return Folded(title, html + "</ul>", unmet > 0 ? " class=\"unmet\"" : "");
 }
@@ -162,7 +162,7 @@ std::string AnswerHtml(const MethodFinding& finding, std::string_view begin) {
 /// Writes the answer against the baseline, and against the strongest other method where that is another one.
 std::string Answer(const ScenarioFindings& findings) {
   std::string html = AnswerHtml(findings.answer, "");
-  return HasOtherRival(findings) ? html + AnswerHtml(findings.rival, "<b>The strongest other:</b> ") : html;
+  return HasOtherRival(findings) ? html + AnswerHtml(findings.rival, "<b>Strongest other:</b> ") : html;
 }
 
 /// Writes a few figures of the method in question, its baseline and the strongest other one.
@@ -262,8 +262,7 @@ std::string WriteScenarioCard(const RunData& run, std::size_t index, const Scena
       picture.empty() ? "<p class=\"quiet\">No cell gave a value that could be drawn.</p></div>" : picture + "</div>";
   html += WatchHtml(run, index);
   html += Folded("Film and stills", ScenarioFilms(scenario, media) + Strip(scenario, media) + Plates(scenario, media));
-  html += Folded(fmt::format("What is compared: {}", Plural(std::ssize(scenario.methods), "method")),
-                 WhatIsCompared(scenario));
+  html += Folded("What is compared", WhatIsCompared(scenario));
   html += Folded("All metrics", OverviewTableHtml(run, scenario));
   html += Folded(fmt::format("All {}", Plural(static_cast<long long>(CountComparisons(scenario)), "comparison")),
                  ComparisonTableHtml(scenario) + AcrossTableHtml(scenario));

@@ -69,8 +69,7 @@ std::vector<StripRow> RowsOf(const RunData& run, const ScenarioSummary& scenario
   return rows;
 }
 
-std::string Strip(const StripRow& row, const Axis& axis, double top, const ScenarioSummary& scenario,
-                  const MetricWords& words) {
+std::string Strip(const StripRow& row, const Axis& axis, double top, const ScenarioSummary& scenario) {
   const std::string& method = scenario.methods[row.method];
   const double middle = top + kLabel + kSpread + 4;
   std::vector<double> places;
@@ -120,7 +119,7 @@ std::string StripsHtml(const RunData& run, const ScenarioSummary& scenario, cons
   std::string strips, described;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::string name = MethodLabel(scenario, scenario.methods[rows[i].method]);
-    strips += Strip(rows[i], axis, kRow * static_cast<double>(i), scenario, words);
+    strips += Strip(rows[i], axis, kRow * static_cast<double>(i), scenario);
     described += fmt::format("{}: {}{}. ", name, FormatNumber(rows[i].typical), words.suffix);
   }
   return fmt::format(

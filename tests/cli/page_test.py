@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """The page of a run as its readers meet it, in a headless browser: at every width, in every mode, by keyboard."""
+import json
 import pathlib
+import re
 import shlex
 import unittest
 
 from browser import CHROMIUM, Browser
-from etude_case import EtudeCase
+from etude_case import IK, EtudeCase
 
 HOSTILE = "Is <b id=broken>this</b> & \\\"that\\\" text?"
 SCENARIO = f"""scenarios:
@@ -76,8 +78,10 @@ class Page(EtudeCase):
         cls.browser = cls.enterClassContext(Browser())
 
     def test_it_fits_every_width_and_mode_and_can_be_read(self):
-        for width in (400, 800, 1280, 2560):
-            for mode in ({}, {"scheme": "dark"}, {"forced": True}, {"script": False}, {"media": "print"}):
+        narrow_and_wide = ({"scheme": "dark"}, {"forced": True}, {"script": False})
+        modes = {400: ({}, *narrow_and_wide), 800: ({}, {"media": "print"}), 1280: ({}, *narrow_and_wide), 2560: ({},)}
+        for width, each in modes.items():
+            for mode in each:
                 with self.subTest(width=width, **mode):
                     self.browser.open(self.page, width, **mode)
                     self.browser.ask(OPEN)
@@ -164,7 +168,7 @@ class Page(EtudeCase):
         self.assertEqual(browser.ask(values), sorted(first, reverse=True))
         browser.ask("table.tHead.rows[0].cells[2].querySelector('button').click()")
         self.assertEqual(browser.ask(values), first)
-        browser.ask("const f = tools.querySelector('input'); f.value = 'least noise=5'; f.dispatchEvent(new Event('input'))")
+        browser.ask("const f = tools.querySelector('input'); f.value = 'least deg=5'; f.dispatchEvent(new Event('input'))")
         self.assertEqual(len(browser.ask(values)), 1)
         browser.ask("[...tools.querySelectorAll('button')].find((b) => b.textContent === 'TSV').click()")
         head, row = browser.ask("copied").splitlines()
@@ -193,6 +197,34 @@ class Page(EtudeCase):
                               "uses: uses.length, lost: uses.filter((u) => !ids.has(u.getAttribute('href'))).length,"
                               "bare: uses.filter((u) => !u.style.fill.startsWith('rgb')).length}; })()")
         self.assertEqual({**checked, "uses": checked["uses"] > 10}, {"error": False, "uses": True, "lost": 0, "bare": 0})
+
+
+class Descriptions(EtudeCase):
+    def test_what_methods_are_is_told_and_changes_nothing_of_the_results(self):
+        folders = []
+        for name, text in (("bare", IK), ("told", IK.replace("weights: fixed}", "weights: fixed, description: Stays.}")
+                                          .replace("question:", "description: Bodies reach.\nquestion:"))):
+            scenario = self.folder / f"{name}.yaml"
+            scenario.write_text(text)
+            folders.append(self.folder / name)
+            self.run_suite(scenario, out=folders[-1])
+        self.assertEqual(*[(folder / "cells.jsonl").read_bytes() for folder in folders])
+        summaries = [json.loads((folder / "summary.json").read_text())["scenarios"][0] for folder in folders]
+        self.assertEqual(summaries[0]["descriptions"], ["solver ccd, weights fixed", "solver damped-least-squares"])
+        self.assertEqual((summaries[1]["description"], summaries[1]["descriptions"][0]), ("Bodies reach.", "Stays."))
+        baseline = self.folder / "baseline.json"
+        self.assertEqual(self.etude("gate", folders[0], "--baseline", baseline, "--update").returncode, 0)
+        gate = self.etude("gate", folders[1], "--baseline", baseline)
+        self.assertEqual(gate.returncode, 0, gate.stderr)
+        self.assertNotIn("changed", gate.stdout)
+
+    def test_every_method_of_the_quick_suite_has_one(self):
+        files = sorted(pathlib.Path("scenarios/quick").glob("*.yaml"))
+        self.assertGreaterEqual(len(files), 5)
+        for file in files:
+            text = file.read_text()
+            methods = re.findall(r"^  - \{name: .*?\}( *#.*)?$", text, re.MULTILINE | re.DOTALL)
+            self.assertEqual(len(re.findall(r"\bdescription: ", text)), len(methods) + 1, file)
 
 
 if __name__ == "__main__":

@@ -26,7 +26,7 @@ TEST(Badges, NameBothVerdicts) {
   EXPECT_THAT(differ, HasSubstr("</span> inconclusive for other clips</span>"));
   EXPECT_THAT(VerdictBadges(Found(SamplingUnit::kClip, true, std::nullopt)), HasSubstr("no verdict for other clips"));
   EXPECT_THAT(VerdictBadges(Found(SamplingUnit::kWorld, false, Verdict::kBetter)),
-              HasSubstr("better on these worlds and other worlds like them"));
+              HasSubstr("better on these worlds and others"));
 }
 
 TEST(Badges, PutWhatHoldsHereOnlyInBrackets) {
