@@ -314,7 +314,7 @@ const glRenderer = (canvas, onLost) => {
       gl.drawElementsInstanced(gl.TRIANGLES, ids.length, gl.UNSIGNED_SHORT, 0, capsules.length);
     };
     const solid = limbsOf(scene, false), ghosts = limbsOf(scene, true);
-    // A shadow falls once on each pixel of the floor, however many limbs cast it.
+    // A shadow falls once on each pixel of the floor.
     gl.enable(gl.STENCIL_TEST);
     gl.stencilFunc(gl.EQUAL, 0, 255);
     gl.stencilOp(gl.KEEP, gl.KEEP, gl.INCR);
@@ -351,7 +351,7 @@ const flatRenderer = (canvas) => {
     context.stroke();
     const strokes = [...limbsOf(scene, false), ...limbsOf(scene, true)].map((limb) => {
       const p = project(limb.slice(0, 3)), q = project(limb.slice(4, 7)), depth = (p[2] + q[2]) / 2;
-      return {p, q, depth, wide: (limb[3] + limb[7]) * focus / depth, colour: [0, 1, 2].map((i) => (limb[8 + i] + limb[12 + i]) / 2), alpha: limb[11]};
+      return {p, q, depth, wide: (limb[3] + limb[7]) * focus / depth * limb[15] ** .3, colour: [0, 1, 2].map((i) => (limb[8 + i] + limb[12 + i]) / 2), alpha: limb[11]};
     });
     for (const {p, q, wide, colour, alpha} of strokes.sort((a, b) => b.depth - a.depth)) {
       if (p[2] < .05 || q[2] < .05) continue;
@@ -406,7 +406,7 @@ const show = (world, cells) => {
   const labelOf = (body) => world.cells.length > 1 && body.cell >= 0 && body.label !== world.cells[body.cell].method ?
       `${body.label} (${world.cells[body.cell].method})` : body.label;
 
-  // Methods stand beside each other when they are apart; a partner always beside.
+  // Methods stand beside each other when apart; a partner always.
   const box = () => {
     const low = [1e9, 1e9, 1e9], high = [-1e9, -1e9, -1e9];
     for (const i of chosen) {
@@ -643,7 +643,7 @@ const show = (world, cells) => {
       if (state.t > last) state.t = last;
       dirty = true;
     }
-    // Too slow: half as sharp, then without WebGL.
+    // Slow: half as sharp, then 2D.
     slow = state.playing && now - before > 50 ? slow + 1 : 0;
     if (slow > 9) {
       slow = 0;
