@@ -170,11 +170,9 @@ std::vector<Still> CapturePanel::Stills() const {
 std::string CapturePanel::Title() const { return clip_.empty() ? method_ : fmt::format("{} on {}", method_, clip_); }
 
 std::string CapturePanel::ErrorWords(int frame) const {
-  std::string words = method_;
-  if (errors_mm_.empty() && !error_mm_) return words;
-  words += " · per-joint error";
-  if (!errors_mm_.empty()) words += fmt::format(" {:.0f} mm now", errors_mm_[static_cast<std::size_t>(frame)]);
-  if (error_mm_) words += fmt::format("{} {:.0f} mm on average", errors_mm_.empty() ? "" : ",", *error_mm_);
+  std::string words;
+  if (!errors_mm_.empty()) words = fmt::format("{:.0f} mm now", errors_mm_[static_cast<std::size_t>(frame)]);
+  if (error_mm_) words += fmt::format("{}{:.0f} mm on average", words.empty() ? "" : ", ", *error_mm_);
   return words;
 }
 

@@ -14,8 +14,8 @@
 
 namespace etude {
 
-/// The right half of the film: the views of two cameras, the person as found in the pictures (tinted, outlined) and the
-/// skeleton as recovered from both.
+/// One method's capture: the views of its cameras, the person as found in the pictures (tinted, outlined) and the
+/// skeleton as recovered from them.
 class CapturePanel {
  public:
   /// Fails when the recording's facts cannot be read, or do not belong to its tracks.
@@ -26,11 +26,14 @@ class CapturePanel {
   std::size_t Cameras() const { return extras_.views.size(); }
   /// Names a camera: "First camera".
   std::string CameraName(std::size_t camera) const;
-  /// Gives the title: "adaptive on clap".
-  std::string Title() const;
   /// Gives a picture of each camera as it was taken in the middle of the motion.
   std::vector<Still> Stills() const;
-  /// Tells the error: "adaptive · per-joint error 43 mm now, 51 mm on average".
+  /// Gives the title: "adaptive on clap".
+  std::string Title() const;
+  const std::string& Method() const { return method_; }
+  /// Names the clip that was performed: "clap"; empty when the recording does not tell.
+  const std::string& Clip() const { return clip_; }
+  /// Tells the error: "43 mm now, 51 mm on average"; empty when it was not measured.
   std::string ErrorWords(int frame) const;
 
   /// Renders one camera's view, without noise.
@@ -41,6 +44,7 @@ class CapturePanel {
   const Mask& MaskOf(std::size_t camera, int frame) const {
     return extras_.views[camera].masks[static_cast<std::size_t>(frame)];
   }
+  const BodyMotion& Truth() const { return truth_; }
   const BodyPose& Recovered(int frame) const { return recovered_.poses[static_cast<std::size_t>(frame)]; }
   const Camera& CameraOf(std::size_t camera) const { return extras_.views[camera].truth; }
   /// Gives the part of the camera's pictures that holds the person in every frame, pixels.

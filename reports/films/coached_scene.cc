@@ -200,8 +200,11 @@ void CoachedScene::DrawStage(Canvas& canvas, int frame) {
   DrawTag(canvas, kStage, fmt::format("The coach: {}", InForce(facts_.modes, frame).mode));
   std::string why;
   for (const auto& decision : facts_.decisions) {
-    if (decision.frame <= frame && frame < decision.frame + 2 * kFilmRate && !decision.why.empty()) {
-      why = fmt::format("{}: {}", decision.event, decision.why);
+    // What the coach does about the music and between clips is for its log.
+    const bool is_said = decision.event != "tag" && decision.event != "transition";
+    if (is_said && decision.frame <= frame && frame < decision.frame + 2 * kFilmRate && !decision.why.empty()) {
+      // Of a mistake its name, not the evidence.
+      why = decision.event == "wrong" ? "wrong: " + decision.why.substr(0, decision.why.find(':')) : decision.why;
     }
   }
   DrawCaption(canvas, kSaid, InForce(facts_.words, frame).say, why.empty() ? "the learner dances on the right" : why);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "reports/films/capture_scene.h"
 #include "reports/films/capture_stills.h"
 #include "reports/films/cast.h"
 #include "reports/films/coached_scene.h"
@@ -44,13 +45,13 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
   };
   if (std::ranges::none_of(run.scenarios, has_pictures)) return;
   std::string& why = media.film.why_not;
-  const auto coach_cell = ChooseCell(run, "transition", "coach");
   const auto capture_cell = ChooseCell(run, "capture", "recovered");
+  const auto coach_cell = capture_cell ? std::nullopt : ChooseCell(run, "transition", "coach");
   // A coach alone is seen better beside the other methods.
   const auto compares = [&](const ScenarioSummary& scenario) { return FindTransitionRace(run, scenario).has_value(); };
   if (!capture_cell && std::ranges::any_of(run.scenarios, compares)) return;
   if (!coach_cell && !capture_cell) {
-    why = "There is no film of coach and cameras: this run kept no recordings of a coach or a capture.";
+    why = "There is no film of coach or cameras: this run kept no recordings of a coach or a capture.";
     return;
   }
   const auto renderer = lazy.Get();
@@ -58,33 +59,27 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
     why = "There are no pictures: " + ToString(renderer.error());
     return;
   }
-
-  std::optional<CoachPanel> coach;
-  std::optional<CapturePanel> capture;
+  const auto shoot = [&](Scene&& scene) {
+    Film film = Shoot(scene, paths.films / "etude.mp4", watch);
+    if (!film.why_not.empty()) Note(why, film.why_not);
+    film.why_not = why;
+    media.film = std::move(film);
+  };
   if (coach_cell) {
-    if (auto made = CoachPanel::Make(*coach_cell, StageScene::kLongest)) {
-      coach = std::move(*made);
-    } else {
-      Note(why, "The coach cannot be shown: " + ToString(made.error()));
-    }
+    auto made = CoachPanel::Make(*coach_cell, StageScene::kLongest);
+    if (made) return shoot(StageScene(**renderer, std::move(*made)));
+    return Note(why, "The coach cannot be shown: " + ToString(made.error()));
   }
-  if (capture_cell) {
-    if (auto made = CapturePanel::Make(run, *capture_cell)) {
-      media.strip = DrawStrip(*made, **renderer);
-      media.stills = made->Stills();
-      media.strip_scenario = capture_cell->scenario->name;
-      if (auto saved = SaveStripPictures(*made, **renderer, paths.pictures); !saved) Note(why, ToString(saved.error()));
-      capture = std::move(*made);
-    } else {
-      Note(why, "The capture cannot be shown: " + ToString(made.error()));
-    }
+  const auto typical = CapturePanel::Make(run, *capture_cell);
+  auto captures = FindCaptures(run, *capture_cell);
+  if (!typical || !captures) {
+    return Note(why, "The capture cannot be shown: " + ToString(typical ? captures.error() : typical.error()));
   }
-  if (!coach && !capture) return;
-  StageScene scene(**renderer, std::move(coach), std::move(capture));
-  Film film = Shoot(scene, paths.films / "etude.mp4", watch);
-  if (!film.why_not.empty()) Note(why, film.why_not);
-  film.why_not = why;
-  media.film = std::move(film);
+  media.strip = DrawStrip(*typical, **renderer);
+  media.stills = typical->Stills();
+  media.strip_scenario = capture_cell->scenario->name;
+  if (auto saved = SaveStripPictures(*typical, **renderer, paths.pictures); !saved) Note(why, ToString(saved.error()));
+  shoot(CaptureScene(**renderer, std::move(*captures)));
 }
 
 // Of one recorded cell of each capture scenario, if it keeps moments.

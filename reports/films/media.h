@@ -23,11 +23,11 @@ struct ScenarioPicture {
 
 /// All pictures and films made from a run's recordings, with plain words for those that could not be made.
 struct Media {
-  Film film;  ///< of the run: coach and cameras; empty for tasks without either, and where a scenario's film shows all
-  std::vector<Picture> strip;           ///< moments of the capture: stereo pictures, mask, recovered skeleton
-  std::vector<Still> stills;            ///< the same capture's middle frame as its cameras took it
-  std::string strip_scenario;           ///< the scenario whose card shows the strip and the stills
-  std::vector<ScenarioPicture> plates;  ///< of captures: every stage of some moments
+  Film film;  ///< of the run: a capture, or a coach alone; empty for other tasks, and where a scenario's film shows all
+  std::vector<Picture> strip;                ///< moments of the capture: stereo pictures, mask, recovered skeleton
+  std::vector<Still> stills;                 ///< the same capture's middle frame as its cameras took it
+  std::string strip_scenario;                ///< the scenario whose card shows the strip and the stills
+  std::vector<ScenarioPicture> plates;       ///< of captures: every stage of some moments
   std::vector<ScenarioFilm> scenario_films;  ///< of single scenarios: methods side by side, sessions
 };
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,7 +8,6 @@
 #include "engine/motion/body.h"
 #include "engine/motion/character.h"
 #include "reports/films/canvas.h"
-#include "reports/films/capture_panel.h"
 #include "reports/films/cast.h"
 #include "reports/films/film.h"
 #include "reports/transitions/recorded_requests.h"
@@ -17,7 +15,7 @@
 
 namespace etude {
 
-/// The left half of the film: the coach changes from one move to another, seen from the front by a
+/// The coach changes from one move to another, seen from the front by a
 /// camera that follows when it must. Around each transition point stand its distances.
 class CoachPanel {
  public:
@@ -47,15 +45,13 @@ class CoachPanel {
   std::string method_;
 };
 
-/// The run's film: the coach changes moves; beside it a performer, as two cameras saw and recovered the body. One of
-/// the two alone has the whole frame.
+/// The film of a run whose coach has nothing beside it: it changes moves.
 class StageScene : public Scene {
  public:
-  /// The most frames of a coach's motion that are shown.
+  /// The most frames of a motion that are shown.
   static constexpr int kLongest = 7 * kFilmRate;
 
-  /// Shows the coach, the capture, or both; at least one is there.
-  StageScene(Renderer& renderer, std::optional<CoachPanel> coach, std::optional<CapturePanel> capture);
+  StageScene(Renderer& renderer, CoachPanel coach) : renderer_(renderer), coach_(std::move(coach)) {}
 
   int Frames() const override;
   int PosterFrame() const override;
@@ -63,12 +59,8 @@ class StageScene : public Scene {
   Canvas Draw(int frame) override;
 
  private:
-  const ColourImage& ViewPicture(std::size_t camera, int frame, const Box& box);
-
   Renderer& renderer_;
-  std::optional<CoachPanel> coach_;
-  std::optional<CapturePanel> capture_;
-  std::map<std::pair<std::size_t, int>, ColourImage> views_;
+  CoachPanel coach_;
 };
 
 }  // namespace etude

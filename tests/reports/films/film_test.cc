@@ -7,6 +7,7 @@
 #include "bench/recordings/capture_extras.h"
 #include "reports/films/canvas.h"
 #include "reports/films/capture_panel.h"
+#include "reports/films/capture_scene.h"
 #include "reports/films/capture_stills.h"
 #include "reports/films/cast.h"
 #include "reports/films/look.h"
@@ -177,30 +178,54 @@ double EmptyShare(const ColourImage& picture, int from, int to) {
   return static_cast<double>(empty) / all;
 }
 
-TEST(StageScene, GivesTheFrameToWhatThereIs) {
+TEST(StageScene, GivesTheWholeFrameToTheCoach) {
   RunData run = ExampleRun();
   AddRecordings(run);
-  const auto coach = CoachPanel::Make(*ChooseCell(run, "transition", "coach"), StageScene::kLongest);
-  const auto capture = CapturePanel::Make(run, *ChooseCell(run, "capture", "recovered"));
-  ASSERT_TRUE(coach && capture);
-  auto renderer = Renderer::Create();
-  ASSERT_TRUE(renderer.has_value()) << ToString(renderer.error());
+  auto coach = CoachPanel::Make(*ChooseCell(run, "transition", "coach"), StageScene::kLongest);
+  ASSERT_TRUE(coach);
   EXPECT_EQ(EmptyShare(BeginFrame("nothing").Pixels(), 20, 1260), 1);
-  const struct {
-    std::optional<CoachPanel> coach;
-    std::optional<CapturePanel> capture;
-    double most_empty;
-    const char* words;
-  } cases[] = {{*coach, *capture, 0.05, "Left: the coach"},
-               {*coach, {}, 0.05, "The coach"},
-               {{}, *capture, 0.35, "A performer"}};
-  for (const auto& shown : cases) {
-    StageScene scene(**renderer, shown.coach, shown.capture);
-    EXPECT_THAT(scene.Words(), HasSubstr(shown.words));
-    const ColourImage picture = scene.Draw(scene.PosterFrame()).Pixels();
-    EXPECT_LT(EmptyShare(picture, 20, 640), shown.most_empty) << shown.words;
-    EXPECT_LT(EmptyShare(picture, 640, 1260), shown.most_empty) << shown.words;
+  StageScene scene(**SharedRenderer(), std::move(*coach));
+  EXPECT_THAT(scene.Words(), HasSubstr("The coach"));
+  EXPECT_LT(EmptyShare(scene.Draw(scene.PosterFrame()).Pixels(), 20, 1260), 0.05);
+}
+
+TEST(CaptureScene, ShowsTheMethodsOfOneWorldSideBySideAndColoursTheirErrors) {
+  RunData run = ExampleRun();
+  AddRecordings(run);
+  // The same capture by another method, which put one hand half a metre too high.
+  const CastCell first = *ChooseCell(run, "capture", "recovered");
+  CellRecording worse = run.recordings.back();
+  worse.cell = [&] {
+    Row row = *first.row;
+    row.method = "ccd-fixed";
+    return row.Id();
+  }();
+  for (Track& track : worse.recording.tracks) {
+    if (track.name != "recovered") continue;
+    for (BodyPose& pose : track.motion.poses) pose[Role::kLeftHand].y += 0.5;
   }
+  const auto alone = FindCaptures(run, first);
+  ASSERT_TRUE(alone);
+  EXPECT_EQ(alone->size(), 1u);
+  run.recordings.push_back(worse);
+  const auto both = FindCaptures(run, *ChooseCell(run, "capture", "recovered"));
+  ASSERT_TRUE(both) << ToString(both.error());
+  ASSERT_EQ(both->size(), 2u);
+  CaptureScene scene(**SharedRenderer(), *both);
+  EXPECT_THAT(scene.Words(), HasSubstr("side by side: ccd-fixed, ccd-adaptive"));
+  const ColourImage picture = scene.Draw(scene.PosterFrame()).Pixels();
+  const auto red_from = [&](int from, int to) {
+    int red = 0;
+    for (int y = 130; y < 640; ++y) {
+      for (int x = from; x < to; ++x) {
+        const Rgb8 pixel = picture.At(x, y);
+        red += pixel.r > 240 && pixel.g < 90 && pixel.b < 90;
+      }
+    }
+    return red;
+  };
+  EXPECT_GT(red_from(460, 858), 40) << "the hand";
+  EXPECT_EQ(red_from(866, 1264), 0) << "the other method is not as far off";
 }
 
 }  // namespace

@@ -1,0 +1,167 @@
+#include "reports/films/capture_scene.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/base/angles.h"
+#include "reports/films/look.h"
+
+namespace etude {
+namespace {
+
+constexpr std::array<Box, 2> kSeenBoxes{{{12, 52, 432, 324}, {12, 384, 432, 324}}};
+constexpr Box kSkeletonsBox{456, 52, 812, 656};
+constexpr double kSkeletonTop = 78, kSkeletonBottom = 62;
+constexpr Paint kGround{0.13, 0.15, 0.17, 1};
+constexpr Paint kTruthBone{0.62, 0.66, 0.69, 0.85};
+// Centimetres of a joint's error from which on a bone is red.
+constexpr double kReddest = 12;
+
+/// Gives green for no error, yellow halfway, red for kReddest centimetres and more.
+Paint PaintOfError(double cm) {
+  const double share = std::clamp(cm / kReddest, 0.0, 1.0);
+  const double red = std::min(1.0, 2 * share), green = std::min(1.0, 2 - 2 * share);
+  return {0.30 + 0.68 * red, 0.32 + 0.50 * green, 0.30, 1};
+}
+
+Box ColumnOf(std::size_t index, std::size_t count) {
+  constexpr double kBetween = 8;
+  const double width =
+      std::floor((kSkeletonsBox.width - kBetween * static_cast<double>(count - 1)) / static_cast<double>(count));
+  return {kSkeletonsBox.x + static_cast<double>(index) * (width + kBetween), kSkeletonsBox.y, width,
+          kSkeletonsBox.height};
+}
+
+/// Puts a camera, somewhat to the side of the way the body faces, such that every true pose is seen with some air.
+Camera CameraBefore(const BodyMotion& truth, double width, double height) {
+  glm::dvec3 low(1e9), high(-1e9);
+  for (const BodyPose& pose : truth.poses) {
+    for (const glm::dvec3& joint : pose.joints) low = glm::min(low, joint), high = glm::max(high, joint);
+  }
+  constexpr double kAway = 6, kAir = 0.35;  // metres
+  const double heading = Heading(truth.poses.front()) + Radians(20);
+  const glm::dvec3 middle = 0.5 * (low + high);
+  const double across = glm::length(glm::dvec2(high.x - low.x, high.z - low.z)) + kAir;
+  const double tall = high.y - low.y + kAir;
+  Intrinsics inside{.width = static_cast<int>(width), .height = static_cast<int>(height)};
+  inside.fx = inside.fy = kAway * std::min(width / across, height / tall);
+  inside.cx = width / 2;
+  inside.cy = height / 2;
+  const glm::dvec3 eye = middle + kAway * glm::dvec3(std::sin(heading), 0.12, std::cos(heading));
+  return LookAt(inside, eye, middle);
+}
+
+void DrawErrorLegend(Canvas& canvas, const Box& box) {
+  constexpr double kSize = 17, kBar = 150;
+  const double y = box.y + 26;
+  canvas.DrawLine({box.x + 18, y - 6}, {box.x + 46, y - 6}, 8, kTruthBone);
+  canvas.DrawText({box.x + 56, y}, "truth", kSize, kSoftInk, 60);
+  const double right = box.x + box.width - 18;
+  const std::string most = fmt::format("{:g} cm off and more", kReddest);
+  const double words = canvas.TextWidth(most, kSize);
+  canvas.DrawText({right - words, y}, most, kSize, kSoftInk, words + 1);
+  const double left = right - words - 12 - kBar;
+  for (int i = 0; i < static_cast<int>(kBar); ++i) {
+    canvas.FillBox({left + i, y - 12, 1, 12}, PaintOfError(kReddest * i / kBar));
+  }
+  const std::string least = "recovered: 0";
+  canvas.DrawText({left - 10 - canvas.TextWidth(least, kSize), y}, least, kSize, kSoftInk, 200);
+}
+
+}  // namespace
+
+Result<std::vector<CapturePanel>> FindCaptures(const RunData& run, const CastCell& typical) {
+  std::vector<CapturePanel> captures;
+  for (const std::string& method : typical.scenario->methods) {
+    const auto row = std::ranges::find_if(run.rows, [&](const Row& each) {
+      return each.scenario == typical.row->scenario && each.trial == typical.row->trial && each.method == method &&
+             CompactLabel(each.condition) == CompactLabel(typical.row->condition);
+    });
+    if (row == run.rows.end() || row->result.status != Status::kOk) continue;
+    const auto recorded = std::ranges::find(run.recordings, row->Id(), &CellRecording::cell);
+    if (recorded == run.recordings.end() || captures.size() == CaptureScene::kMostMethods) continue;
+    ASSIGN_OR_RETURN(auto panel, CapturePanel::Make(run, {typical.scenario, &*row, &recorded->recording}));
+    captures.push_back(std::move(panel));
+  }
+  return captures;
+}
+
+CaptureScene::CaptureScene(Renderer& renderer, std::vector<CapturePanel> captures)
+    : renderer_(renderer), captures_(std::move(captures)) {
+  const Box column = ColumnOf(0, captures_.size());
+  camera_ = CameraBefore(captures_.front().Truth(), column.width, column.height - kSkeletonTop - kSkeletonBottom);
+}
+
+int CaptureScene::Frames() const { return std::min(captures_.front().Frames(), kLongest); }
+
+std::string CaptureScene::Methods() const {
+  std::string methods;
+  for (const CapturePanel& capture : captures_) methods += (methods.empty() ? "" : ", ") + capture.Method();
+  return methods;
+}
+
+std::string CaptureScene::Words() const {
+  const CapturePanel& first = captures_.front();
+  return fmt::format(
+      "Left: a performer{} as two cameras saw it (cut to the middle); tinted, the person as found in the pictures; "
+      "over "
+      "it, the skeleton that {} recovered. Right: the true skeleton (grey) and the recovered one, its bones coloured "
+      "by "
+      "how far they are off{} {}.",
+      first.Clip().empty() ? "" : " of " + first.Clip(), first.Method(),
+      captures_.size() > 1 ? "; side by side:" : ", by", Methods());
+}
+
+void CaptureScene::DrawSeen(Canvas& canvas, int frame) const {
+  const CapturePanel& first = captures_.front();
+  for (std::size_t camera = 0; camera < std::min(kSeenBoxes.size(), first.Cameras()); ++camera) {
+    const Box& box = kSeenBoxes[camera];
+    Canvas picture(static_cast<int>(box.width), static_cast<int>(box.height));
+    first.Draw(picture, renderer_, camera, frame);
+    canvas.Put(picture.Copy(), static_cast<int>(box.x), static_cast<int>(box.y), kPanelRadius);
+    DrawTag(canvas, box, first.CameraName(camera));
+  }
+}
+
+void CaptureScene::DrawSkeletons(Canvas& canvas, const CapturePanel& capture, const Box& box, int frame) const {
+  const BodyPose& truth = capture.Truth().poses[static_cast<std::size_t>(frame)];
+  const BodyPose& recovered = capture.Recovered(frame);
+  const auto seen = [&](const glm::dvec3& joint) -> std::optional<glm::dvec2> {
+    const auto pixel = Project(camera_, joint);
+    // What a method put far away is not drawn over its neighbour.
+    if (!pixel || pixel->x < 0 || pixel->x > box.width) return std::nullopt;
+    return glm::dvec2(box.x, box.y + kSkeletonTop) + *pixel;
+  };
+  for (const Bone& bone : AllBones()) {
+    const auto from = seen(truth[bone.parent]), to = seen(truth[bone.child]);
+    if (from && to) canvas.DrawLine(*from, *to, 9, kTruthBone);
+  }
+  const auto off_cm = [&](Role role) { return 100 * glm::distance(truth[role], recovered[role]); };
+  for (const Bone& bone : AllBones()) {
+    const auto from = seen(recovered[bone.parent]), to = seen(recovered[bone.child]);
+    if (from && to) canvas.DrawLine(*from, *to, 4, PaintOfError(0.5 * (off_cm(bone.parent) + off_cm(bone.child))));
+  }
+  for (const Role role : AllRoles()) {
+    if (const auto joint = seen(recovered[role])) canvas.DrawDot(*joint, 5, PaintOfError(off_cm(role)));
+  }
+  canvas.DrawText({box.x + 18, box.y + box.height - 38}, capture.Method(), 22, kInk, box.width - 36, true);
+  canvas.DrawText({box.x + 18, box.y + box.height - 14}, capture.ErrorWords(frame), 17, kSoftInk, box.width - 36);
+}
+
+Canvas CaptureScene::Draw(int frame) {
+  const CapturePanel& first = captures_.front();
+  Canvas canvas = BeginFrame(fmt::format("{}{:.1f} s · two cameras, and what was recovered from their pictures",
+                                         first.Clip().empty() ? "" : first.Clip() + " · ", frame / first.RateHz()));
+  DrawSeen(canvas, frame);
+  canvas.FillBox(kSkeletonsBox, kGround, kPanelRadius);
+  DrawErrorLegend(canvas, kSkeletonsBox);
+  for (std::size_t i = 0; i < captures_.size(); ++i) {
+    DrawSkeletons(canvas, captures_[i], ColumnOf(i, captures_.size()), frame);
+  }
+  return canvas;
+}
+
+}  // namespace etude
