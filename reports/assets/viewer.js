@@ -1,5 +1,5 @@
-// Shows recorded motions: bodies to walk round, errors by colour, marks on a bar of time (reports/viewer). Its buttons carry data-cell, the
-// identity of a cell whose recording was kept; the page's cards of dots and rows get one (event etude:cells). etudeViewer.has(cell) tells.
+// Shows recorded motions: bodies to walk round, errors by colour, marks on a bar of time (reports/viewer). Buttons with data-cell,
+// a recorded cell's identity, open it; cards of dots and rows get one (event etude:cells).
 const JOINTS = ['hip centre', 'spine', 'shoulder centre', 'head', ...['shoulder elbow wrist hand', 'hip knee ankle foot'].flatMap((limb) =>
   ['left', 'right'].flatMap((side) => limb.split(' ').map((joint) => `${side} ${joint}`)))];
 const PARENT = [-1, 0, 1, 2, 2, 4, 5, 6, 2, 8, 9, 10, 0, 12, 13, 14, 0, 16, 17, 18];

@@ -17,7 +17,7 @@ HOSTILE = ROOT / "tests/bench/outside/hostile.py"
 BROWSER = ROOT / "tests/bench/outside/in_a_browser.py"
 EXAMPLES = ROOT / "examples/outside-methods"
 
-LIMITS = "limits: {time_s: 5, memory_mb: 300}\n"
+LIMITS = "limits: {time_s: 20, memory_mb: 300}\n"
 REASONS = {
     "crashes": ("crashed", "ended with signal 11 (Segmentation fault); its last words: 'about to fall'"),
     "hangs": ("timeout", "took longer than 0.5 s"),
