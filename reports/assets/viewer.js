@@ -644,8 +644,8 @@ const show = (world, cells) => {
       dirty = true;
     }
     // Slow: half as sharp, then 2D.
-    slow = state.playing && now - before > 50 ? slow + 1 : 0;
-    if (slow > 9) {
+    slow = state.playing && now - before > 36 ? slow + 1 : 0;
+    if (slow > 5) {
       slow = 0;
       if (sharpest > .5) { sharpest = .5; fit(); } else if (renderer.kind === 'WebGL2') setUp(true);
     }
