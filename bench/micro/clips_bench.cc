@@ -1,19 +1,15 @@
-// What motion files cost: reading and writing BVH, resampling. The clips are those of Debian's assimp-testmodels; where
-// libassimp-dev is installed too, its importer reads the same bytes in the same run.
+// What motion files cost: reading and writing BVH, resampling. The clips are those of Debian's assimp-testmodels, and
+// assimp's own importer reads the same bytes in the same run.
+#include <assimp/scene.h>
 #include <benchmark/benchmark.h>
 
+#include <assimp/Importer.hpp>
 #include <fstream>
 #include <iterator>
 #include <string>
 
 #include "engine/formats/bvh.h"
 #include "engine/motion/edit.h"
-
-#ifdef ETUDE_HAS_ASSIMP
-#include <assimp/scene.h>
-
-#include <assimp/Importer.hpp>
-#endif
 
 namespace etude {
 namespace {
@@ -40,7 +36,6 @@ void Read(benchmark::State& state, const char* file) {
   Finish(state, bytes.size());
 }
 
-#ifdef ETUDE_HAS_ASSIMP
 void ReadWithAssimp(benchmark::State& state, const char* file) {
   const std::string bytes = Load(file);
   for (auto _ : state) {
@@ -51,7 +46,6 @@ void ReadWithAssimp(benchmark::State& state, const char* file) {
   }
   Finish(state, bytes.size());
 }
-#endif
 
 void Write(benchmark::State& state, const char* file) {
   const auto clip = ReadBvh(Load(file), file);
@@ -76,10 +70,8 @@ void ResampleTo(benchmark::State& state, const char* file, double rate_hz) {
 
 BENCHMARK_CAPTURE(Read, cmu_2752_frames, "01_01.bvh")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(Read, cmu_4511_frames, "01_03.bvh")->Unit(benchmark::kMillisecond);
-#ifdef ETUDE_HAS_ASSIMP
 BENCHMARK_CAPTURE(ReadWithAssimp, cmu_2752_frames, "01_01.bvh")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(ReadWithAssimp, cmu_4511_frames, "01_03.bvh")->Unit(benchmark::kMillisecond);
-#endif
 BENCHMARK_CAPTURE(Write, cmu_2752_frames, "01_01.bvh")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(ResampleTo, cmu_120_to_30_hz, "01_01.bvh", 30.0)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(ResampleTo, cmu_120_to_100_hz, "01_01.bvh", 100.0)->Unit(benchmark::kMillisecond);
