@@ -5,7 +5,9 @@ include(CMakePackageConfigHelpers)
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 set(ETUDE_MODULES "${CMAKE_INSTALL_LIBDIR}/etude")
 file(RELATIVE_PATH modules_from_program "/${CMAKE_INSTALL_BINDIR}" "/${ETUDE_MODULES}")
-set_target_properties(etude PROPERTIES INSTALL_RPATH "$ORIGIN/${modules_from_program}")
+# Where modules are: beside the program as built, in a folder of theirs as installed. One path for both: CMake fills up a shorter
+# one with empty names, and the loader takes each of those for the working folder.
+set_target_properties(etude PROPERTIES INSTALL_RPATH "$ORIGIN/${modules_from_program};$ORIGIN" BUILD_WITH_INSTALL_RPATH ON)
 install(TARGETS etude RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 install(TARGETS etude_training_pagmo etude_clips_assimp LIBRARY DESTINATION "${ETUDE_MODULES}")
 if(TARGET etude_boards_opencv)  # optional, and not in packages, which would need all of OpenCV

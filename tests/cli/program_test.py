@@ -42,6 +42,13 @@ class Program(unittest.TestCase):
         found = needed(" 0x01 (NEEDED)   Shared library: [libf77blas.so.3]\n")
         self.assertEqual([name for name in found if name not in LIBRARIES], ["libf77blas"])
 
+    def test_no_library_comes_from_the_working_folder(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for library in re.findall(r"\(NEEDED\).*\[(.+)\]", sections("-d")):
+                pathlib.Path(folder, library).write_text("what a stranger left here")
+            run = subprocess.run([ETUDE, "--version"], cwd=folder, capture_output=True, text=True)
+            self.assertEqual((run.returncode, run.stderr), (0, ""))
+
     def test_the_renderer_is_loaded_by_those_who_draw_alone(self):
         """It brings a compiler along, whose loading takes as long as that of nearly everything else."""
         def loads_a_compiler(*arguments):
