@@ -117,13 +117,13 @@ function(etude_embed)
   target_sources(${target} PRIVATE "${embedded}")
 endfunction()
 
-# etude_test_program(<name> FOLDERS <folder>... DEPENDS <folder>... LIBRARIES <target>... HEAVY <folder>...)
+# etude_test_program(<name> FOLDERS <folder>... DEPENDS <folder>... LIBRARIES <target>...)
 #   Makes the program etude_tests_<name> of every .cc file of the folders of tests/, and of all below them. A folder mirrors
 #   the one that it tests (tests/engine/motion tests engine/motion), which is linked. Each is one of ctest's tests, in the
 #   pinned environment (bench/process): most single tests take less time than to start them (tests/README.md). The target
-#   etude_tests_<folder> builds its program. HEAVY folders have the label "heavy".
+#   etude_tests_<folder> builds its program. Tests whose names begin with HEAVY_ are one more, with the label "heavy".
 function(etude_test_program NAME)
-  cmake_parse_arguments(ARG "" "" "FOLDERS;DEPENDS;LIBRARIES;HEAVY" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "FOLDERS;DEPENDS;LIBRARIES" ${ARGN})
   set(program etude_tests_${NAME})
   set(patterns ${ARG_FOLDERS})
   list(TRANSFORM patterns REPLACE "(.+)" "${CMAKE_SOURCE_DIR}/tests/\\1/*.cc")
@@ -147,9 +147,17 @@ function(etude_test_program NAME)
     endif()
     add_test(NAME "${mirrored}" COMMAND env ${ETUDE_PINNED_ENVIRONMENT} $<TARGET_FILE:${program}> "--folder=${mirrored}"
       WORKING_DIRECTORY "${CMAKE_SOURCE_DIR}")
-    if(mirrored IN_LIST ARG_HEAVY)
-      set_tests_properties("${mirrored}" PROPERTIES LABELS heavy)
-    endif()
+    file(GLOB in_folder "${folder}/*.cc")
+    foreach(source IN LISTS in_folder)
+      file(STRINGS "${source}" heavy REGEX "HEAVY_" LIMIT_COUNT 1)
+      if(heavy)
+        add_test(NAME "${mirrored}: heavy"
+          COMMAND env ${ETUDE_PINNED_ENVIRONMENT} $<TARGET_FILE:${program}> "--folder=${mirrored}" --heavy
+          WORKING_DIRECTORY "${CMAKE_SOURCE_DIR}")
+        set_tests_properties("${mirrored}: heavy" PROPERTIES LABELS heavy TIMEOUT 3000)
+        break()
+      endif()
+    endforeach()
     etude_target_name("${folder}" by_folder)
     if(NOT TARGET ${by_folder})
       add_custom_target(${by_folder} DEPENDS ${program})

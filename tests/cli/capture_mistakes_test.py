@@ -13,7 +13,7 @@ import sys
 import unittest
 
 import numpy as np
-from etude_case import EtudeCase
+from etude_case import HEAVY, EtudeCase
 
 WIDTH, HEIGHT, FRAMES, RATE, FOCAL = 640, 480, 60, 30, 520.0
 PLACES = {"cam1": (-2.6, 1.6, 3.2), "cam2": (0.4, 2.3, 4.1), "cam3": (3.1, 1.2, 2.6), "cam4": (-0.8, 1.9, -3.7)}
@@ -320,7 +320,6 @@ MISTAKES = {"none": None, "sides swapped in 20 frames": "cam2: left and right ex
             "two people, identities cross": None}
 
 
-HEAVY = "ETUDE_HEAVY" in os.environ  # all of them; else some of each kind
 FEWEST = ("none", "sides swapped in 20 frames", "late by 0.4 frames", "mirrored", "turned by 180")
 
 

@@ -6,7 +6,7 @@ import shutil
 import subprocess
 import unittest
 
-from etude_case import EtudeCase
+from etude_case import EtudeCase, heavy
 
 WIDTH, HEIGHT, FRAMES, RATE = 320, 240, 20, 30
 FOCAL = 260.0
@@ -194,6 +194,7 @@ class Capture(EtudeCase):
                                 self.folder / f"{i}.csv")
             self.assertEqual(result.returncode, 0, result.stderr)
 
+    @heavy
     def test_needs_somebody_who_moves_where_nothing_is_marked(self):
         still = [make_film(self.folder / f"{camera}.avi", rate=10, frames=4, what="color=c=gray:", coding=("-c:v", "ffv1"))
                  for camera in PLACES]

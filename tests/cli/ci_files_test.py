@@ -7,7 +7,7 @@ import subprocess
 import unittest
 
 import yaml
-from etude_case import ETUDE, EtudeCase
+from etude_case import ETUDE, EtudeCase, heavy
 
 ROOT = pathlib.Path(__file__).parents[2]
 CI = ROOT / "ci"
@@ -126,6 +126,7 @@ class CiFiles(EtudeCase):
                 summary.unlink()
                 shutil.rmtree(self.repository / "out")
 
+    @heavy
     def test_the_example_passes_on_gitlab(self):
         template = yaml.safe_load((CI / "gitlab-ci.yml").read_text())
         own = yaml.safe_load((self.repository / ".gitlab-ci.yml").read_text())

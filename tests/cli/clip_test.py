@@ -9,7 +9,7 @@ import subprocess
 import sys
 import unittest
 
-from etude_case import ETUDE, EtudeCase, png_size
+from etude_case import ETUDE, EtudeCase, heavy, png_size
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from json_schema import complaints, load_schema  # noqa: E402
@@ -202,6 +202,7 @@ class Render(Clips):
         self.works("render", WALK, "-o", again, "--frames", "3", "--size", "96x120", "--overwrite")
         self.assertLess(png_size(again.read_bytes())[1], height)
 
+    @heavy
     def test_every_figure_and_view_draws_something_else(self):
         seen = set()
         for options in (["--character", "bear"], ["--character", "mannequin"], ["--character", "body"],

@@ -4,7 +4,7 @@ import json
 import shutil
 import unittest
 
-from etude_case import IK, EtudeCase, png_size
+from etude_case import IK, EtudeCase, heavy, png_size
 
 FILM = """scenario: film
 question: Can others read it?
@@ -164,6 +164,7 @@ class DataSets(EtudeCase):
         self.assertNotIn(json.dumps(truth["angles_deg"][3]), told)
         self.assertNotIn("seed", told)
 
+    @heavy
     def test_an_exported_take_is_captured_as_well_as_in_the_bench(self):
         data, answers = self.exported("film")
         take, marks, rig = data / "inputs/film/all/000", self.folder / "marks", self.folder / "rig.yaml"
@@ -182,6 +183,7 @@ class DataSets(EtudeCase):
         self.assertGreater(rows["keypoints"], 1)
         self.assertAlmostEqual(rows["predictions"], rows["keypoints"], places=3)
 
+    @heavy
     def test_a_film_comes_in_formats_that_others_read(self):
         data, answers = self.exported("film")
         inputs, truth = data / "inputs/film/all", data / "truth/film/all/000"

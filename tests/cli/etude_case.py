@@ -10,6 +10,8 @@ import unittest
 import zlib
 
 ETUDE = os.environ["ETUDE"]
+HEAVY = bool(os.environ.get("ETUDE_HEAVY"))  # scripts/test --full
+heavy = unittest.skipUnless(HEAVY, "heavy")  # costs more than it tells at every change
 os.environ["PATH"] = "/usr/bin:" + os.environ["PATH"]  # a fence shows no Python of a home
 
 

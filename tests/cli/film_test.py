@@ -5,7 +5,7 @@ import shutil
 import subprocess
 import unittest
 
-from etude_case import EtudeCase, IK
+from etude_case import IK, EtudeCase, heavy
 
 FILMED = IK + "video: {compare: [fixed, least-squares], trials: [1]}\n"
 
@@ -16,6 +16,7 @@ class Film(EtudeCase):
         self.assertEqual(reported.returncode, 0, reported.stderr)
         return (folder / "video" / "convergence.mp4").read_bytes()
 
+    @heavy
     def test_two_solvers_settle_in_a_film_of_six_to_ten_seconds(self):
         self.run_suite(self.write("ik.yaml", FILMED))
         film = self.film(self.out)

@@ -8,7 +8,7 @@ import subprocess
 import unittest
 import xml.etree.ElementTree
 
-from etude_case import ETUDE, EtudeCase, ik_scenario
+from etude_case import ETUDE, EtudeCase, heavy, ik_scenario
 
 SCENARIO = ik_scenario(trials=12, question="Does the gate see it?", weights="fixed-tuned")
 WORSE = SCENARIO.replace("weights: fixed-tuned", "weights: fixed")
@@ -227,8 +227,9 @@ class Gate(EtudeCase):
         self.assertIn("Only in B:\n  ik, joint_noise_deg=7, fixed\n", result.stdout)
         self.assertEqual(self.etude("compare", self.out, self.folder / "none").returncode, 2)
 
+    @heavy
     def test_the_gate_measures_itself(self):
-        repetitions = int(os.environ.get("ETUDE_REPETITIONS", 6))
+        repetitions = 200
         result = self.etude("gate", "--self-test", "--repetitions", repetitions)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         print(result.stdout)
@@ -245,9 +246,8 @@ class Gate(EtudeCase):
         self.assertEqual(share("in 5 of 30 worlds worse by 40 × what matters"), 1)
         self.assertEqual(share("lost in 1 of 30 worlds"), 1)
         self.assertGreaterEqual(share("within-30-deg in place of reference"), 0.8)
-        if repetitions >= 100:
-            self.assertLessEqual(share("gates between two seeds"), 0.05)
-            self.assertGreaterEqual(share("worse by 2 × what matters"), 0.8)
+        self.assertLessEqual(share("gates between two seeds"), 0.05)
+        self.assertGreaterEqual(share("worse by 2 × what matters"), 0.8)
 
 
 if __name__ == "__main__":

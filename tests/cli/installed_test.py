@@ -1,5 +1,5 @@
 """Etude where it is installed: found by name from any folder, by any user, with the bytes of the tree that it was built in.
-ETUDE_ROOT=1 (heavy): a package, in a bare Debian root that mmdebstrap makes; skipped where there is none to be had."""
+Heavy: a package, in a bare Debian root that mmdebstrap makes; skipped where there is none to be had."""
 import os
 import pathlib
 import shlex
@@ -8,7 +8,7 @@ import subprocess
 import unittest
 
 from ci_files_test import CI, containerfile
-from etude_case import ETUDE, EtudeCase
+from etude_case import ETUDE, EtudeCase, heavy
 
 BUILD = pathlib.Path(ETUDE).resolve().parent
 SUITE = "quick/ik"
@@ -51,7 +51,7 @@ class Installed(EtudeCase):
         self.assertIn("@software{etude,", run("cite", "out").stdout)
         self.assertTrue((moved / "share" / "man" / "man1" / "etude-run.1").exists())
 
-    @unittest.skipUnless(os.environ.get("ETUDE_ROOT"), "heavy")
+    @heavy
     def test_a_package_runs_in_a_bare_root_as_an_ordinary_user(self):
         if os.geteuid() != 0 or not shutil.which("mmdebstrap"):
             self.skipTest("needs root and mmdebstrap")

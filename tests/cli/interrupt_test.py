@@ -8,7 +8,7 @@ import subprocess
 import time
 import unittest
 
-from etude_case import ETUDE, EtudeCase, IK
+from etude_case import ETUDE, IK, EtudeCase, heavy
 
 WALK = "/usr/share/assimp/models/BVH/01_01.bvh"
 AT_ONCE = "etude: stopped; nothing half done is kept\n"
@@ -84,6 +84,7 @@ class Interrupts(EtudeCase):
         self.interrupt(["export", many, "-o", self.out], lambda _: self.left())
         self.assertEqual([path.name for path in self.folder.iterdir()], ["many.yaml"])
 
+    @heavy
     def test_an_export_ends_at_once_also_amid_a_world(self):
         long = self.write("long.yaml", LONG_TAKE)
         sent_at = []
@@ -108,6 +109,7 @@ class Interrupts(EtudeCase):
         said = self.interrupt(["replay", self.out], works)
         self.assertEqual(said, "etude: stopped; the other cells were not run again\n")
 
+    @heavy
     def test_a_run_interrupted_in_its_last_writing_goes_on_to_the_same_bytes(self):
         many = self.write("many.yaml", IK.replace("trials: 4", "trials: 1500").replace("ccd, weights: fixed", "gauss-newton")
                           .replace("damped-least-squares", "gauss-newton"))

@@ -10,7 +10,7 @@ import sys
 import time
 import unittest
 
-from etude_case import ETUDE, IK, EtudeCase
+from etude_case import ETUDE, IK, EtudeCase, heavy
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HOSTILE = ROOT / "tests/bench/outside/hostile.py"
@@ -41,6 +41,7 @@ def soon(happens, limit_s=30):
 
 
 class OutsideMethods(EtudeCase):
+    @heavy
     def test_hostile_methods_become_rows_and_nothing_else_suffers(self):
         good = outside("good", EXAMPLES / "ik_dls.py")
         hostile = "".join(outside(name, HOSTILE, name, more=", time_s: 0.5" if name == "hangs" else "")
@@ -138,6 +139,7 @@ class OutsideMethods(EtudeCase):
         self.assertEqual(self.etude("check-method", "--task", "ik", "--", "no-such-program").returncode, 2)
 
     @unittest.skipUnless(shutil.which("node"), "needs Node")
+    @heavy
     def test_node_runs_inside_the_fence(self):
         result = self.etude("check-method", "--task", "coach", "--seat", "policy", "--",
                             "node", EXAMPLES / "coach_policy.mjs")
@@ -164,6 +166,7 @@ class OutsideMethods(EtudeCase):
         self.assertEqual({message["answer"]["correct"] for message in answers[0] if "answer" in message}, {True, False})
 
     @unittest.skipUnless(shutil.which("chromium"), "needs Chromium")
+    @heavy
     def test_a_browser_runs_inside_the_fence(self):
         one = IK.replace("trials: 4\nsweep: {joint_noise_deg: [2, 5]}", "trials: 1")
         rows = self.run_suite(self.write("suite.yaml", one + outside("browser", BROWSER, more=f", files: ['{BROWSER.parent}', '{EXAMPLES}']") +

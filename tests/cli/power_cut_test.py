@@ -10,9 +10,9 @@ import shutil
 import subprocess
 import unittest
 
-from etude_case import ETUDE, EtudeCase, ik_scenario
+from etude_case import ETUDE, HEAVY, EtudeCase, ik_scenario
 
-CUTS = int(os.environ.get("ETUDE_CUTS", "10"))
+CUTS = int(os.environ.get("ETUDE_CUTS", "100000" if HEAVY else "4"))
 SCENARIO = ik_scenario(trials=6, question="Does it survive?") + "video: {compare: [fixed], trials: [0]}\n"
 CALLS = "openat,creat,write,pwrite64,writev,ftruncate,fsync,fdatasync,rename,renameat,renameat2,unlink,unlinkat,mkdir,mkdirat,rmdir,close"
 LINE = re.compile(r"^(\d+) +(\w+)\((.*)\) += (-?\d+)")

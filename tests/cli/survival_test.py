@@ -1,5 +1,5 @@
 """A run survives whatever happens to it: killed anywhere and resumed, cut into shards, repeated elsewhere, it gives
-the same bytes.  ETUDE_KILLS: how many kills (more in the heavy version of this test)."""
+the same bytes."""
 import ctypes
 import json
 import os
@@ -10,9 +10,9 @@ import subprocess
 import time
 import unittest
 
-from etude_case import ETUDE, IK, EtudeCase, cells_in_journal
+from etude_case import ETUDE, HEAVY, IK, EtudeCase, cells_in_journal, heavy
 
-KILLS = int(os.environ.get("ETUDE_KILLS", "6"))
+KILLS = 100 if HEAVY else 3
 LONGER = IK.replace("trials: 4", "trials: 40") + "video: {compare: [fixed], trials: [0, 1]}\n"
 
 
@@ -62,6 +62,7 @@ class Survival(EtudeCase):
         self.assertFalse((self.out / "journal.jsonl").exists())
         print(f"{KILLS} kills, at cells {cells}")
 
+    @heavy
     def test_cut_anywhere_in_its_last_line_the_journal_is_good(self):
         run = self.start()
         self.wait_for_cells(self.out, 5)
@@ -90,6 +91,7 @@ class Survival(EtudeCase):
         self.assertEqual((self.out / "host.json").read_bytes(), before)
         self.assert_same_results(self.whole, self.out)
 
+    @heavy
     def test_another_run_is_not_gone_on_with(self):
         run = self.start()
         self.wait_for_cells(self.out)
@@ -151,6 +153,7 @@ class Survival(EtudeCase):
         """Copies of the run's three shards."""
         return [shutil.copytree(made, self.folder / made.name) for made in self.made_shards]
 
+    @heavy
     def test_shards_started_in_different_folders_merge(self):
         (self.folder / "shared").mkdir()
         (self.folder / "suite" / ".git").mkdir(parents=True)  # the top of a repository, and an include beyond it
@@ -187,6 +190,7 @@ class Survival(EtudeCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assert_same_results(self.whole, self.out)
 
+    @heavy
     def test_a_merge_tells_how_far_it_is_and_can_be_interrupted(self):
         many = self.write("many.yaml", IK.replace("trials: 4", "trials: 10000").replace("sweep: {joint_noise_deg: [2, 5]}",
                           "joint_noise_deg: 2").replace("ccd, weights: fixed", "gauss-newton").replace(
@@ -208,6 +212,7 @@ class Survival(EtudeCase):
         self.assertEqual(whole.returncode, 0, whole.stderr)
         self.assertIn("100 %  merged", whole.stderr)
 
+    @heavy
     def test_a_killed_shard_is_resumed(self):
         one, two = self.folder / "one", self.folder / "two"
         run = subprocess.Popen([ETUDE, "run", self.scenario, "-o", one, "--shard", "1/2"],
@@ -279,9 +284,11 @@ methods:
         self.assertIn(f"differs: {rows[7]['cell']}\n  first at solution: 0123456789abcdef then,", result.stdout)
         self.assertIn("159 of 160 cells came out the same", result.stdout)
 
+    @heavy
     def test_a_packed_cell_replays_without_anything_else(self):
         self.check_pack("t/-/001/fuzzy", "clips: ['{glb}#clap', {bvh}, 'builtin:sway']")
 
+    @heavy
     def test_so_does_a_packed_cell_of_a_library(self):
         self.check_pack("t/library=two/001/fuzzy",
                         "libraries: {{one: ['{glb}#clap', 'builtin:sway'], two: [{bvh}, 'builtin:clap']}}")

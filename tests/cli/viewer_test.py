@@ -7,9 +7,8 @@ import time
 import unittest
 
 from browser import CHROMIUM, Browser
-from etude_case import EtudeCase, ik_scenario
+from etude_case import EtudeCase, heavy, ik_scenario
 
-HEAVY = os.environ.get("ETUDE_HEAVY")
 # What a motion file must hold for a reader, and how it is saved from the page: the text that the button would save.
 SAVED = """(() => {{ const {{world}} = etudeViewer.opened, body = world.bodies.find((b) => b.label === '{label}');
   const bytes = etudeViewer.files.{format}(world, body);
@@ -81,7 +80,7 @@ class Viewer(EtudeCase):
             for shown, true in zip(row[2:4], [sum(errors) / len(errors), max(errors)]):
                 self.assertAlmostEqual(float(shown), true, delta=.006 + .006 * true, msg=f"joint {row[0]}")
 
-    @unittest.skipUnless(HEAVY, "starts another browser")
+    @heavy
     def test_it_saves_files_that_other_programs_read(self):
         with Browser() as page:
             page.open(self.page_file)
@@ -99,7 +98,7 @@ class Viewer(EtudeCase):
                 off = max(abs(float(a[2 + i]) - float(a[2 + i % 3]) - float(b[2 + i]) + float(b[2 + i % 3])) for a, b in zip(rows, true) for i in range(60))
                 self.assertLess(off, .0005, format)
 
-    @unittest.skipUnless(HEAVY, "starts another browser")
+    @heavy
     def test_without_webgl_it_draws_on_a_plain_canvas(self):
         with Browser("--disable-3d-apis") as page:
             page.open(self.page_file)
@@ -112,7 +111,7 @@ class Viewer(EtudeCase):
             self.assertGreater(seen, 20, "somebody is there")
             self.assertEqual(page.logged, [])
 
-    @unittest.skipUnless(HEAVY, "starts another browser")
+    @heavy
     def test_motions_that_are_not_beside_the_page_are_told_of(self):
         alone = self.folder / "alone.html"
         shutil.copy(self.page_file, alone)
@@ -122,7 +121,7 @@ class Viewer(EtudeCase):
             self.assertFalse(page.ask(f"etudeViewer.open({CELL!r})"))
             self.assertIn("not beside this page: report/motions/ik-2.js", page.ask("told"))
 
-    @unittest.skipUnless(HEAVY, "measures speed")
+    @heavy
     def test_it_is_quick(self):
         if os.getloadavg()[0] > os.cpu_count():
             self.skipTest("the machine is busy with something else")

@@ -1,13 +1,17 @@
 """scripts/figures: what it says of the pages of this repository, and of pages that it must flag."""
+import contextlib
+import importlib.machinery
+import importlib.util
+import io
 import json
 import pathlib
-import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-TOOL = ROOT / "scripts" / "figures"
+LOADER = importlib.machinery.SourceFileLoader("figures", str(ROOT / "scripts" / "figures"))
 
 BASELINE = {"values": [
     {"scenario": "s", "condition": "n=1", "method": "a", "metric": "jump_cm", "values": [1.0, 2.26, None, 1234.5]},
@@ -31,9 +35,13 @@ class Figures(unittest.TestCase):
         (self.root / "scenarios" / "baselines" / "quick.json").write_text(json.dumps(BASELINE))
 
     def figures(self, *arguments, root=None):
-        result = subprocess.run([sys.executable, TOOL, "--root", root or self.root, *map(str, arguments)],
-                                capture_output=True, text=True)
-        return result.returncode, result.stdout + result.stderr
+        tool = importlib.util.module_from_spec(importlib.util.spec_from_loader("figures", LOADER))
+        LOADER.exec_module(tool)  # anew: it keeps what it has read
+        said = io.StringIO()
+        with unittest.mock.patch.object(sys, "argv", ["figures", "--root", str(root or self.root), *map(str, arguments)]), \
+                contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+            code = tool.main()
+        return code, said.getvalue()
 
     def of_page(self, text, *arguments):
         (self.root / "README.md").write_text(text)

@@ -3,11 +3,15 @@
 #include <cstring>
 #include <iostream>
 #include <string>
+#include <string_view>
 
 namespace {
 
-// A filter for the tests whose files stand in a folder of tests/, not below it; empty where there is none.
-std::string TestsOf(const std::string& folder) {
+constexpr std::string_view kHeavy = "HEAVY_";  // begins the name of a test that belongs to `scripts/test --full` alone
+
+// A filter for the heavy tests, or for the others, whose files stand in a folder of tests/, not below it; empty where
+// there is none.
+std::string TestsOf(const std::string& folder, bool heavy) {
   std::string filter;
   const testing::UnitTest& all = *testing::UnitTest::GetInstance();
   for (int s = 0; s < all.total_test_suite_count(); ++s) {
@@ -15,9 +19,9 @@ std::string TestsOf(const std::string& folder) {
     for (int t = 0; t < suite.total_test_count(); ++t) {
       const testing::TestInfo& test = *suite.GetTestInfo(t);
       const std::string file = test.file();
-      if (file.substr(0, file.rfind('/')).ends_with("/tests/" + folder)) {
-        filter += std::string(suite.name()) + "." + test.name() + ":";
-      }
+      if (!file.substr(0, file.rfind('/')).ends_with("/tests/" + folder)) continue;
+      if (std::string_view(test.name()).starts_with(kHeavy) != heavy) continue;
+      filter += std::string(suite.name()) + "." + test.name() + ":";
     }
   }
   return filter;
@@ -25,12 +29,14 @@ std::string TestsOf(const std::string& folder) {
 
 }  // namespace
 
-// GoogleTest's main, and `--folder=bench/statistics`: only what tests that folder. A filter that somebody asks for counts.
+// GoogleTest's main, and `--folder=bench/statistics`: only what tests that folder, and of it what is not heavy, or with
+// a second argument `--heavy` what is. A filter that somebody asks for counts.
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   constexpr const char* kFolder = "--folder=";
-  if (argc == 2 && std::strncmp(argv[1], kFolder, std::strlen(kFolder)) == 0) {
-    const std::string tests = TestsOf(argv[1] + std::strlen(kFolder));
+  const bool heavy = argc == 3 && std::strcmp(argv[2], "--heavy") == 0;
+  if (argc == 2 + heavy && std::strncmp(argv[1], kFolder, std::strlen(kFolder)) == 0) {
+    const std::string tests = TestsOf(argv[1] + std::strlen(kFolder), heavy);
     if (tests.empty()) {
       std::cerr << argv[0] << ": no test stands in tests/" << argv[1] + std::strlen(kFolder) << "\n";
       return 2;
@@ -39,7 +45,8 @@ int main(int argc, char** argv) {
       GTEST_FLAG_SET(filter, tests);
     }
   } else if (argc > 1) {
-    std::cerr << argv[0] << ": unknown argument '" << argv[1] << "'; allowed: --folder=FOLDER, GoogleTest's own\n";
+    std::cerr << argv[0] << ": unknown argument '" << argv[1]
+              << "'; allowed: --folder=FOLDER [--heavy], GoogleTest's own\n";
     return 2;
   }
   return RUN_ALL_TESTS();

@@ -18,7 +18,7 @@ namespace {
 using ::testing::HasSubstr;
 
 TEST(ContactSheetTest, SheetsThatNobodyCouldOpenAreRefused) {
-  auto renderer = Renderer::Create();
+  const auto renderer = SharedRenderer();
   ASSERT_TRUE(renderer) << ToString(renderer.error());
   const SheetOptions huge{.width = 2000, .height = 2000, .frames = 40, .columns = 40};
   const auto sheet = DrawContactSheet({ActorOf("builtin:clap", ActorKind::kBody)}, huge, **renderer);
@@ -27,7 +27,7 @@ TEST(ContactSheetTest, SheetsThatNobodyCouldOpenAreRefused) {
 }
 
 TEST(ContactSheetTest, TheSameClipsGiveTheSameBytes) {
-  auto renderer = Renderer::Create();
+  const auto renderer = SharedRenderer();
   ASSERT_TRUE(renderer) << ToString(renderer.error());
   const SheetOptions small{.width = 60, .height = 80, .frames = 2, .columns = 2};
   const auto draw = [&] { return DrawContactSheet({ActorOf("builtin:clap", ActorKind::kBear)}, small, **renderer); };

@@ -16,7 +16,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 Renderer& Drawing() {
-  static const auto renderer = Renderer::Create();
+  static const auto renderer = SharedRenderer();
   EXPECT_TRUE(renderer.has_value());
   return **renderer;
 }

@@ -79,9 +79,9 @@ class Convergence : public ::testing::Test {
                     {"late", 0, 0.02, EveryIteration(60), Status::kUnsolved, "12° after 60 sweeps"}});
   }
   void SetUp() override {
-    auto renderer = Renderer::Create();
+    const auto renderer = SharedRenderer();
     ASSERT_TRUE(renderer.has_value()) << ToString(renderer.error());
-    renderer_ = std::move(*renderer);
+    renderer_ = *renderer;
     const RunData run = Run();
     auto race = FindIkRace(run, run.scenarios.front());
     ASSERT_TRUE(race.has_value()) << ToString(race.error());
@@ -99,7 +99,7 @@ class Convergence : public ::testing::Test {
     return true;
   }
 
-  std::unique_ptr<Renderer> renderer_;
+  Renderer* renderer_ = nullptr;
   IkRace race_;
 };
 

@@ -119,7 +119,7 @@ TEST(CapturePanel, DrawsTheSkeletonOverThePersonAndKeepsBothInThePicture) {
   AddRecordings(run);
   const auto panel = CapturePanel::Make(run, *ChooseCell(run, "capture", "recovered"));
   ASSERT_TRUE(panel.has_value()) << ToString(panel.error());
-  auto renderer = Renderer::Create();
+  const auto renderer = SharedRenderer();
   ASSERT_TRUE(renderer.has_value()) << ToString(renderer.error());
   Canvas canvas(432, 324);
   panel->Draw(canvas, **renderer, 0, 20);
@@ -152,7 +152,7 @@ std::optional<Picture> PlateOf(const std::vector<CaptureExtras::Moment>& moments
 }
 
 TEST(CapturePlate, ShowsEveryStageOfTheMomentsThatAreKeptAndTheSequence) {
-  auto renderer = Renderer::Create();
+  const auto renderer = SharedRenderer();
   ASSERT_TRUE(renderer.has_value()) << ToString(renderer.error());
   EXPECT_FALSE(PlateOf({}, **renderer)) << "a recording that keeps none";
   const CaptureExtras::Moment early{.frame = 0, .fixed = {}, .marks = {{{{300, 100}, {340, 300}, {255, 0, 0}}}, {}}};

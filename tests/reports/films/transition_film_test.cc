@@ -124,7 +124,7 @@ TEST(DistanceBars, TellDTheThresholdAndTheBranch) {
 }
 
 TEST(TransitionScene, DrawsTheSamePixelsEveryTimeAndMarksTheChange) {
-  auto renderer = Renderer::Create();
+  const auto renderer = SharedRenderer();
   ASSERT_TRUE(renderer.has_value()) << ToString(renderer.error());
   const TransitionRace race = ExampleRace();
   const TransitionClock clock(race);

@@ -274,7 +274,7 @@ BodyPose RandomPose(RandomStream& random) {
 }
 
 TEST(Lens, PutsProjectedJointsOnTheBody) {
-  const auto renderer = Renderer::Create();
+  const auto renderer = SharedRenderer();
   ASSERT_TRUE(renderer) << renderer.error().message;
   const CameraEffects effects{.radial_distortion = -0.1, .tangential_distortion = 0.02, .noise = 0};
   Camera camera = LookAt({}, {-1.5, 1.6, 3.2}, {0, 0.95, 0});

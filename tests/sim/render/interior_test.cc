@@ -117,15 +117,15 @@ Comparison CompareAll(const View& view, const InteriorCaster& caster) {
 class RenderedInterior : public testing::Test {
  protected:
   void SetUp() override {
-    auto made = Renderer::Create();
+    const auto made = SharedRenderer();
     ASSERT_TRUE(made) << ToString(made.error());
-    renderer_ = std::move(*made);
+    renderer_ = *made;
   }
   View Draw(const Interior& interior, const std::vector<Figure>& figures, const Camera& camera) {
     return renderer_->Render({.interior = &interior}, figures, camera, Targets::kAll);
   }
 
-  std::unique_ptr<Renderer> renderer_;
+  Renderer* renderer_ = nullptr;
 };
 
 TEST_F(RenderedInterior, AgreesWithARayCasterOnEveryLabelAndDepth) {

@@ -9,7 +9,7 @@ namespace etude {
 namespace {
 
 TEST(Renderer, AgreesWithARayCasterOnEveryLabelAndDepth) {
-  const auto renderer = Renderer::Create();
+  const auto renderer = SharedRenderer();
   ASSERT_TRUE(renderer) << ToString(renderer.error());
   for (const Camera& camera : TestCameras()) {
     const View view = (*renderer)->Render({}, {{Dancer(), PerformerColours()}}, camera, Targets::kAll);
@@ -22,7 +22,7 @@ TEST(Renderer, AgreesWithARayCasterOnEveryLabelAndDepth) {
 }
 
 TEST(Renderer, WouldBeCaughtBeingHalfAPixelOff) {
-  const auto renderer = Renderer::Create();
+  const auto renderer = SharedRenderer();
   ASSERT_TRUE(renderer) << ToString(renderer.error());
   Camera camera = TestCameras().front();
   const View view = (*renderer)->Render({}, {{Dancer(), PerformerColours()}}, camera, Targets::kAll);
@@ -31,7 +31,7 @@ TEST(Renderer, WouldBeCaughtBeingHalfAPixelOff) {
 }
 
 TEST(Renderer, ShowsTheEndsOfEveryCapsuleWhereProjectPutsThem) {
-  const auto renderer = Renderer::Create();
+  const auto renderer = SharedRenderer();
   ASSERT_TRUE(renderer) << ToString(renderer.error());
   const Camera camera = LookAt({}, {0.9, 1.3, 4.0}, {0, 0.95, 0});
   for (const Capsule& capsule : Dancer()) {
@@ -46,7 +46,7 @@ TEST(Renderer, ShowsTheEndsOfEveryCapsuleWhereProjectPutsThem) {
 }
 
 TEST(Renderer, ShowsTheNearerOfTwoBodiesWhicheverIsGivenFirst) {
-  const auto renderer = Renderer::Create();
+  const auto renderer = SharedRenderer();
   ASSERT_TRUE(renderer) << ToString(renderer.error());
   const Camera camera = LookAt({}, {0, 1, 4}, {0, 1, 0});
   const Figure near_ball{{{Part::kHead, {0, 1, 1}, {0, 1, 1}, 0.2}}, PerformerColours()};

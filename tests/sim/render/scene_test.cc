@@ -19,9 +19,9 @@ constexpr auto kShadowLabel = static_cast<std::uint32_t>(Part::kShadow);
 class RendererScene : public testing::Test {
  protected:
   void SetUp() override {
-    auto made = Renderer::Create();
+    const auto made = SharedRenderer();
     ASSERT_TRUE(made) << ToString(made.error());
-    renderer_ = std::move(*made);
+    renderer_ = *made;
   }
   View Draw(const Room& room, bool with_dancer = true, Targets targets = Targets::kAll) {
     std::vector<Figure> figures;
@@ -30,7 +30,7 @@ class RendererScene : public testing::Test {
   }
 
   Camera camera_ = LookAt({}, {-1.2, 1.4, 3.9}, {0, 0.95, 0});
-  std::unique_ptr<Renderer> renderer_;
+  Renderer* renderer_ = nullptr;
 };
 
 glm::dvec3 ToVector(Rgb8 colour) { return {colour.r, colour.g, colour.b}; }
@@ -51,7 +51,9 @@ TEST_F(RendererScene, GivesTheSameBytesAgainWhateverWasDrawnBetween) {
   EXPECT_EQ(first.labels.pixels, again.labels.pixels);
   EXPECT_EQ(first.depth.pixels, again.depth.pixels);
 
-  renderer_ = std::move(*Renderer::Create());
+  const auto fresh = Renderer::Create();
+  ASSERT_TRUE(fresh) << ToString(fresh.error());
+  renderer_ = fresh->get();
   EXPECT_EQ(first.colour.pixels, Draw({}).colour.pixels);
 }
 

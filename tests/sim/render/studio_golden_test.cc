@@ -60,7 +60,7 @@ std::string DigestBy(Renderer& renderer, const Camera& camera) {
 
 TEST(StudioGolden, PicturesAreThoseThatWereRecorded) {
   if (RendererVersion().find(kMesa) == std::string::npos) GTEST_SKIP() << "recorded with " << kMesa;
-  const auto renderer = Renderer::Create();
+  const auto renderer = SharedRenderer();
   ASSERT_TRUE(renderer) << ToString(renderer.error());
   std::size_t compared = 0;
   for (const Camera& camera : TestCameras()) {

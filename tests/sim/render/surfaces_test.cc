@@ -18,16 +18,16 @@ constexpr auto kShadow = static_cast<std::uint32_t>(Part::kShadow);
 class RenderedSurfaces : public testing::Test {
  protected:
   void SetUp() override {
-    auto made = Renderer::Create();
+    const auto made = SharedRenderer();
     ASSERT_TRUE(made) << ToString(made.error());
-    renderer_ = std::move(*made);
+    renderer_ = *made;
   }
   View Draw(const std::vector<Figure>& figures, const Room& room = {}) {
     return renderer_->Render(room, figures, camera_, Targets::kAll);
   }
 
   Camera camera_ = LookAt({}, {-1.2, 1.4, 3.9}, {0, 0.95, 0});
-  std::unique_ptr<Renderer> renderer_;
+  Renderer* renderer_ = nullptr;
 };
 
 Figure OfSurfaces(std::vector<Surface> surfaces) { return {.shape = {}, .surfaces = std::move(surfaces)}; }
@@ -220,7 +220,9 @@ TEST_F(RenderedSurfaces, GiveTheSameBytesAgainWithoutLabelsAndDepthToo) {
   Draw({{Dancer(), PerformerColours()}});
   EXPECT_TRUE(SameView(first, Draw(figures)));
   EXPECT_EQ(first.colour.pixels, renderer_->Render({}, figures, camera_, Targets::kColour).colour.pixels);
-  renderer_ = std::move(*Renderer::Create());
+  const auto fresh = Renderer::Create();
+  ASSERT_TRUE(fresh) << ToString(fresh.error());
+  renderer_ = fresh->get();
   EXPECT_TRUE(SameView(first, Draw(figures)));
 }
 

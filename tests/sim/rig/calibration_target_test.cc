@@ -39,7 +39,7 @@ TEST(CalibrationTarget, IsACubeWithItsFrontsOutsideAndSharesNoCode) {
 }
 
 TEST(CalibrationTarget, IsFoundInRenderedPicturesAndCalibratesTheirCameras) {
-  auto renderer = Renderer::Create();
+  const auto renderer = SharedRenderer();
   ASSERT_TRUE(renderer) << renderer.error().message;
   const std::vector<BodyPose> motion{StandingPose()};
   const std::vector<PlacedBoard> target = CalibrationTarget(MiddleOnFloor(motion));
@@ -66,7 +66,7 @@ TEST(CalibrationTarget, IsFoundInRenderedPicturesAndCalibratesTheirCameras) {
 }
 
 TEST(MarkedCube, IsFoundInRenderedPicturesAndCalibratesTheirCameras) {
-  auto renderer = Renderer::Create();
+  const auto renderer = SharedRenderer();
   ASSERT_TRUE(renderer) << renderer.error().message;
   const std::vector<BodyPose> motion{StandingPose()};
   const MarkedCube cube = MakeMarkedCube(MiddleOnFloor(motion));

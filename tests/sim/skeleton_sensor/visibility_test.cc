@@ -126,7 +126,7 @@ Cuboid Table(RandomStream& dice) {
 }
 
 TEST(Visibility, IsWhatTheRendererDrawsForAllButOneJointInAThousand) {
-  const auto renderer = Renderer::Create();
+  const auto renderer = SharedRenderer();
   ASSERT_TRUE(renderer) << ToString(renderer.error());
   RandomStream dice({.suite_seed = 1, .scenario = "visibility", .trial = 0}, "poses");
   Agreement agreement, blind;

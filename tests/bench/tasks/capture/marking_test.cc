@@ -121,7 +121,7 @@ TEST_F(MarkingTest, FramesThatNobodyIsAskedToMarkStayEmpty) {
 // What the shares of `FigureLook::figure` were read off: people in clothes who stand with their arms out, whatever
 // their build and cut, seen from before. Taken for capsules, they have their hips and shoulders far away.
 TEST(SeePicture, KnowsWherePeopleInClothesHaveTheirJoints) {
-  const auto renderer = Renderer::Create();
+  const auto renderer = SharedRenderer();
   ASSERT_TRUE(renderer) << renderer.error().message;
   const Camera camera = LookAt({}, {0, 1.2, 3.6}, {0, 1, 0});
   BodyPose body = StandingBody();

@@ -53,7 +53,7 @@ constexpr WorldKey kShootingKey{.suite_seed = 5, .scenario = "shooting", .trial 
 
 // Pictures of a late camera are those that the first one's place would have seen then.
 TEST(Shooting, ShowsWhatStandsThereAtTheCamerasOwnTime) {
-  const auto renderer = Renderer::Create();
+  const auto renderer = SharedRenderer();
   ASSERT_TRUE(renderer) << renderer.error().message;
   const CaptureWorld world = WorldOf(Poses(9, [](double k) { return 0.05 * k; }));
   const CameraEffects late{.sync_offset_ms = 50, .noise = 0};
@@ -71,7 +71,7 @@ TEST(Shooting, ShowsWhatStandsThereAtTheCamerasOwnTime) {
 
 // A mannequin out of a file, half way through a clip that leads away from the middle.
 TEST(Shooting, ShowsAClipsOwnFigureWhereItsBodyIs) {
-  const auto renderer = Renderer::Create();
+  const auto renderer = SharedRenderer();
   ASSERT_TRUE(renderer) << renderer.error().message;
   const auto mannequin = std::make_shared<const Character>(MannequinCharacter());
   BodyConversion body;
@@ -105,7 +105,7 @@ TEST(Shooting, ShowsAClipsOwnFigureWhereItsBodyIs) {
 
 // Each band of a rolling shutter is the same rows of the whole picture at that time.
 TEST(Shooting, RollsExactlyBandByBand) {
-  const auto renderer = Renderer::Create();
+  const auto renderer = SharedRenderer();
   ASSERT_TRUE(renderer) << renderer.error().message;
   const CaptureWorld world = WorldOf(Poses(9, [](double k) { return 0.08 * k; }));
   Shooting rolling(world, {.rolling_shutter_ms = 30, .noise = 0}, kShootingKey, **renderer);

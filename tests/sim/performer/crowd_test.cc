@@ -7,7 +7,7 @@
 namespace etude {
 namespace {
 
-TEST(Crowd, IsAsAlikeAndAsDifferentAsRealPeople) {
+TEST(Crowd, HEAVY_IsAsAlikeAndAsDifferentAsRealPeople) {
   const Neighbours crowd = MeasureNeighbours(People::kMixed, 80, 4);
   RecordProperty("found", std::to_string(crowd.found));
   EXPECT_GE(crowd.found, 0.75);
@@ -16,7 +16,7 @@ TEST(Crowd, IsAsAlikeAndAsDifferentAsRealPeople) {
   EXPECT_LE(crowd.duration_variation, 0.35);
 }
 
-TEST(Crowd, ToddlersAreHardestToTellAndExpertsEasiest) {
+TEST(Crowd, HEAVY_ToddlersAreHardestToTellAndExpertsEasiest) {
   const auto found = [](People people) { return MeasureNeighbours(people, 40, 3).found; };
   const double toddler = found(People::kToddler), child = found(People::kSchoolChild), adult = found(People::kAdult);
   EXPECT_LT(toddler, child);

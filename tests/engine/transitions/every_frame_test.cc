@@ -5,7 +5,7 @@
 namespace etude {
 namespace {
 
-TEST(InBetween, LeadsFromEveryFrameOfEveryClipIntoEveryOtherClipInBoundedTime) {
+TEST(InBetween, HEAVY_LeadsFromEveryFrameOfEveryClipIntoEveryOtherClipInBoundedTime) {
   const MotionLibrary library = BuiltinLibrary();
   const double bound = 1 + LongestInBetween(library.in_betweens.tween, kJudgedRateHz);
   const Connections connections = TryAll(library, 1);
@@ -14,7 +14,7 @@ TEST(InBetween, LeadsFromEveryFrameOfEveryClipIntoEveryOtherClipInBoundedTime) {
   EXPECT_LE(connections.worst_wait_s, bound);
 }
 
-TEST(InBetween, LeadsEverywhereUnderAnyThreshold) {
+TEST(InBetween, HEAVY_LeadsEverywhereUnderAnyThreshold) {
   const MotionLibrary library = BuiltinLibrary();
   const double bound = 1 + LongestInBetween(library.in_betweens.tween, kJudgedRateHz);
   for (double threshold : {0.0, 0.1, 6.0}) {

@@ -50,7 +50,7 @@ CoachCondition PeopleOf(People kind) {
   return condition;
 }
 
-TEST(ManyPerformances, APerfectLearnerIsNeverCorrected) {
+TEST(ManyPerformances, HEAVY_APerfectLearnerIsNeverCorrected) {
   CoachCondition perfect = PeopleOf(People::kExpert);
   perfect.learner.skill = 1;
   const Count count = Sessions("at-first-mistake", 180, perfect);
@@ -59,7 +59,7 @@ TEST(ManyPerformances, APerfectLearnerIsNeverCorrected) {
   EXPECT_EQ(count.praised, count.performances);
 }
 
-TEST(ManyPerformances, NobodyIsPraisedForStandingThere) {
+TEST(ManyPerformances, HEAVY_NobodyIsPraisedForStandingThere) {
   constexpr double kBeforeTheCoachTiresOfIt = 29;  // seconds
   const Count count = Sessions("never", kBeforeTheCoachTiresOfIt, PeopleOf(People::kAbsent));
   EXPECT_EQ(count.wrong, count.performances);
@@ -67,7 +67,7 @@ TEST(ManyPerformances, NobodyIsPraisedForStandingThere) {
 }
 
 // The controls: who has no skill is corrected, and a coach who takes next to anything for right praises them.
-TEST(ManyPerformances, TheCountsCanBeOtherwise) {
+TEST(ManyPerformances, HEAVY_TheCountsCanBeOtherwise) {
   CoachCondition clumsy = PeopleOf(People::kMixed);
   clumsy.learner.skill = 0;
   clumsy.song = "groove";
