@@ -22,10 +22,10 @@ SCENARIO = """scenario: zoo
 question: Who gets out?
 task: ik
 trials: 2
-limits: {{time_s: 60, memory_mb: 400}}
+limits: {{time_s: 60, memory_mb: {memory_mb}}}
 methods:
   - {{name: neighbour, solver: damped-least-squares}}
-  - {{name: specimen, exec: [{python}, {zoo}, {name}, {den}], files: [{zoo}, {den}], time_s: 3}}
+  - {{name: specimen, exec: [{python}, {zoo}, {name}, {den}], files: [{zoo}, {den}], time_s: {time_s}}}
 """
 
 
@@ -122,7 +122,7 @@ class Zoo(unittest.TestCase):
         clear_scratch()
         self.addCleanup(clear_scratch)
 
-    def release(self, name, *options):
+    def release(self, name, *options, memory_mb=400, time_s=3):
         """Runs a specimen; gives its statuses, and what it did: to others, to files elsewhere, and who survived."""
         with tempfile.TemporaryDirectory(prefix="zoo-test-victim-") as others:
             victim = Victim(pathlib.Path(others))
@@ -130,7 +130,7 @@ class Zoo(unittest.TestCase):
             (den / "marks").mkdir(parents=True)
             victim.tell(den)
             scenario = den / "zoo.yaml"
-            scenario.write_text(SCENARIO.format(python=sys.executable, zoo=ZOO, name=name, den=den))
+            scenario.write_text(SCENARIO.format(python=sys.executable, zoo=ZOO, name=name, den=den, memory_mb=memory_mb, time_s=time_s))
             out = den / "out"
             run = subprocess.run([ETUDE, "run", scenario, "-o", out, "--jobs", "1", *options], capture_output=True, text=True,
                                  timeout=120, cwd=ZOO.parent)
@@ -166,7 +166,7 @@ class Zoo(unittest.TestCase):
         """The rows of the method beside, where nobody is hostile."""
         if not hasattr(Zoo, "alone"):
             scenario = self.folder / "alone.yaml"
-            scenario.write_text(SCENARIO.format(python="python3", zoo="", name="", den="").rsplit("\n", 2)[0] + "\n")
+            scenario.write_text(SCENARIO.format(python="python3", zoo="", name="", den="", memory_mb=400, time_s=3).rsplit("\n", 2)[0] + "\n")
             subprocess.run([ETUDE, "run", scenario, "-o", self.folder / "alone"], check=True, capture_output=True)
             Zoo.alone = [json.loads(line) for line in (self.folder / "alone" / "cells.jsonl").read_text().splitlines()]
         return Zoo.alone
@@ -184,6 +184,14 @@ class Zoo(unittest.TestCase):
                 self.assertEqual((victims, survivors, elsewhere), ([], [], []), name)
         if "ETUDE_SPECIMENS" not in os.environ:
             self.assertGreaterEqual(len(names), 50)
+
+    def test_who_hides_memory_can_hold_it_where_there_is_enough(self):
+        """The control: they might be harmless for another reason than the limit. The fence itself refuses descriptors and segments
+        of memory."""
+        for name, *options in (["in_files"], ["behind_descriptors", "--no-fence"]):
+            with self.subTest(name):
+                self.assertIn(f"held 540 MB {name.replace('_', ' ')}",
+                              self.release(f"hides_memory_{name}", *options, memory_mb=4000, time_s=60)[1])
 
     def test_without_a_fence_nobody_survives(self):
         harm = {}
