@@ -353,12 +353,14 @@ std::vector<std::string> StagesOf(const Node* oracle) {
   return stages;
 }
 
-/// The settings of a built-in method: its entry without its name and its oracle.
+/// The settings of a built-in method: its entry without its name, its oracle and what is told of it.
 std::string SettingsOf(const MethodEntry& method) {
   if (!method.exec.empty()) return "";  // what a program is, nobody knows
   Node settings = method.node;
   std::erase_if(settings.entries,
-                [](const Node::Entry& entry) { return entry.key == "name" || entry.key == "oracle"; });
+                [](const Node::Entry& entry) {
+                  return entry.key == "name" || entry.key == "oracle" || entry.key == "description";
+                });
   const auto text = WriteJson(ToJson(settings));
   return text ? *text : "";
 }

@@ -67,12 +67,17 @@ std::vector<const MethodColumns*> BestBy(const MetricInfo& metric, const Conditi
   return kept;
 }
 
-/// The best of the others in one half of the worlds: by the first headline metric, of those that it does not tell
+/// True if `other` may be the strongest rival of `method`: it competes, and is not compared with as the baseline.
+bool IsCandidate(const Study& study, const ComparedMethod& method, const ComparedMethod& other) {
+  return other.name != method.name && other.name != method.against && Competes(study, other);
+}
+
+/// The best of the candidates in one half of the worlds: by the first headline metric, of those that it does not tell
 /// apart by the second, and so on; of equal ones the first. "" when there is none.
-std::string BestOther(const Study& study, const ConditionTable& table, const std::string& method, int half) {
+std::string BestOther(const Study& study, const ConditionTable& table, const ComparedMethod& method, int half) {
   std::vector<const MethodColumns*> candidates;
   for (const ComparedMethod& other : study.methods) {
-    if (other.name != method && Competes(study, other)) candidates.push_back(&table.Of(other.name));
+    if (IsCandidate(study, method, other)) candidates.push_back(&table.Of(other.name));
   }
   for (const std::string& metric : study.metrics) candidates = BestBy(*FindMetric(metric), table, half, candidates);
   return candidates.empty() ? "" : candidates.front()->name();
@@ -218,15 +223,17 @@ bool Competes(const Study& study, const ComparedMethod& method) {
   });
 }
 
-std::optional<Rival> FindRival(const Study& study, const ConditionTable& table, const std::string& method) {
-  Rival rival;
-  if (study.rival.empty()) {
-    rival.of_half = {BestOther(study, table, method, 1), BestOther(study, table, method, 0)};
-  } else if (study.rival != method) {
-    rival.of_half = {study.rival, study.rival};
-  }
-  if (rival.of_half[0].empty() || rival.of_half[1].empty()) return std::nullopt;
-  return rival;
+bool HasRival(const Study& study, const ComparedMethod& method) {
+  if (!Competes(study, method)) return false;
+  if (!study.rival.empty()) return method.name != study.rival;
+  return std::ranges::any_of(study.methods,
+                             [&](const ComparedMethod& other) { return IsCandidate(study, method, other); });
+}
+
+std::optional<Rival> FindRival(const Study& study, const ConditionTable& table, const ComparedMethod& method) {
+  if (!HasRival(study, method)) return std::nullopt;
+  if (!study.rival.empty()) return Rival{{study.rival, study.rival}};
+  return Rival{{BestOther(study, table, method, 1), BestOther(study, table, method, 0)}};
 }
 
 PairedWorlds WorldsAgainst(const Rival& rival, const ConditionTable& table, const std::string& method,

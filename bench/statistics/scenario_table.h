@@ -102,11 +102,17 @@ struct Rival {
 /// one with an oracle shows what could be.
 bool Competes(const Study& study, const ComparedMethod& method);
 
-/// The scenario's own rival, or the best other method that competes: by the first headline metric, of those that differ
-/// there by less than matters by the next one, and so on. It is chosen on other worlds than those it is judged on: on
-/// the worlds of odd units (trials where worlds are units, or of several units) for those of even ones, and the other
-/// way round. A cell that failed counts as the condition's worst value there. No rival for the rival itself.
-std::optional<Rival> FindRival(const Study& study, const ConditionTable& table, const std::string& method);
+/// True if a method has a rival (FindRival); told by the scenario alone.
+bool HasRival(const Study& study, const ComparedMethod& method);
+
+/// The scenario's own rival, or of all others that compete the best, the method's baseline left out: with that it is
+/// compared anyway, in all worlds, and a rival that half of the worlds draw from it would be judged twice, the second
+/// time with half of the evidence. So a method beats all others if it beats its baseline and its rival. The best is so
+/// by the first headline metric, of those that differ there by less than matters by the next one, and so on. It is
+/// chosen on other worlds than those it is judged on: on the worlds of odd units (trials where worlds are units, or of
+/// several units) for those of even ones, and the other way round. A cell that failed counts as the condition's worst
+/// value there. No rival for the rival itself, for what does not compete, and where none but the baseline does.
+std::optional<Rival> FindRival(const Study& study, const ConditionTable& table, const ComparedMethod& method);
 
 /// One metric of `method` and of whom it meets, in all worlds of the condition.
 PairedWorlds WorldsAgainst(const Rival& rival, const ConditionTable& table, const std::string& method,

@@ -125,16 +125,14 @@ std::vector<Question> AskAgainstBaselines(const Study& study, const ConditionTab
   return questions;
 }
 
-/// Every method that competes against the strongest other one.
+/// Every method that competes against its strongest rival.
 std::vector<Question> AskAgainstRivals(const Study& study, const ConditionTable& condition, std::uint64_t seed) {
-  const auto asking = std::count_if(study.methods.begin(), study.methods.end(), [&](const ComparedMethod& method) {
-    return Competes(study, method) && method.name != study.rival;
-  });
+  const auto asking =
+      std::ranges::count_if(study.methods, [&](const ComparedMethod& method) { return HasRival(study, method); });
   const Family family{study, seed, SizeOf(study, static_cast<int>(asking))};
   std::vector<Question> questions;
   for (const ComparedMethod& entry : study.methods) {
-    if (!Competes(study, entry)) continue;
-    const auto rival = FindRival(study, condition, entry.name);
+    const auto rival = FindRival(study, condition, entry);
     if (!rival) continue;
     for (const std::string& id : study.metrics) {
       const std::string purpose = PurposeOf(study.scenario, condition.condition, id, "rival", entry.name);

@@ -28,12 +28,24 @@ def refused(text):
     return complaints(yaml.safe_load(text), SCHEMA)
 
 
+def undescribed(text):
+    """The scenarios and methods of a file that no whole sentence describes."""
+    document = yaml.safe_load(text)
+    shared = document.get("defaults", {})
+    scenarios = document.get("scenarios", [document])
+    methods = shared.get("methods", []) + [method for scenario in scenarios for method in scenario.get("methods", [])]
+    described = [(one["scenario"], one) for one in scenarios] + [(one["name"], one) for one in methods]
+    return [name for name, one in described if not re.fullmatch(r"[A-Z].{10,}\.", one.get("description", ""))]
+
+
 class Schema(EtudeCase):
-    def test_every_scenario_of_the_repository_is_accepted(self):
+    def test_every_scenario_of_the_repository_is_accepted_and_described(self):
         files = [file for folder in ("quick", "paper", "full") for file in (ROOT / "scenarios" / folder).glob("*.yaml")]
         self.assertGreater(len(files), 15)
         for file in files:
             self.assertEqual(refused(file.read_text()), [], file)
+            self.assertEqual(undescribed(file.read_text()), [], file)
+        self.assertEqual(undescribed(SEVERAL), ["one", "two", "a"])
 
     def test_examples_of_the_page_are_accepted(self):
         blocks = re.findall(r"```yaml\n(.*?)```", (ROOT / "docs" / "scenarios.md").read_text(), re.S)

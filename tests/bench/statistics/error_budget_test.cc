@@ -21,8 +21,8 @@ task: capture
 clips: ['builtin:boxing']
 trials: 12
 methods:
-- {name: seen}
-- {name: m, oracle: [marks]}
+- {name: seen, description: Sees all.}
+- {name: m, oracle: [marks], description: Is told the marks.}
 - {name: l, oracle: [lengths]}
 - {name: ml, oracle: [lengths, marks]}
 - {name: other, solver: ccd}

@@ -37,7 +37,8 @@ ScenarioTable TableOf(const Study& study, const Errors& errors) {
 }
 
 std::string RivalOf(const Study& study, const ScenarioTable& table, const std::string& method) {
-  const auto rival = FindRival(study, table.conditions()[0], method);
+  const auto entry = std::ranges::find(study.methods, method, &ComparedMethod::name);
+  const auto rival = FindRival(study, table.conditions()[0], *entry);
   return rival ? rival->Name() : "";
 }
 
@@ -49,6 +50,41 @@ TEST(FindRival, TakesTheBestOtherMethodThatCompetes) {
   EXPECT_EQ(RivalOf(study, table, "a"), "b");
   EXPECT_EQ(RivalOf(study, table, "b"), "c");
   EXPECT_FALSE(Competes(study, study.methods[3])) << "a yardstick";
+  EXPECT_EQ(RivalOf(study, table, "seen"), "");
+}
+
+TEST(FindRival, IsNeverTheBaseline) {
+  // The baseline is best in half of the worlds: "a or c" would judge the pair b, a a second time, on half of its worlds.
+  const Study study = StudyOf(ParseOne(kRivalYaml));
+  const ScenarioTable table = TableOf(study, [](const std::string& method, int trial) {
+    if (method == "c") return 5.0;
+    return method == "b" ? 3.0 : trial % 2 == 0 ? 1.0 : 9.0;
+  });
+  EXPECT_EQ(RivalOf(study, table, "b"), "c");
+  EXPECT_EQ(RivalOf(study, table, "c"), "b");
+  EXPECT_EQ(RivalOf(study, table, "a"), "b");
+  const ScenarioSummary summary = Summarise(study, table, 1);
+  for (const Comparison& comparison : summary.conditions[0].comparisons) EXPECT_EQ(comparison.baseline, "a");
+  for (const Comparison& comparison : summary.conditions[0].rivals) {
+    EXPECT_EQ(comparison.baseline, comparison.method == "b" ? "c" : "b");
+    EXPECT_TRUE(comparison.notes.empty()) << "no halves";
+  }
+}
+
+TEST(FindRival, OfAMethodThatHasNoOtherThanItsBaselineIsNone) {
+  const Study study = StudyOf(ParseOne(R"(
+scenario: s
+question: which?
+task: ik
+trials: 12
+methods: [{name: a}, {name: b}]
+metrics: [position_error_cm]
+)"));
+  const ScenarioTable table = TableOf(study, [](const std::string& method, int) { return method == "a" ? 9.0 : 3.0; });
+  EXPECT_EQ(RivalOf(study, table, "b"), "");
+  EXPECT_EQ(RivalOf(study, table, "a"), "b") << "the first has no baseline";
+  const ScenarioSummary summary = Summarise(study, table, 1);
+  EXPECT_EQ(summary.conditions[0].rivals.size(), 1u);
 }
 
 TEST(FindRival, AsksTheNextMetricOfWhatTheFirstDoesNotTellApart) {
@@ -67,7 +103,7 @@ TEST(FindRival, ChoosesOnOtherWorldsThanThoseItIsJudgedOn) {
     return (method == "b") == (trial % 2 == 0) ? 1.0 : 9.0;
   });
   const ConditionTable& condition = table.conditions()[0];
-  const auto rival = FindRival(study, condition, "a");
+  const auto rival = FindRival(study, condition, study.methods[0]);
   ASSERT_TRUE(rival);
   EXPECT_EQ(rival->Name(), "c or b");
   EXPECT_THAT(rival->Note(), testing::HasSubstr("on the other half of the worlds"));
