@@ -11,7 +11,8 @@
 #include "cli/output_file.h"
 #include "engine/base/names.h"
 
-// What is made of the option tree: completion for shells, and manual pages. Nothing of them is written by hand.
+// What is made of the option tree: completion for shells, manual pages, and a page of all. Nothing of them is written
+// by hand.
 
 namespace etude {
 namespace {
@@ -196,11 +197,26 @@ Result<int> WriteManual(const CLI::App& app, const std::string& folder) {
   return kSuccess;
 }
 
+/// Writes docs/reference/commands.md: what each command's `--help` prints.
+std::string CommandsPage(const CLI::App& app) {
+  std::string text =
+      "# Every command\n\nWritten by `scripts/docs` from each command's own help; a test compares the two.\n";
+  ForEachCommand(app, "", [&](const CLI::App& command, const std::string& words) {
+    if (words.empty()) return;
+    const std::size_t above = words.rfind(' ');
+    const std::string help = command.help("etude" + (above == std::string::npos ? "" : " " + words.substr(0, above)));
+    const std::size_t first = help.find_first_not_of('\n'), last = help.find_last_not_of('\n');
+    text += fmt::format("\n## etude {}\n\n```text\n{}\n```\n", words, help.substr(first, last + 1 - first));
+  });
+  return text;
+}
+
 }  // namespace
 
 void DefineOptionTree(CLI::App& app, Action& action) {
   const CLI::App* program = &app;
   auto shell = std::make_shared<std::string>(), folder = std::make_shared<std::string>();
+  auto as_page = std::make_shared<bool>(false);
   CLI::App* completion = app.add_subcommand("completion", "Print completion for a shell, to be put where it looks");
   completion->add_option("shell", *shell, "bash, zsh or fish")
       ->required()
@@ -213,9 +229,16 @@ void DefineOptionTree(CLI::App& app, Action& action) {
       return kSuccess;
     };
   });
-  CLI::App* manual = app.add_subcommand("man", "Write the manual pages into a folder")->group("");
-  manual->add_option("folder", *folder)->required();
-  manual->callback([=, &action] { action = [=] { return Finish(WriteManual(*program, *folder)); }; });
+  CLI::App* manual = app.add_subcommand("man", "Write the manual pages into a folder")->group("")->require_option(1);
+  manual->add_option("folder", *folder);
+  manual->add_flag("--markdown", *as_page, "Print all of them as a page instead");
+  manual->callback([=, &action] {
+    action = [=]() -> int {
+      if (!*as_page) return Finish(WriteManual(*program, *folder));
+      fmt::print("{}", CommandsPage(*program));
+      return kSuccess;
+    };
+  });
 }
 
 }  // namespace etude

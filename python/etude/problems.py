@@ -15,8 +15,10 @@ Rotation = List[List[float]]
 class IkJoint(Message):
     """A joint of the body that a solver turns.
 
+    name: The joint's name.
     parent: null: it is the root.
     offset_m: From the parent, in the parent's frame.
+    rest: How its frame lies in its parent's while all its angles are 0.
     axes: What it turns about, in order.
     first_angle: Of the setting's angles.
     """
@@ -30,7 +32,12 @@ class IkJoint(Message):
 
 @dataclass
 class IkAngle(Message):
-    """One degree of freedom."""
+    """One degree of freedom.
+
+    name: The angle's name.
+    lower_deg: The least that it may be, in degrees.
+    upper_deg: The most that it may be, in degrees.
+    """
     name: str
     lower_deg: float
     upper_deg: float
@@ -40,6 +47,7 @@ class IkAngle(Message):
 class IkEffector(Message):
     """The free end of a limb.
 
+    name: The effector's name.
     joint: The joint it hangs on.
     offset_m: In that joint's frame.
     """
@@ -50,14 +58,23 @@ class IkEffector(Message):
 
 @dataclass
 class IkRoot(Message):
-    """Where the joint without parent is; it does not move."""
+    """Where the joint without parent is; it does not move.
+
+    position_m: Its place in the world, in metres.
+    rotation: From its frame into the world's.
+    """
     position_m: Vector
     rotation: Rotation
 
 
 @dataclass
 class IkTarget(Message):
-    """Where an effector shall be."""
+    """Where an effector shall be.
+
+    effector: The name of the effector that it is for.
+    position_m: Where that shall be in the world, in metres.
+    rotation: From that effector's frame into the world's.
+    """
     effector: str
     position_m: Vector
     rotation: Rotation
@@ -65,7 +82,11 @@ class IkTarget(Message):
 
 @dataclass
 class IkFrame(Message):
-    """A frame of the motion to follow."""
+    """A frame of the motion to follow.
+
+    root: Where the joint without parent is in this frame.
+    targets: Per effector, in order.
+    """
     HOLDS: ClassVar[dict] = {"root": IkRoot, "targets": [IkTarget]}
     root: IkRoot
     targets: List[IkTarget]
@@ -76,7 +97,11 @@ class IkSetting(Message):
     """The body, and what is asked.
 
     joints: Parents first.
+    angles: Per degree of freedom, in the order of answers.
+    effectors: The free ends that have targets.
     max_steps: What built-in solvers stop at, as the goals.
+    position_goal_cm: How near an effector has to come to its target, in centimetres.
+    orientation_goal_deg: How far each of an effector's axes may be from its target's, in degrees.
     asked: What effectors are to meet of their targets.
     """
     HOLDS: ClassVar[dict] = {"joints": [IkJoint], "angles": [IkAngle], "effectors": [IkEffector]}
@@ -93,6 +118,7 @@ class IkSetting(Message):
 class IkProblem(Message):
     """One pose to be found.
 
+    root: Where the joint without parent is.
     start_angles_deg: Where to begin, within all limits.
     targets: Per effector, in order.
     """
@@ -119,7 +145,10 @@ class IkAnswer(Message):
 class TrackingSetting(Message):
     """How far frames are apart, and what built-in solvers stop at in each.
 
+    rate_hz: Frames a second.
     max_steps: What built-in solvers stop at, as the goals.
+    position_goal_cm: How near an effector has to come to its target, in centimetres.
+    orientation_goal_deg: How far each of an effector's axes may be from its target's, in degrees.
     """
     rate_hz: float
     max_steps: int
@@ -132,7 +161,10 @@ class TrackingProblem(Message):
     """A motion to be followed, by a body of its own.
 
     joints: Parents first.
+    angles: Per degree of freedom, in the order of answers.
+    effectors: The free ends that have targets.
     start_angles_deg: Where to begin in the first frame.
+    frames: The motion, a frame after the other.
     """
     HOLDS: ClassVar[dict] = {"joints": [IkJoint], "angles": [IkAngle], "effectors": [IkEffector], "frames": [IkFrame]}
     joints: List[IkJoint]
@@ -157,6 +189,7 @@ class TrackingAnswer(Message):
 class TransitionClip(Message):
     """A clip of the library.
 
+    name: The clip's name.
     poses: One per frame.
     file: The same as BVH.
     """
@@ -169,8 +202,10 @@ class TransitionClip(Message):
 class TransitionSetting(Message):
     """The library of clips.
 
+    rate_hz: Frames a second, of all clips.
     joints: The twenty joints, in the order of poses.
     parents: Per joint the one above it; null for the first.
+    clips: The library; problems name its clips by their index, from 0.
     """
     HOLDS: ClassVar[dict] = {"clips": [TransitionClip]}
     rate_hz: float
@@ -196,7 +231,12 @@ class TransitionProblem(Message):
 
 @dataclass
 class TransitionStop(Message):
-    """A clip played on the way."""
+    """A clip played on the way.
+
+    clip: Its index in the library.
+    enter_frame: The first of its frames that takes the place of the one before.
+    leave_frame: The last of its frames that is shown.
+    """
     clip: int
     enter_frame: int
     leave_frame: int
@@ -232,7 +272,11 @@ class TransitionAnswer(Message):
 
 @dataclass
 class PoseDistancePair(Message):
-    """Two poses."""
+    """Two poses.
+
+    a: The one pose.
+    b: The other; heading and place on the floor do not count.
+    """
     a: Pose
     b: Pose
 
@@ -250,7 +294,10 @@ class PoseDistanceSetting(Message):
 
 @dataclass
 class PoseDistanceProblem(Message):
-    """Pairs of poses."""
+    """Pairs of poses.
+
+    pairs: Two poses each.
+    """
     HOLDS: ClassVar[dict] = {"pairs": [PoseDistancePair]}
     pairs: List[PoseDistancePair]
 
@@ -268,7 +315,12 @@ class PoseDistanceAnswer(Message):
 
 @dataclass
 class SearchTerm(Message):
-    """What a grade is of."""
+    """What a grade is of.
+
+    feature: The feature of a pose that is graded, such as RH.
+    term: The fuzzy term of that feature.
+    weight: What a difference of these grades counts for in the distance.
+    """
     feature: str
     term: str
     weight: float
@@ -279,6 +331,11 @@ class SearchSetting(Message):
     """The library, and what is asked of it.
 
     file: Frames times 24 numbers, little-endian IEEE 754 of 64 bits, frame by frame.
+    frames: How many frames the library has.
+    terms: Per grade, in the order of the file and of queries: 24.
+    query: What is asked: the earliest frame below the threshold, all of them, the most alike, or the ten most
+        alike.
+    threshold: The distance below which two frames are alike.
     """
     HOLDS: ClassVar[dict] = {"terms": [SearchTerm]}
     file: str
@@ -311,6 +368,8 @@ class KeyTarget(Message):
     """An angle of a key pose.
 
     feature: One of paper A's ten.
+    degrees: What the feature should be, in degrees.
+    tolerance_deg: How far off it may be, in degrees.
     """
     feature: str
     degrees: float
@@ -319,7 +378,11 @@ class KeyTarget(Message):
 
 @dataclass
 class KeyPose(Message):
-    """What a move looks like at a beat."""
+    """What a move looks like at a beat.
+
+    beat: When the pose is reached, in beats from the move's beginning.
+    targets: The features that count in it.
+    """
     HOLDS: ClassVar[dict] = {"targets": [KeyTarget]}
     beat: float
     targets: List[KeyTarget]
@@ -329,8 +392,13 @@ class KeyPose(Message):
 class Move(Message):
     """A move that may be performed.
 
+    name: The move's name.
+    tempo_bpm: Beats a minute of the example.
+    beats: How many beats it lasts.
+    rate_hz: Frames a second of the example.
     poses: Of one perfect performance.
     file: The same as BVH.
+    key_poses: What paper A's recogniser looks for, in order.
     """
     HOLDS: ClassVar[dict] = {"key_poses": [KeyPose]}
     name: str
@@ -348,6 +416,7 @@ class DetectionSetting(Message):
 
     joints: The twenty joints, in the order of poses.
     parents: Per joint the one above it; null for the first.
+    moves: Those that may be performed.
     """
     HOLDS: ClassVar[dict] = {"moves": [Move]}
     joints: List[str]
@@ -359,7 +428,9 @@ class DetectionSetting(Message):
 class DetectionFrame(Message):
     """What the sensor saw in a frame.
 
+    pose: Where the sensor takes the joints to be.
     states: Per joint a letter: tracked, inferred, not tracked.
+    body_seen: False: nobody was seen, and the pose is an old one.
     """
     pose: Pose
     states: str
@@ -370,6 +441,7 @@ class DetectionFrame(Message):
 class DetectionEvent(Message):
     """A performance that was asked for.
 
+    move: The name of the move asked for.
     begin_frame: The first of its window.
     end_frame: The first after it.
     """
@@ -382,6 +454,9 @@ class DetectionEvent(Message):
 class DetectionProblem(Message):
     """A session, as a sensor saw it.
 
+    rate_hz: Frames a second.
+    frames: What the sensor saw, frame after frame.
+    events: What was asked for, in order of time.
     file: The positions as TRC.
     """
     HOLDS: ClassVar[dict] = {"frames": [DetectionFrame], "events": [DetectionEvent]}
@@ -404,7 +479,11 @@ class DetectionCall(Message):
 
 @dataclass
 class DetectionAlarm(Message):
-    """A move taken for performed."""
+    """A move taken for performed.
+
+    move: The name of the move.
+    frame: The frame at which it is taken for performed.
+    """
     move: str
     frame: int
 
@@ -436,10 +515,12 @@ class CaptureStroke(Message):
 class CaptureSetting(Message):
     """The pictures, and what the annotator marks in them.
 
+    rate_hz: Pictures a second.
     image_width: Pixels.
     image_height: Pixels.
     joints: The twenty joints, in the order of poses.
     parents: Per joint the one above it; null for the first.
+    strokes: The limbs that the annotator marks.
     discs: Joints marked with a point.
     """
     HOLDS: ClassVar[dict] = {"strokes": [CaptureStroke]}
@@ -456,6 +537,7 @@ class CaptureSetting(Message):
 class CapturePoint(Message):
     """A point whose place is known.
 
+    world_m: Where it is in the world, in metres.
     pixel: u right, v down; (0.5, 0.5) is the centre of the first pixel.
     """
     world_m: Vector
@@ -466,6 +548,7 @@ class CapturePoint(Message):
 class CaptureCamera(Message):
     """A camera and its film.
 
+    calibration: Points that somebody clicked in the picture, from which the camera is calibrated.
     background: A picture of the empty room.
     pictures: PNG, one per frame.
     """
@@ -481,6 +564,7 @@ class CaptureProblem(Message):
 
     frames: How many.
     limb_lengths_m: Of the person filmed, by name.
+    cameras: Per camera its film; they are in step.
     marks: By segmenter, then [camera][frame]: null, or strokes and discs in pixels.
     """
     HOLDS: ClassVar[dict] = {"cameras": [CaptureCamera]}
@@ -503,6 +587,7 @@ class CaptureAnswer(Message):
 class CaptureSegmenterBegin(Message):
     """A camera's film begins.
 
+    seat: Always segmenter.
     camera: From 1.
     background: A picture of the empty room, binary PPM.
     """
@@ -533,20 +618,32 @@ class CaptureMask(Message):
 
 @dataclass
 class CaptureSegmenterAnswer(Message):
-    """What has changed against the empty room."""
+    """What has changed against the empty room.
+
+    mask: Which pixels are the person.
+    """
     HOLDS: ClassVar[dict] = {"mask": CaptureMask}
     mask: CaptureMask
 
 
 @dataclass
 class CoachRepetition(Message):
-    """A performance of the dance."""
+    """A performance of the dance.
+
+    move: The name of the move that is danced.
+    """
     move: str
 
 
 @dataclass
 class CoachDance(Message):
-    """What is danced, in order."""
+    """What is danced, in order.
+
+    title: The song's title.
+    tempo_bpm: Beats a minute.
+    rate_hz: Steps a second.
+    repetitions: The performances of the song, in order.
+    """
     HOLDS: ClassVar[dict] = {"repetitions": [CoachRepetition]}
     title: str
     tempo_bpm: float
@@ -560,6 +657,8 @@ class CoachSetting(Message):
 
     joints: The twenty joints, in the order of poses.
     parents: Per joint the one above it; null for the first.
+    moves: Those of the dance, their examples at the song's tempo.
+    dance: What is danced, in order.
     """
     HOLDS: ClassVar[dict] = {"moves": [Move], "dance": CoachDance}
     joints: List[str]
@@ -570,13 +669,19 @@ class CoachSetting(Message):
 
 @dataclass
 class CoachBegin(Message):
-    """A session begins."""
+    """A session begins.
+
+    seat: Which part of the coach, or the learner, the program is.
+    """
     seat: str
 
 
 @dataclass
 class CoachAsk(Message):
-    """What is asked for from this frame on."""
+    """What is asked for from this frame on.
+
+    move: The move's name; null: nothing is asked for.
+    """
     move: Optional[str]
 
 
@@ -584,7 +689,10 @@ class CoachAsk(Message):
 class CoachRecogniserStep(Message):
     """What the sensor reports.
 
+    pose: Where the sensor takes the learner's joints to be.
     states: Per joint a letter: tracked, inferred, not tracked.
+    body_seen: False: nobody was seen, and the pose is an old one.
+    ask: What is asked for from this frame on; left out where that goes on.
     """
     HOLDS: ClassVar[dict] = {"ask": CoachAsk}
     pose: Pose
@@ -606,7 +714,14 @@ class CoachRecogniserAnswer(Message):
 
 @dataclass
 class CoachVerdict(Message):
-    """Of a window that has just closed."""
+    """Of a window that has just closed.
+
+    move: The name of the move that was asked for.
+    repetition: Which performance of the dance it was, from 0.
+    verdict: What the coach takes it for; unjudged: it saw too little.
+    mistake: What was wrong: none, not reached, stood still or wrong side.
+    evidence: How right it looked, 0 to 1.
+    """
     move: Optional[str]
     repetition: int
     verdict: str
@@ -616,7 +731,13 @@ class CoachVerdict(Message):
 
 @dataclass
 class CoachPolicyStep(Message):
-    """What the coach shows, and how it went."""
+    """What the coach shows, and how it went.
+
+    mode: What the coach does, such as dance, correct, demonstrate, praise.
+    move: The name of the move that it shows; null: none.
+    repetition: Which performance of the dance it is, from 0; -1: none.
+    verdicts: On the windows that have just closed; mostly none.
+    """
     HOLDS: ClassVar[dict] = {"verdicts": [CoachVerdict]}
     mode: str
     move: Optional[str]
@@ -637,6 +758,7 @@ class CoachPolicyAnswer(Message):
 class CoachTest(Message):
     """After the session: whether a move is danced right.
 
+    move: The name of the move to be danced.
     after: So many performances' time later.
     """
     move: str
@@ -647,9 +769,16 @@ class CoachTest(Message):
 class CoachLearnerStep(Message):
     """What the coach shows; or, after the session, a test alone.
 
+    pose: The coach's, as the learner sees it.
+    mode: What the coach does, such as dance, correct, demonstrate, praise.
+    clip: What the coach plays: dance, an act, or slow_ and a move.
+    clip_frame: The frame of that clip.
+    move: The name of the move that the coach shows; null: none.
+    repetition: Which performance of the dance it is, from 0; -1: none.
     say: A short word to the learner.
     hint: What to do better.
     events: What the coach has just decided.
+    test: In the place of all else, after the session: a move to be danced without a coach.
     """
     HOLDS: ClassVar[dict] = {"test": CoachTest}
     pose: Optional[Pose] = None
@@ -670,6 +799,7 @@ class CoachLearnerAnswer(Message):
 
     pose: Its own, a quarter of a second later.
     right: Of the performance that it dances; null: neither.
+    given_up: True: the learner goes, and the session is over.
     """
     pose: Optional[Pose] = None
     right: Optional[bool] = None
@@ -681,6 +811,7 @@ class MetricSetting(Message):
     """What a metric is measured on: cells of one scenario.
 
     metric: Its name in the scenario.
+    version: Its version in the scenario.
     task: The scenario's.
     unit: Of positions: m.
     joints: In the order of poses.
@@ -698,7 +829,9 @@ class MetricSetting(Message):
 class MetricTrack(Message):
     """A motion of a cell.
 
-    name: truth, solution, sensed, …
+    name: Which motion it is, such as truth, solution or sensed.
+    rate_hz: Frames a second.
+    poses: Per frame a pose.
     """
     name: str
     rate_hz: float
@@ -709,6 +842,7 @@ class MetricTrack(Message):
 class MetricProblem(Cell):
     """A finished cell, as a recording keeps it (docs/reference/recordings.md).
 
+    tracks: The cell's motions, truth among them.
     extras: What the task keeps beside motions.
     """
     HOLDS: ClassVar[dict] = {"tracks": [MetricTrack]}

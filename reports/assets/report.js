@@ -89,8 +89,19 @@
     picked = null;
     back?.focus();
   };
-  const cellsOf = (shown) => {
-    if (shown.dataset.ids) return shown.dataset.ids.split('\n');
+  // A table's row stands for all trials: it shows the one that most of its cells were recorded of, else the first.
+  const TRIAL = /\/\d+(?=\/[^/]*$)/, without = (id) => id.replace(TRIAL, '');
+  const ofRow = (ids, kept) => {
+    const asked = ids.map(without), count = new Map();
+    kept.filter((id) => asked.includes(without(id))).forEach((id) => {
+      const [trial] = id.match(TRIAL);
+      count.set(trial, (count.get(trial) ?? 0) + 1);
+    });
+    const most = Math.max(...count.values()), trial = [...count.keys()].find((one) => count.get(one) === most);
+    return trial ? ids.map((id) => id.replace(TRIAL, trial)) : ids;
+  };
+  const cellsOf = (shown, kept) => {
+    if (shown.dataset.ids) return shown.tagName === 'TR' ? ofRow(shown.dataset.ids.split('\n'), kept) : shown.dataset.ids.split('\n');
     const of = shown.closest('figure').dataset, trial = shown.dataset.t.padStart(3, '0');
     return (of.a ? [of.a, of.b] : [shown.parentElement.dataset.m]).map((m) => [of.s, of.c, trial, m].join('/'));
   };
@@ -101,8 +112,8 @@
   };
   const show = (shown) => {
     close();
-    const cells = cellsOf(shown), article = shown.closest('.card');
-    const kept = JSON.parse(article.dataset.recorded ?? '[]');
+    const article = shown.closest('.card'), kept = JSON.parse(article.dataset.recorded ?? '[]');
+    const cells = cellsOf(shown, kept);
     card.replaceChildren(make('p', titleOf(shown)));
     cells.forEach((id) => card.append(make('code', 'etude replay ' + word(folder) + ' --cell ' + word(id))));
     const film = article.querySelector('.film') ?? document.querySelector('.film');
@@ -120,8 +131,9 @@
     end.focus();
   };
   document.addEventListener('click', (event) => {
-    const dot = event.target.closest?.('use[data-t]');
+    const dot = event.target.closest?.('use[data-t]'), row = event.target.closest?.('tr[data-ids]');
     if (dot) show(dot);
+    else if (row?.dataset.ids && !event.target.closest('a, button') && getSelection().isCollapsed) show(row);
   });
   document.addEventListener('keydown', (event) => { if (event.key === 'Escape') close(); });
 
@@ -153,9 +165,10 @@
     if (row.dataset.ids) (row.tagName === 'TR' ? row.cells[0] : row).append(button('', 'Run it again', () => show(row), 'rerun'));
   });
 
-  // A picture as a file: with the colours that it has here, and the marks that it points to.
+  // A picture as a file: with the colours that it has here, and the marks that it points to; or printed, alone on a page of its size,
+  // which every browser saves as a PDF of lines and letters.
   const PAINTS = ['fill', 'stroke', 'stroke-width', 'stroke-dasharray', 'fill-opacity', 'stroke-opacity', 'opacity', 'font-size', 'font-family', 'paint-order'];
-  const save = (svg, name) => {
+  const whole = (svg) => {
     const copy = svg.cloneNode(true), there = svg.querySelectorAll('*');
     copy.querySelectorAll('*').forEach((e, i) => {
       const style = getComputedStyle(there[i]);
@@ -163,14 +176,35 @@
     });
     copy.prepend(document.querySelector('.defs defs').cloneNode(true));
     copy.setAttribute('xmlns', 'http://www.w3.org/2000/svg');
-    const url = URL.createObjectURL(new Blob([new XMLSerializer().serializeToString(copy)], {type: 'image/svg+xml'}));
+    return copy;
+  };
+  const save = (svg, name) => {
+    const url = URL.createObjectURL(new Blob([new XMLSerializer().serializeToString(whole(svg))], {type: 'image/svg+xml'}));
     make('a', '', {href: url, download: name + '.svg'}).click();
     setTimeout(() => URL.revokeObjectURL(url), 1000);
   };
+  const print = (svgs) => {
+    const frame = make('iframe', '', {className: 'printed', title: 'The picture to print'});
+    document.querySelector('.printed')?.remove();
+    document.body.append(frame);
+    const boxes = svgs.map((svg) => svg.getBoundingClientRect()), inside = frame.contentDocument;
+    const width = Math.ceil(Math.max(...boxes.map((box) => box.width))) + 24, height = Math.ceil(Math.max(...boxes.map((box) => box.height))) + 24;
+    inside.head.append(make('style', `@page { size: ${width}px ${height}px; margin: 0 } body { margin: 12px; -webkit-print-color-adjust: exact; print-color-adjust: exact }
+        svg { display: block; break-inside: avoid; break-after: page } svg:last-child { break-after: auto }`));
+    svgs.forEach((svg, i) => {
+      const copy = whole(svg);
+      copy.setAttribute('width', boxes[i].width);
+      copy.setAttribute('height', boxes[i].height);
+      inside.body.append(copy);
+    });
+    inside.title = document.title;
+    frame.dispatchEvent(new CustomEvent('etude:printed', {bubbles: true}));
+    frame.contentWindow.print();
+  };
   document.querySelectorAll('figure:has(> svg, .panels svg) > figcaption').forEach((caption, i) => {
-    const figure = caption.parentElement;
-    caption.append(button('', 'Save this picture as SVG', () => figure.querySelectorAll('svg').forEach((svg, k) =>
-        save(svg, [figure.dataset.s ?? 'picture', i + 1, k + 1].join('-'))), 'save'));
+    const figure = caption.parentElement, svgs = [...figure.querySelectorAll('svg')];
+    caption.append(button('', 'Save this picture as SVG', () => svgs.forEach((svg, k) => save(svg, [figure.dataset.s ?? 'picture', i + 1, k + 1].join('-'))), 'save'),
+                   button('', 'Print this picture alone, or save it as PDF', () => print(svgs), 'save pdf'));
   });
 
   // Tables: sorted by a click on a heading, filtered, copied, with columns to choose from.

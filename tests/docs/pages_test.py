@@ -5,6 +5,7 @@ with the built program first in PATH. What a block is stands behind its `sh`:
     ```sh heavy      takes long: run where ETUDE_HEAVY=1
     ```sh not-run    needs what no test has (another machine, films); its options must be known, and NOT_RUN counts it
 """
+import functools
 import os
 import pathlib
 import re
@@ -12,7 +13,7 @@ import subprocess
 import tempfile
 import unittest
 
-import commands_page
+import protocol_page
 
 ETUDE = pathlib.Path(os.environ["ETUDE"]).resolve()
 ROOT = pathlib.Path(__file__).parents[2]
@@ -20,7 +21,7 @@ PAGES = [ROOT / "README.md", *sorted((ROOT / "docs" / "guide").glob("*.md"))]
 NOT_RUN = {"README.md": 1, "ci.md": 1, "cite.md": 1, "cluster.md": 2, "coach.md": 1, "install.md": 4, "own-cameras.md": 3,
            "own-recordings.md": 2}
 WORDS = 700  # at most, on each page
-MADE = {ROOT / "docs" / "reference" / f"{name}.md" for name in ("commands", "keys", "metrics", "recordings")}  # by the program
+MADE = {ROOT / "docs" / "reference" / f"{name}.md" for name in ("commands", "keys", "metrics", "protocol", "recordings")}  # by the program
 
 
 class Wrong(Exception):
@@ -77,16 +78,22 @@ def dead_links(root, pages):
     return dead, count
 
 
+@functools.cache
+def commands_page():
+    """The page of every command's help, by the program."""
+    return subprocess.run([ETUDE, "man", "--markdown"], capture_output=True, text=True, check=True).stdout
+
+
 def unknown_options(commands):
     """Options of `etude` in commands that are not run, and that its help does not have."""
-    found = []
-    for call in re.findall(r"(?:^|[|&;(]) *etude (\w[\w-]*)([^|&;\n]*)", commands.replace("\\\n", " "), re.M):
-        page = subprocess.run([ETUDE, call[0], "--help"], capture_output=True, text=True)
-        if f"Usage: etude {call[0]} " not in page.stdout:
-            found.append(call[0])
-        for option in re.findall(r"(?<=\s)(-o|--[\w-]+)(?=[\s=]|$)", call[1].split(" -- ")[0]):
-            if not re.search(rf"(?<![\w-]){option}(?![\w-])", page.stdout):
-                found.append(f"{call[0]} {option}")
+    helps, found = dict(re.findall(r"^## etude (.*?)\n(.*?)(?=^## |\Z)", commands_page(), re.M | re.S)), []
+    for name, rest in re.findall(r"(?:^|[|&;(]) *etude (\w[\w-]*)([^|&;\n]*)", commands.replace("\\\n", " "), re.M):
+        if name not in helps:
+            found.append(name)
+            continue
+        for option in re.findall(r"(?<=\s)(-o|--[\w-]+)(?=[\s=]|$)", rest.split(" -- ")[0]):
+            if not re.search(rf"(?<![\w-]){option}(?![\w-])", helps[name]):
+                found.append(f"{name} {option}")
     return found
 
 
@@ -171,8 +178,18 @@ class Pages(unittest.TestCase):
         self.assertEqual([str(room) for room in rooms if f"](../{room})" not in page], [])
 
     def test_the_reference_has_every_command(self):
-        self.assertEqual((ROOT / "docs/reference/commands.md").read_text(), commands_page.page(ETUDE),
-                         "write it anew: scripts/docs")
+        page = commands_page()
+        self.assertEqual((ROOT / "docs/reference/commands.md").read_text(), page, "write it anew: scripts/docs")
+        for words in (["gate"], ["clip", "info"]):
+            printed = subprocess.run([ETUDE, *words, "--help"], capture_output=True, text=True, check=True).stdout.strip("\n")
+            self.assertIn(f"\n## etude {' '.join(words)}\n\n```text\n{printed}\n```\n", page)
+
+    def test_the_reference_has_the_whole_protocol(self):
+        schema = protocol_page.read_schema()
+        self.assertEqual((ROOT / "docs/reference/protocol.md").read_text(), protocol_page.page(schema), "write it anew: scripts/docs")
+        fields = [(name, key, value) for name, one in schema["$defs"].items() for key, value in one.get("properties", {}).items()]
+        self.assertGreater(len(fields), 200)
+        self.assertEqual([(name, key) for name, key, value in fields if not re.match(r"\S.*\.$", value.get("description", ""))], [])
 
     def test_what_is_wrong_is_found(self):
         for text, complaint in [("```sh\necho fine\nfalse\n```\n", "line 1: exit code 1"),
