@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <glm/glm.hpp>
+#include <sstream>
 #include <utility>
 
 #include "engine/base/angles.h"
@@ -64,7 +66,7 @@ void AddTree(const glm::dvec3& foot, double height, std::size_t kind, Figure& fo
 constexpr Box kStage{12, 52, 1256, 520};
 constexpr Box kSaid{12, 52, 1064, 520};  // of the stage, what words may cover
 constexpr Box kInset{1086, 372, 170, 188};
-constexpr Box kHint{1046, 64, 210, 232};
+constexpr Box kHint{1046, 64, 210, 280};
 
 // Who stands where, and what is seen of them.
 constexpr FloorMove kCoachAt{.yaw = 0, .x = -1.05, .z = -0.3}, kLearnerAt{.yaw = 0, .x = 0.95, .z = -0.3};
@@ -90,6 +92,21 @@ template <typename Span>
 const Span& InForce(const std::vector<Span>& spans, int frame) {
   const auto after = std::ranges::upper_bound(spans, frame, {}, &Span::begin_frame);
   return after == spans.begin() ? spans.front() : *(after - 1);
+}
+
+/// Breaks words into lines that are no wider than `room`; a word alone may be.
+std::vector<std::string> LinesOf(const std::string& words, double room,
+                                 const std::function<double(const std::string&)>& width_of) {
+  std::vector<std::string> lines;
+  std::istringstream read(words);
+  for (std::string word; read >> word;) {
+    if (!lines.empty() && width_of(lines.back() + " " + word) <= room) {
+      lines.back() += " " + word;
+    } else {
+      lines.push_back(word);
+    }
+  }
+  return lines;
 }
 
 BodyPose PutAt(const BodyPose& pose, const FloorMove& place) { return place.Apply(pose); }
@@ -213,16 +230,20 @@ void CoachedScene::DrawStage(Canvas& canvas, int frame) {
 void CoachedScene::DrawSkeletonInset(Canvas& canvas, int frame) const {
   canvas.FillBox(kInset, {0.05, 0.06, 0.07, 0.78}, kPanelRadius);
   DrawStickFigure(canvas, facts_.sensed.poses[static_cast<std::size_t>(frame)], kInset, 2.3, kWarm);
-  canvas.DrawText({kInset.x + 10, kInset.y + 18}, "as the sensor saw it", 12, kSoftInk, kInset.width - 20);
+  canvas.DrawText({kInset.x + 10, kInset.y + 18}, "as the sensor saw it", 15, kSoftInk, kInset.width - 20);
 }
 
 void CoachedScene::DrawHint(Canvas& canvas, int frame) const {
   const auto& words = InForce(facts_.words, frame);
   if (words.hint.empty() || !words.picture) return;
   canvas.FillBox(kHint, {0.05, 0.06, 0.07, 0.78}, kPanelRadius);
-  DrawStickFigure(canvas, *words.picture, {kHint.x, kHint.y + 24, kHint.width, kHint.height - 56}, 2.3, kInk);
-  canvas.DrawText({kHint.x + 10, kHint.y + 18}, "key pose", 12, kSoftInk, kHint.width - 20);
-  canvas.DrawText({kHint.x + 10, kHint.y + kHint.height - 12}, words.hint, 11, kInk, kHint.width - 20, true);
+  constexpr double kSize = 16, kLine = 21, kRoom = kHint.width - 20;
+  canvas.DrawText({kHint.x + 10, kHint.y + 20}, "key pose", kSize, kSoftInk, kRoom);
+  const std::vector<std::string> lines =
+      LinesOf(words.hint, kRoom, [&](const std::string& line) { return canvas.TextWidth(line, kSize, true); });
+  double y = kHint.y + kHint.height - 12 - kLine * static_cast<double>(lines.size());
+  DrawStickFigure(canvas, *words.picture, {kHint.x, kHint.y + 28, kHint.width, y - kHint.y - 34}, 2.3, kInk);
+  for (const std::string& line : lines) canvas.DrawText({kHint.x + 10, y += kLine}, line, kSize, kInk, kRoom, true);
 }
 
 FrameSpan CoachedScene::TimelineAt(int now) const {

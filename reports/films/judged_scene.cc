@@ -109,7 +109,7 @@ void JudgedScene::DrawSkeleton(Canvas& canvas, int now) const {
   }
   DrawTag(canvas, kSeenPanel, sensed.body_seen ? "As the sensor saw it" : "The sensor sees nobody");
   canvas.DrawText({kSeenPanel.x + 16, kSeenPanel.y + kSeenPanel.height - 16},
-                  "pale: as danced · orange: guessed joint · red: not seen", 12, kSoftInk, kSeenPanel.width - 32);
+                  "pale: as danced · orange: guessed joint · red: not seen", 16, kSoftInk, kSeenPanel.width - 32);
 }
 
 void JudgedScene::DrawAngles(Canvas& canvas, int now) const {

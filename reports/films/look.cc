@@ -8,9 +8,9 @@ namespace etude {
 namespace {
 
 constexpr double kMargin = 16;
-constexpr double kTagSize = 13, kTagHeight = 24, kTagInset = 12;
-constexpr double kStrongSize = 19;
-constexpr double kSoftSize = 14;
+constexpr double kTagSize = 17, kTagHeight = 30, kTagInset = 12;
+constexpr double kStrongSize = 24;
+constexpr double kSoftSize = 18;
 
 }  // namespace
 
@@ -24,24 +24,24 @@ void DrawTag(Canvas& canvas, const Box& panel, const std::string& text, double f
   const double width = std::min(canvas.TextWidth(text, kTagSize, true) + 20, panel.width - 2 * kTagInset - free);
   canvas.FillBox({panel.x + kTagInset, panel.y + kTagInset, width, kTagHeight}, {0.05, 0.06, 0.07, 0.72},
                  kTagHeight / 2);
-  canvas.DrawText({panel.x + kTagInset + 10, panel.y + 28.5}, text, kTagSize, kInk, width - 19, true);
+  canvas.DrawText({panel.x + kTagInset + 10, panel.y + 33}, text, kTagSize, kInk, width - 19, true);
 }
 
 void DrawMark(Canvas& canvas, const Box& panel, const std::string& text) {
   const double width = canvas.TextWidth(text, kTagSize, true) + 20;
   const double x = panel.x + panel.width - kTagInset - width;
   canvas.FillBox({x, panel.y + kTagInset, width, kTagHeight}, kWarm, kTagHeight / 2);
-  canvas.DrawText({x + 10, panel.y + 28.5}, text, kTagSize, kBackdrop, width, true);
+  canvas.DrawText({x + 10, panel.y + 33}, text, kTagSize, kBackdrop, width, true);
 }
 
 void DrawCaption(Canvas& canvas, const Box& panel, const std::string& strong, const std::string& soft, double lift) {
   const double bottom = panel.y + panel.height - lift;
-  const double shade = (strong.empty() ? 44 : 72) + lift;
+  const double shade = (strong.empty() ? 54 : 88) + lift;
   canvas.FillShade({panel.x, panel.y + panel.height - shade, panel.width, shade}, {0.03, 0.04, 0.05, 0},
                    {0.03, 0.04, 0.05, 0.82});
   const double room = panel.width - 2 * kMargin;
-  if (!strong.empty()) canvas.DrawText({panel.x + kMargin, bottom - 37}, strong, kStrongSize, kInk, room, true);
-  canvas.DrawText({panel.x + kMargin, bottom - 15}, soft, kSoftSize, kSoftInk, room);
+  if (!strong.empty()) canvas.DrawText({panel.x + kMargin, bottom - 44}, strong, kStrongSize, kInk, room, true);
+  canvas.DrawText({panel.x + kMargin, bottom - 16}, soft, kSoftSize, kSoftInk, room);
 }
 
 }  // namespace etude

@@ -41,7 +41,7 @@ double SessionTimeline::PlaceOf(int frame) const {
 }
 
 void SessionTimeline::Label(int row, const std::string& text) {
-  canvas_.DrawText({kBox.x + 12, TopOf(row) + 18}, text, 13, kSoftInk, kTimelineBarsFrom - 16);
+  canvas_.DrawText({kBox.x + 12, TopOf(row) + 18}, text, 16, kSoftInk, kTimelineBarsFrom - 16);
 }
 
 void SessionTimeline::Bar(int row, int begin, int end, const Paint& paint) {
@@ -51,7 +51,7 @@ void SessionTimeline::Bar(int row, int begin, int end, const Paint& paint) {
 
 void SessionTimeline::Text(int row, int begin, int end, const std::string& text) {
   const double left = PlaceOf(begin), room = PlaceOf(end) - left - 8;
-  if (room > 0) canvas_.DrawText({left + 5, TopOf(row) + 18}, text, 12, kBackdrop, room);
+  if (room > 0) canvas_.DrawText({left + 5, TopOf(row) + 19}, text, 16, kBackdrop, room);
 }
 
 void SessionTimeline::Tick(int frame, int first_row, int last_row, const Paint& paint) {

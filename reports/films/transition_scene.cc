@@ -147,16 +147,16 @@ void TransitionPanel::DrawBody(Canvas& canvas, const Box& box, Renderer& rendere
   }
   canvas.FillBox(plate, kPlate, kPanelRadius);
   canvas.Put(drawn_->picture, static_cast<int>(box.x), static_cast<int>(box.y), kPanelRadius);
-  constexpr double kMarkRoom = 90;
+  constexpr double kMarkRoom = 112;
   if (!path_.IsRecordedAt(time)) {
     canvas.FillBox(box, kVeil, kPanelRadius);
     const std::string begin = FormatFixed(path_.TimeOf(0) / path_.motion.rate_hz, 1);
-    canvas.DrawText({box.x + 16, box.y + box.height / 2}, fmt::format("recorded from {} s on", begin), 14, kSoftInk,
+    canvas.DrawText({box.x + 16, box.y + box.height / 2}, fmt::format("recorded from {} s on", begin), 17, kSoftInk,
                     box.width - 32);
   }
   DrawTag(canvas, box, path_.method, kMarkRoom);
   // The method's own colour on the page, beneath its name.
-  canvas.FillBox({box.x + 14, box.y + 39, 44, 4}, MethodPaint(path_.method_index), 2);
+  canvas.FillBox({box.x + 14, box.y + 45, 44, 4}, MethodPaint(path_.method_index), 2);
   if (just_changed) DrawMark(canvas, box, "change");
   DrawWords(canvas, {box.x, box.y + box.height, box.width, kCaptionHeight}, time);
 }
@@ -164,9 +164,9 @@ void TransitionPanel::DrawBody(Canvas& canvas, const Box& box, Renderer& rendere
 void TransitionPanel::DrawWords(Canvas& canvas, const Box& box, int time) const {
   const double room = box.width - 2 * kPanelMargin;
   canvas.DrawDot({box.x + kPanelMargin + 5, box.y + 17}, 5, PaintOfSegment(path_.facts, path_.PointsBefore(time)));
-  canvas.DrawText({box.x + kPanelMargin + 18, box.y + 23}, ClipAt(time), 17, kInk, room - 18, true);
+  canvas.DrawText({box.x + kPanelMargin + 18, box.y + 23}, ClipAt(time), 20, kInk, room - 18, true);
   const std::string countdown = CountdownWords(path_.facts.to, time, path_.LastPoint(), path_.motion.rate_hz);
-  canvas.DrawText({box.x + kPanelMargin, box.y + 43}, countdown.empty() ? "before the request" : countdown, 14,
+  canvas.DrawText({box.x + kPanelMargin, box.y + 43}, countdown.empty() ? "before the request" : countdown, 17,
                   kSoftInk, room);
 }
 

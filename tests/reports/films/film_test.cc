@@ -45,6 +45,21 @@ TEST(Canvas, CutsTextThatDoesNotFit) {
   EXPECT_EQ(outside, 0);
 }
 
+TEST(Canvas, DrawsTextThatIsALittleTooWideSmaller) {
+  const std::string text = "as the sensor saw it";
+  const auto drawn = [&](double size, double room) {
+    Canvas canvas(300, 40);
+    canvas.DrawText({0, 30}, text, size, {1, 1, 1, 1}, room);
+    return canvas.Pixels().pixels;
+  };
+  const double width = Canvas(300, 40).TextWidth(text, 20);
+  const auto shown = drawn(20, 0.85 * width);
+  bool is_whole = false;
+  for (double size = 15; size < 20; size += 0.25) is_whole = is_whole || shown == drawn(size, width);
+  EXPECT_TRUE(is_whole) << "no letter is lost";
+  EXPECT_NE(shown, drawn(20, width));
+}
+
 TEST(Outline, IsTheRimOfTheMask) {
   Mask mask(7, 7);
   for (int y = 1; y < 6; ++y) {
