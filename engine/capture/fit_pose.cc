@@ -39,6 +39,7 @@ KinematicTree WithRoles(const CaptureBody& body, std::vector<Role>& roles) {
   KinematicTree tree = body.tree;
   tree.effectors.clear();
   for (const Role role : AllRoles()) {
+    if (role == Role::kHipCentre && body.hips_turn) continue;  // both hips tell it
     TreePoint point = body.roles[Index(role)];
     // Where a limb begins is a point of the one before.
     while (point.joint > 0 && glm::length(point.p_LQ) < kNowhere) {
@@ -52,11 +53,25 @@ KinematicTree WithRoles(const CaptureBody& body, std::vector<Role>& roles) {
   return tree;
 }
 
+constexpr double kGoal = 1e-7;                       // metres
+constexpr double kMet = kRoleCount * kGoal * kGoal;  // square metres
+constexpr double kLikeTheLast = 1.5 * 1.5;           // times the squares of the frame before
+
 IkOptions ExactSteps() {
   IkOptions options;
-  options.max_iterations = 40;
-  options.position_goal = 1e-7;
+  options.max_iterations = 120;
+  options.position_goal = kGoal;
   return options;
+}
+
+double SquaresOf(const PoseTargets& wanted, const BodyPose& pose) {
+  double squares = 0;
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    if (wanted.weights[i] <= 0) continue;
+    const glm::dvec3 off = wanted.places.joints[i] - pose.joints[i];
+    squares += wanted.weights[i] * glm::dot(off, off);
+  }
+  return squares;
 }
 
 }  // namespace
@@ -95,7 +110,7 @@ void PoseFitter::AddAims(int limb, const glm::dvec3& p_LJ, const glm::dmat3& R_L
 // The axes of a limb from which the way to a known joint leads over others that bend: the two sides of a triangle whose
 // third is the distance to that joint. It bends as at rest; a straight way, such as a back's, bends as backs do.
 glm::dmat3 PoseFitter::BendTowards(int limb, const Aim& aim, const glm::dvec3& to_W, const glm::dmat3& R_WL,
-                                   const glm::dvec3& back_W) const {
+                                   const glm::dvec3& back_W, int mirrored) const {
   glm::dvec3 p_LT(0);  // the limb's own end on that way
   for (int beyond = body_.roles[Index(aim.role)].joint; beyond > 0 && beyond != limb;) {
     p_LT = tree_.joints[beyond].p_PJ;
@@ -108,14 +123,14 @@ glm::dmat3 PoseFitter::BendTowards(int limb, const Aim& aim, const glm::dvec3& t
   glm::dvec3 side = R_WL * p_LT;
   side -= glm::dot(side, along) * along;
   if (glm::length(side) < 0.02 * own) side = back_W - glm::dot(back_W, along) * along;
-  const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
+  const double angle = (limb == mirrored ? -1 : 1) * std::acos(std::clamp(cosine, -1.0, 1.0));
   const glm::dvec3 wanted = std::cos(angle) * along + std::sin(angle) * UnitOr(side, glm::dvec3(0));
   return SmallestRotation(glm::normalize(R_WL * p_LT), UnitOr(wanted, along)) * R_WL;
 }
 
 // R_WL of a limb that begins at p_WL.
-glm::dmat3 PoseFitter::TurnTowards(int limb, const glm::dvec3& p_WL, const glm::dmat3& R_WJ,
-                                   const PoseTargets& wanted) const {
+glm::dmat3 PoseFitter::TurnTowards(int limb, const glm::dvec3& p_WL, const glm::dmat3& R_WJ, const PoseTargets& wanted,
+                                   int mirrored, std::vector<int>& bent) const {
   std::vector<Aim> aims;
   AddAims(limb, glm::dvec3(0), glm::dmat3(1), limb, wanted, aims);
   if (aims.empty()) return R_WJ;
@@ -138,7 +153,8 @@ glm::dmat3 PoseFitter::TurnTowards(int limb, const glm::dvec3& p_WL, const glm::
     return R_WL;
   }
   if (!main->is_on_limb) {
-    return BendTowards(limb, *main, wanted.places[main->role] - p_WL, R_WL, -Facing(wanted.places));
+    bent.push_back(limb);
+    return BendTowards(limb, *main, wanted.places[main->role] - p_WL, R_WL, -Facing(wanted.places), mirrored);
   }
   std::vector<glm::dvec3> now, then;
   for (const Aim& aim : aims) {
@@ -148,9 +164,11 @@ glm::dmat3 PoseFitter::TurnTowards(int limb, const glm::dvec3& p_WL, const glm::
   return AxisRotation(to, BestTwist(to, now, then)) * R_WL;
 }
 
-TreeState PoseFitter::Point(const PoseTargets& wanted) const {
-  TreeState state{wanted.places[Role::kLeftFoot], AxisRotation({0, 1, 0}, Heading(wanted.places)),
-                  std::vector<double>(tree_.limits.size(), 0.0)};
+PoseFitter::Pointed PoseFitter::Point(const PoseTargets& wanted, int mirrored) const {
+  Pointed pointed;
+  TreeState& state = pointed.state;
+  state = {wanted.places[Role::kLeftFoot], AxisRotation({0, 1, 0}, Heading(wanted.places)),
+           std::vector<double>(tree_.limits.size(), 0.0)};
   std::vector<LimbFrame> limbs(tree_.joints.size());
   limbs[0] = {state.root_position, state.root_frame};
   for (std::size_t i = 1; i < limbs.size(); ++i) {
@@ -158,7 +176,7 @@ TreeState PoseFitter::Point(const PoseTargets& wanted) const {
     const LimbFrame& X_WP = limbs[joint.parent];
     const glm::dvec3 p_WL = X_WP.position + X_WP.axes * joint.p_PJ;
     const glm::dmat3 R_WJ = X_WP.axes * joint.R_PJ;
-    const glm::dmat3 R_WL = TurnTowards(static_cast<int>(i), p_WL, R_WJ, wanted);
+    const glm::dmat3 R_WL = TurnTowards(static_cast<int>(i), p_WL, R_WJ, wanted, mirrored, pointed.bent);
     glm::dvec3 angles = AnglesOf(glm::transpose(R_WJ) * R_WL, joint.dof_count);
     for (int axis = 0; axis < joint.dof_count; ++axis) {
       angles[axis] = ClampAngle(angles[axis], tree_.limits[joint.first_dof + axis]);
@@ -166,7 +184,7 @@ TreeState PoseFitter::Point(const PoseTargets& wanted) const {
     }
     limbs[i] = {p_WL, R_WJ * RotationXyz(angles)};
   }
-  return state;
+  return pointed;
 }
 
 TreeState PoseFitter::Improve(const PoseTargets& wanted, const TreeState& state) const {
@@ -178,18 +196,39 @@ TreeState PoseFitter::Improve(const PoseTargets& wanted, const TreeState& state)
     target.axis_weights = glm::dvec3(0);
     problem.targets.push_back(target);
   }
-  IkSolution solution = solver_.Solve(problem, ExactSteps());
+  IkSolution solution = solver_.Solve(problem, ExactSteps(), {.restarts = 0});
   TreeState found = state;
   if (solution.status != IkStatus::kBadInput) found.angles = std::move(solution.angles);
   return found;
 }
 
-std::optional<TreeState> PoseFitter::Fit(const PoseTargets& wanted) const {
+PoseFit PoseFitter::Settle(const PoseTargets& wanted, const TreeState& start) const {
+  PoseFit found{.state = Improve(wanted, start)};
+  found.squares = SquaresOf(wanted, ToBodyPose(body_, found.state));
+  return found;
+}
+
+std::optional<PoseFit> PoseFitter::Fit(const PoseTargets& wanted, const std::optional<PoseFit>& last) const {
   if (wanted.weights[Index(Role::kLeftFoot)] <= 0) return std::nullopt;
   for (const Role role : AllRoles()) {
     if (wanted.weights[Index(role)] > 0 && !IsFinite(wanted.places[role])) return std::nullopt;
   }
-  return Improve(wanted, Point(wanted));
+  const double enough = last ? std::max(kMet, kLikeTheLast * last->squares) : kMet;
+  const Pointed pointed = Point(wanted);
+  PoseFit best = Settle(wanted, pointed.state);
+  const auto try_from = [&](const TreeState& start) {
+    PoseFit found = Settle(wanted, start);
+    if (found.squares < best.squares) best = std::move(found);
+  };
+  if (last && best.squares > enough) {
+    TreeState start = last->state;
+    start.root_position = wanted.places[Role::kLeftFoot];
+    try_from(start);
+  }
+  for (const int limb : pointed.bent) {
+    if (best.squares > enough) try_from(Point(wanted, limb).state);
+  }
+  return best;
 }
 
 }  // namespace etude

@@ -20,6 +20,12 @@ struct PoseTargets {
 /// Makes targets of a pose in which every role counts alike.
 PoseTargets TargetsAt(const BodyPose& pose);
 
+/// A pose of a body, and how far its roles are from their places: Σ weight · |place − role|², square metres.
+struct PoseFit {
+  TreeState state;
+  double squares = 0;
+};
+
 /// Finds poses of one body from the places of its joints. *(Ours.)* Two steps: from the root outwards every limb points
 /// to where the next known joints are, its twist from elbows and knees (`CaptureBody::Twist`); then Gauss–Newton steps
 /// bring all roles as near to their places as they can be at once, and leave angles that nothing tells of where the
@@ -32,9 +38,12 @@ class PoseFitter {
   PoseFitter& operator=(const PoseFitter&) = delete;
 
   /// Finds the angles that minimise Σ weight · |place − role|², at least locally; the root stands at the place of the
-  /// left foot. Nothing when a place that counts is not finite, or the left foot's does not count.
-  std::optional<TreeState> Fit(const PoseTargets& wanted) const;
-  /// Finds the same minimum beginning at a state of the body instead; its root is kept.
+  /// left foot. Where places are not met, and not about as nearly as `last` met its own (the frame before of a motion,
+  /// if there is one), that pose is tried as a start, too, and every joint that no place tells bent the other
+  /// way: the least of these minima is the answer. Nothing when a place that counts is not finite, or the left foot's
+  /// does not count.
+  std::optional<PoseFit> Fit(const PoseTargets& wanted, const std::optional<PoseFit>& last = {}) const;
+  /// Finds the minimum near a state of the body instead; its root is kept.
   TreeState Improve(const PoseTargets& wanted, const TreeState& state) const;
 
  private:
@@ -45,12 +54,21 @@ class PoseFitter {
     bool is_on_limb = false;
   };
 
-  TreeState Point(const PoseTargets& wanted) const;
+  /// The first step, and the limbs of which a joint beyond bends that no place tells.
+  struct Pointed {
+    TreeState state;
+    std::vector<int> bent;
+  };
+
+  /// `mirrored`: the limb that bends the other way; −1: none.
+  Pointed Point(const PoseTargets& wanted, int mirrored = -1) const;
+  PoseFit Settle(const PoseTargets& wanted, const TreeState& start) const;
   void AddAims(int limb, const glm::dvec3& p_LJ, const glm::dmat3& R_LJ, int beyond, const PoseTargets& wanted,
                std::vector<Aim>& aims) const;
   glm::dmat3 BendTowards(int limb, const Aim& aim, const glm::dvec3& to_W, const glm::dmat3& R_WL,
-                         const glm::dvec3& back_W) const;
-  glm::dmat3 TurnTowards(int limb, const glm::dvec3& p_WL, const glm::dmat3& R_WJ, const PoseTargets& wanted) const;
+                         const glm::dvec3& back_W, int mirrored) const;
+  glm::dmat3 TurnTowards(int limb, const glm::dvec3& p_WL, const glm::dmat3& R_WJ, const PoseTargets& wanted,
+                         int mirrored, std::vector<int>& bent) const;
 
   const CaptureBody& body_;
   std::vector<Role> effector_roles_;

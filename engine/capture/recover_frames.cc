@@ -49,10 +49,12 @@ PoseTargets ClimbFromEnds(const CaptureBody& body, const LimbObservation& seen) 
   return wanted;
 }
 
-std::optional<Start> FittedStart(const CaptureBody& body, const PoseFitter& fitter, const LimbObservation& seen) {
-  const std::optional<TreeState> state = fitter.Fit(ClimbFromEnds(body, seen));
-  if (!state) return std::nullopt;
-  return Start{ToBodyPose(body, *state), state};
+std::optional<Start> FittedStart(const CaptureBody& body, const PoseFitter& fitter, const LimbObservation& seen,
+                                 std::optional<PoseFit>& last) {
+  std::optional<PoseFit> found = fitter.Fit(ClimbFromEnds(body, seen), last);
+  if (!found) return std::nullopt;
+  last = std::move(found);
+  return Start{ToBodyPose(body, last->state), last->state};
 }
 
 // Returns the errors of those effectors whose ends were seen.
@@ -88,7 +90,7 @@ std::optional<RecoveredFrame> FrameRecovery::Next(const std::optional<LimbObserv
   const BodyPose like = last_ ? last_->pose : ToBodyPose(body_, StandingState(body_.tree));
   const auto seen = CompleteObservation(*observed, body_.lengths, like, last_.has_value());
   if (!seen) return std::nullopt;
-  const auto found = body_.is_paper ? PaperStart(body_, *seen) : FittedStart(body_, fitter_, *seen);
+  const auto found = body_.is_paper ? PaperStart(body_, *seen) : FittedStart(body_, fitter_, *seen, last_fit_);
   if (!found) return std::nullopt;
   const std::optional<TreeState> start = known.start ? known.start : StartOf(*found, last_, is_marked);
   if (!start) return std::nullopt;

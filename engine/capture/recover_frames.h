@@ -81,6 +81,7 @@ class FrameRecovery {
   const RecoverOptions options_;
   const std::unique_ptr<PreparedIkSolver> solver_;
   const PoseFitter fitter_;
+  std::optional<PoseFit> last_fit_;
   std::optional<RecoveredFrame> last_;
 };
 

@@ -97,6 +97,7 @@ std::vector<std::optional<TreeState>> FitPerson(const CaptureBody& body, std::sp
   const PoseFitter fitter(body);
   BodyPose like = ToBodyPose(body, StandingState(body.tree));
   std::vector<std::optional<TreeState>> states;
+  std::optional<PoseFit> last;
   for (const LandmarkPlaces& landmarks : frames) {
     const RoleVectors joints = JointsOf(landmarks);
     states.emplace_back();
@@ -104,9 +105,10 @@ std::vector<std::optional<TreeState>> FitPerson(const CaptureBody& body, std::sp
     const std::optional<BodyPose> completed = CompleteJoints(joints, like);
     if (!completed) continue;
     const PoseTargets wanted = TargetsOf(joints, *completed);
-    const std::optional<TreeState> pointed = fitter.Fit(wanted);
+    std::optional<PoseFit> pointed = fitter.Fit(wanted, last);
     if (!pointed) continue;
-    states.back() = MoveRoot(body, fitter, wanted, *pointed);
+    last = std::move(pointed);
+    states.back() = MoveRoot(body, fitter, wanted, last->state);
     like = ToBodyPose(body, *states.back());
   }
   return states;

@@ -47,6 +47,7 @@ CaptureBody PaperBody(const LimbLengths& lengths) {
 BodyPose ToBodyPose(const CaptureBody& body, const TreeFrames& frames) {
   BodyPose pose;
   for (const Role role : AllRoles()) pose[role] = PlaceOf(body.roles[Index(role)], frames);
+  if (body.hips_turn) pose[kHipCentre] = 0.5 * (pose[kLeftHip] + pose[kRightHip]);
   return pose;
 }
 

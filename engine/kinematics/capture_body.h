@@ -45,6 +45,9 @@ struct CaptureBody {
   bool is_paper = false;  ///< paper B's, which has rules of its own for lengths and start angles
   KinematicTree tree;     ///< rooted at the left toe, which is placed where it was seen
   std::array<TreePoint, kRoleCount> roles;
+  /// Whether hips turn against the pelvis, each on a joint of its own: the hip centre is then no point of a limb but
+  /// midway between them.
+  bool hips_turn = false;
   std::vector<End> ends;  ///< of each effector of the tree
   std::vector<Twist> twists;
   LimbLengths lengths;                      ///< as paper B counts them, means over both sides
@@ -60,8 +63,9 @@ CaptureBody PaperBody(const LimbLengths& lengths);
 /// Makes the person's own body: every joint of `rest` that lies between two of the twenty roles is a joint of the tree,
 /// so that whatever the person does can be done by the tree. Rooted at the left toe, too, where the whole body turns
 /// freely. *(Ours.)*
-/// - Whatever lies between the joint that carries both hips and the hips is one rigid pelvis. Joints from which nothing
-///   leads anywhere are left out.
+/// - Joints from which nothing leads anywhere are left out. A joint between the pelvis and a hip, such as depth
+/// sensors'
+///   skeletons have, stays: `hips_turn`.
 /// - A limb that carries one other, along its own line, has two degrees of freedom, which point it anywhere: what it
 ///   would turn about itself nobody sees. Three have the pelvis, limbs that carry several or whose points do not lie on
 ///   one line, and upper arms, the right thigh and the left shank: these turn elbows and knees into the plane in which

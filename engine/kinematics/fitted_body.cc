@@ -48,7 +48,6 @@ class Parts {
 
   void Simplify() {
     for (std::size_t i = 0; i < all_.size(); ++i) all_[i].is_left_out = !IsBelowPelvis(static_cast<int>(i));
-    for (const Role hip : {kLeftHip, kRightHip}) JoinToPelvis(hip);
     for (const Role role : AllRoles()) HandToParent(role);
     while (LeaveOutOne() || HangHigherOne()) {
     }
@@ -94,17 +93,6 @@ class Parts {
       if (carrier == from) carrier = to;
     }
     all_[from].is_left_out = true;
-  }
-
-  // Makes what lies between the pelvis and the part that turns about the hip a piece of the pelvis.
-  void JoinToPelvis(Role hip) {
-    const int thigh = carrier_[Index(hip)];
-    const bool turns_there = AreSame(all_[thigh].at, places_[hip]);
-    for (int part = turns_there ? all_[thigh].parent : thigh; part >= 0 && part != pelvis_;) {
-      const int above = all_[part].parent;
-      MoveAll(part, pelvis_);
-      part = above;
-    }
   }
 
   // A joint is the end of the limb above it.
@@ -225,6 +213,8 @@ class Builder {
     if (!(glm::distance(limb.from, limb.to) > kShortestLimb)) {
       return Fail({}, "'{}' of the body at rest has no length", parts_[part].name);
     }
+    // Of limbs that turn about one point each may as well hang on the one that leads there.
+    while (parent > 0 && AreSame(OriginOf(parent), limb.from)) parent = body_.tree.joints[parent].parent;
     TreeJoint joint{.name = {}, .parent = parent};
     const glm::dmat3 R_WL = RestAxes(part, limb);
     joint.p_PJ = glm::transpose(rest_axes_[parent]) * (limb.from - OriginOf(parent));
@@ -301,6 +291,7 @@ class Builder {
       body_.bones[Index(role)] = glm::distance(parts_.places()[role], upper);
       body_.is_rigid[Index(role)] = Holds(parts_.CarrierOf(role), upper);
     }
+    body_.hips_turn = parts_.CarrierOf(kLeftHip) != parts_.pelvis() || parts_.CarrierOf(kRightHip) != parts_.pelvis();
     const BodyPose rest = parts_.places();
     body_.lengths = MeasureLimbLengths(std::span(&rest, 1));
   }

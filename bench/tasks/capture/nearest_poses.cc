@@ -1,5 +1,7 @@
 #include "bench/tasks/capture/nearest_poses.h"
 
+#include <optional>
+
 #include "engine/base/euler.h"
 #include "engine/capture/fit_pose.h"
 #include "engine/kinematics/limb_lengths.h"
@@ -71,7 +73,12 @@ std::vector<TreeState> FindNearestPoses(const CaptureBody& body, std::span<const
     return states;
   }
   const PoseFitter fitter(body);
-  for (const BodyPose& pose : truth) states.push_back(fitter.Fit(TargetsAt(pose)).value_or(StandingState(body.tree)));
+  std::optional<PoseFit> last;
+  for (const BodyPose& pose : truth) {
+    const auto found = fitter.Fit(TargetsAt(pose), last);
+    states.push_back(found ? found->state : StandingState(body.tree));
+    if (found) last = found;
+  }
   return states;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "bench/tasks/capture/film.h"
 #include "bench/tasks/capture/silhouettes.h"
@@ -32,15 +34,20 @@ class PosedFrames {
  public:
   explicit PosedFrames(const CaptureBody& body) : body_(body), fitter_(body) {}
 
-  RecoveredFrame At(const BodyPose& pose, const TreeState& last) const {
-    const auto state =
-        body_.is_paper ? FindStartState(body_.tree, pose, body_.tree.limits) : fitter_.Fit(TargetsAt(pose));
-    return {pose, state.value_or(last), pose, {}};
+  RecoveredFrame At(const BodyPose& pose, const TreeState& last) {
+    if (body_.is_paper) {
+      return {pose, FindStartState(body_.tree, pose, body_.tree.limits).value_or(last), pose, {}};
+    }
+    auto found = fitter_.Fit(TargetsAt(pose), last_fit_);
+    if (!found) return {pose, last, pose, {}};
+    last_fit_ = std::move(found);
+    return {pose, last_fit_->state, pose, {}};
   }
 
  private:
   const CaptureBody& body_;
   const PoseFitter fitter_;
+  std::optional<PoseFit> last_fit_;
 };
 
 /// Recovers each frame from the marks up to it alone; frames without marks show the last skeleton.
@@ -77,7 +84,7 @@ Result<void> RecoverByIk(CaptureStages& stages, CaptureRun& run) {
 void RecoverEnds(CaptureRun& run) {
   TreeState last = StandingState(run.body.tree);
   const BodyPose standing = ToBodyPose(run.body, last);
-  const PosedFrames frames(run.body);
+  PosedFrames frames(run.body);
   for (const SomeJoints& joints : JointsOf(run)) {
     const auto pose = CompleteJoints(joints, standing);
     run.frames.push_back(pose ? std::optional(frames.At(*pose, last)) : std::nullopt);
@@ -120,7 +127,7 @@ void RecoverByKeypoints(const CaptureStages& stages, CaptureRun& run) {
   if (!person) return;
   run.body = person->body;
   TreeState last = StandingState(run.body.tree);
-  const PosedFrames frames(run.body);
+  PosedFrames frames(run.body);
   for (std::size_t k = 0; k < run.frames.size(); ++k) {
     if (person->is_held[k]) continue;
     run.frames[k] = frames.At(person->motion.poses[k], last);
@@ -168,7 +175,7 @@ void SmoothFrames(CaptureRun& run) {
   const auto first = std::ranges::find_if(run.frames, [](const auto& frame) { return frame.has_value(); });
   if (first == run.frames.end()) return;
   RecoveredFrame last = **first;
-  const PosedFrames posed(run.body);
+  PosedFrames posed(run.body);
   const std::vector<BodyPose> smooth = SmoothPoses(poses, run.measured.joints, kJudgedRateHz);
   for (std::size_t k = 0; k < run.frames.size(); ++k) {
     if (run.frames[k]) last = *run.frames[k];

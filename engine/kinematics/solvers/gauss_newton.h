@@ -22,6 +22,9 @@ struct GaussNewtonOptions {
   /// starts off by 15°, and of 500 starts off by 2° leave 5 farther than 0.01 rad from the nearest solution instead of
   /// 16; one does most of that, six no more. Set it to 0 where a step's time counts more than its answer.
   int extra_passes = 3;
+  /// The number of restarts from other poses when steps are stuck. Set it to 0 where targets that no pose meets are the
+  /// rule and the start is near: every iteration then goes into the least residual around it.
+  int restarts = 20;
 };
 
 /// Looks, of all poses that meet the targets within the limits, for the one nearest to the start: hidden angles, which
@@ -33,8 +36,8 @@ struct GaussNewtonOptions {
 ///    is quadratic;
 /// 3. the same without the pull, where it has led to limits that block: Levenberg–Marquardt steps, which never raise
 ///    the residual;
-/// 4. restarts from other poses around the start, two sweeps and such steps each, twenty unless the targets are out of
-///    any pose's reach;
+/// 4. `restarts` from other poses around the start, two sweeps and such steps each, none if the targets are out of any
+///    pose's reach;
 /// 5. from the pose of the least residual, such steps until they stall: the answer where targets cannot be met.
 ///
 /// Nearly always the second is the last. With few iterations 2 and 3 give up sooner, so that a solver which is blocked

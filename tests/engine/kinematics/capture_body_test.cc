@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/engine/kinematics/posed_tree.h"
 #include "tests/engine/kinematics/rest_bodies.h"
 
@@ -109,6 +111,34 @@ TEST(CaptureBody, BecomesAClipWithItsJointsWhereTheyAre) {
       EXPECT_LT(glm::distance(at("left_foot_end"), pose[kLeftFoot]), 1e-9);
     }
   }
+}
+
+TEST(CaptureBody, WhoseHipsTurnHasItsHipCentreMidwayBetweenThem) {
+  const BodyPose rest = SensorRestBody().Pose();
+  const CaptureBody body = FittedBody(SensorRestBody()).value();
+  EXPECT_TRUE(body.hips_turn);
+  EXPECT_FALSE(FittedBody(JointedRestBody())->hips_turn);
+  EXPECT_EQ(FindTreeFault(body.tree), "");
+  std::vector<TreeState> states;
+  for (int trial = 0; trial < 10; ++trial) states.push_back(RandomPose(body.tree, trial, kARadian));
+  const Clip clip = ToClip(body, states, 30, "sensed");
+  double least = 1, most = 0;
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    const BodyPose pose = ToBodyPose(body, states[k]);
+    EXPECT_LT(glm::distance(pose[kHipCentre], 0.5 * (pose[kLeftHip] + pose[kRightHip])), 1e-12);
+    for (const Role hip : {kLeftHip, kRightHip}) {
+      EXPECT_NEAR(glm::distance(pose[hip], pose[kSpine]), glm::distance(rest[hip], rest[kSpine]), 1e-12);
+    }
+    const double apart = glm::distance(pose[kLeftHip], pose[kRightHip]);
+    least = std::min(least, apart), most = std::max(most, apart);
+    std::vector<GlobalTransform> joints;
+    ComputeGlobals(clip.skeleton, clip.frames[k], joints);
+    const auto at = [&](const char* name) { return joints[clip.skeleton.Find(name)].position; };
+    EXPECT_LT(glm::distance(at("right_hip"), pose[kRightHip]), 1e-9);
+    EXPECT_LT(glm::distance(at("left_foot_end"), pose[kLeftFoot]), 1e-9);
+    EXPECT_LT(glm::distance(at("right_wrist"), pose[kRightWrist]), 1e-9);
+  }
+  EXPECT_GT(most - least, 0.05) << "no rigid pelvis could follow";
 }
 
 TEST(CaptureBody, RefusesWhatIsNoBody) {

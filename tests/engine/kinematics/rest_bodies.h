@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <string>
 #include <vector>
 
 #include "engine/kinematics/body_tree.h"
@@ -34,6 +36,33 @@ inline RestBody JointedRestBody() {
   RestBody::RolePlace& neck = body.roles[Index(Role::kShoulderCentre)];
   neck.joint = add("chest", neck.joint, glm::mix(place(Role::kSpine), neck.position, 0.6) + glm::dvec3(0, 0, -0.01));
   add("nub", head.joint, head.position + glm::dvec3(0, 0.1, 0));
+  return body;
+}
+
+/// The same as depth sensors see it: the trunk is one piece, and hips and shoulders hang from its middle, each on a
+/// joint of its own.
+inline RestBody SensorRestBody() {
+  using enum Role;
+  const BodyPose rest = PlainRestBody().Pose();
+  RestBody body{.joints = {{"torso", -1, rest[kSpine]}}, .roles = {}};
+  const auto hang = [&](Role role, int joint) { body.roles[Index(role)] = {joint, rest[role]}; };
+  const auto add = [&](const std::string& name, int parent, const glm::dvec3& at) {
+    body.joints.push_back({name, parent, at});
+    return static_cast<int>(body.joints.size()) - 1;
+  };
+  for (const Role role : {kHipCentre, kSpine, kShoulderCentre}) hang(role, 0);
+  for (const auto& limb : {std::array{kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot},
+                           {kRightHip, kRightKnee, kRightAnkle, kRightFoot},
+                           {kLeftShoulder, kLeftElbow, kLeftWrist, kLeftHand},
+                           {kRightShoulder, kRightElbow, kRightWrist, kRightHand}}) {
+    int joint = add("to_" + std::string(RoleName(limb[0])), 0, rest[kSpine]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      joint = add(std::string(RoleName(limb[i])), joint, rest[limb[i]]);
+      hang(limb[i], joint);
+    }
+    hang(limb[3], joint);
+  }
+  hang(kHead, add("neck", 0, rest[kShoulderCentre]));
   return body;
 }
 

@@ -52,8 +52,8 @@ TEST_P(NearestPoses, OfTheFittedBodyAreTheTruthAndOfPaperBsAreNot) {
   const auto fitted = FittedBody(clip.body);
   ASSERT_TRUE(fitted) << ToString(fitted.error());
   const Distance left = DistanceOf(*fitted, clip.motion.poses);
-  EXPECT_LT(left.joint_mm, 1);
-  EXPECT_LT(left.limb_deg, 0.1);
+  EXPECT_LT(left.joint_mm, 0.1);
+  EXPECT_LT(left.limb_deg, 0.05);
   const Distance paper = DistanceOf(PaperBody(MeasureLimbLengths(clip.motion.poses)), clip.motion.poses);
   EXPECT_GT(paper.joint_mm, 3) << "the control: 29 degrees of freedom, and one shape for all";
 }
