@@ -144,7 +144,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineRecognise(app, action);
   DefineSensor(app, action);
   DefineCalibrate(app, action);
-  DefineCapture(app, action);
+  DefineCapture(app, command_line, action);
   DefineCoach(app, action);
   DefineCrowd(app, action);
   DefineOptionTree(app, action);

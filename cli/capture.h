@@ -15,6 +15,7 @@
 #include "engine/keypoints/synchronise_people.h"
 #include "engine/motion/body.h"
 #include "engine/motion/clip.h"
+#include "reports/capture_page.h"
 #include "reports/films/decoder.h"
 #include "reports/films/overlay_film.h"
 
@@ -44,6 +45,7 @@ struct CaptureCommandOptions {
   double outlier_px = 0;  ///< 0: by the residuals, at most 3 % of the picture's longer side
   double sync_s = 0;      ///< the films' clocks may differ by this; 0: they agree
   bool overwrite = false;
+  std::string command_line;  ///< what was typed
 };
 
 /// One film of a session, and the camera of the rig that took it.
@@ -83,8 +85,15 @@ Result<SeenFilms> SeeFilms(const CaptureCommandOptions& options, const RecoverPe
 /// Tells what was mended of a person and what still is doubtful, a line each.
 void TellMends(const RecoveredPerson& person, const std::vector<FilmedView>& views, std::vector<std::string>& told);
 
-/// Writes the page of `--report`, with an overlay film inside, out of `film` where that was written. False when it was
-/// interrupted.
+/// Begins the page of `--report` with what any capture tells: its title, what was told, feet, limbs, the command.
+CapturePage BeginPage(const CaptureCommandOptions& options, const BodyMotion& motion, const LimbLengths& lengths,
+                      const std::vector<std::string>& told);
+/// Says of what was told how much is doubtful.
+std::string DoubtsOf(const std::vector<std::string>& told);
+/// Puts the overlay film into the page and writes it. False when it was interrupted.
+Result<bool> WritePage(const CaptureCommandOptions& options, CapturePage page, const std::vector<OverlayView>& overlays,
+                       const BodyMotion& motion);
+/// Writes the page of a capture from keypoints or marks.
 /// @param views whose cameras are placed
 /// @param chosen which of the person's `people`
 Result<bool> WriteReport(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
@@ -93,6 +102,10 @@ Result<bool> WriteReport(const CaptureCommandOptions& options, const std::vector
 /// Gives the films with what is drawn over them.
 std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const RecoveredPerson& person,
                                     std::size_t chosen, const std::vector<FilmClock>& clocks);
+
+/// Writes the film of `--film`. False when it was interrupted.
+Result<bool> WriteFilm(const CaptureCommandOptions& options, const std::vector<OverlayView>& overlays,
+                       const BodyMotion& motion);
 
 /// Writes a clip, and the same as twenty joints, in the format that the file's name tells.
 Result<void> WriteMotion(const std::string& path, Clip clip, const BodyMotion& motion);

@@ -50,7 +50,7 @@ constexpr const char* kCaptureExamples =
     "  etude capture --rig rig.yaml cam1.mp4 cam2.mp4 --keypoints json/ -o motion.bvh\n"
     "  etude capture --rig Calib.toml cam*.mp4 --keypoints openpose/ --layout body_25b --fit letterbox \\\n"
     "                -o motion.trc --points keypoints.trc --film overlay.mp4 --smooth 6 --report page.html\n"
-    "  etude capture --rig rig.yaml cam1.mp4 cam2.mp4 --silhouettes --stature 1.8 -o motion.bvh --film overlay.mp4";
+    "  etude capture --rig rig.yaml cam1.mp4 cam2.mp4 --silhouettes --stature 1.8 -o motion.bvh --report page.html";
 
 Result<int> CaptureCommand(const CaptureCommandOptions& options) {
   for (const std::string* path :
@@ -94,8 +94,9 @@ Result<int> CaptureCommand(const CaptureCommandOptions& options) {
 
 }  // namespace
 
-void DefineCapture(CLI::App& app, Action& action) {
+void DefineCapture(CLI::App& app, const std::string& command_line, Action& action) {
   auto options = std::make_shared<CaptureCommandOptions>();
+  options->command_line = command_line;
   CLI::App* command = app.add_subcommand("capture", "The motion of a person out of films by several cameras");
   command->add_option("films", options->films, "A film of each camera, all begun at the same moment (else: --sync)")
       ->required();
@@ -136,10 +137,8 @@ void DefineCapture(CLI::App& app, Action& action) {
   command->add_option("-o,--output", options->output, "The motion to write: .bvh, .glb, .trc or .csv")->required();
   command->add_option("--points", options->points, "Write the triangulated keypoints, too (.trc)");
   command->add_option("--film", options->film, "Write the skeleton drawn over the films, too (.mp4)");
-  command
-      ->add_option("--report", options->report,
-                   "Write a page of it all: film, residuals over time, mends, body (.html)")
-      ->excludes(silhouettes);
+  command->add_option("--report", options->report,
+                      "Write a page of it all: film, residuals over time, mends, body (.html)");
   auto* reference = command->add_option("--reference", options->reference,
                                         "Compare the triangulated keypoints with these markers (.trc)");
   command

@@ -100,15 +100,6 @@ std::vector<ComparedColumn> CompareWithReference(const MarkerMotion& reference, 
   return columns;
 }
 
-/// Writes the skeleton drawn over the films. False when it was interrupted.
-Result<bool> WriteFilm(const CaptureCommandOptions& options, const std::vector<OverlayView>& overlays,
-                       const BodyMotion& motion) {
-  const Interrupt interrupt;
-  auto is_whole = UnlessInterrupted(WriteOverlayFilm(options.film, overlays, motion, WatchFilms(interrupt)), interrupt);
-  if (is_whole && *is_whole) TellWritten(options.film);
-  return is_whole;
-}
-
 /// Gives the place of the person asked for among all that were found.
 std::size_t ChosenOf(const RecoveredPerson& person, std::size_t number) {
   for (std::size_t i = 0; i < person.people.size(); ++i) {
@@ -118,6 +109,14 @@ std::size_t ChosenOf(const RecoveredPerson& person, std::size_t number) {
 }
 
 }  // namespace
+
+Result<bool> WriteFilm(const CaptureCommandOptions& options, const std::vector<OverlayView>& overlays,
+                       const BodyMotion& motion) {
+  const Interrupt interrupt;
+  auto is_whole = UnlessInterrupted(WriteOverlayFilm(options.film, overlays, motion, WatchFilms(interrupt)), interrupt);
+  if (is_whole && *is_whole) TellWritten(options.film);
+  return is_whole;
+}
 
 std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const RecoveredPerson& person,
                                     std::size_t chosen, const std::vector<FilmClock>& clocks) {

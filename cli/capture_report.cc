@@ -11,7 +11,6 @@
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "engine/base/order_statistics.h"
-#include "reports/capture_page.h"
 
 namespace etude {
 namespace {
@@ -41,38 +40,52 @@ std::vector<TakeCurve> FeetOf(const BodyMotion& motion) {
   return feet;
 }
 
-std::string VerdictOf(const RecoveredPerson& person, const std::vector<FilmedView>& views, std::size_t told_doubts) {
-  constexpr double kPercent = 100;
-  return fmt::format(
-      "{} cameras, {} frames at {:g} Hz: {:.1f} % of the points found, {:.1f} px off the keypoints in the "
-      "median; {}.",
-      views.size(), person.motion.poses.size(), person.motion.rate_hz, kPercent * person.report.found,
-      person.report.residual_px,
-      told_doubts == 0 ? "nothing is doubtful" : fmt::format("{} told below to be doubtful", told_doubts));
-}
-
 CapturePage PageOf(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
                    const RecoveredPerson& person, std::size_t chosen, const SeenFilms& films) {
-  CapturePage page;
-  page.title = fs::path(options.output).stem().string();
-  page.rate_hz = person.motion.rate_hz;
-  page.told = films.told;
-  const auto doubts = std::ranges::count_if(page.told, [](const std::string& s) { return s.starts_with("doubtful"); });
-  page.verdict = VerdictOf(person, views, static_cast<std::size_t>(doubts));
+  constexpr double kPercent = 100;
+  CapturePage page = BeginPage(options, person.motion, person.body.lengths, films.told);
+  page.verdict = fmt::format(
+      "{} cameras, {} frames at {:g} Hz: {:.1f} % of the points found, {:.1f} px off the keypoints in the median; {}.",
+      views.size(), person.motion.poses.size(), person.motion.rate_hz, kPercent * person.report.found,
+      person.report.residual_px, DoubtsOf(films.told));
+  page.residual =
+      "Distance of a camera's keypoints to the points that all cameras make, px, over seconds: the median of each "
+      "frame";
+  page.unit = "px";
   for (std::size_t i = 0; i < views.size(); ++i) {
     CapturedCamera& camera = page.cameras.emplace_back();
-    camera.name = camera.residual_px.name = views[i].camera.name;
+    camera.name = camera.residual.name = views[i].camera.name;
     camera.left_out = person.report.rejected[i];
     const auto& seen = person.people[chosen].seen[i];
     for (std::size_t frame = 0; frame < person.landmarks.size(); ++frame) {
       const bool is_seen = frame < seen.size() && seen[frame];
-      camera.residual_px.values.push_back(is_seen ? ResidualOf(films.cameras[i], *seen[frame], person.landmarks[frame])
-                                                  : std::nullopt);
+      camera.residual.values.push_back(is_seen ? ResidualOf(films.cameras[i], *seen[frame], person.landmarks[frame])
+                                               : std::nullopt);
     }
   }
-  page.feet_cm = FeetOf(person.motion);
-  const LimbLengths& l = person.body.lengths;
+  page.limbs = "Limbs are as long as in the median of what was seen.";
+  const MarkerMotion points = JointMarkers(person.landmarks, person.motion.rate_hz);
+  for (const MarkerAgreement& row : CompareMarkers(JointMarkers(person.motion), points)) {
+    if (row.frames > 0) page.fit.emplace_back(row.name, std::array{row.median_mm, row.p95_mm});
+  }
+  page.still.caption =
+      "The skeleton as each camera would show it (lines; left blue, right orange), and the keypoints it was made of "
+      "(green).";
+  return page;
+}
+
+}  // namespace
+
+CapturePage BeginPage(const CaptureCommandOptions& options, const BodyMotion& motion, const LimbLengths& lengths,
+                      const std::vector<std::string>& told) {
   constexpr double kCm = 100;
+  CapturePage page;
+  page.title = fs::path(options.output).stem().string();
+  page.rate_hz = motion.rate_hz;
+  page.film = options.film;
+  page.told = told;
+  page.feet_cm = FeetOf(motion);
+  const LimbLengths& l = lengths;
   for (const auto& [name, metres] : {std::pair("shank", l.shank),
                                      {"thigh", l.thigh},
                                      {"trunk", l.trunk},
@@ -82,35 +95,24 @@ CapturePage PageOf(const CaptureCommandOptions& options, const std::vector<Filme
                                      {"shoulders", l.shoulder_width}}) {
     page.lengths_cm.emplace_back(name, kCm * metres);
   }
-  const MarkerMotion points = JointMarkers(person.landmarks, person.motion.rate_hz);
-  for (const MarkerAgreement& row : CompareMarkers(JointMarkers(person.motion), points)) {
-    if (row.frames > 0) page.fit.emplace_back(row.name, std::array{row.median_mm, row.p95_mm});
-  }
   page.version = ETUDE_VERSION;
-  page.command = "etude capture --rig " + options.rig;
-  for (const std::string& film : options.films) page.command += " " + film;
-  page.command +=
-      fmt::format(" {} -o {}", options.marks.empty() ? "--keypoints " + options.keypoints : "--marks " + options.marks,
-                  options.output);
+  page.command = options.command_line;
   return page;
 }
 
-}  // namespace
+std::string DoubtsOf(const std::vector<std::string>& told) {
+  const auto doubts = std::ranges::count_if(told, [](const std::string& s) { return s.starts_with("doubtful"); });
+  return doubts == 0 ? "nothing is doubtful" : fmt::format("{} told below to be doubtful", doubts);
+}
 
-Result<bool> WriteReport(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
-                         const RecoveredPerson& person, std::size_t chosen, const SeenFilms& films) {
-  CapturePage page = PageOf(options, views, person, chosen, films);
-  page.still.caption =
-      "The skeleton as each camera would show it (lines; left blue, right orange), and the keypoints it was made of "
-      "(green).";
-  page.film = options.film;
+Result<bool> WritePage(const CaptureCommandOptions& options, CapturePage page, const std::vector<OverlayView>& overlays,
+                       const BodyMotion& motion) {
   ASSIGN_OR_RETURN(const TemporaryFolder folder, TemporaryFolder::Make("capture-report"));
   const fs::path film = folder.path() / "overlay.mp4";
   const Interrupt interrupt;
-  ASSIGN_OR_RETURN(const bool is_whole,
-                   UnlessInterrupted(WriteOverlayFilm(film, OverlaysOf(views, person, chosen, films.clocks),
-                                                      person.motion, WatchFilms(interrupt), &page.still),
-                                     interrupt));
+  ASSIGN_OR_RETURN(
+      const bool is_whole,
+      UnlessInterrupted(WriteOverlayFilm(film, overlays, motion, WatchFilms(interrupt), &page.still), interrupt));
   if (!is_whole) return false;
   constexpr std::uintmax_t kMostBytes = 16'000'000;
   std::error_code unreadable;
@@ -120,6 +122,12 @@ Result<bool> WriteReport(const CaptureCommandOptions& options, const std::vector
   RETURN_IF_ERROR(WriteFileAtomically(options.report, WriteCapturePage(page)));
   TellWritten(options.report);
   return true;
+}
+
+Result<bool> WriteReport(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+                         const RecoveredPerson& person, std::size_t chosen, const SeenFilms& films) {
+  return WritePage(options, PageOf(options, views, person, chosen, films),
+                   OverlaysOf(views, person, chosen, films.clocks), person.motion);
 }
 
 }  // namespace etude

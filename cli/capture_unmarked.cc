@@ -8,7 +8,9 @@
 #include "cli/capture.h"
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
+#include "engine/base/order_statistics.h"
 #include "engine/keypoints/agreement.h"
+#include "engine/kinematics/limb_lengths.h"
 #include "engine/unmarked/recover_unmarked.h"
 #include "reports/films/overlay_film.h"
 #include "reports/films/reduced_film.h"
@@ -118,18 +120,68 @@ Result<std::vector<ComparedColumn>> CompareWithReference(const MarkerMotion& ref
   return columns;
 }
 
-/// Writes the skeleton drawn over the films. False when it was interrupted.
-Result<bool> WriteFilm(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
-                       const BodyMotion& motion) {
+std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, std::size_t frames) {
   std::vector<OverlayView> overlays;
   for (const FilmedView& view : views) {
     overlays.push_back({view.camera.name, view.path, view.facts, view.camera.camera, view.fit, 0, {}, 0});
-    overlays.back().keypoints.resize(motion.poses.size());
+    overlays.back().keypoints.resize(frames);
   }
-  const Interrupt interrupt;
-  auto is_whole = UnlessInterrupted(WriteOverlayFilm(options.film, overlays, motion, WatchFilms(interrupt)), interrupt);
-  if (is_whole && *is_whole) TellWritten(options.film);
-  return is_whole;
+  return overlays;
+}
+
+std::vector<double> KnownOf(const std::vector<std::optional<double>>& values) {
+  std::vector<double> known;
+  for (const auto& value : values) {
+    if (value) known.push_back(*value);
+  }
+  return known;
+}
+
+/// Tells what was found and what is doubtful, a line each.
+std::vector<std::string> TellUnmarked(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+                                      const UnmarkedMotion& person) {
+  std::vector<std::string> told;
+  Tell(told, fmt::format("stature: {:.2f} m{}; outlines cost {:.0f} a picture", person.stature_m,
+                         options.stature_m > 0 ? "" : ", found from the outlines", person.cost));
+  if (person.held > 0) {
+    Tell(told, fmt::format("doubtful: {} frames show nobody to two cameras and hold the last pose", person.held));
+  }
+  constexpr double kMostApart = 0.5, kDoubtfulShare = 0.1, kPercent = 100;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const std::vector<double> apart = KnownOf(person.apart[i]);
+    const auto far = std::ranges::count_if(apart, [](double share) { return share > kMostApart; });
+    const double share = static_cast<double>(far) / static_cast<double>(std::max<std::size_t>(1, apart.size()));
+    if (share <= kDoubtfulShare) continue;
+    Tell(told, fmt::format("doubtful: {}: in {:.0f} % of its frames body and outline share less than half",
+                           views[i].camera.name, kPercent * share));
+  }
+  return told;
+}
+
+Result<bool> WriteUnmarkedReport(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+                                 const UnmarkedMotion& person, const std::vector<std::string>& told) {
+  constexpr double kPercent = 100;
+  CapturePage page = BeginPage(options, person.motion, MeasureLimbLengths(person.motion.poses), told);
+  page.residual =
+      "Share of what the body or the person's outline covers in a camera's picture that only one of them does, %, over "
+      "seconds";
+  page.unit = "%";
+  std::vector<double> all;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    CapturedCamera& camera = page.cameras.emplace_back();
+    camera.name = camera.residual.name = views[i].camera.name;
+    for (const auto& apart : person.apart[i]) {
+      camera.residual.values.push_back(apart ? std::optional(kPercent * *apart) : std::nullopt);
+      if (apart) all.push_back(kPercent * *apart);
+    }
+  }
+  page.verdict =
+      fmt::format("{} cameras, {} frames at {:g} Hz: body and outlines differ by {:.0f} % in the median; {}.",
+                  views.size(), person.motion.poses.size(), person.motion.rate_hz,
+                  all.empty() ? kPercent : UpperMedian(std::move(all)), DoubtsOf(told));
+  page.limbs = "Limbs are an adult's, scaled to the stature.";
+  page.still.caption = "The skeleton as each camera would show it (lines; left blue, right orange).";
+  return WritePage(options, std::move(page), OverlaysOf(views, person.motion.poses.size()), person.motion);
 }
 
 }  // namespace
@@ -139,21 +191,21 @@ Result<bool> CaptureUnmarked(const CaptureCommandOptions& options, const std::ve
   if (!options.points.empty()) return Fail({}, "--points: silhouettes have no keypoints to write");
   ASSIGN_OR_RETURN(const ReducedTake take, ReadTake(options, views));
   ASSIGN_OR_RETURN(const UnmarkedMotion person, Recover(take, options, views.front().facts.rate_hz));
-  fmt::print("stature: {:.2f} m{}; outlines cost {:.0f} a picture\n", person.stature_m,
-             options.stature_m > 0 ? "" : ", found from the outlines", person.cost);
-  if (person.held > 0) fmt::print("{} frames show nobody to two cameras and hold the last pose\n", person.held);
+  const std::vector<std::string> told = TellUnmarked(options, views, person);
   RETURN_IF_ERROR(WriteMotion(options.output, person.clip, person.motion));
   if (!options.film.empty()) {
-    ASSIGN_OR_RETURN(const bool is_whole, WriteFilm(options, views, person.motion));
+    ASSIGN_OR_RETURN(const bool is_whole,
+                     WriteFilm(options, OverlaysOf(views, person.motion.poses.size()), person.motion));
     if (!is_whole) return false;
   }
-  if (!reference) return true;
-  ASSIGN_OR_RETURN(const auto columns, CompareWithReference(*reference, person, take, options));
-  RETURN_IF_ERROR(TellColumns(
-      fmt::format("Distance of the joints to {}, median, mm: error, as far as the reference itself is right.",
-                  options.reference),
-      columns, views, options));
-  return true;
+  if (reference) {
+    ASSIGN_OR_RETURN(const auto columns, CompareWithReference(*reference, person, take, options));
+    RETURN_IF_ERROR(TellColumns(
+        fmt::format("Distance of the joints to {}, median, mm: error, as far as the reference itself is right.",
+                    options.reference),
+        columns, views, options));
+  }
+  return options.report.empty() ? true : WriteUnmarkedReport(options, views, person, told);
 }
 
 }  // namespace etude

@@ -85,7 +85,7 @@ void DefineSheet(CLI::App& sensor, Action& action);
 /// `etude calibrate`: finds the cameras of a rig from point pairs or pictures of boards, or prints a board.
 void DefineCalibrate(CLI::App& app, Action& action);
 /// `etude capture`: finds the motion of a person in films by several cameras.
-void DefineCapture(CLI::App& app, Action& action);
+void DefineCapture(CLI::App& app, const std::string& command_line, Action& action);
 /// `etude coach`: coaches a song live from a skeleton stream.
 void DefineCoach(CLI::App& app, Action& action);
 /// `etude completion SHELL`, and what packages make their manual pages by.

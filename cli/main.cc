@@ -20,6 +20,7 @@
 #include "cli/interrupt.h"
 #include "engine/base/names.h"
 #include "engine/base/utf8.h"
+#include "reports/words/shell_word.h"
 
 namespace etude {
 namespace {
@@ -123,7 +124,7 @@ int Main(int argc, char** argv) {
     argv[argc - 1] = help;
   }
   std::string command_line = "etude";
-  for (int i = 1; i < argc; ++i) command_line += std::string(" ") + argv[i];
+  for (int i = 1; i < argc; ++i) command_line += " " + ShellWord(argv[i]);
   Action action;
   DefineCommands(app, command_line, action);
   try {

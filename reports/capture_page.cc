@@ -97,6 +97,7 @@ std::string FilmHtml(const CapturePage& page) {
 }
 
 std::string ToldHtml(const CapturePage& page) {
+  if (page.told.empty()) return "";
   std::string html = "<section class=\"card\"><h2>What was found out, and mended</h2><ul>";
   for (const std::string& line : page.told) {
     const bool is_doubt = line.starts_with("doubtful");
@@ -109,10 +110,14 @@ std::string ToldHtml(const CapturePage& page) {
 std::string CamerasHtml(const CapturePage& page) {
   std::vector<TakeCurve> curves;
   std::vector<std::vector<std::string>> rows;
+  std::vector<std::string> heads = {"Camera", "Frames", "Median, " + page.unit, "95 %, " + page.unit};
+  const bool has_keypoints =
+      std::ranges::any_of(page.cameras, [](const auto& camera) { return camera.left_out.has_value(); });
+  if (has_keypoints) heads.emplace_back("Keypoints left out");
   for (const CapturedCamera& camera : page.cameras) {
-    curves.push_back(camera.residual_px);
+    curves.push_back(camera.residual);
     std::vector<double> values;
-    for (const auto& value : camera.residual_px.values) {
+    for (const auto& value : camera.residual.values) {
       if (value) values.push_back(*value);
     }
     std::ranges::sort(values);
@@ -121,14 +126,11 @@ std::string CamerasHtml(const CapturePage& page) {
       return fmt::format("{:.1f}", values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))]);
     };
     constexpr double kMedian = 0.5, kMost = 0.95, kPercent = 100;
-    rows.push_back({camera.name, fmt::format("{}", values.size()), rank(kMedian), rank(kMost),
-                    fmt::format("{:.1f} %", kPercent * camera.left_out)});
+    rows.push_back({camera.name, fmt::format("{}", values.size()), rank(kMedian), rank(kMost)});
+    if (has_keypoints) rows.back().push_back(fmt::format("{:.1f} %", kPercent * camera.left_out.value_or(0)));
   }
   return "<section class=\"card\"><h2>How well the cameras agree</h2>" +
-         CurvesHtml(curves, page.rate_hz,
-                    "Distance of a camera's keypoints to the points that all cameras make, px, over seconds: the "
-                    "median of each frame") +
-         TableHtml({"Camera", "Frames", "Median, px", "95 %, px", "Keypoints left out"}, rows) + "</section>\n";
+         CurvesHtml(curves, page.rate_hz, page.residual) + TableHtml(heads, rows) + "</section>\n";
 }
 
 std::string BodyHtml(const CapturePage& page) {
@@ -139,11 +141,12 @@ std::string BodyHtml(const CapturePage& page) {
   return "<section class=\"card\"><h2>Feet and floor</h2>" +
          CurvesHtml(page.feet_cm, page.rate_hz,
                     "Height of each foot's lowest joint above the floor, cm, over seconds") +
-         "</section>\n<section class=\"card\"><h2>The body</h2><p>Limbs are as long as in the median of what was "
-         "seen.</p>" +
+         "</section>\n<section class=\"card\"><h2>The body</h2><p>" + EscapeMarkup(page.limbs) + "</p>" +
          TableHtml({"Limb", "Length, cm"}, lengths) +
-         "<p>The skeleton's joints, from the points that they were fitted to:</p>" +
-         TableHtml({"Joint", "Median, mm", "95 %, mm"}, fit) + "</section>\n";
+         (fit.empty() ? ""
+                      : "<p>The skeleton's joints, from the points that they were fitted to:</p>" +
+                            TableHtml({"Joint", "Median, mm", "95 %, mm"}, fit)) +
+         "</section>\n";
 }
 
 }  // namespace

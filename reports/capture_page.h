@@ -19,8 +19,8 @@ struct TakeCurve {
 /// One camera of a captured take.
 struct CapturedCamera {
   std::string name;
-  TakeCurve residual_px;  ///< median over keypoints of their distance to the point made of all cameras
-  double left_out = 0;    ///< share of keypoints that disagreed with the other cameras'
+  TakeCurve residual;              ///< how far what it shows is from what was found, as `CapturePage::residual` says
+  std::optional<double> left_out;  ///< share of keypoints that disagreed with the other cameras', where there are any
 };
 
 /// What `etude capture` found, for people to read.
@@ -32,10 +32,13 @@ struct CapturePage {
   std::string film;               ///< where it is written, "" = nowhere
   Picture still;                  ///< the frame in the middle
   std::vector<std::string> told;  ///< what was found out, mended or is doubtful, a line each
+  std::string residual;           ///< the caption of the cameras' curves
+  std::string unit;               ///< theirs
   std::vector<CapturedCamera> cameras;
   std::vector<TakeCurve> feet_cm;                                  ///< heights above the floor
+  std::string limbs;                                               ///< a sentence: where their lengths come from
   std::vector<std::pair<std::string, double>> lengths_cm;          ///< of limbs
-  std::vector<std::pair<std::string, std::array<double, 2>>> fit;  ///< of joints: median and 95 %, mm
+  std::vector<std::pair<std::string, std::array<double, 2>>> fit;  ///< of joints, if any: median and 95 %, mm
   std::string version, command;
 };
 

@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "reports/words/shell_word.h"
+
 namespace etude {
 namespace {
 
@@ -77,15 +79,6 @@ std::string VerdictText(const MetricMove& move) {
 }
 
 constexpr const char* kTo = " → ";
-
-/// Writes a word of a command line, in quotes when a shell would take it apart.
-std::string ShellWord(const std::string& text) {
-  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=,:@%+-";
-  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
-  std::string quoted = "'";
-  for (char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
 
 std::string ValuesText(const TailWorld& world, const std::string& metric) {
   const std::string ended_before(StatusName(StatusOf(world.ended_before)));

@@ -127,27 +127,52 @@ class Recovery {
     }
   }
 
+  /// Calls `visit(x, y, distance)` for the pixels of a mask that may be within `reach` of the body, once for each piece
+  /// of it; lengths are those of `matrices_`. Where the body is not known there is none.
+  template <typename Visit>
+  void VisitFlesh(const SilhouetteTrack& track, std::size_t frame, std::size_t camera, const glm::dvec2& size,
+                  double reach, const Visit& visit) {
+    const std::optional<SilhouetteFit>& fit = track.frames[frame];
+    if (!fit) return;
+    flesh_.clear();
+    ProjectFlesh(track.body, ComputeFrames(track.body.tree, fit->state), matrices_[camera], flesh_);
+    for (const ProjectedCapsule& capsule : flesh_) {
+      if (!capsule.is_valid) continue;
+      const double margin = std::max(capsule.radius_a, capsule.radius_b) + reach;
+      const auto low = glm::clamp((glm::min(capsule.a, capsule.b) - margin) / kMaskPixel, glm::dvec2(0), size);
+      const auto high = glm::clamp((glm::max(capsule.a, capsule.b) + margin) / kMaskPixel, glm::dvec2(0), size);
+      for (int y = static_cast<int>(low.y); y < static_cast<int>(high.y); ++y) {
+        for (int x = static_cast<int>(low.x); x < static_cast<int>(high.x); ++x) {
+          visit(x, y, DistanceTo(capsule, kMaskPixel * glm::dvec2(x + 0.5, y + 0.5)).value);
+        }
+      }
+    }
+  }
+
+  std::optional<double> ApartIn(const SilhouetteTrack& track, std::size_t frame, std::size_t camera) {
+    const Mask& mask = masks_[camera][frame];
+    Mask body(mask.width, mask.height);
+    VisitFlesh(track, frame, camera, {mask.width, mask.height}, 0, [&](int x, int y, double distance) {
+      if (distance <= 0) body.At(x, y) = 1;
+    });
+    std::size_t both = 0, any = 0, seen = 0, covered = 0;
+    for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
+      const bool is_seen = mask.pixels[i] != 0, is_covered = body.pixels[i] != 0;
+      seen += is_seen, covered += is_covered, both += is_seen && is_covered, any += is_seen || is_covered;
+    }
+    if (seen == 0 || covered == 0) return std::nullopt;
+    return 1 - static_cast<double>(both) / static_cast<double>(any);
+  }
+
   /// Adds how near each pixel is to the body, in pixels from `body_reach_px` inwards: more than motion ever counts.
   /// Where the body is not known, every pixel is near.
   void AddNearness(const SilhouetteTrack& track, std::size_t frame, std::size_t camera, Activity& activity) {
     const double reach = kMaskPixel * options_.body_reach_px;
-    const std::optional<SilhouetteFit>& fit = track.frames[frame];
-    Activity nearness(activity.width, activity.height, fit ? 0.0f : static_cast<float>(reach));
-    flesh_.clear();
-    if (fit) ProjectFlesh(track.body, ComputeFrames(track.body.tree, fit->state), matrices_[camera], flesh_);
-    for (const ProjectedCapsule& capsule : flesh_) {
-      if (!capsule.is_valid) continue;
-      const double margin = std::max(capsule.radius_a, capsule.radius_b) + reach;
-      const glm::dvec2 most(activity.width, activity.height);
-      const auto low = glm::clamp((glm::min(capsule.a, capsule.b) - margin) / kMaskPixel, glm::dvec2(0), most);
-      const auto high = glm::clamp((glm::max(capsule.a, capsule.b) + margin) / kMaskPixel, glm::dvec2(0), most);
-      for (int y = static_cast<int>(low.y); y < static_cast<int>(high.y); ++y) {
-        for (int x = static_cast<int>(low.x); x < static_cast<int>(high.x); ++x) {
-          const double distance = DistanceTo(capsule, kMaskPixel * glm::dvec2(x + 0.5, y + 0.5)).value;
-          nearness.At(x, y) = std::max(nearness.At(x, y), static_cast<float>(reach - distance));
-        }
-      }
-    }
+    const bool is_known = track.frames[frame].has_value();
+    Activity nearness(activity.width, activity.height, is_known ? 0.0f : static_cast<float>(reach));
+    VisitFlesh(track, frame, camera, {activity.width, activity.height}, reach, [&](int x, int y, double distance) {
+      nearness.At(x, y) = std::max(nearness.At(x, y), static_cast<float>(reach - distance));
+    });
     for (std::size_t i = 0; i < activity.pixels.size(); ++i) activity.pixels[i] += nearness.pixels[i];
   }
 
@@ -212,11 +237,17 @@ class Recovery {
     told.cost /= static_cast<double>((track.frames.size() - told.held) * matrices_.size());
     ASSIGN_OR_RETURN(const CaptureBody body, FittedBody(RestBodyOf(told.motion.poses)));
     std::vector<TreeState> states;
-    PoseFitter fitter(body);
+    const PoseFitter fitter(body);
+    std::optional<PoseFit> last_fit;
     for (const BodyPose& pose : told.motion.poses) {
-      states.push_back(fitter.Fit(TargetsAt(pose)).value_or(StandingState(body.tree)));
+      if (auto found = fitter.Fit(TargetsAt(pose), last_fit)) last_fit = std::move(found);
+      states.push_back(last_fit ? last_fit->state : StandingState(body.tree));
     }
     told.clip = ToClip(body, states, take_.rate_hz, "capture");
+    for (std::size_t c = 0; c < matrices_.size(); ++c) {
+      told.apart.emplace_back();
+      for (std::size_t k = 0; k < track.frames.size(); ++k) told.apart.back().push_back(ApartIn(track, k, c));
+    }
     told.rooms = std::move(rooms_);
     told.silhouettes = std::move(masks_);
     return told;

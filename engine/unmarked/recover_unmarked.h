@@ -80,6 +80,9 @@ struct UnmarkedMotion {
   double cost = 0;
   std::vector<ColourImage> rooms;              ///< of each camera
   std::vector<std::vector<Mask>> silhouettes;  ///< of each camera and frame
+  /// The share of what the body or the silhouette covers that only one of them does, of each camera and frame; nothing
+  /// where either shows nobody.
+  std::vector<std::vector<std::optional<double>>> apart;
 };
 
 /// Recovers a person's motion from outlines alone (engine/silhouettes) *(ours)*: no marks, no estimator, no picture of

@@ -3,10 +3,12 @@
 A generator of its own makes a walking figure, four cameras, their calibration in every format, keypoints in every
 format, and one mistake at a time. `--table` prints the errors instead of testing them.
 """
+import html
 import json
 import math
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -208,23 +210,29 @@ def swapped(person, only=None):
     return {name: person[other(name) if only is None or name.endswith(legs) else name] for name in person}
 
 
+SLOW, SLOW_RATE, SLOW_FRAMES = "a film of 25 frames a second", 25, 50
+LATE_AND_NOISY = "late by 3 frames, keypoints off by 2 px"
 LEFT_RIGHT = {name for name in HALPE if name[0] in "LR" and ("L" + name[1:]) in HALPE}
 
 
 def seen_people(cameras, mistake, truth):
     """people[camera][frame]: a list of people, each name → pixel."""
     seen = {}
+    dice = np.random.default_rng(7)
+    noise_px = 2 if mistake == LATE_AND_NOISY else 0
     for name, camera in cameras.items():
         frames = []
-        for k in range(FRAMES):
+        for k in range(SLOW_FRAMES if name == "cam2" and mistake == SLOW else FRAMES):
             time = k / RATE
-            if name == "cam2" and mistake == "late by 3 frames":
+            if name == "cam2" and mistake == SLOW:
+                time = k / SLOW_RATE
+            if name == "cam2" and mistake in ("late by 3 frames", LATE_AND_NOISY):
                 time = (k + 3) / RATE
             if name == "cam2" and mistake == "late by 0.4 frames":
                 time = (k + 0.4) / RATE
             if name == "cam2" and mistake == "rate off by 2 %":
                 time = 1.02 * k / RATE
-            person = {key: camera.pixel(p) for key, p in truth(time).items()}
+            person = {key: camera.pixel(p) + noise_px * dice.normal(size=2) for key, p in truth(time).items()}
             people = [person]
             if mistake == "two people, identities cross":
                 # Somebody passes behind, and in the picture through, the one who is wanted.
@@ -292,6 +300,17 @@ def read_trc(path):
     return frames
 
 
+def write_trc(path, rate, frames, truth):
+    """A reference of other people: markers in mm, Y up, at their own rate."""
+    text = ("PathFileType\t4\t(X/Y/Z)\tr.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n"
+            f"{rate}\t{rate}\t{frames}\t{len(HALPE)}\tmm\nFrame#\tTime" + "".join(f"\t{name}\t\t" for name in HALPE) + "\n\t"
+            + "".join(f"\tX{i}\tY{i}\tZ{i}" for i in range(1, len(HALPE) + 1)) + "\n\n")
+    for k in range(frames):
+        exact = truth(k / rate)
+        text += f"{k + 1}\t{k / rate:.5f}" + "".join(f"\t{1000 * v:.4f}" for name in HALPE for v in exact[name]) + "\n"
+    path.write_text(text)
+
+
 def errors_mm(found, truth):
     """Distances after the best turn about the vertical and shift: what no rig tells. Heights are not turned away."""
     a, b = [], []
@@ -323,13 +342,32 @@ MISTAKES = {"none": None, "sides swapped in 20 frames": "cam2: left and right ex
 FEWEST = ("none", "sides swapped in 20 frames", "late by 0.4 frames", "mirrored", "turned by 180")
 
 
+LIMBS = ([("MidHip", "Neck", 0.13), ("Neck", "Head", 0.09), ("LShoulder", "RShoulder", 0.07), ("LHip", "RHip", 0.1)] +
+         [(side + a, side + b, radius) for side in "LR" for a, b, radius in
+          (("Shoulder", "Elbow", 0.05), ("Elbow", "Wrist", 0.04), ("Hip", "Knee", 0.08), ("Knee", "Ankle", 0.055),
+           ("Ankle", "BigToe", 0.04))])
+
+
+def drawn(camera, person):
+    """A picture of the figure in red before a patterned room; of nobody: the room."""
+    v, u = np.mgrid[0:HEIGHT, 0:WIDTH].astype(float)
+    picture = np.stack([90 + u % 40, 100 + (v + 2 * u) % 50, 120 + 0 * u], 2)
+    for a, b, radius in LIMBS if person else ():
+        (ax, ay), (bx, by) = camera.pixel(person[a]), camera.pixel(person[b])
+        depth = (camera.R @ (0.5 * (person[a] + person[b]) - camera.place))[2]
+        along = np.clip(((u - ax) * (bx - ax) + (v - ay) * (by - ay)) / ((bx - ax) ** 2 + (by - ay) ** 2 + 1e-9), 0, 1)
+        picture[np.hypot(u - ax - along * (bx - ax), v - ay - along * (by - ay)) < radius * FOCAL / depth] = (200, 50, 40)
+    return picture.astype(np.uint8)
+
+
 class Mistakes(EtudeCase):
     @classmethod
     def setUpClass(cls):
         cls.films = cls.shared_folder()
-        for name, size in (("upright", (WIDTH, HEIGHT)), ("turned", (HEIGHT, WIDTH))):
-            subprocess.run(["ffmpeg", "-v", "error", "-f", "lavfi", "-i", f"color=gray:size={size[0]}x{size[1]}:rate={RATE}",
-                            "-frames:v", str(FRAMES), "-pix_fmt", "yuv420p", str(cls.films / f"{name}.mp4")], check=True)
+        for name, size, rate, frames in (("upright", (WIDTH, HEIGHT), RATE, FRAMES), ("turned", (HEIGHT, WIDTH), RATE, FRAMES),
+                                         ("slow", (WIDTH, HEIGHT), SLOW_RATE, SLOW_FRAMES)):
+            subprocess.run(["ffmpeg", "-v", "error", "-f", "lavfi", "-i", f"color=gray:size={size[0]}x{size[1]}:rate={rate}",
+                            "-frames:v", str(frames), "-pix_fmt", "yuv420p", str(cls.films / f"{name}.mp4")], check=True)
 
     def capture(self, rig="Pose2Sim", keypoints="OpenPose, 26", mistake="none", cameras=None, lens=Lens(LENS[:5]),
                 more=(), truth=figure):
@@ -346,7 +384,7 @@ class Mistakes(EtudeCase):
             mistake = "turned by 90"
         write_keypoints(folder / "keypoints", keypoints, seen_people(cams, mistake, truth))
         for name in names:
-            kind = "turned" if mistake == "turned by 90" and name == "cam2" else "upright"
+            kind = {"turned by 90": "turned", SLOW: "slow"}.get(mistake, "upright") if name == "cam2" else "upright"
             shutil.copy(self.films / f"{kind}.mp4", folder / f"{name}.mp4")
         if rig.startswith("Caliscope"):
             arguments = [*arguments, "--cameras", ",".join(names)]
@@ -390,26 +428,72 @@ class Mistakes(EtudeCase):
                         for word in ("mended", "doubtful", "turned", "exchanged"):
                             self.assertNotIn(word, told)
 
+    def test_films_and_references_of_other_rates(self):
+        reference = self.folder / "reference.trc"
+        write_trc(reference, 60, 2 * FRAMES, figure)
+        told, errors, _ = self.capture(mistake=SLOW, cameras=2, more=("--reference", reference))
+        self.check(told, errors, words="cam2: 25 frames a second beside 30, its keypoints resampled")
+        self.assertIn("reference: resampled from 60 to 30 Hz", told)
+        self.assertLess(float(re.search(r"^all\s+([\d.]+)", told, re.M)[1]), 1, told)
+
+    # Errors of two pixels hide how late a film is from what mends clocks by itself; not that it is.
+    def test_a_late_film_of_keypoints_that_err_is_doubted_and_can_be_set(self):
+        told, errors, _ = self.capture(mistake=LATE_AND_NOISY, cameras=2)
+        self.assertRegex(told, r"doubtful: cam2: its frames seem (2\.[89]|3\.[012]) frames later than cam1's; --sync 0\.2 would set it")
+        asked, by_sync, _ = self.capture(mistake=LATE_AND_NOISY, cameras=2, more=("--sync", "0.2"))
+        self.assertNotIn("doubtful: cam2: its frames", asked)
+        self.assertLess(np.median(by_sync), 0.85 * np.median(errors))
+
     def test_the_page_tells_films_residuals_and_mends(self):
-        page = self.folder / "page.html"
+        page = self.folder / "a page.html"
         told, errors, _ = self.capture(mistake=FEWEST[1], cameras=2, more=("--report", page))
         self.check(told, errors)
-        html = page.read_text()
+        text = page.read_text()
         for line in told.splitlines():
             if line.startswith(("mended", "rig,")) or "; mended" in line:
-                self.assertIn(line.replace("'", "&#39;"), html)
-        self.assertIn("src=\"data:video/mp4;base64,", html)
-        self.assertNotRegex(html, r"(src|href)=\"(?!data:|#)")
+                self.assertIn(line.replace("'", "&#39;"), text)
+        self.assertIn("src=\"data:video/mp4;base64,", text)
+        self.assertNotRegex(text, r"(src|href)=\"(?!data:|#)")
         for camera in list(PLACES)[:2]:
-            row = re.search(rf"<td>{camera}</td>((<td class=\"n\">[^<]*</td>)+)", html)
+            row = re.search(rf"<td>{camera}</td>((<td class=\"n\">[^<]*</td>)+)", text)
             self.assertIsNotNone(row, camera)
             frames, median = re.findall(r">([\d.]+)", row[1])[:2]
             self.assertGreater(int(frames), FRAMES / 2)
             self.assertLess(float(median), 2)
-        curves = re.findall(r"<path class=\"line\"[^>]* d=\"(M[^\"]+)\"", html)
+        curves = re.findall(r"<path class=\"line\"[^>]* d=\"(M[^\"]+)\"", text)
         self.assertGreaterEqual(len([c for c in curves if c.count("L") > FRAMES / 2]), 4)  # two cameras, two feet
-        self.assertRegex(html, r"<td>shank</td><td class=\"n\">4[23]\.")
-        self.assertIn("there already", self.capture(more=("--report", page))[0])
+        self.assertRegex(text, r"<td>shank</td><td class=\"n\">4[23]\.")
+        typed = shlex.split(html.unescape(re.search(r"<dt>Command</dt><dd>(etude capture [^<]*)</dd>", text)[1]))
+        self.assertIn(str(page), typed)
+        self.assertIn("there already", self.etude(*typed[1:]).stderr, "it can be pasted")
+
+    @unittest.skipUnless(HEAVY, "heavy")
+    def test_the_page_of_outlines(self):
+        frames, rate, cams = 8, 15, {name: Camera(PLACES[name]) for name in ("cam1", "cam3")}
+        files, named, arguments = rig_files("Pose2Sim", cams)
+        (self.folder / named).write_text(files[named])
+        rooms = self.folder / "rooms"
+        rooms.mkdir()
+        for name, camera in cams.items():
+            film = np.stack([drawn(camera, figure(0.5 + k / rate)) for k in range(frames)])
+            for pixels, path in ((film, self.folder / f"{name}.mp4"), (drawn(camera, None)[None], rooms / f"{name}.png")):
+                subprocess.run(["ffmpeg", "-v", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{WIDTH}x{HEIGHT}",
+                                "-r", str(rate), "-i", "-", *(("-pix_fmt", "yuv420p") if len(pixels) > 1 else ()), str(path)],
+                               input=pixels.tobytes(), check=True)
+        page = self.folder / "outlines.html"
+        result = self.etude("capture", "--rig", self.folder / named, *(self.folder / f"{name}.mp4" for name in cams), "--silhouettes",
+                            "--rooms", rooms, "--stature", "1.7", "-o", self.folder / "m.csv", "--report", page, *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertNotIn("doubtful", result.stdout)
+        text = page.read_text()
+        self.assertIn("stature: 1.70 m", text)
+        self.assertIn("src=\"data:video/mp4;base64,", text)
+        for camera in cams:
+            row = re.search(rf"<td>{camera}</td><td class=\"n\">(\d+)</td><td class=\"n\">([\d.]+)</td>", text)
+            self.assertEqual(int(row[1]), frames)
+            self.assertLess(float(row[2]), 40)  # per cent: its flesh is not that of an average adult
+        self.assertNotIn("Keypoints left out", text)
+        self.assertRegex(text, r"nothing is doubtful\.")
 
     def test_what_is_no_person_is_refused_with_the_factor(self):
         told, errors, _ = self.capture("Pose2Sim", more=("--rig-unit", "cm"))

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -103,6 +104,16 @@ TEST(RecoverUnmarked, IsToldRoomsAndStature) {
       RecoverUnmarked({.cameras = film.cameras, .pictures = film.pictures, .rooms = film.rooms, .stature_m = 1.3});
   ASSERT_TRUE(child);
   EXPECT_GT(child->cost, 2 * told->cost) << "the control: nobody of 1.30 m has this outline";
+  double apart = 0, apart_of_child = 0;
+  for (std::size_t c = 0; c < film.cameras.size(); ++c) {
+    for (int k = 0; k < kUnmarkedFrames; ++k) {
+      ASSERT_TRUE(told->apart[c][k] && child->apart[c][k]);
+      apart = std::max(apart, *told->apart[c][k]);
+      apart_of_child = std::max(apart_of_child, *child->apart[c][k]);
+    }
+  }
+  EXPECT_LT(apart, 0.2);
+  EXPECT_GT(apart_of_child, 2 * apart);
 }
 
 TEST(RecoverUnmarked, SeesNobodyWhereNothingMoves) {
