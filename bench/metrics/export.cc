@@ -41,6 +41,8 @@ Json EncodeVector(const MetricInfo& metric, const MetricVector& vector) {
   return json;
 }
 
+constexpr std::array kReadings = {"amount", "yes-no", "share", "score"};  // in the order of Reading
+
 Json EncodeMetric(const MetricInfo& metric) {
   Json inputs = Json::object();
   for (const MetricInput& input : metric.inputs) inputs[input.key] = input.meaning;
@@ -60,10 +62,9 @@ Json EncodeMetric(const MetricInfo& metric) {
           {"practical_reason", metric.practical_reason},
           {"source", metric.source},
           {"inputs", std::move(inputs)},
-          {"vectors", std::move(vectors)}};
+          {"vectors", std::move(vectors)},
+          {"reads", kReadings[static_cast<std::size_t>(metric.reading)]}};
 }
-
-constexpr std::array kReadings = {"amount", "yes-no", "share", "score"};  // in the order of Reading
 
 constexpr std::string_view kIntroduction = R"(# Metrics
 
@@ -163,10 +164,7 @@ std::string MetricsPage() {
 
 Json AddedMetricsJson() {
   Json list = Json::array();
-  for (const auto& [id, metric] : AddedMetrics()) {
-    list.push_back(EncodeMetric(metric));
-    list.back()["reads"] = kReadings[static_cast<std::size_t>(metric.reading)];
-  }
+  for (const auto& [id, metric] : AddedMetrics()) list.push_back(EncodeMetric(metric));
   return list;
 }
 

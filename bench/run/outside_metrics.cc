@@ -19,11 +19,21 @@ Payload SettingOf(const MetricInfo& info, const std::string& task) {
   return PayloadOf(std::move(setting));
 }
 
-/// A metric's value as its program told it, or why there is none.
-MetricValue ValueIn(const std::string& id, const OutsideReply& reply) {
-  const auto missing = [&](std::string why) { return MetricValue{id, std::nullopt, std::move(why)}; };
-  if (reply.status == Status::kUnsolved) return missing(reply.reason);  // "gave no answer: …"
-  if (reply.status != Status::kOk) return missing(fmt::format("its program: {}", reply.reason));
+/// What a metric's program said of a cell.
+struct Measured {
+  Status status = Status::kOk;  ///< kOk: a number, or null with its reason; kUnsolved: no answer; else it failed
+  MetricValue value;
+
+  /// True if the program itself said that there is no value.
+  bool IsNull() const { return !value.value && (status == Status::kOk || status == Status::kUnsolved); }
+};
+
+Measured ReadValue(const std::string& id, const OutsideReply& reply) {
+  const auto missing = [&](Status status, std::string why) {
+    return Measured{status, {id, std::nullopt, std::move(why)}};
+  };
+  if (reply.status == Status::kUnsolved) return missing(reply.status, reply.reason);  // "gave no answer: …"
+  if (reply.status != Status::kOk) return missing(reply.status, fmt::format("its program: {}", reply.reason));
   AnswerFields fields(*reply.answer);
   const Json* value = fields.Raw("value");
   std::string why = fields.Has("reason") ? fields.Text("reason", kLongestReason) : "";
@@ -32,8 +42,11 @@ MetricValue ValueIn(const std::string& id, const OutsideReply& reply) {
   } else if (value->is_null() && why.empty()) {
     fields.Note({{}, "value: null without a 'reason'"});
   }
-  if (auto read = fields.Finish(); !read) return missing("its program answered " + ToString(read.error()));
-  return value->is_null() ? missing(std::move(why)) : MetricValue{id, value->get<double>(), ""};
+  if (auto read = fields.Finish(); !read) {
+    return missing(Status::kBadOutput, "its program answered " + ToString(read.error()));
+  }
+  if (value->is_null()) return missing(Status::kOk, std::move(why));
+  return {Status::kOk, {id, value->get<double>(), ""}};
 }
 
 std::string Show(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : "null"; }
@@ -76,7 +89,7 @@ std::string OutsideMetrics::Measure(const std::string& cell, CellResult& result)
   for (std::size_t m = 0; m < programs_.size(); ++m) {
     const OutsideReply reply = Ask(m, cell, told);
     if (!reply.was_asked) return reply.reason;
-    result.metrics.push_back(ValueIn(scenario_.scenario().outside_metrics[m].info.id, reply));
+    result.metrics.push_back(ReadValue(scenario_.scenario().outside_metrics[m].info.id, reply).value);
   }
   return "";
 }
@@ -89,11 +102,10 @@ Result<void> OutsideMetrics::CheckVectors() {
       ASSIGN_OR_RETURN(auto cell, ReadJson(vector.cell_json, vector.place.file));
       const OutsideReply reply = Ask(m, fmt::format("vector/{}", v), PayloadOf(std::move(cell)));
       if (!reply.was_asked) return tl::unexpected(OfThisMachine({{}, reply.reason}));
-      const MetricValue found = ValueIn(metric.info.id, reply);
-      const bool agrees = vector.expected && found.value
-                              ? std::abs(*found.value - *vector.expected) <= vector.tolerance
-                              // What failed has said no null.
-                              : !vector.expected && !found.value && found.null_reason.find("its program") != 0;
+      const Measured measured = ReadValue(metric.info.id, reply);
+      const MetricValue& found = measured.value;
+      const bool agrees = vector.expected && found.value ? std::abs(*found.value - *vector.expected) <= vector.tolerance
+                                                         : !vector.expected && measured.IsNull();
       if (agrees) continue;
       return Fail(vector.place, "metric '{}', test vector {}{}: expected {}, found {}{}", metric.info.id, v + 1,
                   vector.title.empty() ? "" : " (" + vector.title + ")", Show(vector.expected), Show(found.value),

@@ -14,9 +14,6 @@
 namespace etude::engine {
 namespace {
 
-/// The largest fuzzy distance that there is: eight features, weights of which sum to so much, off by all their grades.
-constexpr double kFarthest = 6;
-
 Grades GradesOf(const Features& features) {
   PoseFeatures told;
   std::ranges::copy(features, told.values.begin());
@@ -24,21 +21,6 @@ Grades GradesOf(const Features& features) {
     if (!std::isfinite(value)) throw BadInput("a feature that is not finite");
   }
   return Fuzzify(told);
-}
-
-std::vector<BodyMotion> ToBodyMotions(std::span<const Motion> clips) {
-  if (clips.empty()) throw BadInput("no clips");
-  std::vector<BodyMotion> motions;
-  for (const Motion& clip : clips) {
-    const auto number = motions.size();
-    if (clip.poses.empty()) throw BadInput(fmt::format("clip {}: no frames", number));
-    if (clip.rate_hz != clips.front().rate_hz) {
-      throw BadInput(
-          fmt::format("clip {}: {} Hz; allowed: that of clip 0, {} Hz", number, clip.rate_hz, clips.front().rate_hz));
-    }
-    motions.push_back(ToBodyMotion(clip));
-  }
-  return motions;
 }
 
 }  // namespace
@@ -53,8 +35,7 @@ std::vector<Features> ComputeFeatures(const Motion& motion) {
   const BodyMotion body = ToBodyMotion(motion);
   std::vector<Features> features;
   if (body.poses.empty()) return features;
-  const double hips = StandingHipHeight(body.poses.front());
-  if (hips <= 0) throw BadInput("frame 0: a body without legs");
+  const double hips = StandingHipsOf(body.poses.front());
   for (const BodyPose& pose : body.poses) features.push_back(etude::ComputeFeatures(pose, hips).values);
   return features;
 }
@@ -75,13 +56,12 @@ struct Bridges::Library {
 
 Bridges::Bridges(std::span<const Motion> clips, const BridgeOptions& options) : library_(std::make_unique<Library>()) {
   if (options.min_clips < 1) throw BadInput(fmt::format("min_clips {}; allowed: 1 or more", options.min_clips));
-  if (!(options.threshold > 0 && options.threshold <= kFarthest)) {
-    throw BadInput(fmt::format("threshold {}; allowed: above 0, up to {}", options.threshold, kFarthest));
+  if (!(options.threshold > 0 && options.threshold <= kFarthestFuzzy)) {
+    throw BadInput(fmt::format("threshold {}; allowed: above 0, up to {}", options.threshold, kFarthestFuzzy));
   }
   const std::vector<BodyMotion> motions = ToBodyMotions(clips);
   const BodyPose& first = motions.front().poses.front();
-  const double hips = StandingHipHeight(first);
-  if (hips <= 0) throw BadInput("clip 0: a body without legs");
+  const double hips = StandingHipsOf(first);
   TagRules rules;
   rules.min_clips = options.min_clips;
   library_->tagged = TagClips(PerformedBy(MakeBodyProportions(first, hips), motions), hips, rules);
@@ -100,10 +80,7 @@ std::optional<TransitionPoint> Bridges::Find(int from, int frame, int to, double
   if (frame < 0 || frame >= playing.FrameCount()) {
     throw BadInput(fmt::format("frame {} of clip {}; allowed: 0 to {}", frame, from, playing.FrameCount() - 1));
   }
-  constexpr double kLongestWait = 3600;
-  if (!(budget_s >= 0 && budget_s <= kLongestWait)) {
-    throw BadInput(fmt::format("a budget of {} s; allowed: 0 to {}", budget_s, kLongestWait));
-  }
+  CheckBudget(budget_s);
   const auto found = FindTransitionPoint(playing, WaitWindow(playing, frame, budget_s), next, library_->rules);
   if (!found) return std::nullopt;
   return TransitionPoint{found->from, found->to, found->distance.value};

@@ -9,6 +9,7 @@
 #include "engine/formats/c3d.h"
 #include "engine/formats/npz.h"
 #include "engine/formats/trc.h"
+#include "engine/fuzzy/features.h"
 #include "engine/motion/clip.h"
 #include "engine/motion/edit.h"
 #include "engine/retargeting/joint_map.h"
@@ -84,6 +85,33 @@ BodyMotion ToBodyMotion(const Motion& motion) {
     made.poses.push_back({pose.joints});
   }
   return made;
+}
+
+std::vector<BodyMotion> ToBodyMotions(std::span<const Motion> clips) {
+  if (clips.empty()) throw BadInput("no clips");
+  std::vector<BodyMotion> motions;
+  for (const Motion& clip : clips) {
+    const auto number = motions.size();
+    if (clip.poses.empty()) throw BadInput(fmt::format("clip {}: no frames", number));
+    if (clip.rate_hz != clips.front().rate_hz) {
+      throw BadInput(
+          fmt::format("clip {}: {} Hz; allowed: that of clip 0, {} Hz", number, clip.rate_hz, clips.front().rate_hz));
+    }
+    motions.push_back(ToBodyMotion(clip));
+  }
+  return motions;
+}
+
+double StandingHipsOf(const BodyPose& first) {
+  const double hips = StandingHipHeight(first);
+  if (hips > 0) return hips;
+  throw BadInput("frame 0: a body without legs");
+}
+
+void CheckBudget(double budget_s) {
+  constexpr double kLongestWait = 3600;
+  if (budget_s >= 0 && budget_s <= kLongestWait) return;
+  throw BadInput(fmt::format("a budget of {} s; allowed: 0 to {}", budget_s, kLongestWait));
 }
 
 Motion ReadMotion(std::string_view bytes, const std::string& file, double rate_hz) {

@@ -3,11 +3,15 @@
 #include <cmath>
 
 #include "engine/api/convert.h"
-#include "engine/recognition/recognisers.h"
 #include "engine/recognition/sight.h"
 
 namespace etude::engine {
-namespace {
+
+const RecogniserKind& KindOfExamples(const std::string& name) {
+  const RecogniserKind* kind = FindRecogniser(name);
+  if (kind != nullptr && (name == "whole-body" || name == "dtw" || name == "nearest")) return *kind;
+  throw BadInput(fmt::format("no recogniser '{}' of examples; allowed: whole-body, dtw, nearest", name));
+}
 
 etude::TaughtMove ToEngineMove(const TaughtMove& move) {
   etude::TaughtMove taught{.name = move.name};
@@ -30,8 +34,6 @@ SensedFrame ToEngineFrame(const SensedPose& frame) {
   return sensed;
 }
 
-}  // namespace
-
 struct Recogniser::Taught {
   std::size_t moves = 0;
   FilterOptions filter;
@@ -45,18 +47,14 @@ struct RecogniserStream::Following {
 };
 
 Recogniser::Recogniser(std::span<const TaughtMove> moves, const RecogniserOptions& options) {
-  const RecogniserKind* kind = FindRecogniser(options.kind);
-  const bool is_allowed = options.kind == "whole-body" || options.kind == "dtw" || options.kind == "nearest";
-  if (kind == nullptr || !is_allowed) {
-    throw BadInput(fmt::format("no recogniser '{}' of examples; allowed: whole-body, dtw, nearest", options.kind));
-  }
+  const RecogniserKind& kind = KindOfExamples(options.kind);
   if (moves.empty()) throw BadInput("no moves");
   std::vector<etude::TaughtMove> taught;
   for (const TaughtMove& move : moves) taught.push_back(ToEngineMove(move));
   auto made = std::make_shared<Taught>();
   made->moves = moves.size();
   made->filter.kind = options.smooths ? FilterKind::kHolt : FilterKind::kNone;
-  made->recogniser = OrThrow(MakeRecogniser({.kind = kind}, taught));
+  made->recogniser = OrThrow(MakeRecogniser({.kind = &kind}, taught));
   taught_ = std::move(made);
 }
 

@@ -14,8 +14,9 @@
 #include <utility>
 #include <vector>
 
-/// The module `etude_engine`: libetude's functions (docs/library.md) on arrays of numpy. Lists, other types of numbers
-/// and views are taken as they are; shapes are checked; the interpreter is free while the engine works.
+/// The module `etude_engine`: libetude's functions (docs/library.md), and simulated sensors, on arrays of numpy. Lists,
+/// other types of numbers and views are taken as they are; shapes are checked; the interpreter is free while the engine
+/// works.
 namespace etude::engine {
 
 namespace py = pybind11;
@@ -25,6 +26,7 @@ void AddMotions(py::module_& module);
 void AddKinematics(py::module_& module);
 void AddCameras(py::module_& module);
 void AddStreams(py::module_& module);
+void AddVision(py::module_& module);
 
 using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();

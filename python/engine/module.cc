@@ -8,5 +8,6 @@ PYBIND11_MODULE(etude_engine, module) {
   AddMotions(module);
   AddKinematics(module);
   AddCameras(module);
+  AddVision(module);
   AddStreams(module);
 }

@@ -1,5 +1,6 @@
 #include <etude/fuzzy.h>
 #include <etude/motion.h>
+#include <etude/transitions.h>
 
 #include <filesystem>
 #include <fstream>
@@ -79,7 +80,11 @@ void AddMotions(py::module_& module) {
   module.def(
       "features",
       [](const Motion& motion) {
-        const std::vector<Features> found = ComputeFeatures(motion);
+        std::vector<Features> found;
+        {
+          const py::gil_scoped_release free;
+          found = ComputeFeatures(motion);
+        }
         Array array({static_cast<py::ssize_t>(found.size()), static_cast<py::ssize_t>(kFeatureCount)});
         double* value = array.mutable_data();
         for (const Features& features : found) value = std::copy(features.begin(), features.end(), value);
@@ -93,6 +98,7 @@ void AddMotions(py::module_& module) {
   py::class_<Bridges>(module, "Bridges",
                       "Clips made ready for transitions: performed by the body of the first, and tagged.")
       .def(py::init([](const std::vector<Motion>& clips, int min_clips, double threshold) {
+             const py::gil_scoped_release free;
              return std::make_unique<Bridges>(clips, BridgeOptions{min_clips, threshold});
            }),
            "clips"_a, "min_clips"_a = BridgeOptions{}.min_clips, "threshold"_a = BridgeOptions{}.threshold,
@@ -107,13 +113,53 @@ void AddMotions(py::module_& module) {
       .def(
           "find",
           [](const Bridges& bridges, int clip, int frame, int to, double budget_s) -> py::object {
-            const auto point = bridges.Find(clip, frame, to, budget_s);
+            const auto point = [&] {
+              const py::gil_scoped_release free;
+              return bridges.Find(clip, frame, to, budget_s);
+            }();
             return point ? py::object(py::make_tuple(point->from, point->to, point->distance)) : py::none();
           },
           "clip"_a, "frame"_a, "to"_a, "budget_s"_a = 1.0,
           "(frame to leave at, frame to enter at, fuzzy distance) of the first match while `clip` goes on from "
-          "`frame`, else "
-          "None.");
+          "`frame`, else None.");
+
+  module.attr("TRANSITION_CHOICES") = py::tuple(py::cast(TransitionChoices()));
+  module.attr("TRANSITION_JOINS") = py::tuple(py::cast(TransitionJoins()));
+  py::class_<Transition>(module, "Transition", "A clip that is left for another, as it is shown.")
+      .def_readonly(
+          "motion", &Transition::motion,
+          "The playing clip from its first frame, what lies between, and the wanted one to its end; no frames "
+          "where there is no way.")
+      .def_readonly("points", &Transition::points, "The last frames of `motion` before another clip plays, rising.")
+      .def_readonly("wait_s", &Transition::wait_s, "Seconds from the request until the wanted clip plays.")
+      .def_readonly("branch", &Transition::branch, "The kind of way: 'front half', 'in-between', 'now', 'none', …")
+      .def_readonly("why", &Transition::why, "One sentence: why this way won, or why there is none.");
+  py::class_<TransitionLibrary>(
+      module, "TransitionLibrary",
+      "Clips made ready for transitions: performed by the body of the first, tagged, joined by "
+      "in-betweens.")
+      .def(py::init([](const std::vector<Motion>& clips) {
+             const py::gil_scoped_release free;
+             return std::make_unique<TransitionLibrary>(clips);
+           }),
+           "clips"_a,
+           "Raises BadInput for no clips, fewer than two frames, another rate than 30 Hz, a body without legs.")
+      .def(
+          "make",
+          [](const TransitionLibrary& library, int clip, int frame, int to, double budget_s, const std::string& choice,
+             const std::string& join, double threshold) {
+            const TransitionOptions options{.choice = choice, .join = join, .threshold = threshold};
+            const py::gil_scoped_release free;
+            return library.Make(clip, frame, to, budget_s, options);
+          },
+          "clip"_a, "frame"_a, "to"_a, "budget_s"_a = 1.0, "choice"_a = TransitionOptions{}.choice,
+          "join"_a = TransitionOptions{}.join, "threshold"_a = TransitionOptions{}.threshold,
+          "The Transition from a frame of a clip, which is the one shown when the clip `to` is asked for. budget_s: "
+          "how "
+          "long that may be waited for, 0 to 3600. choice: which frames, of TRANSITION_CHOICES; join: how they are put "
+          "together, of TRANSITION_JOINS; threshold: of the fuzzy choices, in (0, 6]. Raises BadInput for what there "
+          "is "
+          "not.");
 }
 
 }  // namespace etude::engine

@@ -1,63 +1,34 @@
+#include <etude/coaching.h>
 #include <etude/recognition.h>
-#include <etude/vision.h>
+#include <etude/simulation.h>
 
 #include <cstdint>
 #include <optional>
+#include <tuple>
 
 #include "python/engine/arrays.h"
 
 namespace etude::engine {
 namespace {
 
-using Bytes = py::array_t<std::uint8_t, py::array::c_style>;
+/// A move's name and its right performances.
+using Moves = std::vector<std::pair<std::string, std::vector<Motion>>>;
 
-std::span<const std::uint8_t> PictureOf(const char* name, const Bytes& picture, py::ssize_t height, py::ssize_t width) {
-  const bool fits = picture.ndim() == 3 && picture.shape(2) == 3 && (height == kAny || picture.shape(0) == height) &&
-                    (width == kAny || picture.shape(1) == width);
-  if (!fits) {
-    throw BadInput(std::string(name) + ": has the shape " +
-                   ShapeText({picture.shape(), picture.shape() + picture.ndim()}) +
-                   ", allowed: " + ShapeText({height, width, 3}));
-  }
-  return {picture.data(), static_cast<std::size_t>(picture.size())};
-}
-
-/// A PersonFinder and the size that its masks have.
-struct Finder {
-  PersonFinder finder;
-  py::ssize_t height, width;
-};
-
-Finder MakeFinder(const Bytes& background, const std::string& segmenter, bool all_pieces) {
-  const auto bytes = PictureOf("background", background, kAny, kAny);
-  constexpr py::ssize_t kLargest = 1 << 20;  // which the engine refuses
-  const int height = static_cast<int>(std::min(background.shape(0), kLargest));
-  const int width = static_cast<int>(std::min(background.shape(1), kLargest));
-  return {PersonFinder(bytes, width, height, {.segmenter = segmenter, .all_pieces = all_pieces}), background.shape(0),
-          background.shape(1)};
-}
-
-py::array_t<bool> FindIn(Finder& finder, const Bytes& picture) {
-  const auto bytes = PictureOf("picture", picture, finder.height, finder.width);
-  std::vector<std::uint8_t> mask;
-  {
-    const py::gil_scoped_release free;
-    mask = finder.finder.Find(bytes);
-  }
-  py::array_t<bool> found({finder.height, finder.width});
-  std::ranges::transform(mask, found.mutable_data(), [](std::uint8_t value) { return value != 0; });
-  return found;
-}
-
-Recogniser Teach(const std::vector<std::pair<std::string, std::vector<Motion>>>& moves, const std::string& kind,
-                 bool smooths) {
+std::vector<TaughtMove> ToTaught(const Moves& moves) {
   std::vector<TaughtMove> taught;
   for (const auto& [name, examples] : moves) taught.push_back({name, examples});
+  return taught;
+}
+
+Recogniser Teach(const Moves& moves, const std::string& kind, bool smooths) {
+  const std::vector<TaughtMove> taught = ToTaught(moves);
   const py::gil_scoped_release free;
   return Recogniser(taught, {.kind = kind, .smooths = smooths});
 }
 
-py::tuple UpdateStream(RecogniserStream& stream, const Array& positions_m, const std::string& states, bool body_seen) {
+constexpr std::string_view kStates = "tin";  ///< by Seen
+
+SensedPose ToSensed(const Array& positions_m, const std::string& states, bool body_seen) {
   Expect("positions_m", positions_m, {kRoleCount, 3});
   if (!states.empty() && states.size() != kRoleCount) {
     throw BadInput("states: " + std::to_string(states.size()) + " letters; allowed: 20, or none");
@@ -66,10 +37,15 @@ py::tuple UpdateStream(RecogniserStream& stream, const Array& positions_m, const
   for (std::size_t i = 0; i < kRoleCount; ++i) {
     frame.pose.joints[i] = Vector(positions_m.data() + 3 * i);
     if (states.empty()) continue;
-    const std::size_t place = std::string_view("tin").find(states[i]);
+    const std::size_t place = kStates.find(states[i]);
     if (place == std::string_view::npos) throw BadInput("states: letters are t, i, n");
     frame.seen[i] = static_cast<Seen>(place);
   }
+  return frame;
+}
+
+py::tuple UpdateStream(RecogniserStream& stream, const Array& positions_m, const std::string& states, bool body_seen) {
+  const SensedPose frame = ToSensed(positions_m, states, body_seen);
   Evidence evidence;
   {
     const py::gil_scoped_release free;
@@ -78,29 +54,208 @@ py::tuple UpdateStream(RecogniserStream& stream, const Array& positions_m, const
   return py::make_tuple(evidence.asked, ToArray(evidence.spotted, {static_cast<py::ssize_t>(evidence.spotted.size())}));
 }
 
-}  // namespace
+Pose ToPose(const char* name, const Array& positions_m) {
+  Expect(name, positions_m, {kRoleCount, 3});
+  Pose pose;
+  for (std::size_t i = 0; i < kRoleCount; ++i) pose.joints[i] = Vector(positions_m.data() + 3 * i);
+  return pose;
+}
 
-void AddStreams(py::module_& module) {
-  py::class_<Finder>(module, "PersonFinder", "Cuts the person out of one camera's pictures, one after the other.")
-      .def(py::init(&MakeFinder), "background"_a, "segmenter"_a = PersonFinderOptions{}.segmenter,
-           "all_pieces"_a = false,
-           "background: the empty room, height x width x 3 of uint8, red, green, blue. segmenter: 'hue-gated', 'rgb', "
-           "'hue', 'ratio', 'running'. all_pieces: of what changed, every piece of some size near the largest.")
-      .def("find", &FindIn, "picture"_a, "The mask (height x width, bool) of the next picture.");
+Array FromPose(const Pose& pose) {
+  Array places({static_cast<py::ssize_t>(kRoleCount), py::ssize_t{3}});
+  for (std::size_t i = 0; i < kRoleCount; ++i) Put(pose.joints[i], places.mutable_data() + 3 * i);
+  return places;
+}
+
+Dance MakeDance(std::string title, Motion motion,
+                const std::vector<std::tuple<std::string, std::string, Array, Motion>>& moves,
+                const std::vector<std::tuple<int, std::size_t, std::size_t>>& repetitions,
+                const std::vector<std::pair<std::size_t, double>>& tags,
+                const std::vector<std::tuple<std::string, Motion, bool>>& acts) {
+  Dance dance{.title = std::move(title), .motion = std::move(motion)};
+  for (const auto& [name, hint, key_pose, slow] : moves) {
+    dance.moves.push_back({name, hint, ToPose("key_pose", key_pose), slow});
+  }
+  for (const auto& [move, first, end] : repetitions) dance.repetitions.push_back({move, first, end});
+  for (const auto& [frame, music_s] : tags) dance.tags.push_back({frame, music_s});
+  for (const auto& [name, shown, loops] : acts) dance.acts.push_back({name, shown, loops});
+  return dance;
+}
+
+Coach MakeCoach(const Dance& dance, const Moves& moves, const std::string& policy, const std::string& recogniser,
+                bool dances_at_once, bool mirrors, bool smooths, std::optional<double> right_from,
+                const std::string& choice, const std::string& join) {
+  const std::vector<TaughtMove> taught = ToTaught(moves);
+  const CoachOptions options{.policy = policy,
+                             .choice = choice,
+                             .join = join,
+                             .recogniser = recogniser,
+                             .smooths = smooths,
+                             .mirrors = mirrors,
+                             .dances_at_once = dances_at_once,
+                             .right_from = right_from};
+  const py::gil_scoped_release free;
+  return Coach(dance, taught, options);
+}
+
+CoachFrame StepCoach(Coach& coach, const Array& positions_m, const std::string& states, bool body_seen,
+                     std::optional<double> music_s) {
+  const SensedPose frame = ToSensed(positions_m, states, body_seen);
+  const py::gil_scoped_release free;
+  return coach.Step(frame, music_s);
+}
+
+py::tuple SenseAll(const Motion& motion, const std::string& sensor, double strength, double distance_m, double turn_rad,
+                   double height_m, std::uint64_t seed) {
+  std::vector<SensedPose> sensed;
+  {
+    const py::gil_scoped_release free;
+    sensed = sim::Sense(motion, {.sensor = sensor,
+                                 .strength = strength,
+                                 .distance_m = distance_m,
+                                 .turn_rad = turn_rad,
+                                 .height_m = height_m,
+                                 .seed = seed});
+  }
+  const auto count = static_cast<py::ssize_t>(sensed.size());
+  Array places({count, static_cast<py::ssize_t>(kRoleCount), py::ssize_t{3}});
+  py::array_t<bool> body_seen(count);
+  std::vector<std::string> states;
+  double* place = places.mutable_data();
+  for (const SensedPose& frame : sensed) {
+    body_seen.mutable_data()[states.size()] = frame.body_seen;
+    std::string& letters = states.emplace_back();
+    for (std::size_t i = 0; i < kRoleCount; ++i, place += 3) {
+      Put(frame.pose.joints[i], place);
+      letters += kStates[static_cast<std::size_t>(frame.seen[i])];
+    }
+  }
+  return py::make_tuple(places, states, body_seen);
+}
+
+py::tuple BuiltinDance(const std::string& song) {
+  const sim::BuiltinDance found = [&] {
+    const py::gil_scoped_release free;
+    return sim::DanceOfSong(song);
+  }();
+  Moves moves;
+  for (const TaughtMove& move : found.moves) moves.emplace_back(move.name, move.examples);
+  return py::make_tuple(found.dance, moves);
+}
+
+void AddRecogniser(py::module_& module) {
   py::class_<Recogniser>(module, "Recogniser", "A recogniser that was taught moves.")
       .def(py::init(&Teach), "moves"_a, "kind"_a = RecogniserOptions{}.kind, "smooths"_a = true,
            "moves: (name, [Motion, ...]) of each, its right performances. kind: 'whole-body', 'dtw', 'nearest'. "
-           "smooths: "
-           "streams go through Kinect's own filter first.")
+           "smooths: streams go through Kinect's own filter first. Raises BadInput for no moves, two of one name and "
+           "moves without examples.")
       .def("follow", &Recogniser::Follow, "rate_hz"_a = 30.0, "A stream to be followed, frame by frame.");
   py::class_<RecogniserStream>(module, "RecogniserStream", "One stream that a recogniser follows.")
       .def("ask", &RecogniserStream::Ask, "move"_a,
            "Asks for a move, by its number, from the next frame on; None: for none.")
       .def("update", &UpdateStream, "positions_m"_a, "states"_a = "", "body_seen"_a = true,
            "Takes the next frame (20 x 3 metres, in the order of ROLES; states: a letter a joint, t tracked, i "
-           "inferred, n "
-           "not tracked; '': all tracked) and gives (asked, spotted): how right the move asked for is so far, and of "
+           "inferred, n not tracked; '': all tracked) and gives (asked, spotted): how right the move asked for is so "
+           "far, and of "
            "every move how much this looks like the end of it, all 0 to 1.");
+}
+
+void AddCoach(py::module_& module) {
+  module.attr("COACH_ACTS") = py::tuple(py::cast(RequiredActs()));
+  module.attr("COACH_POLICIES") = py::tuple(py::cast(CoachPolicies()));
+  module.attr("SONGS") = py::tuple(py::cast(sim::SongNames()));
+  py::class_<Dance>(module, "Dance", "All that a coach shows, danced by one body that faces +Z, at 30 Hz.")
+      .def(py::init(&MakeDance), "title"_a, "motion"_a, "moves"_a, "repetitions"_a, "tags"_a, "acts"_a,
+           "motion: of the whole song. moves: (name, hint in words, key pose of 20 x 3 metres, Motion of the slow "
+           "demonstration) of each. repetitions: (move, first frame, end) of each, in order. tags: (frame, seconds of "
+           "the music), ascending. acts: (name, Motion, whether it loops) of COACH_ACTS. A Coach checks it.")
+      .def_readonly("title", &Dance::title)
+      .def_readonly("motion", &Dance::motion)
+      .def_property_readonly(
+          "moves",
+          [](const Dance& dance) {
+            std::vector<py::tuple> moves;
+            for (const DanceMove& move : dance.moves) {
+              moves.push_back(py::make_tuple(move.name, move.hint, FromPose(move.key_pose), move.slow));
+            }
+            return moves;
+          })
+      .def_property_readonly("repetitions",
+                             [](const Dance& dance) {
+                               std::vector<py::tuple> all;
+                               for (const Repetition& each : dance.repetitions) {
+                                 all.push_back(py::make_tuple(each.move, each.first, each.end));
+                               }
+                               return all;
+                             })
+      .def_property_readonly("tags",
+                             [](const Dance& dance) {
+                               std::vector<py::tuple> tags;
+                               for (const MusicTag& tag : dance.tags) {
+                                 tags.push_back(py::make_tuple(tag.frame, tag.music_s));
+                               }
+                               return tags;
+                             })
+      .def_property_readonly("acts", [](const Dance& dance) {
+        std::vector<py::tuple> acts;
+        for (const CoachAct& act : dance.acts) acts.push_back(py::make_tuple(act.name, act.motion, act.loops));
+        return acts;
+      });
+  module.def("builtin_dance", &BuiltinDance, "song"_a,
+             "(Dance, moves) of a song that comes with Etude, one of SONGS; moves: as a Recogniser or Coach is taught "
+             "them. Raises BadInput for another name.");
+  py::class_<CoachDecision>(module, "CoachDecision", "A decision of the coach, explained.")
+      .def_readonly("event", &CoachDecision::event, "'woken', 'song begins', 'right', 'wrong', 'corrects', 'shows', …")
+      .def_readonly("frame", &CoachDecision::frame, "Since the session began.")
+      .def_readonly("move", &CoachDecision::move, "Of the dance; None where it speaks of none.")
+      .def_readonly("mistake", &CoachDecision::mistake, "'' where none is spoken of.")
+      .def_readonly("evidence", &CoachDecision::evidence, "Of 'right' and 'wrong', 0 to 1.")
+      .def_readonly("why", &CoachDecision::why, "One sentence with numbers.");
+  py::class_<CoachFrame>(module, "CoachFrame", "What the coach shows in one frame.")
+      .def_readonly("mode", &CoachFrame::mode,
+                    "'standby', 'attract', 'doze', 'wake', 'dance', 'correct', 'demonstrate', 'praise'")
+      .def_property_readonly(
+          "positions_m", [](const CoachFrame& frame) { return FromPose(frame.body); }, "The coach: 20 x 3, metres.")
+      .def_readonly("clip", &CoachFrame::clip, "What it plays; in a transition the next.")
+      .def_readonly("clip_frame", &CoachFrame::clip_frame)
+      .def_readonly("in_transition", &CoachFrame::in_transition)
+      .def_readonly("asked", &CoachFrame::asked,
+                    "The move that the player is asked for from the next frame on, or None.")
+      .def_readonly("say", &CoachFrame::say, "A line for the player, or ''.")
+      .def_readonly("hint", &CoachFrame::hint, "The key pose in words, or ''.")
+      .def_readonly("stand", &CoachFrame::stand, "'come into view', 'come nearer', 'step back' or ''.")
+      .def_readonly("play_from_s", &CoachFrame::play_from_s, "Music that begins now, seconds into the song, or None.")
+      .def_readonly("pause_music", &CoachFrame::pause_music)
+      .def_readonly("decisions", &CoachFrame::decisions, "CoachDecisions of this frame, in order.");
+  py::class_<Coach>(module, "Coach", "Paper A's coach: watches a player, shows a dance, corrects, and says why.")
+      .def(py::init(&MakeCoach), "dance"_a, "moves"_a, "policy"_a = CoachOptions{}.policy,
+           "recogniser"_a = CoachOptions{}.recogniser, "dances_at_once"_a = false, "mirrors"_a = false,
+           "smooths"_a = false, "right_from"_a = py::none(), "choice"_a = CoachOptions{}.choice,
+           "join"_a = CoachOptions{}.join,
+           "moves: (name, [Motion, ...]) of each move of the dance, in its order. policy: of COACH_POLICIES. "
+           "recogniser: 'whole-body', 'dtw', 'nearest'. dances_at_once: without a clap. mirrors: players dance as in a "
+           "mirror. smooths: the stream goes through Kinect's own filter first. right_from: from which evidence on a "
+           "performance is right, in (0, 1]; None: the recogniser's. choice, join: of TRANSITION_CHOICES and "
+           "TRANSITION_JOINS. Raises BadInput for a dance that breaks its form and names that there are not.")
+      .def("step", &StepCoach, "positions_m"_a, "states"_a = "", "body_seen"_a = true, "music_s"_a = py::none(),
+           "Takes the sensor's next frame, at 30 Hz (as RecogniserStream.update does), and gives the CoachFrame to "
+           "show. music_s: what is heard now, seconds into the song. Raises BadInput for another shape, letters, and "
+           "what is not finite.");
+}
+
+}  // namespace
+
+void AddStreams(py::module_& module) {
+  AddRecogniser(module);
+  AddCoach(module);
+  module.def(
+      "sense", &SenseAll, "motion"_a, "sensor"_a = sim::SensorOptions{}.sensor, "strength"_a = 1.0,
+      "distance_m"_a = sim::SensorOptions{}.distance_m, "turn_rad"_a = 0.0, "height_m"_a = 1.0, "seed"_a = 1,
+      "What a skeleton sensor would report of a motion: (frames x 20 x 3 metres in the world, per frame a letter "
+      "a joint as RecogniserStream.update takes them, per frame whether it saw a body). The performer is at the "
+      "origin and faces +Z. sensor: 'v1', 'v2' or the text of a sensor file (docs/sensor.md). strength: a factor "
+      "on all errors, 0 to 10. distance_m: 0.4 to 20; turn_rad: the performer is seen turned by so much; "
+      "height_m: 0 to 10. The same seed errs the same. Raises BadInput for what is out of range.");
 }
 
 }  // namespace etude::engine

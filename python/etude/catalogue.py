@@ -10,7 +10,8 @@ from etude.program import call, find_program
 class Metric:
     """A metric: `unit` is empty for shares and counts; `direction`, "lower", "higher" or "neither", is better;
     `aggregate`, "median" or "mean", is how a run sums up its cells; a difference below `practical_threshold` does not
-    matter; `vectors` are inputs with what must come out."""
+    matter; `vectors` are inputs with what must come out; `reads`: "amount", or "yes-no", "share", "score", which people
+    are shown in per cent."""
     id: str
     version: int
     domain: str
@@ -26,6 +27,7 @@ class Metric:
     source: str
     inputs: dict = field(repr=False, hash=False)
     vectors: list = field(repr=False, hash=False)
+    reads: str
 
 
 def metrics(program=None):
@@ -35,8 +37,7 @@ def metrics(program=None):
 
 def own(manifest):
     """The metrics of a run's own, by their ids."""
-    return {each["id"]: Metric(**{key: value for key, value in each.items() if key != "reads"})
-            for each in manifest.get("own_metrics", [])}
+    return {each["id"]: Metric(**each) for each in manifest.get("own_metrics", [])}
 
 
 def joints(program=None):

@@ -1,5 +1,5 @@
 """The page's pictures as matplotlib figures, which are returned: nothing is drawn on a screen. Values stand in their
-metric's unit, shares as shares. Intervals, estimates and budgets are the summary's."""
+metric's unit; shares and scores, as on the page, in per cent. Intervals, estimates and budgets are the summary's."""
 import statistics
 import sys
 
@@ -31,10 +31,10 @@ def estimation(pairs, **named):
     values, differences = figure.subplots(1, 2)
     names = sorted({unit for unit in pairs.units if unit is not None})
     colours = [_colour(names.index(unit)) if unit is not None else None for unit in pairs.units]
-    left, right = ([place + offset for offset in _aside(of)] for place, of in ((0, pairs.baseline), (1, pairs.method)))
-    values.plot([left, right], [list(pairs.baseline), list(pairs.method)], color=QUIET, linewidth=0.5, alpha=0.5,
-                zorder=1)
-    for x, y, own in ((left, pairs.baseline, 0), (right, pairs.method, 1)):
+    baseline, method = (_shown_values(of, pairs.metric) for of in (pairs.baseline, pairs.method))
+    left, right = ([place + offset for offset in _aside(of)] for place, of in ((0, baseline), (1, method)))
+    values.plot([left, right], [baseline, method], color=QUIET, linewidth=0.5, alpha=0.5, zorder=1)
+    for x, y, own in ((left, baseline, 0), (right, method, 1)):
         values.scatter(x, y, s=14, c=[colour or _colour(own) for colour in colours], zorder=2)
     values.set_xticks([0, 1], [pairs.baseline_name, pairs.method_name])
     values.set_xlim(-0.5, 1.5)
@@ -49,29 +49,31 @@ def estimation(pairs, **named):
 
 
 def _differences(axes, pairs, names, colours):
-    matters = pairs.metric.practical_threshold if pairs.metric else 0
+    scale = _scale(pairs.metric)
+    matters = scale * pairs.metric.practical_threshold if pairs.metric else 0
+    shown = _shown_values(pairs.difference, pairs.metric)
     axes.axhspan(-matters, matters, color=BAND, zorder=0)
     axes.axhline(0, color=QUIET, linewidth=0.8, zorder=1)
-    axes.scatter(_aside(pairs.difference), pairs.difference, s=14, c=[colour or _colour(1) for colour in colours],
-                 zorder=2)
+    axes.scatter(_aside(shown), shown, s=14, c=[colour or _colour(1) for colour in colours], zorder=2)
     ticks, labels = [0], ["each world"]
     told = pairs.verdict.details if pairs.verdict else None
     if told and told["difference"] is not None:
         by_mean = pairs.metric is not None and pairs.metric.aggregate == "mean"
-        _interval(axes, 1, told["difference"], told["ci95_low"], told["ci95_high"])
+        _interval(axes, 1, told["difference"], told["ci95_low"], told["ci95_high"], scale)
         ticks.append(1)
         labels.append("their mean" if by_mean else "their median")
         beyond = told.get("beyond") or {}
         if names and beyond.get("mean") is not None:
             for i, name in enumerate(names):
-                of_unit = [value for value, unit in zip(pairs.difference, pairs.units) if unit == name]
+                of_unit = [value for value, unit in zip(shown, pairs.units) if unit == name]
                 axes.scatter([2], [sum(of_unit) / len(of_unit)], s=26, color=_colour(i), zorder=2)
-            _interval(axes, 2.25, beyond["mean"], beyond["ci95_low"], beyond["ci95_high"])
+            _interval(axes, 2.25, beyond["mean"], beyond["ci95_low"], beyond["ci95_high"], scale)
             ticks.append(2)
             labels.append("mean, units")
     axes.set_xticks(ticks, labels)
     axes.set_xlim(-0.5, ticks[-1] + 0.5)
-    axes.set_ylabel(f"{pairs.method_name} minus {pairs.baseline_name}" + (f", {pairs.unit}" if pairs.unit else ""))
+    unit = "percentage points" if scale != 1 else pairs.unit
+    axes.set_ylabel(f"{pairs.method_name} minus {pairs.baseline_name}" + (f", {unit}" if unit else ""))
 
 
 def curves(run, name, *, scenario=None, condition=None):
@@ -90,7 +92,7 @@ def curves(run, name, *, scenario=None, condition=None):
     drawn = []
     for i, method in enumerate(run.methods(scenario)):
         if method in found:
-            median = median_curve(found[method])
+            median = _shown_values(median_curve(found[method]), run.metrics.get(name))
             drawn += median
             axes.plot(median, DASHES[i % len(DASHES)], color=_colour(i), label=method)
     if min(drawn) > 0 and max(drawn) / min(drawn) > 100:
@@ -122,16 +124,17 @@ def error_budget(run, *, scenario=None, condition=None, method=None):
 def _waterfall(budget, metric):
     figure = Figure(figsize=(6, 0.4 * (len(budget["shares"]) + 2) + 1), layout="constrained")
     axes = figure.subplots()
-    left, bars = budget["total"], [(budget["method"], 0, budget["total"], None)]
+    scale = _scale(metric)
+    left, bars = scale * budget["total"], [(budget["method"], 0, scale * budget["total"], None)]
     for share in budget["shares"]:
-        bars.append((share["stage"], left, left - share["mean"], share))
-        left -= share["mean"]
-    bars.append(("what is left", 0, budget["rest"], None))
+        bars.append((share["stage"], left, left - scale * share["mean"], share))
+        left -= scale * share["mean"]
+    bars.append(("what is left", 0, scale * budget["rest"], None))
     for i, (_, begin, end, share) in enumerate(bars):
         colour = _colour(0 if share is None else 2 if end > begin else 1)
         axes.barh(i, end - begin, left=begin, height=0.5, color=colour)
         if share and share["mean_ci95_low"] is not None:
-            ends = [begin - share["mean_ci95_low"], begin - share["mean_ci95_high"]]
+            ends = [begin - scale * share[bound] for bound in ("mean_ci95_low", "mean_ci95_high")]
             axes.plot(ends, [i, i], color="black", linewidth=1.5)
     axes.set_yticks(range(len(bars)), [bar[0] for bar in bars])
     axes.invert_yaxis()
@@ -148,10 +151,21 @@ def _label(metric):
     if metric is None:
         return ""
     better = {"lower": "\nlower is better", "higher": "\nhigher is better"}.get(metric.direction, "")
-    return f"{metric.label}{', ' + metric.unit if metric.unit else ''}{better}"
+    unit = "%" if _scale(metric) != 1 else metric.unit
+    return f"{metric.label}{', ' + unit if unit else ''}{better}"
 
 
-def _interval(axes, x, estimate, low, high):
+def _scale(metric):
+    """100 where the page shows per cent."""
+    return 1 if metric is None or metric.reads == "amount" else 100
+
+
+def _shown_values(values, metric):
+    return [_scale(metric) * value for value in values]
+
+
+def _interval(axes, x, estimate, low, high, scale):
+    estimate, low, high = (value if value is None else scale * value for value in (estimate, low, high))
     if low is not None and high is not None:
         axes.plot([x, x], [low, high], color="black", linewidth=2, zorder=3, gid="interval")
     axes.plot([x], [estimate], "o", color="black", markersize=6, zorder=3, gid="estimate")

@@ -118,6 +118,23 @@ class Table:
         frame.attrs["definitions"] = {name: metric.definition for name, metric in measured.items()}
         return frame
 
+    def to_xarray(self):
+        """A Dataset over condition × trial × method, in their order; settings are coordinates of the condition, and every
+        metric has `units`, `long_name` and `definition` in its `attrs`. NaN (None of texts) where there is no such cell."""
+        frame, axes = self.to_pandas(), ["condition", "trial", "method"]
+        settings = [name for name in self.columns if name not in IDENTITY and name not in self._metrics]
+        kept = [name for name in self.columns if name in self._metrics or name in ("clip", "status", "reason")]
+        order = {axis: list(dict.fromkeys(self[axis])) for axis in axes}
+        data = frame[axes + kept].set_index(axes).to_xarray().sel(order)
+        firsts = frame.drop_duplicates("condition")
+        data = data.assign_coords({name: ("condition", firsts[name].to_numpy()) for name in settings})
+        for name in kept:
+            if name in self._metrics:
+                metric = self._metrics[name]
+                data[name].attrs = {"units": metric.unit, "long_name": metric.label, "definition": metric.definition}
+        data.attrs = {"scenario": self.scenario, "task": self.task}
+        return data
+
     def __repr__(self):
         return (f"<Table {self.scenario} ({self.task}): {len(self)} cells; {', '.join(self.columns)}>")
 

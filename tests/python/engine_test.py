@@ -303,7 +303,38 @@ class Fuzz(unittest.TestCase):
             return value
 
         frames = [np.zeros((1, 17, 3))] * 3
+        dance, moves = engine.builtin_dance("groove")
+
+        def some_dance():
+            clip = engine.Motion(dance.motion.positions_m[:dice.choice([1, 5, 90])])
+            some = engine.Motion(numbers.normal(size=(dice.choice([2, 9]), 20, 3)))
+            return engine.Dance("x", dice.choice([clip, some]), [("a", "", anything((20, 3)), dice.choice([clip, some]))],
+                                [(dice.randrange(-1, 2), dice.randrange(3), dice.randrange(6))],
+                                [(dice.randrange(9), dice.choice([0.5, float("nan")]))][:dice.randrange(2)],
+                                [(name, dice.choice([clip, some]), False) for name in engine.COACH_ACTS])
+
+        coach = engine.Coach(dance, moves, dances_at_once=True)
+        small = rig()[:2]
+        for camera in small:
+            camera.width, camera.height = 4, 3
         targets = {
+            "transition": lambda: engine.TransitionLibrary(
+                [engine.Motion(numbers.normal(size=(9, 20, 3))), engine.Motion(anything((5, 20, 3)))]).make(
+                    dice.randrange(-1, 3), dice.randrange(-1, 9), dice.randrange(-1, 3), dice.choice([0, 1, float("nan")]),
+                    dice.choice([*engine.TRANSITION_CHOICES, "?"]), dice.choice([*engine.TRANSITION_JOINS, "?"]),
+                    dice.choice([0.4, 7, float("nan")])),
+            "outline": lambda: engine.outline(anything((5, 6)), dice.choice([0, 1, 3]), dice.choice([0, 1, float("nan")])),
+            "distances": lambda: engine.signed_distances(anything((5, 6))),
+            "silhouettes": lambda: engine.track_silhouettes(small, [anything((2, 3, 4)), np.ones((2, 3, 4))],
+                                                            dice.choice([1.7, 9]), dice.choice([None, engine.Motion(
+                                                                numbers.normal(size=(2, 20, 3)))]), dice.choice([30, 0])),
+            "sense": lambda: engine.sense(engine.Motion(anything((9, 20, 3)), dice.choice([30, 999])), dice.choice(["v1", "v2", "?"]),
+                                          dice.choice([0, 1, -1, float("nan")]), dice.choice([2.75, 0, float("inf")]),
+                                          dice.choice([0, 1e9, float("nan")]), 1, dice.choice([1, -1, 1 << 70])),
+            "coach": lambda: engine.Coach(some_dance(), [("a", [engine.Motion(anything((5, 20, 3)))])],
+                                          dances_at_once=True).step(anything((20, 3))),
+            "step": lambda: coach.step(anything((20, 3)), dice.choice(["", "t" * 20, "q" * 20]), dice.random() < .5,
+                                       dice.choice([None, 1, -1, float("nan")])),
             "solve": lambda: BODY.solve(anything((2, 29)), anything((2, 4, 3)), anything((2, 4, 3, 3)), anything((4,)),
                                         anything((4, 3)), anything((2, 3)), anything((3, 3))),
             "limbs": lambda: BODY.limbs(anything((2, 29)), anything((3,)), anything((3, 3))),

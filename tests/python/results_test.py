@@ -160,6 +160,21 @@ class Results(PythonCase):
         self.assertEqual(frame.attrs["units"]["orientation_error_deg"], "deg")
         self.assertEqual(self.run_.pairs("adaptive", "fixed").to_pandas().shape, (12, 6))
 
+    @unittest.skipUnless(importlib.util.find_spec("xarray"), "needs xarray (scripts/setup --python)")
+    def test_a_dataset_has_an_axis_for_conditions_trials_and_methods(self):
+        table = self.run_["ik"]
+        data = table.to_xarray()
+        self.assertEqual(list(data["method"].values), list(dict.fromkeys(table["method"])))
+        self.assertEqual(data["joint_noise_deg"].dims, ("condition",))
+        self.assertEqual(data["orientation_error_deg"].attrs["units"], "deg")
+        found = data["orientation_error_deg"]
+        for row in table.rows():
+            at = found.sel(condition=row["condition"], trial=row["trial"], method=row["method"])
+            self.assertEqual(at.item(), row["orientation_error_deg"])
+            self.assertEqual(float(at["joint_noise_deg"]), row["joint_noise_deg"])
+        part = table.where(method="fixed", trial=1).to_xarray()
+        self.assertEqual(dict(part.sizes), {"condition": 2, "trial": 1, "method": 1})
+
     def test_the_import_loads_nothing_that_is_not_used(self):
         code = "import sys; before = set(sys.modules); import etude; print(*sorted(set(sys.modules) - before))"
         said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <etude/motion.h>
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace etude::engine {
+
+/// How a clip is left for another.
+struct TransitionOptions {
+  std::string choice = "played";      ///< which frame is left and which entered: one of TransitionChoices()
+  std::string join = "planted-feet";  ///< how the clips are put together there: one of TransitionJoins()
+  double threshold = 0.4;             ///< of the fuzzy choices: frames match below this fuzzy distance, in (0, 6]
+};
+
+/// The names of all choices: "fuzzy-bridge" (paper A's), "played", "motion-matching", …
+ETUDE_API std::vector<std::string> TransitionChoices();
+/// The names of all joins: "cut" (paper A's), "crossfade", "planted-feet", …
+ETUDE_API std::vector<std::string> TransitionJoins();
+
+/// A clip that is left for another, as it is shown.
+struct Transition {
+  /// The playing clip from its first frame, whatever lies between, and the wanted clip to its end, laid on the floor
+  /// where the other one stood; no frames where the choice finds no way.
+  Motion motion;
+  std::vector<int> points;  ///< the last frames of `motion` before another clip plays, rising
+  double wait_s = 0;        ///< seconds from the request until the wanted clip plays
+  std::string branch;       ///< the kind of way: "front half", "in-between", "now", … or "none"
+  std::string why;          ///< one sentence: why this way won, or why there is none
+};
+
+/// Clips made ready for transitions: performed by the body of the first, tagged, and joined by in-betweens.
+class ETUDE_API TransitionLibrary {
+ public:
+  /// Throws BadInput for no clips, a clip of fewer than two frames or of another rate than 30 Hz, places that are not
+  /// finite, and a first frame without legs.
+  explicit TransitionLibrary(std::span<const Motion> clips);
+  TransitionLibrary(TransitionLibrary&&) noexcept;
+  TransitionLibrary& operator=(TransitionLibrary&&) noexcept;
+  ~TransitionLibrary();
+
+  /// Makes the transition from frame `frame` of clip `from`, which is the one shown when clip `to` is asked for;
+  /// `budget_s`: how long the wanted clip may be waited for, 0 to 3600 seconds. Throws BadInput for a clip, frame,
+  /// choice or join that there is not.
+  Transition Make(int from, int frame, int to, double budget_s = 1, const TransitionOptions& options = {}) const;
+
+ private:
+  struct Library;
+  std::unique_ptr<Library> library_;
+};
+
+}  // namespace etude::engine

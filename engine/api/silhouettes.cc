@@ -1,0 +1,121 @@
+#include <etude/silhouettes.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/api/convert.h"
+#include "engine/kinematics/limb_lengths.h"
+#include "engine/silhouettes/track_silhouettes.h"
+#include "engine/unmarked/recover_unmarked.h"
+
+namespace etude::engine {
+namespace {
+
+constexpr int kLargestMaskSide = 8192;
+constexpr double kFittedSide = 640;  ///< the longer side of the pictures that the fit's options are made for
+
+Mask ToMask(const PersonMask& mask) {
+  if (std::min(mask.width, mask.height) < 1 || std::max(mask.width, mask.height) > kLargestMaskSide) {
+    throw BadInput(
+        fmt::format("a mask of {} x {} pixels; allowed: 1 to {} each", mask.width, mask.height, kLargestMaskSide));
+  }
+  Mask made(mask.width, mask.height);
+  if (mask.pixels.size() != made.pixels.size()) {
+    throw BadInput(fmt::format("a mask of {} pixels; allowed: {} x {}", mask.pixels.size(), mask.width, mask.height));
+  }
+  std::ranges::transform(mask.pixels, made.pixels.begin(), [](std::uint8_t pixel) { return pixel != 0 ? 1 : 0; });
+  return made;
+}
+
+/// How many of a camera's pixels a mask's pixel is wide.
+int PixelOf(const Camera& camera, const PersonMask& mask) {
+  const int pixel = mask.width > 0 ? camera.width / mask.width : 0;
+  if (pixel >= 1 && camera.width == pixel * mask.width && camera.height == pixel * mask.height) return pixel;
+  throw BadInput(fmt::format("a mask of {} x {} pixels of camera '{}'; allowed: its {} x {}, or smaller by a factor",
+                             mask.width, mask.height, camera.name, camera.width, camera.height));
+}
+
+std::vector<ProjectionMatrix> PinholesOf(std::span<const Camera> cameras) {
+  std::vector<ProjectionMatrix> matrices;
+  for (const Camera& camera : cameras) {
+    const etude::Camera told = ToEngineCamera(camera);
+    if (!told.distortion.IsNone()) {
+      throw BadInput(fmt::format("camera '{}' has a lens that bends; allowed: pinholes, with pictures made straight",
+                                 camera.name));
+    }
+    const ProjectionMatrix& matrix = matrices.emplace_back(MatrixOf(told));
+    for (const auto& row : matrix.h) {
+      if (std::ranges::all_of(row, [](double number) { return std::isfinite(number); })) continue;
+      throw BadInput(fmt::format("camera '{}': a number that is not finite", camera.name));
+    }
+  }
+  return matrices;
+}
+
+LimbLengths LengthsOf(const SilhouetteOptions& options) {
+  if (options.measured.empty()) {
+    if (options.stature_m >= 0.5 && options.stature_m <= 2.5) return AdultLengths(options.stature_m);
+    throw BadInput(fmt::format("a stature of {} m; allowed: 0.5 to 2.5", options.stature_m));
+  }
+  const BodyMotion measured = ToBodyMotion({.rate_hz = options.rate_hz, .poses = options.measured});
+  const LimbLengths lengths = MeasureLimbLengths(measured.poses);
+  if (!IsValid(lengths)) throw BadInput("measured: a limb has no length");
+  return lengths;
+}
+
+}  // namespace
+
+std::vector<OutlinePoint> Outline(const PersonMask& mask, const OutlineOptions& options) {
+  if (options.spacing < 1 || options.spacing > 1000 || !(options.thinnest >= 0 && options.thinnest <= 100)) {
+    throw BadInput(
+        fmt::format("spacing {}, thinnest {}; allowed: 1 to 1000, 0 to 100", options.spacing, options.thinnest));
+  }
+  const Silhouette found = MakeSilhouette(ToMask(mask), {.spacing = options.spacing, .thinnest = options.thinnest});
+  std::vector<OutlinePoint> points;
+  for (const etude::OutlinePoint& point : found.outline) points.push_back({point.pixel, point.normal});
+  return points;
+}
+
+std::vector<float> SignedDistances(const PersonMask& mask) { return etude::SignedDistances(ToMask(mask)).pixels; }
+
+std::vector<std::optional<Pose>> TrackSilhouettes(std::span<const Camera> cameras,
+                                                  std::span<const std::vector<PersonMask>> masks,
+                                                  const SilhouetteOptions& options) {
+  if (cameras.size() < 2 || masks.size() != cameras.size()) {
+    throw BadInput(
+        fmt::format("{} cameras, and masks of {}; allowed: two or more, and as many", cameras.size(), masks.size()));
+  }
+  if (!(options.rate_hz >= 1 && options.rate_hz <= 1000)) {
+    throw BadInput(fmt::format("a rate of {} Hz; allowed: 1 to 1000", options.rate_hz));
+  }
+  std::vector<ProjectionMatrix> matrices = PinholesOf(cameras);
+  const SilhouetteBody body = MakeSilhouetteBody(LengthsOf(options));
+  std::vector<std::vector<Silhouette>> silhouettes;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    if (masks[i].empty() || masks[i].size() != masks.front().size()) {
+      throw BadInput(fmt::format("{} masks of one camera, {} of the first; allowed: as many, and not none",
+                                 masks[i].size(), masks.front().size()));
+    }
+    const double scale = kFittedSide / std::max({1, cameras[i].width, cameras[i].height});
+    for (std::size_t row : {0, 1}) {
+      for (double& number : matrices[i].h[row]) number *= scale;
+    }
+    std::vector<Silhouette>& of_camera = silhouettes.emplace_back();
+    for (const PersonMask& mask : masks[i]) {
+      of_camera.push_back(MakeSilhouette(ToMask(mask), {.mask_pixel = scale * PixelOf(cameras[i], mask)}));
+    }
+  }
+  TrackOptions track;
+  track.angle_change *= kJudgedRateHz / options.rate_hz;
+  track.place_change_m *= kJudgedRateHz / options.rate_hz;
+  const SilhouetteTrack found =
+      etude::TrackSilhouettes(body, {.cameras = matrices, .silhouettes = silhouettes, .start = {}}, track);
+  std::vector<std::optional<Pose>> poses;
+  for (const std::optional<SilhouetteFit>& fit : found.frames) {
+    poses.emplace_back();
+    if (fit) poses.back() = Pose{ToBodyPose(found.body, fit->state).joints};
+  }
+  return poses;
+}
+
+}  // namespace etude::engine
