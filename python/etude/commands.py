@@ -199,11 +199,12 @@ def compare(a, b, *, program=None):
     return call("compare", getattr(a, "folder", a), getattr(b, "folder", b), program=program)[1].strip()
 
 
-def score(target, predictions, output, *, name=None, alone=False, allow_missing=False, jobs=None, progress=True,
-          program=None):
+def score(target, predictions, output, *, name=None, alone=False, allow_missing=False, allow_exec=False, jobs=None,
+          progress=True, program=None):
     """Scores answers and gives the Run.
 
-    target: a data set that `etude export` wrote. predictions: a folder of answers; or a method of @etude.method, which
+    target: a data set that `etude export` wrote; allow_exec: the programs that it names, metrics of its own among them,
+    may be run. predictions: a folder of answers; or a method of @etude.method, which
     is then asked here, in this process and without a fence, all problems of a setting at once where it takes batches,
     and whose answers are kept in the folder `output` + ".answers".
     """
@@ -214,7 +215,7 @@ def score(target, predictions, output, *, name=None, alone=False, allow_missing=
         predictions, allow_missing = answers, True
     arguments = ["score", os.fspath(target), os.fspath(predictions), "-o", os.fspath(output)]
     arguments += ["--name", name] if name else []
-    arguments += ["--alone"] * alone + ["--allow-missing"] * allow_missing
+    arguments += ["--alone"] * alone + ["--allow-missing"] * allow_missing + ["--allow-exec"] * allow_exec
     arguments += ["--jobs", str(jobs)] if jobs is not None else []
     code, printed, said = call(*arguments, program=program, progress=progress, allowed=(0, 1))
     found = load(output, program=program)

@@ -120,7 +120,8 @@ class Table:
 
     def to_xarray(self):
         """A Dataset over condition × trial × method, in their order; settings are coordinates of the condition, and every
-        metric has `units`, `long_name` and `definition` in its `attrs`. NaN (None of texts) where there is no such cell."""
+        metric has `units`, `long_name` and `definition` in its `attrs`. NaN (None of texts) where there is no such cell.
+        `sel` has an argument `method` of its own: write `data.sel({"method": "fixed"})`."""
         frame, axes = self.to_pandas(), ["condition", "trial", "method"]
         settings = [name for name in self.columns if name not in IDENTITY and name not in self._metrics]
         kept = [name for name in self.columns if name in self._metrics or name in ("clip", "status", "reason")]

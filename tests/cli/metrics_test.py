@@ -1,10 +1,11 @@
 """Metrics from outside: in Python they equal ours to the last digit, and a bad one costs its own values alone."""
+import csv
 import json
 import pathlib
 import subprocess
 import unittest
 
-from etude_case import EtudeCase
+from etude_case import ETUDE, EtudeCase, cells_in_journal
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "examples/outside-metrics"
@@ -17,7 +18,7 @@ trials: 3
 methods: [{name: a, solver: gauss-newton}, {name: b, solver: damped-least-squares}]
 """
 # One metric, all manners: told by options.manner.
-METRIC = """import json, os, sys
+METRIC = """import json, os, sys, time
 manner, asked = None, 0
 for line in sys.stdin:
     told = json.loads(line)
@@ -30,8 +31,10 @@ for line in sys.stdin:
         problem = told["problem"]
         tracks = {track["name"]: track for track in problem["tracks"]}
         answer = {"value": tracks["solution"]["poses"][-1][0] * 1000}
+        if manner == "off":
+            answer = {"value": max(abs(a - b) for a, b in zip(tracks["solution"]["poses"][-1], tracks["truth"]["poses"][-1]))}
         if manner == "absent":
-            answer = {"value": None, "reason": "the hips hid"}
+            answer = {"value": None, "reason": "its program: hips hid"}
         if manner == "silent":
             answer = {"value": None}
         if manner == "text":
@@ -39,30 +42,54 @@ for line in sys.stdin:
         if manner == "falls" and problem["tracks"][0]["poses"]:
             sys.exit("about to fall")
         if manner == "looks":
+            time.sleep(0.2)  # long enough to be killed
             answer = {"value": float(len(os.listdir(".")) + 100 * os.path.exists("%s"))}
         reply = {"type": "answer", "id": told["id"], "answer": answer}
     print(json.dumps(reply), flush=True)
 """
 
 
+VECTOR = "{cell: {tracks: [{name: solution, rate_hz: 30, frames: 1, joints_m: {hip_centre: [[0.25, 0, 0]]}}]}, "
+BAD = {"absent": "its program: hips hid", "silent": "null without a 'reason'", "text": '"much" is no number',
+       "falls": "about to fall"}
+
+
 def own(name, manner="good", more=""):
     return f"  - {{name: {name}, exec: [python3, FOLDER/m/m.py], options: {{manner: {manner}}}{more}}}\n"
+
+
+def vector(expected, more=""):
+    return f", vectors: [{VECTOR}expected: {expected}{more}}}]"
+
+
+# What most tests look at: good metrics, one that looks round and takes its time, and bad ones.
+ALL = "  - iterations\n" + own("mine", more=", version: 3, unit: mm, practical: 2" + vector(250)) + own("looks", "looks") + \
+      "".join(own(name, name, vector("null") if name == "absent" else "") for name in BAD) + \
+      "expect: [{metric: mine, of: a, at_most: -1e9}]\ngate: {metrics: [mine]}\n"
 
 
 class OwnMetrics(EtudeCase):
     @classmethod
     def setUpClass(cls):
+        """One run of the examples, and one of everything that a program may do."""
         cls.shared = cls.shared_folder()
-        made = subprocess.run([cls.etude.__globals__["ETUDE"], "run", "examples/outside-metrics/metrics.yaml", "-o",
-                               str(cls.shared / "run"), "--jobs", "2"], capture_output=True, text=True, cwd=ROOT)
-        assert made.returncode == 0, made.stderr
-        cls.rows = [json.loads(line) for line in (cls.shared / "run/cells.jsonl").read_text().splitlines()]
+        (cls.shared / "m").mkdir()
+        cls.scenario = cls.shared / "s.yaml"
+        (cls.shared / "m/m.py").write_text(METRIC % cls.scenario)
+        cls.scenario.write_text(cls.text(ALL))
+        cls.whole = cls.shared / "whole"
+        cls.rows, cls.told = (cls.run_in_class(*arguments) for arguments in (
+            (ROOT / "examples/outside-metrics/metrics.yaml", cls.shared / "run"), (cls.scenario, cls.whole)))
 
-    def scenario(self, metrics, head=HEAD, name="s.yaml"):
-        program = self.folder / "m" / "m.py"
-        program.parent.mkdir(exist_ok=True)
-        program.write_text(METRIC % (self.folder / name))
-        return self.write(name, head + "metrics:\n" + metrics.replace("FOLDER", str(self.folder)))
+    @classmethod
+    def run_in_class(cls, scenario, folder):
+        made = subprocess.run([ETUDE, "run", scenario, "-o", folder, "--jobs", "1"], capture_output=True, text=True, cwd=ROOT)
+        assert made.returncode == 0, made.stderr
+        return [json.loads(line) for line in (folder / "cells.jsonl").read_text().splitlines()]
+
+    @classmethod
+    def text(cls, metrics):
+        return HEAD + "metrics:\n" + metrics.replace("FOLDER", str(cls.shared))
 
     def refused(self, text, *says, code=2):
         result = self.etude("run", self.write("refused.yaml", text), "-o", self.folder / "refused")
@@ -105,70 +132,101 @@ class OwnMetrics(EtudeCase):
         self.assertTrue(all(twin in {key[2] for key in values} for _, twin in TWINS.values()))
 
     def test_the_same_bytes_for_any_jobs_shards_and_interruptions(self):
-        scenario = self.scenario(own("mine", more=", unit: mm, practical: 2") + own("other", "absent"))
-        self.run_suite(scenario, "--jobs", 1)
-        self.run_suite(scenario, "--jobs", 2, out=self.folder / "two")
-        self.assert_same_results(self.out, self.folder / "two")
         parts = [self.folder / f"part{i}" for i in (1, 2)]
-        for i, part in enumerate(parts, 1):
-            self.assertEqual(self.etude("run", scenario, "--shard", f"{i}/2", "-o", part).returncode, 0)
+        command = ["run", str(self.scenario), "--shard", "1/2", "-o", str(parts[0])]
+        killed = subprocess.Popen([ETUDE, *command, "--jobs", "1"], stderr=subprocess.DEVNULL)
+        self.wait_for_cells(parts[0])
+        killed.kill()
+        killed.wait()
+        self.assertIn(cells_in_journal(parts[0]), (1, 2, 3))  # of four
+        resumed = self.etude(*command, "--jobs", 2, "--resume")
+        self.assertEqual(resumed.returncode, 0, resumed.stderr)
+        self.assertEqual(self.etude("run", self.scenario, "--shard", "2/2", "-o", parts[1]).returncode, 0)
         merged = self.etude("merge", *parts, "-o", self.folder / "merged")
         self.assertEqual(merged.returncode, 0, merged.stderr)
-        self.assert_same_results(self.out, self.folder / "merged")
+        self.assert_same_results(self.whole, self.folder / "merged")
 
     def test_it_is_versioned_asked_again_by_replay_and_verify_and_only_where_that_is_allowed(self):
-        scenario = self.scenario(own("mine", more=", version: 3"))
-        rows = self.run_suite(scenario)
-        self.assertEqual(len({row["mine"] for row in rows}), 6)
-        manifest = json.loads((self.out / "manifest.json").read_text())
-        self.assertEqual([(each["id"], each["version"]) for each in manifest["own_metrics"]], [("mine", 3)])
-        for command in (["replay", self.out, "--sample", "2"], ["run", "--from", self.out / "manifest.json", "-o",
-                                                               self.folder / "again"]):
+        self.assertEqual(len({row["mine"] for row in self.told}), 6)
+        manifest = json.loads((self.whole / "manifest.json").read_text())
+        versions = {each["id"]: each["version"] for each in manifest["own_metrics"]}
+        self.assertEqual(versions, {"mine": 3, "looks": 1, **{name: 1 for name in BAD}})
+        for command in (["replay", self.whole, "--sample", "2"],
+                        ["run", "--from", self.whole / "manifest.json", "-o", self.folder / "again"]):
             refused = self.etude(*command)
             self.assertEqual(refused.returncode, 2, command)
             self.assertIn("m.py (s/mine)", refused.stderr)
-            allowed = self.etude(*command, "--allow-exec")
-            self.assertEqual(allowed.returncode, 0, allowed.stderr)
-        program = self.folder / "m" / "m.py"
-        program.write_text(program.read_text().replace("* 1000", "* 1001"))
-        other = self.etude("replay", self.out, "--allow-exec")
+        program = self.shared / "m/m.py"
+        text = program.read_text()
+        self.addCleanup(program.write_text, text)
+        program.write_text(text.replace("* 1000", "* 1001"))
+        other = self.etude("replay", self.whole, "--allow-exec")
         self.assertEqual(other.returncode, 1, other.stdout)
         self.assertIn("mine", other.stdout)
-        changed = self.run_suite(self.scenario(own("mine", more=", version: 4")), out=self.folder / "four")
+        four = self.folder / "four"
+        changed = self.run_suite(self.write("s.yaml", self.text(own("mine", more=", version: 4"))), out=four)
         self.assertEqual(len(changed), 6)
-        compared = self.etude("compare", self.out, self.folder / "four")
+        compared = self.etude("compare", self.whole, four)
         self.assertEqual(compared.returncode, 2)
         self.assertIn("version 3 and 4", compared.stderr)
+        allowed = self.etude("replay", four, "--sample", "2", "--allow-exec")
+        self.assertEqual(allowed.returncode, 0, allowed.stderr)
+        again = self.etude("run", "--from", four / "manifest.json", "-o", self.folder / "again", "--allow-exec")
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assert_same_results(four, self.folder / "again")
 
     def test_a_bad_one_costs_its_own_values_alone(self):
-        manners = {"absent": "the hips hid", "silent": "null without a 'reason'", "text": '"much" is no number',
-                   "falls": "about to fall"}
-        scenario = self.scenario("  - iterations\n" + "".join(own(name, name) for name in manners))
-        plain = self.run_suite(self.write("plain.yaml", HEAD + "metrics: [iterations]\n"), out=self.folder / "plain")
-        rows = self.run_suite(scenario)
-        for row, alone in zip(rows, plain):
-            for name, why in manners.items():
+        plain = self.run_suite(self.write("plain.yaml", HEAD + "metrics: [iterations]\n"))
+        for row, alone in zip(self.told, plain):
+            row = {**row, "null_reasons": dict(row["null_reasons"])}
+            for name, why in BAD.items():
                 self.assertIsNone(row.pop(name))
                 self.assertIn(why, row["null_reasons"].pop(name))
+            for name in ("mine", "looks"):
+                self.assertIsNotNone(row.pop(name))
             if not row["null_reasons"]:
                 del row["null_reasons"]
             self.assertEqual(row, alone)
 
     def test_it_sees_its_own_folder_and_not_the_scenario(self):
-        rows = self.run_suite(self.scenario(own("mine", "looks")))
-        self.assertEqual({row["mine"] for row in rows}, {1.0})
+        self.assertEqual({row["looks"] for row in self.told}, {1.0})
 
     def test_vectors_are_checked_before_the_first_cell(self):
-        vector = "{cell: {tracks: [{name: solution, rate_hz: 30, frames: 1, joints_m: {hip_centre: [[0.25, 0, 0]]}}]}, "
-        good = self.scenario(own("mine", more=f", vectors: [{vector}expected: 250}}]"))
-        self.assertEqual(len(self.run_suite(good)), 6)
         for expected, manner, says in (("249.5", "good", "expected 249.5, found 250"),
                                        ("null", "good", "expected null, found 250"),
-                                       ("250", "absent", "expected 250, found null (the hips hid)"),
+                                       ("250", "absent", "expected 250, found null (its program: hips hid)"),
                                        ("null", "falls", "found null (its program: ")):
-            scenario = self.scenario(own("mine", manner, f", vectors: [{vector}expected: {expected}, title: moved}}]"))
-            self.refused(pathlib.Path(scenario).read_text(), "metric 'mine', test vector 1 (moved): ", says,
-                         "refused.yaml:7:")
+            self.refused(self.text(own("mine", manner, vector(expected, ", title: moved"))),
+                         "metric 'mine', test vector 1 (moved): ", says, "refused.yaml:7:")
+
+    def test_scored_answers_and_secret_worlds_are_measured_like_a_run_s(self):
+        scenario, key = self.write("s.yaml", self.text(own("off_m", "off"))), self.folder / "key"
+        key.write_text("0123456789abcdef" * 4)
+        key.chmod(0o600)
+        data, secret = self.folder / "data", ("--seed-file", key)
+        self.assertEqual(self.etude("export", scenario, *secret, "-o", data).returncode, 0)
+        with open(data / "inputs/index.csv", newline="") as file:
+            predictions = [pathlib.Path(line["prediction"]) for line in csv.DictReader(file)]
+        for number, prediction in enumerate(predictions):
+            truth = json.loads((data / "truth" / prediction.with_suffix("") / "truth.json").read_text())
+            (self.folder / "answers" / prediction).parent.mkdir(parents=True, exist_ok=True)
+            (self.folder / "answers" / prediction).write_text(
+                json.dumps({"angles_deg": [angle + 5 * (number == 2) for angle in truth["angles_deg"]]}))
+        score = ["score", data, self.folder / "answers", "-o", self.out, "--name", "told", *secret]
+        refused = self.etude(*score)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("m.py (s/off_m)", refused.stderr)
+        scored = self.etude(*score, "--allow-exec")
+        self.assertEqual(scored.returncode, 0, scored.stderr)
+        rows = [json.loads(line) for line in (self.out / "cells.jsonl").read_text().splitlines()]
+        told = [row["off_m"] for row in rows if row["method"] == "told"]
+        self.assertEqual([value > 0.01 for value in sorted(told)], [False, False, True])
+        self.assertLess(sorted(told)[1], 1e-9)
+        run = self.run_suite(scenario, *secret, out=self.folder / "run")
+        self.assertEqual([row for row in rows if row["method"] != "told"], run)
+        self.assertTrue(all(row["off_m"] > 0 for row in run))
+        self.assertEqual([file for folder in (self.out, self.folder / "run") for file in folder.rglob("*")
+                          if file.is_file() and b"0123456789abcdef" in file.read_bytes()], [])
 
     def test_what_cannot_be_is_refused_with_its_place(self):
         program = "exec: [python3, m.py]"
@@ -187,15 +245,12 @@ class OwnMetrics(EtudeCase):
                      "the metric 'twice' is told of in two ways: unit '' and 'mm'", "refused.yaml:4:")
 
     def test_expectations_and_gates_go_by_it(self):
-        expects = "expect: [{metric: mine, of: a, at_most: -1e9}]\ngate: {metrics: [mine]}\n"
-        scenario = self.scenario(own("mine") + expects)
-        self.run_suite(scenario)
-        gate = self.etude("gate", self.out)
+        gate = self.etude("gate", self.whole)
         self.assertEqual(gate.returncode, 1, gate.stdout + gate.stderr)
         self.assertIn("mine", gate.stdout)
         baseline = self.folder / "base.json"
-        update = self.etude("gate", self.out, "--baseline", baseline, "--update")
-        self.assertEqual(json.loads(baseline.read_text())["scenarios"][0]["metrics"], {"mine": 1}, update.stderr)
+        update = self.etude("gate", self.whole, "--baseline", baseline, "--update")
+        self.assertEqual(json.loads(baseline.read_text())["scenarios"][0]["metrics"], {"mine": 3}, update.stderr)
 
 
 if __name__ == "__main__":

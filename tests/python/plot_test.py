@@ -44,6 +44,17 @@ class Plot(PythonCase):
         self.assertEqual(len(shown), 12)
         self.assertLessEqual(shown, near)
 
+    def test_shares_are_shown_in_per_cent_as_on_the_page(self):
+        pairs = self.run_.pairs("adaptive", "fixed", "solved_practical", condition="joint_noise_deg=15")
+        values, differences = etude.plot.estimation(pairs).axes
+        self.assertIn(", %", values.get_ylabel())
+        self.assertTrue(differences.get_ylabel().endswith("minus fixed, percentage points"))
+        said = {line.get_gid(): list(line.get_ydata()) for line in differences.lines}
+        told = pairs.verdict.details
+        self.assertEqual(said["estimate"], [100 * told["difference"]])
+        self.assertEqual(said["interval"], [100 * told["ci95_low"], 100 * told["ci95_high"]])
+        self.assertEqual({y for _, y in values.collections[0].get_offsets().tolist()} - {0.0, 100.0}, set())
+
     def test_curves_are_the_page_s(self):
         island = json.loads(re.search(r'<script type="application/json" id="[^"]*curves">(.*?)</script>', self.page)[1])
         figure = etude.plot.curves(self.run_, "orientation_error_max_deg")

@@ -169,7 +169,7 @@ class Results(PythonCase):
         self.assertEqual(data["orientation_error_deg"].attrs["units"], "deg")
         found = data["orientation_error_deg"]
         for row in table.rows():
-            at = found.sel(condition=row["condition"], trial=row["trial"], method=row["method"])
+            at = found.sel({axis: row[axis] for axis in found.dims})
             self.assertEqual(at.item(), row["orientation_error_deg"])
             self.assertEqual(float(at["joint_noise_deg"]), row["joint_noise_deg"])
         part = table.where(method="fixed", trial=1).to_xarray()
