@@ -71,7 +71,7 @@ class Library(EtudeCase):
         foreign = [name for name in names if "etude::engine::" not in name]
         self.assertEqual(foreign, [])
         headers = "".join(file.read_text() for file in (self.prefix / "include" / "etude").glob("*.h"))
-        own = [re.split(r"[(<]", name.partition("etude::engine::")[2])[0].split("::")[-1].lstrip("~") for name in names]
+        own = [re.split(r"[(<[]", name.partition("etude::engine::")[2])[0].split("::")[-1].lstrip("~") for name in names]
         undeclared = [name for name in own if not re.search(rf"(?<!\w){re.escape(name)}(?!\w)", headers)]
         self.assertEqual(undeclared, [])
         self.assertGreater(len(names), 20)
