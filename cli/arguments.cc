@@ -80,7 +80,7 @@ CLI::Option* AddOverwrite(CLI::App& command, bool& overwrite, const std::string&
   return command.add_flag("--overwrite", overwrite, help);
 }
 
-std::array<CLI::Option*, 6> AddWorldOptions(CLI::App& command, std::optional<std::uint64_t>& seed,
+std::array<CLI::Option*, 7> AddWorldOptions(CLI::App& command, std::optional<std::uint64_t>& seed,
                                             std::optional<int>& trials, std::vector<std::string>& clips,
                                             std::string& joint_map, std::string& clip_facts) {
   const auto tell = [&clip_facts](const std::string& key) {
@@ -92,12 +92,16 @@ std::array<CLI::Option*, 6> AddWorldOptions(CLI::App& command, std::optional<std
           ->check(CLI::Range(1, 1000000)),
       command.add_option("--clips", clips,
                          "Clips instead of the scenarios' own: builtin:NAME, BVH and glTF files, patterns"),
-      command.add_option("--joint-map", joint_map,
+      command.add_option(kJointMapOption, joint_map,
                          "Which joints of the clips play which roles (etude clip map writes such a file)"),
       command.add_option_function<std::string>(
           "--unit", tell("unit"), "Unit of the clips: m, cm, mm, in, ft, cmu, or metres per unit (default: found)"),
       command.add_option_function<std::string>("--up", tell("up"), "Axis of the clips that points up (default: found)")
-          ->check(CLI::IsMember({"y", "z"}))};
+          ->check(CLI::IsMember({"y", "z"})),
+      command
+          .add_option_function<std::string>("--rate", tell("rate"),
+                                            "Frames per second of the clips (default: their own)")
+          ->check(NumberWithin(1, 1000, "rate in Hz"))};
 }
 
 void AddUnsealed(CLI::App& command, Sealing& sealing) {

@@ -44,9 +44,11 @@ Action WithSecretKey(CLI::App& command, const std::optional<std::uint64_t>* seed
 CLI::Option* AddJobs(CLI::App& command, int& jobs);
 /// Adds --overwrite.
 CLI::Option* AddOverwrite(CLI::App& command, bool& overwrite, const std::string& help = "Replace a file that is there");
-/// Adds --seed, --trials, --clips, --joint-map, --unit and --up, of every command that makes worlds of scenarios; the
-/// last two become lines of a joint-map file in `clip_facts`. The third option is --clips.
-std::array<CLI::Option*, 6> AddWorldOptions(CLI::App& command, std::optional<std::uint64_t>& seed,
+/// The names of the option of a joint-map file, of every command that opens clips.
+constexpr const char* kJointMapOption = "--joint-map,--map";
+/// Adds --seed, --trials, --clips, --joint-map, --unit, --up and --rate, of every command that makes worlds of
+/// scenarios; the last three become lines of a joint-map file in `clip_facts`. The third option is --clips.
+std::array<CLI::Option*, 7> AddWorldOptions(CLI::App& command, std::optional<std::uint64_t>& seed,
                                             std::optional<int>& trials, std::vector<std::string>& clips,
                                             std::string& joint_map, std::string& clip_facts);
 /// Adds --unsealed, of every command that reads a run.

@@ -14,6 +14,8 @@
 #include "engine/formats/joint_csv.h"
 #include "engine/formats/trc.h"
 #include "engine/retargeting/joint_arrays.h"
+#include "engine/retargeting/opensim_motion.h"
+#include "engine/retargeting/proportions.h"
 #include "sim/choreography/canonical_body.h"
 
 namespace etude {
@@ -125,6 +127,9 @@ std::string BytesOf(Clip clip, const BodyMotion& motion, MotionFormat format, co
       return WriteC3d(motion);
     case MotionFormat::kNpz:
       return WriteBodyNpz(motion, StandingPose());
+    case MotionFormat::kMot:
+      return WriteOpenSimMotion(motion, Retarget({.poses = {StandingPose()}}, motion.poses.front()).poses.front(),
+                                name);
   }
   return {};
 }

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -16,6 +17,7 @@
 #include "engine/base/names.h"
 #include "reports/clips/clip_facts.h"
 #include "reports/clips/contact_index.h"
+#include "reports/clips/role_sheet.h"
 
 namespace etude {
 namespace {
@@ -112,11 +114,12 @@ Result<int> ClipConvertCommand(const ClipConvertOptions& given) {
 
 void DefineConvert(CLI::App& clip, Action& action) {
   auto options = std::make_shared<ClipConvertOptions>();
-  CLI::App* command = clip.add_subcommand("convert", "To BVH, GLB, TRC, CSV, C3D or NPZ");
+  CLI::App* command = clip.add_subcommand("convert", "To BVH, GLB, TRC, CSV, C3D, NPZ or MOT");
   command->add_option("input", options->input, "A clip")->required();
   command
-      ->add_option("output", options->output,
-                   "The file to write: .bvh, .glb, .trc (OpenSim), .csv, .c3d or .npz (NumPy)")
+      ->add_option(
+          "output", options->output,
+          "The file to write: .bvh, .glb, .trc (OpenSim's markers), .mot (its angles), .csv, .c3d or .npz (NumPy)")
       ->required();
   command->add_option("--trim", options->trim, "Only this part, seconds: FROM:TO, such as 1.5:4 or 2:");
   command->add_option("--rate", options->rate_hz, "Frames per second (default: the clip's; of bodies 30)")
@@ -129,11 +132,11 @@ void DefineConvert(CLI::App& clip, Action& action) {
                    "Put on the bear or the mannequin, retargeted (GLB only); none leaves the file's meshes out")
       ->check(CLI::IsMember({"bear", "mannequin", "none"}));
   AddOverwrite(*command, options->overwrite);
-  AddClipReading(*command, options->reading);
+  AddClipReading(*command, options->reading, "--file-rate");
   command->footer(
       "\nWithout --ground, --retarget or --character a file keeps its own skeleton, unit and axes (GLB: metres, Y "
       "up).\n"
-      "TRC, CSV, C3D and NPZ hold the twenty joints of the body.");
+      "TRC, CSV, C3D and NPZ hold the twenty joints of the body, MOT the angles between its limbs.");
   command->callback([=, &action] { action = [=] { return Finish(ClipConvertCommand(*options)); }; });
 }
 
@@ -169,7 +172,8 @@ void DefineContacts(CLI::App& clip, Action& action) {
 
 struct ClipMapOptions {
   std::string clip;
-  std::string output;  ///< a joint-map file, "" = only printed
+  std::string output;   ///< a joint-map file, "" = only printed
+  std::string preview;  ///< a picture, "" = none
   bool overwrite = false, as_json = false;
   std::string joint_map;
 };
@@ -224,14 +228,51 @@ std::string UnfinishedMapFile(const Skeleton& skeleton) {
   return text;
 }
 
+/// The joints of all roles, or of those that can be told where `map` is null.
+std::array<RoleOnSheet, kRoleCount> RolesOnSheet(const Skeleton& skeleton, const JointMap* map) {
+  using By = RoleOnSheet::By;
+  std::array<RoleOnSheet, kRoleCount> roles;
+  const PartialRoles in_part = map == nullptr ? FindRolesInPart(skeleton) : PartialRoles{};
+  for (const Role role : AllRoles()) {
+    RoleOnSheet& shown = roles[Index(role)];
+    if (map != nullptr) {
+      const auto is_among = [&](const std::vector<Role>& some) { return std::ranges::find(some, role) != some.end(); };
+      shown = {(*map)[role].joint, is_among(map->composed)     ? By::kComposed
+                                   : is_among(map->by_anatomy) ? By::kAnatomy
+                                                               : By::kName};
+    } else if (const int found = in_part.found[Index(role)]; found >= 0) {
+      shown = {found, By::kName};
+    } else if (const int proposed = in_part.proposed[Index(role)]; proposed >= 0) {
+      shown = {proposed, By::kProposed};
+    }
+  }
+  return roles;
+}
+
+Result<void> WritePreview(const ClipMapOptions& options, const Clip& clip, const JointMap* map) {
+  if (options.preview.empty()) return {};
+  ASSIGN_OR_RETURN(const auto png, DrawRoleSheet(clip, RolesOnSheet(clip.skeleton, map)));
+  RETURN_IF_ERROR(WriteFileAtomically(options.preview, png));
+  TellWritten(options.preview, options.as_json ? stderr : stdout);
+  return {};
+}
+
+Result<void> CheckMapOutputs(const ClipMapOptions& options) {
+  if (!options.output.empty()) RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
+  if (options.preview.empty()) return {};
+  if (!options.preview.ends_with(".png")) return Fail({options.preview}, "is no picture's name; allowed: .png");
+  return CheckOutput(options.preview, options.overwrite);
+}
+
 Result<int> ClipMapCommand(const ClipMapOptions& options) {
   const bool writes = !options.output.empty();
-  if (writes) RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
+  RETURN_IF_ERROR(CheckMapOutputs(options));
   ASSIGN_OR_RETURN(const auto reading, ReadOptions({.joint_map = options.joint_map, .unit = "", .up = ""}));
   // All animations of a file move the same skeleton: the first one shows it.
   ASSIGN_OR_RETURN(const auto clips, ReadClips(options.clip));
   const Skeleton& skeleton = clips.front().clip.skeleton;
   const auto map = FindJointMap(skeleton, options.clip, reading.roles ? &*reading.roles : nullptr);
+  RETURN_IF_ERROR(WritePreview(options, clips.front().clip, map ? &*map : nullptr));
   if (!map) {
     // A map that is there already is mended, and may be the very file that would be written.
     if (options.joint_map.empty() && writes) {
@@ -259,7 +300,8 @@ void DefineMap(CLI::App& clip, Action& action) {
   command->add_option("clip", options->clip, "A BVH or glTF file")->required();
   command->add_option("-o,--output", options->output,
                       "Write it as a joint-map file, to be edited; also when roles are missing");
-  command->add_option("--joint-map", options->joint_map, "Roles that are taught already");
+  command->add_option("--preview", options->preview, "A picture of the skeleton with names and roles: .png");
+  command->add_option(kJointMapOption, options->joint_map, "Roles that are taught already");
   AddJson(*command, options->as_json);
   AddOverwrite(*command, options->overwrite);
   command->callback([=, &action] { action = [=] { return Finish(ClipMapCommand(*options)); }; });

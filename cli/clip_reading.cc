@@ -5,16 +5,20 @@
 #include "bench/clips/references.h"
 #include "bench/files/files.h"
 #include "bench/tasks/base/fuzzy_key.h"
+#include "cli/arguments.h"
 #include "engine/base/names.h"
 
 namespace etude {
 
-void AddClipReading(CLI::App& command, ClipReading& reading) {
-  command.add_option("--joint-map", reading.joint_map, "Which joints play which roles (etude clip map writes one)");
+void AddClipReading(CLI::App& command, ClipReading& reading, const std::string& rate) {
+  command.add_option(kJointMapOption, reading.joint_map, "Which joints play which roles (etude clip map writes one)");
   command.add_option("--unit", reading.unit,
                      "Unit of the file: m, cm, mm, in, ft, cmu, or metres per unit (default: found by the stature)");
   command.add_option("--up", reading.up, "Axis of the file that points up: y or z (default: found)")
       ->check(CLI::IsMember({"y", "z"}));
+  if (rate.empty()) return;
+  command.add_option(rate, reading.rate_hz, "Frames per second of the file (default: its own)")
+      ->check(NumberWithin(1, 1000, "rate in Hz"));
 }
 
 Result<OpenOptions> ReadOptions(const ClipReading& reading) {
@@ -23,6 +27,10 @@ Result<OpenOptions> ReadOptions(const ClipReading& reading) {
     ASSIGN_OR_RETURN(const auto text, ReadWholeFile(reading.joint_map));
     ASSIGN_OR_RETURN(auto roles, ReadJointMapFile(text, reading.joint_map));
     options.roles = std::move(roles);
+  }
+  if (reading.rate_hz) {
+    if (!options.roles) options.roles.emplace();
+    options.roles->rate_hz = reading.rate_hz;
   }
   if (!reading.unit.empty()) {
     ASSIGN_OR_RETURN(const auto metres, ReadUnit(reading.unit, {"--unit"}));

@@ -20,12 +20,14 @@ struct ClipReading {
   std::string joint_map;  ///< a joint-map file
   std::string unit;       ///< "m", "cm", … or metres per unit as a number
   std::string up;         ///< "y" or "z"
+  std::optional<double> rate_hz = {};
 };
 
-/// Adds --joint-map, --unit and --up, of every command that opens clips by themselves.
-void AddClipReading(CLI::App& command, ClipReading& reading);
+/// Adds --joint-map, --unit and --up, of every command that opens clips by themselves, and the rate of files under the
+/// name `rate`; no option of it where that is "".
+void AddClipReading(CLI::App& command, ClipReading& reading, const std::string& rate = "--rate");
 
-/// Reads --joint-map, --unit and --up.
+/// Reads these options.
 Result<OpenOptions> ReadOptions(const ClipReading& reading);
 
 /// Reads --trim; nothing without it.

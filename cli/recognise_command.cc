@@ -153,7 +153,9 @@ void Print(const LabelScores& scores, bool as_json) {
 }
 
 Result<LoadedStreams> Load(const RecogniseCommandOptions& options) {
-  ASSIGN_OR_RETURN(auto loaded, LoadStreams(options.streams, options.reading.Reading(), options.reading.Options()));
+  ASSIGN_OR_RETURN(const auto clips, options.reading.ClipOptions());
+  ASSIGN_OR_RETURN(auto loaded,
+                   LoadStreams(options.streams, options.reading.Reading(), options.reading.Options(), clips));
   for (const Error& refused : loaded.refused) fmt::print(stderr, "left out: {}\n", ToString(refused));
   constexpr std::size_t kFew = 20;
   if (loaded.streams.size() <= kFew) {

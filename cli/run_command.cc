@@ -271,6 +271,11 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
                                              options->joint_map, options->clip_facts);
   CLI::Option* skip_refused = command->add_flag("--skip-refused", options->skip_refused,
                                                 "Leave out clips that cannot be read; the manifest names them");
+  CLI::Option* keep = command
+                          ->add_option_function<std::string>(
+                              "--keep", [options](const std::string&) { options->keeps_motions = true; },
+                              "motions: record every cell's, as a scenario's key `video` does of some")
+                          ->check(CLI::IsMember({"motions"}));
   auto dry_run = std::make_shared<bool>(false), as_json = std::make_shared<bool>(false);
   const Action act = WithSecretKey(*command, &options->seed, options->key,
                                    [=] { return *dry_run ? DryRunCommand(*options, *as_json) : RunCommand(*options); });
@@ -293,7 +298,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   AddJson(*command, *as_json)->needs(dry);
   CLI::Option* from = command->add_option("--from", options->from, "Repeat the run that this manifest.json describes");
   for (CLI::Option* option : world_options) from->excludes(option);
-  from->excludes(skip_refused);
+  from->excludes(skip_refused, keep);
   from->excludes(command->add_option("--library", options->libraries,
                                      "NAME=CLIPS: a library beside the scenarios', every condition once more for it"));
   CLI::Option* streams = command->add_option(

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "bench/streams/load.h"
+#include "cli/clip_reading.h"
 
 namespace CLI {
 class App;
@@ -11,16 +12,19 @@ class App;
 
 namespace etude {
 
-/// The options that say how recordings are read: --format, --rate, --body, --level, --reflect.
+/// The options that say how recordings are read: --format, --rate, --body, --level, --reflect; and how clips are:
+/// --joint-map, --unit, --up, and --rate again.
 struct StreamArguments {
   std::string format;  ///< "" = told by content
   std::string level = "auto";
   bool reflect = false;
   std::optional<double> rate_hz;
   std::optional<int> body;
+  ClipReading clips;
 
   StreamReading Reading() const;
   StreamOptions Options() const;
+  Result<OpenOptions> ClipOptions() const;
 };
 
 /// Adds these options to a command.

@@ -33,8 +33,9 @@ constexpr const char* kTeachExamples =
     "  etude recognise new.txt --moves moves.yaml";
 
 Result<std::vector<TaughtMove>> Teach(const TeachCommandOptions& options) {
+  ASSIGN_OR_RETURN(const auto clips, options.reading.ClipOptions());
   ASSIGN_OR_RETURN(const auto loaded,
-                   LoadStreams(options.streams, options.reading.Reading(), options.reading.Options()));
+                   LoadStreams(options.streams, options.reading.Reading(), options.reading.Options(), clips));
   for (const Error& refused : loaded.refused) fmt::print(stderr, "left out: {}\n", ToString(refused));
   for (const NamedStream& stream : loaded.streams) fmt::print(stderr, "{}: {}\n", stream.source, stream.description);
   std::vector<LabelledPart> parts = WholeStreams(loaded.streams);

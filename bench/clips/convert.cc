@@ -15,6 +15,7 @@
 #include "engine/formats/trc.h"
 #include "engine/motion/edit.h"
 #include "engine/retargeting/joint_arrays.h"
+#include "engine/retargeting/opensim_motion.h"
 #include "engine/retargeting/proportions.h"
 #include "engine/retargeting/rig.h"
 #include "sim/character/characters.h"
@@ -98,6 +99,7 @@ Result<Converted> ConvertOwnSkeletons(std::vector<SourceClip> sources, MotionFor
     }
     clips.push_back(std::move(*edited));
   }
+  for (const std::string& remark : sources.front().remarks) converted.note += "; " + remark;
   if (format == MotionFormat::kBvh) {
     converted.bytes = WriteBvh(std::move(clips.front()));
     return converted;
@@ -143,6 +145,7 @@ Result<Converted> ConvertBodies(std::vector<SourceClip> sources, MotionFormat fo
     // The rest pose of a body with its own proportions: standing as the canonical one does.
     if (!is_canonical && clips.empty()) rest = Retarget({.poses = {rest}}, motion.poses.front()).poses.front();
     if (format == MotionFormat::kNpz) converted.bytes = WriteBodyNpz(motion, rest);
+    if (format == MotionFormat::kMot) converted.bytes = WriteOpenSimMotion(motion, rest, name);
     clips.push_back(RigClip(motion, rest, opened.source.clip.name));
   }
   converted.note = clips.size() == 1 ? "as a body: " + note : fmt::format("{} clips as bodies", clips.size());
@@ -182,7 +185,9 @@ Result<MotionFormat> FormatOfName(const std::string& path) {
   if (extension == ".csv") return MotionFormat::kCsv;
   if (extension == ".c3d") return MotionFormat::kC3d;
   if (extension == ".npz") return MotionFormat::kNpz;
-  return Fail({path, 0, 0}, "is no name of a format that is written; allowed: .bvh, .glb, .trc, .csv, .c3d, .npz");
+  if (extension == ".mot") return MotionFormat::kMot;
+  return Fail({path, 0, 0},
+              "is no name of a format that is written; allowed: .bvh, .glb, .trc, .csv, .c3d, .npz, .mot");
 }
 
 Result<Converted> ConvertClips(std::vector<SourceClip> clips, MotionFormat format, const ConvertOptions& options) {

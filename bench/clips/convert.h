@@ -22,7 +22,7 @@ Result<TimeSpan> ParseTimeSpan(const std::string& text);
 /// Returns that part of a clip, or all of it without a span. An open end is the clip's.
 Result<Clip> TrimTo(const Clip& clip, const std::optional<TimeSpan>& span);
 
-enum class MotionFormat { kBvh, kGlb, kTrc, kCsv, kC3d, kNpz };
+enum class MotionFormat { kBvh, kGlb, kTrc, kCsv, kC3d, kNpz, kMot };
 /// Returns the format of a file by the extension of its name.
 Result<MotionFormat> FormatOfName(const std::string& path);
 

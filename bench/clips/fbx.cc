@@ -14,6 +14,8 @@
 #include <cstring>
 #include <utility>
 
+#include "bench/process/pinned_environment.h"
+
 namespace etude {
 namespace {
 
@@ -21,6 +23,15 @@ constexpr const char* kModule = "etude_clips_assimp.so";  // found beside the pr
 constexpr rlim_t kMemoryBytes = rlim_t{4} << 30, kProcessorSeconds = 60;
 constexpr std::size_t kLargestGlb = std::size_t{1} << 30;
 constexpr int kSaidGlb = 0, kSaidComplaint = 1;
+
+/// The build of assimp that is loaded, as the manifest tells those of other libraries.
+std::string NameOfReader() {
+  constexpr std::size_t kToldDigits = 20;
+  for (const auto& [name, build] : LoadedLibraries()) {
+    if (name.starts_with("libassimp.")) return name + " (" + build.substr(0, kToldDigits) + ")";
+  }
+  return "an assimp within the program";
+}
 
 [[noreturn]] void BeReader(std::string_view bytes, int output, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -39,6 +50,7 @@ constexpr int kSaidGlb = 0, kSaidComplaint = 1;
     said = std::string(kModule) + " is no module of this program";
   } else {
     went_well = (*static_cast<GlbOfFbxBytes* const*>(symbol))(bytes, said);
+    if (went_well) said.insert(0, NameOfReader() + "\n");
   }
   std::FILE* file = ::fdopen(output, "wb");
   std::fwrite(said.data(), 1, said.size(), file);
@@ -50,7 +62,7 @@ constexpr int kSaidGlb = 0, kSaidComplaint = 1;
 
 bool IsFbx(std::string_view bytes) { return bytes.starts_with("Kaydara FBX Binary") || bytes.starts_with("; FBX"); }
 
-Result<std::string> GlbOfFbx(std::string_view bytes, const std::string& path) {
+Result<FbxMotion> ReadFbx(std::string_view bytes, const std::string& path) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) return Fail({}, "no pipe can be made: {}", std::strerror(errno));
   const pid_t parent = ::getpid(), child = ::fork();
@@ -73,7 +85,10 @@ Result<std::string> GlbOfFbx(std::string_view bytes, const std::string& path) {
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  if (WIFEXITED(status) && WEXITSTATUS(status) == kSaidGlb) return said;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kSaidGlb) {
+    const std::size_t line = said.find('\n');
+    return FbxMotion{.glb = said.substr(line + 1), .reader = said.substr(0, line)};
+  }
   if (WIFEXITED(status)) return Fail({path}, "{}", said);
   const int signal = WTERMSIG(status);
   if (signal == SIGXCPU || signal == SIGKILL) {

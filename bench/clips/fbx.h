@@ -14,10 +14,15 @@ using GlbOfFbxBytes = bool(std::string_view bytes, std::string& said);
 /// True of an FBX file, binary or text.
 bool IsFbx(std::string_view bytes);
 
-/// Makes a GLB file of the motion of an FBX file: its nodes and animations in metres, the Y axis up. Meshes, materials,
-/// cameras and lights are left out. assimp reads it in a child process of limited memory and processor time, for files
-/// are a stranger's and may be hostile. Fails when the module is not there, and when the file is damaged, too large or
-/// ends the child.
-Result<std::string> GlbOfFbx(std::string_view bytes, const std::string& path);
+/// The motion of an FBX file.
+struct FbxMotion {
+  std::string glb;     ///< a GLB file of its nodes and animations, in metres, the Y axis up
+  std::string reader;  ///< the library that read it, and its build ID: "libassimp.so.5 (0f3c…)"
+};
+
+/// Reads the motion of an FBX file; meshes, materials, cameras and lights are left out. assimp reads it in a child
+/// process of limited memory and processor time, for files are a stranger's and may be hostile. Fails when the module
+/// is not there, and when the file is damaged, too large or ends the child.
+Result<FbxMotion> ReadFbx(std::string_view bytes, const std::string& path);
 
 }  // namespace etude

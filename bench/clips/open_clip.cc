@@ -6,11 +6,9 @@
 #include <map>
 
 #include "bench/clips/fbx.h"
+#include "bench/clips/recorded_motion.h"
 #include "bench/clips/references.h"
 #include "bench/files/files.h"
-#include "bench/model/recording.h"
-#include "bench/results/folder.h"
-#include "bench/results/row_json.h"
 #include "engine/base/names.h"
 #include "engine/formats/acclaim.h"
 #include "engine/formats/amass.h"
@@ -76,6 +74,9 @@ Result<ColourImage> DecodeTexture(std::string_view bytes, std::size_t most_pixel
 /// Describes a file of another format by its first word.
 std::string WhatElse(const std::string& first_word) {
   if (first_word.empty()) return "an empty file";
+  if (first_word == "Coordinates" || first_word == "nColumns") {
+    return "an OpenSim motion: angles of a model that is another file; write its markers as TRC there";
+  }
   if (first_word == ":") return "an Acclaim skeleton, whose motions are the .amc files beside it";
   return "a file that begins with " + Quote(first_word);
 }
@@ -155,35 +156,6 @@ Result<ClipFile> ReadJointTable(std::string_view text, const std::string& path) 
   for (const Role role : AllRoles()) markers.names.emplace_back(RoleName(role));
   for (const auto& frame : csv.frames) markers.frames.emplace_back(frame.begin(), frame.end());
   return FileOfMarkers(ClipFormat::kCsv, markers, path, 'Y');
-}
-
-/// Tells whether a text begins as a recording of a run does.
-bool IsRecording(std::string_view text) { return text.starts_with(R"({"tracks":)"); }
-
-/// Reads the motions of a run's recording, called as its tracks are.
-Result<ClipFile> FileOfRecording(const std::string& text, const std::string& path) {
-  ASSIGN_OR_RETURN(const auto recording, ReadRecording(text, path));
-  ClipFile file{.format = ClipFormat::kRecording,
-                .figure = {.name = "", .skeleton = {}, .materials = {}, .meshes = {}},
-                .clips = {}};
-  for (const Track& track : recording.tracks) {
-    if (track.motion.poses.empty()) continue;
-    file.clips.push_back(RigClip(track.motion, StandingPose(), track.name));
-    file.notes.emplace_back("of a run's recording");
-  }
-  if (file.clips.empty()) return Fail({path}, "a recording without a motion");
-  file.figure.skeleton = file.clips.front().skeleton;
-  return file;
-}
-
-/// Makes "RUN#CELL@TRACK" the file of that cell's recording, and the track in it.
-SplitReference InRun(const SplitReference& wanted) {
-  std::error_code none;
-  if (!wanted.animation || !fs::exists(fs::path(wanted.path) / "manifest.json", none)) return wanted;
-  const std::size_t at = wanted.animation->rfind('@');
-  SplitReference found{RecordingFile(wanted.path, wanted.animation->substr(0, at)).string(), std::nullopt};
-  if (at != std::string::npos) found.animation = wanted.animation->substr(at + 1);
-  return found;
 }
 
 /// Reads a file of markers; nothing when it is none.
@@ -274,14 +246,20 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
   for (const Role role : AllRoles()) {
     opened.map.points[Index(role)].joint = opened.source.clip.skeleton.Find(std::string(RoleName(role)));
   }
-  const std::string note = opened.source.note.empty() ? "the canonical body" : opened.source.note;
+  std::string note = opened.source.note.empty() ? "the canonical body" : opened.source.note;
+  if (options.metres_per_unit || options.up) note += "; unit and up axis are its own, not those told";
   opened.body = {.metres_per_unit = 1, .unit = "metre", .note = note, .motion = {}};
   const Clip clip = Resample(opened.source.clip, options.rate_hz);
   opened.body.motion.rate_hz = options.rate_hz;
   std::vector<GlobalTransform> globals;
   for (const LocalPose& frame : clip.frames) {
     ComputeGlobals(clip.skeleton, frame, globals);
-    opened.body.motion.poses.push_back(Evaluate(opened.map, globals));
+    BodyPose pose = Evaluate(opened.map, globals);
+    // A sensor's hip centre need not be midway between its hips, where Evaluate puts that of other skeletons.
+    if (opened.source.format != ClipFormat::kBuiltin) {
+      pose[Role::kHipCentre] = globals[opened.map[Role::kHipCentre].joint].position;
+    }
+    opened.body.motion.poses.push_back(pose);
   }
   return opened;
 }
@@ -330,14 +308,16 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
   const bool is_fbx = IsFbx(bytes);
   if (is_fbx || bytes.starts_with("glTF") || first.text == "{") {
     file.format = is_fbx ? ClipFormat::kFbx : first.text == "{" ? ClipFormat::kGltf : ClipFormat::kGlb;
-    std::string glb;
+    FbxMotion fbx;
     if (is_fbx) {
-      ASSIGN_OR_RETURN(glb, GlbOfFbx(bytes, path));
+      ASSIGN_OR_RETURN(fbx, ReadFbx(bytes, path));
+      file.remarks.push_back("read by " + fbx.reader);
     }
     ASSIGN_OR_RETURN(auto content,
                      ReadGltf(
-                         is_fbx ? glb : bytes, path,
+                         is_fbx ? fbx.glb : bytes, path,
                          [&](const std::string& uri) { return ReadBeside(path, uri, reader); }, DecodeTexture));
+    for (std::string& remark : content.remarks) file.remarks.push_back(std::move(remark));
     file.figure = std::move(content.character);
     file.clips = std::move(content.clips);
     file.roles = RolesOfBones(content.bones, file.figure.skeleton);
@@ -364,12 +344,17 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
 
 Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const OpenOptions& options) {
   if (reference.starts_with(kBuiltinPrefix)) return ReadBuiltin(reference);
-  const SplitReference wanted = InRun(Split(reference));
+  ASSIGN_OR_RETURN(SplitReference wanted, InRun(Split(reference)));
   ASSIGN_OR_RETURN(auto file, ReadClipFile(FileOf(wanted.path), wanted.animation));
   const std::string stem = fs::path(FileOf(wanted.path)).stem().string();
+  const bool is_recording = file.format == ClipFormat::kRecording;
+  if (!is_recording && options.roles && options.roles->rate_hz) {
+    for (Clip& clip : file.clips) clip.rate_hz = *options.roles->rate_hz;
+  }
+  if (is_recording && wanted.animation == "") wanted.animation = OwnTrack(file.clips);
   const bool has_animations =
       file.format == ClipFormat::kGltf || file.format == ClipFormat::kGlb || file.format == ClipFormat::kFbx;
-  const bool is_one = !has_animations && file.format != ClipFormat::kRecording && file.clips.size() == 1;
+  const bool is_one = !has_animations && !is_recording && file.clips.size() == 1;
   if (is_one) {
     if (wanted.animation && file.format != ClipFormat::kNpy) {
       return Fail({wanted.path, 0, 0}, "a {} file has one motion; '#{}' chooses one of a glTF file",
@@ -397,8 +382,6 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
 
 Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options) {
   const bool is_body = source.format == ClipFormat::kBuiltin || !source.note.empty();
-  const bool is_file = source.format != ClipFormat::kBuiltin && source.format != ClipFormat::kRecording;
-  if (is_file && options.roles) source.clip.rate_hz = options.roles->rate_hz.value_or(source.clip.rate_hz);
   if (is_body) return UnderstandBuiltin(std::move(source), options.body);
   RootAtHips(source.clip, source.character != nullptr, source.remarks);
   ASSIGN_OR_RETURN(auto map, FindJointMap(source.clip.skeleton, source.source, TaughtBy(options, source.roles)));

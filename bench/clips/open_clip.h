@@ -80,7 +80,7 @@ struct SourceClip {
 
 /// Reads the clips of one file or built-in name (as ExpandReference gives them): one of a BVH, all animations of a
 /// glTF, or the one behind '#', which may leave out what exporters put before it ("Jump" of "Armature|Jump"). Fails
-/// when there is none, saying what there is instead. `options` only help to find the ground.
+/// when there is none, saying what there is instead. `options` tell the rate of files, and help to find the ground.
 Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const OpenOptions& options = {});
 
 /// A clip with its roles found and its body's motion.

@@ -137,8 +137,11 @@ static void Describe(RecordFields& fields, CoachExtras& extras) {
 
 std::string RecordingsAsMarkdown() {
   return "# What recordings hold beside their motions\n\n"
-         "Written by `etude list recordings`; a test compares the two. A file of `recordings/` holds a cell's\n"
-         "motions by name, `tracks`, and in `extras` an object by the task's kind. Frames count from the first of\n"
+         "Written by `etude list recordings`; a test compares the two. A file of `recordings/` names its version\n"
+         "(`recording`: 2; version 1 named no joints and is refused), the `joints` in the order of a pose's numbers\n"
+         "(x, y, z of each), their `unit` and the axis that points `up`. It holds a cell's motions by name, `tracks`, "
+         "and\n"
+         "in `extras` an object by the task's kind. Frames count from the first of\n"
          "the recording unless said otherwise. What `capture` keeps stands in\n"
          "`bench/recordings/capture_extras.h`.\n\n"
          "## ik\n\nTracks `truth`, `start` and, step by step, `solution`.\n\n" +

@@ -112,7 +112,44 @@ std::vector<Series> DecodeSeries(const Json& json) {
   return series;
 }
 
+namespace {
+
+Json JointNames() {
+  Json names = Json::array();
+  for (const Role role : AllRoles()) names.push_back(RoleName(role));
+  return names;
+}
+
+Result<void> CheckRecordingHead(const Json& json, const Place& place) {
+  if (!json.contains("recording") && json.contains("tracks")) {
+    return Fail(place,
+                "a recording of version 1, which does not name its joints; this program reads version {}: repeat the "
+                "run (etude run --from its manifest.json)",
+                kRecordingVersion);
+  }
+  if (const Json& version = json.at("recording"); version != kRecordingVersion) {
+    return Fail(place, "a recording of version {}; this program reads version {}", ShowJson(version),
+                kRecordingVersion);
+  }
+  if (const Json& joints = json.at("joints"); joints != JointNames()) {
+    return Fail(place, "'joints': {}; allowed: Etude's twenty, in their order (docs/clips.md)", ShowJson(joints));
+  }
+  for (const auto& [key, allowed] : {std::pair{"unit", "m"}, {"up", "y"}}) {
+    if (json.at(key) != allowed) return Fail(place, "'{}': {}; allowed: \"{}\"", key, ShowJson(json.at(key)), allowed);
+  }
+  return {};
+}
+
+}  // namespace
+
 Result<Json> EncodeRecording(const Recording& recording) {
+  ASSIGN_OR_RETURN(const auto motions, EncodeMotions(recording));
+  Json json{{"recording", kRecordingVersion}, {"joints", JointNames()}, {"unit", "m"}, {"up", "y"}};
+  json.update(motions);
+  return json;
+}
+
+Result<Json> EncodeMotions(const Recording& recording) {
   Json json;
   Json& tracks = json["tracks"] = Json::array();
   for (const Track& track : recording.tracks) {
@@ -134,6 +171,7 @@ Result<Recording> ReadRecording(const std::string& text, const std::string& file
 Result<Recording> DecodeRecording(const Json& json, const Place& place) {
   Recording recording;
   try {
+    RETURN_IF_ERROR(CheckRecordingHead(json, place));
     for (const Json& entry : json.at("tracks")) {
       Track track{entry.at("name").get<std::string>(), {entry.at("rate_hz").get<double>(), {}}};
       for (const Json& numbers : entry.at("poses")) {

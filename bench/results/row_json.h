@@ -13,8 +13,16 @@ Result<Row> DecodeRow(const Json& json, const Place& place);
 Json EncodeSeries(const std::vector<Series>& series);
 std::vector<Series> DecodeSeries(const Json& json);
 
-/// A recording: each track's poses as rows of 60 numbers (x, y, z of the 20 joints, metres).
+/// The version of the files of `recordings/`. The first named no joints.
+constexpr int kRecordingVersion = 2;
+
+/// What a recording holds of a cell: each track's poses as rows of 60 numbers (x, y, z of the 20 joints, metres), and
+/// the extras of its task.
+Result<Json> EncodeMotions(const Recording& recording);
+/// A recording as its file has it: the version, the names of the joints in the order of the numbers, their unit and the
+/// axis that points up, then the motions.
 Result<Json> EncodeRecording(const Recording& recording);
+/// Refused: another version, with what it lacks; other joints, or in another order.
 Result<Recording> DecodeRecording(const Json& json, const Place& place);
 /// Reads a recording's text.
 Result<Recording> ReadRecording(const std::string& text, const std::string& file);

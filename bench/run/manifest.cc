@@ -174,7 +174,9 @@ Result<void> CheckClips(const std::filesystem::path& path, std::span<const Prepa
     for (std::size_t c = 0; c < std::max(now.size(), then.size()); ++c) {
       if (c < now.size() && c < then.size() && now[c] == then[c]) continue;
       const auto name = [&](const Json& clips) {
-        return c < clips.size() ? clips[c].value("name", "?") + " " + clips[c].value("digest", "?") : "no clip";
+        return c < clips.size() ? fmt::format("{} {} ({})", clips[c].value("name", "?"), clips[c].value("digest", "?"),
+                                              clips[c].value("note", ""))
+                                : "no clip";
       };
       return Fail({path.string(), 0, 0}, "clip {} of scenario {} was {} then and is {} now", c + 1,
                   scenarios[s].scenario().name, name(then), name(now));

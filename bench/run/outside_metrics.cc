@@ -83,7 +83,7 @@ OutsideReply OutsideMetrics::Ask(std::size_t metric, const std::string& id, cons
 
 std::string OutsideMetrics::Measure(const std::string& cell, CellResult& result) {
   if (programs_.empty() || !result.recording) return "";
-  auto json = EncodeRecording(*result.recording);
+  auto json = EncodeMotions(*result.recording);
   if (!json) json = Json::object();  // which the cell's line tells of
   const Payload told = PayloadOf(*std::move(json));
   for (std::size_t m = 0; m < programs_.size(); ++m) {

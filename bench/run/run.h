@@ -29,6 +29,7 @@ struct RunOptions {
   std::string joint_map;             ///< replaces the scenarios' joint maps when not empty
   std::string clip_facts = {};       ///< further lines of that file, such as "unit: cm\n"
   bool skip_refused = false;         ///< leave out clips that cannot be read; the manifest names them
+  bool keeps_motions = false;        ///< record every cell
   std::string output;                ///< "" = out/<suite>-<seed>, and "-<i>-of-<n>" for a shard
   bool overwrite = false;            ///< replace a folder that already holds a run
   bool resume = false;               ///< go on with the run that the folder holds

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <set>
 
 #include "bench/scenario/judging.h"
@@ -93,6 +94,7 @@ Json EncodeSetup(const SuiteSetup& setup) {
     for (const RefusedClip& one : scenario.refused) {
       scenarios.back()["refused"].push_back({{"clip", one.clip}, {"why", one.why}});
     }
+    if (scenario.keeps_motions) scenarios.back()["keeps_motions"] = true;
     if (!scenario.streams.empty()) scenarios.back()["streams"] = scenario.streams;
     if (!scenario.labels.empty()) scenarios.back()["labels"] = scenario.labels;
     for (const NamedClips& library : scenario.libraries) {
@@ -136,6 +138,7 @@ Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
                                  scenario.value("joint_map", ""), scenario.at("digest").get<std::string>()});
       setup.scenarios.back().streams = scenario.value("streams", std::vector<std::string>{});
       setup.scenarios.back().labels = scenario.value("labels", std::vector<std::string>{});
+      setup.scenarios.back().keeps_motions = scenario.value("keeps_motions", false);
       for (const Json& one : scenario.value("refused", Json::array())) {
         setup.scenarios.back().refused.push_back({one.at("clip").get<std::string>(), one.at("why").get<std::string>()});
       }
@@ -178,7 +181,8 @@ Result<std::unique_ptr<LabelledStreams>> LoadRecordings(const ScenarioSetup& set
   }
   std::vector<NamedStream> streams = StreamsOf(clips);
   if (!setup.streams.empty()) {
-    ASSIGN_OR_RETURN(auto loaded, LoadStreams(setup.streams, source.reading, source.making));
+    ASSIGN_OR_RETURN(const auto how, OpenOptionsOf(setup, texts));
+    ASSIGN_OR_RETURN(auto loaded, LoadStreams(setup.streams, source.reading, source.making, how));
     streams = std::move(loaded.streams);
   }
   if (streams.empty()) return Fail({setup.file, 0, 0}, "labels need 'streams' or 'clips' that they are of");
@@ -217,6 +221,11 @@ Result<Scenario> ParsedSuite::Find(const ScenarioSetup& setup) {
   if (named == file->second.end()) return Fail({setup.file, 0, 0}, "holds no scenario named '{}'", setup.name);
   Scenario scenario = *named;
   scenario.trials = setup.trials;
+  if (setup.keeps_motions) {
+    scenario.recordings.methods = MethodNames(scenario);
+    scenario.recordings.trials.resize(static_cast<std::size_t>(setup.trials));
+    std::iota(scenario.recordings.trials.begin(), scenario.recordings.trials.end(), 0);
+  }
   AddLibraries(setup.libraries, scenario);
   return scenario;
 }

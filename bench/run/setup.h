@@ -37,6 +37,7 @@ struct ScenarioSetup {
   std::vector<std::string> streams = {};   ///< recordings; the scenario's own, or those of --streams
   std::vector<std::string> labels = {};    ///< keys of SuiteSetup::sources
   std::vector<RefusedClip> refused = {};   ///< what `clips` and `libraries` were to name as well
+  bool keeps_motions = false;              ///< of every cell (--keep motions), not of those alone that `video` names
 };
 
 /// A method whose answers are known already (etude score).

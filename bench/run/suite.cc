@@ -191,6 +191,7 @@ Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const s
   ScenarioSetup setup{file,   scenario.name,      SeedOf(options).value_or(scenario.seed.value_or(1)),
                       trials, std::move(clips),   joint_map,
                       digest, scenario.libraries, scenario.streams.files};
+  setup.keeps_motions = options.keeps_motions;
   if (options.skip_refused) RETURN_IF_ERROR(LeaveOutRefused(setup, sources));
   ASSIGN_OR_RETURN(setup.labels, KeepLabels(scenario.streams.labels, sources));
   ASSIGN_OR_RETURN(const auto people, CountRecordedPeople(setup, scenario.streams, sources));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <regex>
 #include <set>
@@ -21,8 +22,11 @@ constexpr std::size_t kMostFiles = 100'000;
 
 bool IsClip(const std::string& reference) {
   if (reference.starts_with("builtin:")) return true;
-  const std::string ending = fs::path(FileOf(Split(reference).path)).extension().string();
-  return ending == ".bvh" || ending == ".BVH" || ending == ".glb" || ending == ".gltf";
+  const SplitReference split = Split(reference);
+  std::string ending = fs::path(FileOf(split.path)).extension().string();
+  for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  constexpr std::array kOfClips = {".bvh", ".glb", ".gltf", ".vrm", ".vrma", ".fbx", ".amc", ".c3d", ".npz", ".npy"};
+  return split.animation || std::ranges::find(kOfClips, ending) != kOfClips.end();
 }
 
 std::string Describe(const StreamRecording& recording, const MadeStream& made) {
@@ -62,7 +66,7 @@ Result<bool> LooksLikeStream(const std::string& path) {
 }
 
 Result<void> AddFolder(const std::string& folder, const StreamReading& reading, const StreamOptions& options,
-                       LoadedStreams& loaded) {
+                       const OpenOptions& clips, LoadedStreams& loaded) {
   ASSIGN_OR_RETURN(const auto files, FilesBelow(folder));
   for (const std::string& file : files) {
     const auto is_stream = LooksLikeStream(file);
@@ -70,7 +74,7 @@ Result<void> AddFolder(const std::string& folder, const StreamReading& reading, 
       ++loaded.passed_over;
       continue;
     }
-    auto streams = LoadStream(file, reading, options);
+    auto streams = LoadStream(file, reading, options, clips);
     if (!streams) {
       loaded.refused.push_back(streams.error());
       continue;
@@ -112,12 +116,15 @@ std::vector<NamedStream> StreamsOf(const ClipLibrary& library) {
 }
 
 Result<std::vector<NamedStream>> LoadStream(const std::string& reference, const StreamReading& reading,
-                                            const StreamOptions& options) {
+                                            const StreamOptions& options, const OpenOptions& clips) {
   if (IsClip(reference)) {
-    ASSIGN_OR_RETURN(const ClipLibrary library, LoadClips({reference}, {}));
+    ASSIGN_OR_RETURN(const ClipLibrary library, LoadClips({reference}, {}, clips));
     return StreamsOf(library);
   }
   ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(reference));
+  if (!reading.format && !DetectStreamFormat(text)) {
+    if (const auto library = LoadClips({reference}, {}, clips)) return StreamsOf(*library);
+  }
   ASSIGN_OR_RETURN(const StreamRecording recording, ReadStreamRecording(text, reference, reading));
   ASSIGN_OR_RETURN(MadeStream made, MakeStream(recording, reference, options));
   const std::string name = fs::path(reference).stem().string();
@@ -133,19 +140,19 @@ Result<std::vector<NamedStream>> LoadStream(const std::string& reference, const 
 }
 
 Result<LoadedStreams> LoadStreams(const std::vector<std::string>& references, const StreamReading& reading,
-                                  const StreamOptions& options) {
+                                  const StreamOptions& options, const OpenOptions& clips) {
   LoadedStreams loaded;
   for (const std::string& reference : references) {
     std::error_code ignored;
     if (fs::is_directory(reference, ignored)) {
-      RETURN_IF_ERROR(AddFolder(reference, reading, options, loaded));
+      RETURN_IF_ERROR(AddFolder(reference, reading, options, clips, loaded));
       continue;
     }
     const auto expanded = ExpandReference(reference, {});
     if (!expanded && IsClip(reference)) return tl::unexpected(expanded.error());
     if (!expanded) return Fail({reference}, "no such recording; allowed: a file, a pattern, a folder, a clip");
     for (const std::string& one : *expanded) {
-      auto streams = LoadStream(one, reading, options);
+      auto streams = LoadStream(one, reading, options, clips);
       if (!streams && expanded->size() == 1) return tl::unexpected(streams.error());
       if (!streams) {
         loaded.refused.push_back(streams.error());
@@ -153,6 +160,13 @@ Result<LoadedStreams> LoadStreams(const std::vector<std::string>& references, co
       }
       std::ranges::move(*streams, std::back_inserter(loaded.streams));
     }
+  }
+  const bool is_told = clips.body.metres_per_unit || clips.body.up || (clips.roles && !clips.roles->joints.empty());
+  const auto is_clip = [](const NamedStream& stream) { return stream.motion.has_value(); };
+  if (is_told && !loaded.streams.empty() && std::ranges::none_of(loaded.streams, is_clip)) {
+    return Fail({loaded.streams.front().source},
+                "a recording of a sensor, whose unit and joints are its format's; --joint-map, --unit and --up are of "
+                "clips");
   }
   if (!loaded.streams.empty()) return loaded;
   if (!loaded.refused.empty()) return tl::unexpected(loaded.refused.front());

@@ -23,9 +23,10 @@ struct NamedStream {
   std::optional<BodyMotion> motion = {};  ///< what was truly done; of clips alone
 };
 
-/// Reads one recording or clip (BVH, glTF, "builtin:clap": what a sensor without errors would say of it).
+/// Reads one recording or clip ("builtin:clap", a cell's motion in a run, any file that is a clip and no recording of
+/// a sensor: what a sensor without errors would say of it). `clips` tells how clips are opened.
 Result<std::vector<NamedStream>> LoadStream(const std::string& reference, const StreamReading& reading,
-                                            const StreamOptions& options);
+                                            const StreamOptions& options, const OpenOptions& clips = {});
 
 /// Makes recordings of clips, as a sensor without errors would.
 std::vector<NamedStream> StreamsOf(const ClipLibrary& library);
@@ -36,9 +37,10 @@ struct LoadedStreams {
   std::vector<Error> refused;  ///< files of folders and patterns that could not be read; those named alone fail
   int passed_over = 0;         ///< files of folders that are no recordings
 };
-/// Loads recordings; fails when there is none.
+/// Loads recordings; fails when there is none, and when `clips` tells a joint map, a unit or an axis of what are no
+/// clips.
 Result<LoadedStreams> LoadStreams(const std::vector<std::string>& references, const StreamReading& reading,
-                                  const StreamOptions& options);
+                                  const StreamOptions& options, const OpenOptions& clips = {});
 
 /// Returns who was recorded, as file names of known sets have it: NTU's "P003" of "S001C002P003R002A013", MSRC-12's
 /// "p06" of "P1_1_1_p06", UTKinect's "s01" of "joints_s01_e02"; else "".

@@ -232,13 +232,17 @@ class Run:
             raise EtudeError(f"cell '{cell}' left no recording: the scenario's key `video` says which do"
                              f"{nearest(cell, recorded)}; there are {', '.join(recorded) or 'none'}")
         path = self.folder / "recordings" / (cell.replace("/", "~") + ".json")
-        tracks = {track["name"]: track for track in json.loads(path.read_text(encoding="utf-8"))["tracks"]}
+        told = json.loads(path.read_text(encoding="utf-8"))
+        if told.get("recording") != 2:
+            raise EtudeError(f"{path}: a recording of version {told.get('recording', 1)}; this package reads version 2, "
+                             "which names its joints: repeat the run")
+        tracks = {track["name"]: track for track in told["tracks"]}
         if name == own:
             name = next((each for each in ("recovered", "solution", "coach", "sensed") if each in tracks), name)
         if name not in tracks:
             raise EtudeError(f"cell '{cell}' recorded no '{name}'{nearest(name, tracks)}; there are "
                              f"{', '.join(tracks)}")
-        return _motion(cell, tracks[name], self._joints)
+        return _motion(cell, tracks[name], [(joint, dict(self._joints)[joint]) for joint in told["joints"]])
 
     def series(self, name=None, *, scenario=None, method=None, condition=None, trial=None):
         """The curves of cells by the name of the curve; all curves without one."""

@@ -20,6 +20,7 @@ struct GltfContent {
   std::vector<Clip> clips;  ///< named as in the file, in one line; unnamed or doubled names are numbered
   /// The joints that a VRM file (0.x, 1.0) or VRM animation calls bones, by their names there: "leftUpperArm".
   std::map<std::string, int> bones = {};
+  std::vector<std::string> remarks = {};  ///< what was left out, in plain words
 };
 
 /// Gives the bytes of a file that a .gltf names, relative to the .gltf's own folder. `uri` has been checked: relative,
@@ -47,7 +48,7 @@ using DecodePicture = std::function<Result<ColourImage>(std::string_view bytes, 
 /// base colour textures where `decode` is given (PNG, JPEG; others leave the plain colour); transparency is not read.
 ///
 /// Refused with one complaint that names the place in the JSON: what is not glTF 2.x, required extensions but those of
-/// looks and quantised meshes, indices out of range, accessors outside their buffers, cycles or nodes with two parents,
+/// looks, quantised meshes and Draco's (a file that needs it is read without its meshes), indices out of range, accessors outside their buffers, cycles or nodes with two parents,
 /// huge counts (caps as for BVH: 1,024 joints, 128 levels, 200 MB of frames; 2 million triangles; 256 MB of files; 64
 /// million pixels of textures; 500 bytes a name), pictures that are damaged,
 /// times that do not ascend, numbers that are not finite or beyond ±10⁹, URIs that leave the file's folder.

@@ -255,12 +255,14 @@ Error NotGltf(const std::string& file, const std::string& complaint) {
   return Fail(std::move(place), "not glTF 2.0: {}", what.substr(0, kLongest)).value();
 }
 
-/// Says whether an extension may be required: those of lights and looks change nothing that is read here, and quantised
-/// meshes are understood.
+constexpr const char* kDraco = "KHR_draco_mesh_compression";
+
+/// Says whether an extension may be required: those of lights and looks change nothing that is read here, quantised
+/// meshes are understood, and files that compress theirs are read without them.
 bool IsHarmless(const std::string& extension) {
   return extension.starts_with("KHR_materials_") || extension.starts_with("KHR_texture_") ||
          extension.starts_with("EXT_texture_") || extension == "KHR_lights_punctual" ||
-         extension == "KHR_mesh_quantization";
+         extension == "KHR_mesh_quantization" || extension == kDraco;
 }
 
 Result<void> CheckExtensions(const tinygltf::Model& model, const std::string& file) {
@@ -268,7 +270,7 @@ Result<void> CheckExtensions(const tinygltf::Model& model, const std::string& fi
     if (IsHarmless(extension)) continue;
     return Fail({file},
                 "extensionsRequired: found {}; allowed: KHR_materials_*, KHR_texture_*, EXT_texture_*, "
-                "KHR_lights_punctual, KHR_mesh_quantization",
+                "KHR_lights_punctual, KHR_mesh_quantization, KHR_draco_mesh_compression (without its meshes)",
                 Quote(extension));
   }
   return {};
@@ -393,7 +395,11 @@ Result<GltfContent> ReadGltf(std::string_view bytes, const std::string& file, co
   GltfContent content;
   content.character.name = Stem(file);
   content.character.skeleton = nodes.skeleton;
-  RETURN_IF_ERROR(ReadGltfMeshes(parsed, nodes, decode, content.character));
+  if (std::ranges::find(model->extensionsRequired, kDraco) == model->extensionsRequired.end()) {
+    RETURN_IF_ERROR(ReadGltfMeshes(parsed, nodes, decode, content.character));
+  } else {
+    content.remarks.emplace_back("meshes left out, which are compressed (Draco)");
+  }
   ASSIGN_OR_RETURN(auto clips, ReadGltfClips(parsed, nodes));
   content.clips = std::move(clips);
   for (const auto& [bone, node] : BoneTable(*model)) {

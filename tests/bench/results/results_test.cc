@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -47,6 +48,26 @@ TEST(Row, SurvivesTheWayToAFileAndBack) {
   EXPECT_EQ(back->result.metrics[1].null_reason, "no truth");
   EXPECT_EQ(back->result.digests, row.result.digests);
   EXPECT_EQ(*WriteJson(EncodeRow(*back)), *WriteJson(EncodeRow(row)));
+}
+
+TEST(Recording, NamesItsJointsAndRefusesThoseThatDoNot) {
+  const Json json = *EncodeRecording(*SampleRow().result.recording);
+  EXPECT_EQ(json.at("joints").at(3), "head");
+  EXPECT_EQ(json.at("tracks").at(0).at("poses").at(0).at(3 * 3 + 1), 1.7);
+  ASSERT_TRUE(DecodeRecording(json, kPlace));
+  const auto complaint = [&](const std::function<void(Json&)>& change) {
+    Json changed = json;
+    change(changed);
+    const auto read = DecodeRecording(changed, kPlace);
+    return read ? "" : ToString(read.error());
+  };
+  const auto without_head = [](Json& changed) { changed = Json{{"tracks", changed.at("tracks")}, {"extras", {}}}; };
+  EXPECT_THAT(complaint(without_head), HasSubstr("of version 1, which does not name its joints"));
+  EXPECT_THAT(complaint([](Json& changed) { changed["recording"] = 3; }), HasSubstr("of version 3"));
+  EXPECT_THAT(complaint([](Json& changed) { std::swap(changed["joints"][0], changed["joints"][1]); }),
+              HasSubstr("'joints': "));
+  EXPECT_THAT(complaint([](Json& changed) { changed["unit"] = "cm"; }), HasSubstr("'unit': \"cm\""));
+  EXPECT_EQ(EncodeMotions(*SampleRow().result.recording)->size(), 2u) << "tracks and extras, as metrics are told them";
 }
 
 TEST(Row, IsFlatWithNumbersAsNumbers) {

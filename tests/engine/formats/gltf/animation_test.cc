@@ -28,7 +28,7 @@ struct Curve {
 };
 
 /// One node, called "Joint" and resting at (7, 8, 9), and one animation that drives it along these curves.
-std::string Animated(const std::vector<Curve>& curves, const std::string& name = "Move") {
+std::string Animated(const std::vector<Curve>& curves, const std::string& name = "Move", const std::string& more = "") {
   std::string samplers, channels, accessors, views, binary;
   const auto add = [&](const std::vector<float>& values, const std::string& type, std::size_t width) {
     const std::string comma = views.empty() ? "" : ",";
@@ -46,11 +46,11 @@ std::string Animated(const std::vector<Curve>& curves, const std::string& name =
                                     curves[i].interpolation);
     channels += comma + fmt::format(R"({{"sampler":{},"target":{{"node":0,"path":"{}"}}}})", i, curves[i].path);
   }
-  return Glb(fmt::format(R"({{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0]}}],
+  return Glb(fmt::format(R"({{{}"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0]}}],
 "nodes":[{{"name":"Joint","translation":[7,8,9]}}],
 "animations":[{{"name":"{}","samplers":[{}],"channels":[{}]}}],
 "accessors":[{}],"bufferViews":[{}],"buffers":[{{"byteLength":{}}}]}})",
-                         name, samplers, channels, accessors, views, binary.size()),
+                         more, name, samplers, channels, accessors, views, binary.size()),
              binary);
 }
 
@@ -244,6 +244,19 @@ TEST(GltfAnimation, UnderstandsNormalisedIntegers) {
   ASSERT_EQ(clip.frames.size(), 3u);
   ExpectTurn(clip.frames[1][1].rotation, std::numbers::pi / 2, {1, 0, 0});
   EXPECT_EQ(clip.frames[2][1].rotation, glm::dquat(0, -1, 0, 0));  // −32768 is −1 as well
+}
+
+TEST(GltfAnimation, OfAFileWithCompressedMeshesIsReadWithoutThem) {
+  const std::vector<Curve> curves = {{"translation", "LINEAR", {0, 1}, {0, 0, 0, 0, 1, 0}}};
+  const GltfContent plain = Read(Animated(curves));
+  // A primitive as Draco's writers have it: its accessors have no data of their own.
+  const GltfContent content = Read(Animated(
+      curves, "Move",
+      R"("extensionsRequired":["KHR_draco_mesh_compression"],"extensionsUsed":["KHR_draco_mesh_compression"],"meshes":[{"primitives":[{"attributes":{"POSITION":9},"extensions":{"KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":0}}}}]}],)"));
+  ASSERT_EQ(content.clips.size(), 1u);
+  EXPECT_EQ(content.clips[0].frames, plain.clips[0].frames);
+  EXPECT_TRUE(content.character.meshes.empty());
+  EXPECT_THAT(content.remarks, ::testing::ElementsAre(::testing::HasSubstr("(Draco)")));
 }
 
 }  // namespace

@@ -32,8 +32,7 @@ constexpr BrokenText kBrokenTexts[] = {
     {"no version", R"("version":"2.0")", R"("generator":"x")", R"(not glTF 2.0: "asset" object not found)"},
     {"version 1", R"("version":"2.0")", R"("version":"1.0")", "asset.version: found '1.0'; allowed: 2.0"},
     {"no JSON", R"("nodes":[{)", R"("nodes":[{{)", "not glTF 2.0: syntax error while parsing object key"},
-    {"draco", R"("scene":0)", R"("extensionsRequired":["KHR_draco_mesh_compression"])", "extensionsRequired: found 'KHR_draco_mesh_compression'; allowed: KHR_materials_*"},
-    {"meshopt", R"("scene":0)", R"("extensionsRequired":["KHR_texture_transform","EXT_meshopt_compression"])", "extensionsRequired: found 'EXT_meshopt_compression'"},
+    {"meshopt", R"("scene":0)", R"("extensionsRequired":["KHR_texture_transform","EXT_meshopt_compression"])", "extensionsRequired: found 'EXT_meshopt_compression'; allowed: KHR_materials_*"},
     // scenes and nodes
     {"scene out of range", R"("scene":0)", R"("scene":1)", "scene: found 1; allowed: 0 to 0"},
     {"scene of no node", R"([{"nodes":[0,2]}])", R"([{"nodes":[0,3]}])", "scenes[0].nodes[1]: found 3; allowed: 0 to 2"},

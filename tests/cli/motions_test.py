@@ -1,0 +1,234 @@
+"""Motions that come out of Etude and go in again: recordings of every task, joint angles, what is told of files."""
+import csv
+import json
+import math
+import pathlib
+import re
+import subprocess
+import unittest
+
+import numpy
+from etude_case import EtudeCase, png_size
+from kinect_rows import arms, kinect
+
+CMU = "/usr/share/assimp/models/BVH/01_03.bvh"
+TASKS = {  # each with the track that its methods make
+    "ik": ("solution", "trials: 2", "{name: a, solver: ccd, weights: fixed}", "{name: b, solver: gauss-newton}"),
+    "tracking": ("solution", "trials: 2\nclips: ['builtin:clap']", "{name: a, solver: ccd, weights: fixed}",
+                 "{name: b, solver: gauss-newton}"),
+    "transition": ("coach", "trials: 2\nclips: ['builtin:clap', 'builtin:wave']", "{name: a, choice: now, join: cut}",
+                   "{name: b, choice: wait-for-end, join: cut}"),
+    "detection": ("sensed", "trials: 2\nclips: ['builtin:clap', 'builtin:wave']\nevents: 4", "{name: a, recogniser: dtw}",
+                  "{name: b, recogniser: nearest}"),
+    "coach": ("coach", "trials: 2\nsong: groove\nsession_s: 10", "{name: a, recogniser: dtw, policy: never}",
+              "{name: b, recogniser: dtw, policy: at-first-mistake}"),
+    "capture": ("recovered", "trials: 2\nclips: ['builtin:clap']\nduration_s: 0.2",
+                "{name: a, segmenter: hue, calibration: dlt, solver: ccd, weights: fixed}",
+                "{name: b, segmenter: hue, calibration: dlt, solver: damped-least-squares}"),
+}
+
+
+def turn(axis, degrees):
+    """The rotation about an axis of the file (X, Y, Z)."""
+    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    return {"X": numpy.array([[1, 0, 0], [0, c, -s], [0, s, c]]), "Y": numpy.array([[c, 0, s], [0, 1, 0], [-s, 0, c]]),
+            "Z": numpy.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])}[axis]
+
+
+def read_mot(path):
+    """The places of parts' ends by frame, by a .mot file's own model; the limits of angles, and the angles."""
+    head, _, table = path.read_text().partition("endheader\n")
+    facts = dict(line.split("=") for line in head.splitlines() if "=" in line)
+    parts, limits = {}, {}
+    for line in head.splitlines():
+        words = line.split()
+        if words[:1] == ["part"]:
+            name, parent, bone, turns = words[1], words[3], numpy.array(words[5:8], float), words[9:]
+            parts[name] = (parent, bone, list(zip(turns[::2], turns[1::2])))
+        if words[:1] == ["limit"]:
+            limits[words[1]] = (float(words[2]), float(words[3]))
+    rows = [dict(zip(table.splitlines()[0].split("\t"), map(float, line.split("\t")))) for line in table.splitlines()[1:]]
+    assert facts["version"] == "1" and facts["inDegrees"] == "yes"
+    assert (int(facts["nRows"]), int(facts["nColumns"])) == (len(rows), len(rows[0]))
+    frames = []
+    for row in rows:
+        axes, ends = {"ground": numpy.eye(3)}, {"ground": numpy.array([row[f"pelvis_t{axis}"] for axis in "xyz"])}
+        for name, (parent, bone, turns) in parts.items():
+            own = axes[parent]
+            for (sign, axis), angle in turns:
+                own = own @ turn(axis, row[angle] * (-1 if sign == "-" else 1))
+            axes[name], ends[name] = own, ends[parent] + own @ bone
+        # X forward, Y up, Z right; Etude: X to the left, Y up, Z forward
+        frames.append({name: numpy.array([-z, y, x]) for name, (x, y, z) in ends.items()})
+    return frames, limits, rows, {name: parent for name, (parent, _, _) in parts.items()}
+
+
+class Motions(EtudeCase):
+    @classmethod
+    def setUpClass(cls):
+        shared = cls.shared_folder()
+        for task, (_, facts, *methods) in TASKS.items():
+            lines = "".join(f"  - {method}\n" for method in methods)
+            (shared / f"{task}.yaml").write_text(f"scenario: {task}\nquestion: Is it there?\ntask: {task}\n{facts}\nmethods:\n{lines}")
+        cls.run_folder = shared / "out"
+        result = cls.etude("run", shared, "-o", cls.run_folder, "--trials", "1", "--keep", "motions")
+        assert result.returncode in (0, 1), result.stderr
+
+    def joints(self, clip, *options):
+        out = self.folder / "joints.csv"
+        result = self.etude("clip", "convert", clip, out, "--overwrite", *options)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(out) as file:
+            rows = list(csv.DictReader(file))
+        names = [name[:-4] for name in rows[0] if name.endswith("_x_m")]
+        return [{name: numpy.array([float(row[f"{name}_{axis}_m"]) for axis in "xyz"]) for name in names} for row in rows]
+
+    def recorded(self, cell):
+        return json.loads((self.run_folder / "recordings" / (cell.replace("/", "~") + ".json")).read_text())
+
+    def refused(self, *arguments):
+        result = self.etude(*arguments)
+        self.assertEqual(result.returncode, 2, result.stdout)
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        return result.stderr
+
+    def test_of_every_task_truth_and_every_method_is_a_clip(self):
+        for task, (own, *_) in TASKS.items():
+            worlds = sorted({path.stem.rpartition("~")[0].replace("~", "/") for path in
+                             (self.run_folder / "recordings").glob(f"{task}~*.json")})
+            self.assertEqual(len(worlds), 1, task)
+            self.assertEqual(len(list((self.run_folder / "recordings").glob(f"{task}~*.json"))), 2, task)
+            for method in "ab" if task == "capture" else "a":
+                recording = self.recorded(f"{worlds[0]}/{method}")
+                self.assertEqual((recording["recording"], recording["unit"], recording["up"]), (2, "m", "y"))
+                tracks = {track["name"]: track for track in recording["tracks"]}
+                joints = self.joints(f"{self.run_folder}#{worlds[0]}@{method}", "--rate", tracks[own]["rate_hz"])
+                self.assertEqual(list(joints[0]), recording["joints"], task)
+                self.assertEqual(len(joints), len(tracks[own]["poses"]), task)
+                for frame, pose in zip(joints, tracks[own]["poses"]):
+                    numpy.testing.assert_allclose(numpy.ravel(list(frame.values())), pose, atol=1e-9)
+            if "truth" in tracks:
+                first = next(track for track in self.recorded(f"{worlds[0]}/a")["tracks"] if track["name"] == "truth")
+                named = self.etude("clip", "info", f"{self.run_folder}#{worlds[0]}@truth", "--json")
+                self.assertEqual(json.loads(named.stdout)["clips"][0]["frames"], len(first["poses"]), task)
+        other = self.joints(f"{self.run_folder}#transition/-/000/a@b")
+        self.assertEqual(len(other), len(self.recorded("transition/-/000/b")["tracks"][0]["poses"]))
+
+    def test_it_stands_wherever_a_clip_may(self):
+        clips = [f"{self.run_folder}#detection/-/000@{name}" for name in ("truth", "a")]
+        for arguments in (("clip", "grades", *clips), ("bridge", *clips), ("teach", *clips, "-o", self.folder / "moves.yaml")):
+            result = self.etude(*arguments)
+            self.assertEqual(result.returncode, 0, result.stderr)
+        scenario = self.write("t.yaml", "scenario: t\nquestion: q\ntask: transition\nclips: ['builtin:clap']\ntrials: 1\n"
+                                        "methods: [{name: cut, choice: now, join: cut}]\n")
+        self.run_suite(scenario, "--clips", f"{self.run_folder}#transition/-/000@a", "builtin:wave")
+        self.run_suite("--from", self.out / "manifest.json", out=self.folder / "again")
+
+    def test_what_no_run_recorded_is_told(self):
+        self.assertIn("recorded no cell 'capture/-/007'", self.refused("clip", "info", f"{self.run_folder}#capture/-/007@truth"))
+        self.assertIn("animation 'nobody'", self.refused("clip", "info", f"{self.run_folder}#capture/-/000/a@nobody"))
+
+    def test_a_recording_that_names_no_joints_is_refused_with_the_reason(self):
+        recording = self.recorded("capture/-/000/a")
+        old = self.write("old.json", json.dumps({key: recording[key] for key in ("tracks", "extras")}, separators=(",", ":")))
+        self.assertIn("a recording of version 1, which does not name its joints", self.refused("clip", "info", old))
+        recording["joints"][:2] = reversed(recording["joints"][:2])
+        turned = self.write("turned.json", json.dumps(recording, separators=(",", ":")))
+        self.assertIn("'joints': ", self.refused("clip", "info", turned))
+
+    def test_angles_give_the_body_back_through_their_model(self):
+        for clip, is_rigid in (("builtin:aerobic", True), (CMU, False), (f"{self.run_folder}#capture/-/000@a", False)):
+            out = self.folder / "angles.mot"
+            result = self.etude("clip", "convert", clip, out, "--overwrite")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            truth = self.joints(clip)
+            frames, limits, rows, parents = read_mot(out)
+            self.assertEqual(len(frames), len(truth))
+            worst_deg = worst_m = 0
+            for frame, body in zip(frames, truth):
+                for name, parent in parents.items():
+                    worst_m = max(worst_m, numpy.linalg.norm(frame[name] - body[name]))
+                    if parent == "ground":
+                        continue
+                    a, b = frame[name] - frame[parent], body[name] - body[parent]
+                    worst_deg = max(worst_deg, math.degrees(math.atan2(numpy.linalg.norm(numpy.cross(a, b)), a @ b)))
+            self.assertLess(worst_deg, 0.01, clip)
+            if is_rigid:
+                self.assertLess(worst_m, 1e-5)
+            for name in rows[0]:  # no whole turns from frame to frame
+                if name != "time":
+                    steps = numpy.abs(numpy.diff([row[name] for row in rows]))
+                    self.assertLess(steps.max(), 180, (clip, name))
+
+    def test_angles_have_the_signs_and_limits_of_their_names(self):
+        joints = self.joints("builtin:clap")[:1]
+        path = self.folder / "bent.csv"
+        body = joints[0]
+        # The right thigh raised forward by 60 degrees, the shank hanging: hip and knee bent by 60.
+        knee, ankle = body["right_hip"] + 0.4 * numpy.array([0, -.5, math.sqrt(.75)]), numpy.array([0, -.4, 0])
+        bent = {**body, "right_knee": knee, "right_ankle": knee + ankle, "right_foot": knee + ankle + [0, -.05, .17]}
+        with open(path, "w") as file:
+            file.write("time_s," + ",".join(f"{name}_{axis}_m" for name in body for axis in "xyz") + "\n")
+            for t in range(3):
+                file.write(f"{t / 30}," + ",".join(str(float(v)) for name in bent for v in bent[name]) + "\n")
+        out = self.folder / "bent.mot"
+        self.assertEqual(self.etude("clip", "convert", path, out).returncode, 0)
+        _, limits, rows, _ = read_mot(out)
+        self.assertEqual(limits["knee_angle_r"][0], 0)
+        self.assertGreater(limits["knee_angle_r"][1], 120)
+        self.assertEqual(limits["hip_flexion_r"], limits["hip_flexion_l"])
+        self.assertLess(limits["hip_flexion_r"][0], 0)
+        self.assertEqual(set(limits) - set(rows[0]), set())
+
+    def test_a_rate_that_is_told(self):
+        for command, said in ((("clip", "info", CMU, "--json"), None), (("bridge", CMU, "builtin:wave", "--json"), None)):
+            own, told = (json.loads(self.etude(*command, *more).stdout) for more in ((), ("--rate", 60)))
+            self.assertNotEqual(own, told, command)
+        rate = json.loads(self.etude("clip", "info", CMU, "--rate", 60, "--json").stdout)["clips"][0]["rate_hz"]
+        self.assertEqual(rate, 60)
+        own, told = (self.etude("teach", CMU, *more, "-o", self.folder / "m.yaml", "--overwrite").stderr for more in
+                     ((), ("--rate", 60)))
+        seconds = [float(re.search(r"clip, ([\d.]+) s", text)[1]) for text in (own, told)]
+        self.assertAlmostEqual(seconds[1] / seconds[0], 2, places=1)  # 120 Hz
+        scenario = self.write("t.yaml", "scenario: t\nquestion: q\ntask: transition\nclips: ['builtin:clap']\ntrials: 1\n"
+                                        "methods: [{name: cut, choice: now, join: cut}]\n")
+        frames = []
+        for i, more in enumerate(((), ("--rate", 60))):
+            self.run_suite(scenario, "--clips", CMU, "builtin:wave", *more, out=self.folder / str(i))
+            manifest = json.loads((self.folder / str(i) / "manifest.json").read_text())
+            frames.append(manifest["scenarios"][0]["loaded_clips"][0]["frames"])
+        self.assertAlmostEqual(frames[1] / frames[0], 2, places=1)
+        own, told = (len(self.joints(CMU, *more)) for more in ((), ("--file-rate", 60)))
+        self.assertAlmostEqual(told / own, 2, places=1)
+
+    def test_teach_is_told_units_of_clips_and_refuses_those_of_sensors(self):
+        moves = self.folder / "moves.yaml"
+        self.assertIn("in the unit given", self.refused("teach", CMU, "--unit", "mm", "-o", moves))
+        take = self.write("take.txt", kinect(arms(100)))
+        self.assertIn("--unit and --up are of clips", self.refused("teach", take, "--unit", "cm", "-o", moves))
+        roles = self.write("roles.yaml", "roles:\n  left_hand: RightHand\n")
+        self.assertIn("left_hand is played by", self.refused("teach", CMU, "--map", roles, "-o", moves))
+
+    def test_a_picture_of_roles_also_where_some_are_missing(self):
+        def pixels(path):  # of the two colours of roles: found by names, found by the build
+            width, height = png_size(path.read_bytes())
+            self.assertEqual(width, 1200)
+            raw = subprocess.run(["ffmpeg", "-v", "error", "-i", path, "-f", "rawvideo", "-pix_fmt", "rgb24", "-"], capture_output=True)
+            picture = numpy.frombuffer(raw.stdout, numpy.uint8).reshape(height * width, 3).astype(int)
+            return [int((abs(picture - colour).max(axis=1) < 3).sum()) for colour in ((107, 194, 204), (245, 173, 84))]
+        picture = self.folder / "roles.png"
+        self.assertEqual(self.etude("clip", "map", CMU, "--preview", picture).returncode, 0)
+        by_name, by_build = pixels(picture)
+        self.assertGreater(by_name, 1000)
+        self.assertEqual(by_build, 0)
+        odd = self.write("odd.bvh", re.sub(r"(JOINT|ROOT) (\w+)", lambda m: f"{m[1]} q{m.start()}", pathlib.Path(CMU).read_text()))
+        missing = self.folder / "missing.png"
+        result = self.etude("clip", "map", odd, "--preview", missing)
+        less_by_name, by_build = pixels(missing)
+        self.assertLess(less_by_name, by_name, result.stderr)
+        self.assertGreater(by_build, 500)
+        self.assertIn("allowed: .png", self.refused("clip", "map", CMU, "--preview", self.folder / "roles.svg"))
+
+
+if __name__ == "__main__":
+    unittest.main()
