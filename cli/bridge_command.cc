@@ -12,6 +12,7 @@
 #include "bench/tasks/transition/stage.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
+#include "cli/facts.h"
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "engine/transitions/tags_file/tags_file.h"
@@ -168,8 +169,7 @@ Result<int> BridgeCommand(const BridgeCommandOptions& options) {
   const Coverage coverage(loaded.library.tagged, loaded.match_rules, options.wait_s,
                           ProgressOf("comparisons of a clip"));
   if (options.as_json) {
-    ASSIGN_OR_RETURN(const auto json, BridgeSummaryAsJson(loaded, coverage, options.wait_s));
-    fmt::print("{}\n", json);
+    RETURN_IF_ERROR(PrintFacts("bridge", BridgeSummaryAsJson(loaded, coverage, options.wait_s)));
   } else {
     fmt::print("{}", BridgeSummaryAsText(loaded, coverage, options.wait_s));
   }
@@ -208,8 +208,7 @@ void DefineBridge(CLI::App& app, Action& action) {
           ->check(NumberWithin(0, 3600, "time in seconds"))
           ->capture_default_str());
   command->add_option("--fuzzy", options->fuzzy, "Fuzzy system: builtin:NAME or a file (default: builtin:paper)");
-  add(command->add_flag("--json", options->as_json,
-                        "The summary for programs (docs/schemas/bridge-summary.schema.json)"));
+  add(command->add_flag("--json", options->as_json, "For programs (docs/schemas/bridge-summary.schema.json)"));
   AddOverwrite(*command, options->overwrite);
   AddClipReading(*command, options->reading);
   command->footer(kBridgeExamples);

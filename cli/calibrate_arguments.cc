@@ -3,6 +3,7 @@
 
 #include "cli/arguments.h"
 #include "cli/calibrate_command.h"
+#include "cli/facts.h"
 #include "engine/cameras/dlt.h"
 
 namespace etude {
@@ -78,8 +79,10 @@ void DefineCalibrate(CLI::App& app, Action& action) {
   command->add_option("--picture", options->picture, "Draw what was found where, and how far off, too (PNG)");
   command->add_option("--beside", options->beside,
                       "Another calibration of these cameras: focal lengths, distances and residuals of both");
-  command->add_option("--print", options->print, "Write the board as a picture (PNG) to be printed, and nothing else");
+  CLI::Option* print = command->add_option("--print", options->print,
+                                           "Write the board as a picture (PNG) to be printed, and nothing else");
   AddOverwrite(*command, options->overwrite);
+  AddJson(*command, options->as_json)->excludes(print);
   command->footer(kCalibrateExamples);
   command->callback([=, &action] { action = [=] { return CalibrateCommand(*options); }; });
 }

@@ -5,10 +5,12 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "bench/files/files.h"
 #include "cli/commands.h"
+#include "cli/facts.h"
 #include "cli/output_file.h"
 #include "engine/base/angles.h"
 #include "engine/boards/board.h"
@@ -143,6 +145,30 @@ void Print(const Calibrated& rig) {
   }
 }
 
+Json FactsOf(const Calibrated& rig) {
+  Json cameras = Json::array();
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    const Camera& camera = rig.cameras[i].camera;
+    const Intrinsics& in = camera.intrinsics;
+    const Distortion& d = camera.distortion;
+    Json one = {{"camera", rig.cameras[i].name},
+                {"points", rig.points[i]},
+                {"rms_px", rig.rms_px[i]},
+                {"focal_px", {in.fx, in.fy}},
+                {"principal_px", {in.cx, in.cy}},
+                {"focal_deviation_px", nullptr},
+                {"principal_deviation_px", nullptr},
+                {"lens", {{"k1", d.k1}, {"k2", d.k2}, {"p1", d.p1}, {"p2", d.p2}, {"k3", d.k3}}},
+                {"place_m", {camera.p_WC.x, camera.p_WC.y, camera.p_WC.z}}};
+    if (const auto& deviation = rig.deviations[i]) {
+      one["focal_deviation_px"] = {deviation->fx, deviation->fy};
+      one["principal_deviation_px"] = {deviation->cx, deviation->cy};
+    }
+    cameras.push_back(std::move(one));
+  }
+  return cameras;
+}
+
 Result<void> PrintBoard(const CalibrateOptions& options) {
   RETURN_IF_ERROR(CheckOutput(options.print, options.overwrite));
   ASSIGN_OR_RETURN(const Board board, ReadCodedBoard(options.boards.front()));
@@ -174,12 +200,15 @@ Result<void> Calibrate(const CalibrateOptions& options) {
   const bool is_pairs = options.inputs.size() == 1 && (ending == ".csv" || ending == ".yaml" || ending == ".yml");
   if (is_pairs && !(options.picture + options.beside).empty())
     return Fail({}, "--picture and --beside are of boards; {} has point pairs", options.inputs.front());
+  Aside aside(options.as_json);
   ASSIGN_OR_RETURN(const Calibrated rig, is_pairs ? FromPairs(options) : CalibrateFromPictures(options));
   Print(rig);
   RETURN_IF_ERROR(WriteFileAtomically(options.output, WriteRig(rig.cameras)));
   fmt::print("\n");
   TellWritten(options.output);
-  return {};
+  aside.End();
+  if (!options.as_json) return {};
+  return PrintFacts("calibrate", {{"cameras", FactsOf(rig)}, {"output", options.output}});
 }
 
 }  // namespace

@@ -27,6 +27,7 @@ struct CalibrateOptions {
   std::string beside;           ///< another calibration of these cameras to compare with, "" = none
   std::string print;            ///< a PNG: the board itself, to be printed
   bool overwrite = false;
+  bool as_json = false;
 };
 
 /// A rig with what is told about it at the terminal.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/clips/convert.h"
+#include "bench/files/json.h"
 #include "engine/base/result.h"
 #include "engine/cameras/rig_file.h"
 #include "engine/keypoints/agreement.h"
@@ -46,6 +47,7 @@ struct CaptureCommandOptions {
   double sync_s = 0;      ///< the films' clocks may differ by this; 0: they agree
   bool overwrite = false;
   std::string command_line;  ///< what was typed
+  bool as_json = false;
 };
 
 /// One film of a session, and the camera of the rig that took it.
@@ -134,10 +136,11 @@ struct CameraPair {
 std::vector<CameraPair> PairsOf(std::size_t films);
 
 /// Captures from keypoints or marks, or from the films alone: then the motion of the only person who moves in them, by
-/// outlines. Compares it with `reference`, if there is one. False when it was interrupted.
+/// outlines. Compares it with `reference`, if there is one, and adds what was found to `facts`. False when it was
+/// interrupted.
 Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, FilmedSession session,
-                              const std::optional<MarkerMotion>& reference);
+                              const std::optional<MarkerMotion>& reference, Json& facts);
 Result<bool> CaptureUnmarked(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
-                             const std::optional<MarkerMotion>& reference);
+                             const std::optional<MarkerMotion>& reference, Json& facts);
 
 }  // namespace etude

@@ -3,12 +3,14 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "bench/files/files.h"
 #include "cli/capture.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
+#include "cli/facts.h"
 #include "cli/output_file.h"
 #include "engine/formats/trc.h"
 #include "engine/keypoints/people.h"
@@ -53,6 +55,7 @@ constexpr const char* kCaptureExamples =
     "  etude capture --rig rig.yaml cam1.mp4 cam2.mp4 --silhouettes --stature 1.8 -o motion.bvh --report page.html";
 
 Result<int> CaptureCommand(const CaptureCommandOptions& options) {
+  Aside aside(options.as_json);
   for (const std::string* path :
        {&options.output, &options.points, &options.film, &options.report, &options.distances}) {
     if (!path->empty()) RETURN_IF_ERROR(CheckOutput(*path, options.overwrite));
@@ -75,6 +78,12 @@ Result<int> CaptureCommand(const CaptureCommandOptions& options) {
                facts.rate_hz);
     reference = AtRate(std::move(*reference), facts.rate_hz);
   }
+  Json seen = Json::array();
+  for (const FilmedView& view : session.views) {
+    seen.push_back({{"film", view.path.string()}, {"camera", view.camera.name}});
+  }
+  Json told = {{"films", std::move(seen)}, {"frames", facts.frames}, {"rate_hz", facts.rate_hz},
+               {"keypoints", nullptr},     {"silhouettes", nullptr}, {"output", options.output}};
   bool is_whole = false;
   if (options.silhouettes) {
     const auto place = PlaceRig(session.rig, options.place);
@@ -85,11 +94,14 @@ Result<int> CaptureCommand(const CaptureCommandOptions& options) {
       }
       view.camera.camera = Placed(*place, view.camera.camera);
     }
-    ASSIGN_OR_RETURN(is_whole, CaptureUnmarked(options, session.views, reference));
+    ASSIGN_OR_RETURN(is_whole, CaptureUnmarked(options, session.views, reference, told));
   } else {
-    ASSIGN_OR_RETURN(is_whole, CaptureKeypoints(options, std::move(session), reference));
+    ASSIGN_OR_RETURN(is_whole, CaptureKeypoints(options, std::move(session), reference, told));
   }
-  return is_whole ? kSuccess : TellStopped({{options.film}, "stopped; there is no film"});
+  if (!is_whole) return TellStopped({{options.film}, "stopped; there is no film"});
+  aside.End();
+  if (options.as_json) RETURN_IF_ERROR(PrintFacts("capture", std::move(told)));
+  return kSuccess;
 }
 
 }  // namespace
@@ -169,6 +181,7 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
       ->check(NumberWithin(0, 60, "time in s"))
       ->capture_default_str();
   AddOverwrite(*command, options->overwrite, "Replace files that are there");
+  AddJson(*command, options->as_json);
   command->footer(kCaptureExamples);
   command->callback([=, &action] { action = [=] { return Finish(CaptureCommand(*options)); }; });
 }

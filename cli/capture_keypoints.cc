@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "bench/files/files.h"
@@ -68,6 +69,36 @@ void PrintReport(const RecoveredPerson& person, const std::vector<FilmedView>& v
       kCmPerMetre * l.forearm, kCmPerMetre * l.hip_width, kCmPerMetre * l.shoulder_width);
   const auto held = std::ranges::count(person.is_held, true);
   if (held > 0) fmt::print("{} frames show too little and hold the last pose\n", held);
+}
+
+/// What was found out of keypoints, for programs.
+Json FactsOf(const RecoveredPerson& person, const std::vector<FilmedView>& views,
+             const std::vector<std::string>& told) {
+  Json cameras = Json::array(), fit = Json::array();
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    cameras.push_back({{"camera", views[i].camera.name}, {"left_out_share", person.report.rejected[i]}});
+  }
+  const MarkerMotion points = JointMarkers(person.landmarks, person.motion.rate_hz);
+  for (const MarkerAgreement& row : CompareMarkers(JointMarkers(person.motion), points)) {
+    if (row.frames > 0) fit.push_back({{"joint", row.name}, {"median_mm", row.median_mm}, {"p95_mm", row.p95_mm}});
+  }
+  const LimbLengths& l = person.body.lengths;
+  return {{"people", std::ranges::count_if(person.people, [](const auto& one) { return one.cameras >= 2; })},
+          {"found_share", person.report.found},
+          {"residual_px", person.report.residual_px},
+          {"outlier_px", person.outlier_px},
+          {"held_frames", std::ranges::count(person.is_held, true)},
+          {"cameras", std::move(cameras)},
+          {"lengths_m",
+           {{"shank", l.shank},
+            {"thigh", l.thigh},
+            {"trunk", l.trunk},
+            {"upper_arm", l.upper_arm},
+            {"forearm", l.forearm},
+            {"hips", l.hip_width},
+            {"shoulders", l.shoulder_width}}},
+          {"fit", std::move(fit)},
+          {"told", told}};
 }
 
 /// Prints how far the joints of the written motion are from the points that they were fitted to.
@@ -138,7 +169,7 @@ std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const 
 }
 
 Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, FilmedSession session,
-                              const std::optional<MarkerMotion>& reference) {
+                              const std::optional<MarkerMotion>& reference, Json& facts) {
   std::vector<FilmedView>& views = session.views;
   const RecoverPersonOptions recover = RecoverOptionsOf(options, views);
   ASSIGN_OR_RETURN(SeenFilms films, SeeFilms(options, recover, views));
@@ -162,6 +193,7 @@ Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, FilmedSessio
   TellMends(person, views, films.told);
   PrintReport(person, views);
   PrintFit(person);
+  facts["keypoints"] = FactsOf(person, views, films.told);
   RETURN_IF_ERROR(WriteMotion(options.output, person.clip, person.motion));
   if (!options.points.empty()) {
     const std::string name = fs::path(options.output).stem().string();

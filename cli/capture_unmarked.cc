@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "bench/keypoints/read_people.h"
@@ -187,11 +188,12 @@ Result<bool> WriteUnmarkedReport(const CaptureCommandOptions& options, const std
 }  // namespace
 
 Result<bool> CaptureUnmarked(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
-                             const std::optional<MarkerMotion>& reference) {
+                             const std::optional<MarkerMotion>& reference, Json& facts) {
   if (!options.points.empty()) return Fail({}, "--points: silhouettes have no keypoints to write");
   ASSIGN_OR_RETURN(const ReducedTake take, ReadTake(options, views));
   ASSIGN_OR_RETURN(const UnmarkedMotion person, Recover(take, options, views.front().facts.rate_hz));
   const std::vector<std::string> told = TellUnmarked(options, views, person);
+  facts["silhouettes"] = {{"stature_m", person.stature_m}, {"cost", person.cost}, {"held_frames", person.held}};
   RETURN_IF_ERROR(WriteMotion(options.output, person.clip, person.motion));
   if (!options.film.empty()) {
     ASSIGN_OR_RETURN(const bool is_whole,

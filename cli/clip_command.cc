@@ -51,10 +51,7 @@ Result<int> ClipInfoCommand(const ClipInfoOptions& options) {
       all.push_back(std::move(facts));
     }
   }
-  if (options.as_json) {
-    ASSIGN_OR_RETURN(const auto json, FactsAsJson(all));
-    fmt::print("{}\n", json);
-  }
+  if (options.as_json) RETURN_IF_ERROR(PrintFacts("clip info", FactsAsJson(all)));
   int code = kSuccess;
   for (const ClipFacts& facts : all) {
     if (facts.complaint) code = Complain(*facts.complaint);

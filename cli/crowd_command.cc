@@ -6,6 +6,7 @@
 #include <ctime>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -13,6 +14,7 @@
 #include "bench/films/encoder.h"
 #include "bench/tasks/tracking/crowd.h"
 #include "cli/commands.h"
+#include "cli/facts.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
 #include "engine/kinematics/tree_to_body.h"
@@ -27,7 +29,7 @@ struct CrowdCommandOptions {
   int steps = 100;  ///< a frame, at most: who is lost begins anew with so many
   bool in_float = false;
   std::string output;  ///< a film, "" = only told
-  bool overwrite = false;
+  bool overwrite = false, as_json = false;
 };
 
 constexpr int kWidth = 1280, kHeight = 720;
@@ -79,7 +81,8 @@ struct Timings {
   std::vector<double> times_ms;  ///< of each frame
 };
 
-void Tell(const CrowdCommandOptions& options, Timings timings) {
+/// Prints what the crowd took, and gives the same for programs.
+Json Tell(const CrowdCommandOptions& options, Timings timings) {
   const double count = static_cast<double>(options.crowd.characters) * options.crowd.frames;
   fmt::print("{} characters, {} frames at {:g} Hz, gauss-newton in batches of {}\n", options.crowd.characters,
              options.crowd.frames, options.crowd.rate_hz, options.in_float ? "floats" : "doubles");
@@ -94,10 +97,19 @@ void Tell(const CrowdCommandOptions& options, Timings timings) {
       "ms of one core a frame, of {:.1f} that there are: median {:.2f}, p99 {:.2f}, largest {:.2f}; the standing "
       "start {:.2f}\n",
       1000 / options.crowd.rate_hz, at(0.5), at(0.99), timings.times_ms.back(), first);
+  return {{"characters", options.crowd.characters},
+          {"frames", options.crowd.frames},
+          {"rate_hz", options.crowd.rate_hz},
+          {"met_share", static_cast<double>(timings.met) / count},
+          {"steps", static_cast<double>(timings.steps) / count},
+          {"start_ms", first},
+          {"median_ms", at(0.5)},
+          {"p99_ms", at(0.99)},
+          {"largest_ms", timings.times_ms.back()}};
 }
 
-/// Follows the crowd frame by frame. False when Ctrl-C came.
-Result<bool> FollowCrowd(const CrowdCommandOptions& options) {
+/// Follows the crowd frame by frame, and tells of it. Null when Ctrl-C came.
+Result<Json> FollowCrowd(const CrowdCommandOptions& options) {
   ASSIGN_OR_RETURN(const auto worlds, MakeCrowd(options.crowd));
   std::optional<CrowdFilm> film;
   if (!options.output.empty()) {
@@ -110,7 +122,7 @@ Result<bool> FollowCrowd(const CrowdCommandOptions& options) {
   IkOptions ik;
   ik.max_iterations = options.steps;
   for (int frame = 0; frame < options.crowd.frames; ++frame) {
-    if (*interrupt.requested()) return false;
+    if (*interrupt.requested()) return Json();
     const double begin = ProcessorTimeMs();
     const auto [met, steps] = crowd.FollowNext(ik, options.in_float ? Precision::kFloat : Precision::kDouble);
     timings.times_ms.push_back(ProcessorTimeMs() - begin);
@@ -119,8 +131,7 @@ Result<bool> FollowCrowd(const CrowdCommandOptions& options) {
     if (film) RETURN_IF_ERROR(film->Add(frame, worlds[0].tree, crowd, met));
   }
   if (film) RETURN_IF_ERROR(film->Finish());
-  Tell(options, std::move(timings));
-  return true;
+  return Tell(options, std::move(timings));
 }
 
 Result<int> CrowdCommand(const CrowdCommandOptions& given) {
@@ -136,9 +147,12 @@ Result<int> CrowdCommand(const CrowdCommandOptions& given) {
     }
     RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
   }
-  ASSIGN_OR_RETURN(const bool is_whole, FollowCrowd(options));
-  if (!is_whole) return TellStopped();
+  Aside aside(options.as_json);
+  ASSIGN_OR_RETURN(Json facts, FollowCrowd(options));
+  if (facts.is_null()) return TellStopped();
   if (!options.output.empty()) TellWritten(options.output);
+  aside.End();
+  if (options.as_json) RETURN_IF_ERROR(PrintFacts("crowd", std::move(facts)));
   return kSuccess;
 }
 
@@ -163,6 +177,7 @@ void DefineCrowd(CLI::App& app, Action& action) {
   command->add_flag("--float", options->in_float, "Batches of floats, not of doubles");
   command->add_option("-o,--output", options->output, "A film of the crowd (.mp4)");
   AddOverwrite(*command, options->overwrite);
+  AddJson(*command, options->as_json);
   command->callback([=, &action] { action = [=] { return Finish(CrowdCommand(*options)); }; });
 }
 

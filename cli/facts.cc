@@ -1,8 +1,10 @@
 #include "cli/facts.h"
 
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 namespace etude {
@@ -17,6 +19,21 @@ Result<void> PrintFacts(const std::string& command, Json facts) {
   ASSIGN_OR_RETURN(const auto text, WriteJson(all));
   fmt::print("{}\n", text);
   return {};
+}
+
+Aside::Aside(bool is_active) {
+  if (!is_active) return;
+  std::fflush(stdout);
+  output_ = ::dup(STDOUT_FILENO);
+  ::dup2(STDERR_FILENO, STDOUT_FILENO);
+}
+
+void Aside::End() {
+  if (output_ < 0) return;
+  std::fflush(stdout);
+  ::dup2(output_, STDOUT_FILENO);
+  ::close(output_);
+  output_ = -1;
 }
 
 Json FactsOf(const SnapshotComparison& comparison) {

@@ -7,6 +7,7 @@
 #include "bench/metrics/catalogue.h"
 #include "bench/metrics/export.h"
 #include "bench/recordings/task_extras.h"
+#include "bench/run/costs.h"
 #include "bench/run/shipped.h"
 #include "bench/run/suite.h"
 #include "bench/scenario/keys.h"
@@ -56,19 +57,19 @@ Result<Json> ClipsAsJson() {
   for (const std::string& name : BuiltinMoveNames()) {
     ASSIGN_OR_RETURN(const auto move, LoadBuiltinMove(name));
     moves.push_back({{"clip", "builtin:" + name},
-                     {"seconds", move.motion.DurationSeconds()},
+                     {"duration_s", move.motion.DurationSeconds()},
                      {"beats", move.beats},
                      {"tempo_bpm", move.tempo_bpm},
                      {"key_poses", move.key_poses.size()}});
   }
   for (const std::string& name : BuiltinActNames()) {
     ASSIGN_OR_RETURN(const auto act, LoadBuiltinMove(name));
-    acts.push_back({{"clip", "builtin:" + name}, {"seconds", act.motion.DurationSeconds()}});
+    acts.push_back({{"clip", "builtin:" + name}, {"duration_s", act.motion.DurationSeconds()}});
   }
   for (const std::string& name : BuiltinSongNames()) {
     ASSIGN_OR_RETURN(const auto song, LoadBuiltinSongOutline(name));
     songs.push_back({{"clip", "builtin:" + name},
-                     {"seconds", static_cast<double>(song.CountFrames()) / kJudgedRateHz},
+                     {"duration_s", static_cast<double>(song.CountFrames()) / kJudgedRateHz},
                      {"tempo_bpm", song.tempo_bpm}});
   }
   return Json{{"moves", std::move(moves)}, {"acts", std::move(acts)}, {"songs", std::move(songs)}};
@@ -115,7 +116,8 @@ Result<Json> ScenariosAsJson(const std::string& folder) {
                       {"question", scenario.question},
                       {"trials", scenario.trials},
                       {"conditions", scenario.conditions.size()},
-                      {"methods", MethodNames(scenario)}});
+                      {"methods", MethodNames(scenario)},
+                      {"work", WorkOf(scenario)}});
     }
   }
   return Json{{"scenarios", std::move(list)}};
@@ -133,7 +135,7 @@ Result<int> ListShippedScenarios() {
     }
   }
   fmt::print(
-      "\nSuites: quick (a minute), paper (what the papers claim), full (hours each). etude run quick; "
+      "\nSuites: quick (a minute), paper (what the papers claim), full (minutes to an hour each). etude run quick; "
       "etude scenario copy full/ik_weights .\n");
   return kSuccess;
 }
@@ -219,9 +221,10 @@ int PrintTable() {
   return kSuccess;
 }
 
-int ListMetricsCommand(MetricsFormat format) {
+Result<int> ListMetricsCommand(MetricsFormat format) {
   if (format == MetricsFormat::kTable) return PrintTable();
-  fmt::print("{}", format == MetricsFormat::kJson ? MetricsJson() + "\n" : MetricsPage());
+  if (format == MetricsFormat::kJson) RETURN_IF_ERROR(PrintFacts("list metrics", MetricsJson()));
+  fmt::print("{}", MetricsPage());
   return kSuccess;
 }
 
@@ -243,13 +246,14 @@ void DefineList(CLI::App& app, Action& action) {
        Listing::kRecordings);
   auto json = std::make_shared<bool>(false), markdown = std::make_shared<bool>(false);
   CLI::App* metrics = command->add_subcommand("metrics", "Metrics with their definitions");
-  CLI::Option* as_json = metrics->add_flag("--json", *json, "Everything, with the test vectors, for other programs");
+  CLI::Option* as_json =
+      metrics->add_flag("--json", *json, "For programs, with the test vectors (docs/schemas/metrics.schema.json)");
   metrics->add_flag("--markdown", *markdown, "The page docs/reference/metrics.md")->excludes(as_json);
   metrics->callback([=, &action] {
     const MetricsFormat format = *json       ? MetricsFormat::kJson
                                  : *markdown ? MetricsFormat::kMarkdown
                                              : MetricsFormat::kTable;
-    action = [=] { return ListMetricsCommand(format); };
+    action = [=] { return Finish(ListMetricsCommand(format)); };
   });
   auto as_page = std::make_shared<bool>(false), as_schema = std::make_shared<bool>(false);
   CLI::App* keys = command->add_subcommand("keys", "Every key of a scenario file");

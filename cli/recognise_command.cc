@@ -11,6 +11,7 @@
 #include "bench/files/files.h"
 #include "bench/streams/label_scores.h"
 #include "cli/commands.h"
+#include "cli/facts.h"
 #include "cli/stream_reading.h"
 #include "engine/base/named.h"
 #include "engine/base/names.h"
@@ -135,7 +136,7 @@ std::string Percent(const std::optional<double>& share) {
   return share ? fmt::format("{:.1f} %", 100 * *share) : std::string("none");
 }
 
-void Print(const LabelScores& scores, bool as_json) {
+Result<void> Print(const LabelScores& scores, bool as_json) {
   const std::vector<JudgedEvent>& performances = scores.Performances();
   const Confusion confusion = CountConfusion(performances);
   if (scores.Untaught() > 0) fmt::print(stderr, "{} labels of moves that were not taught\n", scores.Untaught());
@@ -149,7 +150,7 @@ void Print(const LabelScores& scores, bool as_json) {
                Percent(scores.PointFScore()), 1000 * kActionPointTolerance);
   }
   fmt::print(stderr, "{:.2f} false alarms a minute\n", scores.FalseAlarmsAMinute());
-  if (as_json) fmt::print("{}\n", ScoresLine(scores));
+  return as_json ? PrintFacts("recognise", FactsOf(scores)) : Result<void>();
 }
 
 Result<LoadedStreams> Load(const RecogniseCommandOptions& options) {
@@ -187,7 +188,7 @@ Result<int> RecogniseFiles(const RecogniseCommandOptions& options, const Taught&
     std::ranges::copy_if(parts, std::back_inserter(own), [&](const LabelledPart& p) { return p.stream == s; });
     scores.Add(stream, own, spottings);
   }
-  if (!options.labels.empty()) Print(scores, options.as_json);
+  if (!options.labels.empty()) RETURN_IF_ERROR(Print(scores, options.as_json));
   return kSuccess;
 }
 
@@ -212,6 +213,7 @@ Result<int> RecogniseLeavingOneOut(const RecogniseCommandOptions& options, const
   ASSIGN_OR_RETURN(
       const LeaveOneOut out,
       LeaveOnePersonOut(loaded.streams, parts, options.labels.empty() ? "the recordings" : options.labels, watch));
+  Aside people(options.as_json);
   fmt::print("{} people, {} recordings\n", out.people.size(), loaded.streams.size());
   const auto accuracy = Accuracy(out.verdicts), nearest = Accuracy(out.nearest);
   const auto f_score = MeanFScore(out.points, out.detections, kActionPointTolerance);
@@ -225,7 +227,8 @@ Result<int> RecogniseLeavingOneOut(const RecogniseCommandOptions& options, const
     fmt::print("F-score of {} action points within {:.0f} ms, mean of the moves: {}\n", out.points.size(),
                1000 * kActionPointTolerance, Percent(f_score));
   }
-  if (options.as_json) fmt::print("{}\n", ScoresLine(out));
+  people.End();
+  if (options.as_json) RETURN_IF_ERROR(PrintFacts("recognise", FactsOf(out)));
   return kSuccess;
 }
 
@@ -268,7 +271,8 @@ void DefineRecognise(CLI::App& app, Action& action) {
       ->check(NumberWithin(0.001, 1, "threshold"));
   command->add_option("--set", options->settings, "A setting of the recogniser: tolerance_scale=1.2")
       ->allow_extra_args(false);
-  command->add_flag("--json", options->as_json, "Scores as JSON, too")->needs(labels);
+  command->add_flag("--json", options->as_json, "Scores for programs, too (docs/schemas/facts.schema.json)")
+      ->needs(labels);
   AddStreamReading(*command, options->reading);
   command->footer(kRecogniseExamples);
   command->callback([=, &action] { action = [=] { return Finish(RecogniseCommand(*options)); }; });

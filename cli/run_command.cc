@@ -193,9 +193,10 @@ std::string CountOf(std::size_t count, std::string_view what) {
 }
 
 void Print(const ScenarioForecast& one) {
-  fmt::print("{} ({}): {} × {} × {} = {} cells, {:.2g} s a world\n", one.name, one.task,
+  fmt::print("{} ({}): {} × {} × {} = {} cells, {:.2g} s a world{}\n", one.name, one.task,
              CountOf(one.conditions, "condition"), CountOf(one.worlds, "world"), CountOf(one.methods, "method"),
-             one.conditions * one.worlds * one.methods, one.seconds_per_world);
+             one.conditions * one.worlds * one.methods, one.seconds_per_world,
+             one.is_kept ? "" : ", measured on first ones");
   if (one.comparisons == 0) return;
   const int worlds = static_cast<int>(one.worlds);
   const std::string among = one.comparisons == 1 ? "1 comparison" : fmt::format("{} comparisons", one.comparisons);
@@ -227,9 +228,14 @@ Json FactsOf(const Forecast& forecast) {
                          {"methods", one.methods},
                          {"comparisons", one.comparisons},
                          {"units", one.units},
-                         {"seconds_per_world", one.seconds_per_world}});
+                         {"work", one.work},
+                         {"kept", one.is_kept},
+                         {"world_s", one.seconds_per_world}});
   }
-  return {{"seconds", forecast.seconds}, {"workers", forecast.workers}, {"scenarios", std::move(scenarios)}};
+  return {{"run_s", forecast.seconds},
+          {"workers", forecast.workers},
+          {"yardstick_ms", forecast.pace.yardstick_ms},
+          {"scenarios", std::move(scenarios)}};
 }
 
 int DryRunCommand(const RunOptions& options, bool as_json) {

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "bench/sensor_fit/fit.h"
 #include "bench/sensor_fit/statistics.h"
 #include "cli/commands.h"
+#include "cli/facts.h"
 #include "cli/output_file.h"
 #include "sim/skeleton_sensor/options.h"
 
@@ -65,16 +67,33 @@ Result<SkeletonSensorOptions> LoadSensor(const std::string& reference) {
   return ReadSensorFile(text, reference);
 }
 
-std::string DescribeRecording(const JointRecording& recording) {
+double MissingShare(const JointRecording& recording) {
   std::size_t missing = 0;
   for (const RolePlaces& frame : recording.frames) {
     for (const auto& place : frame) missing += !place.has_value();
   }
   const double all = static_cast<double>(recording.frames.size() * kRoleCount);
-  return fmt::format("{} frames at {:g} Hz, {:.1f} s; {:.1f} % of the joints missing", recording.frames.size(),
-                     recording.rate_hz, recording.DurationSeconds(),
-                     all > 0 ? 100 * static_cast<double>(missing) / all : 0);
+  return all > 0 ? static_cast<double>(missing) / all : 0;
 }
+
+std::string DescribeRecording(const JointRecording& recording) {
+  return fmt::format("{} frames at {:g} Hz, {:.1f} s; {:.1f} % of the joints missing", recording.frames.size(),
+                     recording.rate_hz, recording.DurationSeconds(), 100 * MissingShare(recording));
+}
+
+Json FactsOf(const std::string& file, const JointRecording& recording) {
+  return {{"recording", file},
+          {"frames", recording.frames.size()},
+          {"rate_hz", recording.rate_hz},
+          {"duration_s", recording.DurationSeconds()},
+          {"missing_share", MissingShare(recording)}};
+}
+
+Json FactsOf(const RealRecording& real) {
+  return {{"begins_s", -real.match.alignment.shift_s}, {"rms_m", real.match.alignment.rms_m}};
+}
+
+Json FactsOf(const Agreement& agreement) { return {{"within", agreement.within}, {"compared", agreement.compared}}; }
 
 std::string DescribeMatch(const RealRecording& real) {
   const TwinAlignment& alignment = real.match.alignment;
@@ -88,27 +107,41 @@ struct SensorStatsOptions {
   SensorReading reading;
   std::string simulate;  ///< v1, v2 or a sensor file; "" = no simulated column
   int worlds = 64;
+  bool as_json = false;
 };
 
 using Columns = std::vector<std::pair<std::string, SensorStatistics>>;
+
+Json FactsOf(const Columns& columns) {
+  Json all = Json::array();
+  for (const auto& [name, statistics] : columns) {
+    Json rows = Json::array();
+    for (const StatisticRow& row : RowsOf(statistics)) {
+      rows.push_back({{"statistic", row.name}, {"unit", row.unit}, {"value", row.value ? Json(*row.value) : Json()}});
+    }
+    all.push_back({{"column", name}, {"statistics", std::move(rows)}});
+  }
+  return all;
+}
 
 std::string ShortName(const std::string& path, std::size_t longest) {
   return std::filesystem::path(path).stem().string().substr(0, longest);
 }
 
-/// Computes the statistics of recordings by themselves, a column each.
-Result<Columns> PlainColumns(const SensorStatsOptions& options) {
+/// Computes the statistics of recordings by themselves, a column each; adds what they are to `facts`.
+Result<Columns> PlainColumns(const SensorStatsOptions& options, Json& facts) {
   Columns columns;
   for (const std::string& file : options.files) {
     ASSIGN_OR_RETURN(const auto recording, LoadJointRecording(file, options.reading));
     fmt::print("{}: {}\n", file, DescribeRecording(recording));
+    facts["recordings"].push_back(FactsOf(file, recording));
     columns.emplace_back(ShortName(file, 12), StatisticsOf(recording, nullptr));
   }
   return columns;
 }
 
 /// Computes those of a recording against its reference, and of the simulated sensor on the reference's motion.
-Result<Columns> ComparedColumns(const SensorStatsOptions& options) {
+Result<Columns> ComparedColumns(const SensorStatsOptions& options, Json& facts) {
   const std::string& file = options.files.front();
   if (options.files.size() > 1) {
     return Fail({"--reference", 0, 0}, "goes with one recording, found {}", options.files.size());
@@ -116,6 +149,8 @@ Result<Columns> ComparedColumns(const SensorStatsOptions& options) {
   ASSIGN_OR_RETURN(const auto real, LoadRealRecording(file, options.reading));
   fmt::print("{}: {}\n", file, DescribeRecording(real.recording));
   fmt::print("{}: {}\n", options.reading.reference, DescribeMatch(real));
+  facts["recordings"].push_back(FactsOf(file, real.recording));
+  facts["match"] = FactsOf(real);
   Columns columns = {{"real", StatisticsOf(real)}};
   if (options.simulate.empty()) return columns;
   ASSIGN_OR_RETURN(const auto sensor, LoadSensor(options.simulate));
@@ -132,10 +167,20 @@ Result<int> SensorStatsCommand(const SensorStatsOptions& options) {
   if (!compares && !options.simulate.empty()) {
     return Fail({"--simulate"}, "needs --reference: the simulated sensor sees the reference's motion");
   }
-  ASSIGN_OR_RETURN(const auto columns, compares ? ComparedColumns(options) : PlainColumns(options));
+  Aside aside(options.as_json);
+  Json facts = {{"recordings", Json::array()}, {"match", nullptr}};
+  ASSIGN_OR_RETURN(const auto columns, compares ? ComparedColumns(options, facts) : PlainColumns(options, facts));
+  const bool has_simulated = columns.size() >= 2 && compares;
+  const Agreement agreement = has_simulated ? AgreementOf(columns.front().second, columns[1].second) : Agreement{};
+  if (options.as_json) {
+    aside.End();
+    facts["columns"] = FactsOf(columns);
+    facts["agreement"] = has_simulated ? FactsOf(agreement) : Json();
+    RETURN_IF_ERROR(PrintFacts("sensor stats", std::move(facts)));
+    return kSuccess;
+  }
   fmt::print("\n{}", StatisticsTable(columns, compares));
-  if (columns.size() < 2 || !compares) return kSuccess;
-  const Agreement agreement = AgreementOf(columns.front().second, columns[1].second);
+  if (!has_simulated) return kSuccess;
   fmt::print("\n{} of {} within {:.0f} % (correlations: {:.2f}); ! marks the others\n", agreement.within,
              agreement.compared, 100 * kSizeTolerance, kCorrelationTolerance);
   return kSuccess;
@@ -151,6 +196,7 @@ void DefineStats(CLI::App& sensor, Action& action) {
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   AddSensorReading(*command, options->reading);
+  AddJson(*command, options->as_json);
   command->callback([=, &action] { action = [=] { return Finish(SensorStatsCommand(*options)); }; });
 }
 
@@ -160,12 +206,13 @@ struct SensorFitCommandOptions {
   std::string base = "v2";  ///< a preset or file for what is not fitted
   int worlds = 96;
   int steps = 10;
-  bool overwrite = false;
+  bool overwrite = false, as_json = false;
 };
 
 constexpr int kCheckWorlds = 64;
 
-void PrintComparison(const char* title, const char* real_name, const RealRecording& real,
+/// Prints a table of a sensor beside a recording, and gives the same as an entry of `checks`.
+Json PrintComparison(const char* title, const char* real_name, const RealRecording& real,
                      const SkeletonSensorOptions& sensor) {
   // Dice that the fit never saw.
   const WorldKey worlds{.suite_seed = 1, .scenario = "sensor-check", .trial = 0};
@@ -175,10 +222,13 @@ void PrintComparison(const char* title, const char* real_name, const RealRecordi
   fmt::print("\n{}\n{}", title, StatisticsTable({{real_name, measured}, {"simulated", simulated}}, true));
   fmt::print("{} of {} within {:.0f} % (correlations: {:.2f})\n", agreement.within, agreement.compared,
              100 * kSizeTolerance, kCorrelationTolerance);
+  Json check = FactsOf(agreement);
+  check["of"] = real_name;
+  return check;
 }
 
 /// Fits each half and compares it with the other; prints only a remark when a half is too short.
-void PrintHalves(const RealRecording& real, const SensorFitOptions& options) {
+void PrintHalves(const RealRecording& real, const SensorFitOptions& options, Json& checks) {
   const std::size_t frames = real.recording.frames.size();
   const auto first = MakeRealRecording(Excerpt(real.recording, 0, frames / 2), real.twin);
   const auto second = MakeRealRecording(Excerpt(real.recording, frames / 2, frames), real.twin);
@@ -188,13 +238,14 @@ void PrintHalves(const RealRecording& real, const SensorFitOptions& options) {
   }
   fmt::print("\nHow the halves of the recording differ:\n{}",
              StatisticsTable({{"first half", StatisticsOf(*first)}, {"second half", StatisticsOf(*second)}}, true));
-  PrintComparison("Fitted to the first half, compared on the second:", "second half", *second,
-                  FitSensor(*first, options));
-  PrintComparison("Fitted to the second half, compared on the first:", "first half", *first,
-                  FitSensor(*second, options));
+  checks.push_back(PrintComparison("Fitted to the first half, compared on the second:", "second half", *second,
+                                   FitSensor(*first, options)));
+  checks.push_back(PrintComparison("Fitted to the second half, compared on the first:", "first half", *first,
+                                   FitSensor(*second, options)));
 }
 
 Result<int> SensorFitCommand(const SensorFitCommandOptions& options) {
+  Aside aside(options.as_json);
   RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
   ASSIGN_OR_RETURN(const auto base, LoadSensor(options.base));
   ASSIGN_OR_RETURN(const auto real, LoadRealRecording(options.file, options.reading));
@@ -208,10 +259,17 @@ Result<int> SensorFitCommand(const SensorFitCommandOptions& options) {
                                        real.recording.DurationSeconds(), real.recording.frames.size()) +
                            WriteSensorFile(sensor, preset);
   RETURN_IF_ERROR(WriteFileAtomically(options.output, text));
-  PrintComparison("Fitted to all of it, compared with other dice:", "real", real, sensor);
-  PrintHalves(real, fit);
+  Json checks = Json::array();
+  checks.push_back(PrintComparison("Fitted to all of it, compared with other dice:", "real", real, sensor));
+  PrintHalves(real, fit, checks);
   fmt::print("\n");
   TellWritten(options.output);
+  aside.End();
+  if (!options.as_json) return kSuccess;
+  RETURN_IF_ERROR(PrintFacts("sensor fit", {{"recordings", Json::array({FactsOf(options.file, real.recording)})},
+                                            {"match", FactsOf(real)},
+                                            {"checks", std::move(checks)},
+                                            {"output", options.output}}));
   return kSuccess;
 }
 
@@ -232,6 +290,7 @@ void DefineFit(CLI::App& sensor, Action& action) {
       ->capture_default_str();
   AddOverwrite(*command, options->overwrite);
   AddSensorReading(*command, options->reading);
+  AddJson(*command, options->as_json);
   command->callback([=, &action] { action = [=] { return Finish(SensorFitCommand(*options)); }; });
 }
 

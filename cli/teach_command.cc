@@ -2,10 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "bench/files/files.h"
 #include "bench/streams/teach.h"
 #include "cli/commands.h"
+#include "cli/facts.h"
 #include "cli/output_file.h"
 #include "cli/stream_reading.h"
 #include "engine/base/names.h"
@@ -18,7 +20,7 @@ struct TeachCommandOptions {
   std::vector<std::string> streams;
   std::string labels;  ///< "" = one file is one move
   std::string output;
-  bool overwrite = false;
+  bool overwrite = false, as_json = false;
   StreamArguments reading;
 };
 
@@ -56,12 +58,38 @@ std::string TargetsText(const TaughtPose& pose) {
   return Join(targets);
 }
 
+Json FactsOf(const std::vector<TaughtMove>& moves) {
+  Json all = Json::array();
+  for (const TaughtMove& move : moves) {
+    Json poses = Json::array();
+    for (const TaughtPose& pose : move.poses) {
+      Json targets = Json::array();
+      for (const PoseTarget& target : pose.targets) {
+        targets.push_back({{"feature", FeatureName(target.feature)},
+                           {"angle_deg", target.degrees},
+                           {"tolerance_deg", target.tolerance_deg}});
+      }
+      poses.push_back(std::move(targets));
+    }
+    all.push_back({{"move", move.name},
+                   {"right", move.examples.size()},
+                   {"wrong", move.counter_examples.size()},
+                   {"span_s", move.span_s},
+                   {"poses", std::move(poses)}});
+  }
+  return all;
+}
+
 Result<int> TeachCommand(const TeachCommandOptions& options) {
   RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
   ASSIGN_OR_RETURN(const auto moves, Teach(options));
   const std::string text = "# Learnt by `etude teach`\n" + WriteMoves(moves);
   RETURN_IF_ERROR(ReadMoves(text, options.output));  // what cannot be read back is not written
   RETURN_IF_ERROR(WriteFileAtomically(options.output, text));
+  if (options.as_json) {
+    RETURN_IF_ERROR(PrintFacts("teach", {{"moves", FactsOf(moves)}, {"output", options.output}}));
+    return kSuccess;
+  }
   for (const TaughtMove& move : moves) {
     fmt::print("{}: {} right, {} wrong, up to {:.1f} s\n", move.name, move.examples.size(),
                move.counter_examples.size(), move.span_s);
@@ -80,6 +108,7 @@ void DefineTeach(CLI::App& app, Action& action) {
   command->add_option("--labels", options->labels, "Who did what when: a file, or a folder of tag streams");
   command->add_option("-o,--output", options->output, "The moves file to write (YAML)")->required();
   AddOverwrite(*command, options->overwrite);
+  AddJson(*command, options->as_json);
   AddStreamReading(*command, options->reading);
   command->footer(kTeachExamples);
   command->callback([=, &action] { action = [=] { return Finish(TeachCommand(*options)); }; });

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -20,6 +21,7 @@
 #include "bench/training/tuning.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
+#include "cli/facts.h"
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "engine/base/named.h"
@@ -41,7 +43,7 @@ struct TrainOptions {
   bool coached = false;          ///< learn the recogniser `coached` instead; `clips` are songs
   std::optional<int> sessions;   ///< of those people, with `recogniser` or `coached`; else as many as the built-in had
   std::string hold_out = "0.3";  ///< a share of the clips, or a pattern of their names
-  bool overwrite = false;
+  bool overwrite = false, as_json = false;
   ClipReading reading;
 };
 
@@ -149,6 +151,25 @@ std::vector<std::string> CompareSystems(const Split& split, const FuzzySystem& t
       "tuned:",   "  " + ScoreLine("learnt", split.learnt, tuned), "  " + ScoreLine("held out", split.held_out, tuned)};
 }
 
+/// Gives the same for programs; clips of which there are not two have no score.
+Json ScoresOf(const Split& split, const FuzzySystem& tuned) {
+  Json scores = Json::array();
+  for (const auto& [name, system] : {std::pair("paper", FuzzySystem()), {"tuned", tuned}}) {
+    for (const auto& [clips, frames] : {std::pair("learnt", &split.learnt), {"held out", &split.held_out}}) {
+      if (frames->size() < 2) continue;
+      const SystemScore score = ScoreSystem(*frames, system);
+      scores.push_back({{"system", name},
+                        {"clips", clips},
+                        {"f1", score.at_threshold.F1()},
+                        {"auc", score.auc ? Json(*score.auc) : Json()},
+                        {"matched", score.at_threshold.matched},
+                        {"close", score.at_threshold.close},
+                        {"close_matched", score.at_threshold.close_matched}});
+    }
+  }
+  return scores;
+}
+
 std::string HeaderOf(const TrainOptions& options, const Split& split, const TunedSystem& tuned,
                      const std::vector<std::string>& comparison) {
   std::string text = fmt::format("# Learnt by `etude train --method {}{} --seed {}`", options.method,
@@ -211,6 +232,13 @@ Result<int> TrainCommand(const TrainOptions& options) {
   const std::string text = HeaderOf(options, split, tuned, comparison) + WriteFuzzySystem(tuned.system);
   RETURN_IF_ERROR(ReadFuzzySystem(text, options.output));  // what cannot be read back is not written
   RETURN_IF_ERROR(WriteFileAtomically(options.output, text));
+  if (options.as_json) {
+    RETURN_IF_ERROR(PrintFacts("train", {{"learnt_from", split.learnt_names},
+                                         {"held_out", split.held_out_names},
+                                         {"scores", ScoresOf(split, tuned.system)},
+                                         {"output", options.output}}));
+    return kSuccess;
+  }
   fmt::print("{} clips learnt from, {} held out; how well d < 0.4 tells pairs of frames that look alike:\n",
              split.learnt.size(), split.held_out.size());
   for (const std::string& line : comparison) fmt::print("{}\n", line);
@@ -221,6 +249,7 @@ Result<int> TrainCommand(const TrainOptions& options) {
 /// A model, and what made it.
 struct Trained {
   LearntModel model;
+  std::vector<std::string> learnt_from;
   std::string header;
 };
 
@@ -238,15 +267,16 @@ Result<Trained> TrainLearnt(const TrainOptions& options) {
   }
   RecogniserTraining training{.seed = options.seed, .progress = ProgressOf("sessions")};
   training.sessions = options.sessions.value_or(training.sessions);
-  return Trained{TrainRecogniser(repertoire, training), fmt::format(kHeader, "learnt", "recogniser", training.sessions,
-                                                                    training.seed, Join(NamesOf(repertoire.taught)))};
+  return Trained{
+      TrainRecogniser(repertoire, training), NamesOf(repertoire.taught),
+      fmt::format(kHeader, "learnt", "recogniser", training.sessions, training.seed, Join(NamesOf(repertoire.taught)))};
 }
 
 Result<Trained> TrainCoachedOf(const TrainOptions& options) {
   CoachedTraining training{.seed = options.seed, .progress = ProgressOf("sessions")};
   training.sessions = options.sessions.value_or(training.sessions);
   ASSIGN_OR_RETURN(LearntModel model, TrainCoached(options.clips, training));
-  return Trained{std::move(model),
+  return Trained{std::move(model), options.clips,
                  fmt::format(kHeader, "coached", "coached", training.sessions, training.seed, Join(options.clips))};
 }
 
@@ -254,6 +284,13 @@ Result<int> TrainRecogniserCommand(const TrainOptions& options) {
   RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
   ASSIGN_OR_RETURN(const Trained trained, options.coached ? TrainCoachedOf(options) : TrainLearnt(options));
   RETURN_IF_ERROR(WriteFileAtomically(options.output, trained.header + WriteLearntModel(trained.model)));
+  if (options.as_json) {
+    RETURN_IF_ERROR(PrintFacts("train", {{"learnt_from", trained.learnt_from},
+                                         {"held_out", Json::array()},
+                                         {"scores", Json::array()},
+                                         {"output", options.output}}));
+    return kSuccess;
+  }
   TellWritten(options.output);
   return kSuccess;
 }
@@ -293,11 +330,13 @@ void DefineTrain(CLI::App& app, Action& action) {
     command->get_option(other)->excludes("--recogniser")->excludes("--coached");
   }
   AddOverwrite(*command, options->overwrite);
+  AddJson(*command, options->as_json);
   AddClipReading(*command, options->reading);
   command->footer(kTrainExamples);
   command->callback([=, &action] {
     action = [=] {
-      return Finish(options->recogniser || options->coached ? TrainRecogniserCommand(*options) : TrainCommand(*options));
+      return Finish(options->recogniser || options->coached ? TrainRecogniserCommand(*options)
+                                                            : TrainCommand(*options));
     };
   });
 }

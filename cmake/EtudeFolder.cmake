@@ -61,6 +61,22 @@ function(etude_folder)
   endforeach()
 endfunction()
 
+# etude_shared_library(<target> NAME <file> EXPORT <name>)
+#   Makes lib<file>.so of a library for other programs, etude::<name>: the current folder's symbols.map says what of it can be seen.
+function(etude_shared_library TARGET)
+  cmake_parse_arguments(ARG "" "NAME;EXPORT" "" ${ARGN})
+  target_link_options(${TARGET} PRIVATE "-Wl,--version-script=${CMAKE_CURRENT_SOURCE_DIR}/symbols.map")
+  if(NOT ETUDE_SANITIZE AND NOT ETUDE_FUZZ)  # clang leaves those symbols to the program
+    target_link_options(${TARGET} PRIVATE -Wl,-z,defs)
+  endif()
+  set_target_properties(${TARGET} PROPERTIES
+    OUTPUT_NAME ${ARG_NAME} EXPORT_NAME ${ARG_EXPORT} LINKER_LANGUAGE CXX LINK_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/symbols.map"
+    VERSION "${PROJECT_VERSION}" SOVERSION "${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}"
+    LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}")
+  target_compile_features(${TARGET} INTERFACE cxx_std_20)
+  target_include_directories(${TARGET} INTERFACE "$<INSTALL_INTERFACE:include>")
+endfunction()
+
 # etude_unity(<target>): with ETUDE_UNITY, compiles the files of a folder a dozen at a time, and after the headers that
 # ETUDE_HEADERS names: of what the compiler reads in a file, more than nine tenths are headers. Files that Highway compiles once per instruction set stay alone.
 function(etude_unity TARGET)

@@ -39,11 +39,11 @@ install(FILES "${made}/etude" DESTINATION share/bash-completion/completions)
 install(FILES "${made}/_etude" DESTINATION share/zsh/vendor-completions)
 install(FILES "${made}/etude.fish" DESTINATION share/fish/vendor_completions.d)
 
-# The library, for `find_package(Etude)`.
+# The libraries, for `find_package(Etude)`.
 set(config "${CMAKE_INSTALL_LIBDIR}/cmake/Etude")
-install(TARGETS etude_shared EXPORT EtudeTargets
+install(TARGETS etude_shared etude_sim_shared EXPORT EtudeTargets
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library NAMELINK_COMPONENT development)
-install(DIRECTORY engine/api/etude DESTINATION include COMPONENT development FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY engine/api/etude sim/api/etude DESTINATION include COMPONENT development FILES_MATCHING PATTERN "*.h")
 install(EXPORT EtudeTargets NAMESPACE etude:: DESTINATION "${config}" COMPONENT development)
 file(WRITE "${CMAKE_BINARY_DIR}/EtudeConfig.cmake"
   "include(CMakeFindDependencyMacro)\nfind_dependency(glm)\ninclude(\"\${CMAKE_CURRENT_LIST_DIR}/EtudeTargets.cmake\")\n")
@@ -68,6 +68,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libetude-dev)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libosmesa6, ffmpeg, fonts-dejavu-core, bubblewrap, assimp-testmodels")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS python3)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS libosmesa6)  # which pictures are drawn with
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libetude (= ${PROJECT_VERSION}), libglm-dev")

@@ -12,9 +12,6 @@
 namespace etude {
 namespace {
 
-constexpr const char* kFormat = "etude-metrics";
-constexpr int kVersion = 1;
-
 const char* DirectionKey(Direction direction) {
   constexpr std::array kKeys = {"lower", "higher", "neither"};
   return kKeys[static_cast<std::size_t>(direction)];
@@ -144,11 +141,11 @@ std::string Section(const MetricInfo& metric) {
 
 }  // namespace
 
-std::string MetricsJson() {
-  Json json = {{"format", kFormat}, {"version", kVersion}, {"joints", EncodeJoints()}};
+Json MetricsJson() {
+  Json json = {{"joints", EncodeJoints()}};
   Json& metrics = json["metrics"] = Json::array();
   for (const MetricInfo& metric : AllMetrics()) metrics.push_back(EncodeMetric(metric));
-  return WriteJson(json).value();  // the files' numbers are finite
+  return json;
 }
 
 std::string MetricsPage() {

@@ -9,7 +9,7 @@ namespace etude {
 
 /// The whole catalogue with its test vectors, for other implementations to prove their agreement by
 /// (docs/schemas/metrics.schema.json): one line of JSON.
-std::string MetricsJson();
+Json MetricsJson();
 
 /// docs/reference/metrics.md.
 std::string MetricsPage();

@@ -6,6 +6,7 @@
 
 #include "bench/process/clock.h"
 #include "bench/run/cell_runner.h"
+#include "bench/run/costs.h"
 #include "bench/run/suite.h"
 #include "bench/run/supervisor.h"
 #include "bench/scenario/scenario.h"
@@ -35,6 +36,11 @@ int StepOver(int conditions) {
   return step;
 }
 
+/// True if worlds are made of what the scenario's file names, and of nothing else that the command line does.
+bool IsAsShipped(const RunOptions& options) {
+  return options.clips.empty() && options.libraries.empty() && options.streams.empty() && options.from.empty();
+}
+
 /// Measures first worlds until the time is up. The first of all pays for what a worker makes once, and counts only
 /// where it is the only one.
 double MeasureSecondsPerWorld(const PreparedScenario& prepared, const Fence& fence, double until,
@@ -60,8 +66,11 @@ double MeasureSecondsPerWorld(const PreparedScenario& prepared, const Fence& fen
 Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
   ASSIGN_OR_RETURN(const auto suite, ReadSuiteToRun(options));
   ASSIGN_OR_RETURN(const auto scenarios, PrepareToRun(suite, options));
-  Forecast forecast{.scenarios = {}, .workers = WorkerCount(options.jobs)};
+  Forecast forecast{.scenarios = {}, .workers = WorkerCount(options.jobs), .pace = {}};
   ASSIGN_OR_RETURN(const Fence fence, FenceFor(scenarios, options.outside, "", options.key));
+  ASSIGN_OR_RETURN(const auto kept, ReadKeptCosts());
+  ASSIGN_OR_RETURN(forecast.pace, MeasurePace(forecast.workers));
+  const double seconds_per_yardstick = forecast.workers / forecast.pace.yardsticks_per_s;  // of one worker
   const auto start = Clock::now();
   double total = 0;
   for (std::size_t i = 0; i < scenarios.size(); ++i) {
@@ -71,12 +80,21 @@ Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
                          .worlds = static_cast<std::size_t>(scenario.trials),
                          .conditions = scenario.conditions.size(),
                          .methods = scenario.methods.size(),
+                         .work = WorkOf(scenario),
                          .unit = scenario.unit,
                          .units = CountUnitsOf(scenarios[i])};
-    const double until = sample_seconds * static_cast<double>(i + 1) / static_cast<double>(scenarios.size());
-    one.seconds_per_world = MeasureSecondsPerWorld(scenarios[i], fence, until, start);
+    const double worlds = static_cast<double>(one.worlds * one.conditions);
+    const auto cost = kept.find(one.work);
+    one.is_kept = cost != kept.end() && IsAsShipped(options);
+    if (one.is_kept) {
+      total += seconds_per_yardstick * cost->second.once;
+      one.seconds_per_world = seconds_per_yardstick * cost->second.trial / static_cast<double>(one.conditions);
+    } else {
+      const double until = sample_seconds * static_cast<double>(i + 1) / static_cast<double>(scenarios.size());
+      one.seconds_per_world = MeasureSecondsPerWorld(scenarios[i], fence, until, start);
+    }
     one.comparisons = CountComparisons(StudyOf(scenario));
-    total += one.seconds_per_world * static_cast<double>(one.worlds * one.conditions);
+    total += one.seconds_per_world * worlds;
     forecast.scenarios.push_back(std::move(one));
   }
   forecast.seconds = total / forecast.workers;

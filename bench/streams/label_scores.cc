@@ -218,7 +218,7 @@ std::string SpottingLine(const Spotting& spotting, const std::string& move, doub
   return line.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::string ScoresLine(const LabelScores& scores) {
+Json FactsOf(const LabelScores& scores) {
   const Confusion confusion = CountConfusion(scores.Performances());
   const Json told = {{"performances", scores.Performances().size()},
                      {"f1", NumberOrNull(F1(confusion))},
@@ -228,10 +228,10 @@ std::string ScoresLine(const LabelScores& scores) {
                      {"action_points", scores.Points().size()},
                      {"action_point_f", NumberOrNull(scores.PointFScore())},
                      {"false_alarms_per_min", Rounded(scores.FalseAlarmsAMinute())}};
-  return Json{{"scores", told}}.dump();
+  return {{"scores", told}};
 }
 
-std::string ScoresLine(const LeaveOneOut& out) {
+Json FactsOf(const LeaveOneOut& out) {
   const auto f_score =
       out.points.empty() ? std::nullopt : MeanFScore(out.points, out.detections, kActionPointTolerance);
   const Json told = {{"people", out.people.size()},
@@ -240,7 +240,7 @@ std::string ScoresLine(const LeaveOneOut& out) {
                      {"nearest_accuracy", NumberOrNull(Accuracy(out.nearest))},
                      {"action_points", out.points.size()},
                      {"action_point_f", NumberOrNull(f_score)}};
-  return Json{{"scores", told}}.dump();
+  return {{"scores", told}};
 }
 
 }  // namespace etude

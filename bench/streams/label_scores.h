@@ -4,6 +4,8 @@
 #include <span>
 #include <string>
 #include <vector>
+
+#include "bench/files/json.h"
 #include "bench/metrics/detection.h"
 #include "bench/streams/teach.h"
 #include "bench/streams/watch.h"
@@ -69,8 +71,8 @@ class LabelScores {
 /// stream when "" is its name.
 std::string SpottingLine(const Spotting& spotting, const std::string& move, double rate_hz, const std::string& stream);
 
-/// Returns one line of JSON: {"scores": {…}}.
-std::string ScoresLine(const LabelScores& scores);
-std::string ScoresLine(const LeaveOneOut& out);
+/// Gives {"scores": {…}} for programs (docs/schemas/facts.schema.json).
+Json FactsOf(const LabelScores& scores);
+Json FactsOf(const LeaveOneOut& out);
 
 }  // namespace etude

@@ -9,8 +9,6 @@
 #include "engine/cameras/triangulation.h"
 
 namespace etude::engine {
-namespace {
-
 Camera FromEngineCamera(std::string name, const etude::Camera& camera) {
   const Intrinsics& in = camera.intrinsics;
   const Distortion& lens = camera.distortion;
@@ -34,8 +32,6 @@ Camera FromEngineCamera(std::string name, const etude::Camera& camera) {
           .R_CW = camera.R_CW,
           .p_WC = camera.p_WC};
 }
-
-}  // namespace
 
 etude::Camera ToEngineCamera(const Camera& camera) {
   return {.intrinsics = {camera.width, camera.height, camera.fx, camera.fy, camera.cx, camera.cy, camera.skew},

@@ -5,6 +5,7 @@
 #include <etude/recognition.h>
 
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -42,6 +43,8 @@ void CheckBudget(double budget_s);
 TransitionWay WayNamed(const std::string& choice, const std::string& join);
 
 etude::Camera ToEngineCamera(const Camera& camera);
+/// Throws BadInput, naming the camera, for a lens of another model.
+Camera FromEngineCamera(std::string name, const etude::Camera& camera);
 
 /// Returns the recogniser of that name that learns by examples alone. Throws BadInput where there is none.
 const RecogniserKind& KindOfExamples(const std::string& name);

@@ -1,6 +1,7 @@
 #include <etude/coaching.h>
 #include <etude/recognition.h>
-#include <etude/simulation.h>
+#include <etude/sim/dances.h>
+#include <etude/sim/sensor.h>
 
 #include <cstdint>
 #include <optional>
@@ -110,12 +111,12 @@ py::tuple SenseAll(const Motion& motion, const std::string& sensor, double stren
   std::vector<SensedPose> sensed;
   {
     const py::gil_scoped_release free;
-    sensed = sim::Sense(motion, {.sensor = sensor,
-                                 .strength = strength,
-                                 .distance_m = distance_m,
-                                 .turn_rad = turn_rad,
-                                 .height_m = height_m,
-                                 .seed = seed});
+    sensed = sim::SenseSkeleton(motion, {.sensor = sensor,
+                                         .strength = strength,
+                                         .distance_m = distance_m,
+                                         .turn = turn_rad,
+                                         .height_m = height_m,
+                                         .seed = seed});
   }
   const auto count = static_cast<py::ssize_t>(sensed.size());
   Array places({count, static_cast<py::ssize_t>(kRoleCount), py::ssize_t{3}});
@@ -252,10 +253,10 @@ void AddStreams(py::module_& module) {
       "sense", &SenseAll, "motion"_a, "sensor"_a = sim::SensorOptions{}.sensor, "strength"_a = 1.0,
       "distance_m"_a = sim::SensorOptions{}.distance_m, "turn_rad"_a = 0.0, "height_m"_a = 1.0, "seed"_a = 1,
       "What a skeleton sensor would report of a motion: (frames x 20 x 3 metres in the world, per frame a letter "
-      "a joint as RecogniserStream.update takes them, per frame whether it saw a body). The performer is at the "
-      "origin and faces +Z. sensor: 'v1', 'v2' or the text of a sensor file (docs/sensor.md). strength: a factor "
-      "on all errors, 0 to 10. distance_m: 0.4 to 20; turn_rad: the performer is seen turned by so much; "
-      "height_m: 0 to 10. The same seed errs the same. Raises BadInput for what is out of range.");
+      "a joint as RecogniserStream.update takes them, per frame whether it saw a body). sensor: 'v1', 'v2' or "
+      "the text of a sensor file (docs/sensor.md). strength: a factor on all errors, 0 to 10. distance_m: along the "
+      "floor from the middle of where the body moves, 0.5 to 10; turn_rad: about that middle, 0 on its +Z side; "
+      "height_m: 0.1 to 3. The same seed errs the same. Raises BadInput for what is out of range.");
 }
 
 }  // namespace etude::engine

@@ -167,7 +167,7 @@ std::string BridgeSummaryAsText(const BridgeLibrary& loaded, const Coverage& cov
   return text;
 }
 
-Result<std::string> BridgeSummaryAsJson(const BridgeLibrary& loaded, const Coverage& coverage, double wait_s) {
+Json BridgeSummaryAsJson(const BridgeLibrary& loaded, const Coverage& coverage, double wait_s) {
   const std::vector<ClipSummary> clips = SummarizeAll(loaded, coverage);
   const auto or_null = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
   Json of_clips = Json::array(), pairs = Json::array(), ways = Json::array();
@@ -198,16 +198,15 @@ Result<std::string> BridgeSummaryAsJson(const BridgeLibrary& loaded, const Cover
                     {"not_from", NamesOf(coverage.WithoutWayInto(wanted), loaded.library)}});
   }
   const MotionLibrary& library = loaded.library;
-  return WriteJson({{"schema_version", 1},
-                    {"fuzzy_system", loaded.system.name},
-                    {"threshold", loaded.match_rules.threshold},
-                    {"within_class", loaded.match_rules.within_class},
-                    {"wait_s", wait_s},
-                    {"clips", of_clips},
-                    {"pairs", pairs},
-                    {"corrective", ways},
-                    {"keys", library.in_betweens.keys.size()},
-                    {"longest_in_between_s", LongestInBetween(library.in_betweens.tween, kJudgedRateHz)}});
+  return {{"fuzzy_system", loaded.system.name},
+          {"threshold", loaded.match_rules.threshold},
+          {"within_class", loaded.match_rules.within_class},
+          {"wait_s", wait_s},
+          {"clips", of_clips},
+          {"pairs", pairs},
+          {"corrective", ways},
+          {"keys", library.in_betweens.keys.size()},
+          {"longest_in_between_s", LongestInBetween(library.in_betweens.tween, kJudgedRateHz)}};
 }
 
 }  // namespace etude

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/files/json.h"
 #include "engine/base/result.h"
 #include "engine/fuzzy/fuzzy_system.h"
 #include "engine/transitions/library/library.h"
@@ -24,8 +25,8 @@ struct BridgeLibrary {
 /// than 24 clips is left to the JSON.
 std::string BridgeSummaryAsText(const BridgeLibrary& loaded, const Coverage& coverage, double wait_s);
 
-/// Writes the same as one line of JSON (docs/schemas/bridge-summary.schema.json). Shares of a clip are means over the
+/// Gives the same for programs (docs/schemas/bridge-summary.schema.json). Shares of a clip are means over the
 /// other clips; a clip that leads nowhere has no worst wait.
-Result<std::string> BridgeSummaryAsJson(const BridgeLibrary& loaded, const Coverage& coverage, double wait_s);
+Json BridgeSummaryAsJson(const BridgeLibrary& loaded, const Coverage& coverage, double wait_s);
 
 }  // namespace etude

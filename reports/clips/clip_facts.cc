@@ -226,10 +226,10 @@ ClipFacts FactsOf(const OpenedClip& clip) {
   return facts;
 }
 
-Result<std::string> FactsAsJson(const std::vector<ClipFacts>& facts) {
+Json FactsAsJson(const std::vector<ClipFacts>& facts) {
   Json clips = Json::array();
   for (const ClipFacts& clip : facts) clips.push_back(JsonOf(clip));
-  return WriteJson({{"schema_version", 2}, {"clips", std::move(clips)}});
+  return {{"clips", std::move(clips)}};
 }
 
 std::string FactsAsText(const ClipFacts& facts, const ClipFacts* before) {

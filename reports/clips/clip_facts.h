@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/clips/open_clip.h"
+#include "bench/files/json.h"
 #include "engine/base/result.h"
 #include "engine/motion/statistics.h"
 
@@ -59,6 +60,6 @@ std::string FactsAsText(const ClipFacts& facts, const ClipFacts* before = nullpt
 /// · 1 unit = 5.644 cm (CMU)".
 std::string FactsAsLine(const ClipFacts& facts);
 /// Writes the facts as one line of JSON (docs/schemas/clip-info.schema.json).
-Result<std::string> FactsAsJson(const std::vector<ClipFacts>& facts);
+Json FactsAsJson(const std::vector<ClipFacts>& facts);
 
 }  // namespace etude

@@ -127,6 +127,13 @@ class Capture(EtudeCase):
         self.assertIn("no such file", self.refusal("calibrate", "nothing.mp4", "-o", self.rig))
         self.assertFalse((self.folder / "rig.yaml").exists(), "nothing is written")
 
+    def test_tells_programs_what_was_calibrated(self):
+        told = self.facts("calibrate", self.pairs, "--size", f"{WIDTH}x{HEIGHT}", "--lens", "none", "--overwrite", "-o", self.rig)
+        middle, = [camera for camera in told["cameras"] if camera["camera"] == "middle"]
+        self.assertEqual(middle["points"], 30)
+        for found, true in zip(middle["focal_px"] + middle["place_m"], (FOCAL, FOCAL, *PLACES["middle"])):
+            self.assertAlmostEqual(found, true, places=3)
+
     def test_prints_a_board(self):
         board = self.folder / "board.png"
         result = self.etude("calibrate", "--print", board, "--board", "5x4x0.1")
@@ -147,6 +154,9 @@ class Capture(EtudeCase):
         wanted = body(7 / RATE)[9]
         for axis in range(3):
             self.assertAlmostEqual(row[3 * at + axis], wanted[axis], places=4)
+        told = self.facts("capture", *self.capture("-o", self.folder / "again.bvh")[1:])
+        self.assertEqual((told["frames"], told["keypoints"]["people"], told["silhouettes"]), (FRAMES, 1, None))
+        self.assertAlmostEqual(told["keypoints"]["lengths_m"]["forearm"], .25, places=3)
         for ending in ("glb", "trc", "csv"):
             result = self.etude(*self.capture("-o", self.folder / f"m.{ending}"))
             self.assertEqual(result.returncode, 0, result.stderr)

@@ -25,6 +25,12 @@ class Crowd(EtudeCase):
         other = self.etude("crowd", *FEW, "--seed", "2").stdout.splitlines()
         self.assertNotEqual(other[1], lines[1], "other dice, other motions")
 
+    def test_tells_programs_the_same(self):
+        told = self.facts("crowd", *FEW)
+        self.assertEqual((told["characters"], told["frames"], told["rate_hz"]), (12, 12, 60))
+        self.assertGreater(told["met_share"], .5)
+        self.assertLessEqual(told["median_ms"], told["largest_ms"])
+
     def test_the_film_has_every_second_frame_of_sixty_a_second_and_the_same_bytes_again(self):
         films = []
         for name in ("a.mp4", "b.mp4"):

@@ -1,9 +1,12 @@
 """`etude run --dry-run`: what it would take, what it could show, and nothing written."""
 
+import json
+import pathlib
 import unittest
 
 from etude_case import EtudeCase
 
+SCENARIOS = pathlib.Path(__file__).resolve().parents[2] / "scenarios"
 SCENARIO = """
 scenario: s
 question: which?
@@ -35,6 +38,31 @@ class DryRun(EtudeCase):
 
     def test_says_that_two_clips_carry_nothing(self):
         self.assertIn("no verdict: 2 clips; at least 6 are needed", self.tell(["builtin:clap", "builtin:boxing"]))
+
+    def facts(self, *arguments):
+        told = self.etude("run", *arguments, "--dry-run", "--json")
+        self.assertEqual(told.returncode, 0, told.stderr)
+        return json.loads(told.stdout)
+
+    def test_what_shipped_scenarios_cost_is_kept_and_scaled(self):
+        kept = {one["work"]: one for one in json.loads((SCENARIOS / "costs.json").read_text())["scenarios"]}
+        told = self.facts("quick/ik", "--trials", 5)
+        one, = told["scenarios"]
+        self.assertTrue(one["kept"])
+        cost = kept[one["work"]]
+        # Of a world and of all: what is kept, by one pace.
+        pace = one["world_s"] * one["conditions"] / cost["trial"]
+        self.assertAlmostEqual(told["run_s"] * told["workers"], pace * (cost["once"] + 5 * cost["trial"]), 9)
+
+    def test_what_is_changed_is_measured(self):
+        (self.folder / "ik.yaml").write_text((SCENARIOS / "quick" / "ik.yaml").read_text().replace("trials: 60", "trials: 2"))
+        self.assertTrue(self.facts(self.folder / "ik.yaml")["scenarios"][0]["kept"])
+        text = (self.folder / "ik.yaml").read_text()
+        (self.folder / "ik.yaml").write_text(text.replace("max_sweeps: 1000", "max_sweeps: 900"))
+        self.assertNotEqual((self.folder / "ik.yaml").read_text(), text)
+        told = self.facts(self.folder / "ik.yaml")["scenarios"][0]
+        self.assertFalse(told["kept"])
+        self.assertGreater(told["world_s"], 0)
 
 
 if __name__ == "__main__":

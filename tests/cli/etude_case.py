@@ -4,10 +4,14 @@ import os
 import pathlib
 import struct
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
 import zlib
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from json_schema import complaints, load_schema  # noqa: E402
 
 ETUDE = os.environ["ETUDE"]
 HEAVY = bool(os.environ.get("ETUDE_HEAVY"))  # scripts/test --full
@@ -66,6 +70,18 @@ class EtudeCase(unittest.TestCase):
         self.addCleanup(scratch.cleanup)
         self.folder = pathlib.Path(scratch.name)
         self.out = self.folder / "out"
+
+    def facts(self, command, *arguments):
+        """What `command` tells with --json and nothing else on standard output, after checking it against its schema."""
+        done = self.etude(*command.split(), *(() if "--" in arguments else ("--json",)), *arguments)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual(done.stdout.count("\n"), 1, done.stdout)
+        facts, schema = json.loads(done.stdout), load_schema("facts.schema.json")
+        schema["$ref"] = f"#/$defs/{command}"
+        self.assertEqual(complaints(facts, schema), [])
+        self.assertNotEqual(complaints({**facts, "more": 1}, schema), [])
+        self.assertEqual(list(facts)[:2], ["command", "etude"])
+        return facts
 
     @classmethod
     def shared_folder(cls):

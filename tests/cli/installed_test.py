@@ -11,6 +11,7 @@ from ci_files_test import CI, containerfile
 from etude_case import ETUDE, EtudeCase, heavy
 
 BUILD = pathlib.Path(ETUDE).resolve().parent
+EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples" / "library"
 SUITE = "quick/ik"
 
 
@@ -53,29 +54,61 @@ class Installed(EtudeCase):
 
     @heavy
     def test_a_package_runs_in_a_bare_root_as_an_ordinary_user(self):
-        if os.geteuid() != 0 or not shutil.which("mmdebstrap"):
-            self.skipTest("needs root and mmdebstrap")
-        subprocess.run(["cpack", "-G", "DEB", "-B", self.folder], cwd=BUILD, check=True, stdout=subprocess.DEVNULL)
+        self.make_packages()
         package = next(self.folder.glob("etude_*.deb"))
-        root = self.folder / "root"
         # What ci/Containerfile does, in a root that needs no builder of containers.
         image = containerfile((CI / "Containerfile").read_text())
         self.assertEqual(image[:2], [["FROM", "debian:12"], ["COPY", "etude_*.deb /tmp/"]])
         steps = [f"chroot \"$1\" sh -c {shlex.quote(words)}" for name, words in image if name == "RUN"]
+        root = self.make_root(f"copy-in {package} /tmp", *steps)
+        self.assertFalse((root / "usr" / "bin" / "c++").exists(), "a compiler came along")
+        told = self.run_inside(root, "etude run quick -o out",
+                               "etude gate out --baseline /usr/share/etude/scenarios/baselines/quick.json",
+                               "etude report out --no-video", "etude clip convert builtin:clap own.bvh",
+                               "etude run quick/capture --clips own.bvh --trials 1 -o own",
+                               "cp -r /usr/share/etude/examples/outside-methods .",
+                               "etude check-method --task ik --no-fence -- python3 outside-methods/ik_dls.py")
+        self.assertIn("Gate: pass", told)
+        self.assertIn("9 of 9", told)
+        self.same_as_here(root / "home" / "etude" / "out", "quick")
+
+    @unittest.skipUnless(os.environ.get("ETUDE_ROOT"), "heavy")
+    def test_the_librarys_package_builds_programs_in_a_root_with_a_compiler(self):
+        self.make_packages()
+        clip = self.folder / "clap.bvh"
+        self.assertEqual(self.etude("clip", "convert", "builtin:clap", clip).returncode, 0)
+        packages = [next(self.folder.glob(f"{name}_*.deb")) for name in ("libetude", "libetude-dev")]
+        inside = " ".join(f"/tmp/{package.name}" for package in packages)
+        root = self.make_root(f"copy-in {' '.join(map(str, packages))} {clip} {EXAMPLES} /tmp", 'chroot "$1" sh -c ' + shlex.quote(
+            f"apt-get update -q && apt-get install -y -q {inside} g++ cmake make libosmesa6 && useradd --create-home etude"))
+        self.assertFalse((root / "usr" / "bin" / "etude").exists(), "the program came along")
+        told = self.run_inside(root, "cmake -S /tmp/library -B built", "cmake --build built", "built/thousand_poses",
+                               "built/two_clips /tmp/clap.bvh /tmp/clap.bvh", "built/two_cameras /tmp/clap.bvh > captured.bvh",
+                               "head -1 captured.bvh", "built/two_sensors /tmp/clap.bvh", "ls -s left.ppm right.ppm")
+        for words in ("of 1000 poses solved", "bridge frames: ", "HIERARCHY", "% of the joints tracked", "right.ppm"):
+            self.assertIn(words, told)
+
+    def make_packages(self):
+        if os.geteuid() != 0 or not shutil.which("mmdebstrap"):
+            self.skipTest("needs root and mmdebstrap")
+        subprocess.run(["cpack", "-G", "DEB", "-B", self.folder], cwd=BUILD, check=True, stdout=subprocess.DEVNULL)
+
+    def make_root(self, *hooks):
+        """A bare Debian root in which these hooks of mmdebstrap ran."""
+        root = self.folder / "root"
         made = subprocess.run(["mmdebstrap", "--variant=apt", "--mode=root", "bookworm", root,
-                               f"--customize-hook=copy-in {package} /tmp",
-                               *(f"--customize-hook={step}" for step in steps)], capture_output=True, text=True)
+                               *(f"--customize-hook={hook}" for hook in hooks)], capture_output=True, text=True)
         if made.returncode != 0 and not (root / "usr" / "bin").exists():
             self.skipTest("no mirror is to be had: " + made.stderr[-300:])
         self.assertEqual(made.returncode, 0, made.stderr[-2000:])
-        self.assertFalse((root / "usr" / "bin" / "c++").exists(), "a compiler came along")
-        script = ("mount -t proc proc {0}/proc && chroot {0} su etude -c "
-                  "'cd && etude run quick -o out && etude gate out --baseline /usr/share/etude/scenarios/baselines/quick.json"
-                  " && etude report out --no-video'").format(root)
+        return root
+
+    def run_inside(self, root, *commands):
+        """What commands of an ordinary user say in that root, run in a row in an empty home."""
+        script = f"mount -t proc proc {root}/proc && chroot {root} su etude -c {shlex.quote(' && '.join(['cd', *commands]))}"
         ran = subprocess.run(["unshare", "--mount", "sh", "-c", script], capture_output=True, text=True)
         self.assertEqual(ran.returncode, 0, ran.stdout[-2000:] + ran.stderr[-2000:])
-        self.assertIn("Gate: pass", ran.stdout)
-        self.same_as_here(root / "home" / "etude" / "out", "quick")
+        return ran.stdout
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""libetude where it is installed: three programs built against it by `find_package(Etude)`, and what it shows."""
+"""libetude and libetude_sim where they are installed: four programs built against it by `find_package(Etude)`, and what it shows."""
 import json
 import pathlib
 import re
@@ -64,17 +64,34 @@ class Library(EtudeCase):
             places = [[float(row[table[0].index(joint)]) for row in table[1:]] for table in tables]
             self.assertLess(max(abs(a - b) for a, b in zip(*places)), 0.02, joint)
 
+    def test_sensors_see_a_clip(self):
+        told = []
+        for name in "a", "b":
+            here = self.folder / name
+            here.mkdir()
+            done = subprocess.run([self.programs / "two_sensors", self.clips[0]], cwd=here, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            told.append((done.stdout, *[(here / f"{camera}.ppm").read_bytes() for camera in ("left", "right")]))
+        self.assertEqual(*told)
+        words, left, right = told[0]
+        tracked, off = map(float, re.match(r"\d+ frames, ([\d.]+) % of the joints tracked, off by ([\d.]+) mm", words).groups())
+        self.assertTrue(70 < tracked < 100 and 10 < off < 100, words)
+        self.assertEqual([len(left), len(right)], 2 * [len(b"P6 640 480 255\n") + 3 * 640 * 480])
+        self.assertNotEqual(left, right)
+        for pixels in re.findall(r"(\d+) pixels of the person", words):
+            self.assertTrue(2000 < int(pixels) < 640 * 480 / 3, words)
+
     def test_nothing_is_shown_but_what_the_headers_declare(self):
-        listed = subprocess.run(["nm", "-DC", "--defined-only", self.prefix / "lib" / "libetude.so"], check=True,
-                                capture_output=True, text=True).stdout
-        names = [line.split(" ", 2)[2] for line in listed.splitlines()]
-        foreign = [name for name in names if "etude::engine::" not in name]
-        self.assertEqual(foreign, [])
-        headers = "".join(file.read_text() for file in (self.prefix / "include" / "etude").glob("*.h"))
-        own = [re.split(r"[(<[]", name.partition("etude::engine::")[2])[0].split("::")[-1].lstrip("~") for name in names]
-        undeclared = [name for name in own if not re.search(rf"(?<!\w){re.escape(name)}(?!\w)", headers)]
-        self.assertEqual(undeclared, [])
-        self.assertGreater(len(names), 20)
+        for library, space, headers in (("etude", "engine", "*.h"), ("etude_sim", "sim", "sim/*.h")):
+            listed = subprocess.run(["nm", "-DC", "--defined-only", self.prefix / "lib" / f"lib{library}.so"], check=True,
+                                    capture_output=True, text=True).stdout
+            names = [line.split(" ", 2)[2] for line in listed.splitlines()]
+            self.assertEqual([name for name in names if f"etude::{space}::" not in name], [])
+            text = "".join(file.read_text() for file in (self.prefix / "include" / "etude").glob(headers))
+            own = [re.split(r"[(<[]", name.partition(f"etude::{space}::")[2])[0].split("::")[-1].lstrip("~") for name in names]
+            self.assertEqual([name for name in own if not re.search(rf"(?<!\w){re.escape(name)}(?!\w)", text)], [])
+            self.assertGreater(len(names), 5)
+        headers = "".join(file.read_text() for file in (self.prefix / "include" / "etude").rglob("*.h"))
         includes = set(re.findall(r"#include [<\"]([\w./]*[/.][\w./]*)[>\"]", headers))
         self.assertEqual({include.split("/")[0] for include in includes}, {"etude", "glm"})
 

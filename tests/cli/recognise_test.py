@@ -55,7 +55,10 @@ class Recognise(EtudeCase):
                             "take,0,3,raise,right\ntake,3,6,left,right\ntake,6,9,raise,right\ntake,9,12,raise,small\n")
         moves = self.teach(take, "--labels", labels)
         self.assertIn("name: 'raise'", moves.read_text())
+        taught = self.facts("teach", take, "--labels", labels, "-o", moves, "--overwrite")["moves"]
+        self.assertEqual({(move["move"], move["right"], move["wrong"]) for move in taught}, {("raise", 2, 1), ("left", 1, 0)})
         lines = self.events(take, "--moves", moves, "--labels", labels, "--json")
+        self.assertEqual(list(lines[-1]), ["command", "etude", "scores"])
         scores = lines[-1]["scores"]
         self.assertEqual(scores["performances"], 4)
         self.assertEqual(scores["f1"], 1)
@@ -71,10 +74,7 @@ class Recognise(EtudeCase):
             labels += f"{person},0,{end},raise,right,{person}\n{person},{end},{end + 3},left,right,{person}\n"
         path = self.write("labels.csv", labels)
         (folder / "README.txt").write_text("no recording\n")
-        result = self.etude("recognise", folder, "--labels", path, "--leave-one-person-out", "--recogniser", "dtw",
-                            "--json")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        scores = json.loads(result.stdout.splitlines()[-1])["scores"]
+        scores = self.facts("recognise", folder, "--labels", path, "--leave-one-person-out", "--recogniser", "dtw")["scores"]
         self.assertEqual((scores["people"], scores["performances"]), (3, 6))
         self.assertEqual((scores["accuracy"], scores["nearest_accuracy"]), (1, 1))
         unnamed = self.write("unnamed.csv", labels.replace(",person\n", "\n").replace(",anna\n", "\n"))

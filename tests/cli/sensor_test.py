@@ -57,11 +57,20 @@ class Sensor(EtudeCase):
         self.assertRegex(beside, r"error of hands +mm +\d+\.\d\d +\d+\.\d\d +x\d")
         self.assertRegex(beside, r"\d+ of \d+ within 30 %")
 
+    def test_tells_programs_the_same(self):
+        kinect, reference = self.folder / "kinect.txt", self.folder / "targets.txt"
+        alone = self.facts("sensor stats", kinect)
+        self.assertEqual([(one["frames"], one["missing_share"]) for one in alone["recordings"]], [(240, 0)])
+        self.assertEqual((alone["match"], alone["agreement"]), (None, None))
+        beside = self.facts("sensor stats", kinect, "--reference", reference, "--simulate", "v1", "--worlds", "2")
+        self.assertEqual([column["column"] for column in beside["columns"]], ["real", "simulated", "+-"])
+        self.assertGreaterEqual(beside["agreement"]["compared"], beside["agreement"]["within"])
+
     def test_writes_a_sensor_that_a_scenario_uses(self):
         file = self.folder / "sensor.yaml"
-        fit = self.sensor("fit", self.folder / "kinect.txt", "--reference", self.folder / "targets.txt", "-o", file,
-                          "--worlds", "2", "--steps", "2").stdout
-        self.assertIn("Fitted to the first half, compared on the second:", fit)
+        fit = self.facts("sensor fit", self.folder / "kinect.txt", "--reference", self.folder / "targets.txt", "-o", file,
+                         "--worlds", "2", "--steps", "2")
+        self.assertEqual([check["of"] for check in fit["checks"]], ["real", "second half", "first half"])
         self.assertIn("# Fitted by `etude sensor fit` to 8.0 s", file.read_text())
         digests = {}
         for sensor, occluder in (("v2", "none"), (str(file), "none"), ("v1", "none"), ("v2", "table")):

@@ -32,6 +32,9 @@ class Train(EtudeCase):
                 text = (self.folder / "tuned.yaml").read_text()
                 self.assertIn("# Learnt by `etude train", text)
                 self.assertIn("#   builtin:boxing, builtin:bird", text)
+        told = self.facts("train", *MOVES, "--hold-out", "builtin:b*", *QUICK, "--overwrite", "-o", self.folder / "tuned.yaml",
+                          "--method", "adaptive")
+        self.assertEqual((told["held_out"], len(told["scores"])), (["builtin:boxing", "builtin:bird"], 4))
         scenario = self.folder / "tuned_scenario.yaml"
         scenario.write_text(SCENARIO.format(self.folder / "tuned.yaml"))
         rows = self.run_suite(scenario)

@@ -285,7 +285,7 @@ class Types:
     """Two types of one name in headers: their members would be mixed up by the linker, without a word."""
 
     DEFINITION = re.compile(r"(?:class|struct) ([A-Z]\w*) *(?:final )?(?:: .*)?\{")
-    OWN_NAMES = "engine/api/etude"  # in a namespace of their own
+    OWN_NAMES = "/api/etude/"  # in namespaces of their own
 
     def __init__(self, root):
         self.places = {}

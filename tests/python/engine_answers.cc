@@ -4,7 +4,8 @@
 #include <etude/fuzzy.h>
 #include <etude/kinematics.h>
 #include <etude/silhouettes.h>
-#include <etude/simulation.h>
+#include <etude/sim/dances.h>
+#include <etude/sim/sensor.h>
 #include <etude/transitions.h>
 
 #include <algorithm>
@@ -59,7 +60,7 @@ void TellMotions(const sim::BuiltinDance& groove) {
   const TransitionLibrary library(std::vector{groove.moves[0].examples[0], groove.moves[1].examples[0]});
   Tell("transition", NumbersOf(library.Make(0, 10, 1).motion.poses));
   std::vector<Pose> sensed;
-  for (const SensedPose& frame : sim::Sense(start, {.seed = 3})) sensed.push_back(frame.pose);
+  for (const SensedPose& frame : sim::SenseSkeleton(start, {.seed = 3})) sensed.push_back(frame.pose);
   Tell("sensed", NumbersOf(sensed));
   Coach coach(groove.dance, groove.moves, {.dances_at_once = true});
   std::vector<Pose> shown;

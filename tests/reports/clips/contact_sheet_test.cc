@@ -49,7 +49,7 @@ TEST(ClipFactsTest, AFileThatIsNoneIsToldByItsComplaintAlone) {
   ASSERT_EQ(facts.size(), 1u);
   ASSERT_TRUE(facts[0].complaint);
   EXPECT_THAT(FactsAsText(facts[0]), HasSubstr("no such file"));
-  EXPECT_THAT(*FactsAsJson(facts), HasSubstr(R"("format":null)"));
+  EXPECT_THAT(FactsAsJson(facts).dump(), HasSubstr(R"("format":null)"));
 }
 
 constexpr Rgb8 kRed{200, 30, 20}, kBlue{20, 60, 210}, kGreen{0, 255, 0};

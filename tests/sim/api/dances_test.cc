@@ -1,12 +1,11 @@
-// Sensors and dances by the library's types are those of the engine's own, and so is the coach that dances one.
-#include <etude/simulation.h>
+// The coach of a dance by the library's types steps as the engine's own does.
+#include <etude/sim/dances.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "engine/coaching/session.h"
 #include "engine/recognition/recognisers.h"
 #include "sim/choreography/dance_of.h"
-#include "sim/skeleton_sensor/skeleton_sensor.h"
 
 namespace etude::sim {
 namespace {
@@ -22,38 +21,12 @@ std::string WhyNot(const std::function<void()>& act) {
   return "";
 }
 
-TEST(Simulation, SensesAsTheSensorDoesToTheLastBit) {
-  const Song song = LoadBuiltinSong("groove").value();
-  BodyMotion motion = song.motion;
-  motion.poses.resize(120);
-  engine::Motion told;
-  for (const BodyPose& pose : motion.poses) told.poses.push_back({pose.joints});
-  const auto sensed = Sense(told, {.sensor = "v1", .strength = 0.5, .turn_rad = 0.3, .seed = 7});
-  SkeletonSensorOptions errors = SensorV1();
-  errors.strength = 0.5;
-  const SkeletonStream wanted = SenseSkeleton(motion, SkeletonSensorAt({.turn = 0.3}, errors.view), {}, errors,
-                                              {.suite_seed = 7, .scenario = "sensor", .trial = 0});
-  ASSERT_EQ(sensed.size(), 120u);
-  for (std::size_t i = 0; i < sensed.size(); ++i) {
-    EXPECT_EQ(sensed[i].body_seen, wanted.frames[i].body_seen);
-    for (std::size_t j = 0; j < kRoleCount; ++j) {
-      EXPECT_EQ(sensed[i].pose.joints[j], wanted.frames[i].joints[j].position);
-      EXPECT_EQ(static_cast<int>(sensed[i].seen[j]), static_cast<int>(wanted.frames[i].joints[j].state));
-    }
-  }
-  const auto same = Sense(told, {.sensor = "v1", .strength = 0});
-  EXPECT_EQ(same[60].pose.joints, told.poses[60].joints);
-  EXPECT_THAT(WhyNot([&] { Sense(told, {.sensor = "v3"}); }), HasSubstr("sensor:1"));
-  EXPECT_THAT(WhyNot([&] { Sense(told, {.strength = -1}); }), HasSubstr("strength -1; allowed: 0 to 10"));
-  EXPECT_THAT(WhyNot([&] { Sense(told, {.distance_m = 0}); }), HasSubstr("0 m away"));
-}
-
 /// A player who dances along, and stands still from the 600th frame on.
 engine::SensedPose PlayerAt(const BodyMotion& motion, std::size_t frame) {
   return {.pose = {motion.poses[std::min<std::size_t>(frame, 600)].joints}, .seen = {}, .body_seen = true};
 }
 
-TEST(Simulation, TheCoachOfASongStepsAsTheEnginesDoesToTheLastBit) {
+TEST(BuiltinDance, TheCoachOfASongStepsAsTheEnginesDoesToTheLastBit) {
   const BuiltinDance builtin = DanceOfSong("groove");
   engine::Coach coach(builtin.dance, builtin.moves, {.dances_at_once = true});
 
@@ -95,7 +68,7 @@ TEST(Simulation, TheCoachOfASongStepsAsTheEnginesDoesToTheLastBit) {
   EXPECT_THAT(modes, testing::IsSupersetOf({"dance", "correct"}));
 }
 
-TEST(Simulation, ACoachRefusesADanceThatIsNone) {
+TEST(BuiltinDance, ACoachRefusesADanceThatIsNone) {
   const BuiltinDance builtin = DanceOfSong(SongNames().front());
   EXPECT_THAT(WhyNot([] { DanceOfSong("hymn"); }), HasSubstr("song 'hymn'; allowed: "));
   EXPECT_THAT(WhyNot([] { engine::Coach({}, {}); }), HasSubstr("has 0 frames; at least 2"));

@@ -1,0 +1,107 @@
+#include "bench/run/costs.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <ctime>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "bench/files/json.h"
+#include "bench/process/clock.h"
+#include "bench/run/shipped.h"
+#include "bench/run/sum_up.h"
+#include "engine/base/digest.h"
+
+namespace etude {
+namespace {
+
+constexpr const char* kFormat = "etude-costs";
+constexpr int kVersion = 1;
+
+/// The keys that change no world and no method's work.
+constexpr std::array kNoWork = {"scenario", "question", "description", "trials", "seed",  "unit", "methods", "metrics",
+                                "expect",   "across",   "rival",       "gate",   "video", "name", "against"};
+
+void Add(const Node& node, Digest& digest) {
+  digest.Add(static_cast<std::int64_t>(node.kind)).Add(std::string_view(node.scalar));
+  for (const Node& item : node.items) Add(item, digest);
+  for (const Node::Entry& entry : node.entries) {
+    if (std::ranges::find(kNoWork, entry.key) != kNoWork.end()) continue;
+    digest.Add(std::string_view(entry.key));
+    Add(entry.value, digest);
+  }
+}
+
+/// About a millisecond of arithmetic on what a first cache holds.
+void DoOneYardstick(std::array<double, 512>& values) {
+  constexpr std::size_t kPasses = 400, kStride = 7;
+  for (std::size_t pass = 0; pass < kPasses; ++pass) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = std::sqrt(values[i] + values[(kStride * i + pass) % values.size()] + 0.25);
+    }
+  }
+}
+
+/// Does yardsticks until the time is up; tells how many, and how long they took by the clock and of the processor.
+std::string DoYardsticks(double seconds) {
+  std::array<double, 512> values{};
+  const auto start = Clock::now();
+  const std::clock_t began = std::clock();
+  int done = 0;
+  for (; SecondsSince(start) < seconds; ++done) DoOneYardstick(values);
+  const volatile double kept = values.front();  // or the arithmetic would be left out
+  static_cast<void>(kept);
+  const double processor_s = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
+  return Json{done, SecondsSince(start), processor_s}.dump();
+}
+
+}  // namespace
+
+std::string WorkOf(const Scenario& scenario) {
+  Digest digest;
+  digest.Add(std::string_view(scenario.task));
+  for (const Condition& condition : scenario.conditions) Add(condition.node, digest);
+  for (const MethodEntry& method : scenario.methods) {
+    digest.Add(static_cast<std::int64_t>(method.exec.size()));
+    Add(method.node, digest);
+  }
+  return digest.Hex();
+}
+
+Result<std::map<std::string, KeptCost>> ReadKeptCosts() {
+  std::map<std::string, KeptCost> costs;
+  const std::filesystem::path file = ShippedFolder() / "scenarios" / "costs.json";
+  if (std::error_code error; !std::filesystem::exists(file, error)) return costs;
+  ASSIGN_OR_RETURN(const Json json, ReadJsonFile(file));
+  try {
+    if (json.at("format") != kFormat || json.at("version") != kVersion) {
+      return Fail({file.string()}, "no table of costs of version {}", kVersion);
+    }
+    for (const Json& one : json.at("scenarios")) {
+      costs[one.at("work").get<std::string>()] = {one.at("once").get<double>(), one.at("trial").get<double>()};
+    }
+  } catch (const Json::exception& error) {
+    return Fail({file.string()}, "no table of costs: {}", error.what());
+  }
+  return costs;
+}
+
+Result<Pace> MeasurePace(int workers) {
+  constexpr double kSeconds = 0.125;
+  ASSIGN_OR_RETURN(const auto told,
+                   RunForked(static_cast<std::size_t>(workers), workers,
+                             [](std::size_t) -> Result<std::string> { return DoYardsticks(kSeconds); }));
+  double all = 0, processor_s = 0, pace = 0;
+  for (const std::string& one : told) {
+    const Json json = Json::parse(one);
+    const double done = json[0].get<double>();
+    all += done;
+    pace += done / json[1].get<double>();
+    processor_s += json[2].get<double>();
+  }
+  return Pace{pace, 1000 * processor_s / all};
+}
+
+}  // namespace etude

@@ -1,0 +1,110 @@
+// What etude::sim gives is what the simulation gives, and what cannot be simulated is refused with its reason.
+#include <etude/sim/pictures.h>
+#include <etude/sim/sensor.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "engine/api/convert.h"
+#include "sim/choreography/canonical_body.h"
+#include "sim/rig/rig.h"
+#include "sim/skeleton_sensor/skeleton_sensor.h"
+
+namespace etude::sim {
+namespace {
+
+using testing::HasSubstr;
+
+template <typename Act>
+std::string RefusalOf(const Act& act) {
+  try {
+    act();
+  } catch (const engine::BadInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// A person who glides sideways, 3 m from the origin.
+engine::Motion Gliding() {
+  engine::Motion motion{.rate_hz = 30, .poses = {}};
+  for (int frame = 0; frame < 40; ++frame) {
+    engine::Pose& pose = motion.poses.emplace_back();
+    pose.joints = PoseOf(Controls{}).joints;
+    for (glm::dvec3& joint : pose.joints) joint.x += 3 + 0.005 * frame;
+  }
+  return motion;
+}
+
+TEST(SimulatedSensor, ReportsWhatTheSimulationsOwnDoes) {
+  const engine::Motion motion = Gliding();
+  const auto reports = SenseSkeleton(motion, {.sensor = "v1", .distance_m = 2, .turn = 0.3, .seed = 5});
+  Camera eye = SkeletonSensorAt({.distance = 2, .turn = 0.3}, FindSensorPreset("v1")->view);
+  const BodyMotion truth = engine::ToBodyMotion(motion);
+  eye.p_WC += MiddleOnFloor(truth.poses);
+  const auto own =
+      etude::SenseSkeleton(truth, eye, {}, *FindSensorPreset("v1"), {.suite_seed = 5, .scenario = "library"});
+  ASSERT_EQ(reports.size(), own.frames.size());
+  for (std::size_t frame = 0; frame < reports.size(); ++frame) {
+    for (std::size_t joint = 0; joint < engine::kRoleCount; ++joint) {
+      EXPECT_EQ(reports[frame].pose.joints[joint], own.frames[frame].joints[joint].position);
+    }
+  }
+  EXPECT_NE(SenseSkeleton(motion, {.sensor = "v1", .seed = 6})[20].pose.joints, reports[20].pose.joints);
+}
+
+TEST(SimulatedSensor, WithoutErrorsTellsTheTruth) {
+  const engine::Motion motion = Gliding();
+  const auto reports = SenseSkeleton(motion, {.strength = 0});
+  for (std::size_t frame = 0; frame < reports.size(); ++frame) {
+    for (std::size_t joint = 0; joint < engine::kRoleCount; ++joint) {
+      EXPECT_NEAR(glm::distance(reports[frame].pose.joints[joint], motion.poses[frame].joints[joint]), 0, 1e-9);
+    }
+  }
+}
+
+TEST(SimulatedSensor, RefusesWhatItCannotSense) {
+  EXPECT_THAT(RefusalOf([] { SenseSkeleton({}); }), HasSubstr("without frames"));
+  EXPECT_THAT(RefusalOf([] { SenseSkeleton(Gliding(), {.distance_m = 50}); }), HasSubstr("50; allowed: 0.5 to 10"));
+  EXPECT_THAT(RefusalOf([] { SenseSkeleton(Gliding(), {.strength = std::numeric_limits<double>::quiet_NaN()}); }),
+              HasSubstr("strength of nan"));
+  EXPECT_THAT(RefusalOf([] { SenseSkeleton(Gliding(), {.sensor = "v3: 1"}); }), HasSubstr("sensor:1"));
+}
+
+TEST(SimulatedStudio, ShowsThePersonWhereTheCamerasSeeTheBody) {
+  const engine::Motion motion = Gliding();
+  const auto cameras = StereoCameras(motion, 0.5);
+  ASSERT_EQ(cameras.size(), 2u);
+  EXPECT_NEAR(glm::distance(cameras[0].p_WC, cameras[1].p_WC), 0.5, 0.2);
+  const Studio studio(motion, cameras);
+  for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
+    const Picture picture = studio.Shoot(camera, 39), before = studio.ShootEmpty(camera);
+    ASSERT_EQ(picture.person.size(), std::size_t{640} * 480);
+    ASSERT_EQ(picture.colour.size(), 3 * picture.person.size());
+    EXPECT_EQ(std::ranges::count(before.person, 1), 0);
+    for (const engine::Role role : {engine::Role::kHead, engine::Role::kSpine, engine::Role::kRightElbow}) {
+      const glm::dvec2 pixel = Project(cameras[camera], motion.poses[39][role]).value();
+      const auto at = static_cast<std::size_t>(pixel.y) * 640 + static_cast<std::size_t>(pixel.x);
+      EXPECT_EQ(picture.person[at], 1);
+      EXPECT_NE(picture.colour[3 * at], before.colour[3 * at]);
+    }
+    EXPECT_EQ(studio.Shoot(camera, 39).colour, picture.colour);
+  }
+}
+
+TEST(SimulatedStudio, RefusesWhatItCannotDraw) {
+  const engine::Motion motion = Gliding();
+  engine::Camera lens;
+  lens.k1 = -0.1;
+  EXPECT_THAT(RefusalOf([&] { Studio(motion, std::array{lens}); }), HasSubstr("a lens that distorts"));
+  EXPECT_THAT(RefusalOf([&] { Studio(motion, {}); }), HasSubstr("no camera"));
+  EXPECT_THAT(RefusalOf([&] { StereoCameras(motion, 0); }), HasSubstr("baseline of 0 m"));
+  const Studio studio(motion, StereoCameras(motion));
+  EXPECT_THAT(RefusalOf([&] { studio.Shoot(2, 0); }), HasSubstr("camera 2; allowed: 0 to 1"));
+  EXPECT_THAT(RefusalOf([&] { studio.Shoot(0, 40); }), HasSubstr("frame 40; allowed: 0 to 39"));
+}
+
+}  // namespace
+}  // namespace etude::sim
