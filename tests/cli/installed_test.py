@@ -72,7 +72,7 @@ class Installed(EtudeCase):
         self.assertIn("9 of 9", told)
         self.same_as_here(root / "home" / "etude" / "out", "quick")
 
-    @unittest.skipUnless(os.environ.get("ETUDE_ROOT"), "heavy")
+    @heavy
     def test_the_librarys_package_builds_programs_in_a_root_with_a_compiler(self):
         self.make_packages()
         clip = self.folder / "clap.bvh"
