@@ -223,7 +223,10 @@ int PrintTable() {
 
 Result<int> ListMetricsCommand(MetricsFormat format) {
   if (format == MetricsFormat::kTable) return PrintTable();
-  if (format == MetricsFormat::kJson) RETURN_IF_ERROR(PrintFacts("list metrics", MetricsJson()));
+  if (format == MetricsFormat::kJson) {
+    RETURN_IF_ERROR(PrintFacts("list metrics", MetricsJson()));
+    return kSuccess;
+  }
   fmt::print("{}", MetricsPage());
   return kSuccess;
 }

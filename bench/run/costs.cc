@@ -34,7 +34,7 @@ void Add(const Node& node, Digest& digest) {
   }
 }
 
-/// About a millisecond of arithmetic on what a first cache holds.
+/// Arithmetic on what a first cache holds.
 void DoOneYardstick(std::array<double, 512>& values) {
   constexpr std::size_t kPasses = 400, kStride = 7;
   for (std::size_t pass = 0; pass < kPasses; ++pass) {

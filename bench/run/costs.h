@@ -25,7 +25,7 @@ Result<std::map<std::string, KeptCost>> ReadKeptCosts();
 /// The speed of this machine as it is now, other people's work on it included.
 struct Pace {
   double yardsticks_per_s = 0;  ///< by the clock, of all workers together
-  double yardstick_ms = 0;      ///< processor time of one; about 1
+  double yardstick_ms = 0;      ///< processor time of one: half a millisecond of an AMD EPYC
 };
 
 /// Has as many copies of this process as there will be workers do fixed arithmetic for an eighth of a second.

@@ -64,6 +64,8 @@ class Facts(EtudeCase):
         self.assertEqual({name: found and found[1] for name, found in named.items()}, schemas)
         for command, schema in own.items():
             self.assertEqual(load_schema(f"{schema}.schema.json")["properties"]["command"], {"const": command})
+        listed = json.loads(self.etude("list", "metrics", "--json").stdout)
+        self.assertEqual((list(listed)[:2], listed["command"]), (["command", "etude"], "list metrics"))
 
 
 if __name__ == "__main__":
