@@ -12,18 +12,20 @@
 namespace etude {
 namespace {
 
-/// The record's segments with the playing clip as clip 0, begun `skipped` frames later, and the wanted one as clip 1.
-std::vector<Segment> Renumbered(const TransitionRecord& record, int from, int to, int skipped) {
+/// The record's segments with the playing clip as clip 0, begun `skipped` frames later, and the wanted one as clip 1;
+/// clips on the way are added to `clips`.
+std::vector<Segment> Renumbered(const TransitionRecord& record, int skipped, const std::vector<BodyMotion>& motions,
+                                std::vector<BodyMotion>& clips) {
   std::vector<Segment> segments = record.segments;
-  for (Segment& segment : segments) {
-    if (segment.clip == from) {
-      segment.clip = 0;
-      segment.first -= skipped;
-      segment.last -= skipped;
-    } else if (segment.clip == to) {
-      segment.clip = 1;
-    }
+  segments.front().clip = 0;
+  segments.front().first -= skipped;
+  segments.front().last -= skipped;
+  for (std::size_t i = 1; i + 1 < segments.size(); ++i) {
+    if (segments[i].clip == Segment::kOwnFrames) continue;
+    clips.push_back(motions[segments[i].clip]);
+    segments[i].clip = static_cast<int>(clips.size()) - 1;
   }
+  segments.back().clip = 1;
   return segments;
 }
 
@@ -84,7 +86,7 @@ std::shared_ptr<const ShownPath> DanceTransitions::Splice(int from, int frame, c
   if (!arrives) {
     *path = CutTo(clips[0].poses[frame - skipped], clips[1], home_from != nullptr);
   } else {
-    std::vector<Segment> segments = Renumbered(*record, from, to, skipped);
+    std::vector<Segment> segments = Renumbered(*record, skipped, motions, clips);
     segments.back().in_place = home_from != nullptr;
     const etude::Splice splice = SpliceSegments(clips, segments, *way_.join, way_.join_settings);
     const std::size_t asked = frame - skipped;

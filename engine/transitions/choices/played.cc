@@ -6,11 +6,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "engine/transitions/choices/planning.h"
+#include "engine/transitions/choices/through_clip.h"
 #include "engine/transitions/joins/planted_feet.h"
 #include "engine/transitions/joins/splice.h"
 
@@ -29,33 +31,31 @@ struct FramePair {
   int leave = 0, enter = 0;
 };
 
-double SquaredDistance(const MotionFeatures& a, const MotionFeatures& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
-  return sum;
-}
-
-/// Finds, for each part of the wait, the pair that is nearest; every few frames of the wanted clip are enough where it
-/// is long.
+/// Finds, for each part of the wait, the pair that is nearest, if any can be joined (NeedsClip); every few frames of
+/// the wanted clip are enough where it is long.
 std::vector<FramePair> NearestPairs(const MotionLibrary& library, const TransitionRequest& request,
                                     const AllowedFrames& allowed) {
   const auto &playing = library.features[request.from], &next = library.features[request.to];
+  const auto &left = library.stances[request.from], &entered = library.stances[request.to];
   const std::size_t stride = allowed.leave.size() * allowed.enter.size() / kMostCompared + 1;
   const std::size_t parts = std::min<std::size_t>(kPairs, allowed.leave.size());
   std::vector<FramePair> pairs;
   for (std::size_t part = 0; part < parts; ++part) {
     const std::size_t begin = part * allowed.leave.size() / parts, end = (part + 1) * allowed.leave.size() / parts;
-    FramePair best{allowed.leave[begin], allowed.enter.front()};
-    double least = SquaredDistance(playing[best.leave], next[best.enter]);
+    std::optional<FramePair> best;
+    double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = begin; i < end; ++i) {
-      for (std::size_t k = 0; k < allowed.enter.size(); k += stride) {
-        const double distance = SquaredDistance(playing[allowed.leave[i]], next[allowed.enter[k]]);
+      for (std::size_t k = 0; k < allowed.enter.size(); ++k) {
+        if (best && k % stride != 0) continue;
+        const FramePair pair{allowed.leave[i], allowed.enter[k]};
+        if (NeedsClip(left[pair.leave], entered[pair.enter])) continue;
+        const double distance = SquaredDistance(playing[pair.leave], next[pair.enter]);
         if (distance >= least) continue;
         least = distance;
-        best = {allowed.leave[i], allowed.enter[k]};
+        best = pair;
       }
     }
-    pairs.push_back(best);
+    if (best) pairs.push_back(*best);
   }
   return pairs;
 }
@@ -73,8 +73,8 @@ BodyPose FrameBeforeIn(const BodyMotion& clip, int frame) {
   return clip.poses.size() > 1 ? FrameBefore(clip.poses[0], clip.poses[1]) : clip.poses[0];
 }
 
-/// The window of a pair as the join planted-feet would have it.
-JoinWindow WindowOfPair(const MotionLibrary& library, const TransitionRequest& request, const FramePair& pair,
+/// The window of a pair as the join planted-feet would have it; of the wanted clip the frames up to `last` are real.
+JoinWindow WindowOfPair(const MotionLibrary& library, const TransitionRequest& request, const FramePair& pair, int last,
                         int frames) {
   const BodyMotion &playing = library.motions[request.from], &wanted = library.motions[request.to];
   JoinWindow window{.shown = {FrameBeforeIn(playing, pair.leave), playing.poses[pair.leave]},
@@ -82,7 +82,7 @@ JoinWindow WindowOfPair(const MotionLibrary& library, const TransitionRequest& r
                     .old = FramesFrom(playing, pair.leave, frames),
                     .next = FramesFrom(wanted, pair.enter, frames),
                     .old_frames = std::min(static_cast<int>(playing.poses.size()) - 1 - pair.leave, frames),
-                    .next_frames = std::min(static_cast<int>(wanted.poses.size()) - 1 - pair.enter, frames),
+                    .next_frames = std::min(last - pair.enter, frames),
                     .rate_hz = playing.rate_hz};
   const std::size_t aligned = static_cast<std::size_t>(kAlignedSeconds * window.rate_hz) + 1;
   const auto head = [&](const BodyMotion& clip, int first) {
@@ -186,11 +186,12 @@ bool IsBetterWay(const PlayedWay& a, const PlayedWay& b) {
   return std::tuple(a.cost_s, a.number, a.frames, a.fades) < std::tuple(b.cost_s, b.number, b.frames, b.fades);
 }
 
-/// Plays the transitions that are worth it, and ranks them, the best first.
+/// Plays the transitions that are worth it, and ranks them, the best first. There must be a pair at least; where the
+/// wanted clip is soon left again, the joins end by its frame `last`, as far as the shortest one can.
 class Rehearsal {
  public:
   Rehearsal(const MotionLibrary& library, const TransitionRequest& request, const PlayedOptions& options,
-            const std::vector<FramePair>& pairs)
+            const std::vector<FramePair>& pairs, int last)
       : request_(request),
         options_(options),
         rate_hz_(library.motions[request.from].rate_hz),
@@ -198,7 +199,7 @@ class Rehearsal {
                         kAlwaysUsual)) {
     const int longest = FramesOf(kLengths_s.back());
     for (const FramePair& pair : pairs) {
-      windows_.push_back(WindowOfPair(library, request, pair, longest));
+      windows_.push_back(WindowOfPair(library, request, pair, last, longest));
       own_.push_back(OwnOf(windows_.back()));
     }
     PlayAll(pairs);
@@ -206,6 +207,10 @@ class Rehearsal {
   }
 
   const std::vector<PlayedWay>& ways() const { return ways_; }
+  const PlayedWay& best() const { return ways_.front(); }
+  PreferredJoin PreferredOf(const PlayedWay& way) const {
+    return {.blend_s = way.frames / rate_hz_, .fades = way.fades};
+  }
 
  private:
   int FramesOf(double seconds) const { return static_cast<int>(std::lround(seconds * rate_hz_)); }
@@ -282,6 +287,63 @@ class Rehearsal {
   std::vector<PlayedWay> ways_;
 };
 
+int LastFrameOf(const MotionLibrary& library, int clip) { return library.tagged[clip].FrameCount() - 1; }
+
+/// Plans a way through a clip that stands up or lies down, where the wait and the wanted clip's beginning hold no pair
+/// of frames that can be joined.
+TransitionRecord PlanThroughClip(const MotionLibrary& library, const TransitionRequest& request,
+                                 const MatchRules& rules, const PlayedOptions& options, const AllowedFrames& allowed) {
+  TransitionRecord record;
+  record.request_frame = request.request_frame;
+  record.pairs_seen = allowed.Pairs();
+  record.cost_unit = "s";
+  const bool is_down = library.stances[request.from][allowed.leave.front()].is_down;
+  const std::string why = fmt::format(
+      "{} {} all the while that it may be left and {} where it may be entered: no join can {} a body",
+      library.names[request.from], is_down ? "lies, sits or kneels" : "stands",
+      library.names[request.to] + (is_down ? " stands" : " lies, sits or kneels"), is_down ? "raise" : "lower");
+  const auto through = FindThroughClip(library, request, allowed, options.most_through_s);
+  if (!through) {
+    record.why = fmt::format("{}; and no clip shows within {:g} s how it is done", why, options.most_through_s);
+    return record;
+  }
+  const TransitionRequest entering{request.from, request.request_frame, through->clip, request.budget_s};
+  const Rehearsal in(library, entering, options, NearestPairs(library, entering, {allowed.leave, through->enter}),
+                     through->leave.back());
+  const int entered = in.best().pair.enter, shown = entered + in.best().frames;
+  const double rate_hz = library.motions[through->clip].rate_hz;
+  std::vector<int> leave;
+  for (int frame : through->leave) {
+    const bool is_soon = frame - entered <= options.most_through_s * rate_hz;
+    if (frame >= shown && (leave.empty() || is_soon)) leave.push_back(frame);
+  }
+  const TransitionRequest leaving{through->clip, leave.front(), request.to, request.budget_s};
+  const Rehearsal out(library, leaving, options, NearestPairs(library, leaving, {std::move(leave), allowed.enter}),
+                      LastFrameOf(library, request.to));
+  record.branch = Branch::kInBetween;
+  const FramePair &first = in.best().pair, &second = out.best().pair;
+  record.segments = {{.clip = request.from, .first = request.request_frame, .last = first.leave, .own = {}},
+                     {.clip = through->clip,
+                      .first = entered,
+                      .last = second.leave,
+                      .own = {},
+                      .preferred = in.PreferredOf(in.best())},
+                     {.clip = request.to,
+                      .first = second.enter,
+                      .last = LastFrameOf(library, request.to),
+                      .own = {},
+                      .preferred = out.PreferredOf(out.best())}};
+  const auto distance = [&](int from, int left, int to, int met) {
+    return ComputeDistance(library.tagged[from].grades[left], library.tagged[to].grades[met], rules.weights);
+  };
+  record.distances = {distance(request.from, first.leave, through->clip, entered),
+                      distance(through->clip, second.leave, request.to, second.enter)};
+  record.wait_s = WaitOf(record.segments, rate_hz);
+  record.why = fmt::format("{}; through {} from frame {} to {}, {:.2f} s", why, library.names[through->clip], entered,
+                           second.leave, (second.leave - entered) / rate_hz);
+  return record;
+}
+
 }  // namespace
 
 const SettingTable<PlayedOptions>& PlayedSettings() {
@@ -291,17 +353,21 @@ const SettingTable<PlayedOptions>& PlayedSettings() {
        {"invented_per_s", &PlayedOptions::invented_per_s, 0.01, 1'000'000,
         "How far from both clips, in centimetres over a second, weighs as much as a second of time."},
        {"most_skipped_s", &PlayedOptions::most_skipped_s, 0, 60,
-        "How much of the wanted clip may be skipped, in seconds; never more than its first third."}});
+        "How much of the wanted clip may be skipped, in seconds; never more than its first third."},
+       {"most_through_s", &PlayedOptions::most_through_s, 0, 60,
+        "How much of a clip that stands up or lies down may be shown on the way, in seconds, after the wait."}});
   return kSettings;
 }
 
 TransitionRecord PlanPlayed(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
                             const PlayedOptions& options) {
   const AllowedFrames allowed = AllowedEarlyFrames(library, request, options.most_skipped_s);
-  const Rehearsal rehearsal(library, request, options, NearestPairs(library, request, allowed));
-  const PlayedWay& best = rehearsal.ways().front();
+  const std::vector<FramePair> pairs = NearestPairs(library, request, allowed);
+  if (pairs.empty()) return PlanThroughClip(library, request, rules, options, allowed);
+  const Rehearsal rehearsal(library, request, options, pairs, LastFrameOf(library, request.to));
+  const PlayedWay& best = rehearsal.best();
   TransitionRecord record = DirectTransition(library, request, best.pair.leave, best.pair.enter, rules);
-  const PreferredJoin preferred{.blend_s = best.frames / library.motions[request.from].rate_hz, .fades = best.fades};
+  const PreferredJoin preferred = rehearsal.PreferredOf(best);
   record.segments.back().preferred = preferred;
   record.pairs_seen = record.pairs_matched = allowed.Pairs();
   record.cost_unit = "s";

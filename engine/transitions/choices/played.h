@@ -14,6 +14,7 @@ struct PlayedOptions {
   /// seconds.
   double invented_per_s = 5;
   double most_skipped_s = 1.5;  ///< how much of the wanted clip may be skipped; never more than its first third
+  double most_through_s = 4;    ///< how much of a clip that stands up or lies down may be shown on the way
 };
 const SettingTable<PlayedOptions>& PlayedSettings();
 
@@ -25,6 +26,10 @@ const SettingTable<PlayedOptions>& PlayedSettings();
 /// mean over joints, summed over time (`invented_per_s`). The best of each length are played once more with their feet
 /// (PlantFeet) before the last word; then each frame in which no foot bears the body costs, too. The record's last
 /// segment holds how it should be joined (PreferredJoin).
+///
+/// Pairs are left out whose join would raise or lower the body on nothing (NeedsClip). Where no other is allowed, the
+/// way leads through the clip that stands up or lies down (FindThroughClip), after the wait; the record has no segments
+/// where the library has none.
 ///
 /// Ours; searching what is shown instead of what is alike after Kovar, Gleicher and Pighin 2002 and Bollo 2018. It does
 /// not know the limits by which transitions are judged.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/motion/support.h"
+
 namespace etude {
 namespace {
 
@@ -58,6 +60,12 @@ std::array<double, kVectorCount> Spreads(const std::vector<std::vector<MotionFea
 
 }  // namespace
 
+double SquaredDistance(const MotionFeatures& a, const MotionFeatures& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return sum;
+}
+
 std::vector<std::vector<MotionFeatures>> ComputeMotionFeatures(std::span<const BodyMotion> clips) {
   std::vector<std::vector<MotionFeatures>> computed;
   computed.reserve(clips.size());
@@ -94,6 +102,25 @@ double UsualAcceleration(const BodyMotion& motion) {
   return *usual;
 }
 
+Stance StanceOf(const BodyPose& pose, double standing_hip_height) {
+  constexpr double kBeside = 0.25, kLow = 0.6;
+  static const JointSet kFeet = [] {
+    JointSet feet;
+    for (Role role : {Role::kLeftAnkle, Role::kRightAnkle, Role::kLeftFoot, Role::kRightFoot}) feet.set(Index(role));
+    return feet;
+  }();
+  double lowest = pose.joints[0].y;
+  for (const glm::dvec3& joint : pose.joints) lowest = std::min(lowest, joint.y);
+  const double hips = pose[Role::kHipCentre].y - lowest;
+  return {.is_down = hips <= kLow * standing_hip_height && *BalanceOffset(pose, kFeet) > kBeside, .hips = hips};
+}
+
+bool NeedsClip(const Stance& a, const Stance& b) {
+  constexpr double kMostRise = 0.2;
+  if (a.is_down == b.is_down) return false;
+  return a.is_down ? b.hips > a.hips + kMostRise : a.hips > b.hips + kMostRise;
+}
+
 MotionLibrary MakeLibraryOfOneBody(std::vector<std::string> names, std::vector<BodyMotion> motions,
                                    const BodyProportions& proportions, const TagRules& rules, const TweenRules& tween) {
   MotionLibrary library{.proportions = proportions,
@@ -102,10 +129,15 @@ MotionLibrary MakeLibraryOfOneBody(std::vector<std::string> names, std::vector<B
                         .tagged = {},
                         .features = {},
                         .usual_accelerations = {},
+                        .stances = {},
                         .in_betweens = {}};
   library.tagged = TagClips(library.motions, proportions.standing_hip_height, rules);
   library.features = ComputeMotionFeatures(library.motions);
-  for (const BodyMotion& motion : library.motions) library.usual_accelerations.push_back(UsualAcceleration(motion));
+  for (const BodyMotion& motion : library.motions) {
+    library.usual_accelerations.push_back(UsualAcceleration(motion));
+    std::vector<Stance>& stances = library.stances.emplace_back();
+    for (const BodyPose& pose : motion.poses) stances.push_back(StanceOf(pose, proportions.standing_hip_height));
+  }
   library.in_betweens =
       BuildInBetweens(library.tagged, {.weights = rules.weights, .threshold = kPaperThreshold, .tween = tween});
   return library;

@@ -18,6 +18,7 @@ constexpr std::size_t kMotionFeatureCount = 27;
 /// character, who is at the origin of the floor and faces +Z, and the velocities of hands, feet and hips in the same
 /// axes.
 using MotionFeatures = std::array<double, kMotionFeatureCount>;
+double SquaredDistance(const MotionFeatures& a, const MotionFeatures& b);
 
 /// The features of every frame of every clip. Each of the nine vectors is divided by its own standard deviation over
 /// all frames of the library, so that metres and metres per second count alike; one that never varies counts nothing.
@@ -27,6 +28,19 @@ std::vector<std::vector<MotionFeatures>> ComputeMotionFeatures(std::span<const B
 /// of fewer than three frames.
 double UsualAcceleration(const BodyMotion& motion);
 
+/// How a body stands, as far as a join must know it.
+struct Stance {
+  /// It lies, sits or kneels: its mass centre is more than a quarter of a metre beside its feet, seen from above, and
+  /// its hips are no more than 0.6 of a standing body's height above its lowest joint.
+  bool is_down = false;
+  double hips = 0;  ///< the height of the hips above the lowest joint, metres
+};
+Stance StanceOf(const BodyPose& pose, double standing_hip_height);
+
+/// Tells whether a join would have to raise or lower a body on nothing: in one stance it is down, in the other it is on
+/// its feet with its hips more than 0.2 m higher. Only a clip can show how that is done.
+bool NeedsClip(const Stance& a, const Stance& b);
+
 /// Clips made ready for transitions: all performed by one body, at 30 Hz, tagged, and joined by in-betweens.
 struct MotionLibrary {
   BodyProportions proportions;
@@ -35,6 +49,7 @@ struct MotionLibrary {
   std::vector<TaggedClip> tagged;                     ///< as `motions`, frame by frame
   std::vector<std::vector<MotionFeatures>> features;  ///< as `motions`, frame by frame
   std::vector<double> usual_accelerations;            ///< as `motions`: UsualAcceleration
+  std::vector<std::vector<Stance>> stances;           ///< as `motions`, frame by frame
   InBetweenNet in_betweens;
 };
 

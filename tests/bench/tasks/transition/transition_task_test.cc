@@ -11,6 +11,7 @@
 #include "bench/tasks/transition/world.h"
 #include "engine/transitions/choices/choice.h"
 #include "tests/bench/tasks/transition/transition_fixture.h"
+#include "tests/engine/transitions/lying_clips.h"
 #include "tests/support/run_world.h"
 
 namespace etude {
@@ -69,6 +70,31 @@ TEST_F(TransitionTaskTest, GoesThroughAnInBetweenWhereNothingMatches) {
   EXPECT_EQ(facts["branch"], "forced");
   EXPECT_EQ(facts["transition_points"].size(), 2u);
   EXPECT_EQ(facts["transition_points"][0]["to"], "in-between");
+}
+
+TEST_F(TransitionTaskTest, CountsWhoGoesThroughAClipThatStandsUpAndWhoHasNone) {
+  const LibraryClip lie{"lie", "lie", LyingClip(90), {}, ""}, stand{"stand", "stand", StandingClip(90, 0), {}, ""},
+      rise{"rise", "rise", RisingClip(90), {}, ""};
+  const std::string played = "methods: [{name: played, choice: played, join: planted-feet}]";
+  const auto none = Make(played, {{lie, stand}});
+  for (int trial : {0, 1}) {  // each is left once
+    const CellResult cell = RunWorld(**none, Trial(trial), 1, false)[0];
+    EXPECT_EQ(cell.status, Status::kUnsolved);
+    EXPECT_THAT(cell.reason, HasSubstr(trial == 0 ? "no join can raise a body" : "no join can lower a body"));
+    EXPECT_EQ(ValueOf(cell, "clean_share"), 0);
+  }
+  const auto one = Make(played, {{lie, stand, rise}});
+  int through = 0;
+  for (int trial = 0; trial < 12; trial += 3) {  // who lies is left
+    const CellResult cell = RunWorld(**one, Trial(trial), 1, true)[0];
+    ASSERT_EQ(cell.status, Status::kOk) << cell.reason;
+    if (ValueOf(cell, "in_between") == 0) continue;
+    ++through;
+    EXPECT_GT(ValueOf(cell, "wait_s"), 0.5);
+    EXPECT_EQ(Json::parse(cell.recording->extras_json)["transition_points"][0]["to"], "rise");
+  }
+  EXPECT_GE(through, 1);
+  EXPECT_LT(through, 4) << "into the clip that stands up itself the way is direct";
 }
 
 TEST_F(TransitionTaskTest, TalliesThePairsThatTheThresholdLetsThrough) {
