@@ -172,8 +172,9 @@ double StrangeCmSeconds(const JoinView& view, const RealFrames& real) {
 std::vector<Support> JoinSupport(const JoinView& view) {
   constexpr double kJudgedSeconds = 1.2;
   const int judged = view.first + static_cast<int>(std::lround(kJudgedSeconds * view.rate_hz));
-  const std::array clips = {SupportingClip{.poses = view.left, .begin = 0, .left_at = view.first},
-                            SupportingClip{.poses = view.wanted, .begin = view.last}};
+  std::vector<SupportingClip> clips = {{.poses = view.left, .begin = 0, .left_at = view.first},
+                                       {.poses = view.wanted, .begin = view.last}};
+  clips.insert(clips.end(), view.between.begin(), view.between.end());
   return FindSupport(view.shown, clips, view.first, std::min(std::max(JoinEnd(view), judged), LastFrame(view)),
                      view.rate_hz);
 }

@@ -20,6 +20,7 @@ struct JoinView {
   int first = 0;                     ///< the frame of the first transition point
   int last = 0;                      ///< of the last one
   double rate_hz = kJudgedRateHz;
+  std::vector<SupportingClip> between = {};  ///< clips on the way, in their places
 };
 
 /// A frame has arrived when its worst joint is this close to the wanted clip's own frame. Metres.
@@ -75,7 +76,7 @@ class RealFrames {
 double StrangeCmSeconds(const JoinView& view, const RealFrames& real);
 
 /// What holds the body up from the first transition point to the join's end, 1.2 s after that point at least, as far as
-/// the motion goes: FindSupport, asked of the two clips, never of the frames shown.
+/// the motion goes: FindSupport, asked of the clips, never of the frames shown.
 std::vector<Support> JoinSupport(const JoinView& view);
 
 /// A transition floats when nothing holds the body for so many frames in a row. Fewer are not seen.

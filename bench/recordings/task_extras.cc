@@ -149,7 +149,9 @@ std::string RecordingsAsMarkdown() {
          "\n## transition\n\nTracks `coach`: some seconds before and after the transition, and to the end of what is "
          "judged of\n"
          "it; `left`: the clip left in the same frames, as far as it goes; `wanted`: the clip wanted in its place,\n"
-         "without the join, from the last of `transition_frames` on. Older runs keep `coach` alone.\n\n" +
+         "without the join, from the last of `transition_frames` on; `through`: likewise a clip on the way, from the "
+         "first\n"
+         "on. Older runs keep `coach` alone.\n\n" +
          RecordFields::Page<TransitionExtras>() +
          "\n## detection\n\nTracks `truth` and `sensed`, as the recogniser saw it.\n\n" +
          RecordFields::Page<DetectionExtras>() +

@@ -227,8 +227,13 @@ Recording RecordTransition(const TransitionOutcome& outcome, const Stage& stage)
                                  .cost = candidate.cost,
                                  .outcome = std::string(OutcomeName(candidate.outcome))});
   }
-  return {{track("coach", view.shown, 0), track("left", view.left, 0), track("wanted", view.wanted, view.last)},
-          WriteTransitionExtras(extras)};
+  Recording recording{
+      {track("coach", view.shown, 0), track("left", view.left, 0), track("wanted", view.wanted, view.last)},
+      WriteTransitionExtras(extras)};
+  for (const SupportingClip& clip : view.between) {
+    if (!clip.poses.empty()) recording.tracks.push_back(track("through", clip.poses, clip.begin));
+  }
+  return recording;
 }
 
 }  // namespace etude

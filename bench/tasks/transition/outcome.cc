@@ -1,6 +1,7 @@
 #include "bench/tasks/transition/outcome.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "bench/tasks/transition/exchange.h"
 
@@ -46,13 +47,19 @@ JoinView ViewOf(const TransitionOutcome& outcome, const Stage& stage) {
   const Splice& splice = outcome.splice;
   const Segment& playing = outcome.record.segments.front();
   const int first = splice.points.front().frame;
+  std::vector<SupportingClip> between;
+  for (std::size_t i = 0; i < splice.between.size(); ++i) {
+    between.push_back(
+        {.poses = splice.between[i], .begin = splice.points[i].frame, .left_at = splice.points[i + 1].frame});
+  }
   return {.shown = splice.motion.poses,
           .left = stage.library.motions[playing.clip].poses,
           .wanted = splice.wanted,
           .request = first - (playing.last - playing.first),
           .first = first,
           .last = splice.points.back().frame,
-          .rate_hz = splice.motion.rate_hz};
+          .rate_hz = splice.motion.rate_hz,
+          .between = std::move(between)};
 }
 
 FrameWindow AroundPoints(const Splice& splice, double seconds) {

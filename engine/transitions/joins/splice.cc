@@ -103,6 +103,10 @@ Splice SpliceSegments(std::span<const BodyMotion> clips, std::span<const Segment
     next.blend = join.begin(input, join_settings);
     for (int frame = entered + 1; frame <= segments[i].last; ++frame) shown.push_back(next.Shown(frame));
     splice.points.push_back(point);
+    if (i + 1 < segments.size()) {
+      std::vector<BodyPose>& between = splice.between.emplace_back();
+      if (!next.is_own) between = next.Own(entered - 1, frames.size());
+    }
     old = std::move(next);
   }
   for (int frame = segments.back().first; frame <= segments.back().last; ++frame)

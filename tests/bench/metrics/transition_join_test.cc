@@ -61,6 +61,15 @@ TEST(IsSupported, FailsWhereABodyFloatsForFourFrames) {
   EXPECT_FALSE(IsSupported(JoinSupport(StandingJoin(Lifted(0.05, 30, 39)).View())));
 }
 
+TEST(JoinSupport, AsksAClipOnTheWay) {
+  const StandingJoin floats(Lifted(0.3, 30, 39));
+  const Poses step(10, Lifted(0.3, 0, 0)[0]);  // it stands on something there
+  JoinView view = floats.View();
+  view.between = {{.poses = step, .begin = 30, .left_at = 39}};
+  EXPECT_EQ(UnsupportedFrames(JoinSupport(floats.View())), 12);
+  EXPECT_LE(UnsupportedFrames(JoinSupport(view)), 2) << "only where it leaps up, and down again";
+}
+
 TEST(BalanceCm, IsTheMeanOverTheFramesThatSomethingBears) {
   const StandingJoin stands(Lifted(0, 0, 0));
   EXPECT_NEAR(BalanceCm(stands.View(), JoinSupport(stands.View())).value_or(-1), 0, 1e-12);

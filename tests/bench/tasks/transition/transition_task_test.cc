@@ -92,6 +92,9 @@ TEST_F(TransitionTaskTest, CountsWhoGoesThroughAClipThatStandsUpAndWhoHasNone) {
     ++through;
     EXPECT_GT(ValueOf(cell, "wait_s"), 0.5);
     EXPECT_EQ(Json::parse(cell.recording->extras_json)["transition_points"][0]["to"], "rise");
+    ASSERT_EQ(cell.recording->tracks.size(), 4u);
+    EXPECT_EQ(cell.recording->tracks[3].name, "through");
+    EXPECT_EQ(ValueOf(cell, "supported_share"), 1);
   }
   EXPECT_GE(through, 1);
   EXPECT_LT(through, 4) << "into the clip that stands up itself the way is direct";

@@ -69,6 +69,8 @@ TEST(Played, GoesThroughTheClipThatStandsUp) {
                       "entered: no join can raise a body; through rise from frame "),
       std::string::npos)
       << record.why;
+  ASSERT_EQ(made.splice.between.size(), 1u);
+  EXPECT_EQ(made.splice.between[0].size(), 60u - rise.first) << "of the clip from its point on";
   // While the body rises, its hips are where the clip has them, but for what its two joins still do.
   const int shown = made.splice.points.front().frame;
   for (int f = rise.first; f <= rise.last; ++f) {
