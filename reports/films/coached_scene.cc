@@ -217,8 +217,8 @@ void CoachedScene::DrawStage(Canvas& canvas, int frame) {
   DrawTag(canvas, kStage, fmt::format("The coach: {}", InForce(facts_.modes, frame).mode));
   std::string why;
   for (const auto& decision : facts_.decisions) {
-    // What the coach does about the music and between clips is for its log.
-    const bool is_said = decision.event != "tag" && decision.event != "transition";
+    // What the coach does about the music and between clips, and by which rule it corrects, is for its log.
+    const bool is_said = decision.event != "tag" && decision.event != "transition" && decision.event != "corrects";
     if (is_said && decision.frame <= frame && frame < decision.frame + 2 * kFilmRate && !decision.why.empty()) {
       // Of a mistake its name, not the evidence.
       why = decision.event == "wrong" ? "wrong: " + decision.why.substr(0, decision.why.find(':')) : decision.why;
