@@ -372,6 +372,12 @@ class Formats(EtudeCase):
         told = self.etude("clip", "info", "/usr/share/assimp/models/FBX/huesitos.fbx").stdout  # binary, with a mesh
         self.assertIn("FBX, 40 frames at 25 Hz", told)
 
+    def test_a_manifest_names_the_build_that_read_an_fbx_file(self):
+        path, _ = self.fbx("body.fbx", 1, "y")
+        self.run_suite(self.scenario(), "--clips", path, "builtin:sway")
+        clips = json.loads((self.out / "manifest.json").read_text())["scenarios"][0]["loaded_clips"]
+        self.assertRegex(clips[0]["note"], r"read by libassimp\.so\.\d+ \([0-9a-f]{20}\)")
+
     def test_an_fbx_file_cut_anywhere_is_refused_in_one_line(self):
         path, _ = self.fbx("whole.fbx", 1, "y")
         text = path.read_text()
@@ -425,30 +431,6 @@ methods: [{name: cut, choice: now, join: cut}]
                            "--skip-refused")
         self.assertEqual(alone.returncode, 2)
         self.assertIn("none of its 1 clips is understood", alone.stderr)
-
-    def test_what_a_run_recorded_is_a_clip(self):
-        path = self.write("capture.yaml", """scenario: c
-question: Is it there?
-task: capture
-trials: 1
-clips: ['builtin:clap']
-duration_s: 0.2
-methods:
-  - {name: fixed, segmenter: hue, calibration: dlt, solver: ccd, weights: fixed}
-video: {trials: [0]}
-""")
-        self.run_suite(path)
-        cell = json.loads((self.out / "cells.jsonl").read_text().splitlines()[0])
-        name = f"c/-/000/{cell['method']}"
-        recorded = json.loads(next((self.out / "recordings").iterdir()).read_text())
-        truth = next(track for track in recorded["tracks"] if track["name"] == "truth")
-        joints = self.joints(f"{self.out}#{name}@truth")
-        poses = truth["poses"]
-        self.assertEqual(len(joints), len(poses))
-        for frame, pose in zip(joints, poses):
-            numpy.testing.assert_allclose(numpy.ravel(list(frame.values())), pose, atol=1e-9)
-        self.assertEqual(self.etude("clip", "info", f"{self.out}#{name}").returncode, 0)
-        self.refused(f"{self.out}#{name}@nobody", "animation 'nobody'")
 
 
 if __name__ == "__main__":

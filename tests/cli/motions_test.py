@@ -7,6 +7,7 @@ import re
 import subprocess
 import unittest
 
+import file_table
 import numpy
 from etude_case import EtudeCase, png_size
 from kinect_rows import arms, kinect
@@ -179,6 +180,17 @@ class Motions(EtudeCase):
         self.assertEqual(limits["hip_flexion_r"], limits["hip_flexion_l"])
         self.assertLess(limits["hip_flexion_r"][0], 0)
         self.assertEqual(set(limits) - set(rows[0]), set())
+
+    def test_joints_lie_where_second_readers_put_them(self):
+        glb = self.folder / "own.glb"
+        self.assertEqual(self.etude("clip", "convert", CMU, glb).returncode, 0)
+        for path, most_mm in ((pathlib.Path(CMU), 1e-6), (glb, 0.01)):  # GLB holds floats
+            facts = json.loads(self.etude("clip", "info", path, "--json").stdout)["clips"][0]
+            worst_mm, joints = file_table.worst_mm(path, facts)
+            self.assertLess(worst_mm, most_mm)
+            self.assertGreater(joints, 15)
+        facts["body"]["metres_per_unit"] *= 1.01  # the check must find that a unit is one per cent off
+        self.assertGreater(file_table.worst_mm(path, facts)[0], 5)
 
     def test_a_rate_that_is_told(self):
         for command, said in ((("clip", "info", CMU, "--json"), None), (("bridge", CMU, "builtin:wave", "--json"), None)):

@@ -297,6 +297,40 @@ Result<void> CheckCounts(const nlohmann::json& json, const std::string& where, c
   return {};
 }
 
+void PutNumber(std::string& bytes, std::size_t number) {
+  for (int i = 0; i < 4; ++i) bytes += static_cast<char>((number >> (8 * i)) & 0xffU);
+}
+
+/// The file without its meshes, where they are compressed by Draco: the parser stops at those. Nothing for other files.
+std::optional<std::string> WithoutDracoMeshes(const GltfContainer& container) {
+  if (container.json.find(kDraco) == std::string_view::npos) return std::nullopt;
+  auto json = nlohmann::json::parse(container.json, nullptr, /*allow_exceptions=*/false);
+  const bool is_file = json.is_object() && json.contains("extensionsRequired") && json["extensionsRequired"].is_array();
+  if (!is_file || std::ranges::find(json["extensionsRequired"], kDraco) == json["extensionsRequired"].end()) {
+    return std::nullopt;
+  }
+  json.erase("meshes");
+  if (json.contains("nodes") && json["nodes"].is_array()) {
+    for (auto& node : json["nodes"]) {
+      if (node.is_object()) node.erase("mesh");
+    }
+  }
+  std::string text = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  if (!container.is_binary) return text;
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  std::string bytes = "glTF";
+  const std::size_t binary = container.binary.empty() ? 0 : kChunkHeaderBytes + container.binary.size();
+  PutNumber(bytes, 2);
+  PutNumber(bytes, kHeaderBytes + kChunkHeaderBytes + text.size() + binary);
+  PutNumber(bytes, text.size());
+  PutNumber(bytes, kJsonChunk);
+  bytes += text;
+  if (binary == 0) return bytes;
+  PutNumber(bytes, container.binary.size());
+  PutNumber(bytes, kBinaryChunk);
+  return bytes += container.binary;
+}
+
 /// Every clip copies the names of its joints: long ones would multiply.
 constexpr std::size_t kLongestName = 500;
 
@@ -326,6 +360,8 @@ Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const
                                                    const FetchFile& fetch, bool wants_pictures) {
   ASSIGN_OR_RETURN(auto container, OpenGltfContainer(bytes, file));
 
+  const std::optional<std::string> without_meshes = WithoutDracoMeshes(container);
+  if (without_meshes) bytes = *without_meshes;
   Fetcher fetcher{.fetch = &fetch, .file = file, .wants_pictures = wants_pictures, .complaint = {}};
   tinygltf::TinyGLTF parser;
   parser.SetImageLoader(KeepEncoded, nullptr);

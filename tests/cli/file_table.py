@@ -1,0 +1,94 @@
+"""Tells of motion files what the program makes of each, and how far its joints lie from where second readers put them.
+
+    ETUDE=build/release/etude python3 tests/cli/file_table.py FOLDER       # a line of Markdown a file
+
+A role is compared in every frame where a joint of the file plays it: the second reader's place, in the unit and axes that
+the program says it found, against `etude clip convert`; one height of the floor is taken out. Of markers, points between
+them play roles; those are not compared.
+"""
+import csv
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import numpy
+
+import second_readers as readers
+
+SECOND = {"BVH": readers.read_bvh, "Acclaim": readers.read_acclaim, "DeepMimic": readers.read_deepmimic}
+
+
+def call(*arguments):
+    return subprocess.run([os.environ["ETUDE"], *map(str, arguments)], capture_output=True, text=True)
+
+
+def converted(source, rate):
+    with tempfile.TemporaryDirectory() as folder:
+        out = pathlib.Path(folder) / "joints.csv"
+        result = call("clip", "convert", source, out, "--rate", rate)
+        if result.returncode != 0:
+            raise ValueError(result.stderr)
+        rows = list(csv.reader(out.read_text().splitlines()))
+    names = [name[:-4] for name in rows[0] if name.endswith("_x_m")]
+    numbers = numpy.array([[float(v) for v in row[len(row) - 3 * len(names):]] for row in rows[1:]])
+    return dict(zip(names, numbers.reshape(len(numbers), -1, 3).transpose(1, 0, 2)))
+
+
+def worst_mm(path, facts):
+    """The largest distance of a joint from the second reader's, millimetres, and of how many; None without such a reader."""
+    body, rate = facts["body"], facts["rate_hz"]
+    if facts["format"] in ("GLB", "glTF"):
+        theirs = readers.read_gltf(path, facts["source"].partition("#")[2], rate, facts["frames"])
+    elif facts["format"] in SECOND:
+        theirs = SECOND[facts["format"]](path)
+    else:
+        return None
+    ours = converted(facts["source"], rate)
+    turned = numpy.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]]) if body["up"] == "z" else numpy.eye(3)
+    apart = []
+    for role, told in body["roles"].items():
+        # The hip centre lies between the hips, whatever the file has there; ends of limbs have no name in some formats.
+        if told["composed"] or role == "hip_centre" or told["joint"] not in theirs:
+            continue
+        place = theirs[told["joint"]] @ turned.T * body["metres_per_unit"]
+        dropped = len(place) - len(ours[role])
+        assert dropped == 0 or (body["dropped_t_pose"] and dropped > 0), (path, dropped)
+        apart.append(ours[role] - place[dropped:])
+    apart = numpy.array(apart)
+    apart[..., 1] -= apart[..., 1].mean()  # the floor, which `info` finds at another rate
+    return 1000 * numpy.linalg.norm(apart, axis=2).max(), len(apart)
+
+
+def rows_of(path):
+    told = call("clip", "info", path, "--json")
+    if not told.stdout:
+        yield {"file": path, "complaint": told.stderr.strip()}
+        return
+    for facts in json.loads(told.stdout)["clips"]:
+        if facts["complaint"] or not facts.get("body"):
+            yield {"file": path, "complaint": facts["complaint"]}
+            continue
+        body = facts["body"]
+        played = sum(not role["composed"] for role in body["roles"].values())
+        yield {"file": path, "clip": facts["name"], "format": facts["format"], "roles": played, "stature_m": body["stature_m"],
+               "unit": body["unit"], "metres_per_unit": body["metres_per_unit"], "up": body["up"], "frames": facts["frames"],
+               "slide_m_s": body["foot_slide_m_s"], "note": body["note"], "worst_mm": worst_mm(path, facts)}
+
+
+def main():
+    for folder in map(pathlib.Path, sys.argv[1:]):
+        for path in sorted(path for path in ([folder] if folder.is_file() else folder.rglob("*")) if path.is_file()):
+            for row in rows_of(path):
+                if "format" not in row:
+                    print(f"| {path} | refused: {row['complaint']} |", flush=True)
+                    continue
+                worst = "" if row["worst_mm"] is None else "{:.3g} of {}".format(*row["worst_mm"])
+                print(f"| {path} | {row['clip']} | {row['format']} | {row['roles']} | {row['stature_m']:.2f} | {row['unit']} | "
+                      f"{row['metres_per_unit']:.4g} | {row['up']} | {worst} | {row['note']} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
