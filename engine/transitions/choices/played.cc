@@ -202,9 +202,12 @@ class Rehearsal {
       windows_.push_back(WindowOfPair(library, request, pair, last, longest));
       own_.push_back(OwnOf(windows_.back()));
     }
+    for (const JoinWindow& window : windows_) turns_.emplace_back(window);
     PlayAll(pairs);
     PlayBestWithFeet();
   }
+  Rehearsal(const Rehearsal&) = delete;
+  Rehearsal& operator=(const Rehearsal&) = delete;
 
   const std::vector<PlayedWay>& ways() const { return ways_; }
   const PlayedWay& best() const { return ways_.front(); }
@@ -218,9 +221,9 @@ class Rehearsal {
   double Time(const PlayedWay& way) const { return (way.pair.leave - request_.request_frame + way.frames) / rate_hz_; }
 
   /// Returns the cost of a way without planted feet; it is not counted to the end once it is `enough`.
-  double Cost(const PlayedWay& way, double enough) const {
+  double Cost(const PlayedWay& way, double enough) {
     const JoinWindow& window = windows_[way.number];
-    const MinimumJerkPlay play(window, way.frames, way.fades);
+    const MinimumJerkPlay play(window, turns_[way.number], way.frames, way.fades);
     CostMeter meter(window, own_[way.number], usual_, options_);
     for (int frame = 0; frame <= way.frames && Time(way) + meter.Seconds() < enough; ++frame) meter.Add(play.At(frame));
     return Time(way) + meter.Seconds();
@@ -254,24 +257,31 @@ class Rehearsal {
     std::ranges::sort(ways_, IsBetterWay);
   }
 
-  /// Plays the ways of one length, and keeps those that cost least.
+  /// Plays the ways of one length, and keeps those that cost least. Pairs that were best at the length before are most
+  /// likely to be so again: played first, they make an early end of the others.
   void PlayLength(int frames, const std::vector<PlayedWay>& open) {
     std::vector<PlayedWay> best;  // the largest cost first in the heap
-    for (PlayedWay way : open) {
-      if (way.frames != frames) continue;
-      const bool is_full = best.size() == kWithFeet;
-      const double enough = is_full ? best.front().cost_s : std::numeric_limits<double>::infinity();
-      if (way.cost_s >= enough) break;
-      way.cost_s = Cost(way, enough);
-      if (way.cost_s >= enough) continue;
-      if (is_full) {
-        std::ranges::pop_heap(best, IsBetterWay);
-        best.pop_back();
+    const auto was_best = [&](const PlayedWay& way) {
+      return std::ranges::any_of(best_before_, [&](const PlayedWay& b) { return b.number == way.number; });
+    };
+    for (bool first : {true, false}) {
+      for (PlayedWay way : open) {
+        if (way.frames != frames || was_best(way) != first) continue;
+        const bool is_full = best.size() == kWithFeet;
+        const double enough = is_full ? best.front().cost_s : std::numeric_limits<double>::infinity();
+        if (way.cost_s >= enough) break;
+        way.cost_s = Cost(way, enough);
+        if (way.cost_s >= enough) continue;
+        if (is_full) {
+          std::ranges::pop_heap(best, IsBetterWay);
+          best.pop_back();
+        }
+        best.push_back(way);
+        std::ranges::push_heap(best, IsBetterWay);
       }
-      best.push_back(way);
-      std::ranges::push_heap(best, IsBetterWay);
     }
     ways_.insert(ways_.end(), best.begin(), best.end());
+    best_before_ = std::move(best);
   }
 
   void PlayBestWithFeet() {
@@ -283,8 +293,9 @@ class Rehearsal {
   const PlayedOptions& options_;
   const double rate_hz_, usual_;
   std::vector<JoinWindow> windows_;
+  std::vector<WindowTurns> turns_;  // of the windows
   std::vector<OwnAccelerations> own_;
-  std::vector<PlayedWay> ways_;
+  std::vector<PlayedWay> ways_, best_before_;
 };
 
 int LastFrameOf(const MotionLibrary& library, int clip) { return library.tagged[clip].FrameCount() - 1; }
@@ -297,11 +308,15 @@ TransitionRecord PlanThroughClip(const MotionLibrary& library, const TransitionR
   record.request_frame = request.request_frame;
   record.pairs_seen = allowed.Pairs();
   record.cost_unit = "s";
-  const bool is_down = library.stances[request.from][allowed.leave.front()].is_down;
-  const std::string why = fmt::format(
-      "{} {} all the while that it may be left and {} where it may be entered: no join can {} a body",
-      library.names[request.from], is_down ? "lies, sits or kneels" : "stands",
-      library.names[request.to] + (is_down ? " stands" : " lies, sits or kneels"), is_down ? "raise" : "lower");
+  const Stance &left = library.stances[request.from][allowed.leave.front()],
+               &met = library.stances[request.to][allowed.enter.front()];
+  const auto told = [&](int clip, const Stance& stance) {
+    return fmt::format("{} {} with its hips at {:.2f} m", library.names[clip],
+                       stance.is_down ? "lies, sits or kneels" : "stands", stance.hips);
+  };
+  const std::string why =
+      fmt::format("{} all the while that it may be left, {} where it may be entered: no join can {} a body on nothing",
+                  told(request.from, left), told(request.to, met), met.hips > left.hips ? "raise" : "lower");
   const auto through = FindThroughClip(library, request, allowed, options.most_through_s);
   if (!through) {
     record.why = fmt::format("{}; and no clip shows within {:g} s how it is done", why, options.most_through_s);
@@ -333,8 +348,8 @@ TransitionRecord PlanThroughClip(const MotionLibrary& library, const TransitionR
                       .last = LastFrameOf(library, request.to),
                       .own = {},
                       .preferred = out.PreferredOf(out.best())}};
-  const auto distance = [&](int from, int left, int to, int met) {
-    return ComputeDistance(library.tagged[from].grades[left], library.tagged[to].grades[met], rules.weights);
+  const auto distance = [&](int from, int from_frame, int to, int to_frame) {
+    return ComputeDistance(library.tagged[from].grades[from_frame], library.tagged[to].grades[to_frame], rules.weights);
   };
   record.distances = {distance(request.from, first.leave, through->clip, entered),
                       distance(through->clip, second.leave, request.to, second.enter)};

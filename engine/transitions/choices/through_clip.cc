@@ -50,17 +50,16 @@ class Ends {
   const AllowedFrames& allowed_;
 };
 
-/// The way of a clip whose frame `before` may be entered, and whose next frame may be left: the frames around these two
-/// as far as they, too, may be.
-ThroughClip WayAround(const MotionLibrary& library, const Ends& ends, int clip, int before, double most_s) {
+/// The way of a clip whose frame `before` may be entered, and whose later frame `after` may be left: the frames up to
+/// the one and on from the other, as far as they, too, may be.
+ThroughClip WayAround(const MotionLibrary& library, const Ends& ends, int clip, int before, int after, double most_s) {
   const TaggedClip& tagged = library.tagged[clip];
   const auto frames = [&](double seconds) { return static_cast<int>(std::lround(seconds * tagged.rate_hz)); };
   const int least = frames(kLeast_s), most = frames(most_s);
   ThroughClip way{.clip = clip, .enter = {}, .leave = {}};
   if (most < least) return way;
-  const int last_leave = std::min(before + frames(kRunOut_s), tagged.FrameCount() - 1);
-  for (int f = before + 1; f <= last_leave && ends.MayLeave(clip, f); ++f) way.leave.push_back(f);
-  if (way.leave.empty()) return way;
+  const int last_leave = std::min(after + frames(kRunOut_s), tagged.FrameCount() - 1);
+  for (int f = after; f <= last_leave && ends.MayLeave(clip, f); ++f) way.leave.push_back(f);
   for (int f = before; f >= std::max(before - frames(kRunUp_s), 0) && ends.MayEnter(clip, f); --f) {
     if (f + least <= way.leave.back() && way.leave.front() - f <= most) way.enter.push_back(f);
   }
@@ -77,15 +76,17 @@ std::optional<ThroughClip> FindThroughClip(const MotionLibrary& library, const T
   std::optional<ThroughClip> nearest;
   double least = std::numeric_limits<double>::infinity();
   for (int clip = 0; clip < static_cast<int>(library.motions.size()); ++clip) {
-    const int last = library.tagged[clip].FrameCount() - 1;
-    for (int f = 0; f < last; ++f) {
-      if (!ends.MayEnter(clip, f) || !ends.MayLeave(clip, f + 1)) continue;
-      ThroughClip way = WayAround(library, ends, clip, f, most_s);
-      if (way.enter.empty() || way.leave.empty()) continue;
-      const double distance = ends.NearestEntry(clip, way.enter) + ends.NearestExit(clip, way.leave);
-      if (distance >= least) continue;
-      least = distance;
-      nearest = std::move(way);
+    int before = -1;  // the last frame that may be entered, none since one could be left
+    for (int f = 0; f < library.tagged[clip].FrameCount(); ++f) {
+      if (before >= 0 && ends.MayLeave(clip, f)) {
+        ThroughClip way = WayAround(library, ends, clip, std::exchange(before, -1), f, most_s);
+        if (!way.enter.empty() && !way.leave.empty()) {
+          const double distance = ends.NearestEntry(clip, way.enter) + ends.NearestExit(clip, way.leave);
+          if (distance < least) nearest = std::move(way);
+          least = std::min(least, distance);
+        }
+      }
+      if (ends.MayEnter(clip, f)) before = f;
     }
   }
   return nearest;

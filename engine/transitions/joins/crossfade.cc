@@ -7,15 +7,26 @@
 
 namespace etude {
 
-BodyPose PoseBetween(const BodyPose& from, const BodyPose& to, double share) {
+LimbTurns TurnsBack(const BodyPose& from, const BodyPose& to) {
+  LimbTurns turns{};
+  for (const Bone& bone : AllBones()) {
+    turns[Index(bone.child)] = TurnBetween(to[bone.child] - to[bone.parent], from[bone.child] - from[bone.parent]);
+  }
+  return turns;
+}
+
+BodyPose PoseBetween(const BodyPose& from, const BodyPose& to, const LimbTurns& back, double share) {
   BodyPose pose;
   pose[Role::kHipCentre] = glm::mix(from[Role::kHipCentre], to[Role::kHipCentre], share);
   for (const Bone& bone : AllBones()) {
     const glm::dvec3 limb = to[bone.child] - to[bone.parent];
-    const LimbTurn back = TurnBetween(limb, from[bone.child] - from[bone.parent]);
-    pose[bone.child] = pose[bone.parent] + Turned(limb, (1 - share) * back);
+    pose[bone.child] = pose[bone.parent] + Turned(limb, (1 - share) * back[Index(bone.child)]);
   }
   return pose;
+}
+
+BodyPose PoseBetween(const BodyPose& from, const BodyPose& to, double share) {
+  return PoseBetween(from, to, TurnsBack(from, to), share);
 }
 
 const SettingTable<CrossfadeOptions>& CrossfadeSettings() {

@@ -1,10 +1,20 @@
 #pragma once
 
+#include <array>
+
 #include "engine/transitions/joins/join.h"
+#include "engine/transitions/joins/limbs.h"
 
 namespace etude {
 
-/// Returns the pose `share` of the way from one to another, limb by limb; the limbs have the lengths of `to`.
+/// A turn for each limb, by the role at its end.
+using LimbTurns = std::array<LimbTurn, kRoleCount>;
+/// Returns the turns that lay the limbs of `to` onto those of `from`.
+LimbTurns TurnsBack(const BodyPose& from, const BodyPose& to);
+
+/// Returns the pose `share` of the way from one to another, limb by limb; the limbs have the lengths of `to`. `back`:
+/// TurnsBack of the two, for who asks for several shares.
+BodyPose PoseBetween(const BodyPose& from, const BodyPose& to, const LimbTurns& back, double share);
 BodyPose PoseBetween(const BodyPose& from, const BodyPose& to, double share);
 
 struct CrossfadeOptions {

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "engine/base/smoothstep.h"
-#include "engine/transitions/joins/crossfade.h"
 
 namespace etude {
 
@@ -66,7 +65,15 @@ Inertialiser DecayOf(const JoinWindow& window, int frames) {
 
 }  // namespace
 
-MinimumJerkPlay::MinimumJerkPlay(const JoinWindow& window, int frames, bool fades) : window_(window), frames_(frames) {
+const LimbTurns& WindowTurns::At(int frame) {
+  for (std::size_t f = turns_.size(); f <= static_cast<std::size_t>(frame); ++f) {
+    turns_.push_back(TurnsBack(window_.old[f], window_.next[f]));
+  }
+  return turns_[frame];
+}
+
+MinimumJerkPlay::MinimumJerkPlay(const JoinWindow& window, WindowTurns& turns, int frames, bool fades)
+    : window_(window), turns_(turns), frames_(frames) {
   if (!fades) decay_ = DecayOf(window, frames);
 }
 
@@ -75,12 +82,13 @@ BodyPose MinimumJerkPlay::At(int frame) const {
   if (decay_) return decay_->Apply(window_.next[frame], frame / window_.rate_hz);
   // Both motions go on, and limb by limb the new one takes over.
   const double share = Smootherstep(static_cast<double>(frame) / frames_);
-  return PoseBetween(window_.old[frame], window_.next[frame], share);
+  return PoseBetween(window_.old[frame], window_.next[frame], turns_.At(frame), share);
 }
 
 std::vector<BodyPose> PlayMinimumJerk(const JoinWindow& window, bool fades) {
   if (window.Frames() == 0) return {window.shown.now};
-  const MinimumJerkPlay play(window, window.Frames(), fades);
+  WindowTurns turns(window);
+  const MinimumJerkPlay play(window, turns, window.Frames(), fades);
   std::vector<BodyPose> played;
   for (int frame = 0; frame <= window.Frames(); ++frame) played.push_back(play.At(frame));
   return played;

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/transitions/joins/crossfade.h"
 #include "engine/transitions/joins/inertialise.h"
 #include "engine/transitions/joins/join.h"
 
@@ -36,6 +37,18 @@ struct JoinWindow {
 /// The window of `frames` frames after the point; where a motion ends earlier, it holds its last frame.
 JoinWindow WindowOf(const JoinInput& input, int frames);
 
+/// The turns from the new motion's limbs to the old one's in a window, which no length of a fade changes: each frame's
+/// are computed when they are first asked for.
+class WindowTurns {
+ public:
+  explicit WindowTurns(const JoinWindow& window) : window_(window) {}
+  const LimbTurns& At(int frame);
+
+ private:
+  const JoinWindow& window_;
+  std::vector<LimbTurns> turns_;
+};
+
 /// Computes what is shown of a window, frame by frame.
 ///
 /// By default the new motion plays, and limb by limb what the old one was off from it dies away along MinimumJerkDecay.
@@ -45,14 +58,16 @@ JoinWindow WindowOf(const JoinInput& input, int frames);
 /// that a movement of least jerk has made: less of what either accelerates is shown, more of how they differ.
 class MinimumJerkPlay {
  public:
-  /// A join of `frames` ≥ 1 frames, at most the window's, which must outlive this.
-  MinimumJerkPlay(const JoinWindow& window, int frames, bool fades);
+  /// A join of `frames` ≥ 1 frames, at most the window's, which must outlive this, as must its `turns`: who plays
+  /// several fades of one window keeps them.
+  MinimumJerkPlay(const JoinWindow& window, WindowTurns& turns, int frames, bool fades);
 
   /// Returns the pose of a frame from 0, which is the last one shown, to `frames`.
   BodyPose At(int frame) const;
 
  private:
   const JoinWindow& window_;
+  WindowTurns& turns_;
   const int frames_;
   std::optional<Inertialiser> decay_;  ///< without it the motions fade
 };

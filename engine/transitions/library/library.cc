@@ -117,8 +117,7 @@ Stance StanceOf(const BodyPose& pose, double standing_hip_height) {
 
 bool NeedsClip(const Stance& a, const Stance& b) {
   constexpr double kMostRise = 0.2;
-  if (a.is_down == b.is_down) return false;
-  return a.is_down ? b.hips > a.hips + kMostRise : a.hips > b.hips + kMostRise;
+  return (a.is_down || b.is_down) && std::abs(a.hips - b.hips) > kMostRise;
 }
 
 MotionLibrary MakeLibraryOfOneBody(std::vector<std::string> names, std::vector<BodyMotion> motions,

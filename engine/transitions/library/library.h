@@ -37,8 +37,8 @@ struct Stance {
 };
 Stance StanceOf(const BodyPose& pose, double standing_hip_height);
 
-/// Tells whether a join would have to raise or lower a body on nothing: in one stance it is down, in the other it is on
-/// its feet with its hips more than 0.2 m higher. Only a clip can show how that is done.
+/// Tells whether a join would have to raise or lower a body on nothing: in one stance at least it is down, and its hips
+/// differ by more than 0.2 m. Only a clip can show how that is done.
 bool NeedsClip(const Stance& a, const Stance& b);
 
 /// Clips made ready for transitions: all performed by one body, at 30 Hz, tagged, and joined by in-betweens.
