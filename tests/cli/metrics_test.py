@@ -5,7 +5,7 @@ import pathlib
 import subprocess
 import unittest
 
-from etude_case import ETUDE, EtudeCase, cells_in_journal
+from etude_case import ETUDE, EtudeCase, cells_in_journal, heavy
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "examples/outside-metrics"
@@ -131,6 +131,7 @@ class OwnMetrics(EtudeCase):
         values = {(each["condition"], each["method"], each["metric"]): each for each in kept["values"]}
         self.assertTrue(all(twin in {key[2] for key in values} for _, twin in TWINS.values()))
 
+    @heavy
     def test_the_same_bytes_for_any_jobs_shards_and_interruptions(self):
         scenario = self.write("s.yaml", self.text(own("mine", more=", unit: mm") + own("absent", "absent") + own("looks", "looks")))
         self.run_suite(scenario, "--jobs", 1)
@@ -201,6 +202,7 @@ class OwnMetrics(EtudeCase):
             self.refused(self.text(own("mine", manner, vector(expected, ", title: moved"))),
                          "metric 'mine', test vector 1 (moved): ", says, "refused.yaml:7:")
 
+    @heavy
     def test_scored_answers_and_secret_worlds_are_measured_like_a_run_s(self):
         scenario, key = self.write("s.yaml", self.text(own("off_m", "off"))), self.folder / "key"
         key.write_text("0123456789abcdef" * 4)
