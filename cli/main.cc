@@ -1,5 +1,5 @@
 #include <fcntl.h>
-#include <fmt/core.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -9,9 +9,12 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <memory>
 #include <new>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "bench/process/machine.h"
 #include "bench/process/pinned_environment.h"
@@ -88,6 +91,20 @@ bool RunsUnpinned(const CLI::App& app) {
   return app.got_subcommand("clip") && app.get_subcommand("clip")->got_subcommand("render");
 }
 
+/// Help whose words have the same order in every run: CLI11 keeps what an option excludes by its address.
+class OrderedHelp : public CLI::Formatter {
+ public:
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const std::string text = CLI::Formatter::make_option_opts(option);
+    const std::string label = get_label("Excludes") + ":";
+    const std::size_t at = text.find(label);
+    if (at == std::string::npos) return text;
+    std::vector<std::string> names = CLI::detail::split(text.substr(at + label.size() + 1), ' ');
+    std::ranges::sort(names);
+    return fmt::format("{} {}", text.substr(0, at + label.size()), fmt::join(names, " "));
+  }
+};
+
 bool output_was_closed = false;
 
 /// Refuses what no result could name: manifests, rows and pages are UTF-8.
@@ -116,6 +133,7 @@ void OpenStandardStreams() {
 int Main(int argc, char** argv) {
   if (auto named = CheckNames({argv, static_cast<std::size_t>(argc)}); !named) return Complain(named.error());
   CLI::App app(kAbout, "etude");
+  app.formatter(std::make_shared<OrderedHelp>());
   app.footer(kExamples);
   app.set_version_flag("--version", ETUDE_VERSION);
   static char help[] = "--help";

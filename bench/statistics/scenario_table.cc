@@ -233,7 +233,9 @@ bool HasRival(const Study& study, const ComparedMethod& method) {
 std::optional<Rival> FindRival(const Study& study, const ConditionTable& table, const ComparedMethod& method) {
   if (!HasRival(study, method)) return std::nullopt;
   if (!study.rival.empty()) return Rival{{study.rival, study.rival}};
-  return Rival{{BestOther(study, table, method, 1), BestOther(study, table, method, 0)}};
+  Rival rival{{BestOther(study, table, method, 1), BestOther(study, table, method, 0)}};
+  if (rival.of_half[0].empty() || rival.of_half[1].empty()) return std::nullopt;  // one half has no world to choose on
+  return rival;
 }
 
 PairedWorlds WorldsAgainst(const Rival& rival, const ConditionTable& table, const std::string& method,

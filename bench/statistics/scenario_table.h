@@ -111,7 +111,8 @@ bool HasRival(const Study& study, const ComparedMethod& method);
 /// by the first headline metric, of those that differ there by less than matters by the next one, and so on. It is
 /// chosen on other worlds than those it is judged on: on the worlds of odd units (trials where worlds are units, or of
 /// several units) for those of even ones, and the other way round. A cell that failed counts as the condition's worst
-/// value there. No rival for the rival itself, for what does not compete, and where none but the baseline does.
+/// value there. No rival for the rival itself, for what does not compete, where none but the baseline
+/// does, and where a half has no world to choose on.
 std::optional<Rival> FindRival(const Study& study, const ConditionTable& table, const ComparedMethod& method);
 
 /// One metric of `method` and of whom it meets, in all worlds of the condition.

@@ -132,7 +132,8 @@ class IkProblem(Message):
 class IkAnswer(Message):
     """The pose found.
 
-    angles_deg: As many as the setting's angles.
+    angles_deg: As many as the setting's angles; one that breaks its limit by more than 10⁻⁶ degrees is measured,
+        and counts as unsolved.
     iterations: The method's own steps.
     fk_evaluations: Its passes of forward kinematics over the whole tree.
     """
@@ -178,7 +179,8 @@ class TrackingProblem(Message):
 class TrackingAnswer(Message):
     """The angles of every frame.
 
-    angles_deg: Per frame as many as the problem's angles.
+    angles_deg: Per frame as many as the problem's angles; a frame with one that breaks its limit by more than 10⁻⁶
+        degrees is measured, and counts as unsolved.
     iterations: Per frame the method's own steps.
     """
     angles_deg: List[List[float]]
@@ -247,14 +249,18 @@ class TransitionAnswer(Message):
     """Where the one clip is left and the other entered; or why there is no way.
 
     leave_frame: Of the clip shown, request_frame at the earliest: the last one shown.
-    enter_frame: Of the clip wanted, any but its last: takes the place of leave_frame.
+    enter_frame: Of the clip wanted, any but its last: takes the place of leave_frame; its next frame is the next
+        one shown, and so on to the end.
     through: Clips played on the way, 16 at most.
     join: Any built-in one (etude list methods); cut by default.
-    join_s: How long minimum-jerk or planted-feet take, 0 to 5.
-    fades: Only with join_s: the old clip goes on while it fades out.
-    between: Up to 300 poses of the method's own making, shown after leave_frame in its place and heading.
-    between_start: Only with between: the method's version of leave_frame.
-    matched: The two frames were chosen because they are alike.
+    join_s: How many seconds minimum-jerk or planted-feet take, 0 to 5; other joins have lengths of their own.
+    fades: Only with join_s: the old clip goes on while it fades out, else what it was off from the new one dies
+        away.
+    between: Up to 300 poses of the method's own making, shown after leave_frame in its place and heading, the last
+        of them in place of enter_frame; limbs may differ from the clips' by 2 cm. Not with through.
+    between_start: Only with between: the method's version of leave_frame. It is not shown: the gaps of the first
+        transition point are those to it. Without it between begins at a steady speed.
+    matched: The two frames were chosen because they are alike: then false_smooth is measured.
     unsolved: Why there is no way.
     """
     HOLDS: ClassVar[dict] = {"through": [TransitionStop]}
@@ -358,7 +364,9 @@ class SearchProblem(Message):
 class SearchAnswer(Message):
     """What was found.
 
-    found: Per query frames of the library, from 0.
+    found: Per query frames of the library, from 0. first: the earliest one whose distance is below threshold, or
+        none; within: all of them, by number; nearest, nearest-10: the one, or ten, of smallest distance, by
+        distance, those of equal distance by number.
     """
     found: List[List[int]]
 
@@ -493,7 +501,8 @@ class DetectionAnswer(Message):
     """Who danced right.
 
     events: Per event, in order.
-    alarms: Every time a move is taken for performed, wherever.
+    alarms: Every time a move is taken for performed, wherever; those where that move was asked for or performed do
+        no harm.
     """
     HOLDS: ClassVar[dict] = {"events": [DetectionCall], "alarms": [DetectionAlarm]}
     events: List[DetectionCall]

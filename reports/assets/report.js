@@ -184,8 +184,8 @@
     setTimeout(() => URL.revokeObjectURL(url), 1000);
   };
   const print = (svgs) => {
-    const frame = make('iframe', '', {className: 'printed', title: 'The picture to print'});
-    document.querySelector('.printed')?.remove();
+    const frame = make('iframe', '', {className: 'print', title: 'The picture to print'});
+    document.querySelector('.print')?.remove();
     document.body.append(frame);
     const boxes = svgs.map((svg) => svg.getBoundingClientRect()), inside = frame.contentDocument;
     const width = Math.ceil(Math.max(...boxes.map((box) => box.width))) + 24, height = Math.ceil(Math.max(...boxes.map((box) => box.height))) + 24;

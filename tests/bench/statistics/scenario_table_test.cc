@@ -87,6 +87,15 @@ metrics: [position_error_cm]
   EXPECT_EQ(summary.conditions[0].rivals.size(), 1u);
 }
 
+TEST(FindRival, IsNoneWhereAHalfHasNoWorldToChooseOn) {
+  std::string yaml = kRivalYaml;
+  yaml.replace(yaml.find("trials: "), std::string("trials: ").size() + 1, "trials: 1 #");
+  const Study study = StudyOf(ParseOne(yaml));
+  const ScenarioTable table = TableOf(study, [](const std::string& method, int) { return method == "a" ? 9.0 : 3.0; });
+  EXPECT_EQ(RivalOf(study, table, "b"), "");
+  EXPECT_TRUE(Summarise(study, table, 1).conditions[0].rivals.empty());
+}
+
 TEST(FindRival, AsksTheNextMetricOfWhatTheFirstDoesNotTellApart) {
   const Study study = StudyOf(ParseOne(kRivalYaml));
   const ScenarioTable table = TableOf(study, [](const std::string& method, int) {
