@@ -5,7 +5,7 @@ where they are there.
 """
 import importlib
 
-__version__ = "0.2.0"
+__version__ = "0.3.0"
 
 _HOMES = {
     "etude.program": ("EtudeError", "find_program"),

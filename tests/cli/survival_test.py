@@ -265,7 +265,7 @@ methods:
         clip.write_text("\n".join(lines[:-10] + [line.replace("1", "2") for line in lines[-10:]]) + "\n")
         result = self.etude("run", "--from", self.out / "manifest.json", "-o", self.folder / "again")
         self.assertEqual(result.returncode, 2)
-        self.assertRegex(result.stderr, r"clip 2 of scenario t was \S+ \w+ then and is \S+ \w+ now")
+        self.assertRegex(result.stderr, r"clip 2 of scenario t was walk \w+ \(.*\) then and is walk \w+ \(.*\) now")
         self.assertEqual(result.stderr.count("\n"), 1)
 
     def test_cells_replay_to_the_same_stages(self):
