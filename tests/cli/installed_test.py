@@ -79,12 +79,13 @@ class Installed(EtudeCase):
         self.assertEqual(self.etude("clip", "convert", "builtin:clap", clip).returncode, 0)
         packages = [next(self.folder.glob(f"{name}_*.deb")) for name in ("libetude", "libetude-dev")]
         inside = " ".join(f"/tmp/{package.name}" for package in packages)
-        root = self.make_root(f"copy-in {' '.join(map(str, packages))} {clip} {EXAMPLES} /tmp", 'chroot "$1" sh -c ' + shlex.quote(
-            f"apt-get update -q && apt-get install -y -q {inside} g++ cmake make libosmesa6 && useradd --create-home etude"))
+        root = self.make_root(f"copy-in {' '.join(map(str, packages))} /tmp", f"copy-in {clip} {EXAMPLES} /srv", 'chroot "$1" sh -c ' +
+                              shlex.quote(f"apt-get update -q && apt-get install -y -q {inside} g++ cmake make libosmesa6 && "
+                                          "useradd --create-home etude"))
         self.assertFalse((root / "usr" / "bin" / "etude").exists(), "the program came along")
-        told = self.run_inside(root, "cmake -S /tmp/library -B built", "cmake --build built", "built/thousand_poses",
-                               "built/two_clips /tmp/clap.bvh /tmp/clap.bvh", "built/two_cameras /tmp/clap.bvh > captured.bvh",
-                               "head -1 captured.bvh", "built/two_sensors /tmp/clap.bvh", "ls -s left.ppm right.ppm")
+        told = self.run_inside(root, "cmake -S /srv/library -B built", "cmake --build built", "built/thousand_poses",
+                               "built/two_clips /srv/clap.bvh /srv/clap.bvh", "built/two_cameras /srv/clap.bvh > captured.bvh",
+                               "head -1 captured.bvh", "built/two_sensors /srv/clap.bvh", "ls -s left.ppm right.ppm")
         for words in ("of 1000 poses solved", "bridge frames: ", "HIERARCHY", "% of the joints tracked", "right.ppm"):
             self.assertIn(words, told)
 

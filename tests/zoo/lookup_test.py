@@ -1,5 +1,6 @@
 """A method that brings its own copy of Etude (lookup.py): of plain seeds it finds the worlds and answers the truth, of secret
 ones it finds nothing, in any task and seat. ETUDE_LOOKUP_TASKS takes some of them."""
+import hashlib
 import json
 import os
 import pathlib
@@ -62,9 +63,10 @@ class Lookup(unittest.TestCase):
         rows = [json.loads(line) for line in (out / "cells.jsonl").read_text().splitlines()]
         return re.findall("^LOOKUP (.*)$", logs, re.M), rows
 
-    def key(self):
+    def key(self, task):
+        """The same in every run: a world of tracking has no error, only a clip and its first frame, which are met by chance now and then."""
         file = self.folder / "key"
-        file.write_bytes(os.urandom(32))
+        file.write_bytes(hashlib.sha256(f"nobody's key of {task}".encode()).digest())
         file.chmod(0o600)
         return file
 
@@ -79,7 +81,7 @@ class Lookup(unittest.TestCase):
     def test_of_a_secret_one_nothing_is_found(self):
         for task in os.environ.get("ETUDE_LOOKUP_TASKS", " ".join(TASKS)).split():
             with self.subTest(task):
-                found, rows = self.release(task, "--seed-file", self.key())
+                found, rows = self.release(task, "--seed-file", self.key(task))
                 self.assertEqual(found, [])
                 self.assertGreater(len(rows), 0)
                 for row in rows if task == "ik" else []:
