@@ -63,9 +63,8 @@ CaptureBody PaperBody(const LimbLengths& lengths);
 /// Makes the person's own body: every joint of `rest` that lies between two of the twenty roles is a joint of the tree,
 /// so that whatever the person does can be done by the tree. Rooted at the left toe, too, where the whole body turns
 /// freely. *(Ours.)*
-/// - Joints from which nothing leads anywhere are left out. A joint between the pelvis and a hip, such as depth
-/// sensors'
-///   skeletons have, stays: `hips_turn`.
+/// - Joints from which nothing leads anywhere are left out. A joint between the pelvis and a hip, as skeletons of depth
+///   sensors have it, stays: `hips_turn`.
 /// - A limb that carries one other, along its own line, has two degrees of freedom, which point it anywhere: what it
 ///   would turn about itself nobody sees. Three have the pelvis, limbs that carry several or whose points do not lie on
 ///   one line, and upper arms, the right thigh and the left shank: these turn elbows and knees into the plane in which

@@ -64,7 +64,8 @@ class Lookup(unittest.TestCase):
         return re.findall("^LOOKUP (.*)$", logs, re.M), rows
 
     def key(self, task):
-        """The same in every run: a world of tracking has no error, only a clip and its first frame, which are met by chance now and then."""
+        """The same in every run: a world of tracking is a public clip and its first frame, which two seeds meet by chance now
+        and then. Whoever tries all frames finds it under any key; the page says so among what can leak."""
         file = self.folder / "key"
         file.write_bytes(hashlib.sha256(f"nobody's key of {task}".encode()).digest())
         file.chmod(0o600)
