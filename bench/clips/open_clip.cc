@@ -24,6 +24,7 @@
 #include "engine/motion/edit.h"
 #include "engine/retargeting/joint_arrays.h"
 #include "engine/retargeting/markers.h"
+#include "engine/retargeting/opensim_motion.h"
 #include "engine/retargeting/rig.h"
 #include "sim/camera/jpeg.h"
 #include "sim/choreography/canonical_body.h"
@@ -86,6 +87,13 @@ ClipFile FileOfOne(ClipFormat format, Clip clip) {
                 .figure = {.name = clip.name, .skeleton = clip.skeleton, .materials = {}, .meshes = {}},
                 .clips = {}};
   file.clips.push_back(std::move(clip));
+  return file;
+}
+
+/// A file that holds a body already, made as `note` tells.
+ClipFile FileOfBody(ClipFormat format, const BodyMotion& motion, const std::string& path, const char* note) {
+  ClipFile file = FileOfOne(format, RigClip(motion, StandingPose(), fs::path(path).stem().string()));
+  file.notes = {note};
   return file;
 }
 
@@ -267,8 +275,8 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
 }  // namespace
 
 std::string_view FormatName(ClipFormat format) {
-  constexpr std::array kNames = {"BVH", "glTF", "GLB", "FBX", "DeepMimic", "Acclaim",   "AMASS",   "C3D",
-                                 "TRC", "CSV",  "NPZ", "NPY", "Motive",    "recording", "built-in"};
+  constexpr std::array kNames = {"BVH", "glTF", "GLB", "FBX", "DeepMimic", "Acclaim", "AMASS",     "C3D",
+                                 "TRC", "CSV",  "NPZ", "NPY", "Motive",    "MOT",     "recording", "built-in"};
   return kNames[static_cast<std::size_t>(format)];
 }
 
@@ -284,9 +292,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     ASSIGN_OR_RETURN(const auto arrays, ReadNpz(bytes, path));
     if (IsBodyNpz(arrays)) {
       ASSIGN_OR_RETURN(const auto motion, ReadBodyNpz(arrays, path));
-      file = FileOfOne(ClipFormat::kNpz, RigClip(motion, StandingPose(), fs::path(path).stem().string()));
-      file.notes = {"Etude's own arrays"};
-      return file;
+      return FileOfBody(ClipFormat::kNpz, motion, path, "Etude's own arrays");
     }
     ASSIGN_OR_RETURN(auto clip, ReadAmass(arrays, path));
     return FileOfOne(ClipFormat::kAmass, std::move(clip));
@@ -301,6 +307,10 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
   }
   if (auto markers = ReadMarkers(bytes, path)) return *std::move(markers);
   if (IsRecording(bytes)) return FileOfRecording(bytes, path);
+  if (first.text == "Coordinates" && HasModelOfAngles(bytes)) {
+    ASSIGN_OR_RETURN(const auto motion, ReadOpenSimMotion(bytes, path));
+    return FileOfBody(ClipFormat::kMot, motion, path, "angles of the model in the file's head");
+  }
   if (first.text == "{" && IsDeepMimicMotion(bytes)) {
     ASSIGN_OR_RETURN(auto clip, ReadDeepMimicMotion(bytes, path));
     return FileOfOne(ClipFormat::kDeepMimic, std::move(clip));
@@ -333,7 +343,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
         scanner.At(first),
         "{}; allowed: BVH (it begins with HIERARCHY), glTF 2.0 (.glb, .gltf), FBX, Acclaim's .amc, AMASS's .npz, "
         "C3D, TRC, joint "
-        "CSV, Motive's CSV, .npy of joints, DeepMimic's motions",
+        "CSV, Motive's CSV, .npy of joints, .mot of ours, DeepMimic's motions",
         WhatElse(std::string(first.text)));
   }
   ASSIGN_OR_RETURN(auto clip, ReadBvh(bytes, path, &file.remarks));
@@ -393,6 +403,7 @@ Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options)
   if (source.ground) {
     told.up = source.ground->up;
     told.floor = source.ground->floor;
+    told.stature = source.ground->stature;
   }
   ASSIGN_OR_RETURN(auto body, ToBodyMotion(source.clip, map, source.source, told));
   for (const std::string& remark : source.remarks) body.note += "; " + remark;

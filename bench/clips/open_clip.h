@@ -30,11 +30,12 @@ enum class ClipFormat {
   kNpz,
   kNpy,
   kMotive,
+  kMot,
   kRecording,
   kBuiltin
 };
 /// Returns the name of a format: "BVH", "glTF", "GLB", "FBX", "DeepMimic", "Acclaim", "AMASS", "C3D", "TRC", "CSV",
-/// "NPZ", "NPY", "Motive", "recording" or "built-in".
+/// "NPZ", "NPY", "Motive", "MOT", "recording" or "built-in".
 std::string_view FormatName(ClipFormat format);
 
 /// The content of a motion file.
@@ -50,8 +51,8 @@ struct ClipFile {
 /// The largest size of a file, or of a .gltf with its buffers, bytes; more is refused before memory is taken.
 constexpr std::uintmax_t kLargestClipFile = 500'000'000;
 
-/// Reads a BVH or glTF file, a motion of DeepMimic, an Acclaim motion (AMC), one of AMASS (.npz), an .npz of our own,
-/// an array of joints (.npy, in `layout`: JointsOfArray), or markers of C3D, TRC, Motive's CSV or joint CSV
+/// Reads a BVH or glTF file, a motion of DeepMimic, an Acclaim motion (AMC), one of AMASS (.npz), an .npz or .mot of
+/// our own, an array of joints (.npy, in `layout`: JointsOfArray), or markers of C3D, TRC, Motive's CSV or joint CSV
 /// (FindMarkerBodies), told by its content, whatever it is called. The buffers of a .gltf are read
 /// from its own folder and below only, links leading out of it are refused. An AMC's skeleton is the ASF beside it:
 /// "01.asf" of "01_01.amc", else the only one of its folder.

@@ -1,5 +1,8 @@
 #include <etude/transitions.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "engine/api/convert.h"
 #include "engine/base/names.h"
 #include "engine/transitions/library/library.h"
@@ -7,8 +10,55 @@
 namespace etude::engine {
 namespace {
 
+const Choice& ChoiceNamed(const std::string& name) {
+  const Choice* const choice = FindChoice(name);
+  if (choice == nullptr) throw BadInput(fmt::format("choice '{}'; allowed: {}", name, Join(ChoiceNames())));
+  return *choice;
+}
+
+const JoinKind& JoinNamed(const std::string& name) {
+  const JoinKind* const join = FindJoin(name);
+  if (join == nullptr) throw BadInput(fmt::format("join '{}'; allowed: {}", name, Join(JoinNames())));
+  return *join;
+}
+
+std::vector<TransitionSetting> Described(const std::vector<NumberSetting>& settings) {
+  std::vector<TransitionSetting> told;
+  for (const NumberSetting& one : settings) {
+    told.push_back({one.key, one.fallback, one.lowest, one.largest, one.is_whole, one.meaning});
+  }
+  return told;
+}
+
+/// Puts settings told by keys into the order of `known`. Throws BadInput, naming `of`, for those that there are not.
+std::vector<double> ValuesOf(const std::map<std::string, double>& told, const std::vector<NumberSetting>& known,
+                             const std::string& of) {
+  std::vector<double> values;
+  std::vector<std::string> keys;
+  for (const NumberSetting& setting : known) {
+    values.push_back(setting.fallback);
+    keys.push_back(setting.key);
+  }
+  for (const auto& [key, value] : told) {
+    const auto found = std::ranges::find(known, key, &NumberSetting::key);
+    if (found == known.end()) {
+      throw BadInput(fmt::format("setting '{}' of '{}'; allowed: {}", key, of, keys.empty() ? "none" : Join(keys)));
+    }
+    const bool is_allowed =
+        value >= found->lowest && value <= found->largest && (!found->is_whole || value == std::round(value));
+    if (!is_allowed) {
+      throw BadInput(fmt::format("{} {} of '{}'; allowed: {}{:g} to {:g}", key, value, of,
+                                 found->is_whole ? "whole numbers from " : "", found->lowest, found->largest));
+    }
+    values[static_cast<std::size_t>(found - known.begin())] = value;
+  }
+  return values;
+}
+
 TransitionWay WayOf(const TransitionOptions& options) {
   TransitionWay way = WayNamed(options.choice, options.join);
+  way.choice_settings = ValuesOf(options.choice_settings, way.choice->settings, options.choice);
+  way.join_settings = ValuesOf(options.join_settings, way.join->settings, options.join);
   if (!(options.threshold > 0 && options.threshold <= kFarthestFuzzy)) {
     throw BadInput(fmt::format("threshold {}; allowed: above 0, up to {}", options.threshold, kFarthestFuzzy));
   }
@@ -19,14 +69,19 @@ TransitionWay WayOf(const TransitionOptions& options) {
 }  // namespace
 
 TransitionWay WayNamed(const std::string& choice, const std::string& join) {
-  const TransitionWay way{.choice = FindChoice(choice), .join = FindJoin(join)};
-  if (way.choice == nullptr) throw BadInput(fmt::format("choice '{}'; allowed: {}", choice, Join(ChoiceNames())));
-  if (way.join == nullptr) throw BadInput(fmt::format("join '{}'; allowed: {}", join, Join(JoinNames())));
-  return way;
+  return {.choice = &ChoiceNamed(choice), .join = &JoinNamed(join)};
 }
 
 std::vector<std::string> TransitionChoices() { return ChoiceNames(); }
 std::vector<std::string> TransitionJoins() { return JoinNames(); }
+
+std::vector<TransitionSetting> TransitionChoiceSettings(const std::string& choice) {
+  return Described(ChoiceNamed(choice).settings);
+}
+
+std::vector<TransitionSetting> TransitionJoinSettings(const std::string& join) {
+  return Described(JoinNamed(join).settings);
+}
 
 struct TransitionLibrary::Library {
   MotionLibrary clips;

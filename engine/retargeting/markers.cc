@@ -14,8 +14,8 @@
 namespace etude {
 namespace {
 
-using Place = std::optional<glm::dvec3>;
-using Places = std::array<Place, kRoleCount>;
+using MarkerPlace = std::optional<glm::dvec3>;
+using Places = std::array<MarkerPlace, kRoleCount>;
 
 constexpr double kLongestGap_s = 1;
 
@@ -205,30 +205,30 @@ glm::dvec3 SquareTo(const glm::dvec3& across, const glm::dvec3& from, const glm:
 /// Moves Plug-in Gait's markers from the skin to the joints.
 void MoveIntoLimbs(Places& places) {
   constexpr double kHalfKnee = 0.05, kHalfAnkle = 0.035, kShoulderDepth = 0.045;
-  const auto at = [&](Role role) -> Place& { return places[Index(role)]; };
+  const auto at = [&](Role role) -> MarkerPlace& { return places[Index(role)]; };
   if (at(Role::kLeftHip) && at(Role::kRightHip)) {
     const glm::dvec3 to_right = *at(Role::kRightHip) - *at(Role::kLeftHip);
     for (const bool is_left : {true, false}) {
-      const auto of = [&](Role role) -> Place& { return at(is_left ? role : Mirrored(role)); };
+      const auto of = [&](Role role) -> MarkerPlace& { return at(is_left ? role : Mirrored(role)); };
       const glm::dvec3 inward = is_left ? to_right : -to_right;
-      Place &hip = of(Role::kLeftHip), &knee = of(Role::kLeftKnee), &ankle = of(Role::kLeftAnkle);
+      MarkerPlace &hip = of(Role::kLeftHip), &knee = of(Role::kLeftKnee), &ankle = of(Role::kLeftAnkle);
       if (knee) *knee += kHalfKnee * SquareTo(inward, *hip, *knee);
       if (knee && ankle) *ankle += kHalfAnkle * SquareTo(inward, *knee, *ankle);
     }
   }
-  const Place &neck = at(Role::kShoulderCentre), &spine = at(Role::kSpine);
+  const MarkerPlace &neck = at(Role::kShoulderCentre), &spine = at(Role::kSpine);
   if (!neck || !spine) return;
   for (const Role shoulder : {Role::kLeftShoulder, Role::kRightShoulder}) {
     if (at(shoulder)) *at(shoulder) += kShoulderDepth * glm::normalize(*spine - *neck);
   }
 }
 
-Places PlacesOf(const MarkerSet& set, const Columns& columns, const std::vector<Place>& frame) {
+Places PlacesOf(const MarkerSet& set, const Columns& columns, const std::vector<MarkerPlace>& frame) {
   Places places;
-  const auto middle = [&](std::span<const std::string> markers) -> Place {
+  const auto middle = [&](std::span<const std::string> markers) -> MarkerPlace {
     glm::dvec3 sum(0);
     for (const std::string& marker : markers) {
-      const Place& one = frame[columns.find(marker)->second];
+      const MarkerPlace& one = frame[columns.find(marker)->second];
       if (!one) return std::nullopt;
       sum += *one;
     }
@@ -241,14 +241,14 @@ Places PlacesOf(const MarkerSet& set, const Columns& columns, const std::vector<
     std::array<glm::dvec3, 4> pelvis;
     bool is_seen = true;
     for (std::size_t i = 0; i < pelvis.size(); ++i) {
-      const Place one = middle({&set.pelvis[i], 1});
+      const MarkerPlace one = middle({&set.pelvis[i], 1});
       is_seen = is_seen && one;
       if (one) pelvis[i] = *one;
     }
     if (is_seen) PlaceHips(pelvis, places);
   }
   if (set.is_gait) MoveIntoLimbs(places);
-  for (Place& place : places) {  // markers that lie on each other have no direction
+  for (MarkerPlace& place : places) {  // markers that lie on each other have no direction
     if (place && !std::isfinite(place->x + place->y + place->z)) place.reset();
   }
   return places;
@@ -285,7 +285,7 @@ BodyPose Complete(const Places& places) {
 glm::dvec3 FindUp(const std::vector<Places>& frames) {
   glm::dvec3 sum(0);
   for (const Places& places : frames) {
-    const Place &shoulder = places[Index(Role::kLeftShoulder)], &ankle = places[Index(Role::kLeftAnkle)];
+    const MarkerPlace &shoulder = places[Index(Role::kLeftShoulder)], &ankle = places[Index(Role::kLeftAnkle)];
     if (shoulder && ankle) sum += *shoulder - *ankle;
   }
   glm::dvec3 up(0);
@@ -300,7 +300,7 @@ glm::dvec3 FindUp(const std::vector<Places>& frames) {
 /// Turns places so that `up` becomes Y.
 void TurnUpright(const glm::dvec3& up, std::vector<Places>& frames) {
   for (Places& places : frames) {
-    for (Place& place : places) {
+    for (MarkerPlace& place : places) {
       if (!place) continue;
       const glm::dvec3 p = *place;
       if (up.z != 0) *place = {p.x, up.z * p.z, -up.z * p.y};
@@ -376,7 +376,7 @@ Result<std::vector<MarkerBody>> FindMarkerBodies(const MarkerMotion& markers, co
     for (const MarkerSet& set : sets) {
       const auto lacks = LackedBy(set, columns);
       const auto told = static_cast<std::size_t>(
-          std::ranges::count_if(AllRoles(), [&](Role role) { return Tells(set, columns, role); }));
+          std::ranges::count_if(AllRoles(), [&, &columns = columns](Role role) { return Tells(set, columns, role); }));
       if (lacks.empty() && told > most) {
         best = &set;
         most = told;

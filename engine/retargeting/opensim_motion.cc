@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "engine/base/angles.h"
+#include "engine/base/names.h"
+#include "engine/formats/text_scanner.h"
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/joint_limits.h"
 #include "engine/motion/clip.h"
@@ -180,7 +182,167 @@ std::string HeadOf(const BodyMotion& motion, const std::vector<WrittenPart>& par
   return text + "\n";
 }
 
+/// A part as it is read, with the columns of its angles.
+struct ReadPart {
+  Role end;
+  std::optional<Role> after;  ///< none: the ground
+  glm::dvec3 bone;            ///< in OpenSim's axes, metres
+  std::array<std::string, 3> names;
+  std::array<glm::dvec3, 3> axes;  ///< with their signs
+  std::array<std::size_t, 3> columns = {};
+};
+
+/// Reads the rest of a line that begins with "part"; `read` stand above it.
+Result<ReadPart> ReadPartLine(TextScanner& scanner, const std::vector<ReadPart>& read) {
+  ReadPart part{};
+  const Token name = scanner.NextInLine(), after_word = scanner.NextInLine(), after = scanner.NextInLine();
+  const auto end = FindRole(name.text);
+  const auto ends_at = [&](Role role) { return std::ranges::find(read, role, &ReadPart::end) != read.end(); };
+  if (!end || ends_at(*end)) {
+    return Fail(scanner.At(name), "part {}; allowed: each of the twenty roles once", Quote(name.text));
+  }
+  part.end = *end;
+  part.after = FindRole(after.text);
+  const bool is_first = read.empty() && after.text == "ground";
+  if (after_word.text != "after" || !(is_first || (part.after && ends_at(*part.after)))) {
+    return Fail(scanner.At(after_word),
+                "after {}; allowed: 'after ground' of the first part, then one that stands above", Quote(after.text));
+  }
+  const Token bone = scanner.NextInLine();
+  if (bone.text != "bone") return Fail(scanner.At(bone), "{}; allowed: bone X Y Z", Quote(bone.text));
+  for (int i = 0; i < 3; ++i) {
+    ASSIGN_OR_RETURN(part.bone[i], scanner.Number(scanner.NextInLine(), "a bone's end"));
+  }
+  const Token turns = scanner.NextInLine();
+  if (turns.text != "turns") return Fail(scanner.At(turns), "{}; allowed: turns and three angles", Quote(turns.text));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Token axis = scanner.NextInLine(), angle = scanner.NextInLine();
+    const bool has_axis = axis.text.size() == 2 && (axis.text[0] == '+' || axis.text[0] == '-') &&
+                          axis.text[1] >= 'X' && axis.text[1] <= 'Z';
+    if (!has_axis || angle.text.empty()) {
+      return Fail(scanner.At(axis), "turn {} {}; allowed: +X, -X to -Z, each with the name of its angle",
+                  Quote(axis.text), Quote(angle.text));
+    }
+    part.axes[i][axis.text[1] - 'X'] = axis.text[0] == '-' ? -1 : 1;
+    part.names[i] = angle.text;
+  }
+  return part;
+}
+
+/// A .mot file's head and rows as numbers.
+struct AngleTable {
+  std::vector<ReadPart> parts;
+  double radians = Radians(1);            ///< per unit of angles
+  std::array<std::size_t, 3> place = {};  ///< columns of where the ground's part begins
+  std::vector<std::vector<double>> rows;  ///< the first column: seconds
+};
+
+Result<void> FindColumns(TextScanner& scanner, AngleTable& table, std::size_t& count) {
+  const Token time = scanner.Next();
+  if (time.text != "time") return Fail(scanner.At(time), "{}; allowed: time, then names of angles", Quote(time.text));
+  std::vector<std::string> names{"time"};
+  for (Token name = scanner.NextInLine(); !name.text.empty(); name = scanner.NextInLine()) {
+    names.emplace_back(name.text);
+  }
+  count = names.size();
+  const auto find = [&](const std::string& name, std::size_t& column) -> Result<void> {
+    column = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+    if (column == names.size()) return Fail(scanner.At(time), "no column {}, which the model needs", Quote(name));
+    return {};
+  };
+  for (ReadPart& part : table.parts) {
+    for (std::size_t i = 0; i < 3; ++i) RETURN_IF_ERROR(find(part.names[i], part.columns[i]));
+  }
+  for (std::size_t i = 0; i < 3; ++i) RETURN_IF_ERROR(find(fmt::format("pelvis_t{}", "xyz"[i]), table.place[i]));
+  return {};
+}
+
+Result<AngleTable> ReadAngleTable(std::string_view bytes, const std::string& file) {
+  TextScanner scanner(bytes, file);
+  AngleTable table;
+  while (true) {
+    const Token first = scanner.Next();
+    if (first.text.empty()) return Fail(scanner.At(first), "no endheader");
+    if (first.text == "endheader") break;
+    if (first.text == "inDegrees=no") table.radians = 1;
+    if (first.text == "part") {
+      ASSIGN_OR_RETURN(auto part, ReadPartLine(scanner, table.parts));
+      table.parts.push_back(std::move(part));
+    }
+    while (!scanner.NextInLine().text.empty()) {
+    }
+  }
+  if (table.parts.size() != kRoleCount) {
+    return Fail({file}, "a model of {} parts; allowed: {}, one for each role", table.parts.size(), kRoleCount);
+  }
+  std::size_t columns = 0;
+  RETURN_IF_ERROR(FindColumns(scanner, table, columns));
+  for (Token word = scanner.Next(); !word.text.empty(); word = scanner.Next()) {
+    std::vector<double>& row = table.rows.emplace_back();
+    const Token begin = word;
+    for (; !word.text.empty() && row.size() <= columns; word = scanner.NextInLine()) {
+      ASSIGN_OR_RETURN(const double number, scanner.Number(word, "an angle or a place"));
+      row.push_back(number);
+    }
+    if (row.size() != columns) return Fail(scanner.At(begin), "{} numbers under {} names", row.size(), columns);
+  }
+  if (table.rows.empty()) return Fail({file}, "no rows of angles");
+  return table;
+}
+
+/// The rate of times that stand evenly.
+Result<double> RateOfRows(const std::vector<std::vector<double>>& rows, const std::string& file) {
+  if (rows.size() < 2) return kJudgedRateHz;
+  const double first = rows.front().front(), steps = static_cast<double>(rows.size() - 1);
+  const double span = rows.back().front() - first;
+  constexpr double kSlowest = 0.1, kFastest = 10'000, kUneven = 0.05;
+  const double rate = span > 0 ? steps / span : 0;
+  if (!(rate >= kSlowest && rate <= kFastest)) {
+    return Fail({file}, "{} rows in {:g} s; allowed: {:g} to {:g} a second", rows.size(), span, kSlowest, kFastest);
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (std::abs((rows[i].front() - first) * rate - static_cast<double>(i)) > kUneven) {
+      return Fail({file}, "row {} at {:g} s; allowed: even steps, here of {:g} s", i + 1, rows[i].front(), 1 / rate);
+    }
+  }
+  // Times are told to so many digits: a whole number that they allow is meant.
+  constexpr double kLastDigit = 1e-6;
+  return std::abs(rate - std::round(rate)) <= rate * kLastDigit / span ? std::round(rate) : rate;
+}
+
+/// OpenSim's axes as Etude's: the inverse of InOpenSim.
+glm::dvec3 FromOpenSim(const glm::dvec3& v) { return {-v.z, v.y, v.x}; }
+
 }  // namespace
+
+bool HasModelOfAngles(std::string_view bytes) {
+  const std::string_view head = bytes.substr(0, bytes.find("\nendheader"));
+  return head.size() < bytes.size() && head.find("\npart ") != std::string_view::npos;
+}
+
+Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& file) {
+  constexpr std::size_t kLargest = std::size_t{64} << 20;
+  if (bytes.size() > kLargest) return Fail({file}, "{} bytes; allowed: {}", bytes.size(), kLargest);
+  ASSIGN_OR_RETURN(const AngleTable table, ReadAngleTable(bytes, file));
+  BodyMotion motion{.rate_hz = 0, .poses = std::vector<BodyPose>(table.rows.size())};
+  ASSIGN_OR_RETURN(motion.rate_hz, RateOfRows(table.rows, file));
+  for (std::size_t f = 0; f < table.rows.size(); ++f) {
+    const std::vector<double>& row = table.rows[f];
+    const glm::dvec3 ground(row[table.place[0]], row[table.place[1]], row[table.place[2]]);
+    std::array<glm::dmat3, kRoleCount> turns;
+    std::array<glm::dvec3, kRoleCount> ends;
+    for (const ReadPart& part : table.parts) {
+      glm::dmat3 R = part.after ? turns[Index(*part.after)] : glm::dmat3(1);
+      for (std::size_t i = 0; i < 3; ++i) {
+        R = R * glm::mat3_cast(glm::angleAxis(table.radians * row[part.columns[i]], part.axes[i]));
+      }
+      turns[Index(part.end)] = R;
+      ends[Index(part.end)] = (part.after ? ends[Index(*part.after)] : ground) + R * part.bone;
+      motion.poses[f][part.end] = FromOpenSim(ends[Index(part.end)]);
+    }
+  }
+  return motion;
+}
 
 std::string WriteOpenSimMotion(const BodyMotion& motion, const BodyPose& rest, std::string name) {
   const std::vector<WrittenPart> parts = WrittenParts();

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
+#include "engine/base/result.h"
 #include "engine/motion/body.h"
 
 namespace etude {
@@ -21,5 +23,14 @@ namespace etude {
 /// `rest` is the pose in which nothing turns; the limbs keep its lengths, those of the motion are lost: bones point
 /// where the motion's do. `name` is told in the header, control characters as '_'.
 std::string WriteOpenSimMotion(const BodyMotion& motion, const BodyPose& rest, std::string name);
+
+/// Says whether these bytes are a .mot file that tells the model which its angles are of.
+bool HasModelOfAngles(std::string_view bytes);
+
+/// Reads such a .mot through its own model: where the twenty parts end, metres, Y up. The rate is that of the times,
+/// which stand evenly; of a single row 30 Hz. Angles are degrees, or radians after "inDegrees=no". Refused, with the
+/// line: over 64 MB, parts that are not the twenty roles, each once and after the one that it follows, angles or places
+/// without a column, rows of another length, numbers beyond ±10⁹, no rows, uneven times.
+Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& file);
 
 }  // namespace etude

@@ -6,7 +6,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <span>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "engine/base/angles.h"
@@ -18,6 +17,7 @@
 #include "engine/motion/clip.h"
 #include "engine/motion/statistics.h"
 #include "engine/retargeting/joint_map.h"
+#include "engine/retargeting/sides.h"
 
 namespace etude {
 namespace {
@@ -79,86 +79,6 @@ BodyPose BodySampler::At(double frame) {
 BodyPose BodySampler::Evaluated() {
   ComputeGlobals(skeleton_, local_, globals_);
   return Evaluate(map_, globals_);
-}
-
-using enum Role;
-
-glm::dvec3 Direction(const glm::dvec3& v) {
-  const double length = glm::length(v);
-  return length > 0 ? v / length : glm::dvec3(0);
-}
-
-glm::dvec3 Across(const BodyPose& pose, Role left, Role right) { return Direction(pose[left] - pose[right]); }
-
-/// Returns the direction in which chest and belly look.
-glm::dvec3 Forward(const BodyPose& pose) {
-  return Direction(glm::cross(Across(pose, kLeftHip, kRightHip), Direction(pose[kShoulderCentre] - pose[kHipCentre])));
-}
-
-glm::dvec3 Toe(const BodyPose& pose, Role ankle, Role toe) { return Direction(pose[toe] - pose[ankle]); }
-
-/// Returns how far the middle joint of a limb stands out from the straight line, in lengths of the limb.
-glm::dvec3 StandsOut(const BodyPose& pose, Role upper, Role middle, Role end) {
-  const double length = glm::distance(pose[upper], pose[middle]) + glm::distance(pose[middle], pose[end]);
-  return length > 0 ? (pose[middle] - 0.5 * (pose[upper] + pose[end])) / length : glm::dvec3(0);
-}
-
-/// Returns by how far a joint of a limb is bent, radians; below 0 towards the wrong side of `forward`.
-double Bend(const glm::dvec3& forward, const glm::dvec3& upper, const glm::dvec3& middle, const glm::dvec3& end) {
-  const double angle = AngleBetween(middle - upper, end - middle);
-  return glm::dot(forward, middle - 0.5 * (upper + end)) < 0 ? -angle : angle;
-}
-
-/// What a motion shows of its sides, in the body's own frame, so that it may lie or turn over.
-struct Sides {
-  double arms = 0, toes = 0, knees = 0, elbows = 0;  ///< sums over frames (and limbs): above 0 as people are made
-  std::vector<double> knee_bends;                    ///< Bend of either knee by frame
-};
-
-Sides LookAtSides(std::span<const BodyPose> poses) {
-  Sides sides;
-  for (const BodyPose& pose : poses) {
-    const glm::dvec3 forward = Forward(pose);
-    sides.arms += glm::dot(Across(pose, kLeftShoulder, kRightShoulder), Across(pose, kLeftHip, kRightHip));
-    for (const auto& [hip, knee, ankle, toe] : {std::tuple(kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot),
-                                                std::tuple(kRightHip, kRightKnee, kRightAnkle, kRightFoot)}) {
-      sides.toes += glm::dot(forward, Toe(pose, ankle, toe));
-      sides.knees += glm::dot(forward, StandsOut(pose, hip, knee, ankle));
-      sides.knee_bends.push_back(Bend(forward, pose[hip], pose[knee], pose[ankle]));
-    }
-    for (const auto& [shoulder, elbow, wrist] :
-         {std::tuple(kLeftShoulder, kLeftElbow, kLeftWrist), std::tuple(kRightShoulder, kRightElbow, kRightWrist)}) {
-      sides.elbows -= glm::dot(forward, StandsOut(pose, shoulder, elbow, wrist));
-    }
-  }
-  return sides;
-}
-
-/// Checks that left is left throughout a motion (ours), and returns by how far its knees overstretch on the average,
-/// radians; 0 unless by 3° and more. Refused, naming `file`: a left arm on the side of the right leg; feet that point
-/// backwards, or, when `map` has composed them forward, knees that stand out backwards: straight ones prove nothing.
-/// Depth sensors overstretch knees: that is believed up to 35° (19 frames of 20) while elbows bend as they should.
-Result<double> CheckSides(std::span<const BodyPose> poses, const JointMap& map, const std::string& file) {
-  const Sides sides = LookAtSides(poses);
-  if (sides.arms < 0) {
-    return Fail({file}, "the left arm is on the side of the right leg; left and right are mixed up");
-  }
-  // Per foot and frame. Feet that hang down from a lying body point backwards a little.
-  constexpr double kBackwards = 0.35;
-  const auto count = static_cast<double>(2 * poses.size());
-  const bool has_feet = std::ranges::find(map.composed, kLeftFoot) == map.composed.end();
-  if (has_feet && sides.toes < -kBackwards * count) {
-    return Fail({file}, "the feet point backwards: left and right are swapped, or the axes are left-handed");
-  }
-  constexpr double kStandsOut = 0.01, kMostOverstretched = Radians(35);
-  const bool are_backwards = LowerPercentile(sides.knee_bends, 0.05) < -kMostOverstretched || sides.elbows < 0;
-  if (!has_feet && sides.knees < -kStandsOut * count && are_backwards) {
-    return Fail({file}, "the knees bend backwards: left and right are swapped, or the axes are left-handed");
-  }
-  constexpr double kTold = Radians(3);
-  double mean = 0;
-  for (const double bend : sides.knee_bends) mean -= bend / count;
-  return mean >= kTold ? mean : 0;
 }
 
 using enum Role;
@@ -265,6 +185,8 @@ Result<std::vector<BodyPose>> Resampled(const Clip& clip, BodySampler& sampler, 
   return poses;
 }
 
+double MedianStature(const std::vector<BodyPose>& poses) { return LowerPercentile(OverFrames(poses, Stature), 0.5); }
+
 /// The unit under which a stature is that of a person, or null.
 const Unit* UnitOf(double stature) {
   const auto is_human = [&](const Unit& unit) {
@@ -277,12 +199,18 @@ const Unit* UnitOf(double stature) {
 /// Finds the unit by the stature. That of the rest pose counts, which all clips of a file share, unless the body that
 /// moves is made otherwise: some files leave all offsets to the frames, others scale the hips in them alone. `remark`
 /// says so. Refused, naming `file`: a given unit under which the body is no body, with the one that it is likely in.
-Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, const std::optional<double>& given,
+Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, const BodyOptions& options,
                       const std::string& file, BodyConversion& done, std::string& remark) {
   constexpr double kAlike = 1.25;
-  const double at_rest = Stature(rest), moving = LowerPercentile(OverFrames(poses, Stature), 0.5);
+  const auto are_alike = [](double ratio) { return ratio > 1 / kAlike && ratio < kAlike; };
+  const std::optional<double>& given = options.metres_per_unit;
+  const double at_rest = Stature(rest), own = MedianStature(poses), moving = options.stature.value_or(own);
   const double ratio = moving / at_rest;
-  const bool is_alike = ratio > 1 / kAlike && ratio < kAlike;
+  const bool is_alike = are_alike(ratio);
+  if (!are_alike(own / moving)) {
+    remark +=
+        fmt::format("; its frames show a body {:.3g} times as tall as those of all the file's clips", own / moving);
+  }
   const double stature = is_alike ? at_rest : moving;
   if (stature < kSmallestBody) return Fail({file}, "the body's joints all lie in one point; it needs a size");
   const Unit* const unit = UnitOf(stature);
@@ -384,6 +312,7 @@ std::optional<Ground> FindGround(std::span<const Clip> clips, const JointMap& ma
   Ground ground{.up = options.up.value_or(FindUpAxis(rest, glimpses))};
   for (BodyPose& pose : poses) pose = Upright(pose, ground.up);
   ground.floor = options.floor.value_or(FindFloor(poses));
+  ground.stature = options.stature.value_or(MedianStature(poses));
   return ground;
 }
 
@@ -415,7 +344,7 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
   ASSIGN_OR_RETURN(auto poses, Resampled(clip, sampler, done.dropped_frames, options.rate_hz, done.up, file));
   ASSIGN_OR_RETURN(const double overstretch, CheckSides(poses, map, file));
   std::string remarks;
-  RETURN_IF_ERROR(FindUnit(rest, poses, options.metres_per_unit, file, done, remarks));
+  RETURN_IF_ERROR(FindUnit(rest, poses, options, file, done, remarks));
   if (overstretch > 0)
     remarks += fmt::format("; the knees overstretch by {:.0f}° on the average", Degrees(overstretch));
   done.floor = FloorOf(poses, options.floor);

@@ -156,10 +156,28 @@ class Motions(EtudeCase):
             self.assertLess(worst_deg, 0.01, clip)
             if is_rigid:
                 self.assertLess(worst_m, 1e-5)
+            for frame, body in zip(frames, self.joints(out)):  # and by the program itself
+                for name in parents:
+                    numpy.testing.assert_allclose(body[name], frame[name], atol=1e-9, err_msg=name)
             for name in rows[0]:  # no whole turns from frame to frame
                 if name != "time":
                     steps = numpy.abs(numpy.diff([row[name] for row in rows]))
                     self.assertLess(steps.max(), 180, (clip, name))
+
+    def test_angles_that_are_read_have_a_model_and_its_columns(self):
+        out = self.folder / "angles.mot"
+        self.assertEqual(self.etude("clip", "convert", "builtin:clap", out).returncode, 0)
+        told, own = (json.loads(self.etude("clip", "info", clip, "--json").stdout)["clips"][0] for clip in (out, "builtin:clap"))
+        self.assertEqual((told["format"], told["rate_hz"], told["frames"]), ("MOT", 30, own["frames"]))
+        text = out.read_text()
+        for before, after, says in (("part right_knee after right_hip", "part right_knee after right_foot", "one that stands above"),
+                                    ("part head ", "part crown ", "part 'crown'"), ("\tknee_angle_r", "\tknee", "'knee_angle_r'"),
+                                    ("turns +Z ", "turns +Q ", "turn '+Q'"), ("0.000000\t", "0.000000\tnan\t", "nan"),
+                                    ("0.033333\t", "0.050000\t", "even steps")):
+            self.assertIn(before, text)
+            self.assertIn(says, self.refused("clip", "info", self.write("bad.mot", text.replace(before, after, 1))))
+        foreign = self.write("theirs.mot", re.sub(r"(?m)^part .*\n", "", text))
+        self.assertIn("angles of a model that is another file", self.refused("clip", "info", foreign))
 
     def test_angles_have_the_signs_and_limits_of_their_names(self):
         joints = self.joints("builtin:clap")[:1]

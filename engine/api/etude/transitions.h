@@ -2,6 +2,7 @@
 
 #include <etude/motion.h>
 
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -14,12 +15,26 @@ struct TransitionOptions {
   std::string choice = "played";      ///< which frame is left and which entered: one of TransitionChoices()
   std::string join = "planted-feet";  ///< how the clips are put together there: one of TransitionJoins()
   double threshold = 0.4;             ///< of the fuzzy choices: frames match below this fuzzy distance, in (0, 6]
+  /// The numbers that the choice and the join are set by, by their keys; what is not told keeps its fallback.
+  std::map<std::string, double> choice_settings = {}, join_settings = {};
+};
+
+/// A number that a choice or a join can be set by.
+struct TransitionSetting {
+  std::string key;
+  double fallback = 0;             ///< what it is where nothing is told
+  double lowest = 0, largest = 0;  ///< both allowed
+  bool is_whole = false;
+  std::string meaning;  ///< one sentence
 };
 
 /// The names of all choices: "fuzzy-bridge" (paper A's), "played", "motion-matching", …
 ETUDE_API std::vector<std::string> TransitionChoices();
 /// The names of all joins: "cut" (paper A's), "crossfade", "planted-feet", …
 ETUDE_API std::vector<std::string> TransitionJoins();
+/// What a choice or a join can be set by. Throws BadInput for a name that there is not.
+ETUDE_API std::vector<TransitionSetting> TransitionChoiceSettings(const std::string& choice);
+ETUDE_API std::vector<TransitionSetting> TransitionJoinSettings(const std::string& join);
 
 /// A clip that is left for another, as it is shown.
 struct Transition {
@@ -44,7 +59,7 @@ class ETUDE_API TransitionLibrary {
 
   /// Makes the transition from frame `frame` of clip `from`, which is the one shown when clip `to` is asked for;
   /// `budget_s`: how long the wanted clip may be waited for, 0 to 3600 seconds. Throws BadInput for a clip, frame,
-  /// choice or join that there is not.
+  /// choice, join or setting that there is not, and a setting beyond its bounds.
   Transition Make(int from, int frame, int to, double budget_s = 1, const TransitionOptions& options = {}) const;
 
  private:

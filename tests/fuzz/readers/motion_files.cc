@@ -16,6 +16,7 @@
 #include "engine/retargeting/joint_map.h"
 #include "engine/retargeting/map_file.h"
 #include "engine/retargeting/markers.h"
+#include "engine/retargeting/opensim_motion.h"
 #include "engine/retargeting/to_body.h"
 #include "tests/engine/streams/small_files.h"
 #include "tests/fuzz/readers/target.h"
@@ -221,6 +222,17 @@ constexpr const char* kMotiveTake =
     ",Name,A:LUArm,A:LUArm,A:LUArm\n,ID,1,1,1\n,,Position,Position,Position\nFrame,Time (Seconds),X,Y,Z\n"
     "0,0.0,1,2,3\n1,0.0083,1,,3\n";
 
+void AnglesFile(std::string_view bytes) {
+  const auto motion = ReadOpenSimMotion(bytes, kFile);
+  if (!motion) return;
+  WriteOpenSimMotion(*motion, motion->poses.front(), "fuzzed");
+}
+
+std::string AnglesSeed() {
+  const BodyMotion motion = testing::WavingMotion(2);
+  return WriteOpenSimMotion(motion, motion.poses.front(), "seed");
+}
+
 void Map(std::string_view bytes) {
   const auto taught = ReadJointMapFile(bytes, kFile);
   if (!taught) return;
@@ -286,6 +298,7 @@ std::vector<Target> MotionTargets() {
        {"'shape': (", "<f8", "NUMPY"}},
       {"npy", NpyFile, [] { return std::vector{NpySeed()}; }, {"'shape': (", "<f8", "NUMPY", "17", "25"}},
       {"motive", MotiveFile, [] { return std::vector<std::string>{kMotiveTake}; }, {"Marker", "Local", "nan", ",,,"}},
+      {"opensim", AnglesFile, [] { return std::vector{AnglesSeed()}; }, {"inDegrees=no", "ground", "-Z", "1e308"}},
       {"joint-map", Map, MapSeeds, {"hip_centre", "_End", "right_foot"}},
   };
 }

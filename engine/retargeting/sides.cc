@@ -1,0 +1,107 @@
+#include "engine/retargeting/sides.h"
+
+#include <algorithm>
+#include <tuple>
+#include <vector>
+
+#include "engine/base/angles.h"
+#include "engine/base/directions.h"
+#include "engine/base/order_statistics.h"
+
+namespace etude {
+namespace {
+
+using enum Role;
+
+glm::dvec3 Direction(const glm::dvec3& v) {
+  const double length = glm::length(v);
+  return length > 0 ? v / length : glm::dvec3(0);
+}
+
+glm::dvec3 Across(const BodyPose& pose, Role left, Role right) { return Direction(pose[left] - pose[right]); }
+
+/// Returns the direction in which chest and belly look.
+glm::dvec3 Forward(const BodyPose& pose) {
+  return Direction(glm::cross(Across(pose, kLeftHip, kRightHip), Direction(pose[kShoulderCentre] - pose[kHipCentre])));
+}
+
+glm::dvec3 Toe(const BodyPose& pose, Role ankle, Role toe) { return Direction(pose[toe] - pose[ankle]); }
+
+double LimbLength(const BodyPose& pose, Role upper, Role middle, Role end) {
+  return glm::distance(pose[upper], pose[middle]) + glm::distance(pose[middle], pose[end]);
+}
+
+/// Returns how far the middle joint of a limb stands out from the straight line, in lengths of the limb.
+glm::dvec3 StandsOut(const BodyPose& pose, Role upper, Role middle, Role end) {
+  const double length = LimbLength(pose, upper, middle, end);
+  return length > 0 ? (pose[middle] - 0.5 * (pose[upper] + pose[end])) / length : glm::dvec3(0);
+}
+
+/// Returns where a limb ends, seen from where it begins, in lengths of the limb.
+glm::dvec3 EndsAt(const BodyPose& pose, Role upper, Role middle, Role end) {
+  const double length = LimbLength(pose, upper, middle, end);
+  return length > 0 ? (pose[end] - pose[upper]) / length : glm::dvec3(0);
+}
+
+/// Returns by how far a joint of a limb is bent, radians; below 0 towards the wrong side of `forward`.
+double Bend(const glm::dvec3& forward, const glm::dvec3& upper, const glm::dvec3& middle, const glm::dvec3& end) {
+  const double angle = AngleBetween(middle - upper, end - middle);
+  return glm::dot(forward, middle - 0.5 * (upper + end)) < 0 ? -angle : angle;
+}
+
+/// What a motion shows of its sides, in the body's own frame, so that it may lie or turn over.
+struct Sides {
+  double shoulders = 0, toes = 0, knees = 0, arms = 0;  ///< sums over frames (and limbs): above 0 as people are made
+  std::vector<double> knee_bends;                       ///< Bend of either knee by frame
+};
+
+Sides LookAtSides(std::span<const BodyPose> poses) {
+  Sides sides;
+  for (const BodyPose& pose : poses) {
+    const glm::dvec3 forward = Forward(pose);
+    sides.shoulders += glm::dot(Across(pose, kLeftShoulder, kRightShoulder), Across(pose, kLeftHip, kRightHip));
+    for (const auto& [hip, knee, ankle, toe] : {std::tuple(kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot),
+                                                std::tuple(kRightHip, kRightKnee, kRightAnkle, kRightFoot)}) {
+      sides.toes += glm::dot(forward, Toe(pose, ankle, toe));
+      sides.knees += glm::dot(forward, StandsOut(pose, hip, knee, ankle));
+      sides.knee_bends.push_back(Bend(forward, pose[hip], pose[knee], pose[ankle]));
+    }
+    for (const auto& [shoulder, elbow, wrist] :
+         {std::tuple(kLeftShoulder, kLeftElbow, kLeftWrist), std::tuple(kRightShoulder, kRightElbow, kRightWrist)}) {
+      // Hands are held before the body, and elbows bend so that they come there.
+      sides.arms += glm::dot(forward, EndsAt(pose, shoulder, elbow, wrist) - StandsOut(pose, shoulder, elbow, wrist));
+    }
+  }
+  return sides;
+}
+
+}  // namespace
+
+Result<double> CheckSides(std::span<const BodyPose> poses, const JointMap& map, const std::string& file) {
+  const Sides sides = LookAtSides(poses);
+  if (sides.shoulders < 0) {
+    return Fail({file}, "the left arm is on the side of the right leg; left and right are mixed up");
+  }
+  // Per limb and frame. Feet that hang down from a lying body point backwards a little.
+  constexpr double kBackwards = 0.35;
+  const auto count = static_cast<double>(2 * poses.size());
+  const bool has_feet = std::ranges::find(map.composed, kLeftFoot) == map.composed.end();
+  if (has_feet && sides.toes < -kBackwards * count) {
+    return Fail({file}, "the feet point backwards: left and right are swapped, or the axes are left-handed");
+  }
+  constexpr double kArmsBackwards = 0.25;
+  if (!has_feet && sides.arms < -kArmsBackwards * count) {
+    return Fail({file}, "the arms bend and reach backwards: left and right are swapped, or the axes are left-handed");
+  }
+  constexpr double kStandsOut = 0.01, kMostOverstretched = Radians(35);
+  const bool are_backwards = LowerPercentile(sides.knee_bends, 0.25) < -kMostOverstretched || sides.arms < 0;
+  if (!has_feet && sides.knees < -kStandsOut * count && are_backwards) {
+    return Fail({file}, "the knees bend backwards: left and right are swapped, or the axes are left-handed");
+  }
+  constexpr double kTold = Radians(3);
+  double mean = 0;
+  for (const double bend : sides.knee_bends) mean -= bend / count;
+  return mean >= kTold ? mean : 0;
+}
+
+}  // namespace etude
