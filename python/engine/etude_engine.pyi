@@ -1,6 +1,6 @@
 """Etude's engine on arrays: lengths are metres, angles radians, the world is right-handed with Y up."""
 from os import PathLike
-from typing import List, Optional, Sequence, Tuple, Union
+from typing import Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy
 from numpy.typing import ArrayLike
@@ -50,7 +50,11 @@ class Transition:
 class TransitionLibrary:
     def __init__(self, clips: Sequence[Motion]) -> None: ...
     def make(self, clip: int, frame: int, to: int, budget_s: float = 1.0, choice: str = "played", join: str = "planted-feet",
-             threshold: float = 0.4) -> Transition: ...
+             threshold: float = 0.4, choice_settings: Mapping[str, float] = {},
+             join_settings: Mapping[str, float] = {}) -> Transition: ...
+
+def transition_choice_settings(choice: str) -> Dict[str, Tuple[float, float, float, str]]: ...
+def transition_join_settings(join: str) -> Dict[str, Tuple[float, float, float, str]]: ...
 
 class Limb:
     def __init__(self, name: str, parent: int, offset_m: ArrayLike, dofs: int, rest: Optional[ArrayLike] = None) -> None: ...

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <span>
 
@@ -12,6 +13,8 @@
 
 namespace etude::engine {
 namespace {
+
+using Settings = std::map<std::string, double>;
 
 Motion MakeMotion(const Array& positions_m, double rate_hz) {
   Expect("positions_m", positions_m, {kAny, kRoleCount, 3});
@@ -125,6 +128,20 @@ void AddMotions(py::module_& module) {
 
   module.attr("TRANSITION_CHOICES") = py::tuple(py::cast(TransitionChoices()));
   module.attr("TRANSITION_JOINS") = py::tuple(py::cast(TransitionJoins()));
+  const auto by_key = [](const std::vector<TransitionSetting>& settings) {
+    py::dict told;
+    for (const TransitionSetting& one : settings) {
+      told[one.key.c_str()] = py::make_tuple(one.fallback, one.lowest, one.largest, one.meaning);
+    }
+    return told;
+  };
+  module.def(
+      "transition_choice_settings",
+      [by_key](const std::string& name) { return by_key(TransitionChoiceSettings(name)); }, "choice"_a,
+      "The numbers that a choice can be set by: {key: (fallback, lowest, largest, meaning)}.");
+  module.def(
+      "transition_join_settings", [by_key](const std::string& name) { return by_key(TransitionJoinSettings(name)); },
+      "join"_a, "The numbers that a join can be set by: {key: (fallback, lowest, largest, meaning)}.");
   py::class_<Transition>(module, "Transition", "A clip that is left for another, as it is shown.")
       .def_readonly(
           "motion", &Transition::motion,
@@ -147,19 +164,25 @@ void AddMotions(py::module_& module) {
       .def(
           "make",
           [](const TransitionLibrary& library, int clip, int frame, int to, double budget_s, const std::string& choice,
-             const std::string& join, double threshold) {
-            const TransitionOptions options{.choice = choice, .join = join, .threshold = threshold};
+             const std::string& join, double threshold, const Settings& choice_settings,
+             const Settings& join_settings) {
+            const TransitionOptions options{.choice = choice,
+                                            .join = join,
+                                            .threshold = threshold,
+                                            .choice_settings = choice_settings,
+                                            .join_settings = join_settings};
             const py::gil_scoped_release free;
             return library.Make(clip, frame, to, budget_s, options);
           },
           "clip"_a, "frame"_a, "to"_a, "budget_s"_a = 1.0, "choice"_a = TransitionOptions{}.choice,
           "join"_a = TransitionOptions{}.join, "threshold"_a = TransitionOptions{}.threshold,
+          "choice_settings"_a = Settings{}, "join_settings"_a = Settings{},
           "The Transition from a frame of a clip, which is the one shown when the clip `to` is asked for. budget_s: "
           "how "
           "long that may be waited for, 0 to 3600. choice: which frames, of TRANSITION_CHOICES; join: how they are put "
-          "together, of TRANSITION_JOINS; threshold: of the fuzzy choices, in (0, 6]. Raises BadInput for what there "
-          "is "
-          "not.");
+          "together, of TRANSITION_JOINS; threshold: of the fuzzy choices, in (0, 6]; choice_settings, join_settings: "
+          "numbers by the keys of transition_choice_settings and transition_join_settings. Raises BadInput for what "
+          "there is not.");
 }
 
 }  // namespace etude::engine

@@ -1,8 +1,10 @@
 """The engine's arrays of whole takes: transitions, silhouettes, sensors, the coach; and all of it beside C++, to the last bit."""
+import json
 import os
 import pathlib
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import unittest
@@ -76,6 +78,46 @@ class BesideCpp(unittest.TestCase):
             np.testing.assert_array_equal(np.ravel(found), told[name], err_msg=name)
 
 
+# Answers to a data set of task pose-distance, as a person's program would make them.
+ANSWERS = """import csv, json, pathlib, sys
+sys.path[:0] = sys.argv[3:]
+import numpy as np
+import etude.engine as engine
+data, answers = map(pathlib.Path, sys.argv[1:3])
+with open(data / "inputs/index.csv", newline="") as file:
+    lines = list(csv.DictReader(file))
+for line in lines:
+    distances = []
+    for pair in json.loads((data / "inputs" / line["problem"]).read_text())["pairs"]:
+        a, b = (engine.features(engine.Motion(np.reshape(pair[one], (1, 20, 3))))[0] for one in "ab")
+        distances.append(engine.fuzzy_distance(a, b))
+    path = answers / line["prediction"]
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(json.dumps({"distances": distances, "alike": [distance < 0.4 for distance in distances]}))
+"""
+
+
+class BesideWorkers(unittest.TestCase):
+    def test_answers_in_workers_environment_are_workers_to_the_last_bit(self):
+        pinned = {**os.environ, "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4"}  # bench/process/pinned_environment.cc
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            (folder / "s.yaml").write_text("scenario: s\nquestion: q\ntask: pose-distance\ntrials: 8\n"
+                                           "clips: ['builtin:clap', 'builtin:wave']\nmethods: [{name: ours, distance: fuzzy}]\n")
+            for command in ([os.environ["ETUDE"], "export", folder / "s.yaml", "-o", folder / "data"],
+                            [sys.executable, "-c", ANSWERS, folder / "data", folder / "answers", BUILT, ROOT / "python"],
+                            [os.environ["ETUDE"], "score", folder / "data", folder / "answers", "-o", folder / "out", "--name", "told"]):
+                subprocess.run(command, check=True, capture_output=True, env=pinned)
+            rows = [json.loads(line) for line in (folder / "out/cells.jsonl").read_text().splitlines()]
+        verdicts = {}
+        for row in rows:
+            verdicts.setdefault(row["trial"], {})[row["method"]] = row["digest_verdict"]  # of every distance, bit by bit
+        self.assertEqual(len(verdicts), 8)
+        for trial, found in verdicts.items():
+            self.assertEqual(found["ours"], found["told"], trial)
+        self.assertGreater(len({found["ours"] for found in verdicts.values()}), 4)
+
+
 class Transitions(unittest.TestCase):
     def test_a_request_becomes_a_motion_that_leaves_one_clip_and_ends_in_the_other(self):
         clips = [MOVES[0][1][0], MOVES[2][1][0]]
@@ -94,6 +136,16 @@ class Transitions(unittest.TestCase):
         waits = [library.make(0, 12, 1, 1, choice).wait_s for choice in ("now", "wait-for-end")]
         self.assertLess(waits[0], 0.1)
         self.assertAlmostEqual(waits[1], (len(clips[0]) - 12) / 30, delta=0.07)
+        told = engine.transition_join_settings("crossfade")
+        (key, (fallback, lowest, largest, _)), *_ = told.items()
+        ours, same, longest = (library.make(0, 12, 1, choice="motion-matching", join="crossfade", join_settings=settings).motion
+                               .positions_m for settings in ({}, {key: fallback}, {key: largest}))
+        np.testing.assert_array_equal(ours, same)
+        self.assertFalse(np.array_equal(ours, longest))
+        with self.assertRaisesRegex(engine.BadInput, f"{key} -1 of 'crossfade'; allowed: {lowest:g} to {largest:g}"):
+            library.make(0, 12, 1, join="crossfade", join_settings={key: -1})
+        with self.assertRaisesRegex(engine.BadInput, "setting 'speed' of 'now'; allowed: none"):
+            library.make(0, 12, 1, choice="now", choice_settings={"speed": 1})
         with self.assertRaisesRegex(engine.BadInput, "choice 'best'; allowed: fuzzy-bridge"):
             library.make(0, 0, 1, choice="best")
         with self.assertRaisesRegex(engine.BadInput, "clip 0: 2 frames at 60 Hz"):
