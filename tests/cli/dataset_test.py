@@ -45,6 +45,28 @@ class DataSets(EtudeCase):
             path.write_text(json.dumps(truth))
         return index
 
+    def test_clips_are_of_the_rate_that_is_told_and_a_data_set_keeps_it(self):
+        clip = "/usr/share/assimp/models/BVH/01_03.bvh"  # 120 Hz
+        scenario = self.write("t.yaml", f"scenario: t\nquestion: q\ntask: tracking\nclips: ['{clip}']\ntrials: 1\n"
+                                        "methods: [{name: a, solver: ccd, weights: fixed}]\n")
+        data = self.folder / "told"
+        self.assertEqual(self.etude("export", scenario, "--rate", 60, "-o", data).returncode, 0)
+        own = json.loads(self.etude("clip", "info", clip, "--json").stdout)["clips"][0]["frames"]
+        frames = json.loads((data / "manifest.json").read_text())["scenarios"][0]["loaded_clips"][0]["frames"]
+        self.assertAlmostEqual(frames / (own * 30 / 120), 2, places=1)
+        with open(data / "inputs/index.csv", newline="") as file:
+            line = next(csv.DictReader(file))
+        answer = self.folder / "answers" / line["prediction"]
+        answer.parent.mkdir(parents=True)
+        shutil.copy(data / "truth" / line["prediction"].removesuffix(".json") / "truth.json", answer)
+        rows = self.score(data, self.folder / "answers")
+        self.assertEqual([row["status"] for row in rows if row["method"] not in ("a",)], ["ok"])
+        scored = json.loads((self.out / "manifest.json").read_text())["scenarios"][0]["loaded_clips"][0]["frames"]
+        self.assertEqual(scored, frames)
+        again = self.etude("score", data, self.folder / "answers", "--rate", 30, "-o", self.folder / "no")
+        self.assertEqual(again.returncode, 2)
+        self.assertIn("--rate", again.stderr)
+
     def exported(self, name="ik"):
         """The data set of a scenario, and the answers to it that may be changed."""
         shutil.copy(self.shared / name / f"{name}.yaml", self.folder)

@@ -6,6 +6,7 @@ import struct
 import unittest
 
 import numpy
+import second_readers
 from etude_case import HEAVY, EtudeCase
 
 SIDES = {"left": 1, "right": -1}
@@ -135,6 +136,8 @@ class Formats(EtudeCase):
             return 1000 * (x + 2 * (i >= len(names))), -1000 * z, 1000 * y
 
         path = self.c3d(labels, len(ours), place)
+        numpy.testing.assert_allclose(second_readers.read_c3d(path)["Bob:head"][3], numpy.array(place(3, len(names) + names.index("head"))) / 1000,
+                                      atol=1e-6)
         self.assertEqual([clip["name"] for clip in self.info(path)["clips"]], ["take#Ann", "take#Bob"])
         bob = self.joints(f"{path}#Bob", "--rate", 60)
         floor = bob[0]["head"][1] - ours[0]["head"][1]
@@ -155,18 +158,36 @@ class Formats(EtudeCase):
         self.assertLess(abs(floor), 0.05)
         numpy.testing.assert_allclose(read - [0, floor, 0], places, atol=most)
 
+    def assert_second_reader(self, markers, names, places, most=1e-6):
+        self.assertEqual(list(reversed(markers)), names)
+        for i, name in enumerate(names):
+            numpy.testing.assert_allclose(markers[name], places[:, i], atol=most, err_msg=name)
+
+    def test_trc_is_written_and_read_in_any_unit_with_gaps(self):
+        names, places = self.body("builtin:sway")
+        path = self.folder / "sway.trc"
+        self.assertEqual(self.etude("clip", "convert", "builtin:sway", path).returncode, 0)
+        self.assert_second_reader(second_readers.read_trc(path), names, places)
+        for unit, each in (("mm", 1000), ("cm", 100), ("m", 1)):
+            columns = "".join(f"\t{name}\t\t" for name in names)
+            rows = [f"{t + 1}\t{t / 30:.6f}\t" + "\t".join(f"{each * v:.9f}" for v in frame.ravel()) for t, frame in enumerate(places)]
+            cells = rows[7].split("\t")
+            cells[2 + 3 * 5:5 + 3 * 5] = ["", "", ""]  # the sixth marker is not seen in the eighth frame
+            rows[7] = "\t".join(cells)
+            path.write_text(f"PathFileType\t4\t(X/Y/Z)\tsway.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n"
+                            f"30\t30\t{len(rows)}\t{len(names)}\t{unit}\nFrame#\tTime{columns}\n\tX1\n" + "\n".join(rows) + "\n")
+            seen = second_readers.read_trc(path)
+            self.assertTrue(numpy.isnan(seen[names[5]][7]).all())
+            bridged = places.copy()
+            bridged[7, 5] = (places[6, 5] + places[8, 5]) / 2
+            self.assert_read_back(path, bridged)
+
     def test_c3d_is_written_in_floats(self):
         names, places = self.body("builtin:sway")
         path = self.folder / "sway.c3d"
         self.assertEqual(self.etude("clip", "convert", "builtin:sway", path).returncode, 0)
-        data = path.read_bytes()
-        points, frames = struct.unpack("<H", data[2:4])[0], struct.unpack("<H", data[8:10])[0]
-        scale, start = struct.unpack("<fH", data[12:18])
-        self.assertEqual((points, frames, scale, len(data) % 512), (20, len(places), -1, 0))
-        floats = numpy.frombuffer(data, "<f4", frames * points * 4, 512 * (start - 1)).reshape(frames, points, 4)
-        numpy.testing.assert_allclose(floats[:, :, :3] / 1000, places, atol=1e-6)
-        self.assertTrue((floats[:, :, 3] == 0).all())
-        self.assertIn(b"left_shoulder".ljust(15), data)
+        self.assert_second_reader(second_readers.read_c3d(path), names, places)
+        self.assertEqual(path.stat().st_size % 512, 0)
         self.assert_read_back(path, places)
 
     def test_npz_is_written_for_numpy(self):

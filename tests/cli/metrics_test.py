@@ -17,6 +17,7 @@ task: ik
 trials: 3
 methods: [{name: a, solver: gauss-newton}, {name: b, solver: damped-least-squares}]
 """
+FEW = ("--trials", "2")
 # One metric, all manners: told by options.manner.
 METRIC = """import json, os, sys, time
 manner, asked = None, 0
@@ -83,7 +84,7 @@ class OwnMetrics(EtudeCase):
 
     @classmethod
     def run_in_class(cls, scenario, folder):
-        made = subprocess.run([ETUDE, "run", scenario, "-o", folder, "--jobs", "1"], capture_output=True, text=True, cwd=ROOT)
+        made = subprocess.run([ETUDE, "run", scenario, "-o", folder, "--jobs", "1", *FEW], capture_output=True, text=True, cwd=ROOT)
         assert made.returncode == 0, made.stderr
         return [json.loads(line) for line in (folder / "cells.jsonl").read_text().splitlines()]
 
@@ -104,7 +105,7 @@ class OwnMetrics(EtudeCase):
             ours, twin = TWINS[row["scenario"]]
             self.assertEqual(row[ours], row[twin], row["cell"])
             compared += row[ours] is not None
-        self.assertGreater(compared, 20)
+        self.assertGreater(compared, 10)
         summary = json.loads((self.shared / "run/summary.json").read_text())
         for scenario in summary["scenarios"]:
             ours, twin = TWINS[scenario["name"]]
@@ -150,7 +151,7 @@ class OwnMetrics(EtudeCase):
         self.assert_same_results(self.out, self.folder / "merged")
 
     def test_it_is_versioned_asked_again_by_replay_and_verify_and_only_where_that_is_allowed(self):
-        self.assertEqual(len({row["mine"] for row in self.told}), 6)
+        self.assertEqual(len({row["mine"] for row in self.told}), 4)
         manifest = json.loads((self.whole / "manifest.json").read_text())
         versions = {each["id"]: each["version"] for each in manifest["own_metrics"]}
         self.assertEqual(versions, {"mine": 3, "looks": 1, **{name: 1 for name in BAD}})
@@ -167,8 +168,8 @@ class OwnMetrics(EtudeCase):
         self.assertEqual(other.returncode, 1, other.stdout)
         self.assertIn("mine", other.stdout)
         four = self.folder / "four"
-        changed = self.run_suite(self.write("s.yaml", self.text(own("mine", more=", version: 4"))), out=four)
-        self.assertEqual(len(changed), 6)
+        changed = self.run_suite(self.write("s.yaml", self.text(own("mine", more=", version: 4"))), *FEW, out=four)
+        self.assertEqual(len(changed), 4)
         compared = self.etude("compare", self.whole, four)
         self.assertEqual(compared.returncode, 2)
         self.assertIn("version 3 and 4", compared.stderr)
@@ -179,7 +180,7 @@ class OwnMetrics(EtudeCase):
         self.assert_same_results(four, self.folder / "again")
 
     def test_a_bad_one_costs_its_own_values_alone(self):
-        plain = self.run_suite(self.write("plain.yaml", HEAD + "metrics: [iterations]\n"))
+        plain = self.run_suite(self.write("plain.yaml", HEAD + "metrics: [iterations]\n"), *FEW)
         for row, alone in zip(self.told, plain):
             row = {**row, "null_reasons": dict(row["null_reasons"])}
             for name, why in BAD.items():

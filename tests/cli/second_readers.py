@@ -216,3 +216,51 @@ def read_deepmimic(path):
         places.append(places[parent] + turns[parent] @ attach)
         turns.append(turns[parent] @ local)
     return {joint["Name"]: place for joint, place in zip(character, places)}
+
+
+def read_trc(path):
+    """Markers, metres; gaps are NaN."""
+    lines = path.read_text().splitlines()
+    told = dict(zip(lines[1].split("\t"), lines[2].split("\t")))
+    names = [name for name in lines[3].split("\t")[2:] if name]
+    rows = [line.split("\t")[2:] for line in lines[5:] if line.strip()]
+    assert (len(rows), len(names)) == (int(told["NumFrames"]), int(told["NumMarkers"])), path
+    numbers = numpy.array([[float(v) if v.strip() else math.nan for v in row[:3 * len(names)]] for row in rows])
+    metres = {"mm": 0.001, "cm": 0.01, "m": 1}[told["Units"]]
+    return {name: metres * numbers[:, 3 * i:3 * i + 3] for i, name in reversed(list(enumerate(names)))}
+
+
+def read_c3d(path):
+    """Markers of a little-endian file, metres; invalid ones are NaN."""
+    data = path.read_bytes()
+    at, group_names, told = 512 * (data[0] - 1) + 4, {}, {}
+    while data[at]:
+        length, number = abs(struct.unpack("b", data[at:at + 1])[0]), struct.unpack("b", data[at + 1:at + 2])[0]
+        name, body = data[at + 2:at + 2 + length].decode(), at + 2 + length
+        step = struct.unpack("<H", data[body:body + 2])[0]
+        if number < 0:
+            group_names[-number] = name
+        else:
+            kind, sizes = struct.unpack("b", data[body + 2:body + 3])[0], list(data[body + 4:body + 4 + data[body + 3]])
+            count = math.prod(sizes)
+            start = body + 4 + len(sizes)
+            values = data[start:start + count * abs(kind)]
+            if kind == -1:
+                width = sizes[0] if sizes else 1
+                values = [values[i:i + width].decode().strip() for i in range(0, len(values), width)]
+            else:
+                values = numpy.frombuffer(values, {1: "u1", 2: "<i2", 4: "<f4"}[kind])
+            told[number, name] = values
+        if not step:
+            break
+        at = body + step
+    told = {(group_names[number], name): values for (number, name), values in told.items()}
+    of = lambda name: told["POINT", name]
+    points, frames, scale = int(of("USED")[0]), int(struct.unpack("<H", data[8:10])[0]), float(of("SCALE")[0])
+    analog = struct.unpack("<H", data[4:6])[0]
+    width = 4 * points + analog
+    numbers = numpy.frombuffer(data, "<f4" if scale < 0 else "<i2", frames * width, 512 * (int(of("DATA_START")[0]) - 1))
+    rows = numbers.reshape(frames, width)[:, :4 * points].reshape(frames, points, 4).astype(float)
+    places = rows[:, :, :3] * (1 if scale < 0 else scale) * {"mm": 0.001, "cm": 0.01, "m": 1}[of("UNITS")[0]]
+    places[rows[:, :, 3] < 0] = math.nan
+    return {name: places[:, i] for i, name in reversed(list(enumerate(of("LABELS"))))}
