@@ -12,6 +12,7 @@
 #include "reports/page.h"
 #include "reports/paper/paper_b_section.h"
 #include "reports/viewer/world_script.h"
+#include "reports/words/cell_series.h"
 #include "reports/words/escape.h"
 
 namespace etude {
@@ -39,11 +40,10 @@ void AddTables(const RunData& run, std::vector<ReportText>& texts) {
 
 // The motions that captures recovered, for any program that reads BVH, and those that the page shows.
 Result<void> AddMotions(const RunData& run, std::vector<ReportText>& texts) {
-  for (const CellRecording& recorded : run.recordings) {
-    const auto row = std::ranges::find(run.rows, recorded.cell, &Row::Id);
-    if (row == run.rows.end() || row->task != "capture") continue;
-    ASSIGN_OR_RETURN(auto extras, ReadCaptureExtras(recorded.recording.extras_json));
-    texts.push_back({fs::path("motions") / MotionFileOf(recorded.cell), std::move(extras.bvh)});
+  for (const auto& [row, recorded] : RecordedRows(run)) {
+    if (row->task != "capture") continue;
+    ASSIGN_OR_RETURN(auto extras, ReadCaptureExtras(recorded->recording.extras_json));
+    texts.push_back({fs::path("motions") / MotionFileOf(recorded->cell), std::move(extras.bvh)});
   }
   for (const RecordedWorld& world : RecordedWorlds(run)) texts.push_back({world.file, WorldScript(run, world)});
   return {};

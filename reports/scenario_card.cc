@@ -20,6 +20,7 @@
 #include "reports/plots/plot_section.h"
 #include "reports/transitions/transition_section.h"
 #include "reports/viewer/recorded_worlds.h"
+#include "reports/words/cell_series.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/judged.h"
@@ -190,12 +191,12 @@ std::string Files(const RunData& run, const ScenarioSummary& scenario, std::size
   link(tables + "-comparisons.csv", "all comparisons");
   link(tables + ".tex", "both for LaTeX");
   link("../manifest.json", "the scenario’s text, and all that repeats the run");
-  for (const CellRecording& recorded : run.recordings) {
-    const auto row = std::ranges::find(run.rows, recorded.cell, &Row::Id);
-    if (row == run.rows.end() || row->scenario != scenario.name || row->task != "capture") continue;
-    link("motions/" + MotionFileOf(recorded.cell), "recovered motion");
+  std::size_t motions = 0;
+  for (const auto& [row, recorded] : RecordedRows(run)) {
+    if (row->scenario != scenario.name || row->task != "capture" || ++motions > kMostListed) continue;
+    link("motions/" + MotionFileOf(recorded->cell), "recovered motion");
   }
-  return Folded("Files", html + "</ul>");
+  return Folded("Files", html + "</ul>" + LeftOutHtml(motions, kMostListed, "motions", "report/motions"));
 }
 
 std::string ScenarioFilms(const ScenarioSummary& scenario, const Media& media) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/base/named.h"
+#include "reports/words/cell_series.h"
 #include "reports/words/findings.h"
 
 namespace etude {
@@ -11,12 +12,13 @@ namespace {
 
 std::vector<CastCell> RecordedCells(const RunData& run, const ScenarioSummary& scenario, std::string_view track) {
   std::vector<CastCell> cells;
+  const KeptCells kept(run);
   for (const Row& row : run.rows) {
     if (row.scenario != scenario.name || row.result.status != Status::kOk) continue;
-    const auto found = std::ranges::find(run.recordings, row.Id(), &CellRecording::cell);
-    if (found == run.recordings.end()) continue;
-    const BodyMotion* motion = FindTrack(found->recording, track);
-    if (motion != nullptr && !motion->poses.empty()) cells.push_back({&scenario, &row, &found->recording});
+    const Recording* recording = kept.Find(row.Id());
+    if (recording == nullptr) continue;
+    const BodyMotion* motion = FindTrack(*recording, track);
+    if (motion != nullptr && !motion->poses.empty()) cells.push_back({&scenario, &row, recording});
   }
   return cells;
 }

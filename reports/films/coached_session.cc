@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bench/model/recording.h"
+#include "reports/words/cell_series.h"
 
 namespace etude {
 namespace {
@@ -47,14 +48,13 @@ Result<CoachedSessionFacts> ReadCoachedSession(const CastCell& cell) {
 std::optional<CastCell> ChooseWorstSession(const RunData& run, const ScenarioSummary& scenario) {
   std::optional<CastCell> worst;
   double most = -1;
-  for (const CellRecording& recorded : run.recordings) {
-    const auto row = std::ranges::find_if(run.rows, [&](const Row& each) { return each.Id() == recorded.cell; });
-    if (row == run.rows.end() || row->scenario != scenario.name) continue;
+  for (const auto& [row, recorded] : RecordedRows(run)) {
+    if (row->scenario != scenario.name) continue;
     const double wrong = ValueOf(*row, "corrections_unneeded_per_min").value_or(0) +
                          ValueOf(*row, "corrections_missed_per_min").value_or(0);
     if (wrong <= most) continue;
     most = wrong;
-    worst = CastCell{&scenario, &*row, &recorded.recording};
+    worst = CastCell{&scenario, row, &recorded->recording};
   }
   return worst;
 }

@@ -10,6 +10,7 @@
 #include "bench/model/recording.h"
 #include "bench/recordings/task_extras.h"
 #include "reports/films/cast.h"
+#include "reports/words/cell_series.h"
 #include "reports/words/figures.h"
 #include "reports/words/judged.h"
 
@@ -33,10 +34,11 @@ struct RecordedCell {
 /// Lists a scenario's recorded cells in the run's order: by condition, trial, method.
 std::vector<RecordedCell> RecordedCells(const RunData& run, const ScenarioSummary& scenario) {
   std::vector<RecordedCell> cells;
+  const KeptCells kept(run);
   for (const Row& row : run.rows) {
     if (row.scenario != scenario.name) continue;
-    const auto found = std::ranges::find(run.recordings, row.Id(), &CellRecording::cell);
-    if (found != run.recordings.end()) cells.push_back({&row, &found->recording});
+    const Recording* recording = kept.Find(row.Id());
+    if (recording != nullptr) cells.push_back({&row, recording});
   }
   return cells;
 }

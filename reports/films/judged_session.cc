@@ -8,6 +8,7 @@
 #include "bench/model/recording.h"
 #include "engine/fuzzy/features.h"
 #include "engine/recognition/key_pose.h"
+#include "reports/words/cell_series.h"
 
 namespace etude {
 namespace {
@@ -92,13 +93,12 @@ Result<DetectionExtras> ExtrasOf(const Recording& recording, const Place& place)
 /// Adds the other methods in the same world, as many as the timeline has rows for.
 Result<void> AddOtherJudges(const RunData& run, const CastCell& cell, Facts& facts) {
   constexpr std::size_t kMostJudges = 2;
-  for (const CellRecording& recorded : run.recordings) {
-    const auto row = std::ranges::find_if(run.rows, [&](const Row& each) { return each.Id() == recorded.cell; });
-    if (row == run.rows.end() || facts.judges.size() == kMostJudges) continue;
+  for (const auto& [row, recorded] : RecordedRows(run)) {
+    if (facts.judges.size() == kMostJudges) return {};
     const bool same_world = row->scenario == cell.row->scenario && row->condition == cell.row->condition &&
                             row->trial == cell.row->trial && row->method != cell.row->method;
     if (!same_world) continue;
-    ASSIGN_OR_RETURN(const auto extras, ExtrasOf(recorded.recording, {.file = "recording " + recorded.cell}));
+    ASSIGN_OR_RETURN(const auto extras, ExtrasOf(recorded->recording, {.file = "recording " + recorded->cell}));
     Facts::Judge other = JudgeIn(extras, row->method);
     if (other.called_right.size() == facts.performances.size()) facts.judges.push_back(std::move(other));
   }

@@ -183,7 +183,7 @@ std::string EffectorCurvesHtml(const RunData& run, const ScenarioSummary& scenar
   const CellSeriesIndex series(run);
   std::string html;
   for (const ConditionSummary& condition : scenario.conditions) {
-    const std::vector<const Row*> rows = RowsUnder(run, scenario, condition.condition);
+    const std::vector<const Row*> rows = RowsUnder(run, scenario.name, condition.condition);
     const std::vector<Panel> panels = PanelsOf(series, rows, scenario);
     if (std::ranges::all_of(panels, [](const Panel& panel) { return panel.curves.empty(); })) continue;
     const std::string label = ConditionLabel(condition.condition);

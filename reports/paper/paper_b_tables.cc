@@ -321,7 +321,7 @@ std::vector<PaperBCondition> PaperBTables(const RunData& run, const ScenarioSumm
   const CellSeriesIndex series(run);
   std::vector<PaperBCondition> conditions;
   for (const ConditionSummary& summary : scenario.conditions) {
-    const Rows rows = RowsUnder(run, scenario, summary.condition);
+    const Rows rows = RowsUnder(run, scenario.name, summary.condition);
     const Study study(series, scenario, rows);
     const auto first = std::ranges::find_if(rows, [&](const Row* row) { return study.HasErrors(*row); });
     if (first == rows.end()) continue;

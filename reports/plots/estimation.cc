@@ -229,16 +229,15 @@ PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, c
   const double scale = WordsFor(c.metric).scale;
   std::map<int, Found> found;
   const KeptCells kept(run);
-  for (const Row& row : run.rows) {
-    if (row.scenario != scenario.name || row.condition != judged.condition->condition) continue;
-    if (row.method != c.baseline && row.method != c.method) continue;
-    const auto value = ValueOf(row, c.metric);
+  for (const Row* row : RowsUnder(run, scenario.name, judged.condition->condition)) {
+    if (row->method != c.baseline && row->method != c.method) continue;
+    const auto value = ValueOf(*row, c.metric);
     if (!value || !std::isfinite(*value)) continue;
-    Found& world = found[row.trial];
-    world.row = &row;
-    const bool is_method = row.method == c.method;
+    Found& world = found[row->trial];
+    world.row = row;
+    const bool is_method = row->method == c.method;
     (is_method ? world.method : world.baseline) = scale * *value;
-    (is_method ? world.method_cell : world.baseline_cell) = kept.Attribute(row.Id());
+    (is_method ? world.method_cell : world.baseline_cell) = kept.Attribute(row->Id());
   }
   std::erase_if(found, [](const auto& entry) { return !entry.second.baseline || !entry.second.method; });
 

@@ -139,7 +139,7 @@ std::vector<Growth> ComputeGrowth(const RunData& run, const ScenarioSummary& sce
     if (growth == all.end()) growth = all.insert(growth, {label, {}, {}});
     growth->distances.resize(scenario.methods.size());
     growth->microseconds.resize(scenario.methods.size());
-    const std::vector<const Row*> rows = RowsUnder(run, scenario, condition.condition);
+    const std::vector<const Row*> rows = RowsUnder(run, scenario.name, condition.condition);
     for (std::size_t m = 0; m < scenario.methods.size(); ++m) {
       std::vector<double> distances, microseconds;
       for (const Row* row : rows) {

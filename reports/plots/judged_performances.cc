@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/words/cell_series.h"
 #include "reports/words/judged.h"
 
 namespace etude {
@@ -64,10 +65,9 @@ void Add(const CellSeries& cell, int person, MethodVerdicts& verdicts) {
 
 std::map<std::size_t, MethodVerdicts> VerdictsUnder(const RunData& run, const ScenarioSummary& scenario,
                                                     const ConditionSummary& condition) {
+  if (scenario.task != "detection") return {};
   std::map<std::string, const Row*> rows;
-  for (const Row& row : run.rows) {
-    if (row.scenario == scenario.name && row.condition == condition.condition) rows.emplace(row.Id(), &row);
-  }
+  for (const Row* row : RowsUnder(run, scenario.name, condition.condition)) rows.emplace(row->Id(), row);
   std::map<std::size_t, MethodVerdicts> verdicts;
   for (const CellSeries& cell : run.series) {
     const auto row = rows.find(cell.cell);

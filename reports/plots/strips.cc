@@ -55,12 +55,11 @@ std::vector<StripRow> RowsOf(const RunData& run, const ScenarioSummary& scenario
                              const std::string& metric, const MetricWords& words) {
   std::vector<std::vector<Dot>> dots(std::min(scenario.methods.size(), kMostListed));
   const KeptCells kept(run);
-  for (const Row& row : run.rows) {
-    if (row.scenario != scenario.name || row.condition != condition.condition) continue;
-    const std::size_t index = IndexOf(scenario, row.method);
-    const auto value = ValueOf(row, metric);
+  for (const Row* row : RowsUnder(run, scenario.name, condition.condition)) {
+    const std::size_t index = IndexOf(scenario, row->method);
+    const auto value = ValueOf(*row, metric);
     if (index < dots.size() && value && std::isfinite(*value))
-      dots[index].push_back({row.trial, words.scale * *value, kept.Attribute(row.Id())});
+      dots[index].push_back({row->trial, words.scale * *value, kept.Attribute(row->Id())});
   }
   std::vector<StripRow> rows;
   for (std::size_t i = 0; i < dots.size(); ++i) {

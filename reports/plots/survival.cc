@@ -1,5 +1,3 @@
-#include "reports/plots/plot_section.h"
-
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -11,6 +9,8 @@
 #include "bench/statistics/curves/curves.h"
 #include "reports/plots/marks.h"
 #include "reports/plots/panel.h"
+#include "reports/plots/plot_section.h"
+#include "reports/words/cell_series.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/judged.h"
@@ -45,13 +45,12 @@ std::map<std::size_t, std::vector<Wait>> WaitsUnder(const RunData& run, const Sc
                                                     const ConditionSummary& condition, const Censored& rule) {
   std::map<std::size_t, std::vector<Wait>> waits;
   std::set<std::size_t> measured;
-  for (const Row& row : run.rows) {
-    if (row.scenario != scenario.name || row.condition != condition.condition) continue;
-    const auto wait = WaitOf(row, rule);
+  for (const Row* row : RowsUnder(run, scenario.name, condition.condition)) {
+    const auto wait = WaitOf(*row, rule);
     if (!wait) continue;
-    const std::size_t method = IndexOf(scenario, row.method);
+    const std::size_t method = IndexOf(scenario, row->method);
     waits[method].push_back(*wait);
-    if (ValueOf(row, rule.metric)) measured.insert(method);
+    if (ValueOf(*row, rule.metric)) measured.insert(method);
   }
   std::erase_if(waits, [&](const auto& entry) { return !measured.contains(entry.first); });
   return waits;
@@ -89,7 +88,8 @@ std::string PanelOf(const RunData& run, const ScenarioSummary& scenario, const C
   for (const auto& [method, of_method] : waits) {
     if (method >= kMostLines) continue;
     lines += Line(method, of_method, time, share);
-    described += fmt::format("{}: {:.0f} % never. ", scenario.methods[method], 100 * SurvivalCurve(of_method).back().second);
+    described +=
+        fmt::format("{}: {:.0f} % never. ", scenario.methods[method], 100 * SurvivalCurve(of_method).back().second);
   }
   const std::string condition_label = ConditionLabel(condition.condition);
   const MetricWords words = WordsFor(std::string(rule.metric));

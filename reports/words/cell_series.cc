@@ -23,11 +23,16 @@ const std::vector<double>* CellSeriesIndex::Find(const Row& row, std::string_vie
 }
 
 KeptCells::KeptCells(const RunData& run) {
-  for (const CellRecording& recorded : run.recordings) cells_.insert(recorded.cell);
+  for (const CellRecording& recorded : run.recordings) cells_.emplace(recorded.cell, &recorded.recording);
+}
+
+const Recording* KeptCells::Find(const std::string& cell) const {
+  const auto found = cells_.find(cell);
+  return found == cells_.end() ? nullptr : found->second;
 }
 
 std::string KeptCells::Attribute(const std::string& cell) const {
-  return cells_.contains(cell) ? " data-cell=\"" + EscapeMarkup(cell) + "\"" : "";
+  return Find(cell) != nullptr ? " data-cell=\"" + EscapeMarkup(cell) + "\"" : "";
 }
 
 bool KeepsSeries(const RunData& run, const ScenarioSummary& scenario, std::string_view name) {
@@ -36,13 +41,34 @@ bool KeepsSeries(const RunData& run, const ScenarioSummary& scenario, std::strin
       run.rows, [&](const Row& row) { return row.scenario == scenario.name && series.Find(row, name) != nullptr; });
 }
 
-std::vector<const Row*> RowsUnder(const RunData& run, const ScenarioSummary& scenario,
+std::vector<const Row*> RowsUnder(const RunData& run, const std::string& scenario,
                                   const std::vector<SweptValue>& condition) {
   std::vector<const Row*> rows;
-  for (const Row& row : run.rows) {
-    if (row.scenario == scenario.name && row.condition == condition) rows.push_back(&row);
+  for (auto first = run.rows.begin(); first != run.rows.end();) {
+    const auto is_like_first = [&](const Row& row) {
+      return row.scenario == first->scenario && row.condition == first->condition;
+    };
+    const auto end = std::partition_point(first, run.rows.end(), is_like_first);
+    if (first->scenario == scenario && first->condition == condition) {
+      for (; first != end; ++first) rows.push_back(&*first);
+      return rows;
+    }
+    first = end;
   }
   return rows;
+}
+
+std::vector<std::pair<const Row*, const CellRecording*>> RecordedRows(const RunData& run) {
+  std::map<std::string, const Row*> rows;
+  const KeptCells kept(run);
+  for (const Row& row : run.rows) {
+    if (std::string id = row.Id(); kept.Find(id) != nullptr) rows.emplace(std::move(id), &row);
+  }
+  std::vector<std::pair<const Row*, const CellRecording*>> recorded;
+  for (const CellRecording& recording : run.recordings) {
+    if (const auto row = rows.find(recording.cell); row != rows.end()) recorded.emplace_back(row->second, &recording);
+  }
+  return recorded;
 }
 
 double Median(std::vector<double> values) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <map>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,19 +26,25 @@ class KeptCells {
  public:
   explicit KeptCells(const RunData& run);
 
+  /// Finds what a cell recorded; null where it kept nothing.
+  const Recording* Find(const std::string& cell) const;
   /// Gives the attribute by which the page's scripts know a recorded cell, ` data-cell="ID"`; "" for any other cell.
   std::string Attribute(const std::string& cell) const;
 
  private:
-  std::set<std::string_view> cells_;
+  std::map<std::string_view, const Recording*> cells_;
 };
 
 /// Is true when any cell of this scenario keeps a series of that name.
 bool KeepsSeries(const RunData& run, const ScenarioSummary& scenario, std::string_view name);
 
-/// Gives the rows of a scenario under one condition, in order.
-std::vector<const Row*> RowsUnder(const RunData& run, const ScenarioSummary& scenario,
+/// Gives the rows of a scenario under one condition, in order, and looks at few others: rows of one condition lie
+/// together, so that a page of many conditions does not pass all rows for each.
+std::vector<const Row*> RowsUnder(const RunData& run, const std::string& scenario,
                                   const std::vector<SweptValue>& condition);
+
+/// Gives, of all recordings whose cell has a row, in order, both.
+std::vector<std::pair<const Row*, const CellRecording*>> RecordedRows(const RunData& run);
 
 /// Computes the middle value, or the mean of the middle two. `values` must not be empty.
 double Median(std::vector<double> values);

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "reports/words/answer.h"
+#include "reports/words/cell_series.h"
 #include "reports/words/figures.h"
 
 namespace etude {
@@ -303,11 +304,11 @@ std::string StatusSentence(const ScenarioFindings& findings) {
 std::string MissingReasons(const RunData& run, const std::string& scenario, const std::vector<SweptValue>& condition,
                            const std::string& method, const std::string& metric) {
   std::map<std::string, int> counts;
-  for (const Row& row : run.rows) {
-    if (row.scenario != scenario || row.method != method || row.condition != condition) continue;
-    const auto found = std::ranges::find(row.result.metrics, metric, &MetricValue::id);
-    if (found == row.result.metrics.end()) {
-      ++counts[fmt::format("{}: {}", StatusName(row.result.status), row.result.reason)];
+  for (const Row* row : RowsUnder(run, scenario, condition)) {
+    if (row->method != method) continue;
+    const auto found = std::ranges::find(row->result.metrics, metric, &MetricValue::id);
+    if (found == row->result.metrics.end()) {
+      ++counts[fmt::format("{}: {}", StatusName(row->result.status), row->result.reason)];
     } else if (!found->value) {
       ++counts[found->null_reason];
     }
