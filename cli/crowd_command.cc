@@ -3,20 +3,24 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <ctime>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <span>
 #include <string>
+#include <type_traits>
+#include <vector>
 
 #include "bench/files/files.h"
-#include "bench/films/encoder.h"
 #include "bench/tasks/tracking/crowd.h"
+#include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
+#include "cli/progress_bar.h"
 #include "engine/kinematics/tree_to_body.h"
 #include "reports/clips/crowd_stage.h"
 
@@ -29,50 +33,12 @@ struct CrowdCommandOptions {
   int steps = 100;  ///< a frame, at most: who is lost begins anew with so many
   bool in_float = false;
   std::string output;  ///< a film, "" = only told
+  int jobs = 0;
   bool overwrite = false, as_json = false;
 };
 
 constexpr int kWidth = 1280, kHeight = 720;
 constexpr double kFilmRateHz = 30;  // at most: every second frame of 60 Hz
-
-/// A film of every so many frames of the crowd.
-class CrowdFilm {
- public:
-  static Result<CrowdFilm> Start(const CrowdCommandOptions& options) {
-    ASSIGN_OR_RETURN(auto renderer, Renderer::Create());
-    const int every = std::max(1, static_cast<int>(std::ceil(options.crowd.rate_hz / kFilmRateHz)));
-    const int rate = std::max(1, static_cast<int>(std::lround(options.crowd.rate_hz / every)));
-    ASSIGN_OR_RETURN(auto encoder, Encoder::Start(options.output, kWidth, kHeight, rate));
-    return CrowdFilm(options, every, std::move(renderer), std::move(encoder));
-  }
-
-  Result<void> Add(int frame, const KinematicTree& tree, const Crowd& crowd, int met) {
-    if (frame % every_ != 0) return {};
-    std::vector<CrowdStage::Character> characters;
-    for (std::size_t i = 0; i < crowd.size(); ++i) {
-      characters.push_back({ToBodyPose(tree, crowd.StateOf(i)), !crowd.HasMet(i)});
-    }
-    return encoder_.Add(stage_.Draw(
-        characters,
-        fmt::format("{} characters followed at {:g} Hz, each within its joints' limits", crowd.size(), rate_hz_),
-        fmt::format("{:.2f} s: {} meet the targets of all four ends; pale: who does not", frame / rate_hz_, met)));
-  }
-  Result<void> Finish() { return encoder_.Finish(); }
-
- private:
-  CrowdFilm(const CrowdCommandOptions& options, int every, std::unique_ptr<Renderer> renderer, Encoder encoder)
-      : every_(every),
-        rate_hz_(options.crowd.rate_hz),
-        renderer_(std::move(renderer)),
-        stage_(options.crowd.characters, kWidth, kHeight, *renderer_),
-        encoder_(std::move(encoder)) {}
-
-  int every_;
-  double rate_hz_;
-  std::unique_ptr<Renderer> renderer_;
-  CrowdStage stage_;
-  Encoder encoder_;
-};
 
 double ProcessorTimeMs() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -108,30 +74,85 @@ Json Tell(const CrowdCommandOptions& options, Timings timings) {
           {"largest_ms", timings.times_ms.back()}};
 }
 
+/// A crowd as it is followed, frame by frame.
+class FollowedCrowd {
+ public:
+  FollowedCrowd(const CrowdCommandOptions& options, std::span<const TrackingWorld> worlds)
+      : tree_(worlds[0].tree), crowd_(worlds), precision_(options.in_float ? Precision::kFloat : Precision::kDouble) {
+    ik_.max_iterations = options.steps;
+  }
+
+  /// Follows everybody to a frame, which is no earlier than the one before.
+  void FollowTo(int frame) {
+    for (; next_ <= frame; ++next_) {
+      const double begin = ProcessorTimeMs();
+      const auto [met, steps] = crowd_.FollowNext(ik_, precision_);
+      timings_.times_ms.push_back(ProcessorTimeMs() - begin);
+      timings_.met += met;
+      timings_.steps += steps;
+    }
+  }
+  CrowdStage::Character At(std::size_t character) const {
+    return {ToBodyPose(tree_, crowd_.StateOf(character)), !crowd_.HasMet(character)};
+  }
+
+  const Timings& timings() const { return timings_; }
+
+ private:
+  const KinematicTree& tree_;
+  Crowd crowd_;
+  Precision precision_;
+  IkOptions ik_;
+  Timings timings_;
+  int next_ = 0;
+};
+
+/// Films every so many frames of the crowd, which is followed meanwhile. False when it was stopped.
+Result<bool> FilmCrowd(const CrowdCommandOptions& options, FollowedCrowd& followed, const FilmWatch& watch) {
+  using Character = CrowdStage::Character;
+  static_assert(std::is_trivially_copyable_v<Character>, "characters go to those who draw as they lie in memory");
+  ASSIGN_OR_RETURN(const auto renderer, Renderer::Create());
+  CrowdStage stage(options.crowd.characters, kWidth, kHeight, *renderer);
+  const double rate_hz = options.crowd.rate_hz;
+  const int every = std::max(1, static_cast<int>(std::ceil(rate_hz / kFilmRateHz)));
+  const int frames = (options.crowd.frames + every - 1) / every;
+  const auto count = static_cast<std::size_t>(options.crowd.characters);
+  const auto fill = [&](int frame, std::span<std::uint8_t> into) -> Result<void> {
+    followed.FollowTo(frame * every);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Character character = followed.At(i);
+      std::memcpy(&into[i * sizeof character], &character, sizeof character);
+    }
+    return {};
+  };
+  const auto draw = [&](int frame, std::span<const std::uint8_t> fed) {
+    std::vector<Character> characters(count);
+    std::memcpy(characters.data(), fed.data(), fed.size());
+    const auto met = std::ranges::count(characters, false, &Character::stands_out);
+    return stage.Draw(characters,
+                      fmt::format("{} characters followed at {:g} Hz, each within its joints' limits", count, rate_hz),
+                      fmt::format("{:.2f} s: {} meet the targets of all four ends; pale: who does not",
+                                  frame * every / rate_hz, met));
+  };
+  return EncodeFedFrames(options.output, frames, std::max(1, static_cast<int>(std::lround(rate_hz / every))),
+                         {count * sizeof(Character), fill}, draw, watch);
+}
+
 /// Follows the crowd frame by frame, and tells of it. Null when Ctrl-C came.
 Result<Json> FollowCrowd(const CrowdCommandOptions& options) {
   ASSIGN_OR_RETURN(const auto worlds, MakeCrowd(options.crowd));
-  std::optional<CrowdFilm> film;
-  if (!options.output.empty()) {
-    ASSIGN_OR_RETURN(auto started, CrowdFilm::Start(options));
-    film.emplace(std::move(started));
-  }
+  FollowedCrowd followed(options, worlds);
   const Interrupt interrupt;
-  Crowd crowd(worlds);
-  Timings timings;
-  IkOptions ik;
-  ik.max_iterations = options.steps;
+  if (!options.output.empty()) {
+    ASSIGN_OR_RETURN(const bool is_whole,
+                     UnlessInterrupted(FilmCrowd(options, followed, WatchFilms(interrupt, options.jobs)), interrupt));
+    if (!is_whole) return Json();
+  }
   for (int frame = 0; frame < options.crowd.frames; ++frame) {
     if (*interrupt.requested()) return Json();
-    const double begin = ProcessorTimeMs();
-    const auto [met, steps] = crowd.FollowNext(ik, options.in_float ? Precision::kFloat : Precision::kDouble);
-    timings.times_ms.push_back(ProcessorTimeMs() - begin);
-    timings.met += met;
-    timings.steps += steps;
-    if (film) RETURN_IF_ERROR(film->Add(frame, worlds[0].tree, crowd, met));
+    followed.FollowTo(frame);
   }
-  if (film) RETURN_IF_ERROR(film->Finish());
-  return Tell(options, std::move(timings));
+  return Tell(options, followed.timings());
 }
 
 Result<int> CrowdCommand(const CrowdCommandOptions& given) {
@@ -176,6 +197,7 @@ void DefineCrowd(CLI::App& app, Action& action) {
   AddSeed(*command, options->crowd.seed, "Of the motions' dice");
   command->add_flag("--float", options->in_float, "Batches of floats, not of doubles");
   command->add_option("-o,--output", options->output, "A film of the crowd (.mp4)");
+  AddJobs(*command, options->jobs);
   AddOverwrite(*command, options->overwrite);
   AddJson(*command, options->as_json);
   command->callback([=, &action] { action = [=] { return Finish(CrowdCommand(*options)); }; });

@@ -130,7 +130,7 @@ std::vector<int> SpreadFrames(const Shot& shot, int count) {
 
 void DrawLegend(Canvas& canvas, double right, double baseline) {
   const std::string words = "left hand and foot";
-  constexpr double kSize = 13;
+  constexpr double kSize = 16;
   const double width = canvas.TextWidth(words, kSize);
   canvas.DrawText({right - width, baseline}, words, kSize, kSoftInk, width + 1);
   canvas.DrawDot({right - width - 10, baseline - 4.5}, 4, kAccent);

@@ -14,7 +14,7 @@ constexpr double kSheetDetail = 2;
 constexpr int kMargin = 16;
 constexpr int kGap = 6;
 constexpr int kTitle = 46;       // room for a clip's name and facts above its pictures
-constexpr double kLegend = 160;  // room that the legend leaves beside the first clip's name
+constexpr double kLegend = 190;  // room that the legend leaves beside the first clip's name
 constexpr int kNarrowest = 640;  // titles need some room, however few pictures there are
 constexpr double kNameSize = 16, kFactsSize = 12.5, kTimeSize = 12;
 

@@ -2,14 +2,13 @@
 
 #include <cmath>
 
-#include "reports/films/canvas.h"
 #include "reports/films/look.h"
 #include "sim/body/shape.h"
 
 namespace etude {
 namespace {
 
-constexpr double kApart = 1.6;     // metres
+constexpr double kApart = 1.6;       // metres
 constexpr double kBrightness = 1.8;  // the lamp hangs far from most
 constexpr Rgb8 kPale{250, 240, 190};
 
@@ -35,7 +34,7 @@ glm::dvec3 CrowdStage::PlaceOf(std::size_t character) const {
   return {kApart * across, 0, kApart * static_cast<double>(side_ - 1 - character / side_)};
 }
 
-ColourImage CrowdStage::Draw(std::span<const Character> crowd, const std::string& strong, const std::string& soft) {
+Canvas CrowdStage::Draw(std::span<const Character> crowd, const std::string& strong, const std::string& soft) {
   std::vector<Figure> figures;
   PartColours pale;
   pale.fill(kPale);
@@ -53,7 +52,7 @@ ColourImage CrowdStage::Draw(std::span<const Character> crowd, const std::string
       renderer_.Render({.brightness = kBrightness, .casts_shadows = false}, figures, camera_, Targets::kColour).colour,
       whole);
   DrawCaption(canvas, whole, strong, soft);
-  return canvas.Pixels();
+  return canvas;
 }
 
 }  // namespace etude

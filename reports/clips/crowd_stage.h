@@ -3,9 +3,9 @@
 #include <span>
 #include <string>
 
-#include "engine/base/image.h"
 #include "engine/cameras/camera.h"
 #include "engine/motion/body.h"
+#include "reports/films/canvas.h"
 #include "sim/render/renderer.h"
 
 namespace etude {
@@ -22,7 +22,7 @@ class CrowdStage {
     bool stands_out = false;
   };
   /// Draws a crowd, at most as many as there are places, with a caption of two lines.
-  ColourImage Draw(std::span<const Character> crowd, const std::string& strong, const std::string& soft);
+  Canvas Draw(std::span<const Character> crowd, const std::string& strong, const std::string& soft);
 
  private:
   glm::dvec3 PlaceOf(std::size_t character) const;

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <glm/glm.hpp>
-#include <sstream>
 #include <utility>
 
 #include "engine/base/angles.h"
@@ -92,21 +90,6 @@ template <typename Span>
 const Span& InForce(const std::vector<Span>& spans, int frame) {
   const auto after = std::ranges::upper_bound(spans, frame, {}, &Span::begin_frame);
   return after == spans.begin() ? spans.front() : *(after - 1);
-}
-
-/// Breaks words into lines that are no wider than `room`; a word alone may be.
-std::vector<std::string> LinesOf(const std::string& words, double room,
-                                 const std::function<double(const std::string&)>& width_of) {
-  std::vector<std::string> lines;
-  std::istringstream read(words);
-  for (std::string word; read >> word;) {
-    if (!lines.empty() && width_of(lines.back() + " " + word) <= room) {
-      lines.back() += " " + word;
-    } else {
-      lines.push_back(word);
-    }
-  }
-  return lines;
 }
 
 BodyPose PutAt(const BodyPose& pose, const FloorMove& place) { return place.Apply(pose); }
@@ -239,8 +222,7 @@ void CoachedScene::DrawHint(Canvas& canvas, int frame) const {
   canvas.FillBox(kHint, {0.05, 0.06, 0.07, 0.78}, kPanelRadius);
   constexpr double kSize = 16, kLine = 21, kRoom = kHint.width - 20;
   canvas.DrawText({kHint.x + 10, kHint.y + 20}, "key pose", kSize, kSoftInk, kRoom);
-  const std::vector<std::string> lines =
-      LinesOf(words.hint, kRoom, [&](const std::string& line) { return canvas.TextWidth(line, kSize, true); });
+  const std::vector<std::string> lines = LinesOf(canvas, words.hint, kSize, kRoom, true);
   double y = kHint.y + kHint.height - 12 - kLine * static_cast<double>(lines.size());
   DrawStickFigure(canvas, *words.picture, {kHint.x, kHint.y + 28, kHint.width, y - kHint.y - 34}, 2.3, kInk);
   for (const std::string& line : lines) canvas.DrawText({kHint.x + 10, y += kLine}, line, kSize, kInk, kRoom, true);
@@ -267,7 +249,7 @@ void CoachedScene::DrawTimeline(Canvas& canvas, int now) const {
     if (end < shown.begin || begin > shown.end) continue;
     timeline.Bar(1, begin, end, PaintOfWord(performance.truth));
     if (now >= end) timeline.Bar(2, begin, end, PaintOfWord(performance.called));
-    timeline.Text(1, begin, end, performance.move);
+    timeline.Text(1, begin, end, PlainName(performance.move));
   }
   for (const int seam : facts_.transitions) {
     if (timeline.Shows(seam)) timeline.Tick(seam, 0, 0, kInk);

@@ -7,7 +7,6 @@
 #include "bench/files/temporary_folder.h"
 #include "bench/films/encoder.h"
 #include "engine/formats/wav.h"
-#include "reports/films/film_workers.h"
 #include "reports/films/look.h"
 #include "sim/music/music.h"
 
@@ -45,12 +44,8 @@ Result<std::string> Encode(Scene& scene, const std::filesystem::path& path, cons
   return ReadWholeFile(path);
 }
 
-}  // namespace
-
-Result<bool> EncodeFrames(const std::filesystem::path& path, int frames, int rate_hz,
-                          const std::function<Canvas(int frame)>& draw, const FilmWatch& watch,
-                          const std::filesystem::path& sound) {
-  ASSIGN_OR_RETURN(auto workers, FilmWorkers::Start(frames, watch.jobs, draw));
+Result<bool> EncodeDrawn(const std::filesystem::path& path, int frames, int rate_hz, FilmWorkers workers,
+                         const FilmWatch& watch, const std::filesystem::path& sound) {
   ASSIGN_OR_RETURN(auto encoder,
                    Encoder::Start(path, workers.width(), workers.height(), rate_hz, sound, Encoder::Form::kI420));
   for (int frame = 0; frame < frames; ++frame) {
@@ -61,6 +56,22 @@ Result<bool> EncodeFrames(const std::filesystem::path& path, int frames, int rat
   }
   RETURN_IF_ERROR(encoder.Finish());
   return true;
+}
+
+}  // namespace
+
+Result<bool> EncodeFrames(const std::filesystem::path& path, int frames, int rate_hz,
+                          const std::function<Canvas(int frame)>& draw, const FilmWatch& watch,
+                          const std::filesystem::path& sound) {
+  const auto draw_alone = [&](int frame, std::span<const std::uint8_t>) { return draw(frame); };
+  ASSIGN_OR_RETURN(auto workers, FilmWorkers::Start(frames, watch.jobs, draw_alone));
+  return EncodeDrawn(path, frames, rate_hz, std::move(workers), watch, sound);
+}
+
+Result<bool> EncodeFedFrames(const std::filesystem::path& path, int frames, int rate_hz, FrameFeed feed,
+                             const FilmWorkers::Draw& draw, const FilmWatch& watch) {
+  ASSIGN_OR_RETURN(auto workers, FilmWorkers::Start(frames, watch.jobs, draw, std::move(feed)));
+  return EncodeDrawn(path, frames, rate_hz, std::move(workers), watch, {});
 }
 
 Canvas BeginFrame(const std::string& heading) {

@@ -9,6 +9,7 @@
 
 #include "engine/base/result.h"
 #include "reports/films/canvas.h"
+#include "reports/films/film_workers.h"
 
 namespace etude {
 
@@ -70,6 +71,9 @@ class Scene {
 Result<bool> EncodeFrames(const std::filesystem::path& path, int frames, int rate_hz,
                           const std::function<Canvas(int frame)>& draw, const FilmWatch& watch,
                           const std::filesystem::path& sound = {});
+/// The same, in silence, of frames that are drawn from what `feed` gives.
+Result<bool> EncodeFedFrames(const std::filesystem::path& path, int frames, int rate_hz, FrameFeed feed,
+                             const FilmWorkers::Draw& draw, const FilmWatch& watch);
 
 /// Makes an empty canvas of a film's size, with its heading in the uppermost 52 pixels.
 Canvas BeginFrame(const std::string& heading);

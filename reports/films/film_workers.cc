@@ -16,8 +16,6 @@ namespace {
 
 // Long enough that frames which share a picture share a process, short enough that all of them end together.
 constexpr int kChunk = 8;
-// Frames that a process may be ahead.
-constexpr int kSlots = 2 * kChunk;
 
 bool Tell(int talk) {
   const char byte = 1;
@@ -39,39 +37,56 @@ bool Hear(int talk) {
 
 void FilmWorkers::Unmap::operator()(std::uint8_t* memory) const { munmap(memory, bytes); }
 
-FilmWorkers::FilmWorkers(int frames, int jobs, int width, int height)
-    : frames_(frames), width_(width), height_(height), taken_(static_cast<std::size_t>(jobs)) {}
+// Frames that are fed come from one source, one after the other, so that those who draw take turns.
+FilmWorkers::FilmWorkers(int frames, int jobs, int width, int height, FrameFeed feed)
+    : frames_(frames),
+      width_(width),
+      height_(height),
+      feed_(std::move(feed)),
+      chunk_(feed_.bytes > 0 ? 1 : kChunk),
+      slots_(2 * chunk_),
+      workers_(static_cast<std::size_t>(std::clamp((frames + chunk_ - 1) / chunk_, 1, jobs))) {}
 
-std::uint8_t* FilmWorkers::Slot(std::size_t worker, int drawn) const {
-  const std::size_t bytes = static_cast<std::size_t>(width_) * height_ * 3 / 2;
-  return pictures_.get() + (worker * kSlots + static_cast<std::size_t>(drawn % kSlots)) * bytes;
+Result<void> FilmWorkers::MapSlots() {
+  const std::size_t slots = workers_.size() * static_cast<std::size_t>(slots_), bytes = slots * SlotBytes();
+  void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) return Fail({}, "there is no memory for {} frames: {}", slots, std::strerror(errno));
+  memory_ = {static_cast<std::uint8_t*>(memory), Unmap{bytes}};
+  return {};
 }
 
-std::size_t FilmWorkers::WorkerOf(int frame) const { return static_cast<std::size_t>(frame / kChunk) % taken_.size(); }
+FilmWorkers::Slot FilmWorkers::SlotOf(std::size_t worker, int place) const {
+  std::uint8_t* begin =
+      memory_.get() +
+      (worker * static_cast<std::size_t>(slots_) + static_cast<std::size_t>(place % slots_)) * SlotBytes();
+  return {{begin, PictureBytes()}, {begin + PictureBytes(), feed_.bytes}};
+}
+
+std::size_t FilmWorkers::WorkerOf(int frame) const {
+  return static_cast<std::size_t>(frame / chunk_) % workers_.size();
+}
 
 void FilmWorkers::Work(std::size_t worker, int talk, const Draw& draw) const {
   int drawn = 0;
   for (int frame = 0; frame < frames_; ++frame) {
     if (WorkerOf(frame) != worker) continue;
-    if (drawn >= kSlots && !Hear(talk)) break;
-    draw(frame).ToI420(Slot(worker, drawn));
+    if ((feed_.bytes > 0 || drawn >= slots_) && !Hear(talk)) break;
+    const Slot slot = SlotOf(worker, drawn);
+    draw(frame, slot.feed).ToI420(slot.picture.data());
     if (!Tell(talk)) break;
     ++drawn;
   }
   _exit(0);  // nothing of our parent's is ended
 }
 
-Result<FilmWorkers> FilmWorkers::Start(int frames, int jobs, const Draw& draw) {
+Result<FilmWorkers> FilmWorkers::Start(int frames, int jobs, const Draw& draw, FrameFeed feed) {
   if (jobs <= 0) jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  jobs = std::clamp((frames + kChunk - 1) / kChunk, 1, jobs);
-  const Canvas first = draw(0);
-  FilmWorkers film(frames, jobs, first.width(), first.height());
-  const std::size_t bytes = static_cast<std::size_t>(jobs) * kSlots * first.width() * first.height() * 3 / 2;
-  void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  if (memory == MAP_FAILED)
-    return Fail({}, "there is no memory for {} frames: {}", jobs * kSlots, std::strerror(errno));
-  film.pictures_ = {static_cast<std::uint8_t*>(memory), Unmap{bytes}};
-  for (std::size_t i = 0; i < static_cast<std::size_t>(jobs); ++i) {
+  std::vector<std::uint8_t> of_first(feed.bytes);
+  if (feed.bytes > 0) RETURN_IF_ERROR(feed.fill(0, of_first));
+  const Canvas first = draw(0, of_first);
+  FilmWorkers film(frames, jobs, first.width(), first.height(), std::move(feed));
+  RETURN_IF_ERROR(film.MapSlots());
+  for (std::size_t i = 0; i < film.workers_.size(); ++i) {
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
       return Fail({}, "cannot talk to a drawing process: {}", std::strerror(errno));
@@ -79,19 +94,25 @@ Result<FilmWorkers> FilmWorkers::Start(int frames, int jobs, const Draw& draw) {
     const pid_t child = fork();
     if (child == 0) {
       close(ends[0]);
-      for (const Worker& other : film.workers_) close(other.talk);
+      for (const Worker& other : film.workers_) {
+        if (other.talk >= 0) close(other.talk);
+      }
       film.Work(i, ends[1], draw);
     }
     close(ends[1]);
-    film.workers_.push_back({child, ends[0]});
+    film.workers_[i] = {.child = child, .talk = ends[0]};
     if (child < 0) return Fail({}, "cannot start a drawing process: {}", std::strerror(errno));
+  }
+  if (film.feed_.bytes > 0) {
+    std::ranges::copy(of_first, film.SlotOf(0, 0).feed.begin());
+    film.TellFed(0);
   }
   return film;
 }
 
 FilmWorkers::~FilmWorkers() {
   for (const Worker& worker : workers_) {
-    close(worker.talk);
+    if (worker.talk >= 0) close(worker.talk);
     if (worker.child < 0) continue;
     kill(worker.child, SIGKILL);
     while (waitpid(worker.child, nullptr, 0) < 0 && errno == EINTR) {
@@ -99,18 +120,34 @@ FilmWorkers::~FilmWorkers() {
   }
 }
 
+void FilmWorkers::TellFed(std::size_t worker) {
+  ++fed_;
+  ++workers_[worker].fed;
+  Tell(workers_[worker].talk);
+}
+
+Result<void> FilmWorkers::FeedAhead() {
+  while (feed_.bytes > 0 && fed_ < frames_) {
+    const std::size_t worker = WorkerOf(fed_);
+    if (workers_[worker].fed - workers_[worker].taken == slots_) break;
+    RETURN_IF_ERROR(feed_.fill(fed_, SlotOf(worker, workers_[worker].fed).feed));
+    TellFed(worker);
+  }
+  return {};
+}
+
 Result<std::span<const std::uint8_t>> FilmWorkers::Next() {
   if (next_ > 0) {
-    const std::size_t last = WorkerOf(next_ - 1);
-    ++taken_[last];
-    Tell(workers_[last].talk);
+    Worker& last = workers_[WorkerOf(next_ - 1)];
+    ++last.taken;
+    if (feed_.bytes == 0) Tell(last.talk);
   }
+  RETURN_IF_ERROR(FeedAhead());
   const std::size_t worker = WorkerOf(next_);
   if (next_ >= frames_ || !Hear(workers_[worker].talk))
     return Fail({}, "a drawing process has ended before its frames");
   ++next_;
-  return std::span<const std::uint8_t>(Slot(worker, taken_[worker]),
-                                       static_cast<std::size_t>(width_) * height_ * 3 / 2);
+  return SlotOf(worker, workers_[worker].taken).picture;
 }
 
 }  // namespace etude

@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "reports/films/look.h"
 #include "reports/words/figures.h"
@@ -14,7 +16,7 @@ constexpr Box kSeenPanel{12, 52, 440, 520}, kAnglesPanel{464, 52, 804, 520};
 constexpr Box kFigure{12, 84, 440, 440};
 constexpr double kTall = 2.4;  // metres of the figure's box
 constexpr Paint kGround{0.05, 0.06, 0.07, 0.78}, kGhost{0.80, 0.83, 0.85, 0.28};
-constexpr double kStripLeft = 116, kStripsTop = 116, kStripsHeight = 392, kStripGap = 8;
+constexpr double kStripLeft = 156, kStripsTop = 116, kStripsHeight = 392, kStripGap = 8;
 constexpr double kHighestAngle = 180;
 
 Paint WithOpacity(const Paint& paint, double a) { return {paint.r, paint.g, paint.b, a}; }
@@ -28,6 +30,14 @@ std::vector<Feature> FeaturesOf(const std::vector<TaughtPose>& poses) {
     }
   }
   return features;
+}
+
+/// Names an angle of paper A's by what is bent or raised.
+std::string_view PlainNameOf(Feature feature) {
+  constexpr std::array<std::string_view, kFeatureCount> kNames = {"right arm",  "left arm", "right elbow", "left elbow",
+                                                                  "height",     "trunk",    "right leg",   "left leg",
+                                                                  "right knee", "left knee"};
+  return kNames[static_cast<std::size_t>(feature)];
 }
 
 /// A strip in which a value runs over the frames of a window.
@@ -119,13 +129,14 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
   const bool is_open = now >= asked.begin_frame && now < asked.end_frame;
   const double left = kAnglesPanel.x + 16;
   canvas.DrawText({left, kAnglesPanel.y + 28},
-                  fmt::format("{}: {}", is_open ? "asked for" : "asked for last", asked.move), 18, kInk, 300, true);
+                  fmt::format("{}: {}", is_open ? "asked for" : "asked for last", PlainName(asked.move)), 20, kInk, 300,
+                  true);
   const std::string called = CalledAt(0, current, now);
   const std::string verdict = called.empty() ? "not yet judged" : "called " + called;
-  canvas.DrawText({left, kAnglesPanel.y + 50}, fmt::format("{}: {}", facts_.judges.front().method, verdict), 14,
+  canvas.DrawText({left, kAnglesPanel.y + 53}, fmt::format("{}: {}", facts_.judges.front().method, verdict), 17,
                   called.empty() ? kSoftInk : PaintOfWord(called), 300, true);
-  const std::string fault = asked.fault == "none" ? "" : " (" + asked.fault + ")";
-  canvas.DrawText({left, kAnglesPanel.y + 70}, fmt::format("truth: {}{}", asked.truth, fault), 14,
+  const std::string fault = asked.fault == "none" ? "" : " (" + PlainName(asked.fault) + ")";
+  canvas.DrawText({left, kAnglesPanel.y + 77}, fmt::format("truth: {}{}", asked.truth, fault), 17,
                   PaintOfWord(asked.truth), 300);
   // Key poses, ticked off in their order.
   for (std::size_t k = 0; k < asked.poses.size(); ++k) {
@@ -134,7 +145,7 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
                   kAnglesPanel.y + 14 + 30 * static_cast<double>(k / 4), 118, 24};
     if (box.y + box.height > kAnglesPanel.y + kStripsTop - 20) break;
     canvas.FillBox(box, is_reached ? kRightPaint : WithOpacity(kUndecidedPaint, 0.5), 5);
-    canvas.DrawText({box.x + 8, box.y + 17}, fmt::format("key pose {}{}", k + 1, is_reached ? " ✓" : ""), 13,
+    canvas.DrawText({box.x + 8, box.y + 17}, fmt::format("pose {}{}", k + 1, is_reached ? " ✓" : ""), 16,
                     is_reached ? kBackdrop : kInk, box.width - 8, true);
   }
   const std::vector<Feature> features = FeaturesOf(asked.poses);
@@ -151,8 +162,8 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
   };
   const auto draw = [&](const Strip& strip, const std::string& name, const std::string& value, const auto& at) {
     canvas.FillBox(strip.box, {0.16, 0.18, 0.20, 1}, 4);
-    canvas.DrawText({left, strip.box.y + height / 2 - 2}, name, 13, kInk, kStripLeft - 24, true);
-    canvas.DrawText({left, strip.box.y + height / 2 + 15}, value, 13, kSoftInk, kStripLeft - 24);
+    canvas.DrawText({left, strip.box.y + height / 2 - 2}, name, 16, kInk, kStripLeft - 24, true);
+    canvas.DrawText({left, strip.box.y + height / 2 + 16}, value, 16, kSoftInk, kStripLeft - 24);
     std::vector<glm::dvec2> path;
     for (int frame = asked.begin_frame; frame <= shown_to; ++frame)
       path.emplace_back(strip.X(frame), strip.Y(at(frame)));
@@ -162,7 +173,7 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
     const Feature feature = features[row];
     const auto angle = [&](int frame) { return facts_.seen.frames[static_cast<std::size_t>(frame)].features[feature]; };
     const Strip strip = strip_at(row, kHighestAngle);
-    const auto path = draw(strip, std::string(FeatureName(feature)), FormatFixed(angle(now), 0) + "°", angle);
+    const auto path = draw(strip, std::string(PlainNameOf(feature)), FormatFixed(angle(now), 0) + "°", angle);
     for (std::size_t k = 0; k < asked.poses.size(); ++k) {
       const bool is_reached = asked.reached[k] && now >= *asked.reached[k];
       for (const PoseTarget& target : asked.poses[k].targets) {
@@ -171,7 +182,7 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
         const double bottom = strip.Y(target.degrees - target.tolerance_deg);
         canvas.FillBox({strip.box.x, top, strip.box.width, bottom - top},
                        WithOpacity(is_reached ? kRightPaint : kAccent, 0.18));
-        canvas.DrawText({strip.box.x + strip.box.width - 16, strip.Y(target.degrees) + 5}, fmt::format("{}", k + 1), 12,
+        canvas.DrawText({strip.box.x + strip.box.width - 16, strip.Y(target.degrees) + 5}, fmt::format("{}", k + 1), 15,
                         kSoftInk, 14);
       }
       if (is_reached)
@@ -198,7 +209,7 @@ void JudgedScene::DrawTimeline(Canvas& canvas, int now) const {
   for (const Performance& performance : facts_.performances) {
     if (performance.end_frame < first_ || performance.begin_frame > last_) continue;
     timeline.Bar(0, performance.begin_frame, performance.end_frame, PaintOfWord(performance.truth));
-    timeline.Text(0, performance.begin_frame, performance.end_frame, performance.move);
+    timeline.Text(0, performance.begin_frame, performance.end_frame, PlainName(performance.move));
   }
   for (int j = 0; j < rows; ++j) {
     const auto& judge = facts_.judges[static_cast<std::size_t>(j)];

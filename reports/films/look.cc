@@ -1,6 +1,7 @@
 #include "reports/films/look.h"
 
 #include <algorithm>
+#include <sstream>
 
 #include "reports/plots/marks.h"
 
@@ -9,8 +10,8 @@ namespace {
 
 constexpr double kMargin = 16;
 constexpr double kTagSize = 17, kTagHeight = 30, kTagInset = 12;
-constexpr double kStrongSize = 24;
-constexpr double kSoftSize = 18;
+constexpr double kStrongSize = 24, kStrongLine = 28;
+constexpr double kSoftSize = 18, kSoftLine = 23;
 
 }  // namespace
 
@@ -34,14 +35,38 @@ void DrawMark(Canvas& canvas, const Box& panel, const std::string& text) {
   canvas.DrawText({x + 10, panel.y + 33}, text, kTagSize, kBackdrop, width, true);
 }
 
+std::vector<std::string> LinesOf(const Canvas& canvas, const std::string& words, double size, double room, bool bold) {
+  std::vector<std::string> lines;
+  std::istringstream read(words);
+  for (std::string word; read >> word;) {
+    if (!lines.empty() && canvas.TextWidth(lines.back() + " " + word, size, bold) <= room) {
+      lines.back() += " " + word;
+    } else {
+      lines.push_back(word);
+    }
+  }
+  return lines;
+}
+
 void DrawCaption(Canvas& canvas, const Box& panel, const std::string& strong, const std::string& soft, double lift) {
+  const double room = panel.width - 2 * kMargin;
+  const auto strong_lines = LinesOf(canvas, strong, kStrongSize, room, true);
+  const auto soft_lines = LinesOf(canvas, soft, kSoftSize, room, false);
+  const double more_soft = kSoftLine * static_cast<double>(std::max<std::size_t>(soft_lines.size(), 1) - 1);
+  const double strong_height = kStrongLine * static_cast<double>(strong_lines.size());
   const double bottom = panel.y + panel.height - lift;
-  const double shade = (strong.empty() ? 54 : 88) + lift;
+  const double shade = 54 + more_soft + (strong_lines.empty() ? 0 : strong_height + 6) + lift;
   canvas.FillShade({panel.x, panel.y + panel.height - shade, panel.width, shade}, {0.03, 0.04, 0.05, 0},
                    {0.03, 0.04, 0.05, 0.82});
-  const double room = panel.width - 2 * kMargin;
-  if (!strong.empty()) canvas.DrawText({panel.x + kMargin, bottom - 44}, strong, kStrongSize, kInk, room, true);
-  canvas.DrawText({panel.x + kMargin, bottom - 16}, soft, kSoftSize, kSoftInk, room);
+  double y = bottom - 16 - more_soft - strong_height;
+  for (const std::string& line : strong_lines) {
+    canvas.DrawText({panel.x + kMargin, y}, line, kStrongSize, kInk, room, true);
+    y += kStrongLine;
+  }
+  for (const std::string& line : soft_lines) {
+    canvas.DrawText({panel.x + kMargin, y}, line, kSoftSize, kSoftInk, room);
+    y += kSoftLine;
+  }
 }
 
 }  // namespace etude

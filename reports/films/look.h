@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "reports/films/canvas.h"
 
@@ -23,7 +24,10 @@ void DrawTag(Canvas& canvas, const Box& panel, const std::string& text, double f
 /// Draws a small bright label in the upper right corner: something has just happened.
 void DrawMark(Canvas& canvas, const Box& panel, const std::string& text);
 
-/// Draws one or two lines in the lower left corner over a soft shade; `strong` may be empty.
+/// Breaks words into lines that are no wider than `room`; a word alone may be.
+std::vector<std::string> LinesOf(const Canvas& canvas, const std::string& words, double size, double room, bool bold);
+
+/// Draws words in the lower left corner over a soft shade, in as many lines as they need; `strong` may be empty.
 void DrawCaption(Canvas& canvas, const Box& panel, const std::string& strong, const std::string& soft, double lift = 0);
 
 }  // namespace etude

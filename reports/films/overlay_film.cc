@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <optional>
 
-#include "bench/films/encoder.h"
 #include "reports/films/canvas.h"
+#include "reports/films/look.h"
 
 namespace etude {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 constexpr double kTallest = 720;
 constexpr double kWidest = 1920;
 constexpr Paint kLeftLimb{0.25, 0.75, 1.0, 0.95}, kRightLimb{1.0, 0.55, 0.2, 0.95}, kMiddleLimb{1, 1, 1, 0.95},
-    kDot{0.3, 1.0, 0.3, 0.8}, kLabel{1, 1, 1, 0.9};
+    kDot{0.3, 1.0, 0.3, 0.8};
 
 Paint PaintOf(Role role) {
   const std::string_view name = RoleName(role);
@@ -52,7 +53,7 @@ class ViewPainter {
         if (keypoint.confidence > 0 && IsInside(keypoint.pixel)) canvas.DrawDot(OnCanvas(keypoint.pixel), 2.5, kDot);
       }
     }
-    canvas.DrawText({box_.x + 8, box_.y + 20}, view_.name, 15, kLabel, box_.width - 16);
+    DrawTag(canvas, box_, view_.name);
   }
 
  private:
@@ -101,6 +102,47 @@ class FilmRoll {
   long shown_ = -1;
 };
 
+/// All films as they run, one picture of each beside the other in memory.
+class FilmRolls {
+ public:
+  static Result<FilmRolls> Start(std::span<const OverlayView> views) {
+    FilmRolls all;
+    for (const OverlayView& view : views) {
+      ASSIGN_OR_RETURN(FilmRoll roll, FilmRoll::Start(view));
+      all.rolls_.push_back(std::move(roll));
+      all.bytes_ += BytesOf(view);
+    }
+    return all;
+  }
+
+  std::size_t bytes() const { return bytes_; }
+  /// Writes the pictures of a frame of the motion, which is no earlier than the one before.
+  Result<void> Write(std::size_t frame, std::span<std::uint8_t> into) {
+    for (FilmRoll& roll : rolls_) {
+      ASSIGN_OR_RETURN(const ColourImage* picture, roll.At(frame));
+      const std::size_t count = picture->pixels.size() * sizeof(Rgb8);
+      std::memcpy(into.data(), picture->pixels.data(), count);
+      into = into.subspan(count);
+    }
+    return {};
+  }
+  /// Reads the first picture of `from`, and leaves the rest there.
+  static ColourImage TakePicture(const OverlayView& view, std::span<const std::uint8_t>& from) {
+    ColourImage picture(view.facts.width, view.facts.height);
+    std::memcpy(picture.pixels.data(), from.data(), BytesOf(view));
+    from = from.subspan(BytesOf(view));
+    return picture;
+  }
+
+ private:
+  static std::size_t BytesOf(const OverlayView& view) {
+    return static_cast<std::size_t>(view.facts.width) * static_cast<std::size_t>(view.facts.height) * sizeof(Rgb8);
+  }
+
+  std::vector<FilmRoll> rolls_;
+  std::size_t bytes_ = 0;
+};
+
 }  // namespace
 
 Result<bool> WriteOverlayFilm(const std::filesystem::path& path, std::span<const OverlayView> views,
@@ -108,27 +150,24 @@ Result<bool> WriteOverlayFilm(const std::filesystem::path& path, std::span<const
   int width = 0, height = 0;
   const std::vector<Box> boxes = Layout(views, width, height);
   std::vector<ViewPainter> painters;
-  std::vector<FilmRoll> rolls;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    painters.emplace_back(views[i], boxes[i]);
-    ASSIGN_OR_RETURN(FilmRoll roll, FilmRoll::Start(views[i]));
-    rolls.push_back(std::move(roll));
-  }
-  const int rate = std::max(1, static_cast<int>(std::lround(motion.rate_hz)));
-  ASSIGN_OR_RETURN(Encoder encoder, Encoder::Start(path, width, height, rate));
-  for (std::size_t frame = 0; frame < motion.poses.size(); ++frame) {
-    if (watch.IsStopped()) return false;
+  for (std::size_t i = 0; i < views.size(); ++i) painters.emplace_back(views[i], boxes[i]);
+  ASSIGN_OR_RETURN(FilmRolls rolls, FilmRolls::Start(views));
+  const std::size_t frames = motion.poses.size();
+  const auto draw = [&](int at, std::span<const std::uint8_t> pictures) {
+    const auto frame = static_cast<std::size_t>(at);
     Canvas canvas(width, height);
     for (std::size_t i = 0; i < views.size(); ++i) {
-      ASSIGN_OR_RETURN(const ColourImage* picture, rolls[i].At(frame));
-      painters[i].Draw(canvas, *picture, motion.poses[frame], frame);
+      painters[i].Draw(canvas, FilmRolls::TakePicture(views[i], pictures), motion.poses[frame], frame);
     }
-    RETURN_IF_ERROR(encoder.Add(canvas.Pixels()));
-    if (middle && frame == motion.poses.size() / 2) *middle = PictureOf(canvas, middle->caption);
-    watch.Tell(path, frame + 1, motion.poses.size());
-  }
-  RETURN_IF_ERROR(encoder.Finish());
-  return true;
+    return canvas;
+  };
+  const auto fill = [&](int frame, std::span<std::uint8_t> into) -> Result<void> {
+    RETURN_IF_ERROR(rolls.Write(static_cast<std::size_t>(frame), into));
+    if (middle && frame == static_cast<int>(frames / 2)) *middle = PictureOf(draw(frame, into), middle->caption);
+    return {};
+  };
+  const int rate = std::max(1, static_cast<int>(std::lround(motion.rate_hz)));
+  return EncodeFedFrames(path, static_cast<int>(frames), rate, {rolls.bytes(), fill}, draw, watch);
 }
 
 }  // namespace etude

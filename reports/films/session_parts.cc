@@ -26,6 +26,11 @@ void DrawStickFigure(Canvas& canvas, const BodyPose& pose, const Box& box, doubl
   canvas.DrawDot(at(Role::kHead), 0.09 * box.height / tall, paint);
 }
 
+std::string PlainName(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
 Paint PaintOfWord(const std::string& word) {
   return word == "right" ? kRightPaint : word == "wrong" ? kWrongPaint : kUndecidedPaint;
 }
@@ -50,8 +55,10 @@ void SessionTimeline::Bar(int row, int begin, int end, const Paint& paint) {
 }
 
 void SessionTimeline::Text(int row, int begin, int end, const std::string& text) {
+  constexpr double kSize = 16;
   const double left = PlaceOf(begin), room = PlaceOf(end) - left - 8;
-  if (room > 0) canvas_.DrawText({left + 5, TopOf(row) + 19}, text, 16, kBackdrop, room);
+  if (canvas_.TextWidth(text, kSize) <= room)
+    canvas_.DrawText({left + 5, TopOf(row) + 19}, text, kSize, kBackdrop, room);
 }
 
 void SessionTimeline::Tick(int frame, int first_row, int last_row, const Paint& paint) {

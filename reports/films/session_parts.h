@@ -21,6 +21,9 @@ struct FrameSpan {
 inline constexpr Paint kRightPaint{0.36, 0.74, 0.46, 1}, kWrongPaint{0.88, 0.36, 0.32, 1};
 inline constexpr Paint kUndecidedPaint{0.55, 0.58, 0.60, 1};
 
+/// Gives a move's or fault's name as people write it: "fast_sway" becomes "fast sway".
+std::string PlainName(std::string name);
+
 /// Gives the colour of "right" and "wrong"; any other word has the undecided one.
 Paint PaintOfWord(const std::string& word);
 

@@ -145,7 +145,7 @@ Canvas Numbered(int frame) {
 
 TEST(FilmWorkers, HandOverEveryFrameInOrderHoweverManyDraw) {
   for (const int jobs : {1, 2, 3, 50}) {
-    auto film = FilmWorkers::Start(45, jobs, Numbered);
+    auto film = FilmWorkers::Start(45, jobs, [](int frame, auto) { return Numbered(frame); });
     ASSERT_TRUE(film) << ToString(film.error());
     std::vector<std::uint8_t> wanted(64 * 32 * 3 / 2);
     for (int frame = 0; frame < 45; ++frame) {
@@ -158,9 +158,46 @@ TEST(FilmWorkers, HandOverEveryFrameInOrderHoweverManyDraw) {
   }
 }
 
+TEST(FilmWorkers, DrawWhatOneSourceFeedsThemInOrder) {
+  for (const int jobs : {1, 2, 3, 50}) {
+    int fed = 0;
+    const auto fill = [&](int frame, std::span<std::uint8_t> into) -> Result<void> {
+      EXPECT_EQ(frame, fed++);
+      EXPECT_EQ(into.size(), 3u);
+      std::ranges::fill(into, static_cast<std::uint8_t>(frame));
+      return {};
+    };
+    const auto draw = [](int, std::span<const std::uint8_t> numbers) { return Numbered(numbers[2]); };
+    auto film = FilmWorkers::Start(20, jobs, draw, {3, fill});
+    ASSERT_TRUE(film) << ToString(film.error());
+    std::vector<std::uint8_t> wanted(64 * 32 * 3 / 2);
+    for (int frame = 0; frame < 20; ++frame) {
+      Numbered(frame).ToI420(wanted.data());
+      const auto picture = film->Next();
+      ASSERT_TRUE(picture) << ToString(picture.error());
+      EXPECT_TRUE(std::ranges::equal(*picture, wanted)) << frame << " of " << jobs;
+    }
+    EXPECT_EQ(fed, 20);
+    EXPECT_FALSE(film->Next());
+  }
+}
+
+TEST(FilmWorkers, AFeedThatFailsEndsTheFilmWithItsReason) {
+  const auto fill = [](int frame, std::span<std::uint8_t>) -> Result<void> {
+    if (frame == 7) return Fail({"left.mp4"}, "ends before frame 8");
+    return {};
+  };
+  auto film = FilmWorkers::Start(20, 2, [](int frame, auto) { return Numbered(frame); }, {1, fill});
+  ASSERT_TRUE(film);
+  auto picture = film->Next();
+  for (int frames = 0; picture && frames < 20; ++frames) picture = film->Next();
+  ASSERT_FALSE(picture);
+  EXPECT_EQ(ToString(picture.error()), "left.mp4: ends before frame 8");
+}
+
 TEST(FilmWorkers, OneThatDiesIsAnErrorNotAnEndlessWait) {
   const pid_t here = getpid();
-  auto film = FilmWorkers::Start(40, 2, [&](int frame) {
+  auto film = FilmWorkers::Start(40, 2, [&](int frame, auto) {
     if (frame == 20 && getpid() != here) _exit(3);
     return Numbered(frame);
   });
