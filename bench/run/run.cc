@@ -50,6 +50,9 @@ Result<void> CheckManifest(const fs::path& folder, const std::string& manifest, 
   if (then.is_object() && then.value("seed", Json()).is_string() && now.at("seed").is_number()) {
     return Fail({path.string()}, "its worlds are secret: to go on with it takes its key again (--seed-file)");
   }
+  if (now.contains("secret_worlds") && then.is_object()) {
+    RETURN_IF_ERROR(CheckSecretWorlds(then.value("secret_worlds", 1), {path.string()}));
+  }
   const std::vector<JsonDifference> differences = CompareManifests(then, now);
   if (!AreOfLibraries(differences)) {
     return Fail({path.string()}, "is of another run: {}; only the same run can be resumed", InWords(differences));

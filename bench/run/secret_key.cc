@@ -45,6 +45,14 @@ Result<std::optional<SecretKey>> FindSecretKey(const std::string& file) {
   return SecretKey{*words, ""};
 }
 
+Result<void> CheckSecretWorlds(int version, const Place& place) {
+  if (version == kSecretWorldsVersion) return {};
+  return Fail(place,
+              "its secret worlds are of version {}, this program makes version {}, in which public clips are "
+              "disguised; allowed: the program that made them",
+              version, kSecretWorldsVersion);
+}
+
 Result<void> OpenSeeds(const std::optional<SecretKey>& key, const Place& place, SuiteSetup& suite) {
   if (suite.seed.IsPlain()) {
     if (!key || key->file.empty()) return {};
@@ -56,6 +64,7 @@ Result<void> OpenSeeds(const std::optional<SecretKey>& key, const Place& place, 
     return Fail(place, "its worlds are of the key with digest {}, not of that with digest {}", Short(suite.seed),
                 Short(seed));
   }
+  RETURN_IF_ERROR(CheckSecretWorlds(suite.secret_worlds, place));
   suite.seed = seed;
   for (ScenarioSetup& scenario : suite.scenarios) scenario.seed = seed;
   return {};

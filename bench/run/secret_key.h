@@ -18,6 +18,9 @@ struct SecretKey {
 /// blotted out then. Nothing where there is neither. No complaint shows what was found.
 Result<std::optional<SecretKey>> FindSecretKey(const std::string& file);
 
+/// Refuses secret worlds of another version than this program makes.
+Result<void> CheckSecretWorlds(int version, const Place& place);
+
 /// Opens the seeds of a suite that was read from `place`. A secret one needs its own key; other keys are refused by
 /// their digests, and so is the key of a file where the seeds are plain.
 Result<void> OpenSeeds(const std::optional<SecretKey>& key, const Place& place, SuiteSetup& suite);

@@ -107,6 +107,7 @@ Json EncodeSetup(const SuiteSetup& setup) {
             {"seed", EncodeSeed(setup.seed)},
             {"scenarios", std::move(scenarios)},
             {"sources", std::move(sources)}};
+  if (!setup.seed.IsPlain()) json["secret_worlds"] = setup.secret_worlds;
   if (setup.scored) json["scored"] = {{"method", setup.scored->name}, {"alone", setup.scored->alone}};
   return json;
 }
@@ -147,6 +148,7 @@ Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
             {library.at("name").get<std::string>(), library.at("clips").get<std::vector<std::string>>()});
       }
     }
+    setup.secret_worlds = json.value("secret_worlds", 1);
     if (json.contains("scored")) {
       const Json& scored = json.at("scored");
       setup.scored = ScoredMethod{scored.at("method").get<std::string>(), scored.at("alone").get<bool>()};

@@ -46,13 +46,17 @@ struct ScoredMethod {
   bool alone = false;  ///< in the place of the scenarios' own methods, not beside them
 };
 
+/// The version of what secret worlds are made of; version 2 disguises clips (bench/tasks/base/disguise.h).
+inline constexpr int kSecretWorldsVersion = 2;
+
 /// The set-up of a suite, which the manifest keeps and every worker is started with.
 struct SuiteSetup {
   std::string suite;
   Seed seed = 1;
   SourceTexts sources;
   std::vector<ScenarioSetup> scenarios;
-  std::optional<ScoredMethod> scored;  ///< a method of every scenario, too
+  std::optional<ScoredMethod> scored;        ///< a method of every scenario, too
+  int secret_worlds = kSecretWorldsVersion;  ///< of a secret seed
   /// The manifest's names of `sources` that are known by other names here (CanonicalNames); people are shown names as
   /// they were given.
   std::map<std::string, std::string> canonical = {};

@@ -127,6 +127,23 @@ class SecretWorlds(EtudeCase):
         self.assertIn("its worlds are secret", self.refuse("replay", pack))
         self.assertEqual(self.etude("replay", pack, "--seed-file", self.key).returncode, 0)
 
+    def test_worlds_of_before_clips_were_disguised_are_refused_with_the_reason(self):
+        manifest = self.run_folder / "manifest.json"
+        text = manifest.read_text()
+        self.assertIn('"secret_worlds":2', text.replace(" ", ""))
+        older = re.sub(r'"secret_worlds":\s*2,\s*', "", text)
+        says = "its secret worlds are of version 1, this program makes version 2, in which public clips are disguised"
+        self.assertIn(says, self.refuse("run", "--from", self.write("older.json", older), "-o", self.folder / "from",
+                                        "--seed-file", self.key))
+        shard = ["run", self.scenario, "--shard", "1/2", "-o", self.out, "--seed-file", self.key]
+        self.assertEqual(self.etude(*shard).returncode, 0)
+        (self.out / "manifest.json").write_text(re.sub(r'"secret_worlds":\s*2,\s*', "", (self.out / "manifest.json").read_text()))
+        self.assertIn(says, self.refuse(*shard, "--resume"))
+        data = self.folder / "data"
+        self.assertEqual(self.etude("export", self.scenario, "-o", data, "--seed-file", self.key).returncode, 0)
+        (data / "manifest.json").write_text(older)
+        self.assertIn(says, self.refuse("score", data, self.folder, "-o", self.folder / "scored", "--seed-file", self.key))
+
     def test_shards_of_one_key_are_merged_and_of_another_refused(self):
         for index, key in ((1, self.key), (2, self.key)):
             done = self.etude("run", self.scenario, "--seed-file", key, "--shard", f"{index}/2", "-o", self.folder / str(index))

@@ -3,10 +3,13 @@
 Behind the fence it runs the scenario itself under every seed that it can think of, and compares what its own copy is asked
 (`lookup.py spy FILE`) with what it is asked; it looks for scenarios, runs and names of them in files, descriptors and /proc,
 and for what it has left itself when it answered another condition. What it finds it says on standard error, LOOKUP first.
-Of task ik it answers the truth where it has it, else the pose that the problem starts in.
+Of task ik it answers the truth where it has it, else the pose that the problem starts in; of tracking the truth of that
+frame of all known ones whose ends are as far from each other, whatever the body's turn, place and size.
 """
 import hashlib
+import itertools
 import json
+import math
 import os
 import pathlib
 import re
@@ -56,9 +59,17 @@ def spy(file):
     converse(note)
 
 
+def shape_of(frame, joints):
+    """The distances of root and targets from each other, over the length of all limbs."""
+    size = sum(math.hypot(*joint["offset_m"]) for joint in joints)
+    places = [frame["root"]["position_m"]] + [target["position_m"] for target in frame["targets"]]
+    return [math.dist(a, b) / size for a, b in itertools.combinations(places, 2)]
+
+
 def run_own_copy(den, seeds):
-    """What every world of the scenario is asked under these seeds: contents, and for ik the truth by content."""
-    known, truth = set(), {}
+    """What every world of the scenario is asked under these seeds: contents, the truth by content, and of tracking the
+    shape of every frame with its true angles."""
+    known, truth, frames = set(), {}, []
     scenario = (den / "own.txt").read_text().replace("DEN", str(den)).replace("KNOWN", str(OWN / "known"))
     OWN.mkdir()
     (OWN / "own.yaml").write_text(scenario)
@@ -69,13 +80,17 @@ def run_own_copy(den, seeds):
             if done.returncode > 1 and "has no problem that could be told beforehand" not in done.stderr:
                 print(f"own copy: {done.stderr}", file=sys.stderr, flush=True)
         for problem in OWN.glob(f"set-{seed}/inputs/*/*/*/problem.json"):
-            content = content_of({"type": "problem", "problem": json.loads(problem.read_text())})
+            asked = json.loads(problem.read_text())
+            content = content_of({"type": "problem", "problem": asked})
             known.add(content)
             place = problem.parent.relative_to(OWN / f"set-{seed}" / "inputs")
             truth[content] = json.loads((OWN / f"set-{seed}" / "truth" / place / "truth.json").read_text())
+            if isinstance(asked.get("frames"), list):
+                shapes = [shape_of(frame, asked["joints"]) for frame in asked["frames"]]
+                frames += zip(shapes, truth[content]["angles_deg"])
     if (OWN / "known").exists():
         known |= set((OWN / "known").read_text().split())
-    return known, truth
+    return known, truth, frames
 
 
 def look_around(den):
@@ -106,7 +121,7 @@ def look_around(den):
 
 def attack(den, seeds):
     look_around(den)
-    known, truth = run_own_copy(den, seeds)
+    known, truth, frames = run_own_copy(den, seeds)
     state = {"settings": 0}
 
     def asked(message):
@@ -122,8 +137,12 @@ def attack(den, seeds):
         content = content_of(message)
         if content in known - {"nothing"}:
             found(f"the world of {message['id']}")
-        angles = message.get("problem", {}).get("start_angles_deg")
-        if "targets" not in message.get("problem", {}):
+        problem = message.get("problem", {})
+        angles = problem.get("start_angles_deg")
+        if frames and isinstance(problem.get("frames"), list):
+            shapes = [shape_of(frame, problem["joints"]) for frame in problem["frames"]]
+            return {"angles_deg": [min(frames, key=lambda known: math.dist(shape, known[0]))[1] for shape in shapes]}
+        if "targets" not in problem:
             return None
         return truth.get(content) or {"angles_deg": angles}
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 
+#include "bench/tasks/base/disguise.h"
 #include "sim/camera/lens.h"
 
 namespace etude {
@@ -18,11 +20,21 @@ struct Window {
   std::vector<BodyPose> poses;
 };
 
-Window MakeWindow(const LibraryClip& clip, std::size_t start, std::size_t frames) {
+Window MakeWindow(const LibraryClip& clip, std::size_t start, std::size_t frames,
+                  const std::optional<Disguise>& disguise) {
   const std::vector<BodyPose>& all = clip.motion.poses;
   Window window;
   window.start = start;
-  for (std::size_t i = 0; i < frames; ++i) window.poses.push_back(all[(start + i) % all.size()]);
+  if (disguise) {
+    const bool loops = clip.move && clip.move->loops;
+    const double last = loops ? std::numeric_limits<double>::infinity() : static_cast<double>(all.size() - 1);
+    for (std::size_t i = 0; i < frames; ++i) {
+      window.poses.push_back(PoseOfClip(all, disguise->FrameOf(static_cast<double>(start), 1, i, last)));
+    }
+    disguise->PutOn(window.poses, kJudgedRateHz);
+  } else {
+    for (std::size_t i = 0; i < frames; ++i) window.poses.push_back(all[(start + i) % all.size()]);
+  }
   window.to_origin = ToOrigin(window.poses[frames / 2]);
   for (BodyPose& pose : window.poses) pose = window.to_origin.Apply(pose);
   return window;
@@ -36,7 +48,8 @@ double FarthestFromMiddle(const std::vector<BodyPose>& poses) {
   return farthest;
 }
 
-Window ChooseWindow(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key) {
+Window ChooseWindow(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key,
+                    const std::optional<Disguise>& disguise) {
   RandomStream random(key, "capture/window");
   const std::size_t available = clip.motion.poses.size();
   const bool loops = clip.move && clip.move->loops;
@@ -48,7 +61,7 @@ Window ChooseWindow(const StudioOptions& options, const LibraryClip& clip, const
   Window best;
   double least = 0;
   for (int i = 0; i < kThrows; ++i) {
-    Window window = MakeWindow(clip, random.IndexBelow(starts), frames);
+    Window window = MakeWindow(clip, random.IndexBelow(starts), frames, disguise);
     const double farthest = FarthestFromMiddle(window.poses);
     if (best.poses.empty() || farthest < least) {
       best = std::move(window);
@@ -149,6 +162,12 @@ PersonalLimbs Measured(const PersonalLimbs& person, double error_mm, const World
   return measured;
 }
 
+RestBody Scaled(RestBody body, double scale) {
+  for (RestBody::Joint& joint : body.joints) joint.position *= scale;
+  for (RestBody::RolePlace& role : body.roles) role.position *= scale;
+  return body;
+}
+
 }  // namespace
 
 CaptureWorld MakeStudio(const StudioOptions& options, const Booking& booking, const WorldKey& key) {
@@ -172,9 +191,13 @@ CaptureWorld MakeStudio(const StudioOptions& options, const Booking& booking, co
 }
 
 CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key) {
-  Window window = ChooseWindow(options, clip, key);
+  // A figure that the clip brings moves as the clip does.
+  std::optional<Disguise> disguise;
+  if (!key.suite_seed.IsPlain() && options.figure != PerformerFigure::kOwn) disguise.emplace(key);
+  Window window = ChooseWindow(options, clip, key, disguise);
   std::vector<BodyPose>& truth = window.poses;
-  const RestBody body = clip.body.joints.empty() ? RestBodyOf(truth) : clip.body;
+  RestBody body = clip.body.joints.empty() ? RestBodyOf(truth) : clip.body;
+  if (disguise && !clip.body.joints.empty()) body = Scaled(std::move(body), disguise->scale());
   CaptureWorld world = MakeStudio(options, {truth, body, MeasureLimbLengths(truth), truth.size()}, key);
   if (options.figure == PerformerFigure::kOwn) world.own = {clip.figure, window.start, window.to_origin};
   world.truth = std::move(truth);

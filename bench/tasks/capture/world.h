@@ -63,7 +63,8 @@ CaptureWorld MakeStudio(const StudioOptions& options, const Booking& booking, co
 
 /// The world of `key`. The window of the clip begins by dice; among a few throws the first is taken that
 /// keeps the performer within 1.2 m of the middle, where both cameras see the whole body, else the one
-/// that strays least. Moves that loop are repeated; other clips shorter than the window are taken whole.
+/// that strays least. Moves that loop are repeated; other clips shorter than the window are taken whole. In a secret
+/// world the clip is disguised (bench/tasks/base/disguise.h), unless it brings its own figure.
 CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key);
 
 /// The lens that a camera of the world has under those effects.

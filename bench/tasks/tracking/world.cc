@@ -1,11 +1,17 @@
 #include "bench/tasks/tracking/world.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
+#include "bench/tasks/base/disguise.h"
 #include "engine/base/angles.h"
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/limb_lengths.h"
+#include "engine/kinematics/solvers/gauss_newton.h"
 #include "engine/kinematics/start_angles.h"
 
 namespace etude {
@@ -13,19 +19,9 @@ namespace {
 
 constexpr double kFastestJoint = Radians(1200);  // per second
 
-/// The pose at `frame`, between two frames of the clip; a loop goes on from its beginning.
-BodyPose PoseAt(const std::vector<BodyPose>& poses, double frame) {
-  const auto before = static_cast<std::size_t>(frame);
-  const double part = frame - std::floor(frame);
-  const BodyPose& a = poses[before % poses.size()];
-  const BodyPose& b = poses[(before + 1) % poses.size()];
-  BodyPose pose;
-  for (std::size_t i = 0; i < kRoleCount; ++i) pose.joints[i] = glm::mix(a.joints[i], b.joints[i], part);
-  return pose;
-}
-
-/// The window of the clip that is followed, its middle frame at the floor's origin.
-std::vector<BodyPose> ChooseWindow(const TrackingOptions& options, const LibraryClip& clip, const WorldKey& key) {
+/// The window of the clip that is followed, its middle frame at the floor's origin; of a disguised one anywhere.
+std::vector<BodyPose> ChooseWindow(const TrackingOptions& options, const LibraryClip& clip, const WorldKey& key,
+                                   const std::optional<Disguise>& disguise) {
   RandomStream dice(key, "tracking/window");
   const std::vector<BodyPose>& poses = clip.motion.poses;
   const bool loops = clip.move && clip.move->loops;
@@ -37,9 +33,18 @@ std::vector<BodyPose> ChooseWindow(const TrackingOptions& options, const Library
   const auto start = static_cast<double>(dice.IndexBelow(static_cast<std::uint64_t>(latest) + 1));
 
   std::vector<BodyPose> window;
-  for (std::size_t k = 0; k < frames; ++k) window.push_back(PoseAt(poses, start + step * static_cast<double>(k)));
+  const double end = loops ? std::numeric_limits<double>::infinity() : last;
+  for (std::size_t k = 0; k < frames; ++k) {
+    const double plain = start + step * static_cast<double>(k);
+    window.push_back(PoseOfClip(poses, disguise ? disguise->FrameOf(start, step, k, end) : plain));
+  }
+  if (disguise) disguise->PutOn(window, options.rate_hz);
   const FloorMove to_origin = ToOrigin(window[frames / 2]);
   for (BodyPose& pose : window) pose = to_origin.Apply(pose);
+  if (!disguise) return window;
+  RandomStream place(key, "tracking/place");
+  const FloorMove away{.yaw = place.Uniform(-kPi, kPi), .x = place.Uniform(-1, 1), .z = place.Uniform(-1, 1)};
+  for (BodyPose& pose : window) pose = away.Apply(pose);
   return window;
 }
 
@@ -51,6 +56,38 @@ std::vector<AngleRange> WithinReach(const KinematicTree& tree, const std::vector
   }
   return ranges;
 }
+
+/// Slides the poses of a secret world among those that meet the same targets: whoever works the disguised motion out of
+/// its targets still does not know the angles that these leave open.
+class OpenAngles {
+ public:
+  OpenAngles(const KinematicTree& tree, const WorldKey& key) : tree_(tree), solver_(tree) {
+    options_.position_goal = 1e-6;
+    options_.axis_goal = 1e-6;
+    for (int i = 0; i < tree.dof_count(); ++i) dice_.emplace_back(key, fmt::format("tracking/open-angle/{}", i));
+  }
+
+  /// The pose near dice of the key that has the ends of `state`, if there is one within `ranges`; else one with its
+  /// ends as near as was found.
+  TreeState Slide(const TreeState& state, const std::vector<AngleRange>& ranges, double seconds) {
+    IkProblem problem{state, TargetsMetBy(tree_, state), ranges};
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      const double wanted = state.angles[i] + kOpenAngle * dice_[i].At(seconds);
+      problem.start.angles[i] = std::clamp(wanted, ranges[i].lower, ranges[i].upper);
+    }
+    TreeState slid = state;
+    slid.angles = solver_.Solve(problem, options_, {.restarts = 0}).angles;
+    return slid;
+  }
+
+ private:
+  static constexpr double kOpenAngle = Radians(35);  // standard deviation; most of it goes when the targets are met
+
+  const KinematicTree& tree_;
+  const GaussNewtonSolver solver_;
+  IkOptions options_ = IkBudget(100);
+  std::vector<WanderingDice> dice_;
+};
 
 std::vector<double> ChooseFirstAngles(const TrackingOptions& options, const KinematicTree& tree,
                                       const std::vector<double>& truth, const WorldKey& key) {
@@ -67,22 +104,34 @@ std::vector<double> ChooseFirstAngles(const TrackingOptions& options, const Kine
 }  // namespace
 
 Result<TrackingWorld> MakeTrackingWorld(const TrackingOptions& options, const LibraryClip& clip, const WorldKey& key) {
-  return MakeTrackingWorld(MakeBodyTree(MeasureLimbLengths(clip.motion.poses)), options, clip, key);
+  std::vector<BodyPose> poses = clip.motion.poses;
+  if (!key.suite_seed.IsPlain()) {
+    const double scale = Disguise(key).scale();
+    for (BodyPose& pose : poses) {
+      for (glm::dvec3& joint : pose.joints) joint *= scale;
+    }
+  }
+  return MakeTrackingWorld(MakeBodyTree(MeasureLimbLengths(poses)), options, clip, key);
 }
 
 Result<TrackingWorld> MakeTrackingWorld(const KinematicTree& body, const TrackingOptions& options,
                                         const LibraryClip& clip, const WorldKey& key) {
-  const std::vector<BodyPose> window = ChooseWindow(options, clip, key);
+  std::optional<Disguise> disguise;
+  if (!key.suite_seed.IsPlain()) disguise.emplace(key);
+  const std::vector<BodyPose> window = ChooseWindow(options, clip, key, disguise);
   if (window.size() < kFewestTrackedFrames) {
     return Fail({}, "too few frames in clip {}: {} at {:g} Hz; tracking needs {}", clip.name, window.size(),
                 options.rate_hz, kFewestTrackedFrames);
   }
   TrackingWorld world{body, {}, {}, {}};
   RandomStream noise(key, "tracking/target-noise");
+  std::optional<OpenAngles> open;
+  if (disguise) open.emplace(world.tree, key);
   std::vector<AngleRange> ranges = world.tree.limits;
   for (std::size_t k = 0; k < window.size(); ++k) {
     auto state = FindStartState(world.tree, window[k], ranges);
     if (!state) return Fail({}, "frame {} of the window of clip {} gives no pose of the body", k, clip.name);
+    if (open) state = open->Slide(*state, ranges, static_cast<double>(k) / options.rate_hz);
     ranges = WithinReach(world.tree, state->angles, kFastestJoint / options.rate_hz);
     world.truth.push_back(*std::move(state));
     world.targets.push_back(TargetsMetBy(world.tree, world.truth.back()));

@@ -23,7 +23,9 @@ struct TrackingWorld {
 };
 
 /// The world of `key`. The window of the clip begins by dice; moves that loop are repeated, other clips shorter than
-/// the window are taken whole. At rates below the clips' 30 Hz joints lie on the straight line between two frames.
+/// the window are taken whole. At rates below the clips' 30 Hz joints lie on the straight line between two frames. In
+/// a secret world the clip is disguised (bench/tasks/base/disguise.h), stands and faces anywhere, and five angles that
+/// no target tells follow dice of their own.
 /// Fails for a clip of fewer than kFewestTrackedFrames frames, and when a frame's limbs give no pose of the body.
 Result<TrackingWorld> MakeTrackingWorld(const TrackingOptions& options, const LibraryClip& clip, const WorldKey& key);
 /// Makes a world for a body of other limbs than the clip's performer has.

@@ -53,10 +53,10 @@ Json RunLengths(const Mask& mask) {
 }
 
 /// A program of this process: what it makes of the empty room and a picture.
-class Imagined final : public LiveProgram {
+class ImaginedSegmenter final : public LiveProgram {
  public:
   using Answer = std::function<Json(const ColourImage& background, const ColourImage& picture)>;
-  explicit Imagined(Answer answer) : answer_(std::move(answer)) {}
+  explicit ImaginedSegmenter(Answer answer) : answer_(std::move(answer)) {}
 
   bool Begin(const Payload& session) override {
     sessions.push_back(*session.json);
@@ -97,7 +97,7 @@ TEST(SeatedSegmenter, WithABuiltInSegmentersAnswersTheCellIsThatSegmentersToTheL
     const auto task =
         MakeTaskOf("[{name: own, segmenter: ratio, " + rest + "}, {name: program, seat: segmenter, " + rest + "}]");
     const auto world = task->MakeWorld(kSeatWorld, false);
-    Imagined program([](const ColourImage& background, const ColourImage& picture) {
+    ImaginedSegmenter program([](const ColourImage& background, const ColourImage& picture) {
       return Json{{"mask", RunLengths(DetectChange(background, picture, Segmenter::kRatio))}};
     });
     const auto seated = world->RunWith(program, 1);
@@ -113,7 +113,7 @@ TEST(SeatedSegmenter, WithABuiltInSegmentersAnswersTheCellIsThatSegmentersToTheL
 
 TEST(SeatedSegmenter, IsShownEveryPictureOfEveryCameraInOrder) {
   const auto task = MakeTaskOf("[{name: program, seat: segmenter}]");
-  Imagined program([](const ColourImage&, const ColourImage& picture) {
+  ImaginedSegmenter program([](const ColourImage&, const ColourImage& picture) {
     return Json{{"mask", RunLengths(Mask(picture.width, picture.height))}};
   });
   const auto blind = task->MakeWorld(kSeatWorld, false)->RunWith(program, 0);
@@ -130,7 +130,7 @@ TEST(SeatedSegmenter, IsShownEveryPictureOfEveryCameraInOrder) {
 TEST(SeatedSegmenter, AnAnswerThatIsNoMaskOfThePictureIsRefusedAndNothingMoreIsAsked) {
   const auto task = MakeTaskOf("[{name: program, seat: segmenter}]");
   const auto refused = [&](const Json& answer) {
-    Imagined program([&](const ColourImage&, const ColourImage&) { return answer; });
+    ImaginedSegmenter program([&](const ColourImage&, const ColourImage&) { return answer; });
     const auto result = task->MakeWorld(kSeatWorld, false)->RunWith(program, 0);
     EXPECT_EQ(program.pictures.size(), 1u);
     return result ? std::string("taken") : result.error().message;
@@ -153,7 +153,7 @@ TEST(SeatedSegmenter, AnAnswerThatIsNoMaskOfThePictureIsRefusedAndNothingMoreIsA
 
 TEST(SeatedSegmenter, IsAskedNoMoreOnceItHasFailed) {
   const auto task = MakeTaskOf("[{name: program, seat: segmenter}]");
-  Imagined program([](const ColourImage&, const ColourImage&) { return Json(); });
+  ImaginedSegmenter program([](const ColourImage&, const ColourImage&) { return Json(); });
   (void)task->MakeWorld(kSeatWorld, false)->RunWith(program, 0);
   EXPECT_EQ(program.pictures.size(), 1u);
   EXPECT_EQ(program.sessions.size(), 1u);

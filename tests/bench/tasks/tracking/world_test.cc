@@ -63,6 +63,27 @@ TEST(TrackingWorld, TargetsAreMetByATruthWithinTheLimits) {
   }
 }
 
+TEST(TrackingWorld, ASecretOneIsDisguisedWithItsTargetsMetWithinTheLimits) {
+  const WorldKey secret{.suite_seed = Seed::Secret({1, 2, 3, 4}), .scenario = "tracking-world"};
+  for (const char* name : {"builtin:boxing", "builtin:stretch"}) {
+    const LibraryClip clip = BuiltinClipOf(name);
+    const auto world = MakeTrackingWorld({}, clip, secret), again = MakeTrackingWorld({}, clip, secret);
+    ASSERT_TRUE(world && again);
+    EXPECT_LE(LargestStepDeg(world->truth), 1200.0 / 30 + 1e-9);
+    const double plain = MakeWorld({}, clip).tree.joints[kTreeLeftKnee].p_PJ.z;
+    EXPECT_GT(std::abs(world->tree.joints[kTreeLeftKnee].p_PJ.z / plain - 1), 1e-4) << "another size";
+    EXPECT_GT(std::abs(glm::dot(Facing(ToBodyPose(world->tree, world->truth[0])), glm::dvec3(1, 0, 0))), 1e-3);
+    for (std::size_t k = 0; k < world->truth.size(); ++k) {
+      EXPECT_EQ(world->truth[k].angles, again->truth[k].angles);
+      EXPECT_EQ(world->targets[k][0].position, ComputeFrames(world->tree, world->truth[k]).effectors[0].position);
+      for (std::size_t i = 0; i < 29; ++i) {
+        EXPECT_GE(world->truth[k].angles[i], world->tree.limits[i].lower - 1e-12);
+        EXPECT_LE(world->truth[k].angles[i], world->tree.limits[i].upper + 1e-12);
+      }
+    }
+  }
+}
+
 // An arm that scratches a head leaves its range and comes back at the other end of it.
 TEST(TrackingWorld, NoJointTurnsFasterThanItCan) {
   const LibraryClip clip = BuiltinClipOf("builtin:puzzled");
