@@ -38,73 +38,6 @@ Bearing BearingOf(const BodyPose& pose, const BodyPose& velocity, const SupportR
   return bearing;
 }
 
-/// A clip, looked at once, that is asked what holds up the frames shown.
-class Witness {
- public:
-  Witness(const SupportingClip& clip, double rate_hz, const SupportRules& rules)
-      : clip_(clip),
-        rules_(rules),
-        window_(static_cast<int>(std::lround(rules.window_s * rate_hz))),
-        velocities_(JointVelocities(clip.poses, rate_hz)),
-        bearing_(FindBearing(clip.poses, rate_hz, rules)) {}
-
-  JointSet SupportAt(int frame, const BodyPose& pose, const BodyPose& velocity) const {
-    JointSet joints;
-    if (clip_.poses.empty()) return joints;
-    for (std::size_t j = 0; j < kRoleCount; ++j) {
-      joints[j] = Follows(frame, j, pose, velocity) || RestsAsHere(frame, j, pose, velocity);
-    }
-    return joints;
-  }
-
- private:
-  int LastFrame() const { return static_cast<int>(clip_.poses.size()) - 1; }
-  double Height(int frame, std::size_t j) const { return clip_.poses[frame].joints[j].y; }
-
-  bool Follows(int frame, std::size_t j, const BodyPose& pose, const BodyPose& velocity) const {
-    const int now = frame - clip_.begin;
-    for (int f = std::max(now - 1, 0); f <= std::min(now + 1, LastFrame()); ++f) {
-      if (bearing_[f].bears[j] && std::abs(pose.joints[j].y - Height(f, j)) <= rules_.height &&
-          glm::distance(velocity.joints[j], velocities_[f].joints[j]) <= rules_.rest_speed) {
-        return true;
-      }
-    }
-    return false;
-  }
-
-  bool RestsAsHere(int frame, std::size_t j, const BodyPose& pose, const BodyPose& velocity) const {
-    if (glm::length(velocity.joints[j]) > rules_.rest_speed) return false;
-    const double height = pose.joints[j].y;
-    const std::vector<double> heights = HeightsOfRest(frame, j);
-    for (std::size_t i = 0; i < heights.size(); ++i) {
-      // Sunk into the floor it is held all the same.
-      if (i == 0 && height >= heights[i] - rules_.level && height <= heights[i] + rules_.height) return true;
-      // A joint that also rests a little lower, as toes do whose heel bears, stands on nothing up here.
-      const bool surface = i > 0 && heights[i] - heights[i - 1] > rules_.level;
-      if (surface && std::abs(height - heights[i]) <= rules_.height) return true;
-    }
-    return false;
-  }
-
-  /// The heights at which the clip's joint rests about a frame shown, rising; at its first or last frame where the clip
-  /// has not begun or is over.
-  std::vector<double> HeightsOfRest(int frame, std::size_t j) const {
-    const int from = std::min(frame, clip_.left_at) - window_ - clip_.begin, to = frame + window_ - clip_.begin;
-    std::vector<double> heights;
-    for (int f = std::clamp(from, 0, LastFrame()); f <= std::clamp(to, 0, LastFrame()); ++f) {
-      if (bearing_[f].rests[j]) heights.push_back(Height(f, j));
-    }
-    std::ranges::sort(heights);
-    return heights;
-  }
-
-  SupportingClip clip_;
-  SupportRules rules_;
-  int window_ = 0;  // frames
-  std::vector<BodyPose> velocities_;
-  std::vector<Bearing> bearing_;
-};
-
 /// Tells whether the mass centre flies from frame `first` to `last`: a parabola fits its height that bends as a fall.
 bool FitsFlight(std::span<const BodyPose> poses, int first, int last, double rate_hz, const SupportRules& rules) {
   constexpr int kFewest = 5;
@@ -168,12 +101,86 @@ FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz) {
   return contacts;
 }
 
-std::vector<Support> FindSupport(std::span<const BodyPose> shown, std::span<const SupportingClip> clips, int first,
-                                 int last, double rate_hz, const SupportRules& rules) {
+/// A clip, looked at once, that is asked what holds up the frames shown.
+class SupportFinder::Witness {
+ public:
+  Witness(const SupportingClip& clip, double rate_hz, const SupportRules& rules)
+      : clip_(clip),
+        rules_(rules),
+        window_(static_cast<int>(std::lround(rules.window_s * rate_hz))),
+        velocities_(JointVelocities(clip.poses, rate_hz)),
+        bearing_(FindBearing(clip.poses, rate_hz, rules)) {
+    for (const Bearing& bearing : bearing_) ever_bear_ |= bearing.bears;
+  }
+
+  JointSet SupportAt(int frame, const BodyPose& pose, const BodyPose& velocity) const {
+    JointSet joints;
+    if (clip_.poses.empty()) return joints;
+    for (std::size_t j = 0; j < kRoleCount; ++j) {
+      joints[j] = ever_bear_[j] && (Follows(frame, j, pose, velocity) || RestsAsHere(frame, j, pose, velocity));
+    }
+    return joints;
+  }
+
+ private:
+  int LastFrame() const { return static_cast<int>(clip_.poses.size()) - 1; }
+  double Height(int frame, std::size_t j) const { return clip_.poses[frame].joints[j].y; }
+
+  bool Follows(int frame, std::size_t j, const BodyPose& pose, const BodyPose& velocity) const {
+    const int now = frame - clip_.begin;
+    for (int f = std::max(now - 1, 0); f <= std::min(now + 1, LastFrame()); ++f) {
+      if (bearing_[f].bears[j] && std::abs(pose.joints[j].y - Height(f, j)) <= rules_.height &&
+          glm::distance(velocity.joints[j], velocities_[f].joints[j]) <= rules_.rest_speed) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  bool RestsAsHere(int frame, std::size_t j, const BodyPose& pose, const BodyPose& velocity) const {
+    if (glm::length(velocity.joints[j]) > rules_.rest_speed) return false;
+    const double height = pose.joints[j].y;
+    const std::vector<double> heights = HeightsOfRest(frame, j);
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+      // Sunk into the floor it is held all the same.
+      if (i == 0 && height >= heights[i] - rules_.level && height <= heights[i] + rules_.height) return true;
+      // A joint that also rests a little lower, as toes do whose heel bears, stands on nothing up here.
+      const bool surface = i > 0 && heights[i] - heights[i - 1] > rules_.level;
+      if (surface && std::abs(height - heights[i]) <= rules_.height) return true;
+    }
+    return false;
+  }
+
+  /// The heights at which the clip's joint rests about a frame shown, rising; at its first or last frame where the clip
+  /// has not begun or is over.
+  std::vector<double> HeightsOfRest(int frame, std::size_t j) const {
+    const int from = std::min(frame, clip_.left_at) - window_ - clip_.begin, to = frame + window_ - clip_.begin;
+    std::vector<double> heights;
+    for (int f = std::clamp(from, 0, LastFrame()); f <= std::clamp(to, 0, LastFrame()); ++f) {
+      if (bearing_[f].rests[j]) heights.push_back(Height(f, j));
+    }
+    std::ranges::sort(heights);
+    return heights;
+  }
+
+  SupportingClip clip_;
+  SupportRules rules_;
+  int window_ = 0;  // frames
+  std::vector<BodyPose> velocities_;
+  std::vector<Bearing> bearing_;
+  JointSet ever_bear_;  // all that rests bears
+};
+
+SupportFinder::SupportFinder(std::span<const SupportingClip> clips, double rate_hz, const SupportRules& rules)
+    : rate_hz_(rate_hz), rules_(rules) {
+  for (const SupportingClip& clip : clips) witnesses_.emplace_back(clip, rate_hz, rules);
+}
+
+SupportFinder::~SupportFinder() = default;
+
+std::vector<Support> SupportFinder::Find(std::span<const BodyPose> shown, int first, int last) const {
   assert(0 <= first && last < static_cast<int>(shown.size()));
-  std::vector<Witness> witnesses;
-  for (const SupportingClip& clip : clips) witnesses.emplace_back(clip, rate_hz, rules);
-  const std::vector<BodyPose> velocities = JointVelocities(shown, rate_hz);
+  const std::vector<BodyPose> velocities = JointVelocities(shown, rate_hz_);
   std::vector<Support> support;
   // A flight at the end is followed to its landing.
   const auto goes_on = [&](int frame) {
@@ -181,13 +188,18 @@ std::vector<Support> FindSupport(std::span<const BodyPose> shown, std::span<cons
   };
   for (int frame = first; goes_on(frame); ++frame) {
     Support& here = support.emplace_back();
-    for (const Witness& witness : witnesses) {
+    for (const Witness& witness : witnesses_) {
       here.joints |= witness.SupportAt(frame, shown[frame], velocities[frame]);
     }
   }
-  MarkFlights(shown, first, rate_hz, rules, support);
+  MarkFlights(shown, first, rate_hz_, rules_, support);
   support.resize(static_cast<std::size_t>(last - first + 1));
   return support;
+}
+
+std::vector<Support> FindSupport(std::span<const BodyPose> shown, std::span<const SupportingClip> clips, int first,
+                                 int last, double rate_hz, const SupportRules& rules) {
+  return SupportFinder(clips, rate_hz, rules).Find(shown, first, last);
 }
 
 glm::dvec3 MassCentre(const BodyPose& pose) {

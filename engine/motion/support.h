@@ -69,14 +69,33 @@ struct Support {
   bool Holds() const { return joints.any() || flight; }
 };
 
-/// Finds what holds up a body in the frames `first` … `last` of `shown`, both within it. The clips alone say what can:
-/// a motion that floats cannot be its own floor. A joint supports
+/// Finds what holds up a body where clips are shown. The clips alone say what can: a motion that floats cannot be its
+/// own floor. A joint supports
 /// - when it is at rest where the same joint rests in a clip at about that time: at most SupportRules::height above the
 ///   lowest of these places and at most SupportRules::level below it, or within `height` of a higher surface, or
 /// - when it does what a joint that bears the clip does at that frame or the next to it: its height differs by no more
 ///   than SupportRules::height, its velocity by no more than SupportRules::rest_speed.
 /// Frames in a row without any are a flight when the mass centre falls as SupportRules says over them, or over them and
 /// the frame before and after, five frames at least, and something holds the body in those two: it takes off and lands.
+class SupportFinder {
+ public:
+  /// The clips' poses must outlive this.
+  SupportFinder(std::span<const SupportingClip> clips, double rate_hz, const SupportRules& rules = {});
+  ~SupportFinder();
+  SupportFinder(const SupportFinder&) = delete;
+  SupportFinder& operator=(const SupportFinder&) = delete;
+
+  /// Returns what holds the body up in the frames `first` … `last` of `shown`, both within it.
+  std::vector<Support> Find(std::span<const BodyPose> shown, int first, int last) const;
+
+ private:
+  class Witness;
+  const double rate_hz_;
+  const SupportRules rules_;
+  std::vector<Witness> witnesses_;
+};
+
+/// As SupportFinder::Find, of clips that are asked once.
 std::vector<Support> FindSupport(std::span<const BodyPose> shown, std::span<const SupportingClip> clips, int first,
                                  int last, double rate_hz, const SupportRules& rules = {});
 

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "engine/motion/support.h"
 #include "engine/transitions/choices/choice.h"
 #include "engine/transitions/joins/join.h"
 #include "tests/engine/transitions/lying_clips.h"
@@ -100,6 +102,39 @@ TEST(Played, SaysThatNoClipShowsHowABodyLiesDown) {
   EXPECT_FALSE(PlayedFrom(library, 1, 10, 0).segments.empty());
   EXPECT_TRUE(PlayedFrom(library, 1, 10, 0, {.most_through_s = 0.2}).segments.empty()) << "no time for it";
   EXPECT_EQ(PlayedFrom(library, 0, 10, 0).segments.size(), 2u) << "who stands is joined as before";
+}
+
+/// Stands still with both straight legs so many degrees to the sides.
+BodyMotion StraddlingClip(int frames, double degrees) {
+  PosedBody body;
+  body.left_leg = {PosedBody::Raised(degrees, kLeftwards), PosedBody::Raised(degrees, kLeftwards)};
+  body.right_leg = {PosedBody::Raised(-degrees, kLeftwards), PosedBody::Raised(-degrees, kLeftwards)};
+  BodyPose pose = body.Pose();
+  const double floor = pose[Role::kLeftFoot].y;
+  for (glm::dvec3& joint : pose.joints) joint.y -= floor;
+  return {kJudgedRateHz, std::vector<BodyPose>(static_cast<std::size_t>(frames), pose)};
+}
+
+/// The most frames in a row after the last transition point that nothing holds up.
+int LongestFloat(const Splice& splice, const BodyMotion& left) {
+  const int first = splice.points.front().frame, last = static_cast<int>(splice.motion.poses.size()) - 1;
+  const std::vector<SupportingClip> clips = {{.poses = left.poses, .begin = 0, .left_at = first},
+                                             {.poses = splice.wanted, .begin = splice.points.back().frame}};
+  int run = 0, longest = 0;
+  for (const Support& support : FindSupport(splice.motion.poses, clips, first, last, kJudgedRateHz)) {
+    run = support.Holds() ? 0 : run + 1;
+    longest = std::max(longest, run);
+  }
+  return longest;
+}
+
+TEST(Played, StepsWhereTheShortestJoinWouldHop) {
+  const MotionLibrary library = LibraryOfClips({"wide", "narrow"}, {StraddlingClip(90, 45), StraddlingClip(90, 20)});
+  TransitionRecord record = PlayedFrom(library, 0, 20, 1);
+  const auto shown = [&] { return SpliceSegments(library.motions, record.segments, *FindJoin("planted-feet")); };
+  EXPECT_LE(LongestFloat(shown(), library.motions[0]), 2) << record.why;
+  record.segments.back().preferred->blend_s = 0.3;
+  EXPECT_GE(LongestFloat(shown(), library.motions[0]), 4) << "both feet are on their way at once";
 }
 
 }  // namespace
