@@ -186,6 +186,8 @@ Result<std::unique_ptr<LabelledStreams>> LoadRecordings(const ScenarioSetup& set
     ASSIGN_OR_RETURN(const auto how, OpenOptionsOf(setup, texts));
     ASSIGN_OR_RETURN(auto loaded, LoadStreams(setup.streams, source.reading, source.making, how));
     streams = std::move(loaded.streams);
+    // What is read as a stream is what a sensor saw, whatever its format: no simulated one sees it once more.
+    for (NamedStream& stream : streams) stream.motion.reset();
   }
   if (streams.empty()) return Fail({setup.file, 0, 0}, "labels need 'streams' or 'clips' that they are of");
   ASSIGN_OR_RETURN(auto labelled, LabelStreams(std::move(streams), labels));

@@ -161,6 +161,10 @@ class Streams(EtudeCase):
         rows = [json.loads(line) for line in (self.out / "cells.jsonl").read_text().splitlines()]
         self.assertEqual([row["clip"] for row in rows if row["method"] == "dtw"], ["anna", "bo"])
         self.assertEqual([row["move_named"] for row in rows if row["method"] == "dtw"], [1, 1])
+        # As streams they are what a sensor saw, and no simulated one sees them once more.
+        self.out = self.folder / "as-streams"
+        self.assertIn("'noise' has no use here", self.refusal("run", scenario, "--streams", *clips, "--labels", path,
+                                                              "-o", self.out))
 
 
 if __name__ == "__main__":

@@ -82,7 +82,9 @@ FieldTable<DetectionOptions> MakeConditionFields() {
                    "How bad every fault is: 0 changes nothing, 1 is as bad as it gets.")
            .WhenAbsent("(thrown evenly for each)"),
        Key{{"faults", ListKind("a list of: " + NameKind(FaultNameList()).allowed, NameKind(FaultNameList())), "[]",
-            "The faults that may happen; none named: all."},
+            "The faults that may happen; none named: all. Of recordings: those that are made of each right performance "
+            "and "
+            "stand beside it (`amplitude`, `wrong_side`, `wrong_move`); none named: none."},
            [](Fields& condition, Options& o) {
              for (const std::string& name : ReadNames(condition, "faults", FaultNameList())) {
                if (const auto fault = FindFault(name)) o.session.faults.push_back(*fault);
@@ -151,7 +153,7 @@ const FieldTable<DetectionOptions>& DetectionConditionFields() {
 }
 
 std::span<const std::string_view> PeopleKeys() {
-  static constexpr std::string_view kKeys[] = {"events", "fault_share", "severity", "faults", "two_faults", "people"};
+  static constexpr std::string_view kKeys[] = {"events", "fault_share", "severity", "two_faults", "people"};
   return kKeys;
 }
 

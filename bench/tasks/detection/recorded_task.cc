@@ -1,6 +1,7 @@
 #include "bench/tasks/detection/recorded_task.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -8,6 +9,7 @@
 
 #include "bench/streams/teach.h"
 #include "bench/tasks/detection/exchange.h"
+#include "bench/tasks/detection/made_faults.h"
 #include "bench/tasks/detection/session_world.h"
 #include "engine/teaching/moves_file.h"
 
@@ -62,6 +64,14 @@ class Joiner {
   DetectionWorld& world_;
 };
 
+/// Returns the move that somebody was asked for who did another, `turn` places further on among all; the same where
+/// there is no other.
+const std::string& OtherMove(const std::vector<std::string>& moves, const std::string& move, std::size_t turn) {
+  const auto at = static_cast<std::size_t>(std::ranges::find(moves, move) - moves.begin());
+  const std::size_t others = std::max<std::size_t>(moves.size() - 1, 1);
+  return moves[(at + 1 + turn % others) % moves.size()];
+}
+
 std::span<const LabelledPart> PartsOf(const LabelledStreams& set, std::size_t stream) {
   return {std::ranges::lower_bound(set.parts, stream, {}, &LabelledPart::stream),
           std::ranges::upper_bound(set.parts, stream, {}, &LabelledPart::stream)};
@@ -73,14 +83,31 @@ DetectionWorld MakeRecordedWorld(const LabelledStreams& set, std::size_t person,
                                  const WorldKey& key) {
   DetectionWorld world{.motion = {}, .events = {}, .stream = {}, .person = set.people[person].name};
   Joiner joiner(world);
+  const auto add = [&](const NamedStream& recording, std::size_t s, std::string_view fault) {
+    if (!recording.motion) return joiner.Add(MotionOf(recording.stream), recording.stream, PartsOf(set, s));
+    const std::string scenario = fmt::format("{}/{}{}", key.scenario, recording.name, fault);
+    joiner.Add(*recording.motion, Sense(*recording.motion, options, {key.suite_seed, scenario, key.trial}),
+               PartsOf(set, s));
+  };
+  std::size_t turn = 0;
   for (const std::size_t s : set.people[person].streams) {
-    const NamedStream& recording = set.streams[s];
-    if (recording.motion) {
-      const std::string scenario = std::string(key.scenario) + "/" + recording.name;
-      const WorldKey own{key.suite_seed, scenario, key.trial};
-      joiner.Add(*recording.motion, Sense(*recording.motion, options, own), PartsOf(set, s));
-    } else {
-      joiner.Add(MotionOf(recording.stream), recording.stream, PartsOf(set, s));
+    add(set.streams[s], s, "");
+    if (std::ranges::none_of(PartsOf(set, s), &LabelledPart::IsRight)) continue;
+    for (const Fault fault : options.session.faults) {
+      const NamedStream faulty = WithFault(set.streams[s], fault);
+      auto event = static_cast<std::ptrdiff_t>(world.events.size());
+      add(faulty, s, fmt::format("/{}", FaultName(fault)));
+      for (const LabelledPart& part : PartsOf(set, s)) {
+        DetectionEvent& changed = world.events[static_cast<std::size_t>(event++)];
+        changed.first_right_s.reset();
+        changed.truth = part.IsRight() ? TruthOfFault(set.streams[s], faulty, part, fault) : Truth::kGrey;
+        changed.told_fault = changed.truth == Truth::kWrong ? FaultName(fault) : "";
+        if (fault == Fault::kWrongMove) {
+          changed.move = OtherMove(set.moves, part.move, turn++);
+        } else {
+          changed.danced.clear();
+        }
+      }
     }
   }
   return world;
@@ -213,6 +240,25 @@ class RecordedTask final : public Task {
   mutable std::map<int, std::vector<MethodDecision>> decisions_;
 };
 
+/// Refuses faults that cannot be made of these recordings.
+Result<void> CheckFaults(const Node& condition, std::span<const Fault> faults, const LabelledStreams& set) {
+  if (faults.empty()) return {};
+  const Node& named = *condition.Find("faults");
+  for (const Fault fault : faults) {
+    if (std::ranges::find(MadeFaults(), fault) != MadeFaults().end()) continue;
+    std::vector<std::string_view> allowed;
+    for (const Fault made : MadeFaults()) allowed.push_back(FaultName(made));
+    return Fail(named.place, "'{}' cannot be made of a recording; allowed: {}", FaultName(fault),
+                fmt::join(allowed, ", "));
+  }
+  if (std::ranges::any_of(set.parts, &LabelledPart::is_action_point)) {
+    return Fail(named.place, "faults are made of performances, and {} tells moments; needed: from_s and to_s",
+                set.file);
+  }
+  if (set.moves.size() > 1 || std::ranges::find(faults, Fault::kWrongMove) == faults.end()) return {};
+  return Fail(named.place, "'{}' needs two moves, found: {}", FaultName(Fault::kWrongMove), fmt::join(set.moves, ", "));
+}
+
 /// Keys that nobody reads where people were recorded.
 Result<void> RefuseKeys(const Node& condition, std::span<const std::string_view> keys, std::string_view why) {
   for (const std::string_view key : keys) {
@@ -239,6 +285,7 @@ Result<std::unique_ptr<Task>> MakeRecordedTask(TaskInput& input, const Detection
     return Fail(condition.place, "method {}: 'oracle: [stream]' has no use here: what was danced nobody knows",
                 method.name);
   }
+  RETURN_IF_ERROR(CheckFaults(condition, options.session.faults, set));
   Taught taught;
   if (!options.moves.empty()) {
     ASSIGN_OR_RETURN(taught, ReadMoves(input.texts.at(kMovesKey), options.moves));

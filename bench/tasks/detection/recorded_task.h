@@ -16,7 +16,9 @@ namespace etude {
 
 /// The recordings of one person, one recording after another, with what its labels say. Clips are sensed
 /// under the condition; a sensor's recordings are what they are. A performance is judged until half a second after its
-/// end, but not beyond the next one's beginning; where labels overlap, the earlier is judged as far as that.
+/// end, but not beyond the next one's beginning; where labels overlap, the earlier is judged as far as that. Where the
+/// condition names faults, each recording follows once more with each of them (made_faults.h), in which what was right
+/// is wrong; what the fault hardly changes, and what had been wrong, is grey there.
 DetectionWorld MakeRecordedWorld(const LabelledStreams& set, std::size_t person, const DetectionOptions& options,
                                  const WorldKey& key);
 

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "bench/streams/label_scores.h"
+#include "bench/tasks/detection/made_faults.h"
 #include "bench/tasks/detection/recorded_task.h"
+#include "engine/base/directions.h"
 #include "tests/bench/streams/record_people.h"
 #include "tests/bench/tasks/detection/detection_fixture.h"
 #include "tests/support/run_world.h"
@@ -159,6 +161,106 @@ TEST_F(RecordedPeopleTest, RefusesWhatHasNoUseOrCannotBeJudged) {
   set.parts[1].begin = set.parts[0].begin;
   set.parts[1].line = 7;
   EXPECT_THAT(ComplaintAbout(method, set), HasSubstr("labels.csv:7: two performances of person-0 begin at once"));
+}
+
+/// A recording without errors of a built-in move, and its label.
+LabelledStreams Alone(const std::string& name) {
+  LabelledStreams set;
+  NamedStream& recording = set.streams.emplace_back();
+  recording.name = name;
+  recording.stream = StreamOf(LoadBuiltinMove(name)->motion);
+  LabelledPart part;
+  part.move = name;
+  part.end = static_cast<int>(recording.stream.frames.size());
+  set.parts = {part};
+  set.moves = {name};
+  set.people = {{"anna", {0}}};
+  return set;
+}
+
+TEST(MadeFaults, HalfOfAMoveHasHalfOfEveryLimbsAngleAndItsLength) {
+  const NamedStream right = Alone("side_kick").streams[0];
+  const NamedStream half = WithFault(right, Fault::kAmplitude);
+  ASSERT_EQ(half.stream.frames.size(), right.stream.frames.size());
+  const BodyPose first = PoseOf(right.stream.frames[0]);
+  double widest = 0;
+  for (std::size_t t = 0; t < right.stream.frames.size(); ++t) {
+    const BodyPose whole = PoseOf(right.stream.frames[t]), halved = PoseOf(half.stream.frames[t]);
+    for (const Bone& bone : AllBones()) {
+      EXPECT_NEAR(BoneLength(halved, bone), BoneLength(whole, bone), 1e-9);
+      const auto angle = [&](const BodyPose& pose) {
+        return AngleBetween(first[bone.child] - first[bone.parent], pose[bone.child] - pose[bone.parent]);
+      };
+      EXPECT_NEAR(angle(halved), angle(whole) / 2, 1e-6);
+      widest = std::max(widest, angle(whole));
+    }
+  }
+  EXPECT_GT(widest, 0.5) << "nothing moved";
+}
+
+TEST(MadeFaults, TheOtherSideIsTheOtherSidesJointsAndTwiceItIsTheRecording) {
+  NamedStream right = Alone("side_kick").streams[0];
+  right.stream.frames[3][Role::kLeftHand].state = TrackingState::kInferred;
+  const NamedStream image = WithFault(right, Fault::kWrongSide);
+  const SensedFrame &own = right.stream.frames[3], &other = image.stream.frames[3];
+  EXPECT_EQ(other[Role::kRightHand].position, own[Role::kLeftHand].position * glm::dvec3(-1, 1, 1));
+  EXPECT_EQ(other[Role::kRightHand].state, TrackingState::kInferred);
+  EXPECT_EQ(other[Role::kLeftHand].state, TrackingState::kTracked);
+  const NamedStream again = WithFault(image, Fault::kWrongSide);
+  for (std::size_t t = 0; t < right.stream.frames.size(); ++t) {
+    for (const Role role : AllRoles()) {
+      EXPECT_EQ(again.stream.frames[t][role].position, right.stream.frames[t][role].position);
+    }
+  }
+}
+
+TEST(MadeFaults, AMoveThatIsItsOwnImageHasNoWrongSide) {
+  const auto truth = [](const std::string& name, Fault fault) {
+    const LabelledStreams set = Alone(name);
+    return TruthOfFault(set.streams[0], WithFault(set.streams[0], fault), set.parts[0], fault);
+  };
+  EXPECT_NE(truth("clap", Fault::kWrongSide), Truth::kWrong);
+  EXPECT_EQ(truth("side_kick", Fault::kWrongSide), Truth::kWrong);
+  EXPECT_EQ(truth("stretch", Fault::kAmplitude), Truth::kWrong);
+  EXPECT_EQ(truth("clap", Fault::kWrongMove), Truth::kWrong);
+}
+
+TEST(MadeFaults, EachRecordingFollowsOnceMoreWithEachFault) {
+  LabelledStreams set = Alone("side_kick");
+  set.moves = {"clap", "side_kick", "twist"};
+  set.parts.push_back(set.parts[0]);
+  set.parts[0].end = set.parts[1].begin = 60;
+  set.parts[1].fault = "half";
+  DetectionOptions options;
+  options.session.faults = {Fault::kWrongSide, Fault::kWrongMove};
+  const DetectionWorld world = MakeRecordedWorld(set, 0, options, {.suite_seed = 1, .scenario = "made", .trial = 0});
+  const auto frames = static_cast<int>(set.streams[0].stream.frames.size());
+  EXPECT_EQ(world.starts, (std::vector{frames, 2 * frames}));
+  ASSERT_EQ(world.events.size(), 6u);
+  const auto told = [&](std::size_t i) {
+    const DetectionEvent& event = world.events[i];
+    return event.move + " " + std::string(TruthName(event.truth)) + " " + event.told_fault + " " + event.danced;
+  };
+  EXPECT_EQ(told(0), "side_kick right  side_kick");
+  EXPECT_EQ(told(1), "side_kick wrong half ");
+  EXPECT_EQ(told(2), "side_kick wrong wrong_side ");
+  EXPECT_EQ(told(3), "side_kick grey  ");
+  EXPECT_EQ(told(4), "twist wrong wrong_move side_kick");
+  EXPECT_EQ(told(5), "clap grey  ") << "what was wrong before is nobody's fault here";
+  EXPECT_FALSE(world.events[4].first_right_s);
+}
+
+TEST_F(RecordedPeopleTest, FaultsThatCannotBeMadeAreRefused) {
+  LabelledStreams set = SetOf(Record(2, kDanced, 5));
+  const std::string method = "methods: [{name: a}]\n";
+  EXPECT_EQ(ComplaintAbout("faults: [amplitude, wrong_side, wrong_move]\n" + method, set), "no complaint");
+  EXPECT_THAT(ComplaintAbout("faults: [wrong_side, late]\n" + method, set),
+              HasSubstr("'late' cannot be made of a recording; allowed: amplitude, wrong_side, wrong_move"));
+  LabelledStreams points = set;
+  points.parts[0].is_action_point = true;
+  EXPECT_THAT(ComplaintAbout("faults: [amplitude]\n" + method, points), HasSubstr("labels.csv tells moments"));
+  set.moves = {"clap"};
+  EXPECT_THAT(ComplaintAbout("faults: [wrong_move]\n" + method, set), HasSubstr("needs two moves, found: clap"));
 }
 
 TEST_F(RecordedPeopleTest, APersonIsJudgedOnce) {
