@@ -77,8 +77,10 @@ void DefineCalibrate(CLI::App& app, Action& action) {
       ->check(NumberWithin(0, 60, "time in s"))
       ->capture_default_str();
   command->add_option("--picture", options->picture, "Draw what was found where, and how far off, too (PNG)");
-  command->add_option("--beside", options->beside,
-                      "Another calibration of these cameras: focal lengths, distances and residuals of both");
+  command->add_option(
+      "--beside", options->beside,
+      "Another calibration of these cameras: focal lengths, distances and residuals of both; opencv: its "
+      "calibrateCamera, each camera alone");
   CLI::Option* print = command->add_option("--print", options->print,
                                            "Write the board as a picture (PNG) to be printed, and nothing else");
   AddOverwrite(*command, options->overwrite);

@@ -262,6 +262,27 @@ std::string NumberAtEnd(const std::string& name) {
   return name.substr(from);
 }
 
+constexpr const char* kOpenCv = "opencv";  // of --beside: no file, its calibrateCamera
+
+/// Compares with what OpenCV makes of the very same corners; it knows one camera, so each is taken alone.
+Result<void> CompareWithOpenCv(const RefineOptions& options, std::span<const PictureSize> sizes,
+                               std::span<const TargetView> views, const std::vector<CameraBoards>& seen) {
+  fmt::print("\nbeside OpenCV's calibrateCamera, on the same corners, each camera alone:\n");
+  constexpr double kPercent = 100;
+  for (std::size_t camera = 0; camera < seen.size(); ++camera) {
+    const std::vector<TargetView> own = ViewsOf(camera, views);
+    ASSIGN_OR_RETURN(const RefinedRig alone, CalibrateFromPlanes(sizes.subspan(camera, 1), own, options));
+    ASSIGN_OR_RETURN(const OpenCvCalibration theirs, CalibrateByOpenCv(own, sizes[camera], options.lens));
+    const Intrinsics &a = alone.cameras.front().intrinsics, &b = theirs.intrinsics;
+    fmt::print(
+        "  {:<14} focal lengths {:.2f}, {:.2f} px, there {:.2f}, {:.2f} ({:+.3f}, {:+.3f} %); residual {:.4f} px, "
+        "there {:.4f}\n",
+        seen[camera].name, a.fx, a.fy, b.fx, b.fy, kPercent * (a.fx / b.fx - 1), kPercent * (a.fy / b.fy - 1),
+        alone.rms_px, theirs.rms_px);
+  }
+  return {};
+}
+
 /// Compares with another calibration of these cameras, on the very same corners.
 Result<void> CompareBeside(const std::string& file, const RefinedRig& rig, std::span<const TargetView> views,
                            const std::vector<CameraBoards>& seen) {
@@ -279,9 +300,9 @@ Result<void> CompareBeside(const std::string& file, const RefinedRig& rig, std::
   const auto placed = PlaceBoards(cameras, views);
   if (!placed) return Fail({file}, "{}", placed.error().message);
   fmt::print("\nbeside {}, on the same corners:\n", file);
+  constexpr double kPercent = 100;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     const Intrinsics &a = rig.cameras[i].intrinsics, &b = cameras[i].intrinsics;
-    constexpr double kPercent = 100;
     fmt::print(
         "  {:<14} focal lengths {:.1f}, {:.1f} px, there {:.1f}, {:.1f} ({:+.1f}, {:+.1f} %); residual {:.3f} px, "
         "there {:.3f}\n",
@@ -350,7 +371,11 @@ Result<Calibrated> CalibrateFromPictures(const CalibrateOptions& options) {
   ASSIGN_OR_RETURN(std::vector<TargetView> views, SetInStep(options, search, seen));
   ASSIGN_OR_RETURN(RefinedRig refined, CalibrateWithoutBlurred(search, RefineOptionsOf(options), views));
   TellResiduals(refined, RefineOptionsOf(options), search.sizes(), views, seen);
-  if (!options.beside.empty()) RETURN_IF_ERROR(CompareBeside(options.beside, refined, views, seen));
+  if (options.beside == kOpenCv) {
+    RETURN_IF_ERROR(CompareWithOpenCv(RefineOptionsOf(options), search.sizes(), views, seen));
+  } else if (!options.beside.empty()) {
+    RETURN_IF_ERROR(CompareBeside(options.beside, refined, views, seen));
+  }
   if (!options.picture.empty()) {
     RETURN_IF_ERROR(WriteFileAtomically(options.picture, PictureOfBoards(refined, views, seen)));
     TellWritten(options.picture);

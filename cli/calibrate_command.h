@@ -24,7 +24,7 @@ struct CalibrateOptions {
   int every = 0;                ///< of a film, every so many frames are looked at; 0: 30, of OpenCV's boards 100 in all
   double sync_s = 0;            ///< films of boards may be late by this; 0: by two looks
   std::string picture;          ///< a PNG: what was found where, "" = none
-  std::string beside;           ///< another calibration of these cameras to compare with, "" = none
+  std::string beside;           ///< another calibration of these cameras to compare with, or "opencv"; "" = none
   std::string print;            ///< a PNG: the board itself, to be printed
   bool overwrite = false;
   bool as_json = false;

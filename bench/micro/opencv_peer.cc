@@ -1,7 +1,6 @@
 #include "bench/micro/opencv_peer.h"
 
 #include <cmath>
-#include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video.hpp>
@@ -177,37 +176,6 @@ Mask OpenCvModel::Find(const ColourImage& picture) {
   Mask out(picture.width, picture.height);
   KeepPersonByLabels(s.buffers.changed, s.largest_hole, s.buffers, out);
   return out;
-}
-
-OpenCvCalibration CalibrateByOpenCv(std::span<const TargetView> views, const PictureSize& size) {
-  cv::setNumThreads(1);
-  constexpr double kOurPixelCentre = 0.5;
-  std::vector<std::vector<cv::Point3f>> places;
-  std::vector<std::vector<cv::Point2f>> pixels;
-  for (const TargetView& view : views) {
-    auto& of_places = places.emplace_back();
-    auto& of_pixels = pixels.emplace_back();
-    for (const PointPair& pair : view.pairs) {
-      of_places.emplace_back(static_cast<float>(pair.world.x), static_cast<float>(pair.world.y), 0.0F);
-      of_pixels.emplace_back(static_cast<float>(pair.pixel.x - kOurPixelCentre),
-                             static_cast<float>(pair.pixel.y - kOurPixelCentre));
-    }
-  }
-  cv::Mat K, distortion;
-  std::vector<cv::Mat> rotations, translations;
-  OpenCvCalibration found;
-  found.rms_px = cv::calibrateCamera(places, pixels, {size.width, size.height}, K, distortion, rotations, translations,
-                                     cv::CALIB_FIX_K3, {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 100, 1e-12});
-  found.intrinsics = {size.width,
-                      size.height,
-                      K.at<double>(0, 0),
-                      K.at<double>(1, 1),
-                      K.at<double>(0, 2) + kOurPixelCentre,
-                      K.at<double>(1, 2) + kOurPixelCentre,
-                      0};
-  found.distortion = {distortion.at<double>(0), distortion.at<double>(1), distortion.at<double>(2),
-                      distortion.at<double>(3), 0};
-  return found;
 }
 
 }  // namespace etude

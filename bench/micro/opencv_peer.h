@@ -1,11 +1,8 @@
 #pragma once
 
 #include <memory>
-#include <span>
-#include <vector>
 
 #include "engine/base/image.h"
-#include "engine/cameras/planes.h"
 
 namespace etude {
 
@@ -47,13 +44,5 @@ class OpenCvModel {
   struct State;
   std::unique_ptr<State> state_;
 };
-
-/// cv::calibrateCamera of one camera's views, with its lens (k1, k2, p1, p2).
-struct OpenCvCalibration {
-  Intrinsics intrinsics;
-  Distortion distortion;
-  double rms_px = 0;
-};
-OpenCvCalibration CalibrateByOpenCv(std::span<const TargetView> views, const PictureSize& size);
 
 }  // namespace etude

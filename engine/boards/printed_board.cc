@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* kModule = "etude_boards_opencv.so";  // found beside the program, by its run path
 
-Result<MakesPrintedBoardFinder*> OpenBoardModule() {
+Result<OpenCvBoards> OpenBoardModule() {
   void* module = ::dlopen(kModule, RTLD_NOW | RTLD_LOCAL);
   if (module == nullptr) {
     return Fail({}, "OpenCV's detectors of boards are not there ({}); scripts/setup --boards, and build again",
@@ -19,7 +19,12 @@ Result<MakesPrintedBoardFinder*> OpenBoardModule() {
   }
   const void* symbol = ::dlsym(module, "etude_boards_opencv");
   if (symbol == nullptr) return Fail({}, "{} is no module of this program", kModule);
-  return *static_cast<MakesPrintedBoardFinder* const*>(symbol);
+  return *static_cast<const OpenCvBoards*>(symbol);
+}
+
+const Result<OpenCvBoards>& BoardModule() {
+  static const Result<OpenCvBoards> module = OpenBoardModule();
+  return module;
 }
 
 }  // namespace
@@ -60,9 +65,14 @@ std::optional<Result<PrintedBoard>> ReadPrintedBoard(std::string_view text) {
 }
 
 Result<std::unique_ptr<PrintedBoardFinder>> MakePrintedBoardFinder(const PrintedBoard& board) {
-  static const Result<MakesPrintedBoardFinder*> make = OpenBoardModule();
-  if (!make) return tl::unexpected(make.error());
-  return (*make)(board);
+  ASSIGN_OR_RETURN(const OpenCvBoards module, BoardModule());
+  return module.make_finder(board);
+}
+
+Result<OpenCvCalibration> CalibrateByOpenCv(std::span<const TargetView> views, const PictureSize& size,
+                                            LensModel lens) {
+  ASSIGN_OR_RETURN(const OpenCvBoards module, BoardModule());
+  return module.calibrate(views, size, lens);
 }
 
 }  // namespace etude

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,8 @@
 #include "engine/base/result.h"
 #include "engine/boards/board.h"
 #include "engine/boards/find_boards.h"
+#include "engine/cameras/planes.h"
+#include "engine/cameras/refine.h"
 
 namespace etude {
 
@@ -39,10 +42,24 @@ class PrintedBoardFinder {
   virtual std::string Told() const = 0;
 };
 
+/// One camera as OpenCV's `calibrateCamera` finds it.
+struct OpenCvCalibration {
+  Intrinsics intrinsics;
+  Distortion distortion;
+  double rms_px = 0;
+};
+
 /// What the module engine/boards/opencv offers: nobody who looks for no such board waits for OpenCV to be loaded.
-using MakesPrintedBoardFinder = std::unique_ptr<PrintedBoardFinder>(const PrintedBoard& board);
+struct OpenCvBoards {
+  std::unique_ptr<PrintedBoardFinder> (*make_finder)(const PrintedBoard& board);
+  Result<OpenCvCalibration> (*calibrate)(std::span<const TargetView> views, const PictureSize& size, LensModel lens);
+};
 
 /// Fails where the module was not built (libopencv-contrib-dev; `scripts/setup --boards`).
 Result<std::unique_ptr<PrintedBoardFinder>> MakePrintedBoardFinder(const PrintedBoard& board);
+
+/// Calibrates one camera by OpenCV from the very views that `CalibrateFromPlanes` gets, to compare with: both minimise
+/// the same sum. Fails like `MakePrintedBoardFinder`, for `LensModel::kAsInCamera`, and where OpenCV fails.
+Result<OpenCvCalibration> CalibrateByOpenCv(std::span<const TargetView> views, const PictureSize& size, LensModel lens);
 
 }  // namespace etude

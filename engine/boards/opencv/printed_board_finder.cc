@@ -251,8 +251,61 @@ std::unique_ptr<PrintedBoardFinder> MakeOpenCvFinder(const PrintedBoard& board) 
   return std::make_unique<OpenCvFinder>(board);
 }
 
+Result<OpenCvCalibration> CalibrateCamera(std::span<const TargetView> views, const PictureSize& size, LensModel lens) {
+  constexpr double kOurPixelCentre = 0.5;
+  int flags = 0;
+  switch (lens) {
+    case LensModel::kPinhole:
+      flags = cv::CALIB_FIX_K1 | cv::CALIB_FIX_K2 | cv::CALIB_FIX_K3 | cv::CALIB_ZERO_TANGENT_DIST;
+      break;
+    case LensModel::kRadial2:
+      flags = cv::CALIB_FIX_K3;
+      break;
+    case LensModel::kRadial3:
+      break;
+    case LensModel::kAsInCamera:
+      return Fail({}, "OpenCV's calibrateCamera holds no lens as it is");
+  }
+  std::vector<std::vector<cv::Point3f>> places;
+  std::vector<Quad> pixels;
+  for (const TargetView& view : views) {
+    auto& of_places = places.emplace_back();
+    auto& of_pixels = pixels.emplace_back();
+    for (const PointPair& pair : view.pairs) {
+      of_places.emplace_back(static_cast<float>(pair.world.x), static_cast<float>(pair.world.y), 0.0F);
+      of_pixels.emplace_back(static_cast<float>(pair.pixel.x - kOurPixelCentre),
+                             static_cast<float>(pair.pixel.y - kOurPixelCentre));
+    }
+  }
+  try {
+    cv::setNumThreads(1);
+    cv::Mat K, d;
+    std::vector<cv::Mat> turns, shifts;
+    OpenCvCalibration found;
+    constexpr int kSteps = 100;
+    constexpr double kSettled = 1e-12;
+    found.rms_px = cv::calibrateCamera(places, pixels, {size.width, size.height}, K, d, turns, shifts, flags,
+                                       {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, kSteps, kSettled});
+    found.intrinsics = {size.width,
+                        size.height,
+                        K.at<double>(0, 0),
+                        K.at<double>(1, 1),
+                        K.at<double>(0, 2) + kOurPixelCentre,
+                        K.at<double>(1, 2) + kOurPixelCentre,
+                        0};
+    found.distortion = {.k1 = d.at<double>(0),
+                        .k2 = d.at<double>(1),
+                        .p1 = d.at<double>(2),
+                        .p2 = d.at<double>(3),
+                        .k3 = d.at<double>(4)};
+    return found;
+  } catch (const cv::Exception& error) {
+    return Fail({}, "OpenCV's calibrateCamera: {}", error.what());
+  }
+}
+
 }  // namespace
 }  // namespace etude
 
-extern "C" __attribute__((visibility("default"))) etude::MakesPrintedBoardFinder* const etude_boards_opencv =
-    &etude::MakeOpenCvFinder;
+extern "C" __attribute__((visibility("default")))
+const etude::OpenCvBoards etude_boards_opencv = {&etude::MakeOpenCvFinder, &etude::CalibrateCamera};

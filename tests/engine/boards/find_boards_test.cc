@@ -7,9 +7,13 @@
 #include <bit>
 #include <cmath>
 #include <set>
+#include <string>
 #include <tuple>
+#include <utility>
 
 #include "engine/base/angles.h"
+#include "engine/boards/board_views.h"
+#include "engine/boards/printed_board.h"
 #include "engine/cameras/camera.h"
 #include "sim/random/stream.h"
 
@@ -29,19 +33,48 @@ struct Standing {
 struct Shown {
   Board board;
   Standing standing;
+  bool is_chess = false;  ///< without codes
 };
+
+/// The part of a picture that shows any of the boards, and a little more; the rest need not be looked at.
+struct Around {
+  int left = 0, top = 0, right = 0, bottom = 0;
+
+  bool Holds(int x, int y) const { return x >= left && x < right && y >= top && y < bottom; }
+};
+
+Around PartWith(const std::vector<Shown>& boards, const Camera& camera) {
+  constexpr double kMore = 8;  // edges bend under a lens
+  const Intrinsics& inside = camera.intrinsics;
+  glm::dvec2 low(inside.width, inside.height), high(0, 0);
+  for (const Shown& shown : boards) {
+    for (const glm::dvec2 at : {glm::dvec2(0, 0), {1, 0}, {0, 1}, {1, 1}}) {
+      const glm::dvec2 size = shown.board.square * glm::dvec2(shown.board.columns, shown.board.rows);
+      const auto pixel = Project(camera, shown.standing.At(at * size));
+      if (!pixel) return {0, 0, inside.width, inside.height};
+      low = glm::min(low, *pixel - kMore);
+      high = glm::max(high, *pixel + kMore);
+    }
+  }
+  return {static_cast<int>(low.x), static_cast<int>(low.y), static_cast<int>(high.x), static_cast<int>(high.y)};
+}
 
 /// The second implementation of a picture: every pixel's mean over 25 rays that meet the boards' planes. (Their places
 /// make a lattice that is fine along both axes: a square one would show straight edges in steps of a fifth.)
 ColourImage Photograph(const std::vector<Shown>& boards, const Camera& camera, double noise, RandomStream& random) {
   constexpr int kRays = 25;
   const Intrinsics& inside = camera.intrinsics;
+  const Around part = PartWith(boards, camera);
   ColourImage picture(inside.width, inside.height);
   for (int y = 0; y < inside.height; ++y) {
     for (int x = 0; x < inside.width; ++x) {
-      double sum = 0;
-      for (int k = 0; k < kRays; ++k) {
-        const glm::dvec2 pixel(x + (k + 0.5) / kRays, y + (k * 7 % kRays + 0.5) / kRays);
+      double sum = part.Holds(x, y) ? 0 : 120 * kRays;
+      // What a lens does is nearly the same all over a pixel.
+      const glm::dvec2 middle(x + 0.5, y + 0.5);
+      const glm::dvec2 bent = camera.distortion.IsNone() ? middle : *UndistortPixel(camera, middle);
+      for (int k = 0; k < kRays && part.Holds(x, y); ++k) {
+        const glm::dvec2 within((k + 0.5) / kRays - 0.5, (k * 7 % kRays + 0.5) / kRays - 0.5);
+        const glm::dvec2 pixel = bent + within;
         const glm::dvec3 ray_C((pixel.x - inside.cx) / inside.fx, (pixel.y - inside.cy) / inside.fy, 1);
         const glm::dvec3 ray = glm::transpose(camera.R_CW) * ray_C;
         double light = 120;  // a grey room
@@ -56,7 +89,10 @@ ColourImage Photograph(const std::vector<Shown>& boards, const Camera& camera, d
               place.y > board.rows * board.square) {
             continue;
           }
-          light = IsBlackAt(board, place) ? 35 : 215;
+          const bool is_black = shown.is_chess ? IsBlackSquare(static_cast<int>(place.x / board.square),
+                                                               static_cast<int>(place.y / board.square))
+                                               : IsBlackAt(board, place);
+          light = is_black ? 35 : 215;
         }
         sum += light;
       }
@@ -104,6 +140,47 @@ std::vector<Board> BoardsOf(const std::vector<Shown>& shown) {
   std::vector<Board> boards;
   for (const Shown& one : shown) boards.push_back(one.board);
   return boards;
+}
+
+/// The second implementation of a calibration: OpenCV's. Both minimise the same sum over the same corners.
+TEST(FindBoards, RenderedBoardsCalibrateACameraAsOpenCvDoes) {
+  Camera camera{.intrinsics = {.width = 400, .height = 300, .fx = 390, .fy = 386, .cx = 207, .cy = 146, .skew = 0}};
+  camera.distortion = {.k1 = -0.12, .k2 = 0.05, .p1 = 0.001, .p2 = -0.0015};
+  const PrintedBoard printed{.is_charuco = false, .columns = 7, .rows = 6, .square = 0.12};
+  const Board board{.columns = 7, .rows = 6, .square = 0.12, .first_code = 11};
+  for (const bool is_chess : {false, true}) {
+    SCOPED_TRACE(is_chess ? "a chessboard" : "our own");
+    auto finder = MakePrintedBoardFinder(printed);
+    if (!finder) GTEST_SKIP() << ToString(finder.error());
+    BoardViews search = is_chess ? BoardViews(printed, std::move(*finder)) : BoardViews({board});
+    RandomStream random({}, "noise");
+    for (int i = 0; i < 6; ++i) {
+      Standing standing = Before(board, 1.2 + 0.1 * (i % 3), Radians(20 * i - 50), Radians(i % 2 == 0 ? 35 : -30));
+      standing.corner += glm::dvec3(0.08 * (i % 3 - 1), 0.06 * (i % 2), 0);
+      ASSERT_TRUE(search.Add(0, std::to_string(i), Photograph({{board, standing, is_chess}}, camera, 2, random)));
+    }
+    const std::vector<TargetView> views = search.views();
+    ASSERT_GE(views.size(), 5u);
+    const auto ours = CalibrateFromPlanes(search.sizes(), views);
+    ASSERT_TRUE(ours) << ToString(ours.error());
+    const auto theirs = CalibrateByOpenCv(views, search.sizes()[0], LensModel::kRadial2);
+    ASSERT_TRUE(theirs) << ToString(theirs.error());
+    EXPECT_NEAR(ours->rms_px, theirs->rms_px, 1e-5);  // OpenCV takes corners as floats
+    EXPECT_LT(ours->rms_px, 0.2);
+    const Intrinsics &a = ours->cameras[0].intrinsics, &b = theirs->intrinsics;
+    for (const auto side : {&Intrinsics::fx, &Intrinsics::fy, &Intrinsics::cx, &Intrinsics::cy}) {
+      EXPECT_NEAR(a.*side, b.*side, 0.01);
+      if (!is_chess) {
+        EXPECT_NEAR(a.*side, camera.intrinsics.*side, 0.015 * camera.intrinsics.fx);
+      }
+    }
+    EXPECT_NEAR(ours->cameras[0].distortion.k1, theirs->distortion.k1, 1e-4);
+    const auto pinhole = CalibrateByOpenCv(views, search.sizes()[0], LensModel::kPinhole);
+    ASSERT_TRUE(pinhole);
+    EXPECT_GT(pinhole->rms_px, ours->rms_px + 0.05) << "the control: without the lens";
+    EXPECT_FALSE(CalibrateByOpenCv(views, search.sizes()[0], LensModel::kAsInCamera));
+    EXPECT_FALSE(CalibrateByOpenCv({}, search.sizes()[0], LensModel::kRadial2)) << "its complaint, not its end";
+  }
 }
 
 TEST(Codes, DifferFromEachOtherHoweverTheyAreTurned) {
