@@ -16,6 +16,7 @@
 #include "engine/keypoints/synchronise_people.h"
 #include "engine/motion/body.h"
 #include "engine/motion/clip.h"
+#include "engine/unmarked/recover_unmarked.h"
 #include "reports/capture_page.h"
 #include "reports/films/decoder.h"
 #include "reports/films/overlay_film.h"
@@ -28,7 +29,7 @@ struct CaptureCommandOptions {
   PlaceOptions place;                ///< its unit, up axis and floor
   std::string keypoints;             ///< a folder with an entry for each film
   std::string marks;                 ///< likewise, of annotation pictures
-  bool silhouettes = false;          ///< neither: the films alone tell
+  bool silhouettes = false;          ///< the films' outlines tell, alone or beside keypoints
   std::string rooms;                 ///< of silhouettes: a folder with a picture of each film's empty room, "" = none
   double stature_m = 0;              ///< of silhouettes: the person's, 0 = found
   std::string output;                ///< BVH, GLB, TRC or CSV by its ending
@@ -122,6 +123,10 @@ struct ComparedColumn {
 };
 ComparedColumn CompareColumn(std::string heading, const MarkerMotion& markers, const MarkerMotion& reference);
 
+/// Sets the reference in time with a motion where its rate is another one but taken for the same: measures how both
+/// drift apart, says it, and undoes it where that halves the share of distances that are far. Says where one is longer.
+MarkerMotion InTimeWith(const MarkerMotion& motion, MarkerMotion reference, std::vector<std::string>& told);
+
 /// Prints medians, a row for each marker of the first column and one for all, and their 95th percentile, under `words`,
 /// which say what they are; writes the file of `--distances`, if there shall be one.
 Result<void> TellColumns(const std::string& words, const std::vector<ComparedColumn>& columns,
@@ -135,9 +140,32 @@ struct CameraPair {
 /// Gives every two of more than two films; of two there is nothing to compare.
 std::vector<CameraPair> PairsOf(std::size_t films);
 
+/// The pictures of all films, small and without their lenses, at the first film's moments.
+struct ReducedTake {
+  std::vector<Camera> cameras;
+  std::vector<double> reductions;  ///< pixels of these pictures in one of the rig's camera
+  std::vector<std::vector<ColourImage>> pictures;
+  std::vector<ColourImage> rooms;
+};
+Result<ReducedTake> ReadTake(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+                             const std::vector<FilmClock>& clocks);
+ReducedTake PairOf(const ReducedTake& take, const CameraPair& pair);
+
+/// What keypoints tell beside outlines, if anything: where the person is seen, by the take's cameras, and limb lengths.
+struct SeenBeside {
+  const MatchedPerson* person = nullptr;
+  std::optional<LimbLengths> lengths = {};
+};
+Result<UnmarkedMotion> RecoverByOutlines(const ReducedTake& take, const CaptureCommandOptions& options, double rate_hz,
+                                         const SeenBeside& beside = {});
+
+/// Gives the joints of a reference, by their own names, or as an estimator's landmarks show them; joints that landmarks
+/// leave to rules of thumb are left out.
+MarkerMotion JointsOfReference(const MarkerMotion& reference);
+
 /// Captures from keypoints or marks, or from the films alone: then the motion of the only person who moves in them, by
-/// outlines. Compares it with `reference`, if there is one, and adds what was found to `facts`. False when it was
-/// interrupted.
+/// outlines. With `options.silhouettes` keypoints are what outlines are followed with. Compares it with `reference`, if
+/// there is one, and adds what was found to `facts`. False when it was interrupted.
 Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, FilmedSession session,
                               const std::optional<MarkerMotion>& reference, Json& facts);
 Result<bool> CaptureUnmarked(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,

@@ -69,6 +69,11 @@ Result<int> CaptureCommand(const CaptureCommandOptions& options) {
     ASSIGN_OR_RETURN(const auto text, ReadWholeFile(options.reference));
     ASSIGN_OR_RETURN(reference, ReadTrc(text, options.reference));
   }
+  if (options.silhouettes && !options.keypoints.empty() && (options.stature_m > 0 || options.sync_s > 0)) {
+    return Fail({},
+                "--silhouettes beside --keypoints: lengths come of keypoints, and films begin together; allowed: "
+                "neither --stature nor --sync");
+  }
   RETURN_IF_ERROR(CheckPlace(options.place));
   ASSIGN_OR_RETURN(FilmedSession session, OpenFilms(options));
   const FilmFacts facts = session.views.front().facts;
@@ -85,7 +90,7 @@ Result<int> CaptureCommand(const CaptureCommandOptions& options) {
   Json told = {{"films", std::move(seen)}, {"frames", facts.frames}, {"rate_hz", facts.rate_hz},
                {"keypoints", nullptr},     {"silhouettes", nullptr}, {"output", options.output}};
   bool is_whole = false;
-  if (options.silhouettes) {
+  if (options.silhouettes && options.keypoints.empty()) {
     const auto place = PlaceRig(session.rig, options.place);
     if (!place) return Fail({options.rig}, "{}", place.error().message);
     for (FilmedView& view : session.views) {
@@ -135,8 +140,8 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
   auto* silhouettes =
       command
           ->add_flag("--silhouettes", options->silhouettes,
-                     "Neither: the outlines of the one person who moves before cameras that stand still")
-          ->excludes(keypoints)
+                     "The outlines of the one person who moves before cameras that stand still: alone, or beside "
+                     "--keypoints, which then tell front from back and the limbs' lengths")
           ->excludes(marks);
   command->add_option("--rooms", options->rooms, "A folder with a picture of the empty room for each film")
       ->needs(silhouettes);
@@ -177,7 +182,6 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
   command
       ->add_option("--sync", options->sync_s,
                    "The films' clocks may differ by this much, s: how much is found from the keypoints (0: they agree)")
-      ->excludes(silhouettes)
       ->check(NumberWithin(0, 60, "time in s"))
       ->capture_default_str();
   AddOverwrite(*command, options->overwrite, "Replace files that are there");

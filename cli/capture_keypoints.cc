@@ -114,6 +114,40 @@ void PrintFit(const RecoveredPerson& person) {
   }
 }
 
+/// Follows the person by the films' outlines, too.
+Result<UnmarkedMotion> WithOutlines(const RecoveredPerson& person, std::size_t chosen, const ReducedTake& take,
+                                    const CaptureCommandOptions& options) {
+  return RecoverByOutlines(take, options, person.motion.rate_hz,
+                           {.person = &person.people[chosen], .lengths = person.body.lengths});
+}
+
+/// Gives the place of the person asked for among all that were found.
+std::size_t ChosenOf(const RecoveredPerson& person, std::size_t number) {
+  for (std::size_t i = 0; i < person.people.size(); ++i) {
+    if (person.people[i].cameras >= 2 && number-- == 0) return i;
+  }
+  return 0;
+}
+
+/// Compares joints of outlines and keypoints together with a reference; pairs as if there were no other camera.
+Result<std::vector<ComparedColumn>> CompareWithOutlines(const MarkerMotion& reference, const UnmarkedMotion& both,
+                                                        const SeenFilms& films, const ReducedTake& take,
+                                                        const RecoverPersonOptions& recover,
+                                                        const CaptureCommandOptions& options) {
+  const MarkerMotion joints = JointsOfReference(reference);
+  std::vector<ComparedColumn> columns{CompareColumn("all", JointMarkers(both.motion), joints)};
+  for (const CameraPair& pair : PairsOf(films.cameras.size())) {
+    const std::array cameras = {films.cameras[pair.first], films.cameras[pair.second]};
+    const std::array people = {films.people[pair.first], films.people[pair.second]};
+    const auto seen = RecoverPerson(cameras, people, recover);
+    const auto found = seen ? WithOutlines(*seen, ChosenOf(*seen, recover.person), PairOf(take, pair), options)
+                            : Result<UnmarkedMotion>(tl::unexpected(seen.error()));
+    columns.push_back(found ? CompareColumn(pair.heading, JointMarkers(found->motion), joints)
+                            : ComparedColumn{pair.heading + kLost, {}, {}});
+  }
+  return columns;
+}
+
 /// Compares the person with a reference. Points of a pair of cameras are found among the same persons as if there were
 /// no other camera.
 std::vector<ComparedColumn> CompareWithReference(const MarkerMotion& reference, const RecoveredPerson& person,
@@ -129,14 +163,6 @@ std::vector<ComparedColumn> CompareWithReference(const MarkerMotion& reference, 
     columns.push_back(recovered ? column(pair.heading, *recovered) : ComparedColumn{pair.heading + kLost, {}, {}});
   }
   return columns;
-}
-
-/// Gives the place of the person asked for among all that were found.
-std::size_t ChosenOf(const RecoveredPerson& person, std::size_t number) {
-  for (std::size_t i = 0; i < person.people.size(); ++i) {
-    if (person.people[i].cameras >= 2 && number-- == 0) return i;
-  }
-  return 0;
 }
 
 }  // namespace
@@ -188,12 +214,24 @@ Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, FilmedSessio
       }
     }
   }
-  ASSIGN_OR_RETURN(const RecoveredPerson person, FitLocated(std::move(located), recover));
+  ASSIGN_OR_RETURN(RecoveredPerson person, FitLocated(std::move(located), recover));
+  const std::size_t chosen = ChosenOf(person, recover.person);
   PrintPeople(person, views);
   TellMends(person, views, films.told);
   PrintReport(person, views);
   PrintFit(person);
   facts["keypoints"] = FactsOf(person, views, films.told);
+  ReducedTake take;
+  std::optional<UnmarkedMotion> both;
+  if (options.silhouettes) {
+    ASSIGN_OR_RETURN(take, ReadTake(options, views, films.clocks));
+    ASSIGN_OR_RETURN(both, WithOutlines(person, chosen, take, options));
+    Tell(films.told,
+         fmt::format("outlines and keypoints together cost {:.0f} a picture; the joints are theirs", both->cost));
+    facts["silhouettes"] = {{"stature_m", both->stature_m}, {"cost", both->cost}, {"held_frames", both->held}};
+    person.motion = both->motion;
+    person.clip = both->clip;
+  }
   RETURN_IF_ERROR(WriteMotion(options.output, person.clip, person.motion));
   if (!options.points.empty()) {
     const std::string name = fs::path(options.output).stem().string();
@@ -201,13 +239,18 @@ Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, FilmedSessio
     TellWritten(options.points);
   }
   if (reference) {
-    RETURN_IF_ERROR(TellColumns(
-        fmt::format("Distance of the triangulated keypoints to {}, median, mm. Where it was made of the same "
-                    "keypoints,\nthis is agreement, not error.",
-                    options.reference),
-        CompareWithReference(*reference, person, films, recover), views, options));
+    const std::string what = fmt::format("Distance of the {} to {}, median, mm.",
+                                         both ? "joints" : "triangulated keypoints", options.reference);
+    const MarkerMotion in_time = InTimeWith(ToMarkers(person.landmarks, recover.rate_hz), *reference, films.told);
+    std::vector<ComparedColumn> columns;
+    if (both) {
+      ASSIGN_OR_RETURN(columns, CompareWithOutlines(in_time, *both, films, take, recover, options));
+    } else {
+      columns = CompareWithReference(in_time, person, films, recover);
+    }
+    RETURN_IF_ERROR(TellColumns(what + " Where it was made of the same keypoints,\nthis is agreement, not error.",
+                                columns, views, options));
   }
-  const std::size_t chosen = ChosenOf(person, recover.person);
   if (!options.film.empty()) {
     ASSIGN_OR_RETURN(const bool is_whole,
                      WriteFilm(options, OverlaysOf(views, person, chosen, films.clocks), person.motion));

@@ -120,6 +120,19 @@ void DoubtClocks(const std::vector<FilmedView>& views, const RecoverPersonOption
   }
 }
 
+/// Of a film whose rate is taken for the first one's though both tell another: the drift that its keypoints show.
+void TellDrift(const std::vector<FilmedView>& views, std::size_t film, const FilmClock& taken, const FilmClock& nearest,
+               std::size_t frames, SeenFilms& films) {
+  const double rate = views.front().facts.rate_hz, own = views[film].facts.rate_hz;
+  if (own == rate || std::abs(own - rate) > kOneRate * rate) return;
+  const auto over_film = [&](double drift) { return drift * static_cast<double>(frames); };
+  Tell(
+      films.told,
+      fmt::format("{}: drift measured: {:+.2f} frames over the film, {:+.2f} if both rates were right; too little said "
+                  "to mend it",
+                  views[film].camera.name, over_film(nearest.drift - taken.drift), over_film(rate / own - 1)));
+}
+
 /// Mends clocks that the keypoints contradict.
 void MendClocks(const std::vector<FilmedView>& views, const RecoverPersonOptions& recover, bool is_set,
                 SeenFilms& films) {
@@ -134,6 +147,7 @@ void MendClocks(const std::vector<FilmedView>& views, const RecoverPersonOptions
   const bool is_any_mended = std::ranges::any_of(found, &FoundClock::is_mended);
   if (!is_set && !is_any_mended && !has_own_rates) DoubtClocks(views, recover, most, films);
   for (std::size_t i = 0; i < views.size(); ++i) {
+    if (!found[i].is_mended) TellDrift(views, i, films.clocks[i], found[i].nearest, frames, films);
     if (!found[i].is_mended) continue;
     const FilmClock before = films.clocks[i], now = found[i].clock;
     films.clocks[i] = now;

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -23,13 +24,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostPictures = 4000;  // small ones, of all films together: they are held in memory, 2 GB
 
-/// The pictures of all films, small and without their lenses.
-struct ReducedTake {
-  std::vector<Camera> cameras;
-  std::vector<std::vector<ColourImage>> pictures;
-  std::vector<ColourImage> rooms;
-};
-
 Result<ColourImage> ReadRoom(const std::string& folder, const FilmedView& view) {
   ASSIGN_OR_RETURN(const fs::path entry, EntryOfFilm(folder, view.path.stem().string()));
   ASSIGN_OR_RETURN(const FilmFacts facts, ProbeFilm(entry));
@@ -43,22 +37,58 @@ Result<ColourImage> ReadRoom(const std::string& folder, const FilmedView& view) 
   return std::move(pictures.front());
 }
 
-Result<ReducedTake> ReadTake(const CaptureCommandOptions& options, const std::vector<FilmedView>& views) {
-  const std::size_t frames = views.front().facts.frames, pictures = views.size() * frames;
+/// The clocks that the films' own rates say; told where they differ.
+std::vector<FilmClock> ClocksByRates(const std::vector<FilmedView>& views, std::vector<std::string>& told) {
+  const FilmFacts& first = views.front().facts;
+  std::vector<FilmClock> clocks;
+  for (const FilmedView& view : views) {
+    clocks.emplace_back();
+    const double own = view.facts.rate_hz, rate = first.rate_hz;
+    if (own == rate) continue;
+    constexpr double kMs = 1000;
+    const double seconds = static_cast<double>(first.frames) / rate;
+    const bool is_one = std::abs(own - rate) <= kOneRate * rate;
+    if (!is_one) clocks.back().drift = rate / own - 1;
+    Tell(told, fmt::format("{}: {:g} frames a second beside {:g}, ", view.camera.name, own, rate) +
+                   (is_one ? fmt::format("taken as one rate; were both right, it would be off by {:.0f} ms in the end",
+                                         kMs * seconds * std::abs(own / rate - 1))
+                           : fmt::format("its nearest pictures taken, off by up to {:.0f} ms", 0.5 * kMs / own)));
+  }
+  return clocks;
+}
+
+/// Takes of a film the pictures nearest to the first film's moments.
+std::vector<ColourImage> InTime(std::vector<ColourImage> film, const FilmClock& clock, std::size_t frames) {
+  if (clock == FilmClock{} && film.size() == frames) return film;
+  std::vector<ColourImage> in_time;
+  for (std::size_t k = 0; k < frames; ++k) {
+    const double at = std::clamp(clock.FrameAt(static_cast<double>(k)), 0.0, static_cast<double>(film.size() - 1));
+    in_time.push_back(film[static_cast<std::size_t>(std::lround(at))]);
+  }
+  return in_time;
+}
+
+}  // namespace
+
+Result<ReducedTake> ReadTake(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+                             const std::vector<FilmClock>& clocks) {
+  std::size_t pictures = 0;
+  for (const FilmedView& view : views) pictures += view.facts.frames;
   if (pictures > kMostPictures) {
     return Fail({views.front().path.string()},
-                "{} films of {} frames; at most {} pictures are held in memory, that is {} frames of each",
-                views.size(), frames, kMostPictures, kMostPictures / views.size());
+                "{} films of {} frames in all; at most {} pictures are held in memory, that is {} frames of each",
+                views.size(), pictures, kMostPictures, kMostPictures / views.size());
   }
   ReducedTake take;
   for (const FilmedView& view : views) {
     take.cameras.push_back(ReducedCamera(view.camera.camera, UnmarkedTake::kPictureSide));
+    take.reductions.push_back(take.cameras.back().intrinsics.fx / view.camera.camera.intrinsics.fx);
     ASSIGN_OR_RETURN(auto film, ReadReduced(view.path, view.facts, view.camera.camera, view.fit,
-                                            UnmarkedTake::kPictureSide, frames));
-    if (film.size() != frames) {
-      return Fail({view.path.string()}, "{} frames, though it tells of {}", film.size(), frames);
+                                            UnmarkedTake::kPictureSide, view.facts.frames));
+    if (film.empty() || film.size() != static_cast<std::size_t>(view.facts.frames)) {
+      return Fail({view.path.string()}, "{} frames, though it tells of {}", film.size(), view.facts.frames);
     }
-    take.pictures.push_back(std::move(film));
+    take.pictures.push_back(InTime(std::move(film), clocks[take.pictures.size()], views.front().facts.frames));
     if (options.rooms.empty()) continue;
     ASSIGN_OR_RETURN(ColourImage room, ReadRoom(options.rooms, view));
     take.rooms.push_back(std::move(room));
@@ -66,26 +96,37 @@ Result<ReducedTake> ReadTake(const CaptureCommandOptions& options, const std::ve
   return take;
 }
 
-Result<UnmarkedMotion> Recover(const ReducedTake& take, const CaptureCommandOptions& options, double rate_hz) {
+Result<UnmarkedMotion> RecoverByOutlines(const ReducedTake& take, const CaptureCommandOptions& options, double rate_hz,
+                                         const SeenBeside& beside) {
+  std::vector<std::vector<std::optional<SeenPerson>>> people;
+  for (std::size_t c = 0; beside.person != nullptr && c < take.cameras.size(); ++c) {
+    people.push_back(beside.person->seen[c]);
+    for (auto& seen : people.back()) {
+      for (Keypoint& keypoint : seen ? std::span<Keypoint>(seen->keypoints) : std::span<Keypoint>()) {
+        keypoint.pixel *= take.reductions[c];
+      }
+    }
+  }
   return RecoverUnmarked({.cameras = take.cameras,
                           .pictures = take.pictures,
                           .rooms = take.rooms,
                           .rate_hz = rate_hz,
-                          .stature_m = options.stature_m > 0 ? std::optional(options.stature_m) : std::nullopt});
+                          .stature_m = options.stature_m > 0 ? std::optional(options.stature_m) : std::nullopt,
+                          .lengths = beside.lengths,
+                          .people = people});
 }
 
 ReducedTake PairOf(const ReducedTake& take, const CameraPair& pair) {
   ReducedTake two;
   for (const std::size_t i : {pair.first, pair.second}) {
     two.cameras.push_back(take.cameras[i]);
+    two.reductions.push_back(take.reductions[i]);
     two.pictures.push_back(take.pictures[i]);
     if (!take.rooms.empty()) two.rooms.push_back(take.rooms[i]);
   }
   return two;
 }
 
-/// Gives the joints of a reference, by their own names, or as an estimator's landmarks show them; joints that landmarks
-/// leave to rules of thumb are left out.
 MarkerMotion JointsOfReference(const MarkerMotion& reference) {
   const bool has_landmarks =
       std::ranges::any_of(reference.names, [](const std::string& name) { return FindLandmark(name).has_value(); });
@@ -104,16 +145,19 @@ MarkerMotion JointsOfReference(const MarkerMotion& reference) {
   return joints;
 }
 
+namespace {
+
 Result<std::vector<ComparedColumn>> CompareWithReference(const MarkerMotion& reference, const UnmarkedMotion& person,
-                                                         const ReducedTake& take,
-                                                         const CaptureCommandOptions& options) {
-  const MarkerMotion joints = JointsOfReference(reference);
-  std::vector<ComparedColumn> columns{CompareColumn("all", JointMarkers(person.motion), joints)};
+                                                         const ReducedTake& take, const CaptureCommandOptions& options,
+                                                         std::vector<std::string>& told) {
+  const MarkerMotion motion = JointMarkers(person.motion);
+  const MarkerMotion joints = InTimeWith(motion, JointsOfReference(reference), told);
+  std::vector<ComparedColumn> columns{CompareColumn("all", motion, joints)};
   const std::vector<CameraPair> pairs = PairsOf(take.cameras.size());
   const OnProgress tell = ProgressOf("pairs of cameras");
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     tell(i, pairs.size());
-    const auto pair = Recover(PairOf(take, pairs[i]), options, reference.rate_hz);
+    const auto pair = RecoverByOutlines(PairOf(take, pairs[i]), options, motion.rate_hz);
     columns.push_back(pair ? CompareColumn(pairs[i].heading, JointMarkers(pair->motion), joints)
                            : ComparedColumn{pairs[i].heading + kLost, {}, {}});
   }
@@ -121,10 +165,17 @@ Result<std::vector<ComparedColumn>> CompareWithReference(const MarkerMotion& ref
   return columns;
 }
 
-std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, std::size_t frames) {
+std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const std::vector<FilmClock>& clocks,
+                                    std::size_t frames) {
   std::vector<OverlayView> overlays;
   for (const FilmedView& view : views) {
-    overlays.push_back({view.camera.name, view.path, view.facts, view.camera.camera, view.fit, 0, {}, 0});
+    overlays.push_back({.name = view.camera.name,
+                        .film = view.path,
+                        .facts = view.facts,
+                        .camera = view.camera.camera,
+                        .fit = view.fit,
+                        .keypoints = {},
+                        .drift = clocks[overlays.size()].drift});
     overlays.back().keypoints.resize(frames);
   }
   return overlays;
@@ -139,9 +190,8 @@ std::vector<double> KnownOf(const std::vector<std::optional<double>>& values) {
 }
 
 /// Tells what was found and what is doubtful, a line each.
-std::vector<std::string> TellUnmarked(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
-                                      const UnmarkedMotion& person) {
-  std::vector<std::string> told;
+void TellUnmarked(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+                  const UnmarkedMotion& person, std::vector<std::string>& told) {
   Tell(told, fmt::format("stature: {:.2f} m{}; outlines cost {:.0f} a picture", person.stature_m,
                          options.stature_m > 0 ? "" : ", found from the outlines", person.cost));
   if (person.held > 0) {
@@ -156,11 +206,11 @@ std::vector<std::string> TellUnmarked(const CaptureCommandOptions& options, cons
     Tell(told, fmt::format("doubtful: {}: in {:.0f} % of its frames body and outline share less than half",
                            views[i].camera.name, kPercent * share));
   }
-  return told;
 }
 
 Result<bool> WriteUnmarkedReport(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
-                                 const UnmarkedMotion& person, const std::vector<std::string>& told) {
+                                 const UnmarkedMotion& person, const std::vector<FilmClock>& clocks,
+                                 const std::vector<std::string>& told) {
   constexpr double kPercent = 100;
   CapturePage page = BeginPage(options, person.motion, MeasureLimbLengths(person.motion.poses), told);
   page.residual =
@@ -182,7 +232,7 @@ Result<bool> WriteUnmarkedReport(const CaptureCommandOptions& options, const std
                   all.empty() ? kPercent : UpperMedian(std::move(all)), DoubtsOf(told));
   page.limbs = "Limbs are an adult's, scaled to the stature.";
   page.still.caption = "The skeleton as each camera would show it (lines; left blue, right orange).";
-  return WritePage(options, std::move(page), OverlaysOf(views, person.motion.poses.size()), person.motion);
+  return WritePage(options, std::move(page), OverlaysOf(views, clocks, person.motion.poses.size()), person.motion);
 }
 
 }  // namespace
@@ -190,24 +240,26 @@ Result<bool> WriteUnmarkedReport(const CaptureCommandOptions& options, const std
 Result<bool> CaptureUnmarked(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
                              const std::optional<MarkerMotion>& reference, Json& facts) {
   if (!options.points.empty()) return Fail({}, "--points: silhouettes have no keypoints to write");
-  ASSIGN_OR_RETURN(const ReducedTake take, ReadTake(options, views));
-  ASSIGN_OR_RETURN(const UnmarkedMotion person, Recover(take, options, views.front().facts.rate_hz));
-  const std::vector<std::string> told = TellUnmarked(options, views, person);
+  std::vector<std::string> told;
+  const std::vector<FilmClock> clocks = ClocksByRates(views, told);
+  ASSIGN_OR_RETURN(const ReducedTake take, ReadTake(options, views, clocks));
+  ASSIGN_OR_RETURN(const UnmarkedMotion person, RecoverByOutlines(take, options, views.front().facts.rate_hz));
+  TellUnmarked(options, views, person, told);
   facts["silhouettes"] = {{"stature_m", person.stature_m}, {"cost", person.cost}, {"held_frames", person.held}};
   RETURN_IF_ERROR(WriteMotion(options.output, person.clip, person.motion));
   if (!options.film.empty()) {
     ASSIGN_OR_RETURN(const bool is_whole,
-                     WriteFilm(options, OverlaysOf(views, person.motion.poses.size()), person.motion));
+                     WriteFilm(options, OverlaysOf(views, clocks, person.motion.poses.size()), person.motion));
     if (!is_whole) return false;
   }
   if (reference) {
-    ASSIGN_OR_RETURN(const auto columns, CompareWithReference(*reference, person, take, options));
+    ASSIGN_OR_RETURN(const auto columns, CompareWithReference(*reference, person, take, options, told));
     RETURN_IF_ERROR(TellColumns(
         fmt::format("Distance of the joints to {}, median, mm: error, as far as the reference itself is right.",
                     options.reference),
         columns, views, options));
   }
-  return options.report.empty() ? true : WriteUnmarkedReport(options, views, person, told);
+  return options.report.empty() ? true : WriteUnmarkedReport(options, views, person, clocks, told);
 }
 
 }  // namespace etude

@@ -190,6 +190,29 @@ ComparedColumn CompareColumn(std::string heading, const MarkerMotion& markers, c
   return {std::move(heading), CompareMarkers(markers, reference), CompareAllMarkers(markers, reference)};
 }
 
+MarkerMotion InTimeWith(const MarkerMotion& motion, MarkerMotion reference, std::vector<std::string>& told) {
+  const std::size_t frames = motion.frames.size();
+  if (reference.frames.size() != frames) {
+    Tell(told, fmt::format("reference: {} frames beside {}: the first {} are compared", reference.frames.size(), frames,
+                           std::min(reference.frames.size(), frames)));
+  }
+  const double own_rate = reference.rate_hz;
+  constexpr double kWritten = 1e-5;  // 29.97 is how 30000/1001 is written
+  if (std::abs(own_rate - motion.rate_hz) > kWritten * own_rate) {
+    const auto clock = MeasureClock(motion, reference);
+    const bool is_mended = clock && clock->after < 0.5 * clock->before;
+    std::string said = "; no marker of both tells how they drift apart";
+    if (clock) {
+      said = fmt::format(": {:+.2f} frames of drift measured, {:+.2f} in the middle{}", clock->DriftOver(frames),
+                         clock->at + 0.5 * clock->DriftOver(frames), is_mended ? "; undone" : ", too little to undo");
+    }
+    Tell(told, fmt::format("reference: {:g} frames a second beside {:g}, taken as one rate{}", own_rate, motion.rate_hz,
+                           said));
+    if (is_mended) reference = AtClock(reference, *clock, frames, motion.rate_hz);
+  }
+  return reference;
+}
+
 namespace {
 
 void PrintColumns(const std::string& words, const std::vector<ComparedColumn>& columns,

@@ -2,12 +2,14 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/kinematics/capture_body.h"
 #include "engine/kinematics/solvers/gauss_newton.h"
 #include "engine/kinematics/tree.h"
 #include "engine/motion/body.h"
+#include "engine/motion/rest_body.h"
 
 namespace etude {
 
@@ -76,5 +78,17 @@ class PoseFitter {
   const GaussNewtonSolver solver_;
   std::vector<std::vector<int>> children_;
 };
+
+/// How far joints are from where a body that keeps its lengths can bring them.
+struct RigidMisfit {
+  double mean_m = 0;   ///< of the worst joint of each pose
+  double worst_m = 0;  ///< of that joint in that pose
+  Role role = Role::kHipCentre;
+  std::size_t pose = 0;
+};
+
+/// Fits the body `rest` to at most `most` of the poses, evenly over all, each by itself but for a start from the one
+/// before. Nothing without poses, or where `FittedBody` makes no body of it.
+std::optional<RigidMisfit> MeasureRigidMisfit(const RestBody& rest, std::span<const BodyPose> poses, std::size_t most);
 
 }  // namespace etude

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace etude {
 namespace {
@@ -29,6 +30,28 @@ std::vector<double> Distances(const MarkerMotion& motion, const MarkerMotion& re
     if (a && b) distances.push_back(kMmPerMetre * glm::distance(*a, *b));
   }
   return distances;
+}
+
+/// Where a marker is at any time of its frames; nothing before, after, or beside a frame without it.
+std::optional<glm::dvec3> MarkerAt(const MarkerMotion& markers, double frame, std::size_t marker) {
+  constexpr double kSameTime = 1e-9;
+  if (frame < -kSameTime || frame > static_cast<double>(markers.frames.size() - 1) + kSameTime) return std::nullopt;
+  const auto before = static_cast<std::size_t>(std::max(0.0, frame + kSameTime));
+  const double share = std::max(0.0, frame - static_cast<double>(before));
+  const auto& here = markers.frames[before][marker];
+  if (share < kSameTime || !here) return here;
+  const auto& next = markers.frames[before + 1][marker];
+  return next ? std::optional(glm::mix(*here, *next, share)) : std::nullopt;
+}
+
+/// The markers that both motions name: their numbers in one and the other.
+std::vector<std::pair<std::size_t, std::size_t>> SharedMarkers(const MarkerMotion& a, const MarkerMotion& b) {
+  std::vector<std::pair<std::size_t, std::size_t>> shared;
+  for (std::size_t i = 0; i < a.names.size(); ++i) {
+    const auto found = std::ranges::find(b.names, a.names[i]);
+    if (found != b.names.end()) shared.emplace_back(i, found - b.names.begin());
+  }
+  return shared;
 }
 
 MarkerMotion NamedByRole(double rate_hz) {
@@ -81,21 +104,74 @@ MarkerMotion JointMarkers(const BodyMotion& motion) {
 
 MarkerMotion AtRate(MarkerMotion markers, double rate_hz) {
   if (std::abs(markers.rate_hz - rate_hz) <= kOneRate * rate_hz || markers.frames.empty()) return markers;
-  MarkerMotion out{rate_hz, markers.names, {}};
-  const double last = static_cast<double>(markers.frames.size() - 1);
-  for (std::size_t frame = 0;; ++frame) {
-    constexpr double kSameTime = 1e-9;
-    const double at = static_cast<double>(frame) * markers.rate_hz / rate_hz;
-    if (at > last + kSameTime) return out;
-    const auto before = static_cast<std::size_t>(at + kSameTime);
-    const double share = std::max(0.0, at - static_cast<double>(before));
-    auto& places = out.frames.emplace_back(markers.frames[before]);
-    if (share < kSameTime) continue;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      const auto& next = markers.frames[before + 1][i];
-      if (places[i]) places[i] = next ? std::optional(glm::mix(*places[i], *next, share)) : std::nullopt;
-    }
+  const double ratio = markers.rate_hz / rate_hz;
+  constexpr double kSameTime = 1e-9;
+  const auto frames = static_cast<std::size_t>(static_cast<double>(markers.frames.size() - 1) / ratio + kSameTime) + 1;
+  return AtClock(markers, {.stretch = ratio - 1}, frames, rate_hz);
+}
+
+MarkerMotion AtClock(const MarkerMotion& reference, const ReferenceClock& clock, std::size_t frames, double rate_hz) {
+  MarkerMotion out{rate_hz, reference.names, {}};
+  for (std::size_t k = 0; k < frames; ++k) {
+    const double at = clock.at + (1 + clock.stretch) * static_cast<double>(k);
+    auto& places = out.frames.emplace_back(reference.names.size());
+    for (std::size_t i = 0; i < places.size(); ++i) places[i] = MarkerAt(reference, at, i);
   }
+  return out;
+}
+
+std::optional<ReferenceClock> MeasureClock(const MarkerMotion& motion, const MarkerMotion& reference) {
+  const auto shared = SharedMarkers(motion, reference);
+  if (shared.empty() || motion.frames.empty() || reference.frames.empty()) return std::nullopt;
+  const double middle = 0.5 * static_cast<double>(motion.frames.size());
+  const auto clock_of = [&](double shift, double turn) {  // `turn`: frames over half of the motion
+    const double stretch = turn / middle;
+    return ReferenceClock{.at = shift - turn, .stretch = stretch};
+  };
+  const auto loss_of = [&](const ReferenceClock& clock) -> std::optional<double> {
+    constexpr std::size_t kMostFrames = 200;  // more say it no better
+    constexpr double kFar = 0.03;
+    const std::size_t stride = std::max<std::size_t>(1, motion.frames.size() / kMostFrames);
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < motion.frames.size(); k += stride) {
+      const double at = clock.at + (1 + clock.stretch) * static_cast<double>(k);
+      for (const auto& [own, theirs] : shared) {
+        const auto& a = motion.frames[k][own];
+        const auto b = a ? MarkerAt(reference, at, theirs) : std::nullopt;
+        if (!b) continue;
+        const double squared = glm::dot(*a - *b, *a - *b);
+        sum += squared / (squared + kFar * kFar);
+        ++count;
+      }
+    }
+    constexpr std::size_t kFewest = 30;
+    return count < kFewest ? std::nullopt : std::optional(sum / static_cast<double>(count));
+  };
+  const auto before = loss_of({});
+  if (!before) return std::nullopt;
+  double shift = 0, turn = 0, least = *before;
+  const auto look_at = [&](double s, double t) {
+    const auto loss = loss_of(clock_of(s, t));
+    if (!loss || !(*loss < least)) return false;
+    shift = s;
+    turn = t;
+    least = *loss;
+    return true;
+  };
+  for (double t = -3; t <= 3; t += 1) {
+    for (double s = -2; s <= 2; s += 1) look_at(s, t);
+  }
+  constexpr double kFirstStep = 0.5, kLastStep = 0.002;
+  for (double step = kFirstStep; step > kLastStep;) {
+    const double s = shift, t = turn;
+    const bool is_better = look_at(s + step, t) || look_at(s - step, t) || look_at(s, t + step) || look_at(s, t - step);
+    if (!is_better) step *= 0.5;
+  }
+  ReferenceClock clock = clock_of(shift, turn);
+  clock.before = *before;
+  clock.after = least;
+  return clock;
 }
 
 std::vector<MarkerAgreement> CompareMarkers(const MarkerMotion& motion, const MarkerMotion& reference) {

@@ -160,7 +160,7 @@ class ClockFinder {
 
   std::vector<FoundClock> Find(int most_frames) {
     std::vector<FoundClock> found(films_.size());
-    for (std::size_t c = 0; c < films_.size(); ++c) found[c].clock = films_[c].clock;
+    for (std::size_t c = 0; c < films_.size(); ++c) found[c].clock = found[c].nearest = films_[c].clock;
     constexpr int kRounds = 2;
     constexpr double kHalf = 0.5;
     for (int round = 0; round < kRounds; ++round) {
@@ -171,6 +171,7 @@ class ClockFinder {
         const auto before = LossOf(c, given, others);
         if (!before) continue;
         const auto [clock, after] = Search(c, given, *before, round == 0 ? most_frames : 0, others);
+        found[c].nearest = clock;
         if (!(after < kHalf * *before) || after == *before) continue;
         films_[c].clock = found[c].clock = clock;
         if (!found[c].is_mended) found[c].before = *before;

@@ -36,6 +36,7 @@ struct FoundClock {
   FilmClock clock;
   double before = 0, after = 0;  ///< the loss of the clock that was given, and of the one that was found
   bool is_mended = false;        ///< false: `clock` is the one that was given
+  FilmClock nearest;             ///< the clock of the least loss, whether that says enough or not
 };
 
 /// Finds clocks that explain the keypoints far better than those that are given *(ours)*: offsets up to `most_frames`

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "engine/silhouettes/silhouette_cost.h"
 #include "engine/silhouettes/turns.h"
@@ -18,6 +19,26 @@ struct CapsuleMotion {
   std::vector<int> coordinates;
   std::vector<std::array<double, 6>> columns;
 };
+
+// How far a joint is from where it was seen, what that costs (Geman and McClure), and the weight of its square in a
+// step; nothing of a joint behind the camera.
+struct JointError {
+  glm::dvec2 off{0};
+  double loss = 0, weight = 0;
+};
+
+JointError JointErrorOf(const SeenJoint& seen, const SilhouetteBody& body, const TreeFrames& frames,
+                        const PixelScale& camera, const SilhouetteCostOptions& options) {
+  constexpr double kNearest = 0.05;  // metres before the camera
+  const glm::dvec3 p_WQ = PlaceOf(body.roles[Index(seen.role)], frames);
+  if (camera.DepthOf(p_WQ) < kNearest) return {};
+  JointError error{.off = camera.PixelOf(p_WQ) - seen.pixel};
+  const double variance = seen.sigma_px * seen.sigma_px, squares = glm::dot(error.off, error.off) / variance;
+  const double far = 1 + squares / (options.joint_reach * options.joint_reach);
+  error.loss = squares / far;
+  error.weight = 1 / (far * far * variance);
+  return error;
+}
 
 class Linearisation {
  public:
@@ -58,6 +79,28 @@ class Linearisation {
     }
   }
 
+  // Adds what one picture's seen joints say.
+  void Add(std::span<const SeenJoint> joints, const TreeFrames& frames, const ProjectionMatrix& matrix,
+           const SilhouetteCostOptions& options) {
+    const PixelScale camera(matrix);
+    for (const SeenJoint& seen : joints) {
+      const JointError error = JointErrorOf(seen, body_, frames, camera, options);
+      if (error.weight == 0) continue;
+      const TreePoint& point = body_.roles[Index(seen.role)];
+      const glm::dvec3 p_WQ = PlaceOf(point, frames);
+      const PixelScale::Slopes at = camera.SlopesAt(p_WQ);
+      slopes_.clear();
+      ForEachMotion(point.joint, frames, [&](int coordinate, const glm::dvec3& axis, const glm::dvec3* about) {
+        const glm::dvec3 moves = about == nullptr ? axis : glm::cross(axis, p_WQ - *about);
+        slopes_.push_back({coordinate, {glm::dot(at.u, moves), glm::dot(at.v, moves)}});
+      });
+      for (const auto& [j, slope_j] : slopes_) {
+        gradient_[j] += error.weight * glm::dot(error.off, slope_j);
+        for (const auto& [k, slope_k] : slopes_) hessian_(j, k) += error.weight * glm::dot(slope_j, slope_k);
+      }
+    }
+  }
+
   // (value / spread)² of one coordinate.
   void AddSquare(int coordinate, double value, double spread) {
     gradient_[coordinate] += value / (spread * spread);
@@ -80,25 +123,33 @@ class Linearisation {
                                  flesh.radius_a * glm::dot(at_a.pixels_per_metre, moves_a), glm::dot(at_b.u, moves_b),
                                  glm::dot(at_b.v, moves_b), flesh.radius_b * glm::dot(at_b.pixels_per_metre, moves_b)});
     };
-    const auto add_turn = [&](int coordinate, const glm::dvec3& axis, const glm::dvec3& about) {
-      add(coordinate, glm::cross(axis, p_WA - about), glm::cross(axis, p_WB - about));
-    };
+    ForEachMotion(flesh.a.joint, frames, [&](int coordinate, const glm::dvec3& axis, const glm::dvec3* about) {
+      if (about == nullptr) return add(coordinate, axis, axis);
+      add(coordinate, glm::cross(axis, p_WA - *about), glm::cross(axis, p_WB - *about));
+    });
+  }
+
+  // Calls take(coordinate, axis, about) for every coordinate that moves what hangs on `joint`: along the axis, or,
+  // where there is an `about`, round it there.
+  template <typename Take>
+  void ForEachMotion(int joint, const TreeFrames& frames, const Take& take) const {
     for (int axis = 0; axis < 3; ++axis) {
       glm::dvec3 unit(0);
       unit[axis] = 1;
-      add(axis, unit, unit);
-      add_turn(3 + axis, unit, frames.joints[0].position);
+      take(axis, unit, nullptr);
+      take(3 + axis, unit, &frames.joints[0].position);
     }
-    for (int j = flesh.a.joint; j >= 0; j = body_.tree.joints[j].parent) {
-      const TreeJoint& joint = body_.tree.joints[j];
-      for (int dof = joint.first_dof; dof < joint.first_dof + joint.dof_count; ++dof) {
-        add_turn(kRootDofs + dof, frames.dof_axes[dof], frames.joints[j].position);
+    for (int j = joint; j >= 0; j = body_.tree.joints[j].parent) {
+      const TreeJoint& moved = body_.tree.joints[j];
+      for (int dof = moved.first_dof; dof < moved.first_dof + moved.dof_count; ++dof) {
+        take(kRootDofs + dof, frames.dof_axes[dof], &frames.joints[j].position);
       }
     }
   }
 
   const SilhouetteBody& body_;
   CapsuleMotion motion_;
+  std::vector<std::pair<int, glm::dvec2>> slopes_;
   Eigen::VectorXd gradient_;
   Eigen::MatrixXd hessian_;
 };
@@ -130,6 +181,7 @@ Linearisation LineariseAt(const SilhouetteBody& body, std::span<const Silhouette
     workspace.residuals.clear();
     AppendResiduals(workspace.flesh, *view.silhouette, options, workspace.residuals);
     linear.Add(workspace.residuals, workspace.frames, view.matrix, options);
+    linear.Add(view.joints, workspace.frames, view.matrix, options);
   }
   ForEachPrior(body, state, prior,
                [&](int coordinate, double value, double spread) { linear.AddSquare(coordinate, value, spread); });
@@ -174,6 +226,10 @@ SilhouetteFit CostOf(const SilhouetteBody& body, std::span<const SilhouetteView>
     workspace.residuals.clear();
     AppendResiduals(workspace.flesh, *view.silhouette, options, workspace.residuals);
     for (const SilhouetteResidual& residual : workspace.residuals) fit.picture_cost += LossOf(residual, options).loss;
+    const PixelScale camera(view.matrix);
+    for (const SeenJoint& seen : view.joints) {
+      fit.picture_cost += JointErrorOf(seen, body, workspace.frames, camera, options).loss;
+    }
   }
   fit.cost = fit.picture_cost;
   ForEachPrior(body, state, prior,

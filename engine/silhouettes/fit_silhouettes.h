@@ -27,7 +27,7 @@ struct FitOptions {
 /// A pose and what it costs.
 struct SilhouetteFit {
   TreeState state;
-  double picture_cost = 0;  ///< what silhouettes say against it
+  double picture_cost = 0;  ///< what silhouettes and seen joints say against it
   double cost = 0;          ///< with the habits of the body's angles, and the prior
   int iterations = 0;
 };

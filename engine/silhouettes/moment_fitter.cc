@@ -72,6 +72,7 @@ MomentFitter::MomentFitter(const SilhouetteBody& body, const TrackOptions& optio
   wide_ = {.cost = options.cost, .max_iterations = kCoarseSteps};
   wide_.cost.outline_reach_px *= kWideReach;
   wide_.cost.inside_reach_px *= kWideReach;
+  wide_.cost.joint_reach *= kWideReach;
   fine_ = {.cost = options.cost, .max_iterations = kFineSteps};
 }
 

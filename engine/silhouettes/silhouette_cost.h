@@ -51,10 +51,18 @@ class PixelScale {
   double focal_px_ = 0;
 };
 
-/// One camera's matrix and silhouette in a frame.
+/// Where a picture shows a joint of the body, as an estimator of keypoints or somebody who marks says.
+struct SeenJoint {
+  Role role = Role::kHipCentre;
+  glm::dvec2 pixel{0};
+  double sigma_px = 4;  ///< standard deviation along u and v; the surer, the less
+};
+
+/// One camera's matrix and silhouette in a frame, and the joints that are told beside it.
 struct SilhouetteView {
   ProjectionMatrix matrix;  ///< world (metres) to pixels
   const Silhouette* silhouette = nullptr;
+  std::span<const SeenJoint> joints = {};
 };
 
 /// The options of comparing a pose with silhouettes. All lengths are pixels of the camera.
@@ -71,6 +79,9 @@ struct SilhouetteCostOptions {
   double inside_share = 0.8;
   /// The weight of one sample of the flesh relative to one point of the outline.
   double inside_weight = 2;
+  /// The standard deviations beyond which a seen joint counts less and less, by the same loss: it is another's, or the
+  /// other side's.
+  double joint_reach = 3;
 };
 
 /// The flesh of one pose in one picture: each piece's outline is that of a round cone, all points within a radius of a

@@ -40,7 +40,9 @@ class Tracker {
       MomentViews& views = views_.emplace_back();
       for (std::size_t c = 0; c < take.cameras.size(); ++c) {
         const Silhouette& silhouette = take.silhouettes[c][k];
-        if (silhouette.area > 0) views.push_back({take.cameras[c], &silhouette});
+        if (silhouette.area == 0) continue;
+        views.push_back({take.cameras[c], &silhouette});
+        if (!take.joints.empty()) views.back().joints = take.joints[c][k];
       }
     }
   }

@@ -58,6 +58,32 @@ double FitStature(const SilhouetteBody& body, double stature_m, std::span<const 
   return (kScales[best] + shift) * stature_m;
 }
 
+std::vector<SeenJoint> SeenJointsOf(const SeenPerson& person, double sigma_px) {
+  constexpr std::array<std::pair<Landmark, Role>, 16> kJoints = {{{Landmark::kLeftShoulder, Role::kLeftShoulder},
+                                                                  {Landmark::kRightShoulder, Role::kRightShoulder},
+                                                                  {Landmark::kLeftElbow, Role::kLeftElbow},
+                                                                  {Landmark::kRightElbow, Role::kRightElbow},
+                                                                  {Landmark::kLeftWrist, Role::kLeftWrist},
+                                                                  {Landmark::kRightWrist, Role::kRightWrist},
+                                                                  {Landmark::kLeftHip, Role::kLeftHip},
+                                                                  {Landmark::kRightHip, Role::kRightHip},
+                                                                  {Landmark::kLeftKnee, Role::kLeftKnee},
+                                                                  {Landmark::kRightKnee, Role::kRightKnee},
+                                                                  {Landmark::kLeftAnkle, Role::kLeftAnkle},
+                                                                  {Landmark::kRightAnkle, Role::kRightAnkle},
+                                                                  {Landmark::kLeftBigToe, Role::kLeftFoot},
+                                                                  {Landmark::kRightBigToe, Role::kRightFoot},
+                                                                  {Landmark::kLeftHand, Role::kLeftHand},
+                                                                  {Landmark::kRightHand, Role::kRightHand}}};
+  std::vector<SeenJoint> joints;
+  for (const auto& [landmark, role] : kJoints) {
+    const Keypoint& keypoint = person[landmark];
+    if (!(keypoint.confidence > 0)) continue;
+    joints.push_back({role, keypoint.pixel, sigma_px / std::sqrt(std::min(1.0, keypoint.confidence))});
+  }
+  return joints;
+}
+
 namespace {
 
 // Settings of engine/silhouettes are in pixels of a camera twice as fine as the masks.
@@ -65,6 +91,13 @@ constexpr double kMaskPixel = 2;
 constexpr double kUsualStature = 1.70;  // metres
 
 using Frames = std::vector<std::size_t>;
+
+/// The stature that a take tells, metres.
+std::optional<double> StatureToldBy(const UnmarkedTake& take) {
+  if (!take.lengths) return take.stature_m;
+  const LimbLengths &own = *take.lengths, adult = AdultLengths(kUsualStature);
+  return kUsualStature * (own.shank + own.thigh + own.trunk) / (adult.shank + adult.thigh + adult.trunk);
+}
 
 /// At most `count` of the frames, evenly over all.
 Frames Evenly(std::size_t frames, std::size_t count) {
@@ -83,7 +116,7 @@ ProjectionMatrix MatrixOfMasks(Camera camera) {
 class Recovery {
  public:
   Recovery(const UnmarkedTake& take, const UnmarkedOptions& options)
-      : take_(take), options_(options), stature_(take.stature_m.value_or(kUsualStature)) {
+      : take_(take), options_(options), stature_(StatureToldBy(take).value_or(kUsualStature)) {
     for (const Camera& camera : take.cameras) matrices_.push_back(MatrixOfMasks(camera));
   }
 
@@ -95,9 +128,9 @@ class Recovery {
     const bool knows_rooms = !rooms_.empty();
     if (!knows_rooms) EstimateRooms(some, {});
     for (int round = 1; round < options_.rounds; ++round) {
-      if (knows_rooms && (take_.stature_m || round > 1)) break;
+      if (knows_rooms && (StatureToldBy(take_) || round > 1)) break;
       const SilhouetteTrack track = Track(some);
-      if (!take_.stature_m) stature_ = StatureOf(track);
+      if (!StatureToldBy(take_)) stature_ = StatureOf(track);
       if (!knows_rooms) EstimateRooms(some, track);
     }
     return MotionOf(Track(all));
@@ -194,8 +227,21 @@ class Recovery {
     TrackOptions track = options_.track;
     track.angle_change *= kJudgedRateHz / rate;
     track.place_change_m *= kJudgedRateHz / rate;
-    const SilhouetteBody body = MakeSilhouetteBody(AdultLengths(stature_));
-    return TrackSilhouettes(body, {.cameras = matrices_, .silhouettes = silhouettes_, .start = std::nullopt}, track);
+    std::vector<std::vector<std::vector<SeenJoint>>> joints;
+    for (const auto& of_camera : take_.people) {
+      auto& seen = joints.emplace_back();
+      for (const std::size_t k : frames) {
+        seen.emplace_back();
+        if (of_camera[k]) seen.back() = SeenJointsOf(*of_camera[k], options_.keypoint_px);
+        for (SeenJoint& joint : seen.back()) {
+          joint.pixel *= kMaskPixel;
+          joint.sigma_px *= kMaskPixel;
+        }
+      }
+    }
+    const SilhouetteBody body = MakeSilhouetteBody(take_.lengths.value_or(AdultLengths(stature_)));
+    return TrackSilhouettes(
+        body, {.cameras = matrices_, .silhouettes = silhouettes_, .start = std::nullopt, .joints = joints}, track);
   }
 
   std::vector<SilhouetteView> ViewsOf(std::size_t frame) const {

@@ -7,6 +7,7 @@
 #include "engine/base/image.h"
 #include "engine/base/result.h"
 #include "engine/cameras/camera.h"
+#include "engine/keypoints/people.h"
 #include "engine/kinematics/body_tree.h"
 #include "engine/motion/body.h"
 #include "engine/motion/clip.h"
@@ -33,6 +34,10 @@ struct PosedViews {
 double FitStature(const SilhouetteBody& body, double stature_m, std::span<const PosedViews> moments,
                   const FitOptions& options);
 
+/// Returns the joints that keypoints tell, limb by limb; of a confidence of one they are as exact as `sigma_px`, of a
+/// lower one less: its variance is divided by it. Nose, eyes, ears and the top of the head are no joints of the body.
+std::vector<SeenJoint> SeenJointsOf(const SeenPerson& person, double sigma_px);
+
 /// Films of one person by cameras that stand still.
 struct UnmarkedTake {
   /// The longer side, in pixels, of the pictures that the default options are made for, with a person who fills half of
@@ -47,6 +52,11 @@ struct UnmarkedTake {
   double rate_hz = 30;
   /// The person's stature, metres; without one it is found from the pictures.
   std::optional<double> stature_m;
+  /// The person's limb lengths, which then tell the stature, too; without them an adult's.
+  std::optional<LimbLengths> lengths = {};
+  /// `people[camera][frame]`: the person as an estimator of keypoints sees it, in pixels of the pictures; nothing where
+  /// it does not. Empty: there is no estimator.
+  std::span<const std::vector<std::optional<SeenPerson>>> people = {};
 };
 
 struct UnmarkedOptions {
@@ -68,6 +78,8 @@ struct UnmarkedOptions {
   std::size_t kept = 5;
   /// The distance from the body, in pixels, within which a pixel may be its shadow or its rim.
   double body_reach_px = 8;
+  /// The standard deviation of a sure keypoint from the joint in the flesh, pixels.
+  double keypoint_px = 3;
 };
 
 /// The recovered motion.

@@ -7,6 +7,7 @@
 
 #include "bench/files/json.h"
 #include "engine/base/names.h"
+#include "engine/retargeting/measure_body.h"
 #include "reports/clips/remarks.h"
 #include "reports/words/figures.h"
 
@@ -60,6 +61,8 @@ BodyFacts FactsOfBody(const OpenedClip& clip) {
                   .motion = ComputeStatistics(body.motion),
                   .remarks = {}};
   facts.remarks = RemarksOn(body.motion, facts.motion);
+  auto sliding = RemarkOnSliding(body.motion, MeasureBody(clip.source.clip, clip.map, body));
+  if (sliding) facts.remarks.push_back(std::move(*sliding));
   for (const Role role : AllRoles()) {
     facts.joints[Index(role)] = clip.source.clip.skeleton.joints[clip.map[role].joint].name;
   }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "engine/capture/fit_pose.h"
+
 namespace etude {
 namespace {
 
@@ -65,6 +67,19 @@ std::vector<std::string> RemarksOn(const BodyMotion& motion, const MotionStatist
   RemarkOnPenetration(motion, remarks);
   RemarkOnFloating(motion, remarks);
   return remarks;
+}
+
+std::optional<std::string> RemarkOnSliding(const BodyMotion& motion, const RestBody& rest) {
+  constexpr std::size_t kMostPoses = 120;
+  constexpr double kLeast = 0.002, kMmPerMetre = 1000;
+  const auto misfit = MeasureRigidMisfit(rest, motion.poses, kMostPoses);
+  if (!misfit || misfit->mean_m < kLeast) return std::nullopt;
+  return fmt::format(
+      "joints slide: a skeleton that keeps its lengths stays {:.1f} mm off (worst joint, mean over the frames), {:.0f} "
+      "mm "
+      "at {:.2f} s ({})",
+      kMmPerMetre * misfit->mean_m, kMmPerMetre * misfit->worst_m, static_cast<double>(misfit->pose) / motion.rate_hz,
+      RoleName(misfit->role));
 }
 
 }  // namespace etude

@@ -1,7 +1,8 @@
 """`etude capture` with other people's rigs, keypoints and mistakes: exact points, so that every millimetre is an error.
 
 A generator of its own makes a walking figure, four cameras, their calibration in every format, keypoints in every
-format, and one mistake at a time. `--table` prints the errors instead of testing them.
+format, and one mistake at a time. `--table` prints the errors instead of testing them, `--matrix` those of every rig
+with every mistake, whose kinds of keypoints take turns.
 """
 import html
 import json
@@ -211,6 +212,7 @@ def swapped(person, only=None):
 
 
 SLOW, SLOW_RATE, SLOW_FRAMES = "a film of 25 frames a second", 25, 50
+NTSC, NTSC_RATE = "a film of 29.97 frames a second", 30000 / 1001
 LATE_AND_NOISY = "late by 3 frames, keypoints off by 2 px"
 LEFT_RIGHT = {name for name in HALPE if name[0] in "LR" and ("L" + name[1:]) in HALPE}
 
@@ -226,6 +228,8 @@ def seen_people(cameras, mistake, truth):
             time = k / RATE
             if name == "cam2" and mistake == SLOW:
                 time = k / SLOW_RATE
+            if name == "cam2" and mistake == NTSC:
+                time = k / NTSC_RATE
             if name == "cam2" and mistake in ("late by 3 frames", LATE_AND_NOISY):
                 time = (k + 3) / RATE
             if name == "cam2" and mistake == "late by 0.4 frames":
@@ -365,7 +369,8 @@ class Mistakes(EtudeCase):
     def setUpClass(cls):
         cls.films = cls.shared_folder()
         for name, size, rate, frames in (("upright", (WIDTH, HEIGHT), RATE, FRAMES), ("turned", (HEIGHT, WIDTH), RATE, FRAMES),
-                                         ("slow", (WIDTH, HEIGHT), SLOW_RATE, SLOW_FRAMES)):
+                                         ("slow", (WIDTH, HEIGHT), SLOW_RATE, SLOW_FRAMES),
+                                         ("ntsc", (WIDTH, HEIGHT), "30000/1001", FRAMES)):
             subprocess.run(["ffmpeg", "-v", "error", "-f", "lavfi", "-i", f"color=gray:size={size[0]}x{size[1]}:rate={rate}",
                             "-frames:v", str(frames), "-pix_fmt", "yuv420p", str(cls.films / f"{name}.mp4")], check=True)
 
@@ -384,7 +389,7 @@ class Mistakes(EtudeCase):
             mistake = "turned by 90"
         write_keypoints(folder / "keypoints", keypoints, seen_people(cams, mistake, truth))
         for name in names:
-            kind = {"turned by 90": "turned", SLOW: "slow"}.get(mistake, "upright") if name == "cam2" else "upright"
+            kind = {"turned by 90": "turned", SLOW: "slow", NTSC: "ntsc"}.get(mistake, "upright") if name == "cam2" else "upright"
             shutil.copy(self.films / f"{kind}.mp4", folder / f"{name}.mp4")
         if rig.startswith("Caliscope"):
             arguments = [*arguments, "--cameras", ",".join(names)]
@@ -436,6 +441,19 @@ class Mistakes(EtudeCase):
         self.assertIn("reference: resampled from 60 to 30 Hz", told)
         self.assertLess(float(re.search(r"^all\s+([\d.]+)", told, re.M)[1]), 1, told)
 
+    def test_29_97_is_30_and_its_drift_is_measured(self):
+        reference = self.folder / "reference.trc"
+        write_trc(reference, 29.97, FRAMES - 10, figure)
+        told, errors, _ = self.capture(mistake=NTSC, cameras=2, more=("--reference", reference))
+        self.check(told, errors, words="cam2: 29.97 frames a second beside 30, taken as one rate")
+        film = re.search(r"cam2: drift measured: ([+-][\d.]+) frames over the film, \+0\.06|"
+                         r"cam2: its frames are .*: ([\d.]+) frames over it; mended", told)
+        self.assertIsNotNone(film, told)
+        self.assertAlmostEqual(float(film[1] or film[2]), 0.06, delta=0.02)
+        drift = re.search(r"reference: 29.97 frames a second beside 30, taken as one rate: ([+-][\d.]+) frames of drift", told)
+        self.assertAlmostEqual(float(drift[1]), -0.06, delta=0.03, msg=told)
+        self.assertIn("reference: 50 frames beside 60: the first 50 are compared", told)
+
     # Errors of two pixels hide how late a film is from what mends clocks by itself; not that it is.
     def test_a_late_film_of_keypoints_that_err_is_doubted_and_can_be_set(self):
         told, errors, _ = self.capture(mistake=LATE_AND_NOISY, cameras=2)
@@ -475,16 +493,18 @@ class Mistakes(EtudeCase):
         rooms = self.folder / "rooms"
         rooms.mkdir()
         for name, camera in cams.items():
-            film = np.stack([drawn(camera, figure(0.5 + k / rate)) for k in range(frames)])
+            fast = 1 + (name == "cam3")  # twice as many pictures a second
+            film = np.stack([drawn(camera, figure(0.5 + k / rate / fast)) for k in range(frames * fast)])
             for pixels, path in ((film, self.folder / f"{name}.mp4"), (drawn(camera, None)[None], rooms / f"{name}.png")):
                 subprocess.run(["ffmpeg", "-v", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{WIDTH}x{HEIGHT}",
-                                "-r", str(rate), "-i", "-", *(("-pix_fmt", "yuv420p") if len(pixels) > 1 else ()), str(path)],
+                                "-r", str(rate * (1 + (name == "cam3"))), "-i", "-", *(("-pix_fmt", "yuv420p") if len(pixels) > 1 else ()), str(path)],
                                input=pixels.tobytes(), check=True)
         page = self.folder / "outlines.html"
         result = self.etude("capture", "--rig", self.folder / named, *(self.folder / f"{name}.mp4" for name in cams), "--silhouettes",
                             "--rooms", rooms, "--stature", "1.7", "-o", self.folder / "m.csv", "--report", page, *arguments)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertNotIn("doubtful", result.stdout)
+        self.assertIn("cam3: 30 frames a second beside 15, its nearest pictures taken, off by up to 17 ms", result.stdout)
         text = page.read_text()
         self.assertIn("stature: 1.70 m", text)
         self.assertIn("src=\"data:video/mp4;base64,", text)
@@ -494,6 +514,19 @@ class Mistakes(EtudeCase):
             self.assertLess(float(row[2]), 20)  # per cent: its flesh is not that of an average adult
         self.assertNotIn("Keypoints left out", text)
         self.assertRegex(text, r"nothing is doubtful\.")
+
+        # The same, with keypoints beside the outlines.
+        moving = lambda t: figure(0.5 + t)
+        write_keypoints(self.folder / "keypoints", "OpenPose, 26", {
+            name: [[{key: camera.pixel(p) for key, p in moving(k / rate / fast).items()}] for k in range(frames * fast)]
+            for (name, camera), fast in zip(cams.items(), (1, 2))})
+        write_trc(self.folder / "truth.trc", rate, frames, moving)
+        both = self.etude("capture", "--rig", self.folder / named, *(self.folder / f"{name}.mp4" for name in cams), "--silhouettes",
+                          "--rooms", rooms, "--keypoints", self.folder / "keypoints", "-o", self.folder / "both.csv", "--reference",
+                          self.folder / "truth.trc", *arguments)
+        self.assertEqual(both.returncode, 0, both.stderr)
+        self.assertIn("outlines and keypoints together cost", both.stdout)
+        self.assertLess(float(re.search(r"^all, median\s+([\d.]+)", both.stdout, re.M)[1]), 30, both.stdout)
 
     def test_what_is_no_person_is_refused_with_the_factor(self):
         told, errors, _ = self.capture("Pose2Sim", more=("--rig-unit", "cm"))
@@ -524,5 +557,25 @@ def table():
             print("   " + "\n   ".join(told.splitlines()[:9]))
 
 
+def matrix():
+    """99 % of the errors, mm; behind a stroke the kind of keypoints by its letter; "!" where a mistake is not told."""
+    case = Mistakes()
+    Mistakes.setUpClass()
+    case.setUp()
+    print("kinds: " + ", ".join(f"{'abcdef'[i]} {kind}" for i, kind in enumerate(KEYPOINTS)))
+    mistakes = [*MISTAKES, NTSC, SLOW]
+    print("| rig | " + " | ".join(mistakes) + " |\n|" + "---|" * (len(mistakes) + 1))
+    for i, rig in enumerate(RIGS):
+        cells = []
+        for j, mistake in enumerate(mistakes if rig != "Qualisys, turned" else ["none"]):
+            turn = (i + j) % len(KEYPOINTS)
+            turn -= mistake.startswith("two people") and KEYPOINTS[turn] == "MediaPipe"  # which knows one person
+            told, errors, _ = case.capture(rig, KEYPOINTS[turn], mistake, lens=Lens(LENS[:4]))
+            is_told = errors is not None and (MISTAKES.get(mistake) or "") in told.replace("right: ", "cam2: ")
+            cells.append("refused" if errors is None else
+                         f"{np.percentile(errors, 99):.2f}{'' if is_told else '!'}/{'abcdef'[turn]}")
+        print(f"| {rig} | " + " | ".join(cells) + " |", flush=True)
+
+
 if __name__ == "__main__":
-    table() if "--table" in sys.argv else unittest.main()
+    matrix() if "--matrix" in sys.argv else table() if "--table" in sys.argv else unittest.main()

@@ -143,10 +143,14 @@ void CheckMethod(Fields& fields, CaptureMethod& method) {
                     "the oracle marks and 'marks: colours' do not go together: both say who marks the pictures");
   }
   if (method.recovery == Recovery::kSilhouettes) {
-    if (oracle.marks || method.lengths == LengthSource::kMeasured) {
+    const bool has_marks = method.start == SilhouetteStart::kKeypoints;
+    if (!has_marks && (oracle.marks || method.lengths == LengthSource::kMeasured)) {
       fields.Complain(fields.node().place,
-                      "'recovery: silhouettes' has no marks: neither the oracle marks, nor lengths "
-                      "measured from them");
+                      "'recovery: silhouettes' has no marks without 'start: keypoints': neither the oracle marks, nor "
+                      "lengths measured from them");
+    }
+    if (has_marks && method.causal) {
+      fields.Complain(fields.Raw("causal")->place, "'start: keypoints' follows the whole take, not picture by picture");
     }
   }
   const bool knows_all =
@@ -214,8 +218,13 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
              "end there; bundle adjustment of paper B's body over the whole take; what `etude capture` makes of marks, "
              "a "
              "body of their own lengths fitted to all of them; or, without a mark, a body fitted to the silhouettes."),
-         Key::Name("start", &Method::start, {{"cold", SilhouetteStart::kCold}, {"near", SilhouetteStart::kNear}},
-                   "What is known of the first frame's pose: nothing, or every angle to 10°.")
+         Key::Name(
+             "start", &Method::start,
+             {{"cold", SilhouetteStart::kCold},
+              {"near", SilhouetteStart::kNear},
+              {"keypoints", SilhouetteStart::kKeypoints}},
+             "What is known beside the outlines: nothing; every angle of the first frame's pose to 10°; or in every "
+             "picture where joints are, as marks say, which stand for an estimator's keypoints.")
              .With("recovery", {"silhouettes"}),
          Key::Name("smoothing", &Method::smoothing, {{"none", Smoothing::kNone}, {"rts", Smoothing::kRts}},
                    "What is done to the joints of the whole take afterwards: nothing, or Rauch, Tung and Striebel's "
@@ -283,6 +292,7 @@ PersonSource PersonSourceOf(const CaptureMethod& method) {
                       .pieces = for_silhouettes ? PersonPieces::kLarge : method.pieces,
                       .is_truth = false,
                       .for_silhouettes = for_silhouettes,
+                      .has_keypoints = for_silhouettes && method.start == SilhouetteStart::kKeypoints,
                       .program = method.program,
                       .has_true_marks = method.oracle.marks,
                       .has_coloured_marks = method.marks == MarkSource::kColours};

@@ -127,6 +127,8 @@ enum class LengthSource {
 enum class SilhouetteStart {
   kCold,  ///< "cold": the pictures alone
   kNear,  ///< "near": the first frame's true pose, every angle wrong by up to 10°: as if agreed on beforehand
+  /// "keypoints": marks, taken for an estimator's keypoints, tell in every picture where joints are, beside its outline
+  kKeypoints,
 };
 
 /// The source of the marks in the pictures.
@@ -185,6 +187,7 @@ struct PersonSource {
   bool is_truth = false;
   /// Cut out for methods that read silhouettes alone: masks are kept, and nobody marks the pictures.
   bool for_silhouettes = false;
+  bool has_keypoints = false;          ///< … but somebody marks them all the same
   SeatedSegmenter* program = nullptr;  ///< cuts out in the segmenter's place
   bool has_true_marks = false;      ///< drawn by someone who knows where the joints are, where the picture shows them
   bool has_coloured_marks = false;  ///< nobody marks: the colours of the suit tell limbs apart

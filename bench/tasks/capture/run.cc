@@ -150,7 +150,8 @@ Result<void> RecoverFromSilhouettes(CaptureStages& stages, CaptureRun& run) {
                                 .body = run.body,
                                 .cameras = run.cameras.matrices,
                                 .start = run.method.start,
-                                .picture_every = options.picture_every};
+                                .picture_every = options.picture_every,
+                                .marks = run.measured.marks};
   std::vector<std::optional<RecoveredFrame>> found;
   if (run.method.causal) {
     LiveSilhouettes live(inputs);

@@ -1,10 +1,12 @@
 #include "bench/tasks/capture/silhouettes.h"
 
 #include "engine/base/angles.h"
+#include "engine/keypoints/people.h"
 #include "engine/kinematics/start_angles.h"
 #include "engine/silhouettes/fit_joints.h"
 #include "engine/silhouettes/track_silhouettes.h"
 #include "engine/silhouettes/turns.h"
+#include "engine/unmarked/recover_unmarked.h"
 
 namespace etude {
 namespace {
@@ -33,8 +35,22 @@ TrackOptions OptionsFor(const SilhouetteInputs& inputs) {
 }
 
 std::optional<TreeState> StartOf(const SilhouetteInputs& inputs, const SilhouetteBody& body) {
-  if (inputs.start == SilhouetteStart::kCold) return std::nullopt;
+  if (inputs.start != SilhouetteStart::kNear) return std::nullopt;
   return NearStart(body, inputs.first, inputs.key);
+}
+
+// What marks say of joints, by camera and picture; nothing where they are not asked.
+std::vector<std::vector<std::vector<SeenJoint>>> JointsMarked(const SilhouetteInputs& inputs) {
+  constexpr double kSigma_px = 4;  // of a joint in the flesh, not of a hand on paper
+  std::vector<std::vector<std::vector<SeenJoint>>> joints;
+  if (inputs.start != SilhouetteStart::kKeypoints) return joints;
+  for (const std::vector<Marks>& of_camera : inputs.marks) {
+    auto& pictures = joints.emplace_back();
+    for (std::size_t k = 0; k < of_camera.size(); k += static_cast<std::size_t>(inputs.picture_every)) {
+      pictures.push_back(SeenJointsOf(PersonOf(of_camera[k]), kSigma_px));
+    }
+  }
+  return joints;
 }
 
 // As a recovered frame: with paper B's tree near that pose, which is what the recording's BVH file shows.
@@ -52,7 +68,9 @@ std::vector<std::optional<RecoveredFrame>> FollowSilhouettes(const SilhouetteInp
     for (const Mask& mask : of_camera) made.push_back(MakeSilhouette(mask, {.mask_pixel = kMaskPixel}));
   }
   const SilhouetteBody body = MakeSilhouetteBody(inputs.body.lengths);
-  const SilhouetteTake take{.cameras = inputs.cameras, .silhouettes = silhouettes, .start = StartOf(inputs, body)};
+  const auto joints = JointsMarked(inputs);
+  const SilhouetteTake take{
+      .cameras = inputs.cameras, .silhouettes = silhouettes, .start = StartOf(inputs, body), .joints = joints};
   const SilhouetteTrack track = TrackSilhouettes(body, take, OptionsFor(inputs));
 
   TreeState last = StandingState(inputs.body.tree);

@@ -22,6 +22,8 @@ struct SilhouetteInputs {
   std::span<const ProjectionMatrix> cameras;
   SilhouetteStart start = SilhouetteStart::kCold;
   int picture_every = 1;  ///< frames from one picture to the next
+  /// `marks[camera][frame]`, lenses undone: used when the start is `kKeypoints`.
+  std::span<const std::vector<Marks>> marks = {};
 };
 
 /// The poses that silhouettes alone tell (engine/silhouettes), one per picture of each camera:

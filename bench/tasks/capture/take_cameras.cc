@@ -48,7 +48,7 @@ Mask TakeCameras::Feed::Find(std::size_t source, const Picture& picture) {
 
 Marks TakeCameras::Feed::Mark(std::size_t source, std::size_t frame, const AnnotatedPicture& picture) {
   Marking& marking = cameras_.marking_[source];
-  if (cameras_.sources_[source].for_silhouettes) return {};
+  if (cameras_.sources_[source].for_silhouettes && !cameras_.sources_[source].has_keypoints) return {};
   if (cameras_.sources_[source].has_coloured_marks) return marking.ReadColours(frame, picture);
   if (!cameras_.sources_[source].has_true_marks) return marking.Mark(camera_, frame, picture);
   return marking.MarkTrueJoints(frame, picture, cameras_.world_.cameras[camera_],

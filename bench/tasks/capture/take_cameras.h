@@ -27,7 +27,7 @@ class TakeCameras {
     ColourImage colour;
     Mask person, shadow;  ///< the truth
     std::vector<Mask> found;
-    std::vector<Marks> marks;  ///< none of silhouettes
+    std::vector<Marks> marks;  ///< none of silhouettes without keypoints
   };
 
   /// The pictures of one camera. Its TakeCameras must outlive it.

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "engine/keypoints/agreement.h"
 #include "engine/keypoints/people.h"
 
@@ -48,6 +50,53 @@ TEST(Agreement, ComparesMarkersOfOneNameFrameByFrame) {
   EXPECT_EQ(agreement[1].frames, 3u) << "what one of them lacks does not count";
   EXPECT_DOUBLE_EQ(agreement[1].median_mm, 2);
   EXPECT_EQ(CompareAllMarkers(a, b).frames, 7u);
+}
+
+/// Two markers that move about, at so many frames a second; the second is unseen for a while.
+MarkerMotion MovingMarkers(double rate_hz, std::size_t frames, double late_s = 0) {
+  MarkerMotion motion{.rate_hz = rate_hz, .names = {"LHip", "RHip"}, .frames = {}};
+  for (std::size_t k = 0; k < frames; ++k) {
+    const double t = static_cast<double>(k) / rate_hz + late_s;
+    motion.frames.push_back({glm::dvec3(0.3 * std::sin(3 * t), 1, t), glm::dvec3(t, std::cos(2 * t), 0.5)});
+    if (k > 20 && k < 26) motion.frames.back()[1].reset();
+  }
+  return motion;
+}
+
+TEST(Agreement, ResamplesStraightBetweenFramesAndBridgesNoGap) {
+  const MarkerMotion half = AtRate(MovingMarkers(60, 121), 30);
+  ASSERT_EQ(half.frames.size(), 61u);
+  EXPECT_EQ(half.frames[10][0], MovingMarkers(60, 121).frames[20][0]) << "a frame that is there stays as it is";
+  const MarkerMotion slow = AtRate(MovingMarkers(25, 51), 30);
+  ASSERT_EQ(slow.frames.size(), 61u) << "two seconds";
+  const MarkerMotion truth = MovingMarkers(25, 51);
+  EXPECT_LT(glm::distance(*slow.frames[1][0], glm::mix(*truth.frames[0][0], *truth.frames[1][0], 25 / 30.0)), 1e-12);
+  for (std::size_t k = 0; k < slow.frames.size(); ++k) {
+    const double at = static_cast<double>(k) * 25 / 30;
+    EXPECT_EQ(slow.frames[k][1].has_value(), at < 20 + 1e-9 || at > 26 - 1e-9) << k;
+  }
+  EXPECT_EQ(AtRate(MovingMarkers(29.97, 40), 30).frames, MovingMarkers(29.97, 40).frames) << "one rate";
+}
+
+TEST(Agreement, MeasuresHowTwoRatesThatAreOneDriftApart) {
+  const MarkerMotion motion = MovingMarkers(30, 300), reference = MovingMarkers(29.97, 300);
+  const auto clock = MeasureClock(motion, reference);
+  ASSERT_TRUE(clock);
+  EXPECT_NEAR(clock->DriftOver(300), -0.3, 0.02);
+  EXPECT_LT(clock->after, 0.1 * clock->before);
+  const MarkerMotion set = AtClock(reference, *clock, 300, 30);
+  EXPECT_LT(CompareAllMarkers(motion, set).median_mm, 0.2 * CompareAllMarkers(motion, reference).median_mm);
+  const auto late = MeasureClock(motion, MovingMarkers(30, 300, -1.5 / 30));
+  ASSERT_TRUE(late);
+  EXPECT_NEAR(late->at, 1.5, 0.02);
+  EXPECT_NEAR(late->DriftOver(300), 0, 0.02);
+  const auto same = MeasureClock(motion, motion);
+  ASSERT_TRUE(same);
+  EXPECT_EQ(same->at, 0);
+  EXPECT_EQ(same->stretch, 0);
+  MarkerMotion others = motion;
+  others.names = {"Neck", "Head"};
+  EXPECT_FALSE(MeasureClock(motion, others));
 }
 
 TEST(MarkedPerson, HasJointsWhereStrokesMeet) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -74,9 +75,11 @@ TEST(FitSilhouettes, GradientIsThatOfTheCost) {
   const PosePrior prior{truth, 0.1, 0.2, 0.2};
   // A loss that is nearly a square, so that its slope is weight times residual.
   SilhouetteCostOptions options = SmallPictures();
-  options.outline_reach_px = options.inside_reach_px = 1e5;
+  options.outline_reach_px = options.inside_reach_px = options.joint_reach = 1e5;
   FitWorkspace workspace;
-  const auto views = shown.Views();
+  auto views = shown.Views();
+  const std::vector<SeenJoint> joints = {{Role::kLeftWrist, {90, 60}, 0.5}, {Role::kRightAnkle, {130, 150}, 2}};
+  views[0].joints = joints;
   const NormalEquations found = NormalEquationsAt(body, views, at, &prior, options, workspace);
   constexpr double kStep = 1e-6;
   for (int i = 0; i < size; ++i) {
@@ -154,6 +157,37 @@ TEST(FitSilhouettes, IsNotFooledByOtherMasks) {
   const SilhouetteFit bad = FitSilhouettes(body, wrong.Views(), truth, nullptr, options, workspace);
   EXPECT_GT(bad.picture_cost, 5 * good.picture_cost);
   EXPECT_GT(MeanError(ToBodyPose(body, bad.state), ToBodyPose(body, truth)), 0.1);
+}
+
+// Joints that are told in the same pictures say what outlines leave open, and one that is wrong by far spoils nothing.
+TEST(FitSilhouettes, TakesSeenJointsIntoAccountAndMistrustsWhatIsFarOff) {
+  const SilhouetteBody body = MakeSilhouetteBody({});
+  const TreeState truth = Posed(body);
+  const BodyPose wanted = ToBodyPose(body, truth);
+  const Shown shown(body, truth, {-40, 40});
+  auto views = shown.Views();
+  const TreeState start = Moved(body.tree, truth, Scatter(kRootDofs + body.tree.dof_count(), 0.12));
+  FitWorkspace workspace;
+  std::array<std::vector<SeenJoint>, 2> joints;
+  const auto error_with = [&](bool has_joints) {
+    for (std::size_t c = 0; c < 2; ++c)
+      views[c].joints = has_joints ? std::span<const SeenJoint>(joints[c]) : std::span<const SeenJoint>();
+    FitOptions options{.cost = SmallPictures(), .max_iterations = 40};
+    options.cost.joint_reach = 60;
+    const TreeState near = FitSilhouettes(body, views, start, nullptr, options, workspace).state;
+    options.cost.joint_reach = 3;
+    return MeanError(ToBodyPose(body, FitSilhouettes(body, views, near, nullptr, options, workspace).state), wanted);
+  };
+  for (std::size_t c = 0; c < 2; ++c) {
+    for (const Role role : {Role::kLeftElbow, Role::kLeftWrist, Role::kRightElbow, Role::kRightWrist, Role::kLeftKnee,
+                            Role::kRightKnee, Role::kLeftAnkle, Role::kRightAnkle, Role::kLeftHip, Role::kRightHip}) {
+      joints[c].push_back({role, *Project(views[c].matrix, wanted[role]), 0.5});
+    }
+  }
+  const double with = error_with(true);
+  EXPECT_LT(with, 0.7 * error_with(false));
+  joints[0].push_back({Role::kHead, *Project(views[0].matrix, wanted[Role::kLeftFoot]), 0.5});
+  EXPECT_LT(error_with(true), with + 0.01);
 }
 
 TEST(FitSilhouettes, DoesNotDependOnTheOrderOfCameras) {

@@ -40,5 +40,17 @@ TEST(Remarks, AreMadeOnWhatNobodyDoes) {
               ElementsAre(HasSubstr("no joint is within 25 cm of the floor for 1.2 s")));
 }
 
+TEST(Remarks, TellHowFarAJointSlides) {
+  BodyMotion motion{.rate_hz = 30, .poses = {}};
+  for (int f = 0; f < 60; ++f) motion.poses.push_back(Standing());
+  const RestBody rest = RestBodyOf(motion.poses);
+  EXPECT_EQ(RemarkOnSliding(motion, rest), std::nullopt);
+  for (std::size_t f = 0; f < 60; f += 2) motion.poses[f][Role::kHead].y += 0.02;
+  const auto told = RemarkOnSliding(motion, rest);
+  ASSERT_TRUE(told);
+  EXPECT_THAT(*told, testing::StartsWith("joints slide: a skeleton that keeps its lengths stays "));
+  EXPECT_THAT(*told, testing::EndsWith("mm at 0.00 s (head)"));
+}
+
 }  // namespace
 }  // namespace etude
