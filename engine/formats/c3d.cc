@@ -110,13 +110,16 @@ class Parameters {
     if (one->type == 1) return bytes_.Byte(one->at + index);
     return std::nullopt;
   }
-  /// The texts of a list; of one text a list of one.
-  std::vector<std::string> Texts(const std::string& name) const {
+  /// The first texts of a list, at most so many and none that would begin beyond the file's end; of one text a list of
+  /// one.
+  std::vector<std::string> Texts(const std::string& name, std::size_t most = 1) const {
     const Parameter* one = Find(name);
     std::vector<std::string> texts;
     if (one == nullptr || one->type != -1 || one->sizes.empty()) return texts;
-    const std::size_t length = one->sizes[0], count = length == 0 ? 0 : one->Count() / length;
-    for (std::size_t i = 0; i < count; ++i) texts.push_back(bytes_.Text(one->at + i * length, length));
+    const std::size_t length = one->sizes[0], count = length == 0 ? 0 : std::min(one->Count() / length, most);
+    for (std::size_t i = 0; i < count && one->at + i * length < bytes_.size(); ++i) {
+      texts.push_back(bytes_.Text(one->at + i * length, length));
+    }
     return texts;
   }
 
@@ -142,7 +145,7 @@ std::optional<double> MetresOf(std::string unit) {
 std::vector<std::string> PointNames(const Parameters& parameters, std::size_t points) {
   std::vector<std::string> names;
   for (int part = 1; names.size() < points; ++part) {
-    const auto more = parameters.Texts("POINT:LABELS" + (part == 1 ? "" : std::to_string(part)));
+    const auto more = parameters.Texts("POINT:LABELS" + (part == 1 ? "" : std::to_string(part)), points - names.size());
     if (more.empty()) break;
     names.insert(names.end(), more.begin(), more.end());
   }

@@ -1,10 +1,12 @@
 """Tells of motion files what the program makes of each, and how far its joints lie from where second readers put them.
 
-    ETUDE=build/release/etude python3 tests/cli/file_table.py FOLDER       # a line of Markdown a file
+    ETUDE=build/release/etude python3 tests/cli/file_table.py FOLDER            # a line of Markdown a file
+    ETUDE=build/release/etude python3 tests/cli/file_table.py --rows FOLDER     # and a transition and a capture of each
 
 A role is compared in every frame where a joint of the file plays it: the second reader's place, in the unit and axes that
 the program says it found, against `etude clip convert`; one height of the floor is taken out. Of markers, points between
-them play roles; those are not compared.
+them play roles; those are not compared. `--rows`: the clip is left for `builtin:wave` by `played`, and filmed for a fifth of
+a second and captured with adaptive weights, as in scenarios/quick.
 """
 import csv
 import json
@@ -62,6 +64,33 @@ def worst_mm(path, facts):
     return 1000 * numpy.linalg.norm(apart, axis=2).max(), len(apart)
 
 
+SCENARIOS = """defaults: {trials: 1}
+scenarios:
+"""
+SCENARIO = """  - {{scenario: t{number}, question: q, task: transition, clips: [{clip}, 'builtin:wave'],
+     methods: [{{name: played, choice: played, join: planted-feet}}]}}
+  - {{scenario: c{number}, question: q, task: capture, duration_s: 0.2, clips: [{clip}],
+     methods: [{{name: adaptive, segmenter: hue, calibration: dlt, solver: ccd, weights: adaptive}}]}}
+"""
+
+
+def run_rows(sources):
+    """{source: what a transition and a capture of it came to}, of one run."""
+    with tempfile.TemporaryDirectory() as folder:
+        suite, out = pathlib.Path(folder) / "s.yaml", pathlib.Path(folder) / "out"
+        suite.write_text(SCENARIOS + "".join(SCENARIO.format(number=i, clip=json.dumps(source)) for i, source in enumerate(sources)))
+        result = call("run", suite, "-o", out)
+        if not (out / "cells.jsonl").exists():
+            raise ValueError(result.stderr)
+        told = {source: [] for source in sources}
+        for line in (out / "cells.jsonl").read_text().splitlines():
+            row = json.loads(line)
+            metric = "jump_cm" if row["task"] == "transition" else "mpjpe_mm"
+            value = row["status"] if row.get(metric) is None else f"{row[metric]:.1f} {metric.rpartition('_')[2]}"
+            told[sources[int(row["scenario"][1:])]].append(value)
+    return {source: ", ".join(values) for source, values in told.items()}
+
+
 def rows_of(path):
     told = call("clip", "info", path, "--json")
     if not told.stdout:
@@ -73,21 +102,23 @@ def rows_of(path):
             continue
         body = facts["body"]
         played = sum(not role["composed"] for role in body["roles"].values())
-        yield {"file": path, "clip": facts["name"], "format": facts["format"], "roles": played, "stature_m": body["stature_m"],
+        yield {"file": path, "source": facts["source"], "format": facts["format"], "roles": played, "stature_m": body["stature_m"],
                "unit": body["unit"], "metres_per_unit": body["metres_per_unit"], "up": body["up"], "frames": facts["frames"],
                "slide_m_s": body["foot_slide_m_s"], "note": body["note"], "worst_mm": worst_mm(path, facts)}
 
 
 def main():
-    for folder in map(pathlib.Path, sys.argv[1:]):
-        for path in sorted(path for path in ([folder] if folder.is_file() else folder.rglob("*")) if path.is_file()):
-            for row in rows_of(path):
-                if "format" not in row:
-                    print(f"| {path} | refused: {row['complaint']} |", flush=True)
-                    continue
-                worst = "" if row["worst_mm"] is None else "{:.3g} of {}".format(*row["worst_mm"])
-                print(f"| {path} | {row['clip']} | {row['format']} | {row['roles']} | {row['stature_m']:.2f} | {row['unit']} | "
-                      f"{row['metres_per_unit']:.4g} | {row['up']} | {worst} | {row['note']} |", flush=True)
+    folders = [pathlib.Path(word) for word in sys.argv[1:] if word != "--rows"]
+    paths = [path for folder in folders for path in ([folder] if folder.is_file() else folder.rglob("*")) if path.is_file()]
+    rows = [row for path in sorted(paths) for row in rows_of(path)]
+    ran = run_rows([row["source"] for row in rows if "format" in row]) if "--rows" in sys.argv else {}
+    for row in rows:
+        if "format" not in row:
+            print(f"| {row['file']} | refused: {row['complaint']} |")
+            continue
+        worst = "" if row["worst_mm"] is None else "{:.3g} of {}".format(*row["worst_mm"])
+        print(f"| {row['source']} | {row['format']} | {row['roles']} | {row['stature_m']:.2f} | {row['unit']} | "
+              f"{row['metres_per_unit']:.4g} | {row['up']} | {worst} | {ran.get(row['source'], '')} | {row['note']} |")
 
 
 if __name__ == "__main__":

@@ -74,6 +74,14 @@ TEST(C3d, TakesWhatIsNoNumberForAGap) {
   EXPECT_TRUE(read->markers.frames[2][0]);
 }
 
+TEST(C3d, TakesNoMoreNamesThanThereArePoints) {
+  std::string bytes = C3dWriter(kIntel, true).Write();
+  bytes[bytes.find("LABELS") + 9] = 7;  // dimensions, whose product is some 10¹⁰
+  const auto read = ReadC3d(bytes, "a.c3d");
+  ASSERT_TRUE(read) << ToString(read.error());
+  EXPECT_EQ(read->markers.names.size(), 2u);
+}
+
 TEST(C3d, RefusesWhatIsDamaged) {
   const std::string good = C3dWriter(kIntel, true).Write();
   EXPECT_EQ(C3dComplaint("HIERARCHY"), "a.c3d: no C3D file");
