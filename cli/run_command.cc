@@ -5,6 +5,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "bench/finished_runs/finished_runs.h"
 #include "bench/gate/gate.h"
@@ -21,6 +23,7 @@
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
+#include "engine/base/names.h"
 
 namespace etude {
 namespace {
@@ -246,12 +249,18 @@ int DryRunCommand(const RunOptions& options, bool as_json) {
     return printed ? kSuccess : Complain(printed.error());
   }
   std::size_t cells = 0;
+  std::vector<std::string> guessed;
   for (const ScenarioForecast& one : forecast->scenarios) {
     Print(one);
     cells += one.conditions * one.worlds * one.methods;
+    if (!one.is_kept) guessed.push_back(one.name);
   }
   fmt::print("{} cells, about {} on {}. Differences that are found with a chance of 80 %. Nothing was written.\n",
              cells, Duration(forecast->seconds), CountOf(static_cast<std::size_t>(forecast->workers), "worker"));
+  if (!guessed.empty()) {
+    fmt::print("The time is a guess: no costs are kept of {}, whose first worlds were measured just now.\n",
+               Join(guessed, ", "));
+  }
   return kSuccess;
 }
 

@@ -193,8 +193,9 @@ Result<std::optional<CellCheck>> ReplayPack(const std::string& file, const Outsi
   if (cell == plan.cell_count()) return Fail({file, 0, 0}, "its scenario makes no cell '{}'", pack.row.Id());
   const std::size_t world = plan.WorldOf(cell);
   std::optional<CellCheck> check;
+  const std::string errors = (folder.path() / "stderr").string();  // what a failure's reason quotes
   RETURN_IF_ERROR(RunOrders(pack.suite, plan, {{world, {cell - plan.CellAt(world, 0)}}},
-                            {.program = ThisProgram(), .error_folder = "", .fence = fence, .jobs = 1, .stop = stop},
+                            {.program = ThisProgram(), .error_folder = errors, .fence = fence, .jobs = 1, .stop = stop},
                             [&](const DeliveredCell& again) -> Result<void> {
                               ASSIGN_OR_RETURN(const auto finished, again.Read(plan));
                               check = CompareRows(pack.row, finished.row);

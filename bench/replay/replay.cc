@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "bench/files/files.h"
+#include "bench/files/temporary_folder.h"
 #include "bench/results/folder.h"
 #include "bench/results/row_json.h"
 #include "bench/run/manifest.h"
@@ -169,11 +170,17 @@ Result<std::vector<CellCheck>> ReplayRun(const ReplayOptions& options) {
   ASSIGN_OR_RETURN(const auto chosen, ChooseCells(options, run, prepared));
   if (!options.without_programs) RETURN_IF_ERROR(CheckPrograms(options.folder, prepared.scenarios, options.outside));
   ASSIGN_OR_RETURN(const Fence fence, FenceFor(prepared.scenarios, options.outside, options.folder, options.key));
+  // A failure's reason quotes a program's last words, which are kept only where there is a place for them.
+  std::optional<TemporaryFolder> errors;
+  if (!ProgramsOf(prepared.scenarios).empty()) {
+    ASSIGN_OR_RETURN(errors, TemporaryFolder::Make("replay"));
+  }
+  const std::string said = errors ? errors->path().string() : "";
   std::map<std::size_t, CellCheck> checks;
   if (options.on_progress) options.on_progress(0, chosen.size());
   const auto whole = RunOrders(
       prepared.suite, plan, OrdersOf(plan, chosen),
-      {.program = ThisProgram(), .error_folder = "", .fence = fence, .jobs = options.jobs, .stop = options.stop},
+      {.program = ThisProgram(), .error_folder = said, .fence = fence, .jobs = options.jobs, .stop = options.stop},
       [&](const DeliveredCell& cell) -> Result<void> {
         ASSIGN_OR_RETURN(const auto finished, cell.Read(plan));
         const std::size_t place = cell.head.cell;

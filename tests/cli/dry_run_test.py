@@ -31,6 +31,7 @@ class DryRun(EtudeCase):
     def test_counts_cells_and_what_could_be_shown(self):
         clips = ["builtin:clap", "builtin:boxing", "builtin:robot", "builtin:sway", "builtin:stretch", "builtin:side_kick"]
         told = self.tell(clips)
+        self.assertTrue(told.endswith("The time is a guess: no costs are kept of s, whose first worlds were measured just now.\n"))
         self.assertIn("1 condition × 8 worlds × 2 methods = 16 cells", told)
         # 8 pairs: (t(0.975) + t(0.8)) / √8 of 7 degrees of freedom; 6 clips likewise.
         self.assertIn("1 comparison shows a mean difference from 1.15 standard deviations", told)
@@ -47,6 +48,7 @@ class DryRun(EtudeCase):
     def test_what_shipped_scenarios_cost_is_kept_and_scaled(self):
         kept = {one["work"]: one for one in json.loads((SCENARIOS / "costs.json").read_text())["scenarios"]}
         told = self.facts("quick/ik", "--trials", 5)
+        self.assertNotIn("guess", self.etude("run", "quick/ik", "--trials", 5, "--dry-run").stdout)
         one, = told["scenarios"]
         self.assertTrue(one["kept"])
         cost = kept[one["work"]]

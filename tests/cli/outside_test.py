@@ -98,7 +98,7 @@ class OutsideMethods(EtudeCase):
     def test_programs_that_a_manifest_a_run_or_a_pack_names_need_leave(self):
         mark = self.folder / "started"
         program = self.folder / "method.sh"
-        program.write_text(f"#!/bin/sh\necho started >>{mark}\nexit 1\n")
+        program.write_text(f"#!/bin/sh\necho started >>{mark}\necho out of luck >&2\nexit 1\n")
         program.chmod(0o755)
         cell = "ik/joint_noise_deg=2/000/mine"
         self.run_suite(self.write("suite.yaml", IK + f"  - {{name: mine, exec: [{program}, --fast]}}\n"), "--no-fence", code=1)
@@ -117,6 +117,9 @@ class OutsideMethods(EtudeCase):
         allowed = self.etude("replay", pack, "--allow-exec", "--no-fence")
         self.assertEqual(allowed.returncode, 0, allowed.stderr)
         self.assertTrue(mark.exists())
+        self.assertIn("its last words: 'out of luck'", (self.out / "cells.jsonl").read_text())
+        again = self.etude("replay", self.out, "--cell", cell, "--allow-exec", "--no-fence")
+        self.assertEqual(again.returncode, 0, "a failure that came again is the same: " + again.stdout)
 
     def radians(self):
         """The example solver, which answers radians for degrees."""
