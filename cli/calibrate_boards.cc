@@ -271,14 +271,18 @@ Result<void> CompareWithOpenCv(const RefineOptions& options, std::span<const Pic
   constexpr double kPercent = 100;
   for (std::size_t camera = 0; camera < seen.size(); ++camera) {
     const std::vector<TargetView> own = ViewsOf(camera, views);
-    ASSIGN_OR_RETURN(const RefinedRig alone, CalibrateFromPlanes(sizes.subspan(camera, 1), own, options));
+    const auto alone = CalibrateFromPlanes(sizes.subspan(camera, 1), own, options);
+    if (!alone) {
+      fmt::print("  {:<14} not to be calibrated alone: {}\n", seen[camera].name, alone.error().message);
+      continue;
+    }
     ASSIGN_OR_RETURN(const OpenCvCalibration theirs, CalibrateByOpenCv(own, sizes[camera], options.lens));
-    const Intrinsics &a = alone.cameras.front().intrinsics, &b = theirs.intrinsics;
+    const Intrinsics &a = alone->cameras.front().intrinsics, &b = theirs.intrinsics;
     fmt::print(
         "  {:<14} focal lengths {:.2f}, {:.2f} px, there {:.2f}, {:.2f} ({:+.3f}, {:+.3f} %); residual {:.4f} px, "
         "there {:.4f}\n",
         seen[camera].name, a.fx, a.fy, b.fx, b.fy, kPercent * (a.fx / b.fx - 1), kPercent * (a.fy / b.fy - 1),
-        alone.rms_px, theirs.rms_px);
+        alone->rms_px, theirs.rms_px);
   }
   return {};
 }

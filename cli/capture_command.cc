@@ -69,10 +69,9 @@ Result<int> CaptureCommand(const CaptureCommandOptions& options) {
     ASSIGN_OR_RETURN(const auto text, ReadWholeFile(options.reference));
     ASSIGN_OR_RETURN(reference, ReadTrc(text, options.reference));
   }
-  if (options.silhouettes && !options.keypoints.empty() && (options.stature_m > 0 || options.sync_s > 0)) {
-    return Fail({},
-                "--silhouettes beside --keypoints: lengths come of keypoints, and films begin together; allowed: "
-                "neither --stature nor --sync");
+  if (options.silhouettes && options.sync_s > 0) return Fail({}, "--sync: outlines tell no clock; cut the films alike");
+  if (options.silhouettes && !options.keypoints.empty() && options.stature_m > 0) {
+    return Fail({}, "--stature: the keypoints tell how tall the person is");
   }
   RETURN_IF_ERROR(CheckPlace(options.place));
   ASSIGN_OR_RETURN(FilmedSession session, OpenFilms(options));
