@@ -207,7 +207,8 @@ void CoachedScene::DrawStage(Canvas& canvas, int frame) {
       why = decision.event == "wrong" ? "wrong: " + decision.why.substr(0, decision.why.find(':')) : decision.why;
     }
   }
-  DrawCaption(canvas, kSaid, InForce(facts_.words, frame).say, why.empty() ? "the learner dances on the right" : why);
+  DrawCaption(canvas, kSaid, InForce(facts_.words, frame).say,
+              why.empty() ? "the learner dances on the right" : PlainName(why));
 }
 
 void CoachedScene::DrawSkeletonInset(Canvas& canvas, int frame) const {

@@ -3,8 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
-#include <string_view>
 
 #include "reports/films/look.h"
 #include "reports/words/figures.h"
@@ -30,14 +28,6 @@ std::vector<Feature> FeaturesOf(const std::vector<TaughtPose>& poses) {
     }
   }
   return features;
-}
-
-/// Names an angle of paper A's by what is bent or raised.
-std::string_view PlainNameOf(Feature feature) {
-  constexpr std::array<std::string_view, kFeatureCount> kNames = {"right arm",  "left arm", "right elbow", "left elbow",
-                                                                  "height",     "trunk",    "right leg",   "left leg",
-                                                                  "right knee", "left knee"};
-  return kNames[static_cast<std::size_t>(feature)];
 }
 
 /// A strip in which a value runs over the frames of a window.

@@ -1,6 +1,7 @@
 #include "reports/films/session_parts.h"
 
 #include <algorithm>
+#include <array>
 
 #include "reports/films/look.h"
 
@@ -29,6 +30,13 @@ void DrawStickFigure(Canvas& canvas, const BodyPose& pose, const Box& box, doubl
 std::string PlainName(std::string name) {
   std::ranges::replace(name, '_', ' ');
   return name;
+}
+
+std::string_view PlainNameOf(Feature feature) {
+  constexpr std::array<std::string_view, kFeatureCount> kNames = {"right arm",  "left arm", "right elbow", "left elbow",
+                                                                  "height",     "trunk",    "right leg",   "left leg",
+                                                                  "right knee", "left knee"};
+  return kNames[static_cast<std::size_t>(feature)];
 }
 
 Paint PaintOfWord(const std::string& word) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
+#include "engine/fuzzy/features.h"
 #include "engine/motion/body.h"
 #include "reports/films/canvas.h"
 
@@ -23,6 +25,9 @@ inline constexpr Paint kUndecidedPaint{0.55, 0.58, 0.60, 1};
 
 /// Gives a move's or fault's name as people write it: "fast_sway" becomes "fast sway".
 std::string PlainName(std::string name);
+
+/// Names an angle of paper A's by what is bent or raised: "right arm".
+std::string_view PlainNameOf(Feature feature);
 
 /// Gives the colour of "right" and "wrong"; any other word has the undecided one.
 Paint PaintOfWord(const std::string& word);

@@ -6,6 +6,7 @@
 
 #include "bench/metrics/transition_smoothness.h"
 #include "reports/films/look.h"
+#include "reports/films/session_parts.h"
 #include "reports/words/figures.h"
 
 namespace etude {
@@ -14,7 +15,7 @@ namespace {
 constexpr Paint kFloor{0.30, 0.34, 0.37, 1};
 constexpr Paint kNature{0.55, 0.82, 0.50, 1};
 constexpr Paint kFaint{0.95, 0.955, 0.96, 0.18};
-constexpr double kTextSize = 13, kJumpRoom = 184;
+constexpr double kTextSize = 15, kJumpRoom = 210;
 constexpr double kSide = 12, kStripTop = 24, kStripBottom = 34, kClipHeight = 6;
 
 // The metric jump_cm, from the frames shown so far.
@@ -29,9 +30,9 @@ std::optional<double> JumpAtPoints(const TransitionPath& path, int frame) {
   return most;
 }
 
-constexpr double kHeadingSize = 15, kLabelSize = 13, kValueSize = 12;
+constexpr double kHeadingSize = 16, kLabelSize = 15, kValueSize = 15;
 constexpr double kHeadingHeight = 26, kRowHeight = 18, kBarHeight = 8;
-constexpr double kLabelWidth = 58, kValueWidth = 40, kBarMargin = 12;
+constexpr double kShortLabel = 58, kLongLabel = 96, kRoomForLong = 220, kValueWidth = 46, kBarMargin = 12;
 constexpr std::size_t kRows = kFeatureCount / 2;
 constexpr Paint kTrack{0.30, 0.34, 0.37, 1};
 constexpr Paint kBeyond{0.98, 0.52, 0.45, 1};
@@ -41,11 +42,15 @@ double FullBar(const TransitionFacts& facts, const PerFeature& partials) {
   return facts.threshold ? *facts.threshold * *facts.threshold : std::ranges::max(partials);
 }
 
-void DrawBar(Canvas& canvas, const Box& row, std::string_view label, std::optional<double> partial, double full,
+// Beside narrow bars an angle has paper A's abbreviation.
+void DrawBar(Canvas& canvas, const Box& row, Feature feature, std::optional<double> partial, double full,
              bool has_threshold) {
+  const bool is_wide = row.width >= kRoomForLong;
+  const double label_width = is_wide ? kLongLabel : kShortLabel;
   const double baseline = row.y + row.height / 2 + 4.5;
-  canvas.DrawText({row.x, baseline}, std::string(label), kLabelSize, partial ? kInk : kSoftInk, kLabelWidth);
-  const Box track{row.x + kLabelWidth, row.y + (row.height - kBarHeight) / 2, row.width - kLabelWidth - kValueWidth,
+  canvas.DrawText({row.x, baseline}, std::string(is_wide ? PlainNameOf(feature) : FeatureName(feature)), kLabelSize,
+                  partial ? kInk : kSoftInk, label_width);
+  const Box track{row.x + label_width, row.y + (row.height - kBarHeight) / 2, row.width - label_width - kValueWidth,
                   kBarHeight};
   canvas.FillBox(track, kTrack, kBarHeight / 2);
   if (!partial) return;
@@ -141,7 +146,7 @@ std::string PointWords(const TransitionFacts& facts, std::size_t point) {
   const auto add = [&](const std::string& more) { words += (words.empty() || more.empty() ? "" : " · ") + more; };
   if (facts.points.size() > 1) add(fmt::format("{} of {}", point + 1, facts.points.size()));
   if (const auto distance = facts.points[point].distance) {
-    std::string d = "d " + FormatFixed(*distance, 3);
+    std::string d = "distance " + FormatFixed(*distance, 3);
     if (facts.threshold) d += fmt::format(" {} {:g}", *distance < *facts.threshold ? "<" : "≥", *facts.threshold);
     add(d);
   }
@@ -164,7 +169,7 @@ void DrawDistanceBars(Canvas& canvas, const Box& box, const TransitionFacts& fac
     const double column = static_cast<double>(k / kRows), line = static_cast<double>(k % kRows);
     const Box row{box.x + kBarMargin + column * (half + kGap), box.y + kHeadingHeight + line * kRowHeight, half,
                   kRowHeight};
-    DrawBar(canvas, row, FeatureName(AllFeatures()[k]), partials ? std::optional((*partials)[k]) : std::nullopt, full,
+    DrawBar(canvas, row, AllFeatures()[k], partials ? std::optional((*partials)[k]) : std::nullopt, full,
             facts.threshold.has_value());
   }
 }

@@ -117,10 +117,10 @@ TEST(DistanceBars, AreAsLongAsTheirShareOfTheThreshold) {
   EXPECT_EQ(amber(0.2), 0);  // beyond the threshold alone: another colour
 }
 
-TEST(DistanceBars, TellDTheThresholdAndTheBranch) {
+TEST(DistanceBars, TellDistanceThresholdAndBranch) {
   const TransitionRace race = ExampleRace();
-  EXPECT_EQ(PointWords(race.paths[0].facts, 0), "d 0.500 ≥ 0.4 · now");
-  EXPECT_EQ(PointWords(race.paths[1].facts, 1), "2 of 2 · d 0.350 < 0.4 · in-between");
+  EXPECT_EQ(PointWords(race.paths[0].facts, 0), "distance 0.500 ≥ 0.4 · now");
+  EXPECT_EQ(PointWords(race.paths[1].facts, 1), "2 of 2 · distance 0.350 < 0.4 · in-between");
 }
 
 TEST(TransitionScene, DrawsTheSamePixelsEveryTimeAndMarksTheChange) {
