@@ -17,6 +17,7 @@ namespace {
 constexpr std::string_view kMagic = "\x93NUMPY";
 constexpr std::size_t kMostMembers = 1000;
 constexpr std::uint64_t kMostUnpacked = std::uint64_t{512} << 20;
+constexpr std::uint64_t kMostOfAByte = 1032;  ///< DEFLATE makes no more of one
 
 /// What follows a key of the header's Python dictionary, up to `end`.
 std::string_view ValueOf(std::string_view header, std::string_view key, char end) {
@@ -101,6 +102,9 @@ Result<std::string> Unpack(zip_t* archive, zip_uint64_t member, std::uint64_t& l
     return Fail({file}, "member {} has no size", member);
   }
   if (status.size > left) return Fail({file}, "unpacks to more than {} MiB", kMostUnpacked >> 20);
+  if ((status.valid & ZIP_STAT_COMP_SIZE) != 0 && status.size / kMostOfAByte > status.comp_size) {
+    return Fail({file}, "member {} says that it unpacks {} bytes to {}", member, status.comp_size, status.size);
+  }
   left -= status.size;
   std::string bytes(status.size, '\0');
   const std::unique_ptr<zip_file_t, decltype(&zip_fclose)> opened(zip_fopen_index(archive, member, 0), &zip_fclose);

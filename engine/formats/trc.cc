@@ -114,8 +114,8 @@ Result<std::vector<std::optional<glm::dvec3>>> ReadFrame(std::string_view line, 
       const std::string_view cell = at < cells.size() ? cells[at] : std::string_view{};
       const auto value = NumberIn(cell);
       if (!cell.empty() && !value) return Fail(place, "'{}' is no number", cell);
-      constexpr double kMost = 1e9;
-      is_seen = is_seen && value && std::abs(*value) <= kMost;  // not "nan"
+      constexpr double kMost = 1e9;  // millimetres, in which they are written
+      is_seen = is_seen && value && std::abs(*value) * (kMillimetres * header.metres) <= kMost;  // not "nan"
       if (is_seen) place_of[static_cast<int>(axis)] = header.metres * *value;
     }
     if (is_seen) frame[marker] = place_of;

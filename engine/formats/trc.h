@@ -27,9 +27,9 @@ struct MarkerMotion {
 /// Writes such a file of markers; what was not seen stays empty between its tabs, as OpenSim reads it.
 std::string WriteTrc(const MarkerMotion& motion, std::string name);
 
-/// Reads a TRC file in metres or millimetres (`Units`; also cm), its axes as they are. An empty place or "nan" is a
-/// marker not seen. Fails with the line: no header, another number of frames or columns than announced, words for
-/// numbers, over 1,000 markers or 64 MiB.
+/// Reads a TRC file in metres or millimetres (`Units`; also cm), its axes as they are. An empty place, "nan", or one
+/// beyond ±10⁶ m is a marker not seen. Fails with the line: no header, another number of frames or columns than
+/// announced, words for numbers, over 1,000 markers or 64 MiB.
 Result<MarkerMotion> ReadTrc(std::string_view text, const std::string& file);
 
 }  // namespace etude

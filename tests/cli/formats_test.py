@@ -85,6 +85,9 @@ class Formats(EtudeCase):
         for cut in (30, len(whole) // 2, len(whole) - 9):
             (self.folder / "cut.npz").write_bytes(whole[:cut])
             self.refused(self.folder / "cut.npz", "cut.npz")
+        at = whole.index(b"PK\x01\x02") + 24  # the size of the first member in the directory
+        (self.folder / "cut.npz").write_bytes(whole[:at] + struct.pack("<I", 300_000_000) + whole[at + 4:])
+        self.refused(self.folder / "cut.npz", "bytes to 300000000")
         for at in range(100, len(whole), len(whole) // (40 if HEAVY else 6)):
             (self.folder / "bit.npz").write_bytes(whole[:at] + bytes([whole[at] ^ 1]) + whole[at + 1:])
             self.assertIn(self.etude("clip", "info", self.folder / "bit.npz").returncode, (0, 2))

@@ -90,6 +90,11 @@ TEST(ReadTrc, TakesOtherProgramsFiles) {
   ASSERT_TRUE(motion) << ToString(motion.error());
   EXPECT_EQ(motion->frames[0][0], glm::dvec3(1, 2, 3));
   EXPECT_FALSE(motion->frames[0][1]);
+  std::string far = text;
+  far.replace(far.find("nan\tnan\tnan"), 11, "0\t1e6\t0");
+  EXPECT_TRUE(ReadTrc(far, "a.trc")->frames[0][1]);
+  far.replace(far.find("1e6"), 3, "2e6");
+  EXPECT_FALSE(ReadTrc(far, "a.trc")->frames[0][1]) << "what could not be written and read again";
 }
 
 TEST(ReadTrc, RefusesWithTheLine) {
