@@ -148,8 +148,8 @@ std::string Footer(const RunData& run) {
   html += "</dl></details><p>";
   if (!run.unsealed.empty()) html += fmt::format("<b>Unsealed</b> {} ", EscapeMarkup(run.unsealed));
   return html +
-         "<a href=\"summary.md\">As Markdown</a>, <a href=\"junit.xml\">as JUnit</a>, <a href=\"../summary.json\">as "
-         "JSON</a>.</p></footer>";
+         "<a href=\"summary.md\">Markdown</a>, <a href=\"junit.xml\">JUnit</a>, <a "
+         "href=\"../summary.json\">JSON</a></p></footer>";
 }
 
 /// Writes captures of real films beside the simulated takes of a run, as a section of its page; "" when there are none.

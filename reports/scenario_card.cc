@@ -153,17 +153,21 @@ std::string RecordedCells(const RunData& run, const ScenarioSummary& scenario) {
   return cells.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// Writes verdicts and sentence of a finding; why nothing is decided stands in the badges' tip.
+/// Writes the sentence of a finding behind what it begins with; why nothing is decided stands in its tip.
 std::string AnswerHtml(const MethodFinding& finding, std::string_view begin) {
-  return fmt::format("<p class=\"answer\"{}>{}{} {}</p>",
+  return fmt::format("<p class=\"answer\"{}>{}{}</p>",
                      finding.why_open.empty() ? "" : fmt::format(" title=\"{}\"", EscapeMarkup(finding.why_open)),
-                     begin, VerdictBadges(finding), EscapeMarkup(finding.sentence));
+                     begin, EscapeMarkup(finding.sentence));
 }
 
-/// Writes the answer against the baseline, and against the strongest other method where that is another one.
+/// Writes verdicts and sentence against the baseline; where the strongest other method is another one, the verdicts
+/// against it, whose sentence opens.
 std::string Answer(const ScenarioFindings& findings) {
-  std::string html = AnswerHtml(findings.answer, "");
-  return HasOtherRival(findings) ? html + AnswerHtml(findings.rival, "<b>Strongest other:</b> ") : html;
+  const std::string html = AnswerHtml(findings.answer, VerdictBadges(findings.answer) + " ");
+  if (!HasOtherRival(findings)) return html;
+  return html + fmt::format("<details class=\"rival\"><summary>Strongest other, {}: {}</summary>{}</details>",
+                            EscapeMarkup(findings.rival.others), VerdictBadges(findings.rival),
+                            AnswerHtml(findings.rival, ""));
 }
 
 /// Writes a few figures of the method in question, its baseline and the strongest other one.
@@ -269,7 +273,7 @@ std::string WriteScenarioCard(const RunData& run, std::size_t index, const Scena
                  ComparisonTableHtml(scenario) + AcrossTableHtml(scenario));
   html += Expectations(scenario);
   html += Failures(run, scenario, findings);
-  html += Folded("All pictures", OtherPictures(run, scenario, index));
+  html += Folded("Pictures", OtherPictures(run, scenario, index));
   html += PosePairsHtml(run, scenario);
   html += Folded("Transitions explained", TransitionsHtml(RecordedRequestsOf(run, scenario)));
   html += PaperAHtml(scenario);

@@ -68,11 +68,11 @@ std::string WatchHtml(const RunData& run, std::size_t scenario) {
   std::size_t total = 0;
   for (const RecordedWorld& world : RecordedWorlds(run)) {
     if (world.scenario != scenario || ++total > kMostListed) continue;
-    html += fmt::format(" <button type=\"button\" data-cell=\"{}\">▶ {}</button>",
+    html += fmt::format(" <button type=\"button\" data-cell=\"{}\">{}</button>",
                         EscapeMarkup(world.cells.front().row->Id()), EscapeMarkup(world.Name()));
   }
   if (html.empty()) return "";
-  return fmt::format("<p class=\"watch\" hidden>Motions, to walk round:{}</p>{}", html,
+  return fmt::format("<p class=\"watch\" hidden>Motions:{}</p>{}", html,
                      LeftOutHtml(total, kMostListed, "recorded worlds", "report/motions"));
 }
 
