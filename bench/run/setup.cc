@@ -171,9 +171,10 @@ Result<OpenOptions> OpenOptionsOf(const ScenarioSetup& setup, const SourceTexts&
   return how;
 }
 
-/// Null where worlds are not made of recordings.
+/// Null where worlds are not made of recordings. `refused` gets the files that are left out.
 Result<std::unique_ptr<LabelledStreams>> LoadRecordings(const ScenarioSetup& setup, const StreamSource& source,
-                                                        const ClipLibrary& clips, const SourceTexts& texts) {
+                                                        const ClipLibrary& clips, const SourceTexts& texts,
+                                                        std::vector<RefusedClip>* refused = nullptr) {
   if (setup.streams.empty() && setup.labels.empty()) return nullptr;
   LabelTexts labels;
   for (const std::string& file : setup.labels) {
@@ -186,6 +187,9 @@ Result<std::unique_ptr<LabelledStreams>> LoadRecordings(const ScenarioSetup& set
     ASSIGN_OR_RETURN(const auto how, OpenOptionsOf(setup, texts));
     ASSIGN_OR_RETURN(auto loaded, LoadStreams(setup.streams, source.reading, source.making, how));
     streams = std::move(loaded.streams);
+    if (refused != nullptr) {
+      for (const Error& error : loaded.refused) refused->push_back({error.place.file, ToString(error)});
+    }
     // What is read as a stream is what a sensor saw, whatever its format: no simulated one sees it once more.
     for (NamedStream& stream : streams) stream.motion.reset();
   }
@@ -203,12 +207,12 @@ bool IsFilmed(const Scenario& scenario) {
   });
 }
 
-Result<std::optional<int>> CountRecordedPeople(const ScenarioSetup& setup, const StreamSource& source,
+Result<std::optional<int>> CountRecordedPeople(ScenarioSetup& setup, const StreamSource& source,
                                                const SourceTexts& texts) {
   if (setup.streams.empty() && setup.labels.empty()) return std::nullopt;
   ASSIGN_OR_RETURN(const auto how, OpenOptionsOf(setup, texts));
   ASSIGN_OR_RETURN(const auto clips, LoadClips(setup.clips, {setup.file, 0, 0}, how));
-  ASSIGN_OR_RETURN(const auto recordings, LoadRecordings(setup, source, clips, texts));
+  ASSIGN_OR_RETURN(const auto recordings, LoadRecordings(setup, source, clips, texts, &setup.refused));
   return static_cast<int>(recordings->people.size());
 }
 

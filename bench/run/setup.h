@@ -17,7 +17,7 @@ namespace etude {
 /// The most cells of one run: the places of their rows are held in memory.
 inline constexpr std::size_t kMostCells = 10'000'000;
 
-/// A clip that a run was to leave out because it cannot be read or understood.
+/// A clip or a recording that a run leaves out because it cannot be read or understood.
 struct RefusedClip {
   std::string clip;  ///< a reference
   std::string why;
@@ -36,7 +36,7 @@ struct ScenarioSetup {
   std::vector<NamedClips> libraries = {};  ///< the scenario's own, and those of --library
   std::vector<std::string> streams = {};   ///< recordings; the scenario's own, or those of --streams
   std::vector<std::string> labels = {};    ///< keys of SuiteSetup::sources
-  std::vector<RefusedClip> refused = {};   ///< what `clips` and `libraries` were to name as well
+  std::vector<RefusedClip> refused = {};   ///< what `clips`, `libraries` and `streams` were to name as well
   bool keeps_motions = false;              ///< of every cell (--keep motions), not of those alone that `video` names
 };
 
@@ -111,8 +111,8 @@ class PreparedScenario {
 bool IsFilmed(const Scenario& scenario);
 
 /// The number of people that a scenario's recordings show; nothing where its worlds are not made of them. `texts` hold
-/// its labels.
-Result<std::optional<int>> CountRecordedPeople(const ScenarioSetup& setup, const StreamSource& source,
+/// its labels. Files of its folders and patterns that cannot be read are added to `setup.refused`.
+Result<std::optional<int>> CountRecordedPeople(ScenarioSetup& setup, const StreamSource& source,
                                                const SourceTexts& texts);
 
 /// Finds the scenarios of a suite, which must outlive it; each file is parsed once.

@@ -109,6 +109,15 @@ class Streams(EtudeCase):
         half = self.write("half.yaml", SCENARIO + f"streams: ['{takes}']\nlabels: {labels}\nreading: {{rate_hz: 15}}\n")
         halved = self.run_suite(half, out=self.folder / "half")
         self.assertEqual([row["status"] for row in halved], ["ok"] * 8)
+        # One of a folder that cannot be read is left out, and that is told and kept.
+        (takes / "eve.txt").write_text("\n".join((takes / "anna.txt").read_text().splitlines()[:9] + ["0 1 left"]) + "\n")
+        told = self.etude("run", half, "-o", self.folder / "told")
+        self.assertEqual(told.returncode, 0, told.stderr)
+        self.assertIn("eve.txt: left out: ", told.stderr)
+        manifest = json.loads((self.folder / "told" / "manifest.json").read_text())
+        self.assertEqual([one["clip"] for one in manifest["setup"]["scenarios"][0]["refused"]], [str(takes / "eve.txt")])
+        self.assertEqual((self.folder / "told" / "cells.jsonl").read_bytes(), (self.folder / "half" / "cells.jsonl").read_bytes())
+        (takes / "eve.txt").unlink()
         # Cut off, with labels beyond its end.
         (takes / "anna.txt").write_text("\n".join((takes / "anna.txt").read_text().splitlines()[:20]) + "\n")
         self.out = self.folder / "none"
