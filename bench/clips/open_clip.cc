@@ -371,8 +371,10 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
                   FormatName(file.format), *wanted.animation);
     }
     const std::string source = wanted.path + (wanted.animation ? "#" + *wanted.animation : "");
-    return std::vector<SourceClip>{{stem, source, file.format, std::move(file.clips.front()), nullptr, std::nullopt,
-                                    file.notes.empty() ? "" : file.notes.front(), file.remarks}};
+    std::vector<SourceClip> only;  // moved into: an initializer list would copy the frames
+    only.push_back({stem, source, file.format, std::move(file.clips.front()), nullptr, std::nullopt,
+                    file.notes.empty() ? "" : file.notes.front(), file.remarks});
+    return only;
   }
   std::map<std::string, std::string> notes;
   for (std::size_t i = 0; i < file.notes.size(); ++i) notes[file.clips[i].name] = file.notes[i];

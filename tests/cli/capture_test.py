@@ -188,7 +188,7 @@ class Capture(EtudeCase):
         make_film(self.films[2], frames=FRAMES - 2)
         out = self.folder / "m.csv"
         self.assertIn("let keypoints tell the time (--sync)", self.refusal(*self.capture("-o", out)))
-        self.assertIn("--silhouettes excludes --sync", self.refusal(
+        self.assertIn("--sync: outlines tell no clock", self.refusal(
             "capture", "--rig", self.rig, *self.films, "--silhouettes", "--sync", "1", "-o", out))
         told = self.etude(*self.capture("-o", out, "--sync", "0.3", "--film", self.folder / "m.mp4")).stdout
         clocks = re.search(r"clocks, after left's: middle ([+-][0-9.]+) frames .*, right ([+-][0-9.]+) frames", told)

@@ -115,7 +115,7 @@ class Streams(EtudeCase):
         self.assertEqual(told.returncode, 0, told.stderr)
         self.assertIn("eve.txt: left out: ", told.stderr)
         manifest = json.loads((self.folder / "told" / "manifest.json").read_text())
-        self.assertEqual([one["clip"] for one in manifest["setup"]["scenarios"][0]["refused"]], [str(takes / "eve.txt")])
+        self.assertEqual([one["clip"] for one in manifest["scenarios"][0]["refused"]], [str(takes / "eve.txt")])
         self.assertEqual((self.folder / "told" / "cells.jsonl").read_bytes(), (self.folder / "half" / "cells.jsonl").read_bytes())
         (takes / "eve.txt").unlink()
         # Cut off, with labels beyond its end.
