@@ -66,6 +66,10 @@ def shape_of(frame, joints):
     return [math.dist(a, b) / size for a, b in itertools.combinations(places, 2)]
 
 
+def is_tracking(problem):
+    return "joints" in problem and "frames" in problem
+
+
 def run_own_copy(den, seeds):
     """What every world of the scenario is asked under these seeds: contents, the truth by content, and of tracking the
     shape of every frame with its true angles."""
@@ -85,7 +89,7 @@ def run_own_copy(den, seeds):
             known.add(content)
             place = problem.parent.relative_to(OWN / f"set-{seed}" / "inputs")
             truth[content] = json.loads((OWN / f"set-{seed}" / "truth" / place / "truth.json").read_text())
-            if isinstance(asked.get("frames"), list):
+            if is_tracking(asked):
                 shapes = [shape_of(frame, asked["joints"]) for frame in asked["frames"]]
                 frames += zip(shapes, truth[content]["angles_deg"])
     if (OWN / "known").exists():
@@ -139,7 +143,7 @@ def attack(den, seeds):
             found(f"the world of {message['id']}")
         problem = message.get("problem", {})
         angles = problem.get("start_angles_deg")
-        if frames and isinstance(problem.get("frames"), list):
+        if frames and is_tracking(problem):
             shapes = [shape_of(frame, problem["joints"]) for frame in problem["frames"]]
             return {"angles_deg": [min(frames, key=lambda known: math.dist(shape, known[0]))[1] for shape in shapes]}
         if "targets" not in problem:

@@ -64,6 +64,7 @@ class Lookup(unittest.TestCase):
         self.assertLess(run.returncode, 2, run.stderr)
         logs = "".join(log.read_text() for log in (out / "stderr").glob("*")) if (out / "stderr").exists() else ""
         self.assertNotIn("own copy:", logs)
+        self.assertNotIn("Traceback", logs, "an attacker that fell finds nothing")
         rows = [json.loads(line) for line in (out / "cells.jsonl").read_text().splitlines()]
         return re.findall("^LOOKUP (.*)$", logs, re.M), rows
 

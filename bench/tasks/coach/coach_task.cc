@@ -1,5 +1,6 @@
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,7 +21,7 @@ constexpr const char* kOnlyLive = "a session answers back: it has no problem tha
 /// The data that all worlds of one condition share.
 struct Rehearsal {
   CoachCondition condition;
-  CoachStage stage;
+  std::shared_ptr<const CoachStage> stage;
   std::vector<CoachMethod> methods;
 };
 
@@ -36,8 +37,8 @@ class ReadyCoaches {
     const auto [known, is_new] = known_.try_emplace({key.suite_seed, std::string(key.scenario)});
     if (is_new) {
       std::vector<CoachMethod> methods = rehearsal_.methods;
-      RETURN_IF_ERROR(SetThresholds(rehearsal_.condition, rehearsal_.stage, key, methods));
-      ASSIGN_OR_RETURN(known->second, MakeReady(std::move(methods), rehearsal_.stage));
+      RETURN_IF_ERROR(SetThresholds(rehearsal_.condition, *rehearsal_.stage, key, methods));
+      ASSIGN_OR_RETURN(known->second, MakeReady(std::move(methods), *rehearsal_.stage));
     }
     return &known->second;
   }
@@ -59,14 +60,14 @@ class CoachTaskWorld final : public TaskWorld {
   void PrepareShared() override { Coaches(); }
 
   CellResult Run(std::size_t method) override {
-    const auto log = RunMethod(Coaches()[method], shared_.condition, shared_.stage, world_, nullptr);
+    const auto log = RunMethod(Coaches()[method], shared_.condition, *shared_.stage, world_, nullptr);
     if (!log) return CellResult::Ended(Status::kFailed, log.error().message);
     return Score(*log);
   }
 
   Result<CellResult> RunWith(LiveProgram& program, std::size_t method) override {
     ASSIGN_OR_RETURN(const SessionLog log,
-                     RunMethod(Coaches()[method], shared_.condition, shared_.stage, world_, &program));
+                     RunMethod(Coaches()[method], shared_.condition, *shared_.stage, world_, &program));
     return Score(log);
   }
 
@@ -78,8 +79,8 @@ class CoachTaskWorld final : public TaskWorld {
   CellResult Score(const SessionLog& log) const {
     if (log.modes.empty()) return CellResult::Ended(Status::kFailed, "the session did not begin");
     CellResult result = CellResult::Ended(Status::kOk, "");
-    ScoreCoaching(world_, shared_.stage, log, result);
-    if (keeps_motion_) result.recording = RecordCoaching(shared_.stage, log);
+    ScoreCoaching(world_, *shared_.stage, log, result);
+    if (keeps_motion_) result.recording = RecordCoaching(*shared_.stage, log);
     return result;
   }
 
@@ -100,12 +101,22 @@ class CoachTask final : public Task {
     return std::make_unique<CoachTaskWorld>(shared_, coaches_, key, keeps_motion);
   }
   std::vector<std::string> ClipsOf(const WorldKey& /*key*/) const override { return {}; }
-  Result<Payload> Setting() const override { return DancePayload(shared_.stage); }
+  Result<Payload> Setting() const override { return DancePayload(*shared_.stage); }
 
  private:
   const Rehearsal shared_;
   mutable ReadyCoaches coaches_{shared_};  // a memory of what depends on keys alone
 };
+
+/// Returns the stage of a song, which is made once for all conditions that are danced on it.
+Result<std::shared_ptr<const CoachStage>> SharedStage(const std::string& song) {
+  static std::map<std::string, std::weak_ptr<const CoachStage>> stages;
+  if (auto known = stages[song].lock()) return known;
+  ASSIGN_OR_RETURN(auto stage, SetCoachStage(song));
+  auto made = std::make_shared<const CoachStage>(std::move(stage));
+  stages[song] = made;
+  return made;
+}
 
 Result<std::unique_ptr<Task>> MakeCoachTask(TaskInput& input) {
   Rehearsal shared;
@@ -127,8 +138,8 @@ Result<std::unique_ptr<Task>> MakeCoachTask(TaskInput& input) {
                 "'operating_point' goes with the skeleton sensor: cameras show every method something else; say "
                 "'threshold'");
   }
-  ASSIGN_OR_RETURN(shared.stage, SetCoachStage(shared.condition.song));
-  if (const auto ready = MakeReady(methods, shared.stage); !ready) {
+  ASSIGN_OR_RETURN(shared.stage, SharedStage(shared.condition.song));
+  if (const auto ready = MakeReady(methods, *shared.stage); !ready) {
     return Fail(input.condition.node().place, "{}", ready.error().message);
   }
   shared.methods = std::move(methods);
