@@ -90,8 +90,7 @@ std::array<CLI::Option*, 7> AddWorldOptions(CLI::App& command, std::optional<std
       AddSeed(command, seed, "Seed of all worlds (default: the scenario's, else 1)"),
       command.add_option("--trials", trials, "Trials per condition (default: the scenario's)")
           ->check(CLI::Range(1, 1000000)),
-      command.add_option("--clips", clips,
-                         "Clips instead of the scenarios' own: builtin:NAME, BVH and glTF files, patterns"),
+      command.add_option("--clips", clips, "Clips instead of the scenarios' own: builtin:NAME, motion files, patterns"),
       command.add_option(kJointMapOption, joint_map,
                          "Which joints of the clips play which roles (etude clip map writes such a file)"),
       command.add_option_function<std::string>(

@@ -152,7 +152,7 @@ const FieldTable<Scenario>& ScenarioFields() {
            .WhenAbsent("(none)"),
        {{"task", NameKind(NamesOf(AllTaskKinds())), "", "The kind of question."},
         [](Fields& fields, Scenario& s) { s.task = fields.Choice("task", NamesOf(AllTaskKinds()), ""); }},
-       Key::Texts("clips", &Scenario::clips, "a list of `builtin:NAME`, `builtin:*`, BVH and glTF files, patterns",
+       Key::Texts("clips", &Scenario::clips, "a list of `builtin:NAME`, `builtin:*`, motion files, patterns",
                   "What worlds are made of; trials go through them in turn."),
        Key::Texts(
            "streams", Path(&Scenario::streams, &StreamSource::files),
@@ -357,10 +357,9 @@ std::vector<std::string> StagesOf(const Node* oracle) {
 std::string SettingsOf(const MethodEntry& method) {
   if (!method.exec.empty()) return "";  // what a program is, nobody knows
   Node settings = method.node;
-  std::erase_if(settings.entries,
-                [](const Node::Entry& entry) {
-                  return entry.key == "name" || entry.key == "oracle" || entry.key == "description";
-                });
+  std::erase_if(settings.entries, [](const Node::Entry& entry) {
+    return entry.key == "name" || entry.key == "oracle" || entry.key == "description";
+  });
   const auto text = WriteJson(ToJson(settings));
   return text ? *text : "";
 }
