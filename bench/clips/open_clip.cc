@@ -342,8 +342,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     return Fail(
         scanner.At(first),
         "{}; allowed: BVH (it begins with HIERARCHY), glTF 2.0 (.glb, .gltf), FBX, Acclaim's .amc, AMASS's .npz, "
-        "C3D, TRC, joint "
-        "CSV, Motive's CSV, .npy of joints, .mot of ours, DeepMimic's motions",
+        "C3D, TRC, joint CSV, Motive's CSV, .npy of joints, .mot of ours, DeepMimic's motions",
         WhatElse(std::string(first.text)));
   }
   ASSIGN_OR_RETURN(auto clip, ReadBvh(bytes, path, &file.remarks));

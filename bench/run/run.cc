@@ -47,12 +47,12 @@ Result<void> CheckManifest(const fs::path& folder, const std::string& manifest, 
   if (found == manifest) return {};
   ASSIGN_OR_RETURN(const auto then, ReadJson(found, path.string()));
   ASSIGN_OR_RETURN(const auto now, ReadJson(manifest, ""));
-  if (then.is_object() && then.value("seed", Json()).is_string() && now.at("seed").is_number()) {
+  const bool was_secret = then.is_object() && then.value("seed", Json()).is_string();
+  if (was_secret && now.at("seed").is_number()) {
     return Fail({path.string()}, "its worlds are secret: to go on with it takes its key again (--seed-file)");
   }
-  if (now.contains("secret_worlds") && then.is_object()) {
-    RETURN_IF_ERROR(CheckSecretWorlds(then.value("secret_worlds", 1), {path.string()}));
-  }
+  const Json version = was_secret ? then.value("secret_worlds", Json(1)) : Json();
+  if (version.is_number_integer()) RETURN_IF_ERROR(CheckSecretWorlds(version.get<int>(), {path.string()}));
   const std::vector<JsonDifference> differences = CompareManifests(then, now);
   if (!AreOfLibraries(differences)) {
     return Fail({path.string()}, "is of another run: {}; only the same run can be resumed", InWords(differences));

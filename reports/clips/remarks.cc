@@ -76,8 +76,7 @@ std::optional<std::string> RemarkOnSliding(const BodyMotion& motion, const RestB
   if (!misfit || misfit->mean_m < kLeast) return std::nullopt;
   return fmt::format(
       "joints slide: a skeleton that keeps its lengths stays {:.1f} mm off (worst joint, mean over the frames), {:.0f} "
-      "mm "
-      "at {:.2f} s ({})",
+      "mm at {:.2f} s ({})",
       kMmPerMetre * misfit->mean_m, kMmPerMetre * misfit->worst_m, static_cast<double>(misfit->pose) / motion.rate_hz,
       RoleName(misfit->role));
 }

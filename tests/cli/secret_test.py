@@ -139,6 +139,12 @@ class SecretWorlds(EtudeCase):
         self.assertEqual(self.etude(*shard).returncode, 0)
         (self.out / "manifest.json").write_text(re.sub(r'"secret_worlds":\s*2,\s*', "", (self.out / "manifest.json").read_text()))
         self.assertIn(says, self.refuse(*shard, "--resume"))
+        # A run of a plain seed has no such version: it differs in its seed.
+        plain = ["run", self.scenario, "--shard", "1/2", "-o", self.folder / "plain"]
+        self.assertEqual(self.etude(*plain).returncode, 0)
+        told = self.refuse(*plain, "--resume", "--seed-file", self.key)
+        self.assertIn("is of another run", told)
+        self.assertNotIn("version", told)
         data = self.folder / "data"
         self.assertEqual(self.etude("export", self.scenario, "-o", data, "--seed-file", self.key).returncode, 0)
         (data / "manifest.json").write_text(older)

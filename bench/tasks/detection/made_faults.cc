@@ -9,18 +9,13 @@
 
 #include "engine/base/angles.h"
 #include "engine/base/directions.h"
+#include "engine/motion/edit.h"
 #include "engine/recognition/pose_vector.h"
 
 namespace etude {
 namespace {
 
 constexpr std::array kMadeFaults = {Fault::kAmplitude, Fault::kWrongSide, Fault::kWrongMove};
-
-BodyPose ImageOf(const BodyPose& pose) {
-  BodyPose mirrored;
-  for (const Role role : AllRoles()) mirrored[role] = glm::dvec3(-1, 1, 1) * pose[Mirrored(role)];
-  return mirrored;
-}
 
 BodyPose HalfWay(const BodyPose& from, const BodyPose& to) {
   BodyPose half = to;
@@ -47,11 +42,12 @@ SensedFrame Moved(const SensedFrame& frame, const BodyPose& pose) {
 }
 
 SkeletonStream ImageOf(const SkeletonStream& stream) {
+  const BodyMotion image = Mirror(MotionOf(stream));
   SkeletonStream mirrored = stream;
-  for (SensedFrame& frame : mirrored.frames) {
-    const SensedFrame own = frame;
-    frame = Moved(own, ImageOf(PoseOf(own)));
-    for (const Role role : AllRoles()) frame[role].state = own[Mirrored(role)].state;
+  for (std::size_t f = 0; f < mirrored.frames.size(); ++f) {
+    const SensedFrame& own = stream.frames[f];
+    mirrored.frames[f] = Moved(own, image.poses[f]);
+    for (const Role role : AllRoles()) mirrored.frames[f][role].state = own[Mirrored(role)].state;
   }
   return mirrored;
 }

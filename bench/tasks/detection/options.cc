@@ -83,8 +83,7 @@ FieldTable<DetectionOptions> MakeConditionFields() {
            .WhenAbsent("(thrown evenly for each)"),
        Key{{"faults", ListKind("a list of: " + NameKind(FaultNameList()).allowed, NameKind(FaultNameList())), "[]",
             "The faults that may happen; none named: all. Of recordings: those that are made of each right performance "
-            "and "
-            "stand beside it (`amplitude`, `wrong_side`, `wrong_move`); none named: none."},
+            "and stand beside it (`amplitude`, `wrong_side`, `wrong_move`); none named: none."},
            [](Fields& condition, Options& o) {
              for (const std::string& name : ReadNames(condition, "faults", FaultNameList())) {
                if (const auto fault = FindFault(name)) o.session.faults.push_back(*fault);
