@@ -182,11 +182,13 @@ std::vector<Series> ExplanationOf(const TransitionRecord& record) {
 Recording RecordTransition(const TransitionOutcome& outcome, const Stage& stage) {
   const FrameWindow window = RecordedFrames(outcome, stage);
   const JoinView view = ViewOf(outcome, stage);
-  const auto track = [&](const char* name, std::span<const BodyPose> poses, int shown_first) {
+  const auto track = [&](const char* name, std::span<const BodyPose> poses, int shown_first, int more = 0) {
     const std::ptrdiff_t count = std::ssize(poses), begin = std::max(window.first - shown_first, 0);
-    const std::ptrdiff_t end = std::min<std::ptrdiff_t>(window.last - shown_first + 1, count);
+    const std::ptrdiff_t end = std::min<std::ptrdiff_t>(window.last - shown_first + 1 + more, count);
     return Track{name, {view.rate_hz, {poses.begin() + begin, poses.begin() + end}}};
   };
+  // Clips that have been left are asked so long after a frame where its joints may rest, and a frame for velocities.
+  const int asked = static_cast<int>(std::lround(SupportRules().window_s * view.rate_hz)) + 1;
 
   const TransitionRecord& record = outcome.record;
   const FuzzyDistance& worst = WorstDistance(record);
@@ -228,10 +230,10 @@ Recording RecordTransition(const TransitionOutcome& outcome, const Stage& stage)
                                  .outcome = std::string(OutcomeName(candidate.outcome))});
   }
   Recording recording{
-      {track("coach", view.shown, 0), track("left", view.left, 0), track("wanted", view.wanted, view.last)},
+      {track("coach", view.shown, 0), track("left", view.left, 0, asked), track("wanted", view.wanted, view.last)},
       WriteTransitionExtras(extras)};
   for (const SupportingClip& clip : view.between) {
-    if (!clip.poses.empty()) recording.tracks.push_back(track("through", clip.poses, clip.begin));
+    if (!clip.poses.empty()) recording.tracks.push_back(track("through", clip.poses, clip.begin, asked));
   }
   return recording;
 }

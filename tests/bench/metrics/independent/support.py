@@ -100,7 +100,8 @@ def support(join):
     shown, rate = frames_of(join["shown"]), rate_of(join)
     first, last, end = join["first"], join["last"], len(shown) - 1
     judged = min(max(join_end(join), first + round(JUDGED_S * rate)), end)
-    clips = [Clip(frames_of(join["left"]), rate, 0, first), Clip(frames_of(join["wanted"]), rate, last, math.inf)]
+    clips = [Clip(frames_of(join["left"]), rate, 0, first), Clip(frames_of(join["wanted"]), rate, last, math.inf),
+             *(Clip(frames_of(clip), rate, clip["begin"], clip["left_at"]) for clip in join.get("between", []))]
     moving = velocities(shown, rate)
 
     def held_by(f):
