@@ -93,14 +93,11 @@ def _texts_of(scenario, program):
     import tempfile
     path = pathlib.Path(scenario)
     with contextlib.ExitStack() as stack:
-        if not path.exists():
+        files = sorted(path.glob("*.yaml")) if path.is_dir() else [path] if path.exists() else []
+        if not files:  # a folder without scenarios is not in the way of what comes with etude under its name
             scratch = stack.enter_context(tempfile.TemporaryDirectory())
             call("scenario", "copy", scenario, scratch, program=program)
             files = sorted(pathlib.Path(scratch).rglob("*.yaml"))
-        else:
-            files = sorted(path.glob("*.yaml")) if path.is_dir() else [path]
-        if not files:
-            raise EtudeError(f"{scenario}: holds no *.yaml")
         return {file.name: file.read_text(encoding="utf-8") for file in files}
 
 

@@ -3,12 +3,11 @@ metric's unit; shares and scores, as on the page, in per cent. Intervals, estima
 import statistics
 import sys
 
-from matplotlib.figure import Figure
-
-from etude.program import EtudeError
+from etude.program import EtudeError, needed
 from etude.results import Pairs
 from etude.tables import condition_text
 
+Figure = needed("matplotlib.figure").Figure
 # The page's, in its order.
 COLOURS = ("#41464b", "#1ea194", "#9c5201", "#8b19e6", "#316f93", "#ae8f16", "#470014", "#02175b")
 DASHES = ("-", "-", "-", "-", "--", "--", ":", ":")

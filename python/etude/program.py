@@ -1,4 +1,5 @@
 """The program `etude`: where it is, and how it is called."""
+import importlib
 import os
 import pathlib
 import re
@@ -10,6 +11,7 @@ import tempfile
 
 BUILDS = ("release", "dev")
 _PLACE = re.compile(r"(.+?:\d+(?::\d+)?): (.*)", re.DOTALL)
+_FLAG = re.compile(r"(?<!\S)--(overwrite|resume|update|allow-exec|allow-missing)\b|(?<!\S)-(o)(?= )")
 _TENTH = re.compile(r" *(\d+) %  (\d+)/(\d+) ")
 
 
@@ -85,7 +87,7 @@ def call(*arguments, program=None, progress=False, allowed=(0,)):
     if interrupted:
         raise KeyboardInterrupt(errors.strip() or "interrupted")
     if code not in allowed:
-        raise EtudeError(complaint(errors) or f"etude {arguments[0]} ended with {code}", code, errors)
+        raise EtudeError(_in_python(complaint(errors)) or f"etude {arguments[0]} ended with {code}", code, errors)
     return code, printed, errors
 
 
@@ -93,6 +95,24 @@ def complaint(said):
     """The last line that the program says of itself, without its name."""
     lines = [line[len("etude: "):] for line in said.splitlines() if line.startswith("etude: ")]
     return lines[-1].strip() if lines else said.strip()
+
+
+def _in_python(text):
+    """A complaint with the options of the program called as they are here: `--overwrite` is `overwrite=True`."""
+    return _FLAG.sub(lambda found: "output=" if found[2] else found[1].replace("-", "_") + "=True", text)
+
+
+def needed(module):
+    """A module that is not of the standard library. Raises ModuleNotFoundError that tells where it is to be had."""
+    name = module.split(".")[0]
+    try:
+        importlib.import_module(name)
+        return importlib.import_module(module)
+    except ModuleNotFoundError as error:
+        if error.name != name:
+            raise
+        raise ModuleNotFoundError(f"this needs {name}: pip install {name}, or Debian's python3-{name}, which a virtual environment "
+                                  "sees that was made by python3 -m venv --system-site-packages", name=name) from None
 
 
 def _tell(line, progress):

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Optional
 
 from etude import catalogue
-from etude.program import EtudeError, call, nearest
+from etude.program import EtudeError, call, nearest, needed
 from etude.tables import Column, Table, condition_text, numpy_or_none, read_npy, table_of_columns, tables_of_rows
 
 __all__ = ["load", "Run", "Table", "Column", "Pairs", "Verdict", "Motion", "Series"]
@@ -78,10 +78,9 @@ class Pairs:
         return len(self.trial)
 
     def to_pandas(self):
-        import pandas
-        frame = pandas.DataFrame({"condition": self.condition, "trial": self.trial, "clip": self.clip,
-                                  self.baseline_name: self.baseline, self.method_name: self.method,
-                                  "difference": self.difference})
+        frame = needed("pandas").DataFrame({"condition": self.condition, "trial": self.trial, "clip": self.clip,
+                                            self.baseline_name: self.baseline, self.method_name: self.method,
+                                            "difference": self.difference})
         frame.attrs["unit"] = self.unit
         return frame
 

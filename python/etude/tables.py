@@ -7,7 +7,7 @@ import mmap
 import re
 import struct
 
-from etude.program import EtudeError, nearest
+from etude.program import EtudeError, nearest, needed
 
 IDENTITY = ("cell", "scenario", "task", "condition", "trial", "clip", "units", "method", "status", "reason")
 _TYPES = {"<f8": "d", "<f4": "f", "<u8": "Q", "<u4": "I", "|u1": "B"}
@@ -111,8 +111,7 @@ class Table:
 
     def to_pandas(self):
         """A DataFrame; its `attrs` hold the `units` and `definitions` of the metrics' columns."""
-        import pandas
-        frame = pandas.DataFrame({name: self[name].values for name in self.columns})
+        frame = needed("pandas").DataFrame({name: self[name].values for name in self.columns})
         measured = {name: self._metrics[name] for name in self.columns if name in self._metrics}
         frame.attrs["units"] = {name: metric.unit for name, metric in measured.items()}
         frame.attrs["definitions"] = {name: metric.definition for name, metric in measured.items()}
@@ -122,6 +121,7 @@ class Table:
         """A Dataset over condition × trial × method, in their order; settings are coordinates of the condition, and every
         metric has `units`, `long_name` and `definition` in its `attrs`. NaN (None of texts) where there is no such cell.
         `sel` has an argument `method` of its own: write `data.sel({"method": "fixed"})`."""
+        needed("xarray")
         frame, axes = self.to_pandas(), ["condition", "trial", "method"]
         settings = [name for name in self.columns if name not in IDENTITY and name not in self._metrics]
         kept = [name for name in self.columns if name in self._metrics or name in ("clip", "status", "reason")]

@@ -257,6 +257,8 @@ class Runs(PythonCase):
         self.assertIn("did you mean 'ccd'", raised.exception.text)
         self.assertEqual(raised.exception.exit_code, 2)
         self.assertFalse((self.folder / "out").exists())
+        with self.assertRaisesRegex(etude.EtudeError, "overwrite=True replaces it, output= chooses another folder"):
+            etude.run(SCENARIO, output=self.run_.folder, progress=False)
         with self.assertRaisesRegex(etude.EtudeError, "the scenario has ik"):
             etude.run(SCENARIO, methods=[etude.method(task="search")(_later)], output=self.folder / "out")
         with self.assertRaisesRegex(etude.EtudeError, "is no program"):

@@ -153,6 +153,15 @@ class Results(PythonCase):
             motion = run.motion("ik/joint_noise_deg=15/000/adaptive")
             self.assertEqual((len(motion.positions_m[0]), len(motion.positions_m[0][0])), (20, 3))
 
+    def test_what_needs_a_module_that_is_not_there_tells_where_it_is_had(self):
+        for module, ask in (("pandas", lambda: self.run_["ik"].to_pandas()), ("xarray", lambda: self.run_["ik"].to_xarray()),
+                            ("pandas", lambda: self.run_.pairs("adaptive", "fixed").to_pandas())):
+            with mock.patch.dict(sys.modules, {module: None}), self.assertRaisesRegex(
+                    ModuleNotFoundError, f"pip install {module}, or Debian's python3-{module}, .*--system-site-packages"):
+                ask()
+        code = "import sys; sys.modules['matplotlib'] = None; import etude; etude.plot"
+        self.assertIn("python3-matplotlib", subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stderr)
+
     @unittest.skipUnless(importlib.util.find_spec("pandas"), "needs pandas")
     def test_a_frame_has_the_units(self):
         frame = self.run_["ik"].to_pandas()
