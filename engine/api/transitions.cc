@@ -83,6 +83,20 @@ std::vector<TransitionSetting> TransitionJoinSettings(const std::string& join) {
   return Described(JoinNamed(join).settings);
 }
 
+namespace {
+
+etude::BodyProportions ToEngineProportions(const BodyProportions& told) {
+  constexpr double kLowest = 0.1, kHighest = 10;  // metres
+  if (!(told.hip_height >= kLowest && told.hip_height <= kHighest)) {
+    throw BadInput(fmt::format("hips {} m high; allowed: {} to {}", told.hip_height, kLowest, kHighest));
+  }
+  const BodyPose pose = ToBodyMotion({.poses = {told.pose}}).poses.front();
+  StandingHipsOf(pose);
+  return MakeBodyProportions(pose, told.hip_height);
+}
+
+}  // namespace
+
 struct TransitionLibrary::Library {
   MotionLibrary clips;
 
@@ -96,7 +110,8 @@ struct TransitionLibrary::Library {
   }
 };
 
-TransitionLibrary::TransitionLibrary(std::span<const Motion> clips) : library_(std::make_unique<Library>()) {
+TransitionLibrary::TransitionLibrary(std::span<const Motion> clips, const std::optional<BodyProportions>& proportions)
+    : library_(std::make_unique<Library>()) {
   const std::vector<BodyMotion> motions = ToBodyMotions(clips);
   std::vector<std::string> names;
   for (const BodyMotion& motion : motions) {
@@ -107,7 +122,9 @@ TransitionLibrary::TransitionLibrary(std::span<const Motion> clips) : library_(s
     names.push_back(fmt::format("clip {}", names.size()));
   }
   const BodyPose& first = motions.front().poses.front();
-  library_->clips = MakeLibrary(std::move(names), motions, MakeBodyProportions(first, StandingHipsOf(first)));
+  library_->clips =
+      MakeLibrary(std::move(names), motions,
+                  proportions ? ToEngineProportions(*proportions) : MakeBodyProportions(first, StandingHipsOf(first)));
 }
 
 TransitionLibrary::TransitionLibrary(TransitionLibrary&&) noexcept = default;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <etude/base.h>
+#include <etude/motion.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -107,6 +108,19 @@ auto SetMatrix(glm::dmat3 Class::*member, const char* name) {
     Expect(name, value, {3, 3});
     of.*member = Matrix(value.data());
   };
+}
+
+inline Pose ToPose(const char* name, const Array& positions_m) {
+  Expect(name, positions_m, {kRoleCount, 3});
+  Pose pose;
+  for (std::size_t i = 0; i < kRoleCount; ++i) pose.joints[i] = Vector(positions_m.data() + 3 * i);
+  return pose;
+}
+
+inline Array FromPose(const Pose& pose) {
+  Array places({static_cast<py::ssize_t>(kRoleCount), py::ssize_t{3}});
+  for (std::size_t i = 0; i < kRoleCount; ++i) Put(pose.joints[i], places.mutable_data() + 3 * i);
+  return places;
 }
 
 }  // namespace etude::engine

@@ -1,5 +1,6 @@
 #include <etude/fuzzy.h>
 #include <etude/motion.h>
+#include <etude/sim/dances.h>
 #include <etude/transitions.h>
 
 #include <filesystem>
@@ -7,6 +8,7 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "python/engine/arrays.h"
@@ -151,16 +153,27 @@ void AddMotions(py::module_& module) {
       .def_readonly("wait_s", &Transition::wait_s, "Seconds from the request until the wanted clip plays.")
       .def_readonly("branch", &Transition::branch, "The kind of way: 'front half', 'in-between', 'now', 'none', …")
       .def_readonly("why", &Transition::why, "One sentence: why this way won, or why there is none.");
+  module.def(
+      "scenario_proportions",
+      [] {
+        const BodyProportions body = sim::ScenarioProportions();
+        return py::make_tuple(FromPose(body.pose), body.hip_height);
+      },
+      "Of the body that performs a scenario's clips, for a TransitionLibrary: (a pose, 20 x 3 metres; the height of "
+      "its hips, metres).");
   py::class_<TransitionLibrary>(
       module, "TransitionLibrary",
-      "Clips made ready for transitions: performed by the body of the first, tagged, joined by "
-      "in-betweens.")
-      .def(py::init([](const std::vector<Motion>& clips) {
+      "Clips made ready for transitions: performed by one body, tagged, joined by in-betweens.")
+      .def(py::init([](const std::vector<Motion>& clips, const std::optional<std::pair<Array, double>>& proportions) {
+             std::optional<BodyProportions> body;
+             if (proportions) body = {ToPose("proportions", proportions->first), proportions->second};
              const py::gil_scoped_release free;
-             return std::make_unique<TransitionLibrary>(clips);
+             return std::make_unique<TransitionLibrary>(clips, body);
            }),
-           "clips"_a,
-           "Raises BadInput for no clips, fewer than two frames, another rate than 30 Hz, a body without legs.")
+           "clips"_a, "proportions"_a = py::none(),
+           "proportions: of the body that performs the clips, (a pose, 20 x 3 metres; how high its hips shall stand, "
+           "metres), such as scenario_proportions(); else the first clip's. Raises BadInput for no clips, fewer than "
+           "two frames, another rate than 30 Hz, a body without legs.")
       .def(
           "make",
           [](const TransitionLibrary& library, int clip, int frame, int to, double budget_s, const std::string& choice,

@@ -55,19 +55,6 @@ py::tuple UpdateStream(RecogniserStream& stream, const Array& positions_m, const
   return py::make_tuple(evidence.asked, ToArray(evidence.spotted, {static_cast<py::ssize_t>(evidence.spotted.size())}));
 }
 
-Pose ToPose(const char* name, const Array& positions_m) {
-  Expect(name, positions_m, {kRoleCount, 3});
-  Pose pose;
-  for (std::size_t i = 0; i < kRoleCount; ++i) pose.joints[i] = Vector(positions_m.data() + 3 * i);
-  return pose;
-}
-
-Array FromPose(const Pose& pose) {
-  Array places({static_cast<py::ssize_t>(kRoleCount), py::ssize_t{3}});
-  for (std::size_t i = 0; i < kRoleCount; ++i) Put(pose.joints[i], places.mutable_data() + 3 * i);
-  return places;
-}
-
 Dance MakeDance(std::string title, Motion motion,
                 const std::vector<std::tuple<std::string, std::string, Array, Motion>>& moves,
                 const std::vector<std::tuple<int, std::size_t, std::size_t>>& repetitions,

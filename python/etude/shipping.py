@@ -41,13 +41,13 @@ def ship(method):
         granted.append(top)
         source = (f"import sys\nsys.path.insert(0, {top!r})\n"
                   f"from {module.__name__} import {method.__qualname__} as asked\n")
-        arrays = {}
+        called, arrays = "asked", {}
     else:
         pieces = _Pieces()
         pieces.add(method, f"{'metric' if spec.task == 'metric' else 'method'} '{spec.name}'")
-        source, arrays = pieces.text(method.__name__), pieces.arrays
+        source, called, arrays = pieces.text(), method.__name__, pieces.arrays
         granted += pieces.folders
-    source = f'"""Written by etude.run."""\n{source}\nimport etude\netude.serve(asked)\n'
+    source = f'"""Written by etude.run."""\n{source}\nimport etude\netude.serve({called})\n'
     folder = _write(source, arrays, "metrics" if spec.task == "metric" else "methods")
     entry = {"name": spec.name, "exec": [_interpreter(granted), str(folder / "program.py")],
              "files": [str(folder), *granted]}
@@ -84,7 +84,7 @@ def _write(source, arrays, room):
     """The folder of a program, in that room of the cache: its source, its arrays and a copy of what of this package speaks for it."""
     here = pathlib.Path(__file__).resolve().parent
     files = {"program.py": source.encode(), **{f"{name}.npy": data for name, data in arrays.items()}}
-    for name in ("__init__.py", "conversation.py", "messages.py", "problems.py"):
+    for name in ("__init__.py", "conversation.py", "engine.py", "messages.py", "problems.py"):
         files[f"etude/{name}"] = (here / name).read_bytes()
     digest = hashlib.sha256()
     for name, data in sorted(files.items()):
@@ -138,6 +138,8 @@ class _Pieces:
             return
         if isinstance(value, types.ModuleType):
             self._seen[name] = value
+            if value.__name__.partition(".")[0] == "etude" and "etude_engine" in sys.modules:
+                self._show(sys.modules["etude_engine"])
             if value.__name__ == name == "etude":
                 return
             self._import(value, f"import {value.__name__} as {name}")
@@ -146,11 +148,9 @@ class _Pieces:
             if value.__name__ != name:
                 self._lines.append(f"{name} = {value.__name__}\n")
                 self._seen[name] = value
-        elif getattr(value, "__module__", None) and getattr(value, "__qualname__", "<").isidentifier() and \
-                getattr(sys.modules.get(value.__module__), value.__qualname__, None) is value:
+        elif called := _name_in_module(value):
             self._seen[name] = value
-            self._import(sys.modules[value.__module__],
-                         f"from {value.__module__} import {value.__qualname__} as {name}")
+            self._import(sys.modules[value.__module__], f"from {value.__module__} import {called} as {name}")
         elif type(value).__module__ == "numpy" and type(value).__name__ == "ndarray" and value.dtype != object:
             self._add_array(name, value)
         elif _is_plain(value):
@@ -167,10 +167,13 @@ class _Pieces:
     def _import(self, module, line):
         """One of our own folders must be shown and in the path; what Python brings is there."""
         if getattr(module, "__file__", None) and module.__name__.partition(".")[0] != "etude":
-            folder = _folder_of(module)
-            if not f"{folder}/".startswith((*SYSTEM, sys.prefix, sys.base_prefix)) and folder not in self.folders:
-                self.folders.append(folder)
+            self._show(module)
         self._imports.append(line)
+
+    def _show(self, module):
+        folder = _folder_of(module)
+        if not f"{folder}/".startswith((*SYSTEM, sys.prefix, sys.base_prefix)) and folder not in self.folders:
+            self.folders.append(folder)
 
     def _add_array(self, name, value):
         import io
@@ -182,9 +185,9 @@ class _Pieces:
         self._lines.append(f"import numpy as _numpy, os as _os\n"
                            f"{name} = _numpy.load(_os.path.join(_os.path.dirname(__file__), {name + '.npy'!r}))\n")
 
-    def text(self, asked):
+    def text(self):
         paths = [f"import sys\nsys.path[:0] = {self.folders!r}"] if self.folders else []
-        return "\n".join([*paths, "import etude", *self._imports, *self._lines, f"asked = {asked}\n"])
+        return "\n".join([*paths, "import etude", *self._imports, *self._lines])
 
 
 def _names_used(source, whose):
@@ -251,6 +254,17 @@ def _find(thing, name, whose):
     for function in _functions_of(thing):
         around = function.__globals__
     return (True, around[name]) if name in around else (False, None)
+
+
+def _name_in_module(value):
+    """What a function, class or value is called in the module that it says it is of; else None. Compiled ones tell it by
+    their `__name__` alone."""
+    for told in ("__qualname__", "__name__"):
+        name = getattr(value, told, None)
+        if isinstance(name, str) and name.isidentifier() and \
+                getattr(sys.modules.get(getattr(value, "__module__", None)), name, None) is value:
+            return name
+    return None
 
 
 def _is_ours(value):

@@ -5,7 +5,9 @@
 
 #include "engine/api/convert.h"
 #include "engine/base/names.h"
+#include "sim/choreography/canonical_body.h"
 #include "sim/choreography/dance_of.h"
+#include "sim/choreography/scenario_body.h"
 
 namespace etude::sim {
 namespace {
@@ -39,5 +41,7 @@ BuiltinDance DanceOfSong(const std::string& song) {
   }
   return found;
 }
+
+engine::BodyProportions ScenarioProportions() { return {{StandingPose().joints}, kScenarioHipHeight}; }
 
 }  // namespace etude::sim

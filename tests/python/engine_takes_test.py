@@ -8,6 +8,7 @@ import tempfile
 import threading
 import time
 import unittest
+from unittest import mock
 
 import numpy as np
 
@@ -17,7 +18,9 @@ if not list(BUILT.glob("etude_engine*.so")):
     print("skipped: this build has no module etude_engine (ETUDE_SANITIZE)")
     sys.exit(0)
 sys.path[:0] = [str(BUILT), str(ROOT / "python")]
+import etude  # noqa: E402
 import etude.engine as engine  # noqa: E402
+from etude.engine import Kinematics, adult_body  # noqa: E402
 
 DANCE, MOVES = engine.builtin_dance("groove")
 DANCED = DANCE.motion.positions_m
@@ -36,6 +39,25 @@ def two_cameras(width, height, focal):
     cameras[0].R_CW, cameras[0].p_WC = [[1, 0, 0], [0, -1, 0], [0, 0, -1]], [0, 1, 4]
     cameras[1].R_CW, cameras[1].p_WC = [[0, 0, -1], [0, -1, 0], [-1, 0, 0]], [4, 1, 0]
     return cameras
+
+
+def asked(problem):
+    return ([np.radians(problem.start_angles_deg)], [[each.position_m for each in problem.targets]],
+            [[each.rotation for each in problem.targets]], None, None, [problem.root.position_m], [problem.root.rotation])
+
+
+def told(solved):
+    return etude.IkAnswer(np.degrees(solved.angles[0]), iterations=int(solved.iterations[0]))
+
+
+@etude.method(task="ik")
+def by_module(problem):
+    return told(engine.Kinematics().solve(*asked(problem)))
+
+
+@etude.method(task="ik")
+def by_name(problem):
+    return told(Kinematics(adult_body()).solve(*asked(problem)))
 
 
 class BesideCpp(unittest.TestCase):
@@ -78,44 +100,93 @@ class BesideCpp(unittest.TestCase):
             np.testing.assert_array_equal(np.ravel(found), told[name], err_msg=name)
 
 
-# Answers to a data set of task pose-distance, as a person's program would make them.
-ANSWERS = """import csv, json, pathlib, sys
+# What a person's program answers to exported problems, by the engine: a line each, the trial and the digest of the answer's
+# numbers, as a cell's row has it.
+ANSWERS = """import csv, ctypes, json, pathlib, sys
 sys.path[:0] = sys.argv[3:]
 import numpy as np
 import etude.engine as engine
-data, answers = map(pathlib.Path, sys.argv[1:3])
-with open(data / "inputs/index.csv", newline="") as file:
-    lines = list(csv.DictReader(file))
-for line in lines:
-    distances = []
-    for pair in json.loads((data / "inputs" / line["problem"]).read_text())["pairs"]:
-        a, b = (engine.features(engine.Motion(np.reshape(pair[one], (1, 20, 3))))[0] for one in "ab")
-        distances.append(engine.fuzzy_distance(a, b))
-    path = answers / line["prediction"]
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(json.dumps({"distances": distances, "alike": [distance < 0.4 for distance in distances]}))
+xxh3 = ctypes.CDLL("libxxhash.so.0").XXH3_64bits
+xxh3.restype, xxh3.argtypes = ctypes.c_uint64, [ctypes.c_char_p, ctypes.c_size_t]
+data = pathlib.Path(sys.argv[1]) / "inputs"
+
+def pose_distance(setting, problem):
+    distances = [engine.fuzzy_distance(*(engine.features(engine.Motion(np.reshape(pair[one], (1, 20, 3))))[0] for one in "ab"))
+                 for pair in problem["pairs"]]
+    return np.array(distances).tobytes() + np.array([distance < 0.4 for distance in distances], np.int64).tobytes()
+
+def ik(setting, problem, body=engine.Kinematics()):
+    targets, root = problem["targets"], problem["root"]
+    solved = body.solve([body.tree.limits.mean(axis=1)], [[each["position_m"] for each in targets]],
+                        [[each["rotation"] for each in targets]], root_positions_m=[root["position_m"]], root_axes=[root["rotation"]])
+    return solved.angles.tobytes() + solved.iterations.astype(np.int64).tobytes()
+
+def transition(setting, problem, libraries={}):
+    names = tuple(clip["name"] for clip in setting["clips"])
+    if names not in libraries:
+        clips = [engine.read_motion(pathlib.Path(sys.argv[2]) / f"{name}.bvh") for name in names]
+        libraries[names] = engine.TransitionLibrary(clips, engine.scenario_proportions())
+    made = libraries[names].make(problem["from"], problem["request_frame"], problem["to"], problem["max_wait_s"])
+    return made.motion.positions_m.tobytes()
+
+for line in csv.DictReader(open(data / "index.csv", newline="")):
+    problem = data / line["problem"]
+    told = [json.loads(path.read_text()) for path in (problem.parents[1] / "setting.json", problem)]
+    answer = globals()[line["task"].replace("-", "_")](*told)
+    print(line["trial"], f"{xxh3(answer, len(answer)):016x}")
 """
 
 
 class BesideWorkers(unittest.TestCase):
-    def test_answers_in_workers_environment_are_workers_to_the_last_bit(self):
+    """What a cell's row says of its method's answer, bit by bit, is what the same problem gives through Python."""
+
+    def digests(self, task, digest, method, **keys):
+        """By trial: of the cells of one method, and of what Python answers in the environment that workers are given."""
         pinned = {**os.environ, "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4"}  # bench/process/pinned_environment.cc
+        etude = os.environ["ETUDE"]
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
-            (folder / "s.yaml").write_text("scenario: s\nquestion: q\ntask: pose-distance\ntrials: 8\n"
-                                           "clips: ['builtin:clap', 'builtin:wave']\nmethods: [{name: ours, distance: fuzzy}]\n")
-            for command in ([os.environ["ETUDE"], "export", folder / "s.yaml", "-o", folder / "data"],
-                            [sys.executable, "-c", ANSWERS, folder / "data", folder / "answers", BUILT, ROOT / "python"],
-                            [os.environ["ETUDE"], "score", folder / "data", folder / "answers", "-o", folder / "out", "--name", "told"]):
-                subprocess.run(command, check=True, capture_output=True, env=pinned)
-            rows = [json.loads(line) for line in (folder / "out/cells.jsonl").read_text().splitlines()]
-        verdicts = {}
-        for row in rows:
-            verdicts.setdefault(row["trial"], {})[row["method"]] = row["digest_verdict"]  # of every distance, bit by bit
-        self.assertEqual(len(verdicts), 8)
-        for trial, found in verdicts.items():
-            self.assertEqual(found["ours"], found["told"], trial)
-        self.assertGreater(len({found["ours"] for found in verdicts.values()}), 4)
+
+            def call(*words):
+                done = subprocess.run(words, capture_output=True, text=True, env=pinned, cwd=folder)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                return done.stdout
+
+            for clip in ("clap", "boxing", "wave"):
+                call(etude, "clip", "convert", f"builtin:{clip}", f"{clip}.bvh")
+            (folder / "s.yaml").write_text(json.dumps({"scenario": "s", "question": "q", "task": task, "trials": 12, **keys,
+                                                       "methods": [{"name": "ours", **method}]}))
+            call(etude, "run", "s.yaml", "-o", "run")
+            call(etude, "export", "s.yaml", "-o", "data")
+            rows = map(json.loads, (folder / "run/cells.jsonl").read_text().splitlines())
+            told = call(sys.executable, "-c", ANSWERS, "data", folder, BUILT, ROOT / "python")
+            return {row["trial"]: row[digest] for row in rows}, {int(trial): of for trial, of in map(str.split, told.splitlines())}
+
+    def same(self, *asked, **keys):
+        ours, told = self.digests(*asked, **keys)
+        self.assertEqual(ours, told)
+        self.assertEqual(len(ours), 12)
+        self.assertGreater(len(set(ours.values())), 4)
+
+    def test_distances(self):
+        self.same("pose-distance", "digest_verdict", {"distance": "fuzzy"}, clips=["clap.bvh", "wave.bvh"])
+
+    def test_inverse_kinematics(self):  # from the middle of all ranges: a start that degrees would tell but to rounding
+        self.same("ik", "digest_solution", {"solver": "gauss-newton"}, start="middle")
+
+    def test_a_request_becomes_the_motion_that_is_judged(self):
+        self.same("transition", "digest_motion", {"choice": "played", "join": "planted-feet"},
+                  clips=["clap.bvh", "boxing.bvh", "wave.bvh"])
+
+
+class Sent(unittest.TestCase):
+    def test_a_method_with_the_engine_in_it_is_sent_to_the_fence(self):
+        with tempfile.TemporaryDirectory() as name, mock.patch.dict(os.environ, {"XDG_CACHE_HOME": name}):
+            for method in by_module, by_name:
+                run = etude.run("quick/ik", methods=[method], trials=2, output=f"{name}/{method.__name__}", progress=False)
+                own, ours = ([cells[id_] for id_ in ("status", "iterations")] for cells in (
+                    run["ik-weights"].where(method=method.__etude__.name), run["ik-weights"].where(method="gauss-newton")))
+                self.assertEqual([list(each) for each in own], [list(each) for each in ours])
 
 
 class Transitions(unittest.TestCase):
@@ -146,6 +217,16 @@ class Transitions(unittest.TestCase):
             library.make(0, 12, 1, join="crossfade", join_settings={key: -1})
         with self.assertRaisesRegex(engine.BadInput, "setting 'speed' of 'now'; allowed: none"):
             library.make(0, 12, 1, choice="now", choice_settings={"speed": 1})
+        thigh = [engine.ROLES.index(name) for name in ("left_hip", "left_knee")]
+        pose, height = engine.scenario_proportions()
+        lengths = [np.linalg.norm(np.subtract(*engine.TransitionLibrary(clips, (pose, high)).make(0, 12, 1).motion.positions_m[0, thigh]))
+                   for high in (height, 2 * height)]
+        self.assertAlmostEqual(lengths[1] / lengths[0], 2)
+        self.assertEqual(height, 0.9)
+        with self.assertRaisesRegex(engine.BadInput, "hips 0.01 m high; allowed: 0.1 to 10"):
+            engine.TransitionLibrary(clips, (pose, 0.01))
+        with self.assertRaisesRegex(engine.BadInput, "a body without legs"):
+            engine.TransitionLibrary(clips, (0 * pose, 0.9))
         with self.assertRaisesRegex(engine.BadInput, "choice 'best'; allowed: fuzzy-bridge"):
             library.make(0, 0, 1, choice="best")
         with self.assertRaisesRegex(engine.BadInput, "clip 0: 2 frames at 60 Hz"):

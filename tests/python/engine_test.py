@@ -319,7 +319,8 @@ class Fuzz(unittest.TestCase):
             camera.width, camera.height = 4, 3
         targets = {
             "transition": lambda: engine.TransitionLibrary(
-                [engine.Motion(numbers.normal(size=(9, 20, 3))), engine.Motion(anything((5, 20, 3)))]).make(
+                [engine.Motion(numbers.normal(size=(9, 20, 3))), engine.Motion(anything((5, 20, 3)))],
+                dice.choice([None, (anything((20, 3)), dice.choice([0.9, 0, float("nan")]))])).make(
                     dice.randrange(-1, 3), dice.randrange(-1, 9), dice.randrange(-1, 3), dice.choice([0, 1, float("nan")]),
                     dice.choice([*engine.TRANSITION_CHOICES, "?"]), dice.choice([*engine.TRANSITION_JOINS, "?"]),
                     dice.choice([0.4, 7, float("nan")])),

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -47,12 +48,19 @@ struct Transition {
   std::string why;          ///< one sentence: why this way won, or why there is none
 };
 
-/// Clips made ready for transitions: performed by the body of the first, tagged, and joined by in-betweens.
+/// The proportions of one person: those of a pose, scaled so that its hips stand so high, metres.
+struct BodyProportions {
+  Pose pose;
+  double hip_height = 0;
+};
+
+/// Clips made ready for transitions: performed by one body, tagged, and joined by in-betweens.
 class ETUDE_API TransitionLibrary {
  public:
-  /// Throws BadInput for no clips, a clip of fewer than two frames or of another rate than 30 Hz, places that are not
-  /// finite, and a first frame without legs.
-  explicit TransitionLibrary(std::span<const Motion> clips);
+  /// The body that performs is that of the first clip's first frame, or the one told (a scenario's is
+  /// sim::ScenarioProportions). Throws BadInput for no clips, a clip of fewer than two frames or of another rate than
+  /// 30 Hz, places that are not finite, a body without legs, and hips that are not 0.1 to 10 m high.
+  explicit TransitionLibrary(std::span<const Motion> clips, const std::optional<BodyProportions>& proportions = {});
   TransitionLibrary(TransitionLibrary&&) noexcept;
   TransitionLibrary& operator=(TransitionLibrary&&) noexcept;
   ~TransitionLibrary();

@@ -2,6 +2,7 @@
 
 #include <etude/coaching.h>
 #include <etude/recognition.h>
+#include <etude/transitions.h>
 
 #include <string>
 #include <vector>
@@ -19,5 +20,8 @@ struct BuiltinDance {
 };
 /// Throws engine::BadInput for a song that there is not.
 ETUDE_API BuiltinDance DanceOfSong(const std::string& song);
+
+/// The body that performs a scenario's clips: for answers that are those of its cells.
+ETUDE_API engine::BodyProportions ScenarioProportions();
 
 }  // namespace etude::sim
