@@ -121,6 +121,24 @@ class OutsideMethods(EtudeCase):
         again = self.etude("replay", self.out, "--cell", cell, "--allow-exec", "--no-fence")
         self.assertEqual(again.returncode, 0, "a failure that came again is the same: " + again.stdout)
 
+    def test_a_model_trained_on_exported_sessions_knows_people_whom_it_never_saw(self):
+        example, model = EXAMPLES / "detection_kernel_numpy.py", self.folder / "rival.npz"
+        suite = self.write("suite.yaml", "scenario: rivals\nquestion: Right?\ntask: detection\nclips: [builtin:clap, builtin:side_kick]\n"
+                           "people: expert\nevents: 10\nseverity: 1\ntwo_faults: 0\nfaults: [wrong_move, skipped]\ntrials: 3\nmethods:\n"
+                           + outside("rival", example, model) + "metrics: [roc_auc, f1]\n")
+        data = self.folder / "data"
+        self.assertEqual(self.etude("export", suite, "-o", data, "--seed", 2).returncode, 0)
+        python = ["/usr/bin/python3", example, "train"]
+        trained = subprocess.run([*python, data, "-o", model], capture_output=True, text=True)
+        self.assertEqual(trained.returncode, 0, trained.stderr)
+        self.assertIn("3 sessions, 30 performances", trained.stdout)
+        for row in self.run_suite(suite, "--seed", 3):
+            self.assertGreater(row["roc_auc"], 0.95, "another move and standing still are easily told")
+            self.assertGreater(row["f1"], 0.7)
+        nothing = subprocess.run([*python, self.folder, "-o", model], capture_output=True, text=True)
+        self.assertEqual(nothing.returncode, 1)
+        self.assertIn("right and wrong performances are needed", nothing.stderr)
+
     def radians(self):
         """The example solver, which answers radians for degrees."""
         text = (EXAMPLES / "ik_dls.py").read_text()
