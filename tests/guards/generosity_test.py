@@ -31,6 +31,14 @@ class Generosity(unittest.TestCase):
         self.assertAlmostEqual(generosity.found_at(same, self.truth, 0.9), 0.1)
         self.assertAlmostEqual(generosity.area(same, self.truth), 0.5)
 
+    def test_conditions_share_the_threshold_of_all_right_ones(self):
+        conditions, faults = np.array(["mild"] * 5 + ["bad"] * 9), np.array(["late"] * 10 + ["late", "late", "none", "late"])
+        truth = np.array([1] * 10 + [0.5, 0, 0, 0])
+        people = [{"m": [self.scores, truth, faults, conditions]}]
+        found = generosity.found_by_condition(people, "m", [0], 0.9)  # the threshold is 2
+        self.assertAlmostEqual(found["mild"], 1 / 5)
+        self.assertAlmostEqual(found["bad"], 2 / 8, msg="grey ones count, those without a fault do not")
+
     def test_the_area_counts_pairs(self):
         self.assertAlmostEqual(generosity.area(self.scores, self.truth), (10 + 9 + 8 + 1) / 40)
 
