@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 
 #include "engine/base/smoothstep.h"
 #include "reports/films/look.h"
@@ -137,12 +138,13 @@ void Studio::PaintFloor(const FloorMove& placement) {
   // The floor as the figure knows it: the placement undone.
   const float cosine = static_cast<float>(std::cos(placement.yaw)), sine = static_cast<float>(std::sin(placement.yaw));
   const float move_x = static_cast<float>(placement.x), move_z = static_cast<float>(placement.z);
+  const int width = floor_.seen.Width();  // known before pixels are written, or the loop is not one of lanes
   for (int y = floor_.seen.top; y < floor_.seen.bottom; ++y) {
     const std::size_t first = static_cast<std::size_t>(y) * lit_.width + floor_.seen.left;
     const float *xs = &floor_.x[first], *zs = &floor_.z[first];
     const float *fades = &floor_.fade[first], *footprints = &floor_.footprint[first];
     std::uint32_t *lit = &lit_.pixels[first], *shaded = &shaded_.pixels[first];
-    for (int i = 0; i < floor_.seen.Width(); ++i) {
+    for (int i = 0; i < width; ++i) {
       const float x = xs[i] - move_x, z = zs[i] - move_z;
       const float line =
           std::max(LineCover(cosine * x - sine * z, footprints[i]), LineCover(sine * x + cosine * z, footprints[i]));
@@ -153,18 +155,21 @@ void Studio::PaintFloor(const FloorMove& placement) {
 }
 
 void Studio::Compose(const PixelRect& rect, const Mask* ghost) {
+  const int width = rect.Width();
   for (int y = rect.top; y < rect.bottom; ++y) {
     const std::size_t first = static_cast<std::size_t>(y) * lit_.width + rect.left;
     const std::uint8_t* seen = &figures_.bytes[4 * first];
     const std::uint32_t *lit = &lit_.pixels[first], *shaded = &shaded_.pixels[first];
     std::uint32_t* out = &large_.pixels[first];
-    for (int i = 0; i < rect.Width(); ++i) {
-      const std::uint32_t r = seen[4 * i], g = seen[4 * i + 1], b = seen[4 * i + 2], what = seen[4 * i + 3];
-      const std::uint32_t body = r << 16 | g << 8 | b;
-      const std::uint32_t ground = what == Overlay::kNothing ? lit[i] : shaded[i];
+    for (int i = 0; i < width; ++i) {
+      std::uint32_t rgba = 0;  // as it lies in memory
+      std::memcpy(&rgba, seen + 4 * i, sizeof rgba);
+      const std::uint32_t what = rgba >> 24, body = (rgba & 255) << 16 | (rgba & 0xff00) | (rgba >> 16 & 255);
+      const std::uint32_t in_light = lit[i], in_shadow = shaded[i];
+      const std::uint32_t ground = what == Overlay::kNothing ? in_light : in_shadow;
       out[i] = what == Overlay::kBody ? body : ground;
     }
-    for (int i = 0; ghost != nullptr && i < rect.Width(); ++i) {
+    for (int i = 0; ghost != nullptr && i < width; ++i) {
       if (ghost->pixels[first + i] != 0 && seen[4 * i + 3] != Overlay::kBody) out[i] = Veiled(out[i]);
     }
   }

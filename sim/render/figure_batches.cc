@@ -79,23 +79,43 @@ glm::vec3 ColourOf(const Surface& surface, Part part) {
   return glm::vec3(colour.r, colour.g, colour.b) / 255.0f;
 }
 
-void AddCorners(const Surface& surface, std::optional<Part> seen_as, int paint, const glm::dvec3& eye,
-                std::vector<SurfaceCorner>& corners) {
+void AddTriangles(const Surface& surface, std::optional<Part> seen_as, int paint, const glm::dvec3& eye,
+                  Triangles& all) {
   assert(surface.normals.size() == surface.positions.size() && surface.parts.size() == surface.triangles.size());
   assert(!surface.paint || surface.rest.size() == surface.positions.size());
   assert(surface.paint || !surface.texture || surface.on_texture.size() == surface.positions.size());
+  // The corners that a vertex has, one for each part that meets there, are a chain.
+  struct Made {
+    Part part;
+    std::uint32_t next;
+  };
+  constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  std::vector<std::uint32_t> first(surface.positions.size(), kNone);
+  std::vector<Made> made;
+  const std::size_t before = all.corners.size();
+  const auto corner_of = [&](std::uint32_t vertex, Part part) {
+    std::uint32_t* at = &first[vertex];
+    while (*at != kNone && made[*at].part != part) at = &made[*at].next;
+    if (*at != kNone) return *at;
+    const auto added = static_cast<std::uint32_t>(made.size());
+    *at = added;
+    made.push_back({part, kNone});
+    const glm::vec4 paint_and_label(ColourOf(surface, part), static_cast<std::uint32_t>(seen_as.value_or(part)));
+    const glm::vec3 rest = surface.paint     ? surface.rest[vertex]
+                           : surface.texture ? glm::vec3(surface.on_texture[vertex], 0)
+                                             : glm::vec3(0);
+    all.corners.push_back({glm::vec3(surface.positions[vertex] - eye), glm::vec3(surface.normals[vertex]),
+                           paint_and_label, glm::vec4(rest, paint)});
+    return added;
+  };
   for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
-    const glm::vec4 paint_and_label(ColourOf(surface, surface.parts[i]),
-                                    static_cast<std::uint32_t>(seen_as.value_or(surface.parts[i])));
-    std::array<SurfaceCorner, 3> triangle{};
+    std::array<std::uint32_t, 3> triangle{};
     std::ranges::transform(surface.triangles[i], triangle.begin(), [&](std::uint32_t vertex) {
-      const glm::vec3 rest = surface.paint     ? surface.rest[vertex]
-                             : surface.texture ? glm::vec3(surface.on_texture[vertex], 0)
-                                               : glm::vec3(0);
-      return SurfaceCorner{glm::vec3(surface.positions[vertex] - eye), glm::vec3(surface.normals[vertex]),
-                           paint_and_label, glm::vec4(rest, paint)};
+      return static_cast<std::uint32_t>(before) + corner_of(vertex, surface.parts[i]);
     });
-    if (std::ranges::all_of(triangle, IsDrawable)) corners.insert(corners.end(), triangle.begin(), triangle.end());
+    if (std::ranges::all_of(triangle, [&](std::uint32_t corner) { return IsDrawable(all.corners[corner]); })) {
+      all.indices.insert(all.indices.end(), triangle.begin(), triangle.end());
+    }
   }
 }
 
@@ -107,22 +127,23 @@ std::vector<CapsuleInstance> MakeInstances(const std::vector<Figure>& figures, c
   return instances;
 }
 
-void MakeCorners(const std::vector<Figure>& figures, const glm::dvec3& eye, SurfaceCorners& corners) {
-  corners.plain.clear();
-  corners.painted.clear();
-  corners.textured.clear();
-  corners.textures.clear();
+void MakeTriangles(const std::vector<Figure>& figures, const glm::dvec3& eye, SurfaceTriangles& all) {
+  for (Triangles* some : {&all.plain, &all.painted, &all.textured}) {
+    some->corners.clear();
+    some->indices.clear();
+  }
+  all.textures.clear();
   int paints = 0;
   for (const Figure& figure : figures) {
     for (const Surface& surface : figure.surfaces) {
       if (surface.paint) {
-        AddCorners(surface, figure.seen_as, paints++, eye, corners.painted);
+        AddTriangles(surface, figure.seen_as, paints++, eye, all.painted);
       } else if (surface.texture) {
-        const std::size_t first = corners.textured.size();
-        AddCorners(surface, figure.seen_as, -1, eye, corners.textured);
-        corners.textures.push_back({surface.texture, first, corners.textured.size() - first});
+        const std::size_t first = all.textured.indices.size();
+        AddTriangles(surface, figure.seen_as, -1, eye, all.textured);
+        all.textures.push_back({surface.texture, first, all.textured.indices.size() - first});
       } else {
-        AddCorners(surface, figure.seen_as, -1, eye, corners.plain);
+        AddTriangles(surface, figure.seen_as, -1, eye, all.plain);
       }
     }
   }

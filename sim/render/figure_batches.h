@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -29,24 +30,30 @@ struct SurfaceCorner {
       rest_and_paint;  ///< the place on the body at rest, or RG = that on the texture; A = the paint's number, or −1
 };
 
-/// A run of corners that have one texture.
-struct TexturedCorners {
+/// Triangles, three indices each. Those that share a vertex and are of one part share its corner: GL shades it once.
+struct Triangles {
+  std::vector<SurfaceCorner> corners;
+  std::vector<std::uint32_t> indices;
+};
+
+/// A run of indices that have one texture.
+struct TexturedRun {
   SharedTexture texture;
   std::size_t first = 0, count = 0;
 };
 
-/// The corners of all triangles, three for each.
-struct SurfaceCorners {
-  std::vector<SurfaceCorner> plain;    ///< of surfaces in one colour
-  std::vector<SurfaceCorner> painted;  ///< of those with a paint
-  std::vector<SurfaceCorner> textured;
-  std::vector<TexturedCorners> textures;  ///< whose `textured` are
+/// All triangles.
+struct SurfaceTriangles {
+  Triangles plain;    ///< of surfaces in one colour
+  Triangles painted;  ///< of those with a paint
+  Triangles textured;
+  std::vector<TexturedRun> textures;  ///< whose `textured` are
 };
 
-/// Collects all triangles of all figures into `corners`. Triangles with a corner or normal that is not finite, or that
-/// lies beyond any scene, are left out. Paints are numbered in the order of PaintsOf. The memory of `corners` is used
+/// Collects all triangles of all figures into `all`. Triangles with a corner or normal that is not finite, or that
+/// lies beyond any scene, are left out. Paints are numbered in the order of PaintsOf. The memory of `all` is used
 /// again.
-void MakeCorners(const std::vector<Figure>& figures, const glm::dvec3& eye, SurfaceCorners& corners);
+void MakeTriangles(const std::vector<Figure>& figures, const glm::dvec3& eye, SurfaceTriangles& all);
 
 /// Returns the paints of all surfaces, in the order of their numbers.
 std::vector<SurfacePaint> PaintsOf(const std::vector<Figure>& figures);

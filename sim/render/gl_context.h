@@ -42,6 +42,7 @@ namespace etude {
   X(PFNGLDRAWARRAYSPROC, DrawArrays)                           \
   X(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced)         \
   X(PFNGLDRAWBUFFERSPROC, DrawBuffers)                         \
+  X(PFNGLDRAWELEMENTSPROC, DrawElements)                       \
   X(PFNGLENABLEPROC, Enable)                                   \
   X(PFNGLENABLEIPROC, Enablei)                                 \
   X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray) \

@@ -50,19 +50,28 @@ void VertexStream::Upload(const void* data, std::size_t count, std::size_t eleme
   gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(count * element_bytes), data, GL_STREAM_DRAW);
 }
 
-void VertexStream::Draw() const {
+void VertexStream::Index(const std::vector<std::uint32_t>& indices) {
+  count_ = static_cast<GLsizei>(indices.size());
+  if (IsEmpty()) return;
+  if (indices_ == 0) gl_.GenBuffers(1, &indices_);
   gl_.BindVertexArray(vertices_);
-  if (strip_length_ > 0) {
-    gl_.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, strip_length_, count_);
-  } else {
-    gl_.DrawArrays(GL_TRIANGLES, 0, count_);
-  }
+  gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_);
+  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)),
+                 indices.data(), GL_STREAM_DRAW);
+}
+
+void VertexStream::Draw() const {
+  if (strip_length_ == 0) return DrawSome(0, static_cast<std::size_t>(count_));
+  gl_.BindVertexArray(vertices_);
+  gl_.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, strip_length_, count_);
 }
 
 void VertexStream::DrawSome(std::size_t first, std::size_t count) const {
   assert(strip_length_ == 0 && first + count <= static_cast<std::size_t>(count_));
   gl_.BindVertexArray(vertices_);
-  gl_.DrawArrays(GL_TRIANGLES, static_cast<GLint>(first), static_cast<GLsizei>(count));
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): an offset into the buffer again
+  const void* begin = reinterpret_cast<const void*>(first * sizeof(std::uint32_t));
+  gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT, begin);
 }
 
 void TextureStore::Bind(const SharedTexture& texture) {
@@ -123,12 +132,18 @@ void FrameTargets::Grow(int width, int height) {
     gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, kAttachments[i], GL_RENDERBUFFER, buffers_[i]);
   }
   gl_.DrawBuffers(3, kAttachments);
+  drawn_ = Targets::kAll;
   assert(gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
 }
 
-void FrameTargets::Begin(int width, int height) {
+void FrameTargets::Begin(int width, int height, Targets asked) {
   if (width > capacity_width_ || height > capacity_height_) Grow(width, height);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+  if (asked != drawn_) {
+    constexpr GLenum kAttachments[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
+    gl_.DrawBuffers(asked == Targets::kColour ? 1 : asked == Targets::kAll ? 3 : 2, kAttachments);
+    drawn_ = asked;
+  }
   gl_.Viewport(0, 0, width, height);
 }
 

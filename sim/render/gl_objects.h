@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <initializer_list>
 #include <vector>
 
@@ -27,19 +28,26 @@ class VertexStream {
   void Upload(const std::vector<Element>& elements) {
     Upload(elements.data(), elements.size(), sizeof(Element));
   }
+  /// Of corners: those of triangles are the ones that `indices` name.
+  template <typename Element>
+  void Upload(const std::vector<Element>& elements, const std::vector<std::uint32_t>& indices) {
+    Upload(elements.data(), elements.size(), sizeof(Element));
+    Index(indices);
+  }
   bool IsEmpty() const { return count_ == 0; }
   void Draw() const;
-  /// Draws only `count` corners from `first` on; for streams of corners.
+  /// Draws only `count` indices from `first` on; for streams of corners.
   void DrawSome(std::size_t first, std::size_t count) const;
 
  private:
   void Upload(const void* data, std::size_t count, std::size_t element_bytes);
+  void Index(const std::vector<std::uint32_t>& indices);
 
   const GlFunctions& gl_;
   GLsizei strip_length_;
-  GLsizei count_ = 0;
+  GLsizei count_ = 0;  ///< of instances, or of indices
   GLuint vertices_ = 0;
-  GLuint buffer_ = 0;
+  GLuint buffer_ = 0, indices_ = 0;
 };
 
 /// The textures that GL has been given: a figure's stay from picture to picture. Lives as long as its context.
@@ -77,8 +85,9 @@ class FrameTargets {
   FrameTargets(const FrameTargets&) = delete;
   FrameTargets& operator=(const FrameTargets&) = delete;
 
-  /// Makes drawing go into the top left `width` × `height` pixels.
-  void Begin(int width, int height);
+  /// Makes drawing go into the top left `width` × `height` pixels of the attachments that are asked for: shaders for
+  /// fewer of them are faster.
+  void Begin(int width, int height, Targets asked);
   /// Makes rectangles, one at least, of the attachments that WriteOnly names ready to be drawn: nobody has drawn there,
   /// nothing is hidden. Drawing is then confined to about them.
   void Clear(const std::vector<PixelRect>& rects);
@@ -99,6 +108,7 @@ class FrameTargets {
   GLuint framebuffer_ = 0;
   GLuint buffers_[4] = {};  // colour, labels, depth, hidden surfaces
   int capacity_width_ = 0, capacity_height_ = 0;
+  Targets drawn_ = Targets::kAll;    ///< what the framebuffer is drawn into
   std::vector<std::uint8_t> bytes_;  // reused
   std::vector<float> depths_;
 };

@@ -164,8 +164,8 @@ struct Renderer::State {
     gl.Uniform1f(gl.GetUniformLocation(program, name), static_cast<float>(value));
   }
 
-  void Begin(const KeptRoom& room, const Camera& camera) {
-    targets.Begin(camera.intrinsics.width, camera.intrinsics.height);
+  void Begin(const KeptRoom& room, const Camera& camera, Targets asked) {
+    targets.Begin(camera.intrinsics.width, camera.intrinsics.height, asked);
     gl.BindTexture(GL_TEXTURE_2D, room.room);
   }
 
@@ -209,7 +209,7 @@ struct Renderer::State {
   void DrawTexturedBodies(const Shot& shot) {
     UseOnBodies(programs.textured, shot);
     gl.Uniform1i(gl.GetUniformLocation(programs.textured, "skin"), TextureStore::kUnit);
-    for (const TexturedCorners& some : corners.textures) {
+    for (const TexturedRun& some : triangles.textures) {
       textures.Bind(some.texture);
       textured.DrawSome(some.first, some.count);
     }
@@ -253,10 +253,10 @@ struct Renderer::State {
     capsules.Upload(plain);
     faces.Upload(with_face);
     all_closed = AllClosed(figures);
-    MakeCorners(figures, eye, corners);
-    surfaces.Upload(corners.plain);
-    painted.Upload(corners.painted);
-    textured.Upload(corners.textured);
+    MakeTriangles(figures, eye, triangles);
+    surfaces.Upload(triangles.plain.corners, triangles.plain.indices);
+    painted.Upload(triangles.painted.corners, triangles.painted.indices);
+    textured.Upload(triangles.textured.corners, triangles.textured.indices);
   }
 
   // Bodies, and what shadows they throw in the studio: `rects` of the picture, on top of `view`, which begins with
@@ -264,7 +264,7 @@ struct Renderer::State {
   void DrawTouched(const KeptRoom& kept, const Room& room, const std::vector<Figure>& figures, const Camera& camera,
                    Targets asked, const std::vector<PixelRect>& rects, int top_row, View& view) {
     if (rects.empty()) return;
-    Begin(kept, camera);
+    Begin(kept, camera, asked);
     Upload(figures, camera.p_WC);
     const Shot shot{room, camera, rects, asked != Targets::kColour, asked == Targets::kAll};
     targets.WriteOnly(true, shot.labels, shot.depth);
@@ -279,7 +279,7 @@ struct Renderer::State {
     const std::vector<PixelRect> rects =
         TouchedPixels(room, figures, camera, {0, camera.intrinsics.height}, /*with_wall=*/false);
     if (rects.empty()) return;
-    Begin(kept, camera);
+    Begin(kept, camera, Targets::kColour);
     Upload(figures, camera.p_WC);
     targets.WriteOnly(true, false, false);
     targets.Clear(rects);
@@ -297,8 +297,8 @@ struct Renderer::State {
   GLuint empty_vertices;
   VertexStream capsules, faces, surfaces, painted, textured;
   TextureStore textures;
-  bool all_closed = false;  // of surfaces: no backs are in sight
-  SurfaceCorners corners;   // reused
+  bool all_closed = false;     // of surfaces: no backs are in sight
+  SurfaceTriangles triangles;  // reused
   FrameTargets targets;
   KeptRooms rooms;
   SmoothRoom smooth;

@@ -203,15 +203,29 @@ TEST_F(RenderedSurfaces, LeaveOutTrianglesThatAreNotFiniteOrEmpty) {
   add({0, 0, -1e300}, ahead);
   add({0, 0, 1e9}, ahead);
   add({0, 1, 0}, {0, kNan, 0});
-  SurfaceCorners corners;
-  MakeCorners({OfSurfaces({sheet})}, {}, corners);
-  EXPECT_EQ(corners.plain.size(), 6u);
+  SurfaceTriangles all;
+  MakeTriangles({OfSurfaces({sheet})}, {}, all);
+  EXPECT_EQ(all.plain.indices.size(), 6u);
   add({0, 1, 0}, ahead);
-  MakeCorners({OfSurfaces({sheet})}, {}, corners);
-  EXPECT_EQ(corners.plain.size(), 9u) << "the good one is kept";
+  MakeTriangles({OfSurfaces({sheet})}, {}, all);
+  EXPECT_EQ(all.plain.indices.size(), 9u) << "the good one is kept";
   sheet.triangles.back() = {2, 0, 2};  // without area
   EXPECT_TRUE(SameView(Draw({OfSurfaces({sheet, {}})}), expected));
   EXPECT_TRUE(SameView(Draw({OfSurfaces({{}, {}})}), Draw({})));
+}
+
+TEST(TrianglesOfSurfaces, ShareCornersWithinAPartAlone) {
+  Surface sheet = FacingSheet(Part::kHead);
+  sheet.parts = {Part::kTrunk, Part::kTrunk};
+  SurfaceTriangles all;
+  MakeTriangles({OfSurfaces({sheet})}, {}, all);
+  EXPECT_EQ(all.plain.corners.size(), 4u);
+  EXPECT_EQ(all.plain.indices, (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}));
+  sheet.parts = {Part::kTrunk, Part::kHead};
+  MakeTriangles({OfSurfaces({sheet})}, {}, all);
+  EXPECT_EQ(all.plain.indices, (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5}));
+  EXPECT_EQ(all.plain.corners[3].place, all.plain.corners[0].place);
+  EXPECT_EQ(all.plain.corners[3].paint_and_label.a, static_cast<float>(Part::kHead));
 }
 
 TEST_F(RenderedSurfaces, GiveTheSameBytesAgainWithoutLabelsAndDepthToo) {
