@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <vector>
@@ -12,31 +13,49 @@
 
 namespace etude {
 
+/// A ball as a camera sees it.
+struct SeenBall {
+  glm::dvec3 centre;  ///< From the camera, in world axes.
+  double radius;
+
+  bool IsMetBy(const glm::dvec3& ray) const {
+    const double along = glm::dot(centre, ray);
+    return along > 0 && glm::dot(centre, centre) - along * along < radius * radius;
+  }
+};
+
 /// The mask that a pinhole camera would make of capsules, by rays: a pixel is set when the line of sight through its
 /// centre comes nearer to some capsule's axis than its radius there. Shares nothing with the code under test but the
 /// body's description.
 inline Mask RayCast(const SilhouetteBody& body, const TreeState& state, const Camera& camera, double thickness = 1) {
   const TreeFrames frames = ComputeFrames(body.tree, state);
+  struct Limb {
+    SeenBall around;                 ///< Holds all of it: a ray that misses it misses the limb.
+    std::array<SeenBall, 13> balls;  ///< Along the axis.
+  };
+  std::vector<Limb> limbs;
+  for (const FleshCapsule& flesh : body.flesh) {
+    const auto place = [&](const TreePoint& point) {
+      return frames.joints[point.joint].position + frames.joints[point.joint].axes * point.p_LQ - camera.p_WC;
+    };
+    const glm::dvec3 a = place(flesh.a), b = place(flesh.b);
+    Limb& limb = limbs.emplace_back();
+    for (std::size_t i = 0; i < limb.balls.size(); ++i) {
+      const double t = static_cast<double>(i) / static_cast<double>(limb.balls.size() - 1);
+      limb.balls[i] = {a + t * (b - a), thickness * (flesh.radius_a + t * (flesh.radius_b - flesh.radius_a))};
+    }
+    limb.around = {(a + b) / 2.0, glm::distance(a, b) / 2 + thickness * std::max(flesh.radius_a, flesh.radius_b)};
+  }
   Mask mask(camera.intrinsics.width, camera.intrinsics.height);
   const Intrinsics& in = camera.intrinsics;
   const glm::dmat3 R_WC = glm::transpose(camera.R_CW);
   for (int y = 0; y < mask.height; ++y) {
     for (int x = 0; x < mask.width; ++x) {
       const glm::dvec3 ray = glm::normalize(R_WC * glm::dvec3((x + 0.5 - in.cx) / in.fx, (y + 0.5 - in.cy) / in.fy, 1));
-      for (const FleshCapsule& flesh : body.flesh) {
-        const auto place = [&](const TreePoint& point) {
-          return frames.joints[point.joint].position + frames.joints[point.joint].axes * point.p_LQ - camera.p_WC;
-        };
-        const glm::dvec3 a = place(flesh.a), b = place(flesh.b);
-        constexpr int kSteps = 12;  // spheres along the axis
-        for (int i = 0; i <= kSteps && !mask.At(x, y); ++i) {
-          const double t = static_cast<double>(i) / kSteps;
-          const glm::dvec3 centre = a + t * (b - a);
-          const double radius = thickness * (flesh.radius_a + t * (flesh.radius_b - flesh.radius_a));
-          const double along = glm::dot(centre, ray);
-          if (along > 0 && glm::dot(centre, centre) - along * along < radius * radius) mask.At(x, y) = 1;
-        }
-      }
+      mask.At(x, y) = std::ranges::any_of(limbs, [&](const Limb& limb) {
+        return limb.around.IsMetBy(ray) &&
+               std::ranges::any_of(limb.balls, [&](const SeenBall& ball) { return ball.IsMetBy(ray); });
+      });
     }
   }
   return mask;
