@@ -4,6 +4,7 @@ A generator of its own makes a walking figure, four cameras, their calibration i
 format, and one mistake at a time. `--table` prints the errors instead of testing them, `--matrix` those of every rig
 with every mistake, whose kinds of keypoints take turns.
 """
+import functools
 import html
 import json
 import math
@@ -38,6 +39,7 @@ def rodrigues(R):
     return axis * 0 if angle < 1e-9 else angle * axis / np.linalg.norm(axis)
 
 
+@functools.lru_cache(maxsize=None)
 def figure(t, centre=(0.0, 0.0), pace=1.0):
     """A figure of 1.7 m that turns, swings its arms and steps aside; metres, Y up, the floor at 0."""
     facing = 0.5 * math.sin(0.8 * t * pace)
@@ -81,9 +83,9 @@ class Lens:
 
     def __call__(self, x, y):
         k = self.coefficients + [0.0] * (14 - len(self.coefficients))
-        r = max(1e-12, math.hypot(x, y))
+        r = np.maximum(1e-12, np.hypot(x, y))
         if self.fisheye:
-            a = math.atan(r)
+            a = np.arctan(r)
             gain = a * (1 + k[0] * a ** 2 + k[1] * a ** 4 + k[2] * a ** 6 + k[3] * a ** 8) / r
             return x * gain, y * gain
         r2 = r * r
@@ -92,7 +94,7 @@ class Lens:
         v = y * gain + k[2] * (r2 + 2 * y * y) + 2 * k[3] * x * y + k[10] * r2 + k[11] * r2 ** 2
         cx, sx, cy, sy = math.cos(k[12]), math.sin(k[12]), math.cos(k[13]), math.sin(k[13])
         R = np.array([[cy, 0, -sy], [0, 1, 0], [sy, 0, cy]]) @ np.array([[1, 0, 0], [0, cx, sx], [0, -sx, cx]])
-        w = np.array([[R[2, 2], 0, -R[0, 2]], [0, R[2, 2], -R[1, 2]], [0, 0, 1]]) @ R @ np.array([u, v, 1])
+        w = np.array([[R[2, 2], 0, -R[0, 2]], [0, R[2, 2], -R[1, 2]], [0, 0, 1]]) @ R @ np.array([u, v, np.ones_like(u)])
         return w[0] / w[2], w[1] / w[2]
 
 
@@ -108,10 +110,15 @@ class Camera:
         self.R = np.array([x, np.cross(z, x), z])
         self.K = np.array([[FOCAL, 0, WIDTH / 2 - 0.5], [0, FOCAL, HEIGHT / 2 - 0.5], [0, 0, 1]])
 
-    def pixel(self, point):
-        p = self.R @ (point - self.place)
+    def pixel(self, points):
+        """Where a point is seen, or each of a row of points."""
+        p = self.R @ (points - self.place).T
         x, y = self.lens(p[0] / p[2], p[1] / p[2])
-        return np.array([self.K[0, 0] * x + self.K[0, 2], self.K[1, 1] * y + self.K[1, 2]])
+        return np.array([self.K[0, 0] * x + self.K[0, 2], self.K[1, 1] * y + self.K[1, 2]]).T
+
+    def person(self, points):
+        """Where named points are seen: name → pixel."""
+        return dict(zip(points, self.pixel(np.array(list(points.values())))))
 
     def outside(self, turn, unit, shift):
         """R and T from a file's world, whose coordinates are (turn · p + shift) / unit."""
@@ -236,11 +243,11 @@ def seen_people(cameras, mistake, truth):
                 time = (k + 0.4) / RATE
             if name == "cam2" and mistake == "rate off by 2 %":
                 time = 1.02 * k / RATE
-            person = {key: camera.pixel(p) + noise_px * dice.normal(size=2) for key, p in truth(time).items()}
+            person = {key: p + noise_px * dice.normal(size=2) for key, p in camera.person(truth(time)).items()}
             people = [person]
             if mistake == "two people, identities cross":
                 # Somebody passes behind, and in the picture through, the one who is wanted.
-                people.append({key: camera.pixel(p) for key, p in figure(k / RATE, (1 - k / RATE, -1.1), 0.7).items()})
+                people.append(camera.person(figure(k / RATE, (1 - k / RATE, -1.1), 0.7)))
                 people = people[::-1] if k % 2 else people
             if name == "cam2" and (mistake == "sides swapped in 20 frames" and 20 <= k < 40 or mistake == "sides swapped for ever"):
                 people[0] = swapped(person)
@@ -518,7 +525,7 @@ class Mistakes(EtudeCase):
         # The same, with keypoints beside the outlines.
         moving = lambda t: figure(0.5 + t)
         write_keypoints(self.folder / "keypoints", "OpenPose, 26", {
-            name: [[{key: camera.pixel(p) for key, p in moving(k / rate / fast).items()}] for k in range(frames * fast)]
+            name: [[camera.person(moving(k / rate / fast))] for k in range(frames * fast)]
             for (name, camera), fast in zip(cams.items(), (1, 2))})
         write_trc(self.folder / "truth.trc", rate, frames, moving)
         both = self.etude("capture", "--rig", self.folder / named, *(self.folder / f"{name}.mp4" for name in cams), "--silhouettes",
