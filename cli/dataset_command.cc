@@ -8,6 +8,7 @@
 #include "bench/dataset/export.h"
 #include "bench/dataset/score.h"
 #include "bench/run/run.h"
+#include "bench/run/shipped.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
@@ -69,11 +70,17 @@ void DefineExport(CLI::App& app, Action& action) {
   auto options = std::make_shared<ExportOptions>();
   options->program_version = ETUDE_VERSION;
   CLI::App* command = app.add_subcommand("export", "Write the problems of scenarios as files, the truth apart");
-  command->add_option("scenarios", options->scenarios, "Scenario files, or folders of them")->required();
+  command
+      ->add_option("scenarios", options->scenarios,
+                   "Scenario files, folders of them, or names of what comes with etude")
+      ->required();
   command->add_option("-o,--output", options->output, "Folder of the data set")->required();
   command->add_flag("--films", options->films, "Each camera's take as an MP4, too, beside its pictures");
   AddWorldOptions(*command, options->seed, options->trials, options->clips, options->joint_map, options->clip_facts);
-  const Action act = WithSecretKey(*command, &options->seed, options->key, [=] { return ExportCommand(*options); });
+  const Action act = WithSecretKey(*command, &options->seed, options->key, [=] {
+    std::ranges::for_each(WhichIsMeant(options->scenarios), Complain);
+    return ExportCommand(*options);
+  });
   command->callback([=, &action] { action = act; });
 }
 

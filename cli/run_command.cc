@@ -138,9 +138,6 @@ void TellUnlocked(const RunOutcome& outcome) {
 
 int RunCommand(const RunOptions& given) {
   RunOptions options = given;
-  for (const std::string& name : NamesThatAreHereToo(options.scenarios)) {
-    Complain({{name}, "what is here is run, not what comes with etude under that name"});
-  }
   std::optional<Interrupt> interrupt(std::in_place);
   options.stop = interrupt->requested();
   ProgressBar bar;
@@ -332,6 +329,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
         if (!part) return Complain({{}, "--shard: " + part.error().message});
         options->shard = *part;
       }
+      std::ranges::for_each(WhichIsMeant(options->scenarios), Complain);
       return act();
     };
   });
@@ -342,7 +340,7 @@ void DefineScenario(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("scenario", "Start from what comes with etude");
   CLI::App* copy = command->add_subcommand("copy", "Copy a scenario or a suite, to change it");
   command->require_subcommand(1);
-  copy->add_option("name", *name, "Its name, such as full/ik_weights or quick (etude list scenarios)")->required();
+  copy->add_option("scenario", *name, "Its name, such as full/ik_weights or quick (etude list scenarios)")->required();
   copy->add_option("folder", *folder, "Where to")->required();
   copy->callback([=, &action] {
     action = [=] {

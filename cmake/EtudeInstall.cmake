@@ -15,7 +15,7 @@ if(TARGET etude_boards_opencv)  # optional, and not in packages, which would nee
 endif()
 
 install(DIRECTORY scenarios examples DESTINATION share/etude PATTERN __pycache__ EXCLUDE PATTERN node_modules EXCLUDE)
-install(PROGRAMS ci/gate DESTINATION share/etude/ci)
+install(DIRECTORY ci DESTINATION share/etude USE_SOURCE_PERMISSIONS)
 install(DIRECTORY docs/schemas DESTINATION share/etude)
 # The package, alone in its folder, which methods outside are shown; Debian's Python finds it by a path file.
 install(DIRECTORY python/etude DESTINATION share/etude/python PATTERN __pycache__ EXCLUDE)
@@ -23,6 +23,16 @@ file(WRITE "${CMAKE_BINARY_DIR}/etude.pth" "../../../share/etude/python\n")
 install(FILES "${CMAKE_BINARY_DIR}/etude.pth" DESTINATION lib/python3/dist-packages)
 install(DIRECTORY docs/ DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs" PATTERN schemas EXCLUDE)
 install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+# What pages lead to stands where the program finds it; they find it where it stands in the source.
+set(links "${CMAKE_BINARY_DIR}/doc_links")
+file(MAKE_DIRECTORY "${links}/docs")
+foreach(name docs/schemas examples scenarios ci)
+  cmake_path(GET name FILENAME folder)
+  cmake_path(GET name PARENT_PATH above)
+  file(RELATIVE_PATH there "/${CMAKE_INSTALL_DOCDIR}/${above}" "/share/etude/${folder}")
+  file(CREATE_LINK "${there}" "${links}/${name}" SYMBOLIC)
+endforeach()
+install(DIRECTORY "${links}/" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" RENAME copyright)
 
 # Made of the option tree by the program itself.

@@ -73,14 +73,27 @@ tl::unexpected<Error> NotShipped(const std::string& path) {
               nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest));
 }
 
-std::vector<std::string> NamesThatAreHereToo(const std::vector<std::string>& paths) {
-  std::vector<std::string> names;
+fs::path FindScenario(const std::string& path) {
+  std::error_code error;
+  const fs::file_status here = fs::status(path, error);
+  const bool holds_none = fs::is_directory(here) && ScenarioFilesIn(path).empty();
+  if (here.type() != fs::file_type::not_found && !holds_none) return path;
+  const fs::path shipped = FindShipped(path);
+  return shipped.empty() && holds_none ? fs::path(path) : shipped;
+}
+
+std::vector<Error> WhichIsMeant(const std::vector<std::string>& paths) {
+  std::vector<Error> told;
   for (const std::string& path : paths) {
     const fs::path shipped = FindShipped(path);
     std::error_code error;
-    if (!shipped.empty() && fs::exists(path, error) && !fs::equivalent(path, shipped, error)) names.push_back(path);
+    if (shipped.empty() || !fs::exists(path, error) || fs::equivalent(path, shipped, error)) continue;
+    told.push_back({{path},
+                    FindScenario(path) == shipped
+                        ? "this folder holds no scenario (*.yaml): what comes with etude under that name is meant"
+                        : "what is here is meant, not what comes with etude under that name"});
   }
-  return names;
+  return told;
 }
 
 Result<std::vector<fs::path>> CopyShipped(const std::string& name, const fs::path& folder) {

@@ -21,8 +21,12 @@ std::filesystem::path FindShipped(const std::string& name);
 /// Says that nothing stands at a path and nothing is shipped under that name, with the nearest name that is.
 tl::unexpected<Error> NotShipped(const std::string& path);
 
-/// Of `paths`, those that are files or folders here and are shipped under the same name, too: what is here is meant.
-std::vector<std::string> NamesThatAreHereToo(const std::vector<std::string>& paths);
+/// The scenario file, or the folder of them, that a path or a name means: what is here, else what is shipped. A folder
+/// without a scenario does not stand in the way of what is shipped under its name. Empty where neither is there.
+std::filesystem::path FindScenario(const std::string& path);
+
+/// Says of those of `paths` that are here and are shipped under the same name, too, which of the two is meant.
+std::vector<Error> WhichIsMeant(const std::vector<std::string>& paths);
 
 /// Copies a shipped scenario or suite into `folder`; gives the files written. Fails when the name is not shipped or a
 /// file is there already.

@@ -220,15 +220,10 @@ std::map<std::string, std::string> CanonicalNames(const std::string& scenario_fi
 Result<std::vector<std::string>> FindScenarioFiles(const std::vector<std::string>& paths) {
   std::vector<std::string> files;
   for (const std::string& named : paths) {
+    const std::string path = FindScenario(named).string();
+    if (path.empty()) return NotShipped(named);
     std::error_code error;
-    fs::file_status status = fs::status(named, error);
-    std::string path = named;
-    if (status.type() == fs::file_type::not_found) {
-      path = FindShipped(named).string();
-      if (path.empty()) return NotShipped(named);
-      status = fs::status(path, error);
-    }
-    if (fs::is_directory(status)) {
+    if (fs::is_directory(path, error)) {
       std::vector<std::string> inside;
       for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
         if (entry->path().extension() == ".yaml") inside.push_back(entry->path().string());

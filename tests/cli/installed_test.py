@@ -2,6 +2,7 @@
 Heavy: a package, in a bare Debian root that mmdebstrap makes; skipped where there is none to be had."""
 import os
 import pathlib
+import re
 import shlex
 import shutil
 import subprocess
@@ -39,10 +40,16 @@ class Installed(EtudeCase):
         manifest = (empty / "out" / "manifest.json").read_text()
         for path in str(moved), str(BUILD), "/usr/share":
             self.assertNotIn(path, manifest)
-        # What is here wins, and that is said; a copy is a start.
+        # A folder without scenarios wins nothing. What is here wins else, and that is said; a copy is a start.
+        (empty / "quick").mkdir()
+        (empty / "quick" / "notes.txt").touch()
+        told = run("run", "quick", "--dry-run")
+        self.assertEqual(told.returncode, 0, told.stderr)
+        self.assertEqual("etude: quick: this folder holds no scenario (*.yaml): what comes with etude under that name is meant\n",
+                         told.stderr)
         self.assertEqual(run("scenario", "copy", SUITE, "quick").returncode, 0)
         wins = run("run", "quick", "--trials", 6, "-o", "mine")
-        self.assertIn("quick: what is here is run, not what comes with etude under that name", wins.stderr)
+        self.assertIn("quick: what is here is meant, not what comes with etude under that name", wins.stderr)
         twice = run("scenario", "copy", SUITE, "quick")
         self.assertEqual(twice.returncode, 2)
         self.assertIn("is there already; nothing was copied", twice.stderr)
@@ -51,6 +58,20 @@ class Installed(EtudeCase):
         self.assertIn("did you mean 'full/ik_weights'?", unknown.stderr)
         self.assertIn("@software{etude,", run("cite", "out").stdout)
         self.assertTrue((moved / "share" / "man" / "man1" / "etude-run.1").exists())
+        self.links_lead_somewhere(moved / "share" / "doc" / "etude")
+        self.assertTrue(os.access(moved / "share" / "etude" / "ci" / "gate", os.X_OK))
+
+    def links_lead_somewhere(self, docs):
+        """Every link of an installed page, but for those into the source's rooms, which nothing of is installed."""
+        rooms, followed = {"engine", "sim", "bench", "reports", "cli", "tests", "CONTRIBUTING.md"}, 0
+        for page in docs.rglob("*.md"):
+            text = re.sub(r"```.*?```|`[^`\n]*`", "", page.read_text(), flags=re.S)
+            for link in re.findall(r"\]\((?!\w+:)([^)#\s]+)", text):
+                place = pathlib.Path(os.path.normpath(page.parent / link))
+                if place.relative_to(docs).parts[0] not in rooms:
+                    self.assertTrue(place.exists(), f"{page}: {link}")
+                    followed += 1
+        self.assertGreater(followed, 100)
 
     @heavy
     def test_a_package_runs_in_a_bare_root_as_an_ordinary_user(self):

@@ -7,6 +7,7 @@
 #include "bench/metrics/transition_smoothness.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"
+#include "sim/choreography/scenario_body.h"
 
 namespace etude {
 namespace {
@@ -28,10 +29,7 @@ void CastClips(const ClipLibrary& library, bool asks_for_acts, Stage& stage) {
 
 }  // namespace
 
-BodyProportions JudgedProportions() {
-  constexpr double kHipHeight = 0.90;
-  return MakeBodyProportions(PoseOf(Controls{}), kHipHeight);
-}
+BodyProportions JudgedProportions() { return MakeBodyProportions(StandingPose(), kScenarioHipHeight); }
 
 std::vector<double> NaturalJumpsOf(const Stage& stage, int from, int to) {
   std::vector<double> jumps = stage.natural_jumps_cm[from];
