@@ -17,6 +17,10 @@
 namespace etude {
 namespace {
 
+constexpr const char* kShellArgument = "shell";
+
+std::vector<std::string> Shells() { return {"bash", "zsh", "fish"}; }
+
 std::vector<const CLI::App*> CommandsOf(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App* sub) { return !sub->get_name().empty() && !sub->get_group().empty(); });
 }
@@ -42,16 +46,25 @@ std::vector<std::pair<const CLI::Option*, std::vector<std::string>>> OptionsOf(c
   return options;
 }
 
-/// What may follow the words of a command: its commands, its options and, where scenarios are asked for, those that
-/// come with etude.
+constexpr std::string_view kHelp = "help";  ///< etude help COMMAND, which main makes --help of
+
+/// What a command's arguments may be beside files: where scenarios are asked for, those that come with etude.
+std::vector<std::string> ArgumentsOf(const CLI::App& command) {
+  const auto asks_for = [&](const char* argument) { return command.get_option_no_throw(argument) != nullptr; };
+  if (asks_for(kShellArgument)) return Shells();
+  if (!asks_for("scenarios") && !asks_for("scenario")) return {};
+  std::vector<std::string> names = ShippedScenarios();
+  names.insert(names.end(), {"quick", "paper", "full"});
+  return names;
+}
+
+/// What may follow the words of a command: its commands, its options and what its arguments may be.
 std::string FollowersOf(const CLI::App& command) {
   std::vector<std::string> words;
   for (const CLI::App* sub : CommandsOf(command)) words.push_back(sub->get_name());
+  if (command.get_parent() == nullptr) words.emplace_back(kHelp);
   for (const auto& [option, names] : OptionsOf(command)) words.insert(words.end(), names.begin(), names.end());
-  if (command.get_option_no_throw("scenarios") != nullptr) {
-    for (const char* suite : {"quick", "paper", "full"}) words.emplace_back(suite);
-    std::ranges::copy(ShippedScenarios(), std::back_inserter(words));
-  }
+  std::ranges::move(ArgumentsOf(command), std::back_inserter(words));
   return Join(words, " ");
 }
 
@@ -65,7 +78,7 @@ std::string Cases(const CLI::App& app,
 }
 
 /// Finds the words of the command before the cursor, in bash and zsh: words without a dash that lead to a known
-/// command.
+/// command. `help` is none, so that after it the commands follow once more.
 constexpr std::string_view kFindCommand = R"(  local at="" word
   for word in "${before[@]}"; do
     case "${at:+$at }$word" in
@@ -99,7 +112,7 @@ std::string ZshCompletion(const CLI::App& app) {
     return fmt::format("    '{}') known=({}) ;;\n", words, followers);
   };
   return "#compdef etude\n# Completion of etude for zsh, made by `etude completion zsh`.\n"
-         "local -a before known\nbefore=(\"${words[@]:1:CURRENT-2}\")\n" +
+         "local -a before known\nbefore=(\"${(@)words[2,CURRENT-1]}\")\n" +
          FindCommand(app) + "case \"$at\" in\n" + Cases(app, branch) + "esac\ncompadd -- \"${known[@]}\"\n_files\n";
 }
 
@@ -109,6 +122,7 @@ std::string FishCompletion(const CLI::App& app) {
     return "'" + text + "'";
   };
   std::string text = "# Completion of etude for fish, made by `etude completion fish`.\n";
+  std::vector<std::string> helped;
   ForEachCommand(app, "", [&](const CLI::App& command, const std::string& words) {
     std::string when = "__fish_use_subcommand";
     if (!words.empty()) {
@@ -122,6 +136,10 @@ std::string FishCompletion(const CLI::App& app) {
     for (const CLI::App* sub : CommandsOf(command)) {
       text +=
           fmt::format("complete -c etude -n '{}' -a {} -d {}\n", when, sub->get_name(), quoted(sub->get_description()));
+      if (words.empty()) helped.push_back(sub->get_name());
+    }
+    if (const auto arguments = ArgumentsOf(command); !arguments.empty()) {
+      text += fmt::format("complete -c etude -n '{}' -a {}\n", when, quoted(Join(arguments, " ")));
     }
     for (const auto& [option, names] : OptionsOf(command)) {
       text += fmt::format("complete -c etude -n '{}'", when);
@@ -132,7 +150,10 @@ std::string FishCompletion(const CLI::App& app) {
                           quoted(option->get_description()));
     }
   });
-  return text;
+  return text + fmt::format(
+                    "complete -c etude -n __fish_use_subcommand -a {0} -d 'What a command does'\n"
+                    "complete -c etude -n '__fish_seen_subcommand_from {0}' -a {1}\n",
+                    kHelp, quoted(Join(helped, " ")));
 }
 
 /// Text as troff takes it: nothing at a line's start is a request, no dash is a hyphen.
@@ -160,16 +181,16 @@ std::string ManualPage(const CLI::App& command, const std::string& words) {
   const std::string brief = about.substr(0, about.find('\n'));
   std::string text = fmt::format(".TH {} 1 \"\" \"Etude {}\"\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n.B etude {}\n", title,
                                  ETUDE_VERSION, Troff(title), Troff(brief), Troff(words));
-  std::string arguments;
-  for (const CLI::Option* option : command.get_options()) {
-    if (option->get_positional()) arguments += " [" + option->get_name(true) + "]";
-  }
-  if (!CommandsOf(command).empty()) arguments += " COMMAND";
-  text += Troff(arguments + " [options]") + "\n.SH DESCRIPTION\n.nf\n" + Troff(about) + "\n.fi\n";
+  std::string arguments, told;
   for (const CLI::Option* option : command.get_options()) {
     if (!option->get_positional()) continue;
-    text += fmt::format(".TP\n.B {}\n{}\n", Troff(option->get_name(true)), Troff(option->get_description()));
+    const std::string name = option->get_name(true) + (option->get_items_expected_max() > 1 ? " ..." : "");
+    arguments += option->get_required() ? name + " " : "[" + name + "] ";
+    told += fmt::format(".TP\n.I {}\n{}\n", Troff(option->get_name(true)), Troff(option->get_description()));
   }
+  if (!CommandsOf(command).empty()) arguments += "COMMAND ";
+  text += Troff(arguments + "[options]") + "\n.SH DESCRIPTION\n.nf\n" + Troff(about) + "\n.fi\n";
+  if (!told.empty()) text += ".SH ARGUMENTS\n" + told;
   if (!CommandsOf(command).empty()) text += ".SH COMMANDS\n";
   for (const CLI::App* sub : CommandsOf(command)) {
     text +=
@@ -177,7 +198,11 @@ std::string ManualPage(const CLI::App& command, const std::string& words) {
   }
   text += ".SH OPTIONS\n";
   for (const auto& [option, names] : OptionsOf(command)) {
-    text += fmt::format(".TP\n.B {}\n{}\n", Troff(Join(names)), Troff(option->get_description()));
+    const std::string type = option->get_type_name();  // "INT:INT in [1 - 1024]"
+    const bool takes_value = option->get_items_expected_max() > 0;
+    text += fmt::format(".TP\n\\fB{}\\fR{}\n{}\n", Troff(Join(names)),
+                        takes_value ? " \\fI" + Troff(type.substr(0, type.find(':'))) + "\\fR" : "",
+                        Troff(option->get_description()));
   }
   if (const std::string footer = command.get_footer(); !footer.empty()) {
     text += ".SH EXAMPLES\n.nf\n" + Troff(footer) + "\n.fi\n";
@@ -218,9 +243,7 @@ void DefineOptionTree(CLI::App& app, Action& action) {
   auto shell = std::make_shared<std::string>(), folder = std::make_shared<std::string>();
   auto as_page = std::make_shared<bool>(false);
   CLI::App* completion = app.add_subcommand("completion", "Print completion for a shell, to be put where it looks");
-  completion->add_option("shell", *shell, "bash, zsh or fish")
-      ->required()
-      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  completion->add_option(kShellArgument, *shell, "bash, zsh or fish")->required()->check(CLI::IsMember(Shells()));
   completion->callback([=, &action] {
     action = [=] {
       fmt::print("{}", *shell == "bash"  ? BashCompletion(*program)

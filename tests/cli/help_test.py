@@ -1,10 +1,18 @@
 """Every command's help ends with three examples of its own, and what they name is there."""
+import os
 import re
 import shlex
+import shutil
 import subprocess
 import unittest
 
 from etude_case import ETUDE, EtudeCase
+
+
+# What is typed, and the one word that it can be made of.
+ASKED = ["ga", "gate --basel", "clip in", "clip info --js", "run full/ik_we", "scenario copy full/ik_we", "help clip rend", "hel",
+         "completion z"]
+COMPLETED = ["gate", "--baseline", "info", "--json", "full/ik_weights", "full/ik_weights", "render", "help", "zsh"]
 
 
 def commands_in(help_text):
@@ -48,11 +56,27 @@ class Help(EtudeCase):
     def test_completion_knows_every_command_and_its_options(self):
         script = self.write("complete.bash", self.etude("completion", "bash").stdout + """
 _try() { COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _etude; echo "${COMPREPLY[*]}"; }
-_try etude ga; _try etude gate --basel; _try etude clip in; _try etude clip info --js; _try etude run full/ik_we
-""")
+""" + "".join(f"_try etude {line}\n" for line in ASKED))
         said = subprocess.run(["bash", script], capture_output=True, text=True, check=True)
-        self.assertEqual(said.stdout.split("\n")[:5], ["gate", "--baseline", "info", "--json", "full/ik_weights"])
+        self.assertEqual(said.stdout.splitlines(), COMPLETED)
         self.assertEqual(said.stderr, "")
+
+    @unittest.skipUnless(shutil.which("zsh"), "needs zsh")
+    def test_completion_of_zsh_knows_the_same(self):
+        script = self.write("complete.zsh", f"""compadd() {{ shift; print -- ${{(M)@:#$words[CURRENT]*}} }}; _files() {{ }}
+_etude() {{
+{self.etude("completion", "zsh").stdout}}}
+""" + "".join(f"words=(etude {line}); CURRENT=$#words; _etude\n" for line in ASKED))
+        said = subprocess.run(["zsh", "-f", script], capture_output=True, text=True, check=True)
+        self.assertEqual((said.stdout.splitlines(), said.stderr), (COMPLETED, ""))
+
+    @unittest.skipUnless(shutil.which("fish"), "needs fish")
+    def test_completion_of_fish_knows_the_same(self):
+        script = self.write("complete.fish", self.etude("completion", "fish").stdout)
+        for line, completed in zip(ASKED, COMPLETED):
+            said = subprocess.run(["fish", "--no-config", "-c", f"source {script}; complete -C 'etude {line}'"], cwd=self.folder,
+                                  env={"HOME": str(self.folder), "PATH": os.environ["PATH"]}, capture_output=True, text=True, check=True)
+            self.assertEqual(([option.split("\t")[0] for option in said.stdout.splitlines()], said.stderr), ([completed], ""), line)
 
     def test_manual_pages_are_of_every_command(self):
         self.assertEqual(self.etude("man", self.folder / "man").returncode, 0)
@@ -60,7 +84,7 @@ _try etude ga; _try etude gate --basel; _try etude clip in; _try etude clip info
         self.assertIn("etude.1", pages)
         self.assertIn("etude-clip-info.1", pages)
         self.assertGreater(len(pages), 35)
-        self.assertIn("\n.TP\n.B \\-\\-baseline\n", (self.folder / "man" / "etude-gate.1").read_text())
+        self.assertIn("\n.TP\n\\fB\\-\\-baseline\\fR \\fITEXT\\fR\n", (self.folder / "man" / "etude-gate.1").read_text())
 
 
 if __name__ == "__main__":
