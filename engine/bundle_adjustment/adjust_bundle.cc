@@ -179,7 +179,8 @@ constexpr std::array<double, 3> kSecondDifference = {1, -2, 1};
 /// The second difference of some points over three frames, in usual sizes. Blocks: position, turn, angles of each.
 class PointAcceleration final : public ceres::CostFunction {
  public:
-  PointAcceleration(const FrameVariables* first, std::span<const int> points, double usual, int lengths)
+  PointAcceleration(const FrameVariables* first, std::span<const int> points, std::span<const double> usual,
+                    int lengths)
       : frames_{first, first + 1, first + 2}, points_(points), usual_(usual), length_block_(lengths > 0 ? 9 : -1) {
     set_num_residuals(3 * static_cast<int>(points.size()));
     for (int i = 0; i < 3; ++i) {
@@ -195,7 +196,7 @@ class PointAcceleration final : public ceres::CostFunction {
     for (int row = 0; row < num_residuals(); ++row) residuals[row] = 0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       for (int f = 0; f < 3; ++f) {
-        const double share = kSecondDifference[f] / usual_;
+        const double share = kSecondDifference[f] / usual_[i];
         const glm::dvec3& p = frames_[f]->placed.positions[points_[i]];
         for (int k = 0; k < 3; ++k) residuals[3 * i + k] += share * p[k];
         if (jacobians == nullptr) continue;
@@ -213,7 +214,7 @@ class PointAcceleration final : public ceres::CostFunction {
  private:
   const std::array<const FrameVariables*, 3> frames_;
   const std::span<const int> points_;
-  const double usual_;
+  const std::span<const double> usual_;
   const int length_block_;
 };
 
@@ -337,10 +338,13 @@ class BundleProblem {
   void AddSmoothness(const BundleSmoothness& smoothness) {
     const double per_frame = 1 / (smoothness.rate_hz * smoothness.rate_hz);
     const int lengths = options_.adjusts_lengths ? static_cast<int>(variables_.lengths.size()) : 0;
+    usual_ = smoothness.accelerations;
+    usual_.resize(smoothness.points.size(), smoothness.acceleration);
+    for (double& usual : usual_) usual *= per_frame;
     for (std::size_t k = 0; k + 2 < variables_.frames.size(); ++k) {
       FrameVariables* first = &variables_.frames[k];
-      Add<PointAcceleration>(BlocksOf({first, 3}), first, smoothness.points, per_frame * smoothness.acceleration,
-                             lengths);
+      Add<PointAcceleration>(BlocksOf({first, 3}), first, smoothness.points, usual_, lengths);
+      if (std::isinf(smoothness.angle_acceleration)) continue;
       Add<AngleAcceleration>({first[0].angles.data(), first[1].angles.data(), first[2].angles.data()},
                              variables_.body.tree.dof_count(), per_frame * smoothness.angle_acceleration);
     }
@@ -350,6 +354,7 @@ class BundleProblem {
   Variables& variables_;
   const std::unique_ptr<ceres::LossFunction> loss_;
   ceres::QuaternionManifold quaternion_;
+  std::vector<double> usual_;  ///< second differences of the smooth points, metres
   std::vector<std::unique_ptr<ceres::CostFunction>> costs_;
   PlaceEveryFrame place_;
   ceres::Problem problem_;

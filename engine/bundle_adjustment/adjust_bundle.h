@@ -41,7 +41,8 @@ struct BundleSmoothness {
   /// The usual acceleration of the points `points` along each axis, m/s².
   double acceleration = 8;
   std::vector<int> points;
-  /// The usual acceleration of every angle, rad/s² *(ours)*.
+  std::vector<double> accelerations;  ///< the usual one of each of `points` instead; none: that of all
+  /// The usual acceleration of every angle, rad/s² *(ours)*; infinite: angles are not compared.
   double angle_acceleration = 40;
 };
 

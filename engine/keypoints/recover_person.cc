@@ -78,19 +78,26 @@ TreeState MoveRoot(const CaptureBody& body, const PoseFitter& fitter, const Pose
 
 }  // namespace
 
-Result<CaptureBody> MedianBody(std::span<const LandmarkPlaces> frames) {
-  std::vector<RoleVectors> joints;
-  for (const LandmarkPlaces& landmarks : frames) joints.push_back(JointsOf(landmarks));
-  // Only the lengths of its bones count.
-  BodyPose straight;
+Result<CaptureBody> BodyOfBones(const std::array<double, kRoleCount>& lengths) {
+  BodyPose straight;  // of which only the lengths of its bones count
   for (const Bone& bone : AllBones()) {
-    const auto length = MedianBone(joints, bone);
-    if (!length) return Fail({}, "no frame shows how far {} is from {}", RoleName(bone.child), RoleName(bone.parent));
-    straight[bone.child] = straight[bone.parent] + glm::dvec3(0, *length, 0);
+    straight[bone.child] = straight[bone.parent] + glm::dvec3(0, lengths[Index(bone.child)], 0);
   }
   ASSIGN_OR_RETURN(CaptureBody body, FittedBody(RestBodyOf({&straight, 1})));
   NameHead(body);
   return body;
+}
+
+Result<CaptureBody> MedianBody(std::span<const LandmarkPlaces> frames) {
+  std::vector<RoleVectors> joints;
+  for (const LandmarkPlaces& landmarks : frames) joints.push_back(JointsOf(landmarks));
+  std::array<double, kRoleCount> lengths{};
+  for (const Bone& bone : AllBones()) {
+    const auto length = MedianBone(joints, bone);
+    if (!length) return Fail({}, "no frame shows how far {} is from {}", RoleName(bone.child), RoleName(bone.parent));
+    lengths[Index(bone.child)] = *length;
+  }
+  return BodyOfBones(lengths);
 }
 
 std::vector<std::optional<TreeState>> FitPerson(const CaptureBody& body, std::span<const LandmarkPlaces> frames) {
@@ -186,11 +193,16 @@ Result<RecoveredPerson> FitLocated(RecoveredPerson person, const RecoverPersonOp
   const auto states = FitPerson(body, person.landmarks);
   for (const auto& state : states) person.is_held.push_back(!state);
   if (std::ranges::count(person.is_held, false) == 0) return Fail({}, "no frame shows enough of the person");
-  const std::vector<TreeState> held = HoldStates(states);
-  person.clip = ToClip(body, held, options.rate_hz, "capture");
+  person.states = HoldStates(states);
   person.motion.rate_hz = options.rate_hz;
-  for (const TreeState& state : held) person.motion.poses.push_back(ToBodyPose(body, state));
+  ShowStates(person);
   return person;
+}
+
+void ShowStates(RecoveredPerson& person) {
+  person.clip = ToClip(person.body, person.states, person.motion.rate_hz, "capture");
+  person.motion.poses.clear();
+  for (const TreeState& state : person.states) person.motion.poses.push_back(ToBodyPose(person.body, state));
 }
 
 Result<RecoveredPerson> RecoverPerson(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,

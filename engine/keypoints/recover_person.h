@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,9 +17,13 @@
 
 namespace etude {
 
+/// Makes the body of a person whose bones are so long, metres, each from the parent of a role to the role; the head is
+/// a joint of its clip. Fails for a bone without a length.
+Result<CaptureBody> BodyOfBones(const std::array<double, kRoleCount>& lengths);
+
 /// Estimates a person's body: every bone between two joints as long as it is in the median of the frames that show
-/// both, left and right by themselves; the spine at `kSpineShare` of the trunk (`FittedBody`). The head is a joint of
-/// its clip. Fails, naming the joint, when no frame shows some bone.
+/// both, left and right by themselves; the spine at `kSpineShare` of the trunk (`BodyOfBones`). Fails, naming the
+/// joint, when no frame shows some bone.
 Result<CaptureBody> MedianBody(std::span<const LandmarkPlaces> frames);
 
 /// Finds the angles and the root's place in every frame that bring all joints of the body nearest to where landmarks
@@ -51,9 +56,10 @@ struct RecoveredPerson {
   std::vector<Mend> mends;  ///< of the person asked for
   double outlier_px = 0;    ///< the limit that was used
   CaptureBody body;
-  Clip clip;                  ///< metres, Y up
-  BodyMotion motion;          ///< the same as twenty joints
-  std::vector<bool> is_held;  ///< the frames of which nothing could be recovered: they show the last pose
+  std::vector<TreeState> states;  ///< of the body, one per frame
+  Clip clip;                      ///< metres, Y up
+  BodyMotion motion;              ///< the same as twenty joints
+  std::vector<bool> is_held;      ///< the frames of which nothing could be recovered: they show the last pose
 };
 
 /// Removes the lens's distortion from keypoints in the camera's own pixels.
@@ -69,6 +75,9 @@ Result<RecoveredPerson> LocatePerson(std::span<const ProjectionMatrix> cameras, 
 /// Recovers the motion of a person whose landmarks are known: BridgePoints, SmoothPoints, then the person's own body
 /// (MedianBody) and its poses (FitPerson). Fails when some limb never was seen.
 Result<RecoveredPerson> FitLocated(RecoveredPerson person, const RecoverPersonOptions& options);
+
+/// Makes clip and poses anew of the body and its states.
+void ShowStates(RecoveredPerson& person);
 
 /// Recovers the motion of one person from the keypoints of everybody: LocatePerson, FitLocated.
 Result<RecoveredPerson> RecoverPerson(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,

@@ -1,0 +1,320 @@
+#include "engine/keypoints/adjust_person.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+#include "engine/base/order_statistics.h"
+#include "engine/bundle_adjustment/adjust_bundle.h"
+#include "engine/bundle_adjustment/measurable_body.h"
+
+namespace etude {
+namespace {
+
+using enum Landmark;
+
+constexpr double kLeastErrorPx = 0.1;
+
+/// The median of the χ² distribution (Wilson and Hilferty).
+double MedianOfChiSquare(double freedoms) {
+  const double root = 1 - 2 / (9 * freedoms);
+  return freedoms * root * root * root;
+}
+
+/// A joint where one picture shows it, if it does.
+struct SeenAt {
+  Role role;
+  Keypoint keypoint;
+};
+
+Keypoint MiddleOf(const Keypoint& a, const Keypoint& b) {
+  return {0.5 * (a.pixel + b.pixel), std::min(a.confidence, b.confidence)};
+}
+
+/// The joints that landmarks show themselves, as `JointsOf` takes them; `head` says of what the head is made.
+std::vector<SeenAt> JointsIn(const SeenPerson& seen, const LandmarkPlaces& places) {
+  constexpr std::array<std::pair<Landmark, Role>, 16> kSame = {{{kLeftShoulder, Role::kLeftShoulder},
+                                                                {kRightShoulder, Role::kRightShoulder},
+                                                                {kLeftElbow, Role::kLeftElbow},
+                                                                {kRightElbow, Role::kRightElbow},
+                                                                {kLeftWrist, Role::kLeftWrist},
+                                                                {kRightWrist, Role::kRightWrist},
+                                                                {kLeftHand, Role::kLeftHand},
+                                                                {kRightHand, Role::kRightHand},
+                                                                {kLeftHip, Role::kLeftHip},
+                                                                {kRightHip, Role::kRightHip},
+                                                                {kLeftKnee, Role::kLeftKnee},
+                                                                {kRightKnee, Role::kRightKnee},
+                                                                {kLeftAnkle, Role::kLeftAnkle},
+                                                                {kRightAnkle, Role::kRightAnkle},
+                                                                {kLeftBigToe, Role::kLeftFoot},
+                                                                {kRightBigToe, Role::kRightFoot}}};
+  std::vector<SeenAt> joints;
+  for (const auto& [landmark, role] : kSame) joints.push_back({role, seen[landmark]});
+  const bool has_ears = places[Index(kLeftEar)] && places[Index(kRightEar)];
+  joints.push_back({Role::kHead, places[Index(kHead)] ? seen[kHead]
+                                 : has_ears           ? MiddleOf(seen[kLeftEar], seen[kRightEar])
+                                                      : seen[kNose]});
+  return joints;
+}
+
+using BoneLengths = std::array<double, kRoleCount>;
+
+/// The body of a person in smooth motion, as a bundle takes it.
+class Adjuster {
+ public:
+  Adjuster(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen, const AdjustPersonOptions& options,
+           RecoveredPerson& person)
+      : cameras_(cameras), seen_(seen), options_(options), person_(person) {
+    for (const LandmarkPlaces& places : person.landmarks) joints_.push_back(JointsOf(places));
+  }
+
+  bool Run() {
+    if (!MakeBody()) return false;
+    AddMarks();
+    BundleOptions bundle;
+    bundle.adjusts_lengths = true;
+    BundleSmoothness& smooth = bundle.smoothness.emplace();
+    smooth.rate_hz = options_.rate_hz;
+    smooth.acceleration = options_.acceleration;
+    // The angles of this body turn freely, over a full turn and through their singular places: its points tell enough.
+    smooth.angle_acceleration = std::numeric_limits<double>::infinity();
+    smooth.points.resize(measurable_.points.size());
+    smooth.accelerations.resize(measurable_.points.size());
+    for (const Role role : AllRoles()) {
+      if (points_[Index(role)] < 0) continue;
+      const auto point = static_cast<std::size_t>(points_[Index(role)]);
+      smooth.points[point] = static_cast<int>(point);
+      smooth.accelerations[point] = AccelerationOf(role);
+    }
+    const std::vector<TreeState> start = SmoothStart();
+    const BundleSolution solution = AdjustBundle({.body = measurable_, .start = start, .marks = marks_}, bundle);
+    return solution.is_solved && Take(solution);
+  }
+
+ private:
+  /// Poses of calmly moving points: from trembling ones the search takes many steps, and may end elsewhere.
+  std::vector<TreeState> SmoothStart() const {
+    constexpr double kCalmHz = 3;
+    std::vector<LandmarkPlaces> points = person_.landmarks;
+    SmoothPoints(points, options_.rate_hz, kCalmHz);
+    std::vector<TreeState> start = person_.states;
+    const auto calm = FitPerson(person_.body, points);
+    for (std::size_t k = 0; k < start.size(); ++k) {
+      if (calm[k]) start[k] = *calm[k];
+    }
+    return start;
+  }
+
+  /// The mean square of a joint's second differences over so many frames, along one axis; the largest few left out.
+  std::optional<double> SquareOver(Role role, std::size_t lag) const {
+    std::vector<double> squares;
+    for (std::size_t k = lag; k + lag < joints_.size(); ++k) {
+      const auto &before = joints_[k - lag][Index(role)], &now = joints_[k][Index(role)],
+                 &after = joints_[k + lag][Index(role)];
+      if (!before || !now || !after) continue;
+      const glm::dvec3 second = *before - 2.0 * *now + *after;
+      squares.push_back(glm::dot(second, second) / 3);
+    }
+    constexpr std::size_t kFewest = 10;
+    if (squares.size() < kFewest) return std::nullopt;
+    std::ranges::sort(squares);
+    squares.resize(squares.size() - squares.size() / 20);
+    return std::accumulate(squares.begin(), squares.end(), 0.0) / static_cast<double>(squares.size());
+  }
+
+  /// Noise adds as much to differences over one frame as over several, a motion's acceleration the fourth power.
+  double AccelerationOf(Role role) const {
+    constexpr double kSeconds = 0.1, kBursts = 1.5;  // a motion's accelerations are not evenly large
+    const double lag = std::max(2.0, std::round(kSeconds * options_.rate_hz));
+    const auto one = SquareOver(role, 1), several = SquareOver(role, static_cast<std::size_t>(lag));
+    if (!one || !several) return options_.acceleration;
+    const double square = std::max(0.0, *several - *one) / (std::pow(lag, 4) - 1);
+    return std::max(options_.acceleration, kBursts * std::sqrt(square) * options_.rate_hz * options_.rate_hz);
+  }
+
+  /// Every bone is a length of its own, but for those beside a place that no landmark shows: the trunk's two share one,
+  /// as do both hips' and both shoulders'.
+  bool MakeBody() {
+    const KinematicTree& tree = person_.body.tree;
+    measurable_.tree = tree;
+    points_.fill(-1);
+    for (const Role role : AllRoles()) {
+      // No landmark shows the spine; the hip centre is midway between the hips.
+      if (role == Role::kSpine || role == Role::kHipCentre) continue;
+      points_[Index(role)] = static_cast<int>(measurable_.points.size());
+      measurable_.points.push_back({person_.body.roles[Index(role)].joint, person_.body.roles[Index(role)].p_LQ});
+    }
+    for (const Bone& bone : AllBones()) {
+      using enum Role;
+      if (bone.child == kShoulderCentre || bone.child == kRightShoulder || bone.child == kRightHip) continue;
+      BoneLengths one = person_.body.bones;
+      const double length =
+          bone.child == Role::kSpine ? one[Index(Role::kSpine)] / kSpineShare : one[Index(bone.child)];
+      AddTo(one, bone.child, 1);
+      const auto longer = BodyOfBones(one);
+      if (!longer || longer->tree.joints.size() != tree.joints.size()) return false;
+      AddShares(*longer);
+      bones_.push_back(bone.child);
+      measurable_.lengths.push_back(length);
+    }
+    KeepTrunkStraight();
+    return true;
+  }
+
+  static void AddTo(BoneLengths& bones, Role child, double metres) {
+    using enum Role;
+    bones[Index(child)] += (child == kSpine ? kSpineShare : 1) * metres;
+    if (child == kSpine) bones[Index(kShoulderCentre)] += (1 - kSpineShare) * metres;
+    if (child == kLeftShoulder || child == kLeftHip) bones[Index(Mirrored(child))] += metres;
+  }
+
+  /// All offsets are linear in the lengths: what a metre of one adds is how the body that has it differs.
+  void AddShares(const CaptureBody& longer) {
+    const int length = static_cast<int>(bones_.size());
+    for (std::size_t j = 0; j < measurable_.tree.joints.size(); ++j) {
+      const glm::dvec3 more = longer.tree.joints[j].p_PJ - measurable_.tree.joints[j].p_PJ;
+      if (more != glm::dvec3(0)) measurable_.joint_shares.push_back({static_cast<int>(j), length, more});
+    }
+    for (const Role role : AllRoles()) {
+      const int point = points_[Index(role)];
+      if (point < 0) continue;
+      const glm::dvec3 more = longer.roles[Index(role)].p_LQ - measurable_.points[static_cast<std::size_t>(point)].p_LQ;
+      if (more != glm::dvec3(0)) measurable_.point_shares.push_back({point, length, more});
+    }
+  }
+
+  /// No landmark shows how the trunk bends, so that a longer one that bends would explain errors.
+  void KeepTrunkStraight() {
+    const TreeJoint& spine =
+        measurable_.tree.joints[static_cast<std::size_t>(person_.body.roles[Index(Role::kShoulderCentre)].joint)];
+    for (int dof = spine.first_dof; dof < spine.first_dof + std::min(2, spine.dof_count); ++dof) {
+      measurable_.tree.limits[static_cast<std::size_t>(dof)] = {0, 0};
+    }
+  }
+
+  void AddMarks() {
+    const double error = KeypointErrorPx(cameras_, seen_, options_.least_confidence, person_.outlier_px);
+    std::vector<std::array<int, kRoleCount>> views(person_.states.size());
+    std::array<bool, kRoleCount> is_ever_seen{};
+    for (std::size_t frame = 0; frame < person_.states.size(); ++frame) {
+      views[frame].fill(0);
+      for (std::size_t c = 0; c < cameras_.size(); ++c) {
+        if (frame >= seen_.seen[c].size() || !seen_.seen[c][frame]) continue;
+        for (const auto& [role, keypoint] : JointsIn(*seen_.seen[c][frame], person_.landmarks[frame])) {
+          if (keypoint.confidence < options_.least_confidence) continue;
+          ++views[frame][Index(role)];
+          is_ever_seen[Index(role)] = true;
+          AddMark(frame, role, c, keypoint.pixel, error / std::sqrt(std::min(1.0, keypoint.confidence)));
+        }
+      }
+    }
+    for (std::size_t frame = 0; frame < person_.states.size(); ++frame) {
+      for (const Role role : AllRoles()) {
+        if (points_[Index(role)] < 0 || role == Role::kShoulderCentre || views[frame][Index(role)] >= 2) continue;
+        HoldUnseen(frame, role, is_ever_seen[Index(role)] ? std::nullopt : std::optional(error));
+      }
+    }
+    if (options_.outlines != nullptr) AddOutlines(error);
+  }
+
+  /// Joints by outlines are seen by every camera, as far off as they usually are from the keypoints' own. They err
+  /// alike in frames that follow each other, so that a second of them counts as one.
+  void AddOutlines(double least_px) {
+    const auto alike = std::sqrt(std::max(1.0, options_.rate_hz));
+    const std::size_t frames = std::min(person_.states.size(), options_.outlines->poses.size());
+    for (std::size_t c = 0; c < cameras_.size(); ++c) {
+      for (const Role role : AllRoles()) {
+        if (points_[Index(role)] < 0 || role == Role::kShoulderCentre) continue;
+        std::vector<std::pair<std::size_t, glm::dvec2>> shown;
+        std::vector<double> off;
+        for (std::size_t k = 0; k < frames; ++k) {
+          const auto theirs = Project(cameras_[c], options_.outlines->poses[k][role]);
+          const auto own = Project(cameras_[c], person_.motion.poses[k][role]);
+          if (!theirs || !own) continue;
+          shown.emplace_back(k, *theirs);
+          off.push_back(glm::distance(*theirs, *own));
+        }
+        if (off.empty()) continue;
+        const double sigma = alike * std::max(least_px, UpperMedian(std::move(off)));
+        for (const auto& [k, pixel] : shown) AddMark(k, role, c, pixel, sigma);
+      }
+    }
+  }
+
+  void AddMark(std::size_t frame, Role role, std::size_t camera, const glm::dvec2& pixel, double sigma_px) {
+    marks_.push_back({static_cast<int>(frame), points_[Index(role)], cameras_[camera], pixel,
+                      glm::dmat2(1 / (sigma_px * sigma_px))});
+  }
+
+  /// What fewer than two cameras show stays about where the frame by itself had it: a tenth of the height, or twice the
+  /// error of the keypoints that it is always made of.
+  void HoldUnseen(std::size_t frame, Role role, const std::optional<double>& error_px) {
+    constexpr double kShareOfHeight = 0.1, kComposed = 2;
+    const BodyPose& pose = person_.motion.poses[frame];
+    for (std::size_t c = 0; c < cameras_.size(); ++c) {
+      const auto top = Project(cameras_[c], pose[Role::kHead]), foot = Project(cameras_[c], pose[Role::kLeftAnkle]),
+                 pixel = Project(cameras_[c], pose[role]);
+      if (!top || !foot || !pixel) continue;
+      const double held = std::max(1.0, kShareOfHeight * glm::distance(*top, *foot));
+      AddMark(frame, role, c, *pixel, error_px ? kComposed * *error_px : held);
+    }
+  }
+
+  bool Take(const BundleSolution& solution) {
+    BoneLengths bones{};
+    for (std::size_t i = 0; i < bones_.size(); ++i) AddTo(bones, bones_[i], solution.lengths[i]);
+    auto body = BodyOfBones(bones);
+    if (!body || std::ranges::any_of(solution.lengths, [](double length) { return !(length > 0); })) return false;
+    person_.body = std::move(*body);
+    person_.states = solution.states;
+    ShowStates(person_);
+    return true;
+  }
+
+  std::span<const ProjectionMatrix> cameras_;
+  const MatchedPerson& seen_;
+  const AdjustPersonOptions& options_;
+  RecoveredPerson& person_;
+  MeasurableBody measurable_;
+  std::array<int, kRoleCount> points_{};
+  std::vector<Role> bones_;          ///< of each length
+  std::vector<RoleVectors> joints_;  ///< of each frame, as landmarks tell them
+  std::vector<BundleMark> marks_;
+};
+
+}  // namespace
+
+double KeypointErrorPx(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen, double least_confidence,
+                       double outlier_px) {
+  std::vector<double> squares;  // each of which estimates the variance, in the median
+  const std::size_t frames = seen.seen.empty() ? 0 : seen.seen.front().size();
+  for (std::size_t frame = 0; frame < frames; ++frame) {
+    for (std::size_t i = 0; i < kLandmarkCount; ++i) {
+      std::vector<WeightedSighting> sightings;
+      for (std::size_t c = 0; c < cameras.size(); ++c) {
+        const auto& person = seen.seen[c][frame];
+        if (!person || person->keypoints[i].confidence < least_confidence) continue;
+        sightings.push_back({{cameras[c], person->keypoints[i].pixel}, person->keypoints[i].confidence});
+      }
+      const auto point = TriangulateRobustly(sightings, {outlier_px});
+      if (!point) continue;
+      const auto views = static_cast<double>(std::ranges::count(point->agrees, true));
+      squares.push_back(views * point->residual_px * point->residual_px / MedianOfChiSquare(2 * views - 3));
+    }
+  }
+  if (squares.empty()) return kLeastErrorPx;
+  return std::max(kLeastErrorPx, std::sqrt(UpperMedian(std::move(squares))));
+}
+
+bool AdjustPerson(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen,
+                  const AdjustPersonOptions& options, RecoveredPerson& person) {
+  assert(cameras.size() == seen.seen.size() && person.states.size() == person.motion.poses.size());
+  return Adjuster(cameras, seen, options, person).Run();
+}
+
+}  // namespace etude
