@@ -42,6 +42,7 @@ struct CaptureCommandOptions {
   std::string fit = "none";          ///< letterbox, stretch, crop
   std::vector<std::string> cameras;  ///< of the rig, one for each film; empty: by the films' names
   int person = 1;
+  std::string poses = "bundle";  ///< of keypoints: all frames at once, or "frames": each by itself
   double smooth_hz = 0;
   double longest_gap_s = 0.5;
   double outlier_px = 0;  ///< 0: by the residuals, at most 3 % of the picture's longer side
@@ -63,6 +64,7 @@ struct FilmedView {
 struct FilmedSession {
   std::vector<FilmedView> views;
   RigFile rig;
+  std::vector<std::string> told;  ///< what was found out of rig and films
 };
 
 /// Opens the films with their cameras of the rig. Fails for fewer than two, for cameras that are missing or named
@@ -81,12 +83,14 @@ struct SeenFilms {
 void Tell(std::vector<std::string>& told, const std::string& line);
 
 /// Reads the keypoints or marks of all films, finds how they lie in the rig's pictures and in time, and says so.
-/// `views` learn how their pictures were turned.
+/// The views learn how their pictures were turned, and whose camera took them.
 Result<SeenFilms> SeeFilms(const CaptureCommandOptions& options, const RecoverPersonOptions& recover,
-                           std::vector<FilmedView>& views);
+                           FilmedSession& session);
 
 /// Tells what was mended of a person and what still is doubtful, a line each.
-void TellMends(const RecoveredPerson& person, const std::vector<FilmedView>& views, std::vector<std::string>& told);
+/// @param chosen which of the person's `people`
+void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vector<FilmedView>& views,
+               std::vector<std::string>& told);
 
 /// Begins the page of `--report` with what any capture tells: its title, what was told, feet, limbs, the command.
 CapturePage BeginPage(const CaptureCommandOptions& options, const BodyMotion& motion, const LimbLengths& lengths,
@@ -96,11 +100,17 @@ std::string DoubtsOf(const std::vector<std::string>& told);
 /// Puts the overlay film into the page and writes it. False when it was interrupted.
 Result<bool> WritePage(const CaptureCommandOptions& options, CapturePage page, const std::vector<OverlayView>& overlays,
                        const BodyMotion& motion);
+/// How much body and outlines are apart in each camera, per cent.
+CameraResiduals ResidualsOfOutlines(const std::vector<FilmedView>& views, const UnmarkedMotion& person);
+/// The median over cameras and frames.
+double MedianOf(const CameraResiduals& residuals);
 /// Writes the page of a capture from keypoints or marks.
 /// @param views whose cameras are placed
 /// @param chosen which of the person's `people`
+/// @param both what outlines beside them told, null where they were not asked
 Result<bool> WriteReport(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
-                         const RecoveredPerson& person, std::size_t chosen, const SeenFilms& films);
+                         const RecoveredPerson& person, std::size_t chosen, const SeenFilms& films,
+                         const UnmarkedMotion* both);
 
 /// Gives the films with what is drawn over them.
 std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const RecoveredPerson& person,
@@ -168,7 +178,7 @@ MarkerMotion JointsOfReference(const MarkerMotion& reference);
 /// there is one, and adds what was found to `facts`. False when it was interrupted.
 Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, FilmedSession session,
                               const std::optional<MarkerMotion>& reference, Json& facts);
-Result<bool> CaptureUnmarked(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+Result<bool> CaptureUnmarked(const CaptureCommandOptions& options, const FilmedSession& session,
                              const std::optional<MarkerMotion>& reference, Json& facts);
 
 }  // namespace etude

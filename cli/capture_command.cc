@@ -28,9 +28,10 @@ constexpr const char* kCaptureExamples =
     "name begins with its film's: cam01.mp4, cam01_json/, cam01.png.\n\n"
     "Lenses are undone; persons are matched over cameras and time; each point comes from all cameras that agree on "
     "it,\n"
-    "weighed by confidence; gaps up to --longest-gap are bridged; bones are as long as in the median of what was\n"
-    "seen; inverse kinematics brings all joints as near to their points as the bones allow, and a table tells how "
-    "near.\n"
+    "weighed by confidence; gaps up to --longest-gap are bridged. Then one body, whose bones keep their lengths, in a\n"
+    "smooth motion explains the keypoints of all films at once (--poses frames: each frame is fitted by itself), and "
+    "a\n"
+    "table tells how near its joints are to the points.\n"
     "--person 2 asks for the one seen second most. Films that did not begin at the same moment are set in time by how\n"
     "their keypoints move: --sync 1 looks up to a second either way, to fractions of a frame.\n\n"
     "The rig is what `etude calibrate` wrote, or a calibration of OpenCV, Pose2Sim, Anipose, FreeMoCap, Caliscope or\n"
@@ -98,7 +99,7 @@ Result<int> CaptureCommand(const CaptureCommandOptions& options) {
       }
       view.camera.camera = Placed(*place, view.camera.camera);
     }
-    ASSIGN_OR_RETURN(is_whole, CaptureUnmarked(options, session.views, reference, told));
+    ASSIGN_OR_RETURN(is_whole, CaptureUnmarked(options, session, reference, told));
   } else {
     ASSIGN_OR_RETURN(is_whole, CaptureKeypoints(options, std::move(session), reference, told));
   }
@@ -166,7 +167,16 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
   command->add_option("--person", options->person, "Which person, the one seen most first")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
-  command->add_option("--smooth", options->smooth_hz, "Smooth places below this frequency, Hz (0: not at all)")
+  command
+      ->add_option(
+          "--poses", options->poses,
+          "bundle: one body in smooth motion that explains all keypoints at once; frames: each frame by itself")
+      ->check(CLI::IsMember({"bundle", "frames"}))
+      ->excludes(silhouettes)
+      ->capture_default_str();
+  command
+      ->add_option("--smooth", options->smooth_hz,
+                   "Smooth places below this frequency, Hz, each frame by itself (0: not at all)")
       ->check(NumberWithin(0, 1000, "frequency in Hz"))
       ->capture_default_str();
   command->add_option("--longest-gap", options->longest_gap_s, "Gaps up to this are bridged, s")

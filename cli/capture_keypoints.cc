@@ -12,6 +12,7 @@
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "engine/formats/trc.h"
+#include "engine/keypoints/adjust_person.h"
 #include "engine/keypoints/agreement.h"
 #include "reports/films/overlay_film.h"
 
@@ -121,6 +122,18 @@ Result<UnmarkedMotion> WithOutlines(const RecoveredPerson& person, std::size_t c
                            {.person = &person.people[chosen], .lengths = person.body.lengths});
 }
 
+AdjustPersonOptions AdjustOf(const RecoverPersonOptions& recover) {
+  return {.rate_hz = recover.rate_hz, .least_confidence = recover.triangulate.least_confidence};
+}
+
+/// Adjusts the person to keypoints and, with `both`, to outlines.
+bool Joined(std::span<const ProjectionMatrix> cameras, RecoveredPerson& person, std::size_t chosen,
+            const UnmarkedMotion& both, const RecoverPersonOptions& recover) {
+  AdjustPersonOptions adjust = AdjustOf(recover);
+  adjust.outlines = &both.motion;
+  return AdjustPerson(cameras, person.people[chosen], adjust, person);
+}
+
 /// Gives the place of the person asked for among all that were found.
 std::size_t ChosenOf(const RecoveredPerson& person, std::size_t number) {
   for (std::size_t i = 0; i < person.people.size(); ++i) {
@@ -130,19 +143,22 @@ std::size_t ChosenOf(const RecoveredPerson& person, std::size_t number) {
 }
 
 /// Compares joints of outlines and keypoints together with a reference; pairs as if there were no other camera.
-Result<std::vector<ComparedColumn>> CompareWithOutlines(const MarkerMotion& reference, const UnmarkedMotion& both,
+Result<std::vector<ComparedColumn>> CompareWithOutlines(const MarkerMotion& reference, const BodyMotion& both,
                                                         const SeenFilms& films, const ReducedTake& take,
                                                         const RecoverPersonOptions& recover,
                                                         const CaptureCommandOptions& options) {
   const MarkerMotion joints = JointsOfReference(reference);
-  std::vector<ComparedColumn> columns{CompareColumn("all", JointMarkers(both.motion), joints)};
+  std::vector<ComparedColumn> columns{CompareColumn("all", JointMarkers(both), joints)};
   for (const CameraPair& pair : PairsOf(films.cameras.size())) {
     const std::array cameras = {films.cameras[pair.first], films.cameras[pair.second]};
     const std::array people = {films.people[pair.first], films.people[pair.second]};
-    const auto seen = RecoverPerson(cameras, people, recover);
-    const auto found = seen ? WithOutlines(*seen, ChosenOf(*seen, recover.person), PairOf(take, pair), options)
+    auto seen = RecoverPerson(cameras, people, recover);
+    const std::size_t chosen = seen ? ChosenOf(*seen, recover.person) : 0;
+    if (seen) AdjustPerson(cameras, seen->people[chosen], AdjustOf(recover), *seen);
+    const auto found = seen ? WithOutlines(*seen, chosen, PairOf(take, pair), options)
                             : Result<UnmarkedMotion>(tl::unexpected(seen.error()));
-    columns.push_back(found ? CompareColumn(pair.heading, JointMarkers(found->motion), joints)
+    if (found) Joined(cameras, *seen, chosen, *found, recover);
+    columns.push_back(found ? CompareColumn(pair.heading, JointMarkers(seen->motion), joints)
                             : ComparedColumn{pair.heading + kLost, {}, {}});
   }
   return columns;
@@ -198,7 +214,7 @@ Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, FilmedSessio
                               const std::optional<MarkerMotion>& reference, Json& facts) {
   std::vector<FilmedView>& views = session.views;
   const RecoverPersonOptions recover = RecoverOptionsOf(options, views);
-  ASSIGN_OR_RETURN(SeenFilms films, SeeFilms(options, recover, views));
+  ASSIGN_OR_RETURN(SeenFilms films, SeeFilms(options, recover, session));
   ASSIGN_OR_RETURN(RecoveredPerson located, LocatePerson(films.cameras, films.people, recover));
   const auto place = PlaceRig(session.rig, located.landmarks, recover.rate_hz, options.place);
   if (!place) return Fail({options.rig}, "{}", place.error().message);
@@ -216,8 +232,13 @@ Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, FilmedSessio
   }
   ASSIGN_OR_RETURN(RecoveredPerson person, FitLocated(std::move(located), recover));
   const std::size_t chosen = ChosenOf(person, recover.person);
+  if (options.poses == "bundle" && options.smooth_hz == 0) {
+    if (!AdjustPerson(films.cameras, person.people[chosen], AdjustOf(recover), person)) {
+      Tell(films.told, "doubtful: no motion explains all keypoints at once; every frame is by itself");
+    }
+  }
   PrintPeople(person, views);
-  TellMends(person, views, films.told);
+  TellMends(person, chosen, views, films.told);
   PrintReport(person, views);
   PrintFit(person);
   facts["keypoints"] = FactsOf(person, views, films.told);
@@ -226,11 +247,16 @@ Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, FilmedSessio
   if (options.silhouettes) {
     ASSIGN_OR_RETURN(take, ReadTake(options, views, films.clocks));
     ASSIGN_OR_RETURN(both, WithOutlines(person, chosen, take, options));
-    Tell(films.told,
-         fmt::format("outlines and keypoints together cost {:.0f} a picture; the joints are theirs", both->cost));
     facts["silhouettes"] = {{"stature_m", both->stature_m}, {"cost", both->cost}, {"held_frames", both->held}};
-    person.motion = both->motion;
-    person.clip = both->clip;
+    if (Joined(films.cameras, person, chosen, *both, recover)) {
+      Tell(films.told,
+           fmt::format("outlines cost {:.0f} a picture; joints are those of keypoints and outlines together, each "
+                       "as sure as it is near the other",
+                       both->cost));
+    } else {
+      Tell(films.told,
+           "doubtful: no motion explains keypoints and outlines at once; the joints are the keypoints' own");
+    }
   }
   RETURN_IF_ERROR(WriteMotion(options.output, person.clip, person.motion));
   if (!options.points.empty()) {
@@ -244,7 +270,7 @@ Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, FilmedSessio
     const MarkerMotion in_time = InTimeWith(ToMarkers(person.landmarks, recover.rate_hz), *reference, films.told);
     std::vector<ComparedColumn> columns;
     if (both) {
-      ASSIGN_OR_RETURN(columns, CompareWithOutlines(in_time, *both, films, take, recover, options));
+      ASSIGN_OR_RETURN(columns, CompareWithOutlines(in_time, person.motion, films, take, recover, options));
     } else {
       columns = CompareWithReference(in_time, person, films, recover);
     }
@@ -257,7 +283,7 @@ Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, FilmedSessio
     if (!is_whole) return false;
   }
   if (options.report.empty()) return true;
-  return WriteReport(options, views, person, chosen, films);
+  return WriteReport(options, views, person, chosen, films, both ? &*both : nullptr);
 }
 
 }  // namespace etude

@@ -40,20 +40,16 @@ std::vector<TakeCurve> FeetOf(const BodyMotion& motion) {
   return feet;
 }
 
-CapturePage PageOf(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
-                   const RecoveredPerson& person, std::size_t chosen, const SeenFilms& films) {
-  constexpr double kPercent = 100;
-  CapturePage page = BeginPage(options, person.motion, person.body.lengths, films.told);
-  page.verdict = fmt::format(
-      "{} cameras, {} frames at {:g} Hz: {:.1f} % of the points found, {:.1f} px off the keypoints in the median; {}.",
-      views.size(), person.motion.poses.size(), person.motion.rate_hz, kPercent * person.report.found,
-      person.report.residual_px, DoubtsOf(films.told));
-  page.residual =
-      "Distance of a camera's keypoints to the points that all cameras make, px, over seconds: the median of each "
-      "frame";
-  page.unit = "px";
+CameraResiduals ResidualsOf(const std::vector<FilmedView>& views, const RecoveredPerson& person, std::size_t chosen,
+                            const SeenFilms& films) {
+  CameraResiduals residuals{
+      .caption =
+          "Distance of a camera's keypoints to the points that all cameras make, px, over seconds: the median "
+          "of each frame",
+      .unit = "px",
+      .cameras = {}};
   for (std::size_t i = 0; i < views.size(); ++i) {
-    CapturedCamera& camera = page.cameras.emplace_back();
+    CapturedCamera& camera = residuals.cameras.emplace_back();
     camera.name = camera.residual.name = views[i].camera.name;
     camera.left_out = person.report.rejected[i];
     const auto& seen = person.people[chosen].seen[i];
@@ -63,7 +59,27 @@ CapturePage PageOf(const CaptureCommandOptions& options, const std::vector<Filme
                                                : std::nullopt);
     }
   }
-  page.limbs = "Limbs are as long as in the median of what was seen.";
+  return residuals;
+}
+
+CapturePage PageOf(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+                   const RecoveredPerson& person, std::size_t chosen, const SeenFilms& films,
+                   const UnmarkedMotion* both) {
+  constexpr double kPercent = 100;
+  CapturePage page = BeginPage(options, person.motion, person.body.lengths, films.told);
+  page.verdict = fmt::format(
+      "{} cameras, {} frames at {:g} Hz: {:.1f} % of the points found, {:.1f} px off the keypoints in the median",
+      views.size(), person.motion.poses.size(), person.motion.rate_hz, kPercent * person.report.found,
+      person.report.residual_px);
+  page.residuals.push_back(ResidualsOf(views, person, chosen, films));
+  if (both != nullptr) {
+    page.residuals.push_back(ResidualsOfOutlines(views, *both));
+    page.verdict += fmt::format("; body and outlines differ by {:.0f} %", MedianOf(page.residuals.back()));
+  }
+  page.verdict += fmt::format("; {}.", DoubtsOf(films.told));
+  page.limbs = options.poses == "bundle" && options.smooth_hz == 0
+                   ? "Limbs are as long as explains all keypoints best."
+                   : "Limbs are as long as in the median of what was seen.";
   const MarkerMotion points = JointMarkers(person.landmarks, person.motion.rate_hz);
   for (const MarkerAgreement& row : CompareMarkers(JointMarkers(person.motion), points)) {
     if (row.frames > 0) page.fit.emplace_back(row.name, std::array{row.median_mm, row.p95_mm});
@@ -100,6 +116,35 @@ CapturePage BeginPage(const CaptureCommandOptions& options, const BodyMotion& mo
   return page;
 }
 
+CameraResiduals ResidualsOfOutlines(const std::vector<FilmedView>& views, const UnmarkedMotion& person) {
+  constexpr double kPercent = 100;
+  CameraResiduals residuals{
+      .caption =
+          "Share of what the body or the person's outline covers in a camera's picture that only one of them "
+          "does, %, over seconds",
+      .unit = "%",
+      .cameras = {}};
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    CapturedCamera& camera = residuals.cameras.emplace_back();
+    camera.name = camera.residual.name = views[i].camera.name;
+    for (const auto& apart : person.apart[i]) {
+      camera.residual.values.push_back(apart ? std::optional(kPercent * *apart) : std::nullopt);
+    }
+  }
+  return residuals;
+}
+
+double MedianOf(const CameraResiduals& residuals) {
+  std::vector<double> all;
+  for (const CapturedCamera& camera : residuals.cameras) {
+    for (const auto& value : camera.residual.values) {
+      if (value) all.push_back(*value);
+    }
+  }
+  constexpr double kNothingAlike = 100;
+  return all.empty() ? kNothingAlike : UpperMedian(std::move(all));
+}
+
 std::string DoubtsOf(const std::vector<std::string>& told) {
   const auto doubts = std::ranges::count_if(told, [](const std::string& s) { return s.starts_with("doubtful"); });
   return doubts == 0 ? "nothing is doubtful" : fmt::format("{} told below to be doubtful", doubts);
@@ -125,8 +170,9 @@ Result<bool> WritePage(const CaptureCommandOptions& options, CapturePage page, c
 }
 
 Result<bool> WriteReport(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
-                         const RecoveredPerson& person, std::size_t chosen, const SeenFilms& films) {
-  return WritePage(options, PageOf(options, views, person, chosen, films),
+                         const RecoveredPerson& person, std::size_t chosen, const SeenFilms& films,
+                         const UnmarkedMotion* both) {
+  return WritePage(options, PageOf(options, views, person, chosen, films, both),
                    OverlaysOf(views, person, chosen, films.clocks), person.motion);
 }
 

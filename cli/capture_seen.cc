@@ -7,7 +7,7 @@
 
 #include "bench/keypoints/read_people.h"
 #include "cli/capture.h"
-#include "engine/keypoints/guess_pictures.h"
+#include "engine/keypoints/guess_session.h"
 
 namespace etude {
 namespace {
@@ -35,12 +35,21 @@ Result<SeenPeople> ReadPeople(const CaptureCommandOptions& options, const Filmed
 }
 
 /// Brings all people into the rig's pictures and says what was done for that.
-void FitPeople(std::vector<FilmedView>& views, std::vector<SeenPeople>& people, double least_confidence,
-               std::vector<std::string>& told_lines) {
+void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<SeenPeople>& people,
+               double least_confidence, std::vector<std::string>& told_lines) {
   std::vector<PictureOfFilm> films;
+  std::vector<std::string> names;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const FilmedView& view = views[i];
-    films.push_back({view.camera.camera, view.fit, {view.facts.width, view.facts.height}, people[i]});
+    films.push_back({view.camera.camera, view.fit, {view.facts.width, view.facts.height}, std::move(people[i])});
+    names.push_back(view.camera.name);
+  }
+  SessionGuess session = GuessSession(films, names, rig.R_WF, least_confidence);
+  if (!session.mended.empty()) Tell(told_lines, "mended: " + session.mended);
+  if (!session.doubtful.empty()) Tell(told_lines, "doubtful: " + session.doubtful);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    films[i].camera = views[i].camera.camera = session.cameras[i];
+    films[i].people = people[i] = std::move(session.people[i]);
   }
   const std::vector<PictureGuess> guesses = GuessPictures(films, least_confidence);
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -186,14 +195,16 @@ std::string FramesText(const std::vector<std::size_t>& frames) {
 }  // namespace
 
 Result<SeenFilms> SeeFilms(const CaptureCommandOptions& options, const RecoverPersonOptions& recover,
-                           std::vector<FilmedView>& views) {
+                           FilmedSession& session) {
+  std::vector<FilmedView>& views = session.views;
   SeenFilms films;
+  for (const std::string& line : session.told) Tell(films.told, line);
   films.clocks.resize(views.size());
   for (const FilmedView& view : views) {
     ASSIGN_OR_RETURN(SeenPeople people, ReadPeople(options, view));
     films.people.push_back(std::move(people));
   }
-  FitPeople(views, films.people, recover.triangulate.least_confidence, films.told);
+  FitPeople(session.rig, views, films.people, recover.triangulate.least_confidence, films.told);
   for (std::size_t i = 0; i < views.size(); ++i) {
     films.people[i] = UndistortPeople(views[i].camera.camera, std::move(films.people[i]));
     films.cameras.push_back(MatrixOf(views[i].camera.camera));
@@ -213,7 +224,16 @@ void Tell(std::vector<std::string>& told, const std::string& line) {
   told.push_back(line);
 }
 
-void TellMends(const RecoveredPerson& person, const std::vector<FilmedView>& views, std::vector<std::string>& told) {
+void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vector<FilmedView>& views,
+               std::vector<std::string>& told) {
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const auto is_seen = [](const auto& seen) { return seen.has_value(); };
+    if (std::ranges::any_of(person.people[chosen].seen[i], is_seen)) continue;
+    Tell(told,
+         fmt::format("doubtful: {}: nobody in its film fits the person of the other cameras: is it this film, and "
+                     "its camera as the rig says? It is left out",
+                     views[i].camera.name));
+  }
   for (const Mend& mend : person.mends) {
     const char* what = "";
     switch (mend.kind) {

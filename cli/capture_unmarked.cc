@@ -211,25 +211,11 @@ void TellUnmarked(const CaptureCommandOptions& options, const std::vector<Filmed
 Result<bool> WriteUnmarkedReport(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
                                  const UnmarkedMotion& person, const std::vector<FilmClock>& clocks,
                                  const std::vector<std::string>& told) {
-  constexpr double kPercent = 100;
   CapturePage page = BeginPage(options, person.motion, MeasureLimbLengths(person.motion.poses), told);
-  page.residual =
-      "Share of what the body or the person's outline covers in a camera's picture that only one of them does, %, over "
-      "seconds";
-  page.unit = "%";
-  std::vector<double> all;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    CapturedCamera& camera = page.cameras.emplace_back();
-    camera.name = camera.residual.name = views[i].camera.name;
-    for (const auto& apart : person.apart[i]) {
-      camera.residual.values.push_back(apart ? std::optional(kPercent * *apart) : std::nullopt);
-      if (apart) all.push_back(kPercent * *apart);
-    }
-  }
-  page.verdict =
-      fmt::format("{} cameras, {} frames at {:g} Hz: body and outlines differ by {:.0f} % in the median; {}.",
-                  views.size(), person.motion.poses.size(), person.motion.rate_hz,
-                  all.empty() ? kPercent : UpperMedian(std::move(all)), DoubtsOf(told));
+  page.residuals.push_back(ResidualsOfOutlines(views, person));
+  page.verdict = fmt::format(
+      "{} cameras, {} frames at {:g} Hz: body and outlines differ by {:.0f} % in the median; {}.", views.size(),
+      person.motion.poses.size(), person.motion.rate_hz, MedianOf(page.residuals.back()), DoubtsOf(told));
   page.limbs = "Limbs are an adult's, scaled to the stature.";
   page.still.caption = "The skeleton as each camera would show it (lines; left blue, right orange).";
   return WritePage(options, std::move(page), OverlaysOf(views, clocks, person.motion.poses.size()), person.motion);
@@ -237,10 +223,12 @@ Result<bool> WriteUnmarkedReport(const CaptureCommandOptions& options, const std
 
 }  // namespace
 
-Result<bool> CaptureUnmarked(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+Result<bool> CaptureUnmarked(const CaptureCommandOptions& options, const FilmedSession& session,
                              const std::optional<MarkerMotion>& reference, Json& facts) {
   if (!options.points.empty()) return Fail({}, "--points: silhouettes have no keypoints to write");
+  const std::vector<FilmedView>& views = session.views;
   std::vector<std::string> told;
+  for (const std::string& line : session.told) Tell(told, line);
   const std::vector<FilmClock> clocks = ClocksByRates(views, told);
   ASSIGN_OR_RETURN(const ReducedTake take, ReadTake(options, views, clocks));
   ASSIGN_OR_RETURN(const UnmarkedMotion person, RecoverByOutlines(take, options, views.front().facts.rate_hz));

@@ -85,6 +85,37 @@ Result<RigFile> OpenRig(const std::string& path) {
   return ReadRigPair(text, other, paths.first.string());
 }
 
+/// Finds the size of a camera's pictures that the rig does not tell: the film's, or turned, or another one scaled, as
+/// the principal point lies nearest to the middle. Lengths of another size are brought to the film's.
+void FindSize(FilmedView& view, std::vector<std::string>& told) {
+  Intrinsics& in = view.camera.camera.intrinsics;
+  const glm::dvec2 film(view.facts.width, view.facts.height), middle(in.cx, in.cy);
+  const auto off = [&](const glm::dvec2& size) {
+    return std::max(std::abs(std::log(2 * middle.x / size.x)), std::abs(std::log(2 * middle.y / size.y)));
+  };
+  glm::dvec2 best = film;
+  double scale = 1;
+  constexpr double kLikely = 0.25, kSure = 0.15;
+  if (middle.x > 0 && middle.y > 0 && off(film) > kLikely) {
+    for (const double gain : {1.0, 0.25, 1.0 / 3, 0.375, 0.5, 2.0 / 3, 0.75, 4.0 / 3, 1.5, 2.0, 8.0 / 3, 3.0, 4.0}) {
+      for (const glm::dvec2& size : {gain * film, gain * glm::dvec2(film.y, film.x)}) {
+        if (off(size) > kSure || off(size) >= off(best)) continue;
+        best = size;
+        scale = gain;
+      }
+    }
+  }
+  if (best != film) {
+    told.push_back(
+        fmt::format("{}: the rig tells no size, but a middle at ({:.0f}, {:.0f}): taken as of pictures of {:.0f} "
+                    "x {:.0f} pixels, the film's have {:.0f} x {:.0f}",
+                    view.camera.name, in.cx, in.cy, best.x, best.y, film.x, film.y));
+  }
+  for (double* length : {&in.fx, &in.fy, &in.cx, &in.cy, &in.skew}) *length /= scale;
+  in.width = static_cast<int>(std::lround(best.x / scale));
+  in.height = static_cast<int>(std::lround(best.y / scale));
+}
+
 /// How films run: of one rate as many frames, of others as long.
 Result<void> CheckTogether(const std::vector<FilmedView>& views, bool may_differ_in_time) {
   const FilmedView& first = views.front();
@@ -148,6 +179,7 @@ Result<FilmedSession> OpenFilms(const CaptureCommandOptions& options) {
     return Fail({}, "--cameras names {} cameras for {} films", options.cameras.size(), options.films.size());
   }
   std::vector<FilmedView> views;
+  std::vector<std::string> told;
   for (std::size_t i = 0; i < options.films.size(); ++i) {
     FilmedView view{.path = options.films[i], .facts = {}, .camera = {}, .fit = {}};
     ASSIGN_OR_RETURN(view.camera, CameraOfFilm(options, rig, i));
@@ -158,10 +190,7 @@ Result<FilmedSession> OpenFilms(const CaptureCommandOptions& options) {
       }
     }
     Intrinsics& in = view.camera.camera.intrinsics;
-    if (in.width == 0) {  // the rig does not tell: its pictures are the film's
-      in.width = view.facts.width;
-      in.height = view.facts.height;
-    }
+    if (in.width == 0) FindSize(view, told);
     const bool is_turned = options.fit == "none" && in.width != in.height && in.width == view.facts.height &&
                            in.height == view.facts.width;
     if (is_turned) {  // keypoints will tell which way
@@ -176,7 +205,7 @@ Result<FilmedSession> OpenFilms(const CaptureCommandOptions& options) {
     views.push_back(std::move(view));
   }
   RETURN_IF_ERROR(CheckTogether(views, options.sync_s > 0));
-  return FilmedSession{std::move(views), std::move(rig_file)};
+  return FilmedSession{std::move(views), std::move(rig_file), std::move(told)};
 }
 
 Result<void> WriteMotion(const std::string& path, Clip clip, const BodyMotion& motion) {

@@ -107,14 +107,14 @@ std::string ToldHtml(const CapturePage& page) {
   return html + "</ul></section>\n";
 }
 
-std::string CamerasHtml(const CapturePage& page) {
+std::string ResidualsHtml(const CameraResiduals& residuals, double rate_hz) {
   std::vector<TakeCurve> curves;
   std::vector<std::vector<std::string>> rows;
-  std::vector<std::string> heads = {"Camera", "Frames", "Median, " + page.unit, "95 %, " + page.unit};
+  std::vector<std::string> heads = {"Camera", "Frames", "Median, " + residuals.unit, "95 %, " + residuals.unit};
   const bool has_keypoints =
-      std::ranges::any_of(page.cameras, [](const auto& camera) { return camera.left_out.has_value(); });
+      std::ranges::any_of(residuals.cameras, [](const auto& camera) { return camera.left_out.has_value(); });
   if (has_keypoints) heads.emplace_back("Keypoints left out");
-  for (const CapturedCamera& camera : page.cameras) {
+  for (const CapturedCamera& camera : residuals.cameras) {
     curves.push_back(camera.residual);
     std::vector<double> values;
     for (const auto& value : camera.residual.values) {
@@ -129,8 +129,13 @@ std::string CamerasHtml(const CapturePage& page) {
     rows.push_back({camera.name, fmt::format("{}", values.size()), rank(kMedian), rank(kMost)});
     if (has_keypoints) rows.back().push_back(fmt::format("{:.1f} %", kPercent * camera.left_out.value_or(0)));
   }
-  return "<section class=\"card\"><h2>How well the cameras agree</h2>" +
-         CurvesHtml(curves, page.rate_hz, page.residual) + TableHtml(heads, rows) + "</section>\n";
+  return CurvesHtml(curves, rate_hz, residuals.caption) + TableHtml(heads, rows);
+}
+
+std::string CamerasHtml(const CapturePage& page) {
+  std::string html = "<section class=\"card\"><h2>How well the cameras agree</h2>";
+  for (const CameraResiduals& residuals : page.residuals) html += ResidualsHtml(residuals, page.rate_hz);
+  return html + "</section>\n";
 }
 
 std::string BodyHtml(const CapturePage& page) {

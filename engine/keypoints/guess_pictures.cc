@@ -66,6 +66,15 @@ class Guesser {
     return found;
   }
 
+  /// The mean over all pairs of films of that guess.
+  double MissOfAll(const Guess& guess) {
+    double total = 0;
+    for (std::size_t a = 0; a < films_.size(); ++a) {
+      for (std::size_t b = a + 1; b < films_.size(); ++b) total += Miss(a, guess, b, guess);
+    }
+    return total / static_cast<double>(films_.size() * (films_.size() - 1) / 2);
+  }
+
  private:
   /// The people of the sampled frames in the rig's pixels, without the lens.
   const SeenPeople& PeopleBy(std::size_t c, const Guess& guess) {
@@ -131,15 +140,7 @@ class Guesser {
     bool is_fitted = false;
     for (const PictureOfFilm& film : films_) is_fitted = is_fitted || !film.fit.IsNone();
     if (!is_fitted) return;
-    const auto sum = [&](bool is_stored) {
-      const Guess guess{.is_stored = is_stored};
-      double total = 0;
-      for (std::size_t a = 0; a < films_.size(); ++a) {
-        for (std::size_t b = a + 1; b < films_.size(); ++b) total += Miss(a, guess, b, guess);
-      }
-      return total / static_cast<double>(films_.size() * (films_.size() - 1) / 2);
-    };
-    const double said = sum(false), stored = sum(true);
+    const double said = MissOfAll({}), stored = MissOfAll({.is_stored = true});
     constexpr double kBetter = 0.97, kPercent = 100;
     if (!(stored < kBetter * said)) return;
     for (std::size_t c = 0; c < films_.size(); ++c) {
@@ -168,7 +169,7 @@ class Guesser {
           const Guess guess{turns, is_mirrored, guesses_[c].is_stored};
           if (guess == guesses_[c]) continue;
           const Change change{MissOf(c, guess), before, c, guess};
-          if (!(change.after < kBetter * before)) continue;
+          if (!(change.after < std::min(kNotAsSaid, kBetter * before))) continue;
           // What is changed least is likelier of guesses that are alike.
           if (!best || change.after < 0.999 * best->after) {
             second = best;
@@ -209,6 +210,10 @@ class Guesser {
 };
 
 }  // namespace
+
+double MissOfPictures(std::span<const PictureOfFilm> films, double least_confidence) {
+  return Guesser(films, least_confidence).MissOfAll({});
+}
 
 std::vector<PictureGuess> GuessPictures(std::span<const PictureOfFilm> films, double least_confidence) {
   return Guesser(films, least_confidence).Run();

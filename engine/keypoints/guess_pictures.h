@@ -29,9 +29,17 @@ struct PictureGuess {
 /// Finds how keypoints lie in the rig's pictures *(ours)*: as said by `fit`, or, one camera after the other and each
 /// time the one that gains most, turned by quarters or mirrored, where that brings the keypoints to less than half of
 /// the distance from the other cameras' epipolar lines (median over frames, people that fit best and either labelling,
-/// as a share of the height) and they were more than 0.3 % off (what errs by itself is never halved). Where pictures were fitted, keypoints of all films may
-/// be the rig's own pixels instead (an estimator that ran on the original pictures): whichever misses less. Of two
-/// cameras, and where a second guess is nearly as good, `told` says so.
+/// as a share of the height), to less than 5 % of the height, and they were more than 0.3 % off (what errs by itself is
+/// never halved). Where pictures were fitted, keypoints of all films may be the rig's own pixels instead (an estimator
+/// that ran on the original pictures): whichever misses less. Of two cameras, and where a second guess is nearly as
+/// good, `told` says so.
 std::vector<PictureGuess> GuessPictures(std::span<const PictureOfFilm> films, double least_confidence);
+
+/// How far keypoints that are read as said lie from the other cameras' epipolar lines, as a share of the height: the
+/// mean over pairs of cameras of those medians. 1 where nothing can be said.
+double MissOfPictures(std::span<const PictureOfFilm> films, double least_confidence);
+
+/// Beyond this share of the height something is wrong, not only imprecise.
+constexpr double kNotAsSaid = 0.05;
 
 }  // namespace etude

@@ -1,0 +1,194 @@
+#include "engine/keypoints/guess_session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <optional>
+#include <utility>
+
+namespace etude {
+namespace {
+
+using Films = std::vector<PictureOfFilm>;
+
+constexpr std::size_t kMostFilms = 8;  // of which pairs and single ones are tried
+
+/// From a file's pixel to a pixel of the film, whose size is given.
+struct Reading {
+  std::string_view told;
+  glm::dvec2 (*pixel)(const glm::dvec2& p, const glm::dvec2& size);
+};
+
+/// Shares of a square, read as shares of the picture, as pixels of it: `padded` bars lie on both sides.
+glm::dvec2 OfSquare(const glm::dvec2& p, const glm::dvec2& size, double padded) {
+  const double side = std::max(size.x, size.y);
+  return p * side / size - padded * (side - size);
+}
+
+constexpr std::array kReadings = {
+    Reading{"keypoints count v from below",
+            [](const glm::dvec2& p, const glm::dvec2& size) { return glm::dvec2(p.x, size.y - p.y); }},
+    Reading{"keypoints have x and y exchanged",
+            [](const glm::dvec2& p, const glm::dvec2&) { return glm::dvec2(p.y, p.x); }},
+    Reading{"keypoints of all films are mirrored",
+            [](const glm::dvec2& p, const glm::dvec2& size) { return glm::dvec2(size.x - p.x, p.y); }},
+    Reading{"keypoints are shares of a square about the picture",
+            [](const glm::dvec2& p, const glm::dvec2& size) { return OfSquare(p, size, 0.5); }},
+    Reading{"keypoints are shares of the picture's longer side",
+            [](const glm::dvec2& p, const glm::dvec2& size) { return OfSquare(p, size, 0); }}};
+
+/// Changes all that the rig's file says of where a camera is: p_C = R_CF p_F + t.
+Camera WithPose(Camera camera, const glm::dmat3& R_WF, bool is_inverse, bool is_opengl) {
+  glm::dmat3 R_CF = camera.R_CW * R_WF;
+  glm::dvec3 t = -(camera.R_CW * camera.p_WC);
+  if (is_inverse) {
+    R_CF = glm::transpose(R_CF);
+    t = -(R_CF * t);
+  }
+  if (is_opengl) {
+    const glm::dmat3 turn(1, 0, 0, 0, -1, 0, 0, 0, -1);
+    R_CF = turn * R_CF;
+    t = turn * t;
+  }
+  camera.R_CW = R_CF * glm::transpose(R_WF);
+  camera.p_WC = -(glm::transpose(camera.R_CW) * t);
+  return camera;
+}
+
+bool AreAlike(const PictureOfFilm& a, const PictureOfFilm& b) {
+  const Intrinsics &p = a.camera.intrinsics, &q = b.camera.intrinsics;
+  return p.width == q.width && p.height == q.height && a.fit == b.fit && a.film_px == b.film_px;
+}
+
+class SessionGuesser {
+ public:
+  SessionGuesser(std::span<const PictureOfFilm> films, std::span<const std::string> names, const glm::dmat3& R_WF,
+                 double least_confidence)
+      : films_(films.begin(), films.end()), names_(names), R_WF_(R_WF), least_confidence_(least_confidence) {}
+
+  SessionGuess Run() {
+    SessionGuess found;
+    const double said = MissOfPictures(films_, least_confidence_);
+    constexpr double kOff = 0.001, kBetter = 0.5, kPercent = 100;
+    if (said > kOff) {
+      least_ = kBetter * std::min(said, MissAsGuessed());
+      TryPoses();
+      TryExchanges();
+      TryReadings();
+      if (best_ && least_ < kNotAsSaid) {
+        found.mended = fmt::format("{}: rays miss by {:.2f} % of the height instead of {:.2f} %", told_,
+                                   kPercent * least_, kPercent * said);
+        films_ = std::move(*best_);
+      } else {
+        TryFocalLengths();
+        if (best_ && least_ < kNotAsSaid) {
+          found.doubtful = fmt::format("{}, rays would miss by {:.2f} % of the height instead of {:.2f} %", told_,
+                                       kPercent * least_, kPercent * said);
+        }
+      }
+    }
+    for (PictureOfFilm& film : films_) {
+      found.cameras.push_back(film.camera);
+      found.people.push_back(std::move(film.people));
+    }
+    return found;
+  }
+
+ private:
+  /// What is left where pictures are read as they alone would be guessed.
+  double MissAsGuessed() const {
+    Films guessed = films_;
+    const std::vector<PictureGuess> guesses = GuessPictures(films_, least_confidence_);
+    for (std::size_t i = 0; i < guessed.size(); ++i) guessed[i].fit = guesses[i].fit;
+    return MissOfPictures(guessed, least_confidence_);
+  }
+
+  void Try(Films films, std::string told) {
+    const double miss = MissOfPictures(films, least_confidence_);
+    if (!(miss < least_)) return;
+    least_ = miss;
+    best_ = std::move(films);
+    told_ = std::move(told);
+  }
+
+  void TryPoses() {
+    for (const auto& [is_inverse, is_opengl, told] :
+         {std::tuple(true, false, "the rig's poses lead from its cameras to the world"),
+          {false, true, "the rig's cameras look along -z, y up"},
+          {true, true, "the rig's poses lead from its cameras to the world, and these look along -z, y up"}}) {
+      Films films = films_;
+      for (PictureOfFilm& film : films) film.camera = WithPose(film.camera, R_WF_, is_inverse, is_opengl);
+      Try(std::move(films), told);
+    }
+  }
+
+  void TryExchanges() {
+    if (films_.size() > kMostFilms) return;
+    for (std::size_t a = 0; a < films_.size(); ++a) {
+      for (std::size_t b = a + 1; b < films_.size(); ++b) {
+        if (!AreAlike(films_[a], films_[b])) continue;
+        Films films = films_;
+        std::swap(films[a].camera, films[b].camera);
+        Try(std::move(films), fmt::format("films or keypoints of {} and {} are exchanged", names_[a], names_[b]));
+      }
+    }
+  }
+
+  void TryReadings() {
+    for (const Reading& reading : kReadings) {
+      TryPixels(std::string(reading.told),
+                [&](const PictureOfFilm& film, const glm::dvec2& pixel) { return reading.pixel(pixel, film.film_px); });
+    }
+    for (const double scale : {0.25, 1.0 / 3, 0.375, 0.5, 2.0 / 3, 0.75, 4.0 / 3, 1.5, 2.0, 8.0 / 3, 3.0, 4.0}) {
+      const auto told = fmt::format("keypoints are of pictures {:.4g} times as large", 1 / scale);
+      TryPixels(told, [&](const PictureOfFilm&, const glm::dvec2& pixel) { return scale * pixel; });
+    }
+  }
+
+  void TryPixels(std::string told, const std::function<glm::dvec2(const PictureOfFilm&, const glm::dvec2&)>& read) {
+    Films films = films_;
+    for (PictureOfFilm& film : films) {
+      for (auto& frame : film.people) {
+        for (SeenPerson& person : frame) {
+          for (Keypoint& keypoint : person.keypoints) keypoint.pixel = read(film, keypoint.pixel);
+        }
+      }
+    }
+    Try(std::move(films), std::move(told));
+  }
+
+  void TryFocalLengths() {
+    if (films_.size() > kMostFilms) return;
+    constexpr double kStep = 0.02;
+    constexpr int kMostSteps = 7;
+    for (std::size_t c = 0; c < films_.size(); ++c) {
+      for (int step = -kMostSteps; step <= kMostSteps; ++step) {
+        Films films = films_;
+        Intrinsics& in = films[c].camera.intrinsics;
+        const double gain = 1 + kStep * step;
+        in.fx *= gain;
+        in.fy *= gain;
+        Try(std::move(films), fmt::format("with a focal length {:.2f} times {}'s", gain, names_[c]));
+      }
+    }
+  }
+
+  Films films_;
+  std::span<const std::string> names_;
+  const glm::dmat3& R_WF_;
+  double least_confidence_;
+  double least_ = 0;
+  std::optional<Films> best_;
+  std::string told_;
+};
+
+}  // namespace
+
+SessionGuess GuessSession(std::span<const PictureOfFilm> films, std::span<const std::string> names,
+                          const glm::dmat3& R_WF, double least_confidence) {
+  return SessionGuesser(films, names, R_WF, least_confidence).Run();
+}
+
+}  // namespace etude
