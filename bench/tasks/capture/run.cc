@@ -10,6 +10,7 @@
 #include "engine/capture/adjust_take.h"
 #include "engine/capture/fit_pose.h"
 #include "engine/capture/recover_frames.h"
+#include "engine/keypoints/adjust_person.h"
 #include "engine/keypoints/people.h"
 #include "engine/keypoints/recover_person.h"
 #include "engine/kinematics/capture_body.h"
@@ -108,8 +109,8 @@ void RecoverBundle(CaptureRun& run) {
   }
 }
 
-/// Recovers the motion as `etude capture` does from the same marks.
-void RecoverByKeypoints(const CaptureStages& stages, CaptureRun& run) {
+/// What `etude capture` makes of the same marks, frame by frame.
+Result<RecoveredPerson> PersonByKeypoints(const CaptureStages& stages, const CaptureRun& run) {
   std::vector<SeenPeople> people;
   double longer_side = 0;
   for (const std::vector<Marks>& of_camera : run.measured.marks) {
@@ -122,17 +123,43 @@ void RecoverByKeypoints(const CaptureStages& stages, CaptureRun& run) {
       if (HeightPx(person) > 0) seen.back().push_back(person);
     }
   }
-  run.frames.resize(stages.world().truth.size());
-  const auto person = RecoverPerson(run.cameras.matrices, people, UsualRecovery(kJudgedRateHz, longer_side));
-  if (!person) return;
-  run.body = person->body;
+  return RecoverPerson(run.cameras.matrices, people, UsualRecovery(kJudgedRateHz, longer_side));
+}
+
+/// Takes a person's body and its motion, but for frames that `is_lost` says.
+void TakePerson(const RecoveredPerson& person, const std::vector<bool>& is_lost, CaptureRun& run) {
+  run.body = person.body;
   TreeState last = StandingState(run.body.tree);
   PosedFrames frames(run.body);
   for (std::size_t k = 0; k < run.frames.size(); ++k) {
-    if (person->is_held[k]) continue;
-    run.frames[k] = frames.At(person->motion.poses[k], last);
+    if (is_lost[k]) continue;
+    run.frames[k] = frames.At(person.motion.poses[k], last);
     last = run.frames[k]->state;
   }
+}
+
+/// Recovers the motion as `etude capture --poses frames` does from the same marks.
+void RecoverByKeypoints(const CaptureStages& stages, CaptureRun& run) {
+  run.frames.resize(stages.world().truth.size());
+  const auto person = PersonByKeypoints(stages, run);
+  if (person) TakePerson(*person, person->is_held, run);
+}
+
+/// Joins what outlines told with the marks, as `etude capture --keypoints --silhouettes` does.
+void JoinKeypoints(const CaptureStages& stages, CaptureRun& run) {
+  auto person = PersonByKeypoints(stages, run);
+  if (!person) return;
+  const auto seen = std::ranges::find_if(person->people, [](const auto& one) { return one.cameras >= 2; });
+  const MatchedPerson matched = *seen;
+  AdjustPersonOptions adjust{.rate_hz = kJudgedRateHz};
+  AdjustPerson(run.cameras.matrices, matched, adjust, *person);
+  BodyMotion outlines = person->motion;
+  for (std::size_t k = 0; k < run.frames.size(); ++k) {
+    if (run.frames[k]) outlines.poses[k] = run.frames[k]->pose;
+  }
+  adjust.outlines = &outlines;
+  if (!AdjustPerson(run.cameras.matrices, matched, adjust, *person)) return;
+  TakePerson(*person, std::vector<bool>(run.frames.size()), run);
 }
 
 Result<void> RecoverFromSilhouettes(CaptureStages& stages, CaptureRun& run) {
@@ -166,6 +193,7 @@ Result<void> RecoverFromSilhouettes(CaptureStages& stages, CaptureRun& run) {
   for (std::size_t k = 0; k < truth.size(); ++k) {  // between pictures the last skeleton stands
     run.frames.push_back(found[k / static_cast<std::size_t>(options.picture_every)]);
   }
+  if (run.method.start == SilhouetteStart::kKeypoints && options.picture_every == 1) JoinKeypoints(stages, run);
   return {};
 }
 
