@@ -84,12 +84,20 @@ bool IsInEveryFont(unsigned code) {
   return code >= 0xC0 && code <= 0xFF && !needs_other_fonts;
 }
 
+std::string NumberOf(std::string_view character) { return fmt::format("[U+{:04X}]", CodePoint(character)); }
+
+// Unicode's embeddings, overrides and isolates: unseen, they turn around what follows them.
+bool TurnsText(std::string_view character) {
+  if (character.size() != 3) return false;
+  const unsigned code = CodePoint(character);
+  return (code >= 0x202A && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);
+}
+
 std::string LatexOf(std::string_view character) {
   for (const auto& [plain, latex] : kLatex) {
     if (plain == character) return std::string(latex);
   }
-  const unsigned code = CodePoint(character);
-  return IsInEveryFont(code) ? std::string(character) : fmt::format("[U+{:04X}]", code);
+  return IsInEveryFont(CodePoint(character)) ? std::string(character) : NumberOf(character);
 }
 
 }  // namespace
@@ -121,7 +129,11 @@ std::string EscapeMarkup(std::string_view text) {
         out += "&#39;";
         break;
       default:
-        out += text.substr(0, length);
+        if (TurnsText(text.substr(0, length))) {
+          out += NumberOf(text.substr(0, length));
+        } else {
+          out += text.substr(0, length);
+        }
     }
     text.remove_prefix(length);
   }
@@ -145,13 +157,18 @@ std::string EscapeScriptJson(std::string_view json) {
 std::string EscapeMarkdown(std::string_view text) {
   constexpr std::string_view kSpecial = "\\`*_[]<>#|&$~";
   std::string out;
-  for (const char c : text) {
-    if (c == '\n' || c == '\r') {
+  while (!text.empty()) {
+    const std::size_t length = std::max<std::size_t>(CharacterLength(text), 1);
+    const std::string_view character = text.substr(0, length);
+    if (kSpecial.find(text[0]) != std::string_view::npos) out += '\\';
+    if (text[0] == '\n' || text[0] == '\r') {
       out += ' ';
-      continue;
+    } else if (TurnsText(character)) {
+      out += EscapeMarkdown(NumberOf(character));
+    } else {
+      out += character;
     }
-    if (kSpecial.find(c) != std::string_view::npos) out += '\\';
-    out += c;
+    text.remove_prefix(length);
   }
   return out;
 }

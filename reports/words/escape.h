@@ -6,13 +6,14 @@
 namespace etude {
 
 /// Makes text safe inside HTML or XML, in content and in quoted attributes. Control characters that XML forbids become
-/// U+FFFD, and so does every byte that is not UTF-8: a hostile name cannot break a file.
+/// U+FFFD, and so does every byte that is not UTF-8; what turns text around becomes its number, "[U+202E]": a hostile
+/// name can neither break a file nor read as another.
 std::string EscapeMarkup(std::string_view text);
 
 /// Makes JSON safe inside a <script> element: no "<" survives, so nothing in it can end the element.
 std::string EscapeScriptJson(std::string_view json);
 
-/// Makes text safe in a line or table cell of Markdown.
+/// Makes text safe in a line or table cell of Markdown; what turns text around becomes its number.
 std::string EscapeMarkdown(std::string_view text);
 
 /// Makes text safe in LaTeX outside of mathematics, for pdflatex without packages. A character beyond what its fonts

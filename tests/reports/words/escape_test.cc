@@ -23,6 +23,12 @@ TEST(Markup, ReplacesWhatXmlForbids) {
   EXPECT_EQ(EscapeMarkup("\xef\xbf\xbf"), replaced + replaced + replaced);  // U+FFFF
 }
 
+TEST(Markup, ShowsWhatTurnsTextAround) {
+  EXPECT_EQ(EscapeMarkup("a\u202eb\u2066c"), "a[U+202E]b[U+2066]c");
+  EXPECT_EQ(EscapeMarkdown("a\u202eb|"), "a\\[U+202E\\]b\\|");
+  EXPECT_EQ(EscapeMarkup("\u05d0\u200f – “x”"), "\u05d0\u200f – “x”") << "letters and marks of such scripts stay";
+}
+
 TEST(ScriptJson, CannotEndItsElement) {
   EXPECT_EQ(EscapeScriptJson(R"({"a":"</script><!--"})"), R"({"a":"\u003c/script>\u003c!--"})");
 }
