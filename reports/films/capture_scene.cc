@@ -99,20 +99,19 @@ int CaptureScene::Frames() const { return std::min(captures_.front().Frames(), k
 
 std::string CaptureScene::Methods() const {
   std::string methods;
-  for (const CapturePanel& capture : captures_) methods += (methods.empty() ? "" : ", ") + capture.Method();
+  for (std::size_t i = 0; i < captures_.size(); ++i) {
+    methods += (i == 0 ? "" : i + 1 == captures_.size() ? " and " : ", ") + captures_[i].Method();
+  }
   return methods;
 }
 
 std::string CaptureScene::Words() const {
   const CapturePanel& first = captures_.front();
   return fmt::format(
-      "Left: a performer{} as two cameras saw it (cut to the middle); tinted, the person as found in the pictures; "
-      "over "
-      "it, the skeleton that {} recovered. Right: the true skeleton (grey) and the recovered one, its bones coloured "
-      "by "
-      "how far they are off{} {}.",
-      first.Clip().empty() ? "" : " of " + first.Clip(), first.Method(),
-      captures_.size() > 1 ? "; side by side:" : ", by", Methods());
+      "Left: {} as two cameras saw it, what was found tinted, with the skeleton of {}. Right: the truth (grey) and "
+      "what "
+      "{} recovered, coloured by error.",
+      first.Clip().empty() ? "a performer" : first.Clip(), first.Method(), Methods());
 }
 
 void CaptureScene::DrawSeen(Canvas& canvas, int frame) const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <string_view>
 #include <utility>
 
 #include "engine/base/angles.h"
@@ -203,8 +204,11 @@ void CoachedScene::DrawStage(Canvas& canvas, int frame) {
     // What the coach does about the music and between clips, and by which rule it corrects, is for its log.
     const bool is_said = decision.event != "tag" && decision.event != "transition" && decision.event != "corrects";
     if (is_said && decision.frame <= frame && frame < decision.frame + 2 * kFilmRate && !decision.why.empty()) {
-      // Of a mistake its name, not the evidence.
-      why = decision.event == "wrong" ? "wrong: " + decision.why.substr(0, decision.why.find(':')) : decision.why;
+      // Of a judgement its name, not the evidence.
+      const std::string_view event = decision.event;
+      why = event == "wrong"   ? "wrong: " + decision.why.substr(0, decision.why.find(':'))
+            : event == "right" ? "judged right"
+                               : decision.why;
     }
   }
   DrawCaption(canvas, kSaid, InForce(facts_.words, frame).say,

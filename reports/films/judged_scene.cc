@@ -42,6 +42,13 @@ struct Strip {
   double Y(double value) const { return box.y + box.height * (1 - std::clamp(value / highest, 0.0, 1.0)); }
 };
 
+/// Says how a move truly was danced: "truth: wrong (wrong side, late)".
+std::string TruthWords(const JudgedSessionFacts::Performance& danced) {
+  std::string fault = danced.fault == "none" ? "" : " (" + PlainName(danced.fault) + ")";
+  if (const auto plus = fault.find('+'); plus != std::string::npos) fault.replace(plus, 1, ", ");
+  return fmt::format("truth: {}{}", danced.truth == "grey" ? "neither" : danced.truth, fault);
+}
+
 }  // namespace
 
 JudgedScene::JudgedScene(JudgedSessionFacts facts, std::string heading, int longest)
@@ -125,9 +132,7 @@ void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
   const std::string verdict = called.empty() ? "not yet judged" : "called " + called;
   canvas.DrawText({left, kAnglesPanel.y + 53}, fmt::format("{}: {}", facts_.judges.front().method, verdict), 17,
                   called.empty() ? kSoftInk : PaintOfWord(called), 300, true);
-  const std::string fault = asked.fault == "none" ? "" : " (" + PlainName(asked.fault) + ")";
-  canvas.DrawText({left, kAnglesPanel.y + 77}, fmt::format("truth: {}{}", asked.truth, fault), 17,
-                  PaintOfWord(asked.truth), 300);
+  canvas.DrawText({left, kAnglesPanel.y + 77}, TruthWords(asked), 17, PaintOfWord(asked.truth), 300);
   // Key poses, ticked off in their order.
   for (std::size_t k = 0; k < asked.poses.size(); ++k) {
     const bool is_reached = asked.reached[k] && now >= *asked.reached[k];
