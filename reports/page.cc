@@ -182,7 +182,7 @@ std::string WritePage(const RunData& run, const Media& media, std::span<const Re
 
   std::string html = Head(run);
   html += fmt::format(
-      "<body>{}<a class=\"skip\" href=\"#{}\">Skip to the answers</a><main><header><p class=\"eyebrow\">Etude"
+      "<body>{}<a class=\"skip\" href=\"#{}\">Skip to answers</a><main><header><p class=\"eyebrow\">Etude"
       "</p><h1>The {} suite</h1><p class=\"verdict\">{}</p></header>",
       MarkDefsSvg(), CardAnchor(0), EscapeMarkup(run.suite),
       EscapeMarkup(FindingsOf(run).sentence + LeftOutSentence(run)));

@@ -139,7 +139,7 @@ std::string Failures(const RunData& run, const ScenarioSummary& scenario, const 
     html += "</ul>" + LeftOutHtml(findings.reasons.size(), kMostListed, "reasons", "cells.jsonl");
   }
   const std::string title = others == 0
-                                ? fmt::format("All {} ok", Plural(findings.cells, "cell"))
+                                ? fmt::format("{} ok", Plural(findings.cells, "cell"))
                                 : fmt::format("Fails: {} of {}", FormatCount(others), Plural(findings.cells, "cell"));
   return Folded(title, "<div class=\"status\">" + html + "</div>");
 }
@@ -246,9 +246,10 @@ std::string FilmElement(const Film& film, bool plays_at_once) {
   }
   return fmt::format(
       "<figure class=\"film\"><video controls loop muted playsinline{} width=\"{}\" height=\"{}\" poster=\"{}\" "
-      "src=\"{}\" aria-label=\"{}\"></video><figcaption>{} <code>video/{}</code></figcaption></figure>",
+      "src=\"{}\" aria-label=\"{}\"></video><figcaption>{} <a href=\"{}\">video/{}</a></figcaption></figure>",
       plays_at_once ? " autoplay" : "", poster.width, poster.height, DataUri("image/png", poster.png),
-      DataUri("video/mp4", film.mp4), caption, caption, EscapeMarkup(film.file));
+      DataUri("video/mp4", film.mp4), caption, caption, EscapeMarkup(UrlPath("../video/" + film.file)),
+      EscapeMarkup(film.file));
 }
 
 std::string CardAnchor(std::size_t index) { return fmt::format("scenario-{}", index + 1); }
@@ -266,10 +267,11 @@ std::string WriteScenarioCard(const RunData& run, std::size_t index, const Scena
   html +=
       picture.empty() ? "<p class=\"quiet\">No cell gave a value that could be drawn.</p></div>" : picture + "</div>";
   html += WatchHtml(run, index);
-  html += Folded("Film and stills", ScenarioFilms(scenario, media) + Strip(scenario, media) + Plates(scenario, media));
-  html += Folded("What is compared", WhatIsCompared(scenario));
-  html += Folded("All metrics", OverviewTableHtml(run, scenario));
-  html += Folded(fmt::format("All {}", Plural(static_cast<long long>(CountComparisons(scenario)), "comparison")),
+  const std::string stills = Strip(scenario, media) + Plates(scenario, media);
+  html += Folded(stills.empty() ? "Film" : "Film, stills", ScenarioFilms(scenario, media) + stills);
+  html += Folded("Methods", WhatIsCompared(scenario));
+  html += Folded("Metrics", OverviewTableHtml(run, scenario));
+  html += Folded(Plural(static_cast<long long>(CountComparisons(scenario)), "comparison"),
                  ComparisonTableHtml(scenario) + AcrossTableHtml(scenario));
   html += Expectations(scenario);
   html += Failures(run, scenario, findings);

@@ -105,10 +105,11 @@
     const of = shown.closest('figure').dataset, trial = shown.dataset.t.padStart(3, '0');
     return (of.a ? [of.a, of.b] : [shown.parentElement.dataset.m]).map((m) => [of.s, of.c, trial, m].join('/'));
   };
+  const told = (dot) => [dot.parentElement.dataset.m, 'trial ' + Number(dot.dataset.t)].filter(Boolean).join(', ') + (dot.dataset.v ? ': ' + dot.dataset.v : '');
   const titleOf = (shown) => {
     if (shown.dataset.ids) return shown.innerText.replace(/\s+/g, ' ').trim();
     const titled = shown.closest('figure').querySelector('use[data-t="' + shown.dataset.t + '"] title');
-    return titled?.textContent ?? 'trial ' + Number(shown.dataset.t);
+    return titled?.textContent ?? told(shown);
   };
   const show = (shown) => {
     close();
@@ -128,14 +129,21 @@
     shown.classList.add('picked');
     // For scripts that add to it, such as one that shows the motion of a cell that was recorded.
     card.dispatchEvent(new CustomEvent('etude:cells', {bubbles: true, detail: {cells, kept: cells.filter((id) => kept.includes(id)), card}}));
-    end.focus();
+    card.querySelector('button').focus();  // what shows the motion, or closes
   };
   document.addEventListener('click', (event) => {
     const dot = event.target.closest?.('use[data-t]'), row = event.target.closest?.('tr[data-ids]');
     if (dot) show(dot);
     else if (row?.dataset.ids && !event.target.closest('a, button') && getSelection().isCollapsed) show(row);
   });
-  document.addEventListener('keydown', (event) => { if (event.key === 'Escape') close(); });
+  document.addEventListener('keydown', (event) => {
+    if (event.key !== 'Escape') return;
+    close();
+    document.querySelectorAll('.menu').forEach((menu) => {
+      if (menu.contains(document.activeElement)) menu.parentElement.querySelector('.columns').focus();
+      menu.remove();
+    });
+  });
 
   // One stop of the Tab key per picture; arrows go from dot to dot, Enter opens one.
   document.querySelectorAll('figure svg').forEach((svg) => {
@@ -145,7 +153,7 @@
     dots.forEach((dot, i) => {
       dot.setAttribute('tabindex', i ? '-1' : '0');
       dot.setAttribute('role', 'button');
-      if (!dot.querySelector('title')) dot.setAttribute('aria-label', 'trial ' + dot.dataset.t + ' ' + (dot.parentElement.dataset.m ?? ''));
+      if (!dot.querySelector('title')) dot.setAttribute('aria-label', told(dot));
     });
     svg.addEventListener('keydown', (event) => {
       const at = dots.indexOf(document.activeElement);
@@ -208,11 +216,13 @@
   });
 
   // Tables: sorted by a click on a heading, filtered, copied, with columns to choose from.
-  const LATEX = {'\\': '\\textbackslash{}', '~': '\\textasciitilde{}', '^': '\\textasciicircum{}', '−': '$-$', '°': '$^\\circ$', '±': '$\\pm$'};
+  const LATEX = {'\\': '\\textbackslash{}', '~': '\\textasciitilde{}', '^': '\\textasciicircum{}', '<': '\\textless{}', '>': '\\textgreater{}', '|': '\\textbar{}',
+                 '−': '$-$', '–': '--', '°': '$^\\circ$', '±': '$\\pm$', '×': '$\\times$', '≤': '$\\le$', '≥': '$\\ge$', '“': '``', '”': "''", '’': "'", '…': '\\dots{}',
+                 '↓': '$\\downarrow$', '↑': '$\\uparrow$', '▲': '$\\bigtriangleup$', '▼': '$\\bigtriangledown$'};
   const ESCAPES = {
     TSV: (text) => text,
     Markdown: (text) => text.replace(/[\\`*_[\]<>#|&$~]/g, '\\$&'),
-    LaTeX: (text) => text.replace(/[\\{}&%$#_~^−°±]/g, (c) => LATEX[c] ?? '\\' + c),
+    LaTeX: (text) => text.replace(/[\\{}&%$#_]|[^\x20-\x7e]|[~^<>|]/gu, (c) => LATEX[c] ?? (c < '\x7f' ? '\\' + c : c)),
   };
   const ROWS = {
     TSV: (rows) => rows.map((row) => row.join('\t')),
@@ -231,7 +241,8 @@
     }
     const text = ROWS[as](rows).join('\n') + '\n';
     table.dispatchEvent(new CustomEvent('etude:copied', {bubbles: true, detail: text}));
-    return navigator.clipboard?.writeText(text).catch(() => {});
+    const put = navigator.clipboard?.writeText(text) ?? Promise.reject();
+    return put.then(() => 'copied', () => 'the browser forbids it');
   };
   const keyOf = (row, column) => {
     const cell = row.cells[column], value = cell?.dataset.v;
@@ -289,8 +300,11 @@
         body.hidden = [...body.rows].every((row) => row.hidden || row.classList.contains('group'));
       }
     };
-    tools.append(filter, ...Object.keys(ROWS).map((as) => button(as, 'Copy as ' + as, () => copy(table, as))));
-    if (table.tHead.rows[0].cells.length > 3) tools.append(button('Columns', '', () => choose(table, tools)));
+    const told = make('output', '');
+    const copied = async (as) => { told.textContent = as + ': ' + await copy(table, as); };
+    tools.append(filter, ...Object.keys(ROWS).map((as) => button(as, 'Copy as ' + as, () => copied(as))));
+    if (table.tHead.rows[0].cells.length > 3) tools.append(button('Columns', '', () => choose(table, tools), 'columns'));
+    tools.append(told);
     scroll.before(tools);
     [...table.tHead.rows[0].cells].forEach((head, column) => {
       const by = button('', '', () => sort(table, head, column), 'sort');

@@ -68,7 +68,8 @@ std::vector<StripRow> RowsOf(const RunData& run, const ScenarioSummary& scenario
   return rows;
 }
 
-std::string Strip(const StripRow& row, const Axis& axis, double top, const ScenarioSummary& scenario) {
+std::string Strip(const StripRow& row, const Axis& axis, double top, const ScenarioSummary& scenario,
+                  const MetricWords& words) {
   const std::string& method = scenario.methods[row.method];
   const double middle = top + kLabel + kSpread + 4;
   std::vector<double> places;
@@ -78,7 +79,8 @@ std::string Strip(const StripRow& row, const Axis& axis, double top, const Scena
   std::string svg = PanelText(2, top + 10, label, "start", 48) + fmt::format("<g data-m=\"{}\">", EscapeMarkup(method));
   for (std::size_t i = 0; i < places.size(); ++i) {
     svg += MarkUse(row.method, row.method, places[i], middle + aside[i],
-                   fmt::format(" data-t=\"{}\"{}", row.dots[i].trial, row.dots[i].cell));
+                   fmt::format(" data-t=\"{}\"{} data-v=\"{}{}\"", row.dots[i].trial, row.dots[i].cell,
+                               FormatNumber(row.dots[i].value), EscapeMarkup(words.suffix)));
   }
   const double from = axis.At(row.low), to = axis.At(row.high), at = axis.At(row.typical);
   return svg +
@@ -118,7 +120,7 @@ std::string StripsHtml(const RunData& run, const ScenarioSummary& scenario, cons
   std::string strips, described;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::string name = MethodLabel(scenario, scenario.methods[rows[i].method]);
-    strips += Strip(rows[i], axis, kRow * static_cast<double>(i), scenario);
+    strips += Strip(rows[i], axis, kRow * static_cast<double>(i), scenario, words);
     described += fmt::format("{}: {}{}. ", name, FormatNumber(rows[i].typical), words.suffix);
   }
   return fmt::format(

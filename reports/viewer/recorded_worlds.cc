@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string_view>
 
 #include "bench/files/json.h"
@@ -64,16 +65,21 @@ std::string ViewerIndexHtml(const RunData& run) {
 }
 
 std::string WatchHtml(const RunData& run, std::size_t scenario) {
+  std::vector<RecordedWorld> worlds = RecordedWorlds(run);
+  std::erase_if(worlds, [&](const RecordedWorld& world) { return world.scenario != scenario; });
+  // One trial of several conditions: these tell them apart.
+  const bool one_trial = worlds.size() > 1 && std::ranges::all_of(worlds, [&](const RecordedWorld& world) {
+                           return world.cells.front().row->trial == worlds.front().cells.front().row->trial;
+                         });
   std::string html;
-  std::size_t total = 0;
-  for (const RecordedWorld& world : RecordedWorlds(run)) {
-    if (world.scenario != scenario || ++total > kMostListed) continue;
+  for (const RecordedWorld& world : std::span(worlds).first(std::min(worlds.size(), kMostListed))) {
     html += fmt::format(" <button type=\"button\" data-cell=\"{}\">{}</button>",
-                        EscapeMarkup(world.cells.front().row->Id()), EscapeMarkup(world.Name()));
+                        EscapeMarkup(world.cells.front().row->Id()),
+                        EscapeMarkup(one_trial ? ConditionLabel(world.cells.front().row->condition) : world.Name()));
   }
   if (html.empty()) return "";
   return fmt::format("<p class=\"watch\" hidden>Motions:{}</p>{}", html,
-                     LeftOutHtml(total, kMostListed, "recorded worlds", "report/motions"));
+                     LeftOutHtml(worlds.size(), kMostListed, "recorded worlds", "report/motions"));
 }
 
 }  // namespace etude

@@ -46,6 +46,11 @@ std::string ClearSentence(const Comparison& c, const std::string& other, const M
                      words.label, Amount(std::abs(difference), words), FormatInterval(low, high, words), other, worlds);
 }
 
+/// Whether median and mean tell different things: the one's interval does not hold the other.
+bool MeanTellsMore(const Comparison& c) {
+  return c.mean && c.ci_low && c.ci_high && (*c.mean < *c.ci_low || *c.mean > *c.ci_high);
+}
+
 /// Writes the sentence without its end: on which worlds, and why it is open.
 std::string SentenceFor(const Comparison& c, const std::string& other, const MetricWords& words) {
   if (c.pairs == 0 || !c.difference) {
@@ -56,8 +61,13 @@ std::string SentenceFor(const Comparison& c, const std::string& other, const Met
     return fmt::format("“{}” and {} met in {} only: too few to judge the {}", c.method, other, Plural(c.pairs, "world"),
                        words.label);
   }
-  const std::string figures = fmt::format("{} (95 % CI {}) on {}", Amount(*c.difference, words),
-                                          FormatInterval(c.ci_low, c.ci_high, words), Plural(c.pairs, "world"));
+  std::string figures =
+      fmt::format("{} (95 % CI {})", Amount(*c.difference, words), FormatInterval(c.ci_low, c.ci_high, words));
+  if (c.verdict == Verdict::kInconclusive && MeanTellsMore(c)) {
+    figures = fmt::format("median {}, mean {} ({})", figures, Amount(*c.mean, words),
+                          FormatInterval(c.mean_low, c.mean_high, words));
+  }
+  figures += fmt::format(" on {}", Plural(c.pairs, "world"));
   switch (c.verdict) {
     case Verdict::kBetter:
     case Verdict::kWorse:
@@ -144,7 +154,7 @@ std::optional<double> TypicalOf(const ConditionSummary& condition, const std::st
 
 std::string RatioText(const CostRatio& ratio) {
   const std::string least = FormatNumber(ratio.least), most = FormatNumber(ratio.most);
-  return least == most ? least : fmt::format("{} to {}", least, most);
+  return least == most ? least : fmt::format("{}–{}", least, most);
 }
 
 /// Gives the verb of a cost: steps are needed, errors are had.
@@ -187,6 +197,10 @@ std::string ChangeOf(const std::vector<Judged>& judged, std::string_view what) {
   }
   if (!low) return "";
   const MetricWords words = WordsFor(judged.front().comparison->metric);
+  const Comparison& first = *judged.front().comparison;
+  if (judged.size() == 1 && first.verdict == Verdict::kInconclusive && MeanTellsMore(first)) {
+    return fmt::format(" ({}median {}, mean {})", what, FormatNumber(*low * words.scale), Amount(*first.mean, words));
+  }
   const std::string range = *low == *high ? FormatNumber(*low * words.scale) : FormatInterval(low, high, words);
   return fmt::format(" ({}{}{}{})", what, *low > 0 ? "+" : "", range, words.is_share ? " pp" : words.difference_suffix);
 }

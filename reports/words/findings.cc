@@ -153,17 +153,17 @@ std::vector<std::string> OthersBeside(const ScenarioSummary& scenario, const std
   return names;
 }
 
-/// Counts the worlds in which `asked` is better than another method, over all conditions, ties as halves.
-std::string WorldsWonAgainst(const ScenarioSummary& scenario, const std::string& asked, const std::string& other,
-                             const std::string& metric) {
+/// Counts the worlds in which another method loses to `asked`, over all conditions, ties as halves.
+std::string WorldsLostTo(const ScenarioSummary& scenario, const std::string& asked, const std::string& other,
+                         const std::string& metric) {
   for (const Against against : {Against::kBaseline, Against::kRival}) {
-    double won = 0, pairs = 0;
+    double lost = 0, pairs = 0;
     for (const Judged& judged : JudgedOf(scenario, asked, metric, against)) {
       if (judged.comparison->baseline != other) continue;
-      won += judged.comparison->share_better * judged.comparison->pairs;
+      lost += judged.comparison->share_better * judged.comparison->pairs;
       pairs += judged.comparison->pairs;
     }
-    if (pairs > 0) return fmt::format("{:g}/{}", std::round(2 * won) / 2, std::llround(pairs));
+    if (pairs > 0) return fmt::format("{:g}/{}", std::round(2 * lost) / 2, std::llround(pairs));
   }
   return "";  // it was chosen on half of the worlds
 }
@@ -186,9 +186,8 @@ KeyFigures KeyFiguresOf(const ScenarioSummary& scenario, const std::string& aske
   if (times.MedianOf(asked)) {
     add("processor time", [&](const std::string& method) { return TimeText(times.MedianOf(method)); });
   }
-  add("worlds won", [&](const std::string& method) {
-    return method == asked ? "" : WorldsWonAgainst(scenario, asked, method, metric);
-  });
+  add("worlds lost",
+      [&](const std::string& method) { return method == asked ? "" : WorldsLostTo(scenario, asked, method, metric); });
   return figures;
 }
 

@@ -42,7 +42,7 @@ struct KeyFigures {
     std::string name;
     std::vector<std::string> values;  ///< one per label, with its unit; "" where it has no meaning
   };
-  std::vector<std::string> labels;  ///< headline metric, success, processor time, worlds won; what is known
+  std::vector<std::string> labels;  ///< headline metric, success, processor time, worlds lost; what is known
   std::vector<Method> methods;      ///< the one in question first; empty where nothing is compared
 };
 

@@ -237,7 +237,7 @@ TEST(Film, IsItsPosterAndTheReasonWhenItCannotBeEncoded) {
   const Film whole = Shoot(scene, fs::path(::testing::TempDir()) / "etude_still" / "film.mp4");
   EXPECT_EQ(whole.why_not, "");
   EXPECT_THAT(FilmElement(whole, true), HasSubstr("autoplay"));
-  EXPECT_THAT(FilmElement(whole, true), HasSubstr("<code>video/film.mp4</code>"));
+  EXPECT_THAT(FilmElement(whole, true), HasSubstr("<a href=\"../video/film.mp4\">video/film.mp4</a>"));
   EXPECT_THAT(FilmElement(whole, false), Not(HasSubstr("autoplay")));
 }
 

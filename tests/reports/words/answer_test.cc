@@ -71,7 +71,7 @@ TEST(Headline, GivesTheRangeOfRatiosOverConditions) {
   ScenarioSummary scenario = Solvers();
   scenario.conditions.push_back(scenario.conditions.front());
   scenario.conditions[1].methods[2] = Method("gauss-newton", 0.05, 8);
-  EXPECT_THAT(HeadlineOfSolvers(scenario), HasSubstr("needs 70.0 to 140 × the solver steps"));
+  EXPECT_THAT(HeadlineOfSolvers(scenario), HasSubstr("needs 70.0–140 × the solver steps"));
 }
 
 TEST(Headline, GivesTheLeastAndTheLargestDifferenceOverConditions) {
@@ -105,7 +105,7 @@ TEST(Headline, NamesBothRivalsWhereHalvesOfTheWorldsChoseDifferently) {
   scenario.conditions[0].methods[0] = Method("fixed", 8.8, 8);
   scenario.conditions[0].rivals = {Compared("iterations", "fixed or gauss-newton", Verdict::kWorse)};
   EXPECT_THAT(HeadlineOf(scenario, "adaptive", "iterations"),
-              HasSubstr("needs 70.0 to 140 × the solver steps of “fixed” or “gauss-newton”"));
+              HasSubstr("needs 70.0–140 × the solver steps of “fixed” or “gauss-newton”"));
   // A method may be called so itself.
   scenario.conditions[0].methods[2].method = "fixed or gauss-newton";
   EXPECT_THAT(HeadlineOf(scenario, "adaptive", "iterations"), HasSubstr("needs 140 × the solver steps of “fixed or "));

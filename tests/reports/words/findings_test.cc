@@ -62,6 +62,14 @@ TEST(Answer, ClaimsNothingThatIsNotSettled) {
   EXPECT_THAT(same, HasSubstr("makes no difference that matters"));
 }
 
+TEST(Answer, NamesTheMeanThatTheMedianHides) {
+  Comparison rare = Figures(120, 0, 0, 0, 0.4, Verdict::kInconclusive);
+  rare.mean = 6.3, rare.mean_low = 3.19, rare.mean_high = 9.61;
+  EXPECT_THAT(AnswerTo(rare), HasSubstr("median 0° (95 % CI 0–0), mean 6.30° (3.19–9.61) on 120 worlds"));
+  rare.verdict = Verdict::kNoDifference;
+  EXPECT_THAT(AnswerTo(rare), Not(HasSubstr("mean")));
+}
+
 TEST(Answer, SaysWhyItIsOpen) {
   Comparison open = Figures(8, -4.7, -6.0, -1.1, 0.9, Verdict::kInconclusive);
   open.why_open = "too few worlds";
@@ -173,7 +181,8 @@ TEST(Findings, GiveAFewFiguresOfTheMethodItsBaselineAndTheStrongestOther) {
   EXPECT_EQ(figures.methods[0].name, "wait-for-end");
   EXPECT_EQ(figures.methods[1].name, "now");
   EXPECT_EQ(figures.methods[2].name, "gate-inertialised");
-  EXPECT_EQ(figures.labels, (std::vector<std::string>{"jump at the seam", "ended ok", "processor time", "worlds won"}));
+  EXPECT_EQ(figures.labels,
+            (std::vector<std::string>{"jump at the seam", "ended ok", "processor time", "worlds lost"}));
   EXPECT_EQ(figures.methods[2].values[0], "6.40 cm");
   EXPECT_EQ(figures.methods[1].values[2], "250 ms");
   EXPECT_EQ(figures.methods[2].values[2], "2.00 s");
