@@ -100,7 +100,7 @@ class Interrupts(EtudeCase):
         self.assertEqual([path.name for path in self.folder.iterdir()], ["long.yaml"])
 
     def test_a_replay_says_that_it_was_stopped(self):
-        many = self.write("many.yaml", IK.replace("trials: 4", "trials: 1500"))
+        many = self.write("many.yaml", IK.replace("trials: 4", "trials: 300"))
         self.run_suite(many)
 
         def works(program):

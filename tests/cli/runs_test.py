@@ -78,14 +78,14 @@ methods: [{name: hue}]
 
     def test_a_worker_that_dies_takes_only_its_cell_with_it(self):
         # Long cells: a worker killed between two of them would take none with it.
-        path = self.write("ik.yaml", IK.replace("trials: 4", "trials: 30\nmax_sweeps: 10000"))
+        path = self.write("ik.yaml", IK.replace("trials: 4", "trials: 10\nmax_sweeps: 10000"))
         run = subprocess.Popen([ETUDE, "run", path, "--jobs", "2", "-o", self.out], stderr=subprocess.DEVNULL,
                                stdout=subprocess.DEVNULL)
         self.wait_for_cells(self.out)
         os.kill(children_of(run.pid)[0], signal.SIGABRT)  # as a failed assertion would
         self.assertEqual(run.wait(timeout=120), 0)
         rows = [row for row in (self.out / "cells.jsonl").read_text().splitlines()]
-        self.assertEqual(len(rows), 30 * 2 * 2)
+        self.assertEqual(len(rows), 10 * 2 * 2)
         crashed = [row for row in rows if '"crashed"' in row]
         self.assertIn(len(crashed), (1, 2))  # the cell it was at; both, while it built their world
         self.assertIn("signal 6 (Aborted)", crashed[0])
