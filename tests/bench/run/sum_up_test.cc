@@ -21,7 +21,7 @@ Study ManyConditions() {
   study.trials = 60;
   study.methods = {{"a", "a", false}, {"b", "a", false}};
   study.metrics = {"position_error_cm", "solved_practical"};
-  for (int i = 0; i < 200; ++i) study.conditions.push_back({{"joint_noise_deg", std::to_string(i)}});
+  for (int i = 0; i < 40; ++i) study.conditions.push_back({{"joint_noise_deg", std::to_string(i)}});
   return study;
 }
 

@@ -43,7 +43,7 @@ TEST(CalibrationTarget, IsFoundInRenderedPicturesAndCalibratesTheirCameras) {
   ASSERT_TRUE(renderer) << renderer.error().message;
   const std::vector<BodyPose> motion{StandingPose()};
   const std::vector<PlacedBoard> target = CalibrationTarget(MiddleOnFloor(motion));
-  for (int trial = 0; trial < 6; ++trial) {
+  for (int trial = 0; trial < 3; ++trial) {
     const WorldKey key{.suite_seed = 3, .scenario = "target", .trial = trial};
     for (const Camera& camera : SetUpCameras({}, motion, key)) {
       const ColourImage picture = (*renderer)->RenderSmooth({}, {Figure{{}, {}, SurfacesOf(target)}}, camera);
@@ -71,7 +71,7 @@ TEST(MarkedCube, IsFoundInRenderedPicturesAndCalibratesTheirCameras) {
   const std::vector<BodyPose> motion{StandingPose()};
   const MarkedCube cube = MakeMarkedCube(MiddleOnFloor(motion));
   EXPECT_EQ(cube.discs.size(), 125u);
-  for (int trial = 0; trial < 6; ++trial) {
+  for (int trial = 0; trial < 3; ++trial) {
     const WorldKey key{.suite_seed = 3, .scenario = "marks", .trial = trial};
     for (const Camera& camera : SetUpCameras({}, motion, key)) {
       const GreyImage picture = ToGrey((*renderer)->RenderSmooth({}, {Figure{{}, {}, cube.surfaces}}, camera));

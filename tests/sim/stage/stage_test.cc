@@ -22,6 +22,15 @@ std::vector<Camera> Cameras() {
   return {LookAt({}, {-2.4, 1.0, 2.9}, {0, 0.95, 0}), LookAt({}, {2.4, 2.2, 2.9}, {0, 0.95, 0})};
 }
 
+/// The same cameras with a quarter of the pixels.
+std::vector<Camera> SmallCameras() {
+  std::vector<Camera> cameras = Cameras();
+  for (Camera& camera : cameras) {
+    camera.intrinsics = {.width = 320, .height = 240, .fx = 300, .fy = 300, .cx = 160, .cy = 120};
+  }
+  return cameras;
+}
+
 StagedRoom MakeStage(std::uint64_t seed, double scene) {
   const std::vector<BodyPose> poses = {StandingPose()};
   return StagedRoom({.seed = seed, .scene = scene}, poses, Cameras());
@@ -188,7 +197,7 @@ TEST_F(RenderedStage, NothingButThePerformerIsEverLabelledAsOne) {
   std::array<std::ptrdiff_t, 3> seen{};
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const StagedRoom stage = MakeStage(seed, 1);
-    for (const Camera& camera : Cameras()) {
+    for (const Camera& camera : SmallCameras()) {
       const View view = renderer_->Render({.interior = stage.interior()}, stage.MoversAt(0.7), camera, Targets::kAll);
       EXPECT_EQ(std::ranges::count_if(view.labels.pixels, IsPerformer), 0);
       for (const Part part : {Part::kFurniture, Part::kClutter, Part::kBystander}) {
@@ -197,7 +206,7 @@ TEST_F(RenderedStage, NothingButThePerformerIsEverLabelledAsOne) {
       }
     }
   }
-  for (const std::ptrdiff_t pixels : seen) EXPECT_GT(pixels, 2000);
+  for (const std::ptrdiff_t pixels : seen) EXPECT_GT(pixels, 500);
 }
 
 TEST_F(RenderedStage, FurnitureIsDrawnWhereRaysMeetItsBoxes) {

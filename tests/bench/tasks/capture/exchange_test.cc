@@ -87,14 +87,21 @@ TEST(CaptureExchange, TellsTheMarksPicturesAndCalibrationPointsThatBuiltInMethod
   EXPECT_LT(*ValueOf(built_in, "limb_direction_coverage"), 0.7) << "a frame of three was not marked";
 }
 
+/// A take of three frames, its truth, and how that is judged as an answer.
+struct ToldTake {
+  std::unique_ptr<Task> task = MakeTask("{duration_s: 0.1, camera_distance_m: 2.5}");
+  std::unique_ptr<TaskWorld> world = task->MakeWorld(kExchangeKey, true);
+  Result<Payload> truth = world->MakeTruth();
+  Result<CellResult> cell = world->Judge(Json{{"poses", (*truth.value().json)["poses"]}});
+};
+
+const ToldTake& TakeThatIsTold() {
+  static const ToldTake take;
+  return take;
+}
+
 TEST(CaptureExchange, TheTruthIsAPerfectAnswerAndItsFilesTellTheSame) {
-  const auto task = MakeTask("{duration_s: 0.1}");
-  const auto world = task->MakeWorld(kExchangeKey, true);
-  const auto truth = world->MakeTruth();
-  ASSERT_TRUE(truth) << ToString(truth.error());
-  Json answer;
-  answer["poses"] = (*truth->json)["poses"];
-  const auto cell = world->Judge(answer);
+  const auto& [task, world, truth, cell] = TakeThatIsTold();
   ASSERT_TRUE(cell) << ToString(cell.error());
   EXPECT_EQ(cell->status, Status::kOk) << cell->reason;
   EXPECT_EQ(ValueOf(*cell, "mpjpe_mm"), 0);
@@ -114,8 +121,7 @@ TEST(CaptureExchange, TheTruthIsAPerfectAnswerAndItsFilesTellTheSame) {
 }
 
 TEST(CaptureExchange, TheTruthHoldsWhatDepthCamerasWouldMeasureInTheCamerasPlace) {
-  const auto truth = MakeTask("{duration_s: 0.1, camera_distance_m: 2.5}")->MakeWorld(kExchangeKey, true)->MakeTruth();
-  ASSERT_TRUE(truth) << ToString(truth.error());
+  const Result<Payload>& truth = TakeThatIsTold().truth;
   const std::string path =
       (std::filesystem::temp_directory_path() / fmt::format("etude-depth-{}.exr", getpid())).string();
   const auto depth = [&](const char* file, const char* channel) {
@@ -182,13 +188,8 @@ TEST(CaptureExchange, AFrameWithoutAPoseShowsTheLastOneAndCountsAsNotRecovered) 
 }
 
 TEST(CaptureExchange, ReportsEveryMetricThatItsKindNames) {
-  const auto task = MakeTask("{duration_s: 0.1}");
-  const auto world = task->MakeWorld(kExchangeKey, false);
-  Json answer;
-  answer["poses"] = (*world->MakeTruth()->json)["poses"];
-  const CellResult cell = *world->Judge(answer);
   std::vector<std::string> reported;
-  for (const MetricValue& metric : cell.metrics) reported.push_back(metric.id);
+  for (const MetricValue& metric : TakeThatIsTold().cell->metrics) reported.push_back(metric.id);
   EXPECT_THAT(reported, testing::UnorderedElementsAreArray(MakeCaptureTaskKind().metrics));
 }
 
