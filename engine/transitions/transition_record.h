@@ -40,10 +40,17 @@ enum class Branch { kNone, kNow, kEnd, kStandingPose, kFrontHalf, kRearHalf, kIn
 /// Returns "none", "now", "end", "standing pose", "front half", "rear half", "in-between", "forced", "unbroken".
 std::string_view BranchName(Branch branch);
 
+/// How the joins `minimum-jerk` and `planted-feet` get from the old motion to the new one.
+enum class JoinWay {
+  kDecays,  ///< the new motion plays, and what the old one was off from it dies away
+  kFades,   ///< both motions play on, and the new one takes over
+  kDirect,  ///< each limb moves from where the old motion left it to where the new one has it at the end
+};
+
 /// The join that a choice of frames prefers; set by `played`, which tries several, and by answers of methods outside.
 struct PreferredJoin {
   double blend_s = 0;  ///< seconds until the new motion is shown alone
-  bool fades = false;  ///< the old motion goes on while it fades out; else what it was off from the new one dies away
+  JoinWay way = JoinWay::kDecays;
 };
 
 /// A run of frames that is shown: of a clip, or made by the method itself.

@@ -256,6 +256,7 @@ class TransitionAnswer(Message):
     join_s: How many seconds minimum-jerk or planted-feet take, 0 to 5; other joins have lengths of their own.
     fades: Only with join_s: the old clip goes on while it fades out, else what it was off from the new one dies
         away.
+    direct: Only with join_s: each limb goes with least jerk to where the new clip has it at the end of the join.
     between: Up to 300 poses of the method's own making, shown after leave_frame in its place and heading, the last
         of them in place of enter_frame; limbs may differ from the clips' by 2 cm. Not with through.
     between_start: Only with between: the method's version of leave_frame. It is not shown: the gaps of the first
@@ -270,6 +271,7 @@ class TransitionAnswer(Message):
     join: Optional[str] = None
     join_s: Optional[float] = None
     fades: Optional[bool] = None
+    direct: Optional[bool] = None
     between: Optional[List[Pose]] = None
     between_start: Optional[Pose] = None
     matched: Optional[bool] = None

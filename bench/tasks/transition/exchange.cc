@@ -92,7 +92,8 @@ TransitionAnswer ReadTransition(AnswerFields& fields, const Stage& stage, const 
   answer.join = FindJoin(fields.Choice("join", JoinNames(), JoinNames().front()));
   if (fields.Has("join_s")) {
     answer.segments.back().preferred = PreferredJoin{.blend_s = fields.Number("join_s", kJoins_s)};
-    answer.segments.back().preferred->fades = fields.Boolean("fades", false);
+    const bool fades = fields.Boolean("fades", false), direct = fields.Boolean("direct", false);
+    answer.segments.back().preferred->way = direct ? JoinWay::kDirect : fades ? JoinWay::kFades : JoinWay::kDecays;
   }
   answer.matched = fields.Boolean("matched", false);
   return answer;

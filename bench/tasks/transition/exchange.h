@@ -47,7 +47,8 @@ Payload NaturePayload(const Stage& stage, const TransitionRequest& request);
 /// - `"through": [{"clip": 2, "enter_frame": 3, "leave_frame": 40}]`: clips played on the way, entered and left alike.
 /// - `"join"`: any of the built-in ones, `cut` by default, with what it is set by left at its defaults.
 /// - `"join_s": 0.5`: how long `minimum-jerk` or `planted-feet` should take, 0 to 5 s; beside it `"fades": true`: the
-///   old clip goes on while it fades out. Other joins have lengths of their own.
+///   old clip goes on while it fades out; or `"direct": true`: each limb goes with least jerk to where the new clip has
+///   it at the end. Other joins have lengths of their own.
 /// - `"between": [[x, y, z, …], …]`: frames of the method's own making, shown after `leave_frame` in the place and
 ///   heading of clip `from` as the setting has it. Then clip `to` is laid on the last of them, so that one should be
 ///   the method's version of `enter_frame`. They are performed by the same body: a limb more than 2 cm longer or

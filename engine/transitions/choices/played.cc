@@ -53,7 +53,7 @@ PlayedRates RatesOf(const PlayedOptions& options) {
 }
 
 PreferredJoin PreferredOf(const PlayedWay& way, double rate_hz) {
-  return {.blend_s = way.frames / rate_hz, .fades = way.fades};
+  return {.blend_s = way.frames / rate_hz, .way = way.way};
 }
 
 int LastFrameOf(const MotionLibrary& library, int clip) { return library.tagged[clip].FrameCount() - 1; }
@@ -158,7 +158,7 @@ TransitionRecord PlanPlayed(const MotionLibrary& library, const TransitionReques
       ListCandidates(library, request, rules, ranked(best), std::move(others), CandidateOutcome::kWorse);
   record.why = fmt::format("least cost of the transitions played: {}, joined within {:.2f} s by {}, {:.2f} s in all",
                            DescribePair(library, request, best.pair.leave, best.pair.enter), preferred.blend_s,
-                           preferred.fades ? "a fade" : "what was off dying away", best.cost_s);
+                           preferred.way == JoinWay::kFades ? "a fade" : "movements of least jerk", best.cost_s);
   return record;
 }
 

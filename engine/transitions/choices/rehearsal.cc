@@ -17,6 +17,7 @@
 namespace etude {
 namespace {
 
+constexpr std::array kWays = {JoinWay::kDirect, JoinWay::kFades};
 constexpr std::array kLengths_s = {0.3, 0.4, 0.5, 0.65, 0.8, 1.0, 1.2};
 constexpr double kAlwaysUsual = 0.01;  // metres per frame²: 9 m/s², as of what falls
 constexpr double kLimbsShare = 0.6;    // of the cost of limbs, before a way is played with its feet
@@ -194,7 +195,7 @@ class PairStage {
 };
 
 bool IsBetterWay(const PlayedWay& a, const PlayedWay& b) {
-  return std::tuple(a.cost_s, a.number, a.frames, a.fades) < std::tuple(b.cost_s, b.number, b.frames, b.fades);
+  return std::tuple(a.cost_s, a.number, a.frames, a.way) < std::tuple(b.cost_s, b.number, b.frames, b.way);
 }
 
 /// A way that is played as far as it is worth it.
@@ -228,9 +229,8 @@ class Rehearsal {
         const int frames = FramesOf(length);
         // The wanted clip should be there before it ends.
         if (frames > last - pairs[i].enter && length > kLengths_s.front()) break;
-        for (bool fades : {false, true}) {
-          OpenWay& open =
-              open_.emplace_back(PlayedWay{.pair = pairs[i], .number = i, .frames = frames, .fades = fades});
+        for (JoinWay kind : kWays) {
+          OpenWay& open = open_.emplace_back(PlayedWay{.pair = pairs[i], .number = i, .frames = frames, .way = kind});
           open.way.cost_s = Time(open.way);
         }
       }
@@ -276,7 +276,7 @@ class Rehearsal {
     PlayedWay& way = open.way;
     if (!open.limbs) {
       PairStage& stage = StageOf(way);
-      open.limbs.reset(new OpenWay::Limbs{.play = {stage.window, stage.turns, way.frames, way.fades},
+      open.limbs.reset(new OpenWay::Limbs{.play = {stage.window, stage.turns, way.frames, way.way},
                                           .meter = {stage.window, stage.own, usual_, rates_}});
     }
     OpenWay::Limbs& limbs = *open.limbs;

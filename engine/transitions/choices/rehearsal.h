@@ -18,7 +18,7 @@ struct PlayedWay {
   FramePair pair;
   std::size_t number = 0;  ///< of the pair
   int frames = 0;          ///< of the join
-  bool fades = false;      ///< PreferredJoin
+  JoinWay way = JoinWay::kDirect;
   double cost_s = 0;
 };
 
@@ -28,8 +28,8 @@ struct PlayedRates {
 };
 
 /// Plays the ways to join the clips of a request at any of these pairs, of which there must be one, at every length and
-/// in both ways of PlayMinimumJerk, and returns those that were played with their feet (PlantFeet), the best first. The
-/// joins end by frame `last` of the wanted clip, as far as the shortest one can.
+/// both direct and by a fade (PlayMinimumJerk), and returns those that were played with their feet (PlantFeet), the
+/// best first. The joins end by frame `last` of the wanted clip, as far as the shortest one can.
 ///
 /// Best first (Hart, Nilsson and Raphael 1968): what is played on is always the way that has cost least so far, first
 /// its time alone, then its limbs frame by frame, then its feet, and what FindSupport says of the frames shown. So most

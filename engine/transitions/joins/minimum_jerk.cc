@@ -4,7 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/base/angles.h"
 #include "engine/base/smoothstep.h"
+#include "engine/transitions/joins/limbs.h"
 
 namespace etude {
 
@@ -14,16 +16,20 @@ const SettingTable<MinimumJerkOptions>& MinimumJerkSettings() {
                                                             "is shown alone, where the choice does not say."},
                                                            {"fades", &MinimumJerkOptions::fades, 0, 1,
                                                             "1: the old motion goes on and fades out; 0: what it was "
-                                                            "off from the new one dies away."}});
+                                                            "off from the new one dies away."},
+                                                           {"direct", &MinimumJerkOptions::direct, 0, 1,
+                                                            "1: each limb goes with least jerk to where the new motion "
+                                                            "has it at the end; 0: as `fades` says."}});
   return kSettings;
 }
 
-glm::dvec3 MinimumJerkDecay(const Offset& offset, double seconds, double blend_s) {
+glm::dvec3 MinimumJerkAt(const Movement& movement, double seconds, double blend_s) {
   if (seconds >= blend_s) return glm::dvec3(0);
   const double s = seconds / blend_s, rest = 1 - s;
-  // 1 − 10s³ + 15s⁴ − 6s⁵ and s − 6s³ + 8s⁴ − 3s⁵, by their triple root at s = 1.
-  const double rest3 = rest * rest * rest;
-  return rest3 * ((1 + 3 * s + 6 * s * s) * offset.value + s * (1 + 3 * s) * blend_s * offset.velocity);
+  // 1 − 10s³ + 15s⁴ − 6s⁵ and s − 6s³ + 8s⁴ − 3s⁵, by their triple root at s = 1; and the latter from the end.
+  const double s3 = s * s * s, rest3 = rest * rest * rest;
+  return rest3 * ((1 + 3 * s + 6 * s * s) * movement.start + s * (1 + 3 * s) * blend_s * movement.start_velocity) -
+         s3 * rest * (1 + 3 * rest) * blend_s * movement.end_velocity;
 }
 
 JoinWindow WindowOf(const JoinInput& input, int frames) {
@@ -59,8 +65,35 @@ Inertialiser DecayOf(const JoinWindow& window, int frames) {
     direction = -1;
   }
   return {input, [blend_s = frames / window.rate_hz, direction](const Offset& offset, double seconds) {
-            return MinimumJerkDecay({offset.value, direction * offset.velocity}, seconds, blend_s);
+            return MinimumJerkAt({offset.value, direction * offset.velocity}, seconds, blend_s);
           }};
+}
+
+glm::dvec3 LimbOf(const BodyPose& pose, const Bone& bone) { return pose[bone.child] - pose[bone.parent]; }
+
+/// How each limb, and the hips' centre, goes from the old motion to where the new one has it after so many frames.
+std::array<Movement, kRoleCount> MovementsOf(const JoinWindow& window, int frames) {
+  const BodyPose& end = window.next[frames];
+  const bool goes_on = window.old_frames > 0;
+  const auto movement = [&](auto&& from_end) {
+    const glm::dvec3 start = from_end(window.shown.now);
+    const glm::dvec3 step = goes_on ? from_end(window.old[1]) - start : start - from_end(window.shown.before);
+    return Movement{start, step * window.rate_hz, -from_end(window.next[frames - 1]) * window.rate_hz};
+  };
+  std::array<Movement, kRoleCount> movements;
+  movements[Index(Role::kHipCentre)] =
+      movement([&](const BodyPose& pose) { return pose[Role::kHipCentre] - end[Role::kHipCentre]; });
+  for (const Bone& bone : AllBones()) {
+    const glm::dvec3 limb = LimbOf(end, bone);
+    const LimbTurn now = TurnBetween(limb, LimbOf(window.shown.now, bone));
+    movements[Index(bone.child)] = movement([&](const BodyPose& pose) {
+      const LimbTurn turn = TurnBetween(limb, LimbOf(pose, bone));
+      // Near half a turn the rotation vector may flip sign between two frames; a velocity from that would be an
+      // artefact.
+      return glm::dot(turn, now) < 0 && glm::length(turn) > 0.5 * kPi ? now : turn;
+    });
+  }
+  return movements;
 }
 
 }  // namespace
@@ -72,30 +105,44 @@ const LimbTurns& WindowTurns::At(int frame) {
   return turns_[frame];
 }
 
-MinimumJerkPlay::MinimumJerkPlay(const JoinWindow& window, WindowTurns& turns, int frames, bool fades)
+MinimumJerkPlay::MinimumJerkPlay(const JoinWindow& window, WindowTurns& turns, int frames, JoinWay way)
     : window_(window), turns_(turns), frames_(frames) {
-  if (!fades) decay_ = DecayOf(window, frames);
+  if (way == JoinWay::kDecays) decay_ = DecayOf(window, frames);
+  if (way == JoinWay::kDirect) movements_ = MovementsOf(window, frames);
 }
 
 BodyPose MinimumJerkPlay::At(int frame) const {
   if (frame == 0) return window_.shown.now;
   if (decay_) return decay_->Apply(window_.next[frame], frame / window_.rate_hz);
+  if (movements_) {
+    const BodyPose& end = window_.next[frames_];
+    const auto at = [&](Role role) {
+      return MinimumJerkAt((*movements_)[Index(role)], frame / window_.rate_hz, frames_ / window_.rate_hz);
+    };
+    BodyPose pose;
+    pose[Role::kHipCentre] = end[Role::kHipCentre] + at(Role::kHipCentre);
+    for (const Bone& bone : AllBones()) {
+      pose[bone.child] = pose[bone.parent] + Turned(LimbOf(end, bone), at(bone.child));
+    }
+    return pose;
+  }
   // Both motions go on, and limb by limb the new one takes over.
   const double share = Smootherstep(static_cast<double>(frame) / frames_);
   return PoseBetween(window_.old[frame], window_.next[frame], turns_.At(frame), share);
 }
 
-std::vector<BodyPose> PlayMinimumJerk(const JoinWindow& window, bool fades) {
+std::vector<BodyPose> PlayMinimumJerk(const JoinWindow& window, JoinWay way) {
   if (window.Frames() == 0) return {window.shown.now};
   WindowTurns turns(window);
-  const MinimumJerkPlay play(window, turns, window.Frames(), fades);
+  const MinimumJerkPlay play(window, turns, window.Frames(), way);
   std::vector<BodyPose> played;
   for (int frame = 0; frame <= window.Frames(); ++frame) played.push_back(play.At(frame));
   return played;
 }
 
 PreferredJoin PreferredJoinOf(const JoinInput& input, const MinimumJerkOptions& options) {
-  return input.preferred.value_or(PreferredJoin{.blend_s = options.blend_s, .fades = options.fades != 0});
+  const JoinWay way = options.direct != 0 ? JoinWay::kDirect : options.fades != 0 ? JoinWay::kFades : JoinWay::kDecays;
+  return input.preferred.value_or(PreferredJoin{.blend_s = options.blend_s, .way = way});
 }
 
 JoinWindow WindowOfJoin(const JoinInput& input, const PreferredJoin& preferred) {
@@ -110,7 +157,7 @@ Blend ShowPlayed(std::vector<BodyPose> played) {
 
 Blend MinimumJerk(const JoinInput& input, const MinimumJerkOptions& options) {
   const PreferredJoin preferred = PreferredJoinOf(input, options);
-  return ShowPlayed(PlayMinimumJerk(WindowOfJoin(input, preferred), preferred.fades));
+  return ShowPlayed(PlayMinimumJerk(WindowOfJoin(input, preferred), preferred.way));
 }
 
 }  // namespace etude

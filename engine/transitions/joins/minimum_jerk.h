@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -14,14 +15,18 @@ struct MinimumJerkOptions {
   /// Seconds until the new motion is shown alone, where the choice of frames does not say. Ours. Longer ones accelerate
   /// less, with its square, and show poses of neither clip for longer.
   double blend_s = 0.5;
-  int fades = 0;  ///< 1: both motions go on (PlayMinimumJerk), where the choice does not say
+  int fades = 0;   ///< 1: JoinWay::kFades, where the choice does not say
+  int direct = 0;  ///< 1: JoinWay::kDirect, likewise
 };
 const SettingTable<MinimumJerkOptions>& MinimumJerkSettings();
 
-/// Computes the quintic from an offset and its whole velocity, acceleration 0, to rest at zero after `blend_s`: a
-/// movement of least jerk (Flash and Hogan 1985) with that start. Unlike Bollo's it keeps what grows, and what turns
-/// the axis.
-glm::dvec3 MinimumJerkDecay(const Offset& offset, double seconds, double blend_s);
+/// A movement as seen from its end: metres, or the turn of a limb in radians; velocities per second.
+struct Movement {
+  glm::dvec3 start{0}, start_velocity{0}, end_velocity{0};
+};
+/// Computes where a movement is `seconds` after it began: the quintic of least jerk (Flash and Hogan 1985) with these
+/// velocities, and without acceleration, at both ends; zero from its end on, `blend_s` after it began.
+glm::dvec3 MinimumJerkAt(const Movement& movement, double seconds, double blend_s);
 
 /// A join's window, in the place where it is shown.
 struct JoinWindow {
@@ -51,16 +56,18 @@ class WindowTurns {
 
 /// Computes what is shown of a window, frame by frame.
 ///
-/// By default the new motion plays, and limb by limb what the old one was off from it dies away along MinimumJerkDecay.
+/// When it decays, the new motion plays, and limb by limb what the old one was off from it dies away with least jerk.
 /// Velocities are those from the point to the next frame: so the first frame shown is the old motion's next one, and
 /// how the new motion jumps at the point itself does not matter. Where the old motion has ended they are those up to
-/// the point. When it `fades`, both motions play on, and limb by limb the new one takes over by the share of the way
-/// that a movement of least jerk has made: less of what either accelerates is shown, more of how they differ.
+/// the point. When it fades, both motions play on, and limb by limb the new one takes over by the share of the way
+/// that a movement of least jerk has made: less of what either accelerates is shown, more of how they differ. When it
+/// is direct, every limb, and the hips' centre, goes with least jerk from where the old motion left it to where the new
+/// one has it at the join's end, with its velocities at both: of what either accelerates in between nothing is shown.
 class MinimumJerkPlay {
  public:
   /// A join of `frames` ≥ 1 frames, at most the window's, which must outlive this, as must its `turns`: who plays
   /// several fades of one window keeps them.
-  MinimumJerkPlay(const JoinWindow& window, WindowTurns& turns, int frames, bool fades);
+  MinimumJerkPlay(const JoinWindow& window, WindowTurns& turns, int frames, JoinWay way);
 
   /// Returns the pose of a frame from 0, which is the last one shown, to `frames`.
   BodyPose At(int frame) const;
@@ -69,11 +76,13 @@ class MinimumJerkPlay {
   const JoinWindow& window_;
   WindowTurns& turns_;
   const int frames_;
-  std::optional<Inertialiser> decay_;  ///< without it the motions fade
+  std::optional<Inertialiser> decay_;
+  /// By limb, of its child joint, as a turn from where it ends; of the root its place.
+  std::optional<std::array<Movement, kRoleCount>> movements_;  ///< with neither the motions fade
 };
 
 /// Returns every frame of the window by MinimumJerkPlay.
-std::vector<BodyPose> PlayMinimumJerk(const JoinWindow& window, bool fades);
+std::vector<BodyPose> PlayMinimumJerk(const JoinWindow& window, JoinWay way);
 
 Blend MinimumJerk(const JoinInput& input, const MinimumJerkOptions& options);
 /// Returns what the choice of frames prefers, or else the options; and the window of that.

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/base/angles.h"
 #include "engine/base/smoothstep.h"
 #include "engine/transitions/joins/limbs.h"
 
@@ -24,7 +25,8 @@ class FloorFit {
     point_ += weight * pairs_.back().point;
   }
 
-  FloorMove Solve() const {
+  /// Returns the turn that fits best.
+  double Yaw() const {
     const glm::dvec2 onto = onto_ / weight_, point = point_ / weight_;
     double along = 0, across = 0;
     for (const Pair& pair : pairs_) {
@@ -32,9 +34,14 @@ class FloorFit {
       along += pair.weight * glm::dot(o, p);
       across += pair.weight * (o.x * p.y - o.y * p.x);
     }
-    const FloorMove turn{.yaw = std::atan2(across, along)};
-    const glm::dvec3 moved = turn.Apply(glm::dvec3(point.x, 0, point.y));
-    return {.yaw = turn.yaw, .x = onto.x - moved.x, .z = onto.y - moved.z};
+    return std::atan2(across, along);
+  }
+
+  /// Returns this turn and the shift that fits best after it.
+  FloorMove Turned(double yaw) const {
+    const glm::dvec2 onto = onto_ / weight_, point = point_ / weight_;
+    const glm::dvec3 moved = FloorMove{.yaw = yaw}.Apply(glm::dvec3(point.x, 0, point.y));
+    return {.yaw = yaw, .x = onto.x - moved.x, .z = onto.y - moved.z};
   }
 
  private:
@@ -90,21 +97,21 @@ struct StepOption {
   Frames stands = 0;  // the frames in which the foot bears the body
 };
 
-/// Returns what the old motion's toes are off from the new one's where a step begins, and how that changes.
-Offset OffsetOf(const JoinWindow& window, const LegRoles& leg, const FootStep& step) {
+/// Returns how what the old motion's toes are off from the new one's goes to nothing in a step.
+Movement MovementOf(const JoinWindow& window, const LegRoles& leg, const FootStep& step) {
   const int from = std::min(step.begin, step.stays_from), to = std::max(step.begin, step.waits_until);
   const auto change = [&](const BodyPose& before, const BodyPose& after) {
     return (after[leg.foot] - before[leg.foot]) * window.rate_hz;
   };
-  Offset offset{.value = window.old[from][leg.foot] - window.next[to][leg.foot], .velocity = glm::dvec3(0)};
+  Movement movement{.start = window.old[from][leg.foot] - window.next[to][leg.foot]};
   if (from == step.begin) {
     // Where the old motion has ended, as it came there.
-    offset.velocity = from < window.old_frames ? change(window.old[from], window.old[from + 1])
-                      : from > 0               ? change(window.old[from - 1], window.old[from])
-                                               : change(window.shown.before, window.shown.now);
+    movement.start_velocity = from < window.old_frames ? change(window.old[from], window.old[from + 1])
+                              : from > 0               ? change(window.old[from - 1], window.old[from])
+                                                       : change(window.shown.before, window.shown.now);
   }
-  if (to == step.begin) offset.velocity -= change(window.next[to], window.next[to + 1]);
-  return offset;
+  if (to == step.begin) movement.start_velocity -= change(window.next[to], window.next[to + 1]);
+  return movement;
 }
 
 /// The step with its lift, price and stands. The price is the largest acceleration that movements of least jerk have
@@ -112,13 +119,13 @@ Offset OffsetOf(const JoinWindow& window, const LegRoles& leg, const FootStep& s
 StepOption Priced(const FootTracks& foot, const FootStep& step) {
   constexpr double kCm = 100;
   StepOption option{.step = step};
-  const Offset start = OffsetOf(foot.window, foot.leg, step);
-  const double travel = std::hypot(start.value.x, start.value.z), length = step.end - step.begin;
+  const Movement movement = MovementOf(foot.window, foot.leg, step);
+  const double travel = std::hypot(movement.start.x, movement.start.z), length = step.end - step.begin;
   // A foot that is in the air all the while is lifted by the motions themselves.
   const bool stands = ((foot.old_stands | foot.next_stands) & Range(step.begin, step.end)) != 0;
   option.step.lift = stands ? LiftFor(travel) : 0;
-  const double peak = (5.8 * glm::length(start.value) + 12 * option.step.lift) / (length * length) +
-                      3.9 * glm::length(start.velocity) / foot.window.rate_hz / length;
+  const double peak = (5.8 * glm::length(movement.start) + 12 * option.step.lift) / (length * length) +
+                      3.9 * glm::length(movement.start_velocity) / foot.window.rate_hz / length;
   option.cost = kCm * peak;
   option.stands = (foot.old_stands & Range(0, step.begin)) | (foot.next_stands & Range(step.end, foot.frames)) |
                   Range(step.stays_from, step.begin) | Range(step.end, step.waits_until);
@@ -174,8 +181,8 @@ LegPath PathAt(const JoinWindow& window, const LegRoles& leg, const FootStep& st
   if (frame <= step.begin) return {old[leg.ankle], from};
   if (frame >= step.end) return {next[leg.ankle], to};
   const double s = static_cast<double>(frame - step.begin) / (step.end - step.begin), rest = s * (1 - s);
-  glm::dvec3 toe = next[leg.foot] + MinimumJerkDecay(OffsetOf(window, leg, step), (frame - step.begin) / window.rate_hz,
-                                                     (step.end - step.begin) / window.rate_hz);
+  glm::dvec3 toe = next[leg.foot] + MinimumJerkAt(MovementOf(window, leg, step), (frame - step.begin) / window.rate_hz,
+                                                  (step.end - step.begin) / window.rate_hz);
   toe.y += step.lift * 64 * rest * rest * rest;
   // Turned backwards from the new limb, whose length it keeps.
   const glm::dvec3 limb = Turned(to, (1 - Smootherstep(s)) * TurnBetween(to, from));
@@ -248,10 +255,11 @@ void PutLeg(const JoinWindow& window, const LegRoles& leg, const LegPath& path, 
 
 FloorMove AlignOnPlantedFeet(std::span<const BodyPose> old, std::span<const BodyPose> next, double rate_hz) {
   FloorFit fit;
-  constexpr double kTrunk = 0.05, kFeet = 0.1;
+  constexpr double kTrunk = 0.05, kFeet = 0.1, kMostTurn = Radians(30);
   for (Role role : {Role::kLeftHip, Role::kRightHip, Role::kLeftShoulder, Role::kRightShoulder}) {
     fit.Add(old[0][role], next[0][role], kTrunk);
   }
+  const double facing = fit.Yaw();
   const FootContacts stands_old = FindFootContacts(old, rate_hz), stands_next = FindFootContacts(next, rate_hz);
   for (std::size_t side = 0; side < kLegs.size(); ++side) {
     for (std::size_t f = 0; f < std::min(old.size(), next.size()); ++f) {
@@ -259,7 +267,7 @@ FloorMove AlignOnPlantedFeet(std::span<const BodyPose> old, std::span<const Body
       for (Role role : {kLegs[side].foot, kLegs[side].ankle}) fit.Add(old[f][role], next[f][role], kFeet);
     }
   }
-  return fit.Solve();
+  return fit.Turned(facing + std::clamp(std::remainder(fit.Yaw() - facing, 2 * kPi), -kMostTurn, kMostTurn));
 }
 
 FootPlan PlanSteps(const JoinWindow& window) {
@@ -321,7 +329,7 @@ int PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played) {
 Blend PlantedFeet(const JoinInput& input, const MinimumJerkOptions& options) {
   const PreferredJoin preferred = PreferredJoinOf(input, options);
   const JoinWindow window = WindowOfJoin(input, preferred);
-  std::vector<BodyPose> played = PlayMinimumJerk(window, preferred.fades);
+  std::vector<BodyPose> played = PlayMinimumJerk(window, preferred.way);
   PlantFeet(window, played);
   return ShowPlayed(std::move(played));
 }

@@ -21,7 +21,8 @@ constexpr std::array<LegRoles, 2> kLegs = {
 
 /// The move on the floor that lays the new motion so that feet which stand in both motions, at the same frames after
 /// the point, stand in the same places: least squares over toe tips and ankles, and, weaker, over hips and shoulders at
-/// the point, which decide alone where no foot stands. `old` and `next`: frames from the point on, one at least each.
+/// the point, which decide alone where no foot stands, and from which feet turn the body by 30° at most: in the
+/// shortest join that is 190° a second. `old` and `next`: frames from the point on, one at least each.
 FloorMove AlignOnPlantedFeet(std::span<const BodyPose> old, std::span<const BodyPose> next, double rate_hz);
 
 /// A foot's change from the old motion's path to the new one's. Until it begins the foot follows the old motion, or

@@ -192,7 +192,7 @@ TEST(MakeTransition, TakesSettingsToTheirLimits) {
       check({.choice = &AllChoices()[0], .join = &join, .rules = {}, .choice_settings = {}, .join_settings = values});
     }
   }
-  EXPECT_EQ(tried, 2 * (8 + 6)) << "eight settings of choices, six of joins";
+  EXPECT_EQ(tried, 2 * (8 + 8)) << "eight settings of choices, eight of joins";
 }
 
 TEST(Unbroken, IsTheClipItselfByAnyJoin) {

@@ -11,55 +11,52 @@ namespace etude {
 namespace {
 
 constexpr double kBlend_s = 0.6;
-const Offset kOffset{.value = {0.4, -0.1, 0.2}, .velocity = {-1, 2, 0.5}};
+const Movement kMovement{.start = {0.4, -0.1, 0.2}, .start_velocity = {-1, 2, 0.5}, .end_velocity = {0.3, -0.7, 1.5}};
 
-glm::dvec3 At(double seconds) { return MinimumJerkDecay(kOffset, seconds, kBlend_s); }
+glm::dvec3 At(double seconds) { return MinimumJerkAt(kMovement, seconds, kBlend_s); }
 
-/// By central differences of five points.
-glm::dvec3 VelocityAt(double t) {
-  constexpr double h = 1e-3;
-  return (At(t - 2 * h) - 8.0 * At(t - h) + 8.0 * At(t + h) - At(t + 2 * h)) / (12 * h);
+/// By differences of four points on one side: +h at the start, −h at the end.
+glm::dvec3 VelocityAt(double t, double h) {
+  return (-11.0 * At(t) + 18.0 * At(t + h) - 9.0 * At(t + 2 * h) + 2.0 * At(t + 3 * h)) / (6 * h);
 }
-glm::dvec3 AccelerationAt(double t) {
-  constexpr double h = 1e-3;
-  return (-At(t - 2 * h) + 16.0 * At(t - h) - 30.0 * At(t) + 16.0 * At(t + h) - At(t + 2 * h)) / (12 * h * h);
+glm::dvec3 AccelerationAt(double t, double h) {
+  return (2.0 * At(t) - 5.0 * At(t + h) + 4.0 * At(t + 2 * h) - At(t + 3 * h)) / (h * h);
 }
 
-TEST(MinimumJerkDecay, StartsWithTheOffsetAndItsWholeVelocityAndNoAcceleration) {
-  EXPECT_LT(glm::distance(At(0), kOffset.value), 1e-15);
-  EXPECT_LT(glm::distance(VelocityAt(0), kOffset.velocity), 1e-8);
-  EXPECT_LT(glm::length(AccelerationAt(0)), 1e-6);
+TEST(MinimumJerkAt, StartsWithItsVelocityAndNoAcceleration) {
+  EXPECT_LT(glm::distance(At(0), kMovement.start), 1e-15);
+  EXPECT_LT(glm::distance(VelocityAt(0, 1e-3), kMovement.start_velocity), 1e-4);
+  EXPECT_LT(glm::length(AccelerationAt(0, 1e-3)), 0.05) << "of 20 m/s² at most on its way";
 }
 
-TEST(MinimumJerkDecay, EndsAtRestWithoutAcceleration) {
+TEST(MinimumJerkAt, EndsAtZeroWithItsVelocityAndNoAcceleration) {
   EXPECT_EQ(At(kBlend_s), glm::dvec3(0));
   EXPECT_EQ(At(2 * kBlend_s), glm::dvec3(0));
-  const double near = kBlend_s - 1e-4;  // the cubic root: all three go to zero
-  EXPECT_LT(glm::length(At(near)), 1e-9);
-  EXPECT_LT(glm::length(VelocityAt(kBlend_s - 0.004)), 0.01);
+  EXPECT_LT(glm::distance(VelocityAt(kBlend_s, -1e-3), kMovement.end_velocity), 1e-4);
+  EXPECT_LT(glm::length(AccelerationAt(kBlend_s, -1e-3)), 0.05);
 }
 
-TEST(MinimumJerkDecay, FromRestIsFlashAndHogansMovement) {
-  const Offset still{.value = {1, 0, 0}, .velocity = {0, 0, 0}};
+TEST(MinimumJerkAt, FromRestToRestIsFlashAndHogansMovement) {
+  const Movement still{.start = {1, 0, 0}};
   for (double s : {0.1, 0.25, 0.5, 0.9}) {
-    EXPECT_NEAR(MinimumJerkDecay(still, s * 0.5, 0.5).x,
-                1 - (10 * s * s * s - 15 * s * s * s * s + 6 * s * s * s * s * s), 1e-12);
+    EXPECT_NEAR(MinimumJerkAt(still, s * 0.5, 0.5).x, 1 - (10 * s * s * s - 15 * s * s * s * s + 6 * s * s * s * s * s),
+                1e-12);
   }
 }
 
-TEST(MinimumJerkDecay, KeepsWhatTurnsTheAxisAndWhatGrows) {
-  const Offset turning{.value = {0.1, 0, 0}, .velocity = {0.5, 3, 0}};
-  const glm::dvec3 soon = MinimumJerkDecay(turning, 0.05, 0.5);
-  EXPECT_GT(soon.x, 0.1);
-  EXPECT_GT(soon.y, 0.1);
+TEST(MinimumJerkAt, IsStraightWhereBothVelocitiesAreTheWayOverItsTime) {
+  const Movement even{.start = {0.6, -0.3, 0}, .start_velocity = {-1, 0.5, 0}, .end_velocity = {-1, 0.5, 0}};
+  for (double t : {0.1, 0.3, 0.5}) {
+    EXPECT_LT(glm::distance(MinimumJerkAt(even, t, kBlend_s), (1 - t / kBlend_s) * even.start), 1e-12);
+  }
 }
 
-class BothWays : public testing::TestWithParam<bool> {};
+class AllWays : public testing::TestWithParam<JoinWay> {};
 
-TEST_P(BothWays, ShowTheOldMotionsNextFrameFirstButForTheBlendsOwnBeginning) {
+TEST_P(AllWays, ShowTheOldMotionsNextFrameFirstButForTheBlendsOwnBeginning) {
   const BodyMotion clips[] = {WavingClip(60), WavingClip(60, 2)};
   std::vector<Segment> way = Segments(19, 5, clips[1]);
-  way.back().preferred = PreferredJoin{.blend_s = 1, .fades = GetParam()};
+  way.back().preferred = PreferredJoin{.blend_s = 1, .way = GetParam()};
   const Splice splice = SpliceSegments(clips, way, *FindJoin("minimum-jerk"));
   for (Role role : AllRoles()) {
     // At s = 1/30 a share of 10 s³ of the gap, at most 1.7 m here.
@@ -68,16 +65,16 @@ TEST_P(BothWays, ShowTheOldMotionsNextFrameFirstButForTheBlendsOwnBeginning) {
   }
 }
 
-TEST_P(BothWays, EndInTheNewMotionWhenTheWishSays) {
+TEST_P(AllWays, EndInTheNewMotionWhenTheWishSays) {
   const BodyMotion clips[] = {WavingClip(60), WavingClip(60, 2)};
   std::vector<Segment> way = Segments(19, 5, clips[1]);
-  way.back().preferred = PreferredJoin{.blend_s = 0.4, .fades = GetParam()};
+  way.back().preferred = PreferredJoin{.blend_s = 0.4, .way = GetParam()};
   const Splice splice = SpliceSegments(clips, way, *FindJoin("minimum-jerk"));
   ExpectSamePose(splice.motion.poses[19 + 12], splice.wanted[12], 1e-9);
   EXPECT_GT(glm::distance(splice.motion.poses[19 + 6][Role::kLeftHand], splice.wanted[6][Role::kLeftHand]), 0.01);
 }
 
-INSTANTIATE_TEST_SUITE_P(MinimumJerk, BothWays, testing::Bool());
+INSTANTIATE_TEST_SUITE_P(MinimumJerk, AllWays, testing::Values(JoinWay::kDecays, JoinWay::kFades, JoinWay::kDirect));
 
 TEST(WindowOf, HoldsTheLastFrameOfAMotionThatEndsAndCountsTheRealOnes) {
   const BodyMotion clip = WavingClip(4);

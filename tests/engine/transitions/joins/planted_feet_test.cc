@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/angles.h"
 #include "engine/transitions/alignment.h"
 #include "engine/transitions/joins/limbs.h"
 #include "engine/transitions/joins/splice.h"
@@ -71,6 +72,20 @@ TEST(AlignOnPlantedFeet, TrustsFeetThatStandMoreThanATrunkThatLeans) {
   EXPECT_LT(std::abs(by_feet.x), 0.07);
 }
 
+TEST(AlignOnPlantedFeet, TurnsNobodyAboutForItsFeet) {
+  const BodyPose stride = Stride(0.5);
+  for (double degrees : {10.0, 25.0, 90.0, 180.0}) {
+    BodyPose straddle = stride;  // its feet stand turned under a trunk that faces as before
+    for (const LegRoles& leg : kLegs) {
+      for (Role role : {leg.ankle, leg.foot}) straddle[role] = FloorMove{.yaw = Radians(degrees)}.Apply(stride[role]);
+    }
+    const std::vector<BodyPose> old(16, stride), next(16, straddle);
+    const double turned = Degrees(std::abs(std::remainder(AlignOnPlantedFeet(old, next, 30).yaw, 2 * kPi)));
+    EXPECT_LE(turned, 30 + 1e-9) << degrees;
+    EXPECT_GT(turned, 0.7 * std::min(degrees, 30.0)) << degrees;
+  }
+}
+
 TEST(PlanSteps, LetsFeetThatMustTravelGoOneAfterTheOther) {
   const auto [steps, unborne] = PlanSteps(Window(Stride(0.15), Stride(-0.15), 30));
   EXPECT_EQ(unborne, 0);
@@ -116,7 +131,7 @@ TEST(PlantFeet, KeepsEachFootInItsPlaceUntilItsStepAndAfterIt) {
   const JoinWindow window = Window(from, to, 24);
   const auto [plan, unborne] = PlanSteps(window);
   EXPECT_EQ(unborne, 0);
-  std::vector<BodyPose> played = PlayMinimumJerk(window, false);
+  std::vector<BodyPose> played = PlayMinimumJerk(window, JoinWay::kDecays);
   EXPECT_EQ(PlantFeet(window, played), 0);
   for (std::size_t side = 0; side < kLegs.size(); ++side) {
     for (int f = 0; f <= 24; ++f) {
@@ -133,7 +148,7 @@ TEST(PlantFeet, KeepsEachFootInItsPlaceUntilItsStepAndAfterIt) {
 
 TEST(PlantFeet, KeepsAllLimbsToTheLastDigits) {
   const JoinWindow window = Window(Stride(0.4), FloorMove{.yaw = 0.7, .x = 0.5, .z = 0.1}.Apply(Stride(-0.2)), 20);
-  std::vector<BodyPose> played = PlayMinimumJerk(window, true);
+  std::vector<BodyPose> played = PlayMinimumJerk(window, JoinWay::kFades);
   PlantFeet(window, played);
   for (const BodyPose& pose : played) {
     for (const Bone& bone : AllBones()) {
