@@ -20,7 +20,7 @@ std::vector<const MetricInfo*> MetricsIn(const ConditionTable& table) {
     if (std::any_of(table.methods.begin(), table.methods.end(), reports)) present.push_back(&metric);
   }
   for (const auto& [id, metric] : AddedMetrics()) {
-    const auto reports = [&](const MethodColumns& method) { return method.Reports(metric.id); };
+    const auto reports = [&, &metric = metric](const MethodColumns& method) { return method.Reports(metric.id); };
     if (std::any_of(table.methods.begin(), table.methods.end(), reports)) present.push_back(&metric);
   }
   return present;

@@ -230,8 +230,9 @@ class Rehearsal {
         // The wanted clip should be there before it ends.
         if (frames > last - pairs[i].enter && length > kLengths_s.front()) break;
         for (JoinWay kind : kWays) {
-          OpenWay& open = open_.emplace_back(PlayedWay{.pair = pairs[i], .number = i, .frames = frames, .way = kind});
-          open.way.cost_s = Time(open.way);
+          PlayedWay& way = open_.emplace_back().way;
+          way = {.pair = pairs[i], .number = i, .frames = frames, .way = kind};
+          way.cost_s = Time(way);
         }
       }
     }
