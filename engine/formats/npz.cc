@@ -59,6 +59,20 @@ std::optional<std::vector<double>> NumbersOf(std::string_view type, std::string_
   return values;
 }
 
+/// Numbers in Fortran's order, whose first index runs fastest, in C's.
+std::vector<double> InOrderOfC(const std::vector<double>& values, const std::vector<std::size_t>& shape) {
+  std::vector<double> ordered(values.size());
+  for (std::size_t i = 0; i < ordered.size(); ++i) {
+    std::size_t rest = i, stride = values.size(), from = 0;
+    for (std::size_t d = shape.size(); d-- > 0; rest /= shape[d]) {
+      stride /= shape[d];
+      from += stride * (rest % shape[d]);
+    }
+    ordered[i] = values[from];
+  }
+  return ordered;
+}
+
 /// Reads an .npy file; nothing when it holds no plain numbers.
 Result<std::optional<NumberArray>> ReadMember(std::string_view bytes, const std::string& file) {
   const Place place{file};
@@ -84,11 +98,9 @@ Result<std::optional<NumberArray>> ReadMember(std::string_view bytes, const std:
   }
   auto values = NumbersOf(ValueOf(header, "'descr': '", '\''), data);
   if (!values) return std::optional<NumberArray>();
-  if (array.shape.size() > 1 && ValueOf(header, "'fortran_order': ", ',') == "True") {
-    return Fail(place, "is in Fortran's order; allowed: numpy.ascontiguousarray of it");
-  }
   if (values->size() != count) return Fail(place, "holds {} numbers; its shape says {}", values->size(), count);
-  array.values = std::move(*values);
+  const bool is_fortran = ValueOf(header, "'fortran_order': ", ',') == "True";
+  array.values = is_fortran ? InOrderOfC(*values, array.shape) : std::move(*values);
   return std::optional(std::move(array));
 }
 

@@ -26,8 +26,7 @@ struct Npz {
 bool IsZip(std::string_view bytes);
 
 /// Reads an .npz file, stored or deflated, ZIP64, too: floats and whole numbers of any size, little-endian. Refused: a
-/// damaged file, more than 1,000 members, members of more than 512 MiB together once unpacked, arrays in Fortran's
-/// order.
+/// damaged file, more than 1,000 members, members of more than 512 MiB together once unpacked.
 Result<Npz> ReadNpz(std::string_view bytes, const std::string& file);
 
 /// Tells whether bytes begin as an .npy file does.

@@ -65,6 +65,7 @@ std::vector<std::string_view> Cells(std::string_view line) {
 }
 
 std::optional<double> NumberIn(std::string_view cell) {
+  if (cell.starts_with('+') && !cell.starts_with("+-")) cell.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (error != std::errc{} || end != cell.data() + cell.size()) return std::nullopt;
@@ -91,10 +92,10 @@ Result<TrcHeader> ReadHeader(std::string_view names, std::string_view values, co
       !(*markers >= 1 && *markers <= kMostMarkers)) {
     return Fail(place,
                 "no header of a TRC file; allowed: DataRate, NumFrames, NumMarkers (to 1000) and Units with "
-                "their values in the next line");
+                "their values in the next line, between tabs");
   }
   const std::string_view unit = of("Units");
-  const double metres = unit == "m" ? 1 : unit == "cm" ? 0.01 : unit == "mm" ? 0.001 : 0;
+  const double metres = unit == "m" ? 1 : unit == "cm" ? 0.01 : unit == "mm" || unit == "MM" ? 0.001 : 0;
   if (metres == 0) return Fail(place, "units '{}'; allowed: m, cm, mm", unit);
   return TrcHeader{*rate, static_cast<std::size_t>(*frames), static_cast<std::size_t>(*markers), metres};
 }
@@ -121,6 +122,18 @@ Result<std::vector<std::optional<glm::dvec3>>> ReadFrame(std::string_view line, 
     if (is_seen) frame[marker] = place_of;
   }
   return frame;
+}
+
+/// Takes the rate of the times of the first and the last frame where DataRate is another.
+void FollowTimes(std::optional<double> first, std::optional<double> last, MarkerMotion& motion) {
+  constexpr double kShortest_s = 0.5, kAlike = 0.05, kPrintedPrecision = 1e-3;
+  if (!first || !last || !(*last - *first >= kShortest_s)) return;
+  double rate = static_cast<double>(motion.frames.size() - 1) / (*last - *first);
+  if (!(rate > 0) || std::abs(rate / motion.rate_hz - 1) <= kAlike) return;
+  if (std::abs(rate - std::round(rate)) < kPrintedPrecision * rate) rate = std::round(rate);
+  motion.remark =
+      fmt::format("DataRate says {:g} Hz, but the column Time runs at {:g} Hz, which counts", motion.rate_hz, rate);
+  motion.rate_hz = rate;
 }
 
 }  // namespace
@@ -163,15 +176,19 @@ Result<MarkerMotion> ReadTrc(std::string_view text, const std::string& file) {
     motion.names.emplace_back(names[at]);
   }
   TakeLine(text, line);  // X1 Y1 Z1 …
+  std::optional<double> first_time, last_time;
   while (!text.empty()) {
     const std::string_view here = TakeLine(text, line);
     if (here.find_first_not_of(" \t") == std::string_view::npos) continue;
     ASSIGN_OR_RETURN(auto frame, ReadFrame(here, header, {file, line, 0}));
     motion.frames.push_back(std::move(frame));
+    last_time = NumberIn(Cells(here)[1]);
+    if (motion.frames.size() == 1) first_time = last_time;
   }
   if (motion.frames.size() != header.frames) {
     return Fail({file}, "{} frames, {} announced", motion.frames.size(), header.frames);
   }
+  FollowTimes(first_time, last_time, motion);
   return motion;
 }
 

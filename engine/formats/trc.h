@@ -22,14 +22,16 @@ struct MarkerMotion {
   std::vector<std::string> names;
   /// Metres; of each frame one place a marker, nothing where it was not seen.
   std::vector<std::vector<std::optional<glm::dvec3>>> frames;
+  std::string remark = "";  ///< what the reader found to say, in plain words
 };
 
 /// Writes such a file of markers; what was not seen stays empty between its tabs, as OpenSim reads it.
 std::string WriteTrc(const MarkerMotion& motion, std::string name);
 
 /// Reads a TRC file in metres or millimetres (`Units`; also cm), its axes as they are. An empty place, "nan", or one
-/// beyond ±10⁶ m is a marker not seen. Fails with the line: no header, another number of frames or columns than
-/// announced, words for numbers, over 1,000 markers or 64 MiB.
+/// beyond ±10⁶ m is a marker not seen. Where its column Time runs at another rate than DataRate (by over 5 %, over at
+/// least half a second), Time counts, as for OpenSim, and the remark says so. Fails with the line: no header, another
+/// number of frames or columns than announced, words for numbers, over 1,000 markers or 64 MiB.
 Result<MarkerMotion> ReadTrc(std::string_view text, const std::string& file);
 
 }  // namespace etude

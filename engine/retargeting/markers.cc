@@ -10,6 +10,9 @@
 #include <string_view>
 
 #include "engine/base/names.h"
+#include "engine/base/order_statistics.h"
+#include "engine/motion/statistics.h"
+#include "engine/retargeting/marker_sets.h"
 
 namespace etude {
 namespace {
@@ -18,99 +21,6 @@ using MarkerPlace = std::optional<glm::dvec3>;
 using Places = std::array<MarkerPlace, kRoleCount>;
 
 constexpr double kLongestGap_s = 1;
-
-/// A joint is the middle of some markers, all of them.
-struct Rule {
-  Role role;
-  std::vector<std::string> markers;
-};
-
-/// A convention of names, in small letters.
-struct MarkerSet {
-  std::string name;
-  std::vector<Rule> rules;
-  std::array<std::string, 4> pelvis = {};  ///< left and right, front and back; the hips follow from them
-  bool is_gait = false;                    ///< knees, ankles and shoulders have one marker, at the skin
-};
-
-/// Adds a rule for each side; '?' stands for the side, as `left` and `right` have it.
-void AddSides(std::vector<Rule>& rules, Role left_role, const std::vector<std::string>& markers, std::string_view left,
-              std::string_view right) {
-  for (const bool is_left : {true, false}) {
-    Rule rule{is_left ? left_role : Mirrored(left_role), markers};
-    for (std::string& marker : rule.markers) {
-      if (const std::size_t at = marker.find('?'); at != std::string::npos) {
-        marker.replace(at, 1, is_left ? left : right);
-      }
-    }
-    rules.push_back(std::move(rule));
-  }
-}
-
-using LimbMarkers = std::vector<std::pair<Role, std::vector<std::string>>>;
-
-MarkerSet MakeSet(std::string name, std::vector<Rule> middle, const LimbMarkers& limbs, std::string_view left,
-                  std::string_view right) {
-  MarkerSet set{.name = std::move(name), .rules = std::move(middle)};
-  for (const auto& [role, markers] : limbs) AddSides(set.rules, role, markers, left, right);
-  return set;
-}
-
-std::vector<MarkerSet> MakeSets() {
-  std::vector<MarkerSet> sets;
-  MarkerSet own{.name = "Etude's joints", .rules = {}};
-  for (const Role role : AllRoles()) own.rules.push_back({role, {std::string(RoleName(role))}});
-  sets.push_back(std::move(own));
-  const LimbMarkers pose_limbs = {{Role::kLeftShoulder, {"?shoulder"}}, {Role::kLeftElbow, {"?elbow"}},
-                                  {Role::kLeftWrist, {"?wrist"}},       {Role::kLeftHip, {"?hip"}},
-                                  {Role::kLeftKnee, {"?knee"}},         {Role::kLeftAnkle, {"?ankle"}}};
-  LimbMarkers with_toes = pose_limbs;
-  with_toes.push_back({Role::kLeftFoot, {"?bigtoe"}});
-  sets.push_back(
-      MakeSet("OpenPose BODY_25",
-              {{Role::kHipCentre, {"midhip"}}, {Role::kShoulderCentre, {"neck"}}, {Role::kHead, {"lear", "rear"}}},
-              with_toes, "l", "r"));
-  sets.push_back(MakeSet(
-      "HALPE_26", {{Role::kHipCentre, {"hip"}}, {Role::kShoulderCentre, {"neck"}}, {Role::kHead, {"nose", "head"}}},
-      with_toes, "l", "r"));
-  sets.push_back(MakeSet("COCO", {{Role::kHead, {"left_ear", "right_ear"}}}, pose_limbs, "left_", "right_"));
-  sets.push_back(MakeSet("Motive's bones", {{Role::kShoulderCentre, {"neck"}}, {Role::kHead, {"head"}}},
-                         {{Role::kLeftShoulder, {"?uarm"}},
-                          {Role::kLeftElbow, {"?farm"}},
-                          {Role::kLeftWrist, {"?hand"}},
-                          {Role::kLeftHip, {"?thigh"}},
-                          {Role::kLeftKnee, {"?shin"}},
-                          {Role::kLeftAnkle, {"?foot"}},
-                          {Role::kLeftFoot, {"?toe"}}},
-                         "l", "r"));
-  MarkerSet augmented = MakeSet("OpenCap's augmented markers", {},
-                                {{Role::kLeftShoulder, {"?_shoulder_study"}},
-                                 {Role::kLeftElbow, {"?_lelbow_study", "?_melbow_study"}},
-                                 {Role::kLeftWrist, {"?_lwrist_study", "?_mwrist_study"}},
-                                 {Role::kLeftHip, {"?hjc_study"}},
-                                 {Role::kLeftKnee, {"?_knee_study", "?_mknee_study"}},
-                                 {Role::kLeftAnkle, {"?_ankle_study", "?_mankle_study"}},
-                                 {Role::kLeftFoot, {"?_toe_study"}}},
-                                "l", "r");
-  augmented.pelvis = {"l.asis_study", "r.asis_study", "l.psis_study", "r.psis_study"};
-  sets.push_back(std::move(augmented));
-  MarkerSet gait = MakeSet("Plug-in Gait",
-                           {{Role::kHead, {"lfhd", "rfhd", "lbhd", "rbhd"}},
-                            {Role::kShoulderCentre, {"c7", "clav"}},
-                            {Role::kSpine, {"t10", "strn"}}},
-                           {{Role::kLeftShoulder, {"?sho"}},
-                            {Role::kLeftElbow, {"?elb"}},
-                            {Role::kLeftWrist, {"?wra", "?wrb"}},
-                            {Role::kLeftHand, {"?fin"}},
-                            {Role::kLeftKnee, {"?kne"}},
-                            {Role::kLeftAnkle, {"?ank"}},
-                            {Role::kLeftFoot, {"?toe"}}},
-                           "l", "r");
-  gait.pelvis = {"lasi", "rasi", "lpsi", "rpsi"};
-  gait.is_gait = true;
-  sets.push_back(std::move(gait));
-  return sets;
-}
 
 /// The joints without which there is no body.
 constexpr std::array kNeeded = {Role::kLeftShoulder, Role::kLeftElbow,  Role::kLeftWrist, Role::kRightShoulder,
@@ -123,6 +33,26 @@ std::string LowerCase(std::string_view text) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
   return lower;
+}
+
+/// Whether a place is all zeros, as some programs write a gap.
+bool IsZero(const MarkerPlace& place) { return place && *place == glm::dvec3(0); }
+
+/// Takes places that are all zeros for gaps, of markers that are elsewhere in other frames (the root of poses about
+/// their root always is there); counts them.
+int LeaveZerosOut(MarkerMotion& markers) {
+  int zeros = 0;
+  for (std::size_t marker = 0; marker < markers.names.size(); ++marker) {
+    const auto is_zero = [&](const auto& frame) { return IsZero(frame[marker]); };
+    const auto is_elsewhere = [&](const auto& frame) { return frame[marker] && !is_zero(frame); };
+    if (std::ranges::none_of(markers.frames, is_zero) || std::ranges::none_of(markers.frames, is_elsewhere)) continue;
+    for (auto& frame : markers.frames) {
+      if (!is_zero(frame)) continue;
+      frame[marker].reset();
+      ++zeros;
+    }
+  }
+  return zeros;
 }
 
 /// The columns of one person's markers, by their names without prefix in small letters.
@@ -149,8 +79,8 @@ bool HasPelvis(const MarkerSet& set, const Columns& columns) {
 
 bool Tells(const MarkerSet& set, const Columns& columns, Role role) {
   if ((role == Role::kLeftHip || role == Role::kRightHip) && HasPelvis(set, columns)) return true;
-  return std::ranges::any_of(set.rules,
-                             [&](const Rule& rule) { return rule.role == role && HasAll(columns, rule.markers); });
+  return std::ranges::any_of(
+      set.rules, [&](const MarkerRule& rule) { return rule.role == role && HasAll(columns, rule.markers); });
 }
 
 std::vector<std::string> LackedBy(const MarkerSet& set, const Columns& columns) {
@@ -223,7 +153,8 @@ void MoveIntoLimbs(Places& places) {
   }
 }
 
-Places PlacesOf(const MarkerSet& set, const Columns& columns, const std::vector<MarkerPlace>& frame) {
+/// `scale`: metres of what the file calls one.
+Places PlacesOf(const MarkerSet& set, const Columns& columns, const std::vector<MarkerPlace>& frame, double scale) {
   Places places;
   const auto middle = [&](std::span<const std::string> markers) -> MarkerPlace {
     glm::dvec3 sum(0);
@@ -232,9 +163,9 @@ Places PlacesOf(const MarkerSet& set, const Columns& columns, const std::vector<
       if (!one) return std::nullopt;
       sum += *one;
     }
-    return sum / static_cast<double>(markers.size());
+    return scale * sum / static_cast<double>(markers.size());
   };
-  for (const Rule& rule : set.rules) {
+  for (const MarkerRule& rule : set.rules) {
     if (HasAll(columns, rule.markers)) places[Index(rule.role)] = middle(rule.markers);
   }
   if (HasPelvis(set, columns) && !places[Index(Role::kLeftHip)]) {
@@ -337,10 +268,11 @@ void StandOnFloor(std::vector<BodyPose>& poses) {
   }
 }
 
-std::optional<MarkerBody> BodyOf(const MarkerMotion& markers, const MarkerSet& set, const Columns& columns, char up) {
+std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, const MarkerSet& set,
+                                 const Columns& columns, char up) {
   std::vector<Places> frames;
   frames.reserve(markers.frames.size());
-  for (const auto& frame : markers.frames) frames.push_back(PlacesOf(set, columns, frame));
+  for (const auto& frame : markers.frames) frames.push_back(PlacesOf(set, columns, frame, scale));
   int filled = 0;
   const auto longest_gap = static_cast<std::size_t>(kLongestGap_s * markers.rate_hz);
   for (std::size_t joint = 0; joint < kRoleCount; ++joint) filled += BridgeGaps(frames, joint, longest_gap);
@@ -360,20 +292,51 @@ std::optional<MarkerBody> BodyOf(const MarkerMotion& markers, const MarkerSet& s
     if (!Tells(set, columns, role)) guessed.emplace_back(RoleName(role));
   }
   if (!guessed.empty()) body.note += ", placed by rule: " + Join(guessed);
+  if (!markers.remark.empty()) body.note += "; " + markers.remark;
   return body;
+}
+
+double MiddleStature(const BodyMotion& motion) {
+  std::vector<double> statures;
+  for (const BodyPose& pose : motion.poses) statures.push_back(Stature(pose));
+  return LowerPercentile(std::move(statures), 0.5);
+}
+
+/// The body in the file's unit; where that is no body's size, in the one that makes a person of it, which is said.
+/// Fails where none does.
+Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const MarkerSet& set, const Columns& columns,
+                                         char up, const std::string& file) {
+  constexpr double kSmallest = 0.4, kLargest = 4, kSmallestPerson = 1.2, kLargestPerson = 2.3;
+  auto body = BodyAt(1, markers, set, columns, up);
+  if (!body) return body;
+  const double told = MiddleStature(body->motion);
+  if (told >= kSmallest && told <= kLargest) return body;
+  for (const double scale : {1000.0, 100.0, 10.0, 0.1, 0.01, 0.001}) {
+    auto scaled = BodyAt(scale, markers, set, columns, up);
+    if (!scaled) continue;
+    const double stature = MiddleStature(scaled->motion);
+    if (stature < kSmallestPerson || stature > kLargestPerson) continue;
+    scaled->note +=
+        fmt::format("; in the file's unit the body is {:.3g} m tall: taken for {:g} times that", told, scale);
+    return scaled;
+  }
+  return Fail({file}, "its markers show a body {:.3g} m tall; allowed: {:g} to {:g} m; is their unit another?", told,
+              kSmallest, kLargest);
 }
 
 }  // namespace
 
-Result<std::vector<MarkerBody>> FindMarkerBodies(const MarkerMotion& markers, const std::string& file, char up) {
-  static const std::vector<MarkerSet> sets = MakeSets();
+Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std::string& file, char up) {
+  if (const int zeros = LeaveZerosOut(markers); zeros > 0) {
+    markers.remark += fmt::format("{}{} places at 0, 0, 0 taken for gaps", markers.remark.empty() ? "" : "; ", zeros);
+  }
   std::vector<MarkerBody> bodies;
   std::string nearest = "";
   std::size_t fewest = kNeeded.size() + 1;
   for (const auto& [prefix, columns] : PeopleOf(markers)) {
     const MarkerSet* best = nullptr;
     std::size_t most = 0;
-    for (const MarkerSet& set : sets) {
+    for (const MarkerSet& set : MarkerSets()) {
       const auto lacks = LackedBy(set, columns);
       const auto told = static_cast<std::size_t>(
           std::ranges::count_if(AllRoles(), [&, &columns = columns](Role role) { return Tells(set, columns, role); }));
@@ -387,7 +350,7 @@ Result<std::vector<MarkerBody>> FindMarkerBodies(const MarkerMotion& markers, co
       }
     }
     if (best == nullptr) continue;
-    auto body = BodyOf(markers, *best, columns, up);
+    ASSIGN_OR_RETURN(auto body, BodyOf(markers, *best, columns, up, file));
     if (!body) continue;
     body->name = prefix;
     bodies.push_back(std::move(*body));
@@ -399,7 +362,7 @@ Result<std::vector<MarkerBody>> FindMarkerBodies(const MarkerMotion& markers, co
   return Fail(
       {file},
       "its markers ({}{}) are of no set known here: {}; known: Etude's joints, OpenPose BODY_25, HALPE_26, COCO, "
-      "OpenCap's augmented markers, Plug-in Gait",
+      "Motive's and HumanIK's bones, OpenCap's augmented markers, Plug-in Gait",
       Join(names), markers.names.size() > names.size() ? ", …" : "", nearest);
 }
 

@@ -1,5 +1,6 @@
 #include "engine/formats/trc.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -65,6 +66,26 @@ TEST(Trc, HasTheHeadingsAndColumnsThatOpenSimWants) {
 TEST(Trc, KeepsItsFirstLineWhateverTheName) {
   EXPECT_TRUE(
       WriteTrc(Steps(), "a\nb\tc \xC3\xA9").starts_with("PathFileType\t4\t(X/Y/Z)\ta_b_c \xC3\xA9.trc\nDataRate"));
+}
+
+/// One marker that stands still for so many frames at 50 Hz, where DataRate says otherwise.
+std::string AtFiftyHertz(int data_rate, int frames) {
+  std::string text = fmt::format(
+      "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tNumFrames\tNumMarkers\tUnits\n{}\t{}\t1\tm\nFrame#\tTime\tA\n\n",
+      data_rate, frames);
+  for (int t = 0; t < frames; ++t) text += fmt::format("{}\t{:.2f}\t1\t2\t3\n", t + 1, 7 + 0.02 * t);
+  return text;
+}
+
+TEST(ReadTrc, TakesTheRateOfItsTimesWhereDataRateIsAnother) {
+  const auto read = ReadTrc(AtFiftyHertz(100, 60), "a.trc");
+  ASSERT_TRUE(read) << ToString(read.error());
+  EXPECT_EQ(read->rate_hz, 50);
+  EXPECT_EQ(read->remark, "DataRate says 100 Hz, but the column Time runs at 50 Hz, which counts");
+  const auto alike = ReadTrc(AtFiftyHertz(51, 60), "a.trc"), brief = ReadTrc(AtFiftyHertz(100, 20), "a.trc");
+  EXPECT_EQ(alike->rate_hz, 51) << "printed times are coarse";
+  EXPECT_EQ(brief->rate_hz, 100) << "so few times tell no rate";
+  EXPECT_EQ(alike->remark + brief->remark, "");
 }
 
 TEST(ReadTrc, ReadsWhatWasWrittenAndWhatWasNotSeen) {

@@ -1,5 +1,6 @@
 #include "engine/retargeting/markers.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -88,6 +89,41 @@ TEST(Markers, AreTurnedUprightWhicheverAxisPointsUp) {
     ASSERT_TRUE(bodies);
     EXPECT_LT(FurthestJoint(bodies->front().motion), 1e-12);
   }
+}
+
+TEST(Markers, AtZeroAreGapsUnlessTheyAreAlwaysThere) {
+  MarkerMotion take = OwnJoints();
+  for (std::size_t t = 10; t < 14; ++t) take.frames[t][Index(Role::kLeftHip)] = glm::dvec3(0);
+  const auto bridged = FindMarkerBodies(take, "a.trc");
+  ASSERT_TRUE(bridged) << ToString(bridged.error());
+  EXPECT_LT(FurthestJoint(bridged->front().motion), 1e-12);
+  EXPECT_EQ(bridged->front().note, "Etude's joints, 4 places bridged over gaps; 4 places at 0, 0, 0 taken for gaps");
+  MarkerMotion rooted = OwnJoints();
+  for (auto& frame : rooted.frames) {
+    const glm::dvec3 root = *frame[Index(Role::kHipCentre)];
+    for (auto& place : frame) *place -= root;
+  }
+  EXPECT_EQ(FindMarkerBodies(rooted, "a.trc")->front().note, "Etude's joints");
+}
+
+TEST(Markers, InAWrongUnitAreTakenForAPersonOrRefused) {
+  for (const double factor : {1000.0, 10.0, 0.1, 0.001}) {
+    MarkerMotion take = OwnJoints();
+    for (auto& frame : take.frames) {
+      for (auto& place : frame) *place *= factor;
+    }
+    const auto bodies = FindMarkerBodies(take, "a.trc");
+    ASSERT_TRUE(bodies) << ToString(bodies.error());
+    EXPECT_LT(FurthestJoint(bodies->front().motion), 1e-12);
+    EXPECT_THAT(bodies->front().note, HasSubstr(fmt::format("m tall: taken for {:g} times that", 1 / factor)));
+  }
+  MarkerMotion take = OwnJoints();
+  for (auto& frame : take.frames) {
+    for (auto& place : frame) *place *= 4;
+  }
+  const auto giant = FindMarkerBodies(take, "a.trc");
+  ASSERT_FALSE(giant);
+  EXPECT_THAT(ToString(giant.error()), HasSubstr("a.trc: its markers show a body 6.65 m tall"));
 }
 
 TEST(Markers, OfPlugInGaitGiveJointsInsideTheLimbs) {
