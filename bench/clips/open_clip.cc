@@ -6,6 +6,7 @@
 #include <map>
 
 #include "bench/clips/fbx.h"
+#include "bench/clips/other_files.h"
 #include "bench/clips/recorded_motion.h"
 #include "bench/clips/references.h"
 #include "bench/files/files.h"
@@ -70,16 +71,6 @@ Result<std::string> ReadBeside(const std::string& path, const std::string& uri, 
 
 Result<ColourImage> DecodeTexture(std::string_view bytes, std::size_t most_pixels) {
   return bytes.starts_with("\x89PNG") ? DecodeColourPng(bytes, most_pixels) : ReadJpeg(bytes, most_pixels);
-}
-
-/// Describes a file of another format by its first word.
-std::string WhatElse(const std::string& first_word) {
-  if (first_word.empty()) return "an empty file";
-  if (first_word == "Coordinates" || first_word == "nColumns") {
-    return "an OpenSim motion: angles of a model that is another file; write its markers as TRC there";
-  }
-  if (first_word == ":") return "an Acclaim skeleton, whose motions are the .amc files beside it";
-  return "a file that begins with " + Quote(first_word);
 }
 
 ClipFile FileOfOne(ClipFormat format, Clip clip) {
@@ -147,8 +138,8 @@ std::optional<TaughtRoles> RolesOfBones(const std::map<std::string, int>& bones,
 }
 
 /// Makes clips of the bodies that markers show.
-Result<ClipFile> FileOfMarkers(ClipFormat format, const MarkerMotion& markers, const std::string& path, char up = 0) {
-  ASSIGN_OR_RETURN(const auto bodies, FindMarkerBodies(markers, path, up));
+Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const std::string& path, char up = 0) {
+  ASSIGN_OR_RETURN(const auto bodies, FindMarkerBodies(std::move(markers), path, up));
   ClipFile file{.format = format, .figure = {.name = "", .skeleton = {}, .materials = {}, .meshes = {}}, .clips = {}};
   for (const MarkerBody& body : bodies) {
     file.clips.push_back(RigClip(body.motion, StandingPose(), body.name));
@@ -163,26 +154,26 @@ Result<ClipFile> ReadJointTable(std::string_view text, const std::string& path) 
   MarkerMotion markers{.rate_hz = csv.rate_hz.value_or(kJudgedRateHz), .names = {}, .frames = {}};
   for (const Role role : AllRoles()) markers.names.emplace_back(RoleName(role));
   for (const auto& frame : csv.frames) markers.frames.emplace_back(frame.begin(), frame.end());
-  return FileOfMarkers(ClipFormat::kCsv, markers, path, 'Y');
+  return FileOfMarkers(ClipFormat::kCsv, std::move(markers), path, 'Y');
 }
 
 /// Reads a file of markers; nothing when it is none.
 std::optional<Result<ClipFile>> ReadMarkers(std::string_view bytes, const std::string& path) {
   if (IsC3d(bytes)) {
-    const auto read = ReadC3d(bytes, path);
+    auto read = ReadC3d(bytes, path);
     if (!read) return tl::unexpected(read.error());
-    return FileOfMarkers(ClipFormat::kC3d, read->markers, path, read->up);
+    return FileOfMarkers(ClipFormat::kC3d, std::move(read->markers), path, read->up);
   }
   if (IsMotiveCsv(bytes)) {
-    const auto read = ReadMotiveCsv(bytes, path);
+    auto read = ReadMotiveCsv(bytes, path);
     if (!read) return tl::unexpected(read.error());
-    return FileOfMarkers(ClipFormat::kMotive, *read, path, 'Y');
+    return FileOfMarkers(ClipFormat::kMotive, *std::move(read), path, 'Y');
   }
   const std::string_view heading = bytes.substr(0, bytes.find('\n'));
   if (heading.starts_with("PathFileType")) {
-    const auto read = ReadTrc(bytes, path);
+    auto read = ReadTrc(bytes, path);
     if (!read) return tl::unexpected(read.error());
-    return FileOfMarkers(ClipFormat::kTrc, *read, path);
+    return FileOfMarkers(ClipFormat::kTrc, *std::move(read), path);
   }
   if (heading.find("_x_m") != std::string_view::npos) return ReadJointTable(bytes, path);
   return std::nullopt;
@@ -246,6 +237,25 @@ std::optional<Ground> GroundOf(const ClipFile& file, const std::string& path, co
   BodyOptions told = options.body;
   if (options.roles && !told.up) told.up = options.roles->up;
   return map ? FindGround(file.clips, *map, told) : std::nullopt;
+}
+
+/// Takes scales out of the frames that the rest pose has not, and says so. A skeleton without roles stays as it is.
+void TakeScalesOut(ClipFile& file, const std::string& path, const OpenOptions& options) {
+  const auto has_scales = [](const Clip& clip) {
+    return std::ranges::any_of(clip.frames, [&](const LocalPose& frame) {
+      for (std::size_t i = 0; i < frame.size(); ++i) {
+        if (frame[i].scale != clip.skeleton.joints[i].rest.scale) return true;
+      }
+      return false;
+    });
+  };
+  if (std::ranges::none_of(file.clips, has_scales)) return;
+  const auto map = FindJointMap(file.clips.front().skeleton, path, TaughtBy(options, file.roles));
+  if (!map) return;
+  if (const auto ratio = UndoScales(file.clips, *map)) {
+    file.remarks.push_back(fmt::format(
+        "the frames show a body {:.3g} times as tall as the rest pose, by scales that it has not: undone", *ratio));
+  }
 }
 
 /// Opens a clip of our own skeleton, which has a joint of the name of every role, exactly there.
@@ -343,7 +353,7 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
         scanner.At(first),
         "{}; allowed: BVH (it begins with HIERARCHY), glTF 2.0 (.glb, .gltf), FBX, Acclaim's .amc, AMASS's .npz, "
         "C3D, TRC, joint CSV, Motive's CSV, .npy of joints, .mot of ours, DeepMimic's motions",
-        WhatElse(std::string(first.text)));
+        DescribeOtherFile(bytes, first.text));
   }
   ASSIGN_OR_RETURN(auto clip, ReadBvh(bytes, path, &file.remarks));
   ClipFile read = FileOfOne(ClipFormat::kBvh, std::move(clip));
@@ -377,6 +387,7 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   }
   std::map<std::string, std::string> notes;
   for (std::size_t i = 0; i < file.notes.size(); ++i) notes[file.clips[i].name] = file.notes[i];
+  TakeScalesOut(file, wanted.path, options);
   const std::optional<Ground> ground = GroundOf(file, wanted.path, options);
   RETURN_IF_ERROR(KeepWanted(wanted, file.figure, file.clips));
   const bool has_meshes = !file.figure.meshes.empty();

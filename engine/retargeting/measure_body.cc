@@ -42,6 +42,16 @@ Measured Measure(const Clip& clip, std::size_t first) {
   return measured;
 }
 
+/// Whether every role's joint is the hip centre's or below it.
+bool HangsOnPelvis(const RestBody& rest) {
+  const int pelvis = rest.roles[Index(Role::kHipCentre)].joint;
+  return std::ranges::all_of(rest.roles, [&](const RestBody::RolePlace& role) {
+    int joint = role.joint;
+    while (joint >= 0 && joint != pelvis) joint = rest.joints[joint].parent;
+    return joint == pelvis;
+  });
+}
+
 }  // namespace
 
 RestBody MeasureBody(const Clip& clip, const JointMap& map, const BodyConversion& body) {
@@ -66,7 +76,7 @@ RestBody MeasureBody(const Clip& clip, const JointMap& map, const BodyConversion
                            .position = in_world(Upright(globals[i].position, body.up))});
   }
   for (const Role role : AllRoles()) rest.roles[Index(role)] = {index[map[role].joint], in_world(pose[role])};
-  return rest;
+  return HangsOnPelvis(rest) ? rest : RestBodyOf(body.motion.poses);
 }
 
 }  // namespace etude

@@ -83,21 +83,24 @@ BodyPose BodySampler::Evaluated() {
 
 using enum Role;
 
+constexpr double kSmallestStature = 1.45;
+constexpr double kLargestStature = 2.1;
+constexpr double kSmallestSensed = 1.2;  // depth sensors write millimetres, and place heads low
+
 struct Unit {
   std::string_view name;
   double metres;
+  double smallest_stature = kSmallestStature;
 };
 
 // Neighbours differ by more than 2.1 m / 1.45 m, so at most one fits.
-constexpr double kSmallestStature = 1.45;
-constexpr double kLargestStature = 2.1;
 constexpr std::array<Unit, 6> kUnits = {{
     {"metre", 1.0},
     {"foot", 0.3048},
     {"CMU", 0.0254 / 0.45},  // mocap.cs.cmu.edu: inches times 0.45
     {"inch", 0.0254},
     {"centimetre", 0.01},
-    {"millimetre", 0.001},
+    {"millimetre", 0.001, kSmallestSensed},
 }};
 constexpr double kDefaultStature = 1.70;
 
@@ -105,13 +108,24 @@ constexpr double kLongestSeconds = 3600;
 constexpr double kMostPoses = 500'000;
 constexpr double kSmallestBody = 1e-6;  // in any unit: nothing to scale up
 
+std::size_t GlimpseStep(const Clip& clip) {
+  constexpr std::size_t kGlimpses = 100;
+  return 1 + clip.frames.size() / kGlimpses;
+}
+
 /// The clip's joints at about a hundred times evenly over it, in the file's axes.
 std::vector<BodyPose> Glimpses(const Clip& clip, BodySampler& sampler) {
-  constexpr std::size_t kGlimpses = 100;
-  const std::size_t step = 1 + clip.frames.size() / kGlimpses;
   std::vector<BodyPose> poses;
-  for (std::size_t i = 0; i < clip.frames.size(); i += step) poses.push_back(sampler.At(static_cast<double>(i)));
+  for (std::size_t i = 0; i < clip.frames.size(); i += GlimpseStep(clip))
+    poses.push_back(sampler.At(static_cast<double>(i)));
   return poses;
+}
+
+/// Gives every frame the scales of the rest pose.
+void ResetScales(Clip& clip) {
+  for (LocalPose& frame : clip.frames) {
+    for (std::size_t i = 0; i < frame.size(); ++i) frame[i].scale = clip.skeleton.joints[i].rest.scale;
+  }
 }
 
 double WorstGap(const BodyPose& a, const BodyPose& b) {
@@ -190,27 +204,32 @@ double MedianStature(const std::vector<BodyPose>& poses) { return LowerPercentil
 /// The unit under which a stature is that of a person, or null.
 const Unit* UnitOf(double stature) {
   const auto is_human = [&](const Unit& unit) {
-    return stature * unit.metres >= kSmallestStature && stature * unit.metres <= kLargestStature;
+    return stature * unit.metres >= unit.smallest_stature && stature * unit.metres <= kLargestStature;
   };
   const auto* const found = std::ranges::find_if(kUnits, is_human);
   return found == kUnits.end() ? nullptr : found;
 }
+
+constexpr double kAlike = 1.25;
+bool AreAlike(double ratio) { return ratio > 1 / kAlike && ratio < kAlike; }
 
 /// Finds the unit by the stature. That of the rest pose counts, which all clips of a file share, unless the body that
 /// moves is made otherwise: some files leave all offsets to the frames, others scale the hips in them alone. `remark`
 /// says so. Refused, naming `file`: a given unit under which the body is no body, with the one that it is likely in.
 Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, const BodyOptions& options,
                       const std::string& file, BodyConversion& done, std::string& remark) {
-  constexpr double kAlike = 1.25;
-  const auto are_alike = [](double ratio) { return ratio > 1 / kAlike && ratio < kAlike; };
   const std::optional<double>& given = options.metres_per_unit;
   const double at_rest = Stature(rest), own = MedianStature(poses), moving = options.stature.value_or(own);
   const double ratio = moving / at_rest;
-  const bool is_alike = are_alike(ratio);
-  if (!are_alike(own / moving)) {
+  const bool is_alike = AreAlike(ratio);
+  if (!AreAlike(own / moving)) {
     remark +=
         fmt::format("; its frames show a body {:.3g} times as tall as those of all the file's clips", own / moving);
   }
+  const std::vector<double> statures = OverFrames(poses, Stature);
+  const double least = LowerPercentile(statures, 0.05), most = LowerPercentile(statures, 0.95);
+  if (!AreAlike(most / least))
+    remark += fmt::format("; its size changes: {:.2g} times from frame to frame", most / least);
   const double stature = is_alike ? at_rest : moving;
   if (stature < kSmallestBody) return Fail({file}, "the body's joints all lie in one point; it needs a size");
   const Unit* const unit = UnitOf(stature);
@@ -232,11 +251,12 @@ Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, 
   }
   done.unit = unit == nullptr ? "unknown" : unit->name;
   done.metres_per_unit = unit == nullptr ? kDefaultStature / stature : unit->metres;
+  constexpr double kSame = 0.05;
   // Whether the frames leave the rest pose's places out or scale them tells a rest pose of a size.
-  if (is_alike || at_rest < kSmallestBody) return {};
+  if (at_rest < kSmallestBody || std::abs(ratio - 1) <= kSame) return {};
   const Unit* const of_rest = UnitOf(at_rest);
   remark += fmt::format("; the frames show a body {:.3g} times as tall as the rest pose", ratio);
-  if (unit != nullptr || of_rest == nullptr) return {};
+  if (is_alike || unit != nullptr || of_rest == nullptr) return {};
   done.unit = "scaled";
   done.metres_per_unit = of_rest->metres / ratio;
   remark += fmt::format(": scaled back to its {:.2f} m ({})", at_rest * of_rest->metres, of_rest->name);
@@ -314,6 +334,28 @@ std::optional<Ground> FindGround(std::span<const Clip> clips, const JointMap& ma
   ground.floor = options.floor.value_or(FindFloor(poses));
   ground.stature = options.stature.value_or(MedianStature(poses));
   return ground;
+}
+
+std::optional<double> UndoScales(std::span<Clip> clips, const JointMap& map) {
+  std::vector<double> shown, unscaled;
+  double at_rest = 0;
+  for (const Clip& clip : clips) {
+    BodySampler sampler(clip, map);
+    at_rest = Stature(sampler.Rest());
+    Clip still{.name = "", .skeleton = clip.skeleton, .rate_hz = clip.rate_hz, .frames = {}};
+    for (const BodyPose& pose : Glimpses(clip, sampler)) shown.push_back(Stature(pose));
+    for (std::size_t i = 0; i < clip.frames.size(); i += GlimpseStep(clip)) still.frames.push_back(clip.frames[i]);
+    ResetScales(still);
+    BodySampler without(still, map);
+    for (std::size_t i = 0; i < still.frames.size(); ++i) {
+      unscaled.push_back(Stature(without.At(static_cast<double>(i))));
+    }
+  }
+  if (shown.empty() || UnitOf(at_rest) == nullptr) return std::nullopt;
+  const double ratio = LowerPercentile(std::move(shown), 0.5) / at_rest;
+  if (AreAlike(ratio) || !AreAlike(LowerPercentile(std::move(unscaled), 0.5) / at_rest)) return std::nullopt;
+  for (Clip& clip : clips) ResetScales(clip);
+  return ratio;
 }
 
 bool IsTPose(const BodyPose& pose) {

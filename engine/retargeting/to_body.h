@@ -39,11 +39,12 @@ struct BodyConversion {
 /// - a leading T-pose is dropped when the body jumps away from it: CMU's converted files begin with one;
 /// - resampled to `rate_hz` by turning joints (SampleFrame), the first frame kept as it is;
 /// - unit: the one of metre, foot, CMU (1/0.45 inch), inch, cm, mm under which the body's stature lies
-///   within 1.45 and 2.1 m; none does (children, toys): scaled to a stature of 1.70 m. The stature is the way from
-///   ankle over knee, hip, spine and neck to the head, divided by 0.92, at rest; if the median over the frames is more
-///   than 1.25 times as much or little, that median (said), and where no unit fits that, the rest pose's unit, by which
-///   the frames' scale is undone. Clips of one file share a unit: tell them FindGround's stature; one whose own median
-///   is another is told;
+///   within 1.45 (in millimetres, which depth sensors write, 1.2) and 2.1 m; none does (children, toys): scaled to a
+///   stature of 1.70 m. The stature is the way from ankle over knee, hip, spine and neck to the head, divided by 0.92,
+///   at rest; if the median over the frames is more than 1.25 times as much or little, that median (said), and where no
+///   unit fits that, the rest pose's unit, by which the frames' scale is undone (places and all; UndoScales knows
+///   better where it is one of joints). Over 1.05 times, or a size that changes over 1.25 times within the clip, is
+///   said. Clips of one file share a unit: tell them FindGround's stature; one whose own median is another is told;
 /// - floor: the lowest joint (finger tips aside), 5th percentile over the frames, comes to y = 0. Where it
 ///   stands on the floor and where it faces stay as in the file. Clips of one file share a floor: tell them FindGround;
 ///   one that stays farther from it than its legs are long has another root, and its own floor.
@@ -67,6 +68,11 @@ struct Ground {
 /// stretched in one no unit of his own. `options` may tell each. Nothing when no clip has a frame, or joints lie beyond
 /// all measure.
 std::optional<Ground> FindGround(std::span<const Clip> clips, const JointMap& map, const BodyOptions& options = {});
+
+/// Takes out of a file's frames the scales that its rest pose has not, such as one on the hips: where the body at rest
+/// is a person in some unit, the frames show it over 1.25 times as tall or small (median over the clips), and without
+/// their scales would not. Returns how many times as tall; nothing when the clips stay as they are.
+std::optional<double> UndoScales(std::span<Clip> clips, const JointMap& map);
 
 /// Returns the transform from the file's unit and axes to where ToBodyMotion has put the body, for the clip's meshes.
 glm::dmat4 WorldFromFile(const BodyConversion& body);

@@ -178,7 +178,7 @@ class Motions(EtudeCase):
             self.assertIn(before, text)
             self.assertIn(says, self.refused("clip", "info", self.write("bad.mot", text.replace(before, after, 1))))
         foreign = self.write("theirs.mot", re.sub(r"(?m)^part .*\n", "", text))
-        self.assertIn("angles of a model that is another file", self.refused("clip", "info", foreign))
+        self.assertIn("whose model is another file", self.refused("clip", "info", foreign))
 
     def test_angles_have_the_signs_and_limits_of_their_names(self):
         joints = self.joints("builtin:clap")[:1]

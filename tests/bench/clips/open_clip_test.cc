@@ -155,8 +155,17 @@ TEST_F(ClipFileTest, WhatIsNeitherIsToldWithWhatIsAllowed) {
   EXPECT_NE(Complaint(Write("x.bvh", "hello\n")).find("x.bvh:1:1: a file that begins with 'hello'; allowed: BVH"),
             std::string::npos);
   EXPECT_NE(Complaint(Write("empty.glb", "")).find("an empty file"), std::string::npos);
-  EXPECT_NE(Complaint(Write("a.fbx", "Kaydara FBX Binary  ...")).find("a damaged FBX file: "),
-            std::string::npos);
+  EXPECT_NE(Complaint(Write("a.fbx", "Kaydara FBX Binary  ...")).find("a damaged FBX file: "), std::string::npos);
+  for (const auto& [bytes, told] : std::vector<std::pair<std::string, const char*>>{
+           {"\x1f\x8b\x08", "a gzip file: unpack it"},
+           {"\x80\x04}.", "a pickled Python object, which is never opened"},
+           {"\xff\xfeH", "text in UTF-16: save it as UTF-8"},
+           {"version https://git-lfs.github.com/spec/v1\n", "a pointer of Git LFS"},
+           {"Coordinates\n", "an OpenSim table"},
+           {"my walk.sto\nversion=1\nendheader\n", "an OpenSim table"},
+           {":version 1.10\n:name x\n", "an Acclaim skeleton"}}) {
+    EXPECT_NE(Complaint(Write("other", bytes)).find(told), std::string::npos) << told;
+  }
   EXPECT_NE(Complaint(folder_.path().string()).find("is no file"), std::string::npos);
   EXPECT_NE(Complaint(In("none.bvh")).find("no such file"), std::string::npos);
 }

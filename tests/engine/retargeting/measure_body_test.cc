@@ -65,6 +65,18 @@ TEST(MeasureBody, HasTheJointsThatTurnAndNoOthers) {
   EXPECT_EQ(body.joints[body.roles[Index(kHead)].joint].name, "Head");
 }
 
+TEST(MeasureBody, IsMadeOfTheRolesWhereTheyDoNotHangOnTheHips) {
+  const Clip clip = Moving();
+  auto map = FindJointMap(clip.skeleton, "person.bvh");
+  const auto conversion = ToBodyMotion(clip, *map, "person.bvh");
+  ASSERT_TRUE(conversion) << ToString(conversion.error());
+  EXPECT_EQ(MeasureBody(clip, *map, *conversion).joints.front().name, "Hips");
+  map->points[Index(kHipCentre)].joint = clip.skeleton.Find("LeftLeg");  // hips that carry a shank, and nothing else
+  const RestBody roles = MeasureBody(clip, *map, *conversion);
+  EXPECT_EQ(roles.joints.front().name, "hip_centre");
+  EXPECT_EQ(roles.joints.size(), RestBodyOf(conversion->motion.poses).joints.size());
+}
+
 // A joint that is always bent by the same angle is no joint, and the body at rest is bent there.
 TEST(MeasureBody, KeepsWhatAlwaysStaysAsItIs) {
   Clip clip = Moving();

@@ -54,6 +54,12 @@ TEST(ToBodyMotion, ScalesABodyOfNoKnownUnitToACommonStature) {
   EXPECT_THAT(body->note, HasSubstr("unknown unit, scaled to a stature of 1.70 m"));
 }
 
+TEST(ToBodyMotion, TakesSmallBodiesInMillimetresForWhatASensorSaw) {
+  EXPECT_EQ(Convert(AtRest(Scaled(10 * 0.75)))->unit, "millimetre") << "1.30 m";
+  EXPECT_EQ(Convert(AtRest(Scaled(0.01 * 0.75)))->unit, "unknown") << "a toy or a child, in metres";
+  EXPECT_EQ(Convert(AtRest(Scaled(10 * 0.65)))->unit, "unknown") << "1.13 m";
+}
+
 TEST(ToBodyMotion, DropsATPoseThatTheMotionJumpsAwayFrom) {
   Clip clip = AtRest(testing::PersonSkeleton(), 9, 120);
   for (std::size_t i = 1; i < 9; ++i) LowerArms(clip, i);
@@ -348,6 +354,19 @@ TEST(ToBodyMotion, UndoesAScaleOnTheHipsThatTheRestPoseHasNot) {
   Clip alike = AtRest(Scaled(0.01), 3);
   for (LocalPose& frame : alike.frames) frame[0].scale = glm::dvec3(1.05);
   EXPECT_EQ(Convert(alike)->unit, "metre");
+}
+
+TEST(ToBodyMotion, TellsOfFramesThatShowAnotherSizeThanTheRestPose) {
+  Clip clip = AtRest(Scaled(0.01), 40);
+  for (LocalPose& frame : clip.frames) frame[0].scale = glm::dvec3(1.2);
+  const BodyOptions whole{.drop_t_pose = false};
+  const auto larger = Convert(clip, whole);
+  EXPECT_EQ(larger->unit, "metre");
+  EXPECT_THAT(larger->note, HasSubstr("the frames show a body 1.2 times as tall as the rest pose"));
+  for (std::size_t f = 0; f < 30; ++f) clip.frames[f][0].scale = glm::dvec3(1);
+  EXPECT_THAT(Convert(clip, whole)->note, ::testing::Not(HasSubstr("times"))) << "one that is squashed in a few frames";
+  for (std::size_t f = 30; f < 40; ++f) clip.frames[f][0].scale = glm::dvec3(2);
+  EXPECT_THAT(Convert(clip, whole)->note, HasSubstr("its size changes: 2 times from frame to frame"));
 }
 
 TEST(ToBodyMotion, KeepsTheUnitOfItsFileWhereOneClipStretchesTheBody) {
