@@ -10,8 +10,10 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <utility>
 
 #include "bench/process/pinned_environment.h"
@@ -22,7 +24,24 @@ namespace {
 constexpr const char* kModule = "etude_clips_assimp.so";  // found beside the program, by its run path
 constexpr rlim_t kMemoryBytes = rlim_t{4} << 30, kProcessorSeconds = 60;
 constexpr std::size_t kLargestGlb = std::size_t{1} << 30;
+constexpr unsigned kOldestVersion = 7;
 constexpr int kSaidGlb = 0, kSaidComplaint = 1;
+
+constexpr std::string_view kBinaryStart = "Kaydara FBX Binary", kTextStart = "; FBX";
+
+/// The first digit of a file's version, 0 when it tells none.
+unsigned MajorVersion(std::string_view bytes) {
+  if (bytes.starts_with(kTextStart)) {
+    const std::size_t digit = bytes.find_first_not_of(' ', kTextStart.size());
+    return digit < bytes.size() && bytes[digit] >= '0' && bytes[digit] <= '9'
+               ? static_cast<unsigned>(bytes[digit] - '0')
+               : 0;
+  }
+  constexpr std::size_t kVersionAt = 23;
+  std::uint32_t version = 0;
+  if (bytes.size() >= kVersionAt + sizeof version) std::memcpy(&version, bytes.data() + kVersionAt, sizeof version);
+  return version / 1000;
+}
 
 /// The build of assimp that is loaded, as the manifest tells those of other libraries.
 std::string NameOfReader() {
@@ -33,14 +52,23 @@ std::string NameOfReader() {
   return "an assimp within the program";
 }
 
+/// The address space that this process takes already: a limit counts it, too.
+rlim_t MappedBytes() {
+  rlim_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
+}
+
 [[noreturn]] void BeReader(std::string_view bytes, int output, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(kSaidComplaint);  // it died before the line above
   for (const auto& [resource, most] :
-       {std::pair{RLIMIT_AS, kMemoryBytes}, {RLIMIT_CPU, kProcessorSeconds}, {RLIMIT_CORE, 0}}) {
+       {std::pair{RLIMIT_AS, MappedBytes() + kMemoryBytes}, {RLIMIT_CPU, kProcessorSeconds}, {RLIMIT_CORE, 0}}) {
     const rlimit limit{most, most};
     ::setrlimit(resource, &limit);
   }
+  // What it falls on ends it, whatever the parent does on such signals.
+  for (const int fatal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU}) std::signal(fatal, SIG_DFL);
   std::string said;
   bool went_well = false;
   if (void* module = ::dlopen(kModule, RTLD_NOW | RTLD_LOCAL); module == nullptr) {
@@ -60,9 +88,13 @@ std::string NameOfReader() {
 
 }  // namespace
 
-bool IsFbx(std::string_view bytes) { return bytes.starts_with("Kaydara FBX Binary") || bytes.starts_with("; FBX"); }
+bool IsFbx(std::string_view bytes) { return bytes.starts_with(kBinaryStart) || bytes.starts_with(kTextStart); }
 
 Result<FbxMotion> ReadFbx(std::string_view bytes, const std::string& path) {
+  if (const unsigned version = MajorVersion(bytes); version > 0 && version < kOldestVersion) {
+    return Fail({path}, "an FBX file of version {}; allowed: {} (of 2011 or later): export it anew, or convert it",
+                version, kOldestVersion);
+  }
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) return Fail({}, "no pipe can be made: {}", std::strerror(errno));
   const pid_t parent = ::getpid(), child = ::fork();
@@ -89,7 +121,7 @@ Result<FbxMotion> ReadFbx(std::string_view bytes, const std::string& path) {
     const std::size_t line = said.find('\n');
     return FbxMotion{.glb = said.substr(line + 1), .reader = said.substr(0, line)};
   }
-  if (WIFEXITED(status)) return Fail({path}, "{}", said);
+  if (WIFEXITED(status)) return Fail({path}, "{}", said.empty() ? "a damaged FBX file: its reader gave up" : said);
   const int signal = WTERMSIG(status);
   if (signal == SIGXCPU || signal == SIGKILL) {
     return Fail({path},

@@ -86,6 +86,7 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file) {
   if ((width != 156 && width != 165) || WidthOf(places) != 3 || rate == nullptr || rate->values.size() != 1) {
     std::vector<std::string> names;
     for (const auto& [name, array] : npz.arrays) names.push_back(name);
+    for (const std::string& name : npz.skipped) names.push_back(name + " (no plain little-endian numbers)");
     return Fail({file},
                 "arrays {}; allowed: a motion of AMASS with poses (frames × 156 or 165), trans (frames × 3) and "
                 "mocap_framerate or mocap_frame_rate",

@@ -7,43 +7,11 @@ import unittest
 
 import numpy
 import second_readers
-from etude_case import HEAVY, EtudeCase
-
-SIDES = {"left": 1, "right": -1}
-
-
-def turn(axis_times_angle):
-    """The rotation of a vector's length about its direction (Rodrigues)."""
-    angle = math.sqrt(sum(v * v for v in axis_times_angle))
-    if angle == 0:
-        return numpy.eye(3)
-    x, y, z = (v / angle for v in axis_times_angle)
-    k = numpy.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    return numpy.eye(3) + math.sin(angle) * k + (1 - math.cos(angle)) * (k @ k)
+from etude_case import HEAVY
+from motion_file_case import MotionFileCase
 
 
-class Formats(EtudeCase):
-    def joints(self, path, *options):
-        """The twenty joints of a clip by frame, as `etude clip convert` writes them."""
-        out = self.folder / "joints.csv"
-        result = self.etude("clip", "convert", path, out, "--overwrite", *options)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        with open(out) as file:
-            rows = list(csv.DictReader(file))
-        names = [name[:-4] for name in rows[0] if name.endswith("_x_m")]
-        return [{name: numpy.array([float(row[f"{name}_{axis}_m"]) for axis in "xyz"]) for name in names} for row in rows]
-
-    def info(self, path):
-        result = self.etude("clip", "info", path, "--json")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return json.loads(result.stdout)
-
-    def refused(self, path, complaint):
-        result = self.etude("clip", "info", path)
-        self.assertEqual(result.returncode, 2, result.stdout)
-        self.assertIn(complaint, result.stderr)
-        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
-
+class Formats(MotionFileCase):
     def amass(self, name, width, rate_key, compressed, **more):
         frames = 60
         poses, places = numpy.zeros((frames, width)), numpy.zeros((frames, 3))
@@ -78,7 +46,7 @@ class Formats(EtudeCase):
 
     def test_amass_that_is_none_is_told_what_lacks(self):
         self.refused(self.amass("no.npz", 150, "mocap_framerate", True), "allowed: a motion of AMASS with poses")
-        self.refused(self.amass("slow.npz", 156, "fps", True), "arrays fps, poses, trans; allowed:")
+        self.refused(self.amass("slow.npz", 156, "fps", True), "arrays fps, poses, trans, gender (no plain little-endian numbers); allowed:")
         bad = self.amass("nan.npz", 156, "mocap_framerate", True, trans=numpy.full((60, 3), numpy.nan))
         self.refused(bad, "trans of frame 0 is nan")
         whole = self.amass("cut.npz", 156, "mocap_framerate", True).read_bytes()
@@ -234,6 +202,8 @@ class Formats(EtudeCase):
         expected = places[:, names.index("left_wrist")] - places[:, names.index("right_knee")]
         numpy.testing.assert_allclose(wrists, expected, atol=1e-6)
         self.refused(f"{path}#body_25", "17 joints in the layout 'body_25'")
+        numpy.save(path, numpy.asfortranarray(places))
+        self.assert_read_back(path, places, 1e-9)
         numpy.save(path, places[:, :, :2])
         self.refused(path, "allowed: frames × joints × 3")
         path.write_bytes(path.read_bytes()[:200])
@@ -244,8 +214,8 @@ class Formats(EtudeCase):
               "RHand": "right_wrist", "LThigh": "left_hip", "LShin": "left_knee", "LFoot": "left_ankle", "LToe": "left_foot",
               "RThigh": "right_hip", "RShin": "right_knee", "RFoot": "right_ankle", "RToe": "right_foot"}
 
-    def motive(self, places, names, unit="Centimeters", space="Global"):
-        bones = [f"Ann:{bone}" for bone in self.MOTIVE]
+    def motive(self, places, names, unit="Centimeters", space="Global", called=str):
+        bones = [f"Ann:{called(bone)}" for bone in self.MOTIVE]
         rows = [["Format Version", "1.23", "Take Name", "t", "Capture Frame Rate", "30.000000", "Export Frame Rate",
                  "30.000000", "Length Units", unit, "Coordinate Space", space], [],
                 ["", "Type"] + 7 * len(bones) * ["Bone"], ["", "Name"] + [bone for bone in bones for _ in range(7)],
@@ -270,6 +240,12 @@ class Formats(EtudeCase):
         for role in ("left_elbow", "right_ankle", "head"):
             ours = places[:, names.index(role)] - places[:, names.index("left_hip")]
             numpy.testing.assert_allclose([frame[role] - frame["left_hip"] for frame in read], ours, atol=1e-6)
+        humanik = {"UArm": "Arm", "FArm": "ForeArm", "Hand": "Hand", "Thigh": "UpLeg", "Shin": "Leg", "Foot": "Foot", "Toe": "ToeBase"}
+        sides = {"L": "Left", "R": "Right"}
+        path = self.motive(places, names, called=lambda bone: sides[bone[0]] + humanik[bone[1:]] if bone[1:] in humanik else bone)
+        for a, b in zip(read, self.joints(path)):
+            for role in a:
+                numpy.testing.assert_array_equal(b[role], a[role])
         self.refused(self.motive(places, names, unit="Feet"), "Length Units 'Feet'; allowed: Meters")
         self.refused(self.motive(places, names, space="Local"), "allowed: Global")
 
@@ -300,6 +276,34 @@ class Formats(EtudeCase):
                 self.assertEqual(body["roles"][role]["joint"], f"X{nodes[role]}")
             self.assertAlmostEqual(body["stature_m"], before["stature_m"], places=5)
 
+    def test_a_scale_on_the_hips_that_the_rest_pose_has_not_is_undone(self):
+        path = self.folder / "a.glb"
+        self.assertEqual(self.etude("clip", "convert", "builtin:sway", path).returncode, 0)
+        before, data = self.joints(path), path.read_bytes()
+        length = struct.unpack("<I", data[12:16])[0]
+        for factor in (0.5, 2, 100):
+            scene, numbers = json.loads(data[20:20 + length]), data[28 + length:]
+            moves = scene["animations"][0]
+            times = moves["samplers"][0]["input"]
+            keys = struct.pack("<3f", *3 * [factor]) * scene["accessors"][times]["count"]
+            scene["bufferViews"].append({"buffer": 0, "byteOffset": len(numbers), "byteLength": len(keys)})
+            scene["accessors"].append(scene["accessors"][times] | {"bufferView": len(scene["bufferViews"]) - 1, "byteOffset": 0, "type": "VEC3"})
+            scene["accessors"][-1].pop("min"), scene["accessors"][-1].pop("max")
+            moves["samplers"].append({"input": times, "output": len(scene["accessors"]) - 1})
+            hips = next(i for i, node in enumerate(scene["nodes"]) if node.get("name") == "hip_centre")
+            moves["channels"].append({"sampler": len(moves["samplers"]) - 1, "target": {"node": hips, "path": "scale"}})
+            scene["buffers"][0]["byteLength"] = len(numbers) + len(keys)
+            text = json.dumps(scene).encode()
+            text += b" " * (-len(text) % 4)
+            sizes = [28 + len(text) + len(numbers) + len(keys), len(text)]
+            path.write_bytes(data[:8] + struct.pack("<II", *sizes) + data[16:20] + text + struct.pack("<I", len(numbers) + len(keys))
+                             + data[24 + length:28 + length] + numbers + keys)
+            note = self.info(path)["clips"][0]["body"]["note"]
+            self.assertIn(f"the frames show a body {factor:g} times as tall as the rest pose, by scales that it has not: undone", note)
+            for a, b in zip(before, self.joints(path)):
+                for name in a:
+                    numpy.testing.assert_allclose(b[name], a[name], atol=1e-6, err_msg=f"{factor} {name}")
+
     def turned(self, name, unit=1.0):
         """A BVH of the sway in another unit."""
         path = self.folder / name
@@ -316,113 +320,11 @@ class Formats(EtudeCase):
             path.write_text("\n".join(lines) + "\n")
         return path
 
-    # Joint: parent, place in the parent (cm), turn about x, y, z (degrees) at a time in seconds, all after a turn of its own.
-    FBX_BODY = {
-        "Hips": (None, (0, 95, 0), lambda t: (0, 40 * t, 0), (0, 0, 0)),
-        "Spine": ("Hips", (0, 20, 0), lambda t: (10 * t, 0, 0), (0, 0, 0)), "Neck": ("Spine", (0, 30, 0), None, (0, 0, 0)),
-        "Head": ("Neck", (0, 12, 0), None, (0, 0, 0)),
-        **{f"{side}{name}": (f"{side}{parent}" if near else parent, (sign * x, y, z), turns, pre)
-           for side, sign in (("Left", 1), ("Right", -1))
-           for name, parent, near, (x, y, z), turns, pre in (
-               ("Arm", "Spine", 0, (18, 26, 0), lambda t: (0, 0, -50 * t), (0, 0, 0)),
-               ("ForeArm", "Arm", 1, (28, 0, 0), lambda t: (0, -45 * t, 15 * t), (90, 0, 0)),
-               ("Hand", "ForeArm", 1, (25, 0, 0), None, (0, 0, 0)), ("UpLeg", "Hips", 0, (9, -5, 0), None, (0, 0, 0)),
-               ("Leg", "UpLeg", 1, (0, -43, 0), lambda t: (20 * t, 0, 0), (0, 0, 0)),
-               ("Foot", "Leg", 1, (0, -42, 0), None, (0, 0, 0)), ("ToeBase", "Foot", 1, (0, -5, 14), None, (0, 0, 0)))}}
-
-    def fbx(self, name, unit_cm, up, frames=31, rate=30):
-        """An FBX file in text, and the places of its joints by frame in metres, Y up, by forward kinematics of our own."""
-        def euler(degrees):  # about x first, then y, then z
-            x, y, z = (turn(numpy.radians(a) * axis) for a, axis in zip(degrees, numpy.eye(3)))
-            return z @ y @ x
-        stand = numpy.eye(3) if up == "y" else numpy.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]])  # Y up to Z up
-        objects, links = [], []
-        ids = {joint: 1000 + i for i, joint in enumerate(self.FBX_BODY)}
-        times = ",".join(str(t * 46186158000 // rate) for t in range(frames))
-        triple = lambda label, kind, v: f'P: "{label}", "{kind}", "", "A",{",".join(repr(float(c)) for c in v)}\n'
-        for joint, (parent, place, turns, pre) in self.FBX_BODY.items():
-            if parent is None:
-                place, pre = stand @ place, (90 if up == "z" else 0, 0, 0)
-            objects.append(f'Model: {ids[joint]}, "Model::{joint}", "LimbNode" {{\nVersion: 232\nProperties70: {{\n'
-                           + triple("Lcl Translation", "Lcl Translation", numpy.array(place) / unit_cm)
-                           + 'P: "RotationActive", "bool", "", "",1\n' + triple("PreRotation", "Vector3D", pre) + "}\n}\n")
-            links.append(f'C: "OO",{ids[joint]},{ids.get(parent, 0)}\n')
-            if turns is None:
-                continue
-            node = ids[joint] + 1000
-            objects.append(f'AnimationCurveNode: {node}, "AnimCurveNode::R", "" {{\n}}\n')
-            links += [f'C: "OO",{node},2\n', f'C: "OP",{node},{ids[joint]}, "Lcl Rotation"\n']
-            for k, axis in enumerate("XYZ"):
-                curve = 10 * node + k
-                values = ",".join(repr(float(turns(t / rate)[k])) for t in range(frames))
-                objects.append(f'AnimationCurve: {curve}, "AnimCurve::", "" {{\nDefault: 0\nKeyVer: 4008\n'
-                               f"KeyTime: *{frames} {{\na: {times}\n}}\nKeyValueFloat: *{frames} {{\na: {values}\n}}\n"
-                               f"KeyAttrFlags: *1 {{\na: 24836\n}}\nKeyAttrDataFloat: *4 {{\na: 0,0,0,0\n}}\n"
-                               f"KeyAttrRefCount: *1 {{\na: {frames}\n}}\n}}\n")
-                links.append(f'C: "OP",{curve},{node}, "d|{axis}"\n')
-        path = self.folder / name
-        path.write_text(
-            "; FBX 7.4.0 project file\nFBXHeaderExtension:  {\nFBXHeaderVersion: 1003\nFBXVersion: 7400\n}\n"
-            "GlobalSettings:  {\nVersion: 1000\nProperties70:  {\n"
-            + "".join(f'P: "{key}", "int", "Integer", "",{value}\n' for key, value in (
-                ("UpAxis", 1 if up == "y" else 2), ("UpAxisSign", 1), ("FrontAxis", 2 if up == "y" else 1), ("FrontAxisSign", 1),
-                ("CoordAxis", 0), ("CoordAxisSign", 1)))
-            + f'P: "UnitScaleFactor", "double", "Number", "",{float(unit_cm)}\nP: "TimeMode", "enum", "", "",6\n}}\n}}\n'
-            'Objects:  {\nAnimationStack: 1, "AnimStack::Walk", "" {\n}\nAnimationLayer: 2, "AnimLayer::Base", "" {\n}\n'
-            + "".join(objects) + '}\nConnections:  {\nC: "OO",2,1\n' + "".join(links) + "}\n")
-        places = []
-        for t in range(frames):
-            turned, placed = {}, {}
-            for joint, (parent, place, turns, pre) in self.FBX_BODY.items():
-                own = euler(pre) @ (euler(turns(t / rate)) if turns else numpy.eye(3))
-                turned[joint] = turned[parent] @ own if parent else own
-                placed[joint] = placed[parent] + turned[parent] @ place if parent else numpy.array(place, float)
-            places.append({joint: place / 100 for joint, place in placed.items()})
-        return path, places
-
-    def test_fbx_in_text_by_units_and_axes(self):
-        for unit_cm, up in ((1, "y"), (100, "z")):
-            path, places = self.fbx(f"body-{up}.fbx", unit_cm, up)
-            self.assertIn("FBX, 31 frames at 30 Hz", self.etude("clip", "info", path).stdout)
-            joints = self.joints(path, "--rate", 30)
-            self.assertEqual(len(joints), 31)
-            for frame, truth in zip(joints, places):
-                for role, joint in (("left_wrist", "LeftHand"), ("right_elbow", "RightForeArm"), ("left_ankle", "LeftFoot"),
-                                    ("right_knee", "RightLeg"), ("left_shoulder", "LeftArm")):
-                    apart = frame[role] - frame["hip_centre"] - truth[joint] + (truth["LeftUpLeg"] + truth["RightUpLeg"]) / 2
-                    self.assertLess(numpy.linalg.norm(apart), 1e-4, (up, role))
-
-    def test_fbx_of_a_studio_tool(self):
-        told = self.etude("clip", "info", "/usr/share/assimp/models/FBX/huesitos.fbx").stdout  # binary, with a mesh
-        self.assertIn("FBX, 40 frames at 25 Hz", told)
-
-    def test_a_manifest_names_the_build_that_read_an_fbx_file(self):
-        path, _ = self.fbx("body.fbx", 1, "y")
-        self.run_suite(self.scenario(), "--clips", path, "builtin:sway")
-        clips = json.loads((self.out / "manifest.json").read_text())["scenarios"][0]["loaded_clips"]
-        self.assertRegex(clips[0]["note"], r"read by libassimp\.so\.\d+ \([0-9a-f]{20}\)")
-
-    def test_an_fbx_file_cut_anywhere_is_refused_in_one_line(self):
-        path, _ = self.fbx("whole.fbx", 1, "y")
-        text = path.read_text()
-        for share in (0.1, 0.5, 0.9):
-            path.write_text(text[:int(len(text) * share)])
-            self.refused(path, "whole.fbx: ")
-
     def test_units_told_that_make_no_body_are_refused(self):
         path = self.turned("metres.bvh")
         result = self.etude("clip", "info", path, "--unit", "cm")
         self.assertEqual(result.returncode, 2)
         self.assertIn("m tall; allowed: 0.4 to 4 m; its unit is likely the metre: 1.", result.stderr)
-
-    def scenario(self):
-        return self.write("t.yaml", """scenario: t
-question: Does it run?
-task: transition
-clips: ['builtin:sway']
-trials: 1
-methods: [{name: cut, choice: now, join: cut}]
-""")
 
     def test_a_run_is_told_the_unit_and_keeps_it(self):
         clips = [self.turned("child.bvh", unit=50), self.turned("other.bvh", unit=50)]

@@ -1,0 +1,162 @@
+"""FBX files: our own, by our own forward kinematics; a studio's; and all of them beside three.js's loader.
+
+The last needs Node.js and npm's package three: `npm install three`, and ETUDE_THREE=…/node_modules/three.
+"""
+import json
+import math
+import os
+import pathlib
+import re
+import struct
+import subprocess
+import unittest
+
+import numpy
+import second_readers
+from motion_file_case import MotionFileCase
+
+THREE = os.environ.get("ETUDE_THREE")
+
+
+def turn(axis_times_angle):
+    """The rotation of a vector's length about its direction (Rodrigues)."""
+    angle = math.sqrt(sum(v * v for v in axis_times_angle))
+    if angle == 0:
+        return numpy.eye(3)
+    x, y, z = (v / angle for v in axis_times_angle)
+    k = numpy.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return numpy.eye(3) + math.sin(angle) * k + (1 - math.cos(angle)) * (k @ k)
+
+
+class Fbx(MotionFileCase):
+    # Joint: parent, place in the parent (cm), turn about x, y, z (degrees) at a time in seconds, all after a turn of its own.
+    FBX_BODY = {
+        "Hips": (None, (0, 95, 0), lambda t: (0, 40 * t, 0), (0, 0, 0)),
+        "Spine": ("Hips", (0, 20, 0), lambda t: (10 * t, 0, 0), (0, 0, 0)), "Neck": ("Spine", (0, 30, 0), None, (0, 0, 0)),
+        "Head": ("Neck", (0, 12, 0), None, (0, 0, 0)),
+        **{f"{side}{name}": (f"{side}{parent}" if near else parent, (sign * x, y, z), turns, pre)
+           for side, sign in (("Left", 1), ("Right", -1))
+           for name, parent, near, (x, y, z), turns, pre in (
+               ("Arm", "Spine", 0, (18, 26, 0), lambda t: (0, 0, -50 * t), (0, 0, 0)),
+               ("ForeArm", "Arm", 1, (28, 0, 0), lambda t: (0, -45 * t, 15 * t), (90, 0, 0)),
+               ("Hand", "ForeArm", 1, (25, 0, 0), None, (0, 0, 0)), ("UpLeg", "Hips", 0, (9, -5, 0), None, (0, 0, 0)),
+               ("Leg", "UpLeg", 1, (0, -43, 0), lambda t: (20 * t, 0, 0), (0, 0, 0)),
+               ("Foot", "Leg", 1, (0, -42, 0), None, (0, 0, 0)), ("ToeBase", "Foot", 1, (0, -5, 14), None, (0, 0, 0)))}}
+
+    def fbx(self, name, unit_cm, up, frames=31, rate=30):
+        """An FBX file in text, and the places of its joints by frame in metres, Y up, by forward kinematics of our own."""
+        def euler(degrees):  # about x first, then y, then z
+            x, y, z = (turn(numpy.radians(a) * axis) for a, axis in zip(degrees, numpy.eye(3)))
+            return z @ y @ x
+        stand = numpy.eye(3) if up == "y" else numpy.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]])  # Y up to Z up
+        objects, links = [], []
+        ids = {joint: 1000 + i for i, joint in enumerate(self.FBX_BODY)}
+        times = ",".join(str(t * 46186158000 // rate) for t in range(frames))
+        triple = lambda label, kind, v: f'P: "{label}", "{kind}", "", "A",{",".join(repr(float(c)) for c in v)}\n'
+        for joint, (parent, place, turns, pre) in self.FBX_BODY.items():
+            if parent is None:
+                place, pre = stand @ place, (90 if up == "z" else 0, 0, 0)
+            objects.append(f'Model: {ids[joint]}, "Model::{joint}", "LimbNode" {{\nVersion: 232\nProperties70: {{\n'
+                           + triple("Lcl Translation", "Lcl Translation", numpy.array(place) / unit_cm)
+                           + 'P: "RotationActive", "bool", "", "",1\n' + triple("PreRotation", "Vector3D", pre) + "}\n}\n")
+            links.append(f'C: "OO",{ids[joint]},{ids.get(parent, 0)}\n')
+            if turns is None:
+                continue
+            node = ids[joint] + 1000
+            objects.append(f'AnimationCurveNode: {node}, "AnimCurveNode::R", "" {{\n}}\n')
+            links += [f'C: "OO",{node},2\n', f'C: "OP",{node},{ids[joint]}, "Lcl Rotation"\n']
+            for k, axis in enumerate("XYZ"):
+                curve = 10 * node + k
+                values = ",".join(repr(float(turns(t / rate)[k])) for t in range(frames))
+                objects.append(f'AnimationCurve: {curve}, "AnimCurve::", "" {{\nDefault: 0\nKeyVer: 4008\n'
+                               f"KeyTime: *{frames} {{\na: {times}\n}}\nKeyValueFloat: *{frames} {{\na: {values}\n}}\n"
+                               f"KeyAttrFlags: *1 {{\na: 24836\n}}\nKeyAttrDataFloat: *4 {{\na: 0,0,0,0\n}}\n"
+                               f"KeyAttrRefCount: *1 {{\na: {frames}\n}}\n}}\n")
+                links.append(f'C: "OP",{curve},{node}, "d|{axis}"\n')
+        text = (
+            "; FBX 7.4.0 project file\nFBXHeaderExtension:  {\nFBXHeaderVersion: 1003\nFBXVersion: 7400\n}\n"
+            "GlobalSettings:  {\nVersion: 1000\nProperties70:  {\n"
+            + "".join(f'P: "{key}", "int", "Integer", "",{value}\n' for key, value in (
+                ("UpAxis", 1 if up == "y" else 2), ("UpAxisSign", 1), ("FrontAxis", 2 if up == "y" else 1), ("FrontAxisSign", 1),
+                ("CoordAxis", 0), ("CoordAxisSign", 1)))
+            + f'P: "UnitScaleFactor", "double", "Number", "",{float(unit_cm)}\nP: "TimeMode", "enum", "", "",6\n}}\n}}\n'
+            'Objects:  {\nAnimationStack: 1, "AnimStack::Walk", "" {\n}\nAnimationLayer: 2, "AnimLayer::Base", "" {\n}\n'
+            + "".join(objects) + '}\nConnections:  {\nC: "OO",2,1\n' + "".join(links) + "}\n")
+        lines, depth = [], 0
+        for line in text.splitlines():  # three.js goes by the tabs
+            depth -= line.startswith("}")
+            lines.append(depth * "\t" + line)
+            depth += line.endswith("{")
+        path = self.folder / name
+        path.write_text("\n".join(lines) + "\n")
+        places = []
+        for t in range(frames):
+            turned, placed = {}, {}
+            for joint, (parent, place, turns, pre) in self.FBX_BODY.items():
+                own = euler(pre) @ (euler(turns(t / rate)) if turns else numpy.eye(3))
+                turned[joint] = turned[parent] @ own if parent else own
+                placed[joint] = placed[parent] + turned[parent] @ place if parent else numpy.array(place, float)
+            places.append({joint: place / 100 for joint, place in placed.items()})
+        return path, places
+
+    def test_fbx_in_text_by_units_and_axes(self):
+        for unit_cm, up in ((1, "y"), (100, "z")):
+            path, places = self.fbx(f"body-{up}.fbx", unit_cm, up)
+            self.assertIn("FBX, 31 frames at 30 Hz", self.etude("clip", "info", path).stdout)
+            joints = self.joints(path, "--rate", 30)
+            self.assertEqual(len(joints), 31)
+            for frame, truth in zip(joints, places):
+                for role, joint in (("left_wrist", "LeftHand"), ("right_elbow", "RightForeArm"), ("left_ankle", "LeftFoot"),
+                                    ("right_knee", "RightLeg"), ("left_shoulder", "LeftArm")):
+                    apart = frame[role] - frame["hip_centre"] - truth[joint] + (truth["LeftUpLeg"] + truth["RightUpLeg"]) / 2
+                    self.assertLess(numpy.linalg.norm(apart), 1e-4, (up, role))
+
+    @unittest.skipUnless(THREE, "ETUDE_THREE names no folder of npm's package three")
+    def test_fbx_lies_where_three_js_puts_it(self):
+        """Every joint in every frame, metres; a file is in centimetres unless it tells otherwise."""
+        files = [(self.fbx("y.fbx", 1, "y")[0], 0.01), (self.fbx("z.fbx", 100, "z")[0], 1)]
+        files += [(pathlib.Path("/usr/share/assimp/models/FBX", name), 0.01) for name in ("huesitos.fbx", "animation_with_skeleton.fbx")]
+        for path, metres in files:
+            self.assertLess(self.apart_from_three(path, metres), 1e-4, path)
+
+    def apart_from_three(self, path, metres):
+        """How far the furthest joint lies from where three.js puts it, metres."""
+        out = self.folder / "out.glb"
+        result = self.etude("clip", "convert", path, out, "--overwrite", "--unit", "m")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        facts = json.loads(self.etude("clip", "info", out, "--json").stdout)["clips"][0]  # exit code 2 of what is no body
+        ours = second_readers.read_gltf(out, facts["name"].partition("#")[2], facts["rate_hz"], facts["frames"])
+        words = ["node", pathlib.Path(__file__).with_name("three_fbx.mjs"), THREE, path, facts["rate_hz"], facts["frames"]]
+        theirs = json.loads(subprocess.run(list(map(str, words)), capture_output=True, text=True, check=True).stdout)
+        named = {re.sub(r"[\[\].:/]", "", name.replace(" ", "_")): places for name, places in ours.items()}  # as three.js does
+        both = [name for name in named if name in theirs and name]
+        self.assertGreater(len(both), 5)
+        return max(numpy.linalg.norm(named[name] - metres * numpy.array(theirs[name]), axis=1).max() for name in both)
+
+    def test_fbx_of_a_studio_tool(self):
+        told = self.etude("clip", "info", "/usr/share/assimp/models/FBX/huesitos.fbx").stdout  # binary, with a mesh
+        self.assertIn("FBX, 40 frames at 25 Hz", told)
+
+    def test_a_manifest_names_the_build_that_read_an_fbx_file(self):
+        path, _ = self.fbx("body.fbx", 1, "y")
+        self.run_suite(self.scenario(), "--clips", path, "builtin:sway")
+        clips = json.loads((self.out / "manifest.json").read_text())["scenarios"][0]["loaded_clips"]
+        self.assertRegex(clips[0]["note"], r"read by libassimp\.so\.\d+ \([0-9a-f]{20}\)")
+
+    def test_an_fbx_file_cut_anywhere_is_refused_in_one_line(self):
+        path, _ = self.fbx("whole.fbx", 1, "y")
+        text = path.read_text()
+        for share in (0.1, 0.5, 0.9):
+            path.write_text(text[:int(len(text) * share)])
+            self.refused(path, "whole.fbx: ")
+
+    def test_fbx_of_old_tools_is_told_its_version(self):
+        path = self.folder / "old.fbx"
+        for data in (b"; FBX 6.1.0 project file\nFBXHeaderExtension:  {\nFBXVersion: 6100\n}\n",
+                     b"Kaydara FBX Binary  \0\x1a\0" + struct.pack("<I", 6100) + bytes(99)):
+            path.write_bytes(data)
+            self.refused(path, "an FBX file of version 6; allowed: 7 (of 2011 or later)")
+
+
+if __name__ == "__main__":
+    unittest.main()
