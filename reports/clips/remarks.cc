@@ -37,22 +37,43 @@ void RemarkOnPenetration(const BodyMotion& motion, std::vector<std::string>& rem
       100.0 * static_cast<double>(frames) / static_cast<double>(motion.poses.size())));
 }
 
+/// Whether trunk and legs stand: who sits or lies has seats, cushions and the body's own thickness below the joints.
+bool IsUpright(const BodyPose& pose) {
+  constexpr double kSteep = 0.7;
+  using enum Role;
+  const glm::dvec3 trunk = pose[kShoulderCentre] - pose[kHipCentre];
+  const double leg = glm::distance(pose[kLeftHip], pose[kLeftKnee]) + glm::distance(pose[kLeftKnee], pose[kLeftAnkle]);
+  const double ankles = std::min(pose[kLeftAnkle].y, pose[kRightAnkle].y);
+  return trunk.y > kSteep * glm::length(trunk) && pose[kHipCentre].y - ankles > kSteep * leg;
+}
+
+/// How high a body may stay, and for how long: nobody jumps for a second, some sit on high chairs, and of who dances
+/// toes lie up to 5 cm above the lowest twentieth for two seconds, 9 for one.
+struct Hovering {
+  double height_m, longest_s;
+  bool is_upright;
+};
+constexpr Hovering kHoverings[] = {{0.5, 1, false}, {0.25, 1, true}, {0.09, 2, true}};
+
 void RemarkOnFloating(const BodyMotion& motion, std::vector<std::string>& remarks) {
-  constexpr double kHigh = 0.25, kLongestJump_s = 1;
-  std::size_t longest = 0, last = 0, run = 0;
-  for (std::size_t f = 0; f < motion.poses.size(); ++f) {
-    run = motion.poses[f][LowestJoint(motion.poses[f])].y > kHigh ? run + 1 : 0;
-    if (run <= longest) continue;
-    longest = run;
-    last = f;
+  for (const Hovering& kind : kHoverings) {
+    std::size_t longest = 0, last = 0, run = 0;
+    for (std::size_t f = 0; f < motion.poses.size(); ++f) {
+      const BodyPose& pose = motion.poses[f];
+      const bool hovers = pose[LowestJoint(pose)].y > kind.height_m && (!kind.is_upright || IsUpright(pose));
+      run = hovers ? run + 1 : 0;
+      if (run <= longest) continue;
+      longest = run;
+      last = f;
+    }
+    const double seconds = static_cast<double>(longest) / motion.rate_hz;
+    if (seconds <= kind.longest_s) continue;
+    remarks.push_back(fmt::format(
+        "floats: no joint is within {:.0f} cm of the floor for {:.1f} s from {:.2f} s on; are there steps, or is the "
+        "floor elsewhere?",
+        100 * kind.height_m, seconds, static_cast<double>(last + 1 - longest) / motion.rate_hz));
+    return;
   }
-  const double seconds = static_cast<double>(longest) / motion.rate_hz;
-  if (seconds <= kLongestJump_s) return;
-  const double from = static_cast<double>(last + 1 - longest) / motion.rate_hz;
-  remarks.push_back(
-      fmt::format("floats: no joint is within 25 cm of the floor for {:.1f} s from {:.2f} s on; are there "
-                  "steps, or is the floor elsewhere?",
-                  seconds, from));
 }
 
 }  // namespace
