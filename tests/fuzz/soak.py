@@ -83,9 +83,10 @@ def findings(name):
     return sum(1 for _ in folder.iterdir()) if folder.is_dir() else 0
 
 
-def save(path, readers):
-    """The figure: counts for each reader, and of all."""
-    counts = {name: reader.counts | {"findings_mended": findings(name)} for name, reader in sorted(readers.items())}
+def save(path, readers, kept):
+    """The figure: counts for each reader, also of those that this program has not, and of all."""
+    counts = kept | {name: reader.counts for name, reader in readers.items()}
+    counts = {name: counts[name] | {"findings_mended": findings(name)} for name in sorted(counts)}
     whole = {key: sum(c[key] for c in counts.values()) for key in next(iter(counts.values()), {}) if key != "edges"}
     whole["fewest_executions"] = min((c["executions"] for c in counts.values()), default=0)
     path.with_suffix(".new").write_text(json.dumps({"all": whole, "readers": counts}, indent=1) + "\n")
@@ -128,7 +129,7 @@ def run(options, kept_in=HERE, work=ROOT / "out/soak/fuzz"):
                 done = reader.counts[counted] - before
                 left[reader.name] -= done or left[reader.name]  # one that executes nothing would go on for ever
                 reader.busy = False
-                save(figure, readers)
+                save(figure, readers, kept)
                 print(f"{reader.name:24} {reader.counts['executions']:>12,} executions, {reader.counts['edges']:>6,} edges, "
                       f"{reader.counts['corpus']:>5,} files" + "".join(f"\n  FOUND {path}" for path in found), flush=True)
                 broken.extend(found)
@@ -136,7 +137,7 @@ def run(options, kept_in=HERE, work=ROOT / "out/soak/fuzz"):
     with ThreadPoolExecutor(options.jobs) as pool:
         for worker in [pool.submit(fuzz) for _ in range(options.jobs)]:
             worker.result()
-    print(json.dumps(save(figure, readers)))
+    print(json.dumps(save(figure, readers, kept)))
     return broken
 
 

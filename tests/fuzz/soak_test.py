@@ -49,6 +49,13 @@ class Soak(unittest.TestCase):
         self.assertEqual(readers["bad"]["executions"], 21)
         self.assertEqual(self.figure()["all"]["fewest_executions"], 21)
 
+    def test_counts_of_readers_that_this_program_has_not_are_kept(self):
+        old = {"executions": 5, "fast_executions": 0, "rounds": 1, "edges": 2, "corpus": 3, "findings_mended": 0}
+        (self.folder / "figure.json").write_text(json.dumps({"readers": {"old": old}}))
+        self.run_soak("--only", "good")
+        self.assertEqual(self.figure()["readers"]["old"], old)
+        self.assertEqual(self.figure()["all"]["executions"], 105)
+
     def test_only_those_asked_for_run(self):
         self.assertEqual(self.run_soak("--only", "good"), [])
         self.assertEqual(self.figure()["readers"]["bad"]["rounds"], 0)

@@ -12,8 +12,8 @@ namespace etude::fuzz {
 const std::vector<Target>& Targets() {
   static const std::vector<Target> targets = [] {
     std::vector<Target> all;
-    for (const auto& part :
-         {MotionTargets(), StreamTargets(), CameraTargets(), SettingTargets(), RunTargets(), AnswerTargets()}) {
+    for (const auto& part : {MotionTargets(), FbxTargets(), StreamTargets(), CameraTargets(), SettingTargets(),
+                             RunTargets(), AnswerTargets()}) {
       all.insert(all.end(), part.begin(), part.end());
     }
     return all;

@@ -25,6 +25,7 @@ struct Target {
 };
 
 std::vector<Target> MotionTargets();
+std::vector<Target> FbxTargets();
 std::vector<Target> StreamTargets();
 std::vector<Target> CameraTargets();
 std::vector<Target> SettingTargets();
