@@ -55,7 +55,8 @@ def worst_mm(path, facts):
         # The hip centre lies between the hips, whatever the file has there; ends of limbs have no name in some formats.
         if told["composed"] or role == "hip_centre" or told["joint"] not in theirs:
             continue
-        place = theirs[told["joint"]] @ turned.T * body["metres_per_unit"]
+        # A row too many is dropped, and said.
+        place = theirs[told["joint"]][:facts["frames"]] @ turned.T * body["metres_per_unit"]
         dropped = len(place) - len(ours[role])
         assert dropped == 0 or (body["dropped_t_pose"] and dropped > 0), (path, dropped)
         apart.append(ours[role] - place[dropped:])
