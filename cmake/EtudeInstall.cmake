@@ -14,7 +14,7 @@ if(TARGET etude_boards_opencv)  # optional, and not in packages, which would nee
   install(TARGETS etude_boards_opencv LIBRARY DESTINATION "${ETUDE_MODULES}" COMPONENT boards)
 endif()
 
-install(DIRECTORY scenarios examples DESTINATION share/etude PATTERN __pycache__ EXCLUDE PATTERN node_modules EXCLUDE)
+install(DIRECTORY scenarios examples DESTINATION share/etude USE_SOURCE_PERMISSIONS PATTERN __pycache__ EXCLUDE PATTERN node_modules EXCLUDE)
 install(DIRECTORY ci DESTINATION share/etude USE_SOURCE_PERMISSIONS)
 install(DIRECTORY docs/schemas DESTINATION share/etude)
 # The package, alone in its folder, which methods outside are shown; Debian's Python finds it by a path file.
@@ -34,11 +34,24 @@ foreach(name docs/schemas examples scenarios ci)
 endforeach()
 install(DIRECTORY "${links}/" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" RENAME copyright)
+# What Debian wants of each package.
+set(changelog "${CMAKE_BINARY_DIR}/changelog.gz")
+execute_process(COMMAND gzip -9nc "${CMAKE_SOURCE_DIR}/CHANGELOG.md" OUTPUT_FILE "${changelog}" COMMAND_ERROR_IS_FATAL ANY)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS CHANGELOG.md)
+install(FILES "${changelog}" DESTINATION share/doc/etude)
+set(packages libetude libetude-dev)
+set(components library development)
+foreach(package component IN ZIP_LISTS packages components)
+  install(FILES LICENSE DESTINATION share/doc/${package} COMPONENT ${component} RENAME copyright)
+  install(FILES "${changelog}" DESTINATION share/doc/${package} COMPONENT ${component})
+endforeach()
 
 # Made of the option tree by the program itself.
 set(made "${CMAKE_BINARY_DIR}/option_tree")
 add_custom_command(OUTPUT "${made}/etude.fish"
+  COMMAND "${CMAKE_COMMAND}" -E rm -rf "${made}/man"
   COMMAND etude man "${made}/man" >/dev/null
+  COMMAND gzip -9nr "${made}/man"
   COMMAND etude completion bash > "${made}/etude"
   COMMAND etude completion zsh > "${made}/_etude"
   COMMAND etude completion fish > "${made}/etude.fish"
@@ -65,6 +78,19 @@ set(CPACK_PACKAGE_NAME etude)
 set(CPACK_PACKAGE_VENDOR "The Etude authors")
 set(CPACK_PACKAGE_CONTACT "The Etude authors <etude@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Deterministic benchmark for interactive human motion")
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
+  "Synthesizes what sensors would have seen of a motion, replays it
+through a dance coach and a markerless capture, and compares methods
+in worlds whose truth is known.")
+set(CPACK_COMPONENT_LIBRARY_DESCRIPTION
+  "Inverse kinematics, transitions between clips, recognition of moves and
+capture by cameras, and simulated sensors, for programs that link them.")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
+  "The headers of libetude and libetude_sim, and what CMake's
+find_package(Etude) reads.")
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+file(WRITE "${CMAKE_BINARY_DIR}/triggers" "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA "${CMAKE_BINARY_DIR}/triggers")
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)

@@ -1,4 +1,3 @@
-#!/usr/bin/env node
 // The policy of coach_policy.py in JavaScript, without any help: the protocol is a line of JSON each way
 // (docs/outside-methods.md).
 import readline from "node:readline";

@@ -57,7 +57,7 @@ class Installed(EtudeCase):
         self.assertEqual(unknown.returncode, 2)
         self.assertIn("did you mean 'full/ik_weights'?", unknown.stderr)
         self.assertIn("@software{etude,", run("cite", "out").stdout)
-        self.assertTrue((moved / "share" / "man" / "man1" / "etude-run.1").exists())
+        self.assertTrue((moved / "share" / "man" / "man1" / "etude-run.1.gz").exists())
         self.links_lead_somewhere(moved / "share" / "doc" / "etude")
         self.assertTrue(os.access(moved / "share" / "etude" / "ci" / "gate", os.X_OK))
 
