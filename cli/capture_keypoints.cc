@@ -250,8 +250,7 @@ Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, FilmedSessio
     facts["silhouettes"] = {{"stature_m", both->stature_m}, {"cost", both->cost}, {"held_frames", both->held}};
     if (Joined(films.cameras, person, chosen, *both, recover)) {
       Tell(films.told,
-           fmt::format("outlines cost {:.0f} a picture; joints are those of keypoints and outlines together, each "
-                       "as sure as it is near the other",
+           fmt::format("outlines cost {:.0f} a picture; joints are those of keypoints and outlines together",
                        both->cost));
     } else {
       Tell(films.told,

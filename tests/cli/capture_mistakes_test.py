@@ -2,7 +2,7 @@
 
 A generator of its own makes a walking figure, four cameras, their calibration in every format, keypoints in every
 format, and one mistake at a time. `--table` prints the errors instead of testing them, `--matrix` those of every rig
-with every mistake, whose kinds of keypoints take turns.
+with every mistake, whose kinds of keypoints take turns, `--poses` how near skeletons come to keypoints that err.
 """
 import copy
 import functools
@@ -37,6 +37,8 @@ def rotation(axis, angle):
 def rodrigues(R):
     angle = math.acos(max(-1, min(1, (np.trace(R) - 1) / 2)))
     axis = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
+    if angle > math.pi - 1e-6:  # of half a turn that is nothing
+        axis = (R + np.eye(3))[:, np.argmax(np.diag(R))]
     return axis * 0 if angle < 1e-9 else angle * axis / np.linalg.norm(axis)
 
 
@@ -453,7 +455,7 @@ class Mistakes(EtudeCase):
         if str(rig).startswith("Caliscope"):
             arguments = [*arguments, "--cameras", ",".join(names)]
         result = self.etude("capture", "--rig", folder / named, *(folder / f"{name}.mp4" for name in names), "--keypoints",
-                            folder / "keypoints", "-o", folder / "m.csv", "--points", folder / "p.trc", *arguments, *more)
+                            folder / "keypoints", "--points", folder / "p.trc", *(() if "-o" in more else ("-o", folder / "m.csv")), *arguments, *more)
         if result.returncode != 0:
             return result.stderr, None, None
         errors, height = errors_mm(read_trc(folder / "p.trc"), truth)
@@ -664,5 +666,30 @@ def matrix():
         print(f"| {rig} | " + " | ".join(cells) + " |", flush=True)
 
 
+ROLES = {"head": "Head"} | {f"{side}_{joint}": side[0].upper() + name for side in ("left", "right") for joint, name in (
+    ("shoulder", "Shoulder"), ("elbow", "Elbow"), ("wrist", "Wrist"), ("hip", "Hip"), ("knee", "Knee"), ("ankle", "Ankle"),
+    ("foot", "BigToe"))}
+
+
+def poses():
+    """Median distance of the skeleton's joints, mm, of keypoints that err: frames by themselves, smoothed, all at once."""
+    case = Mistakes()
+    Mistakes.setUpClass()
+    case.setUp()
+    ways = {"frames": ("--poses", "frames"), "smoothed at 6 Hz": ("--smooth", "6"), "bundle": ()}
+    print("| pace | cameras | px | " + " | ".join(ways) + " |\n|" + "---|" * (3 + len(ways)))
+    for pace in (1, 4):
+        for cameras, noise_px in ((2, 2), (2, 8), (4, 8)):
+            cells = []
+            for more in ways.values():
+                truth = lambda t: figure(pace * t)
+                told, _, _ = case.capture(cameras=cameras, noise_px=noise_px, truth=truth, more=("-o", case.folder / "m.trc",
+                                                                                               "--overwrite", *more))
+                off = [np.linalg.norm(frame[role] - truth(k / RATE)[name]) for k, frame in enumerate(
+                    read_trc(case.folder / "m.trc")) for role, name in ROLES.items()]
+                cells.append(f"{1000 * np.median(off):.1f} ({1000 * np.percentile(off, 95):.0f})")
+            print(f"| {pace} | {cameras} | {noise_px} | " + " | ".join(cells) + " |", flush=True)
+
+
 if __name__ == "__main__":
-    matrix() if "--matrix" in sys.argv else table() if "--table" in sys.argv else unittest.main()
+    poses() if "--poses" in sys.argv else matrix() if "--matrix" in sys.argv else table() if "--table" in sys.argv else unittest.main()
