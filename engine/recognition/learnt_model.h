@@ -34,8 +34,8 @@ const LearntModel& BuiltinCoachedModel();
 
 /// Makes our learnt recogniser: performances are aligned with the taught examples, measured, and judged by what
 /// simulated people taught the model; what is farther from every example than nearly all that taught it is no move at
-/// all. The moves are those taught: the model knows none. `by_clock`: as the model was fitted.
+/// all. The moves are those taught: the model knows none.
 std::unique_ptr<Recogniser> MakeLearntRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
-                                                 const LearntModel& model, ByClock by_clock = ByClock::kNo);
+                                                 const LearntModel& model);
 
 }  // namespace etude

@@ -64,11 +64,10 @@ class RecentCosts {
 class MeasuringFollower final : public StepFollower {
  public:
   MeasuringFollower(const std::vector<TaughtExample>& examples, std::size_t moves, const SightWeights& weights,
-                    const PerformanceJudge& judge, ByClock by_clock, double rate_hz)
+                    const PerformanceJudge& judge, double rate_hz)
       : StepFollower(PoseParts::kLimbs, weights, moves, rate_hz),
         examples_(examples),
         judge_(judge),
-        by_clock_(by_clock),
         is_alone_(moves == 1),
         steps_(LongestOf(examples)),
         costs_(std::max<std::size_t>(moves, 1)) {
@@ -116,10 +115,9 @@ class MeasuringFollower final : public StepFollower {
     double evidence = 0;
     for (auto& [example, aligner, clock] : in_window_) {
       aligner.Update(step);
-      if (by_clock_ == ByClock::kYes) clock.Update(step);
+      clock.Update(step);
       if (aligner.Cost() == kUnaligned) continue;
-      const PerformanceMeasures measures =
-          MeasureNow(*example, aligner, opened_at_, by_clock_ == ByClock::kYes ? &clock : nullptr);
+      const PerformanceMeasures measures = MeasureNow(*example, aligner, opened_at_, &clock);
       evidence = std::max(evidence, judge_(Occasion::kAsked, example->move, measures));
       if (aligner.Cost() < nearest_cost_) {
         nearest_cost_ = aligner.Cost();
@@ -142,6 +140,7 @@ class MeasuringFollower final : public StepFollower {
       std::ranges::copy(clock->Measure(usual_.Shift()).All(), measures.begin() + kFirstClockMeasure);
     }
     usual_.Relate(measures);
+    if (clock == nullptr) std::fill(measures.begin() + kFirstClockMeasure, measures.end(), 0.0);
     return measures;
   }
 
@@ -162,7 +161,6 @@ class MeasuringFollower final : public StepFollower {
 
   const std::vector<TaughtExample>& examples_;
   const PerformanceJudge& judge_;
-  ByClock by_clock_;
   bool is_alone_;
   RecentSteps steps_;
   RecentCosts costs_;
@@ -177,15 +175,11 @@ class MeasuringFollower final : public StepFollower {
 class MeasuringRecogniser final : public Recogniser {
  public:
   MeasuringRecogniser(std::vector<TaughtExample> examples, std::size_t moves, const SightWeights& weights,
-                      PerformanceJudge judge, ByClock by_clock)
-      : examples_(std::move(examples)),
-        moves_(moves),
-        weights_(weights),
-        judge_(std::move(judge)),
-        by_clock_(by_clock) {}
+                      PerformanceJudge judge)
+      : examples_(std::move(examples)), moves_(moves), weights_(weights), judge_(std::move(judge)) {}
 
   std::unique_ptr<MoveFollower> Follow(double rate_hz) const override {
-    return std::make_unique<MeasuringFollower>(examples_, moves_, weights_, judge_, by_clock_, rate_hz);
+    return std::make_unique<MeasuringFollower>(examples_, moves_, weights_, judge_, rate_hz);
   }
 
  private:
@@ -193,13 +187,12 @@ class MeasuringRecogniser final : public Recogniser {
   std::size_t moves_;
   SightWeights weights_;
   PerformanceJudge judge_;
-  ByClock by_clock_;
 };
 
 }  // namespace
 
 std::unique_ptr<Recogniser> MakeMeasuringRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
-                                                    PerformanceJudge judge, ByClock by_clock) {
+                                                    PerformanceJudge judge) {
   std::vector<TaughtExample> examples;
   for (std::size_t move = 0; move < taught.size(); ++move) {
     const int longest = static_cast<int>(std::ceil(taught[move].span_s * kStepsPerSecond));
@@ -210,7 +203,7 @@ std::unique_ptr<Recogniser> MakeMeasuringRecogniser(std::span<const TaughtMove> 
       examples.push_back({move, std::move(pattern), longest, middle});
     }
   }
-  return std::make_unique<MeasuringRecogniser>(std::move(examples), taught.size(), weights, std::move(judge), by_clock);
+  return std::make_unique<MeasuringRecogniser>(std::move(examples), taught.size(), weights, std::move(judge));
 }
 
 }  // namespace etude

@@ -20,15 +20,12 @@ enum class Occasion {
 using PerformanceJudge =
     std::function<double(Occasion occasion, std::size_t move, const PerformanceMeasures& measures)>;
 
-/// Says whether performances are also measured by the clock of who asks for them, which pays where that clock is the
-/// music's.
-enum class ByClock { kNo, kYes };
-
 /// Aligns what is seen with every example (limb directions, SubsequenceAligner) and has performances judged by their
-/// measures: in every step the one asked for, and the one that any time's nearest move may be. What is usual of the
-/// person is learnt from the performances asked for, each by its nearest passage. Examples it cannot describe are left
+/// measures: in every step the one asked for, by the clock of who asks (ClockComparison), too, and the one that any
+/// time's nearest move may be. What is usual of the person is learnt from the performances asked for, each by its
+/// nearest passage. Examples it cannot describe are left
 /// out.
 std::unique_ptr<Recogniser> MakeMeasuringRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
-                                                    PerformanceJudge judge, ByClock by_clock = ByClock::kNo);
+                                                    PerformanceJudge judge);
 
 }  // namespace etude

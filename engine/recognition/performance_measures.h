@@ -63,8 +63,8 @@ class ClockComparison {
 constexpr std::size_t kOwnMeasures = 47;
 constexpr std::size_t kDistanceMeasure = 36;  ///< among them: the root of the path's cost
 /// Then the same once more, each beyond what is usual of this person: 0 as long as nothing is known of them. Then how
-/// the performance keeps to the clock of who asks for it (ClockMeasures), and that beyond the usual, too: 0 for who
-/// does not go by it.
+/// the performance keeps to the clock of who asks for it (ClockMeasures), and that beyond the usual, too: 0 for what
+/// nobody asked for.
 constexpr std::size_t kFirstClockMeasure = 2 * kOwnMeasures;
 constexpr std::size_t kMeasureCount = kFirstClockMeasure + 2 * kClockMeasures;
 using PerformanceMeasures = std::array<double, kMeasureCount>;

@@ -113,7 +113,7 @@ std::span<const RecogniserKind> AllRecognisers() {
        .needs_examples = true,
        .teach =
            [](std::span<const TaughtMove> taught, const RecogniserOptions& options) {
-             return MakeLearntRecogniser(taught, options.weights, BuiltinCoachedModel(), ByClock::kYes);
+             return MakeLearntRecogniser(taught, options.weights, BuiltinCoachedModel());
            }},
       {.name = "whole-body",
        .description =

@@ -75,6 +75,8 @@ class ExampleDistance {
   double Passage() const { return passage_.back() / static_cast<double>(pattern_->size()); }
   /// Returns that of all that was seen (symmetric dynamic time warping).
   double Whole() const { return whole_.back() / static_cast<double>(pattern_->size() + count_); }
+  /// Returns how many steps were seen, in lengths of the example.
+  double SharePassed() const { return static_cast<double>(count_) / static_cast<double>(pattern_->size()); }
 
  private:
   const WholePattern* pattern_;
@@ -229,7 +231,7 @@ class WholeBodyFollower final : public MoveFollower {
     limbs_.Update(frame);
     if (completed > 0) std::ranges::fill(spotted_, 0.0);
     for (int i = 0; i < completed && joints_.Step(); ++i) Take(WholePoseOf(*joints_.Step(), *limbs_.Step()));
-    best_ = std::max(best_, judged.asked * RightSide());
+    if (MayShowItsSide()) best_ = std::max(best_, judged.asked * RightSide());
     return {.asked = best_, .spotted = judge_spots_ ? judged.spotted : spotted_};
   }
 
@@ -269,6 +271,15 @@ class WholeBodyFollower final : public MoveFollower {
       const double both = NearestMean(always_[move], PassageOf) + other;
       spotted_[move] = std::isfinite(both) && both > 0 ? other / both : 0.0;
     }
+  }
+
+  /// Says whether three quarters of the shortest example have passed since the window opened: before, a move and its
+  /// image look alike, and what the judge gives waits.
+  bool MayShowItsSide() const {
+    constexpr double kShowsItsSide = 0.75;
+    return in_window_.empty() || std::ranges::any_of(in_window_, [](const ExampleDistance& example) {
+             return example.SharePassed() >= kShowsItsSide;
+           });
   }
 
   /// Returns 1 where the examples were nearer than their images so far, else the squared ratio of both.

@@ -47,8 +47,7 @@ void AddSession(const Lesson& lesson, const SessionLog& log, Weighting weighting
       [&](Occasion occasion, std::size_t, const PerformanceMeasures& measures) {
         if (occasion == Occasion::kAsked) measured.push_back(measures);
         return 0.0;
-      },
-      ByClock::kYes);
+      });
   FollowPerformances(log, *recogniser, {}, [&](const LoggedPerformance& performance, double) {
     std::vector<PerformanceMeasures> own = std::exchange(measured, {});
     if (performance.judged.truth == PerformanceTruth::kGrey || own.empty()) return;
