@@ -429,7 +429,8 @@ class Mistakes(EtudeCase):
                                          ("slow", (WIDTH, HEIGHT), SLOW_RATE, SLOW_FRAMES),
                                          ("ntsc", (WIDTH, HEIGHT), "30000/1001", FRAMES)):
             subprocess.run(["ffmpeg", "-v", "error", "-f", "lavfi", "-i", f"color=gray:size={size[0]}x{size[1]}:rate={rate}",
-                            "-frames:v", str(frames), "-pix_fmt", "yuv420p", str(cls.films / f"{name}.mp4")], check=True)
+                            "-frames:v", str(frames), "-preset", "ultrafast", "-pix_fmt", "yuv420p", str(cls.films / f"{name}.mp4")],
+                           check=True)
 
     def capture(self, rig="Pose2Sim", keypoints="OpenPose, 26", mistake="none", cameras=None, lens=Lens(LENS[:5]),
                 more=(), truth=figure, pixels=None, noise_px=0):
