@@ -304,6 +304,18 @@ class Formats(MotionFileCase):
                 for name in a:
                     numpy.testing.assert_allclose(b[name], a[name], atol=1e-6, err_msg=f"{factor} {name}")
 
+    def test_what_an_extension_moves_and_is_not_read_is_said(self):
+        path = self.folder / "a.glb"
+        self.assertEqual(self.etude("clip", "convert", "builtin:sway", path).returncode, 0)
+        self.assertNotIn("not read", self.info(path)["clips"][0]["body"]["note"])
+        data = path.read_bytes()
+        length = struct.unpack("<I", data[12:16])[0]
+        scene = json.loads(data[20:20 + length]) | {"extensionsUsed": ["KHR_animation_pointer"]}
+        text = json.dumps(scene).encode()
+        text += b" " * (-len(text) % 4)
+        path.write_bytes(data[:8] + struct.pack("<II", len(data) - length + len(text), len(text)) + data[16:20] + text + data[20 + length:])
+        self.assertIn("what KHR_animation_pointer moves is not read", self.info(path)["clips"][0]["body"]["note"])
+
     def turned(self, name, unit=1.0):
         """A BVH of the sway in another unit."""
         path = self.folder / name

@@ -436,6 +436,8 @@ Result<GltfContent> ReadGltf(std::string_view bytes, const std::string& file, co
   } else {
     content.remarks.emplace_back("meshes left out, which are compressed (Draco)");
   }
+  const bool has_pointers = std::ranges::count(model->extensionsUsed, "KHR_animation_pointer") > 0;
+  if (has_pointers) content.remarks.emplace_back("what KHR_animation_pointer moves is not read");
   ASSIGN_OR_RETURN(auto clips, ReadGltfClips(parsed, nodes));
   content.clips = std::move(clips);
   for (const auto& [bone, node] : BoneTable(*model)) {

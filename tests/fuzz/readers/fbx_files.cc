@@ -87,7 +87,6 @@ std::string InBytes(const Element& element, std::size_t at) {
 
 /// A person whose hips turn once about the vertical in a second.
 std::vector<Element> Person() {
-  using Names = std::vector<std::string>;
   const auto called = [](const std::string& name, const std::string& kind) {
     return name + std::string("\0\1", 2) + kind;
   };
