@@ -31,12 +31,19 @@ struct SeenAt {
   Keypoint keypoint;
 };
 
-Keypoint MiddleOf(const Keypoint& a, const Keypoint& b) {
-  return {0.5 * (a.pixel + b.pixel), std::min(a.confidence, b.confidence)};
+/// The place midway between two landmarks, as the picture shows it: where it would be seen, off by the mean of what
+/// both landmarks are. The middle of the two pixels is nearer to the camera's nearer one.
+Keypoint MiddleOf(const ProjectionMatrix& camera, const SeenPerson& seen, const LandmarkPlaces& places, Landmark a,
+                  Landmark b) {
+  const glm::dvec3 &p = *places[Index(a)], &q = *places[Index(b)];
+  const auto middle = Project(camera, 0.5 * (p + q)), at_p = Project(camera, p), at_q = Project(camera, q);
+  if (!middle || !at_p || !at_q) return {};
+  const glm::dvec2 off = 0.5 * (seen[a].pixel - *at_p + seen[b].pixel - *at_q);
+  return {*middle + off, std::min(seen[a].confidence, seen[b].confidence)};
 }
 
-/// The joints that landmarks show themselves, as `JointsOf` takes them; `head` says of what the head is made.
-std::vector<SeenAt> JointsIn(const SeenPerson& seen, const LandmarkPlaces& places) {
+/// The joints that landmarks show themselves, as `JointsOf` takes them.
+std::vector<SeenAt> JointsIn(const ProjectionMatrix& camera, const SeenPerson& seen, const LandmarkPlaces& places) {
   constexpr std::array<std::pair<Landmark, Role>, 16> kSame = {{{kLeftShoulder, Role::kLeftShoulder},
                                                                 {kRightShoulder, Role::kRightShoulder},
                                                                 {kLeftElbow, Role::kLeftElbow},
@@ -57,7 +64,7 @@ std::vector<SeenAt> JointsIn(const SeenPerson& seen, const LandmarkPlaces& place
   for (const auto& [landmark, role] : kSame) joints.push_back({role, seen[landmark]});
   const bool has_ears = places[Index(kLeftEar)] && places[Index(kRightEar)];
   joints.push_back({Role::kHead, places[Index(kHead)] ? seen[kHead]
-                                 : has_ears           ? MiddleOf(seen[kLeftEar], seen[kRightEar])
+                                 : has_ears           ? MiddleOf(camera, seen, places, kLeftEar, kRightEar)
                                                       : seen[kNose]});
   return joints;
 }
@@ -205,7 +212,7 @@ class Adjuster {
       views[frame].fill(0);
       for (std::size_t c = 0; c < cameras_.size(); ++c) {
         if (frame >= seen_.seen[c].size() || !seen_.seen[c][frame]) continue;
-        for (const auto& [role, keypoint] : JointsIn(*seen_.seen[c][frame], person_.landmarks[frame])) {
+        for (const auto& [role, keypoint] : JointsIn(cameras_[c], *seen_.seen[c][frame], person_.landmarks[frame])) {
           if (keypoint.confidence < options_.least_confidence) continue;
           ++views[frame][Index(role)];
           is_ever_seen[Index(role)] = true;
