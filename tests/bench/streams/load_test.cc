@@ -7,7 +7,9 @@
 #include "bench/files/files.h"
 #include "bench/files/temporary_folder.h"
 #include "bench/streams/teach.h"
+#include "engine/formats/bvh.h"
 #include "engine/formats/joint_csv.h"
+#include "engine/motion/edit.h"
 
 namespace etude {
 namespace {
@@ -141,6 +143,30 @@ TEST(LoadStreams, KneesThatASensorOverstretchesAreToldAndThoseThatBendBackwardsR
   EXPECT_EQ(overstretched->front().stream.frames.size(), 30u);
   EXPECT_NE(overstretched->front().description.find("the knees overstretch by 11° on the average"), std::string::npos)
       << overstretched->front().description;
+}
+
+TEST(LoadStreams, ARecordingRootedAtTheHeadShowsTheSameBody) {
+  const auto folder = TemporaryFolder::Make("head");
+  ASSERT_TRUE(folder);
+  const auto load = [&](const std::string& text) {
+    const std::string path = (std::filesystem::path(folder->path()) / "wave.bvh").string();
+    EXPECT_TRUE(WriteFileAtomically(path, text));
+    return LoadStream(path, {}, {});
+  };
+  const auto clip = ReadBvh(OpenNiBvh(0), "wave.bvh");
+  ASSERT_TRUE(clip) << ToString(clip.error());
+  const Clip rooted_at_head = WithRootAt(*clip, clip->skeleton.Find("HEAD"));
+  ASSERT_EQ(rooted_at_head.skeleton.joints[0].name, "HEAD");
+  const auto by_torso = load(OpenNiBvh(0)), by_head = load(WriteBvh(rooted_at_head));
+  ASSERT_TRUE(by_torso) << ToString(by_torso.error());
+  ASSERT_TRUE(by_head) << ToString(by_head.error());
+  const auto &expected = by_torso->front().stream.frames, &frames = by_head->front().stream.frames;
+  ASSERT_EQ(frames.size(), expected.size());
+  for (std::size_t t = 0; t < frames.size(); ++t) {
+    for (const Role role : AllRoles()) {
+      EXPECT_LT(glm::distance(frames[t][role].position, expected[t][role].position), 1e-5) << t << ' ' << RoleName(role);
+    }
+  }
 }
 
 }  // namespace
