@@ -122,8 +122,7 @@ const LearntModel& BuiltinCoachedModel() {
 std::unique_ptr<Recogniser> MakeLearntRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
                                                  const LearntModel& model) {
   return MakeMeasuringRecogniser(
-      taught, weights,
-      [&model](Occasion occasion, std::size_t, const PerformanceMeasures& measures) {
+      taught, weights, [&model](Occasion occasion, std::size_t, const PerformanceMeasures& measures) {
         if (occasion == Occasion::kAsked) return model.asked.Probability(measures);
         return measures[kDistanceMeasure] > kUnlike ? 0.0 : model.spotted.Probability(measures);
       });

@@ -42,12 +42,12 @@ CoachCondition ThrowCondition(const WorldKey& key) {
 /// The measures of each window, the nearest first and not more than can matter; grey ones left out.
 void AddSession(const Lesson& lesson, const SessionLog& log, Weighting weighting, std::vector<LabelledBag>& bags) {
   std::vector<PerformanceMeasures> measured;
-  const auto recogniser = MakeMeasuringRecogniser(
-      lesson.stage.taught, {.weighting = weighting},
-      [&](Occasion occasion, std::size_t, const PerformanceMeasures& measures) {
-        if (occasion == Occasion::kAsked) measured.push_back(measures);
-        return 0.0;
-      });
+  const auto recogniser =
+      MakeMeasuringRecogniser(lesson.stage.taught, {.weighting = weighting},
+                              [&](Occasion occasion, std::size_t, const PerformanceMeasures& measures) {
+                                if (occasion == Occasion::kAsked) measured.push_back(measures);
+                                return 0.0;
+                              });
   FollowPerformances(log, *recogniser, {}, [&](const LoggedPerformance& performance, double) {
     std::vector<PerformanceMeasures> own = std::exchange(measured, {});
     if (performance.judged.truth == PerformanceTruth::kGrey || own.empty()) return;

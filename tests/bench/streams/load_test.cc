@@ -164,7 +164,8 @@ TEST(LoadStreams, ARecordingRootedAtTheHeadShowsTheSameBody) {
   ASSERT_EQ(frames.size(), expected.size());
   for (std::size_t t = 0; t < frames.size(); ++t) {
     for (const Role role : AllRoles()) {
-      EXPECT_LT(glm::distance(frames[t][role].position, expected[t][role].position), 1e-5) << t << ' ' << RoleName(role);
+      EXPECT_LT(glm::distance(frames[t][role].position, expected[t][role].position), 1e-5)
+          << t << ' ' << RoleName(role);
     }
   }
 }
