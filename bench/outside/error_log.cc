@@ -1,5 +1,6 @@
 #include "bench/outside/error_log.h"
 
+#include <fcntl.h>
 #include <fmt/core.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -8,8 +9,16 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <tuple>
+
+#include "bench/process/child_process.h"
 
 namespace etude {
+namespace {
+
+constexpr long kTail = 4096;  ///< bytes in which the last line is looked for
+
+}  // namespace
 
 ErrorLog::ErrorLog(std::string file) : file_(std::move(file)) {
   if (file_.empty()) return;
@@ -30,11 +39,16 @@ long ErrorLog::Size() const {
   return memory_ >= 0 && ::fstat(memory_, &status) == 0 ? static_cast<long>(status.st_size) : 0;
 }
 
-// The program appends, so what it says next follows where this ends.
+// A hole takes no memory, and what the program appends meanwhile stays, which a file made shorter would lose: that is
+// done only before the program meets the limit of its files.
 void ErrorLog::Trim() {
-  if (Size() <= kLargest) return;
-  trimmed_last_line_ = LastLine();
-  if (::ftruncate(memory_, kLargest) != 0) return;
+  const long end = Size() - kTail;
+  if (end <= kLargest) return;
+  if (end < static_cast<long>(ProgramLimits::kFileBytes / 2)) {
+    std::ignore = ::fallocate(memory_, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, kLargest, end - kLargest);
+  } else {
+    std::ignore = ::ftruncate(memory_, kLargest);
+  }
 }
 
 std::string ErrorLog::Read(long start, long size) const {
@@ -45,9 +59,7 @@ std::string ErrorLog::Read(long start, long size) const {
 }
 
 std::string ErrorLog::LastLine() const {
-  constexpr long kTail = 4096;
   const long size = Size();
-  if (size == kLargest && !trimmed_last_line_.empty()) return trimmed_last_line_;
   std::string tail = Read(std::max(size - kTail, 0L), std::min(size, kTail));
   const std::size_t last = tail.find_last_not_of(" \t\r\n");
   if (last == std::string::npos) return "";
@@ -69,7 +81,6 @@ void ErrorLog::Save() {
   const auto saved = std::filesystem::file_size(file_, absent);
   const long room = absent ? kLargest : kLargest - static_cast<long>(std::min<std::uintmax_t>(saved, kLargest));
   std::ofstream(file_, std::ios::binary | std::ios::app) << Read(0, std::min(size, room));
-  trimmed_last_line_.clear();
   if (::ftruncate(memory_, 0) != 0) return;
 }
 

@@ -19,7 +19,7 @@ class ErrorLog {
 
   /// Names the file that the program's standard error is to be opened as; "" when it shares ours.
   std::string path() const;
-  /// Forgets what has been said beyond the limit.
+  /// Forgets what has been said beyond the limit, but for its end.
   void Trim();
   /// Gives the last line that is not empty of what was said since the last Save; "" when there is none.
   std::string LastLine() const;
@@ -32,7 +32,6 @@ class ErrorLog {
   long Size() const;
 
   std::string file_;
-  std::string trimmed_last_line_;
   int memory_ = -1;
 };
 

@@ -148,7 +148,8 @@ std::string RecordingsAsMarkdown() {
          RecordFields::Page<IkExtras>() +
          "\n## transition\n\nTracks `coach`: some seconds before and after the transition, and to the end of what is "
          "judged of\n"
-         "it; `left`: the clip left in the same frames and 0.4 s on, as far as it goes; `wanted`: the clip wanted in its place,\n"
+         "it; `left`: the clip left in the same frames and 0.4 s on, as far as it goes; `wanted`: the clip wanted in "
+         "its place,\n"
          "without the join, from the last of `transition_frames` on; `through`: likewise a clip on the way, from the "
          "first\n"
          "on. Older runs keep `coach` alone.\n\n" +
