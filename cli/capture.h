@@ -42,7 +42,7 @@ struct CaptureCommandOptions {
   std::string fit = "none";          ///< letterbox, stretch, crop
   std::vector<std::string> cameras;  ///< of the rig, one for each film; empty: by the films' names
   int person = 1;
-  std::string poses = "bundle";  ///< of keypoints: all frames at once, or "frames": each by itself
+  std::string poses = "frames";  ///< of keypoints: each by itself, or "bundle": all at once
   double smooth_hz = 0;
   double longest_gap_s = 0.5;
   double outlier_px = 0;  ///< 0: by the residuals, at most 3 % of the picture's longer side

@@ -28,10 +28,9 @@ constexpr const char* kCaptureExamples =
     "name begins with its film's: cam01.mp4, cam01_json/, cam01.png.\n\n"
     "Lenses are undone; persons are matched over cameras and time; each point comes from all cameras that agree on "
     "it,\n"
-    "weighed by confidence; gaps up to --longest-gap are bridged. Then one body, whose bones keep their lengths, in a\n"
-    "smooth motion explains the keypoints of all films at once (--poses frames: each frame is fitted by itself), and "
-    "a\n"
-    "table tells how near its joints are to the points.\n"
+    "weighed by confidence; gaps up to --longest-gap are bridged. Then a body whose bones keep their lengths is fitted to\n"
+    "each frame (--poses bundle: to the keypoints of all films at once, in a smooth motion), and a table tells how near\n"
+    "its joints are to the points.\n"
     "--person 2 asks for the one seen second most. Films that did not begin at the same moment are set in time by how\n"
     "their keypoints move: --sync 1 looks up to a second either way, to fractions of a frame.\n\n"
     "The rig is what `etude calibrate` wrote, or a calibration of OpenCV, Pose2Sim, Anipose, FreeMoCap, Caliscope or\n"
@@ -170,8 +169,8 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
   command
       ->add_option(
           "--poses", options->poses,
-          "bundle: one body in smooth motion that explains all keypoints at once; frames: each frame by itself")
-      ->check(CLI::IsMember({"bundle", "frames"}))
+          "frames: each frame by itself; bundle: one body in smooth motion that explains all keypoints at once")
+      ->check(CLI::IsMember({"frames", "bundle"}))
       ->excludes(silhouettes)
       ->capture_default_str();
   command

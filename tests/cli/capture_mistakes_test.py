@@ -677,7 +677,7 @@ def poses():
     case = Mistakes()
     Mistakes.setUpClass()
     case.setUp()
-    ways = {"frames": ("--poses", "frames"), "smoothed at 6 Hz": ("--smooth", "6"), "bundle": ()}
+    ways = {"frames": (), "smoothed at 6 Hz": ("--smooth", "6"), "bundle": ("--poses", "bundle")}
     print("| pace | cameras | px | " + " | ".join(ways) + " |\n|" + "---|" * (3 + len(ways)))
     for pace in (1, 4):
         for cameras, noise_px in ((2, 2), (2, 8), (4, 8)):

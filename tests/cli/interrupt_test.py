@@ -123,7 +123,7 @@ class Interrupts(EtudeCase):
 
     def test_on_a_terminal_long_work_tells_how_far_it_is(self):
         terminal, program_s = pty.openpty()
-        report = subprocess.Popen([ETUDE, "clip", "render", WALK, "--trim", "0:4", "--size", "64x64", "-o",
+        report = subprocess.Popen([ETUDE, "clip", "render", WALK, "--trim", "0:4", "--size", "360x360", "-o",
                                    self.folder / "clip.mp4"],
                                   stdout=subprocess.DEVNULL, stderr=program_s)
         os.close(program_s)
