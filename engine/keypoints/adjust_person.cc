@@ -140,7 +140,7 @@ class Adjuster {
     const double lag = std::max(2.0, std::round(kSeconds * options_.rate_hz));
     const auto one = SquareOver(role, 1), several = SquareOver(role, static_cast<std::size_t>(lag));
     if (!one || !several) return options_.acceleration;
-    const double square = std::max(0.0, *several - *one) / (std::pow(lag, 4) - 1);
+    const double square = std::max(0.0, *several - *one) / (lag * lag * lag * lag - 1);
     return std::max(options_.acceleration, kBursts * std::sqrt(square) * options_.rate_hz * options_.rate_hz);
   }
 

@@ -1,5 +1,4 @@
 """Motions that come out of Etude and go in again: recordings of every task, joint angles, what is told of files."""
-import csv
 import json
 import math
 import pathlib
@@ -9,8 +8,9 @@ import unittest
 
 import file_table
 import numpy
-from etude_case import EtudeCase, png_size
+from etude_case import png_size
 from kinect_rows import arms, kinect
+from motion_file_case import MotionFileCase
 
 CMU = "/usr/share/assimp/models/BVH/01_03.bvh"
 TASKS = {  # each with the track that its methods make
@@ -64,7 +64,7 @@ def read_mot(path):
     return frames, limits, rows, {name: parent for name, (parent, _, _) in parts.items()}
 
 
-class Motions(EtudeCase):
+class Motions(MotionFileCase):
     @classmethod
     def setUpClass(cls):
         shared = cls.shared_folder()
@@ -75,19 +75,10 @@ class Motions(EtudeCase):
         result = cls.etude("run", shared, "-o", cls.run_folder, "--trials", "1", "--keep", "motions")
         assert result.returncode in (0, 1), result.stderr
 
-    def joints(self, clip, *options):
-        out = self.folder / "joints.csv"
-        result = self.etude("clip", "convert", clip, out, "--overwrite", *options)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        with open(out) as file:
-            rows = list(csv.DictReader(file))
-        names = [name[:-4] for name in rows[0] if name.endswith("_x_m")]
-        return [{name: numpy.array([float(row[f"{name}_{axis}_m"]) for axis in "xyz"]) for name in names} for row in rows]
-
     def recorded(self, cell):
         return json.loads((self.run_folder / "recordings" / (cell.replace("/", "~") + ".json")).read_text())
 
-    def refused(self, *arguments):
+    def refuses(self, *arguments):
         result = self.etude(*arguments)
         self.assertEqual(result.returncode, 2, result.stdout)
         self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
@@ -126,16 +117,16 @@ class Motions(EtudeCase):
         self.run_suite("--from", self.out / "manifest.json", out=self.folder / "again")
 
     def test_what_no_run_recorded_is_told(self):
-        self.assertIn("recorded no cell 'capture/-/007'", self.refused("clip", "info", f"{self.run_folder}#capture/-/007@truth"))
-        self.assertIn("animation 'nobody'", self.refused("clip", "info", f"{self.run_folder}#capture/-/000/a@nobody"))
+        self.assertIn("recorded no cell 'capture/-/007'", self.refuses("clip", "info", f"{self.run_folder}#capture/-/007@truth"))
+        self.assertIn("animation 'nobody'", self.refuses("clip", "info", f"{self.run_folder}#capture/-/000/a@nobody"))
 
     def test_a_recording_that_names_no_joints_is_refused_with_the_reason(self):
         recording = self.recorded("capture/-/000/a")
         old = self.write("old.json", json.dumps({key: recording[key] for key in ("tracks", "extras")}, separators=(",", ":")))
-        self.assertIn("a recording of version 1, which does not name its joints", self.refused("clip", "info", old))
+        self.assertIn("a recording of version 1, which does not name its joints", self.refuses("clip", "info", old))
         recording["joints"][:2] = reversed(recording["joints"][:2])
         turned = self.write("turned.json", json.dumps(recording, separators=(",", ":")))
-        self.assertIn("'joints': ", self.refused("clip", "info", turned))
+        self.assertIn("'joints': ", self.refuses("clip", "info", turned))
 
     def test_angles_give_the_body_back_through_their_model(self):
         for clip, is_rigid in (("builtin:aerobic", True), (CMU, False), (f"{self.run_folder}#capture/-/000@a", False)):
@@ -176,9 +167,9 @@ class Motions(EtudeCase):
                                     ("turns +Z ", "turns +Q ", "turn '+Q'"), ("0.000000\t", "0.000000\tnan\t", "nan"),
                                     ("0.033333\t", "0.050000\t", "even steps")):
             self.assertIn(before, text)
-            self.assertIn(says, self.refused("clip", "info", self.write("bad.mot", text.replace(before, after, 1))))
+            self.assertIn(says, self.refuses("clip", "info", self.write("bad.mot", text.replace(before, after, 1))))
         foreign = self.write("theirs.mot", re.sub(r"(?m)^part .*\n", "", text))
-        self.assertIn("whose model is another file", self.refused("clip", "info", foreign))
+        self.assertIn("whose model is another file", self.refuses("clip", "info", foreign))
 
     def test_angles_have_the_signs_and_limits_of_their_names(self):
         joints = self.joints("builtin:clap")[:1]
@@ -234,11 +225,11 @@ class Motions(EtudeCase):
 
     def test_teach_is_told_units_of_clips_and_refuses_those_of_sensors(self):
         moves = self.folder / "moves.yaml"
-        self.assertIn("in the unit given", self.refused("teach", CMU, "--unit", "mm", "-o", moves))
+        self.assertIn("in the unit given", self.refuses("teach", CMU, "--unit", "mm", "-o", moves))
         take = self.write("take.txt", kinect(arms(100)))
-        self.assertIn("--unit and --up are of clips", self.refused("teach", take, "--unit", "cm", "-o", moves))
+        self.assertIn("--unit and --up are of clips", self.refuses("teach", take, "--unit", "cm", "-o", moves))
         roles = self.write("roles.yaml", "roles:\n  left_hand: RightHand\n")
-        self.assertIn("left_hand is played by", self.refused("teach", CMU, "--map", roles, "-o", moves))
+        self.assertIn("left_hand is played by", self.refuses("teach", CMU, "--map", roles, "-o", moves))
 
     def test_a_picture_of_roles_also_where_some_are_missing(self):
         def pixels(path):  # of the two colours of roles: found by names, found by the build
@@ -258,7 +249,7 @@ class Motions(EtudeCase):
         less_by_name, by_build = pixels(missing)
         self.assertLess(less_by_name, by_name, result.stderr)
         self.assertGreater(by_build, 500)
-        self.assertIn("allowed: .png", self.refused("clip", "map", CMU, "--preview", self.folder / "roles.svg"))
+        self.assertIn("allowed: .png", self.refuses("clip", "map", CMU, "--preview", self.folder / "roles.svg"))
 
 
 if __name__ == "__main__":
