@@ -1,10 +1,6 @@
 #include "bench/outside/outside_method.h"
 
-#include <poll.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <chrono>
 #include <map>
@@ -14,57 +10,42 @@
 #include <type_traits>
 #include <utility>
 
-#include "bench/files/temporary_folder.h"
 #include "bench/outside/attachment_folder.h"
-#include "bench/outside/error_log.h"
 #include "bench/outside/messages.h"
-#include "bench/outside/program_view.h"
-#include "bench/process/child_process.h"
-#include "bench/process/clock.h"
+#include "bench/outside/watched_program.h"
 #include "sim/random/stream.h"
 
 namespace etude {
 namespace {
 
-constexpr std::chrono::milliseconds kLookEvery{20};  // at memory, and at whether it still runs
-constexpr std::chrono::milliseconds kLookAtMappingsEvery{200};
+template <typename T>
+using Outcome = OutsideOutcome<T>;
+
 constexpr int kMostFailures = 3;
-constexpr int kDyingMs = 1000;     // from closing its output to its end
 constexpr int kEndingMs = 500;     // from the end of its input to its own
 constexpr double kLongestS = 1e9;  // beyond any run, within what the clock can hold
 
-/// Of a reply to what has not been read: it was said before the question.
+/// The error of a reply to what has not been read: it was said before the question.
 Error TooEarly() { return {{}, "answered before it was asked"}; }
 
-/// Told whether there is a fence or not: the same program fails with the same words everywhere.
+/// The hint is given with a fence and without one, so that the same program fails with the same words everywhere.
 constexpr const char* kHint = " (a fence shows it the system and what its key 'files' lists)";
 
-/// Why there is no answer.
-struct Failure {
-  Status status = Status::kFailed;
-  std::string reason;
-  bool was_asked = true;
-};
-template <typename T>
-using Outcome = tl::expected<T, Failure>;
-
-tl::unexpected<Failure> Failed(Status status, std::string reason) {
-  return tl::unexpected<Failure>({status, std::move(reason)});
+tl::unexpected<OutsideFailure> Failed(Status status, std::string reason) {
+  return tl::unexpected<OutsideFailure>({status, std::move(reason)});
 }
 
-Failure TooLong(double seconds) { return {Status::kTimeout, fmt::format("took longer than {:g} s", seconds)}; }
-
 /// Blames a program for what it said; OurFailure is for what cannot be said to it; NotAsked blames this machine.
-tl::unexpected<Failure> BadOutput(const Error& error) { return Failed(Status::kBadOutput, error.message); }
-tl::unexpected<Failure> OurFailure(const Error& error) { return Failed(Status::kFailed, ToString(error)); }
-tl::unexpected<Failure> NotAsked(const Error& error) {
-  return tl::unexpected<Failure>({Status::kFailed, ToString(error), false});
+tl::unexpected<OutsideFailure> BadOutput(const Error& error) { return Failed(Status::kBadOutput, error.message); }
+tl::unexpected<OutsideFailure> OurFailure(const Error& error) { return Failed(Status::kFailed, ToString(error)); }
+tl::unexpected<OutsideFailure> NotAsked(const Error& error) {
+  return tl::unexpected<OutsideFailure>({Status::kFailed, ToString(error), false});
 }
 
 }  // namespace
 
 struct OutsideMethod::State {
-  explicit State(OutsideOptions told) : options(std::move(told)), errors(options.error_file) {}
+  explicit State(OutsideOptions told) : options(std::move(told)), program(options) {}
 
   Outcome<void> MakeReady(const std::string& setting_id, const Payload& setting);
   Outcome<Json> Solve(const std::string& setting_id, const Payload& setting, const std::string& problem_id,
@@ -73,7 +54,6 @@ struct OutsideMethod::State {
                       const Payload& begin);
   Outcome<Json> Step(const Payload& step);
   OutsideReply ReplyOf(Outcome<Json> said);
-  std::string WithoutFolder(std::string text) const;
   Outcome<void> Start();
   Outcome<void> TellSetting(const std::string& id, const Payload& setting);
   template <typename Act>
@@ -86,9 +66,6 @@ struct OutsideMethod::State {
   template <typename Read>
   Outcome<void> HearBefore(Read read);
   bool IsRepeated(const std::string& line) const;
-  Outcome<std::string> WaitForLine(Clock::time_point deadline, double seconds);
-  Outcome<void> Look();
-  Failure HowItEnded();
   void EndSession();
   std::string Stop(int patience_ms);
 
@@ -99,9 +76,7 @@ struct OutsideMethod::State {
   double StartSeconds() const { return std::max(options.start_s, options.time_s); }
 
   const OutsideOptions options;
-  ErrorLog errors;
-  std::optional<TemporaryFolder> attachment_root;  ///< where attachments lie, from the first start on
-  std::optional<ChildProcess> child;
+  WatchedProgram program;
   std::string program_name;
   std::optional<std::string> setting_in_force;
   AttachmentFolder setting_files;
@@ -113,15 +88,10 @@ struct OutsideMethod::State {
   std::optional<Session> session;  ///< that goes on
   std::set<std::string> answered;  ///< what the running program was asked before
   int repeated = 0;                ///< lines passed over since the problem was put
-  Clock::time_point last_look{}, last_look_at_mappings{};
-  double shared_mb = 0;      ///< in mappings, as last seen
-  double cpu_s = 0;          ///< of the running program, as last seen
-  double cpu_charged_s = 0;  ///< of that, told in earlier replies
-  double peak_mb = 0;        ///< since the problem was put
 
   struct Failures {
     int times = 0;  ///< in a row
-    Failure last;
+    OutsideFailure last;
   };
   std::map<std::string, Failures> failures;  ///< by what was attempted
 };
@@ -145,7 +115,7 @@ Outcome<void> OutsideMethod::State::Attempt(const std::string& what, Act act) {
 Outcome<void> OutsideMethod::State::MakeReady(const std::string& setting_id, const Payload& setting) {
   EndSession();
   if (!options.seed.IsPlain() && setting_in_force && setting_in_force != setting_id) Stop(kEndingMs);
-  if (!child) {
+  if (!program.IsRunning()) {
     RETURN_IF_ERROR(Attempt("in its start", [&] { return Start(); }));
   }
   if (setting_in_force != setting_id) {
@@ -158,7 +128,7 @@ Outcome<void> OutsideMethod::State::Begin(const std::string& setting_id, const P
                                           const std::string& name, const Payload& begin) {
   RETURN_IF_ERROR(MakeReady(setting_id, setting));
   const std::string id = IdOf('p', name);
-  auto files = AttachmentFolder::Write(attachment_root->path(), begin.files);
+  auto files = AttachmentFolder::Write(program.attachment_root(), begin.files);
   if (!files) return NotAsked(files.error());
   const auto line = BeginLine(id, *begin.json, files->path());
   if (!line) return OurFailure(line.error());
@@ -170,7 +140,7 @@ Outcome<void> OutsideMethod::State::Begin(const std::string& setting_id, const P
 
 Outcome<Json> OutsideMethod::State::Step(const Payload& step) {
   const int number = session->steps++;
-  const auto files = AttachmentFolder::Write(attachment_root->path(), step.files);
+  const auto files = AttachmentFolder::Write(program.attachment_root(), step.files);
   if (!files) return NotAsked(files.error());
   const auto line = StepLine(session->id, number, *step.json, files->path());
   if (!line) return OurFailure(line.error());
@@ -186,7 +156,7 @@ Outcome<Json> OutsideMethod::State::Solve(const std::string& setting_id, const P
                                           const std::string& name, const Payload& problem) {
   RETURN_IF_ERROR(MakeReady(setting_id, setting));
   const std::string problem_id = IdOf('p', name);
-  const auto files = AttachmentFolder::Write(attachment_root->path(), problem.files);
+  const auto files = AttachmentFolder::Write(program.attachment_root(), problem.files);
   if (!files) return NotAsked(files.error());
   const auto line = ProblemLine(problem_id, *problem.json, files->path());
   if (!line) return OurFailure(line.error());
@@ -204,35 +174,8 @@ Outcome<void> OutsideMethod::State::Start() {
   if (!told) return OurFailure(told.error());
   const auto hello = HelloLine(options.task, *told);
   if (!hello) return OurFailure(hello.error());
-  if (!attachment_root) {
-    auto made = TemporaryFolder::Make("files");
-    if (!made) return NotAsked(made.error());
-    attachment_root.emplace(std::move(*made));
-  }
-  std::vector<std::string> command = options.command;
-  auto program = FindProgram(command.front());
-  if (!program) return NotAsked(program.error());
-  command.front() = std::move(*program);
-  ProgramView view = ViewOf(command, options.files);
-  view.shown.emplace_back(attachment_root->path());
-  std::vector<std::string> environment;
-  if (const std::filesystem::path python = PythonFolder(); !python.empty()) {
-    view.shown.push_back(python / "etude");
-    environment.push_back("PYTHONPATH=" + python.string());
-  }
-  const FencedCommand fenced = options.fence.Around(view.command, view.shown, view.start);
-  auto started = ChildProcess::Start({.program = fenced.words.front(),
-                                      .arguments = {fenced.words.begin() + 1, fenced.words.end()},
-                                      .error_file = errors.path(),
-                                      .limited = true,
-                                      .contained = options.fence.IsUp(),
-                                      .told = fenced.told,
-                                      .environment = std::move(environment)});
-  if (!started) return NotAsked(started.error());
-  child = std::move(*started);
+  RETURN_IF_ERROR(program.Start());
   answered.clear();
-  cpu_s = cpu_charged_s = shared_mb = 0;
-  last_look_at_mappings = {};
   auto reply = Exchange(*hello, StartSeconds(), ReadHello);
   const bool ended = !reply && (reply.error().status == Status::kCrashed || reply.error().status == Status::kFailed);
   if (ended) {  // or was it the fence?
@@ -245,7 +188,7 @@ Outcome<void> OutsideMethod::State::Start() {
 }
 
 Outcome<void> OutsideMethod::State::TellSetting(const std::string& id, const Payload& setting) {
-  auto files = AttachmentFolder::Write(attachment_root->path(), setting.files);
+  auto files = AttachmentFolder::Write(program.attachment_root(), setting.files);
   if (!files) return NotAsked(files.error());
   setting_files = std::move(*files);
   const auto line = SettingLine(IdOf('s', id), *setting.json, setting_files.path());
@@ -259,10 +202,10 @@ Outcome<void> OutsideMethod::State::TellSetting(const std::string& id, const Pay
 /// refused.
 template <typename Read>
 Outcome<void> OutsideMethod::State::HearBefore(Read read) {
-  child->Receive(kLongestReply);
-  while (const auto said = child->NextLine()) {
+  program.Receive();
+  while (const auto said = program.NextLine()) {
     if (!IsRepeated(*said)) {
-      const auto reply = read(WithoutFolder(*said));
+      const auto reply = read(program.WithoutFolder(*said));
       return BadOutput(reply ? TooEarly() : reply.error());
     }
     ++repeated;
@@ -277,24 +220,22 @@ auto OutsideMethod::State::Exchange(const std::string& line, double seconds, Rea
   const auto limit = std::chrono::duration<double>(std::min(seconds, kLongestS));
   const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(limit);
   RETURN_IF_ERROR(HearBefore(read));
-  child->Send(line);  // one that no longer listens is noticed by its silence
+  program.Send(line);
   while (true) {
-    const auto said = WaitForLine(deadline, seconds);
+    const auto said = program.WaitForLine(deadline, seconds);
     if (!said) return tl::unexpected(said.error());
     auto reply = read(*said);
     if (!reply && IsRepeated(*said)) {
-      if (Clock::now() >= deadline) return tl::unexpected(TooLong(seconds));
+      if (Clock::now() >= deadline) return tl::unexpected(TookTooLong(seconds));
       ++repeated;
       continue;
     }
     if (!reply) {
-      const auto again = read(WithoutFolder(*said));
+      const auto again = read(program.WithoutFolder(*said));
       return BadOutput((again ? reply : again).error());
     }
-    if (child->UnreadBytes() > line.size()) return BadOutput(TooEarly());
-    if (looks == Looks::kAlways || Clock::now() >= last_look + kLookEvery) {
-      RETURN_IF_ERROR(Look());
-    }
+    if (program.UnreadBytes() > line.size()) return BadOutput(TooEarly());
+    RETURN_IF_ERROR(looks == Looks::kAlways ? program.Look() : program.LookAgain());
     if constexpr (std::is_void_v<typename decltype(reply)::value_type>) {
       return {};
     } else {
@@ -311,67 +252,6 @@ bool OutsideMethod::State::IsRepeated(const std::string& line) const {
   return answered.contains(about.id);
 }
 
-Outcome<std::string> OutsideMethod::State::WaitForLine(Clock::time_point deadline, double seconds) {
-  Clock::time_point next_look = Clock::now() + kLookEvery;
-  while (true) {
-    if (auto line = child->NextLine()) return std::move(*line);
-    if (Clock::now() >= deadline) return tl::unexpected(TooLong(seconds));
-    const auto patience = std::chrono::ceil<std::chrono::milliseconds>(std::min(next_look, deadline) - Clock::now());
-    std::array<pollfd, 2> watched{
-        {{child->output(), POLLIN, 0}, {child->HasUnsent() ? child->input() : -1, POLLOUT, 0}}};
-    ::poll(watched.data(), watched.size(), std::max(0, static_cast<int>(patience.count())));
-    bool over = false;
-    const bool looks = Clock::now() >= next_look;
-    if (looks) {
-      RETURN_IF_ERROR(Look());
-      next_look = Clock::now() + kLookEvery;
-      over = child->HasEnded();  // what it has started may keep its output open
-    }
-    if (over || watched[0].revents != 0 || watched[1].revents != 0) {
-      over = !child->Receive(kLongestReply) || over;
-    }
-    if (over && child->PartOfLine().find('\n') == std::string_view::npos) return tl::unexpected(HowItEnded());
-  }
-}
-
-/// Notes what it uses; fails when that is too much.
-Outcome<void> OutsideMethod::State::Look() {
-  last_look = Clock::now();
-  errors.Trim();
-  ProcessUsage usage = child->Measure();
-  if (last_look >= last_look_at_mappings + kLookAtMappingsEvery) {
-    last_look_at_mappings = last_look;
-    shared_mb = child->MeasureSharedMappingsMb();
-  }
-  usage.resident_mb += shared_mb + options.fence.ScratchMb(child->FirstStarted());
-  cpu_s = std::max(cpu_s, usage.cpu_s);  // it may have vanished meanwhile
-  peak_mb = std::max(peak_mb, usage.resident_mb);
-  if (usage.resident_mb > options.memory_mb) {
-    return Failed(Status::kOutOfMemory, fmt::format("held more than {:g} MB of memory", options.memory_mb));
-  }
-  if (usage.processes <= ProgramLimits::kProcesses) return {};
-  return Failed(Status::kOutOfMemory, fmt::format("held more than {} processes", ProgramLimits::kProcesses));
-}
-
-/// Says how a program ended from which no whole line will come any more.
-Failure OutsideMethod::State::HowItEnded() {
-  const std::string part = WithoutFolder(std::string(child->PartOfLine().substr(0, 1000))).substr(0, 100);
-  if (child->PartOfLine().size() > kLongestReply) {
-    return {Status::kBadOutput,
-            fmt::format("said a line of more than {} MiB: {}", kLongestReply >> 20, Printable(part))};
-  }
-  for (int i = 0; i < kDyingMs && !child->HasEnded(); ++i) ::usleep(1000);
-  if (!child->HasEnded()) return {Status::kBadOutput, "closed its output, but went on running"};
-  const std::string end = child->Finish(0);
-  std::string reason = "ended with " + end;
-  if (!part.empty()) reason += ", amid the line " + Printable(part);
-  if (const std::string words = WithoutFolder(errors.LastLine()); !words.empty()) {
-    reason += "; its last words: " + Printable(words, 200);
-  }
-  // An exit code is the program's own word, an exception for instance; a signal may be the machine's.
-  return {end.starts_with("exit code") ? Status::kFailed : Status::kCrashed, std::move(reason)};
-}
-
 /// Ends the session: what the program says of it counts as said again.
 void OutsideMethod::State::EndSession() {
   if (session) answered.insert(session->id);
@@ -382,13 +262,11 @@ std::string OutsideMethod::State::Stop(int patience_ms) {
   session.reset();
   setting_files = {};  // deleted first: we may be killed while we wait for the program to end
   setting_in_force.reset();
-  std::string end = child ? child->Finish(patience_ms) : "not running";
-  child.reset();
-  return end;
+  return program.Stop(patience_ms);
 }
 
 double LongestAskSeconds(double time_s) {
-  return 2 * std::max(OutsideOptions{}.start_s, time_s) + time_s + 2 * 1e-3 * kDyingMs;
+  return 2 * std::max(OutsideOptions{}.start_s, time_s) + time_s + 2 * 1e-3 * WatchedProgram::kDyingMs;
 }
 
 OutsideMethod::OutsideMethod(OutsideOptions options) : state_(std::make_unique<State>(std::move(options))) {}
@@ -400,19 +278,19 @@ OutsideMethod::~OutsideMethod() {
 
 OutsideReply OutsideMethod::Ask(const std::string& setting_id, const Payload& setting, const std::string& problem_id,
                                 const Payload& problem) {
-  state_->peak_mb = 0;
+  state_->program.ForgetPeak();
   OutsideReply reply = state_->ReplyOf(state_->Solve(setting_id, setting, problem_id, problem));
-  state_->errors.Save();
+  state_->program.SaveErrors();
   return reply;
 }
 
 OutsideReply OutsideMethod::Begin(const std::string& setting_id, const Payload& setting, const std::string& session_id,
                                   const Payload& session) {
-  state_->peak_mb = 0;
+  state_->program.ForgetPeak();
   auto begun = state_->Begin(setting_id, setting, session_id, session);
   OutsideReply reply = state_->ReplyOf(begun ? Outcome<Json>(Json{{"type", "answer"}, {"answer", Json::object()}})
                                              : tl::unexpected(begun.error()));
-  state_->errors.Save();
+  state_->program.SaveErrors();
   return reply;
 }
 
@@ -421,30 +299,17 @@ OutsideReply OutsideMethod::Step(const Payload& step) {
   OutsideReply reply = state_->ReplyOf(state_->Step(step));
   if (reply.status == Status::kOk) return reply;
   state_->EndSession();
-  state_->errors.Save();
+  state_->program.SaveErrors();
   return reply;
-}
-
-/// What a program says of its attachments would be another reason every time, by where they lay.
-std::string OutsideMethod::State::WithoutFolder(std::string text) const {
-  if (!attachment_root) return text;
-  const std::string folder = attachment_root->path().string();
-  for (std::size_t at = 0; (at = text.find(folder, at)) != std::string::npos;) {
-    const std::size_t own = at + folder.size();  // below it, each has a folder of its own
-    const bool is_named = own < text.size() && text[own] == '/';
-    text.replace(at, folder.size() + (is_named ? 1 + AttachmentFolder::kNameLength : 0), "FILES");
-  }
-  return text;
 }
 
 /// Stops a program that gave no answer that can be read; charges what it used.
 OutsideReply OutsideMethod::State::ReplyOf(Outcome<Json> said) {
   if (!said) Stop(0);
   OutsideReply reply;
-  reply.cpu_s = cpu_s - cpu_charged_s;
-  reply.peak_mb = peak_mb;
+  reply.cpu_s = program.TakeCpuSeconds();
+  reply.peak_mb = program.peak_mb();
   reply.repeated = std::exchange(repeated, 0);
-  cpu_charged_s = cpu_s;
   if (!said) {
     reply.status = said.error().status;
     reply.reason = said.error().reason;
@@ -452,7 +317,7 @@ OutsideReply OutsideMethod::State::ReplyOf(Outcome<Json> said) {
   } else if ((*said)["type"] == "no_answer") {
     reply.status = Status::kUnsolved;
     const std::string why = (*said)["reason"].get<std::string>();
-    reply.reason = "gave no answer: " + Printable(WithoutFolder(why), 200);
+    reply.reason = "gave no answer: " + Printable(program.WithoutFolder(why), 200);
   } else {
     reply.status = Status::kOk;
     reply.answer = std::make_unique<Json>(std::move((*said)["answer"]));

@@ -1,0 +1,154 @@
+#include "bench/outside/watched_program.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <utility>
+#include <vector>
+
+#include "bench/outside/attachment_folder.h"
+#include "bench/outside/messages.h"
+#include "bench/outside/program_view.h"
+
+namespace etude {
+namespace {
+
+constexpr std::chrono::milliseconds kLookEvery{20};  // at memory, and at whether it still runs
+constexpr std::chrono::milliseconds kLookAtMappingsEvery{200};
+
+tl::unexpected<OutsideFailure> NotStarted(const Error& error) {
+  return tl::unexpected<OutsideFailure>({Status::kFailed, ToString(error), false});
+}
+
+tl::unexpected<OutsideFailure> TooMuch(std::string reason) {
+  return tl::unexpected<OutsideFailure>({Status::kOutOfMemory, std::move(reason)});
+}
+
+}  // namespace
+
+OutsideFailure TookTooLong(double seconds) {
+  return {Status::kTimeout, fmt::format("took longer than {:g} s", seconds)};
+}
+
+OutsideOutcome<void> WatchedProgram::Start() {
+  if (!attachment_root_) {
+    auto made = TemporaryFolder::Make("files");
+    if (!made) return NotStarted(made.error());
+    attachment_root_.emplace(std::move(*made));
+  }
+  std::vector<std::string> command = options_.command;
+  auto program = FindProgram(command.front());
+  if (!program) return NotStarted(program.error());
+  command.front() = std::move(*program);
+  ProgramView view = ViewOf(command, options_.files);
+  view.shown.emplace_back(attachment_root_->path());
+  std::vector<std::string> environment;
+  if (const std::filesystem::path python = PythonFolder(); !python.empty()) {
+    view.shown.push_back(python / "etude");
+    environment.push_back("PYTHONPATH=" + python.string());
+  }
+  const FencedCommand fenced = options_.fence.Around(view.command, view.shown, view.start);
+  auto started = ChildProcess::Start({.program = fenced.words.front(),
+                                      .arguments = {fenced.words.begin() + 1, fenced.words.end()},
+                                      .error_file = errors_.path(),
+                                      .limited = true,
+                                      .contained = options_.fence.IsUp(),
+                                      .told = fenced.told,
+                                      .environment = std::move(environment)});
+  if (!started) return NotStarted(started.error());
+  child_ = std::move(*started);
+  cpu_s_ = cpu_charged_s_ = shared_mb_ = 0;
+  last_look_at_mappings_ = {};
+  return {};
+}
+
+std::string WatchedProgram::Stop(int patience_ms) {
+  std::string end = child_ ? child_->Finish(patience_ms) : "not running";
+  child_.reset();
+  return end;
+}
+
+void WatchedProgram::Receive() { child_->Receive(kLongestReply); }
+
+OutsideOutcome<std::string> WatchedProgram::WaitForLine(Clock::time_point deadline, double seconds) {
+  Clock::time_point next_look = Clock::now() + kLookEvery;
+  while (true) {
+    if (auto line = child_->NextLine()) return std::move(*line);
+    if (Clock::now() >= deadline) return tl::unexpected(TookTooLong(seconds));
+    const auto patience = std::chrono::ceil<std::chrono::milliseconds>(std::min(next_look, deadline) - Clock::now());
+    std::array<pollfd, 2> watched{
+        {{child_->output(), POLLIN, 0}, {child_->HasUnsent() ? child_->input() : -1, POLLOUT, 0}}};
+    ::poll(watched.data(), watched.size(), std::max(0, static_cast<int>(patience.count())));
+    bool over = false;
+    const bool looks = Clock::now() >= next_look;
+    if (looks) {
+      RETURN_IF_ERROR(Look());
+      next_look = Clock::now() + kLookEvery;
+      over = child_->HasEnded();  // what it has started may keep its output open
+    }
+    if (over || watched[0].revents != 0 || watched[1].revents != 0) {
+      over = !child_->Receive(kLongestReply) || over;
+    }
+    if (over && child_->PartOfLine().find('\n') == std::string_view::npos) return tl::unexpected(HowItEnded());
+  }
+}
+
+OutsideOutcome<void> WatchedProgram::Look() {
+  last_look_ = Clock::now();
+  errors_.Trim();
+  ProcessUsage usage = child_->Measure();
+  if (last_look_ >= last_look_at_mappings_ + kLookAtMappingsEvery) {
+    last_look_at_mappings_ = last_look_;
+    shared_mb_ = child_->MeasureSharedMappingsMb();
+  }
+  usage.resident_mb += shared_mb_ + options_.fence.ScratchMb(child_->FirstStarted());
+  cpu_s_ = std::max(cpu_s_, usage.cpu_s);  // it may have vanished meanwhile
+  peak_mb_ = std::max(peak_mb_, usage.resident_mb);
+  if (usage.resident_mb > options_.memory_mb) {
+    return TooMuch(fmt::format("held more than {:g} MB of memory", options_.memory_mb));
+  }
+  if (usage.processes <= ProgramLimits::kProcesses) return {};
+  return TooMuch(fmt::format("held more than {} processes", ProgramLimits::kProcesses));
+}
+
+OutsideOutcome<void> WatchedProgram::LookAgain() {
+  if (Clock::now() < last_look_ + kLookEvery) return {};
+  return Look();
+}
+
+/// Says how a program ended from which no whole line will come any more.
+OutsideFailure WatchedProgram::HowItEnded() {
+  const std::string part = WithoutFolder(std::string(child_->PartOfLine().substr(0, 1000))).substr(0, 100);
+  if (child_->PartOfLine().size() > kLongestReply) {
+    return {Status::kBadOutput,
+            fmt::format("said a line of more than {} MiB: {}", kLongestReply >> 20, Printable(part))};
+  }
+  for (int i = 0; i < kDyingMs && !child_->HasEnded(); ++i) ::usleep(1000);
+  if (!child_->HasEnded()) return {Status::kBadOutput, "closed its output, but went on running"};
+  const std::string end = child_->Finish(0);
+  std::string reason = "ended with " + end;
+  if (!part.empty()) reason += ", amid the line " + Printable(part);
+  if (const std::string words = WithoutFolder(errors_.LastLine()); !words.empty()) {
+    reason += "; its last words: " + Printable(words, 200);
+  }
+  // An exit code is the program's own word, an exception for instance; a signal may be the machine's.
+  return {end.starts_with("exit code") ? Status::kFailed : Status::kCrashed, std::move(reason)};
+}
+
+std::string WatchedProgram::WithoutFolder(std::string text) const {
+  if (!attachment_root_) return text;
+  const std::string folder = attachment_root_->path().string();
+  for (std::size_t at = 0; (at = text.find(folder, at)) != std::string::npos;) {
+    const std::size_t own = at + folder.size();  // below it, each has a folder of its own
+    const bool is_named = own < text.size() && text[own] == '/';
+    text.replace(at, folder.size() + (is_named ? 1 + AttachmentFolder::kNameLength : 0), "FILES");
+  }
+  return text;
+}
+
+double WatchedProgram::TakeCpuSeconds() { return cpu_s_ - std::exchange(cpu_charged_s_, cpu_s_); }
+
+}  // namespace etude

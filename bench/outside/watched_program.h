@@ -1,0 +1,82 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "bench/files/temporary_folder.h"
+#include "bench/outside/error_log.h"
+#include "bench/outside/outside_method.h"
+#include "bench/process/child_process.h"
+#include "bench/process/clock.h"
+
+namespace etude {
+
+/// The reason why a program gave no answer.
+struct OutsideFailure {
+  Status status = Status::kFailed;
+  std::string reason;
+  bool was_asked = true;  ///< false: something of this machine is to blame
+};
+template <typename T>
+using OutsideOutcome = tl::expected<T, OutsideFailure>;
+OutsideFailure TookTooLong(double seconds);
+
+/// A program behind its fence, heard line by line, and watched while it is waited for: how long it takes, how much it
+/// holds, whether it still runs. One process at a time; a new one is started after the last one was stopped.
+class WatchedProgram {
+ public:
+  /// The options must outlive this.
+  explicit WatchedProgram(const OutsideOptions& options) : options_(options), errors_(options.error_file) {}
+
+  /// Starts the program. Fails when this machine cannot.
+  OutsideOutcome<void> Start();
+  bool IsRunning() const { return child_.has_value(); }
+  /// Ends its input, gives it `patience_ms`, then kills it; says how it ended, or "not running".
+  std::string Stop(int patience_ms);
+
+  /// Sends a line; a program that no longer listens is noticed by its silence. The next five only while it runs.
+  void Send(const std::string& line) { child_->Send(line); }
+  /// Takes what can be read now; NextLine gives it, line by line.
+  void Receive();
+  std::optional<std::string> NextLine() { return child_->NextLine(); }
+  /// Waits for a whole line until `deadline`, which is `seconds` after the question. Fails with how the program ended,
+  /// with what it used too much of, or by its time.
+  OutsideOutcome<std::string> WaitForLine(Clock::time_point deadline, double seconds);
+  /// Notes what it uses; fails when that is too much. `LookAgain` does so unless the last look was just now.
+  OutsideOutcome<void> Look();
+  OutsideOutcome<void> LookAgain();
+  /// The bytes sent that it has not read yet.
+  std::size_t UnreadBytes() const { return child_->UnreadBytes(); }
+
+  /// The folder where attachments lie, from the first start on.
+  const std::filesystem::path& attachment_root() const { return attachment_root_->path(); }
+  /// Replaces the folder of attachments in a text: it is another one at every run.
+  std::string WithoutFolder(std::string text) const;
+
+  /// Returns the processor time that it has used since the last call, as last seen, seconds.
+  double TakeCpuSeconds();
+  /// The largest resident size seen since ForgetPeak, MB.
+  double peak_mb() const { return peak_mb_; }
+  void ForgetPeak() { peak_mb_ = 0; }
+  /// Saves what it said on its standard error.
+  void SaveErrors() { errors_.Save(); }
+
+  /// The time that a program may take from closing its output to its end, milliseconds.
+  static constexpr int kDyingMs = 1000;
+
+ private:
+  OutsideFailure HowItEnded();
+
+  const OutsideOptions& options_;
+  ErrorLog errors_;
+  std::optional<TemporaryFolder> attachment_root_;
+  std::optional<ChildProcess> child_;
+  Clock::time_point last_look_{}, last_look_at_mappings_{};
+  double shared_mb_ = 0;      ///< in mappings, as last seen
+  double cpu_s_ = 0;          ///< of the running program, as last seen
+  double cpu_charged_s_ = 0;  ///< of that, taken before
+  double peak_mb_ = 0;
+};
+
+}  // namespace etude
