@@ -40,7 +40,7 @@ enum class Branch { kNone, kNow, kEnd, kStandingPose, kFrontHalf, kRearHalf, kIn
 /// Returns "none", "now", "end", "standing pose", "front half", "rear half", "in-between", "forced", "unbroken".
 std::string_view BranchName(Branch branch);
 
-/// How the joins `minimum-jerk` and `planted-feet` get from the old motion to the new one.
+/// The ways in which the joins `minimum-jerk` and `planted-feet` get from the old motion to the new one.
 enum class JoinWay {
   kDecays,  ///< the new motion plays, and what the old one was off from it dies away
   kFades,   ///< both motions play on, and the new one takes over

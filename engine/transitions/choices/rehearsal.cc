@@ -39,7 +39,7 @@ BodyPose FrameBeforeIn(const BodyMotion& clip, int frame) {
   return clip.poses.size() > 1 ? FrameBefore(clip.poses[0], clip.poses[1]) : clip.poses[0];
 }
 
-/// Where the join planted-feet lays the wanted clip at a pair.
+/// Returns where the join planted-feet lays the wanted clip at a pair.
 FloorMove PlaceOf(const BodyMotion& playing, const BodyMotion& wanted, const FramePair& pair) {
   const std::size_t aligned = static_cast<std::size_t>(kAlignedSeconds * playing.rate_hz) + 1;
   const auto head = [&](const BodyMotion& clip, int first) {
@@ -142,10 +142,10 @@ class CostMeter {
   double off_ = 0;           // metres, summed over the frames
 };
 
-/// So many frames before and after a join its clips are asked what the body may rest on, as FindSupport looks.
+/// The clips are asked what the body may rest on for so many frames before and after a join, as FindSupport looks.
 constexpr int kAround = 11;
 
-/// What the ways of one pair have in common.
+/// Holds what the ways of one pair have in common.
 class PairStage {
  public:
   PairStage(const BodyMotion& playing, const BodyMotion& wanted, const FramePair& pair, int last, int frames)

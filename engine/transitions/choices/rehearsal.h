@@ -22,7 +22,7 @@ struct PlayedWay {
   double cost_s = 0;
 };
 
-/// What a second is worth (PlayedOptions).
+/// The worth of a second (PlayedOptions).
 struct PlayedRates {
   double excess_per_s = 0, invented_per_s = 0;
 };

@@ -71,7 +71,8 @@ Inertialiser DecayOf(const JoinWindow& window, int frames) {
 
 glm::dvec3 LimbOf(const BodyPose& pose, const Bone& bone) { return pose[bone.child] - pose[bone.parent]; }
 
-/// How each limb, and the hips' centre, goes from the old motion to where the new one has it after so many frames.
+/// Returns how each limb, and the hips' centre, goes from the old motion to where the new one has it after so many
+/// frames.
 std::array<Movement, kRoleCount> MovementsOf(const JoinWindow& window, int frames) {
   const BodyPose& end = window.next[frames];
   const bool goes_on = window.old_frames > 0;

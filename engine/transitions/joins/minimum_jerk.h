@@ -77,7 +77,7 @@ class MinimumJerkPlay {
   WindowTurns& turns_;
   const int frames_;
   std::optional<Inertialiser> decay_;
-  /// By limb, of its child joint, as a turn from where it ends; of the root its place.
+  /// The movements by limb, of its child joint, as a turn from where it ends; of the root its place.
   std::optional<std::array<Movement, kRoleCount>> movements_;  ///< with neither the motions fade
 };
 

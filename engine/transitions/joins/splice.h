@@ -23,8 +23,8 @@ struct Splice {
   /// The last segment's own frames from the one entered on, in the place where they are shown, without the join: the
   /// first stands where the last point's frame does.
   std::vector<BodyPose> wanted;
-  /// Likewise of each clip on the way, of which the first frame stands where the frame of its own point does; empty
-  /// where a choice made the frames itself.
+  /// The poses of each clip on the way, of which the first frame likewise stands where the frame of its own point does;
+  /// empty where a choice made the frames itself.
   std::vector<std::vector<BodyPose>> between;
 };
 

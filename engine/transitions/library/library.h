@@ -28,7 +28,7 @@ std::vector<std::vector<MotionFeatures>> ComputeMotionFeatures(std::span<const B
 /// of fewer than three frames.
 double UsualAcceleration(const BodyMotion& motion);
 
-/// How a body stands, as far as a join must know it.
+/// The stance of a body, as far as a join must know it.
 struct Stance {
   /// It lies, sits or kneels: its mass centre is more than a quarter of a metre beside its feet, seen from above, and
   /// its hips are no more than 0.6 of a standing body's height above its lowest joint.
