@@ -100,7 +100,7 @@ std::string DoubtsOf(const std::vector<std::string>& told);
 /// Puts the overlay film into the page and writes it. False when it was interrupted.
 Result<bool> WritePage(const CaptureCommandOptions& options, CapturePage page, const std::vector<OverlayView>& overlays,
                        const BodyMotion& motion);
-/// How much body and outlines are apart in each camera, per cent.
+/// Measures how much body and outlines are apart in each camera, per cent.
 CameraResiduals ResidualsOfOutlines(const std::vector<FilmedView>& views, const UnmarkedMotion& person);
 /// The median over cameras and frames.
 double MedianOf(const CameraResiduals& residuals);
@@ -161,7 +161,8 @@ Result<ReducedTake> ReadTake(const CaptureCommandOptions& options, const std::ve
                              const std::vector<FilmClock>& clocks);
 ReducedTake PairOf(const ReducedTake& take, const CameraPair& pair);
 
-/// What keypoints tell beside outlines, if anything: where the person is seen, by the take's cameras, and limb lengths.
+/// Holds what keypoints tell beside outlines, if anything: where the person is seen, by the take's cameras, and limb
+/// lengths.
 struct SeenBeside {
   const MatchedPerson* person = nullptr;
   std::optional<LimbLengths> lengths = {};

@@ -72,7 +72,7 @@ void PrintReport(const RecoveredPerson& person, const std::vector<FilmedView>& v
   if (held > 0) fmt::print("{} frames show too little and hold the last pose\n", held);
 }
 
-/// What was found out of keypoints, for programs.
+/// Encodes what was found out of keypoints, for programs.
 Json FactsOf(const RecoveredPerson& person, const std::vector<FilmedView>& views,
              const std::vector<std::string>& told) {
   Json cameras = Json::array(), fit = Json::array();

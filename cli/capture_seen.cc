@@ -129,7 +129,7 @@ void DoubtClocks(const std::vector<FilmedView>& views, const RecoverPersonOption
   }
 }
 
-/// Of a film whose rate is taken for the first one's though both tell another: the drift that its keypoints show.
+/// Tells the drift that a film's keypoints show, where its rate is taken for the first one's though both tell another.
 void TellDrift(const std::vector<FilmedView>& views, std::size_t film, const FilmClock& taken, const FilmClock& nearest,
                std::size_t frames, SeenFilms& films) {
   const double rate = views.front().facts.rate_hz, own = views[film].facts.rate_hz;

@@ -116,7 +116,7 @@ void FindSize(FilmedView& view, std::vector<std::string>& told) {
   in.height = static_cast<int>(std::lround(best.y / scale));
 }
 
-/// How films run: of one rate as many frames, of others as long.
+/// Checks that films run together: as many frames of one rate, or as long where rates differ.
 Result<void> CheckTogether(const std::vector<FilmedView>& views, bool may_differ_in_time) {
   const FilmedView& first = views.front();
   for (const FilmedView& view : views) {

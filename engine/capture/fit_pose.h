@@ -79,7 +79,7 @@ class PoseFitter {
   std::vector<std::vector<int>> children_;
 };
 
-/// How far joints are from where a body that keeps its lengths can bring them.
+/// The distances of joints from where a body that keeps its lengths can bring them.
 struct RigidMisfit {
   double mean_m = 0;   ///< of the worst joint of each pose
   double worst_m = 0;  ///< of that joint in that pose

@@ -258,8 +258,8 @@ class Adjuster {
                       glm::dmat2(1 / (sigma_px * sigma_px))});
   }
 
-  /// What fewer than two cameras show stays about where the frame by itself had it: a tenth of the height, or twice the
-  /// error of the keypoints that it is always made of.
+  /// Holds a joint that fewer than two cameras show about where the frame by itself had it: a tenth of the height, or
+  /// twice the error of the keypoints that it is always made of.
   void HoldUnseen(std::size_t frame, Role role, const std::optional<double>& error_px) {
     constexpr double kShareOfHeight = 0.1, kComposed = 2;
     const BodyPose& pose = person_.motion.poses[frame];

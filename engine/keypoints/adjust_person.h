@@ -11,8 +11,8 @@ struct AdjustPersonOptions {
   double rate_hz = 30;
   double least_confidence = 0.1;  ///< keypoints below are passed over
   double acceleration = 8;        ///< the least usual one of a joint along each axis, m/s²
-  /// What outlines say of the same frames, too; null: nothing. Each joint of it counts for as much as it is usually off
-  /// the motion that keypoints alone tell.
+  /// The motion that outlines tell in the same frames; null: none. Each joint of it counts for as much as it is usually
+  /// off the motion that keypoints alone tell.
   const BodyMotion* outlines = nullptr;
 };
 

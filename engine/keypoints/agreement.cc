@@ -32,7 +32,7 @@ std::vector<double> Distances(const MarkerMotion& motion, const MarkerMotion& re
   return distances;
 }
 
-/// Where a marker is at any time of its frames; nothing before, after, or beside a frame without it.
+/// Returns where a marker is at any time of its frames; nothing before, after, or beside a frame without it.
 std::optional<glm::dvec3> MarkerAt(const MarkerMotion& markers, double frame, std::size_t marker) {
   constexpr double kSameTime = 1e-9;
   if (frame < -kSameTime || frame > static_cast<double>(markers.frames.size() - 1) + kSameTime) return std::nullopt;

@@ -34,7 +34,7 @@ struct ReferenceClock {
   double at = 0, stretch = 0;
   /// The share of distances that are far, of frame for frame and of this clock: the mean of d² / (d² + s²), s = 3 cm.
   double before = 0, after = 0;
-  /// How far it leads away from frame for frame over that many frames, in the reference's frames.
+  /// Returns how far it leads away from frame for frame over that many frames, in the reference's frames.
   double DriftOver(std::size_t frames) const { return stretch * static_cast<double>(frames); }
 };
 

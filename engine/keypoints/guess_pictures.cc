@@ -14,7 +14,7 @@
 namespace etude {
 namespace {
 
-/// How a picture was turned and mirrored, and whether its keypoints are the rig's own pixels.
+/// A guess of how a picture was turned and mirrored, and whether its keypoints are the rig's own pixels.
 struct Guess {
   int quarter_turns = 0;
   bool is_mirrored = false;

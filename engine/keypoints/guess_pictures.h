@@ -20,7 +20,7 @@ struct PictureOfFilm {
   SeenPeople people;      ///< in the file's pixels
 };
 
-/// How the keypoints of a film are to be read.
+/// The way in which the keypoints of a film are to be read.
 struct PictureGuess {
   PixelFit fit;
   std::string told;  ///< "" where it is as said
@@ -35,8 +35,8 @@ struct PictureGuess {
 /// good, `told` says so.
 std::vector<PictureGuess> GuessPictures(std::span<const PictureOfFilm> films, double least_confidence);
 
-/// How far keypoints that are read as said lie from the other cameras' epipolar lines, as a share of the height: the
-/// mean over pairs of cameras of those medians. 1 where nothing can be said.
+/// Measures how far keypoints that are read as said lie from the other cameras' epipolar lines, as a share of the
+/// height: the mean over pairs of cameras of those medians. 1 where nothing can be said.
 double MissOfPictures(std::span<const PictureOfFilm> films, double least_confidence);
 
 /// Beyond this share of the height something is wrong, not only imprecise.

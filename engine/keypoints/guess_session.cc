@@ -15,13 +15,14 @@ using Films = std::vector<PictureOfFilm>;
 
 constexpr std::size_t kMostFilms = 8;  // of which pairs and single ones are tried
 
-/// From a file's pixel to a pixel of the film, whose size is given.
+/// A way from a file's pixel to a pixel of the film, whose size is given.
 struct Reading {
   std::string_view told;
   glm::dvec2 (*pixel)(const glm::dvec2& p, const glm::dvec2& size);
 };
 
-/// Shares of a square, read as shares of the picture, as pixels of it: `padded` bars lie on both sides.
+/// Corrects a pixel that was read as a share of the picture and is one of a square about it, which has the share
+/// `padded` of its bars before the picture.
 glm::dvec2 OfSquare(const glm::dvec2& p, const glm::dvec2& size, double padded) {
   const double side = std::max(size.x, size.y);
   return p * side / size - padded * (side - size);
@@ -97,7 +98,7 @@ class SessionGuesser {
   }
 
  private:
-  /// What is left where pictures are read as they alone would be guessed.
+  /// Measures what is left where pictures are read as they alone would be guessed.
   double MissAsGuessed() const {
     Films guessed = films_;
     const std::vector<PictureGuess> guesses = GuessPictures(films_, least_confidence_);

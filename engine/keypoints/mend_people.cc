@@ -165,7 +165,7 @@ class Mender {
     }
   }
 
-  /// Twice the robust standard deviation of the epipolar distances, of the better labelling of every pair.
+  /// Returns twice the robust standard deviation of the epipolar distances, of the better labelling of every pair.
   double ScalePx() const {
     std::vector<double> distances;
     for (std::size_t frame = 0; frame < frames_; ++frame) {
@@ -192,7 +192,7 @@ class Mender {
 
   double Loss(double px) const { return px * px / (px * px + scale_px_ * scale_px_); }
 
-  /// What it costs in a frame to leave a group as it is, and to swap it.
+  /// Returns what it costs in a frame to leave a group as it is, and to swap it.
   std::array<double, 2> CostsOf(std::size_t group, std::size_t c, std::size_t frame) const {
     std::array<double, 2> costs{};
     const auto& one = person_.seen[c][frame];
@@ -310,7 +310,7 @@ class Mender {
     return std::ranges::any_of(flips_[group], [&](const std::vector<bool>& camera) { return camera[frame]; });
   }
 
-  /// Where sides were swapped back, whether they lie as a body's do tells which of the cameras was wrong.
+  /// Tells which of the cameras was wrong where sides were swapped back, by whether they lie as a body's do.
   void Face(std::size_t group) {
     std::vector<std::optional<double>> sides;
     for (std::size_t frame = 0; frame < frames_; ++frame) sides.push_back(Chirality(group, frame));

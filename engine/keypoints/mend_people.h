@@ -14,7 +14,7 @@ Landmark OtherSide(Landmark landmark);
 /// Returns the person with left and right exchanged.
 SeenPerson WithSidesSwapped(const SeenPerson& person);
 
-/// What was wrong with a person's keypoints in one camera, and was mended.
+/// A mistake in a person's keypoints in one camera that was mended.
 struct Mend {
   enum class Kind {
     kSwappedSides,  ///< left and right exchanged, of the whole body

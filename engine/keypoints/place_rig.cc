@@ -115,7 +115,7 @@ std::optional<glm::dvec3> PersonsUp(std::span<const LandmarkPlaces> points) {
   return sum / length;
 }
 
-/// What resting feet tell of the floor.
+/// The floor as resting feet tell it.
 struct FeetPlane {
   glm::dvec3 up;
   double accuracy = 0;  ///< radians, one standard deviation in the worse direction

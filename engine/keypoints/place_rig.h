@@ -13,7 +13,7 @@
 
 namespace etude {
 
-/// How lengths and directions of a rig are to be taken.
+/// The ways in which lengths and directions of a rig are to be taken.
 struct PlaceOptions {
   /// "auto", a name of RigUnits(), or metres in one unit of the file.
   std::string unit = "auto";
@@ -30,7 +30,7 @@ std::string RigUnits();
 /// Fails for texts of `options` that mean nothing.
 Result<void> CheckPlace(const PlaceOptions& options);
 
-/// What was found out about a rig's world, and the way into ours: p' = scale · R · p + shift.
+/// The findings about a rig's world, and the way into ours: p' = scale · R · p + shift.
 struct RigPlace {
   double scale = 1;
   glm::dmat3 R{1};

@@ -43,8 +43,8 @@ struct Evidence {
   /// The evidence that the performance asked for is right, so far in its window, in [0, 1]. It never falls while the
   /// same one is asked for, and is 0 when none is.
   double asked = 0;
-  /// Per taught move, in [0, 1], how much this frame looks like the end of a right performance of it, asked for or not.
-  /// Valid until the next call.
+  /// Tells for each taught move, in [0, 1], how much this frame looks like the end of a right performance of it, asked
+  /// for or not. Valid until the next call.
   std::span<const double> spotted;
 };
 

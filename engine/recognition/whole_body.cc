@@ -13,10 +13,11 @@ namespace etude {
 namespace {
 
 constexpr double kApart = std::numeric_limits<double>::infinity();
-/// What two people who do the same are apart in the middle: joints in metres, limbs in unit vectors (of six people
-/// before an OpenNI sensor, each performance and the nearest by somebody else). Distances are squares in these units.
+/// The distances at which two people who do the same are apart in the middle: joints in metres, limbs in unit vectors
+/// (of six people before an OpenNI sensor, each performance and the nearest by somebody else). Distances are squares in
+/// these units.
 constexpr double kJointsApart = 0.08, kLimbsApart = 0.15;
-/// How many of a move's examples say how far it is: one may be odd.
+/// So many of a move's examples say how far it is, as one may be odd.
 constexpr std::size_t kNearestExamples = 3;
 
 /// A body in one step: places of joints and directions of limbs, one after the other, and how much each number counts.

@@ -57,7 +57,7 @@ constexpr double kWideReach = 3;  // times that of the options
 constexpr int kCoarseSteps = 8, kFineSteps = 12;
 constexpr double kSpeedKept = 0.6;  // of the last frame's change, what the next is foretold to have
 
-// Triangulates the middles of the silhouettes; nothing when their lines of sight do not.
+// Triangulates the middles of the silhouettes; nothing when their lines of sight do not meet well enough.
 std::optional<glm::dvec3> FindMiddle(const MomentViews& views) {
   std::vector<Sighting> sightings;
   for (const SilhouetteView& view : views) sightings.push_back({view.matrix, view.silhouette->centre});

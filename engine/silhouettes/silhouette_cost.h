@@ -51,7 +51,7 @@ class PixelScale {
   double focal_px_ = 0;
 };
 
-/// Where a picture shows a joint of the body, as an estimator of keypoints or somebody who marks says.
+/// A joint of the body where a picture shows it, as an estimator of keypoints or somebody who marks says.
 struct SeenJoint {
   Role role = Role::kHipCentre;
   glm::dvec2 pixel{0};

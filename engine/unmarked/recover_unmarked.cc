@@ -99,7 +99,7 @@ std::optional<double> StatureToldBy(const UnmarkedTake& take) {
   return kUsualStature * (own.shank + own.thigh + own.trunk) / (adult.shank + adult.thigh + adult.trunk);
 }
 
-/// At most `count` of the frames, evenly over all.
+/// Returns at most `count` of the frames, spread evenly over all.
 Frames Evenly(std::size_t frames, std::size_t count) {
   Frames some;
   count = std::min(count, frames);

@@ -22,7 +22,7 @@ struct CaptureStudy {
   ClipLibrary clips;
 };
 
-/// Why no method can be judged in this world; nothing where all can.
+/// Returns why no method can be judged in this world; nothing where all can.
 std::optional<std::string> WhyUnjudged(const CaptureWorld& world) {
   if (std::ranges::find(world.in_view, true) != world.in_view.end()) return std::nullopt;
   return "in no frame do two cameras have the whole performer in their pictures";

@@ -18,8 +18,8 @@ namespace etude {
 /// (`ReadMarks`). Two markings of the same world throw the same dice, whatever they are shown.
 class Marking {
  public:
-  /// `key` must outlive this. Of the world only the number of cameras is used, and what figure
-  /// performs: where joints lie in its limbs, which point of the head is meant.
+  /// `key` must outlive this. The world tells the number of cameras and the figure that performs: where joints lie in
+  /// its limbs, and which point of the head is marked.
   Marking(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key);
 
   /// The marks of one picture as methods are told them: of a stroke or disc that both annotators drew, the mean; else
@@ -52,7 +52,7 @@ class Marking {
 /// and measured beforehand.
 double HeadBelowCrown(const Figure& figure, const BodyPose& body);
 
-/// Stroke by stroke and disc by disc the mean of both, or the one there is.
+/// Returns the mean of both marks for each stroke and disc, or the one there is.
 Marks MeanMarks(const Marks& first, const Marks& second);
 
 }  // namespace etude

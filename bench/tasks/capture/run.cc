@@ -109,7 +109,7 @@ void RecoverBundle(CaptureRun& run) {
   }
 }
 
-/// What `etude capture` makes of the same marks, frame by frame.
+/// Recovers the person that `etude capture` makes of the same marks, frame by frame.
 Result<RecoveredPerson> PersonByKeypoints(const CaptureStages& stages, const CaptureRun& run) {
   std::vector<SeenPeople> people;
   double longer_side = 0;

@@ -130,7 +130,7 @@ class Tape {
     const double measured = length + error_m_ * random_.Normal();
     return length > kShortest ? std::max(kShortest, measured) : length;
   }
-  /// From one place to another.
+  /// Measures the way from one place to another.
   glm::dvec3 Measure(const glm::dvec3& from_to) {
     const double length = glm::length(from_to), measured = Measure(length);
     return length > 0 ? measured / length * from_to : from_to;

@@ -35,7 +35,8 @@ StageDigests WorldDigests(const DetectionWorld& world);
 /// Fingerprints of the filtered stream and of the verdicts.
 StageDigests VerdictDigests(const SessionVerdict& verdict, const Repertoire& repertoire);
 
-/// Per frame, how well the move asked for was seen to be performed so far in its window; 0 between windows.
+/// Returns how well the move asked for was seen to be performed so far in its window, frame by frame; 0 between
+/// windows.
 Series ScoreSeries(const DetectionWorld& world, const SessionVerdict& verdict);
 
 /// One value per performance, for curves over many sessions (reports/plots): `performance_score`; `_truth`, 1 right, ½
