@@ -27,7 +27,7 @@ Mask ToMask(const PersonMask& mask) {
   return made;
 }
 
-/// How many of a camera's pixels a mask's pixel is wide.
+/// Returns how many of a camera's pixels a mask's pixel is wide.
 int PixelOf(const Camera& camera, const PersonMask& mask) {
   const int pixel = mask.width > 0 ? camera.width / mask.width : 0;
   if (pixel >= 1 && camera.width == pixel * mask.width && camera.height == pixel * mask.height) return pixel;

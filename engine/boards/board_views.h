@@ -46,7 +46,7 @@ class BoardViews {
   std::vector<TargetView> views() const;
   /// The sizes of the cameras' pictures, by camera.
   const std::vector<PictureSize>& sizes() const { return sizes_; }
-  /// What was found out about a board of OpenCV's; "" of our own.
+  /// Returns what was found out about a board of OpenCV's; "" of our own.
   std::string Told() const { return printed_ ? printed_->Told() : ""; }
 
  private:

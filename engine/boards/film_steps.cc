@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// Of a camera, a board and a look.
+/// The key of a sighting: a camera, a board and a look.
 using SightingKey = std::tuple<std::size_t, std::size_t, int>;
 using SightingMap = std::map<SightingKey, const BoardSighting*>;
 
@@ -44,7 +44,7 @@ std::vector<PointPair> CornersBetween(const SightingMap& map, const SightingKey&
   return moved;
 }
 
-/// Of moments that several films see, at most kMostMoments, evenly; a sighting keeps its neighbours.
+/// Keeps at most kMostMoments of the moments that several films see, spread evenly; a sighting keeps its neighbours.
 std::vector<BoardSighting> Thinned(std::span<const BoardSighting> sightings) {
   constexpr std::size_t kMostMoments = 60;
   std::map<std::size_t, std::size_t> cameras;  // of each target

@@ -49,7 +49,7 @@ struct OpenCvCalibration {
   double rms_px = 0;
 };
 
-/// What the module engine/boards/opencv offers: nobody who looks for no such board waits for OpenCV to be loaded.
+/// The functions of the module engine/boards/opencv: nobody who looks for no such board waits for OpenCV to be loaded.
 struct OpenCvBoards {
   std::unique_ptr<PrintedBoardFinder> (*make_finder)(const PrintedBoard& board);
   Result<OpenCvCalibration> (*calibrate)(std::span<const TargetView> views, const PictureSize& size, LensModel lens);

@@ -69,8 +69,8 @@ class Places {
  public:
   Places(std::size_t cameras, std::size_t targets) : cameras_(cameras), targets_(targets) {}
 
-  /// From the board that is the world on: every time the view with most corners of those that join something known and
-  /// something unknown. False when nothing is left to join.
+  /// Joins one view, beginning at the board that is the world: always the view with most corners of those that join
+  /// something known and something unknown. False when nothing is left to join.
   bool Join(std::span<const PlaneView> views) {
     const PlaneView* best = nullptr;
     for (const PlaneView& view : views) {

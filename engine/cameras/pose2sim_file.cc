@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-/// From our world (Y up) to Pose2Sim's (Z up): (z, x, y).
+/// Turns our world (Y up) into Pose2Sim's (Z up): (z, x, y).
 const glm::dmat3 kZUpOfYUp = glm::transpose(glm::dmat3(0, 0, 1, 1, 0, 0, 0, 1, 0));
 
 std::string Vector(std::span<const double> values) {

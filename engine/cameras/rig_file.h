@@ -27,7 +27,7 @@ Result<std::vector<NamedCamera>> ReadQualisysCalibration(std::string_view text);
 /// "camera_" stands before a first digit.
 std::string WriteRig(std::span<const NamedCamera> cameras);
 
-/// What a calibration holds, told as if its world had the usual unit and axes of its format.
+/// The content of a calibration, told as if its world had the usual unit and axes of its format.
 struct RigFile {
   std::vector<NamedCamera> cameras;  ///< metres, Y up; a picture of 0 x 0 pixels: the file does not tell its size
   std::string format;                ///< as people call it

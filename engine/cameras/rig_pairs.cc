@@ -34,7 +34,7 @@ Result<std::vector<double>> MatrixAt(const Node& camera, std::string_view key, s
 
 namespace {
 
-/// From a world with Z up, or one that is a camera's frame, to ours.
+/// Turns a world with Z up, or one that is a camera's frame, into ours.
 const glm::dmat3 kOursOfZUp(0, 0, 1, 1, 0, 0, 0, 1, 0);
 
 /// Moves the file's world into ours and makes the camera; without a size where the file tells none.
@@ -138,7 +138,7 @@ Result<std::vector<double>> NumbersFrom(const ColmapLine& line, std::size_t firs
   return numbers;
 }
 
-/// Where each parameter of a model goes: f (both), x, y (focal lengths), u, v (principal point), then distortion.
+/// The place of each parameter of a model: f (both), x, y (focal lengths), u, v (principal point), then distortion.
 struct ColmapModel {
   std::string_view focal;
   std::vector<std::size_t> distortion;  ///< their places among OpenCV's

@@ -170,7 +170,7 @@ std::size_t CountFrames(const Bytes& bytes, const Parameters& parameters) {
   return frames >= 1 && frames <= kMostC3dFrames ? static_cast<std::size_t>(frames) : 0;
 }
 
-/// Where and how the points of a frame stand.
+/// The layout of a frame's points in the file.
 struct Layout {
   std::size_t points = 0, begin = 0, frame_bytes = 0;
   bool has_floats = false;

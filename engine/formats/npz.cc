@@ -19,7 +19,7 @@ constexpr std::size_t kMostMembers = 1000;
 constexpr std::uint64_t kMostUnpacked = std::uint64_t{512} << 20;
 constexpr std::uint64_t kMostOfAByte = 1032;  ///< DEFLATE makes no more of one
 
-/// What follows a key of the header's Python dictionary, up to `end`.
+/// Returns what follows a key of the header's Python dictionary, up to `end`.
 std::string_view ValueOf(std::string_view header, std::string_view key, char end) {
   const std::size_t at = header.find(key);
   if (at == std::string_view::npos) return {};

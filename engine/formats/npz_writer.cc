@@ -58,7 +58,7 @@ std::string NpyOfTexts(const std::vector<std::string>& texts) {
   return Npy("<U" + std::to_string(width), {texts.size()}, data);
 }
 
-/// What a member's own head and the directory both say of it.
+/// Returns what a member's own head and the directory both say of it.
 std::string MemberFacts(const std::string& name, std::string_view bytes) {
   constexpr std::uint64_t kVersion = 20, kFirstDay = 0x21;  // 1 January 1980: no clock is read
   std::string facts;

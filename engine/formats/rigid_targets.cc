@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kPerTarget = 7;
 constexpr double kFarthestInMetres = 20;
 
-/// Metres per unit of the file.
+/// Returns the metres per unit of the file.
 double UnitOf(const NumberRows& table) {
   double farthest = 0;
   for (std::size_t i = 0; i < table.values.size(); ++i) {

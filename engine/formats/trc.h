@@ -20,7 +20,7 @@ std::string WriteTrc(const BodyMotion& motion, std::string name);
 struct MarkerMotion {
   double rate_hz = 30;
   std::vector<std::string> names;
-  /// Metres; of each frame one place a marker, nothing where it was not seen.
+  /// The places of markers in each frame, metres; nothing where one was not seen.
   std::vector<std::vector<std::optional<glm::dvec3>>> frames;
   std::string remark = "";  ///< what the reader found to say, in plain words
 };

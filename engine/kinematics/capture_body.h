@@ -45,7 +45,7 @@ struct CaptureBody {
   bool is_paper = false;  ///< paper B's, which has rules of its own for lengths and start angles
   KinematicTree tree;     ///< rooted at the left toe, which is placed where it was seen
   std::array<TreePoint, kRoleCount> roles;
-  /// Whether hips turn against the pelvis, each on a joint of its own: the hip centre is then no point of a limb but
+  /// True if hips turn against the pelvis, each on a joint of its own: the hip centre is then no point of a limb but
   /// midway between them.
   bool hips_turn = false;
   std::vector<End> ends;  ///< of each effector of the tree

@@ -8,8 +8,8 @@
 
 namespace etude {
 
-/// Many problems of one tree as a structure of arrays: a row for each number of an `IkProblem`, the problems side by
-/// side in it.
+/// A batch of problems of one tree as a structure of arrays: a row for each number of an `IkProblem`, the problems side
+/// by side in it.
 class IkBatch {
  public:
   /// Makes `count` problems, all zeros.

@@ -101,7 +101,7 @@ class Completer {
   }
 
  private:
-  /// Both arms, or both legs.
+  /// A pair of chains: both arms, or both legs.
   struct LimbPair {
     Chain left, right;
     double width, upper, lower, last;
@@ -125,13 +125,13 @@ class Completer {
 
   bool Lacks(Role end) const { return whole_.lacks_end[Index(end)]; }
 
-  /// From the root of a chain to its end.
+  /// Returns the vector from the root of a chain to its end.
   glm::dvec3 Reach(const Chain& chain, const LimbPair& pair) const {
     return pair.upper * Direction(chain.middle) + pair.lower * Direction(chain.wrist) +
            pair.last * Direction(chain.end);
   }
 
-  /// From the middle between both roots to the right one.
+  /// Returns the vector from the middle between both roots to the right one.
   glm::dvec3 HalfAcross(const LimbPair& pair) const {
     return 0.5 * pair.width * UnitOr(like_[pair.right.root] - like_[pair.left.root], {-1, 0, 0});
   }

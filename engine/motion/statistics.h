@@ -11,7 +11,7 @@ namespace etude {
 /// neck to the head (both legs' mean), divided by the 0.92 of a body that it covers.
 double Stature(const BodyPose& pose);
 
-/// How fast feet move along the floor while they stand, metres per second. None: nothing ever stood.
+/// The speeds of feet along the floor while they stand, metres per second. None: nothing ever stood.
 struct FootSlide {
   std::optional<double> mean;                    ///< over all frames in which a foot stands, of both feet
   std::array<std::optional<double>, 2> of_foot;  ///< by side, in Side's order

@@ -29,7 +29,7 @@ struct SupportRules {
   double flight_stray = 0.008;
 };
 
-/// What holds a body up in one frame of a clip.
+/// The joints that hold a body up in one frame of a clip.
 struct Bearing {
   JointSet rests;  ///< those of its lowest joints that are at rest
   /// `rests`; where it is empty (a jump, a walk on the spot, a foot that skates), all of the lowest joints, for the
@@ -61,7 +61,7 @@ struct SupportingClip {
   int left_at = std::numeric_limits<int>::max();
 };
 
-/// What holds a body up in a frame that is shown.
+/// The joints that hold a body up in a frame that is shown.
 struct Support {
   JointSet joints;      ///< those that rest where, or move as, the clips' own do
   bool flight = false;  ///< it flies: nothing need hold it
@@ -95,7 +95,7 @@ class SupportFinder {
   std::vector<Witness> witnesses_;
 };
 
-/// As SupportFinder::Find, of clips that are asked once.
+/// Finds as SupportFinder::Find does, of clips that are asked once.
 std::vector<Support> FindSupport(std::span<const BodyPose> shown, std::span<const SupportingClip> clips, int first,
                                  int last, double rate_hz, const SupportRules& rules = {});
 

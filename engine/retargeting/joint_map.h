@@ -52,7 +52,7 @@ struct TaughtRoles;
 /// others; a joint that is not there is refused at its place in the joint-map file.
 Result<JointMap> FindJointMap(const Skeleton& skeleton, const std::string& file, const TaughtRoles* taught = nullptr);
 
-/// What can be told of a skeleton whose roles are not all found.
+/// The findings about a skeleton whose roles are not all found.
 struct PartialRoles {
   std::array<int, kRoleCount> found;     ///< joints by names, by Index(role); −1: none
   std::array<int, kRoleCount> proposed;  ///< by build, of limbs that names do not tell; −1: none

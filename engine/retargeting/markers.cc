@@ -35,7 +35,7 @@ std::string LowerCase(std::string_view text) {
   return lower;
 }
 
-/// Whether a place is all zeros, as some programs write a gap.
+/// True if a place is all zeros, as some programs write a gap.
 bool IsZero(const MarkerPlace& place) { return place && *place == glm::dvec3(0); }
 
 /// Takes places that are all zeros for gaps, of markers that are elsewhere in other frames (the root of poses about

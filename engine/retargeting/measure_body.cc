@@ -42,7 +42,7 @@ Measured Measure(const Clip& clip, std::size_t first) {
   return measured;
 }
 
-/// Whether every role's joint is the hip centre's or below it.
+/// True if every role's joint is the hip centre's or below it.
 bool HangsOnPelvis(const RestBody& rest) {
   const int pelvis = rest.roles[Index(Role::kHipCentre)].joint;
   return std::ranges::all_of(rest.roles, [&](const RestBody::RolePlace& role) {

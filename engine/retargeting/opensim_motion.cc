@@ -23,7 +23,7 @@ namespace {
 
 using enum Role;
 
-/// Where an angle's range stands among those of `MakeBodyTree`, and whether it is counted the other way there.
+/// The place of an angle's range among those of `MakeBodyTree`, and whether it is counted the other way there.
 struct TreeAngle {
   BodyTreeJoint joint;
   int axis = 0;

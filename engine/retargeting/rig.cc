@@ -47,10 +47,10 @@ namespace {
 
 using enum Role;
 
-/// Per limb, in the order of kLimbs, a direction of the upper bone in the middle of where it can point, in the axes of
-/// chest or hips. A straight limb has the twist of a hanging one that is swung there and on by the shortest ways. At
-/// one direction that twist jumps, the opposite one, which must lie where no limb goes: inward through the chest,
-/// backward through the hips.
+/// Holds for each limb, in the order of kLimbs, a direction of the upper bone in the middle of where it can point, in
+/// the axes of chest or hips. A straight limb has the twist of a hanging one that is swung there and on by the shortest
+/// ways. At one direction that twist jumps, the opposite one, which must lie where no limb goes: inward through the
+/// chest, backward through the hips.
 constexpr std::array<glm::dvec3, kLimbs.size()> kMiddles = {
     {{0.71, 0, 0.71}, {-0.71, 0, 0.71}, {0, -0.87, 0.5}, {0, -0.87, 0.5}}};
 

@@ -49,7 +49,7 @@ double Bend(const glm::dvec3& forward, const glm::dvec3& upper, const glm::dvec3
   return glm::dot(forward, middle - 0.5 * (upper + end)) < 0 ? -angle : angle;
 }
 
-/// What a motion shows of its sides, in the body's own frame, so that it may lie or turn over.
+/// The signs by which a motion shows its sides, in the body's own frame, so that it may lie or turn over.
 struct Sides {
   double shoulders = 0, toes = 0, knees = 0, arms = 0;  ///< sums over frames (and limbs): above 0 as people are made
   std::vector<double> knee_bends;                       ///< Bend of either knee by frame

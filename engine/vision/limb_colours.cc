@@ -30,7 +30,7 @@ constexpr auto kStrokeBetween = [] {
   return table;
 }();
 
-/// Pixels low ≤ (x, y) < high; empty where nothing is.
+/// A box of pixels low ≤ (x, y) < high; empty where nothing is.
 struct PixelBox {
   glm::ivec2 low{std::numeric_limits<int>::max()}, high{0};
 

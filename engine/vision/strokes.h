@@ -35,7 +35,8 @@ std::span<const StrokeMark, kStrokeCount> StrokeMarks();
 /// Returns the discs: left foot (the root), right foot, left hand, right hand, head.
 std::span<const EffectorMark, kEffectorCount> EffectorMarks();
 
-/// Pixels; marks are drawn on black with hard edges: strokes first, discs over them.
+/// The width of strokes and the radius of discs, pixels; marks are drawn on black with hard edges: strokes first, discs
+/// over them.
 constexpr double kStrokeWidth = 3;
 constexpr double kDiscRadius = 4;
 

@@ -23,8 +23,8 @@ Result<std::vector<Move>> MovesOf(const Song& song);
 std::string HintOf(const Move& move);
 
 /// Reads the beats of a piece of music, seconds from its beginning: a number at the beginning of each line, as beat
-/// trackers and Audacity's label tracks write them; what follows on the line is read over, so are empty lines and those
-/// that begin with '#'. Refused, with file and line: what is no number, beats that do not ascend, neighbours that are
+/// trackers and Audacity's label tracks write them; the rest of the line is ignored, as are empty lines and those that
+/// begin with '#'. Refused, with file and line: what is no number, beats that do not ascend, neighbours that are
 /// under 0.2 or over 3 s apart, fewer than 8, more than 10,000.
 Result<std::vector<double>> ReadBeats(std::string_view text, const std::string& file);
 

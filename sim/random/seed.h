@@ -16,7 +16,7 @@ using Words256 = std::array<std::uint64_t, 4>;
 /// Threefish-256 (Random123's Threefry 4×64 of 72 rounds): without the key, nothing tells its output from noise.
 Words256 Encrypt(const Words256& key, const Words256& block);
 
-/// What keys the dice of a run: a number that anybody may know and try, or a secret of 256 bits that is known by its
+/// The key of a run's dice: a number that anybody may know and try, or a secret of 256 bits that is known by its
 /// digest.
 class Seed {
  public:

@@ -26,7 +26,8 @@ struct RoomTexture {
 /// Draws the patterns of a room; they depend on `seed` alone.
 RoomTexture MakeRoomTexture(std::uint64_t seed);
 
-/// Pixels a side, at most: small enough to follow shadows closely, though each tile costs a look at every body.
+/// The side of a tile, pixels, at most: small enough to follow shadows closely, though each tile costs a look at every
+/// body.
 constexpr int kRoomTileSize = 16;
 
 /// A tile of the picture, and the directions in which the lamp sees what the empty room shows there. Directions are

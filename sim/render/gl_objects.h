@@ -28,7 +28,7 @@ class VertexStream {
   void Upload(const std::vector<Element>& elements) {
     Upload(elements.data(), elements.size(), sizeof(Element));
   }
-  /// Of corners: those of triangles are the ones that `indices` name.
+  /// Uploads corners: those of triangles are the ones that `indices` name.
   template <typename Element>
   void Upload(const std::vector<Element>& elements, const std::vector<std::uint32_t>& indices) {
     Upload(elements.data(), elements.size(), sizeof(Element));

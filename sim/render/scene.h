@@ -151,7 +151,7 @@ struct View {
   DepthImage depth;   ///< metres along the viewing axis; infinity where only the clear colour is seen
 };
 
-/// Pixels left ≤ x < right, top ≤ y < bottom.
+/// A rectangle of pixels left ≤ x < right, top ≤ y < bottom.
 struct PixelRect {
   int left = 0, top = 0, right = 0, bottom = 0;
   int Width() const { return right - left; }
@@ -162,7 +162,7 @@ struct PixelRect {
 /// Returns the smallest rectangle that holds both; an empty one holds nothing.
 PixelRect Union(const PixelRect& a, const PixelRect& b);
 
-/// What figures alone show, for pictures whose ground is somebody else's.
+/// The pixels that figures alone show, for pictures whose ground is somebody else's.
 struct Overlay {
   /// The fourth byte: what is seen in a pixel.
   enum Seen : std::uint8_t { kBody = 0, kShadow = 128, kNothing = 255 };

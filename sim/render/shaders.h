@@ -31,7 +31,7 @@ std::string SurfaceFragmentShader(Skin skin);
 /// Draw the same triangles, thrown from the lamp onto the floor or the wall.
 std::string SurfaceShadowVertexShader();
 std::string SurfaceShadowFragmentShader();
-/// Only marks where they fall (Overlay::kShadow).
+/// Returns a shader that only marks where shadows fall (Overlay::kShadow).
 std::string ShadowMarkFragmentShader();
 
 // GLSL that several programs share.

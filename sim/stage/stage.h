@@ -70,7 +70,7 @@ struct StageOptions {
 class StagedRoom {
  public:
   StagedRoom() = default;
-  /// For a performer who moves like `poses` before `cameras`: furniture leaves that floor free.
+  /// Makes a room for a performer who moves like `poses` before `cameras`: furniture leaves that floor free.
   StagedRoom(const StageOptions& options, std::span<const BodyPose> poses, std::span<const Camera> cameras);
 
   /// Returns the interior, or null for the studio. It lives as long as this.

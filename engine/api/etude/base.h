@@ -6,8 +6,8 @@
 /// Marks what the library shows; all else in it is hidden.
 #define ETUDE_API __attribute__((visibility("default")))
 
-/// What libetude offers other programs (docs/library.md). Lengths are metres, angles radians, the world is right-handed
-/// with Y up; p_AB_W is the position of B from A, told in the axes of W, and R_WB turns B's axes into W's.
+/// Declares what libetude offers other programs (docs/library.md). Lengths are metres, angles radians, the world is
+/// right-handed with Y up; p_AB_W is the position of B from A, told in the axes of W, and R_WB turns B's axes into W's.
 namespace etude::engine {
 
 /// Is thrown where an input cannot be worked on; `what()` is one line: the place as far as it is known

@@ -65,7 +65,7 @@ struct CoachOptions {
   bool dances_at_once = false;              ///< begins without a clap
   /// A performance is right from this evidence on, in (0, 1]; nothing: the recogniser's own.
   std::optional<double> right_from = {};
-  /// Where the sensor stands, metres; players are asked to stand 1.5 to 3.6 m from it.
+  /// The place of the sensor, metres; players are asked to stand 1.5 to 3.6 m from it.
   glm::dvec3 sensor_m{0, 1, 2.75};
 };
 
@@ -79,7 +79,7 @@ struct CoachDecision {
   std::string why;          ///< one sentence with numbers
 };
 
-/// What the coach shows in one frame.
+/// The coach as one frame shows it.
 struct CoachFrame {
   std::string mode;  ///< "standby", "attract", "doze", "wake", "dance", "correct", "demonstrate", "praise"
   Pose body;

@@ -39,7 +39,7 @@ struct AngleRange {
   double lower = 0, upper = 0;
 };
 
-/// Any tree of joints.
+/// A tree of joints, of any shape.
 struct Tree {
   std::vector<Limb> limbs;
   std::vector<Effector> effectors;
@@ -56,7 +56,7 @@ struct TreePose {
   std::vector<double> angles;  ///< one per degree of freedom
 };
 
-/// What an effector shall reach.
+/// The place and turn that an effector shall reach.
 struct Target {
   Frame frame;
   double position_weight = 1;  ///< 0: the position is unknown
@@ -84,7 +84,7 @@ struct IkAnswer {
   int iterations = 0;
 };
 
-/// Many problems of one tree, row after row.
+/// A batch of problems of one tree, row after row.
 struct IkBatch {
   std::vector<Frame> roots;     ///< one, or one a problem
   std::vector<double> starts;   ///< problems × degrees of freedom

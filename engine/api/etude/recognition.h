@@ -21,7 +21,7 @@ struct RecogniserOptions {
   bool smooths = true;              ///< the stream goes through Kinect's own filter first
 };
 
-/// How well a sensor saw a joint.
+/// The sight that a sensor had of a joint.
 enum class Seen { kTracked, kInferred, kNotTracked };
 
 /// One frame of a skeleton sensor, in the world.
@@ -31,7 +31,7 @@ struct SensedPose {
   bool body_seen = true;                ///< false: nothing of the rest means anything
 };
 
-/// What speaks for moves in one frame, from this frame and those before it; all in 0…1.
+/// The evidence for moves in one frame, from this frame and those before it; all in 0…1.
 struct Evidence {
   double asked = 0;             ///< that the one asked for is right so far; never falls while it is asked for
   std::vector<double> spotted;  ///< per move, how much this looks like the end of a right performance of it

@@ -11,7 +11,7 @@
 
 namespace etude::engine {
 
-/// How a clip is left for another.
+/// The settings by which a clip is left for another.
 struct TransitionOptions {
   std::string choice = "played";      ///< which frame is left and which entered: one of TransitionChoices()
   std::string join = "planted-feet";  ///< how the clips are put together there: one of TransitionJoins()
@@ -33,7 +33,7 @@ struct TransitionSetting {
 ETUDE_API std::vector<std::string> TransitionChoices();
 /// The names of all joins: "cut" (paper A's), "crossfade", "planted-feet", …
 ETUDE_API std::vector<std::string> TransitionJoins();
-/// What a choice or a join can be set by. Throws BadInput for a name that there is not.
+/// Lists what a choice or a join can be set by. Throws BadInput for a name that there is not.
 ETUDE_API std::vector<TransitionSetting> TransitionChoiceSettings(const std::string& choice);
 ETUDE_API std::vector<TransitionSetting> TransitionJoinSettings(const std::string& join);
 

@@ -42,7 +42,7 @@ cv::Point2f Mapped(const cv::Mat& H, double x, double y) {
           static_cast<float>((H.at<double>(1, 0) * x + H.at<double>(1, 1) * y + H.at<double>(1, 2)) / w)};
 }
 
-/// From a marker's square, whose corners are at (±1, ±1), to the picture.
+/// Returns the map from a marker's square, whose corners are at (±1, ±1), to the picture.
 cv::Mat HomographyOfQuad(const Quad& quad) {
   const Quad unit = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
   return cv::getPerspectiveTransform(unit, quad);
@@ -115,7 +115,7 @@ class OpenCvFinder : public PrintedBoardFinder {
     double square_px = 0;
   };
 
-  /// What both markers beside each corner say of it, if markers have that share of a square.
+  /// Predicts each corner by both markers beside it, if markers have that share of a square.
   std::vector<Predicted> Predict(const std::map<int, Quad>& markers, int layout, double share) const {
     std::map<std::array<int, 2>, std::vector<std::pair<cv::Point2f, double>>> said;
     for (const auto& [id, quad] : markers) {

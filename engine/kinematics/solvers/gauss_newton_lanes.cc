@@ -70,7 +70,7 @@ class LanePoses {
   /// Returns the residuals of the poses.
   const MissLanes<V>& miss() const { return miss_[0]; }
   const AskedLanes<V>& AskedOf(std::size_t effector) const { return asked_[effector]; }
-  /// With their screws at the poses; all else in them is the step's.
+  /// Returns the hinges with their screws at the poses; all else in them is the step's.
   AlignedList<HingeLanes<V>>& hinges() { return hinges_; }
 
  private:
@@ -320,7 +320,7 @@ class GaussNewtonLanes {
     }
   }
 
-  /// From the leaves to the root.
+  /// Eliminates from the leaves to the root.
   void Eliminate() {
     for (std::size_t e = 0; e < tree_.effectors.size(); ++e) {
       const GaussNewtonTree::Effector& effector = tree_.effectors[e];
@@ -355,7 +355,7 @@ class GaussNewtonLanes {
     }
   }
 
-  /// From the root to the leaves. Returns which lanes have a hinge that has changed sides.
+  /// Substitutes from the root to the leaves. Returns which lanes have a hinge that has changed sides.
   M Substitute() {
     const M counts = Flag(kCounts);
     M has_changed = Below(V(0.0), V(0.0));
@@ -378,7 +378,7 @@ class GaussNewtonLanes {
     return has_changed;
   }
 
-  /// By the changes of all hinges, shortened where they are too long.
+  /// Moves by the changes of all hinges, shortened where they are too long.
   void Move() {
     V largest(0.0);
     M is_finite = AtLeast(V(0.0), V(0.0));

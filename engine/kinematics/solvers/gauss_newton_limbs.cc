@@ -48,7 +48,7 @@ class LimbPoses {
   /// Returns the residual of the pose: |e|², and the largest distance and chord that count.
   const MissLanes<double>& miss() const { return miss_; }
   const AskedLanes<Four>& AskedAt(int ends) const { return ends_[ends].asked; }
-  /// With their screws at the pose; all else in them is the step's.
+  /// Returns the hinges with their screws at the pose; all else in them is the step's.
   AlignedList<HingeLanes<Four>>& hinges() { return hinges_; }
   AlignedList<TrunkHinge>& trunk_hinges() { return trunk_hinges_; }
 
@@ -354,7 +354,7 @@ class LimbLanes final : public GaussNewtonLimbs {
     }
   }
 
-  /// From the root on. Returns whether a hinge has changed sides.
+  /// Substitutes from the root on. Returns whether a hinge has changed sides.
   bool SubstituteTrunk() {
     SixRow& at_rest = trunk_[0].movement;
     at_rest = {Four(0.0), Four(0.0)};

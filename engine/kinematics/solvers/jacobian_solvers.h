@@ -62,9 +62,9 @@ struct DampedLeastSquaresOptions {
   /// angles end 0.44 of the noise from the truth, from 10⁻⁴ 0.71. Raise it where the answer shall stay near the start.
   double first_damping = 1e-2;
   /// The way in which a step keeps to the limits. Clamped is what most who write this method do, and what
-  /// `damped-least-squares` always was here; it crawls along the limits, where others make up for an angle's lost share
-  /// only step by step: of 200 starts off by 15° (poses of the joints' whole ranges) it solves 96 % to 10⁻³ cm and
-  /// 10⁻³°, in 28 steps at the median, the active set all, in 6 (`damped-least-squares-active-set`).
+  /// `damped-least-squares` always was here. It is slow along the limits, since other angles make up for one that was
+  /// clamped only in later steps: of 200 starts off by 15° (poses of the joints' whole ranges) it solves 96 % to
+  /// 10⁻³ cm and 10⁻³°, in 28 steps at the median, the active set all, in 6 (`damped-least-squares-active-set`).
   Bounds bounds = Bounds::kClamped;
 };
 

@@ -126,7 +126,7 @@ using FourMask = LaneMask<double, Four::Tag>;
 /// `from` is aligned for four doubles, as is `to`.
 HWY_INLINE Four LoadFour(const double* from) { return Four(hn::Load(Four::Tag(), from)); }
 HWY_INLINE void StoreFour(const Four& a, double* to) { hn::Store(a.v, Four::Tag(), to); }
-/// At any place.
+/// Writes four doubles to any place, aligned or not.
 HWY_INLINE void PutFour(const Four& a, double* to) { hn::StoreU(a.v, Four::Tag(), to); }
 
 HWY_INLINE double FirstOf(const Four& a) { return hn::GetLane(a.v); }
@@ -246,7 +246,7 @@ HWY_INLINE void TransposeTwo(Four& a, Four& b, Four& c, Four& d) {
 
 // ---- Rows of doubles -----------------------------------------------------------------------------------------------
 
-/// As many doubles of a row as fit into a vector.
+/// Vectors of as many doubles of a row as fit.
 using Places = Lanes<double>;
 
 /// Calls `act` with the index of every vector of a row of `count` doubles, which is whole vectors long.

@@ -12,8 +12,8 @@
 namespace etude::sim {
 
 struct StudioOptions {
-  /// What stands and moves in the room, 0 to 1; 0: a bare studio and a person of capsules in warm colours, 1: a room
-  /// that people live in, and a dressed person.
+  /// The furnishing of the room, 0 to 1; 0: a bare studio and a person of capsules in warm colours, 1: a room that
+  /// people live in, and a dressed person.
   double scene = 0;
   std::uint64_t seed = 1;  ///< of the room, its things and the person's clothes
 };
