@@ -64,7 +64,7 @@ Result<ColourImage> ReadPicture(const fs::path& path) {
   return picture;
 }
 
-/// What the pictures of one camera showed.
+/// The boards that the pictures of one camera showed.
 struct CameraBoards {
   std::string name;
   std::size_t looked = 0, with_board = 0, corners = 0;

@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-/// By the words of a command, without "etude": lines to be typed.
+/// Returns lines to be typed, by the words of a command without "etude".
 const std::map<std::string_view, std::vector<std::string_view>>& ExamplesByCommand() {
   static const std::map<std::string_view, std::vector<std::string_view>> examples = {
       {"run", {"etude run quick", "etude run full/ik_weights --trials 50 -o out/try", "etude run mine.yaml --resume"}},

@@ -48,7 +48,7 @@ std::vector<std::pair<const CLI::Option*, std::vector<std::string>>> OptionsOf(c
 
 constexpr std::string_view kHelp = "help";  ///< etude help COMMAND, which main makes --help of
 
-/// What a command's arguments may be beside files: where scenarios are asked for, those that come with etude.
+/// Lists what a command's arguments may be beside files: where scenarios are asked for, those that come with etude.
 std::vector<std::string> ArgumentsOf(const CLI::App& command) {
   const auto asks_for = [&](const char* argument) { return command.get_option_no_throw(argument) != nullptr; };
   if (asks_for(kShellArgument)) return Shells();
@@ -58,7 +58,7 @@ std::vector<std::string> ArgumentsOf(const CLI::App& command) {
   return names;
 }
 
-/// What may follow the words of a command: its commands, its options and what its arguments may be.
+/// Lists what may follow the words of a command: its commands, its options and what its arguments may be.
 std::string FollowersOf(const CLI::App& command) {
   std::vector<std::string> words;
   for (const CLI::App* sub : CommandsOf(command)) words.push_back(sub->get_name());

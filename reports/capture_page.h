@@ -23,14 +23,14 @@ struct CapturedCamera {
   std::optional<double> left_out;  ///< share of keypoints that disagreed with the other cameras', where there are any
 };
 
-/// How far what the cameras show is from what was found, by one kind of measure.
+/// The distances of what the cameras show from what was found, by one kind of measure.
 struct CameraResiduals {
   std::string caption;  ///< of the curves
   std::string unit;     ///< theirs
   std::vector<CapturedCamera> cameras;
 };
 
-/// What `etude capture` found, for people to read.
+/// The findings of `etude capture`, for people to read.
 struct CapturePage {
   std::string title;
   std::string verdict;  ///< a sentence or two

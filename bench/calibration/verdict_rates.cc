@@ -169,7 +169,7 @@ namespace {
 
 constexpr std::array kEffects = {1.0, 2.0, 4.0};
 
-/// Lower is better, by as little as `practical`.
+/// Makes a metric of which lower is better, by as little as `practical`.
 MetricInfo MetricOf(double practical) {
   MetricInfo metric;
   metric.id = "calibration";

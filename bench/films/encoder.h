@@ -22,7 +22,7 @@ namespace etude {
 /// dropped before Finish leaves nothing behind.
 class Encoder {
  public:
-  /// How pictures are handed over: as they are, or as encoders take them (three planes, BT.601).
+  /// The form in which pictures are handed over: as they are, or as encoders take them (three planes, BT.601).
   enum class Form { kRgb, kI420 };
 
   /// Starts ffmpeg. Pictures must have this size (even numbers) and follow at `rate_hz`. `sound`: a WAV file that goes
@@ -55,7 +55,7 @@ class Encoder {
 
 // What reading films asks of such programs, too.
 
-/// In the place of a program's input or output: there is none.
+/// Stands for a program's input or output where it has none.
 inline constexpr int kNowhere = -1;
 /// Starts a program (no shell) between two descriptors; what it says on its standard error goes to `log`. Returns 0,
 /// or why it could not be started (errno).

@@ -144,8 +144,8 @@ class BaselineReader {
     return {};
   }
 
-  /// Counted before allocating: two long lists of names in a small file would make a huge table. No line may come
-  /// twice, so a file with as many lines as cells fills every cell.
+  /// Checks the size of the table before it is allocated: two long lists of names in a small file would make a huge
+  /// one. No line may come twice, so a file with as many lines as cells fills every cell.
   Result<void> CountLines(const JsonObject& head) const {
     std::size_t cells = 0, lists = 0;
     for (const SnapshotScenario& scenario : snapshot_.scenarios) {

@@ -53,8 +53,8 @@ Result<GateReport> JudgeRun(const FinishedRun& run, const Snapshot* baseline, co
 std::set<std::string> ExactScenarios(const FinishedRun& run);
 TailRules TailRulesOf(const FinishedRun& run);
 
-/// Why there can be no verdict on the whole: the run is not whole, cells ended in a status that depends on the machine
-/// (timeout, crashed, out of memory; one sentence per scenario and status), or every cell was skipped.
+/// Returns why there can be no verdict on the whole: the run is not whole, cells ended in a status that depends on the
+/// machine (timeout, crashed, out of memory; one sentence per scenario and status), or every cell was skipped.
 std::vector<std::string> WhyIncomplete(const FinishedRun& run);
 
 /// One sentence per method that gave no answer (ok or unsolved) in any of its cells, with the most frequent causes,

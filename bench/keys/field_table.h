@@ -100,7 +100,7 @@ struct Field {
             }};
   }
 
-  /// Any text; `allowed` says for people which.
+  /// A field that takes any text; `allowed` tells people which.
   template <typename Member>
   static Field Text(const std::string& key, Member member, std::string allowed, std::string meaning) {
     return {{key, TextKind(std::move(allowed)), Default(member), std::move(meaning)},

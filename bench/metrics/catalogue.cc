@@ -25,7 +25,7 @@ const MetricInfo* FindInCatalogue(std::string_view id) {
   return found != by_id.end() && (*found)->id == id ? *found : nullptr;
 }
 
-/// What two definitions differ in, of all that judges and draws their values; "" = nothing.
+/// Returns in what two definitions differ, of all that judges and draws their values; "" = in nothing.
 std::string FindDifference(const MetricInfo& a, const MetricInfo& b) {
   if (a.version != b.version) return fmt::format("version {} and {}", a.version, b.version);
   if (a.direction != b.direction) return "direction";

@@ -70,7 +70,7 @@ std::span<const MetricInfo> AllMetrics();
 /// Adds a metric that a scenario brings along, so that FindMetric finds it: whoever reads a scenario or its run does so
 /// first. Fails when the id is the catalogue's own, or was added with another definition: the values of two never mix.
 Result<void> AddMetric(MetricInfo metric);
-/// What was added, by id.
+/// Returns the metrics that were added, by id.
 const std::map<std::string, MetricInfo, std::less<>>& AddedMetrics();
 /// A metric of the catalogue, or one that was added. Null when there is no such metric.
 const MetricInfo* FindMetric(std::string_view id);

@@ -32,7 +32,7 @@ bool IsAnswered(const CoachedSession& session, std::size_t i) {
   });
 }
 
-/// From the decision to correct until the act begins, or the session ends.
+/// Returns the waits from the decision to correct until the act begins, or the session ends.
 std::vector<Wait> FeedbackWaits(const CoachedSession& session) {
   std::vector<Wait> waits;
   for (const GivenCorrection& correction : session.corrections) {

@@ -18,7 +18,7 @@ struct IkErrorSummary {
   double axis_max_deg = 0;  ///< the worst single axis of any effector
 };
 
-/// Needs at least one effector.
+/// Sums up the errors of one or more effectors.
 IkErrorSummary SummariseIkErrors(std::span<const EffectorError> errors);
 
 /// The targets of a world's effectors, and the bounds by which "solved" is judged.
@@ -53,7 +53,7 @@ struct TrackedFrame {
   bool keeps_limits = true;
 };
 
-/// Practically: 0.1 cm and 0.1° of every axis, all limits kept.
+/// True if a frame is solved for practical purposes: within 0.1 cm and 0.1° of every axis, all limits kept.
 bool IsFrameSolved(const TrackedFrame& frame);
 
 /// `frames_solved` and `frames_solved_tight`: shares of frames. Needs a frame.

@@ -75,8 +75,8 @@ class RealFrames {
 /// real frame, times the duration of a frame.
 double StrangeCmSeconds(const JoinView& view, const RealFrames& real);
 
-/// What holds the body up from the first transition point to the join's end, 1.2 s after that point at least, as far as
-/// the motion goes: FindSupport, asked of the clips, never of the frames shown.
+/// Finds what holds the body up from the first transition point to the join's end, 1.2 s after that point at least, as
+/// far as the motion goes: FindSupport, asked of the clips, never of the frames shown.
 std::vector<Support> JoinSupport(const JoinView& view);
 
 /// A transition floats when nothing holds the body for so many frames in a row. Fewer are not seen.
@@ -91,8 +91,8 @@ bool IsSupported(std::span<const Support> support);
 /// JoinSupport's.
 std::optional<double> BalanceCm(const JoinView& view, std::span<const Support> support);
 
-/// How much of the wanted clip is left out before the frame at which it is entered; nothing of a motion that goes on
-/// unbroken, which enters no clip.
+/// The start of the wanted clip that is left out, before the frame at which it is entered; nothing of a motion that
+/// goes on unbroken, which enters no clip.
 struct SkippedStart {
   std::optional<int> entered_frame;  ///< of the wanted clip
   int frames = 1;                    ///< of the wanted clip

@@ -123,7 +123,7 @@ struct Measured {
 };
 constexpr const char* kQueryKinds[] = {"own", "varied", "foreign", "most", "none"};
 
-/// So many varied frames, or the captured ones as they are.
+/// A library of so many varied frames, or of the captured ones as they are.
 struct LibraryKind {
   int count = 0;
   bool captured = false;

@@ -40,7 +40,7 @@ std::vector<Grades> Joined(std::span<const std::vector<Grades>> clips) {
   return all;
 }
 
-/// Evenly from all over.
+/// Returns frames spread evenly over all.
 std::vector<Grades> Some(std::span<const Grades> frames) {
   std::vector<Grades> some;
   for (std::size_t i = 0; i < kQueries; ++i) some.push_back(frames[i * frames.size() / kQueries]);

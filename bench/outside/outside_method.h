@@ -31,7 +31,8 @@ struct OutsideOptions {
   Seed seed = 1;
 };
 
-/// Seconds that Ask may take at most, with the start_s above: handshake, setting, problem, and the clearing away.
+/// Returns the seconds that Ask may take at most, with the start_s above: handshake, setting, problem, and the clearing
+/// away.
 double LongestAskSeconds(double time_s);
 
 /// The outcome of one problem.

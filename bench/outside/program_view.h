@@ -6,8 +6,7 @@
 
 namespace etude {
 
-/// How a program is started so that it runs alike with a fence and without, and what a fence shows it beside the
-/// system.
+/// A program as it is started, alike with a fence and without, and what a fence shows it beside the system.
 struct ProgramView {
   std::vector<std::string> command;          ///< the files that it names by absolute paths
   std::vector<std::filesystem::path> shown;  ///< absolute paths of files and folders

@@ -74,7 +74,7 @@ void LimitProgram() {
   Limit(RLIMIT_CORE, 0);
 }
 
-/// What a forked child becomes, all made ready before: between fork and exec only system calls are safe.
+/// The program that a forked child becomes, all made ready before: between fork and exec only system calls are safe.
 struct Becoming {
   const char* path;
   char* const* argv;

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr int kTrialMs = 5000;
 
-/// What every program sees: the system's programs, libraries and settings.
+/// The folders that every program sees: the system's programs, libraries and settings.
 constexpr std::array kSystem = {"/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/etc", "/opt", "/nix"};
 /// Folders to write to, empty at first.
 constexpr std::array kScratch = {"/tmp", "/var/tmp", "/dev/shm"};

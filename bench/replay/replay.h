@@ -24,7 +24,7 @@ struct CellCheck {
   /// "recording"; "" when the same.
   std::string stage;
   std::string then, now;  ///< what stood there, what came now
-  /// What came now, of a cell that was asked for by its name; without curves and recording.
+  /// The row that came now, of a cell that was asked for by its name; without curves and recording.
   std::optional<Row> row = std::nullopt;
 };
 

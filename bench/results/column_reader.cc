@@ -127,7 +127,7 @@ class ScenarioColumns {
   /// Columns that name texts by their places.
   enum TextColumn { kReason, kClip, kUnits };
   static constexpr std::array<const char*, 3> kTextColumns = {"reason", "clip", "units"};
-  /// In the order of a kind's metrics, stages and series; null where a kind has no value.
+  /// The columns of a kind's metrics, stages and series, in its order; null where a kind has no value.
   struct KindColumns {
     std::vector<const NpyFile*> values, digests, curves, ends;
   };

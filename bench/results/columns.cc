@@ -103,7 +103,7 @@ constexpr std::array<std::pair<const char*, double CellUsage::*>, 5> kTimes = {
      {"world_wall_s", &CellUsage::world_wall_s},
      {"world_cpu_s", &CellUsage::world_cpu_s}}};
 
-/// "00c0ffee00c0ffee" as a number.
+/// Reads a digest as a number, like "00c0ffee00c0ffee".
 Result<std::uint64_t> DigestNumber(const std::string& stage, const std::string& hex) {
   std::uint64_t number = 0;
   const auto [stop, status] = std::from_chars(hex.data(), hex.data() + hex.size(), number, 16);

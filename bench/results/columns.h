@@ -21,8 +21,8 @@ namespace etude {
 constexpr const char* kColumnsFolder = "columns";
 /// The folder of the times of its cells, laid out alike.
 constexpr const char* kTimesFolder = "timings";
-/// Within a scenario's folder, the columns of curves: their values one behind the other, and of each row where they
-/// end.
+/// The columns of curves within a scenario's folder: their values one behind the other, and the end of each row's
+/// curve.
 constexpr const char* kSeriesFolder = "series";
 constexpr const char* kCurveEnds = ".ends";
 
@@ -80,7 +80,7 @@ class ColumnWriter {
 
   /// The next row, in canonical order.
   Result<void> Add(const Row& row, const CellUsage& usage);
-  /// Once there are all rows.
+  /// Writes what is left; to be called once there are all rows.
   Result<void> Finish();
 
  private:

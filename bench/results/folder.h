@@ -21,7 +21,8 @@ constexpr int kResultSchema = 3;
 
 /// Stands in a result folder while its run is under way, and after it was interrupted.
 constexpr const char* kJournalFile = "journal.jsonl";
-/// Only where libraries changed while a run was made, and somebody accepted that: which, then and now.
+/// The file is there only where libraries changed while a run was made and somebody accepted that; it tells them, then
+/// and now.
 constexpr const char* kOtherLibrariesFile = "other_libraries.json";
 
 /// Runs of more cells than this keep them as columns (column_writer.h) instead of lines of text.

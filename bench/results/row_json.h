@@ -16,8 +16,8 @@ std::vector<Series> DecodeSeries(const Json& json);
 /// The version of the files of `recordings/`. The first named no joints.
 constexpr int kRecordingVersion = 2;
 
-/// What a recording holds of a cell: each track's poses as rows of 60 numbers (x, y, z of the 20 joints, metres), and
-/// the extras of its task.
+/// Encodes what a recording holds of a cell: each track's poses as rows of 60 numbers (x, y, z of the 20 joints,
+/// metres), and the extras of its task.
 Result<Json> EncodeMotions(const Recording& recording);
 /// A recording as its file has it: the version, the names of the joints in the order of the numbers, their unit and the
 /// axis that points up, then the motions.

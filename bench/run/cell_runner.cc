@@ -41,8 +41,8 @@ double ReadPeakMemoryMb() {
   return 0;
 }
 
-/// How a cell ended in which something was thrown. How much memory there is is the machine's matter, and the status one
-/// that depends on it.
+/// Returns the result of a cell in which something was thrown. How much memory there is is the machine's matter, and so
+/// is the status of a cell that lacked it.
 CellResult Thrown(const std::string& when, const std::exception& error) {
   const bool is_short = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
   return CellResult::Ended(is_short ? Status::kOutOfMemory : Status::kFailed,

@@ -15,7 +15,7 @@ namespace etude {
 struct FinishedCell {
   Row row;
   CellUsage usage;
-  /// What of this machine kept the method from being asked; "" = it was. Such a cell has no row.
+  /// The reason why this machine kept the method from being asked; "" = it was asked. A cell with a reason has no row.
   std::string why_not_run = {};
 };
 

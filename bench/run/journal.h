@@ -72,7 +72,7 @@ class Journal {
   /// Begins a journal.
   static Result<Journal> Begin(const std::filesystem::path& folder, const JournalHead& head,
                                const JournalLag& sync = {});
-  /// Goes on with one that `ReadJournal` has read; a last line that was torn is cut off.
+  /// Goes on with a journal that `ReadJournal` has read; a last line that was torn is cut off.
   static Result<Journal> Continue(const std::filesystem::path& folder, const JournalLag& sync = {});
   Journal(Journal&& other) noexcept;
   ~Journal();

@@ -19,7 +19,7 @@ Payload SettingOf(const MetricInfo& info, const std::string& task) {
   return PayloadOf(std::move(setting));
 }
 
-/// What a metric's program said of a cell.
+/// The reply of a metric's program about a cell.
 struct Measured {
   Status status = Status::kOk;  ///< kOk: a number, or null with its reason; kUnsolved: no answer; else it failed
   MetricValue value;

@@ -12,7 +12,7 @@ namespace etude {
 /// cell and kept. They are told what a recording of the cell holds, truth among it; methods never are.
 class OutsideMetrics {
  public:
-  /// As of CellRunner. The scenario must outlive it.
+  /// Takes what CellRunner takes. The scenario must outlive it.
   OutsideMetrics(const PreparedScenario& scenario, const std::string& error_folder, const Fence& fence);
 
   bool empty() const { return programs_.empty(); }

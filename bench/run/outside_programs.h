@@ -31,7 +31,7 @@ Result<void> CheckPrograms(const std::string& file, std::span<const PreparedScen
 Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const OutsideRules& rules,
                        const std::filesystem::path& folder, const std::optional<SecretKey>& key);
 
-/// For a worker's set-up.
+/// Encodes a fence for a worker's set-up, and decodes it there.
 Json EncodeFence(const Fence& fence);
 Fence DecodeFence(const Json& json);
 

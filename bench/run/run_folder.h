@@ -32,7 +32,7 @@ class RunFolder {
 
   /// Says that there is something in it worth keeping from now on.
   void Keep() { is_ours_ = false; }
-  /// Why it could not be locked; "" = it is.
+  /// Returns why the folder could not be locked; "" = it is locked.
   const std::string& why_unlocked() const { return why_unlocked_; }
 
  private:

@@ -64,7 +64,7 @@ struct SuiteSetup {
   std::map<std::string, std::vector<Scenario>> parsed = {};
 };
 
-/// Of secret seeds it writes the digest alone.
+/// Encodes a set-up; of secret seeds the digest alone.
 Json EncodeSetup(const SuiteSetup& setup);
 /// Complains of what is no set-up, names no scenario, or asks for no trials or too many.
 Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place);
@@ -76,7 +76,7 @@ class PreparedScenario {
   const Scenario& scenario() const { return scenario_; }
   /// The clips, those of all libraries where there are any.
   const ClipLibrary& clips() const { return *clips_; }
-  /// By name, where there are any.
+  /// Returns the clip libraries by name, where there are any.
   const std::map<std::string, ClipLibrary>& libraries() const { return libraries_; }
   /// The recordings of people that its worlds are made of; null where they are not.
   const LabelledStreams* recordings() const { return recordings_.get(); }

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kMostExampleFrames = 10'000;
 constexpr const char* kIdPattern = "^[a-z][a-z0-9_]{0,59}$";
-/// What a row of cells.jsonl holds beside metrics.
+/// The keys of a row of cells.jsonl beside metrics.
 constexpr std::string_view kRowKeys[] = {"cell",  "scenario", "task",   "condition", "trial",        "clip",
                                          "units", "method",   "status", "reason",    "null_reasons", "ok_share"};
 /// Their cells keep no motion.

@@ -24,7 +24,7 @@ double ValueAt(const Steps& steps, std::size_t i) {
   return steps.from + share * (steps.to - steps.from);
 }
 
-/// With 12 digits of a range's largest value, lest 0.3 − 3 × 0.1 reads -5.55111512313e-17.
+/// Writes a number with 12 digits of a range's largest value, lest 0.3 − 3 × 0.1 reads -5.55111512313e-17.
 std::string Write(double value, const Steps& steps) {
   const double largest = std::max(std::abs(steps.from), std::abs(steps.to));
   const double unit = std::pow(10, std::floor(std::log10(largest)) - 11);

@@ -14,7 +14,7 @@
 namespace etude {
 namespace {
 
-/// Never -0, which JSON would show.
+/// Rounds to 1 / `per_unit`; never to -0, which JSON would show.
 double Rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit + 0.0; }
 
 Json NumbersOf(const BodyPose& pose) {

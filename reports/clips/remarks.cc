@@ -37,7 +37,7 @@ void RemarkOnPenetration(const BodyMotion& motion, std::vector<std::string>& rem
       100.0 * static_cast<double>(frames) / static_cast<double>(motion.poses.size())));
 }
 
-/// Whether trunk and legs stand: who sits or lies has seats, cushions and the body's own thickness below the joints.
+/// True if trunk and legs stand: who sits or lies has seats, cushions and the body's own thickness below the joints.
 bool IsUpright(const BodyPose& pose) {
   constexpr double kSteep = 0.7;
   using enum Role;
@@ -47,8 +47,8 @@ bool IsUpright(const BodyPose& pose) {
   return trunk.y > kSteep * glm::length(trunk) && pose[kHipCentre].y - ankles > kSteep * leg;
 }
 
-/// How high a body may stay, and for how long: nobody jumps for a second, some sit on high chairs, and of who dances
-/// toes lie up to 5 cm above the lowest twentieth for two seconds, 9 for one.
+/// A height at which a body may stay, and for how long: nobody jumps for a second, some sit on high chairs, and of who
+/// dances toes lie up to 5 cm above the lowest twentieth for two seconds, 9 for one.
 struct Hovering {
   double height_m, longest_s;
   bool is_upright;

@@ -13,8 +13,8 @@
 
 namespace etude {
 
-/// What the frames of a film are drawn from, where only this process can tell it, frame by frame: the pictures of a
-/// film that is read, a crowd that is followed.
+/// The bytes that the frames of a film are drawn from, where only this process can tell them, frame by frame: the
+/// pictures of a film that is read, a crowd that is followed.
 struct FrameFeed {
   std::size_t bytes = 0;  ///< of every frame; 0 = frames need nothing
   /// Fills in what a frame is drawn from. Asked once for each, in order, before it is drawn.

@@ -42,7 +42,7 @@ class Studio {
   glm::dvec2 PixelOf(const Box& box, const glm::dvec3& point) const;
 
  private:
-  /// Where the rays of pixels meet the floor, one number per pixel.
+  /// The places where the rays of pixels meet the floor, one number per pixel.
   struct Floor {
     std::vector<float> x, z;       ///< metres
     std::vector<float> fade;       ///< how much the floor is still seen there; 0 for the backdrop

@@ -40,7 +40,7 @@ std::optional<Wait> WaitOf(const Row& row, const Censored& rule) {
   return is_done ? Wait{*took, true} : Wait{std::numeric_limits<double>::infinity(), false};
 }
 
-/// By method, in the scenario's order; of methods that never measure this nothing.
+/// Returns the waits by method, in the scenario's order; of methods that never measure this nothing.
 std::map<std::size_t, std::vector<Wait>> WaitsUnder(const RunData& run, const ScenarioSummary& scenario,
                                                     const ConditionSummary& condition, const Censored& rule) {
   std::map<std::size_t, std::vector<Wait>> waits;

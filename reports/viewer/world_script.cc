@@ -19,7 +19,7 @@
 namespace etude {
 namespace {
 
-/// How a track of a recording is shown.
+/// The look of a track of a recording.
 struct TrackLook {
   std::string_view task, track;
   std::string_view label;  ///< "": the method
@@ -53,7 +53,8 @@ TrackLook LookOf(const std::string& task, const std::string& track) {
   return found == Looks().end() ? TrackLook{task, track, track, "shown"} : *found;
 }
 
-/// What the distance of a joint from the bodies that it is held against means, in the unit of the task's headline.
+/// Returns what the distance of a joint from the bodies that it is held against means, in the unit of the task's
+/// headline.
 std::pair<std::string_view, std::string_view> ErrorOf(const std::string& task) {
   if (task == "capture") return {"distance from the true joint", "mm"};
   if (task == "ik") return {"distance from the true joint", "cm"};
@@ -63,7 +64,7 @@ std::pair<std::string_view, std::string_view> ErrorOf(const std::string& task) {
 
 bool AreEqual(const BodyPose& a, const BodyPose& b) { return a.joints == b.joints; }
 
-/// Without the frames at the end that repeat the one before them: the last one lasts.
+/// Returns a motion without the frames at its end that repeat the one before them: the last one lasts.
 std::span<const BodyPose> UntilItRests(const BodyMotion& motion) {
   std::span<const BodyPose> poses = motion.poses;
   while (poses.size() > 1 && AreEqual(poses.back(), poses[poses.size() - 2])) poses = poses.first(poses.size() - 1);

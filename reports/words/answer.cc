@@ -46,7 +46,7 @@ std::string ClearSentence(const Comparison& c, const std::string& other, const M
                      words.label, Amount(std::abs(difference), words), FormatInterval(low, high, words), other, worlds);
 }
 
-/// Whether median and mean tell different things: the one's interval does not hold the other.
+/// True if median and mean tell different things: the one's interval does not hold the other.
 bool MeanTellsMore(const Comparison& c) {
   return c.mean && c.ci_low && c.ci_high && (*c.mean < *c.ci_low || *c.mean > *c.ci_high);
 }

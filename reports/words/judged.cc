@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// What worlds were drawn from, in the order of SamplingUnit: these ones, and others like them.
+/// The words for what worlds were drawn from, in the order of SamplingUnit: these ones, and others like them.
 constexpr std::array<std::array<std::string_view, 2>, kSamplingUnits.size()> kUnitWords = {
     {{"these worlds", "other worlds"},
      {"these people", "other people"},

@@ -21,7 +21,7 @@ constexpr double kKnotSeconds = 0.5;
 /// The standard deviation of a cubic spline whose knots have 1: in the mean over time.
 constexpr double kSplineDeviation = 0.692;
 
-/// How a limb is turned about its upper joint, beside what its parent is turned by.
+/// The turn of a limb about its upper joint, beside what its parent is turned by.
 struct LimbTurn {
   Role child;
   double turn_deg = 0;  ///< standard deviation about each of three axes

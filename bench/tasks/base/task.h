@@ -37,7 +37,8 @@ class TaskWorld {
  public:
   virtual ~TaskWorld() = default;
 
-  /// Why no method can run here ("clip x has no labelled moves"), else nothing: then every cell is skipped.
+  /// Returns why no method can run here ("clip x has no labelled moves"), else nothing. With a reason every cell is
+  /// skipped.
   virtual std::optional<std::string> WhySkipped() const { return std::nullopt; }
 
   /// Computes the costly stages that several built-in methods share, so that none of them is charged with their time.

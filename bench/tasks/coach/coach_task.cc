@@ -84,7 +84,7 @@ class CoachTaskWorld final : public TaskWorld {
     return result;
   }
 
-  /// Made once before, when the task was: they can be taught.
+  /// Returns the coaches, made once when the task was: they can be taught.
   const std::vector<ReadyCoach>& Coaches() const { return **coaches_.For(world_.key); }
 
   const Rehearsal& shared_;

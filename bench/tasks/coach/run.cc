@@ -116,7 +116,7 @@ CoachedSession SessionOf(const SessionLog& log) {
   return session;
 }
 
-/// Per move of the dance what its performances were.
+/// Returns for each move of the dance what its performances were.
 std::vector<std::vector<PerformanceTruth>> TruthsByMove(const SessionLog& log, std::size_t moves) {
   std::vector<std::vector<PerformanceTruth>> truths(moves);
   for (const LoggedPerformance& performance : log.performances) {

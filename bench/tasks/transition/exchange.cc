@@ -99,7 +99,8 @@ TransitionAnswer ReadTransition(AnswerFields& fields, const Stage& stage, const 
   return answer;
 }
 
-/// Some seconds before and after the transition points, and as long as the join is judged.
+/// Returns the frames to record: some seconds before and after the transition points, and as long as the join is
+/// judged.
 FrameWindow RecordedFrames(const TransitionOutcome& outcome, const Stage& stage) {
   constexpr double kSeconds = 2.5;
   const JoinView view = ViewOf(outcome, stage);
