@@ -185,7 +185,8 @@ TEST(ChildProcess, DiesWithUs) {
   ASSERT_EQ(::pipe(report), 0);
   const pid_t we = ::fork();
   if (we == 0) {
-    ChildProcess child = Shell("echo $$; read x; sleep 100");
+    // By `exec`: our end is the end of its input, too, and a child of the shell's would outlive it.
+    ChildProcess child = Shell("echo $$; read x; exec sleep 100");
     const std::string line = ReadLine(child) + "\n";
     if (::write(report[1], line.data(), line.size()) < 0) ::_exit(1);
     ::pause();
