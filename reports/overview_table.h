@@ -21,8 +21,8 @@ inline constexpr std::string_view kSigns =
     "method: ▲ better, ▼ worse, = no difference that matters, ? undecided, · not compared; in brackets on these worlds "
     "only. Figures are medians, or means of shares and scores, with 95 % intervals.";
 
-/// Writes for each pair of a scenario of the task `pose-distance` whose worlds are single named pairs of poses how far
-/// the poses are apart, and each method's verdict. "" for any other scenario.
+/// Writes a table of named pairs of poses: how far each pair is apart, and each method's verdict. Only of a scenario of
+/// the task `pose-distance` whose worlds are such single pairs; "" for any other.
 std::string PosePairsHtml(const RunData& run, const ScenarioSummary& scenario);
 std::string PosePairsMarkdown(const RunData& run, const ScenarioSummary& scenario);
 

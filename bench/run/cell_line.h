@@ -35,7 +35,7 @@ std::optional<CellLineHead> ReadCellLineHead(std::string_view line);
 /// Reads a line that is as it was written; `identity` is the row of its cell, without a result.
 Result<FinishedCell> DecodeCellLine(std::string_view line, Row identity, const Place& place);
 
-/// A JSON object in one line, without a line end, as one whose last member is a sum of its text.
+/// Appends a last member, `sum`, to a JSON object in one line: the digest of its text. Neither has a line end.
 std::string WithSum(std::string json);
 bool HasRightSum(std::string_view line);
 

@@ -20,9 +20,9 @@ Payload LibraryPayload(const SearchProblem& problem, SearchQuestion question);
 ///
 ///     {"queries": [[twenty-four numbers], …]}
 ///
-/// Asked for is per query a list of frames of the library (their numbers, from 0): for `first` the one of smallest
-/// number whose distance is below the threshold, or none; for `within` all of these, by number; for `nearest` and
-/// `nearest-10` the one, or ten, of smallest distance, by distance, those of equal distance by number.
+/// Each query asks for a list of frames of the library (their numbers, from 0): `first` for the one of smallest number
+/// whose distance is below the threshold, or none; `within` for all of these, by number; `nearest` and `nearest-10` for
+/// the one, or ten, of smallest distance, by distance, those of equal distance by number.
 Payload DescribeQueries(std::span<const Grades> queries);
 
 /// Makes the truth, itself a perfect answer; a method outside answers the same:
