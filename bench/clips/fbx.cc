@@ -1,19 +1,21 @@
 #include "bench/clips/fbx.h"
 
 #include <dlfcn.h>
-#include <fcntl.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <fstream>
+#include <optional>
 #include <utility>
 
 #include "bench/process/pinned_environment.h"
@@ -23,9 +25,9 @@ namespace {
 
 constexpr const char* kModule = "etude_clips_assimp.so";  // found beside the program, by its run path
 constexpr rlim_t kMemoryBytes = rlim_t{4} << 30, kProcessorSeconds = 60;
-constexpr std::size_t kLargestGlb = std::size_t{1} << 30;
+constexpr std::size_t kLargestGlb = std::size_t{1} << 30, kLargestFile = kLargestGlb;
 constexpr unsigned kOldestVersion = 7;
-constexpr int kSaidGlb = 0, kSaidComplaint = 1;
+constexpr char kSaidGlb = 'G', kSaidComplaint = 'C';
 
 constexpr std::string_view kBinaryStart = "Kaydara FBX Binary", kTextStart = "; FBX";
 
@@ -59,76 +61,147 @@ rlim_t MappedBytes() {
   return pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
 }
 
-[[noreturn]] void BeReader(std::string_view bytes, int output, pid_t parent) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(kSaidComplaint);  // it died before the line above
-  for (const auto& [resource, most] :
-       {std::pair{RLIMIT_AS, MappedBytes() + kMemoryBytes}, {RLIMIT_CPU, kProcessorSeconds}, {RLIMIT_CORE, 0}}) {
-    const rlimit limit{most, most};
-    ::setrlimit(resource, &limit);
+void Limit(int resource, rlim_t most) {
+  const rlimit limit{most, most};
+  ::setrlimit(resource, &limit);
+}
+
+/// Allows so much processor time from now on.
+void AllowProcessorTime(rlim_t seconds) {
+  rlimit limit{};
+  ::getrlimit(RLIMIT_CPU, &limit);
+  const rlim_t spent = static_cast<rlim_t>(std::clock() / CLOCKS_PER_SEC) + 1;
+  limit.rlim_cur = std::min(limit.rlim_max, spent + seconds);
+  ::setrlimit(RLIMIT_CPU, &limit);
+}
+
+/// Sends a length and so many bytes; false when nobody is at the other end.
+bool SendBlock(int socket, std::string_view bytes) {
+  const std::uint64_t size = bytes.size();
+  for (std::string_view part : {std::string_view(reinterpret_cast<const char*>(&size), sizeof size), bytes}) {
+    while (!part.empty()) {
+      const ssize_t count = ::send(socket, part.data(), part.size(), MSG_NOSIGNAL);
+      if (count < 0 && errno == EINTR) continue;
+      if (count <= 0) return false;
+      part.remove_prefix(static_cast<std::size_t>(count));
+    }
   }
+  return true;
+}
+
+bool Receive(int socket, char* bytes, std::size_t size) {
+  while (size > 0) {
+    const ssize_t count = ::recv(socket, bytes, size, 0);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    bytes += count;
+    size -= static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+/// Receives what SendBlock sent; nothing when nobody is at the other end, or it is longer than `most`.
+std::optional<std::string> ReceiveBlock(int socket, std::size_t most, bool& is_too_long) {
+  std::uint64_t size = 0;
+  if (!Receive(socket, reinterpret_cast<char*>(&size), sizeof size)) return std::nullopt;
+  is_too_long = size > most;
+  std::string bytes;
+  if (is_too_long) return std::nullopt;
+  bytes.resize(size);
+  return Receive(socket, bytes.data(), size) ? std::optional(std::move(bytes)) : std::nullopt;
+}
+
+/// The child: answers each file with kSaidGlb, the name of the reader and a line break, and the GLB file, or with
+/// kSaidComplaint and a complaint.
+[[noreturn]] void BeReader(int socket, pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);  // it died before the line above
+  Limit(RLIMIT_AS, MappedBytes() + kMemoryBytes);
+  Limit(RLIMIT_CORE, 0);
   // What it falls on ends it, whatever the parent does on such signals.
   for (const int fatal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU}) std::signal(fatal, SIG_DFL);
-  std::string said;
-  bool went_well = false;
+  std::string missing, name;
+  GlbOfFbxBytes* read = nullptr;
   if (void* module = ::dlopen(kModule, RTLD_NOW | RTLD_LOCAL); module == nullptr) {
-    said = std::string("an FBX file, for which assimp is not there (") + ::dlerror() +
-           "); install Debian's libassimp-dev, and build again";
+    missing = std::string("an FBX file, for which assimp is not there (") + ::dlerror() +
+              "); install Debian's libassimp-dev, and build again";
   } else if (const void* symbol = ::dlsym(module, "etude_clips_assimp"); symbol == nullptr) {
-    said = std::string(kModule) + " is no module of this program";
+    missing = std::string(kModule) + " is no module of this program";
   } else {
-    went_well = (*static_cast<GlbOfFbxBytes* const*>(symbol))(bytes, said);
-    if (went_well) said.insert(0, NameOfReader() + "\n");
+    read = *static_cast<GlbOfFbxBytes* const*>(symbol);
+    name = NameOfReader() + "\n";
   }
-  std::FILE* file = ::fdopen(output, "wb");
-  std::fwrite(said.data(), 1, said.size(), file);
-  std::fflush(file);
-  ::_exit(went_well ? kSaidGlb : kSaidComplaint);
+  bool is_too_long = false;
+  while (const auto bytes = ReceiveBlock(socket, kLargestFile, is_too_long)) {
+    AllowProcessorTime(kProcessorSeconds);
+    std::string said = missing;
+    const bool went_well = read != nullptr && read(*bytes, said);
+    if (!SendBlock(socket, (went_well ? kSaidGlb + name : std::string(1, kSaidComplaint)) + said)) break;
+  }
+  ::_exit(0);
 }
 
 }  // namespace
 
 bool IsFbx(std::string_view bytes) { return bytes.starts_with(kBinaryStart) || bytes.starts_with(kTextStart); }
 
-Result<FbxMotion> ReadFbx(std::string_view bytes, const std::string& path) {
+Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& path) {
   if (const unsigned version = MajorVersion(bytes); version > 0 && version < kOldestVersion) {
     return Fail({path}, "an FBX file of version {}; allowed: {} (of 2011 or later): export it anew, or convert it",
                 version, kOldestVersion);
   }
-  std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) return Fail({}, "no pipe can be made: {}", std::strerror(errno));
-  const pid_t parent = ::getpid(), child = ::fork();
-  if (child == 0) BeReader(bytes, ends[1], parent);
-  ::close(ends[1]);
-  if (child < 0) {
-    ::close(ends[0]);
-    return Fail({}, "no process can be started: {}", std::strerror(errno));
+  if (child_ < 0) {
+    std::array<int, 2> ends{};
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+      return Fail({}, "no pair of sockets can be made: {}", std::strerror(errno));
+    }
+    const pid_t parent = ::getpid();
+    child_ = ::fork();
+    if (child_ == 0) {
+      ::close(ends[0]);
+      BeReader(ends[1], parent);
+    }
+    ::close(ends[1]);
+    socket_ = ends[0];
+    if (child_ < 0) {
+      ::close(socket_);
+      return Fail({}, "no process can be started: {}", std::strerror(errno));
+    }
   }
-  std::string said;
-  std::array<char, 1 << 16> chunk;
-  for (;;) {
-    const ssize_t count = ::read(ends[0], chunk.data(), chunk.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) break;
-    said.append(chunk.data(), static_cast<std::size_t>(count));
-    if (said.size() > kLargestGlb) ::kill(child, SIGKILL);
+  std::optional<std::string> said;
+  bool is_too_long = false;
+  if (SendBlock(socket_, bytes)) said = ReceiveBlock(socket_, kLargestGlb, is_too_long);
+  if (said && said->starts_with(kSaidGlb)) {
+    const std::size_t line = said->find('\n');
+    return FbxMotion{.glb = said->substr(line + 1), .reader = said->substr(1, line - 1)};
   }
-  ::close(ends[0]);
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  if (said) {
+    constexpr std::size_t kLongest = 300;  // assimp says a whole file again
+    const std::string why = said->size() < 2 ? "a damaged FBX file: its reader gave up" : said->substr(1, kLongest);
+    return Fail({path}, "{}{}", why, said->size() > 1 + kLongest ? " …" : "");
   }
-  if (WIFEXITED(status) && WEXITSTATUS(status) == kSaidGlb) {
-    const std::size_t line = said.find('\n');
-    return FbxMotion{.glb = said.substr(line + 1), .reader = said.substr(0, line)};
-  }
-  if (WIFEXITED(status)) return Fail({path}, "{}", said.empty() ? "a damaged FBX file: its reader gave up" : said);
-  const int signal = WTERMSIG(status);
-  if (signal == SIGXCPU || signal == SIGKILL) {
+  const int status = End();
+  const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  if (is_too_long || signal == SIGXCPU || signal == SIGKILL) {
     return Fail({path},
                 "an FBX file too large to read: at most {} s of processor time, {} GB of memory and {} GB of result",
                 kProcessorSeconds, kMemoryBytes >> 30, kLargestGlb >> 30);
   }
-  return Fail({path}, "a damaged FBX file: its reader ended with signal {} ({})", signal, ::strsignal(signal));
+  return Fail({path}, "{} {} ({})", kReaderFell, signal, ::strsignal(signal));
 }
+
+int FbxReader::End() {
+  int status = 0;
+  if (child_ < 0) return status;
+  ::close(socket_);
+  while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) {
+  }
+  child_ = -1;
+  return status;
+}
+
+FbxReader::~FbxReader() { End(); }
+
+Result<FbxMotion> ReadFbx(std::string_view bytes, const std::string& path) { return FbxReader().Read(bytes, path); }
 
 }  // namespace etude

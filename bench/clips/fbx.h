@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <string>
 #include <string_view>
 
@@ -20,9 +22,31 @@ struct FbxMotion {
   std::string reader;  ///< the library that read it, and its build ID: "libassimp.so.5 (0f3c…)"
 };
 
-/// Reads the motion of an FBX file; meshes, materials, cameras and lights are left out. assimp reads it in a child
-/// process of limited memory and processor time, for files are a stranger's and may be hostile. Fails when the module
-/// is not there, and when the file is damaged, too large or ends the child.
+/// What a complaint begins with where a file ended its reader; the signal follows.
+inline constexpr std::string_view kReaderFell = "a damaged FBX file: its reader ended with signal";
+
+/// Reads the motion of FBX files, one after the other; meshes, materials, cameras and lights are left out. assimp reads
+/// them in a child process of limited memory and processor time, for files are a stranger's and may be hostile; one
+/// that a file ended is begun anew.
+class FbxReader {
+ public:
+  FbxReader() = default;
+  ~FbxReader();
+  FbxReader(const FbxReader&) = delete;
+  FbxReader& operator=(const FbxReader&) = delete;
+
+  /// Fails when the module is not there, and when the file is damaged, too large or ends the child.
+  Result<FbxMotion> Read(std::string_view bytes, const std::string& path);
+
+ private:
+  /// Waits for the child's end; returns its status.
+  int End();
+
+  pid_t child_ = -1;
+  int socket_ = -1;
+};
+
+/// Reads one file in a child of its own.
 Result<FbxMotion> ReadFbx(std::string_view bytes, const std::string& path);
 
 }  // namespace etude

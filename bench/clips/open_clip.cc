@@ -326,6 +326,9 @@ Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::
     return FileOfOne(ClipFormat::kDeepMimic, std::move(clip));
   }
   const bool is_fbx = IsFbx(bytes);
+  if (first.text == "{" && bytes.find("\"asset\"") == std::string::npos) {
+    return Fail(scanner.At(first), "{}", DescribeOtherFile(bytes, first.text));
+  }
   if (is_fbx || bytes.starts_with("glTF") || first.text == "{") {
     file.format = is_fbx ? ClipFormat::kFbx : first.text == "{" ? ClipFormat::kGltf : ClipFormat::kGlb;
     FbxMotion fbx;

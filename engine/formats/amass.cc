@@ -83,13 +83,14 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file) {
   const NumberArray *poses = Find(npz, "poses"), *places = Find(npz, "trans"), *rate = Find(npz, "mocap_framerate");
   if (rate == nullptr) rate = Find(npz, "mocap_frame_rate");
   const std::size_t width = WidthOf(poses);
-  if ((width != 156 && width != 165) || WidthOf(places) != 3 || rate == nullptr || rate->values.size() != 1) {
+  if ((width != 72 && width != 156 && width != 165) || WidthOf(places) != 3 || rate == nullptr ||
+      rate->values.size() != 1) {
     std::vector<std::string> names;
     for (const auto& [name, array] : npz.arrays) names.push_back(name);
     for (const std::string& name : npz.skipped) names.push_back(name + " (no plain little-endian numbers)");
     return Fail({file},
-                "arrays {}; allowed: a motion of AMASS with poses (frames × 156 or 165), trans (frames × 3) and "
-                "mocap_framerate or mocap_frame_rate",
+                "arrays {}; allowed: a motion of AMASS with poses (frames × 72, 156 or 165), trans (frames × 3) and "
+                "mocap_framerate or mocap_frame_rate; places of joints stand in a .npy",
                 names.empty() ? "none" : Join(names));
   }
   const std::size_t frames = poses->shape[0];

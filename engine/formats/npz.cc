@@ -156,12 +156,16 @@ Result<Npz> ReadNpz(std::string_view bytes, const std::string& file) {
     return Fail({file}, "{} members; allowed: {}", members, kMostMembers);
   }
   Npz read;
+  std::string others;
   std::uint64_t left = kMostUnpacked;
   for (zip_uint64_t i = 0; i < static_cast<zip_uint64_t>(members); ++i) {
     const char* name = zip_get_name(archive.get(), i, 0);
     std::string key = name == nullptr ? "" : name;
     constexpr std::string_view kEnding = ".npy";
-    if (!key.ends_with(kEnding)) continue;
+    if (!key.ends_with(kEnding)) {
+      if (others.empty()) others = key;
+      continue;
+    }
     key.resize(key.size() - kEnding.size());
     ASSIGN_OR_RETURN(const auto unpacked, Unpack(archive.get(), i, left, file));
     ASSIGN_OR_RETURN(auto array, ReadMember(unpacked, file + "/" + key));
@@ -170,6 +174,9 @@ Result<Npz> ReadNpz(std::string_view bytes, const std::string& file) {
     } else {
       read.skipped.push_back(key);
     }
+  }
+  if (!others.empty() && read.arrays.empty() && read.skipped.empty()) {
+    return Fail({file}, "a ZIP file that begins with {} and holds no arrays (.npy): unpack it", Quote(others));
   }
   return read;
 }

@@ -163,7 +163,20 @@ TEST_F(ClipFileTest, WhatIsNeitherIsToldWithWhatIsAllowed) {
            {"version https://git-lfs.github.com/spec/v1\n", "a pointer of Git LFS"},
            {"Coordinates\n", "an OpenSim table"},
            {"my walk.sto\nversion=1\nendheader\n", "an OpenSim table"},
-           {":version 1.10\n:name x\n", "an Acclaim skeleton"}}) {
+           {":version 1.10\n:name x\n", "an Acclaim skeleton"},
+           {"Vocaloid Motion Data 0002", "a motion of MikuMikuDance (.vmd), whose model is another file"},
+           {"#usda 1.0\n", "a USD scene: export glTF"},
+           {"NO_OF_FRAMES\t100\n", "Qualisys' TSV: export C3D from QTM"},
+           {"\xEF\xBB\xBFTrajectories\n100\n", "Vicon's CSV: export C3D from Nexus"},
+           {"# by hand\n[Header]\nFileType htr\n[SegmentNames&Hierarchy]\n", "Motion Analysis' HTR"},
+           {"<?xml version=\"1.0\"?>\n<mvnx version=\"4\">", "Xsens' MVNX: export BVH"},
+           {"<?xml version=\"1.0\"?>\n<COLLADA>", "a Collada scene"},
+           {"<?xml version=\"1.0\"?>\n<thing/>", "XML of no kind known here"},
+           {std::string("\0\0\0 ftypisom", 12), "a film, picture or sound, no motion"},
+           {std::string("\x55\xaa\0\1", 4), "a binary file of no kind known here; export BVH, FBX or C3D"},
+           {"{\"Bodies\": []}", "JSON that is neither glTF (it has no \"asset\")"},
+           {"[{\"keypoints\": []}]", "a JSON list; write joints with numpy.save"},
+           {"frame,x,y,z\n", "a table that begins with 'frame,x,y,z'; one of joints has columns left_wrist_x_m"}}) {
     EXPECT_NE(Complaint(Write("other", bytes)).find(told), std::string::npos) << told;
   }
   EXPECT_NE(Complaint(folder_.path().string()).find("is no file"), std::string::npos);
