@@ -14,6 +14,7 @@
 #include "engine/formats/trc.h"
 #include "engine/keypoints/adjust_person.h"
 #include "engine/keypoints/agreement.h"
+#include "engine/keypoints/doubt_rig.h"
 #include "reports/films/overlay_film.h"
 
 namespace etude {
@@ -210,6 +211,20 @@ std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const 
   return overlays;
 }
 
+/// Says what the keypoints say against the rig.
+void TellDoubts(const MatchedPerson& person, const std::vector<FilmedView>& views, double least_confidence,
+                std::vector<std::string>& told) {
+  std::vector<Camera> cameras;
+  std::vector<std::string> names;
+  for (const FilmedView& view : views) {
+    cameras.push_back(view.camera.camera);
+    names.push_back(view.camera.name);
+  }
+  for (const std::string& doubt : DoubtRig(cameras, names, person, least_confidence)) {
+    Tell(told, "doubtful: " + doubt);
+  }
+}
+
 Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, FilmedSession session,
                               const std::optional<MarkerMotion>& reference, Json& facts) {
   std::vector<FilmedView>& views = session.views;
@@ -239,6 +254,7 @@ Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, FilmedSessio
   }
   PrintPeople(person, views);
   TellMends(person, chosen, views, films.told);
+  TellDoubts(person.people[chosen], views, recover.triangulate.least_confidence, films.told);
   PrintReport(person, views);
   PrintFit(person);
   facts["keypoints"] = FactsOf(person, views, films.told);

@@ -46,7 +46,6 @@ void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<S
   }
   SessionGuess session = GuessSession(films, names, rig.R_WF, least_confidence);
   if (!session.mended.empty()) Tell(told_lines, "mended: " + session.mended);
-  if (!session.doubtful.empty()) Tell(told_lines, "doubtful: " + session.doubtful);
   for (std::size_t i = 0; i < views.size(); ++i) {
     films[i].camera = views[i].camera.camera = session.cameras[i];
     films[i].people = people[i] = std::move(session.people[i]);

@@ -82,12 +82,6 @@ class SessionGuesser {
         found.mended = fmt::format("{}: rays miss by {:.2f} % of the height instead of {:.2f} %", told_,
                                    kPercent * least_, kPercent * said);
         films_ = std::move(*best_);
-      } else {
-        TryFocalLengths();
-        if (best_ && least_ < kNotAsSaid) {
-          found.doubtful = fmt::format("{}, rays would miss by {:.2f} % of the height instead of {:.2f} %", told_,
-                                       kPercent * least_, kPercent * said);
-        }
       }
     }
     for (PictureOfFilm& film : films_) {
@@ -158,22 +152,6 @@ class SessionGuesser {
       }
     }
     Try(std::move(films), std::move(told));
-  }
-
-  void TryFocalLengths() {
-    if (films_.size() > kMostFilms) return;
-    constexpr double kStep = 0.02;
-    constexpr int kMostSteps = 7;
-    for (std::size_t c = 0; c < films_.size(); ++c) {
-      for (int step = -kMostSteps; step <= kMostSteps; ++step) {
-        Films films = films_;
-        Intrinsics& in = films[c].camera.intrinsics;
-        const double gain = 1 + kStep * step;
-        in.fx *= gain;
-        in.fy *= gain;
-        Try(std::move(films), fmt::format("with a focal length {:.2f} times {}'s", gain, names_[c]));
-      }
-    }
   }
 
   Films films_;

@@ -14,7 +14,6 @@ struct SessionGuess {
   std::vector<Camera> cameras;     ///< of the films
   std::vector<SeenPeople> people;  ///< of the films, in their pixels
   std::string mended;              ///< what was done, "" where all is as said
-  std::string doubtful;            ///< what would explain much, but was not done; "" where nothing is
 };
 
 /// Finds what is wrong with a whole session *(ours)*: the films of two cameras exchanged; a rig whose poses lead from
@@ -22,8 +21,7 @@ struct SessionGuess {
 /// counted from below, with x and y exchanged, all mirrored, or shares of a square about the picture or of its longer
 /// side. Of these the one with which keypoints are nearest to the other cameras' epipolar lines (`MissOfPictures`) is
 /// taken where that is less than half of what is left otherwise, pictures read as `GuessPictures` finds them, and less
-/// than 5 % of the height. A focal length that is up to 14 % off is told, not mended: two cameras do not tell
-/// whose. Exchanges and focal lengths are looked for among at most eight films.
+/// than 5 % of the height. Exchanges are looked for among at most eight films.
 /// @param R_WF from the axes of the rig's file to the cameras' world
 SessionGuess GuessSession(std::span<const PictureOfFilm> films, std::span<const std::string> names,
                           const glm::dmat3& R_WF, double least_confidence);

@@ -1,0 +1,258 @@
+#include "engine/keypoints/doubt_rig.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "engine/base/order_statistics.h"
+#include "engine/cameras/triangulation.h"
+
+namespace etude {
+namespace {
+
+using enum Landmark;
+
+constexpr int kGains = 15;
+constexpr double kGainStep = 0.02;
+double GainAt(int i) { return 1 + kGainStep * (i - kGains / 2); }
+
+/// The costs of all gains.
+using Costs = std::array<double, kGains>;
+
+/// The gain of the least cost, between the two beside it by a parabola; nothing at an end.
+std::optional<double> GainOfLeast(const Costs& costs) {
+  const auto at = static_cast<int>(std::ranges::min_element(costs) - costs.begin());
+  if (at == 0 || at + 1 == kGains) return std::nullopt;
+  const double before = costs[at - 1], here = costs[at], after = costs[at + 1];
+  const double bend = before - 2 * here + after;
+  return GainAt(at) + (bend > 0 ? 0.5 * kGainStep * (before - after) / bend : 0);
+}
+
+/// The standard error of a gain by leaving out one part of the costs at a time; nothing where it reaches an end.
+std::optional<double> ErrorByParts(const Costs& whole, std::span<const Costs> parts) {
+  std::vector<double> gains;
+  for (const Costs& part : parts) {
+    Costs others = whole;
+    for (int i = 0; i < kGains; ++i) others[i] -= part[i];
+    if (others == whole) continue;
+    const auto gain = GainOfLeast(others);
+    if (!gain) return std::nullopt;
+    gains.push_back(*gain);
+  }
+  constexpr std::size_t kFewest = 4;
+  if (gains.size() < kFewest) return std::nullopt;
+  double mean = 0, squares = 0;
+  const auto count = static_cast<double>(gains.size());
+  for (const double gain : gains) mean += gain / count;
+  for (const double gain : gains) squares += (gain - mean) * (gain - mean);
+  return std::sqrt((count - 1) / count * squares);
+}
+
+/// A factor on the focal length of a film, or of all.
+struct FocalGain {
+  std::optional<std::size_t> film;
+  double gain = 1, error = 0;
+  double cost = 0;
+};
+
+/// Shares of a square read as shares of the picture, as pixels of the picture; bars lie on both sides by that share.
+struct SquareReading {
+  double padded;
+  const char* told;
+};
+constexpr std::array kSquares = {SquareReading{0.5, "a square about the picture"},
+                                 SquareReading{0, "the picture's longer side"}};
+
+class Doubter {
+ public:
+  using Read = std::function<glm::dvec2(std::size_t film, const glm::dvec2& pixel)>;
+
+  Doubter(std::span<const Camera> cameras, std::span<const std::string> names, const MatchedPerson& person,
+          double least_confidence)
+      : cameras_(cameras), names_(names), person_(person), least_confidence_(least_confidence) {
+    constexpr std::size_t kMostFrames = 60;
+    const std::size_t frames = person.seen.empty() ? 0 : person.seen.front().size();
+    const std::size_t stride = std::max<std::size_t>(1, frames / kMostFrames);
+    for (std::size_t frame = 0; frame < frames; frame += stride) frames_.push_back(frame);
+  }
+
+  std::vector<std::string> Run() {
+    std::vector<std::string> told;
+    for (const auto& one : {DoubtReading(), DoubtFocalLengths()}) {
+      if (one) told.push_back(*one);
+    }
+    return told;
+  }
+
+ private:
+  const SeenPerson* Seen(std::size_t film, std::size_t frame) const {
+    const auto& seen = person_.seen[film];
+    return frame < seen.size() && seen[frame] ? &*seen[frame] : nullptr;
+  }
+
+  /// Calls `take` with the place in frames_, the landmark and the distance of each two sightings of one landmark.
+  void ForEachDistance(std::span<const double> gains, const Read& read,
+                       const std::function<void(std::size_t, std::size_t, double)>& take) const {
+    for (std::size_t a = 0; a < cameras_.size(); ++a) {
+      for (std::size_t b = a + 1; b < cameras_.size(); ++b) {
+        const auto geometry = EpipolarGeometry::Of(MatrixBy(a, gains), MatrixBy(b, gains));
+        if (!geometry) continue;
+        for (std::size_t k = 0; k < frames_.size(); ++k) {
+          const SeenPerson *one = Seen(a, frames_[k]), *other = Seen(b, frames_[k]);
+          if (one == nullptr || other == nullptr) continue;
+          for (std::size_t i = 0; i < kLandmarkCount; ++i) {
+            const Keypoint &p = one->keypoints[i], &q = other->keypoints[i];
+            if (p.confidence < least_confidence_ || q.confidence < least_confidence_) continue;
+            take(k, i, geometry->DistancePx(read(a, p.pixel), read(b, q.pixel)));
+          }
+        }
+      }
+    }
+  }
+
+  ProjectionMatrix MatrixBy(std::size_t film, std::span<const double> gains) const {
+    Camera camera = cameras_[film];
+    camera.intrinsics.fx *= gains[film];
+    camera.intrinsics.fy *= gains[film];
+    return MatrixOf(camera);
+  }
+
+  double MedianMiss(std::span<const double> gains, const Read& read) const {
+    std::vector<double> distances;
+    ForEachDistance(gains, read, [&](std::size_t, std::size_t, double d) { distances.push_back(std::abs(d)); });
+    return distances.empty() ? 0 : UpperMedian(std::move(distances));
+  }
+
+  static glm::dvec2 AsSaid(std::size_t, const glm::dvec2& pixel) { return pixel; }
+
+  std::vector<double> Gains(const std::optional<std::size_t>& film, double gain) const {
+    std::vector<double> gains(cameras_.size(), film ? 1 : gain);
+    if (film) gains[*film] = gain;
+    return gains;
+  }
+
+  std::optional<FocalGain> Estimate(const std::optional<std::size_t>& film, double usual_px) const {
+    constexpr std::size_t kTimes = 10;
+    Costs whole{};
+    std::array<Costs, kLandmarkCount> by_landmark{};
+    std::array<Costs, kTimes> by_time{};
+    const double far = 9 * usual_px * usual_px;
+    for (int i = 0; i < kGains; ++i) {
+      ForEachDistance(Gains(film, GainAt(i)), AsSaid, [&](std::size_t k, std::size_t landmark, double d) {
+        const double cost = d * d / (d * d + far);
+        whole[i] += cost;
+        by_landmark[landmark][i] += cost;
+        by_time[k * kTimes / frames_.size()][i] += cost;
+      });
+    }
+    const auto gain = GainOfLeast(whole);
+    const auto a = ErrorByParts(whole, by_landmark), b = ErrorByParts(whole, by_time);
+    if (!gain || !a || !b) return std::nullopt;
+    return FocalGain{film, *gain, std::max(*a, *b), *std::ranges::min_element(whole)};
+  }
+
+  std::optional<std::string> DoubtFocalLengths() const {
+    constexpr double kNormal = 1.4826, kLeastUsualPx = 0.05;  // a median's share of a deviation
+    const double miss = MedianMiss(Gains({}, 1), AsSaid), usual_px = std::max(kLeastUsualPx, kNormal * miss);
+    std::optional<FocalGain> best = Estimate({}, usual_px);
+    constexpr std::size_t kMostFilms = 8;
+    for (std::size_t film = 0; film < std::min(kMostFilms, cameras_.size()); ++film) {
+      const auto one = Estimate(film, usual_px);
+      if (one && (!best || one->cost < best->cost)) best = one;
+    }
+    constexpr double kLeast = 0.02, kErrors = 4, kMost = 0.12;
+    if (!best) return std::nullopt;
+    const double off = std::abs(best->gain - 1);
+    if (off < kLeast || off > kMost || off < kErrors * best->error) return std::nullopt;
+    std::string whose = best->film ? fmt::format("with a focal length {:.3f} ± {:.3f} times {}'s", best->gain,
+                                                 best->error, names_[*best->film])
+                                   : fmt::format("with focal lengths {:.3f} ± {:.3f} times those of all cameras",
+                                                 best->gain, best->error);
+    if (best->film && cameras_.size() == 2) {
+      whose += fmt::format(" (or {:.3f} times {}'s)", 1 / best->gain, names_[1 - *best->film]);
+    }
+    return fmt::format("{} rays would miss by {:.2f} px instead of {:.2f}", whose,
+                       MedianMiss(Gains(best->film, best->gain), AsSaid), miss);
+  }
+
+  /// The median distance of the shoulders, as a share of a leg; 0 where they are not seen.
+  double ShouldersOfLegs(const Read& read) const {
+    std::vector<double> shoulders, thighs, shanks;
+    for (const std::size_t frame : frames_) {
+      const auto add = [&](Landmark a, Landmark b, std::vector<double>& lengths) {
+        const auto p = PlaceOf(frame, a, read), q = PlaceOf(frame, b, read);
+        if (p && q) lengths.push_back(glm::distance(*p, *q));
+      };
+      add(kLeftShoulder, kRightShoulder, shoulders);
+      add(kLeftHip, kLeftKnee, thighs);
+      add(kRightHip, kRightKnee, thighs);
+      add(kLeftKnee, kLeftAnkle, shanks);
+      add(kRightKnee, kRightAnkle, shanks);
+    }
+    if (shoulders.empty() || thighs.empty() || shanks.empty()) return 0;
+    return UpperMedian(std::move(shoulders)) / (UpperMedian(std::move(thighs)) + UpperMedian(std::move(shanks)));
+  }
+
+  std::optional<glm::dvec3> PlaceOf(std::size_t frame, Landmark landmark, const Read& read) const {
+    std::vector<Sighting> sightings;
+    for (std::size_t film = 0; film < cameras_.size(); ++film) {
+      const SeenPerson* seen = Seen(film, frame);
+      if (seen == nullptr || (*seen)[landmark].confidence < least_confidence_) continue;
+      sightings.push_back({MatrixOf(cameras_[film]), read(film, (*seen)[landmark].pixel)});
+    }
+    const TriangulatedPoint point = Triangulate(sightings);
+    return point.status == PointStatus::kOk ? std::optional(point.position) : std::nullopt;
+  }
+
+  std::optional<std::string> DoubtReading() const {
+    const Intrinsics& in = cameras_.front().intrinsics;
+    constexpr double kUsual = 0.42, kClearly = 1.17, kSomewhat = 1.1, kClearlyLess = 0.9;
+    const double said = ShouldersOfLegs(AsSaid);
+    const auto strange = [&](double share) { return share > kUsual ? share / kUsual : kUsual / share; };
+    if (in.width == in.height || said == 0 || strange(said) < kSomewhat) return std::nullopt;
+    const std::vector<double> as_they_are = Gains({}, 1);
+    const double miss = MedianMiss(as_they_are, AsSaid);
+    double least = (strange(said) < kClearly ? kClearlyLess : 1) * miss;
+    std::optional<std::string> told;
+    for (const SquareReading& square : kSquares) {
+      const Read read = [&](std::size_t film, const glm::dvec2& p) {
+        const Intrinsics& own = cameras_[film].intrinsics;
+        const glm::dvec2 size(own.width, own.height);
+        const double side = std::max(size.x, size.y);
+        return p * side / size - square.padded * (side - size);
+      };
+      const double share = ShouldersOfLegs(read);
+      // The reading stretches one axis, and distances with it.
+      const auto [shorter, longer] = std::minmax(in.width, in.height);
+      const double miss_read =
+          MedianMiss(as_they_are, read) * static_cast<double>(shorter) / static_cast<double>(longer);
+      if (share == 0 || !(strange(share) < strange(said)) || !(miss_read < least)) continue;
+      least = miss_read;
+      told = fmt::format(
+          "shoulders are {:.2f} of a leg ({:.2f} is usual); if keypoints are shares of {}, they are {:.2f}, and rays "
+          "miss "
+          "by {:.2f} px instead of {:.2f}",
+          said, kUsual, square.told, share, miss_read, miss);
+    }
+    return told;
+  }
+
+  std::span<const Camera> cameras_;
+  std::span<const std::string> names_;
+  const MatchedPerson& person_;
+  double least_confidence_;
+  std::vector<std::size_t> frames_;
+};
+
+}  // namespace
+
+std::vector<std::string> DoubtRig(std::span<const Camera> cameras, std::span<const std::string> names,
+                                  const MatchedPerson& person, double least_confidence) {
+  return Doubter(cameras, names, person, least_confidence).Run();
+}
+
+}  // namespace etude
