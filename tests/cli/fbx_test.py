@@ -150,6 +150,19 @@ class Fbx(MotionFileCase):
             path.write_text(text[:int(len(text) * share)])
             self.refused(path, "whole.fbx: ")
 
+    # assimp goes round and round until its stack is full: found by fuzzing.
+    def test_an_fbx_file_that_ends_its_reader_ends_nothing_else(self):
+        path, _ = self.fbx("circle.fbx", 1, "y")
+        path.write_text(path.read_text().replace("Connections:  {", f'Connections:  {{\nC: "OO",{1000 + 3},{1000 + 3}'))
+        self.refused(path, "circle.fbx: a damaged FBX file: its reader ended with signal 11")
+
+    def test_a_refusal_does_not_say_the_file_again(self):
+        path, _ = self.fbx("unclosed.fbx", 1, "y")
+        path.write_text(path.read_text().replace("Model: 1003, ", 'Model: "' + "x" * 5000 + '", '))
+        result = self.etude("clip", "info", path)
+        self.assertEqual(result.returncode, 2)
+        self.assertLess(len(result.stderr), 1000)
+
     def test_fbx_of_old_tools_is_told_its_version(self):
         path = self.folder / "old.fbx"
         for data in (b"; FBX 6.1.0 project file\nFBXHeaderExtension:  {\nFBXVersion: 6100\n}\n",
