@@ -1,5 +1,6 @@
-// node estimate.mjs PICTURE.png… > keypoints.json
-// COCO's 17 keypoints of one person in every picture: {"PICTURE.png": [[u, v, score], …], …}
+// node estimate.mjs [--coco] PICTURE.png… > keypoints.json
+// COCO's 17 keypoints of one person in every picture: {"PICTURE.png": [[u, v, score], …], …}; with --coco as a COCO
+// keypoint file of these pictures in their order, which `etude capture --keypoints` reads.
 import fs from 'node:fs';
 import path from 'node:path';
 
@@ -7,14 +8,22 @@ import {PNG} from 'pngjs';
 
 import {MoveNet} from './movenet.mjs';
 
-const pictures = process.argv.slice(2);
+const CENTRE = 0.5;  // COCO counts from the first pixel's centre, MoveNet here from its corner
+
+const isCoco = process.argv[2] === '--coco';
+const pictures = process.argv.slice(isCoco ? 3 : 2);
 if (pictures.length === 0) {
-  console.error('usage: node estimate.mjs PICTURE.png… > keypoints.json');
+  console.error('usage: node estimate.mjs [--coco] PICTURE.png… > keypoints.json');
   process.exit(2);
 }
 const movenet = await MoveNet.load();
-const found = {};
-for (const file of pictures) {
-  found[path.basename(file)] = movenet.estimate(PNG.sync.read(fs.readFileSync(file)));
+const found = {}, images = [], annotations = [];
+for (const [id, file] of pictures.entries()) {
+  const picture = PNG.sync.read(fs.readFileSync(file));
+  const keypoints = movenet.estimate(picture);
+  found[path.basename(file)] = keypoints;
+  images.push({id, file_name: path.basename(file), width: picture.width, height: picture.height});
+  const triples = keypoints.flatMap(([u, v, score]) => [u - CENTRE, v - CENTRE, score]);
+  annotations.push({id, image_id: id, category_id: 1, keypoints: triples});
 }
-console.log(JSON.stringify(found));
+console.log(JSON.stringify(isCoco ? {images, annotations} : found));

@@ -9,8 +9,10 @@ import * as tf from '@tensorflow/tfjs-core';
 
 const INPUT_SIZE = 192;
 const LEAST_SCORE = 0.2;     // of a keypoint that may say where the person is
-const CROP_MARGIN = 1.4;     // the crop's side over the keypoints' extent: room for head, hands and feet
+const TRUNK_MARGIN = 1.9;    // the crop's half side over the trunk's reach from the hips
+const BODY_MARGIN = 1.2;     // … and over that of all keypoints seen
 const SMALLEST_CROP = 32;    // pixels
+const SHOULDERS = [5, 6], HIPS = [11, 12];
 
 const folderOf = (name) => fileURLToPath(new URL(`node_modules/${name}`, import.meta.url));
 
@@ -45,14 +47,22 @@ function resample(picture, square) {
   return values;
 }
 
-/** The square around the keypoints that are seen; the whole picture when too few are. */
+/**
+ * The square about a person whose trunk is seen, the hips in its middle: as MoveNet's makers crop
+ * ("determine_crop_region" of their tutorial), so that limbs that were not found are within. The whole picture when no
+ * shoulder or no hip is seen.
+ */
 function squareAround(keypoints, picture) {
-  const seen = keypoints.filter(([, , score]) => score >= LEAST_SCORE);
-  if (seen.length < 4) return wholeOf(picture);
-  const [us, vs] = [0, 1].map((axis) => seen.map((keypoint) => keypoint[axis]));
-  const low = [Math.min(...us), Math.min(...vs)], high = [Math.max(...us), Math.max(...vs)];
-  const side = Math.max(SMALLEST_CROP, CROP_MARGIN * Math.max(high[0] - low[0], high[1] - low[1]));
-  return {u: (low[0] + high[0] - side) / 2, v: (low[1] + high[1] - side) / 2, side};
+  const isSeen = (i) => keypoints[i][2] >= LEAST_SCORE;
+  if (!SHOULDERS.some(isSeen) || !HIPS.some(isSeen)) return wholeOf(picture);
+  const middle = [0, 1].map((axis) => (keypoints[HIPS[0]][axis] + keypoints[HIPS[1]][axis]) / 2);
+  const reach = (points) => Math.max(
+      ...points.map((point) => Math.max(Math.abs(point[0] - middle[0]), Math.abs(point[1] - middle[1]))));
+  const trunk = reach([...SHOULDERS, ...HIPS].map((i) => keypoints[i]));
+  const body = reach(keypoints.filter((_, i) => isSeen(i)));
+  const half = Math.max(SMALLEST_CROP / 2, TRUNK_MARGIN * trunk, BODY_MARGIN * body);
+  if (2 * half > Math.max(picture.width, picture.height)) return wholeOf(picture);
+  return {u: middle[0] - half, v: middle[1] - half, side: 2 * half};
 }
 
 export class MoveNet {
@@ -72,13 +82,15 @@ export class MoveNet {
   }
 
   /**
-   * The 17 keypoints in COCO's order as [u, v, score]: pixels from the top left corner, 0…1. Found in the whole picture,
-   * then once more in the square around what was found. Pictures are independent of each other.
+   * The 17 keypoints in COCO's order as [u, v, score]: pixels from the top left corner, 0…1. Found in the whole
+   * picture, then once more in the square around the person; the surer of both. Pictures are independent of each other.
    * @param picture {width, height, data}, data four bytes a pixel (RGBA)
    */
   estimate(picture) {
     const rough = this.estimateWithin(picture, wholeOf(picture));
-    return this.estimateWithin(picture, squareAround(rough, picture));
+    const near = this.estimateWithin(picture, squareAround(rough, picture));
+    const sureness = (keypoints) => keypoints.reduce((sum, [, , score]) => sum + score, 0);
+    return sureness(near) >= sureness(rough) ? near : rough;
   }
 
   estimateWithin(picture, square) {
