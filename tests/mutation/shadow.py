@@ -1,8 +1,9 @@
-"""The mutated engine: a copy of the tree with all mutants in it, and its build.
+"""The mutated engine: a copy of the tree with the mutants of a sample in it, and its build.
 
-`<work>/tree` is the project with links instead of files, but engine/ is rewritten. Operators whose mutants have no
-meaning are found by the notes that they leave in object files; whatever else does not compile, by the compiler's messages:
-it is left out, and `<work>/dropped.json` remembers it by its file's content."""
+`<work>/tree` is the project with links instead of files, but engine/ is rewritten, with the mutants of a sample and no
+others: all at once take the compiler and the tests several times as long. Operators whose mutants have no meaning are found by the notes that they leave in
+object files; whatever else does not compile, by the compiler's messages: it is left out, and `<work>/dropped.json`
+remembers it by its file's content."""
 
 import hashlib
 import json
@@ -42,6 +43,7 @@ class Mutant:
     original: str
     mutation: str
     code: str  # the line it stands in
+    site: int = 0  # the number of the first mutant of its site
 
     @property
     def folder(self):
@@ -67,6 +69,7 @@ class Shadow:
             self.numbered[file] = pairs
             number = -(-number // 64) * 64 + 1  # so that few files are compiled anew when one has changed
         self.dropped = self._load_dropped()
+        self.wanted = set()  # the sites that are written, by number: a sample's, so that most code is what it was
 
     # --- files ---------------------------------------------------------------------------------------------------
     def _list_files(self):
@@ -115,8 +118,11 @@ class Shadow:
                     (Path(folder) / name).unlink()
 
     def _write_mutated(self, file):
-        kept = [(site, number) for site, number in self.numbered[file] if number not in self.dropped]
+        kept = [(site, n) for site, n in self.numbered[file] if self._is_there(n)]
         write_when_changed(self.tree / file, rewrite.rewrite(self._read(file), kept))
+
+    def _is_there(self, number):
+        return number in self.wanted and number not in self.dropped
 
     # --- mutants that do not compile -----------------------------------------------------------------------------
     def _key(self, file, site):
@@ -162,13 +168,13 @@ class Shadow:
                 if not re.match(rf"\s*(struct|class) {name}\b.*\{{", text):
                     continue
                 last = next((n for n, end in enumerate(lines[first:], first + 1) if end.strip() == "};"), first)
-                found |= {n for site, n in pairs if first <= site.line <= last and n not in self.dropped}
+                found |= {n for site, n in pairs if first <= site.line <= last and self._is_there(n)}
         return found
 
     def _nearest(self, file, lines):
         """The sites that are still there in one of the lines; if none is, those next to one of them."""
         here = [(min(abs(site.line - line) for line in lines), n) for site, n in self.numbered[file]
-                if n not in self.dropped]
+                if self._is_there(n)]
         least = min(here, default=(99, 0))[0]
         return {n for away, n in here if away == least and least <= 12}
 
@@ -209,14 +215,15 @@ class Shadow:
         return [self.build / line.strip() for line in shown.splitlines() if line.strip().endswith(".o")]
 
     def mutants(self):
+        """All that there are, those that do not compile, too."""
         for file, pairs in sorted(self.numbered.items()):
             lines = self._read(file).split("\n")
             for site, first in pairs:
-                if first in self.dropped:
-                    continue
                 code = lines[site.line - 1].strip()
                 for k, mutation in enumerate(site.mutations):
-                    yield Mutant(first + k, file, site.line, site.column, site.original, mutation, code)
+                    yield Mutant(first + k, file, site.line, site.column, site.original, mutation, code, first)
 
     def dropped_count(self):
-        return sum(len(site.mutations) for pairs in self.numbered.values() for site, n in pairs if n in self.dropped)
+        """Of the mutants of the sites that are wanted, those that cannot be built."""
+        dropped = self.dropped & self.wanted
+        return sum(len(site.mutations) for pairs in self.numbered.values() for site, n in pairs if n in dropped)

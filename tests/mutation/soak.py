@@ -119,12 +119,19 @@ def run(options, root=ROOT, kept_in=HERE):
 
     folders = [f for f in shadow.test_folders() if is_wanted(f.removeprefix("tests/"))]
     print(f"Building {len(folders)} test programs: {work}/build.output", flush=True)
-    with (work / "cmake.log").open("w") as log:
-        shadow.compile(folders, options.jobs, log)
-    digest = shadow.digest()
-    tests = recorded(shadow, folders, Notes(work / f"reached-{digest}.jsonl", shadow), options.jobs)
     mutants = [mutant for mutant in shadow.mutants() if is_wanted(mutant.folder)]
-    sample = sample_of(mutants, options.count, options.seed)
+    ranked, sample, most = sample_of(mutants, len(mutants), options.seed), [], options.count + 20
+    while True:  # until so many compile
+        shadow.wanted = {mutant.site for mutant in ranked[:most]}
+        with (work / "cmake.log").open("w") as log:
+            shadow.compile(folders, options.jobs, log)
+        sample = [mutant for mutant in ranked[:most] if mutant.site not in shadow.dropped][: options.count]
+        if len(sample) == options.count or most >= len(ranked):
+            break
+        most *= 2
+    digest = shadow.digest()
+    sites = hashlib.sha256(repr(sorted(shadow.wanted)).encode()).hexdigest()[:16]
+    tests = recorded(shadow, folders, Notes(work / f"reached-{digest}-{sites}.jsonl", shadow), options.jobs)
     results = tried(sample, tests, shadow, Notes(work / f"verdicts-{digest}.jsonl", shadow), options, end)
 
     survivors = figure.survivors_of(results, figure.load(kept_in / "survivors.json"))
