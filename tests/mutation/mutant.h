@@ -10,11 +10,12 @@
 
 namespace etude_mutation {
 
-constexpr int kMost = 1 << 16;
+constexpr int kMost = 1 << 18;
 inline unsigned char reached[kMost];
 
 inline void WriteReached() {
-  std::FILE* file = std::fopen(std::getenv("ETUDE_MUTANTS_REACHED"), "w");
+  // Modules that are loaded have a list of their own, which comes behind.
+  std::FILE* file = std::fopen(std::getenv("ETUDE_MUTANTS_REACHED"), "a");
   if (file == nullptr) std::abort();
   for (int number = 0; number < kMost; ++number) {
     if (reached[number] != 0) std::fprintf(file, "%d\n", number);

@@ -155,6 +155,10 @@ class Toy(unittest.TestCase):
         for mutant in (mutant_of(1, "engine/other/a.cc"), mutant_of(60000)):
             self.assertEqual(judge(mutant, [test], self.work), "unreached")
 
+    def test_a_folder_without_tests_has_those_of_the_one_above(self):
+        test, _ = self.verdicts("good_test")
+        self.assertEqual(judge(mutant_of(1, "engine/toy/inner/a.cc"), [test], self.work), "killed")
+
     def test_a_program_that_does_not_end_is_too_slow(self):
         test = Test("engine/toy", ("sh", "-c", "while :; do :; done"), "all", 0.0, frozenset([1]))
         self.assertEqual(judge(mutant_of(1), [test], self.work), "too slow")

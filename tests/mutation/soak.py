@@ -11,7 +11,7 @@ from pathlib import Path
 
 import figure
 from shadow import Shadow
-from trials import judge, list_tests, record
+from trials import home_of, judge, list_tests, record
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
@@ -102,7 +102,7 @@ def tried(sample, tests, shadow, notes, options, end):
             if verdict is None:
                 continue
             verdicts[mutant.number] = verdict
-            notes.add(mutant.folder, number=mutant.number, verdict=verdict)
+            notes.add(home_of(mutant, tests), number=mutant.number, verdict=verdict)
             print(f"{verdict:9} {mutant.file}:{mutant.line} {mutant.original} → {mutant.mutation}", flush=True)
     return [(mutant, verdicts[mutant.number]) for mutant in sample if mutant.number in verdicts]
 

@@ -119,9 +119,18 @@ def in_batches(tests, first=0.5, growth=8):
     return batches
 
 
+def home_of(mutant, tests):
+    """The folder whose tests are the mutant's: the mirrored one, or the nearest above that has some; "" for none."""
+    home, folders = mutant.folder, {test.folder for test in tests}
+    while home and home not in folders:
+        home = os.path.dirname(home)
+    return home
+
+
 def judge(mutant, tests, cwd):
     """"killed" (a test failed), "crashed", "too slow", "survived", or "unreached", by the mirrored folder's tests."""
-    reaching = [test for test in tests if mutant.number in test.reached and test.folder == mutant.folder]
+    home = home_of(mutant, tests)
+    reaching = [test for test in tests if mutant.number in test.reached and test.folder == home]
     if not reaching:
         return "unreached"
     for chosen in in_batches(reaching):
