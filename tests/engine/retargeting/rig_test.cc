@@ -8,6 +8,7 @@
 #include "engine/base/angles.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"
+#include "tests/engine/retargeting/turned_bodies.h"
 
 namespace etude {
 namespace {
@@ -32,29 +33,9 @@ double WorstJoint(const BodyPose& rest, const BodyPose& pose) {
   return worst;
 }
 
-/// `from` and everything that hangs from it, turned about `from`.
-BodyPose Turned(BodyPose pose, Role from, const glm::dquat& turn) {
-  const glm::dvec3 pivot = pose[from];
-  std::array<bool, kRoleCount> below{};
-  below[Index(from)] = true;
-  for (const Role role : AllRoles()) {
-    const auto parent = ParentOf(role);
-    if (!parent || !below[Index(*parent)]) continue;
-    below[Index(role)] = true;
-    pose[role] = pivot + turn * (pose[role] - pivot);
-  }
-  return pose;
-}
-
 BodyPose Moved(BodyPose pose, const glm::dquat& turn, const glm::dvec3& shift) {
   for (glm::dvec3& joint : pose.joints) joint = turn * joint + shift;
   return pose;
-}
-
-BodyPose MirrorImage(const BodyPose& pose) {
-  BodyPose mirrored;
-  for (const Role role : AllRoles()) mirrored[Mirrored(role)] = pose[role] * glm::dvec3(-1, 1, 1);
-  return mirrored;
 }
 
 const glm::dquat kSomeTurn = glm::angleAxis(2.0, glm::normalize(glm::dvec3(1, 2, -3)));
@@ -78,18 +59,6 @@ TEST(PoseRig, TurnsOnlyTheRootWhenTheWholeBodyMoves) {
     if (role == kHipCentre) continue;
     EXPECT_LT(AngleOf(local[Index(role)].rotation), 1e-7) << RoleName(role);
   }
-}
-
-/// Standing with straight legs and the toes straight ahead: all hinges along X.
-BodyPose AtAttention() {
-  BodyPose pose = StandingPose();
-  for (const Role hip : {kLeftHip, kRightHip}) {
-    glm::dvec3* leg = &pose[hip];
-    leg[1] = leg[0] - glm::dvec3(0, 0.42, 0);
-    leg[2] = leg[1] - glm::dvec3(0, 0.41, 0);
-    leg[3] = leg[2] + glm::dvec3(0, -0.04, 0.17);
-  }
-  return pose;
 }
 
 struct Hinge {

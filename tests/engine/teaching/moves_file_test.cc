@@ -80,5 +80,37 @@ TEST(MovesFile, RefusalsSayWhere) {
   EXPECT_NE(MovesComplaint(text).find("more than 60 numbers"), std::string::npos);
 }
 
+TEST(MovesFile, TakesWhatIsAtABoundAndNothingBeyond) {
+  const auto reads = [](const std::string& text) { return MovesComplaint(text) == "(read)"; };
+  const auto with = [](const std::string& field) { return "moves:\n  - name: a\n    " + field + "\n"; };
+  const auto posed = [&](const std::string& pose) { return with("key_poses: [{" + pose + "}]"); };
+  for (const char* span : {"0.1", "60"}) EXPECT_TRUE(reads(with(std::string("span_s: ") + span))) << span;
+  for (const char* span : {"0.09", "60.1"}) EXPECT_FALSE(reads(with(std::string("span_s: ") + span))) << span;
+  for (const char* tolerance : {"0.1", "360"}) {
+    EXPECT_TRUE(reads(posed(std::string("RH: 3, tolerance_deg: ") + tolerance))) << tolerance;
+    EXPECT_TRUE(reads(posed(std::string("RH: {degrees: -360, tolerance_deg: ") + tolerance + "}"))) << tolerance;
+  }
+  for (const char* tolerance : {"0.09", "360.1"}) {
+    EXPECT_FALSE(reads(posed(std::string("RH: 3, tolerance_deg: ") + tolerance))) << tolerance;
+    EXPECT_FALSE(reads(posed(std::string("RH: {degrees: 360, tolerance_deg: ") + tolerance + "}"))) << tolerance;
+  }
+  EXPECT_FALSE(reads(posed("RH: {degrees: 360.5, tolerance_deg: 20}")));
+  EXPECT_FALSE(reads(posed("tolerance_deg: 20"))) << "no angle";
+  EXPECT_TRUE(reads("moves:\n  - name: " + std::string(200, 'a') + "\n"));
+  EXPECT_FALSE(reads("moves:\n  - name: " + std::string(201, 'a') + "\n"));
+  std::string many = "moves:\n";
+  for (int i = 0; i < 200; ++i) many += "  - name: m" + std::to_string(i) + "\n";
+  EXPECT_TRUE(reads(many));
+  EXPECT_FALSE(reads(many + "  - name: more\n"));
+  const auto shown = [&](const std::string& rate, const std::string& x) {
+    std::string frame = std::string(20, 't') + " " + x;
+    for (int i = 1; i < 60; ++i) frame += " 1";
+    return with("right:\n      - rate_hz: " + rate + "\n        frames: |\n          " + frame);
+  };
+  for (const char* rate : {"1", "1000"}) EXPECT_TRUE(reads(shown(rate, "-100000"))) << rate;
+  for (const char* rate : {"0.9", "1000.5"}) EXPECT_FALSE(reads(shown(rate, "0"))) << rate;
+  EXPECT_FALSE(reads(shown("30", "100000.5")));
+}
+
 }  // namespace
 }  // namespace etude

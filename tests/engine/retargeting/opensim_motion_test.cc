@@ -1,0 +1,202 @@
+#include "engine/retargeting/opensim_motion.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <sstream>
+
+#include "engine/base/angles.h"
+#include "engine/retargeting/joint_arrays.h"
+#include "sim/choreography/canonical_body.h"
+#include "sim/choreography/move.h"
+#include "tests/engine/retargeting/turned_bodies.h"
+
+namespace etude {
+namespace {
+
+using enum Role;
+using ::testing::HasSubstr;
+
+/// The values of each row of a .mot, by the names of its columns.
+std::vector<std::map<std::string, double>> RowsOf(const std::string& mot) {
+  std::istringstream text(mot.substr(mot.find("\nendheader\n") + 11));
+  std::string line, word;
+  std::getline(text, line);
+  std::vector<std::string> names;
+  for (std::istringstream words(line); words >> word;) names.push_back(word);
+  std::vector<std::map<std::string, double>> rows;
+  while (std::getline(text, line)) {
+    std::istringstream words(line);
+    auto& row = rows.emplace_back();
+    for (const std::string& name : names) words >> row[name];
+  }
+  return rows;
+}
+
+double WorstApart(const BodyMotion& a, const BodyMotion& b) {
+  double worst = a.poses.size() == b.poses.size() ? 0 : 1e9;
+  for (std::size_t f = 0; f < a.poses.size() && worst < 1e9; ++f) {
+    for (const Role role : AllRoles()) worst = std::max(worst, glm::distance(a.poses[f][role], b.poses[f][role]));
+  }
+  return worst;
+}
+
+TEST(OpenSimMotion, ReadsBackWhereTheJointsWere) {
+  const auto move = LoadBuiltinMove("boxing");
+  ASSERT_TRUE(move) << ToString(move.error());
+  const std::string text = WriteOpenSimMotion(move->motion, StandingPose(), "boxing\tround 1");
+  EXPECT_THAT(text, HasSubstr("Motion boxing_round 1,"));
+  EXPECT_TRUE(HasModelOfAngles(text));
+  const auto read = ReadOpenSimMotion(text, "a.mot");
+  ASSERT_TRUE(read) << ToString(read.error());
+  EXPECT_EQ(read->rate_hz, move->motion.rate_hz);
+  EXPECT_LT(WorstApart(*read, move->motion), 1e-5);
+}
+
+TEST(OpenSimMotion, FlexionIsPositiveOnBothSidesAndEachAngleItsOwn) {
+  const BodyPose rest = AtAttention();
+  const glm::dvec3 x(1, 0, 0), z(0, 0, 1);
+  struct Bend {
+    Role at;
+    glm::dvec3 axis;
+    const char* angle;
+  };
+  // Legs forward, shanks back, toes up, legs inwards, forearms forward.
+  for (const Bend& bend : {Bend{kRightHip, -x, "hip_flexion_r"},
+                           {kLeftHip, -x, "hip_flexion_l"},
+                           {kRightKnee, x, "knee_angle_r"},
+                           {kLeftKnee, x, "knee_angle_l"},
+                           {kRightAnkle, -x, "ankle_angle_r"},
+                           {kLeftHip, -z, "hip_adduction_l"},
+                           {kRightHip, z, "hip_adduction_r"},
+                           {kLeftElbow, -x, "elbow_flex_l"},
+                           {kRightElbow, -x, "elbow_flex_r"}}) {
+    const BodyPose pose = Turned(rest, bend.at, glm::angleAxis(Radians(25), bend.axis));
+    const auto rows = RowsOf(WriteOpenSimMotion({.rate_hz = 30, .poses = {pose}}, rest, ""));
+    ASSERT_EQ(rows.size(), 1u);
+    for (const auto& [name, value] : rows[0]) {
+      if (name.starts_with("pelvis_t") || name == "time") continue;
+      EXPECT_NEAR(value, name == bend.angle ? 25 : 0, 1e-4) << name << " of " << bend.angle;
+    }
+  }
+}
+
+TEST(OpenSimMotion, AMirroredMotionHasTheAnglesOfTheOtherSide) {
+  const auto move = LoadBuiltinMove("boxing");
+  BodyMotion mirrored = move->motion;
+  for (BodyPose& pose : mirrored.poses) pose = MirrorImage(pose);
+  const auto rows = RowsOf(WriteOpenSimMotion(move->motion, StandingPose(), ""));
+  auto others = RowsOf(WriteOpenSimMotion(mirrored, MirrorImage(StandingPose()), ""));
+  for (std::size_t f = 0; f < rows.size(); f += 7) {
+    for (const auto& [name, value] : rows[f]) {
+      if (!name.ends_with("_r") && !name.ends_with("_l")) continue;
+      const std::string twin = name.substr(0, name.size() - 1) + (name.ends_with("r") ? "l" : "r");
+      EXPECT_NEAR(others[f][twin], value, 1e-4) << name << ", frame " << f;
+    }
+  }
+}
+
+TEST(OpenSimMotion, AnglesGoOnWithoutJumpsOfWholeTurns) {
+  const BodyPose rest = StandingPose();
+  BodyMotion motion{.rate_hz = 30, .poses = {}};
+  for (int k = 0; k < 40; ++k) {
+    motion.poses.push_back(Turned(rest, kHipCentre, glm::angleAxis(Radians(20.0 * k), glm::dvec3(0, 1, 0))));
+  }
+  const auto rows = RowsOf(WriteOpenSimMotion(motion, rest, ""));
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    EXPECT_NEAR(rows[k].at("pelvis_rotation"), 20.0 * static_cast<double>(k), 1e-4);
+  }
+}
+
+TEST(OpenSimMotion, ReadsRadiansAndRefusesWithLineAndReason) {
+  const BodyPose rest = StandingPose();
+  const std::string good = WriteOpenSimMotion({.rate_hz = 25, .poses = {rest, rest, rest}}, rest, "");
+  const auto reason = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+    const auto read = ReadOpenSimMotion(text, "a.mot");
+    return read ? fmt::format("(read at {} Hz)", read->rate_hz) : ToString(read.error());
+  };
+  EXPECT_EQ(reason("inDegrees=yes", "inDegrees=no"), "(read at 25 Hz)");
+  EXPECT_THAT(reason("part head", "part hat"), HasSubstr("part 'hat'; allowed: each of the twenty roles once"));
+  EXPECT_THAT(reason("part head", "part spine"), HasSubstr("part 'spine'; allowed: each of the twenty roles once"));
+  EXPECT_THAT(reason("after ground", "after spine"), HasSubstr("after 'spine'; allowed: 'after ground' of the first"));
+  EXPECT_THAT(reason("after hip_centre", "after left_foot"), HasSubstr("then one that stands above"));
+  EXPECT_THAT(reason(" bone ", " bones "), HasSubstr("'bones'; allowed: bone X Y Z"));
+  EXPECT_THAT(reason("turns +Z", "turn +Z"), HasSubstr("'turn'; allowed: turns and three angles"));
+  EXPECT_THAT(reason("turns +Z", "turns +W"), HasSubstr("allowed: +X, -X to -Z"));
+  EXPECT_THAT(reason("\nendheader", "\n"), HasSubstr("no endheader"));
+  EXPECT_THAT(reason("\npart head", "\npar head"), HasSubstr("a model of 19 parts; allowed: 20, one for each role"));
+  EXPECT_THAT(reason("\tpelvis_ty", "\tpelvis_y"), HasSubstr("no column 'pelvis_ty', which the model needs"));
+  EXPECT_THAT(reason("\n0.040000", "\n0.060000"), HasSubstr("row 2 at 0.06 s; allowed: even steps, here of 0.04 s"));
+  EXPECT_THAT(reason("\n0.080000", "\n0.000000"), HasSubstr("3 rows in 0 s"));
+}
+
+TEST(BodyNpz, ReadsBackWhereTheJointsWere) {
+  const auto move = LoadBuiltinMove("boxing");
+  const auto arrays = ReadNpz(WriteBodyNpz(move->motion, StandingPose()), "a.npz");
+  ASSERT_TRUE(arrays) << ToString(arrays.error());
+  EXPECT_TRUE(IsBodyNpz(*arrays));
+  const auto read = ReadBodyNpz(*arrays, "a.npz");
+  ASSERT_TRUE(read) << ToString(read.error());
+  EXPECT_EQ(read->rate_hz, move->motion.rate_hz);
+  EXPECT_LT(WorstApart(*read, move->motion), 1e-12);
+  // The turns and translations lead to the same places, parent by parent.
+  const auto& turns = arrays->arrays.at("rotations").values;
+  const auto& shifts = arrays->arrays.at("translations").values;
+  for (std::size_t f = 0; f < read->poses.size(); f += 9) {
+    std::array<glm::dvec3, kRoleCount> places;
+    std::array<glm::dquat, kRoleCount> global;
+    for (std::size_t i = 0; i < kRoleCount; ++i) {
+      const double *q = &turns[4 * (f * kRoleCount + i)], *t = &shifts[3 * (f * kRoleCount + i)];
+      const auto parent = static_cast<int>(arrays->arrays.at("parents").values[i]);
+      const glm::dquat turn(q[0], q[1], q[2], q[3]);
+      const glm::dvec3 shift(t[0], t[1], t[2]);
+      global[i] = parent < 0 ? turn : global[static_cast<std::size_t>(parent)] * turn;
+      places[i] = parent < 0
+                      ? shift
+                      : places[static_cast<std::size_t>(parent)] + global[static_cast<std::size_t>(parent)] * shift;
+      EXPECT_LT(glm::distance(places[i], read->poses[f].joints[i]), 1e-9) << f << ", joint " << i;
+    }
+  }
+}
+
+TEST(JointsOfArray, TakesTheLayoutOfAsManyJointsAndTheUnitOfAPerson) {
+  for (const auto& [unit, metres] : {std::pair("100", 1.0), {"1", 0.01}, {"0.1", 0.001}}) {
+    NumberArray array{{2, 20, 3}, {}};
+    for (int i = 0; i < 120; ++i) array.values.push_back(i % 3 == 1 ? 0.09 * (i / 3 % 20) / metres : 0.1 / metres);
+    array.values[3] = NAN;
+    std::string note;
+    const auto read = JointsOfArray(array, std::nullopt, "a.npy", note);
+    ASSERT_TRUE(read) << ToString(read.error());
+    EXPECT_EQ(note, std::string("layout etude, 1 unit = ") + unit + " cm, no rate in the file: 30 Hz are assumed");
+    EXPECT_EQ(read->names[2], "shoulder_centre");
+    EXPECT_FALSE(read->frames[0][1]);
+    EXPECT_LT(glm::distance(*read->frames[1][10], glm::dvec3(0.1, 0.9, 0.1)), 1e-12);
+  }
+}
+
+TEST(JointsOfArray, RefusesOtherShapesAndLayouts) {
+  const auto reason = [](std::vector<std::size_t> shape, const std::optional<std::string>& layout) {
+    std::size_t count = 1;
+    for (const std::size_t size : shape) count *= size;
+    std::string note;
+    const auto read = JointsOfArray({shape, std::vector<double>(count)}, layout, "a.npy", note);
+    return read ? note : ToString(read.error());
+  };
+  EXPECT_THAT(reason({1, 17, 3}, {}), HasSubstr("17 joints of several layouts"));
+  EXPECT_THAT(reason({1, 17, 3}, "h36m"), HasSubstr("layout h36m, 1 unit = 100 cm"));
+  EXPECT_THAT(reason({1, 24, 3}, {}), HasSubstr("layout smpl"));
+  EXPECT_THAT(reason({1, 25, 3}, "smpl"), HasSubstr("25 joints in the layout 'smpl'; allowed: a.npy#LAYOUT"));
+  EXPECT_THAT(reason({1, 5, 3}, {}), HasSubstr("5 joints of no layout"));
+  EXPECT_THAT(reason({20, 3}, {}), HasSubstr("an array of 20 × 3; allowed: frames × joints × 3"));
+  EXPECT_THAT(reason({0, 20, 3}, {}), HasSubstr("an array of 0 × 20 × 3"));
+  EXPECT_THAT(reason({1, 20, 4}, {}), HasSubstr("an array of 1 × 20 × 4"));
+}
+
+}  // namespace
+}  // namespace etude
