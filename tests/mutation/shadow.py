@@ -152,11 +152,12 @@ class Shadow:
         return near | set().union(*(self._in_type(name) for name in types))
 
     def _types_of_constant(self, file, line):
-        """The types of the constexpr variable that ends in this line: the defaults of their members are constants."""
+        """The types that the constexpr variable which ends in this line, or its static_assert, names: the defaults of
+        their members are constants."""
         if not (self.tree / file).is_file():
             return set()
         above = (self.tree / file).read_text().split("\n")[max(line - 40, 0):line]
-        heads = [text for text in above if re.search(r"\bconstexpr\b", text)]
+        heads = [text for text in above if re.search(r"\b(constexpr|static_assert)\b", text)]
         return set(re.findall(r"\b[A-Z]\w+", heads[-1])) if heads else set()
 
     def _in_type(self, name):
