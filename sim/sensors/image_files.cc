@@ -4,7 +4,6 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
-#include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <png.h>
 
@@ -12,7 +11,6 @@
 #include <array>
 #include <cassert>
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -78,27 +76,6 @@ std::string EncodePixels(const std::uint8_t* pixels, int width, int height, int 
   return bytes;
 }
 
-template <typename Pixel>
-Result<Image<Pixel>> LoadPixels(const std::string& path, png_uint_32 format) {
-  ASSIGN_OR_RETURN(const auto bytes, ReadBytes(path));
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) {
-    return Fail({path}, "not a PNG picture: {}", png.message);
-  }
-  if (png.width > kLargestPicture || png.height > kLargestPicture) {
-    png_image_free(&png);
-    return Fail({path}, "{} x {} pixels; allowed: at most {} a side", png.width, png.height, kLargestPicture);
-  }
-  png.format = format;
-  Image<Pixel> image(static_cast<int>(png.width), static_cast<int>(png.height));
-  const png_color black{};
-  if (!png_image_finish_read(&png, &black, image.pixels.data(), 0, nullptr)) {
-    return Fail({path}, "a damaged PNG picture: {}", png.message);
-  }
-  return image;
-}
-
 // --- OpenEXR
 
 Imf::Slice SliceOf(Imf::PixelType type, const void* pixels, const Imath::Box2i& window, std::size_t stride) {
@@ -109,11 +86,6 @@ constexpr const char* kColourChannels[] = {"R", "G", "B"};
 constexpr const char* kDepthChannel = "Z";
 constexpr const char* kLabelChannel = "label";
 constexpr const char* kNormalChannels[] = {"N.X", "N.Y", "N.Z"};
-
-std::uint8_t ToByte(half light) {
-  const float value = light;
-  return SrgbOfLinear(std::isnan(value) ? 0 : value);
-}
 
 // Where OpenEXR puts a file's bytes.
 class ByteStream : public Imf::OStream {
@@ -172,82 +144,6 @@ void WriteExr(const View& view, const NormalImage& normals, std::span<const Dept
   file.writePixels(height);
 }
 
-// Throws what OpenEXR throws.
-NormalImage ReadExrNormals(const std::string& path) {
-  Imf::Header::setMaxImageSize(kLargestPicture, kLargestPicture);
-  Imf::InputFile file(path.c_str(), 0);
-  if (!file.header().channels().findChannel(kNormalChannels[0])) return {};
-  const Imath::Box2i window = file.header().dataWindow();
-  NormalImage normals(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, glm::vec3(0));
-  Imf::FrameBuffer channels;
-  for (int i = 0; i < 3; ++i) {
-    channels.insert(kNormalChannels[i], SliceOf(Imf::FLOAT, &normals.pixels.front()[i], window, sizeof(glm::vec3)));
-  }
-  file.setFrameBuffer(channels);
-  file.readPixels(window.min.y, window.max.y);
-  return normals;
-}
-
-// Throws what OpenEXR throws.
-DepthImage ReadExrDepth(const std::string& path, const std::string& channel) {
-  Imf::Header::setMaxImageSize(kLargestPicture, kLargestPicture);
-  Imf::InputFile file(path.c_str(), 0);
-  if (!file.header().channels().findChannel(channel)) return {};
-  const Imath::Box2i window = file.header().dataWindow();
-  DepthImage depth(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
-  Imf::FrameBuffer channels;
-  channels.insert(channel, SliceOf(Imf::FLOAT, depth.pixels.data(), window, sizeof(float)));
-  file.setFrameBuffer(channels);
-  file.readPixels(window.min.y, window.max.y);
-  return depth;
-}
-
-// Throws what OpenEXR throws, for instance on more than kLargestPicture pixels a side.
-View ReadExr(const std::string& path) {
-  Imf::Header::setMaxImageSize(kLargestPicture, kLargestPicture);
-  Imf::InputFile file(path.c_str(), 0);
-  const Imath::Box2i window = file.header().dataWindow();
-  const int width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
-  const Imf::ChannelList& present = file.header().channels();
-  Imf::FrameBuffer channels;
-  const auto want = [&](const char* name, Imf::PixelType type, void* pixels, std::size_t stride) {
-    channels.insert(name, SliceOf(type, pixels, window, stride));
-  };
-
-  View view;
-  std::vector<half> colour;
-  if (present.findChannel("R") && present.findChannel("G") && present.findChannel("B")) {
-    colour.resize(3 * static_cast<std::size_t>(width) * height);
-    for (int i = 0; i < 3; ++i) want(kColourChannels[i], Imf::HALF, colour.data() + i, 3 * sizeof(half));
-  }
-  if (present.findChannel(kDepthChannel)) {
-    view.depth = DepthImage(width, height);
-    want(kDepthChannel, Imf::FLOAT, view.depth.pixels.data(), sizeof(float));
-  }
-  if (present.findChannel(kLabelChannel)) {
-    view.labels = LabelImage(width, height);
-    want(kLabelChannel, Imf::UINT, view.labels.pixels.data(), sizeof(std::uint32_t));
-  }
-  file.setFrameBuffer(channels);
-  file.readPixels(window.min.y, window.max.y);
-
-  if (!colour.empty()) view.colour = ColourImage(width, height);
-  for (std::size_t i = 0; i < view.colour.pixels.size(); ++i) {
-    view.colour.pixels[i] = {ToByte(colour[3 * i]), ToByte(colour[3 * i + 1]), ToByte(colour[3 * i + 2])};
-  }
-  return view;
-}
-
-/// Returns what `read` reads, or what OpenEXR throws as an error.
-template <typename Read>
-auto OrError(const std::string& path, const Read& read) -> Result<decltype(read())> {
-  try {
-    return read();
-  } catch (const std::exception& error) {
-    return Fail({path}, "cannot be read as OpenEXR: {}", error.what());
-  }
-}
-
 }  // namespace
 
 std::string EncodePng(const ColourImage& image) {
@@ -270,7 +166,25 @@ std::string EncodePpm(const ColourImage& image) {
 Result<void> SavePng(const ColourImage& image, const std::string& path) { return WriteBytes(EncodePng(image), path); }
 Result<void> SavePng(const Mask& mask, const std::string& path) { return WriteBytes(EncodePng(mask), path); }
 
-Result<ColourImage> LoadColourPng(const std::string& path) { return LoadPixels<Rgb8>(path, PNG_FORMAT_RGB); }
+Result<ColourImage> LoadColourPng(const std::string& path) {
+  ASSIGN_OR_RETURN(const auto bytes, ReadBytes(path));
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) {
+    return Fail({path}, "not a PNG picture: {}", png.message);
+  }
+  if (png.width > kLargestPicture || png.height > kLargestPicture) {
+    png_image_free(&png);
+    return Fail({path}, "{} x {} pixels; allowed: at most {} a side", png.width, png.height, kLargestPicture);
+  }
+  png.format = PNG_FORMAT_RGB;
+  ColourImage image(static_cast<int>(png.width), static_cast<int>(png.height));
+  const png_color black{};
+  if (!png_image_finish_read(&png, &black, image.pixels.data(), 0, nullptr)) {
+    return Fail({path}, "a damaged PNG picture: {}", png.message);
+  }
+  return image;
+}
 
 Result<ColourImage> DecodeColourPng(std::string_view bytes, std::size_t most_pixels) {
   png_image png{};
@@ -294,13 +208,6 @@ Result<ColourImage> DecodeColourPng(std::string_view bytes, std::size_t most_pix
   return image;
 }
 
-Result<Mask> LoadMaskPng(const std::string& path) {
-  auto mask = LoadPixels<std::uint8_t>(path, PNG_FORMAT_GRAY);
-  if (!mask) return mask;
-  for (std::uint8_t& pixel : mask->pixels) pixel = pixel >= 128 ? 1 : 0;
-  return mask;
-}
-
 Result<std::string> EncodeExr(const View& view, const NormalImage& normals, std::span<const DepthChannel> measured) {
   try {
     ByteStream stream;
@@ -309,24 +216,6 @@ Result<std::string> EncodeExr(const View& view, const NormalImage& normals, std:
   } catch (const std::exception& error) {
     return Fail({}, "cannot be written as OpenEXR: {}", error.what());
   }
-}
-
-Result<void> SaveExr(const View& view, const std::string& path) {
-  const auto bytes = EncodeExr(view);
-  if (!bytes) return Fail({path}, "{}", bytes.error().message);
-  return WriteBytes(*bytes, path);
-}
-
-Result<NormalImage> LoadExrNormals(const std::string& path) {
-  return OrError(path, [&] { return ReadExrNormals(path); });
-}
-
-Result<DepthImage> LoadExrDepth(const std::string& path, const std::string& channel) {
-  return OrError(path, [&] { return ReadExrDepth(path, channel); });
-}
-
-Result<View> LoadExr(const std::string& path) {
-  return OrError(path, [&] { return ReadExr(path); });
 }
 
 }  // namespace etude

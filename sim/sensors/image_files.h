@@ -31,8 +31,6 @@ Result<ColourImage> LoadColourPng(const std::string& path);
 /// Decodes the bytes of a PNG file of at most so many pixels; transparent parts keep their own colours. The error names
 /// no file.
 Result<ColourImage> DecodeColourPng(std::string_view bytes, std::size_t most_pixels);
-/// Reads any PNG as a mask: 1 where the grey value is at least 128.
-Result<Mask> LoadMaskPng(const std::string& path);
 
 /// A depth image and the name of its channel.
 struct DepthChannel {
@@ -46,13 +44,5 @@ struct DepthChannel {
 /// out; the others have one size. The same for the same pictures.
 Result<std::string> EncodeExr(const View& view, const NormalImage& normals = {},
                               std::span<const DepthChannel> measured = {});
-Result<void> SaveExr(const View& view, const std::string& path);
-/// Reads what SaveExr writes, bit for bit; pictures whose channels the file lacks stay empty. Light beyond what 8 bits
-/// can show is cut off.
-Result<View> LoadExr(const std::string& path);
-/// Reads the normals of such a file; empty when it has none.
-Result<NormalImage> LoadExrNormals(const std::string& path);
-/// Reads a depth channel of such a file, bit for bit; empty when it has none of that name.
-Result<DepthImage> LoadExrDepth(const std::string& path, const std::string& channel);
 
 }  // namespace etude

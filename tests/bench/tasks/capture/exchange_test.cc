@@ -14,8 +14,8 @@
 #include "bench/tasks/base/task_kinds.h"
 #include "engine/document/node.h"
 #include "engine/formats/bvh.h"
-#include "sim/sensors/image_files.h"
 #include "tests/bench/tasks/base/cell_values.h"
+#include "tests/sim/sensors/exr_files.h"
 
 namespace etude {
 namespace {
@@ -126,7 +126,7 @@ TEST(CaptureExchange, TheTruthHoldsWhatDepthCamerasWouldMeasureInTheCamerasPlace
       (std::filesystem::temp_directory_path() / fmt::format("etude-depth-{}.exr", getpid())).string();
   const auto depth = [&](const char* file, const char* channel) {
     std::ofstream(path, std::ios::binary) << Find(*truth, file)->bytes;
-    return *LoadExrDepth(path, channel);
+    return ExrFile(path).Depth(channel);
   };
   const DepthImage z = depth("camera-1-0001.exr", "Z");
   struct Case {
