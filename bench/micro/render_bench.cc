@@ -12,7 +12,6 @@ namespace etude {
 namespace {
 
 constexpr Intrinsics kVga{};
-constexpr Intrinsics kHd{.width = 1280, .height = 720, .fx = 900, .fy = 900, .cx = 640, .cy = 360};
 
 std::vector<Figure> Nobody() { return {}; }
 std::vector<Figure> OfCapsules() { return {{BodyCapsules(StandingPose()), PerformerColours()}}; }
@@ -23,7 +22,7 @@ void InMilliseconds(benchmark::internal::Benchmark* benchmark) {
   benchmark->Unit(benchmark::kMillisecond)->UseRealTime();
 }
 
-enum class Kind { kColour, kLabels, kAll, kSmooth };
+enum class Kind { kColour, kLabels, kAll };
 
 void Picture(benchmark::State& state, std::vector<Figure> (*make)(), const Intrinsics& intrinsics, Kind kind) {
   const auto renderer = Renderer::Create();
@@ -31,14 +30,10 @@ void Picture(benchmark::State& state, std::vector<Figure> (*make)(), const Intri
   const std::vector<Figure> figures = make();
   const Camera camera = LookAt(intrinsics, {-1.2, 1.4, 3.9}, {0, 0.95, 0});
   const auto draw = [&] {
-    if (kind == Kind::kSmooth) {
-      benchmark::DoNotOptimize((*renderer)->RenderSmooth({}, figures, camera));
-    } else {
-      const Targets targets = kind == Kind::kAll      ? Targets::kAll
-                              : kind == Kind::kLabels ? Targets::kColourAndLabels
-                                                      : Targets::kColour;
-      benchmark::DoNotOptimize((*renderer)->Render({}, figures, camera, targets));
-    }
+    const Targets targets = kind == Kind::kAll      ? Targets::kAll
+                            : kind == Kind::kLabels ? Targets::kColourAndLabels
+                                                    : Targets::kColour;
+    benchmark::DoNotOptimize((*renderer)->Render({}, figures, camera, targets));
   };
   draw();  // the first picture waits for shaders to be compiled
   for (auto _ : state) draw();
@@ -49,8 +44,6 @@ BENCHMARK_CAPTURE(Picture, capsules_vga_all, OfCapsules, kVga, Kind::kAll)->Appl
 BENCHMARK_CAPTURE(Picture, capsules_vga_labels, OfCapsules, kVga, Kind::kLabels)->Apply(InMilliseconds);
 BENCHMARK_CAPTURE(Picture, surfaces_vga, OfSurfaces, kVga, Kind::kColour)->Apply(InMilliseconds);
 BENCHMARK_CAPTURE(Picture, surfaces_vga_all, OfSurfaces, kVga, Kind::kAll)->Apply(InMilliseconds);
-BENCHMARK_CAPTURE(Picture, capsules_hd_smooth, OfCapsules, kHd, Kind::kSmooth)->Apply(InMilliseconds);
-BENCHMARK_CAPTURE(Picture, surfaces_hd_smooth, OfSurfaces, kHd, Kind::kSmooth)->Apply(InMilliseconds);
 
 // What the picture `capsules_vga_labels` is measured by.
 void Bare(benchmark::State& state) {

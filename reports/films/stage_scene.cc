@@ -18,7 +18,7 @@ constexpr double kSeenHeight = 2.65;
 constexpr double kDistance = 4.2;
 constexpr double kEyeHeight = 1.45;
 constexpr double kLookAtHeight = 0.94;
-// Drawn this much larger and shrunk, which smooths edges at half the price of RenderSmooth.
+// Drawn this much larger and shrunk, which smooths edges at half the price of twice the size.
 constexpr double kCoachDetail = 1.5;
 // The camera follows slowly: a second to either side. Standing still also spares drawing the room anew.
 constexpr int kCoachFollowFrames = 30;

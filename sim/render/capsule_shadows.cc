@@ -189,11 +189,10 @@ void Paint(const KeptRoom& kept, const TileShade& shade, double brightness, cons
 
 }  // namespace
 
-std::vector<PixelRect> ThrowCapsuleShadows(const KeptRoom& kept, const Room& room, const std::vector<Figure>& figures,
-                                           Targets targets, const RowRange& rows, View& view) {
+void ThrowCapsuleShadows(const KeptRoom& kept, const Room& room, const std::vector<Figure>& figures, Targets targets,
+                         const RowRange& rows, View& view) {
   const bool is_interior = room.interior != nullptr;
   const std::vector<Caster> casters = CastersOf(figures, is_interior, kept.lamp.lamp);
-  std::vector<PixelRect> touched;
   for (const RoomTile& tile : kept.lamp.tiles) {
     const PixelRect pixels{tile.pixels.left, std::max(tile.pixels.top, rows.first), tile.pixels.right,
                            std::min(tile.pixels.bottom, rows.end)};
@@ -201,9 +200,7 @@ std::vector<PixelRect> ThrowCapsuleShadows(const KeptRoom& kept, const Room& roo
     const TileShade shade = Shade(casters, is_interior, kept.lamp, tile, pixels, view.colour.width);
     if (!shade.is_dark && !shade.is_touched) continue;
     Paint(kept, shade, room.brightness, pixels, targets != Targets::kColour, rows.first, view);
-    touched.push_back(pixels);
   }
-  return touched;
 }
 
 void MarkCapsuleShadows(const KeptRoom& kept, const std::vector<Figure>& figures, Overlay& overlay) {

@@ -11,9 +11,9 @@ namespace etude {
 /// pixel runs inside a capsule says how much of the lamp's light is left, softer the farther the shadow falls; where
 /// shadows overlap the deepest counts. In interiors what stands close to the floor also takes the light that comes from
 /// all sides. `view` shows those rows of the empty room; shadows of the lamp are labelled kShadow, but furniture keeps
-/// its label. Returns the rectangles outside which nothing has changed; they do not overlap.
-std::vector<PixelRect> ThrowCapsuleShadows(const KeptRoom& kept, const Room& room, const std::vector<Figure>& figures,
-                                           Targets targets, const RowRange& rows, View& view);
+/// its label.
+void ThrowCapsuleShadows(const KeptRoom& kept, const Room& room, const std::vector<Figure>& figures, Targets targets,
+                         const RowRange& rows, View& view);
 
 /// Marks where the capsules of figures darken the studio's room, in pixels of the overlay that show nothing else.
 void MarkCapsuleShadows(const KeptRoom& kept, const std::vector<Figure>& figures, Overlay& overlay);

@@ -148,14 +148,6 @@ void FillBackdrop(const KeptRoom& room, int width, double brightness, Targets ta
   if (targets == Targets::kAll) std::copy_n(&room.depths[first], count, view.depth.pixels.begin());
 }
 
-void FillBackdrop(const KeptRoom& room, double brightness, const PixelRect& rect, ColourImage& picture) {
-  for (int y = rect.top; y < rect.bottom; ++y) {
-    const std::size_t first = static_cast<std::size_t>(picture.width) * y + rect.left;
-    RoundToBytes(&room.colours[3 * first], 3 * static_cast<std::size_t>(rect.Width()), static_cast<float>(brightness),
-                 reinterpret_cast<std::uint8_t*>(&picture.At(rect.left, y)));
-  }
-}
-
 KeptRooms::~KeptRooms() {
   for (const Kept& kept : kept_) Drop(kept);
 }
@@ -186,7 +178,6 @@ const KeptRoom& KeptRooms::FindOrDraw(const Room& room, const Camera& camera) {
 KeptRoom KeptRooms::Draw(const Room& room, const Camera& camera) {
   const int width = camera.intrinsics.width, height = camera.intrinsics.height;
   KeptRoom kept;
-  kept.serial = ++drawn_;
   GLuint framebuffer = 0;
   gl_.GenFramebuffers(1, &framebuffer);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);

@@ -50,7 +50,6 @@ struct LampView {
 
 /// The empty room as one camera sees it at brightness 1, as textures for shaders and as numbers for what needs none.
 struct KeptRoom {
-  std::uint64_t serial = 0;          ///< 1 for the first that was drawn, and so on
   GLuint room = 0;                   ///< RGB colour, A depth
   GLuint extra = 0;                  ///< RGB the lamp's share of the light, A label
   std::vector<float> colours;        ///< RGB, three per pixel
@@ -92,7 +91,6 @@ class KeptRooms {
   const GlFunctions& gl_;
   GLuint studio_program_, interior_program_;
   GLuint empty_vertices_;
-  std::uint64_t drawn_ = 0;
   std::deque<Kept> kept_;  // the last used first
 };
 
@@ -100,9 +98,6 @@ class KeptRooms {
 /// (round to nearest even). Pictures of another size are made anew.
 void FillBackdrop(const KeptRoom& room, int width, double brightness, Targets targets, const RowRange& rows,
                   View& view);
-
-/// Fills a rectangle of a whole picture likewise, with its colours only.
-void FillBackdrop(const KeptRoom& room, double brightness, const PixelRect& rect, ColourImage& picture);
 
 /// Writes the 8-bit levels of `count` numbers times the brightness, rounded as GL rounds them.
 void RoundToBytes(const float* light, std::size_t count, float brightness, std::uint8_t* bytes);

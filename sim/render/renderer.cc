@@ -86,43 +86,10 @@ VertexStream CornerStream(const GlFunctions& gl) {
            {4, offsetof(SurfaceCorner, rest_and_paint)}}};
 }
 
-// The empty room with smooth edges, and the last large picture: the same room but for what figures touched.
-struct SmoothRoom {
-  std::uint64_t room = 0;  // KeptRoom::serial
-  double brightness = 0;
-  View large;
-  std::vector<PixelRect> touched;
-  ColourImage small;
-};
-
 bool AllClosed(const std::vector<Figure>& figures) {
   return std::ranges::all_of(figures, [](const Figure& figure) {
     return std::ranges::all_of(figure.surfaces, [](const Surface& surface) { return surface.is_closed; });
   });
-}
-
-// The same view with twice as many pixels a side.
-Camera Doubled(const Camera& camera) {
-  Camera doubled = camera;
-  Intrinsics& in = doubled.intrinsics;
-  in.width *= 2;
-  in.height *= 2;
-  for (double* length : {&in.fx, &in.fy, &in.cx, &in.cy, &in.skew}) *length *= 2;
-  return doubled;
-}
-
-// Each pixel of `small` that `rect` of `large` touches becomes the mean of its four there.
-void AverageFours(const ColourImage& large, const PixelRect& rect, ColourImage& small) {
-  const auto mean = [](int p, int q, int r, int s) { return static_cast<std::uint8_t>((p + q + r + s + 2) / 4); };
-  for (int y = rect.top / 2; y < (rect.bottom + 1) / 2; ++y) {
-    const Rgb8* upper = &large.At(0, 2 * y);
-    const Rgb8* lower = &large.At(0, 2 * y + 1);
-    Rgb8* out = &small.At(0, y);
-    for (int x = rect.left / 2; x < (rect.right + 1) / 2; ++x) {
-      const Rgb8 &a = upper[2 * x], &b = upper[2 * x + 1], &c = lower[2 * x], &d = lower[2 * x + 1];
-      out[x] = {mean(a.r, b.r, c.r, d.r), mean(a.g, b.g, c.g, d.g), mean(a.b, b.b, c.b, d.b)};
-    }
-  }
 }
 
 }  // namespace
@@ -301,7 +268,6 @@ struct Renderer::State {
   SurfaceTriangles triangles;  // reused
   FrameTargets targets;
   KeptRooms rooms;
-  SmoothRoom smooth;
 };
 
 Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -364,37 +330,6 @@ void Renderer::DrawFigures(const std::vector<Figure>& figures, const Camera& cam
   const KeptRoom& kept = state_->rooms.FindOrDraw({}, camera);
   state_->DrawOver(kept, figures, camera, overlay);
   MarkCapsuleShadows(kept, figures, overlay);
-}
-
-ColourImage Renderer::RenderSmooth(const Room& room, const std::vector<Figure>& figures, const Camera& camera) {
-  const Camera large = Doubled(camera);
-  const int width = large.intrinsics.width, height = large.intrinsics.height;
-  assert(width <= kLargestPicture && height <= kLargestPicture);
-  State& state = *state_;
-  state.context->MakeCurrent();
-  const KeptRoom& kept = state.rooms.FindOrDraw(room, large);
-  const RowRange rows{0, height};
-  // Most films stay in one light: the empty room then is averaged once.
-  SmoothRoom& smooth = state.smooth;
-  if (smooth.room != kept.serial || smooth.brightness != room.brightness) {
-    FillBackdrop(kept, width, room.brightness, Targets::kColour, rows, smooth.large);
-    smooth.small = ColourImage(camera.intrinsics.width, camera.intrinsics.height);
-    AverageFours(smooth.large.colour, {0, 0, width, height}, smooth.small);
-    smooth.touched.clear();
-    smooth.room = kept.serial;
-    smooth.brightness = room.brightness;
-  }
-  for (const PixelRect& rect : smooth.touched) FillBackdrop(kept, room.brightness, rect, smooth.large.colour);
-  smooth.touched.clear();
-  if (room.casts_shadows) {
-    smooth.touched = ThrowCapsuleShadows(kept, room, figures, Targets::kColour, rows, smooth.large);
-  }
-  const std::vector<PixelRect> rects = TouchedPixels(room, figures, large, rows);
-  state.DrawTouched(kept, room, figures, large, Targets::kColour, rects, 0, smooth.large);
-  smooth.touched.insert(smooth.touched.end(), rects.begin(), rects.end());
-  ColourImage picture = smooth.small;
-  for (const PixelRect& rect : smooth.touched) AverageFours(smooth.large.colour, rect, picture);
-  return picture;
 }
 
 }  // namespace etude

@@ -34,10 +34,6 @@ class Renderer {
   /// An overlay of this size is used again.
   void DrawFigures(const std::vector<Figure>& figures, const Camera& camera, Overlay& overlay);
 
-  /// Draws the same picture with smooth edges, for people to look at: at twice the size, then averaged, at about four
-  /// times the cost. At most kLargestPicture / 2 wide and high.
-  ColourImage RenderSmooth(const Room& room, const std::vector<Figure>& figures, const Camera& camera);
-
  private:
   struct State;
   explicit Renderer(std::unique_ptr<State> state);

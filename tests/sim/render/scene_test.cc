@@ -9,6 +9,7 @@
 #include "sim/render/empty_room.h"
 #include "sim/render/renderer.h"
 #include "tests/sim/render/dancer.h"
+#include "tests/sim/render/smooth_picture.h"
 #include "tests/support/gtest_printers.h"
 
 namespace etude {
@@ -147,7 +148,7 @@ TEST_F(RendererScene, LeavesOutCapsulesThatAreNotFinite) {
 
 TEST_F(RendererScene, TheSmoothPictureShowsTheSameScene) {
   const std::vector<Figure> figures{{Dancer(), PerformerColours()}};
-  const ColourImage smooth = renderer_->RenderSmooth({}, figures, camera_);
+  const ColourImage smooth = DrawSmooth(*renderer_, figures, camera_);
   const ColourImage plain = renderer_->Render({}, figures, camera_, Targets::kColour).colour;
   ASSERT_EQ(smooth.width, plain.width);
   ASSERT_EQ(smooth.height, plain.height);

@@ -12,6 +12,7 @@
 #include "sim/choreography/canonical_body.h"
 #include "sim/render/renderer.h"
 #include "sim/rig/rig.h"
+#include "tests/sim/render/smooth_picture.h"
 
 namespace etude {
 namespace {
@@ -46,7 +47,7 @@ TEST(CalibrationTarget, IsFoundInRenderedPicturesAndCalibratesTheirCameras) {
   for (int trial = 0; trial < 3; ++trial) {
     const WorldKey key{.suite_seed = 3, .scenario = "target", .trial = trial};
     for (const Camera& camera : SetUpCameras({}, motion, key)) {
-      const ColourImage picture = (*renderer)->RenderSmooth({}, {Figure{{}, {}, SurfacesOf(target)}}, camera);
+      const ColourImage picture = DrawSmooth(**renderer, {Figure{{}, {}, SurfacesOf(target)}}, camera);
       const std::vector<PointPair> pairs = PairsOf(target, FindBoards(picture, BoardsOf(target)));
       ASSERT_GE(pairs.size(), 30u) << trial << ": two sides of 16 corners";
       double squares = 0;
@@ -74,7 +75,7 @@ TEST(MarkedCube, IsFoundInRenderedPicturesAndCalibratesTheirCameras) {
   for (int trial = 0; trial < 3; ++trial) {
     const WorldKey key{.suite_seed = 3, .scenario = "marks", .trial = trial};
     for (const Camera& camera : SetUpCameras({}, motion, key)) {
-      const GreyImage picture = ToGrey((*renderer)->RenderSmooth({}, {Figure{{}, {}, cube.surfaces}}, camera));
+      const GreyImage picture = ToGrey(DrawSmooth(**renderer, {Figure{{}, {}, cube.surfaces}}, camera));
       std::vector<PointPair> pairs;
       int towards = 0;
       double squares = 0;
