@@ -15,11 +15,13 @@ struct Sight {
 };
 
 /// The renderer's second implementation: one ray at a time, in double precision, with sim/body's
-/// HitDistance and a ray-triangle test instead of shaders.
+/// HitDistance and a ray-triangle test instead of shaders. The room is the studio, or `interior`, which must outlive
+/// it.
 class RayCaster {
  public:
-  RayCaster(const Camera& camera, std::vector<Capsule> shape, const std::vector<Surface>& surfaces = {})
-      : camera_(camera), shape_(std::move(shape)) {
+  RayCaster(const Camera& camera, std::vector<Capsule> shape, const std::vector<Surface>& surfaces = {},
+            const Interior* interior = nullptr)
+      : camera_(camera), shape_(std::move(shape)), interior_(interior) {
     for (const Surface& surface : surfaces) {
       for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
         const auto& [a, b, c] = surface.triangles[i];
@@ -41,6 +43,13 @@ class RayCaster {
     const double room = RoomDistance(direction);
     sight.depth = room / stretch;
     double nearest = room;
+    const std::vector<FurnitureBox> no_furniture;
+    for (const FurnitureBox& box : interior_ ? interior_->furniture : no_furniture) {
+      const double distance = HitDistance(Cuboid{box.centre, box.half_size, box.heading}, camera_.p_WC, direction);
+      if (distance >= nearest) continue;
+      nearest = distance;
+      sight = {static_cast<std::uint32_t>(Part::kFurniture), distance / stretch};
+    }
     for (const Capsule& capsule : shape_) {
       const double distance = HitDistance(capsule, camera_.p_WC, direction);
       if (distance >= nearest) continue;
@@ -91,13 +100,19 @@ class RayCaster {
 
   double RoomDistance(const glm::dvec3& direction) const {
     double nearest = std::numeric_limits<double>::infinity();
+    for (int axis = 0; interior_ != nullptr && axis < 3; ++axis) {
+      const double low = interior_->low[axis] - camera_.p_WC[axis], high = interior_->high[axis] - camera_.p_WC[axis];
+      if (low < 0 && direction[axis] < 0) nearest = std::min(nearest, low / direction[axis]);
+      if (high > 0 && direction[axis] > 0) nearest = std::min(nearest, high / direction[axis]);
+    }
+    if (interior_ != nullptr) return nearest;
     if (direction.y < 0) nearest = std::min(nearest, -camera_.p_WC.y / direction.y);
     if (direction.z < 0) nearest = std::min(nearest, (kWallZ - camera_.p_WC.z) / direction.z);
     return nearest;
   }
 
   bool IsInShadow(const glm::dvec3& point) const {
-    const glm::dvec3 to_lamp = kLamp - point;
+    const glm::dvec3 to_lamp = (interior_ ? interior_->lights.key : kLamp) - point;
     const double distance = glm::length(to_lamp);
     for (const Capsule& capsule : shape_) {
       if (HitDistance(capsule, point, to_lamp / distance) < distance) return true;
@@ -111,6 +126,7 @@ class RayCaster {
   Camera camera_;
   std::vector<Capsule> shape_;
   std::vector<Triangle> triangles_;
+  const Interior* interior_;
 };
 
 struct Comparison {
