@@ -154,34 +154,6 @@ PathClock MeasureClock(std::span<const StepPair> path) {
 
 }  // namespace
 
-const std::vector<std::string>& MeasureNames() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> list;
-    for (const char* what : {"error", "centred error", "missing amplitude"}) {
-      for (const char* part : {"trunk", "shoulders", "head", "lift", "upper arm +", "upper arm -", "forearm +",
-                               "forearm -", "thigh +", "thigh -", "shank +", "shank -"}) {
-        list.push_back(std::string(what) + " of " + part);
-      }
-    }
-    for (const char* other :
-         {"distance", "distance in the first third", "distance in the second third", "distance in the last third",
-          "worst error", "mean error", "lag", "stretch", "unsteady", "unsteady at worst", "nearest other"}) {
-      list.emplace_back(other);
-    }
-    for (std::size_t i = 0; i < kOwnMeasures; ++i) list.push_back(list[i] + ", beyond the usual");
-    for (const char* clock :
-         {"shift", "shift of the first half", "shift of the second half", "drift", "distance by the clock",
-          "gained by a shift", "gained in the first half", "gained in the second half"}) {
-      list.emplace_back(clock);
-    }
-    for (std::size_t i = 0; i < kClockMeasures; ++i) {
-      list.push_back(list[kFirstClockMeasure + i] + ", beyond the usual");
-    }
-    return list;
-  }();
-  return names;
-}
-
 PerformanceMeasures Measure(const AlignedPerformance& performance) {
   std::array<LimbSums, kPosePartCount> sums;
   std::array<Mean, 3> thirds;

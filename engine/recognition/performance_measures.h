@@ -3,7 +3,6 @@
 #include <array>
 #include <functional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "engine/recognition/alignment.h"
@@ -68,9 +67,6 @@ constexpr std::size_t kDistanceMeasure = 36;  ///< among them: the root of the p
 constexpr std::size_t kFirstClockMeasure = 2 * kOwnMeasures;
 constexpr std::size_t kMeasureCount = kFirstClockMeasure + 2 * kClockMeasures;
 using PerformanceMeasures = std::array<double, kMeasureCount>;
-
-/// Lists the measures' names, for people, in their order.
-const std::vector<std::string>& MeasureNames();
 
 /// A performance as it went along an example.
 struct AlignedPerformance {

@@ -188,12 +188,6 @@ DepthCameraOptions KinectV2Depth() {
   return {.law = DepthLaw::kTimeOfFlight, .focal_px = 365, .baseline_m = 0, .near_m = 0.5, .far_m = 4.5};
 }
 
-DepthCameraOptions WithStrength(DepthCameraOptions options, double strength) {
-  options.axial_noise = options.lateral_noise = options.steps = strength;
-  options.shadows = options.range = options.grazing = strength;
-  return options;
-}
-
 double LateralDeviationPx(double angle) { return 0.8 + 0.035 * angle / (kRightAngle - angle); }
 
 DepthImage MeasureDepth(const DepthImage& truth, const Camera& camera, const DepthCameraOptions& options,

@@ -45,9 +45,6 @@ DepthCameraOptions KinectV1Depth(bool near_mode = false);
 /// edges are ours: as unsteady as the first one's, in pixels of its own (focal length 365).
 DepthCameraOptions KinectV2Depth();
 
-/// Returns the same camera with every strength set to `strength` (0…1).
-DepthCameraOptions WithStrength(DepthCameraOptions options, double strength);
-
 /// The depth where nothing is measured, as where a true depth image shows nothing.
 constexpr float kNotMeasured = std::numeric_limits<float>::infinity();
 

@@ -86,7 +86,5 @@ TEST(PersonBaseline, KnowsWhenAPersonKeepsTheClock) {
   EXPECT_NEAR(measures[kFirstClockMeasure + kClockMeasures], 0.3, 1e-12);
 }
 
-TEST(MeasureNames, AreAsManyAsMeasures) { EXPECT_EQ(MeasureNames().size(), kMeasureCount); }
-
 }  // namespace
 }  // namespace etude

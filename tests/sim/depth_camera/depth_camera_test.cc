@@ -43,6 +43,13 @@ DepthImage TurnedWall(double z, double angle) {
   return depth;
 }
 
+/// Returns the same camera with every strength set to `strength`.
+DepthCameraOptions WithStrength(DepthCameraOptions options, double strength) {
+  options.axial_noise = options.lateral_noise = options.steps = strength;
+  options.shadows = options.range = options.grazing = strength;
+  return options;
+}
+
 /// Makes a camera of a kind with a single fault of strength 1.
 DepthCameraOptions Only(const DepthCameraOptions& kind, double DepthCameraOptions::*fault) {
   DepthCameraOptions options = WithStrength(kind, 0);
