@@ -175,8 +175,9 @@ class Doubter {
     if (best->film && cameras_.size() == 2) {
       whose += fmt::format(" (or {:.3f} times {}'s)", 1 / best->gain, names_[1 - *best->film]);
     }
-    return fmt::format("{} rays would miss by {:.2f} px instead of {:.2f}", whose,
-                       MedianMiss(Gains(best->film, best->gain), AsSaid), miss);
+    return fmt::format("{} rays would miss by {:.2f} px instead of {:.2f}{}", whose,
+                       MedianMiss(Gains(best->film, best->gain), AsSaid), miss,
+                       best->film ? " (or the camera was moved)" : "");
   }
 
   /// The median distance of the shoulders, as a share of a leg; 0 where they are not seen.
