@@ -27,6 +27,7 @@ constexpr const char* kModule = "etude_clips_assimp.so";  // found beside the pr
 constexpr rlim_t kMemoryBytes = rlim_t{4} << 30, kProcessorSeconds = 60;
 constexpr std::size_t kLargestGlb = std::size_t{1} << 30, kLargestFile = kLargestGlb;
 constexpr unsigned kOldestVersion = 7;
+constexpr const char* kGaveUp = "a damaged FBX file: its reader gave up";
 constexpr char kSaidGlb = 'G', kSaidComplaint = 'C';
 
 constexpr std::string_view kBinaryStart = "Kaydara FBX Binary", kTextStart = "; FBX";
@@ -177,7 +178,7 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
   }
   if (said) {
     constexpr std::size_t kLongest = 300;  // assimp says a whole file again
-    const std::string why = said->size() < 2 ? "a damaged FBX file: its reader gave up" : said->substr(1, kLongest);
+    const std::string why = said->size() < 2 ? kGaveUp : said->substr(1, kLongest);
     return Fail({path}, "{}{}", why, said->size() > 1 + kLongest ? " …" : "");
   }
   const int status = End();
@@ -187,12 +188,14 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
                 "an FBX file too large to read: at most {} s of processor time, {} GB of memory and {} GB of result",
                 kProcessorSeconds, kMemoryBytes >> 30, kLargestGlb >> 30);
   }
+  if (signal == 0) return Fail({path}, "{}", kGaveUp);
   return Fail({path}, "{} {} ({})", kReaderFell, signal, ::strsignal(signal));
 }
 
 int FbxReader::End() {
   int status = 0;
   if (child_ < 0) return status;
+  ::shutdown(socket_, SHUT_RDWR);  // whoever else was forked meanwhile holds it open
   ::close(socket_);
   while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) {
   }
