@@ -57,7 +57,8 @@ struct FilmedView {
   std::filesystem::path path;
   FilmFacts facts;
   NamedCamera camera;
-  PixelFit fit;  ///< from the rig's pixels to the film's
+  PixelFit fit;           ///< from the rig's pixels to the film's
+  bool is_sized = false;  ///< the file of keypoints names the size of the film's pictures
 };
 
 /// The films of a session and the rig that took them, as its file has it.

@@ -14,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Reads the people of a film, in the file's pixels.
-Result<SeenPeople> ReadPeople(const CaptureCommandOptions& options, const FilmedView& view) {
+/// Reads the people of a film, in the file's pixels; the view learns whether the file names their pictures' size.
+Result<SeenPeople> ReadPeople(const CaptureCommandOptions& options, FilmedView& view) {
   const bool is_marks = !options.marks.empty();
   ASSIGN_OR_RETURN(const fs::path entry,
                    EntryOfFilm(is_marks ? options.marks : options.keypoints, view.path.stem().string()));
@@ -31,6 +31,7 @@ Result<SeenPeople> ReadPeople(const CaptureCommandOptions& options, const Filmed
     return Fail({entry.string()}, "of pictures of {} x {} pixels, the film {} x {}", film.width, film.height,
                 view.facts.width, view.facts.height);
   }
+  view.is_sized = film.width != 0;
   return std::move(film.frames);
 }
 
@@ -41,7 +42,8 @@ void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<S
   std::vector<std::string> names;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const FilmedView& view = views[i];
-    films.push_back({view.camera.camera, view.fit, {view.facts.width, view.facts.height}, std::move(people[i])});
+    films.push_back({view.camera.camera, view.fit, {view.facts.width, view.facts.height}, std::move(people[i]),
+                     view.is_sized});
     names.push_back(view.camera.name);
   }
   SessionGuess session = GuessSession(films, names, rig.R_WF, least_confidence);
@@ -199,7 +201,7 @@ Result<SeenFilms> SeeFilms(const CaptureCommandOptions& options, const RecoverPe
   SeenFilms films;
   for (const std::string& line : session.told) Tell(films.told, line);
   films.clocks.resize(views.size());
-  for (const FilmedView& view : views) {
+  for (FilmedView& view : views) {
     ASSIGN_OR_RETURN(SeenPeople people, ReadPeople(options, view));
     films.people.push_back(std::move(people));
   }

@@ -138,7 +138,10 @@ class Guesser {
 
   void ChooseStored() {
     bool is_fitted = false;
-    for (const PictureOfFilm& film : films_) is_fitted = is_fitted || !film.fit.IsNone();
+    for (const PictureOfFilm& film : films_) {
+      if (film.is_sized) return;
+      is_fitted = is_fitted || !film.fit.IsNone();
+    }
     if (!is_fitted) return;
     const double said = MissOfAll({}), stored = MissOfAll({.is_stored = true});
     constexpr double kBetter = 0.97, kPercent = 100;

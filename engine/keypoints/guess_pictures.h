@@ -18,6 +18,7 @@ struct PictureOfFilm {
   PixelFit fit;           ///< as said
   glm::dvec2 film_px{0};  ///< the size of the film's pictures
   SeenPeople people;      ///< in the file's pixels
+  bool is_sized = false;  ///< the file names the size of the film's pictures: its pixels are theirs
 };
 
 /// The way in which the keypoints of a film are to be read.
@@ -31,7 +32,7 @@ struct PictureGuess {
 /// the distance from the other cameras' epipolar lines (median over frames, people that fit best and either labelling,
 /// as a share of the height), to less than 5 % of the height, and they were more than 0.3 % off (what errs by itself is
 /// never halved). Where pictures were fitted, keypoints of all films may be the rig's own pixels instead (an estimator
-/// that ran on the original pictures): whichever misses less. Of two cameras, and where a second guess is nearly as
+/// that ran on the original pictures): whichever misses less, unless a file names the film's size. Of two cameras, and where a second guess is nearly as
 /// good, `told` says so.
 std::vector<PictureGuess> GuessPictures(std::span<const PictureOfFilm> films, double least_confidence);
 
