@@ -32,7 +32,8 @@ constexpr Named<Segmenter> kSegmenters[] = {{"rgb", Segmenter::kRgb},
                                             {"hue", Segmenter::kHue},
                                             {"hue-gated", Segmenter::kHueGated},
                                             {"ratio", Segmenter::kRatio},
-                                            {"running", Segmenter::kRunning}};
+                                            {"running", Segmenter::kRunning},
+                                            {"likelihood", Segmenter::kLikelihood}};
 
 // Decides whether two hues are more than the threshold apart, by the cosine of the angle between them.
 class HueComparison {
@@ -171,6 +172,7 @@ Mask DetectChange(const ColourImage& background, const ColourImage& picture, Seg
       compare([&](Rgb8 b, Rgb8 p) { return IsNoShade(b, p, options); });
       break;
     case Segmenter::kRunning:
+    case Segmenter::kLikelihood:
       assert(false && "it needs the pictures before: PersonFinder");
       break;
   }

@@ -48,9 +48,12 @@ enum class Segmenter {
   /// (Wren et al. 1997, Pfinder); who stands still becomes background, and where somebody stood at the beginning a
   /// ghost stays for a while. Only `PersonFinder` has it: it needs all pictures before.
   kRunning,
+  /// "likelihood" (ours): is the room likelier there, or a colour that the person wears, as learnt from the pictures
+  /// before? (`ColourLikelihood`.) Only `PersonFinder` has it.
+  kLikelihood,
 };
 
-/// Returns the names used in scenarios: "rgb", "hue", "hue-gated", "ratio", "running".
+/// Returns the names used in scenarios: "rgb", "hue", "hue-gated", "ratio", "running", "likelihood".
 std::vector<std::string> SegmenterNames();
 /// Returns the segmenter of that name, which is one of SegmenterNames().
 Segmenter SegmenterNamed(std::string_view name);
@@ -82,7 +85,7 @@ struct ChangeOptions {
 };
 
 /// Finds the pixels in which `picture` shows something else than `background`. The two have the same size. A grey pixel
-/// has hue 0 for `kHue`, as in the paper's formula. Not for `kRunning`.
+/// has hue 0 for `kHue`, as in the paper's formula. Not for `kRunning` and `kLikelihood`.
 Mask DetectChange(const ColourImage& background, const ColourImage& picture, Segmenter segmenter,
                   const ChangeOptions& options = {});
 

@@ -35,6 +35,7 @@ Mask PersonAmong(Mask changed, const PersonOptions& options) {
 
 PersonFinder::PersonFinder(const ColourImage& background, const PersonOptions& options)
     : options_(options), background_(background) {
+  if (options.segmenter == Segmenter::kLikelihood) colours_.emplace(background);
   if (options.segmenter != Segmenter::kHue) return;
   cosine2_ = std::cos(options.change.hue_threshold) * std::cos(options.change.hue_threshold);
   for (const Rgb8 colour : background.pixels) {
@@ -44,7 +45,11 @@ PersonFinder::PersonFinder(const ColourImage& background, const PersonOptions& o
   }
 }
 
-Mask PersonFinder::Find(const ColourImage& picture) { return PersonAmong(Detect(picture), options_); }
+Mask PersonFinder::Find(const ColourImage& picture) {
+  Mask person = PersonAmong(Detect(picture), options_);
+  if (colours_) colours_->Learn(picture, person);
+  return person;
+}
 
 Mask PersonFinder::Detect(const ColourImage& picture) {
   assert(picture.width == background_.width && picture.height == background_.height);
@@ -58,6 +63,7 @@ Mask PersonFinder::Detect(const ColourImage& picture) {
     Follow(picture, mask);
     return mask;
   }
+  if (colours_) return colours_->Detect(picture);
   return DetectChange(background_, picture, options_.segmenter, options_.change);
 }
 

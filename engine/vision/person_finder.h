@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "engine/base/image.h"
 #include "engine/vision/change_detection.h"
+#include "engine/vision/colour_likelihood.h"
 
 namespace etude {
 
@@ -12,7 +14,7 @@ namespace etude {
 Mask PersonAmong(Mask changed, const PersonOptions& options);
 
 /// Cuts the person out of one camera's pictures, one after the other: what `ExtractPerson` does, pixel by pixel the
-/// same, with what depends on the background alone computed once; and `kRunning`, which remembers.
+/// same, with what depends on the background alone computed once; and `kRunning` and `kLikelihood`, which remember.
 class PersonFinder {
  public:
   /// `background` is the empty room; not looked at by `kRunning`, but for its size.
@@ -34,6 +36,7 @@ class PersonFinder {
   double cosine2_ = 0;               ///< of the threshold
   /// kRunning: mean and squared deviation of every pixel's three colours; empty before the first picture.
   std::vector<float> mean_, variance_;
+  std::optional<ColourLikelihood> colours_;  ///< kLikelihood
 };
 
 }  // namespace etude

@@ -130,7 +130,8 @@ void AddVision(py::module_& module) {
       .def(py::init(&MakeFinder), "background"_a, "segmenter"_a = PersonFinderOptions{}.segmenter,
            "all_pieces"_a = false,
            "background: the empty room, height x width x 3 of uint8, red, green, blue. segmenter: 'hue-gated', 'rgb', "
-           "'hue', 'ratio', 'running'. all_pieces: of what changed, every piece of some size near the largest.")
+           "'hue', 'ratio', 'running', 'likelihood'. all_pieces: of what changed, every piece of some size near the "
+           "largest.")
       .def("find", &FindIn, "picture"_a, "The mask (height x width, bool) of the next picture.");
   module.def(
       "outline", &OutlineOf, "mask"_a, "spacing"_a = OutlineOptions{}.spacing, "thinnest"_a = OutlineOptions{}.thinnest,

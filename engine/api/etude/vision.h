@@ -11,7 +11,7 @@
 namespace etude::engine {
 
 struct PersonFinderOptions {
-  std::string segmenter = "hue-gated";  ///< or "rgb", "hue", "ratio", "running" (which needs no empty room)
+  std::string segmenter = "hue-gated";  ///< or "rgb", "hue", "ratio", "likelihood", "running" (needs no empty room)
   /// The largest piece of what changed and every one of some size near it; else the largest alone.
   bool all_pieces = false;
 };
