@@ -12,33 +12,33 @@
 namespace etude {
 namespace {
 
-constexpr int kWidth = 120, kHeight = 64, kPoster = 50;
-constexpr int kPersonWidth = 18, kTop = 8, kWaist = 30, kFeet = 56;
-constexpr Rgb8 kPosterColour = {60, 90, 160}, kWall = {150, 120, 90}, kTrousers = {40, 140, 60};
-constexpr Rgb8 kShirt = {112, 90, 68};  // the wall's hue, three quarters of its light
-constexpr Rgb8 kShadow = {84, 67, 50};  // the wall's
+constexpr int kRoomWidth = 120, kRoomHeight = 64, kPoster = 50;
+constexpr int kPersonWidth = 18, kHeadTop = 8, kWaist = 30, kFeet = 56;
+constexpr Rgb8 kPosterColour = {60, 90, 160}, kWallColour = {150, 120, 90}, kTrousers = {40, 140, 60};
+constexpr Rgb8 kShirtColour = {112, 90, 68};  // the wall's hue, three quarters of its light
+constexpr Rgb8 kShadow = {84, 67, 50};        // the wall's
 
 /// A room of a poster and a wall, and somebody who walks past both, in pictures of an even noise of two levels.
-class Walk {
+class WalkPast {
  public:
   ColourImage Room() {
-    ColourImage room(kWidth, kHeight);
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) room.At(x, y) = x < kPoster ? kPosterColour : kWall;
+    ColourImage room(kRoomWidth, kRoomHeight);
+    for (int y = 0; y < kRoomHeight; ++y) {
+      for (int x = 0; x < kRoomWidth; ++x) room.At(x, y) = x < kPoster ? kPosterColour : kWallColour;
     }
     return room;
   }
   static bool IsPerson(int left, int x, int y) {
-    return x >= left && x < left + kPersonWidth && y >= kTop && y < kFeet;
+    return x >= left && x < left + kPersonWidth && y >= kHeadTop && y < kFeet;
   }
   /// A shadow lies on the wall at the right; the lamp gives `light`.
   ColourImage Picture(int left, double light) {
     ColourImage picture = Room();
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kRoomHeight; ++y) {
+      for (int x = 0; x < kRoomWidth; ++x) {
         Rgb8& pixel = picture.At(x, y);
-        if (x >= kWidth - 8) pixel = kShadow;
-        if (IsPerson(left, x, y)) pixel = y < kWaist ? kShirt : kTrousers;
+        if (x >= kRoomWidth - 8) pixel = kShadow;
+        if (IsPerson(left, x, y)) pixel = y < kWaist ? kShirtColour : kTrousers;
         pixel = {Seen(pixel.r, light), Seen(pixel.g, light), Seen(pixel.b, light)};
       }
     }
@@ -59,9 +59,9 @@ struct Wrong {
 
 Wrong WrongIn(const Mask& mask, int left) {
   Wrong wrong;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      const bool is_person = Walk::IsPerson(left, x, y), is_found = mask.At(x, y) != 0;
+  for (int y = 0; y < kRoomHeight; ++y) {
+    for (int x = 0; x < kRoomWidth; ++x) {
+      const bool is_person = WalkPast::IsPerson(left, x, y), is_found = mask.At(x, y) != 0;
       wrong.missed += is_person && !is_found;
       wrong.taken += is_found && !is_person;
     }
@@ -69,10 +69,10 @@ Wrong WrongIn(const Mask& mask, int left) {
   return wrong;
 }
 
-constexpr int kPersonPixels = kPersonWidth * (kFeet - kTop), kRimPixels = 2 * (kPersonWidth + kFeet - kTop);
+constexpr int kPersonPixels = kPersonWidth * (kFeet - kHeadTop), kRimPixels = 2 * (kPersonWidth + kFeet - kHeadTop);
 
 TEST(ColourLikelihood, FindsAShirtOfTheWallsHueOnceItWasSeenBeforeAnotherColour) {
-  Walk walk;
+  WalkPast walk;
   PersonFinder finder(walk.Room(), {.segmenter = Segmenter::kLikelihood, .change = {}});
   PersonFinder gated(walk.Room(), {.segmenter = Segmenter::kHueGated, .change = {}});
   for (int left = 4; left <= 80; left += 2) {
@@ -86,7 +86,7 @@ TEST(ColourLikelihood, FindsAShirtOfTheWallsHueOnceItWasSeenBeforeAnotherColour)
 }
 
 TEST(ColourLikelihood, DoesNotFindWhatItNeverSawBeforeAnotherColour) {
-  Walk walk;
+  WalkPast walk;
   PersonFinder finder(walk.Room(), {.segmenter = Segmenter::kLikelihood, .change = {}});
   for (int left = kPoster; left <= 80; left += 2) {
     const Wrong wrong = WrongIn(finder.Find(walk.Picture(left, 1)), left);
@@ -96,7 +96,7 @@ TEST(ColourLikelihood, DoesNotFindWhatItNeverSawBeforeAnotherColour) {
 }
 
 TEST(ColourLikelihood, FindsNobodyInTheEmptyRoom) {
-  Walk walk;
+  WalkPast walk;
   PersonFinder finder(walk.Room(), {.segmenter = Segmenter::kLikelihood, .change = {}});
   for (int k = 0; k < 10; ++k) {
     EXPECT_EQ(std::ranges::count(finder.Find(walk.Picture(-kPersonWidth, 1 + 0.01 * k)).pixels, 1), 0) << k;
