@@ -66,10 +66,20 @@ struct Split {
   double gain = 0;
 };
 
+/// What the tree of this number sees.
+struct Turn {
+  std::size_t tree;
+  bool is_taken;
+
+  bool SeesPerformance(std::size_t i) const { return !is_taken || (i + 2 * tree) % 5 < 3; }
+  bool SeesMeasure(std::size_t m) const { return !is_taken || (m + tree) % 3 == 0; }
+};
+
 Split BestSplit(const Sample& sample, std::span<const Slope> slopes, std::span<const std::size_t> members,
-                const BoostingOptions& options) {
+                const BoostingOptions& options, const Turn& turn) {
   Split best;
   for (std::size_t m = 0; m < kMeasureCount; ++m) {
+    if (!turn.SeesMeasure(m)) continue;
     std::array<Slope, kBins> bins{};
     Slope all;
     for (std::size_t i : members) {
@@ -89,14 +99,17 @@ Split BestSplit(const Sample& sample, std::span<const Slope> slopes, std::span<c
 }
 
 /// Fits one tree to the slopes of the loss, and adds it to the sample's log-odds.
-DecisionTree GrowTree(Sample& sample, std::span<const Slope> slopes, const BoostingOptions& options) {
+DecisionTree GrowTree(Sample& sample, std::span<const Slope> slopes, const BoostingOptions& options, const Turn& turn) {
   DecisionTree tree;
+  std::array<Split, DecisionTree::kNodes> splits;
   std::vector<std::vector<std::size_t>> row(1);
-  for (std::size_t i = 0; i < slopes.size(); ++i) row[0].push_back(i);
+  for (std::size_t i = 0; i < slopes.size(); ++i) {
+    if (turn.SeesPerformance(i)) row[0].push_back(i);
+  }
   for (std::size_t depth = 0, node = 0; depth < kRows; ++depth) {
     std::vector<std::vector<std::size_t>> next;
     for (const auto& members : row) {
-      const Split split = BestSplit(sample, slopes, members, options);
+      const Split split = splits[node] = BestSplit(sample, slopes, members, options, turn);
       tree.measures[node] = static_cast<int>(split.measure);
       constexpr double kAll = 1e9;  // where nothing is gained by a question, everything is at most that
       tree.limits[node] = split.gain > 0 ? sample.cuts[split.measure][split.bin] : kAll;
@@ -113,7 +126,12 @@ DecisionTree GrowTree(Sample& sample, std::span<const Slope> slopes, const Boost
     Slope all;
     for (std::size_t i : row[leaf]) all.Add(slopes[i]);
     tree.leaves[leaf] = -options.rate * all.gradient / (all.curvature + options.ridge);
-    for (std::size_t i : row[leaf]) sample.log_odds[i] += tree.leaves[leaf];
+  }
+  for (std::size_t i = 0; i < slopes.size(); ++i) {
+    std::size_t node = 0;
+    while (node < DecisionTree::kNodes)
+      node = 2 * node + (sample.bins[i][splits[node].measure] <= splits[node].bin ? 1 : 2);
+    sample.log_odds[i] += tree.leaves[node - DecisionTree::kNodes];
   }
   return tree;
 }
@@ -129,7 +147,8 @@ BoostedTrees FitRound(std::span<const PerformanceMeasures> performances, std::sp
       slopes.push_back({sample.weights[i] * (probability - sample.labels[i]),
                         sample.weights[i] * probability * (1 - probability), 1});
     }
-    model.trees.push_back(GrowTree(sample, slopes, options));
+    const Turn turn{.tree = static_cast<std::size_t>(t), .is_taken = options.takes_turns};
+    model.trees.push_back(GrowTree(sample, slopes, options, turn));
   }
   return model;
 }

@@ -39,6 +39,9 @@ struct BoostingOptions {
   double rate = 0.12;       ///< how much of its fit a tree adds
   double ridge = 3;         ///< pulls leaves towards 0, in performances of even odds × 4
   int least_per_leaf = 12;  ///< performances
+  /// Trees take turns: each sees three fifths of the performances and a third of the measures, so that many of them
+  /// differ (Friedman 2002, by turns in the place of dice).
+  bool takes_turns = false;
   /// Each begins with the performance of every bag that the round before thought likeliest, since that one decides; the
   /// first with the first.
   int rounds = 3;

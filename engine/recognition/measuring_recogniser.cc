@@ -89,7 +89,10 @@ class MeasuringFollower final : public StepFollower {
     opened_at_ = steps_.Count();
     for (const TaughtExample& example : examples_) {
       if (example.move != move) continue;
-      in_window_.push_back({&example, {example.pattern, example.longest}, ClockComparison(example.pattern)});
+      in_window_.push_back({&example,
+                            {example.pattern, example.longest},
+                            ClockComparison(example.pattern),
+                            RigidComparison(example.pattern)});
     }
   }
 
@@ -113,11 +116,13 @@ class MeasuringFollower final : public StepFollower {
           judge_(Occasion::kSpotted, example.move, MeasureNow(example, always_[nearest], 0, nullptr));
     }
     double evidence = 0;
-    for (auto& [example, aligner, clock] : in_window_) {
+    for (InWindow& window : in_window_) {
+      auto& [example, aligner, clock, rigid] = window;
       aligner.Update(step);
       clock.Update(step);
+      rigid.Update(step);
       if (aligner.Cost() == kUnaligned) continue;
-      const PerformanceMeasures measures = MeasureNow(*example, aligner, opened_at_, &clock);
+      const PerformanceMeasures measures = MeasureNow(*example, aligner, opened_at_, &window);
       evidence = std::max(evidence, judge_(Occasion::kAsked, example->move, measures));
       if (aligner.Cost() < nearest_cost_) {
         nearest_cost_ = aligner.Cost();
@@ -127,20 +132,28 @@ class MeasuringFollower final : public StepFollower {
     return evidence;
   }
 
-  /// `first`: the number of the step that the aligner calls its first. `clock`: null = not measured by it.
+  struct InWindow {
+    const TaughtExample* example;
+    SubsequenceAligner aligner;
+    ClockComparison clock;
+    RigidComparison rigid;
+  };
+
+  /// `first`: the number of the step that the aligner calls its first. `window`: null = nobody asked.
   PerformanceMeasures MeasureNow(const TaughtExample& example, const SubsequenceAligner& aligner, int first,
-                                 const ClockComparison* clock) const {
+                                 const InWindow* window) const {
     const std::vector<StepPair> path = aligner.Path();
     const auto seen = [&](int number) -> const PoseVector& { return steps_[first + number]; };
     double other = costs_.LowestOther(example.move);
     if (is_alone_) other = CostOfHolding(example, path, seen);
     PerformanceMeasures measures =
         Measure({.path = path, .seen = seen, .pattern = example.pattern, .cost = aligner.Cost(), .other_cost = other});
-    if (clock != nullptr) {
-      std::ranges::copy(clock->Measure(usual_.Shift()).All(), measures.begin() + kFirstClockMeasure);
+    if (window != nullptr) {
+      std::ranges::copy(window->clock.Measure(usual_.Shift()).All(), measures.begin() + kFirstClockMeasure);
+      std::ranges::copy(window->rigid.Measure(usual_.Shift()), measures.begin() + kFirstRigidMeasure);
     }
     usual_.Relate(measures);
-    if (clock == nullptr) std::fill(measures.begin() + kFirstClockMeasure, measures.end(), 0.0);
+    if (window == nullptr) std::fill(measures.begin() + kFirstClockMeasure, measures.end(), 0.0);
     return measures;
   }
 
@@ -152,12 +165,6 @@ class MeasuringFollower final : public StepFollower {
     for (const StepPair& pair : path) cost += SquaredDistance(seen(pair.seen), example.middle);
     return cost / static_cast<double>(example.pattern.size());
   }
-
-  struct InWindow {
-    const TaughtExample* example;
-    SubsequenceAligner aligner;
-    ClockComparison clock;
-  };
 
   const std::vector<TaughtExample>& examples_;
   const PerformanceJudge& judge_;

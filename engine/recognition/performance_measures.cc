@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/base/order_statistics.h"
 
@@ -118,6 +119,19 @@ LimbMeasures MeasureLimb(const LimbSums& sums) {
 constexpr std::array<std::size_t, 4> kMiddle = {0, 1, 2, 11};
 constexpr std::array<std::array<std::size_t, 2>, 4> kPairs = {{{3, 4}, {5, 6}, {7, 8}, {9, 10}}};
 
+/// Puts the limbs' measures at the beginning, and returns how many there are.
+std::size_t PutLimbs(const std::array<LimbMeasures, kPosePartCount>& limbs, std::span<double> measures) {
+  std::size_t next = 0;
+  for (double LimbMeasures::*what : {&LimbMeasures::error, &LimbMeasures::centred, &LimbMeasures::missing}) {
+    for (std::size_t i : kMiddle) measures[next++] = limbs[i].*what;
+    for (const auto& [left, right] : kPairs) {
+      measures[next++] = std::max(limbs[left].*what, limbs[right].*what);
+      measures[next++] = std::min(limbs[left].*what, limbs[right].*what);
+    }
+  }
+  return next;
+}
+
 /// The clock of a performance against the example's, seconds.
 struct PathClock {
   double lag = 0;       ///< mean, from the first step seen
@@ -168,14 +182,7 @@ PerformanceMeasures Measure(const AlignedPerformance& performance) {
   for (std::size_t i = 0; i < kPosePartCount; ++i) limbs[i] = MeasureLimb(sums[i]);
 
   PerformanceMeasures measures{};
-  std::size_t next = 0;
-  for (double LimbMeasures::*what : {&LimbMeasures::error, &LimbMeasures::centred, &LimbMeasures::missing}) {
-    for (std::size_t i : kMiddle) measures[next++] = limbs[i].*what;
-    for (const auto& [left, right] : kPairs) {
-      measures[next++] = std::max(limbs[left].*what, limbs[right].*what);
-      measures[next++] = std::min(limbs[left].*what, limbs[right].*what);
-    }
-  }
+  std::size_t next = PutLimbs(limbs, measures);
   double worst = 0, mean = 0;
   for (const LimbMeasures& limb : limbs) {
     worst = std::max(worst, limb.error);
@@ -198,9 +205,74 @@ template <typename Relate>
 void ForEachOwn(const Relate& relate) {
   for (std::size_t m = 0; m < kOwnMeasures; ++m) relate(m, kOwnMeasures + m);
   for (std::size_t m = kFirstClockMeasure; m < kFirstClockMeasure + kClockMeasures; ++m) relate(m, kClockMeasures + m);
+  for (std::size_t m = kFirstRigidMeasure; m < kFirstRigidMeasure + kRigidMeasures; ++m) relate(m, kRigidMeasures + m);
 }
 
 }  // namespace
+
+int RigidComparison::TaughtAt(int seen, std::size_t pace, int lag) {
+  return static_cast<int>(std::lround((seen - lag) / kPaces[pace]));
+}
+
+void RigidComparison::Update(const PoseVector& seen) {
+  const int now = static_cast<int>(seen_.size()), size = static_cast<int>(pattern_.size());
+  if (TaughtAt(now, kPaces.size() - 1, kLatest) >= size) return;  // too late for the slowest and latest
+  seen_.push_back(seen);
+  for (std::size_t j = 0; j < pattern_.size(); ++j) distances_[j] = SquaredDistance(seen, pattern_[j]);
+  for (std::size_t pace = 0; pace < kPaces.size(); ++pace) {
+    for (int lag = kEarliest; lag <= kLatest; ++lag) {
+      const int taught = TaughtAt(now, pace, lag);
+      if (taught < 0 || taught >= size) continue;
+      Sum& sum = sums_[pace][static_cast<std::size_t>(lag - kEarliest)];
+      sum.distance += distances_[static_cast<std::size_t>(taught)];
+      ++sum.count;
+    }
+  }
+}
+
+std::array<double, kRigidMeasures> RigidComparison::Measure(double usual_s) const {
+  constexpr double kLeastShare = 0.6;                   // of the example: what is seen of less tells nothing
+  constexpr double kPerSecond2 = 0.01, kPerLog2 = 0.1;  // of fits alike the likelier one
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  const int size = static_cast<int>(pattern_.size());
+  std::size_t best_pace = kTaughtPace;
+  int best_lag = 0;
+  double best = kNone, at_taught_pace = kNone;
+  for (std::size_t pace = 0; pace < kPaces.size(); ++pace) {
+    const double log_pace = std::log(kPaces[pace]);
+    for (int lag = kEarliest; lag <= kLatest; ++lag) {
+      const Sum& sum = sums_[pace][static_cast<std::size_t>(lag - kEarliest)];
+      if (sum.count < kLeastShare * size * kPaces[pace]) continue;
+      const double away_s = lag / kStepsPerSecond - usual_s;
+      const double cost = sum.distance / sum.count + kPerSecond2 * away_s * away_s + kPerLog2 * log_pace * log_pace;
+      if (pace == kTaughtPace) at_taught_pace = std::min(at_taught_pace, cost);
+      if (cost >= best) continue;
+      best = cost;
+      best_pace = pace;
+      best_lag = lag;
+    }
+  }
+  std::array<LimbSums, kPosePartCount> sums;
+  const bool fits = best < kNone;
+  for (int k = 0; fits && k < static_cast<int>(seen_.size()); ++k) {
+    const int taught = TaughtAt(k, best_pace, best_lag);
+    if (taught < 0 || taught >= size) continue;
+    const PoseVector &seen = seen_[static_cast<std::size_t>(k)], &meant = pattern_[static_cast<std::size_t>(taught)];
+    for (std::size_t i = 0; i < kPosePartCount; ++i) sums[i].Add(seen.parts[i], meant.parts[i], seen.weights[i]);
+  }
+  std::array<LimbMeasures, kPosePartCount> limbs;
+  for (std::size_t i = 0; i < kPosePartCount; ++i) limbs[i] = MeasureLimb(sums[i]);
+  std::array<double, kRigidMeasures> measures{};
+  std::size_t next = PutLimbs(limbs, measures);
+  const Sum& sum = sums_[best_pace][static_cast<std::size_t>(best_lag - kEarliest)];
+  for (const double value :
+       {best_lag / kStepsPerSecond, std::log(kPaces[best_pace]), fits ? std::sqrt(sum.distance / sum.count) : -1.0,
+        at_taught_pace < kNone ? std::sqrt(at_taught_pace) : -1.0,
+        fits ? sum.count / (size * kPaces[best_pace]) : 0.0}) {
+    measures[next++] = value;
+  }
+  return measures;
+}
 
 void PersonBaseline::Add(const PerformanceMeasures& performance) {
   constexpr std::size_t kLatest = 32;

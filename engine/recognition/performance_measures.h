@@ -56,6 +56,39 @@ class ClockComparison {
   std::array<std::array<ShiftSum, 2 * kMostSteps + 1>, 2> halves_{};  ///< of the example, by shift
 };
 
+/// The limbs' measures as of a warped path (36), then lag in seconds, logarithm of the pace (below 0: faster than
+/// taught), distance, distance at the taught pace, and the share of the example that was seen.
+constexpr std::size_t kRigidMeasures = 41;
+
+/// Lays what is seen from the window's opening on on an example that is moved and stretched in time as a whole: at the
+/// lag and pace that fit best, limb by limb. What is done too early or too late on the way stays an error.
+class RigidComparison {
+ public:
+  /// Compares with `pattern`, of limbs, which must outlive this.
+  explicit RigidComparison(std::span<const PoseVector> pattern) : pattern_(pattern), distances_(pattern.size()) {}
+
+  /// Takes the next step since the window opened.
+  void Update(const PoseVector& seen);
+  /// Measures the steps so far. `usual_s` is the shift that is usual of this person: of fits alike the nearer counts.
+  std::array<double, kRigidMeasures> Measure(double usual_s) const;
+
+ private:
+  static constexpr std::array<double, 5> kPaces = {0.75, 0.87, 1, 1.15, 1.32};  ///< times the example's length
+  static constexpr std::size_t kTaughtPace = 2;
+  static constexpr int kEarliest = -6, kLatest = 24;  ///< steps
+  struct Sum {
+    double distance = 0;
+    int count = 0;
+  };
+  /// Returns the step taught that goes with a step seen; outside the pattern: none does.
+  static int TaughtAt(int seen, std::size_t pace, int lag);
+
+  std::span<const PoseVector> pattern_;
+  std::vector<double> distances_;  ///< of the step seen last
+  std::vector<PoseVector> seen_;   ///< as many as can matter
+  std::array<std::array<Sum, kLatest - kEarliest + 1>, kPaces.size()> sums_{};
+};
+
 /// The number of measures of one performance against one example, of any move: per limb how far it is off, how far once
 /// its mean direction is forgiven, and what share of its amplitude is missing; left and right as the larger and the
 /// smaller of both; how far the body is off in each third of the example; the clock; the nearest other move.
@@ -65,7 +98,10 @@ constexpr std::size_t kDistanceMeasure = 36;  ///< among them: the root of the p
 /// the performance keeps to the clock of who asks for it (ClockMeasures), and that beyond the usual, too: 0 for what
 /// nobody asked for.
 constexpr std::size_t kFirstClockMeasure = 2 * kOwnMeasures;
-constexpr std::size_t kMeasureCount = kFirstClockMeasure + 2 * kClockMeasures;
+/// Then how the performance lies on an example that is moved and stretched in time as a whole (RigidComparison), and
+/// that beyond the usual, too: likewise.
+constexpr std::size_t kFirstRigidMeasure = kFirstClockMeasure + 2 * kClockMeasures;
+constexpr std::size_t kMeasureCount = kFirstRigidMeasure + 2 * kRigidMeasures;
 using PerformanceMeasures = std::array<double, kMeasureCount>;
 
 /// A performance as it went along an example.

@@ -130,10 +130,13 @@ LearntModel TrainRecogniser(const Repertoire& repertoire, const RecogniserTraini
     const WorldKey key{.suite_seed = training.seed, .scenario = "recogniser-training", .trial = session};
     const DetectionWorld world = MakeDetectionWorld(repertoire, ThrowCondition(key), key);
     const SightWeights weights{.weighting = session % 2 == 0 ? Weighting::kFixed : Weighting::kAdaptive};
-    AddSession(world, repertoire, MeasureSession(world, repertoire, weights), asked, spotted);
+    std::vector<LabelledBag> unused;
+    const bool teaches_spotting = 2 * session < training.sessions;
+    AddSession(world, repertoire, MeasureSession(world, repertoire, weights), asked,
+               teaches_spotting ? spotted : unused);
     if (training.progress) training.progress(static_cast<std::size_t>(session + 1), training.sessions);
   }
-  return {.asked = FitBoostedTrees(asked, training.boosting), .spotted = FitBoostedTrees(spotted, training.boosting)};
+  return {.asked = FitBoostedTrees(asked, training.asked), .spotted = FitBoostedTrees(spotted, training.spotted)};
 }
 
 }  // namespace etude

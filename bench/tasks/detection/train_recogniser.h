@@ -10,9 +10,10 @@
 namespace etude {
 
 struct RecogniserTraining {
-  int sessions = 400;  ///< every one of another person, 16 performances each
+  int sessions = 800;  ///< every one of another person, 16 performances each; the first half teaches spotting, too
   std::uint64_t seed = 1;
-  BoostingOptions boosting{};
+  BoostingOptions asked{.trees = 300, .rate = 0.08, .takes_turns = true};
+  BoostingOptions spotted{};
   OnProgress progress = {};  ///< told of sessions
 };
 

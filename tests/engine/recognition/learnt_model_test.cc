@@ -33,6 +33,7 @@ TEST(FitBoostedTrees, FindsWhatWasPlanted) {
   const auto bags = Planted();
   const BoostedTrees model = FitBoostedTrees(bags);
   EXPECT_GT(ShareTold(model, bags), 0.97);
+  EXPECT_GT(ShareTold(FitBoostedTrees(bags, {.trees = 300, .takes_turns = true}), bags), 0.97) << "in turns, too";
   auto shuffled = bags;
   for (std::size_t i = 0; i < bags.size(); ++i) shuffled[i].is_right = bags[i * 7 % bags.size()].is_right;
   EXPECT_LT(ShareTold(FitBoostedTrees(shuffled, {.trees = 5}), bags), 0.8) << "control: nothing to learn";
