@@ -98,10 +98,10 @@ TEST(LearntModelFile, SaysWhereItIsWrong) {
   EXPECT_EQ(complaint("asked: {bias: 0}\nspotted: {bias: 0}\n"), "no complaint");  // the control
   EXPECT_THAT(complaint("asked: {bias: 0}\n"), HasSubstr("needs 'spotted'"));
   EXPECT_THAT(complaint("asked: {bias: 0, trees: [[1, 2]]}\nspotted: {bias: 0}\n"), HasSubstr("a list of 22 numbers"));
-  std::string tree = "[110, 0";
+  std::string tree = "[192, 0";
   for (int i = 0; i < 20; ++i) tree += ", 0";
   EXPECT_THAT(complaint("asked: {bias: 0, trees: [" + tree + "]]}\nspotted: {bias: 0}\n"),
-              HasSubstr("model.yaml:1:27: measure 110; allowed: 0 to 109"));
+              HasSubstr("model.yaml:1:27: measure 192; allowed: 0 to 191"));
 }
 
 TEST(BuiltinLearntModel, IsThere) { EXPECT_FALSE(BuiltinLearntModel().asked.trees.empty()); }
