@@ -22,14 +22,33 @@ namespace {
 
 double FloorSpeed(const glm::dvec3& velocity) { return std::hypot(velocity.x, velocity.z); }
 
-Bearing BearingOf(const BodyPose& pose, const BodyPose& velocity, const SupportRules& rules) {
+/// Tells in which frames of a clip the mass centre falls as SupportRules says of a flight, by its second difference
+/// over a tenth of a second to either side; near the clip's ends as in the nearest frame that has both.
+std::vector<bool> FallingFrames(std::span<const BodyPose> poses, double rate_hz, const SupportRules& rules) {
+  constexpr double kReach_s = 0.1;
+  const int reach = std::max(static_cast<int>(std::lround(kReach_s * rate_hz)), 1);
+  const int last = static_cast<int>(poses.size()) - 1;
+  std::vector<bool> falls(poses.size());
+  if (last < 2 * reach) return falls;
+  std::vector<double> height;
+  for (const BodyPose& pose : poses) height.push_back(MassCentre(pose).y);
+  const double per_s = rate_hz / reach;
+  for (int f = 0; f <= last; ++f) {
+    const int middle = std::clamp(f, reach, last - reach);
+    const double bend = height[middle - reach] - 2 * height[middle] + height[middle + reach];
+    falls[f] = -bend * per_s * per_s >= rules.least_fall;
+  }
+  return falls;
+}
+
+Bearing BearingOf(const BodyPose& pose, const BodyPose& velocity, bool falls, const SupportRules& rules) {
   constexpr double kGliding = 3;
   double lowest = pose.joints[0].y;
   for (const glm::dvec3& joint : pose.joints) lowest = std::min(lowest, joint.y);
   Bearing bearing;
   for (std::size_t j = 0; j < kRoleCount; ++j) {
     if (pose.joints[j].y > lowest + rules.lowest) continue;
-    bearing.rests[j] = glm::length(velocity.joints[j]) <= rules.rest_speed;
+    bearing.rests[j] = !falls && glm::length(velocity.joints[j]) <= rules.rest_speed;
     const double over_floor = FloorSpeed(velocity.joints[j]);
     const double from_hips = FloorSpeed(velocity.joints[j] - velocity[Role::kHipCentre]);
     bearing.bears[j] = over_floor <= rules.rest_speed || over_floor <= kGliding * from_hips;
@@ -87,8 +106,9 @@ void MarkFlights(std::span<const BodyPose> shown, int first, double rate_hz, con
 
 std::vector<Bearing> FindBearing(std::span<const BodyPose> poses, double rate_hz, const SupportRules& rules) {
   const std::vector<BodyPose> velocities = JointVelocities(poses, rate_hz);
+  const std::vector<bool> falls = FallingFrames(poses, rate_hz, rules);
   std::vector<Bearing> bearing;
-  for (std::size_t f = 0; f < poses.size(); ++f) bearing.push_back(BearingOf(poses[f], velocities[f], rules));
+  for (std::size_t f = 0; f < poses.size(); ++f) bearing.push_back(BearingOf(poses[f], velocities[f], falls[f], rules));
   return bearing;
 }
 
@@ -110,7 +130,13 @@ class SupportFinder::Witness {
         window_(static_cast<int>(std::lround(rules.window_s * rate_hz))),
         velocities_(JointVelocities(clip.poses, rate_hz)),
         bearing_(FindBearing(clip.poses, rate_hz, rules)) {
-    for (const Bearing& bearing : bearing_) ever_bear_ |= bearing.bears;
+    lowest_.fill(std::numeric_limits<double>::infinity());
+    for (std::size_t f = 0; f < bearing_.size(); ++f) {
+      ever_bear_ |= bearing_[f].bears;
+      for (std::size_t j = 0; j < kRoleCount; ++j) {
+        if (bearing_[f].bears[j]) lowest_[j] = std::min(lowest_[j], clip.poses[f].joints[j].y);
+      }
+    }
   }
 
   JointSet SupportAt(int frame, const BodyPose& pose, const BodyPose& velocity) const {
@@ -152,13 +178,15 @@ class SupportFinder::Witness {
   }
 
   /// The heights at which the clip's joint rests about a frame shown, rising; at its first or last frame where the clip
-  /// has not begun or is over.
+  /// has not begun or is over. Where it rests nowhere there, as who walks on the spot, the lowest at which it ever
+  /// bears.
   std::vector<double> HeightsOfRest(int frame, std::size_t j) const {
     const int from = std::min(frame, clip_.left_at) - window_ - clip_.begin, to = frame + window_ - clip_.begin;
     std::vector<double> heights;
     for (int f = std::clamp(from, 0, LastFrame()); f <= std::clamp(to, 0, LastFrame()); ++f) {
       if (bearing_[f].rests[j]) heights.push_back(Height(f, j));
     }
+    if (heights.empty()) return {lowest_[j]};
     std::ranges::sort(heights);
     return heights;
   }
@@ -168,7 +196,8 @@ class SupportFinder::Witness {
   int window_ = 0;  // frames
   std::vector<BodyPose> velocities_;
   std::vector<Bearing> bearing_;
-  JointSet ever_bear_;  // all that rests bears
+  JointSet ever_bear_;                       // all that rests bears
+  std::array<double, kRoleCount> lowest_{};  // height at which a joint bears
 };
 
 SupportFinder::SupportFinder(std::span<const SupportingClip> clips, double rate_hz, const SupportRules& rules)

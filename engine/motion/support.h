@@ -31,7 +31,7 @@ struct SupportRules {
 
 /// The joints that hold a body up in one frame of a clip.
 struct Bearing {
-  JointSet rests;  ///< those of its lowest joints that are at rest
+  JointSet rests;  ///< those of its lowest joints that are at rest; none while its mass centre falls (least_fall)
   /// `rests`; where it is empty (a jump, a walk on the spot, a foot that skates), all of the lowest joints, for the
   /// clip itself shows it so, but for those of a body that glides: faster over the floor than SupportRules::rest_speed
   /// and three times as fast as they move as seen from the hips.

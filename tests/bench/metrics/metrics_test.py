@@ -101,6 +101,8 @@ MUTANTS = {
     "flights may wobble": (support, {"STRAY": 0.03}, ["unsupported_frames"]),
     "judged for a second": (support, {"JUDGED_S": 1}, ["unsupported_frames"]),
     "judged for 1.4 s": (support, {"JUDGED_S": 1.4}, ["unsupported_frames"]),
+    "the top of a jump is a floor": (support, {"falling": lambda frames, rate: [False] * len(frames)},
+                                     ["unsupported_frames", "supported_share"]),
     "whoever moves glides": (support, {"GLIDING": 0}, ["unsupported_frames"]),
     "seen after three frames": (support, {"FLOATING_FRAMES": 3}, ["supported_share"]),
     "seen after five": (support, {"FLOATING_FRAMES": 5}, ["supported_share"]),

@@ -235,6 +235,45 @@ TEST(FindSupport, LetsABodyJumpAsGravityDoesAndNotOtherwise) {
   EXPECT_GE(Floating(hangs, clip), 15);
 }
 
+TEST(FindSupport, TakesTheTopOfAJumpForNoFloor) {
+  // Slow for three frames, the jump's feet are 30 cm up: who stays there, or waits there for it, rests on nothing.
+  constexpr int kTop = kPoint;
+  const Poses jump = ClipOf(Standing(), [](BodyPose& pose, int f) {
+    const double t = (f - kTop) / kRate, half = 7.5 / kRate;
+    if (std::abs(t) < half) Carry(pose, {0, 9.81 / 2 * (half * half - t * t), 0});
+  });
+  for (int f = kTop - 1; f <= kTop + 1; ++f) EXPECT_TRUE(FindBearing(jump, kRate)[f].rests.none()) << f;
+  EXPECT_EQ(FindBearing(jump, kRate)[kTop + 12].rests, kFeet);
+  EXPECT_EQ(Floating(jump, jump), 0) << "the clip's own";
+  const Poses stays = ClipOf(Standing(), [&](BodyPose& pose, int f) { pose = jump[std::min(f, kTop)]; });
+  EXPECT_GE(Floating(stays, jump), 35);
+  EXPECT_GE(Floating(stays, jump, Still(Standing())), 35);
+}
+
+TEST(FindSupport, GivesWhoWalksOnTheSpotAFloorToStopOn) {
+  const Poses walks = ClipOf(Standing(), [](BodyPose& pose, int f) {
+    for (Role role : {kLeftAnkle, kLeftFoot, kRightAnkle, kRightFoot}) pose[role].z -= 0.9 * f / kRate;
+  });
+  BodyPose high = Standing();
+  Carry(high, {0, 0.3, 0});
+  const auto stops = [&](double lift) {
+    return ClipOf(Standing(), [&](BodyPose& pose, int f) {
+      pose = walks[std::min(f, kPoint)];
+      Carry(pose, {0, lift * Ramp(f, kPoint, kPoint + 8), 0});
+    });
+  };
+  EXPECT_EQ(Floating(stops(0), walks, Still(high)), 0);
+  EXPECT_GE(Floating(stops(0.05), walks, Still(high)), 30);
+  // Who flies where he is left does not stand there, however long ago he trod.
+  const Poses flies = ClipOf(Standing(), [&](BodyPose& pose, int f) {
+    pose = walks[f];
+    Carry(pose, {0, f < 20 ? 0.0 : 0.2, 0});
+  });
+  EXPECT_GE(Floating(ClipOf(Standing(), [&](BodyPose& pose, int f) { pose = flies[std::min(f, kPoint)]; }), flies,
+                     Still(high)),
+            30);
+}
+
 TEST(FindSupport, AsksOfAFlightThatItIsOneParabolaWithATakeOff) {
   const Poses clip = Still(Standing());
   const auto flies = [](double wobble) {

@@ -16,6 +16,7 @@ FEWEST_OF_A_FLIGHT = 5
 FLOATING_FRAMES = 4
 JUDGED_S = 1.2
 GLIDING = 3
+FALLING_S = 0.1  # a clip's mass centre falls by its second difference over so long to either side
 
 # Dempster, as in Winter (2009), table 4.1: mass, and the centre's share of the way from one joint to the other.
 SEGMENTS = [("shoulder_centre", "head", 0.081, 1.0), ("shoulder_centre", "hip_centre", 0.497, 0.5)] + [
@@ -39,6 +40,17 @@ def velocities(frames, rate):
     return [at(f) for f in range(len(frames))]
 
 
+def falling(frames, rate):
+    """Of each frame of a clip: whether its mass centre falls freely, where its joints, though slow at the top, rest on nothing."""
+    reach, last = max(round(FALLING_S * rate), 1), len(frames) - 1
+    heights = [mass_centre(pose)[1] for pose in frames]
+
+    def at(f):
+        f = min(max(f, reach), last - reach)
+        return heights[f - reach] + heights[f + reach] - 2 * heights[f] <= -FALL_MPS2[0] * (reach / rate) ** 2
+    return [last >= 2 * reach and at(f) for f in range(len(frames))]
+
+
 def over_floor(v):
     return math.hypot(v[0], v[2])
 
@@ -51,10 +63,10 @@ class Clip:
         self.window = round(WINDOW_S * rate)
         self.velocities = velocities(frames, rate)
         self.rests, self.bears = [], []
-        for pose, v in zip(frames, self.velocities):
+        for pose, v, falls in zip(frames, self.velocities, falling(frames, rate)):
             lowest = min(p[1] for p in pose.values())
             low = [role for role in ROLES if pose[role][1] <= lowest + LOWEST]
-            rests = {role for role in low if norm(v[role]) <= REST_MPS}
+            rests = {role for role in low if norm(v[role]) <= REST_MPS and not falls}
             carried = {role for role in low if over_floor(v[role]) <= max(
                 REST_MPS, GLIDING * over_floor(minus(v[role], v["hip_centre"])))}
             self.rests.append(rests)
@@ -71,8 +83,9 @@ class Clip:
             return False
         last = len(self.frames) - 1
         first, end = min(shown, self.left_at) - self.window - self.begin, shown + self.window - self.begin
-        heights = sorted(self.frames[f][role][1] for f in range(min(max(first, 0), last), min(max(end, 0), last) + 1)
-                         if role in self.rests[f])
+        asked = range(min(max(first, 0), last), min(max(end, 0), last) + 1)
+        heights = sorted(self.frames[f][role][1] for f in asked if role in self.rests[f]) or sorted(
+            self.frames[f][role][1] for f in range(last + 1) if role in self.bears[f])[:1]
         if not heights:
             return False
         surfaces = [h for below, h in zip(heights, heights[1:]) if h - below > LEVEL]
