@@ -23,10 +23,10 @@ const SettingTable<PlayedOptions>& PlayedSettings();
 /// as the wanted clip goes, both direct and by a fade (PlayMinimumJerk), with their feet (PlantFeet), and the one of
 /// least cost is taken: wait + length + the largest acceleration of any joint beyond what either clip has of its own
 /// there, and beyond what is usual in the calmer one, 9 m/s² at least (`excess_per_s`) + how far the frames shown are
-/// from both clips' own, the root of the mean over joints, summed over time (`invented_per_s`) + 0.1 s for each frame
-/// in which no foot bears by FootPlan + 6 s for each frame, beyond two, of the most in a row that FindSupport finds
-/// nothing to hold up. Ways are played the cheapest first, as far as they may be the best (PlayWays). The record's last
-/// segment holds how it should be joined (PreferredJoin).
+/// from both clips' own, the root of the mean over joints, summed over time (`invented_per_s`) + a second for each 10 cm
+/// that feet slide + 0.1 s for each frame in which no foot bears by FootPlan + 6 s for each frame, beyond two, of the
+/// most in a row that FindSupport finds nothing to hold up. Ways are played the cheapest first, as far as they may be
+/// the best (PlayWays). The record's last segment holds how it should be joined (PreferredJoin).
 ///
 /// Pairs are left out whose join would raise or lower the body on nothing (NeedsClip). Where no other is allowed, the
 /// way leads through the clip that stands up or lies down (FindThroughClip), after the wait; the record has no segments

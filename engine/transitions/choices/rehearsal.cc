@@ -24,6 +24,7 @@ constexpr double kLimbsShare = 0.6;    // of the cost of limbs, before a way is 
 constexpr double kPlanned_s = 0.1;     // what a frame costs in which no foot bears by FootPlan
 constexpr double kFloating_s = 6;      // what each frame costs, beyond kHop of the most in a row that nothing holds up
 constexpr int kHop = 2;
+constexpr double kSlid_cm = 10;    // so far feet may slide for a second
 constexpr int kMostWithFeet = 60;  // ways that are played with their feet
 
 /// Returns frames of a clip from one on, that one included: `count` more, the last repeated where the clip ends.
@@ -105,6 +106,18 @@ double SquaredOff(const BodyPose& a, const BodyPose& b) {
   return sum / kRoleCount;
 }
 
+/// Returns how far both feet slide along the floor from one frame to the next, metres: less the higher they are, and a
+/// foot 2.5 cm up does so no more (Zhang, Starke, Komura and Saito 2018).
+double SlideOf(const BodyPose& here, const BodyPose& after) {
+  constexpr double kHeight = 0.025;
+  double slid = 0;
+  for (const LegRoles& leg : kLegs) {
+    const glm::dvec3 way = after[leg.foot] - here[leg.foot];
+    slid += std::hypot(way.x, way.z) * std::clamp(2 - std::exp2(here[leg.foot].y / kHeight), 0.0, 1.0);
+  }
+  return slid;
+}
+
 /// Adds up what the frames of a join cost, in their order, the one at the point first.
 class CostMeter {
  public:
@@ -118,6 +131,7 @@ class CostMeter {
         const double jump = glm::length(SecondDifferenceOf(before_, here_, shown, j));
         worst_excess_ = std::max(worst_excess_, jump - std::max(own_[f][j], usual_));
       }
+      slid_ += SlideOf(here_, shown);
       if (f > 0) off_ += std::sqrt(std::min(SquaredOff(here_, window_.old[f]), SquaredOff(here_, window_.next[f])));
       before_ = here_;
     }
@@ -125,13 +139,14 @@ class CostMeter {
     ++count_;
   }
 
-  /// Returns the cost of the frames added so far, seconds; it never becomes less.
+  /// Returns the cost of the frames added so far but for their feet, seconds; it never becomes less.
   double Seconds() const {
-    constexpr double kCm = 100;
     return kCm * (worst_excess_ / rates_.excess_per_s + off_ / window_.rate_hz / rates_.invented_per_s);
   }
+  double SecondsWithFeet() const { return Seconds() + kCm * slid_ / kSlid_cm; }
 
  private:
+  static constexpr double kCm = 100;
   const JoinWindow& window_;
   const OwnAccelerations& own_;
   const double usual_;  // MotionLibrary::usual_accelerations of the calmer clip
@@ -140,6 +155,7 @@ class CostMeter {
   std::size_t count_ = 0;
   double worst_excess_ = 0;  // the largest second difference of any joint beyond the motions' own, metres
   double off_ = 0;           // metres, summed over the frames
+  double slid_ = 0;          // likewise
 };
 
 /// The clips are asked what the body may rest on for so many frames before and after a join, as FindSupport looks.
@@ -297,7 +313,7 @@ class Rehearsal {
     const int planned = PlantFeet(window, played);
     CostMeter meter(window, stage.own, usual_, rates_);
     for (const BodyPose& pose : played) meter.Add(pose);
-    way.cost_s = Time(way) + meter.Seconds() + kPlanned_s * planned;
+    way.cost_s = Time(way) + meter.SecondsWithFeet() + kPlanned_s * planned;
     open.limbs.reset();
     open.has_feet = true;
     ++with_feet_;

@@ -81,6 +81,11 @@ struct FootTracks {
     for (int f = 0; f <= frames; ++f) {
       old_stands |= old[f] ? Bit(f) : 0;
       next_stands |= next[f] ? Bit(f) : 0;
+      const auto way = [&](const std::vector<BodyPose>& poses, bool stands) {
+        return stands && f < frames ? FloorDistance(poses[f][leg.foot], poses[f + 1][leg.foot]) : 0;
+      };
+      old_slid[f + 1] = old_slid[f] + way(w.old, old[f]);
+      next_slid[f + 1] = next_slid[f] + way(w.next, next[f]);
     }
   }
   bool StandsAtAll() const { return (old_stands | next_stands) != 0; }
@@ -89,6 +94,7 @@ struct FootTracks {
   const LegRoles& leg;
   int frames = 0;  ///< of the window, as far as steps are planned
   Frames old_stands = 0, next_stands = 0;
+  std::array<double, kMostFrames + 2> old_slid{}, next_slid{};  ///< metres before a frame, while the foot stood
 };
 
 struct StepOption {
@@ -114,8 +120,28 @@ Movement MovementOf(const JoinWindow& window, const LegRoles& leg, const FootSte
   return movement;
 }
 
+/// The price of what a foot does beside its step, centimetres per frame²: where it stays or waits it stops, or starts,
+/// dead; where it is shown as its clip has it, it slides as that does while it stands.
+double StandingPrice(const FootTracks& foot, const FootStep& step) {
+  constexpr double kSliding = 0.3;  // of a centimetre
+  const auto &old = foot.window.old, &next = foot.window.next;
+  const Role toe = foot.leg.foot;
+  double price = 0;
+  if (step.stays_from < step.begin) {
+    price += glm::distance(old[step.stays_from][toe], old[step.stays_from + 1][toe]);
+  } else {
+    price += kSliding * foot.old_slid[step.begin];
+  }
+  if (step.waits_until > step.end) {
+    price += glm::distance(next[step.waits_until][toe], next[step.waits_until - 1][toe]);
+  } else {
+    price += kSliding * (foot.next_slid[foot.frames] - foot.next_slid[step.end]);
+  }
+  return price;
+}
+
 /// The step with its lift, price and stands. The price is the largest acceleration that movements of least jerk have
-/// from an offset, from a velocity and by the lift.
+/// from an offset, from a velocity and by the lift, and StandingPrice.
 StepOption Priced(const FootTracks& foot, const FootStep& step) {
   constexpr double kCm = 100;
   StepOption option{.step = step};
@@ -126,7 +152,7 @@ StepOption Priced(const FootTracks& foot, const FootStep& step) {
   option.step.lift = stands ? LiftFor(travel) : 0;
   const double peak = (5.8 * glm::length(movement.start) + 12 * option.step.lift) / (length * length) +
                       3.9 * glm::length(movement.start_velocity) / foot.window.rate_hz / length;
-  option.cost = kCm * peak;
+  option.cost = kCm * (peak + StandingPrice(foot, step));
   option.stands = (foot.old_stands & Range(0, step.begin)) | (foot.next_stands & Range(step.end, foot.frames)) |
                   Range(step.stays_from, step.begin) | Range(step.end, step.waits_until);
   if (travel <= kStill) option.stands |= foot.old_stands & foot.next_stands & Range(step.begin, step.end);
@@ -141,8 +167,21 @@ int FirstFrom(Frames frames, int frame) {
   return later == 0 ? FootStep::kNoFrame : std::countr_zero(later);
 }
 
-/// Lists the steps that a foot may make, by tenths of the window. Each may also begin where the foot last stood, and
-/// end where it will stand next.
+/// Returns the frame in whose place a foot may stay until `frame`: the first of the stand that it is in then, else the
+/// last of the one before; −1 when there is none.
+int StaysFrom(Frames stands, int frame) {
+  const int stood = LastUpTo(stands, frame);
+  return stood == frame ? LastUpTo(~stands, frame) + 1 : stood;
+}
+/// Likewise from `frame` on, up to `last`: the last frame of its stand, else the first of the next; kNoFrame when there
+/// is none.
+int WaitsUntil(Frames stands, int frame, int last) {
+  const int lands = FirstFrom(stands, frame);
+  return lands == frame ? std::min(FirstFrom(~stands, frame) - 1, last) : lands;
+}
+
+/// Lists the steps that a foot may make, by tenths of the window. Each may also begin where the foot stands still since
+/// its stand began, or since it last stood, and likewise end where it will stand.
 std::vector<StepOption> OptionsOf(const FootTracks& foot) {
   constexpr int kParts = 10, kShortest = 8;
   const int frames = foot.frames, shortest = std::min(frames, kShortest);
@@ -152,7 +191,8 @@ std::vector<StepOption> OptionsOf(const FootTracks& foot) {
       FootStep step{.begin = b * frames / kParts, .end = e * frames / kParts};
       if (step.end - step.begin < shortest) continue;
       options.push_back(Priced(foot, step));
-      const int stood = LastUpTo(foot.old_stands, step.begin), lands = FirstFrom(foot.next_stands, step.end);
+      const int stood = StaysFrom(foot.old_stands, step.begin);
+      const int lands = WaitsUntil(foot.next_stands, step.end, frames);
       const bool may_stay = stood >= 0 && stood<step.begin, may_wait = lands> step.end && lands <= frames;
       FootStep waits = step;
       if (may_wait) {
@@ -281,12 +321,14 @@ FootPlan PlanSteps(const JoinWindow& window) {
     options[side] = OptionsOf(foot);
     stands[side] = foot.StandsAtAll();
     borne |= foot.old_stands | foot.next_stands;
+    std::ranges::stable_sort(options[side], {}, &StepOption::cost);
   }
   constexpr double kUnborne = 2;  // centimetres per frame²: the price of a frame in which nothing stands
   FootPlan plan;
   double least = std::numeric_limits<double>::infinity();
   for (const StepOption& left : options[0]) {
     for (const StepOption& right : options[1]) {
+      if (left.cost + right.cost >= least) break;
       const int unborne = std::popcount(borne & ~(left.stands | right.stands));
       const double cost = left.cost + right.cost + kUnborne * unborne;
       if (cost >= least) continue;

@@ -115,6 +115,29 @@ TEST(PlanSteps, LeavesAFootStandingWhoseOwnMotionLiftsItWhileTheOtherTravels) {
   EXPECT_TRUE(steps[1].stays_from < steps[1].begin || steps[1].waits_until > steps[1].end);
 }
 
+TEST(PlanSteps, LetsFeetThatSlideInTheirClipsStayWhereTheyStand) {
+  JoinWindow window = Window(Stride(0.15), Stride(-0.15), 30);
+  for (std::vector<BodyPose>* clip : {&window.old, &window.next}) {
+    for (std::size_t f = 0; f < clip->size(); ++f) {
+      for (glm::dvec3& joint : (*clip)[f].joints) joint.z += 0.1 * static_cast<double>(f) / window.rate_hz;
+    }
+  }
+  const auto [steps, unborne] = PlanSteps(window);
+  EXPECT_EQ(unborne, 0);
+  int long_stands = 0;
+  for (const FootStep& step : steps) {
+    // Over three tenths of a second the clip slides by 3 cm, which weighs more than to stop dead at 10 cm/s.
+    if (step.begin >= 9) {
+      EXPECT_EQ(step.stays_from, 0);
+    }
+    if (step.end <= 21) {
+      EXPECT_EQ(step.waits_until, 30);
+    }
+    long_stands += (step.begin >= 9) + (step.end <= 21);
+  }
+  EXPECT_GE(long_stands, 2) << "one after the other";
+}
+
 TEST(PlanSteps, CountsTheFramesInWhichNothingCanStand) {
   JoinWindow window = Window(Stride(0.15), Stride(-0.15), 10);  // too short for two steps
   EXPECT_GT(PlanSteps(window).unborne, 3);
