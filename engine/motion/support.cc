@@ -133,6 +133,7 @@ class SupportFinder::Witness {
     lowest_.fill(std::numeric_limits<double>::infinity());
     for (std::size_t f = 0; f < bearing_.size(); ++f) {
       ever_bear_ |= bearing_[f].bears;
+      ever_rest_ |= bearing_[f].rests;
       for (std::size_t j = 0; j < kRoleCount; ++j) {
         if (bearing_[f].bears[j]) lowest_[j] = std::min(lowest_[j], clip.poses[f].joints[j].y);
       }
@@ -178,15 +179,14 @@ class SupportFinder::Witness {
   }
 
   /// The heights at which the clip's joint rests about a frame shown, rising; at its first or last frame where the clip
-  /// has not begun or is over. Where it rests nowhere there, as who walks on the spot, the lowest at which it ever
-  /// bears.
+  /// has not begun or is over. Where it never rests, as who walks on the spot, the lowest at which it ever bears.
   std::vector<double> HeightsOfRest(int frame, std::size_t j) const {
     const int from = std::min(frame, clip_.left_at) - window_ - clip_.begin, to = frame + window_ - clip_.begin;
     std::vector<double> heights;
     for (int f = std::clamp(from, 0, LastFrame()); f <= std::clamp(to, 0, LastFrame()); ++f) {
       if (bearing_[f].rests[j]) heights.push_back(Height(f, j));
     }
-    if (heights.empty()) return {lowest_[j]};
+    if (heights.empty() && !ever_rest_[j]) return {lowest_[j]};
     std::ranges::sort(heights);
     return heights;
   }
@@ -196,7 +196,7 @@ class SupportFinder::Witness {
   int window_ = 0;  // frames
   std::vector<BodyPose> velocities_;
   std::vector<Bearing> bearing_;
-  JointSet ever_bear_;                       // all that rests bears
+  JointSet ever_bear_, ever_rest_;           // all that rests bears
   std::array<double, kRoleCount> lowest_{};  // height at which a joint bears
 };
 

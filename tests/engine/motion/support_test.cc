@@ -267,7 +267,7 @@ TEST(FindSupport, GivesWhoWalksOnTheSpotAFloorToStopOn) {
   // Who flies where he is left does not stand there, however long ago he trod.
   const Poses flies = ClipOf(Standing(), [&](BodyPose& pose, int f) {
     pose = walks[f];
-    Carry(pose, {0, f < 20 ? 0.0 : 0.2, 0});
+    Carry(pose, {0, f < 20 ? 0.0 : 0.1, 0});
   });
   EXPECT_GE(Floating(ClipOf(Standing(), [&](BodyPose& pose, int f) { pose = flies[std::min(f, kPoint)]; }), flies,
                      Still(high)),

@@ -84,8 +84,9 @@ class Clip:
         last = len(self.frames) - 1
         first, end = min(shown, self.left_at) - self.window - self.begin, shown + self.window - self.begin
         asked = range(min(max(first, 0), last), min(max(end, 0), last) + 1)
-        heights = sorted(self.frames[f][role][1] for f in asked if role in self.rests[f]) or sorted(
-            self.frames[f][role][1] for f in range(last + 1) if role in self.bears[f])[:1]
+        heights = sorted(self.frames[f][role][1] for f in asked if role in self.rests[f])
+        if not any(role in rests for rests in self.rests):
+            heights = sorted(self.frames[f][role][1] for f in range(last + 1) if role in self.bears[f])[:1]
         if not heights:
             return False
         surfaces = [h for below, h in zip(heights, heights[1:]) if h - below > LEVEL]
