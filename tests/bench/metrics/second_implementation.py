@@ -14,7 +14,8 @@ from independent import capture, coach, detection, ik, pose_distance, search, su
 DOMAINS = [ik, tracking, capture, transition, support, search, pose_distance, detection, coach]
 METRICS = {name: function for domain in DOMAINS for name, function in domain.METRICS.items()}
 NEWER = {"natural_share": 3, "solved_practical": 2, "solved_tight": 2, "iterations_par2": 2, "fk_evaluations_par2": 2,
-         "frames_solved": 2, "frames_solved_tight": 2, "skipped_s": 2, "clean_share": 2}  # the others are of version 1
+         "frames_solved": 2, "frames_solved_tight": 2, "skipped_s": 2, "clean_share": 3,
+         "unsupported_frames": 2, "supported_share": 2, "balance_cm": 2}  # the others are of version 1
 
 
 def agrees(vector):
