@@ -1,7 +1,10 @@
 #include "engine/cameras/rig_file.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <glm/gtc/quaternion.hpp>
 
 #include "engine/cameras/opencv_file.h"
 
@@ -123,6 +126,153 @@ TEST(RigFile, RefusedWithPlaceAndReason) {
   EXPECT_THAT(reason(Changed(kQualisys, "</cameras>", "")), HasSubstr("no XML"));
   EXPECT_THAT(reason("<html/>"), HasSubstr("allowed: <calibration>"));
   EXPECT_THAT(reason(std::string(2u << 20, ' ')), HasSubstr("allowed: 1048576"));
+}
+
+/// A matrix as cv::FileStorage writes it.
+std::string OpenCvMatrix(const std::string& name, std::size_t rows, const std::vector<double>& values) {
+  return fmt::format("{}: !!opencv-matrix\n   rows: {}\n   cols: {}\n   dt: d\n   data: [ {:.17g} ]\n", name, rows,
+                     values.size() / rows, fmt::join(values, ", "));
+}
+
+/// X_C = R X_F + T in the axes of a file whose Z is up: its (x, y, z) is our (y, z, x).
+struct FilePose {
+  glm::dmat3 R;
+  glm::dvec3 T;
+
+  explicit FilePose(const Camera& camera)
+      : R(camera.R_CW * glm::dmat3(0, 0, 1, 1, 0, 0, 0, 1, 0)), T(-(camera.R_CW * camera.p_WC)) {}
+  std::vector<double> Rows() const {
+    return {R[0][0], R[1][0], R[2][0], R[0][1], R[1][1], R[2][1], R[0][2], R[1][2], R[2][2]};
+  }
+};
+
+std::vector<double> OpenCvIntrinsics(const Intrinsics& in) {
+  return {in.fx, 0, in.cx - 0.5, 0, in.fy, in.cy - 0.5, 0, 0, 1};
+}
+
+constexpr const char* kYaml = "%YAML:1.0\n---\n";
+
+TEST(RigPair, ReadsEasyMocapsFiles) {
+  for (const bool is_vector : {false, true}) {  // Rodrigues' vectors or matrices
+    for (const bool has_size : {false, true}) {
+      const std::vector<NamedCamera> cameras = TwoCameras();
+      std::string inside = std::string(kYaml) + "names:\n  - \"a\"\n  - \"b\"\n", outside = kYaml;
+      for (std::size_t i = 0; i < 2; ++i) {
+        const std::string name = i == 0 ? "a" : "b";
+        const Camera& camera = cameras[i].camera;
+        const FilePose pose(camera);
+        const Distortion& d = camera.distortion;
+        inside += OpenCvMatrix("K_" + name, 3, OpenCvIntrinsics(camera.intrinsics));
+        inside += OpenCvMatrix("dist_" + name, 1, {d.k1, d.k2, d.p1, d.p2, 0});
+        if (has_size) {
+          inside += fmt::format("H_{0}: {1}\nW_{0}: {2}\n", name, camera.intrinsics.height, camera.intrinsics.width);
+        }
+        const glm::dquat q = glm::quat_cast(pose.R);
+        const glm::dvec3 turn = glm::angle(q) * glm::axis(q);
+        outside += is_vector ? OpenCvMatrix("R_" + name, 3, {turn.x, turn.y, turn.z})
+                             : OpenCvMatrix("Rot_" + name, 3, pose.Rows());
+        outside += OpenCvMatrix("T_" + name, 3, {pose.T.x, pose.T.y, pose.T.z});
+      }
+      const auto rig = ReadRigPair(inside, outside, "intri.yml");
+      ASSERT_TRUE(rig) << ToString(rig.error());
+      EXPECT_EQ(rig->format, "EasyMocap");
+      EXPECT_TRUE(rig->has_unit);
+      ASSERT_EQ(rig->cameras.size(), 2u);
+      for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(rig->cameras[i].name, i == 0 ? "a" : "b");
+        EXPECT_EQ(rig->cameras[i].camera.intrinsics.width, has_size ? cameras[i].camera.intrinsics.width : 0);
+        EXPECT_EQ(rig->cameras[i].camera.intrinsics.height, has_size ? cameras[i].camera.intrinsics.height : 0);
+        ExpectSamePictures(rig->cameras[i].camera, cameras[i].camera, 1e-6);
+      }
+      EXPECT_THAT(ToString(ReadRigPair(Changed(inside, "K_b:", "L_b:"), outside, "intri.yml").error()),
+                  HasSubstr("no K_b"));
+    }
+  }
+}
+
+TEST(RigPair, ReadsOpenCvsStereoWhoseWorldIsTheLeftCamera) {
+  const std::vector<NamedCamera> cameras = TwoCameras();
+  const Camera &left = cameras[0].camera, &right = cameras[1].camera;
+  const glm::dmat3 R = right.R_CW * glm::transpose(left.R_CW);
+  const glm::dvec3 T = right.R_CW * (left.p_WC - right.p_WC);
+  const Distortion& d = left.distortion;
+  const std::string inside = kYaml + OpenCvMatrix("M1", 3, OpenCvIntrinsics(left.intrinsics)) +
+                             OpenCvMatrix("D1", 1, {d.k1, d.k2, d.p1, d.p2, 0}) +
+                             OpenCvMatrix("M2", 3, OpenCvIntrinsics(right.intrinsics)) +
+                             OpenCvMatrix("D2", 1, {0, 0, 0, 0, 0});
+  const std::string outside =
+      kYaml + OpenCvMatrix("R", 3, {R[0][0], R[1][0], R[2][0], R[0][1], R[1][1], R[2][1], R[0][2], R[1][2], R[2][2]}) +
+      OpenCvMatrix("T", 3, {T.x, T.y, T.z});
+  const auto rig = ReadRigPair(inside, outside, "intrinsics.yml");
+  ASSERT_TRUE(rig) << ToString(rig.error());
+  EXPECT_EQ(rig->format, "OpenCV stereo");
+  ASSERT_EQ(rig->cameras.size(), 2u);
+  EXPECT_EQ(rig->cameras[0].name, "left");
+  EXPECT_EQ(rig->cameras[1].name, "right");
+  for (int i = 0; i < 20; ++i) {
+    const glm::dvec3 point(0.3 * (i % 3) - 0.3, 0.1 * i, 0.2 * (i % 5) - 0.4);
+    const glm::dvec3 in_left = left.R_CW * (point - left.p_WC);
+    const glm::dvec3 ours(in_left.y, in_left.z, in_left.x);  // read as any file whose Z is up
+    for (std::size_t c = 0; c < 2; ++c) {
+      EXPECT_LT(glm::distance(*Project(rig->cameras[c].camera, ours), *Project(cameras[c].camera, point)), 1e-6) << c;
+    }
+  }
+}
+
+TEST(RigPair, ReadsColmapsModels) {
+  const Camera truth = TwoCameras()[0].camera;
+  const FilePose pose(truth);
+  const glm::dquat q = glm::quat_cast(pose.R);
+  const std::string image =
+      fmt::format("# a comment\n7 {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} 3 films/left.0.png\n", q.w,
+                  q.x, q.y, q.z, pose.T.x, pose.T.y, pose.T.z);
+  struct Model {
+    std::string line;
+    double fy = 1680;
+    Distortion distortion = {};
+  };
+  for (const Model& model :
+       {Model{"PINHOLE 1088 1920 1681 1680 533 948"},
+        {"SIMPLE_PINHOLE 1088 1920 1681 533 948", 1681},
+        {"SIMPLE_RADIAL 1088 1920 1681 533 948 -0.05", 1681, {.k1 = -0.05}},
+        {"RADIAL 1088 1920 1681 533 948 -0.05 0.1", 1681, {.k1 = -0.05, .k2 = 0.1}},
+        {"OPENCV 1088 1920 1681 1680 533 948 -0.05 0.1 0.0006 -0.0004", 1680, truth.distortion},
+        {"FULL_OPENCV 1088 1920 1681 1680 533 948 -0.05 0.1 0.0006 -0.0004 0.01 0.02 0.03 0.04",
+         1680,
+         {.k1 = -0.05, .k2 = 0.1, .p1 = 0.0006, .p2 = -0.0004, .k3 = 0.01, .k4 = 0.02, .k5 = 0.03, .k6 = 0.04}},
+        {"RADIAL_FISHEYE 1088 1920 1681 533 948 -0.05 0.01", 1681, {.k1 = -0.05, .k2 = 0.01, .is_fisheye = true}}}) {
+    const auto rig = ReadRigPair("3 " + model.line + "\n", image, "cameras.txt");
+    ASSERT_TRUE(rig) << model.line << ToString(rig.error());
+    EXPECT_EQ(rig->format, "COLMAP");
+    EXPECT_FALSE(rig->has_unit);
+    ASSERT_EQ(rig->cameras.size(), 1u);
+    EXPECT_EQ(rig->cameras[0].name, "left.0");
+    const Camera& camera = rig->cameras[0].camera;
+    EXPECT_EQ(camera.intrinsics.width, 1088);
+    EXPECT_EQ(camera.intrinsics.height, 1920);
+    Camera expected = truth;
+    expected.intrinsics.fy = model.fy;
+    expected.distortion = model.distortion;
+    EXPECT_EQ(camera.distortion, model.distortion) << model.line;
+    ExpectSamePictures(camera, expected, 1e-6);
+  }
+}
+
+TEST(RigPair, OfColmapIsRefusedWithLineAndReason) {
+  const auto reason = [](const std::string& cameras, const std::string& images) {
+    const auto rig = ReadRigPair(cameras, images, "cameras.txt");
+    return rig ? fmt::format("{} cameras", rig->cameras.size()) : ToString(rig.error());
+  };
+  const std::string camera = "1 PINHOLE 640 480 600 600 320 240\n", image = "1 1 0 0 0 0 0 3 1 a.png\n";
+  EXPECT_EQ(reason(camera, image + "12 34 -1\n" + "2 1 0 0 0 0 0 4 1 b.png\n\n"), "2 cameras");
+  EXPECT_THAT(reason(camera, image + "\n" + image), HasSubstr("two cameras of the name a"));
+  EXPECT_THAT(reason("\n1 PIN 640 480 600\n", image), HasSubstr("2: camera model PIN; allowed: FULL_OPENCV, OPENCV"));
+  EXPECT_THAT(reason("1 PINHOLE 640 480 600 320 240\n", image), HasSubstr("3 parameters of PINHOLE; allowed: 4"));
+  EXPECT_THAT(reason("1 PINHOLE\n", image), HasSubstr("no camera; allowed: CAMERA_ID MODEL WIDTH HEIGHT PARAMS"));
+  EXPECT_THAT(reason("1 PINHOLE 640 480 600 6oo 320 240\n", image), HasSubstr("'6oo' is no number"));
+  EXPECT_THAT(reason(camera, "1 1 0 0 0 0 0 3 1\n"), HasSubstr("no image; allowed: IMAGE_ID"));
+  EXPECT_THAT(reason(camera, "1 1 0 0 0 0 0 3 2 a.png\n"), HasSubstr("camera 2 is not in cameras.txt"));
+  EXPECT_THAT(reason(camera, "# none\n"), HasSubstr("no image in images.txt"));
 }
 
 }  // namespace

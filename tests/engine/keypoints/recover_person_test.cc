@@ -35,18 +35,6 @@ std::vector<SeenPeople> TwoWalkers(const std::vector<Camera>& cameras, double si
   return people;
 }
 
-std::vector<ProjectionMatrix> MatricesOf(const std::vector<Camera>& cameras) {
-  std::vector<ProjectionMatrix> matrices;
-  for (const Camera& camera : cameras) matrices.push_back(MatrixOf(camera));
-  return matrices;
-}
-
-std::vector<Camera> Pinholes() {
-  std::vector<Camera> cameras = FourCameras();
-  for (Camera& camera : cameras) camera.distortion = {};
-  return cameras;
-}
-
 RecoverPersonOptions WalkOptions() { return {.rate_hz = kRate, .match = {}, .triangulate = {}}; }
 
 /// As a tool would: with the lenses undone.
@@ -241,6 +229,113 @@ TEST(SmoothPoints, HalvesThePowerAtTheCutoffAndKeepsWhatIsSlow) {
   EXPECT_LT(gain(20), 0.05);
 }
 
+TEST(BridgePoints, BridgesAGapOfJustSoManyFrames) {
+  for (const std::size_t longest : {2u, 3u}) {
+    std::vector<LandmarkPlaces> frames(5);
+    frames[0][3] = glm::dvec3(0);
+    frames[4][3] = glm::dvec3(8);
+    BridgePoints(frames, longest);
+    EXPECT_EQ(frames[1][3].has_value(), longest == 3);
+  }
+}
+
+TEST(SmoothPoints, ChangesNothingFromHalfTheRateOnAndKeepsStraightWaysToTheirEnds) {
+  for (const double cutoff_hz : {3.0, 15.0}) {
+    std::vector<LandmarkPlaces> frames(40);
+    for (std::size_t k = 0; k < frames.size(); ++k) frames[k][0] = glm::dvec3(static_cast<double>(k), k % 2, 1);
+    const auto before = frames;
+    SmoothPoints(frames, 30, cutoff_hz);
+    for (std::size_t k = 0; k < frames.size(); ++k) EXPECT_NEAR(frames[k][0]->x, before[k][0]->x, 1e-9) << k;
+    EXPECT_EQ(frames == before, cutoff_hz == 15);
+    EXPECT_NEAR(frames[20][0]->y, cutoff_hz == 15 ? 0 : 0.5, 0.01) << "what alternates";
+    EXPECT_EQ(frames[0][0], before[0][0]) << "the ends have nothing on the other side";
+  }
+}
+
+TEST(JointsOf, MakesUpHandsHeadAndFeetWhereNoLandmarkTellsThem) {
+  using enum Landmark;
+  LandmarkPlaces marks = Walker(0, 0, 0.2);
+  const auto joint = [&](Role role) { return JointsOf(marks)[Index(role)]; };
+  EXPECT_EQ(joint(Role::kHead), marks[Index(kHead)]);
+  EXPECT_EQ(joint(Role::kLeftFoot), marks[Index(kLeftBigToe)]);
+  EXPECT_EQ(joint(Role::kHipCentre), 0.5 * (*marks[Index(kLeftHip)] + *marks[Index(kRightHip)]));
+  marks[Index(kRightHand)] = glm::dvec3(1, 2, 3);
+  EXPECT_EQ(joint(Role::kRightHand), glm::dvec3(1, 2, 3));
+  marks[Index(kHead)].reset();
+  EXPECT_EQ(joint(Role::kHead), marks[Index(kNose)]);
+  marks[Index(kLeftEar)] = glm::dvec3(0.08, 1.6, 0);
+  marks[Index(kRightEar)] = glm::dvec3(-0.08, 1.6, 0.1);
+  EXPECT_LT(glm::distance(*joint(Role::kHead), glm::dvec3(0, 1.6, 0.05)), 1e-12) << "midway between the ears";
+  for (const Landmark gone : {kLeftEar, kRightEar, kNose}) marks[Index(gone)].reset();
+  EXPECT_LT(glm::distance(*joint(Role::kHead), glm::dvec3(0, 0.92 + 1.5 * 0.5, 0)), 1e-12) << "half a trunk above it";
+  for (const Landmark toe : {kLeftBigToe, kRightBigToe}) marks[Index(toe)].reset();
+  for (const auto& [foot, ankle] : {std::pair(Role::kLeftFoot, kLeftAnkle), {Role::kRightFoot, kRightAnkle}}) {
+    const glm::dvec3 ahead = *joint(foot) - *marks[Index(ankle)];
+    EXPECT_NEAR(glm::length(ahead), 0.18, 1e-3);
+    EXPECT_NEAR(ahead.z, 0.18 * 0.95, 1e-9) << "the walker faces +z";
+    EXPECT_LT(ahead.y, 0);
+  }
+  marks[Index(kLeftHip)].reset();
+  EXPECT_FALSE(joint(Role::kHipCentre) || joint(Role::kHead) || joint(Role::kRightFoot)) << "nothing tells the front";
+}
+
+TEST(UsualRecovery, FollowsTheRateAndThePictures) {
+  const RecoverPersonOptions options = UsualRecovery(60, 1920);
+  EXPECT_EQ(options.rate_hz, 60);
+  EXPECT_EQ(options.match.follow.longest_absence, 30) << "half a second";
+  EXPECT_DOUBLE_EQ(options.triangulate.robust.outlier_px, 57.6) << "3 % of the longer side";
+  EXPECT_EQ(UsualRecovery(1, 640).match.follow.longest_absence, 1);
+}
+
+TEST(RecoverPerson, ShowsTheLastPoseWhereNobodyIsSeenAndTheFirstBeforeThat) {
+  const std::vector<Camera> cameras = FourCameras();
+  auto people = OneWalker(cameras, 0);
+  for (SeenPeople& camera : people) {
+    for (std::size_t k = 0; k < kPersonFrames; ++k) {
+      if (k < 4 || k >= 40) camera[k].clear();
+    }
+  }
+  const auto person = Recover(cameras, people, WalkOptions());
+  ASSERT_TRUE(person) << ToString(person.error());
+  for (std::size_t k = 0; k < kPersonFrames; ++k) {
+    EXPECT_EQ(person->is_held[k], k < 4 || k >= 40) << k;
+    const std::size_t shown = std::clamp<std::size_t>(k, 4, 39);
+    EXPECT_EQ(person->motion.poses[k].joints, person->motion.poses[shown].joints) << k;
+  }
+  EXPECT_NEAR(person->report.found, 36.0 / kPersonFrames, 1e-12);
+}
+
+TEST(RecoverPerson, MendsSidesAndSetsItsLimitByTheResidualsWhenAsked) {
+  const std::vector<Camera> cameras = FourCameras();
+  auto people = OneWalker(cameras, 0.5);
+  for (std::size_t k = 10; k < 30; ++k) people[2][k][0] = WithSidesSwapped(people[2][k][0]);
+  RecoverPersonOptions options = UsualRecovery(kRate, 1280);
+  options.mends = true;
+  options.least_outlier_px = 3;
+  const auto mended = Recover(cameras, people, options);
+  ASSERT_TRUE(mended) << ToString(mended.error());
+  ASSERT_EQ(mended->mends.size(), 1u);
+  EXPECT_EQ(mended->mends[0].camera, 2u);
+  EXPECT_LT(WorstOff(mended->landmarks, 0, 0, 0), 0.03);
+  EXPECT_GE(mended->outlier_px, 3);
+  EXPECT_LT(mended->outlier_px, 10);
+  options.mends = false;
+  const auto raw = Recover(cameras, people, options);
+  ASSERT_TRUE(raw) << ToString(raw.error());
+  EXPECT_TRUE(raw->mends.empty());
+  EXPECT_DOUBLE_EQ(raw->outlier_px, 0.03 * 1280);
+  EXPECT_GT(raw->report.rejected[2], mended->report.rejected[2]) << "the control";
+}
+
+TEST(JointMarkers, AreLandmarksAndMarkersOfTheirNames) {
+  const std::vector<LandmarkPlaces> frames = {Walker(0, 0, 0), Walker(0, 0, 0.1)};
+  const MarkerMotion markers = ToMarkers(frames, 25);
+  EXPECT_EQ(markers.rate_hz, 25);
+  EXPECT_EQ(std::ranges::count(markers.names, "LBigToe"), 1);
+  EXPECT_EQ(std::ranges::count(markers.names, "LHeel"), 0) << "never seen";
+  EXPECT_EQ(ToLandmarks(markers), frames);
+}
+
 TEST(TriangulatePerson, TellsWhichCameraDisagreed) {
   const std::vector<Camera> cameras = Pinholes();
   RandomStream dice = WalkersDice("one");
@@ -258,6 +353,15 @@ TEST(TriangulatePerson, TellsWhichCameraDisagreed) {
   EXPECT_GT(report.rejected[2], 0.99);
   EXPECT_LT(report.rejected[0], 0.01);
   EXPECT_DOUBLE_EQ(report.found, 1);
+}
+
+TEST(TriangulatePerson, RejectsNothingOfACameraThatShowsNothing) {
+  MatchedPerson person;
+  person.seen.assign(4, std::vector<std::optional<SeenPerson>>(3));
+  TriangulationReport report;
+  TriangulatePerson(MatricesOf(Pinholes()), person, {}, &report);
+  EXPECT_EQ(report.rejected, std::vector<double>(4, 0.0));
+  EXPECT_EQ(report.found, 0);
 }
 
 }  // namespace

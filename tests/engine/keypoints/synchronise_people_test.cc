@@ -20,8 +20,9 @@ struct Session {
 };
 
 /// One or two people before four cameras whose clocks are off, in an order that changes; the second one unseen by the
-/// last camera. The films have different lengths.
-Session Filmed(int persons, double sigma_px, const std::vector<double>& offsets = kOffsets, int luck = 0) {
+/// last camera. The films have different lengths, and may run at rates that are a little off.
+Session Filmed(int persons, double sigma_px, const std::vector<double>& offsets = kOffsets, int luck = 0,
+               const std::vector<double>& drifts = {0, 0, 0, 0}) {
   RandomStream dice = WalkersDice(fmt::format("clocks {}", luck).c_str());
   Session session;
   std::vector<Camera> cameras = FourCameras();
@@ -30,7 +31,7 @@ Session Filmed(int persons, double sigma_px, const std::vector<double>& offsets 
     session.cameras.push_back(MatrixOf(cameras[c]));
     SeenPeople& people = session.people.emplace_back(60 + 3 * c);
     for (std::size_t k = 0; k < people.size(); ++k) {
-      const double t = (static_cast<double>(k) + offsets[c]) / kFilmRate;
+      const double t = (static_cast<double>(k) * (1 + drifts[c]) + offsets[c]) / kFilmRate;
       people[k].push_back(Seen(cameras[c], Walker(-0.5, 0, t), sigma_px, dice));
       if (persons > 1 && c < 3) people[k].push_back(Seen(cameras[c], Walker(0.7, 0.2, t + 0.4), sigma_px, dice));
       if (people[k].size() > 1 && (k * 7 + c) % 3 == 0) std::swap(people[k][0], people[k][1]);
@@ -106,6 +107,36 @@ TEST(SynchronisePeople, SaysSoWhereAClockIsFurtherOffThanItLooked) {
   const auto found = EstimateOffsets(session.cameras, session.people, {.clocks = {.most_frames = 5}, .follow = {}});
   EXPECT_TRUE(found[1].is_told);
   EXPECT_FALSE(found[3].is_told) << "11 frames late";
+}
+
+TEST(FindClocks, FindsOffsetsAndDriftsAndLeavesTheFirstFilm) {
+  const std::vector<double> offsets = {0, 1.4, -2.25, 0.5}, drifts = {0, 0, 0.01, -0.015};
+  const Session session = Filmed(1, 0.1, offsets, 0, drifts);
+  const auto found = FindClocks(session.cameras, session.people, std::vector<FilmClock>(4), 4, {});
+  EXPECT_FALSE(found[0].is_mended);
+  EXPECT_EQ(found[0].clock, FilmClock{});
+  for (std::size_t c = 1; c < 4; ++c) {
+    EXPECT_TRUE(found[c].is_mended) << c;
+    EXPECT_NEAR(found[c].clock.offset, offsets[c], 0.03) << c;
+    EXPECT_NEAR(found[c].clock.drift, drifts[c], 0.001) << c;
+    EXPECT_LT(found[c].after, 0.5 * found[c].before) << c;
+    EXPECT_EQ(found[c].nearest, found[c].clock) << c;
+    EXPECT_NEAR(found[c].clock.FrameAt(offsets[c] + (1 + drifts[c]) * 25), 25, 0.05) << c;
+  }
+}
+
+TEST(FindClocks, LeavesClocksThatKeypointsDoNotContradict) {
+  const std::vector<FilmClock> given = {{}, {3.4, 0}, {-7.25, 0}, {11, 0}};
+  for (const double sigma_px : {0.1, 6.0}) {
+    const Session session = Filmed(1, sigma_px);
+    const auto found = FindClocks(session.cameras, session.people, given, 2, {});
+    for (std::size_t c = 0; c < 4; ++c) {
+      EXPECT_FALSE(found[c].is_mended) << c;
+      EXPECT_EQ(found[c].clock, given[c]) << c;
+    }
+  }
+  const Session nobody = {.cameras = Filmed(1, 0).cameras, .people = std::vector<SeenPeople>(4, SeenPeople(60))};
+  for (const FoundClock& found : FindClocks(nobody.cameras, nobody.people, given, 2, {})) EXPECT_FALSE(found.is_mended);
 }
 
 TEST(PeopleInTime, ShowsEverybodyAtTheFirstCamerasTime) {

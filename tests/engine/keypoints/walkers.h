@@ -18,6 +18,20 @@ inline std::vector<Camera> FourCameras() {
   return cameras;
 }
 
+/// Their matrices, without lenses.
+inline std::vector<ProjectionMatrix> MatricesOf(const std::vector<Camera>& cameras) {
+  std::vector<ProjectionMatrix> matrices;
+  for (const Camera& camera : cameras) matrices.push_back(MatrixOf(camera));
+  return matrices;
+}
+
+/// The four cameras without lenses.
+inline std::vector<Camera> Pinholes() {
+  std::vector<Camera> cameras = FourCameras();
+  for (Camera& camera : cameras) camera.distortion = {};
+  return cameras;
+}
+
 /// A stick figure that walks on the spot and swings its arms, standing at (x, 0, z): every landmark but hands and hips'
 /// middle. Its limbs keep their lengths: shank 0.42, thigh 0.43, upper arm 0.29, forearm 0.25.
 inline LandmarkPlaces Walker(double x, double z, double seconds) {

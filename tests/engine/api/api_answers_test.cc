@@ -1,0 +1,286 @@
+// What the library answers is what the engine answers, or what the input was made of.
+#include <etude/cameras.h>
+#include <etude/capture.h>
+#include <etude/coaching.h>
+#include <etude/fuzzy.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/cameras/rig_file.h"
+#include "engine/coaching/session.h"
+#include "engine/formats/bvh.h"
+#include "engine/formats/trc.h"
+#include "engine/fuzzy/features.h"
+#include "engine/keypoints/recover_person.h"
+#include "engine/recognition/recognisers.h"
+#include "engine/transitions/library/transition_points.h"
+#include "tests/engine/coaching/small_dance.h"
+#include "tests/engine/keypoints/walkers.h"
+
+namespace etude::engine {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// The engine's cameras before a walker, as the library has them.
+std::vector<Camera> ApiCameras() {
+  std::vector<NamedCamera> named;
+  for (const etude::Camera& camera : FourCameras()) named.push_back({"c" + std::to_string(named.size()), camera});
+  return ReadRig(WriteRig(named), "rig.yaml");
+}
+
+std::string Complaint(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const BadInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+Motion ApiMotion(const BodyMotion& motion) {
+  Motion told{.rate_hz = motion.rate_hz, .poses = {}};
+  for (const BodyPose& pose : motion.poses) told.poses.push_back({pose.joints});
+  return told;
+}
+
+TEST(ApiCameras, ShowPointsWhereTheEnginesDo) {
+  const std::vector<Camera> cameras = ApiCameras();
+  ASSERT_EQ(cameras.size(), 4u);
+  EXPECT_EQ(cameras[2].name, "c2");
+  for (std::size_t c = 0; c < 4; ++c) {
+    for (const glm::dvec3 p : {glm::dvec3(0, 1, 0), glm::dvec3(0.4, 0.2, -0.3), glm::dvec3(-0.5, 1.6, 0.2)}) {
+      EXPECT_LT(glm::distance(*Project(cameras[c], p), *etude::Project(FourCameras()[c], p)), 1e-9);
+    }
+    EXPECT_FALSE(Project(cameras[c], 3.0 * cameras[c].p_WC)) << "behind it";
+  }
+}
+
+TEST(ApiCameras, CalibrateAndTriangulateGiveBackWhatWasShown) {
+  const std::vector<Camera> cameras = ApiCameras();
+  std::vector<PointPair> pairs;
+  for (int i = 0; i < 40; ++i) {
+    const glm::dvec3 p(0.3 * (i % 4) - 0.5, 0.15 * (i % 7) + 0.3, 0.25 * (i % 5) - 0.5);
+    pairs.push_back({p, *Project(cameras[1], p)});
+    std::vector<std::optional<glm::dvec2>> pixels;
+    for (const Camera& camera : cameras) pixels.push_back(Project(camera, p));
+    pixels[i % 4].reset();
+    const auto found = Triangulate(cameras, pixels);
+    ASSERT_TRUE(found);
+    EXPECT_LT(glm::distance(found->p_WQ, p), 1e-7);
+    EXPECT_LT(found->residual_px, 1e-5);
+    for (auto& pixel : pixels) pixel.reset();
+    pixels[0] = Project(cameras[0], p);
+    EXPECT_FALSE(Triangulate(cameras, pixels)) << "one is too few";
+  }
+  const CalibratedCamera calibrated = Calibrate(pairs, 1280, 720);
+  EXPECT_LT(calibrated.rms_px, 1e-3);
+  EXPECT_LT(glm::distance(calibrated.camera.p_WC, cameras[1].p_WC), 1e-3);
+  EXPECT_NEAR(calibrated.camera.fx, 900, 1);
+  EXPECT_EQ(calibrated.camera.width, 1280);
+  for (PointPair& pair : pairs) pair.pixel.x += pair.p_WQ.y > 1 ? 4 : 0;
+  EXPECT_GT(Calibrate(pairs, 1280, 720).rms_px, 0.05) << "the control";
+}
+
+TEST(ApiCapture, RecoversThePersonThatTheEngineRecovers) {
+  const std::vector<Camera> cameras = ApiCameras();
+  const KeypointLayout& layout = *FindKeypointLayout("halpe_26");
+  RandomStream dice = WalkersDice("api");
+  std::vector<SeenPeople> seen(4);
+  std::vector<etude::SeenPeople> straight(4);
+  std::vector<ProjectionMatrix> matrices;
+  for (std::size_t c = 0; c < 4; ++c) {
+    matrices.push_back(MatrixOf(FourCameras()[c]));
+    etude::SeenPeople people;
+    for (int k = 0; k < 30; ++k) {
+      const etude::SeenPerson person = etude::Seen(FourCameras()[c], Walker(0.1, 0, k / 15.0), 1, dice);
+      SeenPerson& told = seen[c].emplace_back().emplace_back();
+      for (const Landmark landmark : layout.landmarks) {
+        told.push_back({person[landmark].pixel, person[landmark].confidence});
+      }
+      etude::SeenPerson known;
+      for (const Landmark landmark : layout.landmarks) known[landmark] = person[landmark];
+      people.push_back({known});
+    }
+    straight[c] = UndistortPeople(FourCameras()[c], people);
+  }
+  for (const double smooth_hz : {0.0, 4.0}) {
+    const CapturedMotion captured =
+        Capture(cameras, seen, {.layout = "halpe_26", .rate_hz = 15, .smooth_hz = smooth_hz});
+    RecoverPersonOptions options = UsualRecovery(15, 1280);
+    options.cutoff_hz = smooth_hz;
+    const auto wanted = RecoverPerson(matrices, straight, options);
+    ASSERT_TRUE(wanted) << ToString(wanted.error());
+    ASSERT_EQ(captured.motion.poses.size(), 30u);
+    EXPECT_EQ(captured.motion.rate_hz, 15);
+    for (std::size_t k = 0; k < 30; ++k) {
+      for (std::size_t i = 0; i < kRoleCount; ++i) {
+        EXPECT_LT(glm::distance(captured.motion.poses[k].joints[i], wanted->motion.poses[k].joints[i]), 1e-6);
+      }
+    }
+    EXPECT_NEAR(captured.residual_px, wanted->report.residual_px, 1e-6);
+    EXPECT_EQ(captured.is_held, wanted->is_held);
+    const auto clip = ReadBvh(captured.bvh, "captured.bvh");
+    ASSERT_TRUE(clip) << ToString(clip.error());
+    EXPECT_NEAR(clip->rate_hz, 15, 1e-6);
+    std::vector<GlobalTransform> globals;
+    ComputeGlobals(clip->skeleton, clip->frames.at(20), globals);
+    const auto ankle = static_cast<std::size_t>(clip->skeleton.Find("left_ankle"));
+    EXPECT_LT(glm::distance(globals.at(ankle).position, captured.motion.poses[20][Role::kLeftAnkle]), 1e-4);
+  }
+  EXPECT_THAT(Complaint([&] { Capture(cameras, seen, {.layout = "coco"}); }), HasSubstr("26 keypoints; allowed"));
+  EXPECT_THAT(Complaint([&] { Capture(cameras, seen, {.layout = "cocoa"}); }),
+              HasSubstr("layout 'cocoa'; allowed: coco"));
+  EXPECT_THAT(Complaint([&] { Capture(cameras, seen, {.layout = "halpe_26", .rate_hz = 0.9}); }),
+              HasSubstr("1 to 1000"));
+  EXPECT_THAT(Complaint([&] { Capture(cameras, seen, {.layout = "halpe_26", .person = -1}); }), HasSubstr("person -1"));
+  EXPECT_THAT(Complaint([&] { Capture(cameras, seen, {.layout = "halpe_26", .person = 1}); }), HasSubstr("person 2"));
+  EXPECT_THAT(Complaint([&] { Capture(cameras, seen, {.layout = "halpe_26", .smooth_hz = -1}); }),
+              HasSubstr("0 or more"));
+  seen[1][3][0][5].confidence = 1.5;
+  EXPECT_THAT(Complaint([&] { Capture(cameras, seen, {.layout = "halpe_26"}); }), HasSubstr("keypoint 5 at"));
+}
+
+TEST(ApiMotion, ReadsWhatTheEngineWrote) {
+  const BodyMotion flap = Flap(30, 60);
+  const Motion read = ReadMotion(WriteTrc(flap, "flap"), "flap.trc");
+  ASSERT_EQ(read.poses.size(), 30u);
+  EXPECT_EQ(read.rate_hz, 30);
+  double lowest = 1;
+  for (std::size_t k = 0; k < 30; ++k) {
+    for (std::size_t i = 0; i < kRoleCount; ++i) {
+      const auto from_hips = [&](const auto& joints) { return joints[i] - joints[0]; };
+      EXPECT_LT(glm::distance(from_hips(read.poses[k].joints), from_hips(flap.poses[k].joints)), 1e-4) << k << " " << i;
+      lowest = std::min(lowest, read.poses[k].joints[i].y);
+    }
+  }
+  EXPECT_NEAR(lowest, 0, 1e-9) << "feet on the floor";
+  EXPECT_EQ(ReadMotion(WriteTrc(flap, "flap"), "flap.trc", 60).poses.size(), 59u);
+  EXPECT_THAT(Complaint([&] { ReadMotion(WriteTrc(flap, "flap"), "flap.trc", 0.5); }), HasSubstr("a rate of 0.5 Hz"));
+  EXPECT_EQ(RoleName(Role::kLeftElbow), "left_elbow");
+  EXPECT_NE(Complaint([] { RoleName(static_cast<Role>(20)); }), "");
+}
+
+TEST(ApiFuzzy, FeaturesAndDistancesAreTheEngines) {
+  const BodyMotion flap = Flap(40, 120);
+  const double hips = StandingHipHeight(flap.poses.front());
+  const auto features = ComputeFeatures(ApiMotion(flap));
+  ASSERT_EQ(features.size(), 40u);
+  for (std::size_t k = 0; k < 40; ++k) {
+    const PoseFeatures wanted = etude::ComputeFeatures(flap.poses[k], hips),
+                       first = etude::ComputeFeatures(flap.poses[0], hips);
+    EXPECT_THAT(features[k], ::testing::ElementsAreArray(wanted.values));
+    EXPECT_EQ(FuzzyDistance(features[0], features[k]),
+              ComputeDistance(Fuzzify(first), Fuzzify(wanted), PaperWeights()).value);
+  }
+  EXPECT_GT(FuzzyDistance(features[0], features[20]), 1) << "the control: arms went up";
+  EXPECT_EQ(FeatureNames()[4], "Posture");
+  EXPECT_THAT(Complaint([&] { FuzzyDistance(features[0], Features{NAN}); }), HasSubstr("not finite"));
+}
+
+TEST(ApiFuzzy, BridgesLeaveClipsWherePosesMatch) {
+  const std::vector<Motion> clips = {ApiMotion(Flap(60, 90)), ApiMotion(Flap(80, 90)), ApiMotion(Flap(50, 20))};
+  const Bridges bridges(clips);
+  ASSERT_FALSE(bridges.FramesOf(0).empty());
+  EXPECT_TRUE(std::ranges::is_sorted(bridges.FramesOf(0)));
+  const auto found = bridges.Find(0, 5, 1, 2);
+  ASSERT_TRUE(found);
+  EXPECT_GE(found->from, 5);
+  EXPECT_LE(found->from, 65);
+  EXPECT_THAT(bridges.FramesOf(0), ::testing::Contains(found->from));
+  EXPECT_THAT(bridges.FramesOf(1), ::testing::Contains(found->to));
+  const auto a = ComputeFeatures(clips[0]), b = ComputeFeatures(clips[1]);
+  EXPECT_NEAR(found->distance, FuzzyDistance(a[found->from], b[found->to]), 1e-9);
+  EXPECT_LT(found->distance, 0.4);
+  EXPECT_TRUE(Bridges(clips, {.min_clips = 4}).FramesOf(0).empty()) << "three clips share nothing in four";
+  EXPECT_THAT(Complaint([&] { bridges.FramesOf(3); }), HasSubstr("clip 3; allowed: 0 to 2"));
+  EXPECT_THAT(Complaint([&] { bridges.FramesOf(-1); }), HasSubstr("clip -1"));
+  EXPECT_THAT(Complaint([&] { bridges.Find(0, 60, 1); }), HasSubstr("frame 60 of clip 0; allowed: 0 to 59"));
+  EXPECT_THAT(Complaint([&] { bridges.Find(0, 0, 1, 3601); }), HasSubstr("allowed: 0 to 3600"));
+  EXPECT_THAT(Complaint([&] { Bridges(clips, {.min_clips = 0}); }), HasSubstr("1 or more"));
+  EXPECT_THAT(Complaint([&] { Bridges(clips, {.threshold = 0}); }), HasSubstr("above 0, up to 6"));
+  std::vector<Motion> mixed = clips;
+  mixed[1].rate_hz = 60;
+  EXPECT_THAT(Complaint([&] { Bridges{mixed}; }), HasSubstr("clip 1: 60 Hz; allowed: that of clip 0, 30 Hz"));
+}
+
+Dance ApiDance() {
+  const etude::Dance small = SmallDance();
+  Dance dance{.title = small.title, .motion = ApiMotion(small.motion)};
+  for (const auto& move : small.moves) {
+    dance.moves.push_back({move.name, move.hint, {move.key_pose.joints}, ApiMotion(move.slow)});
+  }
+  for (const auto& each : small.repetitions) dance.repetitions.push_back({each.move, each.first, each.end});
+  for (const auto& tag : small.tags) dance.tags.push_back({tag.frame, tag.music_s});
+  for (const auto& act : small.acts) dance.acts.push_back({act.name, ApiMotion(act.motion), act.loops});
+  return dance;
+}
+
+TEST(ApiCoach, ShowsAndDecidesWhatTheEnginesCoachDoes) {
+  const std::vector<TaughtMove> moves = {{"first", {ApiMotion(Flap(90, 60))}}, {"second", {ApiMotion(Flap(90, 30))}}};
+  std::vector<etude::TaughtMove> taught;
+  for (const TaughtMove& move : moves) {
+    taught.push_back({.name = move.name});
+    BodyMotion body;
+    for (const Pose& pose : move.examples.front().poses) body.poses.push_back({pose.joints});
+    taught.back().examples.push_back(StreamOf(body));
+  }
+  Coach coach(ApiDance(), moves, {.dances_at_once = true});
+  const DanceLibrary library = DanceLibrary::Make(SmallDance()).value();
+  const DanceTransitions transitions(library, {.choice = FindChoice("played"), .join = FindJoin("planted-feet")});
+  const auto recogniser = MakeRecogniser({.kind = FindRecogniser("whole-body")}, taught).value();
+  etude::CoachOptions options;
+  options.right_from = FindRecogniser("whole-body")->threshold;
+  options.sensor = {0, 1, 2.75};
+  const etude::Coach twin(transitions, options, {FindPolicy("at-first-mistake"), {}});
+  CoachSession session({.coach = &twin, .recogniser = recogniser.get(), .filter = {.kind = FilterKind::kNone}},
+                       twin.BeginDancing());
+  const BodyMotion player = Flap(700, 40);
+  std::size_t decisions = 0;
+  for (int k = 0; k < 700; ++k) {
+    const std::optional<double> music_s = k > 20 ? std::optional(k / 30.0) : std::nullopt;
+    const CoachFrame frame = coach.Step({.pose = {player.poses[k].joints}, .seen = {}}, music_s);
+    const CoachOutput& wanted =
+        session.Next(StreamOf({.poses = {player.poses[k]}}).frames.front(), {.music_s = music_s});
+    ASSERT_EQ(frame.mode, ModeName(wanted.mode)) << k;
+    ASSERT_EQ(frame.body.joints, wanted.body.joints) << k;
+    EXPECT_EQ(frame.clip, wanted.clip);
+    EXPECT_EQ(frame.clip_frame, wanted.clip_frame);
+    EXPECT_EQ(frame.in_transition, wanted.in_transition);
+    EXPECT_EQ(frame.asked.has_value(), wanted.open.has_value());
+    EXPECT_EQ(frame.say, wanted.say);
+    EXPECT_EQ(frame.pause_music, wanted.music.kind == MusicCommand::Kind::kPause);
+    EXPECT_EQ(frame.play_from_s.has_value(), wanted.music.kind == MusicCommand::Kind::kPlayFrom);
+    ASSERT_EQ(frame.decisions.size(), wanted.records.size());
+    for (std::size_t i = 0; i < wanted.records.size(); ++i, ++decisions) {
+      EXPECT_EQ(frame.decisions[i].event, EventName(wanted.records[i].event));
+      EXPECT_EQ(frame.decisions[i].evidence, wanted.records[i].evidence);
+      EXPECT_EQ(frame.decisions[i].why, wanted.records[i].why);
+      EXPECT_EQ(frame.decisions[i].move.value_or(-1), wanted.records[i].move);
+    }
+  }
+  EXPECT_GT(decisions, 3u) << "something was decided";
+}
+
+TEST(ApiCoach, RefusesWhatIsNotOfTheDance) {
+  const std::vector<TaughtMove> moves = {{"first", {ApiMotion(Flap(90, 60))}}, {"second", {ApiMotion(Flap(90, 30))}}};
+  const auto refusal = [&](const CoachOptions& options, std::span<const TaughtMove> taught) {
+    return Complaint([&] { Coach(ApiDance(), taught, options); });
+  };
+  EXPECT_EQ(refusal({}, moves), "");
+  EXPECT_THAT(refusal({}, std::span(moves).first(1)), HasSubstr("1 moves; allowed: the 2 of the dance"));
+  EXPECT_THAT(refusal({}, std::vector{moves[1], moves[0]}),
+              HasSubstr("move 0: 'second'; allowed: the dance's, 'first'"));
+  EXPECT_THAT(refusal({.policy = "sometimes"}, moves), HasSubstr("policy 'sometimes'; allowed: "));
+  EXPECT_THAT(refusal({.choice = "none"}, moves), HasSubstr("choice 'none'; allowed: "));
+  EXPECT_THAT(refusal({.right_from = 0.0}, moves), HasSubstr("above 0, up to 1"));
+  EXPECT_EQ(refusal({.right_from = 1.0}, moves), "");
+  EXPECT_THAT(refusal({.sensor_m = {0, NAN, 2}}, moves), HasSubstr("sensor_m is not finite"));
+  EXPECT_THAT(RequiredActs(), ::testing::Contains("head_shake"));
+  EXPECT_THAT(CoachPolicies(), ::testing::Contains("at-first-mistake"));
+  Coach coach(ApiDance(), moves);
+  EXPECT_THAT(Complaint([&] { coach.Step({}, -1.0); }), HasSubstr("music_s -1; allowed: 0 to 1e6, or none"));
+}
+
+}  // namespace
+}  // namespace etude::engine

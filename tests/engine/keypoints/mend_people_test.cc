@@ -1,0 +1,196 @@
+#include "engine/keypoints/mend_people.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "tests/engine/keypoints/walkers.h"
+
+namespace etude {
+namespace {
+
+using testing::IsEmpty;
+using testing::SizeIs;
+
+constexpr std::size_t kMendedFrames = 50;
+
+/// A walker whom some cameras see, and somebody else behind; `person` is the walker.
+struct MendedTake {
+  std::vector<ProjectionMatrix> cameras;
+  std::vector<SeenPeople> people;
+  MatchedPerson person, truth;
+
+  explicit MendedTake(std::size_t count, double sigma_px = 1) {
+    RandomStream dice = WalkersDice("mended");
+    const std::vector<Camera> all = Pinholes();
+    for (std::size_t c = 0; c < count; ++c) {
+      cameras.push_back(MatrixOf(all[c]));
+      people.emplace_back(kMendedFrames);
+      person.seen.emplace_back(kMendedFrames);
+      for (std::size_t k = 0; k < kMendedFrames; ++k) {
+        const double t = static_cast<double>(k) / 30;
+        people[c][k] = {Seen(all[c], Walker(0.7, 0.2, t + 0.4), sigma_px, dice),
+                        Seen(all[c], Walker(-0.5, 0, t), sigma_px, dice)};
+        person.seen[c][k] = people[c][k][1];
+      }
+    }
+    truth = person;
+  }
+
+  std::vector<Mend> Run() { return MendPerson(cameras, people, 0.1, person); }
+
+  /// The frames and cameras in which the person's keypoints are not the true ones.
+  std::size_t Wrong() const {
+    std::size_t wrong = 0;
+    for (std::size_t c = 0; c < cameras.size(); ++c) {
+      for (std::size_t k = 0; k < kMendedFrames; ++k) {
+        const auto &now = person.seen[c][k], &then = truth.seen[c][k];
+        bool is_same = now.has_value() == then.has_value();
+        for (std::size_t i = 0; is_same && now && i < kLandmarkCount; ++i) {
+          is_same = now->keypoints[i].pixel == then->keypoints[i].pixel;
+        }
+        wrong += is_same ? 0 : 1;
+      }
+    }
+    return wrong;
+  }
+};
+
+std::vector<std::size_t> FramesFrom(std::size_t first, std::size_t last) {
+  std::vector<std::size_t> frames(last - first);
+  std::iota(frames.begin(), frames.end(), first);
+  return frames;
+}
+
+bool IsOfLegs(Landmark landmark) {
+  const std::string_view name = LandmarkName(landmark);
+  for (const std::string_view part : {"Hip", "Knee", "Ankle", "Toe", "Heel"}) {
+    if (name.find(part) != std::string_view::npos) return true;
+  }
+  return false;
+}
+
+/// Left and right exchanged, by the landmarks' names; of legs, of what is above, or of both.
+SeenPerson Exchanged(const SeenPerson& person, bool legs, bool arms) {
+  SeenPerson other = person;
+  for (std::size_t i = 0; i < kLandmarkCount; ++i) {
+    const auto landmark = static_cast<Landmark>(i);
+    if (IsOfLegs(landmark) ? legs : arms) other[landmark] = person[OtherSide(landmark)];
+  }
+  return other;
+}
+
+TEST(OtherSide, ExchangesNamesThatBeginWithASide) {
+  EXPECT_EQ(OtherSide(Landmark::kLeftWrist), Landmark::kRightWrist);
+  EXPECT_EQ(OtherSide(Landmark::kRightSmallToe), Landmark::kLeftSmallToe);
+  EXPECT_EQ(OtherSide(Landmark::kNose), Landmark::kNose);
+  SeenPerson person;
+  for (std::size_t i = 0; i < kLandmarkCount; ++i) person.keypoints[i].pixel.x = static_cast<double>(i);
+  const SeenPerson swapped = WithSidesSwapped(person);
+  for (std::size_t i = 0; i < kLandmarkCount; ++i) {
+    const auto landmark = static_cast<Landmark>(i);
+    EXPECT_EQ(OtherSide(OtherSide(landmark)), landmark) << LandmarkName(landmark);
+    EXPECT_EQ(swapped[landmark].pixel, person[OtherSide(landmark)].pixel) << LandmarkName(landmark);
+  }
+}
+
+TEST(MendPerson, LeavesWhatIsRightAlone) {
+  for (const std::size_t cameras : {2u, 3u, 4u}) {
+    for (const double sigma_px : {0.0, 4.0}) {
+      MendedTake take(cameras, sigma_px);
+      EXPECT_THAT(take.Run(), IsEmpty()) << cameras << " cameras, " << sigma_px << " px";
+      EXPECT_EQ(take.Wrong(), 0u);
+    }
+  }
+}
+
+TEST(MendPerson, SwapsBackWhatOneCameraExchangedForAWhile) {
+  using enum Mend::Kind;
+  for (const auto& [legs, arms, kind] :
+       {std::tuple(true, true, kSwappedSides), {true, false, kSwappedLegs}, {false, true, kSwappedArms}}) {
+    for (const std::size_t cameras : {2u, 4u}) {  // of two cameras only facing tells which was wrong
+      for (const std::size_t camera : {0u, 1u}) {
+        MendedTake take(cameras);
+        for (std::size_t k = 20; k < 40; ++k) {
+          take.person.seen[camera][k] = Exchanged(*take.person.seen[camera][k], legs, arms);
+        }
+        EXPECT_EQ(take.Wrong(), 20u) << "the control";
+        const auto mends = take.Run();
+        ASSERT_THAT(mends, SizeIs(1)) << cameras << " cameras, wrong in " << camera;
+        EXPECT_EQ(mends[0].kind, kind);
+        EXPECT_EQ(mends[0].camera, camera);
+        EXPECT_EQ(mends[0].frames, FramesFrom(20, 40));
+        EXPECT_EQ(take.Wrong(), 0u);
+      }
+    }
+  }
+}
+
+TEST(MendPerson, ToesTellWhereAllCamerasExchangedThroughout) {
+  MendedTake take(3);
+  for (auto& camera : take.person.seen) {
+    for (auto& seen : camera) seen = Exchanged(*seen, true, true);
+  }
+  const auto mends = take.Run();
+  ASSERT_THAT(mends, SizeIs(3));
+  for (const Mend& mend : mends) {
+    EXPECT_EQ(mend.kind, Mend::Kind::kSwappedSides);
+    EXPECT_EQ(mend.frames, FramesFrom(0, kMendedFrames));
+  }
+  EXPECT_EQ(take.Wrong(), 0u);
+}
+
+TEST(MendPerson, FindsThePersonAgainWhereSomebodyElsesKeypointsStoodForIt) {
+  for (const std::size_t camera : {0u, 1u}) {
+    MendedTake take(4);
+    for (std::size_t k = 10; k < 20; ++k) take.person.seen[camera][k] = take.people[camera][k][0];
+    const auto mends = take.Run();
+    ASSERT_THAT(mends, SizeIs(1));
+    EXPECT_EQ(mends[0].kind, Mend::Kind::kOtherPerson);
+    EXPECT_EQ(mends[0].camera, camera);
+    EXPECT_EQ(mends[0].frames, FramesFrom(10, 20));
+    EXPECT_EQ(take.Wrong(), 0u);
+  }
+}
+
+TEST(MendPerson, TakesNobodyWhereAThirdCameraContradictsAndNobodyFits) {
+  for (const std::size_t cameras : {2u, 4u}) {
+    MendedTake take(cameras);
+    for (std::size_t k = 10; k < 15; ++k) {
+      take.people[1][k].pop_back();
+      take.people[0][k].erase(take.people[0][k].begin());
+      take.person.seen[1][k] = take.people[1][k][0];
+      take.truth.seen[1][k].reset();
+    }
+    const auto mends = take.Run();
+    if (cameras == 2) {
+      EXPECT_EQ(take.Wrong(), 5u) << "of two nothing tells which is wrong";
+      continue;
+    }
+    ASSERT_THAT(mends, SizeIs(1));
+    EXPECT_EQ(mends[0].kind, Mend::Kind::kNobody);
+    EXPECT_EQ(mends[0].camera, 1u);
+    EXPECT_EQ(mends[0].frames, FramesFrom(10, 15));
+    EXPECT_EQ(take.Wrong(), 0u);
+  }
+}
+
+TEST(OutlierLimit, IsEightDeviationsOfTheResidualsWithinItsBounds) {
+  const auto limit = [](double sigma_px, double least, double most) {
+    const MendedTake take(4, sigma_px);
+    return OutlierLimit(take.cameras, take.person, 0.1, least, most);
+  };
+  // The residual of four views is σ √(χ² / 4) of 8 − 3 degrees of freedom, whose median is 4.35.
+  for (const double sigma_px : {0.5, 2.0}) {
+    EXPECT_NEAR(limit(sigma_px, 0, 200), 8 * 1.4826 * sigma_px * std::sqrt(4.35 / 4), 0.6 * sigma_px) << sigma_px;
+  }
+  EXPECT_EQ(limit(0, 7, 60), 7);
+  EXPECT_EQ(limit(5, 7, 40), 40);
+  MendedTake nobody(2);
+  for (auto& camera : nobody.person.seen) camera.assign(kMendedFrames, std::nullopt);
+  EXPECT_EQ(OutlierLimit(nobody.cameras, nobody.person, 0.1, 7, 60), 60);
+}
+
+}  // namespace
+}  // namespace etude

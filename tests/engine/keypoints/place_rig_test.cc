@@ -1,0 +1,217 @@
+#include "engine/keypoints/place_rig.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+
+#include "engine/base/angles.h"
+#include "engine/cameras/camera.h"
+
+namespace etude {
+namespace {
+
+using testing::HasSubstr;
+
+/// Somebody 1.7 m tall who stands about on the floor at height 0 for two seconds at a time, facing +z, and leans
+/// forwards; through a map into the file's world.
+template <class Map>
+std::vector<LandmarkPlaces> Stander(const Map& to_file, double lean_deg = 0) {
+  using enum Landmark;
+  std::vector<LandmarkPlaces> frames;
+  const double lean = Radians(lean_deg);
+  for (int k = 0; k < 120; ++k) {
+    LandmarkPlaces places;
+    const double angle = 0.5 * (k / 20);  // steps to another place, then rests
+    const glm::dvec3 at(0.8 * std::cos(3 * angle), 0, 0.6 * std::sin(2 * angle));
+    const auto set = [&](Landmark landmark, double x, double y, double z) {
+      places[Index(landmark)] = to_file(at + glm::dvec3(x, y, z));
+    };
+    for (const double side : {1.0, -1.0}) {
+      const bool left = side > 0;
+      const double x = 0.1 * side, ankle = 0.08;
+      set(left ? kLeftAnkle : kRightAnkle, x, ankle, 0);
+      set(left ? kLeftHeel : kRightHeel, x, 0.03, -0.05);
+      set(left ? kLeftBigToe : kRightBigToe, x, 0.02, 0.15);
+      set(left ? kLeftSmallToe : kRightSmallToe, 1.3 * x, 0.02, 0.13);
+      const auto above = [&](double along) {
+        return std::pair(ankle + along * std::cos(lean), along * std::sin(lean));
+      };
+      set(left ? kLeftKnee : kRightKnee, x, above(0.42).first, above(0.42).second);
+      set(left ? kLeftHip : kRightHip, x, above(0.85).first, above(0.85).second);
+      set(left ? kLeftShoulder : kRightShoulder, 1.8 * x, above(1.3).first, above(1.3).second);
+    }
+    frames.push_back(places);
+  }
+  return frames;
+}
+
+/// A rig whose cameras are nobody's frame, told as it stands: the file's axes are ours.
+RigFile SomeRig() {
+  RigFile rig;
+  rig.cameras.push_back({"left", LookAt({}, {1, 2, 3}, {0, 1, 0})});
+  rig.format = "Pose2Sim";
+  return rig;
+}
+
+glm::dmat3 TurnAboutX(double degrees) { return glm::mat3_cast(glm::angleAxis(Radians(degrees), glm::dvec3(1, 0, 0))); }
+
+constexpr double kPlaceRate = 30;
+
+TEST(PlaceRig, LeavesARigAsItIsWhoseUnitAndAxesFitThePerson) {
+  const auto place = PlaceRig(SomeRig(), Stander([](glm::dvec3 p) { return p; }, 5), kPlaceRate, {});
+  ASSERT_TRUE(place) << ToString(place.error());
+  EXPECT_TRUE(place->IsNone());
+  EXPECT_NEAR(place->stature_m, 1.7, 1e-9);
+  EXPECT_EQ(place->told,
+            "lengths in m (a person of 1.70 m); up is y (the person leans 5° from it), the floor as the "
+            "file has it");
+}
+
+TEST(PlaceRig, FindsTheUnitThatMakesItAPerson) {
+  for (const auto& [name, metres] : {std::pair("cm", 0.01), {"mm", 0.001}, {"inch", 0.0254}, {"foot", 0.3048}}) {
+    const auto place = PlaceRig(SomeRig(), Stander([m = metres](glm::dvec3 p) { return p / m; }), kPlaceRate, {});
+    ASSERT_TRUE(place) << name;
+    EXPECT_DOUBLE_EQ(place->scale, metres) << name;
+    EXPECT_NEAR(place->stature_m, 1.7, 1e-9) << name;
+    EXPECT_THAT(place->told, HasSubstr(std::string("lengths in ") + name + " (found: a person of 1.70 m"));
+  }
+  const auto child = PlaceRig(SomeRig(), Stander([](glm::dvec3 p) { return p * 350.0; }), kPlaceRate, {});
+  EXPECT_DOUBLE_EQ(child.value().scale, 0.001) << "0.6 m tall: nobody else's unit makes that";
+  const auto none = PlaceRig(SomeRig(), Stander([](glm::dvec3 p) { return p * 1e5; }), kPlaceRate, {});
+  ASSERT_FALSE(none);
+  EXPECT_THAT(none.error().message, HasSubstr("1.7e+05 units tall: no person in m, cm, mm, inch or foot; for one of "
+                                              "1.7 m tell --rig-unit 1e-05"));
+}
+
+TEST(PlaceRig, TakesTheUnitThatIsToldAndNoOtherPersonThanOne) {
+  RigFile rig = SomeRig();
+  rig.has_unit = false;
+  const auto points = Stander([](glm::dvec3 p) { return p * 4.0; });
+  const auto asked = PlaceRig(rig, points, kPlaceRate, {});
+  ASSERT_FALSE(asked);
+  EXPECT_THAT(asked.error().message, HasSubstr("for a person of 1.7 m it is 0.25 m"));
+  const auto told = PlaceRig(rig, points, kPlaceRate, {.unit = "0.3"});
+  ASSERT_TRUE(told) << ToString(told.error());
+  EXPECT_DOUBLE_EQ(told->scale, 0.3);
+  EXPECT_THAT(told->told, HasSubstr("lengths in units of 0.3 m (as you say: a person of 2.04 m)"));
+  for (const char* unit : {"mm", "0.4"}) {
+    const auto wrong = PlaceRig(rig, points, kPlaceRate, {.unit = unit});
+    ASSERT_FALSE(wrong) << unit;
+    EXPECT_THAT(wrong.error().message, HasSubstr("allowed: 0.5 to 2.2 m; for one of 1.7 m: --rig-unit 0.25"));
+  }
+}
+
+TEST(PlaceRig, FindsTheAxisThatIsUpAndTheFloorUnderTheFeet) {
+  // Ours through Rᵀ, half a unit higher: R must come back, and the floor.
+  for (const auto& [turn, name] : {std::pair(90.0, "z"), {-90.0, "-z"}, {180.0, "-y"}}) {
+    const glm::dmat3 R = TurnAboutX(turn);
+    const auto place =
+        PlaceRig(SomeRig(), Stander([&](glm::dvec3 p) { return R * (p + glm::dvec3(0, 0.5, 0)); }, 6), kPlaceRate, {});
+    ASSERT_TRUE(place) << name;
+    EXPECT_THAT(place->told, HasSubstr(std::string("up is ") + name + " (found: feet and person)"));
+    EXPECT_THAT(place->told, HasSubstr("the floor under the feet"));
+    const glm::dvec3 floor = (*place)(R * glm::dvec3(0.3, 0.5, 0.2)), above = (*place)(R * glm::dvec3(0.3, 1.5, 0.2));
+    EXPECT_NEAR(floor.y, 0, 1e-9) << name;
+    EXPECT_LT(glm::distance(above - floor, glm::dvec3(0, 1, 0)), 1e-9) << name;
+  }
+}
+
+TEST(PlaceRig, PutsAWorldThatIsACamerasFrameSquareToTheFloorOfTheFeet) {
+  const Camera first = LookAt({}, {0.5, 1.5, 4}, {0, 0.6, 0});
+  RigFile rig = SomeRig();
+  rig.cameras[0] = {"cam1", Camera{}};
+  const auto to_camera = [&](glm::dvec3 p) { return first.R_CW * (p - first.p_WC); };
+  for (const double lean_deg : {0.0, 8.0}) {
+    const auto place = PlaceRig(rig, Stander(to_camera, lean_deg), kPlaceRate, {});
+    ASSERT_TRUE(place) << ToString(place.error());
+    EXPECT_THAT(place->told, HasSubstr("up is square to the floor under the feet"));
+    EXPECT_THAT(place->told, HasSubstr("(the world was cam1's own frame)"));
+    for (const glm::dvec3 p : {glm::dvec3(0), glm::dvec3(0.8, 0, 0.6), glm::dvec3(0, 1.7, 0)}) {
+      EXPECT_NEAR((*place)(to_camera(p)).y, p.y, 0.003) << lean_deg;
+    }
+  }
+}
+
+TEST(PlaceRig, TellsOfAFloorThatIsOffLevelAndLevelsItWhenAsked) {
+  const auto tilted = Stander([](glm::dvec3 p) { return TurnAboutX(12) * p; });
+  const auto kept = PlaceRig(SomeRig(), tilted, kPlaceRate, {});
+  ASSERT_TRUE(kept) << ToString(kept.error());
+  EXPECT_TRUE(kept->IsNone());
+  EXPECT_THAT(kept->told, HasSubstr("12° off level; if they stood on a level floor, give --rig-up floor"));
+  const auto level = PlaceRig(SomeRig(), tilted, kPlaceRate, {.up = "floor"});
+  ASSERT_TRUE(level) << ToString(level.error());
+  const glm::dvec3 up = level->R * TurnAboutX(12) * glm::dvec3(0, 1, 0);
+  EXPECT_GT(up.y, std::cos(Radians(0.1)));
+  RigFile boards = SomeRig();
+  boards.format = "Caliscope";
+  EXPECT_FALSE(PlaceRig(boards, tilted, kPlaceRate, {})->IsNone()) << "its axes are some board's";
+}
+
+TEST(PlaceRig, RefusesAPersonUpsideDownAndFramesWithoutOne) {
+  const auto points = Stander([](glm::dvec3 p) { return p; });
+  const auto down = PlaceRig(SomeRig(), points, kPlaceRate, {.up = "-y"});
+  ASSERT_FALSE(down);
+  EXPECT_THAT(down.error().message, HasSubstr("with -y up the person hangs head down (180° off)"));
+  const auto side = PlaceRig(SomeRig(), points, kPlaceRate, {.up = "x"});
+  ASSERT_TRUE(side) << "lying is allowed";
+  EXPECT_LT(glm::distance(side->R * glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)), 1e-12);
+  EXPECT_NEAR(glm::determinant(side->R), 1, 1e-12);
+  const auto nobody = PlaceRig(SomeRig(), std::vector<LandmarkPlaces>(5), kPlaceRate, {});
+  ASSERT_FALSE(nobody);
+  EXPECT_THAT(nobody.error().message, HasSubstr("no frame shows hips, knees, ankles and shoulders"));
+}
+
+TEST(PlaceRig, PutsTheFloorWhereItIsAskedFor) {
+  const auto raised = Stander([](glm::dvec3 p) { return p + glm::dvec3(0, 0.3, 0); });
+  for (const auto& [floor, shift] : {std::pair("auto", 0.0), {"keep", 0.0}, {"feet", -0.3}, {"1.25", -1.25}}) {
+    const auto place = PlaceRig(SomeRig(), raised, kPlaceRate, {.floor = floor});
+    ASSERT_TRUE(place) << floor;
+    EXPECT_NEAR(place->shift.y, shift, 1e-9) << floor;
+  }
+  const auto in_mm = Stander([](glm::dvec3 p) { return 1000.0 * (p + glm::dvec3(0, 0.3, 0)); });
+  EXPECT_NEAR(PlaceRig(SomeRig(), in_mm, kPlaceRate, {.floor = "feet"})->shift.y, -0.3, 1e-9);
+}
+
+TEST(PlaceRig, WithoutAPersonTakesWhatIsTold) {
+  RigFile rig = SomeRig();
+  EXPECT_TRUE(PlaceRig(rig, {})->IsNone());
+  const auto place = PlaceRig(rig, {.unit = "mm", .up = "z", .floor = "0.2"});
+  ASSERT_TRUE(place) << ToString(place.error());
+  EXPECT_LT(glm::distance((*place)({0, 0, 1000}), glm::dvec3(0, 0.8, 0)), 1e-12);
+  rig.unit_m = 0.01;
+  EXPECT_DOUBLE_EQ(PlaceRig(rig, {.unit = "mm"})->scale, 0.1);
+  EXPECT_THAT(PlaceRig(rig, {.up = "floor"}).error().message, HasSubstr("no keypoints tell which way is up; tell"));
+  rig.cameras.push_back({"eye", Camera{}});
+  EXPECT_THAT(PlaceRig(rig, {}).error().message, HasSubstr("no keypoints tell which way is up in eye's own frame"));
+  rig.has_unit = false;
+  EXPECT_THAT(PlaceRig(rig, {.up = "y"}).error().message, HasSubstr("Pose2Sim's lengths have no unit"));
+  EXPECT_TRUE(PlaceRig(rig, {.unit = "inch", .up = "y"}));
+}
+
+TEST(PlaceRig, RefusesWordsThatMeanNothing) {
+  EXPECT_TRUE(CheckPlace({.unit = "0.0254", .up = "-x", .floor = "-1.5"}));
+  for (const char* unit : {"metre", "0", "-1", "1m", "inf", ""}) {
+    const auto checked = CheckPlace({.unit = unit});
+    ASSERT_FALSE(checked) << unit;
+    EXPECT_THAT(checked.error().message, HasSubstr("allowed: auto, m, cm, mm, inch, foot, or metres in one unit"));
+  }
+  EXPECT_THAT(CheckPlace({.up = "w"}).error().message, HasSubstr("allowed: auto, floor, x, y, z, -x, -y, -z"));
+  EXPECT_THAT(CheckPlace({.floor = "low"}).error().message, HasSubstr("allowed: auto, keep, feet, or its height"));
+}
+
+TEST(Placed, CamerasShowPlacedPointsWhereTheyShowedThemBefore) {
+  const Camera camera = LookAt({}, {1, 2, 3}, {0, 1, 0});
+  RigPlace place;
+  place.scale = 0.3048;
+  place.R = TurnAboutX(70);
+  place.shift = {0.1, -0.4, 0.2};
+  const Camera placed = Placed(place, camera);
+  for (const glm::dvec3 p : {glm::dvec3(0, 1, 0), glm::dvec3(0.4, 1.3, 0.5), glm::dvec3(-0.6, 0.2, -1)}) {
+    EXPECT_LT(glm::distance(*Project(placed, place(p)), *Project(camera, p)), 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace etude
