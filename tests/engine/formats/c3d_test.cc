@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <limits>
 
 #include "tests/support/c3d_writer.h"
@@ -97,6 +98,72 @@ TEST(C3d, RefusesWhatIsDamaged) {
   EXPECT_THAT(C3dComplaint(none.Write()), HasSubstr("holds no points"));
   EXPECT_THAT(C3dComplaint(flat.Write()), HasSubstr("POINT:SCALE is"));
   for (std::size_t cut = 0; cut < good.size(); cut += 37) EXPECT_NE(C3dComplaint(good.substr(0, cut)), "(read)") << cut;
+}
+
+/// So many markers, of which every seventh is not seen in the second frame.
+MarkerMotion SomeMarkers(std::size_t markers, std::size_t frames) {
+  MarkerMotion motion{.rate_hz = 120, .names = {}, .frames = {}};
+  for (std::size_t p = 0; p < markers; ++p) motion.names.push_back("marker" + std::to_string(p));
+  for (std::size_t f = 0; f < frames; ++f) {
+    auto& frame = motion.frames.emplace_back();
+    for (std::size_t p = 0; p < markers; ++p) {
+      frame.emplace_back(glm::dvec3(0.001 * static_cast<double>(p), 1.25, -0.5 * static_cast<double>(f)));
+      if (f == 1 && p % 7 == 3) frame.back().reset();
+    }
+  }
+  return motion;
+}
+
+TEST(WriteC3d, IsReadBackWithItsGapsWhateverTheNumberOfMarkersAndFrames) {
+  for (const auto& [markers, frames] : {std::pair(1u, 2u), {20u, 40u}, {255u, 3u}, {600u, 2u}, {1u, 70000u}}) {
+    const MarkerMotion motion = SomeMarkers(markers, frames);
+    const std::string bytes = WriteC3d(motion);
+    EXPECT_EQ(bytes.size() % 512, 0u) << "whole blocks";
+    EXPECT_TRUE(IsC3d(bytes));
+    const auto read = ReadC3d(bytes, "w.c3d");
+    ASSERT_TRUE(read) << markers << " markers: " << ToString(read.error());
+    EXPECT_EQ(read->markers.names, motion.names);
+    EXPECT_EQ(read->markers.rate_hz, 120);
+    EXPECT_EQ(read->unit, "mm");
+    EXPECT_EQ(read->up, 'Y');
+    EXPECT_EQ(read->step_m, 0);
+    ASSERT_EQ(read->markers.frames.size(), frames);
+    for (std::size_t f = 0; f < frames; f += 1 + frames / 8) {
+      for (std::size_t p = 0; p < markers; ++p) {
+        const auto &found = read->markers.frames[f][p], &wanted = motion.frames[f][p];
+        ASSERT_EQ(found.has_value(), wanted.has_value());
+        EXPECT_LT(wanted ? glm::distance(*found, *wanted) / (1 + glm::length(*wanted)) : 0, 1e-6);
+      }
+    }
+  }
+}
+
+/// What stands where by the format's specification (c3d.org), told byte by byte.
+TEST(WriteC3d, HasTheHeaderThatTheFormatPrescribes) {
+  const std::string bytes = WriteC3d(SomeMarkers(3, 5));
+  const auto word = [&](std::size_t n) {
+    return static_cast<unsigned char>(bytes[2 * n - 2]) + 256 * static_cast<unsigned char>(bytes[2 * n - 1]);
+  };
+  EXPECT_EQ(word(1), 0x5002) << "parameters begin in the second block";
+  EXPECT_EQ(word(2), 3) << "points";
+  EXPECT_EQ(word(3), 0) << "analogue values";
+  EXPECT_EQ(word(4), 1) << "first frame";
+  EXPECT_EQ(word(5), 5) << "last frame";
+  EXPECT_EQ(word(6), 0) << "no gap is filled";
+  const auto blocks = static_cast<unsigned char>(bytes[512 + 2]);
+  EXPECT_EQ(word(9), 2 + blocks) << "data begin behind the parameters";
+  EXPECT_EQ(bytes[512 + 3], 84) << "Intel";
+  float rate = 0;
+  std::memcpy(&rate, &bytes[20], sizeof rate);
+  EXPECT_EQ(rate, 120);
+  EXPECT_EQ(bytes.size(), 512u * (1 + blocks + 1)) << "3 points of 16 bytes in 5 frames take a block";
+  EXPECT_NE(bytes.find("UNITS"), std::string::npos);
+}
+
+TEST(WriteC3d, CutsNamesThatAreTooLong) {
+  MarkerMotion motion = SomeMarkers(2, 1);
+  motion.names[1] = std::string(200, 'n');
+  EXPECT_EQ(ReadC3d(WriteC3d(motion), "w.c3d")->markers.names[1], std::string(127, 'n'));
 }
 
 }  // namespace

@@ -231,26 +231,5 @@ TEST(GaussNewtonBatch, ABadProblemIsBadForItselfOnly) {
   EXPECT_EQ(SolveGaussNewtonBatch(Body(), problems, Tightly(0), Precision::kDouble)[4].status, IkStatus::kBadInput);
 }
 
-TEST(IkBatch, KeepsEveryNumberOfItsProblems) {
-  const std::vector<IkProblem> problems = HardProblems(5);
-  const IkBatch batch(Body(), problems);
-  ASSERT_EQ(batch.count(), 5);
-  EXPECT_EQ(batch.FindSound(), (std::vector<int>{0, 1, 2, 3, 4}));
-  for (int i = 0; i < batch.count(); ++i) {
-    const IkProblem kept = batch.Get(i);
-    EXPECT_EQ(kept.start.angles, problems[i].start.angles);
-    EXPECT_EQ(kept.start.root_position, problems[i].start.root_position);
-    EXPECT_EQ(kept.start.root_frame, problems[i].start.root_frame);
-    EXPECT_EQ(batch.start_angles(28)[i], problems[i].start.angles[28]);
-    EXPECT_EQ(batch.upper_limits(3)[i], problems[i].limits[3].upper);
-    for (std::size_t e = 0; e < kept.targets.size(); ++e) {
-      EXPECT_EQ(kept.targets[e].position, problems[i].targets[e].position);
-      EXPECT_EQ(kept.targets[e].axes, problems[i].targets[e].axes);
-      EXPECT_EQ(kept.targets[e].position_weight, problems[i].targets[e].position_weight);
-      EXPECT_EQ(kept.targets[e].axis_weights, problems[i].targets[e].axis_weights);
-    }
-  }
-}
-
 }  // namespace
 }  // namespace etude
