@@ -230,5 +230,13 @@ TEST(FollowStream, RefusesWindowsThatItCannotFollow) {
             "a move is asked for from frame 74 on, while the one before it lasts until 75");
 }
 
+TEST(JudgeWindow, OfNoFramesIsNothing) {
+  const EvidenceTrace trace{.moves = 1, .asked = {0.9, 0.9}, .spotted = {0, 0}};
+  const Judgement judgement = JudgeWindow(trace, {1, 1}, 0.5);
+  EXPECT_EQ(judgement.score, 0);
+  EXPECT_FALSE(judgement.recognised_at);
+  EXPECT_TRUE(judgement.running_score.empty());
+}
+
 }  // namespace
 }  // namespace etude
