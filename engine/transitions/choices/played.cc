@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -16,13 +17,16 @@
 namespace etude {
 namespace {
 
-constexpr int kPairs = 16;
+constexpr int kPairs = 16;                     // of a round, one for each part of the wait
+constexpr int kRounds = 4;                     // as long as the best way floats
+constexpr int kFloats = 4;                     // frames in a row that nothing holds up
+constexpr int kApart = 4;                      // frames of the wanted clip between the pairs of one part
 constexpr std::size_t kMostCompared = 20'000;  // pairs of frames whose features are compared
 
 /// Finds, for each part of the wait, the pair that is nearest, if any can be joined (NeedsClip); every few frames of
-/// the wanted clip are enough where it is long.
+/// the wanted clip are enough where it is long. Pairs near those that were `tried` are left out.
 std::vector<FramePair> NearestPairs(const MotionLibrary& library, const TransitionRequest& request,
-                                    const AllowedFrames& allowed) {
+                                    const AllowedFrames& allowed, std::span<const FramePair> tried = {}) {
   const auto &playing = library.features[request.from], &next = library.features[request.to];
   const auto &left = library.stances[request.from], &entered = library.stances[request.to];
   const std::size_t stride = allowed.leave.size() * allowed.enter.size() / kMostCompared + 1;
@@ -32,10 +36,17 @@ std::vector<FramePair> NearestPairs(const MotionLibrary& library, const Transiti
     const std::size_t begin = part * allowed.leave.size() / parts, end = (part + 1) * allowed.leave.size() / parts;
     std::optional<FramePair> best;
     double least = std::numeric_limits<double>::infinity();
+    const auto is_tried = [&](int enter) {
+      return std::ranges::any_of(tried, [&](const FramePair& pair) {
+        return pair.leave >= allowed.leave[begin] && pair.leave <= allowed.leave[end - 1] &&
+               std::abs(pair.enter - enter) < kApart;
+      });
+    };
     for (std::size_t i = begin; i < end; ++i) {
       for (std::size_t k = 0; k < allowed.enter.size(); ++k) {
         if (best && k % stride != 0) continue;
         const FramePair pair{allowed.leave[i], allowed.enter[k]};
+        if (is_tried(pair.enter)) continue;
         if (NeedsClip(left[pair.leave], entered[pair.enter])) continue;
         const double distance = SquaredDistance(playing[pair.leave], next[pair.enter]);
         if (distance >= least) continue;
@@ -46,6 +57,23 @@ std::vector<FramePair> NearestPairs(const MotionLibrary& library, const Transiti
     if (best) pairs.push_back(*best);
   }
   return pairs;
+}
+
+/// Plays transitions from the nearest pairs on, the best way first; from further pairs as long as that floats. There is
+/// none where no pair can be joined.
+std::vector<PlayedWay> PlayNearestPairs(const MotionLibrary& library, const TransitionRequest& request,
+                                        const PlayedRates& rates, const AllowedFrames& allowed, int last) {
+  std::vector<PlayedWay> ways;
+  std::vector<FramePair> tried;
+  for (int round = 0; round < kRounds && (ways.empty() || ways.front().unsupported >= kFloats); ++round) {
+    const std::vector<FramePair> pairs = NearestPairs(library, request, allowed, tried);
+    if (pairs.empty()) break;
+    const std::vector<PlayedWay> played = PlayWays(library, request, rates, pairs, last);
+    ways.insert(ways.end(), played.begin(), played.end());
+    std::ranges::stable_sort(ways, {}, &PlayedWay::cost_s);
+    tried.insert(tried.end(), pairs.begin(), pairs.end());
+  }
+  return ways;
 }
 
 PlayedRates RatesOf(const PlayedOptions& options) {
@@ -82,9 +110,8 @@ TransitionRecord PlanThroughClip(const MotionLibrary& library, const TransitionR
   }
   const TransitionRequest entering{request.from, request.request_frame, through->clip, request.budget_s};
   const PlayedRates rates = RatesOf(options);
-  const PlayedWay in = PlayWays(library, entering, rates,
-                                NearestPairs(library, entering, {allowed.leave, through->enter}), through->leave.back())
-                           .front();
+  const PlayedWay in =
+      PlayNearestPairs(library, entering, rates, {allowed.leave, through->enter}, through->leave.back()).front();
   const int entered = in.pair.enter, shown = entered + in.frames;
   const double rate_hz = library.motions[through->clip].rate_hz;
   std::vector<int> leave;
@@ -94,8 +121,7 @@ TransitionRecord PlanThroughClip(const MotionLibrary& library, const TransitionR
   }
   const TransitionRequest leaving{through->clip, leave.front(), request.to, request.budget_s};
   const PlayedWay out =
-      PlayWays(library, leaving, rates, NearestPairs(library, leaving, {std::move(leave), allowed.enter}),
-               LastFrameOf(library, request.to))
+      PlayNearestPairs(library, leaving, rates, {std::move(leave), allowed.enter}, LastFrameOf(library, request.to))
           .front();
   record.branch = Branch::kInBetween;
   const FramePair &first = in.pair, &second = out.pair;
@@ -136,10 +162,9 @@ const SettingTable<PlayedOptions>& PlayedSettings() {
 TransitionRecord PlanPlayed(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
                             const PlayedOptions& options) {
   const AllowedFrames allowed = AllowedEarlyFrames(library, request, options.most_skipped_s);
-  const std::vector<FramePair> pairs = NearestPairs(library, request, allowed);
-  if (pairs.empty()) return PlanThroughClip(library, request, rules, options, allowed);
   const std::vector<PlayedWay> ways =
-      PlayWays(library, request, RatesOf(options), pairs, LastFrameOf(library, request.to));
+      PlayNearestPairs(library, request, RatesOf(options), allowed, LastFrameOf(library, request.to));
+  if (ways.empty()) return PlanThroughClip(library, request, rules, options, allowed);
   const PlayedWay& best = ways.front();
   TransitionRecord record = DirectTransition(library, request, best.pair.leave, best.pair.enter, rules);
   const PreferredJoin preferred = PreferredOf(best, library.motions[request.from].rate_hz);

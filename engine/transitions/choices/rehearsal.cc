@@ -159,7 +159,7 @@ class CostMeter {
 };
 
 /// The clips are asked what the body may rest on for so many frames before and after a join, as FindSupport looks.
-constexpr int kAround = 11;
+constexpr int kAround = 30;
 
 /// Holds what the ways of one pair have in common.
 class PairStage {
@@ -185,8 +185,8 @@ class PairStage {
   PairStage(const PairStage&) = delete;
   PairStage& operator=(const PairStage&) = delete;
 
-  /// Returns what it costs that nothing holds up frames of a join of these frames, seconds.
-  double FloatingSeconds(std::span<const BodyPose> played) const {
+  /// Returns of how many frames in a row, at most, nothing holds up a join that shows these.
+  int Unsupported(std::span<const BodyPose> played) const {
     std::vector<BodyPose> shown(playing_.begin(), playing_.begin() + before_);
     shown.insert(shown.end(), played.begin(), played.end());
     for (std::size_t f = played.size(); f < wanted_.size(); ++f) shown.push_back(wanted_[f]);
@@ -196,7 +196,7 @@ class PairStage {
       run = support.Holds() ? 0 : run + 1;
       longest = std::max(longest, run);
     }
-    return kFloating_s * std::max(longest - kHop, 0);
+    return longest;
   }
 
   const JoinWindow window;  ///< of the longest join
@@ -318,7 +318,8 @@ class Rehearsal {
     open.has_feet = true;
     ++with_feet_;
     if (way.cost_s >= least_s_) return;
-    way.cost_s += stage.FloatingSeconds(played);
+    way.unsupported = stage.Unsupported(played);
+    way.cost_s += kFloating_s * std::max(way.unsupported - kHop, 0);
     least_s_ = std::min(least_s_, way.cost_s);
     ways.push_back(way);
   }

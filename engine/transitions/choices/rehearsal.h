@@ -20,6 +20,7 @@ struct PlayedWay {
   int frames = 0;          ///< of the join
   JoinWay way = JoinWay::kDirect;
   double cost_s = 0;
+  int unsupported = 0;  ///< frames, the most in a row that nothing holds up
 };
 
 /// The worth of a second (PlayedOptions).
