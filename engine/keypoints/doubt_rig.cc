@@ -235,8 +235,7 @@ class Doubter {
       least = miss_read;
       told = fmt::format(
           "shoulders are {:.2f} of a leg ({:.2f} is usual); if keypoints are shares of {}, they are {:.2f}, and rays "
-          "miss "
-          "by {:.2f} px instead of {:.2f}",
+          "miss by {:.2f} px instead of {:.2f}",
           said, kUsual, square.told, share, miss_read, miss);
     }
     return told;
