@@ -7,6 +7,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "bench/files/files.h"
 #include "bench/streams/label_scores.h"
