@@ -286,12 +286,22 @@ void SetDown(std::vector<BodyPose>& poses, const BodyConversion& done) {
   }
 }
 
-std::string Note(const BodyConversion& done, const JointMap& map, bool lies_along_z, const std::string& remarks) {
+/// Tells along which axis of the file, other than Y, a body lies in the mean of these poses; "" where along none.
+std::string LiesAlong(std::span<const BodyPose> poses) {
+  constexpr double kLying = 0.9;
+  const glm::dvec3 axis = MeanBodyAxis(poses);
+  for (int i = 0; i < 3; ++i) {
+    if (std::abs(axis[i]) > kLying && !(i == 1 && axis[i] > 0)) return std::string(axis[i] < 0 ? "−" : "") + "XYZ"[i];
+  }
+  return "";
+}
+
+std::string Note(const BodyConversion& done, const JointMap& map, const std::string& lies, const std::string& remarks) {
   std::string note = fmt::format("1 unit = {:.4g} cm", 100 * done.metres_per_unit);
   note += done.unit == "unknown" ? fmt::format(" (unknown unit, scaled to a stature of {:.2f} m)", kDefaultStature)
                                  : fmt::format(" ({})", done.unit);
   if (done.up == UpAxis::kZ) note += "; turned upright from Z up";
-  if (lies_along_z) note += "; the body lies along Z and does not travel: Y is taken for up";
+  note += lies;
   if (done.dropped_frames > 0) note += "; dropped a leading T-pose";
   if (done.dropped_frames > 1) note += fmt::format(" of {} frames", done.dropped_frames);
   const double floor_cm = 100 * done.floor * done.metres_per_unit;
@@ -379,8 +389,12 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
   const BodyPose rest = sampler.Rest();
   const std::vector<BodyPose> glimpses = Glimpses(clip, sampler);
   done.up = options.up.value_or(FindUpAxis(rest, glimpses));
-  constexpr double kLying = 0.9;
-  const bool lies_along_z = !options.up && done.up == UpAxis::kY && MeanBodyAxis(glimpses).z > kLying;
+  std::string lies = !options.up && done.up == UpAxis::kY ? LiesAlong(glimpses) : "";
+  if (!lies.empty()) {
+    const bool at_rest = LiesAlong(std::span(&rest, 1)) == lies;
+    lies = fmt::format("; the body lies along {}{}: Y is taken for up", lies, at_rest ? ", at rest, too" : "");
+    if (at_rest) lies += ", and a file with another axis must be turned first";
+  }
   if (options.drop_t_pose) done.dropped_frames = CountForeignTPose(clip, sampler, done.up);
 
   ASSIGN_OR_RETURN(auto poses, Resampled(clip, sampler, done.dropped_frames, options.rate_hz, done.up, file));
@@ -391,7 +405,7 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
     remarks += fmt::format("; the knees overstretch by {:.0f}° on the average", Degrees(overstretch));
   done.floor = FloorOf(poses, options.floor);
   SetDown(poses, done);
-  done.note = Note(done, map, lies_along_z, remarks);
+  done.note = Note(done, map, lies, remarks);
   done.motion = {.rate_hz = options.rate_hz, .poses = std::move(poses)};
   return done;
 }
