@@ -16,7 +16,6 @@
 #include "bench/process/pinned_environment.h"
 #include "bench/results/folder.h"
 #include "bench/tasks/registry.h"
-#include "bench/training/genetic_search.h"
 #include "engine/base/digest.h"
 #include "engine/base/names.h"
 #include "sim/render/renderer.h"
@@ -76,20 +75,19 @@ std::string DigestOf(const std::vector<std::string>& texts) {
 }
 
 /// The libraries whose code a result passes through, by the beginnings of their files' names: C and C++, the renderer
-/// and its compiler, linear algebra and orderings below Ceres, codecs of pictures, the genetic search. Ceres, Eigen,
-/// GLM and Random123 are part of our own build, which a journal's head names. What only draws pages or reads fonts is
-/// not here, so that its updates change no run's identity.
+/// and its compiler, linear algebra and orderings below Ceres, codecs of pictures. Ceres, Eigen, GLM and Random123 are
+/// part of our own build, which a journal's head names. What only draws pages, reads fonts or trains is not here, so
+/// that its updates change no run's identity.
 constexpr std::array kDecisiveLibraries = {
-    "libc.",       "libm.",       "libstdc++.",   "libOSMesa.",  "libglapi.",    "libLLVM",   "libblas.", "liblapack.",
-    "libatlas",    "libopenblas", "libgfortran.", "libcholmod.", "libcxsparse.", "libamd.",   "libcamd.", "libcolamd.",
-    "libccolamd.", "libmetis.",   "libhwy.",      "libjpeg.",    "libpng",       "libz.",     "libzip.",  "libOpenEXR",
-    "libImath",    "libIex",      "libtinygltf.", "libstb.",     "libpagmo.",    "libnlopt.", "libipopt."};
+    "libc.",      "libm.",      "libstdc++.",  "libOSMesa.",   "libglapi.",   "libLLVM",      "libblas.",
+    "liblapack.", "libatlas",   "libopenblas", "libgfortran.", "libcholmod.", "libcxsparse.", "libamd.",
+    "libcamd.",   "libcolamd.", "libccolamd.", "libmetis.",    "libhwy.",     "libjpeg.",     "libpng",
+    "libz.",      "libzip.",    "libOpenEXR",  "libImath",     "libIex",      "libtinygltf.", "libstb."};
 
 /// The builds of the decisive libraries, by name: the first half of their build IDs.
 Json DescribeLibraries() {
   constexpr std::size_t kToldDigits = 20;
   static_cast<void>(LoadRenderer());  // one that is missing is missing in the list
-  static_cast<void>(LoadGeneticSearch());
   Json libraries = Json::object();
   for (const auto& [name, build] : LoadedLibraries()) {
     const bool counts =

@@ -73,6 +73,20 @@ class Machine(EtudeCase):
         return subprocess.run([*wrapped, ETUDE, "run", *map(str, arguments)], capture_output=True, text=True, timeout=120,
                               env=os.environ | (environment or {}), preexec_fn=before, **more)
 
+    def least_space(self):
+        """The least address space in which the program comes to its first line, in steps of 4 MB."""
+        starts = lambda space: subprocess.run([ETUDE, "--version"], capture_output=True,
+                                              preexec_fn=limit(resource.RLIMIT_AS, space)).returncode == 0
+        return next(space for space in range(64 * MB, 1024 * MB, 4 * MB) if starts(space))
+
+    def test_whatever_the_address_space_it_ends_with_a_sentence(self):
+        least, codes = self.least_space(), set()
+        for more in range(4, 84, 8):
+            run = self.run_here(self.outside, "-o", self.out, "--overwrite", before=limit(resource.RLIMIT_AS, least + more * MB))
+            codes.add(run.returncode)
+            self.assertIn(run.returncode, (0, 3), f"{more} MB more: {run.stderr}")
+        self.assertEqual(codes, {0, 3}, "neither enough nor too little was tried")
+
     def test_what_the_machine_refuses_is_refused_with_its_cause_and_nothing_is_written(self):
         (self.folder / "file").touch()
         (self.folder / "relative").mkdir()
@@ -89,7 +103,7 @@ class Machine(EtudeCase):
             ("few processes", self.outside, "Resource temporarily unavailable",
              {"before": limit(resource.RLIMIT_NPROC, 1), **nobody}),
             ("few files", self.outside, "Too many open files", {"before": limit(resource.RLIMIT_NOFILE, 8)}),
-            ("little address space", self.outside, "", {"before": limit(resource.RLIMIT_AS, 96 * MB)}),
+            ("little address space", self.outside, "", {"before": limit(resource.RLIMIT_AS, self.least_space() + 8 * MB)}),
             ("little address space to draw in", self.capture, "OSMesa", {"before": limit(resource.RLIMIT_AS, 256 * MB)}),
             ("no renderer", self.capture, "OSMesa cannot be loaded",
              {"wrapped": ["bwrap", "--dev-bind", "/", "/", "--ro-bind", "/dev/null", LIBRARY]}),
