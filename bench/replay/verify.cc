@@ -84,8 +84,8 @@ Result<std::vector<Verified>> VerifyRun(const ReplayOptions& options, bool repla
   const fs::path folder = options.folder;
   ASSIGN_OR_RETURN(const auto run, LoadFinishedRun(folder, Sealing::kIgnored));
   std::vector<Verified> all;
-  Verified& seal = all.emplace_back("seal.json: every file is as it was sealed", std::vector<std::string>());
-  if (!run.data.unsealed.empty()) seal.differences.push_back(run.data.unsealed);
+  all.push_back({"seal.json: every file is as it was sealed", {}});
+  if (!run.data.unsealed.empty()) all.back().differences.push_back(run.data.unsealed);
   all.push_back({"rows: those that the manifest asks for", run.incomplete});
   if (!run.incomplete.empty()) return all;
   ASSIGN_OR_RETURN(all.emplace_back(), VerifySummary(folder, run, WorkerCount(options.jobs)));

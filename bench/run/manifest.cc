@@ -90,8 +90,8 @@ Json DescribeLibraries() {
   static_cast<void>(LoadRenderer());  // one that is missing is missing in the list
   Json libraries = Json::object();
   for (const auto& [name, build] : LoadedLibraries()) {
-    const bool counts =
-        std::ranges::any_of(kDecisiveLibraries, [&](const char* stem) { return name.starts_with(stem); });
+    const bool counts = std::ranges::any_of(kDecisiveLibraries,
+                                            [&library = name](const char* stem) { return library.starts_with(stem); });
     if (counts) libraries[name] = build.substr(0, kToldDigits);
   }
   return libraries;
