@@ -85,6 +85,8 @@ inline double WorstDistance(const Clip& a, const Clip& b) {
   return worst;
 }
 
+inline bool IsFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
 /// The clip standing at rest for one frame.
 inline Clip Resting(const Clip& clip) {
   return {.name = clip.name, .skeleton = clip.skeleton, .rate_hz = clip.rate_hz, .frames = {RestPose(clip.skeleton)}};

@@ -8,7 +8,7 @@
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 std::string Utf8Complaint(std::string_view text) {
   const auto checked = CheckUtf8(text, "file");

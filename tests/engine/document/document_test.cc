@@ -7,7 +7,7 @@
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 std::string Complaint(const std::string& yaml) {
   const auto node = ParseYaml(yaml, "t.yaml");

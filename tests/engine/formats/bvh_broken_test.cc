@@ -15,6 +15,7 @@ namespace etude {
 namespace {
 
 using testing::Dice;
+using testing::IsFinite;
 using ::testing::HasSubstr;
 using testing::kSmallBvh;
 using testing::Replaced;
@@ -157,8 +158,6 @@ std::string Mutated(std::string text, Dice& dice) {
   }
   return text;
 }
-
-bool IsFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 TEST(BrokenBvh, NeverCrashesOrGivesNonsenseWhenBytesChange) {
   Dice dice(2);

@@ -16,6 +16,7 @@ namespace etude {
 namespace {
 
 using testing::Dice;
+using testing::IsFinite;
 
 const std::filesystem::path kModels = "/usr/share/assimp/models";
 
@@ -31,8 +32,6 @@ Result<GltfContent> ReadModel(const std::string& name, const std::string& bytes)
     return Bytes(beside);
   });
 }
-
-bool IsFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// What every file that was not refused must hold.
 void ExpectSane(const GltfContent& content) {
@@ -167,7 +166,7 @@ TEST(GltfModels, OfAssimpAreReadOrRefusedWithAReason) {
   EXPECT_EQ(found, to_read.size() + kRefused.size());
 }
 
-std::string Mutated(std::string bytes, Dice& dice) {
+std::string MutatedModel(std::string bytes, Dice& dice) {
   constexpr std::string_view kJson = "{}[]:,-+.eE0123456789\"\\ntf\x00\x7F\x80\xFF";
   for (std::uint32_t i = 0; i <= dice.Below(3); ++i) {
     const std::size_t at = dice.Below(bytes.size());
@@ -198,7 +197,8 @@ std::string Mutated(std::string bytes, Dice& dice) {
 
 /// As above, with the binary's length mended, so that what lies behind the header is reached.
 std::string MutatedGlb(const std::string& json, const std::string& binary, Dice& dice) {
-  return dice.Below(2) == 0 ? testing::Glb(Mutated(json, dice), binary) : testing::Glb(json, Mutated(binary, dice));
+  return dice.Below(2) == 0 ? testing::Glb(MutatedModel(json, dice), binary)
+                            : testing::Glb(json, Mutated(binary, dice));
 }
 
 struct Outcomes {
@@ -222,7 +222,7 @@ TEST(GltfModels, NeverCrashOrGiveNonsenseWhenBytesOfASmallOneChange) {
   Outcomes outcomes;
   const std::string json(testing::kSmallGltf), binary = testing::SmallBinary(), glb = testing::SmallGlb();
   for (int i = 0; i < 3000; ++i) {
-    outcomes.Count(ReadGltf(i % 3 == 0 ? Mutated(glb, dice) : MutatedGlb(json, binary, dice), "mutated.glb", {}));
+    outcomes.Count(ReadGltf(i % 3 == 0 ? MutatedModel(glb, dice) : MutatedGlb(json, binary, dice), "mutated.glb", {}));
     if (::testing::Test::HasFailure()) FAIL() << "in mutation " << i;
   }
   // Both ways were really taken.
@@ -242,7 +242,7 @@ TEST(GltfModels, NeverCrashOrGiveNonsenseWhenBytesOfARealOneChange) {
     const std::string bytes = Bytes(kModels / name);
     Outcomes outcomes;
     for (int i = 0; i < 300; ++i) {
-      outcomes.Count(ReadModel(name, Mutated(bytes, dice)));
+      outcomes.Count(ReadModel(name, MutatedModel(bytes, dice)));
       if (::testing::Test::HasFailure()) FAIL() << "in mutation " << i;
     }
     EXPECT_GT(outcomes.refused, 10);
