@@ -33,18 +33,18 @@ std::vector<std::string> MovesWithoutWayInto(const std::string& wanted) {
 
 TEST(Coverage, EveryMoveReachesEveryCorrectiveAct) {
   for (const char* act : {"head_shake", "wave", "puzzled"}) {
-    EXPECT_THAT(MovesWithoutWayInto(act), testing::IsEmpty()) << act;
+    EXPECT_THAT(MovesWithoutWayInto(act), ::testing::IsEmpty()) << act;
   }
 }
 
 TEST(Coverage, EveryMoveReachesItsOwnSlowDemonstration) {
   for (const std::string& move : BuiltinMoveNames()) {
-    EXPECT_THAT(MovesWithoutWayInto("slow_" + move), testing::Not(testing::Contains(move)));
+    EXPECT_THAT(MovesWithoutWayInto("slow_" + move), ::testing::Not(::testing::Contains(move)));
   }
 }
 
 TEST(Coverage, AnActForWaitingIsNotReachedByAll) {  // the control: there is something to find
-  EXPECT_THAT(MovesWithoutWayInto("doze"), testing::Not(testing::IsEmpty()));
+  EXPECT_THAT(MovesWithoutWayInto("doze"), ::testing::Not(::testing::IsEmpty()));
 }
 
 }  // namespace

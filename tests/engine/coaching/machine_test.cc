@@ -79,7 +79,7 @@ TEST(CoachMachine, WavesAtTheSecondMistakeIsPuzzledAtTheThirdAndThenGoesOn) {
     session.Next();
     if (session.out().mode == CoachMode::kCorrect) acts.emplace_back(session.out().clip);
   }
-  EXPECT_THAT(acts, testing::ElementsAre("head_shake", "wave", "puzzled"));
+  EXPECT_THAT(acts, ::testing::ElementsAre("head_shake", "wave", "puzzled"));
   EXPECT_EQ(session.Next().mode, CoachMode::kDance);
   ASSERT_TRUE(session.Until(CoachEvent::kWrong));
   EXPECT_EQ(session.record().repetition, 1);

@@ -25,7 +25,7 @@ void DoAnything(RandomStream& dice, SmallSession::Player& player) {
 
 constexpr int kFrames = 4000;
 
-class RandomPlayers : public testing::TestWithParam<int> {
+class RandomPlayers : public ::testing::TestWithParam<int> {
  protected:
   RandomPlayers()
       : dice_({.suite_seed = 7, .scenario = "coach-properties", .trial = GetParam()}, "player"),
@@ -148,7 +148,7 @@ TEST_P(RandomPlayers, SeeABodyOfConstantLimbs) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(AnyPolicy, RandomPlayers, testing::Range(0, 21));
+INSTANTIATE_TEST_SUITE_P(AnyPolicy, RandomPlayers, ::testing::Range(0, 21));
 
 TEST(Transitions, DoNotDependOnWhatWasAskedBefore) {
   SmallSession once, again;

@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 int Claps(const BodyMotion& motion) {
   ClapState state;

@@ -165,15 +165,15 @@ TEST(CeresLm, BeginsWithinTheLimits) {
 }
 
 TEST(CeresLm, SaysNothing) {
-  testing::internal::CaptureStderr();
-  testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStdout();
   IkOptions options;
   options.position_goal = 1e-12;
   // Next to no damping: Ceres fails to take steps, and says so.
   for (int trial = 0; trial < 5; ++trial)
     SolveCeresLm(Body(), PosedProblem(trial, 60), options, {.first_radius = 1e16});
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
-  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
 }
 
 TEST(CeresLm, AnswersTheSameEveryTime) {

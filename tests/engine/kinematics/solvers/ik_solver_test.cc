@@ -25,7 +25,7 @@ IkOptions PatientOptions() {
   return options;
 }
 
-class EverySolver : public testing::TestWithParam<std::string> {
+class EverySolver : public ::testing::TestWithParam<std::string> {
  protected:
   IkSolution Solve(const IkProblem& problem, const IkOptions& options) const {
     return FindIkSolver(GetParam())->solve(Body(), problem, options);
@@ -274,7 +274,7 @@ TEST_P(EverySolver, EndsOnATreeThatCannotMove) {
   EXPECT_NEAR(missed.errors[0].position, 0.1 * std::sqrt(2), 1e-12);
 }
 
-INSTANTIATE_TEST_SUITE_P(Solvers, EverySolver, testing::ValuesIn(IkSolverNames()), [](const auto& tested) {
+INSTANTIATE_TEST_SUITE_P(Solvers, EverySolver, ::testing::ValuesIn(IkSolverNames()), [](const auto& tested) {
   std::string name = tested.param;
   std::erase(name, '-');
   return name;
@@ -282,7 +282,7 @@ INSTANTIATE_TEST_SUITE_P(Solvers, EverySolver, testing::ValuesIn(IkSolverNames()
 
 TEST(Solvers, AreFoundByName) {
   EXPECT_THAT(IkSolverNames(),
-              testing::IsSupersetOf({"ccd", "ccd-hinges", "gauss-newton", "levenberg-marquardt", "damped-least-squares",
+              ::testing::IsSupersetOf({"ccd", "ccd-hinges", "gauss-newton", "levenberg-marquardt", "damped-least-squares",
                                      "damped-least-squares-active-set", "jacobian-pinv", "jacobian-pinv-active-set",
                                      "jacobian-transpose", "fabrik"}));
   EXPECT_EQ(FindIkSolver("cdc"), nullptr);

@@ -34,7 +34,7 @@ double LargestTurn(const std::vector<double>& a, const std::vector<double>& b) {
   return largest;
 }
 
-class EveryStarter : public testing::TestWithParam<std::string> {};
+class EveryStarter : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EveryStarter, ReturnsAStartThatHasNoError) {
   for (const SomeBody& some : Bodies()) {
@@ -79,7 +79,7 @@ TEST_P(EveryStarter, MovesOneThatIsOff) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(PerfectStart, EveryStarter, testing::ValuesIn(IkSolverNames()), [](const auto& solver) {
+INSTANTIATE_TEST_SUITE_P(PerfectStart, EveryStarter, ::testing::ValuesIn(IkSolverNames()), [](const auto& solver) {
   std::string name = solver.param;
   std::ranges::replace(name, '-', '_');
   return name;
