@@ -1,0 +1,110 @@
+// Golden values of whole results: moves taught by people who differ, before a sensor that errs, and as they are
+// written.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/teaching/moves_file.h"
+#include "engine/teaching/teach_move.h"
+#include "tests/engine/teaching/arms.h"
+#include "tests/support/fingerprint.h"
+
+namespace etude::testing {
+namespace {
+
+// Arms, a knee and the trunk move, each by itself; some frames without a body, some joints guessed.
+SkeletonStream WildStream(std::uint64_t seed, double seconds, double rate_hz, double reach) {
+  Dice dice(seed);
+  BodyMotion motion{.rate_hz = rate_hz, .poses = {}};
+  const int frames = static_cast<int>(seconds * rate_hz);
+  for (int t = 0; t < frames; ++t) {
+    const double part = static_cast<double>(t) / frames, swing = std::sin(2 * kPi * part);
+    BodyPose pose = ArmsAt(20 + reach * std::abs(swing), 30 + reach * (0.5 - 0.5 * std::cos(5 * part)));
+    pose[Role::kRightKnee].z += 0.003 * reach * std::max(0.0, swing);
+    pose[Role::kLeftWrist].z += 0.002 * reach * swing;
+    pose[Role::kShoulderCentre].x += 0.001 * reach * swing;
+    for (glm::dvec3& joint : pose.joints) joint += 0.01 * dice.Vector();
+    motion.poses.push_back(pose);
+  }
+  SkeletonStream stream = StreamOf(motion);
+  for (SensedFrame& frame : stream.frames) {
+    if (dice.Below(15) == 0) frame[Role::kHead].state = TrackingState::kInferred;
+    if (dice.Below(20) == 0) frame.body_seen = false;
+  }
+  return stream;
+}
+
+TEST(Teaching, GoldenMovesAndTheirFiles) {
+  Fingerprint taught, written;
+  std::vector<TaughtMove> moves;
+  for (int trial = 0; trial < 14; ++trial) {
+    std::vector<SkeletonStream> right;
+    const double rate_hz = trial % 4 == 3 ? 20 : 30;
+    for (int person = 0; person <= trial % 4; ++person) {
+      right.push_back(WildStream(10 * trial + person, 1.1 + 0.3 * ((trial + 2 * person) % 5), rate_hz,
+                                 trial % 5 == 4 ? 6 : 45 + 8 * trial + 7 * person));
+    }
+    TeachOptions options;
+    if (trial % 3 == 2) {
+      options = {
+          .least_range_deg = 12, .most_poses = 5, .spread = 4, .least_tolerance_deg = 9, .most_tolerance_deg = 60};
+    }
+    std::vector<SkeletonStream> wrong(trial % 2, right[0]);
+    const TaughtMove move = TeachMove("move " + std::to_string(trial), right, wrong, options).value();
+    taught.Add(move.span_s).Add(move.poses.size()).Add(move.examples.size()).Add(move.counter_examples.size());
+    for (const TaughtPose& pose : move.poses) {
+      for (const PoseTarget& target : pose.targets) {
+        taught.Add(target.feature).Add(target.degrees).Add(target.tolerance_deg);
+      }
+    }
+    if (trial < 3) moves.push_back(move);
+  }
+  written.Add(WriteMoves(moves));
+  EXPECT_TRUE(taught.Is(584, -608.511060778));
+  EXPECT_TRUE(written.Is(123242, -19527.475372));
+}
+
+TEST(TeachMove, TakesTheShortestAndTheLongestAndSaysWhatIsBeyond) {
+  const auto complaint = [](double seconds, double rate_hz) {
+    const auto move = TeachMove(
+        "m",
+        {StreamOf({.rate_hz = rate_hz, .poses = std::vector<BodyPose>(std::lround(seconds * rate_hz), ArmsAt(9, 9))})});
+    return move ? "span " + std::to_string(move->span_s) : move.error().message;
+  };
+  EXPECT_EQ(complaint(0.5, 30), "span 0.650000");
+  EXPECT_EQ(complaint(0.4, 30), "a performance of 'm' shows a body for 0.40 s; needed: 0.5 s");
+  EXPECT_EQ(complaint(50, 2), "span 60.000000");
+  EXPECT_EQ(complaint(60, 2), "span 60.000000");
+  EXPECT_EQ(complaint(60.5, 2),
+            "a performance of 'm' lasts 60.5 s; allowed: 60 s; labels tell where each begins and ends");
+  EXPECT_EQ(TeachMove("m", {}).error().message, "move 'm' has no right performance to learn from");
+}
+
+TEST(MovesFile, ComplaintsAreWhole) {
+  const auto complaint = [](const std::string& field) {
+    const auto read = ReadMoves("moves:\n  - name: a\n    " + field + "\n", "m.yaml");
+    return read ? "none" : ToString(read.error());
+  };
+  const auto framed = [&](const std::string& line) {
+    return complaint("right:\n      - rate_hz: 30\n        frames: |\n          " + line);
+  };
+  EXPECT_EQ(complaint("key_poses: [{RH: 3}]"), "m.yaml:3:18: no tolerance_deg, neither of this angle nor of its pose");
+  EXPECT_EQ(complaint("key_poses: [{tolerance_deg: 400, RH: 3}]"),
+            "m.yaml:3:33: tolerance_deg 400; allowed: 0.1 to 360");
+  EXPECT_EQ(complaint("key_poses: [3]"), "m.yaml:3:17: a key pose is a mapping, found '3'");
+  EXPECT_EQ(complaint("key_poses: [{tolerance_deg: 20}]"), "m.yaml:3:17: a key pose without an angle");
+  EXPECT_EQ(complaint("key_poses: {}"), "m.yaml:3:16: a list of key poses, found a mapping");
+  EXPECT_EQ(complaint("right: 3"), "m.yaml:3:12: a list of performances, found '3'");
+  EXPECT_EQ(framed("ttttttttttttttttttt 1 2"),
+            "m.yaml:6: found 'ttttttttttttttttttt'; allowed: 20 letters t, i, n or -, then 60 numbers");
+  EXPECT_EQ(framed("tttttttttttttttttttx 1 2").find("m.yaml:6: found 'tttttttttttttttttttx'"), 0u);
+  EXPECT_EQ(framed("tttttttttttttttttttt 1 2 3 4 100001"),
+            "m.yaml:6: found '100001' as number 5 of 60; allowed: millimetres within ±100000");
+  EXPECT_EQ(framed("tttttttttttttttttttt 1 2"),
+            "m.yaml:6: found the end of the line or file as number 3 of 60; allowed: millimetres within ±100000");
+  EXPECT_EQ(ReadMoves("moves:\n  - name: " + std::string(201, 'a') + "\n", "m.yaml").error().message,
+            "a name of 201 bytes; allowed: 1 to 200");
+}
+
+}  // namespace
+}  // namespace etude::testing
