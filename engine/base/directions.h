@@ -8,7 +8,8 @@ namespace etude {
 /// The angle between two vectors of any length, in [0, π]; 0 when either is zero. Uses
 /// atan2(|u×v|, u·v), which keeps full precision near 0 and π, where acos loses half the digits.
 inline double AngleBetween(const glm::dvec3& u, const glm::dvec3& v) {
-  return std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v));
+  // + 0.0: a product of zeros and negative numbers is −0, at which the angle would be π.
+  return std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v) + 0.0);
 }
 
 /// Returns `v` at length 1; `otherwise` where it has no direction to speak of (shorter than 1e-9).

@@ -113,6 +113,7 @@ TEST(AngleBetween, KeepsItsDigitsNearZeroAndPi) {
   EXPECT_NEAR(AngleBetween({2, 0, 0}, {-3, 0, 0}), kPi, 1e-15);
   EXPECT_NEAR(AngleBetween({0, 0, 5}, {0, 0.1, 0}), kPi / 2, 1e-15);
   EXPECT_EQ(AngleBetween({0, 0, 0}, {1, 0, 0}), 0);
+  EXPECT_EQ(AngleBetween({0, 0, 0}, {-1, -2, -3}), 0) << "a product that is −0";
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ MotionLibrary LibraryOf(const std::vector<BodyMotion>& clips) {
 /// Clip 1 is clip 0 from its frame 40 on, danced elsewhere.
 MotionLibrary OneDanceTwice() {
   RandomStream dice({.suite_seed = 6, .scenario = "matching", .trial = 0}, "dance");
-  BodyMotion whole = RandomClip(dice, 200, 0.8), rest = whole;
-  rest.poses.erase(rest.poses.begin(), rest.poses.begin() + 40);
+  const BodyMotion whole = RandomClip(dice, 200, 0.8);
+  BodyMotion rest{.rate_hz = whole.rate_hz, .poses = {whole.poses.begin() + 40, whole.poses.end()}};
   for (BodyPose& pose : rest.poses) pose = FloorMove{.yaw = 1, .x = 7}.Apply(pose);
   return LibraryOf({whole, rest});
 }

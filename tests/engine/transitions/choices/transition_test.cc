@@ -136,7 +136,7 @@ bool CheckTransition(const MotionLibrary& library, const TransitionRequest& requ
   return true;
 }
 
-class EveryChoice : public testing::TestWithParam<std::string> {};
+class EveryChoice : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EveryChoice, WithEveryJoinKeepsItsPromisesOnRandomLibraries) {
   int found = 0;
@@ -144,8 +144,8 @@ TEST_P(EveryChoice, WithEveryJoinKeepsItsPromisesOnRandomLibraries) {
     const Trial trial = DrawTrial(number);
     for (const TransitionRequest& request : trial.requests) {
       for (const JoinKind& join : AllJoins()) {
-        SCOPED_TRACE(testing::Message() << "library " << number << ", clip " << request.from << " frame "
-                                        << request.request_frame << " to " << request.to << ", " << join.name);
+        SCOPED_TRACE(::testing::Message() << "library " << number << ", clip " << request.from << " frame "
+                                          << request.request_frame << " to " << request.to << ", " << join.name);
         found += CheckTransition(
             trial.library, request,
             {.choice = FindChoice(GetParam()), .join = &join, .rules = {}, .choice_settings = {}, .join_settings = {}});
@@ -155,7 +155,7 @@ TEST_P(EveryChoice, WithEveryJoinKeepsItsPromisesOnRandomLibraries) {
   EXPECT_GT(found, 100) << "of 192";
 }
 
-INSTANTIATE_TEST_SUITE_P(All, EveryChoice, testing::ValuesIn(ChoiceNames()), [](const auto& parameter) {
+INSTANTIATE_TEST_SUITE_P(All, EveryChoice, ::testing::ValuesIn(ChoiceNames()), [](const auto& parameter) {
   std::string name = parameter.param;
   std::erase(name, '-');
   return name;

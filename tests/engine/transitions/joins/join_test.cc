@@ -20,7 +20,7 @@ BodyMotion Spliced(const JoinKind& join) {
 
 BodyMotion CutTogether() { return Spliced(AllJoins().front()); }
 
-class EverySmoothJoin : public testing::TestWithParam<std::string> {
+class EverySmoothJoin : public ::testing::TestWithParam<std::string> {
  protected:
   const JoinKind& TheJoin() const { return *FindJoin(GetParam()); }
 };
@@ -50,8 +50,8 @@ TEST_P(EverySmoothJoin, TurnsOppositeLimbsAroundWithoutBreakingThem) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EverySmoothJoin,
-                         testing::Values("crossfade", "inertialised-quintic", "inertialised-spring", "minimum-jerk",
-                                         "planted-feet"),
+                         ::testing::Values("crossfade", "inertialised-quintic", "inertialised-spring", "minimum-jerk",
+                                           "planted-feet"),
                          [](const auto& parameter) {
                            std::string name = parameter.param;
                            std::erase(name, '-');

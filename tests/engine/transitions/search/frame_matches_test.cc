@@ -100,7 +100,8 @@ TEST(FindMatches, AnswersAsALoopDoesForClipsOfAnyLength) {
   for (double threshold : {kPaperThreshold, 1.5}) {
     for (bool all : {true, false}) {
       for (bool within_class : {false, true}) {
-        SCOPED_TRACE(testing::Message() << threshold << (all ? " all" : " some") << (within_class ? " in class" : ""));
+        SCOPED_TRACE(::testing::Message()
+                     << threshold << (all ? " all" : " some") << (within_class ? " in class" : ""));
         const MatchRules rules{.threshold = threshold, .within_class = within_class};
         EXPECT_GT(ExpectSameMatches(library.Clips(all), rules), 100u);
       }

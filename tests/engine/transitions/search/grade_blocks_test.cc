@@ -17,7 +17,7 @@ FrameBlock BlockOf(std::span<const Grades> frames) {
 }
 
 /// On every kind of vectors that this CPU has.
-class GradeBlocks : public testing::Test {
+class GradeBlocks : public ::testing::Test {
  protected:
   ~GradeBlocks() override { SetBlockTarget(""); }
 

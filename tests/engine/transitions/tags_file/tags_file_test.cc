@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "engine/transitions/library/bridge_frames.h"
 #include "engine/transitions/library/in_betweens.h"
-#include "tests/engine/transitions/test_clips.h"
+#include "tests/engine/transitions/prints.h"
 
 namespace etude {
 namespace {
@@ -184,6 +186,138 @@ TEST(TagsComparison, FindsWhatHasChanged) {
   EXPECT_EQ(comparison.clips, 1);
   EXPECT_THAT(comparison.differences, ::testing::SizeIs(::testing::Ge(5)))
       << "weights, grades, a frame, a clip gone and a clip come";
+}
+
+/// The tags of a library with feet, by rules that are no defaults.
+BridgeTags TagsOfMoves() {
+  const MotionLibrary library = LibraryOfMoves();
+  std::vector<std::string> sources;
+  for (const std::string& name : library.names) sources.push_back(name + ".bvh");
+  FuzzySystem system;
+  system.name = "ours";
+  system.memberships.shapes[1] = Gaussian{.mean = 40, .sigma = 20};
+  TagRules tag_rules;
+  tag_rules.min_clips = 3;
+  tag_rules.most_per_class = 5;
+  tag_rules.head = {.max_bend = Radians(25), .max_turn_speed = Radians(49.5)};
+  return CollectTags(
+      library, sources, system, tag_rules,
+      {.weights = {0.25, 1.5, 0.5, 1, 2, 0.75, 0.3, 0.7, 0.5, 0.5}, .threshold = 0.3, .within_class = true});
+}
+
+TEST(TagsFileGolden, OfWhatIsCollectedAndWritten) {
+  EXPECT_TRUE(Fingerprint().Add(WriteTagsFile(TagsOfMoves()).value()).Is(206823, -32740.3632247));
+  EXPECT_TRUE(Fingerprint().Add(SomeText()).Is(31272, -2320.97047022));
+}
+
+TEST(TagsFileGolden, OfEveryComplaint) {
+  const std::string text = SomeText();
+  const std::vector<std::pair<std::string, std::string>> changes = {
+      {"RH=\"mid\"", "RH=\"up\""},
+      {"LFK=\"false\"", "LFK=\"true\""},
+      {"frames=\"40\"", "frames=\"5\""},
+      {"key clip=\"wave\"", "key clip=\"wink\""},
+      {"rate-hz=\"30\"", "rate-hz=\"60\""},
+      {"rate-hz=\"30\"", "rate-hz=\"30.001\""},
+      {"feature=\"RH\"", "feature=\"LH\""},
+      {"feature=\"LFK\"", "feature=\"RFK\""},
+      {"name=\"wave\"", "name=\"Ärm &amp; &lt;leg&gt; &quot;2&quot;\""},
+      {"min-clips=\"2\"", "min-clips=\"2147483648\""},
+      {"threshold=\"0.4\"", "threshold=\"+0.4\""},
+      {"value=\"1\"", "value=\"1e999\""},
+      {"difference=\"0", "difference=\"+0"},
+      {"grades=\"0", "grades=\"+0"}};
+  Fingerprint print;
+  for (const auto& [from, to] : changes) print.Add(ToString(Complaint(With(text, from, to))));
+  std::string tag = "\n\n<bridge-tags a=\"" + std::string(65536, 'x') + "\"/>";
+  print.Add(ToString(Complaint(tag)))
+      .Add(ToString(Complaint("\n<a/><!DOCTYPE x>")))
+      .Add(ToString(Complaint(" \t\r\n")));
+  EXPECT_TRUE(print.Is(1339, 4056.03974131)) << ToString(Complaint(With(text, "RH=\"mid\"", "RH=\"up\"")));
+}
+
+bool IsRead(const BridgeTags& tags) { return ReadTagsFile(WriteTagsFile(tags).value(), "tags.xml").has_value(); }
+
+TEST(TagsFile, HoldsFramesAndKeysAgainstTheirClips) {
+  BridgeTags tags = SomeTags();
+  const int last = tags.clips[0].bridge_frames.back().frame;
+  tags.clips[0].frames = last + 1;
+  EXPECT_TRUE(IsRead(tags));
+  tags.clips[0].frames = last;
+  EXPECT_FALSE(IsRead(tags)) << "frames count from 0";
+  tags = SomeTags();
+  tags.clips[0].bridge_frames[1] = tags.clips[0].bridge_frames[0];
+  EXPECT_FALSE(IsRead(tags)) << "they rise";
+  tags = SomeTags();
+  tags.keys = {{"wave", last}};
+  EXPECT_TRUE(IsRead(tags));
+  for (int frame = 0; frame < 60; ++frame) {
+    tags.keys[0].frame = frame;
+    const bool is_bridge_frame = std::ranges::count(tags.clips[0].bridge_frames, frame, &TaggedFrame::frame) == 1;
+    EXPECT_EQ(IsRead(tags), is_bridge_frame) << frame;
+  }
+  for (ClipTags& clip : tags.clips) clip.bridge_frames.clear();
+  for (const auto& [frame, is_read] : {std::pair{0, true}, {39, true}, {40, false}}) {
+    tags.keys[0].frame = frame;
+    EXPECT_EQ(IsRead(tags), is_read) << "without bridge frames, any frame may be a key";
+  }
+}
+
+TEST(TagsFile, HoldsNamesOfUpTo4096Bytes) {
+  BridgeTags tags = SomeTags();
+  tags.system = std::string(4096, 'x');
+  EXPECT_TRUE(WriteTagsFile(tags));
+  tags.system += 'x';
+  EXPECT_FALSE(WriteTagsFile(tags));
+  tags.system = " ~";
+  EXPECT_TRUE(IsRead(tags)) << "a blank is no control character";
+  tags.system = "\x1f";
+  EXPECT_FALSE(WriteTagsFile(tags));
+}
+
+TEST(TagsFile, IsReadWithTagsOfUpTo65536Bytes) {
+  const std::string text = SomeText();
+  const auto complaint = [&](std::size_t bytes) {
+    const std::string tag = "<fuzzy-system";
+    return Complaint(With(text, tag, tag + std::string(bytes, ' ')) + "<").message;
+  };
+  const std::size_t from = text.find("<fuzzy-system"), others = text.find('<', from + 1) - from;
+  EXPECT_THAT(complaint(65536 - others), ::testing::Not(HasSubstr("without a new tag")));
+  EXPECT_THAT(complaint(65537 - others), HasSubstr("65537 bytes without a new tag; a tags file has up to 65536"));
+}
+
+TEST(TagsComparison, SaysEveryDifferenceByItsName) {
+  const BridgeTags tags = TagsOfMoves();
+  ASSERT_GT(tags.clips[1].bridge_frames.size(), 2u);
+  BridgeTags other = tags;
+  other.system = "theirs";
+  other.memberships_digest[0] = 'x';
+  other.weights[3] = 0;
+  other.standing_hip_height_m += 1e-15;
+  other.clips[0].frames += 1;
+  other.clips[2].rate_hz = 60;
+  other.clips[3].name = "swing";
+  auto& frames = other.clips[1].bridge_frames;
+  frames[0].frame = 900;
+  frames[1].difference += 2e-9;
+  frames[2].grades[23] -= 0.9e-9;
+  frames[2].difference -= 0.9e-9;
+  other.keys.pop_back();
+  const TagsComparison comparison = CompareTags(tags, other);
+  EXPECT_TRUE(Fingerprint()
+                  .Add(comparison.differences)
+                  .Add(comparison.clips)
+                  .Add(comparison.bridge_frames)
+                  .Is(551, -132.285092493));
+  const auto differs = [&](auto&& change) {
+    BridgeTags changed = tags;
+    change(changed.clips[1].bridge_frames[1]);
+    return CompareTags(tags, changed).differences.size();
+  };
+  EXPECT_EQ(differs([](TaggedFrame& frame) { ++frame.clips; }), 1u);
+  EXPECT_EQ(differs([](TaggedFrame& frame) { frame.tags[4] += 1; }), 1u);
+  EXPECT_EQ(differs([](TaggedFrame& frame) { frame.grades[0] += 2e-9; }), 1u);
+  EXPECT_EQ(differs([](TaggedFrame& frame) { frame.grades[0] -= 0.9e-9; }), 0u);
 }
 
 TEST(MembershipsDigest, TellsFunctionsApartNotNames) {
