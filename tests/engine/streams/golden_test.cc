@@ -1,0 +1,364 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <sstream>
+
+#include "engine/base/angles.h"
+#include "engine/formats/joint_csv.h"
+#include "engine/formats/trc.h"
+#include "engine/streams/labels.h"
+#include "engine/streams/live_stream.h"
+#include "sim/choreography/move.h"
+#include "tests/engine/streams/small_files.h"
+#include "tests/support/fingerprint.h"
+
+namespace etude {
+namespace {
+
+using testing::Fingerprint;
+
+/// A move danced in four places, at heights that are not quite level, with noise.
+BodyMotion RestlessMotion(const std::string& move, double spread) {
+  testing::Dice dice(11);
+  BodyMotion motion = LoadBuiltinMove(move).value().motion;
+  const std::size_t frames = motion.poses.size();
+  for (int place = 1; place < 4; ++place) {
+    for (std::size_t f = 0; f < frames; ++f) {
+      BodyPose pose = motion.poses[f];
+      for (glm::dvec3& joint : pose.joints) joint += spread * glm::dvec3(place % 2, 0.01 * place, place / 2);
+      motion.poses.push_back(pose);
+    }
+  }
+  for (BodyPose& pose : motion.poses) {
+    for (glm::dvec3& joint : pose.joints) joint += 0.0005 * dice.Vector();
+  }
+  return motion;
+}
+
+void AddFrame(Fingerprint& print, const SensedFrame& frame) {
+  print.Add(frame.body_seen);
+  for (const SensedJoint& joint : frame.joints) print.Add(joint.position).Add(joint.state);
+}
+
+void AddLevel(Fingerprint& print, const StreamLevel& level) {
+  print.Add(level.R_WF[0]).Add(level.R_WF[1]).Add(level.R_WF[2]).Add(level.floor_m).Add(level.tilt_deg);
+  print.Add(level.up_by).Add(Describe(level));
+}
+
+void AddRecording(Fingerprint& print, const StreamRecording& recording) {
+  print.Add(recording.format).Add(recording.tells_states).Add(recording.tells_times).Add(recording.is_level);
+  print.Add(recording.rate_hz).Add(recording.seconds_per_count).Add(recording.metres_per_unit).Add(recording.remarks);
+  for (const RecordedFrame& frame : recording.frames) {
+    print.Add(frame.time_s).Add(frame.line).Add(frame.places).Add(frame.states);
+  }
+}
+
+/// Adds all that reading a text by these settings gives: the recording, its streams, and the stream as it comes live.
+void AddText(Fingerprint& print, const std::string& text, const StreamReading& reading = {}) {
+  const auto format = DetectStreamFormat(text);
+  print.Add(format);
+  const auto recording = ReadStreamRecording(text, "s", reading);
+  if (!recording) print.Add(ToString(recording.error()));
+  if (recording) {
+    AddRecording(print, *recording);
+    for (const StreamOptions& options :
+         {StreamOptions{}, StreamOptions{.levels = false, .reflects = true, .rate_hz = 25}}) {
+      const auto made = MakeStream(*recording, "s", options);
+      if (!made) print.Add(ToString(made.error()));
+      if (!made) continue;
+      print.Add(made->stream.rate_hz).Add(made->start_s).Add(made->lost_frames).Add(FeetForward(made->stream));
+      AddLevel(print, made->level);
+      for (const SensedFrame& frame : made->stream.frames) AddFrame(print, frame);
+    }
+  }
+  LiveStream live("s", reading, {});
+  std::vector<SensedFrame> frames;
+  std::istringstream lines(text);
+  Result<void> taken;
+  for (std::string line; taken && std::getline(lines, line);) {
+    taken = live.Take(line, frames);
+    print.Add(frames.size());
+  }
+  if (taken) taken = live.Finish(frames);
+  if (!taken) print.Add(ToString(taken.error()));
+  for (const SensedFrame& frame : frames) AddFrame(print, frame);
+  if (live.Meaning()) AddRecording(print, *live.Meaning());
+}
+
+std::string Replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
+    text.replace(at, from.size(), to);
+  }
+  return text;
+}
+
+/// The text with a line changed or left out.
+std::string WithLine(const std::string& text, int number,
+                     const std::function<std::string(const std::string&)>& change) {
+  std::istringstream lines(text);
+  std::string changed;
+  int at = 0;
+  for (std::string line; std::getline(lines, line);) changed += ++at == number ? change(line) : line + "\n";
+  return changed;
+}
+
+TEST(StreamsGolden, OfRowsOfNumbers) {
+  const BodyMotion wave = testing::WavingMotion(70), restless = RestlessMotion("aerobic", 0.4);
+  const std::string rows = testing::KinectV1Text(wave, "", Radians(12));
+  const std::string states = testing::KinectV1Text(wave, "2", 0.1);
+  Fingerprint print;
+  for (const std::string& text :
+       {rows,
+        states,
+        Replaced(states, " 2 ", " 1 "),
+        testing::KinectV1Text(wave, "1.5"),
+        testing::KinectV1Text(restless, "", Radians(7)),
+        testing::KinectV1Text(restless, "", Radians(29)),
+        testing::KinectV1Text(restless, "", Radians(31)),
+        testing::KinectV1Text(RestlessMotion("jump", 0.19)),
+        testing::KinectV1Text(RestlessMotion("side_kick", 2)),
+        testing::WithClock(rows, 5, 0.04),
+        testing::WithClock(rows, 100, 1),
+        testing::WithClock(rows, 100, 2),
+        testing::WithClock(rows, 100, 15),
+        testing::WithClock(rows, 100, 16),
+        testing::WithClock(rows, 100, 33.3),
+        testing::WithClock(rows, 0, 4.5),
+        testing::WithClock(rows, 0, 5.5),
+        testing::WithClock(rows, 0, 1000),
+        testing::WithClock(rows, 0, 33333),
+        testing::WithClock(rows, 0, 2e6),
+        testing::WithClock(rows, 9, 0),
+        testing::WithClock(rows, 9, -1),
+        Replaced(rows, "0.", "1000."),
+        Replaced(rows, " ", "  "),
+        Replaced(rows, " ", "\t"),
+        Replaced(rows, " ", ";"),
+        WithLine(rows, 9, [](const std::string&) { return "# a remark\n\n"; }),
+        WithLine(rows, 40, [](const std::string& line) { return line + " 3\n"; }),
+        WithLine(rows, 41, [](const std::string& line) { return "x" + line + "\n"; }),
+        WithLine(rows, 7, [](const std::string& line) { return "nan" + line.substr(line.find(' ')) + "\n"; }),
+        WithLine(rows, 50, [](const std::string& line) { return "900" + line.substr(line.find(' ')) + "\n"; }),
+        testing::WithClock(rows, 5, 0.04) + "100 " + rows.substr(0, rows.find('\n') + 1),
+        testing::WithClock(rows, 5, 0.04) + "10000 " + rows.substr(0, rows.find('\n') + 1),
+        WithLine(testing::WithClock(rows, 5, 0.04), 30, [](const std::string&) { return ""; }),
+        WithLine(testing::WithClock(rows, 5, 0.04), 31,
+                 [](const std::string& line) { return "nan" + line.substr(4) + "\n"; }),
+        rows.substr(0, rows.find('\n') + 1),
+        std::string(),
+        std::string("word\n1 2 3\n"),
+        std::string("\n\n")}) {
+    AddText(print, text);
+  }
+  AddText(print, testing::WithClock(rows, 5, 0.04), {.rate_hz = 50});
+  AddText(print, rows, {.format = StreamFormat::kKinectV2});
+  AddText(print, rows, {.format = StreamFormat::kEtudeCsv});
+  for (const StreamFormat format : {StreamFormat::kKinectV1, StreamFormat::kKinectV2}) {
+    print.Add(StreamFormatName(format)).Add(FindStreamFormat(StreamFormatName(format)));
+  }
+  EXPECT_TRUE(print.Add(StreamFormatNames()).Is(2356253, 6261.64285877));
+}
+
+/// A Kinect v2's rows; `rest` is put after each place.
+std::string KinectV2Rows(const BodyMotion& motion, const std::string& rest, double unit) {
+  std::string text;
+  for (const BodyPose& pose : motion.poses) {
+    for (const glm::dvec3& p : testing::KinectV2Joints(pose)) {
+      text += fmt::format("{} {} {}{} ", unit * p.x, unit * p.y, unit * p.z, rest);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+TEST(StreamsGolden, OfFilesThatSayMore) {
+  BodyMotion motion = RestlessMotion("boxing", 0.5);
+  motion.poses.resize(80);
+  const BodyMotion wave = testing::WavingMotion(40);
+  const std::string csv = WriteJointCsv(motion), trc = WriteTrc(motion, "a");
+  const std::string ntu = testing::NtuText(wave), azure = testing::AzureText(wave, "2");
+  Fingerprint print;
+  for (const std::string& text :
+       {csv,
+        Replaced(csv, "time_s", "time"),
+        Replaced(csv, "left_foot_x_m", "left_foot_q_m"),
+        WithLine(csv, 12, [](const std::string& line) { return Replaced(line, ",0.", ",nan,"); }),
+        WithLine(csv, 40, [](const std::string& line) { return line.substr(0, line.rfind(',')) + ",\n"; }),
+        trc,
+        Replaced(trc, "left_foot", "leftest"),
+        Replaced(trc, "\thead\t", "\tskull\t"),
+        KinectV2Rows(wave, "", 100),
+        KinectV2Rows(wave, " 0 0 0 1", 1),
+        KinectV2Rows(wave, " 2", 1000),
+        KinectV2Rows(wave, " 1", 40),
+        ntu,
+        testing::NtuText(wave, 1),
+        testing::NtuText(wave, 0),
+        testing::NtuText(wave, 2, 7),
+        Replaced(ntu, "\n25\n", "\n24\n"),
+        Replaced(ntu, "40\n1\n", "40\n101\n"),
+        ntu.substr(0, 9000),
+        Replaced(ntu, "40\n1\n", "40.5\n1\n"),
+        azure,
+        testing::AzureText(wave),
+        testing::AzureText(wave, "1"),
+        testing::AzureText(wave, "0"),
+        Replaced(azure, "timestamp_usec", "stamp"),
+        azure.substr(0, 5000),
+        Replaced(azure, "\"bodies\":[", "\"people\":["),
+        Replaced(azure, "joint_positions", "joints"),
+        Replaced(azure, "confidence_level", "joint_confidence"),
+        Replaced(azure, "\"frames\"", "\"frame\""),
+        std::string("{\"frames\":[]}"),
+        std::string("{\"frames\":[3]}"),
+        std::string("PathFileType\t4\n")}) {
+    AddText(print, text);
+  }
+  EXPECT_TRUE(print.Is(195249, 4959.92564757));
+}
+
+/// NTU's text of bodies that come and go: of each frame, those whose span holds it.
+struct ComingBody {
+  int id, first, last;
+  glm::dvec3 place;
+};
+std::string CrowdText(const std::vector<ComingBody>& bodies, int frames) {
+  std::string text = fmt::format("{}\n", frames);
+  for (int f = 0; f < frames; ++f) {
+    std::string told;
+    int count = 0;
+    for (const ComingBody& body : bodies) {
+      if (f < body.first || f > body.last) continue;
+      ++count;
+      told += fmt::format("{} 0 1 1 1 1 0 0 0 2\n25\n", body.id);
+      for (const glm::dvec3& p : testing::KinectV2Joints(testing::StandingPose(0.01 * f * body.id))) {
+        const glm::dvec3 at = p + body.place;
+        told += fmt::format("{} {} {} 0 0 0 0 0 0 0 1 {}\n", at.x, at.y, at.z, f % 9 == body.id ? 1 : 2);
+      }
+    }
+    text += fmt::format("{}\n{}", count, told);
+  }
+  return text;
+}
+
+TEST(StreamsGolden, OfSeveralBodies) {
+  const std::vector<std::vector<ComingBody>> crowds = {
+      {{1, 0, 30, {}}, {2, 0, 40, {1, 0, 0}}, {3, 35, 60, {0.1, 0, 0}}},
+      {{1, 0, 30, {}}, {2, 61, 90, {0.1, 0, 0}}},
+      {{1, 0, 30, {}}, {2, 60, 90, {0.1, 0, 0}}},
+      {{1, 0, 30, {}}, {2, 40, 70, {0.22, 0, 0}}, {3, 41, 80, {-0.2, 0, 0}}},
+      {{1, 0, 30, {}}, {2, 40, 70, {0.24, 0, 0}}},
+      {{1, 0, 20, {}}, {2, 5, 22, {0.1, 0, 0.1}}, {3, 25, 45, {}}, {4, 26, 45, {0.05, 0, 0}}, {5, 50, 80, {}}},
+      {{4, 0, 29, {2, 0, 0}}, {7, 0, 29, {}}},
+      {{7, 0, 29, {2, 0, 0}}, {4, 0, 29, {}}},
+      {{1, 10, 10, {}}}};
+  Fingerprint print;
+  for (const std::vector<ComingBody>& crowd : crowds) {
+    for (const std::optional<int> body : {std::optional<int>(), std::optional(0), std::optional(1), std::optional(2)}) {
+      AddText(print, CrowdText(crowd, 95), {.body = body});
+      if (!body) AddText(print, CrowdText(crowd, 95), {.rate_hz = 28});
+    }
+  }
+  EXPECT_TRUE(print.Is(738975, 77376.772051));
+}
+
+TEST(StreamsGolden, OfLevelsThatAreHardToTell) {
+  Fingerprint print;
+  testing::Dice dice(12);
+  for (int i = 0; i < 60; ++i) {
+    const double spread = 0.12 * (i % 5), tilt = Radians(4.0 * (i % 10)), bumps = 0.015 * (i % 4);
+    const glm::dmat3 turn = glm::mat3_cast(glm::angleAxis(tilt, glm::normalize(dice.Vector())));
+    std::vector<RecordedFrame> frames;
+    for (int f = 0; f < 15 + i; ++f) {
+      RecordedFrame& frame = frames.emplace_back();
+      const glm::dvec3 place(spread * (f / 10 % 2), bumps * (f / 10 % 3), 1.3 * spread * (f / 20 % 2));
+      for (const Role role : AllRoles()) {
+        frame.places[Index(role)] = turn * (testing::StandingPose()[role] + place) + 0.001 * dice.Vector();
+        if (dice.Below(12) == 0) frame.states[Index(role)] = TrackingState::kInferred;
+        if (dice.Below(15) == 0) frame.places[Index(role)].reset();
+      }
+    }
+    const StreamLevel level = EstimateLevel(frames, i % 3 == 0 ? 30 : 15);
+    AddLevel(print, level);
+    print.Add(level.Apply({1, 2, 3}));
+  }
+  AddLevel(print, EstimateLevel({}, 30));
+  EXPECT_TRUE(print.Add(FeetForward({})).Is(4697, 3966.06511616));
+}
+
+TEST(StreamsGolden, OfClocksAndGapsAtTheirLimits) {
+  Fingerprint print;
+  for (const double gap : {0.0004, 0.0006, 0.033, 0.1999, 0.2004, 0.2006, 0.21, 599.9, 600.0, 600.1}) {
+    for (const double rate : {30.0, 12.0}) {
+      StreamMaker maker({}, {.rate_hz = rate}, "s");
+      std::vector<SensedFrame> stream;
+      double time = 7;
+      for (int f = 0; f < 4; ++f) {
+        RecordedFrame frame{.time_s = time, .line = f};
+        frame.places[Index(Role::kHead)] = glm::dvec3(f, 1, 2);
+        if (f != 2) frame.places[Index(Role::kHipCentre)] = glm::dvec3(0, f, 1);
+        frame.states[Index(Role::kHead)] = f == 1 ? TrackingState::kInferred : TrackingState::kTracked;
+        const Result<void> added = maker.Add(frame, stream);
+        if (!added) print.Add(ToString(added.error()));
+        time += f == 1 ? gap : 0.05;
+      }
+      print.Add(stream.size());
+      for (std::size_t f = 0; f < std::min<std::size_t>(stream.size(), 20); ++f) AddFrame(print, stream[f]);
+      RecordedFrame again{.time_s = time - 0.05};
+      print.Add(maker.Add(again, stream).has_value());
+    }
+  }
+  EXPECT_TRUE(print.Is(13180, 18138.787103));
+}
+
+TEST(StreamsGolden, OfLabels) {
+  const std::string heading = "clip,from_s,to_s,move,truth,person\n";
+  Fingerprint print;
+  for (const std::string& text :
+       {heading + "seq-1,0.5,3.1,arms-open,right,anna\n# x\n\nseq-2,,,clap,late,\nseq-3 , 4 ,,clap,right\n",
+        "\xEF\xBB\xBF" + heading + "a,1,2,b,right,c\r\n",
+        std::string("move,clip,truth,from_s,to_s\nb,a,late,1,2\n"),
+        heading,
+        std::string(),
+        heading + "a,2,2,b,right,c\n",
+        heading + "a,,2,b,right,c\n",
+        heading + "a,x,2,b,right,c\n",
+        heading + ",1,2,b,right,c\n",
+        heading + "a,1,2,,right,c\n",
+        heading + "a,1,2,b,,c\n",
+        heading + "a,1,2e12,b,right,c\n",
+        heading + "a,1,1e12,b,right,c\n",
+        heading + "a,1,2,b\"b,right,c\n",
+        heading + std::string(200, 'a') + ",1,2,b,right,c\n",
+        heading + std::string(201, 'a') + ",1,2,b,right,c\n",
+        std::string("clip,from_s,to_s,move\na,1,2,b\n"),
+        std::string("clip,form_s,to_s,move,truth\n"),
+        std::string("XQPCTick;Tag\n1234567890;G1 lift\n2234567890; G2\n"),
+        std::string("XQPCTick;Tag\n1;2;3\n"),
+        std::string("XQPCTick;Tag\nx;G\n"),
+        std::string("XQPCTick;Tag\n2e19;G\n"),
+        std::string("XQPCTick;Tag\n5;\n"),
+        std::string("s01_e01\nwalk: 252 390\nsitDown: NaN NaN\n s02_e03\nstandUp: 5 6\n"),
+        std::string("s01_e01\nwalk: 390 390\n"),
+        std::string("s01_e01\nwalk 2 3\n"),
+        std::string("s01_e01\nwalk: 2\n"),
+        std::string("s01_e01\nwalk: 2 x\n"),
+        std::string("s01_e01\n: 2 3\n"),
+        std::string("s01_e0x\nwalk: 2 3\n")}) {
+    const auto labels = ReadLabels(text, "l", "take");
+    print.Add(labels.has_value());
+    if (!labels) print.Add(ToString(labels.error()));
+    if (!labels) continue;
+    for (const Label& label : *labels) {
+      print.Add(label.clip).Add(label.from_s).Add(label.to_s).Add(label.move).Add(label.fault).Add(label.person);
+      print.Add(label.by_own_clock).Add(label.line).Add(label.IsRight()).Add(label.IsActionPoint());
+      for (const char* name : {"take", "a", "joints_s01_e01.txt", "s02_e03", "seq-1", "seq-11"}) {
+        print.Add(IsLabelOf(label, name));
+      }
+    }
+  }
+  EXPECT_TRUE(print.Add(kActionPointTolerance).Is(2058, 831186315660));
+}
+
+}  // namespace
+}  // namespace etude
