@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/transitions/library/bridge_frames.h"
 #include "engine/transitions/library/in_betweens.h"
@@ -205,13 +206,25 @@ BridgeTags TagsOfMoves() {
       {.weights = {0.25, 1.5, 0.5, 1, 2, 0.75, 0.3, 0.7, 0.5, 0.5}, .threshold = 0.3, .within_class = true});
 }
 
+/// The text of tags whose numbers are rounded, since their last digits are the compiler's.
+std::string TextOf(BridgeTags tags) {
+  const auto round = [](double& number) { number = std::round(1e6 * number) / 1e6; };
+  for (ClipTags& clip : tags.clips) {
+    for (TaggedFrame& frame : clip.bridge_frames) {
+      round(frame.difference);
+      std::ranges::for_each(frame.grades, round);
+    }
+  }
+  return WriteTagsFile(tags).value();
+}
+
 TEST(TagsFileGolden, OfWhatIsCollectedAndWritten) {
-  EXPECT_TRUE(Fingerprint().Add(WriteTagsFile(TagsOfMoves()).value()).Is(206823, -32740.3632247));
-  EXPECT_TRUE(Fingerprint().Add(SomeText()).Is(31272, -2320.97047022));
+  EXPECT_TRUE(Fingerprint().Add(TextOf(TagsOfMoves())).Is(141183, -19696.2631752));
+  EXPECT_TRUE(Fingerprint().Add(TextOf(SomeTags())).Is(22523, -5217.31190795));
 }
 
 TEST(TagsFileGolden, OfEveryComplaint) {
-  const std::string text = SomeText();
+  const std::string text = TextOf(SomeTags());
   const std::vector<std::pair<std::string, std::string>> changes = {
       {"RH=\"mid\"", "RH=\"up\""},
       {"LFK=\"false\"", "LFK=\"true\""},
@@ -233,7 +246,7 @@ TEST(TagsFileGolden, OfEveryComplaint) {
   print.Add(ToString(Complaint(tag)))
       .Add(ToString(Complaint("\n<a/><!DOCTYPE x>")))
       .Add(ToString(Complaint(" \t\r\n")));
-  EXPECT_TRUE(print.Is(1339, 4056.03974131)) << ToString(Complaint(With(text, "RH=\"mid\"", "RH=\"up\"")));
+  EXPECT_TRUE(print.Is(1318, 3160.42984431)) << ToString(Complaint(With(text, "RH=\"mid\"", "RH=\"up\"")));
 }
 
 bool IsRead(const BridgeTags& tags) { return ReadTagsFile(WriteTagsFile(tags).value(), "tags.xml").has_value(); }
