@@ -15,7 +15,7 @@
 namespace etude::engine {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 std::string RefusalOf(const std::function<void()>& act) {
   try {

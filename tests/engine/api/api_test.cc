@@ -16,7 +16,7 @@
 namespace etude::engine {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 template <typename Act>
 std::string Refusal(const Act& act) {
@@ -94,16 +94,16 @@ TEST(ApiKinematics, MeetsTargetsInFloatsAndWithRootsOfTheirOwn) {
 }
 
 TEST(ApiKinematics, RefusesWhatDoesNotFit) {
-  EXPECT_THAT(Refusal([] { Kinematics{Tree{}}; }), Not(testing::IsEmpty()));
+  EXPECT_THAT(Refusal([] { Kinematics{Tree{}}; }), Not(::testing::IsEmpty()));
   Tree circle = AdultBody();
   circle.limbs[3].parent = 7;
-  EXPECT_THAT(Refusal([&] { Kinematics{circle}; }), Not(testing::IsEmpty()));
+  EXPECT_THAT(Refusal([&] { Kinematics{circle}; }), Not(::testing::IsEmpty()));
   const Kinematics body(AdultBody());
   EXPECT_THAT(Refusal([&] { body.Limbs({}); }), HasSubstr("0 angles; allowed: 29"));
   EXPECT_THAT(Refusal([&] {
                 body.Solve(TreePose{{}, std::vector<double>(29)}, std::span<const Target>());
               }),
-              Not(testing::IsEmpty()));
+              Not(::testing::IsEmpty()));
   IkBatch batch = SomeProblems(body, 2);
   batch.starts.pop_back();
   EXPECT_THAT(Refusal([&] { body.Solve(batch); }), HasSubstr("57 start angles; allowed: 58"));
@@ -118,7 +118,7 @@ TEST(ApiFuzzy, RefusesClipsThatAreNone) {
 
 TEST(ApiCameras, RefusesWhatDeterminesNoCamera) {
   const std::vector<PointPair> few(5);
-  EXPECT_THAT(Refusal([&] { Calibrate(few, 640, 480); }), Not(testing::IsEmpty()));
+  EXPECT_THAT(Refusal([&] { Calibrate(few, 640, 480); }), Not(::testing::IsEmpty()));
   EXPECT_THAT(Refusal([&] { Calibrate(few, 0, 480); }), HasSubstr("allowed"));
   const std::vector<Camera> two(2);
   EXPECT_THAT(Refusal([&] { Triangulate(two, {}); }), HasSubstr("0 pixels"));
@@ -164,7 +164,7 @@ TEST(ApiRecognition, FollowsAsTheEngineDoesToTheLastBit) {
     for (int frame = 0; frame < 40; ++frame) {
       const Evidence evidence = stream.Update({.pose = Swinging(3).poses[frame], .seen = {}});
       EXPECT_EQ(evidence.asked, trace->asked[frame]) << kind << frame;
-      EXPECT_THAT(evidence.spotted, testing::ElementsAreArray(trace->SpottedAt(frame)));
+      EXPECT_THAT(evidence.spotted, ::testing::ElementsAreArray(trace->SpottedAt(frame)));
     }
     EXPECT_GT(trace->asked[39], 0) << kind;
   }

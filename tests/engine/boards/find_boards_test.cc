@@ -20,7 +20,7 @@
 namespace etude {
 namespace {
 
-using testing::IsEmpty;
+using ::testing::IsEmpty;
 
 /// Where a board stands: its top left corner and its two axes in the world.
 struct Standing {

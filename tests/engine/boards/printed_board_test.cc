@@ -64,7 +64,7 @@ TEST(PrintedBoard, CornersOfCharucoAreNamedInBothPrintsAndLayouts) {
   const PrintedBoard board{.is_charuco = true, .columns = 5, .rows = 4, .square = 0.03};
   for (const bool is_inverted : {false, true}) {
     for (const bool is_first : {false, true}) {
-      SCOPED_TRACE(testing::Message() << is_inverted << is_first);
+      SCOPED_TRACE(::testing::Message() << is_inverted << is_first);
       const auto finder = MakePrintedBoardFinder(board);
       if (!finder) GTEST_SKIP() << ToString(finder.error());
       const ColourImage picture = PictureOfCharuco(board, is_inverted, is_first);

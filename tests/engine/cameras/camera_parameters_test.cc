@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// All twelve, as an array that can be compared number by number.
 std::array<double, 12> Listed(const CameraParameters& p) {

@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 ProjectionMatrix TrueMatrix() {
   Intrinsics in;
@@ -40,7 +40,7 @@ std::vector<PointPair> WithPixelErrors(std::vector<PointPair> pairs, double size
   return pairs;
 }
 
-class Dlt : public testing::TestWithParam<Calibration> {};
+class Dlt : public ::testing::TestWithParam<Calibration> {};
 
 TEST_P(Dlt, GivesTheMatrixBackFromSixExactPairs) {
   const auto matrix = Calibrate(Pairs(6), GetParam());
@@ -134,7 +134,7 @@ TEST_P(Dlt, RefusesPairsThatManyCamerasFit) {
   EXPECT_THAT(matrix.error().message, HasSubstr("more than one camera"));
 }
 
-INSTANTIATE_TEST_SUITE_P(BothWays, Dlt, testing::Values(Calibration::kDlt, Calibration::kDltNormalised),
+INSTANTIATE_TEST_SUITE_P(BothWays, Dlt, ::testing::Values(Calibration::kDlt, Calibration::kDltNormalised),
                          [](const auto& which) { return which.param == Calibration::kDlt ? "plain" : "normalised"; });
 
 TEST(ReprojectionRms, IsZeroForTheTrueMatrixAndTheShiftForAShiftedOne) {

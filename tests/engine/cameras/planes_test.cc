@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 std::vector<Camera> TrueCameras() {
   Intrinsics in{.width = 640, .height = 480, .fx = 610, .fy = 590, .cx = 327, .cy = 231, .skew = 0};
@@ -134,7 +134,7 @@ TEST(Planes, RefusedWithTheReason) {
   }
   const auto rig = CalibrateFromPlanes(std::vector<PictureSize>{{640, 480}}, straight);
   ASSERT_FALSE(rig);
-  EXPECT_THAT(rig.error().message, testing::AnyOf(HasSubstr("tilt"), HasSubstr("do not determine")));
+  EXPECT_THAT(rig.error().message, ::testing::AnyOf(HasSubstr("tilt"), HasSubstr("do not determine")));
 
   std::vector<PointPair> line;
   for (int i = 0; i < 7; ++i) line.push_back({{0.1 * i, 0.2 * i, 0}, {10.0 * i, 5.0 * i}});

@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 Camera TrueCamera() {
   Intrinsics in{.width = 640, .height = 480, .fx = 610, .fy = 590, .cx = 327, .cy = 231, .skew = 0};

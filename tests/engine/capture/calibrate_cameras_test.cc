@@ -42,7 +42,7 @@ TEST(CalibrateCameras, NamesTheCameraThatCannotBeCalibrated) {
   pairs[1].resize(5);
   const auto matrices = CalibrateCameras(pairs);
   ASSERT_FALSE(matrices);
-  EXPECT_THAT(matrices.error().message, testing::StartsWith("camera 2: cannot calibrate a camera: 5 point pairs"));
+  EXPECT_THAT(matrices.error().message, ::testing::StartsWith("camera 2: cannot calibrate a camera: 5 point pairs"));
 }
 
 /// Two cameras with lenses, and what they show of a volume.
@@ -73,7 +73,8 @@ TEST(RefineCameras, FindsLensesThatAMatrixCannotTell) {
     EXPECT_GT(ReprojectionRms((*matrices)[i], pairs[i]), 0.05) << "the control: a matrix leaves the lens's error";
   }
   pairs[1].resize(6);
-  EXPECT_THAT(RefineCameras(pairs, sizes).error().message, testing::StartsWith("camera 2: 6 points give 12 equations"));
+  EXPECT_THAT(RefineCameras(pairs, sizes).error().message,
+              ::testing::StartsWith("camera 2: 6 points give 12 equations"));
 }
 
 TEST(UndistortMarks, ShowsWhatAPinholeWouldShow) {

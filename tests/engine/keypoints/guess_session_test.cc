@@ -13,10 +13,10 @@
 namespace etude {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::StartsWith;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
 
 const glm::dvec2 kPicture(1280, 720);
 const std::vector<std::string> kFilms = {"cam1", "cam2", "cam3", "cam4"};

@@ -10,8 +10,8 @@
 namespace etude {
 namespace {
 
-using testing::IsEmpty;
-using testing::SizeIs;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
 
 constexpr std::size_t kMendedFrames = 50;
 

@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// Somebody 1.7 m tall who stands about on the floor at height 0 for two seconds at a time, facing +z, and leans
 /// forwards; through a map into the file's world.

@@ -14,7 +14,7 @@
 namespace etude {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr std::size_t kPersonFrames = 60;
 constexpr double kRate = 30;

@@ -1,0 +1,447 @@
+// Golden values of whole results, of noisy input, fits that are cut off early, and files that are spoilt line by line:
+// whatever changes a number or a word is noticed. What is right is said by the tests beside.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "engine/cameras/camera_parameters.h"
+#include "engine/cameras/opencv_file.h"
+#include "engine/cameras/pairs_file.h"
+#include "engine/cameras/planes.h"
+#include "engine/cameras/rig_file.h"
+#include "engine/cameras/robust_triangulation.h"
+#include "tests/engine/cameras/camera_at.h"
+#include "tests/support/fingerprint.h"
+
+namespace etude {
+namespace {
+
+using testing::Dice;
+using testing::Fingerprint;
+
+/// Within ±1000, so that numbers of wrong files do not hide those of right ones.
+double Bounded(double x) { return x / (1 + 0.001 * std::abs(x)); }
+
+void AddCamera(Fingerprint& print, const Camera& camera) {
+  const Intrinsics& in = camera.intrinsics;
+  const Distortion& d = camera.distortion;
+  print.Add(d.is_fisheye).Add(in.width).Add(in.height);
+  for (const double value : {in.fx, in.fy, in.cx, in.cy, in.skew, camera.p_WC.x, camera.p_WC.y, camera.p_WC.z})
+    print.Add(Bounded(value));
+  for (const double c : {d.k1, d.k2, d.p1, d.p2, d.k3, d.k4, d.k5, d.k6, d.s1, d.s2, d.s3, d.s4, d.tau_x, d.tau_y})
+    print.Add(Bounded(100 * c));
+  for (int i = 0; i < 3; ++i) print.Add(camera.R_CW[i]);
+}
+
+Distortion AnyLens(Dice& dice, int kind) {
+  const auto some = [&](double most) { return most * dice.Signed(); };
+  Distortion d{.k1 = some(0.4), .k2 = some(0.1), .k3 = some(0.03)};
+  if (kind > 0) d.p1 = some(0.01), d.p2 = some(0.01);
+  if (kind == 2) d.k4 = some(0.1), d.k5 = some(0.05), d.k6 = some(0.02);
+  if (kind == 3) d.s1 = some(0.02), d.s2 = some(0.01), d.s3 = some(0.02), d.s4 = some(0.01);
+  if (kind == 4) d.tau_x = some(0.1), d.tau_y = some(0.1);
+  if (kind == 5) d = {.k1 = some(0.1), .k2 = some(0.05), .k3 = some(0.02), .k4 = some(0.01), .is_fisheye = true};
+  return d;
+}
+
+Camera AnyCamera(Dice& dice, int kind) {
+  const Intrinsics in{.width = 640,
+                      .height = 480,
+                      .fx = 600 + 90 * dice.Signed(),
+                      .fy = 600 + 90 * dice.Signed(),
+                      .cx = 320 + 20 * dice.Signed(),
+                      .cy = 240 + 20 * dice.Signed(),
+                      .skew = kind % 2 ? 5 * dice.Signed() : 0};
+  Camera camera = LookAt(in, EyeAt(180 * dice.Signed()) + 0.4 * dice.Vector(), {0, 0.9, 0});
+  if (kind >= 0) camera.distortion = AnyLens(dice, kind);
+  return camera;
+}
+
+TEST(CamerasGolden, LensesToTheirFoldsAndBeyond) {
+  Dice dice(1);
+  Fingerprint rays, print;
+  for (int k = 0; k < 60; ++k) {
+    const Camera camera = AnyCamera(dice, k % 6);
+    for (int i = 0; i < 30; ++i) {
+      const glm::dvec2 ray = 1.6 * glm::dvec2(dice.Vector());
+      rays.Add(Distort(camera.distortion, 0.5 * ray)).Add(Undistort(camera.distortion, ray));
+      const glm::dvec2 pixel = glm::dvec2(320, 240) + 900.0 * glm::dvec2(dice.Vector());
+      print.Add(DistortPixel(camera, pixel)).Add(UndistortPixel(camera, pixel));
+      print.Add(Project(camera, 5.0 * dice.Vector()));
+    }
+  }
+  EXPECT_TRUE(rays.Is(7946, -166.360035269));
+  EXPECT_TRUE(print.Is(13254, 71350.4821095));
+}
+
+/// Points of a box about the middle, as `camera` shows them, each off by `noise_px` at most.
+std::vector<PointPair> NoisyPairs(Dice& dice, const Camera& camera, int count, double noise_px,
+                                  const glm::dvec3& extents = glm::dvec3(1)) {
+  std::vector<PointPair> pairs;
+  while (static_cast<int>(pairs.size()) < count) {
+    const glm::dvec3 world = extents * dice.Vector() + glm::dvec3(0, 0.9, 0);
+    const glm::dvec2 off = noise_px * glm::dvec2(dice.Vector());
+    if (const auto pixel = Project(camera, world)) pairs.push_back({world, *pixel + off});
+  }
+  return pairs;
+}
+
+void AddMatrix(Fingerprint& print, const ProjectionMatrix& matrix) {
+  for (const auto& row : matrix.h) print.Add(row);
+}
+
+TEST(CamerasGolden, MatricesOfNoisyPairs) {
+  Dice dice(2);
+  Fingerprint print;
+  for (int k = 0; k < 40; ++k) {
+    const Camera camera = AnyCamera(dice, -1 - k % 2);
+    // From a volume to nearly a plane, to nearly a line.
+    const double flat = std::pow(10.0, -0.2 * k);
+    const auto pairs = NoisyPairs(dice, camera, 6 + k / 2, 2, {1, k % 3 ? 1 : flat, k < 4 ? 1 : flat});
+    for (const Calibration calibration : {Calibration::kDlt, Calibration::kDltNormalised, Calibration::kRefined}) {
+      const auto matrix = Calibrate(pairs, calibration);
+      print.Add(matrix.has_value());
+      if (!matrix) {
+        print.Add(matrix.error().message);
+        continue;
+      }
+      AddMatrix(print, *matrix);
+      print.Add(ReprojectionRms(*matrix, pairs));
+      if (const auto p = Decompose(*matrix)) {
+        print.Add(p->focal_length).Add(p->delta_u).Add(p->skew).Add(p->omega).Add(p->phi).Add(p->kappa).Add(p->t);
+        AddCamera(print, ToCamera(*p, 640, 480));
+      }
+    }
+  }
+  EXPECT_TRUE(print.Is(8790, -904.573823945));
+}
+
+TEST(CamerasGolden, DirectionsAndPointsSeenByManyCamerasOfWhichSomeErr) {
+  Dice dice(3);
+  Fingerprint limbs, points;
+  for (int k = 0; k < 150; ++k) {
+    const int count = 2 + k % 5;
+    const glm::dvec3 a = glm::dvec3(0, 0.9, 0) + 0.6 * dice.Vector(), b = a + 0.5 * dice.Vector();
+    std::vector<LimbSighting> strokes;
+    std::vector<Sighting> plain;
+    std::vector<InformedSighting> informed;
+    std::vector<WeightedSighting> weighted;
+    std::vector<double> weights;
+    for (int c = 0; c < count; ++c) {
+      const double away = dice.Below(4) == 0 ? 120 : 3;
+      const auto off = [&] { return away * glm::dvec2(dice.Vector()); };
+      ProjectionMatrix matrix = MatrixOf(AnyCamera(dice, -1));
+      for (auto& row : matrix.h) {
+        for (double& h : row) h *= 1 + c;  // of any scale
+      }
+      const glm::dvec2 at_a = *Project(matrix, a) + off(), at_b = dice.Below(7) ? *Project(matrix, b) + off() : at_a;
+      strokes.push_back({matrix, {at_a, at_b}});
+      plain.push_back({matrix, at_a});
+      glm::dmat2 information(2 + dice.Signed(), 0.5, 0.5, 1 + 0.5 * dice.Signed());
+      informed.push_back({plain.back(), information});
+      weighted.push_back({plain.back(), dice.Below(6) ? 1 + 0.9 * dice.Signed() : -dice.Below(2)});
+      weights.push_back(1 + 0.5 * dice.Signed());
+      const auto line = SightLineOf(plain.back());
+      points.Add(line->camera_W).Add(line->direction_W).Add(NearestOn(*line, b)).Add(NearestOn(*line, 9.0 * a));
+      if (c > 0) points.Add(EpipolarGeometry::Of(plain[0].matrix, matrix)->DistancePx(plain[0].pixel, at_a));
+    }
+    for (const double smallest : {Radians(3), 0.0, Radians(30)}) {
+      const LimbDirection limb = ComputeLimbDirection(strokes, smallest);
+      limbs.Add(limb.status).Add(limb.direction).Add(limb.plane_angle);
+    }
+    for (const double tolerance : {5.0, 25.0}) {
+      limbs.Add(AgreeingViews(strokes, tolerance));
+      points.Add(AgreeingViews(plain, tolerance)).Add(AgreeingViews(plain, tolerance, weights));
+      const auto robust = TriangulateRobustly(weighted, {tolerance});
+      points.Add(robust.has_value());
+      if (robust) points.Add(robust->position).Add(robust->agrees).Add(robust->residual_px);
+    }
+    for (const TriangulatedPoint& point : {Triangulate(plain), TriangulateByPixels(plain)})
+      points.Add(point.status).Add(point.position).Add(point.residual_px);
+    const auto likeliest = TriangulateLikeliest(informed);
+    points.Add(likeliest.has_value());
+    if (likeliest) points.Add(likeliest->position);
+    const auto equations = PointEquationsAt(informed, a);
+    for (int i = 0; i < 3; ++i) points.Add(1e-4 * equations->information[i]);
+    points.Add(1e-2 * equations->right);
+  }
+  EXPECT_TRUE(limbs.Is(3372, 16.7449723061));
+  EXPECT_TRUE(points.Is(16575, 1114.45421417));
+}
+
+void AddRig(Fingerprint& print, const Result<RefinedRig>& rig) {
+  print.Add(rig.has_value());
+  if (!rig) {
+    print.Add(rig.error().message);
+    return;
+  }
+  for (const Camera& camera : rig->cameras) AddCamera(print, camera);
+  for (const TargetPlace& target : rig->targets) {
+    for (int i = 0; i < 3; ++i) print.Add(target.R_WT[i]);
+    print.Add(target.p_WT);
+  }
+  print.Add(rig->camera_rms_px).Add(rig->rms_px).Add(rig->points).Add(rig->parameters);
+  for (const IntrinsicsDeviation& d : rig->deviations) print.Add(d.fx).Add(d.fy).Add(d.cx).Add(d.cy);
+}
+
+TEST(CamerasGolden, CamerasRefinedForAFewSteps) {
+  Dice dice(4);
+  Fingerprint print;
+  for (int k = 0; k < 10; ++k) {
+    const Camera camera = AnyCamera(dice, k % 3 - 1);
+    const auto pairs = NoisyPairs(dice, camera, k == 9 ? 6 : 15 + k, 1.5, {1, 0.7, k == 8 ? 0.002 : 0.8});
+    for (const LensModel lens :
+         {LensModel::kPinhole, LensModel::kRadial2, LensModel::kRadial3, LensModel::kAsInCamera}) {
+      RefineOptions options{.lens = lens, .skew = k % 2 == 1};
+      AddRig(print, RefineCamera(pairs, 640, 480, options));
+      options.most_iterations = 1 + k % 3;
+      AddRig(print, RefineCamera(pairs, 640, 480, options));
+    }
+  }
+  EXPECT_TRUE(print.Is(4840, -2135.14112488));
+}
+
+/// Boards of 6 × 4 corners as three cameras show them, with noise; some views are missing or cut off.
+std::vector<TargetView> BoardViews(Dice& dice, const std::vector<Camera>& cameras, int boards) {
+  std::vector<TargetView> views;
+  for (int b = 0; b < boards; ++b) {
+    glm::dquat turn = dice.Rotation();
+    turn = glm::normalize(glm::dquat(2, turn.x, turn.y, turn.z));
+    const glm::dvec3 p_WT = glm::dvec3(-0.2, 1.1, 0) + 0.4 * dice.Vector();
+    for (std::size_t c = 0; c < cameras.size(); ++c) {
+      if (dice.Below(5) == 0) continue;
+      TargetView view{c, static_cast<std::size_t>(b + (b > 2)), {}};  // there is no board 3
+      const int corners = dice.Below(6) ? 24 : static_cast<int>(dice.Below(9));
+      for (int i = 0; i < corners; ++i) {
+        const glm::dvec3 place(0.09 * (i % 6), 0.08 * (i / 6), 0);
+        const glm::dvec2 off = 0.7 * glm::dvec2(dice.Vector());
+        if (const auto pixel = Project(cameras[c], p_WT + turn * place)) view.pairs.push_back({place, *pixel + off});
+      }
+      views.push_back(std::move(view));
+    }
+  }
+  return views;
+}
+
+TEST(CamerasGolden, RigsFromBoards) {
+  Dice dice(5);
+  Fingerprint rigs, planes;
+  for (int k = 0; k < 4; ++k) {
+    std::vector<Camera> cameras;
+    for (const double degrees : {-30.0, 5.0, 35.0}) {
+      const Intrinsics in{.width = 640, .height = 480, .fx = 500.0 + 20 * k, .fy = 540, .cx = 324, .cy = 236};
+      cameras.push_back(LookAt(in, EyeAt(degrees), {0, 1, 0}));
+      cameras.back().distortion = {.k1 = -0.1, .k2 = 0.03};
+    }
+    const auto views = BoardViews(dice, cameras, 4 + k);
+    const std::vector<PictureSize> sizes(3, PictureSize{640, 480});
+    AddRig(rigs, CalibrateFromPlanes(sizes, views));
+    for (const int iterations : {1, 2, 4}) {
+      const RefineOptions options{.lens = k % 2 ? LensModel::kRadial3 : LensModel::kPinhole,
+                                  .most_iterations = iterations};
+      AddRig(rigs, CalibrateFromPlanes(sizes, views, options));
+    }
+    AddRig(rigs, PlaceBoards(cameras, views));
+    RigGuess guess{cameras, {}};
+    if (const auto placed = PlaceBoards(cameras, views)) guess.targets = placed->targets;
+    guess.cameras[1].p_WC += 0.02;
+    AddRig(rigs, RefineRig(guess, std::span(views).first(2), {.hold_intrinsics = true}));
+    std::vector<glm::dmat3> homographies;
+    for (const TargetView& view : views) {
+      const auto homography = HomographyOf(view.pairs);
+      planes.Add(homography.has_value());
+      if (!homography) {
+        planes.Add(homography.error().message);
+        continue;
+      }
+      const TargetPlace pose = PoseOfPlane(cameras[view.camera].intrinsics, *homography);
+      const glm::dmat3& H = *homography;
+      const double size = glm::length(H[2]) * (H[2].z < 0 ? -1 : 1);
+      for (int i = 0; i < 3; ++i) {
+        planes.Add(pose.R_WT[i]).Add(Bounded(pose.p_WT[i]));
+        for (int row = 0; row < 3; ++row) planes.Add(Bounded(H[i][row] / size));
+      }
+      homographies.push_back(*homography);
+      // One view, two, …: until they tell.
+      const auto in = IntrinsicsFromPlanes(homographies, 640, 480);
+      planes.Add(in.has_value());
+      if (in) planes.Add(in->fx).Add(in->fy).Add(in->cx).Add(in->cy).Add(in->skew).Add(in->width).Add(in->height);
+    }
+  }
+  EXPECT_TRUE(rigs.Is(3519, -1867.49531701));
+  EXPECT_TRUE(planes.Is(1579, -7322.69512573));
+}
+
+/// Calls `read` with the text, without each of its lines in turn, with each cut off or doubled, with each of its
+/// numbers replaced by others.
+template <typename Read>
+void ForEachSpoilt(const std::string& text, const Read& read) {
+  read(text);
+  for (std::size_t at = 0; at < text.size(); at = text.find('\n', at) + 1) {
+    const std::size_t length = text.find('\n', at) + 1 - at;
+    const auto changed = [&](const std::string& line) { return std::string(text).replace(at, length, line); };
+    const std::string line = text.substr(at, length);
+    for (const std::string& other : {std::string(), line + line, line.substr(0, length / 2) + "\n", " \t" + line})
+      read(changed(other));
+  }
+  constexpr std::array kNumbers = {"x", "-7", "0", "1e12", "nan", "2.5"};
+  std::size_t next = 0;
+  for (std::size_t at = text.find_first_of("0123456789"); at < text.size();) {
+    const std::size_t end = std::min(text.find_first_not_of("0123456789.e-", at), text.size());
+    for (int i = 0; i < 2; ++i) read(std::string(text).replace(at, end - at, kNumbers[next++ % kNumbers.size()]));
+    at = std::min(text.find_first_of("0123456789", end), text.size());
+  }
+}
+
+struct FilePrints {
+  Fingerprint cameras, complaints;
+
+  void Add(const Result<RigFile>& rig) {
+    if (!rig) return void(complaints.Add(ToString(rig.error())));
+    for (const NamedCamera& named : rig->cameras) {
+      complaints.Add(named.name);
+      AddCamera(cameras, named.camera);
+    }
+    complaints.Add(rig->format).Add(rig->has_unit);
+    cameras.Add(rig->unit_m).Add(rig->R_WF[0]).Add(rig->R_WF[1]);
+  }
+};
+
+std::vector<NamedCamera> CamerasOfAllKinds() {
+  Dice dice(6);
+  std::vector<NamedCamera> cameras;
+  for (const int kind : {-1, 0, 2, 3, 4, 5})
+    cameras.push_back({fmt::format("{} cam-{}", kind, kind), AnyCamera(dice, kind)});
+  cameras[1].camera.distortion.k3 = 0;
+  return cameras;
+}
+
+TEST(CamerasGolden, RigsWrittenReadAndSpoilt) {
+  const auto cameras = CamerasOfAllKinds();
+  Fingerprint texts;
+  texts.Add(WriteRig(cameras)).Add(WritePose2SimCalibration(cameras));
+  for (const NamedCamera& named : cameras) texts.Add(WriteOpenCvCamera(named.camera));
+  EXPECT_TRUE(texts.Is(12844, -2467.74813999));
+  FilePrints prints;
+  const auto read = [&](const std::string& text) { prints.Add(ReadRigFile(text, "rig")); };
+  read(WriteRig(cameras));
+  read(WritePose2SimCalibration(cameras));
+  for (const NamedCamera& named : cameras) read(WriteOpenCvCamera(named.camera));
+  const std::span<const NamedCamera> two = std::span(cameras).subspan(1, 2);
+  ForEachSpoilt(WriteRig(two), read);
+  ForEachSpoilt(WriteOpenCvCamera(cameras[5].camera), read);
+  ForEachSpoilt("# by hand\n" + WritePose2SimCalibration(two.first(1)) +
+                    "[cameras.3]\nignore = true\nmatrix = [ [1, 0,\n 2],[0, 3, 4], # K\n [0, 0, 1]]\nsize = [9, 8]\n"
+                    "distortions = []\nrotation = [[1.0001, 0, 0], [0, 1, 0], [0, 0, 1]]\ntranslation = [0, \"#\", "
+                    "1]\nfisheye = true\n",
+                read);
+  std::string caliscope = WritePose2SimCalibration(two.first(1));
+  caliscope.replace(0, caliscope.find(']'), "[cameras.12");
+  ForEachSpoilt(caliscope, read);
+  for (const std::size_t count : {64, 65}) {
+    std::vector<NamedCamera> many;
+    for (std::size_t i = 0; i < count; ++i) many.push_back({fmt::format("c{}", i), cameras[0].camera});
+    read(WriteRig(many));
+    read(WritePose2SimCalibration(many));
+  }
+  for (const std::size_t size : {1 << 20, (1 << 20) + 1}) read(std::string(size, ' '));
+  EXPECT_TRUE(prints.cameras.Is(24367, -16987.9303672));
+  EXPECT_TRUE(prints.complaints.Is(38512, 734.686900946));
+}
+
+constexpr const char* kQualisysOfTwo = R"(<?xml version="1.0" encoding="UTF-8"?>
+<calibration created="2020-01-01" type="regular">
+ <cameras>
+  <camera serial="26578" model="Miqus Video">
+   <fov_video left="40" top="7" right="1879" bottom="1079"/>
+   <transform x="3000" y="10" z="1000" r11="0" r12="1" r13="0" r21="0" r22="0" r23="1" r31="1" r32="0" r33="0"/>
+   <intrinsic sensorMinU="64" sensorMaxU="122880" sensorMinV="0" sensorMaxV="69632"
+     focalLengthU="107520" focalLengthV="106880" centerPointU="60800" centerPointV="32640" skew="64"
+     radialDistortion1="-0.045" radialDistortion2="0.14" radialDistortion3="0.01"
+     tangentalDistortion1="0.0006" tangentalDistortion2="-0.0004"/>
+  </camera>
+  <other/>
+  <camera serial="26579">
+   <transform x="20" y="-3000" z="900" r11="1" r12="0" r13="0" r21="0" r22="0" r23="1" r31="0" r32="-1" r33="0"/>
+   <intrinsic sensorMinU="0" sensorMaxU="16384" sensorMinV="0" sensorMaxV="1080"
+     focalLengthU="1680" focalLengthV="1670" centerPointU="950" centerPointV="510" skew="0"
+     radialDistortion1="-0.045" radialDistortion2="0.14" radialDistortion3="0"
+     tangentalDistortion1="0.0006" tangentalDistortion2="-0.0004"/>
+  </camera>
+ </cameras>
+</calibration>
+)";
+
+std::string MatrixText(const std::string& name, const std::vector<double>& values) {
+  return fmt::format("{}: !!opencv-matrix\n   rows: {}\n   cols: 1\n   dt: d\n   data: [ {} ]\n", name, values.size(),
+                     fmt::join(values, ", "));
+}
+
+TEST(CamerasGolden, FilesOfOthersSpoilt) {
+  FilePrints prints;
+  ForEachSpoilt(kQualisysOfTwo, [&](const std::string& text) { prints.Add(ReadRigFile(text, "rig")); });
+  const std::vector<double> K = {610, 0, 320, 0, 600, 240, 0, 0, 1}, lens = {-0.1, 0.02, 0.001, -0.002, 0.003};
+  const std::vector<double> turned = {0, 1, 0, -1, 0, 0, 0, 0, 1};
+  const std::string head = "%YAML:1.0\n---\n";
+  const std::string mocap_in = head + "names:\n  - \"a\"\n  - \"b\"\n" + MatrixText("K_a", K) +
+                               MatrixText("dist_a", lens) + "H_a: 480\nW_a: 640\n" + MatrixText("K_b", K) +
+                               MatrixText("dist_b", {});
+  const std::string mocap_out = head + MatrixText("R_a", {0.1, -0.2, 0.3}) + MatrixText("T_a", {1, 2, 3}) +
+                                MatrixText("Rot_b", turned) + MatrixText("T_b", {0, -1, 4});
+  const std::string stereo_in = head + MatrixText("M1", K) + MatrixText("D1", lens) + MatrixText("M2", K) +
+                                MatrixText("D2", {-0.1, 0.02, 0.001, -0.002});
+  const std::string stereo_out = head + MatrixText("R", turned) + MatrixText("T", {-1, 0.1, 0.2});
+  const std::string colmap_in =
+      "# cameras\n1 SIMPLE_PINHOLE 640 480 600 320 240\n2 OPENCV_FISHEYE 640 480 600 610 320 240 0.1 0.01 0.001 0.002\n"
+      "3 FULL_OPENCV 640 480 600 610 320 240 0.1 0.01 0.001 0.002 0.003 0.004 0.005 0.006\n\n"
+      "4 SIMPLE_RADIAL_FISHEYE 640 480 600 320 240 0.03\n";
+  const std::string colmap_out =
+      "# images\n1 0.9 0.1 0.2 0.3 1 2 3 1 a/b.c.png\n5 6 7\n2 1 0 0 0 0 0 4 2 left\n\n3 0 1 0 0 1 0 4 3 x.jpg\n1 2 3\n"
+      "4 0 0 2 0 1 1 4 4 /y\n";
+  for (const auto& [inside, outside] :
+       {std::pair(mocap_in, mocap_out), {stereo_in, stereo_out}, {colmap_in, colmap_out}}) {
+    ForEachSpoilt(inside, [&](const std::string& text) { prints.Add(ReadRigPair(text, outside, "pair")); });
+    ForEachSpoilt(outside, [&](const std::string& text) { prints.Add(ReadRigPair(inside, text, "pair")); });
+  }
+  EXPECT_TRUE(prints.cameras.Is(39093, 84598.8113071));
+  EXPECT_TRUE(prints.complaints.Is(37701, 1704.00275957));
+}
+
+TEST(CamerasGolden, PointPairsReadAndSpoilt) {
+  Fingerprint pairs, complaints;
+  const auto read = [&](const std::string& text) {
+    const auto cameras = ReadPointPairs(text, "pairs");
+    if (!cameras) return void(complaints.Add(ToString(cameras.error())));
+    for (const CameraPairs& camera : *cameras) {
+      complaints.Add(camera.name);
+      pairs.Add(camera.width).Add(camera.height);
+      for (const auto& [p, pixel] : camera.pairs) {
+        for (const double x : {p.x, p.y, p.z, pixel.x, pixel.y}) pairs.Add(Bounded(x));
+      }
+    }
+  };
+  ForEachSpoilt(
+      "camera, x,y,\tz,u,v\r\nleft,1,2,3,4,5\n\n# right, too\nright , 1.5,2, 3,100,200\r\nleft,-1e9,1e9,0,0,0\n", read);
+  ForEachSpoilt(
+      "left:\n  size: [1920, 1080]\n  pairs:\n    - [1, 2, 3, 4, 5]\n    - [0.5, 0, 0, 10, 20]\n"
+      "right: {size: [65536, 1], pairs: [[1, 2, 3, 1000000000, -1000000000]]}\n",
+      read);
+  for (const int count : {64, 65}) {
+    std::string text = "camera,x,y,z,u,v\n";
+    for (int i = 0; i < count; ++i) text += fmt::format("c{},1,2,3,4,{}\n", i, i);
+    read(text);
+  }
+  for (const std::string text : {"", "camera,x,y,z,u,v", "camera,x,y,z,u,v\nleft,1,2,3,4,5", "- 1", "7"}) read(text);
+  const std::string long_comment = "camera,x,y,z,u,v\nleft,1,2,3,4,5\n#";
+  for (const std::size_t size : {1 << 20, (1 << 20) + 1})
+    read(long_comment + std::string(size - long_comment.size(), ' '));
+  EXPECT_TRUE(pairs.Is(873, -147451.251364));
+  EXPECT_TRUE(complaints.Is(7271, 3560.51740737));
+}
+
+}  // namespace
+}  // namespace etude
