@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
-#include <cstdlib>
+
+#include "engine/vision/change_detection.h"
 
 namespace etude {
 namespace {
-
-int Difference(Rgb8 a, Rgb8 b) { return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)}); }
 
 /// The share of set pixels in the square about every pixel, as much of it as lies in the picture: by sums over all
 /// rectangles from the corner.
@@ -43,8 +42,8 @@ std::vector<Activity> MotionActivity(std::span<const ColourImage> pictures, cons
     const ColourImage& after = pictures[std::min(k + options.lag, pictures.size() - 1)];
     Mask moved(now.width, now.height);
     for (std::size_t i = 0; i < moved.pixels.size(); ++i) {
-      moved.pixels[i] = Difference(now.pixels[i], before.pixels[i]) > options.change ||
-                        Difference(now.pixels[i], after.pixels[i]) > options.change;
+      moved.pixels[i] = MostDifference(now.pixels[i], before.pixels[i]) > options.change ||
+                        MostDifference(now.pixels[i], after.pixels[i]) > options.change;
     }
     activity.push_back(ShareAbout(moved, options.reach));
   }

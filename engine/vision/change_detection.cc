@@ -1,10 +1,8 @@
 #include "engine/vision/change_detection.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
-#include <cstdint>
 
 #include "engine/base/angles.h"
 #include "engine/base/named.h"
@@ -28,12 +26,9 @@ Hsi ToHsi(Rgb8 colour) {
 
 namespace {
 
-constexpr Named<Segmenter> kSegmenters[] = {{"rgb", Segmenter::kRgb},
-                                            {"hue", Segmenter::kHue},
-                                            {"hue-gated", Segmenter::kHueGated},
-                                            {"ratio", Segmenter::kRatio},
-                                            {"running", Segmenter::kRunning},
-                                            {"likelihood", Segmenter::kLikelihood}};
+constexpr Named<Segmenter> kSegmenters[] = {
+    {"rgb", Segmenter::kRgb},     {"hue", Segmenter::kHue},         {"hue-gated", Segmenter::kHueGated},
+    {"ratio", Segmenter::kRatio}, {"running", Segmenter::kRunning}, {"likelihood", Segmenter::kLikelihood}};
 
 // Decides whether two hues are more than the threshold apart, by the cosine of the angle between them.
 class HueComparison {
@@ -56,47 +51,6 @@ Chroma ChromaOrRed(Rgb8 colour) {
   Chroma chroma(colour);
   chroma.x = chroma.IsGrey() ? kRed : chroma.x;
   return chroma;
-}
-
-// Some pixels' chromas, coordinate by coordinate: loops over them become vector instructions.
-struct Chromas {
-  static constexpr std::size_t kMost = 512;
-
-  void Fill(const Rgb8* pixels, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-      const Chroma chroma = ChromaOrRed(pixels[i]);
-      x[i] = chroma.x;
-      y[i] = chroma.y;
-    }
-  }
-  Chroma At(std::size_t i) const {
-    Chroma chroma(Rgb8{});
-    chroma.x = x[i];
-    chroma.y = y[i];
-    return chroma;
-  }
-
-  std::array<int, kMost> x, y;
-};
-
-void CompareHues(const ColourImage& background, const ColourImage& picture, double threshold, Mask& mask) {
-  const HueComparison hues(threshold);
-  Chromas before, now;
-  for (std::size_t first = 0; first < mask.pixels.size(); first += Chromas::kMost) {
-    const std::size_t count = std::min(Chromas::kMost, mask.pixels.size() - first);
-    before.Fill(&background.pixels[first], count);
-    now.Fill(&picture.pixels[first], count);
-    std::uint8_t* out = &mask.pixels[first];
-    for (std::size_t i = 0; i < count; ++i) out[i] = hues.Differ(before.At(i), now.At(i));
-  }
-}
-
-void CompareColours(const ColourImage& background, const ColourImage& picture, int threshold, Mask& mask) {
-  for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
-    const Rgb8 b = background.pixels[i], p = picture.pixels[i];
-    const int r = std::abs(p.r - b.r), g = std::abs(p.g - b.g), blue = std::abs(p.b - b.b);
-    mask.pixels[i] = std::max(r, std::max(g, blue)) > threshold;
-  }
 }
 
 /// Returns whether a pixel is not its background's colour times a factor that light explains.
@@ -160,10 +114,12 @@ Mask DetectChange(const ColourImage& background, const ColourImage& picture, Seg
   };
   switch (segmenter) {
     case Segmenter::kRgb:
-      CompareColours(background, picture, options.rgb_threshold, mask);
+      compare([&](Rgb8 b, Rgb8 p) { return MostDifference(b, p) > options.rgb_threshold; });
       break;
     case Segmenter::kHue:
-      CompareHues(background, picture, options.hue_threshold, mask);
+      compare([hues = HueComparison(options.hue_threshold)](Rgb8 b, Rgb8 p) {
+        return hues.Differ(ChromaOrRed(b), ChromaOrRed(p));
+      });
       break;
     case Segmenter::kHueGated:
       compare([tones = GatedComparison(options)](Rgb8 b, Rgb8 p) { return tones.Differ(b, p); });

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,6 +34,11 @@ struct Chroma {
 
 /// Returns four times the dot product of two such points: 4·|a||b|·cos of the angle between the hues.
 inline int Dot4(Chroma a, Chroma b) { return a.x * b.x + 3 * a.y * b.y; }
+
+/// Returns by how many levels the most different of the three colours differs.
+inline int MostDifference(Rgb8 a, Rgb8 b) {
+  return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
+}
 
 enum class Segmenter {
   /// "rgb": red, green and blue compared by themselves: what paper B, chapter 4, starts from, and leaves because it

@@ -4,7 +4,6 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <cstdlib>
 
 #include "engine/vision/change_detection.h"
 
@@ -99,8 +98,7 @@ void ColourLikelihood::LightRoomAs(const ColourImage& picture) {
   std::array<double, 3> both{}, own{};
   for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
     const Rgb8 b = background_.pixels[i], p = picture.pixels[i];
-    const int most = std::max({std::abs(p.r - b.r), std::abs(p.g - b.g), std::abs(p.b - b.b)});
-    if (most >= kSameLight) continue;
+    if (MostDifference(p, b) >= kSameLight) continue;
     both[0] += b.r * p.r, both[1] += b.g * p.g, both[2] += b.b * p.b;
     own[0] += b.r * b.r, own[1] += b.g * b.g, own[2] += b.b * b.b;
   }

@@ -90,7 +90,7 @@ struct SuitPicture {
 };
 
 /// Somebody in a suit, in any pose and anywhere in the picture, of limbs that cover each other in any order, are
-/// thinner or thicker, and of which some are not there; noise, and a mask frayed at the edges.
+/// thinner or thicker, and of which some are not there; noise, spots of their colours, and a frayed mask.
 SuitPicture AnyoneInSuit(Dice& dice, bool is_flat) {
   SuitPicture made;
   const LimbColours suit = SuitOfHues();
@@ -121,6 +121,14 @@ SuitPicture AnyoneInSuit(Dice& dice, bool is_flat) {
       made.picture.At(x, y) = Noisy(dice, part.colour, 0.7 + 0.003 * x, 9);
       made.person.At(x, y) = dice.Below(9) != 0;
     });
+  }
+  for (int spot = 0; spot < 6; ++spot) {
+    const int width = 4 + static_cast<int>(dice.Below(4)), height = 4 + static_cast<int>(dice.Below(4));
+    const int left = static_cast<int>(dice.Below(119 - width)), top = static_cast<int>(dice.Below(142 - height));
+    const Rgb8 colour = spot == 0 ? suit.trunk : suit.limbs[dice.Below(kStrokeCount)];
+    for (int y = top; y < top + height; ++y) {
+      for (int x = left; x < left + width; ++x) made.picture.At(x, y) = colour, made.person.At(x, y) = 1;
+    }
   }
   return made;
 }
@@ -159,10 +167,10 @@ TEST(VisionGolden, LimbsOfColouredSuits) {
       AddEvidence(spoilt, FindLimbEvidence(less, options.look));
     }
   }
-  EXPECT_TRUE(regions.Is(102777, -3422.99198051));
-  EXPECT_TRUE(evidence.Is(14080, 4746.64522559));
-  EXPECT_TRUE(marks.Is(7274, 4641.92765435));
-  EXPECT_TRUE(spoilt.Is(39082, 162.990339389));
+  EXPECT_TRUE(regions.Is(108650, -17093.3804382));
+  EXPECT_TRUE(evidence.Is(14042, 3530.8406549));
+  EXPECT_TRUE(marks.Is(7398, -2233.43290668));
+  EXPECT_TRUE(spoilt.Is(39692, 2880.08239528));
 }
 
 Region Rectangle(int left, int top, int width, int height, int step) {
@@ -196,7 +204,7 @@ TEST(VisionGolden, EvidenceOfSmallRectangles) {
   Fingerprint print;
   for (int k = 0; k < 600; ++k) {
     LimbRegions regions{.width = 50, .height = 60, .trunk = {}, .limbs = {}, .borders = {}};
-    if (k % 4) regions.trunk = Rectangle(20, 20, 8, 14, 0);
+    if (k % 4) regions.trunk = k % 8 == 1 ? Rectangle(20, 20, 1, 1, 0) : Rectangle(20, 20, 8, 14, 0);
     for (std::size_t i = 0; i < kStrokeCount; ++i) {
       const auto below = [&](int limit) { return static_cast<int>(dice.Below(limit)); };
       if (below(5) == 0) continue;
@@ -208,7 +216,7 @@ TEST(VisionGolden, EvidenceOfSmallRectangles) {
     }
     AddEvidence(print, FindLimbEvidence(regions, {.figure = k % 3 ? FigureKind::kDressed : FigureKind::kCapsules}));
   }
-  EXPECT_TRUE(print.Is(55577, 298.441606453));
+  EXPECT_TRUE(print.Is(55577, 302.926400983));
 }
 
 TEST(VisionGolden, MarksThatCoverEachOther) {
@@ -245,8 +253,10 @@ TEST(VisionGolden, ChangeAsEverySegmenterSeesIt) {
   Dice dice(2);
   ColourImage room(83, 61), picture(83, 61);
   for (std::size_t i = 0; i < room.pixels.size(); ++i) {
-    room.pixels[i] = InSteps(dice);
-    picture.pixels[i] = i % 3 == 0 ? InSteps(dice) : Noisy(dice, room.pixels[i], 0.9 + 0.5 * dice.Signed(), 30);
+    room.pixels[i] = i % 19 == 0 ? Rgb8{} : InSteps(dice);
+    picture.pixels[i] = i % 38 == 0  ? Rgb8{0, static_cast<std::uint8_t>(i % 4 * 5), 0}
+                        : i % 3 == 0 ? InSteps(dice)
+                                     : Noisy(dice, room.pixels[i], 0.9 + 0.5 * dice.Signed(), 30);
     if (i % 3 == 1) {
       for (std::uint8_t Rgb8::*c : {&Rgb8::r, &Rgb8::g, &Rgb8::b})
         picture.pixels[i].*c = static_cast<std::uint8_t>(picture.pixels[i].*c / 15 * 15);
@@ -273,13 +283,13 @@ TEST(VisionGolden, ChangeAsEverySegmenterSeesIt) {
       }
     }
   }
-  EXPECT_TRUE(print.Is(283584, -6111.58787177));
+  EXPECT_TRUE(print.Is(283584, -6355.00564021));
   Fingerprint colours;
   for (int i = 0; i < 2000; ++i) {
     const Hsi hsi = ToHsi(InSteps(dice));
     colours.Add(hsi.hue).Add(hsi.saturation).Add(hsi.intensity);
   }
-  EXPECT_TRUE(colours.Is(6000, 867.218755561));
+  EXPECT_TRUE(colours.Is(6000, -2612.77375842));
 }
 
 /// Somebody of many colours, some of them the room's, crosses a room in a light that drifts, with a shadow beside.
@@ -290,7 +300,8 @@ std::vector<ColourImage> WalkThrough(Dice& dice, const ColourImage& room, int fr
     for (int y = 0; y < room.height; ++y) {
       for (int x = 0; x < room.width; ++x) {
         const int left = pixels * k - 8;
-        const bool is_person = x >= left && x < left + 26 - y / 5 && y >= 6 && y < 55;
+        const int top = pixels == 5 ? 0 : 6, bottom = pixels == 5 ? room.height : 55;
+        const bool is_person = x >= left && x < left + 26 - y / 5 && y >= top && y < bottom;
         const Rgb8 worn = y < 25 ? Rgb8{LevelFrom(110 + 2 * y), 95, LevelFrom(70 + 3 * (x - left))}
                                  : Rgb8{50, LevelFrom(130 - y), LevelFrom(40 + 2 * y)};
         const double light = (1 + 0.01 * k) * (!is_person && y > 50 && x > left && x < left + 40 ? 0.4 + 0.005 * x : 1);
@@ -323,7 +334,7 @@ TEST(VisionGolden, PeopleInFilms) {
       for (const ColourImage& picture : film) print.Add(finder.Detect(picture).pixels);
     }
   }
-  EXPECT_TRUE(print.Is(2556576, 47902.3589655));
+  EXPECT_TRUE(print.Is(2556576, 47936.2550096));
 }
 
 TEST(VisionGolden, RoomsBehindWhatMoves) {
@@ -342,7 +353,8 @@ TEST(VisionGolden, RoomsBehindWhatMoves) {
     for (const Activity& activity : motion) print.Add(activity.pixels);
     for (const std::size_t kept : {1, 2, 3, 6, 9, 10}) AddPicture(print, EstimateBackground(pictures, motion, kept));
   }
-  EXPECT_TRUE(print.Is(31716, 3491.42128865));
+  AddPicture(print, EstimateBackground(std::span(pictures).first(1), MotionActivity(std::span(pictures).first(1)), 1));
+  EXPECT_TRUE(print.Is(32890, 2736.21633096));
 }
 
 TEST(VisionGolden, PiecesOfMasksOfEverySize) {
