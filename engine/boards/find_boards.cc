@@ -149,7 +149,6 @@ CornerGrid GrowGrid(const GreyImage& picture, const std::vector<Saddle>& saddles
 constexpr int kFewestCodes = 3;         // that must agree about a board
 constexpr int kMostMisread = 1;         // modules of a code, and of its margin
 constexpr double kFaintestModule = 20;  // counts between a black and a white module
-constexpr std::size_t kFewestCorners = 6;
 
 // Twice the place of a point of a grid or board in squares, so that the middles of squares are whole numbers, too.
 struct Halves {
@@ -270,7 +269,6 @@ std::vector<SeenCorner> FindBoards(const ColourImage& picture, std::span<const B
   for (std::size_t seed = 0; seed < saddles.size(); ++seed) {
     if (taken[seed]) continue;
     const CornerGrid grid = GrowGrid(grey, saddles, seed, taken);
-    if (grid.size() < kFewestCorners) continue;
     const auto fit = reader.FitOf(grid);
     if (!fit) continue;
     for (const auto& [place, saddle] : grid) taken[saddle] = true;

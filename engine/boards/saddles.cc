@@ -115,7 +115,6 @@ double BrightnessAt(const GreyImage& picture, const glm::dvec2& pixel) {
 
 std::vector<Saddle> FindSaddles(const GreyImage& picture) {
   std::vector<Saddle> saddles;
-  if (picture.width <= 2 * kBorder || picture.height <= 2 * kBorder) return saddles;
   const GreyImage smooth = Smooth(picture);
   GreyImage strengths(picture.width, picture.height);
   double strongest = 0;

@@ -336,7 +336,7 @@ Result<RigPlace> PlaceRig(const RigFile& rig, std::span<const LandmarkPlaces> po
   const FeetPlane plane = PlaneOfFeet(points, *person, rate_hz, *stature);
   ASSIGN_OR_RETURN(const auto up, UpOf(rig, *person, plane, options, up_told));
   place.scale = unit == rig.unit_m ? 1 : unit / rig.unit_m;
-  if (up.first != glm::dvec3(0, 1, 0)) place.R = Upright(up.first);
+  place.R = Upright(up.first);
   place.stature_m = place.scale * *stature;
   std::string floor_told = ", the floor as the file has it";
   const bool at_feet = options.floor == "feet" || (options.floor == "auto" && up.second);
@@ -362,8 +362,7 @@ Result<RigPlace> PlaceRig(const RigFile& rig, const PlaceOptions& options) {
     return Fail({}, "{}'s lengths have no unit; tell metres in one unit by --rig-unit", rig.format);
   }
   if (const FileAxis* axis = AxisOf(options.up)) {
-    const glm::dvec3 up = rig.R_WF * axis->direction;
-    if (up != glm::dvec3(0, 1, 0)) place.R = Upright(up);
+    place.R = Upright(rig.R_WF * axis->direction);
   } else if (const std::string camera = CameraOfTheWorld(rig); !camera.empty() || options.up == "floor") {
     return Fail({}, "no keypoints tell which way is up{}; tell the file's axis by --rig-up",
                 camera.empty() ? "" : fmt::format(" in {}'s own frame", camera));

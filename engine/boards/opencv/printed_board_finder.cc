@@ -208,8 +208,7 @@ class OpenCvFinder : public PrintedBoardFinder {
     };
     // Squares (1, 1) and (2, 1) are between corners; (1, 1) has the first square's colour.
     const cv::Point2f same = 0.25f * (at(0, 0) + at(1, 0) + at(0, 1) + at(1, 1));
-    const cv::Point2f other = inner.width > 2 ? 0.25f * (at(1, 0) + at(2, 0) + at(1, 1) + at(2, 1))
-                                              : 0.25f * (at(0, 1) + at(1, 1) + at(0, 2) + at(1, 2));
+    const cv::Point2f other = 0.25f * (at(1, 0) + at(2, 0) + at(1, 1) + at(2, 1));
     if ((board.columns + board.rows) % 2 != 0 && value(same) > value(other)) std::ranges::reverse(found);
     std::vector<SeenCorner> corners;
     for (int row = 0; row < inner.height; ++row) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/base/image.h"
+#include "engine/cameras/camera.h"
 
 namespace etude {
 namespace {
@@ -115,6 +116,95 @@ TEST(PrintedBoard, CornersOfAChessboardAreWhereTheyWereDrawn) {
     EXPECT_NEAR(each.pixel.y, kTop + kSize * (1 + (&each - seen.data()) / 6), 0.1);
   }
   EXPECT_TRUE((*finder)->Find(ColourImage(320, 240)).empty());
+}
+
+/// A picture through a homography, bilinear; `at` shows where its pixels come from.
+ColourImage Warped(const ColourImage& picture, const glm::dmat3& to_source, int width, int height) {
+  ColourImage warped(width, height, {120, 120, 120});
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const glm::dvec3 p = to_source * glm::dvec3(x + 0.5, y + 0.5, 1);
+      const glm::dvec2 at = glm::dvec2(p) / p.z - 0.5;
+      const int i = static_cast<int>(std::floor(at.x)), j = static_cast<int>(std::floor(at.y));
+      if (!picture.Contains(i, j) || !picture.Contains(i + 1, j + 1)) continue;
+      const double s = at.x - i, t = at.y - j;
+      const auto grey =
+          static_cast<std::uint8_t>(std::lerp(std::lerp(picture.At(i, j).r, picture.At(i + 1, j).r, s),
+                                              std::lerp(picture.At(i, j + 1).r, picture.At(i + 1, j + 1).r, s), t) +
+                                    0.5);
+      warped.At(x, y) = {grey, grey, grey};
+    }
+  }
+  return warped;
+}
+
+/// The corners of a board in a warped picture are where its own were, by name; returns how many there are.
+std::size_t ExpectCorners(const std::vector<SeenCorner>& seen, const glm::dmat3& to_source, int left, int top,
+                          int size) {
+  for (const SeenCorner& each : seen) {
+    const glm::dvec3 p = to_source * glm::dvec3(each.pixel, 1);
+    EXPECT_NEAR(p.x / p.z, left + size * (1 + each.corner.column), 0.4);
+    EXPECT_NEAR(p.y / p.z, top + size * (1 + each.corner.row), 0.4);
+  }
+  return seen.size();
+}
+
+TEST(PrintedBoard, IsReadAslantUpsideDownAndInPart) {
+  const glm::dmat3 aslant(1.05, 0.12, 2e-4, -0.1, 1.1, 1e-4, 8, -20, 1), round(-1, 0, 0, 0, -1, 0, 440, 420, 1);
+  const auto half = [](double from) { return glm::dmat3(1, 0, 0, 0, 1, 0, from, 0, 1); };
+  for (const auto& [columns, rows] : {std::pair(5, 4), {4, 5}}) {
+    const PrintedBoard chess{.columns = columns, .rows = rows, .square = 0.03}, charuco{true, columns, rows, 0.03};
+    const auto of_chess = MakePrintedBoardFinder(chess), of_charuco = MakePrintedBoardFinder(charuco);
+    if (!of_chess) GTEST_SKIP() << ToString(of_chess.error());
+    const std::size_t all = static_cast<std::size_t>((columns - 1) * (rows - 1));
+    for (const glm::dmat3& to_source : {glm::dmat3(1), aslant, round}) {
+      const ColourImage squares = Warped(PictureOfChessboard(chess, 64, 50, 40), to_source, 440, 420);
+      EXPECT_EQ(ExpectCorners((*of_chess)->Find(squares), to_source, 50, 40, 64), all);
+      const ColourImage markers = Warped(PictureOfCharuco(charuco, false, false), to_source, 440, 420);
+      EXPECT_EQ(ExpectCorners((*of_charuco)->Find(markers), to_source, 50, 40, 64), all);
+    }
+    EXPECT_EQ((*of_chess)->Told(), "a chessboard");
+    EXPECT_EQ((*of_charuco)->Told().substr(0, 27), "DICT_4X4, markers about 0.7");
+    for (const double from : {100.0, 150.0, 200.0}) {
+      const ColourImage part = Warped(PictureOfCharuco(charuco, false, false), half(from), 440, 420);
+      EXPECT_LT(ExpectCorners((*of_charuco)->Find(part), half(from), 50, 40, 64), all);
+    }
+  }
+  EXPECT_EQ((*MakePrintedBoardFinder({true, 5, 4, 0.03}))->Told(), "no marker of any dictionary");
+}
+
+/// Boards of 6 × 5 corners before a camera with a lens: OpenCV finds every number of it.
+TEST(CalibrateByOpenCv, FindsEveryNumberOfALens) {
+  Camera camera = LookAt({.fx = 610, .fy = 590, .cx = 327, .cy = 231}, {0, 0, -1}, {0, 0, 0});
+  camera.distortion = {.k1 = -0.2, .k2 = 0.08, .p1 = 0.003, .p2 = -0.004, .k3 = -0.02};
+  std::vector<TargetView> views;
+  for (int k = 0; k < 8; ++k) {
+    const glm::dvec3 right(std::cos(0.2 * k - 0.7), std::sin(0.1 * k), std::sin(0.2 * k - 0.7));
+    const glm::dvec3 down = glm::normalize(glm::cross(glm::dvec3(0.3 * (k % 3) - 0.3, 0.4 * (k % 2) - 0.2, 1), right));
+    TargetView& view = views.emplace_back();
+    for (int i = 0; i < 30; ++i) {
+      const glm::dvec3 place(0.11 * (i % 6), 0.1 * (i / 6), 0);
+      const glm::dvec3 at = (place.x - 0.28) * glm::normalize(right) + (place.y - 0.2) * down;
+      if (const auto pixel = Project(camera, at)) view.pairs.push_back({place, *pixel});
+    }
+  }
+  const auto found = CalibrateByOpenCv(views, {640, 480}, LensModel::kRadial3);
+  if (!found) GTEST_SKIP() << ToString(found.error());
+  const Intrinsics& in = found->intrinsics;
+  EXPECT_EQ(std::pair(in.width, in.height), std::pair(640, 480));
+  for (const auto& [number, wanted] : {std::pair(in.fx, 610), {in.fy, 590}, {in.cx, 327}, {in.cy, 231}, {in.skew, 0}})
+    EXPECT_NEAR(number, wanted, 0.05);
+  const Distortion &lens = found->distortion, &d = camera.distortion;
+  for (const auto& [number, wanted] :
+       {std::pair(lens.k1, d.k1), {lens.k2, d.k2}, {lens.p1, d.p1}, {lens.p2, d.p2}, {lens.k3, d.k3}})
+    EXPECT_NEAR(number, wanted, 1e-3);
+  EXPECT_LT(found->rms_px, 1e-3);
+  EXPECT_EQ(CalibrateByOpenCv(views, {640, 480}, LensModel::kRadial2)->distortion.k3, 0);
+  const OpenCvCalibration pinhole = *CalibrateByOpenCv(views, {640, 480}, LensModel::kPinhole);
+  EXPECT_EQ(pinhole.distortion, Distortion{});
+  EXPECT_GT(pinhole.rms_px, 0.3) << "the control";
+  EXPECT_EQ(CalibrateByOpenCv(views, {640, 480}, LensModel::kAsInCamera).error().message,
+            "OpenCV's calibrateCamera holds no lens as it is");
 }
 
 }  // namespace

@@ -109,6 +109,11 @@ TEST(CameraParameters, RefuseWhatIsNoCamera) {
   ProjectionMatrix flat = Recompose(AnyParameters(1));
   flat.h[1] = flat.h[2];
   EXPECT_THAT(Decompose(flat).error().message, HasSubstr("one line"));
+  for (const auto& [row, other] : {std::pair(0, 2), {0, 1}, {1, 0}}) {
+    flat = Recompose(AnyParameters(2));
+    flat.h[row] = flat.h[other];
+    EXPECT_EQ(Decompose(flat).error().message, "a camera matrix that shows the world on one line") << row;
+  }
   ProjectionMatrix far = Recompose(AnyParameters(1));
   far.h[2] = {0, 0, 0, 1};
   EXPECT_THAT(Decompose(far).error().message, HasSubstr("infinity"));

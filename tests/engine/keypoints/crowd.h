@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <tuple>
 #include <vector>
 
 #include "engine/keypoints/mend_people.h"
@@ -29,6 +30,14 @@ struct Crowd {
         for (int who = 0; who < 2; ++who) {
           if (k / 6 % 5 == 2 * c % 5 + who && k > 8) continue;
           LandmarkPlaces places = who == 0 ? Walker(-0.6 + 0.2 * t, 0.1, t) : Walker(0.6, 0.3 - 0.2 * t, t + 0.7);
+          for (const auto& [own, at, off] :
+               {std::tuple(Landmark::kLeftEar, Landmark::kNose, glm::dvec3(0.08, 0.01, -0.1)),
+                {Landmark::kRightEar, Landmark::kNose, glm::dvec3(-0.08, 0.01, -0.1)},
+                {Landmark::kLeftHeel, Landmark::kLeftAnkle, glm::dvec3(0, -0.05, -0.06)},
+                {Landmark::kRightHeel, Landmark::kRightAnkle, glm::dvec3(0, -0.05, -0.06)}}) {
+            places[Index(own)] = *places[Index(at)] + off;
+          }
+          if (who == 0) places[Index(Landmark::kLeftHeel)].reset();
           SeenPerson person = Seen(cameras[c], places, 0, exact);
           for (Keypoint& keypoint : person.keypoints) {
             if (!(keypoint.confidence > 0)) continue;
