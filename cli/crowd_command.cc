@@ -21,7 +21,7 @@
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
-#include "engine/kinematics/tree_to_body.h"
+#include "engine/kinematics/body_tree.h"
 #include "reports/clips/crowd_stage.h"
 
 namespace etude {

@@ -1,7 +1,7 @@
 #include "bench/clips/clip_library.h"
 
 #include "bench/clips/references.h"
-#include "engine/retargeting/measure_body.h"
+#include "engine/retargeting/proportions.h"
 #include "sim/character/posed.h"
 
 namespace etude {

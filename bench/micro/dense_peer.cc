@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kMostDofs = 32, kMostEffectors = 4, kRows = 6 * kMostEffectors;
 
-// Of levenberg_marquardt.cc.
+// Of jacobian_solvers.cc.
 constexpr double kLeastFactor = 1e-2, kMostFactor = 1e9, kLeastMu = 1e-9;
 constexpr double kDescends = 0.7, kHasSettled = 1 - 1e-5;
 constexpr int kPatience = 6, kMostPasses = 4;

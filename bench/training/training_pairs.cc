@@ -1,10 +1,11 @@
 #include "bench/training/training_pairs.h"
 
-#include "bench/metrics/matching.h"
-#include "engine/transitions/alignment.h"
-#include "sim/choreography/move.h"
 #include <algorithm>
 #include <array>
+
+#include "bench/metrics/matching.h"
+#include "engine/motion/body.h"
+#include "sim/choreography/move.h"
 
 namespace etude {
 namespace {

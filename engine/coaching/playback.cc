@@ -6,7 +6,7 @@
 #include <glm/glm.hpp>
 #include <utility>
 
-#include "engine/transitions/alignment.h"
+#include "engine/motion/body.h"
 #include "engine/transitions/joins/crossfade.h"
 
 namespace etude {

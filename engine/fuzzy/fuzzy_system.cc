@@ -12,7 +12,6 @@
 #include "engine/document/node.h"
 #include "engine/fuzzy/distance.h"
 #include "engine/fuzzy/membership.h"
-#include "engine/fuzzy/shape_text.h"
 
 namespace etude {
 namespace {

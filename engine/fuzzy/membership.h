@@ -3,12 +3,16 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <variant>
 
+#include "engine/base/result.h"
 #include "engine/fuzzy/features.h"
 
 namespace etude {
+
+struct Node;
 
 /// The shapes of membership functions that paper A names (section 2.4, figure 1). Inputs in the feature's unit.
 struct Triangular {
@@ -74,5 +78,12 @@ using Tags = std::array<std::uint8_t, kFeatureCount>;
 /// The term of maximum membership of each feature; the earlier one on a tie.
 Tags ChooseTags(const Grades& grades);
 std::string_view TagName(const Tags& tags, Feature feature);
+
+/// Reads `{triangular: [20, 90, 180]}`, `{trapezoidal: [0, 0, 20, 90]}`, `{gaussian: [90, 25]}` or `{singleton: 90}`.
+/// Refused: breakpoints out of order, sigma that is not positive, and a shape whose top no input of `universe` reaches.
+Result<Shape> ReadShape(const Node& node, const Universe& universe);
+
+/// Writes a shape as ReadShape reads it back, to the last bit.
+std::string WriteShape(const Shape& shape);
 
 }  // namespace etude

@@ -2,7 +2,6 @@
 
 #include "engine/base/euler.h"
 #include "engine/kinematics/body_tree.h"
-#include "engine/kinematics/tree_to_body.h"
 
 namespace etude {
 namespace {

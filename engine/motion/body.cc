@@ -1,5 +1,6 @@
 #include "engine/motion/body.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace etude {
@@ -101,6 +102,19 @@ FloorMove ToOrigin(const BodyPose& pose) {
   FloorMove turn{.yaw = -Heading(pose)};
   const glm::dvec3 hips = turn.Apply(pose[kHipCentre]);
   return {.yaw = turn.yaw, .x = -hips.x, .z = -hips.z};
+}
+
+FloorMove AlignOnFloor(const BodyPose& pose, const BodyPose& onto) {
+  const FloorMove turn{.yaw = Heading(onto) - Heading(pose)};
+  const glm::dvec3 shift = onto[Role::kHipCentre] - turn.Apply(pose[Role::kHipCentre]);
+  return {.yaw = turn.yaw, .x = shift.x, .z = shift.z};
+}
+
+double PoseGap(const BodyPose& a, const BodyPose& b) {
+  const BodyPose moved = AlignOnFloor(b, a).Apply(b);
+  double worst = 0;
+  for (Role role : AllRoles()) worst = std::max(worst, glm::distance(a[role], moved[role]));
+  return worst;
 }
 
 }  // namespace etude

@@ -102,4 +102,12 @@ double Heading(const BodyPose& pose);
 /// The move that puts `pose` at the origin of the floor (hip centre above it), facing +Z.
 FloorMove ToOrigin(const BodyPose& pose);
 
+/// Returns the move on the floor (yaw, x, z) that lays `pose` onto `onto`: same heading, hip centres above each other.
+/// Heights and limbs stay as they are.
+FloorMove AlignOnFloor(const BodyPose& pose, const BodyPose& onto);
+
+/// Returns the distance of two poses once facing and place on the floor are taken away: that of the worst joint after
+/// `AlignOnFloor`, metres.
+double PoseGap(const BodyPose& a, const BodyPose& b);
+
 }  // namespace etude

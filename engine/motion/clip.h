@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/motion/body.h"
+
 namespace etude {
 
 /// A joint's place in its parent's frame: p ↦ translation + rotation · (scale ⊙ p), glTF's TRS. Motion
@@ -66,5 +68,14 @@ LocalTransform Between(const LocalTransform& from, const LocalTransform& to, dou
 /// turn, so a limb keeps its length in between; interpolated positions would shorten it. A whole number gives the frame
 /// as it is. Needs at least one frame.
 LocalPose SampleFrame(const Clip& clip, double frame);
+
+/// A skeleton of the twenty roles by name, metres, Y up, rooted at the hip centre, whose rest pose is `rest` with all
+/// axes along the world's: what characters are bound to.
+Skeleton BodySkeleton(const BodyPose& rest);
+
+/// A motion as a clip of BodySkeleton(its first frame). Nothing turns: every joint has its own translation from its
+/// parent, so that ComputeGlobals gives back every position exactly, also of a performer whose limbs stretch. Needs at
+/// least one frame.
+Clip ToClip(const BodyMotion& motion, std::string name);
 
 }  // namespace etude

@@ -2,14 +2,195 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 
 #include "engine/base/named.h"
 #include "engine/document/fields.h"
-#include "engine/recognition/measuring_recogniser.h"
 
 namespace etude {
+namespace {
+
+double Sigmoid(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); }
+
+constexpr std::size_t kBins = 64;
+constexpr std::size_t kRows = 3;  // of questions
+
+/// The performances of one round, their measures as bins.
+struct Sample {
+  std::vector<std::array<std::uint8_t, kMeasureCount>> bins;
+  std::vector<std::array<double, kBins - 1>> cuts;  // per measure: bin b holds what is ≤ cuts[b] and > cuts[b − 1]
+  std::vector<double> labels, weights, log_odds;
+};
+
+std::array<double, kBins - 1> Quantiles(std::vector<double> values) {
+  std::ranges::sort(values);
+  std::array<double, kBins - 1> cuts{};
+  for (std::size_t b = 0; b < cuts.size(); ++b) cuts[b] = values[(b + 1) * (values.size() - 1) / kBins];
+  return cuts;
+}
+
+Sample MakeSample(std::span<const PerformanceMeasures> performances, std::span<const LabelledBag> bags) {
+  Sample sample;
+  const auto right = static_cast<double>(std::ranges::count_if(bags, &LabelledBag::is_right));
+  const double wrong = static_cast<double>(bags.size()) - right;
+  sample.bins.resize(performances.size());
+  for (std::size_t m = 0; m < kMeasureCount; ++m) {
+    std::vector<double> values;
+    for (const PerformanceMeasures& performance : performances) values.push_back(performance[m]);
+    sample.cuts.push_back(Quantiles(values));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const auto cut = std::ranges::lower_bound(sample.cuts[m], values[i]);
+      sample.bins[i][m] = static_cast<std::uint8_t>(cut - sample.cuts[m].begin());
+    }
+  }
+  for (const LabelledBag& bag : bags) {
+    sample.labels.push_back(bag.is_right ? 1.0 : 0.0);
+    sample.weights.push_back(0.5 * static_cast<double>(bags.size()) / (bag.is_right ? right : wrong));
+    sample.log_odds.push_back(0.0);
+  }
+  return sample;
+}
+
+/// The first and second derivatives of the loss, and how many performances they are of.
+struct Slope {
+  double gradient = 0, curvature = 0;
+  int count = 0;
+
+  void Add(const Slope& other) {
+    gradient += other.gradient;
+    curvature += other.curvature;
+    count += other.count;
+  }
+  double Gain(double ridge) const { return gradient * gradient / (curvature + ridge); }
+};
+
+struct Split {
+  std::size_t measure = 0, bin = kBins - 1;  // as it stands: everything to the left
+  double gain = 0;
+};
+
+/// What the tree of this number sees.
+struct Turn {
+  std::size_t tree;
+  bool is_taken;
+
+  bool SeesPerformance(std::size_t i) const { return !is_taken || (i + 2 * tree) % 5 < 3; }
+  bool SeesMeasure(std::size_t m) const { return !is_taken || (m + tree) % 3 == 0; }
+};
+
+Split BestSplit(const Sample& sample, std::span<const Slope> slopes, std::span<const std::size_t> members,
+                const BoostingOptions& options, const Turn& turn) {
+  Split best;
+  for (std::size_t m = 0; m < kMeasureCount; ++m) {
+    if (!turn.SeesMeasure(m)) continue;
+    std::array<Slope, kBins> bins{};
+    Slope all;
+    for (std::size_t i : members) {
+      bins[sample.bins[i][m]].Add(slopes[i]);
+      all.Add(slopes[i]);
+    }
+    Slope left;
+    for (std::size_t b = 0; b + 1 < kBins; ++b) {
+      left.Add(bins[b]);
+      const Slope right{all.gradient - left.gradient, all.curvature - left.curvature, all.count - left.count};
+      if (left.count < options.least_per_leaf || right.count < options.least_per_leaf) continue;
+      const double gain = left.Gain(options.ridge) + right.Gain(options.ridge) - all.Gain(options.ridge);
+      if (gain > best.gain) best = {m, b, gain};
+    }
+  }
+  return best;
+}
+
+/// Fits one tree to the slopes of the loss, and adds it to the sample's log-odds.
+DecisionTree GrowTree(Sample& sample, std::span<const Slope> slopes, const BoostingOptions& options, const Turn& turn) {
+  DecisionTree tree;
+  std::array<Split, DecisionTree::kNodes> splits;
+  std::vector<std::vector<std::size_t>> row(1);
+  for (std::size_t i = 0; i < slopes.size(); ++i) {
+    if (turn.SeesPerformance(i)) row[0].push_back(i);
+  }
+  for (std::size_t depth = 0, node = 0; depth < kRows; ++depth) {
+    std::vector<std::vector<std::size_t>> next;
+    for (const auto& members : row) {
+      const Split split = splits[node] = BestSplit(sample, slopes, members, options, turn);
+      tree.measures[node] = static_cast<int>(split.measure);
+      constexpr double kAll = 1e9;  // where nothing is gained by a question, everything is at most that
+      tree.limits[node] = split.gain > 0 ? sample.cuts[split.measure][split.bin] : kAll;
+      ++node;
+      next.resize(next.size() + 2);
+      for (std::size_t i : members) {
+        const bool is_left = sample.bins[i][split.measure] <= split.bin;
+        next[next.size() - (is_left ? 2 : 1)].push_back(i);
+      }
+    }
+    row = std::move(next);
+  }
+  for (std::size_t leaf = 0; leaf < row.size(); ++leaf) {
+    Slope all;
+    for (std::size_t i : row[leaf]) all.Add(slopes[i]);
+    tree.leaves[leaf] = -options.rate * all.gradient / (all.curvature + options.ridge);
+  }
+  for (std::size_t i = 0; i < slopes.size(); ++i) {
+    std::size_t node = 0;
+    while (node < DecisionTree::kNodes)
+      node = 2 * node + (sample.bins[i][splits[node].measure] <= splits[node].bin ? 1 : 2);
+    sample.log_odds[i] += tree.leaves[node - DecisionTree::kNodes];
+  }
+  return tree;
+}
+
+BoostedTrees FitRound(std::span<const PerformanceMeasures> performances, std::span<const LabelledBag> bags,
+                      const BoostingOptions& options) {
+  Sample sample = MakeSample(performances, bags);
+  BoostedTrees model;
+  for (int t = 0; t < options.trees; ++t) {
+    std::vector<Slope> slopes;
+    for (std::size_t i = 0; i < performances.size(); ++i) {
+      const double probability = Sigmoid(sample.log_odds[i]);
+      slopes.push_back({sample.weights[i] * (probability - sample.labels[i]),
+                        sample.weights[i] * probability * (1 - probability), 1});
+    }
+    const Turn turn{.tree = static_cast<std::size_t>(t), .is_taken = options.takes_turns};
+    model.trees.push_back(GrowTree(sample, slopes, options, turn));
+  }
+  return model;
+}
+
+}  // namespace
+
+double DecisionTree::Value(const PerformanceMeasures& of) const {
+  std::size_t node = 0;
+  while (node < kNodes) {
+    node = 2 * node + (of[static_cast<std::size_t>(measures[node])] <= limits[node] ? 1 : 2);
+  }
+  return leaves[node - kNodes];
+}
+
+double BoostedTrees::Probability(const PerformanceMeasures& of) const {
+  double log_odds = bias;
+  for (const DecisionTree& tree : trees) log_odds += tree.Value(of);
+  return Sigmoid(log_odds);
+}
+
+BoostedTrees FitBoostedTrees(std::span<const LabelledBag> bags, const BoostingOptions& options) {
+  const auto right = std::ranges::count_if(bags, &LabelledBag::is_right);
+  if (right == 0 || right == static_cast<std::ptrdiff_t>(bags.size())) return {};
+  std::vector<PerformanceMeasures> chosen;
+  for (const LabelledBag& bag : bags) chosen.push_back(bag.performances.front());
+  BoostedTrees model;
+  for (int round = 0; round < options.rounds; ++round) {
+    model = FitRound(chosen, bags, options);
+    for (std::size_t i = 0; i < bags.size(); ++i) {
+      chosen[i] = *std::ranges::max_element(bags[i].performances, {},
+                                            [&](const PerformanceMeasures& each) { return model.Probability(each); });
+    }
+  }
+  return model;
+}
+
 namespace {
 
 constexpr std::size_t kNumbersPerTree = 2 * DecisionTree::kNodes + DecisionTree::kLeaves;

@@ -9,9 +9,7 @@
 #include "engine/base/names.h"
 #include "engine/retargeting/anatomy.h"
 #include "engine/retargeting/limb_finder.h"
-#include "engine/retargeting/limbs.h"
 #include "engine/retargeting/map_file.h"
-#include "engine/retargeting/tips.h"
 
 namespace etude {
 namespace {

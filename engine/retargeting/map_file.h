@@ -8,7 +8,7 @@
 #include "engine/base/result.h"
 #include "engine/motion/body.h"
 #include "engine/retargeting/joint_map.h"
-#include "engine/retargeting/up_axis.h"
+#include "engine/retargeting/orientation.h"
 
 namespace etude {
 

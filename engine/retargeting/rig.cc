@@ -8,7 +8,8 @@
 #include "engine/base/angles.h"
 #include "engine/base/directions.h"
 #include "engine/base/smoothstep.h"
-#include "engine/retargeting/limbs.h"
+#include "engine/retargeting/joint_map.h"
+#include "engine/retargeting/limb_finder.h"
 
 namespace etude {
 namespace {

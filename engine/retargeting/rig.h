@@ -6,7 +6,6 @@
 
 #include "engine/motion/body.h"
 #include "engine/motion/clip.h"
-#include "engine/motion/from_body.h"
 
 namespace etude {
 

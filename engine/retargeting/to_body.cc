@@ -17,7 +17,7 @@
 #include "engine/motion/clip.h"
 #include "engine/motion/statistics.h"
 #include "engine/retargeting/joint_map.h"
-#include "engine/retargeting/sides.h"
+#include "engine/retargeting/orientation.h"
 
 namespace etude {
 namespace {

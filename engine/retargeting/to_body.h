@@ -8,7 +8,7 @@
 #include "engine/motion/body.h"
 #include "engine/motion/clip.h"
 #include "engine/retargeting/joint_map.h"
-#include "engine/retargeting/up_axis.h"
+#include "engine/retargeting/orientation.h"
 
 namespace etude {
 

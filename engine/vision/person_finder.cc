@@ -4,13 +4,179 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <cstdint>
 
-#include "engine/vision/change_detection.h"
 #include "engine/vision/components.h"
 #include "engine/vision/hue_block.h"
 
 namespace etude {
+namespace {
+
+// Colours are counted in cells of 8 levels a side; likelihoods are logarithms of shares of a cell.
+constexpr int kCells = 32, kLevels = 256 / kCells;
+constexpr double kAnyColour = 0.05;  // share of the person's pixels of no colour seen before
+constexpr float kForgets = 0.98f;    // a picture
+constexpr double kEnough = 400;      // pixels that tell what is worn
+
+// The room: as it is, in another light, or changed.
+constexpr float kAsItIs = -1, kInOtherLight = -6, kChanged = -13;
+constexpr float kNoise = 4, kTint = 6;  // levels
+constexpr float kStrange = -10;         // less than that speaks for the room where it does not explain a pixel
+constexpr float kDarkest = 0.2f, kBrightest = 1.3f;  // shares of the background's light
+constexpr int kSameLight = 24;                       // levels by which the same surface differs when the lamp drifts
+
+constexpr float kMostEvidence = 6;  // evidence of one pixel
+constexpr float kFarAway = 3;       // evidence against a person there
+constexpr int kReach = 20;          // pixels that a person moves in a picture
+constexpr int kRim = 2;             // pixels whose colours mix with the room's
+
+int CellOf(Rgb8 colour) { return (colour.r / kLevels * kCells + colour.g / kLevels) * kCells + colour.b / kLevels; }
+
+/// How many pixels are set in the square of `reach` pixels each way about every pixel.
+Image<int> CountsWithin(const Mask& mask, int reach) {
+  Image<int> rows(mask.width, mask.height), counts(mask.width, mask.height);
+  for (int y = 0; y < mask.height; ++y) {
+    int sum = 0;
+    for (int x = -reach; x < mask.width; ++x) {
+      if (x + reach < mask.width) sum += mask.At(x + reach, y);
+      if (x - reach - 1 >= 0) sum -= mask.At(x - reach - 1, y);
+      if (x >= 0) rows.At(x, y) = sum;
+    }
+  }
+  for (int x = 0; x < mask.width; ++x) {
+    int sum = 0;
+    for (int y = -reach; y < mask.height; ++y) {
+      if (y + reach < mask.height) sum += rows.At(x, y + reach);
+      if (y - reach - 1 >= 0) sum -= rows.At(x, y - reach - 1);
+      if (y >= 0) counts.At(x, y) = sum;
+    }
+  }
+  return counts;
+}
+
+/// The mean over neighbours, by binomial weights of five either way.
+Image<float> Smoothed(const Image<float>& image) {
+  constexpr std::array kWeights = {1 / 16.0f, 4 / 16.0f, 6 / 16.0f, 4 / 16.0f, 1 / 16.0f};
+  Image<float> rows(image.width, image.height), out(image.width, image.height);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      float sum = 0;
+      for (int i = 0; i < 5; ++i) sum += kWeights[i] * image.At(std::clamp(x + i - 2, 0, image.width - 1), y);
+      rows.At(x, y) = sum;
+    }
+  }
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      float sum = 0;
+      for (int i = 0; i < 5; ++i) sum += kWeights[i] * rows.At(x, std::clamp(y + i - 2, 0, image.height - 1));
+      out.At(x, y) = sum;
+    }
+  }
+  return out;
+}
+
+/// What speaks for the room at a pixel.
+float RoomAt(Rgb8 room, Rgb8 pixel) {
+  const int r = pixel.r - room.r, g = pixel.g - room.g, b = pixel.b - room.b;
+  float likelihood = std::max(kChanged, kAsItIs - static_cast<float>(r * r + g * g + b * b) / (2 * kNoise * kNoise));
+  const int length2 = std::max(1, room.r * room.r + room.g * room.g + room.b * room.b);
+  const int dot = pixel.r * room.r + pixel.g * room.g + pixel.b * room.b;
+  const int own2 = pixel.r * pixel.r + pixel.g * pixel.g + pixel.b * pixel.b;
+  const float factor = static_cast<float>(dot) / static_cast<float>(length2);
+  if (factor > kDarkest && factor < kBrightest) {
+    const float tint2 = std::max(0.0f, static_cast<float>(own2) - factor * static_cast<float>(dot));
+    likelihood = std::max(likelihood, kInOtherLight - tint2 / (2 * kTint * kTint));
+  }
+  return likelihood;
+}
+
+}  // namespace
+
+ColourLikelihood::ColourLikelihood(const ColourImage& background)
+    : background_(background), room_(background), worn_(kCells * kCells * kCells, 0.0f) {}
+
+/// Each colour's gain, by least squares over the pixels that seem to show the same surface.
+void ColourLikelihood::LightRoomAs(const ColourImage& picture) {
+  std::array<double, 3> both{}, own{};
+  for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+    const Rgb8 b = background_.pixels[i], p = picture.pixels[i];
+    if (MostDifference(p, b) >= kSameLight) continue;
+    both[0] += b.r * p.r, both[1] += b.g * p.g, both[2] += b.b * p.b;
+    own[0] += b.r * b.r, own[1] += b.g * b.g, own[2] += b.b * b.b;
+  }
+  std::array<double, 3> gain;
+  for (int c = 0; c < 3; ++c) gain[c] = own[c] > 0 ? both[c] / own[c] : 1;
+  const auto lit = [](std::uint8_t level, double by) {
+    return static_cast<std::uint8_t>(std::clamp(level * by + 0.5, 0.0, 255.0));
+  };
+  for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+    const Rgb8 b = background_.pixels[i];
+    room_.pixels[i] = {lit(b.r, gain[0]), lit(b.g, gain[1]), lit(b.b, gain[2])};
+  }
+}
+
+Image<float> ColourLikelihood::EvidenceOf(const ColourImage& picture, const Image<float>& room) const {
+  Image<float> evidence(picture.width, picture.height);
+  for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+    const float likelier = likelihoods_[CellOf(picture.pixels[i])] - room.pixels[i];
+    evidence.pixels[i] = std::clamp(likelier, -kMostEvidence, kMostEvidence) - (near_.pixels[i] != 0 ? 0 : kFarAway);
+  }
+  return evidence;
+}
+
+Mask ColourLikelihood::Detect(const ColourImage& picture) {
+  assert(picture.width == background_.width && picture.height == background_.height);
+  LightRoomAs(picture);
+  Mask mask = DetectChange(room_, picture, Segmenter::kHueGated);
+  Image<float> room(picture.width, picture.height);
+  strange_ = mask;
+  for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
+    room.pixels[i] = RoomAt(room_.pixels[i], picture.pixels[i]);
+    strange_.pixels[i] &= room.pixels[i] <= kStrange;
+  }
+  if (likelihoods_.empty()) return mask;
+  const Image<float> evidence = Smoothed(EvidenceOf(picture, room));
+  for (std::size_t i = 0; i < mask.pixels.size(); ++i) mask.pixels[i] = evidence.pixels[i] > 0;
+  return mask;
+}
+
+void ColourLikelihood::Learn(const ColourImage& picture, const Mask& person) {
+  if (std::ranges::find(person.pixels, 1) == person.pixels.end()) return;
+  near_ = Mask(person.width, person.height);
+  const Image<int> about = CountsWithin(person, kReach);
+  for (std::size_t i = 0; i < near_.pixels.size(); ++i) near_.pixels[i] = about.pixels[i] > 0;
+
+  Mask sure = person;
+  for (std::size_t i = 0; i < sure.pixels.size(); ++i) sure.pixels[i] &= strange_.pixels[i];
+  const Image<int> inside = CountsWithin(sure, kRim);
+  constexpr int kWhole = (2 * kRim + 1) * (2 * kRim + 1);
+  for (float& worn : worn_) worn *= kForgets;
+  worn_sum_ *= kForgets;
+  for (std::size_t i = 0; i < sure.pixels.size(); ++i) {
+    if (inside.pixels[i] < kWhole) continue;
+    worn_[CellOf(picture.pixels[i])] += 1;
+    worn_sum_ += 1;
+  }
+  if (worn_sum_ >= kEnough) TellColours();
+}
+
+/// Cells lend a half of what they hold to both neighbours along each colour.
+void ColourLikelihood::TellColours() {
+  std::vector<float> shares = worn_;
+  for (const int step : {1, kCells, kCells * kCells}) {
+    const std::vector<float> from = shares;
+    for (int cell = 0; cell < static_cast<int>(from.size()); ++cell) {
+      const int along = cell / step % kCells;
+      const float below = along > 0 ? from[cell - step] : 0, above = along + 1 < kCells ? from[cell + step] : 0;
+      shares[cell] = 0.5f * from[cell] + 0.25f * (below + above);
+    }
+  }
+  likelihoods_.resize(shares.size());
+  constexpr double kAny = kAnyColour / (kCells * kCells * kCells);
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    likelihoods_[i] = static_cast<float>(std::log((1 - kAnyColour) * shares[i] / worn_sum_ + kAny));
+  }
+}
+
 namespace {
 
 constexpr std::size_t kPixelsAtOnce = 512;

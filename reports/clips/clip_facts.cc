@@ -7,7 +7,7 @@
 
 #include "bench/files/json.h"
 #include "engine/base/names.h"
-#include "engine/retargeting/measure_body.h"
+#include "engine/retargeting/proportions.h"
 #include "reports/clips/remarks.h"
 #include "reports/words/figures.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "engine/fuzzy/fuzzy_system.h"
-#include "engine/fuzzy/shape_text.h"
+#include "engine/fuzzy/membership.h"
 #include "reports/plots/panel.h"
 #include "reports/words/escape.h"
 

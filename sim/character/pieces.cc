@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "engine/base/angles.h"
-#include "engine/base/smoothstep.h"
 #include "engine/base/image.h"
-#include "engine/motion/from_body.h"
+#include "engine/base/smoothstep.h"
+#include "engine/motion/clip.h"
 #include "sim/choreography/rotations.h"
 
 namespace etude {

@@ -13,7 +13,7 @@
 #include "engine/formats/bvh.h"
 #include "engine/formats/joint_csv.h"
 #include "engine/formats/trc.h"
-#include "engine/motion/from_body.h"
+#include "engine/motion/clip.h"
 #include "engine/vision/strokes.h"
 #include "sim/camera/jpeg.h"
 #include "sim/depth_camera/depth_camera.h"

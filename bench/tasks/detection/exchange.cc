@@ -10,7 +10,7 @@
 #include "engine/base/named.h"
 #include "engine/formats/bvh.h"
 #include "engine/formats/trc.h"
-#include "engine/motion/from_body.h"
+#include "engine/motion/clip.h"
 
 namespace etude {
 namespace {

@@ -7,7 +7,7 @@
 #include "bench/tasks/base/answer_fields.h"
 #include "bench/tasks/base/tree_json.h"
 #include "engine/base/angles.h"
-#include "engine/kinematics/tree_to_body.h"
+#include "engine/kinematics/body_tree.h"
 
 namespace etude {
 namespace {

@@ -8,7 +8,7 @@
 #include "bench/metrics/transition_smoothness.h"
 #include "engine/base/digest.h"
 #include "engine/base/named.h"
-#include "engine/transitions/alignment.h"
+#include "engine/motion/body.h"
 #include "engine/transitions/choices/pair_rows.h"
 
 namespace etude {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/base/angles.h"
-#include "engine/transitions/alignment.h"
+#include "engine/motion/body.h"
 #include "sim/choreography/canonical_body.h"
 
 namespace etude {

@@ -4,12 +4,12 @@
 #include <cassert>
 #include <functional>
 
-#include "bench/metrics/pose_error.h"
 #include "bench/metrics/ik_error.h"
+#include "bench/metrics/pose_error.h"
 #include "bench/tasks/base/tree_json.h"
 #include "engine/base/digest.h"
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/ik_run.h"
-#include "engine/kinematics/tree_to_body.h"
 
 namespace etude {
 namespace {

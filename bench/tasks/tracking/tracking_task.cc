@@ -5,7 +5,7 @@
 #include "bench/tasks/tracking/run.h"
 #include "bench/tasks/tracking/world.h"
 #include "engine/formats/bvh.h"
-#include "engine/kinematics/tree_to_body.h"
+#include "engine/kinematics/body_tree.h"
 
 namespace etude {
 namespace {

@@ -14,7 +14,7 @@
 #include "bench/tasks/base/answer_fields.h"
 #include "bench/tasks/base/pose_json.h"
 #include "engine/formats/bvh.h"
-#include "engine/motion/from_body.h"
+#include "engine/motion/clip.h"
 
 namespace etude {
 namespace {

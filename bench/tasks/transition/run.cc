@@ -10,7 +10,7 @@
 #include "bench/tasks/transition/exchange.h"
 #include "bench/tasks/transition/outcome.h"
 #include "engine/base/digest.h"
-#include "engine/transitions/alignment.h"
+#include "engine/motion/body.h"
 #include "engine/transitions/library/transition_points.h"
 
 namespace etude {

@@ -19,7 +19,6 @@
 #include "engine/formats/gltf/gltf.h"
 #include "engine/formats/gltf/mesh.h"
 #include "engine/formats/gltf/nodes.h"
-#include "engine/formats/gltf/text.h"
 
 namespace etude {
 namespace {

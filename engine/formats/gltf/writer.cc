@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "engine/formats/gltf/file.h"
 #include "engine/formats/gltf/gltf.h"
 #include "engine/formats/gltf/mesh.h"
-#include "engine/formats/gltf/text.h"
 #include "engine/motion/clip.h"
 
 namespace etude {

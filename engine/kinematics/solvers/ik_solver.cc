@@ -4,12 +4,10 @@
 #include <utility>
 
 #include "engine/kinematics/solvers/ccd.h"
-#include "engine/kinematics/solvers/ccd_anderson.h"
 #include "engine/kinematics/solvers/ceres_lm.h"
 #include "engine/kinematics/solvers/fabrik.h"
 #include "engine/kinematics/solvers/gauss_newton.h"
 #include "engine/kinematics/solvers/jacobian_solvers.h"
-#include "engine/kinematics/solvers/levenberg_marquardt.h"
 
 namespace etude {
 

@@ -2,11 +2,110 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 #include "engine/kinematics/solvers/ik_run.h"
-#include "engine/kinematics/solvers/linear_targets.h"
 
 namespace etude {
+namespace {
+
+constexpr double kSingular = 1e-12;
+constexpr int kMostPasses = 4;  // of an active set
+
+}  // namespace
+
+void DampedInverse::Build(const LinearTargets& linear) {
+  rows_ = linear.rows();
+  columns_ = linear.columns();
+  jacobian_.assign(linear.jacobian().begin(), linear.jacobian().end());
+  residuals_.assign(linear.residuals().begin(), linear.residuals().end());
+  gram_.assign(static_cast<std::size_t>(rows_) * rows_, 0.0);
+  if (rows_ == 0) return;  // Eigen would look at what is not there
+  const Eigen::Map<const Eigen::MatrixXd> jacobian(jacobian_.data(), rows_, columns_);
+  Eigen::Map<Eigen::MatrixXd>(gram_.data(), rows_, rows_).selfadjointView<Eigen::Lower>().rankUpdate(jacobian);
+}
+
+bool DampedInverse::Step(double damping, std::span<const double> preferred, std::vector<double>& step) {
+  step.assign(preferred.begin(), preferred.end());
+  if (rows_ == 0) return true;  // no target: only the preferred posture counts
+  damped_ = gram_;
+  Eigen::Map<Eigen::MatrixXd> damped(damped_.data(), rows_, rows_);
+  damped.diagonal().array() += damping;
+  const Eigen::LDLT<Eigen::Ref<Eigen::MatrixXd>> factor(damped);
+  const auto pivots = factor.vectorD();
+  if (!(pivots.minCoeff() > kSingular * pivots.maxCoeff())) return false;
+
+  const Eigen::Map<const Eigen::MatrixXd> jacobian(jacobian_.data(), rows_, columns_);
+  const Eigen::Map<const Eigen::VectorXd> residuals(residuals_.data(), rows_);
+  Eigen::Map<Eigen::VectorXd> out(step.data(), columns_);
+  // J⁺e + (I − J⁺J) z = z + J⁺ (e − J z)
+  const Eigen::VectorXd multipliers = factor.solve(residuals - jacobian * out);
+  out.noalias() += jacobian.transpose() * multipliers;
+  return true;
+}
+
+// Solves (J_F J_Fᵀ + μI) y = e − J step for y, in place of e − J step in `duals_`, F the angles that are free.
+bool DampedInverse::SolveDuals(double damping) {
+  if (rows_ == 0) return true;  // no target: only the preferred posture counts
+  damped_ = gram_;
+  Eigen::Map<Eigen::MatrixXd> damped(damped_.data(), rows_, rows_);
+  damped.diagonal().array() += damping;
+  for (int i = 0; i < columns_; ++i) {
+    if (sides_[i] == 0) continue;
+    const Eigen::Map<const Eigen::VectorXd> column(&jacobian_[static_cast<std::size_t>(i) * rows_], rows_);
+    damped.selfadjointView<Eigen::Lower>().rankUpdate(column, -1);
+  }
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(damped);
+  if (factor.info() != Eigen::Success) return false;
+  const auto pivots = factor.matrixLLT().diagonal();
+  const double least = pivots.minCoeff(), most = pivots.maxCoeff();
+  if (!(least * least > kSingular * most * most)) return false;
+  Eigen::Map<Eigen::VectorXd> duals(duals_.data(), rows_);
+  factor.solveInPlace(duals);
+  return true;
+}
+
+bool DampedInverse::StepWithin(double damping, std::span<const double> preferred, std::span<const double> angles,
+                               std::span<const AngleRange> ranges, std::vector<double>& step) {
+  step.resize(columns_);
+  sides_.assign(columns_, 0);
+  duals_.resize(rows_);
+  const Eigen::Map<const Eigen::MatrixXd> jacobian(jacobian_.data(), rows_, columns_);
+  const Eigen::Map<const Eigen::VectorXd> residuals(residuals_.data(), rows_);
+  Eigen::Map<Eigen::VectorXd> out(step.data(), columns_), duals(duals_.data(), rows_);
+  is_exact_ = false;
+  for (int pass = 0; pass < kMostPasses && !is_exact_; ++pass) {
+    for (int i = 0; i < columns_; ++i) {
+      step[i] = sides_[i] < 0   ? ranges[i].lower - angles[i]
+                : sides_[i] > 0 ? ranges[i].upper - angles[i]
+                                : preferred[i];
+    }
+    duals = residuals;
+    duals.noalias() -= jacobian * out;
+    if (!SolveDuals(damping)) return false;
+    is_exact_ = true;
+    for (int i = 0; i < columns_; ++i) {
+      const Eigen::Map<const Eigen::VectorXd> column(&jacobian_[static_cast<std::size_t>(i) * rows_], rows_);
+      const double best = preferred[i] + column.dot(duals);
+      const double lower = ranges[i].lower - angles[i], upper = ranges[i].upper - angles[i];
+      const signed char side = best < lower ? -1 : best > upper ? 1 : 0;
+      is_exact_ = is_exact_ && side == sides_[i];
+      sides_[i] = side;
+      step[i] = std::clamp(best, lower, upper);
+    }
+  }
+  return true;
+}
+
+double DampedInverse::Gain(std::span<const double> step) const {
+  const Eigen::Map<const Eigen::MatrixXd> jacobian(jacobian_.data(), rows_, columns_);
+  const Eigen::Map<const Eigen::VectorXd> residuals(residuals_.data(), rows_);
+  const Eigen::Map<const Eigen::VectorXd> taken(step.data(), columns_);
+  const Eigen::VectorXd moved = jacobian * taken;
+  return moved.dot(2 * residuals - moved);
+}
+
 namespace {
 
 // α JᵀdX at `angles`; zeros when nothing pulls.
@@ -121,6 +220,139 @@ IkSolution SolveDampedLeastSquares(const KinematicTree& tree, const IkProblem& p
       }
       run.RecordFrames(frames, state.angles);
     }
+  });
+}
+
+namespace {
+
+// Nielsen's factor on the damping. Below the least, damping no longer keeps steps short where the residual stays large.
+constexpr double kLeastFactor = 1e-2, kMostFactor = 1e9;
+constexpr double kFirstGrowth = 2;
+// JJᵀ of limbs at their limits is singular: less damping than this is none.
+constexpr double kLeastMu = 1e-9;
+
+// A descent is stuck when so many steps have not brought the sum of squares down to a share; when iterations are few, a
+// part of them counts, so that restarts get theirs.
+constexpr int kMostPatience = 6;
+constexpr int kPartOfIterations = 5;
+constexpr double kDescends = 0.7;
+constexpr double kHasSettled = 1 - 1e-5;  // instead, where targets cannot be met
+
+class Minimiser {
+ public:
+  Minimiser(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options, double damping_share,
+            IkRun& run, TreeState& state, TreeFrames& frames)
+      : tree_(tree),
+        problem_(problem),
+        options_(options),
+        damping_share_(damping_share),
+        run_(run),
+        state_(state),
+        frames_(frames),
+        linear_(tree, problem.targets),
+        trial_(state),
+        trial_frames_(frames),
+        no_preference_(state.angles.size(), 0.0),
+        best_angles_(state.angles) {}
+
+  void Minimise() {
+    const int patience = std::clamp(options_.max_iterations / kPartOfIterations, 1, kMostPatience);
+    Descend(kDescends, patience);
+    const int restarts = run_.MustGoOn() && !IsOutOfReach(tree_, problem_) ? kRestarts : 0;
+    for (int restart = 1; restart <= restarts && run_.MustGoOn(); ++restart) {
+      ScatterAround(run_.start_angles(), run_.ranges(), restart, state_.angles);
+      Place();
+      Descend(kDescends, patience);
+    }
+    if (run_.MustGoOn()) {
+      state_.angles = best_angles_;
+      Place();
+      Descend(kHasSettled, kMostPatience);
+    }
+    if (run_.HasConverged()) return;
+    if (run_.iterations() < options_.max_iterations) run_.Stall();
+    run_.DiscardErrors();
+    state_.angles = best_angles_;
+  }
+
+ private:
+  /// Forward kinematics of angles that are not the outcome of an iteration.
+  void Place() {
+    ComputeFrames(tree_, state_, frames_);
+    run_.CountPass();
+  }
+
+  /// Steps from `state_` until the targets are met, or `patience` steps have not brought the sum down to `progress`.
+  void Descend(double progress, int patience) {
+    double cost = linear_.Cost(frames_), fallen_to = cost;
+    double factor = 1, growth = kFirstGrowth;
+    bool has_moved = true;
+    for (int left = patience; left > 0 && factor <= kMostFactor && run_.MustGoOn();) {
+      if (has_moved) Linearise();
+      if (FindStep(std::max(kLeastMu, factor * damping_share_ * cost)) < options_.stall_change) break;
+      ComputeFrames(tree_, trial_, trial_frames_);
+      const double trial_cost = linear_.Cost(trial_frames_);
+      has_moved = trial_cost < cost;
+      if (has_moved) {
+        const double surplus = 2 * (cost - trial_cost) / inverse_.Gain(step_) - 1;
+        factor = std::max(kLeastFactor, factor * std::max(1.0 / 3, 1 - surplus * surplus * surplus));
+        growth = kFirstGrowth;
+        std::swap(state_.angles, trial_.angles);
+        std::swap(frames_, trial_frames_);
+        cost = trial_cost;
+      } else {
+        factor *= growth;
+        growth *= 2;
+      }
+      run_.RecordFrames(frames_, state_.angles);
+      if (cost < progress * fallen_to) {
+        fallen_to = cost;
+        left = patience;
+      } else {
+        --left;
+      }
+    }
+    if (cost < best_cost_) {
+      best_cost_ = cost;
+      best_angles_ = state_.angles;
+    }
+  }
+
+  void Linearise() {
+    linear_.Build(frames_);
+    inverse_.Build(linear_);
+  }
+
+  /// Sets `trial_` to where the step with damping `mu` leads. Returns the largest change of an angle, 0 without a step.
+  double FindStep(double mu) {
+    if (!inverse_.StepWithin(mu, no_preference_, state_.angles, run_.ranges(), step_)) return 0;
+    Shorten(step_);
+    return MoveWithin(run_.ranges(), state_.angles, step_, trial_.angles);
+  }
+
+  const KinematicTree& tree_;
+  const IkProblem& problem_;
+  const IkOptions& options_;
+  const double damping_share_;
+  IkRun& run_;
+  TreeState& state_;
+  TreeFrames& frames_;
+  LinearTargets linear_;
+  DampedInverse inverse_;
+  TreeState trial_;
+  TreeFrames trial_frames_;
+  std::vector<double> step_;
+  const std::vector<double> no_preference_;  // a step stays near to where it begins
+  double best_cost_ = std::numeric_limits<double>::infinity();
+  std::vector<double> best_angles_;
+};
+
+}  // namespace
+
+IkSolution SolveLevenbergMarquardt(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
+                                   const LevenbergMarquardtOptions& own) {
+  return RunFromStart(tree, problem, options, [&](IkRun& run, TreeState& state, TreeFrames& frames) {
+    Minimiser(tree, problem, options, own.damping_share, run, state, frames).Minimise();
   });
 }
 

@@ -1,16 +1,160 @@
 #include "engine/transitions/choices/choice.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "engine/base/named.h"
-#include "engine/transitions/choices/fuzzy_bridge.h"
 #include "engine/transitions/choices/matching.h"
-#include "engine/transitions/choices/plain_choices.h"
 #include "engine/transitions/choices/played.h"
+#include "engine/transitions/choices/through_in_between.h"
+#include "engine/transitions/library/in_betweens.h"
+#include "engine/transitions/library/transition_points.h"
 
 namespace etude {
 namespace {
+
+/// Every pair of bridge frames that the budget allows: those behind the first match, too, which the search never saw.
+struct PairSurvey {
+  AllowedFrames allowed;
+  std::int64_t matching = 0;
+  std::int64_t nearer = 0;          ///< matching ones that are nearer than the taken pair
+  std::vector<RankedPair> nearest;  ///< for each bridge frame that may be left: its nearest but the taken pair
+};
+
+PairSurvey SurveyPairs(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
+                       const std::optional<TransitionPoint>& taken) {
+  PairSurvey survey{.allowed = AllowedBridgeFrames(library, request), .nearest = {}};
+  FuzzyGate gate(library.tagged[request.from], library.tagged[request.to], survey.allowed.enter, rules);
+  for (int from : survey.allowed.leave) {
+    std::optional<RankedPair> nearest;
+    for (const auto& [to, distance, matches] : gate.Compare(from)) {
+      survey.matching += matches;
+      survey.nearer += matches && taken && distance < taken->distance.value;
+      if (taken && taken->from == from && taken->to == to) continue;
+      if (!nearest || distance < nearest->rank) nearest = {from, to, matches, distance, std::nullopt};
+    }
+    if (nearest) survey.nearest.push_back(*nearest);
+  }
+  return survey;
+}
+
+std::string WhyTaken(const std::string& pair, const TransitionPoint& point, bool is_rear, const PairSurvey& survey,
+                     const MatchRules& rules) {
+  if (rules.pick == Pick::kFirst) {
+    return fmt::format("first match: {}, d = {:.2f} < {:g}; of {} matching pairs {} nearer ones came later", pair,
+                       point.distance.value, rules.threshold, survey.matching, survey.nearer);
+  }
+  return fmt::format("smallest distance{}: {}, d = {:.2f} < {:g}, of {} matching pairs",
+                     is_rear ? ", in the rear half as none matches in the front half" : " in the front half", pair,
+                     point.distance.value, rules.threshold, survey.matching);
+}
+
+std::string WhyNone(const MotionLibrary& library, const TransitionRequest& request, const PairSurvey& survey,
+                    const MatchRules& rules) {
+  if (survey.allowed.leave.empty()) {
+    return fmt::format("{} has no bridge frame within {:g} s", library.names[request.from], request.budget_s);
+  }
+  if (survey.allowed.enter.empty()) return fmt::format("{} has no bridge frame to enter at", library.names[request.to]);
+  return DescribeNoMatch(survey.nearest, survey.allowed.Pairs(), "bridge frames", rules);
+}
+
+/// Paper A's transition (section 3.5): at each bridge frame of the playing clip within the budget, the first (or, by
+/// `rules.pick`, the nearest) bridge frame of the wanted clip, front half before rear half; else through an in-between.
+TransitionRecord PlanFuzzyBridge(const MotionLibrary& library, const TransitionRequest& request,
+                                 const MatchRules& rules) {
+  const TaggedClip &playing = library.tagged[request.from], &next = library.tagged[request.to];
+  const FrameWindow window = WaitWindow(playing, request.request_frame, request.budget_s);
+  const std::optional<TransitionPoint> point = FindTransitionPoint(playing, window, next, rules);
+  const PairSurvey survey = SurveyPairs(library, request, rules, point);
+  if (!point) {
+    return ThroughInBetween(library, request, rules, WhyNone(library, request, survey, rules), survey.allowed.Pairs());
+  }
+  TransitionRecord record = DirectTransition(library, request, point->from, point->to, rules);
+  record.pairs_seen = survey.allowed.Pairs();
+  record.pairs_matched = survey.matching;
+  const RankedPair taken{.from = point->from, .to = point->to, .matches = true, .cost = std::nullopt};
+  record.candidates = ListCandidates(library, request, rules, taken, survey.nearest,
+                                     rules.pick == Pick::kFirst ? CandidateOutcome::kLater : CandidateOutcome::kWorse);
+  record.why = WhyTaken(DescribePair(library, request, point->from, point->to), *point,
+                        record.branch == Branch::kRearHalf, survey, rules);
+  return record;
+}
+
+/// Plans a transition at once into the wanted clip's first frame, whatever the poses.
+TransitionRecord PlanNow(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules) {
+  TransitionRecord record = DirectTransition(library, request, request.request_frame, 0, rules);
+  record.branch = Branch::kNow;
+  record.why = fmt::format("at once into the first frame, whatever the poses; d = {:.2f}", record.distances[0].value);
+  return record;
+}
+
+/// Plans a transition from the playing clip's last frame into the wanted clip's first, whatever the budget, as a player
+/// without bridging does (paper A, section 1).
+TransitionRecord PlanWaitForEnd(const MotionLibrary& library, const TransitionRequest& request,
+                                const MatchRules& rules) {
+  const int end = library.tagged[request.from].FrameCount() - 1;
+  TransitionRecord record = DirectTransition(library, request, end, 0, rules);
+  record.branch = Branch::kEnd;
+  record.why = fmt::format("the playing clip ended, after {:.2f} s; d = {:.2f} to the first frame", record.wait_s,
+                           record.distances[0].value);
+  return record;
+}
+
+/// Plans nature's yardstick, which does not answer the request: the playing clip goes on as if nothing had been asked.
+/// The record has one transition point all the same, of the request's frame with itself: every measure then tells what
+/// it makes of motion that was never cut, on the very frames where the others change clips. Any join leaves the clip as
+/// it is.
+///
+/// No segments when the request comes at the clip's last frame, after which there is nothing to go on with.
+TransitionRecord PlanUnbroken(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules) {
+  const TaggedClip& playing = library.tagged[request.from];
+  const int frame = request.request_frame, last = playing.FrameCount() - 1;
+  TransitionRecord record;
+  record.request_frame = frame;
+  if (frame >= last) {
+    record.why = fmt::format("{} has no frame left to go on with", library.names[request.from]);
+    return record;
+  }
+  record.branch = Branch::kUnbroken;
+  record.segments = {{.clip = request.from, .first = frame, .last = frame, .own = {}},
+                     {.clip = request.from, .first = frame, .last = last, .own = {}}};
+  record.distances = {ComputeDistance(playing.grades[frame], playing.grades[frame], rules.weights)};
+  record.why = fmt::format("{} goes on: no transition, for comparison", library.names[request.from]);
+  return record;
+}
+
+/// Plans what paper A says games do (section 1: all their clips begin and end standing): leave at once, tween into a
+/// standing pose, and tween from there into the wanted clip's first frame. It ignores the budget: the tweens take as
+/// long as their rules say.
+TransitionRecord PlanThroughStanding(const MotionLibrary& library, const TransitionRequest& request,
+                                     const MatchRules& rules) {
+  const TaggedClip &playing = library.tagged[request.from], &next = library.tagged[request.to];
+  const TweenRules& tween = library.in_betweens.tween;
+  const BodyPose& leaving = library.motions[request.from].poses[request.request_frame];
+  const BodyPose& entered = library.motions[request.to].poses.front();
+  std::vector<BodyPose> own = SampleTween(Tween(leaving, StandingPose(library.proportions)), playing.rate_hz, tween);
+  const int standing = static_cast<int>(own.size()) - 1;
+  AppendTween(entered, playing.rate_hz, tween, own);
+
+  TransitionRecord record;
+  record.branch = Branch::kStandingPose;
+  record.request_frame = request.request_frame;
+  const int last = static_cast<int>(own.size()) - 1;
+  record.segments = {{.clip = request.from, .first = request.request_frame, .last = request.request_frame, .own = {}},
+                     {.clip = Segment::kOwnFrames, .first = 0, .last = last, .own = std::move(own)},
+                     {.clip = request.to, .first = 0, .last = next.FrameCount() - 1, .own = {}}};
+  // The tweens begin and end in the clips' own frames.
+  const auto to_itself = [&](const Grades& grades) { return ComputeDistance(grades, grades, rules.weights); };
+  record.distances = {to_itself(playing.grades[request.request_frame]), to_itself(next.grades.front())};
+  record.wait_s = WaitOf(record.segments, playing.rate_hz);
+  record.why = fmt::format("left at once: {:.2f} s into a standing pose and {:.2f} s into the first frame of {}",
+                           standing / playing.rate_hz, (last - standing) / playing.rate_hz, library.names[request.to]);
+  return record;
+}
 
 using Library = const MotionLibrary&;
 using Request = const TransitionRequest&;

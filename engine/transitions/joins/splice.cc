@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-#include "engine/transitions/alignment.h"
+#include "engine/motion/body.h"
 
 namespace etude {
 namespace {

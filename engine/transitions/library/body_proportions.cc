@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/fuzzy/features.h"
+#include "engine/motion/rest_body.h"
 
 namespace etude {
 namespace {
@@ -96,6 +97,22 @@ BodyProportions MakeBodyProportions(const BodyPose& pose, double standing_hip_he
     proportions.limb_lengths[Index(bone.child)] = BoneLength(pose, bone) * standing_hip_height / own_height;
   }
   return proportions;
+}
+
+BodyPose StandingPose(const BodyProportions& proportions) {
+  BodyPose pose;
+  pose[kHipCentre] = {0, proportions.standing_hip_height, 0};
+  for (const Bone& bone : AllBones()) {
+    const double length = proportions.limb_lengths[Index(bone.child)];
+    glm::dvec3 limb = length * DirectionAtRest(bone.child);
+    // Feet fall to the floor.
+    if (bone.child == kLeftFoot || bone.child == kRightFoot) {
+      const double drop = std::clamp(pose[bone.parent].y, 0.0, length);
+      limb = {0, -drop, std::sqrt(length * length - drop * drop)};
+    }
+    pose[bone.child] = pose[bone.parent] + limb;
+  }
+  return pose;
 }
 
 std::vector<BodyMotion> PerformedBy(const BodyProportions& proportions, std::span<const BodyMotion> motions) {

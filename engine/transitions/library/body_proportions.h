@@ -19,6 +19,9 @@ struct BodyProportions {
 /// legs.
 BodyProportions MakeBodyProportions(const BodyPose& pose, double standing_hip_height);
 
+/// Returns the body at rest over the origin, facing +Z: limbs straight, arms hanging, soles on the floor.
+BodyPose StandingPose(const BodyProportions& proportions);
+
 /// Returns the same motions, performed by a body of these proportions. Paper A's clips all belong to one character;
 /// real clips come from many people, and a transition between two bodies would be seen whatever the pose.
 ///

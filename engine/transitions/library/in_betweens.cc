@@ -6,7 +6,7 @@
 
 #include "engine/base/directions.h"
 #include "engine/base/smoothstep.h"
-#include "engine/transitions/alignment.h"
+#include "engine/motion/body.h"
 #include "engine/transitions/library/bridge_frames.h"
 
 namespace etude {

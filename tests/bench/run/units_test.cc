@@ -7,7 +7,7 @@
 #include "bench/files/files.h"
 #include "bench/files/temporary_folder.h"
 #include "engine/formats/bvh.h"
-#include "engine/motion/from_body.h"
+#include "engine/motion/clip.h"
 #include "sim/choreography/move.h"
 #include "tests/bench/run/prepared.h"
 

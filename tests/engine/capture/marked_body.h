@@ -5,7 +5,7 @@
 
 #include "engine/base/angles.h"
 #include "engine/cameras/camera.h"
-#include "engine/kinematics/tree_to_body.h"
+#include "engine/kinematics/body_tree.h"
 #include "engine/vision/strokes.h"
 
 namespace etude {

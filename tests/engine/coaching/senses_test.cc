@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/coaching/senses.h"
+#include "engine/coaching/coach.h"
 #include "engine/coaching/session.h"
 #include "sim/choreography/move.h"
 #include "sim/random/stream.h"

@@ -7,7 +7,6 @@
 #include <functional>
 
 #include "engine/keypoints/doubt_rig.h"
-#include "engine/keypoints/guess_pictures.h"
 #include "tests/engine/keypoints/walkers.h"
 
 namespace etude {

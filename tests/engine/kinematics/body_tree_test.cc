@@ -4,7 +4,6 @@
 
 #include <limits>
 
-#include "engine/kinematics/tree_to_body.h"
 #include "tests/engine/kinematics/posed_tree.h"
 
 namespace etude {

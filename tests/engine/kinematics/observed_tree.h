@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "engine/base/euler.h"
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/limb_lengths.h"
-#include "engine/kinematics/tree_to_body.h"
 #include "tests/engine/kinematics/posed_tree.h"
 
 namespace etude {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "engine/kinematics/body_tree.h"
-#include "engine/kinematics/tree_to_body.h"
 #include "engine/motion/rest_body.h"
 
 namespace etude {

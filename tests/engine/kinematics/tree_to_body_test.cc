@@ -1,4 +1,3 @@
-#include "engine/kinematics/tree_to_body.h"
 
 #include <gtest/gtest.h>
 

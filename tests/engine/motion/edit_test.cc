@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "engine/base/angles.h"
-#include "engine/motion/from_body.h"
+#include "engine/motion/clip.h"
 #include "tests/support/person.h"
 #include "tests/support/random_clip.h"
 

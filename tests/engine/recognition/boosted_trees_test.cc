@@ -1,4 +1,3 @@
-#include "engine/recognition/boosted_trees.h"
 
 #include <gtest/gtest.h>
 

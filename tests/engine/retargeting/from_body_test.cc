@@ -1,8 +1,7 @@
-#include "engine/motion/from_body.h"
-
 #include <gtest/gtest.h>
 
 #include "engine/formats/bvh.h"
+#include "engine/motion/clip.h"
 #include "tests/support/person.h"
 #include "tests/support/read_body.h"
 

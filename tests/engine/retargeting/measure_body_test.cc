@@ -1,11 +1,10 @@
-#include "engine/retargeting/measure_body.h"
-
-#include <algorithm>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/base/angles.h"
+#include "engine/retargeting/proportions.h"
 #include "tests/support/gtest_printers.h"
 #include "tests/support/person.h"
 

@@ -1,8 +1,7 @@
-#include "engine/retargeting/up_axis.h"
-
 #include <gtest/gtest.h>
 
 #include "engine/base/angles.h"
+#include "engine/retargeting/orientation.h"
 #include "tests/support/body_of_person.h"
 
 namespace etude {

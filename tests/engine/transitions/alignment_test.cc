@@ -1,7 +1,6 @@
-#include "engine/transitions/alignment.h"
-
 #include <gtest/gtest.h>
 
+#include "engine/motion/body.h"
 #include "tests/engine/transitions/expect_pose.h"
 #include "tests/engine/transitions/test_clips.h"
 

@@ -1,4 +1,3 @@
-#include "engine/vision/colour_likelihood.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,6 @@
 #include "bench/model/recording.h"
 #include "bench/recordings/task_extras.h"
 #include "engine/kinematics/body_tree.h"
-#include "engine/kinematics/tree_to_body.h"
 
 namespace etude {
 namespace {

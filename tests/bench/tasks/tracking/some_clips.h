@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/clips/clip_library.h"
-#include "engine/kinematics/tree_to_body.h"
+#include "engine/kinematics/body_tree.h"
 
 namespace etude {
 

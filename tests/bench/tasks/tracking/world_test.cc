@@ -7,7 +7,6 @@
 #include "engine/base/angles.h"
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/start_angles.h"
-#include "engine/kinematics/tree_to_body.h"
 #include "tests/bench/tasks/tracking/some_clips.h"
 
 namespace etude {

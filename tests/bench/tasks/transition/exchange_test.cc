@@ -9,7 +9,7 @@
 #include "bench/metrics/transition_smoothness.h"
 #include "bench/tasks/base/pose_json.h"
 #include "bench/tasks/transition/outcome.h"
-#include "engine/transitions/alignment.h"
+#include "engine/motion/body.h"
 #include "engine/transitions/choices/choice.h"
 #include "tests/bench/tasks/base/exchange_checks.h"
 #include "tests/bench/tasks/transition/transition_fixture.h"

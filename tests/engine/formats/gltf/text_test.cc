@@ -1,8 +1,8 @@
-#include "engine/formats/gltf/text.h"
-
 #include <gtest/gtest.h>
 
 #include <string>
+
+#include "engine/formats/gltf/file.h"
 
 namespace etude {
 namespace {

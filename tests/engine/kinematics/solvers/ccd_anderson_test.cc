@@ -1,4 +1,3 @@
-#include "engine/kinematics/solvers/ccd_anderson.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,3 @@
-#include "engine/kinematics/solvers/damped_inverse.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -8,6 +6,7 @@
 
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/gauss_newton_plain.h"
+#include "engine/kinematics/solvers/jacobian_solvers.h"
 #include "tests/engine/kinematics/posed_tree.h"
 #include "tests/engine/kinematics/solvers/arms.h"
 

@@ -1,4 +1,3 @@
-#include "engine/kinematics/solvers/levenberg_marquardt.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/transitions/choices/fuzzy_bridge.h"
 #include "tests/engine/transitions/test_clips.h"
 
 namespace etude {
@@ -34,7 +33,8 @@ TEST(FuzzyBridge, RecordsTheBranchItTook) {
 TEST(FuzzyBridge, TellsOfThePairsItDidNotTake) {
   MotionLibrary library = LibraryOfThree();
   library.tagged[0] = ClipOfLevels({0, 0.3, 5, 0, 0}, {0, 1, 2, 3});
-  const TransitionRecord record = PlanFuzzyBridge(library, {.from = 0, .request_frame = 0, .to = 2}, {});
+  const TransitionRecord record =
+      FindChoice("fuzzy-bridge")->plan(library, {.from = 0, .request_frame = 0, .to = 2}, {}, {});
   // Frame 0 sees 0.05, 0.15, 0.25, 0.35 below 0.4; frame 1 the first seven of 0.05 … 2.05; frame 3 as frame 0.
   EXPECT_EQ(record.pairs_seen, 4 * 20);
   EXPECT_EQ(record.pairs_matched, 4 + 7 + 4);
@@ -60,7 +60,8 @@ TEST(FuzzyBridge, TakesTheSmallestDistanceWhenToldTo) {
   MotionLibrary library = LibraryOfThree();
   library.tagged[0] = ClipOfLevels({0.4, 0.06, 0.05, 0}, {0, 1, 2});
   const TransitionRecord record =
-      PlanFuzzyBridge(library, {.from = 0, .request_frame = 0, .to = 2}, {.pick = Pick::kSmallest});
+      FindChoice("fuzzy-bridge")
+          ->plan(library, {.from = 0, .request_frame = 0, .to = 2}, {.pick = Pick::kSmallest}, {});
   EXPECT_EQ(record.segments[0].last, 2);
   EXPECT_EQ(record.segments[1].first, 0);
   for (const Candidate& candidate : record.candidates) {

@@ -1,10 +1,11 @@
+#include "engine/transitions/choices/pair_rows.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/fuzzy/distance.h"
-#include "engine/transitions/choices/pair_rows.h"
 #include "engine/transitions/library/transition_points.h"
 #include "tests/engine/transitions/random_clips.h"
 

@@ -1,11 +1,10 @@
-#include "engine/transitions/choices/plain_choices.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "engine/fuzzy/features.h"
-#include "engine/transitions/alignment.h"
+#include "engine/motion/body.h"
+#include "engine/transitions/choices/choice.h"
 #include "tests/engine/transitions/test_clips.h"
 
 namespace etude {
@@ -47,7 +46,8 @@ TEST(StandingPose, PutsTheToesOnTheFloorStraightAhead) {
 
 TEST(ThroughStanding, LeavesAtOnceStandsOnTheWayAndEntersAtTheFirstFrame) {
   const MotionLibrary library = Waving();
-  const TransitionRecord record = PlanThroughStanding(library, {.from = 0, .request_frame = 20, .to = 1}, {});
+  const TransitionRecord record =
+      FindChoice("through-standing")->plan(library, {.from = 0, .request_frame = 20, .to = 1}, {}, {});
   ASSERT_EQ(record.segments.size(), 3u);
   const std::vector<BodyPose>& own = record.segments[1].own;
   EXPECT_EQ(record.segments[0].last, 20);
@@ -62,13 +62,15 @@ TEST(ThroughStanding, LeavesAtOnceStandsOnTheWayAndEntersAtTheFirstFrame) {
 
 TEST(Unbroken, MeetsItselfAtTheRequest) {
   const MotionLibrary library = Waving();
-  const TransitionRecord record = PlanUnbroken(library, {.from = 0, .request_frame = 20, .to = 1}, {});
+  const TransitionRecord record =
+      FindChoice("unbroken")->plan(library, {.from = 0, .request_frame = 20, .to = 1}, {}, {});
   ASSERT_EQ(record.segments.size(), 2u);
   EXPECT_EQ(record.segments[1].clip, 0);
   EXPECT_EQ(record.segments[0].last, record.segments[1].first);
   EXPECT_EQ(record.distances[0].value, 0);
   EXPECT_EQ(record.wait_s, 0);
-  EXPECT_TRUE(PlanUnbroken(library, {.from = 0, .request_frame = 59, .to = 1}, {}).segments.empty());
+  EXPECT_TRUE(
+      FindChoice("unbroken")->plan(library, {.from = 0, .request_frame = 59, .to = 1}, {}, {}).segments.empty());
 }
 
 }  // namespace

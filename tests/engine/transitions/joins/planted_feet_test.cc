@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/base/angles.h"
-#include "engine/transitions/alignment.h"
+#include "engine/motion/body.h"
 #include "engine/transitions/joins/limbs.h"
 #include "engine/transitions/joins/splice.h"
 #include "tests/engine/transitions/expect_pose.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/transitions/alignment.h"
+#include "engine/motion/body.h"
 #include "tests/engine/transitions/joins/join_pictures.h"
 #include "tests/engine/transitions/test_clips.h"
 

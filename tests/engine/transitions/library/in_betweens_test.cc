@@ -1,10 +1,11 @@
+#include "engine/transitions/library/in_betweens.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "engine/base/directions.h"
-#include "engine/transitions/alignment.h"
-#include "engine/transitions/library/in_betweens.h"
+#include "engine/motion/body.h"
 #include "tests/engine/transitions/test_clips.h"
 
 namespace etude {
