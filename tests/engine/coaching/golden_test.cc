@@ -1,8 +1,8 @@
 // Golden values of whole sessions: every frame that a coach shows to players who do anything, and every word.
 #include <gtest/gtest.h>
 
+#include "engine/coaching/coach.h"
 #include "engine/coaching/policy.h"
-#include "engine/coaching/senses.h"
 #include "engine/coaching/session.h"
 #include "engine/recognition/recognisers.h"
 #include "tests/engine/coaching/small_dance.h"

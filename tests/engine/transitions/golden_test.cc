@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "engine/transitions/alignment.h"
+#include "engine/motion/body.h"
 #include "tests/engine/transitions/prints.h"
 
 namespace etude {

@@ -6,8 +6,6 @@
 #include <map>
 
 #include "engine/kinematics/solvers/ccd.h"
-#include "engine/kinematics/solvers/ccd_anderson.h"
-#include "engine/kinematics/solvers/damped_inverse.h"
 #include "engine/kinematics/solvers/fabrik.h"
 #include "engine/kinematics/solvers/gauss_newton.h"
 #include "engine/kinematics/solvers/gauss_newton_plain.h"
@@ -15,6 +13,7 @@
 #include "engine/kinematics/solvers/gauss_newton_vectors.h"
 #include "engine/kinematics/solvers/ik_run.h"
 #include "engine/kinematics/solvers/ik_solver.h"
+#include "engine/kinematics/solvers/jacobian_solvers.h"
 #include "engine/kinematics/solvers/linear_targets.h"
 #include "engine/kinematics/solvers/sweep_tree.h"
 #include "tests/engine/kinematics/solvers/arms.h"
