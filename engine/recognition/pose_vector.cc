@@ -152,8 +152,7 @@ std::vector<PoseVector> DescribeStream(const SkeletonStream& stream, PoseParts p
   StepDescriber describer(parts, {}, stream.rate_hz);
   for (const SensedFrame& frame : stream.frames) {
     const int completed = describer.Update(sight.Update(frame));
-    if (completed > 0 && describer.Step())
-      steps.insert(steps.end(), static_cast<std::size_t>(completed), *describer.Step());
+    if (describer.Step()) steps.insert(steps.end(), static_cast<std::size_t>(completed), *describer.Step());
   }
   return steps;
 }

@@ -1,11 +1,10 @@
 // Paper A, section 3.5: every move needs a bridge frame into the corrective clips.
 
-#include "engine/transitions/library/transition_points.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "engine/transitions/library/library.h"
+#include "engine/transitions/library/transition_points.h"
 #include "sim/choreography/move.h"
 
 namespace etude {

@@ -20,13 +20,14 @@ PolicyInput Mistakes(int in_row, double evidence = 0.3, int corrections = 0) {
 }
 
 TEST(Policy, KnowsItsNames) {
-  EXPECT_THAT(PolicyNames(),
-              ::testing::ElementsAre("at-first-mistake", "never", "after-n", "confidence", "fading", "oracle", "yoked"));
+  EXPECT_THAT(PolicyNames(), ::testing::ElementsAre("at-first-mistake", "never", "after-n", "confidence", "fading",
+                                                    "oracle", "yoked"));
   EXPECT_EQ(FindPolicy("always"), nullptr);
 }
 
 TEST(Policy, CoachesRealPeopleWithoutTheTruthOrAnotherSession) {
-  EXPECT_THAT(LivePolicyNames(), ::testing::ElementsAre("at-first-mistake", "never", "after-n", "confidence", "fading"));
+  EXPECT_THAT(LivePolicyNames(),
+              ::testing::ElementsAre("at-first-mistake", "never", "after-n", "confidence", "fading"));
 }
 
 TEST(Policy, CorrectsNothingThatIsNoMistake) {

@@ -52,8 +52,9 @@ inline Dance SmallDance() {
 class SmallSession {
  public:
   explicit SmallSession(const CoachOptions& options = {}, const char* policy = "at-first-mistake",
-                        std::vector<double> settings = {}, const char* choice = "now", const char* join = "crossfade")
-      : library_(DanceLibrary::Make(SmallDance()).value()),
+                        std::vector<double> settings = {}, const char* choice = "now", const char* join = "crossfade",
+                        Dance dance = SmallDance())
+      : library_(DanceLibrary::Make(std::move(dance)).value()),
         transitions_(library_, {.choice = FindChoice(choice), .join = FindJoin(join)}),
         coach_(transitions_, options, {FindPolicy(policy), std::move(settings)}) {
     state_ = coach_.BeginDancing();
