@@ -17,7 +17,6 @@
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "cli/move_table.h"
-#include "reports/gate_report.h"
 #include "reports/gate_table.h"
 
 namespace etude {

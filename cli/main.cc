@@ -23,7 +23,7 @@
 #include "cli/interrupt.h"
 #include "engine/base/names.h"
 #include "engine/base/utf8.h"
-#include "reports/words/shell_word.h"
+#include "reports/words/escape.h"
 
 namespace etude {
 namespace {

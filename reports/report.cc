@@ -8,7 +8,6 @@
 #include "reports/comparison_table.h"
 #include "reports/films/media.h"
 #include "reports/junit.h"
-#include "reports/number_table.h"
 #include "reports/page.h"
 #include "reports/paper/paper_b_section.h"
 #include "reports/viewer/world_script.h"

@@ -21,10 +21,10 @@ struct ReportOptions {
 };
 
 /// Writes the report of a run: `report/index.html` (self-contained), `report/summary.md`, `report/junit.xml`,
-/// `report/tables/*.{csv,tex}`, and, as far as the run kept recordings, `report/motions/*.{bvh,js}`, `report/pictures/*.exr`
-/// and `video/*.mp4`. Each file appears whole or not at all. Fails, naming the path, when a file cannot be written; a
-/// film that cannot be made is no failure: the page says why. False when the films were stopped: there is no new page
-/// then.
+/// `report/tables/*.{csv,tex}`, and, as far as the run kept recordings, `report/motions/*.{bvh,js}`,
+/// `report/pictures/*.exr` and `video/*.mp4`. Each file appears whole or not at all. Fails, naming the path, when a
+/// file cannot be written; a film that cannot be made is no failure: the page says why. False when the films were
+/// stopped: there is no new page then.
 Result<bool> WriteReport(const RunData& run, const std::filesystem::path& run_folder, const ReportOptions& options);
 
 /// A report held against its run.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +10,18 @@
 #include "sim/render/renderer.h"
 
 namespace etude {
+
+/// Draws two moments of a capture as both cameras saw them, with mask and recovered skeleton.
+std::vector<Picture> DrawStrip(const CapturePanel& capture, Renderer& renderer);
+
+/// Saves the same moments with colour, depth and labels, as EXR files for other programs.
+Result<void> SaveStripPictures(const CapturePanel& capture, Renderer& renderer, const std::filesystem::path& folder);
+
+/// Draws every stage of a capture's moments in the layout of paper B's figures 5.3 to 5.14: for each moment and camera
+/// the picture, the person cut out of it, the marks, the skeleton with its lengths fixed, and after inverse kinematics;
+/// beneath, as in figure 5.15, the whole motion as the cameras saw it, and its skeletons. At most two cameras. Nothing
+/// when the recording keeps no moments.
+std::optional<Picture> DrawPlate(const CapturePanel& capture, Renderer& renderer);
 
 /// Finds the recorded captures of one world that a film compares: of the typical cell's world (ChooseCell) every method
 /// that kept one, in the scenario's order, three at most. Empty when there is none; fails when one cannot be read.

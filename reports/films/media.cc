@@ -8,13 +8,10 @@
 #include <optional>
 
 #include "reports/films/capture_scene.h"
-#include "reports/films/capture_stills.h"
 #include "reports/films/cast.h"
 #include "reports/films/coached_scene.h"
-#include "reports/films/coached_session.h"
 #include "reports/films/convergence_scene.h"
 #include "reports/films/judged_scene.h"
-#include "reports/films/judged_session.h"
 #include "reports/films/stage_scene.h"
 #include "reports/films/transition_race.h"
 #include "reports/films/transition_scene.h"

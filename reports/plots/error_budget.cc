@@ -1,11 +1,10 @@
-#include "reports/plots/plot_section.h"
-
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <vector>
 
 #include "reports/plots/panel.h"
+#include "reports/plots/plot_section.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 

@@ -1,5 +1,3 @@
-#include "reports/plots/estimation.h"
-
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 
 #include "reports/plots/marks.h"
 #include "reports/plots/panel.h"
+#include "reports/plots/plot_section.h"
 #include "reports/words/cell_series.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"

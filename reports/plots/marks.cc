@@ -33,8 +33,8 @@ constexpr double kMarkSize = 5;
 }  // namespace
 
 std::string MarksCss() {
-  std::string css = Variables(&PlotColour::light) +
-                    "@media (prefers-color-scheme:dark){" + Variables(&PlotColour::dark) + "}";
+  std::string css =
+      Variables(&PlotColour::light) + "@media (prefers-color-scheme:dark){" + Variables(&PlotColour::dark) + "}";
   // Paper is light, whatever the screen was.
   css += "@media print{" + Variables(&PlotColour::light) + "}";
   for (std::size_t i = 0; i < kPlotColours.size(); ++i) css += fmt::format(".f{0}{{fill:var(--m{0})}}", i);
@@ -90,6 +90,8 @@ std::vector<double> SwarmOffsets(const std::vector<double>& places, double most)
   return offsets;
 }
 
-std::size_t StrideFor(std::size_t count, std::size_t most) { return std::max<std::size_t>(1, (count + most - 1) / most); }
+std::size_t StrideFor(std::size_t count, std::size_t most) {
+  return std::max<std::size_t>(1, (count + most - 1) / most);
+}
 
 }  // namespace etude

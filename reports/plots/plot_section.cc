@@ -7,9 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "reports/plots/estimation.h"
-#include "reports/plots/verdict_curves.h"
-#include "reports/plots/verdict_tables.h"
+#include "reports/plots/verdicts.h"
 #include "reports/words/answer.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"

@@ -1,5 +1,3 @@
-#include "reports/plots/verdict_curves.h"
-
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include "bench/statistics/distributions.h"
 #include "reports/plots/marks.h"
 #include "reports/plots/panel.h"
+#include "reports/plots/verdicts.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/judged.h"

@@ -1,10 +1,9 @@
-#include "reports/plots/verdict_tables.h"
-
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <set>
 
+#include "reports/plots/verdicts.h"
 #include "reports/words/answer.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"

@@ -33,4 +33,7 @@ std::string MotionFileOf(const std::string& cell);
 /// Writes a relative path as the target of a link: whatever is no plain character becomes "%XX".
 std::string UrlPath(std::string_view path);
 
+/// Writes a word of a command line, in quotes when a shell would take it apart.
+std::string ShellWord(std::string_view text);
+
 }  // namespace etude

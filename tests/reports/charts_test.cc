@@ -1,11 +1,10 @@
-#include "reports/charts.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "reports/scenario_card.h"
 #include "tests/reports/support/effector_run.h"
 #include "tests/reports/support/example_run.h"
 

@@ -1,4 +1,3 @@
-#include "reports/gate_report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

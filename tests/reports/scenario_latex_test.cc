@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <sstream>
 
-#include "reports/number_table.h"
 #include "reports/page.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"

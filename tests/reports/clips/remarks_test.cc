@@ -1,8 +1,7 @@
-#include "reports/clips/remarks.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "reports/clips/clip_facts.h"
 #include "tests/engine/motion/standing_body.h"
 
 namespace etude {

@@ -5,7 +5,6 @@
 
 #include "bench/model/recording.h"
 #include "reports/films/coached_scene.h"
-#include "reports/films/coached_session.h"
 #include "sim/choreography/move.h"
 #include "tests/support/gtest_printers.h"
 

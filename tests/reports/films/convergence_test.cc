@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "reports/films/convergence_scene.h"
-#include "reports/films/error_plot.h"
 #include "reports/films/ik_race.h"
 #include "reports/films/media.h"
 #include "reports/scenario_card.h"

@@ -1,9 +1,9 @@
-#include "reports/films/error_plot.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
+
+#include "reports/films/convergence_scene.h"
 
 namespace etude {
 namespace {

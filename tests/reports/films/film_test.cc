@@ -8,7 +8,6 @@
 #include "reports/films/canvas.h"
 #include "reports/films/capture_panel.h"
 #include "reports/films/capture_scene.h"
-#include "reports/films/capture_stills.h"
 #include "reports/films/cast.h"
 #include "reports/films/look.h"
 #include "reports/films/stage_scene.h"

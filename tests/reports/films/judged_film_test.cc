@@ -1,10 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bench/model/recording.h"
 #include <nlohmann/json.hpp>
+
+#include "bench/model/recording.h"
 #include "reports/films/judged_scene.h"
-#include "reports/films/judged_session.h"
 #include "sim/choreography/move.h"
 
 namespace etude {

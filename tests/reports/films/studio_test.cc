@@ -11,7 +11,6 @@
 #include "bench/files/files.h"
 #include "bench/files/temporary_folder.h"
 #include "reports/films/film.h"
-#include "reports/films/film_workers.h"
 #include "sim/character/characters.h"
 #include "sim/character/posed.h"
 #include "sim/choreography/canonical_body.h"

@@ -1,9 +1,9 @@
-#include "reports/paper/paper_table.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+
+#include "reports/paper/paper_b_tables.h"
 
 namespace etude {
 namespace {

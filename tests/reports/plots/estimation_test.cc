@@ -1,5 +1,3 @@
-#include "reports/plots/estimation.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

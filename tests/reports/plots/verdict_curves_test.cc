@@ -1,8 +1,8 @@
-#include "reports/plots/verdict_curves.h"
-
 #include <gtest/gtest.h>
 
 #include <vector>
+
+#include "reports/plots/verdicts.h"
 
 namespace etude {
 namespace {

@@ -1,6 +1,6 @@
-#include "reports/plots/verdict_tables.h"
-
 #include <gtest/gtest.h>
+
+#include "reports/plots/verdicts.h"
 
 namespace etude {
 namespace {

@@ -1,4 +1,4 @@
-#include "reports/plots/judged_performances.h"
+#include "reports/plots/verdicts.h"
 
 #include <algorithm>
 #include <cmath>
