@@ -2,19 +2,20 @@
 
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "bench/files/files.h"
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "cli/output_file.h"
 #include "engine/base/angles.h"
-#include "engine/boards/board.h"
 #include "engine/cameras/camera_parameters.h"
+#include "engine/cameras/dlt.h"
 #include "engine/cameras/pairs_file.h"
 #include "engine/cameras/rig_file.h"
 #include "sim/sensors/image_files.h"
@@ -216,6 +217,88 @@ Result<void> Calibrate(const CalibrateOptions& options) {
 int CalibrateCommand(const CalibrateOptions& options) {
   if (auto done = Calibrate(options); !done) return Complain(done.error());
   return kSuccess;
+}
+
+namespace {
+
+constexpr const char* kCalibrateExamples =
+    "\nA rig is what `etude capture` needs to know of its cameras: focal lengths, principal points, lenses, and where\n"
+    "they stand. Two ways lead to it.\n\n"
+    "From point pairs: at least six points that fill a volume (not one wall: two or three), measured in metres, Y up,\n"
+    "and the pixels that show them. CSV with the heading camera,x,y,z,u,v (and --size), or YAML:\n"
+    "  left:  {size: [1920, 1080], pairs: [[0.0, 0.0, 0.0, 812.4, 903.1], ...]}\n"
+    "  right: {size: [1920, 1080], pairs: ...}\n"
+    "--method refined (the default) finds focal lengths, principal point, lens and pose by least squares of\n"
+    "the reprojection error; dlt and dlt-normalised solve for the matrix H alone, as paper B does.\n\n"
+    "From pictures of a board: print one (--print), glue it to something flat, and measure a square. Take ten or more\n"
+    "pictures with every camera, the board tilted this way and that and filling the picture's corners; pictures of "
+    "one\n"
+    "moment have one name in every folder, and some moments must show the board to two cameras at once. The first\n"
+    "picture tells the world: lay the board on the floor there (--world floor). A film will do for a folder; films of "
+    "a\n"
+    "moving board that did not begin at the same moment are set in step, and how late each is is said.\n\n"
+    "The file that is written is YAML that OpenCV reads, too: "
+    "cv::FileStorage(\"rig.yaml\")[\"left\"][\"camera_matrix\"].\n"
+    "`etude capture` also takes calibrations of OpenCV, Pose2Sim, Anipose, FreeMoCap, Caliscope, Qualisys, EasyMocap "
+    "and COLMAP.\n\n"
+    "Try:\n"
+    "  etude calibrate --print board.png --board 8x8x0.1                a board of 80 cm, squares of 10 cm\n"
+    "  etude calibrate left/ right/ --board 8x8x0.1 -o rig.yaml         folders of PNG or JPG pictures\n"
+    "  etude calibrate left.mp4 right.mp4 --board 8x8x0.1 -o rig.yaml   films that run alike\n"
+    "  etude calibrate a.mp4 b.mp4 --board charuco:5x7x0.04 --sync 2 --picture found.png -o rig.yaml\n"
+    "  etude calibrate a.mp4 b.mp4 --board charuco:4x5x0.054 -o rig.yaml   a board of OpenCV's, squares counted\n"
+    "  etude calibrate pairs.csv --size 1920x1080 -o rig.yaml           measured points";
+
+}  // namespace
+
+void DefineCalibrate(CLI::App& app, Action& action) {
+  auto options = std::make_shared<CalibrateOptions>();
+  CLI::App* command =
+      app.add_subcommand("calibrate", "The cameras of a rig, from measured points or pictures of boards");
+  command->add_option("inputs", options->inputs,
+                      "A file of point pairs; or for each camera a folder of pictures or a film");
+  command->add_option("-o,--output", options->output, "The rig to write (YAML)");
+  command
+      ->add_option(
+          "--board", options->boards,
+          "COLUMNSxROWSxSQUARE, squares and metres, @FIRST_CODE for a second board with codes of its own; or one of "
+          "OpenCV's: chess:9x6x0.025, charuco:5x7x0.04 (its dictionary, print and layout are found)")
+      ->capture_default_str();
+  command->add_option("--method", options->method, "Of point pairs")
+      ->check(CLI::IsMember(CalibrationNames()))
+      ->capture_default_str();
+  command
+      ->add_option("--lens", options->lens, "What is found of a lens: none; radial2 (k1, k2, p1, p2); radial3 (and k3)")
+      ->check(CLI::IsMember({"none", "radial2", "radial3"}))
+      ->capture_default_str();
+  command->add_flag("--skew", options->skew,
+                    "Find the angle between the picture's axes, too (paper B; sensors have none)");
+  command->add_option("--size", options->size, "Of the pictures of point pairs as CSV: 1920x1080");
+  command->add_option("--world", options->world, "How the board of the first picture stands: floor or wall")
+      ->check(CLI::IsMember({"floor", "wall"}))
+      ->capture_default_str();
+  command
+      ->add_option("--every", options->every,
+                   "Look at every so many frames of a film (0: 30; for a board of OpenCV's, 200 frames or less in all)")
+      ->check(CLI::Range(0, 100000))
+      ->capture_default_str();
+  command
+      ->add_option("--sync", options->sync_s,
+                   "Films of boards may be late by this much, s; how much is found from the board (0: up to two of the "
+                   "pictures that are looked at)")
+      ->check(NumberWithin(0, 60, "time in s"))
+      ->capture_default_str();
+  command->add_option("--picture", options->picture, "Draw what was found where, and how far off, too (PNG)");
+  command->add_option(
+      "--beside", options->beside,
+      "Another calibration of these cameras: focal lengths, distances and residuals of both; opencv: its "
+      "calibrateCamera, each camera alone");
+  CLI::Option* print = command->add_option("--print", options->print,
+                                           "Write the board as a picture (PNG) to be printed, and nothing else");
+  AddOverwrite(*command, options->overwrite);
+  AddJson(*command, options->as_json)->excludes(print);
+  command->footer(kCalibrateExamples);
+  command->callback([=, &action] { action = [=] { return CalibrateCommand(*options); }; });
 }
 
 }  // namespace etude

@@ -6,7 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bench/replay/verify.h"
+#include "bench/replay/replay.h"
 #include "bench/results/folder.h"
 #include "bench/results/seal.h"
 #include "bench/results/signature.h"

@@ -1,7 +1,6 @@
 #include "bench/metrics/detection.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <set>
 #include <vector>

@@ -115,7 +115,7 @@ struct BudgetShare {
   std::optional<double> ci_low = {}, ci_high = {};  ///< 95 % interval of the mean
 };
 
-/// The error of one method, split into what its stages cost (bench/statistics/error_budget.h).
+/// The error of one method, split into what its stages cost (bench/statistics/summary.h).
 struct ErrorBudget {
   std::string metric;
   std::string method;       ///< of which no stage, or the fewest, is true

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "bench/clips/clip_library.h"
 #include "bench/outside/messages.h"

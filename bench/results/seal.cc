@@ -1,7 +1,5 @@
 #include "bench/results/seal.h"
 
-#include <algorithm>
-#include <array>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>

@@ -7,7 +7,6 @@
 #include "engine/base/names.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/dance_of.h"
-#include "sim/choreography/scenario_body.h"
 
 namespace etude::sim {
 namespace {

@@ -65,4 +65,7 @@ Controls ReadyStance();
 /// Returns the canonical body at rest, with straight legs and hanging arms: the pose to calibrate, fit and compare by.
 BodyPose StandingPose();
 
+/// The height of the hips of the body that performs a scenario's clips, metres: StandingPose, scaled to it.
+inline constexpr double kScenarioHipHeight = 0.90;
+
 }  // namespace etude

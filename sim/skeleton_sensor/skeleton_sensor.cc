@@ -2,11 +2,151 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "engine/base/directions.h"
 
 namespace etude {
+namespace {
+
+/// Returns how far from `eye` the ray to `joint` meets furniture or the second person.
+double NearestOccluder(const std::vector<Cuboid>& furniture, const std::vector<Capsule>& bystander,
+                       const glm::dvec3& joint, const glm::dvec3& eye) {
+  double nearest = std::numeric_limits<double>::infinity();
+  const double distance = glm::distance(joint, eye);
+  if (distance == 0) return nearest;
+  const glm::dvec3 direction = (joint - eye) / distance;
+  for (const Cuboid& box : furniture) nearest = std::min(nearest, HitDistance(box, eye, direction));
+  for (const Capsule& capsule : bystander) nearest = std::min(nearest, HitDistance(capsule, eye, direction));
+  return nearest;
+}
+
+using enum Role;
+
+/// A limb from its anchor outwards: an error of the guess grows along it.
+struct Limb {
+  std::array<Role, 4> joints;
+};
+constexpr std::array<Limb, 4> kLimbRoles = {{{{kLeftShoulder, kLeftElbow, kLeftWrist, kLeftHand}},
+                                             {{kRightShoulder, kRightElbow, kRightWrist, kRightHand}},
+                                             {{kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot}},
+                                             {{kRightHip, kRightKnee, kRightAnkle, kRightFoot}}}};
+constexpr std::array<double, 4> kShareOfOffset = {0.0, 0.5, 0.9, 1.0};
+
+// Frames that the body is lost for (ours).
+constexpr std::uint64_t kShortestDropout = 2, kLongestDropout = 10;
+
+}  // namespace
+
+HiddenJoints FindHidden(const BodyPose& pose, std::size_t frame, const Occluders& occluders, const glm::dvec3& eye) {
+  const std::vector<Capsule> flesh = BodyCapsules(pose);
+  std::vector<Capsule> bystander;
+  if (!occluders.bystander.empty()) {
+    bystander = BodyCapsules(occluders.bystander[std::min(frame, occluders.bystander.size() - 1)]);
+  }
+  HiddenJoints hidden;
+  for (const Role role : AllRoles()) {
+    const JointSight sight = SightOf(flesh, pose, role, eye);
+    const double other = std::min(sight.other, NearestOccluder(occluders.furniture, bystander, pose[role], eye));
+    hidden[Index(role)] = other < sight.skin - kHidingClearance;
+  }
+  return hidden;
+}
+
+OcclusionGuesses::OcclusionGuesses(const SkeletonSensorOptions& options, const WorldKey& world)
+    : options_(options), dice_(world, "skeleton/occlusion") {}
+
+OcclusionGuesses::Episode OcclusionGuesses::Throw() {
+  const double wrong_chance = std::min(1.0, options_.wrong_guess_chance * options_.strength);
+  const int lengths = options_.longest_episode - options_.shortest_episode + 1;
+  return {.age = 0,
+          .length = options_.shortest_episode + static_cast<int>(dice_.IndexBelow(lengths)),
+          .wrong = dice_.Chance(wrong_chance),
+          .size_m = options_.nearest_guess_m *
+                    std::pow(options_.farthest_guess_m / options_.nearest_guess_m, dice_.Uniform()),
+          .direction = dice_.Normal3(),
+          .joints = {}};
+}
+
+FrameGuesses OcclusionGuesses::Next(const BodyPose& pose, const HiddenJoints& hidden) {
+  FrameGuesses guesses;
+  for (std::size_t j = 0; j < kRoleCount; ++j) guesses[j].inferred = hidden[j];
+
+  for (std::size_t l = 0; l < kLimbs; ++l) {
+    const Limb& limb = kLimbRoles[l];
+    const Episode fresh = Throw();  // in every frame, used only where an episode begins
+
+    Episode& episode = episodes_[l];
+    bool hides = false;
+    for (std::size_t k = 1; k < limb.joints.size(); ++k) hides |= hidden[Index(limb.joints[k])];
+    const bool seen_again = !hides && episode.age >= options_.shortest_episode;
+    if (episode.IsRunning() && (seen_again || episode.age >= episode.length)) episode = Episode{};
+    if (!episode.IsRunning() && hides) episode = fresh;
+    if (!episode.IsRunning()) continue;
+
+    ++episode.age;
+    // A guess leans towards the body: what is not seen is taken for part of what is.
+    const glm::dvec3 inwards = pose[limb.joints.front()] - pose[limb.joints.back()];
+    const glm::dvec3 lean = glm::normalize(inwards + glm::dvec3(0, 1e-6, 0)) + episode.direction;
+    const glm::dvec3 offset = episode.wrong ? episode.size_m * glm::normalize(lean) : glm::dvec3(0);
+    for (std::size_t k = 1; k < limb.joints.size(); ++k) {
+      const std::size_t joint = Index(limb.joints[k]);
+      episode.joints[k] |= hidden[joint];
+      if (episode.joints[k]) guesses[joint] = {.inferred = true, .offset = kShareOfOffset[k] * offset};
+    }
+  }
+  return guesses;
+}
+
+Outliers::Outliers(const SkeletonSensorOptions& options, const WorldKey& world)
+    : chance_(std::min(1.0, options.outlier_chance * options.strength)),
+      size_m_(options.outlier_size_m),
+      dice_(world, "skeleton/outliers") {}
+
+FrameErrors Outliers::Next() {
+  FrameErrors outliers;
+  for (glm::dvec3& outlier : outliers) {
+    const bool strikes = dice_.Chance(chance_);
+    const double x = dice_.Uniform(-1, 1), y = dice_.Uniform(-1, 1), z = dice_.Uniform(-1, 1);
+    outlier = strikes ? size_m_ * glm::dvec3(x, y, z) : glm::dvec3(0);
+  }
+  return outliers;
+}
+
+Swaps::Swaps(double rate_hz, const SkeletonSensorOptions& options, const WorldKey& world)
+    : usual_chance_(options.swaps_per_minute * options.strength / (60.0 * rate_hz)),
+      when_facing_(options.swaps_when_facing),
+      length_(static_cast<int>(rate_hz / 3.0)),
+      dice_(world, "skeleton/swaps") {}
+
+Swap Swaps::Next(double turn) {
+  const double chance = std::min(1.0, when_facing_ ? usual_chance_ : usual_chance_ * (1 - std::cos(turn)));
+  const bool starts = dice_.Chance(chance), arms = dice_.Chance(0.5);
+  if (left_ == 0 && starts) {
+    left_ = length_;
+    current_ = {.arms = arms, .legs = !arms};
+  }
+  if (left_ == 0) return {};
+  --left_;
+  return current_;
+}
+
+Dropouts::Dropouts(const SkeletonSensorOptions& options, const WorldKey& world) : dice_(world, "skeleton/dropouts") {
+  constexpr double kMeanLength = 0.5 * (kShortestDropout + kLongestDropout);
+  const double share = std::min(0.9, options.dropout_share * options.strength);
+  chance_ = share / ((1.0 - share) * kMeanLength);
+}
+
+bool Dropouts::Next() {
+  const bool starts = dice_.Chance(chance_);
+  const std::uint64_t length = kShortestDropout + dice_.IndexBelow(kLongestDropout - kShortestDropout + 1);
+  if (left_ == 0 && starts) left_ = length;
+  if (left_ == 0) return false;
+  --left_;
+  return true;
+}
+
 namespace {
 
 using enum Role;

@@ -6,8 +6,8 @@
 #include "bench/tasks/capture/options.h"
 #include "bench/tasks/capture/run.h"
 #include "bench/tasks/capture/score.h"
-#include "bench/tasks/capture/seated_segmenter.h"
 #include "bench/tasks/capture/stages.h"
+#include "bench/tasks/capture/take_cameras.h"
 #include "sim/render/renderer.h"
 
 namespace etude {

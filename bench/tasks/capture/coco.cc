@@ -1,6 +1,5 @@
 #include "bench/tasks/capture/coco.h"
 
-#include <algorithm>
 #include <array>
 #include <cassert>
 #include <nlohmann/json.hpp>

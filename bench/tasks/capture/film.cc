@@ -1,7 +1,5 @@
 #include "bench/tasks/capture/film.h"
 
-#include <algorithm>
-
 #include "bench/recordings/capture_extras.h"
 #include "engine/base/digest.h"
 

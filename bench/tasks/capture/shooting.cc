@@ -1,7 +1,6 @@
 #include "bench/tasks/capture/shooting.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "sim/body/shape.h"
 

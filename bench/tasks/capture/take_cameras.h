@@ -1,18 +1,44 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "bench/tasks/base/task.h"
 #include "bench/tasks/capture/marking.h"
 #include "bench/tasks/capture/options.h"
 #include "bench/tasks/capture/shooting.h"
 #include "bench/tasks/capture/world.h"
+#include "engine/base/image.h"
 #include "engine/vision/person_finder.h"
 #include "engine/vision/strokes.h"
 #include "sim/render/renderer.h"
 
 namespace etude {
+
+/// A program that finds the person in the pictures of a take (docs/outside-methods.md): a session for every camera, a
+/// step for every picture.
+class SeatedSegmenter {
+ public:
+  /// `program` must outlive this.
+  explicit SeatedSegmenter(LiveProgram& program) : program_(program) {}
+
+  /// The next pictures are this camera's, of that empty room.
+  void Begin(std::size_t camera, const ColourImage& background);
+  /// The mask of what the program says has changed in the next picture. All zero when it has failed, or complained:
+  /// then nothing more is asked.
+  Mask Detect(const ColourImage& picture);
+
+  /// The complaint about an answer; success when there was none.
+  const Result<void>& complaint() const { return complaint_; }
+
+ private:
+  LiveProgram& program_;
+  Result<void> complaint_;
+  bool goes_on_ = true;
+  std::size_t camera_ = 0, frame_ = 0;
+};
 
 /// The cameras of a take, and all that its pictures share: backgrounds, clocks, annotators.
 class TakeCameras {

@@ -1,6 +1,5 @@
 #include "bench/tasks/detection/exchange.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,13 +12,27 @@
 #include "bench/tasks/detection/operating_point.h"
 #include "bench/tasks/detection/options.h"
 #include "bench/tasks/detection/world.h"
+#include "sim/performer/fault.h"
 
 namespace etude {
+
+/// The faults that can be made of the recording of somebody who is right: amplitude, wrong side, wrong move.
+std::span<const Fault> MadeFaults();
+
+/// Returns the recording as it would be with the fault: every limb half-way between where it points in the first frame
+/// with a body and where it points now, each as long as it is; left and right exchanged; as it is, for somebody who
+/// was asked for another move. `fault` is one of MadeFaults.
+NamedStream WithFault(const NamedStream& right, Fault fault);
+
+/// Says what a right performance of a recording became with this fault, by the same limits as among simulated people
+/// (StrayLimits): by the angles of the limb that strays farthest; where sides are exchanged, the performances are laid
+/// on each other in time first (dynamic time warping), so that a step more of a walk is none. Another move is wrong.
+Truth TruthOfFault(const NamedStream& right, const NamedStream& faulty, const LabelledPart& part, Fault fault);
 
 /// The recordings of one person, one recording after another, with what its labels say. Clips are sensed
 /// under the condition; a sensor's recordings are what they are. A performance is judged until half a second after its
 /// end, but not beyond the next one's beginning; where labels overlap, the earlier is judged as far as that. Where the
-/// condition names faults, each recording follows once more with each of them (made_faults.h), in which what was right
+/// condition names faults, each recording follows once more with each of them, in which what was right
 /// is wrong; what the fault hardly changes, and what had been wrong, is grey there.
 DetectionWorld MakeRecordedWorld(const LabelledStreams& set, std::size_t person, const DetectionOptions& options,
                                  const WorldKey& key);

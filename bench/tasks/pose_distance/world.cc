@@ -1,8 +1,6 @@
 #include "bench/tasks/pose_distance/world.h"
 
-#include <algorithm>
 #include <cassert>
-#include <functional>
 #include <initializer_list>
 #include <vector>
 

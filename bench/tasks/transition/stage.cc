@@ -7,7 +7,6 @@
 #include "bench/metrics/transition_smoothness.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"
-#include "sim/choreography/scenario_body.h"
 
 namespace etude {
 namespace {

@@ -1,10 +1,10 @@
-#include "bench/outside/error_log.h"
-
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include <fstream>
 #include <string>
+
+#include "bench/outside/watched_program.h"
 
 namespace etude {
 namespace {

@@ -1,11 +1,10 @@
-#include "bench/statistics/error_budget.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <functional>
 
 #include "bench/scenario/scenario.h"
+#include "bench/statistics/summary.h"
 #include "tests/bench/scenario/parse.h"
 
 namespace etude {

@@ -1,10 +1,9 @@
-#include "sim/choreography/periodic_curve.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "sim/choreography/move_curves.h"
 #include "sim/random/stream.h"
 
 namespace etude {

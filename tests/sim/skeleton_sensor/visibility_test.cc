@@ -9,7 +9,6 @@
 #include "sim/choreography/move.h"
 #include "sim/random/stream.h"
 #include "sim/render/renderer.h"
-#include "sim/skeleton_sensor/episodes.h"
 #include "sim/skeleton_sensor/skeleton_sensor.h"
 #include "tests/sim/skeleton_sensor/whole_motion.h"
 

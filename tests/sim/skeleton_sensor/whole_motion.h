@@ -4,8 +4,8 @@
 
 #include "engine/cameras/camera.h"
 #include "engine/motion/body.h"
-#include "sim/skeleton_sensor/episodes.h"
 #include "sim/skeleton_sensor/joint_errors.h"
+#include "sim/skeleton_sensor/skeleton_sensor.h"
 
 namespace etude {
 

@@ -1,5 +1,3 @@
-#include "bench/tasks/capture/seated_segmenter.h"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,6 +10,7 @@
 
 #include "bench/clips/clip_library.h"
 #include "bench/tasks/base/task_kinds.h"
+#include "bench/tasks/capture/take_cameras.h"
 #include "engine/document/node.h"
 #include "engine/vision/change_detection.h"
 #include "tests/bench/tasks/base/cell_values.h"

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "bench/streams/label_scores.h"
-#include "bench/tasks/detection/made_faults.h"
 #include "bench/tasks/detection/recorded_task.h"
 #include "engine/base/directions.h"
 #include "tests/bench/streams/record_people.h"

@@ -1,11 +1,10 @@
-#include "bench/tasks/ik/series.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include "bench/tasks/ik/exchange.h"
+#include "bench/tasks/ik/run.h"
 #include "engine/base/angles.h"
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/ik_solver.h"
