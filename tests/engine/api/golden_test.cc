@@ -15,8 +15,10 @@
 #include <functional>
 #include <tuple>
 
+#include "engine/cameras/rig_file.h"
 #include "engine/formats/bvh.h"
 #include "engine/formats/trc.h"
+#include "engine/retargeting/rig.h"
 #include "tests/engine/coaching/small_dance.h"
 #include "tests/engine/keypoints/walkers.h"
 #include "tests/engine/silhouettes/swinging_take.h"
@@ -129,6 +131,7 @@ TEST(ApiGolden, MotionsFeaturesBridgesAndTransitions) {
   const Motion up = ToldMotion(Flap(40, 100)), half = ToldMotion(Flap(33, 60));
   for (const double rate_hz : {30.0, 47.0}) {
     AddMotion(print, ReadMotion(WriteTrc(Flap(12, 70), "flap"), "flap.trc", rate_hz));
+    AddMotion(print, ReadMotion(WriteBvh(RigClip(Flap(9, 50), ArmsAt(10), "flap")), "flap.bvh", rate_hz));
     for (const Features& features : ComputeFeatures(up)) print.Add(features);
   }
   for (const double threshold : {0.4, 2.0, 6.0}) {
@@ -160,7 +163,7 @@ TEST(ApiGolden, MotionsFeaturesBridgesAndTransitions) {
   }
   for (int role = 0; role < 20; ++role) print.Add(RoleName(static_cast<Role>(role)));
   for (const auto& name : FeatureNames()) print.Add(name);
-  EXPECT_TRUE(print.Is(22449, -632292.383912));
+  EXPECT_TRUE(print.Is(23793, 663109.321611));
 }
 
 TEST(ApiGolden, RecognitionAndCoaching) {
@@ -274,6 +277,9 @@ TEST(ApiGolden, RefusesJustBeyondEveryLimit) {
   for (const auto& [width, height] :
        {std::pair(1, 720), {0, 720}, {100000, 720}, {100001, 720}, {720, 1}, {720, 0}, {720, 100000}, {720, 100001}})
     told([&] { Calibrate(pairs, width, height); });
+  etude::Camera fisheye = FourCameras()[0];
+  fisheye.distortion = {.k1 = 0.01, .is_fisheye = true};
+  told([&] { ReadRig(WriteRig(std::vector<NamedCamera>{{"wide", fisheye}}), "rig.yaml"); });
   const std::vector<SeenPeople> nobody(2, SeenPeople(1));
   for (const CaptureOptions& options : {CaptureOptions{.rate_hz = 1},
                                         {.rate_hz = 0.99},
@@ -407,8 +413,8 @@ TEST(ApiGolden, RefusesJustBeyondEveryLimit) {
   told([&] { TrackSilhouettes(pinholes, empty); });
   told([&] { TrackSilhouettes(cameras, std::vector<std::vector<PersonMask>>(4, empty[0])); });
   EXPECT_EQ(taken, 63);
-  EXPECT_EQ(refused, 114);
-  EXPECT_TRUE(print.Is(5770, -870.471517704));
+  EXPECT_EQ(refused, 115);
+  EXPECT_TRUE(print.Is(5860, 3781.6554319));
 }
 
 }  // namespace
