@@ -92,7 +92,8 @@ std::vector<std::pair<double, double>> RocCurve(std::span<const JudgedEvent> eve
   const Admitted& all = admitted.back();
   if (all.right == 0 || all.wrong == 0) return {};
   std::vector<std::pair<double, double>> curve;
-  for (const Admitted& each : admitted) curve.emplace_back(*Share(each.wrong, all.wrong), *Share(each.right, all.right));
+  for (const Admitted& each : admitted)
+    curve.emplace_back(*Share(each.wrong, all.wrong), *Share(each.right, all.right));
   return curve;
 }
 
@@ -110,7 +111,8 @@ std::optional<double> BestF1(std::span<const JudgedEvent> events) {
   if (all.right == 0 || all.wrong == 0) return std::nullopt;
   double best = 0;
   for (const auto& [right, wrong] : admitted) {
-    best = std::max(best, *F1({.true_positives = right, .false_positives = wrong, .false_negatives = all.right - right}));
+    best =
+        std::max(best, *F1({.true_positives = right, .false_positives = wrong, .false_negatives = all.right - right}));
   }
   return best;
 }
