@@ -37,16 +37,16 @@ TEST(SeeClap, DoesNotTakeHandsThatAreGuessedForAClap) {
 TEST(SeeClap, IsOfHandsThatMeetAboveTheHipsSoonAfterTheyWereApart) {
   const auto claps = [](double apart_m, double together_m, double height, int on_the_way) {
     ClapState state;
-    int claps = 0;
+    int seen = 0;
     for (int t = 0; t < on_the_way + 3; ++t) {
       SensedFrame frame = StreamOf({.poses = {ArmsAt(20)}}).frames.front();
       const double gap = t == 0 ? apart_m : t < on_the_way ? 0.3 : together_m;
       frame[Role::kHipCentre].position.y = 1;
       frame[Role::kLeftHand].position = {gap, height, 0};
       frame[Role::kRightHand].position = {0, height, 0};
-      claps += SeeClap(frame, state);
+      seen += SeeClap(frame, state);
     }
-    return claps;
+    return seen;
   };
   EXPECT_EQ(claps(0.41, 0.1, 1.1, 4), 1);
   EXPECT_EQ(claps(0.40, 0.1, 1.1, 4), 0) << "never apart";

@@ -282,9 +282,9 @@ INSTANTIATE_TEST_SUITE_P(Solvers, EverySolver, ::testing::ValuesIn(IkSolverNames
 
 TEST(Solvers, AreFoundByName) {
   EXPECT_THAT(IkSolverNames(),
-              ::testing::IsSupersetOf({"ccd", "ccd-hinges", "gauss-newton", "levenberg-marquardt", "damped-least-squares",
-                                     "damped-least-squares-active-set", "jacobian-pinv", "jacobian-pinv-active-set",
-                                     "jacobian-transpose", "fabrik"}));
+              ::testing::IsSupersetOf({"ccd", "ccd-hinges", "gauss-newton", "levenberg-marquardt",
+                                       "damped-least-squares", "damped-least-squares-active-set", "jacobian-pinv",
+                                       "jacobian-pinv-active-set", "jacobian-transpose", "fabrik"}));
   EXPECT_EQ(FindIkSolver("cdc"), nullptr);
 }
 
