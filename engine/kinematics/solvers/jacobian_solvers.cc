@@ -166,13 +166,9 @@ IkSolution SolveJacobianPinv(const KinematicTree& tree, const IkProblem& problem
       const auto step_within = [&](double damping) {
         return inverse.StepWithin(damping, to_preferred, state.angles, run.ranges(), step);
       };
-      bool has_step = false;
-      if (own.bounds == Bounds::kClamped) {
-        has_step = inverse.Step(own.damping, to_preferred, step);
-      } else {
-        has_step =
-            (step_within(own.damping) && inverse.is_exact()) || step_within(std::max(own.damping, kFallbackDamping));
-      }
+      const bool has_step = own.bounds == Bounds::kClamped ? inverse.Step(own.damping, to_preferred, step)
+                                                           : (step_within(own.damping) && inverse.is_exact()) ||
+                                                                 step_within(std::max(own.damping, kFallbackDamping));
       if (!has_step) return run.Stall();
       Shorten(step);
       if (MoveWithin(run.ranges(), state.angles, step, state.angles) < options.stall_change) run.Stall();

@@ -298,6 +298,7 @@ TEST(Faults, BeginRightBeyondTheirBounds) {
   EXPECT_EQ(fault([](T& t, P&, O&) { t.joints[1].p_PJ = glm::dvec3(0); }), "") << "it stands where the root does";
   EXPECT_EQ(fault([](T& t, P&, O&) { t.joints[2].p_PJ = glm::dvec3(0); }), "a limb has no length");
   EXPECT_EQ(fault([](T& t, P&, O&) { t.effectors[0].p_LE = {0, 0, 1.1e6}; }), "a limb has no length");
+  EXPECT_EQ(fault([](T& t, P&, O&) { t.effectors[0].p_LE = glm::dvec3(0); }), "a limb has no length");
   for (const int joint : {-1, static_cast<int>(kBodyTreeJointCount)}) {
     EXPECT_EQ(fault([&](T& t, P&, O&) { t.effectors[3].joint = joint; }), "the joints are no tree with its root first");
   }

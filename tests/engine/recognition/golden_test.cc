@@ -110,6 +110,17 @@ TEST(Recognition, GoldenEvidenceOfEveryRecogniser) {
   }
 }
 
+TEST(Recognition, GoldenSettings) {
+  Fingerprint print;
+  for (const RecogniserKind& kind : AllRecognisers()) {
+    print.Add(kind.threshold).Add(kind.needs_key_poses).Add(kind.needs_examples);
+    for (const NumberSetting& setting : kind.settings) {
+      print.Add(setting.fallback).Add(setting.lowest).Add(setting.largest).Add(setting.is_whole);
+    }
+  }
+  EXPECT_TRUE(print.Is(41, -73.093872209));
+}
+
 TEST(Recognition, GoldenMeasures) {
   const std::array<Kept, 2> kept = {{{38466, -966.015778246}, {36687, -488.205067156}}};
   for (const std::size_t moves : {3, 1}) {
