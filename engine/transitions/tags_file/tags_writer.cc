@@ -28,7 +28,6 @@ class XmlWriter {
   }
   std::string Finish() {
     xmlTextWriterEndDocument(writer_.get());
-    xmlTextWriterFlush(writer_.get());
     return reinterpret_cast<const char*>(xmlBufferContent(buffer_.get()));
   }
 

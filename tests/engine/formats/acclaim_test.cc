@@ -54,13 +54,13 @@ std::string Without(const std::string& part, const std::string& instead) {
   return text.replace(text.find(part), part.size(), instead);
 }
 
-std::vector<GlobalTransform> Globals(const Clip& clip, std::size_t frame) {
+std::vector<GlobalTransform> AcclaimGlobals(const Clip& clip, std::size_t frame) {
   std::vector<GlobalTransform> globals;
   ComputeGlobals(clip.skeleton, clip.frames[frame], globals);
   return globals;
 }
 
-void ExpectNear(const glm::dvec3& found, const glm::dvec3& wanted) {
+void ExpectAcclaimNear(const glm::dvec3& found, const glm::dvec3& wanted) {
   EXPECT_LT(glm::distance(found, wanted), 1e-12) << found.x << " " << found.y << " " << found.z;
 }
 
@@ -77,9 +77,9 @@ TEST(Acclaim, TurnsBonesInTheirOwnAxes) {
   EXPECT_EQ(clip->rate_hz, 120);
   const int lower = clip->skeleton.Find("lower"), end = clip->skeleton.Find("lower_end");
   ASSERT_TRUE(lower > 0 && end > 0 && clip->skeleton.joints[end].is_end_site);
-  ExpectNear(Globals(*clip, 0)[lower].position, {5, 1, -2});
-  ExpectNear(Globals(*clip, 0)[end].position, {5, 1, -5});
-  ExpectNear(Globals(*clip, 1)[end].position, {0, 6, 0});  // the root turned all of it about Z
+  ExpectAcclaimNear(AcclaimGlobals(*clip, 0)[lower].position, {5, 1, -2});
+  ExpectAcclaimNear(AcclaimGlobals(*clip, 0)[end].position, {5, 1, -5});
+  ExpectAcclaimNear(AcclaimGlobals(*clip, 1)[end].position, {0, 6, 0});  // the root turned all of it about Z
 }
 
 TEST(Acclaim, RefusesWhatIsNoneByItsPlace) {

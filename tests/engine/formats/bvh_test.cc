@@ -22,7 +22,7 @@ std::vector<GlobalTransform> Globals(const Clip& clip, std::size_t frame) {
   return globals;
 }
 
-void ExpectNear(const glm::dvec3& actual, const glm::dvec3& expected, double tolerance = 1e-12) {
+void ExpectBvhNear(const glm::dvec3& actual, const glm::dvec3& expected, double tolerance = 1e-12) {
   EXPECT_LT(glm::distance(actual, expected), tolerance)
       << "(" << actual.x << ", " << actual.y << ", " << actual.z << ")";
 }
@@ -60,13 +60,13 @@ TEST(Bvh, PlacesJointsWhereForwardKinematicsByHandDoes) {
   ASSERT_TRUE(clip);
   // The root turned by 90° about Z: up becomes −X, the arm's +X becomes up.
   const auto turned_root = Globals(*clip, 0);
-  ExpectNear(turned_root[0].position, {1, 2, 3});
-  ExpectNear(turned_root[1].position, {-9, 2, 3});
-  ExpectNear(turned_root[2].position, {-9, 7, 3});
+  ExpectBvhNear(turned_root[0].position, {1, 2, 3});
+  ExpectBvhNear(turned_root[1].position, {-9, 2, 3});
+  ExpectBvhNear(turned_root[2].position, {-9, 7, 3});
   // Only the arm turned.
   const auto turned_arm = Globals(*clip, 1);
-  ExpectNear(turned_arm[1].position, {1, 12, 3});
-  ExpectNear(turned_arm[2].position, {1, 17, 3});
+  ExpectBvhNear(turned_arm[1].position, {1, 12, 3});
+  ExpectBvhNear(turned_arm[2].position, {1, 17, 3});
 }
 
 TEST(Bvh, MultipliesRotationsInTheOrderOfTheChannels) {
@@ -80,7 +80,7 @@ TEST(Bvh, MultipliesRotationsInTheOrderOfTheChannels) {
     const auto clip = ReadBvh(text, "order.bvh");
     ASSERT_TRUE(clip) << ToString(clip.error());
     const glm::dmat3 expected = AxisMatrix(order[0], 20) * AxisMatrix(order[1], -35) * AxisMatrix(order[2], 70);
-    ExpectNear(Globals(*clip, 0)[2].position, glm::dvec3(0, 10, 0) + expected * glm::dvec3(5, 0, 0));
+    ExpectBvhNear(Globals(*clip, 0)[2].position, glm::dvec3(0, 10, 0) + expected * glm::dvec3(5, 0, 0));
     ++checked;
   } while (std::ranges::next_permutation(order).found);
   EXPECT_EQ(checked, 6);
@@ -96,9 +96,9 @@ TEST(Bvh, KeepsTheChannelOrderOfEveryJoint) {
   const auto clip = ReadBvh(text, "mixed.bvh");
   ASSERT_TRUE(clip) << ToString(clip.error());
   const auto globals = Globals(*clip, 0);
-  ExpectNear(globals[0].position, {1, 2, 3});
-  ExpectNear(globals[1].position, {1, 12, 3});  // about Y: up stays up
-  ExpectNear(globals[2].position, {1, 17, 3});  // the arm's own turn about Z lifts its tip
+  ExpectBvhNear(globals[0].position, {1, 2, 3});
+  ExpectBvhNear(globals[1].position, {1, 12, 3});  // about Y: up stays up
+  ExpectBvhNear(globals[2].position, {1, 17, 3});  // the arm's own turn about Z lifts its tip
 }
 
 TEST(Bvh, PositionChannelsReplaceTheOffsetOfAnyJoint) {
@@ -108,9 +108,9 @@ TEST(Bvh, PositionChannelsReplaceTheOffsetOfAnyJoint) {
   text = Replaced(text, "1 2 3 0 0 0 90 0 0", "1 2 3 0 0 0 0 0");
   const auto clip = ReadBvh(text, "positions.bvh");
   ASSERT_TRUE(clip) << ToString(clip.error());
-  ExpectNear(clip->frames[0][0].translation, {1, 2, 3});
-  ExpectNear(clip->frames[0][1].translation, {4, 10, 6});  // Y has no channel and keeps its offset
-  ExpectNear(clip->skeleton.joints[0].rest.translation, {7, 8, 9});
+  ExpectBvhNear(clip->frames[0][0].translation, {1, 2, 3});
+  ExpectBvhNear(clip->frames[0][1].translation, {4, 10, 6});  // Y has no channel and keeps its offset
+  ExpectBvhNear(clip->skeleton.joints[0].rest.translation, {7, 8, 9});
 }
 
 TEST(Bvh, TakesAPrintedFrameTimeForTheWholeRateItMeans) {
@@ -135,14 +135,14 @@ TEST(Bvh, ReadsWindowsLineEndsTabsOddCaseAndAMissingLastNewline) {
   const auto clip = ReadBvh(text, "windows.bvh");
   ASSERT_TRUE(clip) << ToString(clip.error());
   EXPECT_EQ(clip->skeleton.joints[0].name, "My Hips");
-  ExpectNear(Globals(*clip, 0)[2].position, {-9, 7, 3});
+  ExpectBvhNear(Globals(*clip, 0)[2].position, {-9, 7, 3});
 }
 
 TEST(Bvh, DropsTheOneFrameThatSomeExportersWriteBeyondTheirCount) {
   const auto clip = ReadBvh(Replaced(kSmallBvh, "Frames: 2", "Frames: 1"), "boxing.bvh");
   ASSERT_TRUE(clip) << ToString(clip.error());
   EXPECT_EQ(clip->frames.size(), 1u);
-  ExpectNear(Globals(*clip, 0)[2].position, {-9, 7, 3});
+  ExpectBvhNear(Globals(*clip, 0)[2].position, {-9, 7, 3});
 }
 
 TEST(Bvh, WritesAFileThatCanBeReadByEye) {
@@ -190,7 +190,7 @@ TEST(Bvh, WritesJointsDepthFirstWhateverTheirOrder) {
   const auto before = Globals(clip, 0);
   const auto after = Globals(*read, 0);
   for (const char* name : {"left_tip", "right_tip"}) {
-    ExpectNear(after[read->skeleton.Find(name)].position, before[skeleton.Find(name)].position, 1e-7);
+    ExpectBvhNear(after[read->skeleton.Find(name)].position, before[skeleton.Find(name)].position, 1e-7);
   }
 }
 
@@ -200,8 +200,8 @@ TEST(Bvh, WritesPositionsOfAJointThatLeavesItsOffset) {
   clip->frames[1][1].translation = {0, 12.5, 0};
   const auto read = ReadBvh(WriteBvh(*clip), "stretched.bvh");
   ASSERT_TRUE(read) << ToString(read.error());
-  ExpectNear(read->frames[0][1].translation, {0, 10, 0});
-  ExpectNear(read->frames[1][1].translation, {0, 12.5, 0});
+  ExpectBvhNear(read->frames[0][1].translation, {0, 10, 0});
+  ExpectBvhNear(read->frames[1][1].translation, {0, 12.5, 0});
 }
 
 TEST(Bvh, WritesRotationsAtTheEulerAnglesOwnPole) {

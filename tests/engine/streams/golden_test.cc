@@ -87,7 +87,7 @@ void AddText(Fingerprint& all, const std::string& text, const StreamReading& rea
   all.Add(std::asinh(print.sum()));  // a number for each, so that a huge one hides none of the others
 }
 
-std::string Replaced(std::string text, const std::string& from, const std::string& to) {
+std::string AllReplaced(std::string text, const std::string& from, const std::string& to) {
   for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
     text.replace(at, from.size(), to);
   }
@@ -112,7 +112,7 @@ TEST(StreamsGolden, OfRowsOfNumbers) {
   for (const std::string& text :
        {rows,
         states,
-        Replaced(states, " 2 ", " 1 "),
+        AllReplaced(states, " 2 ", " 1 "),
         testing::KinectV1Text(wave, "1.5"),
         testing::KinectV1Text(restless, "", Radians(7)),
         testing::KinectV1Text(restless, "", Radians(29)),
@@ -132,10 +132,10 @@ TEST(StreamsGolden, OfRowsOfNumbers) {
         testing::WithClock(rows, 0, 2e6),
         testing::WithClock(rows, 9, 0),
         testing::WithClock(rows, 9, -1),
-        Replaced(rows, "0.", "1000."),
-        Replaced(rows, " ", "  "),
-        Replaced(rows, " ", "\t"),
-        Replaced(rows, " ", ";"),
+        AllReplaced(rows, "0.", "1000."),
+        AllReplaced(rows, " ", "  "),
+        AllReplaced(rows, " ", "\t"),
+        AllReplaced(rows, " ", ";"),
         WithLine(rows, 9, [](const std::string&) { return "# a remark\n\n"; }),
         WithLine(rows, 40, [](const std::string& line) { return line + " 3\n"; }),
         WithLine(rows, 41, [](const std::string& line) { return "x" + line + "\n"; }),
@@ -182,13 +182,13 @@ TEST(StreamsGolden, OfFilesThatSayMore) {
   Fingerprint print;
   for (const std::string& text :
        {csv,
-        Replaced(csv, "time_s", "time"),
-        Replaced(csv, "left_foot_x_m", "left_foot_q_m"),
-        WithLine(csv, 12, [](const std::string& line) { return Replaced(line, ",0.", ",nan,"); }),
+        AllReplaced(csv, "time_s", "time"),
+        AllReplaced(csv, "left_foot_x_m", "left_foot_q_m"),
+        WithLine(csv, 12, [](const std::string& line) { return AllReplaced(line, ",0.", ",nan,"); }),
         WithLine(csv, 40, [](const std::string& line) { return line.substr(0, line.rfind(',')) + ",\n"; }),
         trc,
-        Replaced(trc, "left_foot", "leftest"),
-        Replaced(trc, "\thead\t", "\tskull\t"),
+        AllReplaced(trc, "left_foot", "leftest"),
+        AllReplaced(trc, "\thead\t", "\tskull\t"),
         KinectV2Rows(wave, "", 100),
         KinectV2Rows(wave, " 0 0 0 1", 1),
         KinectV2Rows(wave, " 2", 1000),
@@ -197,20 +197,20 @@ TEST(StreamsGolden, OfFilesThatSayMore) {
         testing::NtuText(wave, 1),
         testing::NtuText(wave, 0),
         testing::NtuText(wave, 2, 7),
-        Replaced(ntu, "\n25\n", "\n24\n"),
-        Replaced(ntu, "40\n1\n", "40\n101\n"),
+        AllReplaced(ntu, "\n25\n", "\n24\n"),
+        AllReplaced(ntu, "40\n1\n", "40\n101\n"),
         ntu.substr(0, 9000),
-        Replaced(ntu, "40\n1\n", "40.5\n1\n"),
+        AllReplaced(ntu, "40\n1\n", "40.5\n1\n"),
         azure,
         testing::AzureText(wave),
         testing::AzureText(wave, "1"),
         testing::AzureText(wave, "0"),
-        Replaced(azure, "timestamp_usec", "stamp"),
+        AllReplaced(azure, "timestamp_usec", "stamp"),
         azure.substr(0, 5000),
-        Replaced(azure, "\"bodies\":[", "\"people\":["),
-        Replaced(azure, "joint_positions", "joints"),
-        Replaced(azure, "confidence_level", "joint_confidence"),
-        Replaced(azure, "\"frames\"", "\"frame\""),
+        AllReplaced(azure, "\"bodies\":[", "\"people\":["),
+        AllReplaced(azure, "joint_positions", "joints"),
+        AllReplaced(azure, "confidence_level", "joint_confidence"),
+        AllReplaced(azure, "\"frames\"", "\"frame\""),
         std::string("{\"frames\":[]}"),
         std::string("{\"frames\":[3]}"),
         std::string("PathFileType\t4\n")}) {

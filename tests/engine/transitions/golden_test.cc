@@ -6,6 +6,8 @@
 namespace etude {
 namespace {
 
+using testing::Fingerprint;
+
 TEST(TransitionsGolden, OfNamesAndDefaults) {
   std::vector<std::string_view> names;
   for (int b = 0; b <= static_cast<int>(Branch::kUnbroken); ++b) names.push_back(BranchName(static_cast<Branch>(b)));

@@ -16,21 +16,19 @@
 
 namespace etude {
 
-using testing::Fingerprint;
-
 inline auto JointsOf(std::span<const BodyPose> poses) { return poses | std::views::transform(&BodyPose::joints); }
 
-inline void AddTo(Fingerprint& print, const FuzzyDistance& distance) {
+inline void AddTo(testing::Fingerprint& print, const FuzzyDistance& distance) {
   print.Add(distance.value).Add(distance.partials);
 }
 
-inline void AddTo(Fingerprint& print, const std::optional<PreferredJoin>& join) {
+inline void AddTo(testing::Fingerprint& print, const std::optional<PreferredJoin>& join) {
   print.Add(join.has_value());
   if (join) print.Add(join->blend_s).Add(join->way);
 }
 
 /// Adds all that a record says, its words too.
-inline void AddTo(Fingerprint& print, const TransitionRecord& record) {
+inline void AddTo(testing::Fingerprint& print, const TransitionRecord& record) {
   print.Add(record.branch).Add(record.request_frame).Add(record.segments.size()).Add(record.candidates.size());
   for (const Segment& segment : record.segments) {
     print.Add(segment.clip).Add(segment.first).Add(segment.last).Add(segment.in_place).Add(JointsOf(segment.own));
@@ -45,7 +43,7 @@ inline void AddTo(Fingerprint& print, const TransitionRecord& record) {
   print.Add(record.pairs_seen).Add(record.pairs_matched).Add(record.wait_s).Add(record.cost_unit).Add(record.why);
 }
 
-inline void AddTo(Fingerprint& print, std::span<const NumberSetting> settings) {
+inline void AddTo(testing::Fingerprint& print, std::span<const NumberSetting> settings) {
   for (const NumberSetting& setting : settings) {
     print.Add(setting.key).Add(setting.fallback).Add(setting.lowest).Add(setting.largest).Add(setting.is_whole);
     print.Add(setting.meaning);

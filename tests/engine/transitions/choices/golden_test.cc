@@ -13,6 +13,8 @@
 namespace etude {
 namespace {
 
+using testing::Fingerprint;
+
 MotionLibrary GoldenLibrary(const std::string& name) {
   if (name == "ties") return LibraryOfTies();
   if (name == "moves") return LibraryOfMoves();

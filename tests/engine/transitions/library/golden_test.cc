@@ -8,6 +8,8 @@
 namespace etude {
 namespace {
 
+using testing::Fingerprint;
+
 void AddTo(Fingerprint& print, const std::vector<TaggedClip>& tagged) {
   for (const TaggedClip& clip : tagged) {
     print.Add(clip.rate_hz).Add(clip.grades).Add(clip.tags).Add(clip.bridge_frames);
@@ -138,6 +140,17 @@ TEST(LibraryGolden, OfCoverageAndTransitionPoints) {
     }
   }
   EXPECT_TRUE(print.Add(told).Is(8081, 543.486755026));
+}
+
+TEST(LibraryGolden, OfWindowsAndHeadsAtTheirLimits) {
+  const TaggedClip clip = ClipOfLevels(std::vector<double>(20, 0.0), {0, 4, 9, 18, 19});
+  EXPECT_EQ(FramesWithin({3, 6}), (std::vector{3, 4, 5, 6}));
+  EXPECT_EQ(FramesWithin({3, 3}), std::vector{3});
+  EXPECT_TRUE(FramesWithin({3, 2}).empty() && FramesWithin({3, 0}).empty());
+  EXPECT_EQ(BridgeFramesWithin(clip, {4, 18}), (std::vector{4, 9, 18}));
+  EXPECT_EQ(BridgeFramesWithin(clip, EntryWindow(clip)), (std::vector{0, 4, 9, 18}));
+  const HeadRule still{.max_bend = 0, .max_turn_speed = 0};
+  EXPECT_EQ(FindQuietHeads(StandingClip(2, 30), still), std::vector<bool>(2, true)) << "at its limits it is quiet";
 }
 
 TEST(LibraryGolden, OfStancesAtTheirLimits) {

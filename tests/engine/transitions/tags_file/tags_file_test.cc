@@ -13,6 +13,8 @@
 namespace etude {
 namespace {
 
+using testing::Fingerprint;
+
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 

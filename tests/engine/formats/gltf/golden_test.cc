@@ -1,0 +1,295 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/formats/gltf/text.h"
+#include "tests/engine/formats/gltf/small_glb.h"
+#include "tests/engine/formats/spoilt.h"
+#include "tests/support/fingerprint.h"
+#include "tests/support/person.h"
+
+namespace etude {
+namespace {
+
+using testing::Fingerprint;
+
+void AddMesh(Fingerprint& print, const SkinnedMesh& mesh) {
+  print.Add(mesh.name).Add(mesh.material).Add(mesh.triangles);
+  for (const SkinnedMesh::Binding& binding : mesh.bindings) {
+    print.Add(binding.joint);
+    for (int column = 0; column < 4; ++column) {
+      for (int row = 0; row < 4; ++row) print.Add(binding.inverse_bind[column][row]);
+    }
+  }
+  for (const SkinnedMesh::Vertex& vertex : mesh.vertices) {
+    print.Add(vertex.position).Add(vertex.normal).Add(vertex.bindings).Add(vertex.weights).Add(vertex.on_texture);
+  }
+}
+
+void AddContent(Fingerprint& print, const GltfContent& content) {
+  for (const Joint& joint : content.character.skeleton.joints) {
+    print.Add(joint.name).Add(joint.parent).Add(joint.is_end_site);
+    print.Add(joint.rest.translation).Add(joint.rest.rotation).Add(joint.rest.scale);
+  }
+  for (const Material& material : content.character.materials) {
+    print.Add(material.name).Add(material.colour).Add(material.texture != nullptr);
+    if (!material.texture) continue;
+    print.Add(material.texture->beyond_u).Add(material.texture->beyond_v);
+    for (const Rgb8& pixel : material.texture->picture.pixels) print.Add(pixel.r).Add(pixel.g).Add(pixel.b);
+  }
+  for (const SkinnedMesh& mesh : content.character.meshes) AddMesh(print, mesh);
+  for (const Clip& clip : content.clips) {
+    print.Add(clip.name).Add(clip.rate_hz).Add(clip.frames.size());
+    for (const LocalPose& frame : clip.frames) {
+      for (const LocalTransform& local : frame) print.Add(local.translation).Add(local.rotation).Add(local.scale);
+    }
+  }
+  for (const auto& [bone, joint] : content.bones) print.Add(bone).Add(joint);
+  print.Add(content.remarks);
+}
+
+/// A picture of two pixels made of the first bytes of a file.
+Result<ColourImage> FirstBytes(std::string_view bytes, std::size_t most_pixels) {
+  if (bytes.size() < 4 || most_pixels < 2) return Fail({}, "{} bytes, {} pixels", bytes.size(), most_pixels);
+  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(bytes[i]); };
+  ColourImage picture(2, 1);
+  picture.pixels = {{byte(0), byte(1), byte(2)}, {byte(3), byte(1), 255}};
+  return picture;
+}
+
+/// Adds a number for each file, so that a huge one hides none of the others.
+void AddGlb(Fingerprint& all, const std::string& bytes) {
+  const auto fetch = [](const std::string& uri) -> Result<std::string> {
+    if (uri == "beside.png") return std::string("a picture");
+    return Fail({}, "no file {}", uri);
+  };
+  Fingerprint print;
+  const auto content = ReadGltf(bytes, "a.glb", fetch, FirstBytes);
+  if (content) AddContent(print, *content);
+  if (!content) print.Add(ToString(content.error()));
+  all.Add(content.has_value()).Add(std::asinh(print.sum()));
+}
+
+/// Puts numbers into a buffer, and tells JSON of them.
+class PackedNumbers {
+ public:
+  template <typename T>
+  void Add(int component, const char* type, std::size_t width, const std::vector<T>& values, const char* more = "") {
+    while (binary_.size() % 4 != 0) binary_ += '\0';
+    const char* comma = views_.empty() ? "" : ",";
+    views_ += fmt::format(R"({}{{"buffer":0,"byteOffset":{},"byteLength":{}}})", comma, binary_.size(),
+                          sizeof(T) * values.size());
+    accessors_ += fmt::format(R"({}{{"bufferView":{},"componentType":{},"count":{},"type":"{}"{}}})", comma, count_++,
+                              component, values.size() / width, type, more);
+    binary_.append(reinterpret_cast<const char*>(values.data()), sizeof(T) * values.size());
+  }
+  const std::string& binary() const { return binary_; }
+  std::string Json() const {
+    return fmt::format("\"accessors\":[{}],\"bufferViews\":[{}],\"buffers\":[{{\"byteLength\":{}}}]", accessors_,
+                       views_, binary_.size());
+  }
+
+ private:
+  std::string views_, accessors_, binary_;
+  int count_ = 0;
+};
+
+/// All that is read of the format in one file: strips and fans, two sets of joints, normalised and sparse numbers,
+/// matrices, a mirrored rigid mesh, every interpolation, textures, and the bones of a VRM file.
+PackedNumbers RichNumbers() {
+  PackedNumbers packed;
+  std::vector<float> places, normals, on_texture, binds(32), turns, moves, sizes;
+  for (int i = 0; i < 6; ++i) {
+    const float t = static_cast<float>(i);
+    places.insert(places.end(), {0.3f * t, t * t * 0.1f, std::sin(t)});
+    normals.insert(normals.end(), {0.6f, i % 2 == 0 ? 0.8f : -0.8f, 0});
+    on_texture.insert(on_texture.end(), {0.2f * t, 1 - 0.1f * t});
+  }
+  for (int k : {0, 5, 10, 15, 16, 21, 26, 31}) binds[k] = 1;
+  binds[13] = -0.7f;
+  for (int i = 0; i < 9; ++i) {
+    moves.insert(moves.end(), {0.1f * static_cast<float>(i), 0.5f, 1 - 0.2f * static_cast<float>(i)});
+  }
+  for (int i = 0; i < 3; ++i) {
+    turns.insert(turns.end(), {std::sin(0.4f * static_cast<float>(i)), 0, 0, -std::cos(0.4f * static_cast<float>(i))});
+    sizes.insert(sizes.end(), {1, 1 + 0.3f * static_cast<float>(i), 0.9f});
+  }
+  packed.Add(5126, "VEC3", 3, places);
+  packed.Add(5126, "VEC3", 3, normals);
+  packed.Add(5126, "VEC2", 2, on_texture);
+  packed.Add(5121, "VEC4", 4,
+             std::vector<std::uint8_t>{0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0});
+  packed.Add(5121, "VEC4", 4, std::vector<std::uint8_t>{100, 80, 0, 0, 255, 0, 0, 0, 0,  90, 90, 20,
+                                                        1,   2,  3, 4, 0,   0, 0, 0, 50, 60, 70, 80},
+             R"(,"normalized":true)");
+  packed.Add(5123, "VEC4", 4,
+             std::vector<std::uint16_t>{1, 0, 0, 0, 1, 1, 0, 0, 0, 1, 0, 1, 0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 1, 1});
+  packed.Add(5123, "VEC4", 4, std::vector<std::uint16_t>{65535, 9, 0, 0, 1, 2, 3, 4, 500, 400, 300, 200,
+                                                         9,     9, 9, 9, 0, 0, 0, 0, 7,   6,   5,   4},
+             R"(,"normalized":true)");
+  packed.Add(5121, "SCALAR", 1, std::vector<std::uint8_t>{0, 1, 2, 3, 4, 5, 1});
+  packed.Add(5126, "MAT4", 16, binds);
+  packed.Add(5126, "SCALAR", 1, std::vector<float>{0, 0.5f, 1.25f});
+  packed.Add(5126, "VEC3", 3, moves);
+  packed.Add(5126, "VEC4", 4, turns);
+  packed.Add(5126, "VEC3", 3, sizes);
+  packed.Add(5123, "SCALAR", 1, std::vector<std::uint16_t>{1, 4});
+  packed.Add(5126, "VEC3", 3, std::vector<float>{9, 8, 7, 6, 5, 4});
+  packed.Add(5126, "VEC3", 3, places,
+             R"(,"sparse":{"count":2,"indices":{"bufferView":13,"componentType":5123},"values":{"bufferView":14}})");
+  packed.Add(5120, "VEC4", 4, std::vector<std::int8_t>{0, 0, 0, 127, 90, 0, 0, 90, 127, 0, 0, 0},
+             R"(,"normalized":true)");
+  packed.Add(5126, "SCALAR", 1, std::vector<float>{0.25f, 0.29f, 0.33f});
+  return packed;
+}
+
+std::string RichJson(const PackedNumbers& packed) {
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,3]}],
+"extensionsUsed":["VRM","VRMC_vrm"],
+"extensions":{"VRM":{"humanoid":{"humanBones":[{"bone":"hips","node":0},{"bone":"spine","node":1}]}},
+"VRMC_vrm":{"humanoid":{"humanBones":{"head":{"node":2},"jaw":{"node":3}}}}},
+"nodes":[{"name":"Root","children":[1,2],"matrix":[0,0,-2,0,0,3,0,0,1,0,0,0,5,6,7,1]},
+{"name":"Arm","rotation":[0,0.6,0,0.8],"scale":[-1,1.5,1],"mesh":1},
+{"name":"Arm","translation":[1,2,3],"rotation":[0,0,3,4]},
+{"mesh":0,"skin":0},{"name":"Outside"}],
+"skins":[{"joints":[1,2],"inverseBindMatrices":8,"skeleton":0}],
+"meshes":[{"name":"Coat","primitives":[{"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2,"JOINTS_0":3,"WEIGHTS_0":4,
+"JOINTS_1":5,"WEIGHTS_1":6},"indices":7,"mode":5,"material":0},{"attributes":{"POSITION":15,"JOINTS_0":3,"WEIGHTS_0":4},
+"mode":6,"material":1},{"attributes":{"POSITION":0},"mode":1}]},
+{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":2},"mode":4}]}],
+"materials":[{"name":"Fur","pbrMetallicRoughness":{"baseColorFactor":[0.5,0.25,0.125,1],"baseColorTexture":{"index":0}}},
+{"pbrMetallicRoughness":{"baseColorTexture":{"index":1}}},{"name":"Plain"}],
+"textures":[{"source":0,"sampler":0},{"source":1}],"samplers":[{"wrapS":33648,"wrapT":33071}],
+"images":[{"bufferView":1,"mimeType":"image/png"},{"uri":"beside.png"}],
+"animations":[{"name":"Go","samplers":[{"input":9,"output":10,"interpolation":"CUBICSPLINE"},
+{"input":9,"output":11,"interpolation":"STEP"},{"input":9,"output":12},{"input":9,"output":16}],
+"channels":[{"sampler":0,"target":{"node":1,"path":"translation"}},{"sampler":1,"target":{"node":0,"path":"rotation"}},
+{"sampler":2,"target":{"node":1,"path":"scale"}},{"sampler":3,"target":{"node":2,"path":"rotation"}}]},
+{"samplers":[{"input":17,"output":12}],"channels":[{"sampler":0,"target":{"node":4,"path":"translation"}}]}],
+)" + packed.Json() +
+         "}";
+}
+
+/// JSON texts like this one, each with a number, a text or a key that is another.
+std::vector<std::string> SpoiltJson(const std::string& json, std::uint64_t seed, int count) {
+  constexpr std::array<std::string_view, 16> kNumbers = {"0",    "-1",   "1",   "2",    "3",  "7",    "1000",  "5121",
+                                                         "5126", "5125", "2e9", "1e10", "[]", "null", "\"x\"", "0.5"};
+  constexpr std::array<std::string_view, 12> kTexts = {"VEC3",        "VEC4", "SCALAR",  "MAT4", "rotation", "scale",
+                                                       "CUBICSPLINE", "STEP", "weights", "x",    "../a.png", "extras"};
+  std::vector<std::pair<std::size_t, std::size_t>> numbers, texts;  // begin and length
+  for (std::size_t at = 0; at < json.size(); ++at) {
+    if (json[at] == '"') {
+      const std::size_t end = json.find('"', at + 1);
+      texts.emplace_back(at + 1, end - at - 1);
+      at = end;
+    } else if (const std::size_t end = json.find_first_not_of("-.0123456789e", at); end > at) {
+      numbers.emplace_back(at, end - at);
+      at = end - 1;
+    }
+  }
+  testing::Dice dice(seed);
+  std::vector<std::string> spoilt;
+  for (int i = 0; i < count; ++i) {
+    const bool is_number = dice.Below(3) > 0;
+    const auto [at, size] = is_number ? numbers[dice.Below(numbers.size())] : texts[dice.Below(texts.size())];
+    spoilt.push_back(json);
+    spoilt.back().replace(at, size,
+                          is_number ? kNumbers[dice.Below(kNumbers.size())] : kTexts[dice.Below(kTexts.size())]);
+  }
+  return spoilt;
+}
+
+TEST(GltfGolden, OfFilesWithOneThingSpoilt) {
+  const PackedNumbers rich = RichNumbers();
+  const std::string small(testing::kSmallGltf), json = RichJson(rich);
+  const auto whole = ReadGltf(testing::Glb(json, rich.binary()), "a.glb", {}, FirstBytes);
+  ASSERT_TRUE(whole) << ToString(whole.error());
+  EXPECT_EQ(whole->character.meshes.size(), 3u);
+  EXPECT_EQ(whole->clips.size(), 2u);
+  Fingerprint print;
+  AddGlb(print, testing::Glb(json, rich.binary()));
+  for (const std::string& spoilt : SpoiltJson(json, 1, 1500)) AddGlb(print, testing::Glb(spoilt, rich.binary()));
+  for (const std::string& spoilt : SpoiltJson(small, 2, 500))
+    AddGlb(print, testing::Glb(spoilt, testing::SmallBinary()));
+  for (const std::string& spoilt : testing::SpoiltBytes(testing::Glb(json, rich.binary()), 3, 100)) {
+    print.Add(ReadGltf(spoilt, "a.glb", {}).has_value());
+  }
+  EXPECT_TRUE(print.Is(4102, 213.735762433));
+}
+
+TEST(GltfGolden, OfNumbersThatAreSpoilt) {
+  const PackedNumbers rich = RichNumbers();
+  const std::string json = RichJson(rich);
+  testing::Dice dice(4);
+  Fingerprint print;
+  for (int i = 0; i < 400; ++i) {
+    std::string binary = rich.binary();
+    constexpr std::array<float, 8> kFloats = {0, -1, 1, 1e9f, 1.1e9f, 0.29f, 1e-8f, -3};
+    const float number = i % 25 == 0 ? NAN : kFloats[dice.Below(kFloats.size())];
+    const std::size_t at = 4 * dice.Below(binary.size() / 4);
+    binary.replace(at, 4, std::string(reinterpret_cast<const char*>(&number), 4));
+    AddGlb(print, testing::Glb(json, binary));
+  }
+  EXPECT_TRUE(print.Is(800, -5.75247324062));
+}
+
+Character Clothed() {
+  Character person{.name = "person", .skeleton = testing::PersonSkeleton(), .materials = {}, .meshes = {}};
+  person.materials = {{"wool", {0.1, 0.2, 0.3}}, {"", {0.7, 0.0, 1.0}}};
+  person.skeleton.joints[3].name = "He\xffmisphere\n";
+  person.skeleton.joints[5].rest.scale = {-1, 1, 1};
+  testing::Dice dice(5);
+  for (int m = 0; m < 5; ++m) {
+    SkinnedMesh mesh{.name = m == 1 ? "mesh 0" : "mesh " + std::to_string(m),
+                     .material = m % 2,
+                     .bindings = {},
+                     .vertices = {},
+                     .triangles = {}};
+    for (int b = 0; b < (m < 3 ? 3 : 1); ++b) {
+      SkinnedMesh::Binding binding{.joint = 2 + b + (m == 2 ? 1 : 0)};
+      binding.inverse_bind[3] = {dice.Signed(), m, 1, 1};
+      mesh.bindings.push_back(binding);
+    }
+    for (int v = 0; v < 5; ++v) {
+      SkinnedMesh::Vertex vertex{.position = dice.Vector(), .normal = glm::normalize(dice.Vector())};
+      vertex.bindings = m < 3 ? std::array{v % 3, (v + 1) % 3, 0, 0} : std::array{0, 0, 0, 0};
+      if (m < 3) vertex.weights = {0.75, 0.25, 0, 0};
+      mesh.vertices.push_back(vertex);
+    }
+    mesh.triangles = {{0, 1, 2}, {2, 3, 4}};
+    person.meshes.push_back(mesh);
+  }
+  return person;
+}
+
+TEST(GltfGolden, OfWhatIsWritten) {
+  const Character person = Clothed();
+  std::vector<Clip> clips;
+  for (const double rate : {24.0, 29.97}) {
+    Clip clip = testing::AtRest(person.skeleton, 7, rate);
+    clip.name = fmt::format("clip {}", rate);
+    for (std::size_t f = 0; f < 7; ++f) {
+      testing::At(clip, f, "Hips").translation.x = 0.25 * static_cast<double>(f);
+      testing::At(clip, f, "LeftArm").rotation = glm::dquat(f % 2 == 0 ? 0.6 : -0.6, 0.8, 0, 0);
+      testing::At(clip, f, "RightArm").scale = {1, 2, 1};
+      testing::At(clip, f, "Spine").scale = {1, 1 + 0.125 * static_cast<double>(f), 1};
+    }
+    clips.push_back(clip);
+  }
+  Fingerprint print;
+  for (const auto& some : {clips, std::vector<Clip>(), std::vector{clips[1]}}) {
+    const std::string bytes = WriteGlb(person, some);
+    print.Add(bytes.size()).Add(bytes.substr(12));
+    AddGlb(print, bytes);
+  }
+  print.Add(WriteGlb({.name = "", .skeleton = person.skeleton, .materials = {}, .meshes = {}}, {}));
+  for (const char* name : {"a\x7f", "\xc3\xa9", "\xc3", "\xe2\x82", "\xf4\x90\x80\x80", "\xed\xa0\x80", "\t"}) {
+    print.Add(GltfText(name));
+  }
+  EXPECT_TRUE(print.Is(32339, -27019.9059472));
+}
+
+}  // namespace
+}  // namespace etude
