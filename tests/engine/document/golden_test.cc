@@ -27,6 +27,7 @@ void AddFields(testing::Fingerprint& print, const Node& node) {
   print.Add(fields.Boolean("on", true)).Add(fields.Text("text", "none"));
   print.Add(fields.Choice("solver", {"ccd", "dls"}, "ccd")).Add(fields.Texts("names"));
   print.Add(fields.Numbers("sizes", {-1, 1})).Add(fields.OptionalNumber("maybe", {0, 2}));
+  print.Add(fields.Number("most", 1, {.highest = 3})).Add(fields.Number("least", 5, {.lowest = 2}));
   print.Add(fields.OptionalWhole("seed", {0, 1e12})).Add(fields.RequiredText("title")).Add(fields.ok());
   print.Add(fields.Raw("more") != nullptr);
   const Result<void> done = fields.Finish();
@@ -50,16 +51,17 @@ TEST(DocumentGolden, OfSpoiltDocuments) {
   };
   add(text);
   for (const std::string& spoilt : testing::SpoiltTexts(text, 1, 900)) add(spoilt);
-  for (const char* line :
-       {"speed: 0",        "speed: 10",         "speed: 10.01", "speed: -0.1",         "count: 1",   "count: 0",
-        "count: 6",        "count: 2147483648", "seed: 1e12",   "seed: 1000000000001", "seed: 1.5",  "maybe: 2.1",
-        "sizes: [1, 1.1]", "sizes: 3",          "names: [[a]]", "solver: cdc",         "soler: ccd", "titel: x",
-        "on: yes",         "speed: 0x10",       "speed: 1_0",   "speed: ' 1'",         "speed: .5",  "speed: +1",
-        "speed: 1e400",    "a: &x 1\nb: *x",    "--- 1\n--- 2"}) {
+  for (const char* line : {"speed: 0",    "speed: 10",       "speed: 10.01",      "speed: -0.1",  "count: 1",
+                           "count: 0",    "count: 6",        "count: 2147483648", "seed: 1e12",   "seed: 1000000000001",
+                           "seed: 1.5",   "most: 3",         "most: 3.1",         "least: 2",     "least: 1.9",
+                           "maybe: 2.1",  "sizes: [1, 1.1]", "sizes: 3",          "names: [[a]]", "solver: cdc",
+                           "soler: ccd",  "titel: x",        "on: yes",           "speed: 0x10",  "speed: 1_0",
+                           "speed: ' 1'", "speed: .5",       "speed: +1",         "speed: 1e400", "a: &x 1\nb: *x",
+                           "--- 1\n--- 2"}) {
     add(std::string("title: t\n") + line + "\n");
     add(std::string(line) + "\n");
   }
-  EXPECT_TRUE(print.Is(955, 0.849877705058));
+  EXPECT_TRUE(print.Is(963, 41.3572793865));
 }
 
 TEST(DocumentGolden, OfLimits) {

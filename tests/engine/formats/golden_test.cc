@@ -292,6 +292,21 @@ TEST(FormatsGolden, OfTrcAndMotive) {
   EXPECT_TRUE(print.Is(7840, 2053.54710846));
 }
 
+TEST(FormatsGolden, OfTextsThatAreTooLong) {
+  const std::string text((std::size_t{64} << 20) + 1, ' ');
+  const std::string_view longest = std::string_view(text).substr(1);
+  for (const std::string_view some : {std::string_view(text), longest}) {
+    const bool is_refused = some.size() > longest.size();
+    const auto tells = [&](const auto& read, const std::string& size) {
+      return !read && (ToString(read.error()).find(size) != std::string::npos) == is_refused;
+    };
+    EXPECT_TRUE(tells(ReadTrc(some, "a.trc"), "67108864"));
+    EXPECT_TRUE(tells(ReadMotiveCsv(some, "a.csv"), "67108864"));
+    EXPECT_TRUE(tells(ReadNumberRows(some, "a.txt"), "67108864"));
+  }
+  EXPECT_EQ(ToString(ReadDeepMimicMotion(text, "a.txt").error()), "a.txt: 64 MiB; allowed: 64 MiB");
+}
+
 TEST(FormatsGolden, OfDeepMimic) {
   testing::Dice dice(11);
   const auto motion = [&](int width, double duration) {

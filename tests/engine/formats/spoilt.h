@@ -10,6 +10,13 @@
 
 namespace etude::testing {
 
+/// Returns the parts of a text between separators.
+inline std::vector<std::string> Parts(std::string_view text, char separator = '^') {
+  std::vector<std::string> parts(1);
+  for (const char c : text) c == separator ? parts.emplace_back().clear() : parts.back().push_back(c);
+  return parts;
+}
+
 /// Returns texts like this one, each with one thing changed as files get changed: a number, a word or a line that is
 /// another, lacks, stands twice or elsewhere, or an end that comes too early.
 inline std::vector<std::string> SpoiltTexts(std::string_view text, std::uint64_t seed, int count) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <map>
 #include <sstream>
 
@@ -11,6 +12,8 @@
 #include "engine/retargeting/joint_arrays.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"
+#include "tests/engine/formats/spoilt.h"
+#include "tests/engine/retargeting/prints.h"
 #include "tests/engine/retargeting/turned_bodies.h"
 
 namespace etude {
@@ -196,6 +199,84 @@ TEST(JointsOfArray, RefusesOtherShapesAndLayouts) {
   EXPECT_THAT(reason({20, 3}, {}), HasSubstr("an array of 20 × 3; allowed: frames × joints × 3"));
   EXPECT_THAT(reason({0, 20, 3}, {}), HasSubstr("an array of 0 × 20 × 3"));
   EXPECT_THAT(reason({1, 20, 4}, {}), HasSubstr("an array of 1 × 20 × 4"));
+}
+
+std::string OneReplaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(RetargetingGolden, OfOpenSimsAnglesAndComplaints) {
+  BodyMotion motion = LoadBuiltinMove("jump").value().motion;
+  motion.poses.resize(12);
+  motion.rate_hz = 59.94;
+  for (const auto& [frame, angle] : {std::pair{3, 0.5 * kPi}, {4, -0.5 * kPi}, {5, 1.2 * kPi}, {7, 2.5 * kPi}}) {
+    const glm::dquat turn = glm::angleAxis(angle, glm::dvec3(0, 0, 1));  // where two turns of three are one
+    motion.poses[frame] = Turned(Turned(AtAttention(), Role::kLeftHip, turn), Role::kRightShoulder, turn);
+  }
+  const std::string text = WriteOpenSimMotion(motion, StandingPose(), "a\tjump\x7f");
+  testing::Fingerprint print;
+  print.Add(text).Add(HasModelOfAngles(text)).Add(HasModelOfAngles(text.substr(0, 300)));
+  const std::string changes =
+      "inDegrees=yes>inDegrees=no^part hip_centre>part hip^part left_knee>part left_hip^after ground>behind ground^"
+      "after hip_centre>after head^bone>limb^bone 0 0 0>bone 0 0^turns>turn^+Z>*Z^+Z>+W^-X>-XX^\ntime>\ntimes^"
+      "\tpelvis_tx>\tpelvis_t^\nendheader>\nendheader\n^\nendheader>\nend^\n0.000000>\n0.000000\t1^"
+      "\n0.000000>\n0.0x^\n0.016683>\n0.018^\n0.016683>\n0.0167";
+  for (const std::string& change : testing::Parts(changes)) {
+    const std::vector<std::string> both = testing::Parts(change, '>');
+    const auto read = ReadOpenSimMotion(OneReplaced(text, both[0], both[1]), "a.mot");
+    if (!AddedError(print, read)) print.Add(read->rate_hz).Add(JointsOfAll(read->poses));
+  }
+  for (const double rate : {0.05, 0.1, 30.0, 29.97, 10000.0, 20000.0}) {
+    motion.rate_hz = rate;
+    const auto read = ReadOpenSimMotion(WriteOpenSimMotion(motion, StandingPose(), "a"), "a.mot");
+    if (!AddedError(print, read)) print.Add(read->rate_hz);
+  }
+  EXPECT_TRUE(print.Is(14843, 4778.19390252));
+}
+
+TEST(RetargetingGolden, OfArraysOfJoints) {
+  testing::Fingerprint print;
+  testing::Dice dice(9);
+  print.Add(JointLayoutNames());
+  for (const std::size_t joints : {16u, 17u, 20u, 22u, 24u, 25u, 26u}) {
+    for (const std::optional<std::string>& layout :
+         {std::optional<std::string>(), std::optional<std::string>("coco"), std::optional<std::string>("smpl")}) {
+      for (const double spread : {0.5, 0.81, 90.0, 1700.0, 1e10}) {
+        NumberArray array{.shape = {3, joints, 3}, .values = {}};
+        for (std::size_t i = 0; i < 9 * joints; ++i) array.values.push_back(0.5 * spread * dice.Signed());
+        array.values[4] = std::numeric_limits<double>::quiet_NaN();
+        std::string note;
+        const auto motion = JointsOfArray(array, layout, "a.npy", note);
+        if (AddedError(print, motion)) continue;
+        print.Add(note).Add(motion->names).Add(motion->rate_hz);
+        for (const auto& frame : motion->frames) print.Add(frame);
+      }
+    }
+  }
+  for (const std::vector<std::size_t>& shape : std::vector<std::vector<std::size_t>>{{}, {3}, {0, 20, 3}, {1, 20, 2}}) {
+    std::string note;
+    AddedError(print, JointsOfArray({.shape = shape, .values = std::vector<double>(60)}, {}, "a.npy", note));
+  }
+  const BodyMotion motion = LoadBuiltinMove("clap").value().motion;
+  const std::string bytes = WriteBodyNpz(motion, AtAttention());
+  Npz arrays = ReadNpz(bytes, "a.npz").value();
+  for (const auto& [name, array] : arrays.arrays) print.Add(name).Add(array.shape).Add(array.values);
+  print.Add(IsBodyNpz(arrays)).Add(IsBodyNpz({})).Add(JointsOfAll(ReadBodyNpz(arrays, "a.npz")->poses));
+  for (const double rate : {0.0, 0.1, 0.09, 10000.0, 10001.0}) {
+    arrays.arrays["rate_hz"].values = {rate};
+    const auto body = ReadBodyNpz(arrays, "a.npz");
+    if (!AddedError(print, body)) print.Add(body->rate_hz);
+  }
+  arrays.arrays["rate_hz"].values = {30, 30};
+  AddedError(print, ReadBodyNpz(arrays, "a.npz"));
+  arrays.arrays["positions"].values[7] = 2e9;
+  arrays.arrays["rate_hz"].values = {30};
+  AddedError(print, ReadBodyNpz(arrays, "a.npz"));
+  arrays.arrays["positions"].shape[1] = 19;
+  AddedError(print, ReadBodyNpz(arrays, "a.npz"));
+  EXPECT_TRUE(print.Is(46076, 13613.0611294));
 }
 
 }  // namespace

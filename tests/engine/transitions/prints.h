@@ -65,7 +65,7 @@ inline MotionLibrary LibraryOfTies() {
     tagged.bridge_frames.clear();
     for (int f = 0; f < tagged.FrameCount(); ++f) {
       tagged.grades[f] = {};
-      tagged.grades[f][0] = 0.125 * ((f * (3 + clip) + clip) % 9);
+      tagged.grades[f][0] = 0.125 * ((f * (3 + clip) + clip) % 9) + (f % 3 == 1 && clip % 2 == 1 ? 0.0625 : 0);
       tagged.tags[f] = {};
       tagged.tags[f][2] = f % 3 == clip % 2;
       if (f % 4 == clip) tagged.bridge_frames.push_back(f);
