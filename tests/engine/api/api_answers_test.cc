@@ -274,6 +274,7 @@ TEST(ApiCoach, RefusesWhatIsNotOfTheDance) {
   EXPECT_THAT(refusal({.policy = "sometimes"}, moves), HasSubstr("policy 'sometimes'; allowed: "));
   EXPECT_THAT(refusal({.choice = "none"}, moves), HasSubstr("choice 'none'; allowed: "));
   EXPECT_THAT(refusal({.right_from = 0.0}, moves), HasSubstr("above 0, up to 1"));
+  EXPECT_THAT(refusal({.right_from = 1.01}, moves), HasSubstr("above 0, up to 1"));
   EXPECT_EQ(refusal({.right_from = 1.0}, moves), "");
   EXPECT_THAT(refusal({.sensor_m = {0, NAN, 2}}, moves), HasSubstr("sensor_m is not finite"));
   EXPECT_THAT(RequiredActs(), ::testing::Contains("head_shake"));
