@@ -394,8 +394,8 @@ TEST(CamerasGolden, FilesOfOthersSpoilt) {
       "4 0 0 2 0 1 1 4 4 /y\n";
   for (const auto& [inside, outside] :
        {std::pair(mocap_in, mocap_out), {stereo_in, stereo_out}, {colmap_in, colmap_out}}) {
-    ForEachSpoilt(inside, [&](const std::string& text) { prints.Add(ReadRigPair(text, outside, "pair")); });
-    ForEachSpoilt(outside, [&](const std::string& text) { prints.Add(ReadRigPair(inside, text, "pair")); });
+    ForEachSpoilt(inside, [&, &out = outside](const std::string& text) { prints.Add(ReadRigPair(text, out, "pair")); });
+    ForEachSpoilt(outside, [&, &in = inside](const std::string& text) { prints.Add(ReadRigPair(in, text, "pair")); });
   }
   for (const std::string cameras : {"", "<cameras/>", "<cameras><camera/></cameras>"})
     prints.Add(ReadRigFile("<calibration>" + cameras + "</calibration>", "rig"));
