@@ -13,7 +13,6 @@
 
 #include <cmath>
 #include <functional>
-#include <tuple>
 
 #include "engine/cameras/rig_file.h"
 #include "engine/formats/bvh.h"
@@ -275,9 +274,9 @@ TEST(ApiGolden, RefusesJustBeyondEveryLimit) {
     }
     return made;
   }();
-  for (const auto& [width, height] :
-       {std::pair(1, 720), {0, 720}, {100000, 720}, {100001, 720}, {720, 1}, {720, 0}, {720, 100000}, {720, 100001}})
-    told([&] { Calibrate(pairs, width, height); });
+  for (const glm::ivec2 side :
+       {glm::ivec2(1, 720), {0, 720}, {100000, 720}, {100001, 720}, {720, 1}, {720, 0}, {720, 100000}, {720, 100001}})
+    told([&] { Calibrate(pairs, side.x, side.y); });
   etude::Camera fisheye = FourCameras()[0];
   fisheye.distortion = {.k1 = 0.01, .is_fisheye = true};
   told([&] { ReadRig(WriteRig(std::vector<NamedCamera>{{"wide", fisheye}}), "rig.yaml"); });
@@ -363,13 +362,13 @@ TEST(ApiGolden, RefusesJustBeyondEveryLimit) {
   endless.effectors.clear();
   told([&] { Kinematics(endless).Solve(IkBatch{}); });
   const Kinematics body(AdultBody());
-  for (const auto& [iterations, position, axis, most] : {std::tuple(0, 0.1, 0.1, 1.0),
-                                                         {-1, 0.1, 0.1, 1.0},
-                                                         {1, 0.0, 0.1, 1.0},
-                                                         {1, -1.0, 0.1, 1.0},
-                                                         {1, 0.1, -1.0, 1.0},
-                                                         {1, 0.1, 0.1, -1.0}})
-    told([&] { Kinematics(AdultBody(), {iterations, position, axis, most}); });
+  for (const IkOptions& options : {IkOptions{0, 0.1, 0.1, 1.0},
+                                   {-1, 0.1, 0.1, 1.0},
+                                   {1, 0.0, 0.1, 1.0},
+                                   {1, -1.0, 0.1, 1.0},
+                                   {1, 0.1, -1.0, 1.0},
+                                   {1, 0.1, 0.1, -1.0}})
+    told([&] { Kinematics(AdultBody(), options); });
   IkBatch batch{.roots = {Frame{}, Frame{}}, .starts = std::vector<double>(29), .targets = std::vector<Target>(5)};
   told([&] { body.Solve(batch); });
   batch.roots.pop_back();
@@ -387,9 +386,9 @@ TEST(ApiGolden, RefusesJustBeyondEveryLimit) {
                                         {.thinnest = 100},
                                         {.thinnest = 101}})
     told([&] { Outline(mask, options); });
-  for (const auto& [width, height] : {std::pair(0, 1), {1, 0}, {1, 8192}, {1, 8193}, {8193, 1}, {8192, 1}}) {
-    told([&] { SignedDistances({width, height, std::vector<std::uint8_t>(std::size_t(width) * height)}); });
-    told([&] { PersonFinder(std::vector<std::uint8_t>(3 * std::size_t(width) * height), width, height); });
+  for (const glm::ivec2 side : {glm::ivec2(0, 1), {1, 0}, {1, 8192}, {1, 8193}, {8193, 1}, {8192, 1}}) {
+    told([&] { SignedDistances({side.x, side.y, std::vector<std::uint8_t>(std::size_t(side.x) * side.y)}); });
+    told([&] { PersonFinder(std::vector<std::uint8_t>(3 * std::size_t(side.x) * side.y), side.x, side.y); });
   }
   told([] { PersonFinder(std::vector<std::uint8_t>(3), 1, 1, {.segmenter = "red"}); });
   std::vector<Camera> pinholes(2);
@@ -404,10 +403,10 @@ TEST(ApiGolden, RefusesJustBeyondEveryLimit) {
                                            {.rate_hz = 1000},
                                            {.rate_hz = 1001}})
     told([&] { TrackSilhouettes(pinholes, empty, options); });
-  for (const auto& [width, height] : {std::pair(8, 6), {4, 6}, {8, 3}, {2, 2}, {9, 6}, {16, 12}})
+  for (const glm::ivec2 side : {glm::ivec2(8, 6), {4, 6}, {8, 3}, {2, 2}, {9, 6}, {16, 12}})
     told([&] {
       TrackSilhouettes(pinholes, std::vector<std::vector<PersonMask>>(
-                                     2, {{width, height, std::vector<std::uint8_t>(width * height)}}));
+                                     2, {{side.x, side.y, std::vector<std::uint8_t>(side.x * side.y)}}));
     });
   told([&] { TrackSilhouettes(pinholes, std::vector<std::vector<PersonMask>>{empty[0], {}}); });
   pinholes[1].fx = NAN;
