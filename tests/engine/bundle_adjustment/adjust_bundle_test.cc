@@ -238,7 +238,9 @@ TEST(AdjustBundle, KeepsAnglesWithinLimitsUnlessPicturesInsist) {
 }
 
 TEST(AdjustBundle, IsNotSolvedWithoutFrames) {
-  EXPECT_FALSE(AdjustBundle({.body = Arm(), .start = {}, .marks = {}}).is_solved);
+  const BundleSolution nothing = AdjustBundle({.body = Arm(), .start = {}, .marks = {}});
+  EXPECT_FALSE(nothing.is_solved);
+  EXPECT_EQ(nothing.lengths, Arm().lengths) << "as they were";
 }
 
 /// Golden values of searches that are cut off early, of marks that err: whatever changes a step is noticed.

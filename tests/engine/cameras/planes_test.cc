@@ -107,6 +107,24 @@ TEST(Planes, TheResidualOfNoisyCornersIsTheirNoiseLessTheParameters) {
   EXPECT_GT(std::abs(sum - freedom - 12 * 84), 4 * std::sqrt(2 * freedom)) << "the control: p counts";
 }
 
+TEST(Planes, TellAnyFocalLengthOfUpToFiftyPictureWidths) {
+  for (const double widths : {0.5, 13.0, 49.9, 50.1}) {
+    const glm::dmat3 K(640 * widths, 0, 0, 0, 600 * widths, 0, 320, 240, 1);
+    std::vector<glm::dmat3> homographies;
+    for (const glm::dvec3 axis : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(1, 2, 0.5)}) {
+      glm::dmat3 view = glm::mat3_cast(glm::angleAxis(0.7, glm::normalize(axis)));
+      view[2] = {0.1, -0.2, 2 * widths};
+      homographies.push_back(K * view);
+    }
+    const auto found = IntrinsicsFromPlanes(homographies, 640, 480);
+    EXPECT_EQ(found.has_value(), widths < 50) << widths;
+    if (!found) continue;
+    EXPECT_NEAR(found->fx, 640 * widths, 1e-6 * widths);
+    EXPECT_NEAR(found->fy, 600 * widths, 1e-6 * widths);
+    EXPECT_EQ(glm::dvec2(found->cx, found->cy), glm::dvec2(320, 240));
+  }
+}
+
 TEST(Planes, RefusedWithTheReason) {
   const std::vector<Camera> cameras = TrueCameras();
   std::vector<TargetView> views = Views(cameras, 8, 0);
