@@ -52,11 +52,13 @@ std::optional<Result<PrintedBoard>> ReadPrintedBoard(std::string_view text) {
     if (!rest.empty()) rest.remove_prefix(1);
   }
   constexpr double kMost = 64;
-  const auto is_side = [](double n) { return n == std::floor(n) && n >= 3 && n <= kMost; };
+  const double least = board.is_charuco ? 3 : 4;  // OpenCV finds no chessboard of two corners a side
+  const auto is_side = [&](double n) { return n == std::floor(n) && n >= least && n <= kMost; };
   if (!is_read || !rest.empty() || !is_side(numbers[0]) || !is_side(numbers[1]) || !(numbers[2] >= 0.001) ||
       !(numbers[2] <= 10)) {
     return Result<PrintedBoard>(
-        Fail({}, "--board {}: no board; allowed: 3 to 64 squares a side and their metres, as chess:9x6x0.025", text));
+        Fail({}, "--board {}: no board; allowed: {} to 64 squares a side and their metres, as chess:9x6x0.025", text,
+             least));
   }
   board.columns = static_cast<int>(numbers[0]);
   board.rows = static_cast<int>(numbers[1]);

@@ -79,7 +79,7 @@ struct WrittenPart {
   Role end;
   std::array<std::string, 3> names;
   std::array<std::optional<AngleRange>, 3> limits;  ///< radians
-  glm::dvec3 signs;                                 ///< of the turns about Z, X and Y
+  glm::dvec3 signs{1};                              ///< of the turns about Z, X and Y
 };
 
 std::optional<AngleRange> RangeOf(const PartAngle& angle, const KinematicTree& tree) {

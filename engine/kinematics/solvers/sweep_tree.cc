@@ -22,8 +22,8 @@ bool SwapsAxes(const glm::dmat3& rotation) {
 
 // The coordinate axis along which a unit vector is.
 struct NamedAxis {
-  int name;
-  double sign;
+  int name = 0;
+  double sign = 1;
 };
 
 NamedAxis NameOf(const glm::dvec3& axis) {

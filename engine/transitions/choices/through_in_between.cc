@@ -147,7 +147,7 @@ TransitionRecord ThroughInBetween(const MotionLibrary& library, const Transition
   const KeyPoint exit = exits.Find(exit_frames, FramesWithin(window));
   // Frames are in rising order, so those of the front half come first.
   const std::vector<int> entrance_frames = BridgeFramesWithin(next, EntryWindow(next));
-  const KeyPoint entrance = entrances.Find(entrance_frames, FramesWithin({0, next.FrameCount() / 2 - 1}));
+  const KeyPoint entrance = entrances.Find(entrance_frames, FramesWithin({0, std::max(next.FrameCount() / 2, 1) - 1}));
 
   record.branch = exit.matches && entrance.matches ? Branch::kInBetween : Branch::kForced;
   std::vector<BodyPose> own = MakeInBetween(library, exit.key, entrance.key, playing.rate_hz);

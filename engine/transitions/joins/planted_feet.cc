@@ -211,7 +211,7 @@ std::vector<StepOption> OptionsOf(const FootTracks& foot) {
 
 /// A leg's frame on the way from one motion's leg to the other's.
 struct LegPath {
-  glm::dvec3 ankle, foot_limb;
+  glm::dvec3 ankle{0}, foot_limb{0};
 };
 
 LegPath PathAt(const JoinWindow& window, const LegRoles& leg, const FootStep& step, int frame) {

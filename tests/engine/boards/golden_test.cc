@@ -205,11 +205,17 @@ TEST(BoardsGolden, FilmsInStep) {
 
 TEST(BoardsGolden, WordsOfBoards) {
   Fingerprint print;
-  for (const std::string text :
-       {"chess:3x64x0.001", "charuco:64x3x10", "chess:65x3x1",  "chess:3x65x1",     "chess:2x3x1",
-        "chess:3x2x1",      "chess:3.5x4x1",   "chess:3x4.5x1", "chess:3x4x0.0009", "chess:3x4x10.1",
-        "chess:3x4",        "chess:3x4x",      "chess:3y4x1",   "chess:3x4y1",      "chess:x4x1",
-        "chess:3x4x1 ",     "charuco:",        "chess",         "charuco3x4x1",     ""}) {
+  for (const std::string text : {"chess:4x64x0.001", "charuco:64x3x10",
+                                 "chess:65x4x1",     "chess:4x65x1",
+                                 "chess:3x4x1",      "chess:4x3x1",
+                                 "charuco:2x3x1",    "charuco:3x2x1",
+                                 "chess:4.5x5x1",    "chess:4x5.5x1",
+                                 "chess:4x5x0.0009", "chess:4x5x10.1",
+                                 "chess:4x5",        "chess:4x5x",
+                                 "chess:4y5x1",      "chess:4x5y1",
+                                 "chess:x5x1",       "chess:4x5x1 ",
+                                 "charuco:",         "chess",
+                                 "charuco4x5x1",     ""}) {
     const auto board = ReadPrintedBoard(text);
     print.Add(board.has_value());
     if (!board) continue;

@@ -5,8 +5,8 @@
 #include <ranges>
 
 #include "engine/motion/character.h"
+#include "engine/motion/clip.h"
 #include "engine/motion/edit.h"
-#include "engine/motion/from_body.h"
 #include "engine/motion/rest_body.h"
 #include "engine/motion/statistics.h"
 #include "engine/motion/support.h"

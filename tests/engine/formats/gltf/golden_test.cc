@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "engine/formats/gltf/text.h"
+#include "engine/formats/gltf/file.h"
 #include "tests/engine/formats/gltf/small_glb.h"
 #include "tests/engine/formats/spoilt.h"
 #include "tests/support/fingerprint.h"
