@@ -26,7 +26,6 @@
 namespace etude::engine {
 namespace {
 
-using ::etude::testing::Dice;
 using ::etude::testing::Fingerprint;
 
 Motion ToldMotion(const BodyMotion& motion) {
@@ -59,7 +58,7 @@ std::vector<Camera> LensedCameras() {
 }
 
 TEST(ApiGolden, Cameras) {
-  Dice dice(1);
+  ::etude::testing::Dice dice(1);
   Fingerprint print;
   const std::vector<Camera> cameras = LensedCameras();
   std::vector<PointPair> pairs;
@@ -84,7 +83,7 @@ TEST(ApiGolden, Cameras) {
 }
 
 TEST(ApiGolden, Kinematics) {
-  Dice dice(2);
+  ::etude::testing::Dice dice(2);
   Fingerprint print;
   for (int k = 0; k < 6; ++k) {
     IkOptions options;
@@ -210,7 +209,7 @@ TEST(ApiGolden, RecognitionAndCoaching) {
 
 /// Silhouettes of two cameras, in masks half as wide as their pictures.
 TEST(ApiGolden, PeopleInMasksAndPictures) {
-  Dice dice(3);
+  ::etude::testing::Dice dice(3);
   Fingerprint print;
   const SilhouetteBody body = MakeSilhouetteBody({});
   std::vector<Camera> cameras;
@@ -267,7 +266,7 @@ TEST(ApiGolden, RefusesJustBeyondEveryLimit) {
   const std::vector<Camera> cameras = LensedCameras();
   const std::vector<PointPair> pairs = [&] {
     std::vector<PointPair> made;
-    Dice dice(4);
+    ::etude::testing::Dice dice(4);
     for (int i = 0; i < 30; ++i) {
       const glm::dvec3 p = glm::dvec3(0, 1, 0) + 0.7 * dice.Vector();
       if (const auto pixel = Project(cameras[0], p)) made.push_back({p, *pixel});

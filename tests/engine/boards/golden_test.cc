@@ -20,7 +20,6 @@
 namespace etude {
 namespace {
 
-using testing::Dice;
 using testing::Fingerprint;
 
 TEST(BoardsGolden, Codes) {
@@ -41,7 +40,7 @@ struct Laid {
   glm::dmat3 to_board;  ///< of pixels
 };
 
-Laid AnyLaid(Dice& dice, const Board& board, const glm::dvec2& middle, double square_px) {
+Laid AnyLaid(testing::Dice& dice, const Board& board, const glm::dvec2& middle, double square_px) {
   const double angle = kPi * dice.Signed(), scale = square_px / board.square;
   const double c = scale * std::cos(angle), s = scale * std::sin(angle), narrow = 0.85 + 0.15 * dice.Signed();
   const glm::dvec2 half = 0.5 * board.square * glm::dvec2(board.columns, board.rows);
@@ -52,7 +51,7 @@ Laid AnyLaid(Dice& dice, const Board& board, const glm::dvec2& middle, double sq
 }
 
 /// Four rays a pixel, blurred by noise; a few modules are painted over.
-ColourImage Photographed(Dice& dice, const std::vector<Laid>& boards, int width, int height, double noise) {
+ColourImage Photographed(testing::Dice& dice, const std::vector<Laid>& boards, int width, int height, double noise) {
   ColourImage picture(width, height);
   const std::array<glm::dvec2, 4> rays = {glm::dvec2(0.1, 0.4), {0.6, 0.15}, {0.85, 0.6}, {0.4, 0.9}};
   for (int y = 0; y < height; ++y) {
@@ -91,7 +90,7 @@ void AddSaddles(Fingerprint& print, const GreyImage& grey) {
 }
 
 TEST(BoardsGolden, CornersOfPicturesThatAreHardToRead) {
-  Dice dice(1);
+  testing::Dice dice(1);
   Fingerprint saddles, corners, grey;
   const Board small{.columns = 4, .rows = 5, .square = 0.1},
       large{.columns = 6, .rows = 5, .square = 0.2, .first_code = 30};
@@ -125,7 +124,7 @@ TEST(BoardsGolden, CornersOfPicturesThatAreHardToRead) {
 }
 
 TEST(BoardsGolden, DiscsOfEveryKind) {
-  Dice dice(2);
+  testing::Dice dice(2);
   Fingerprint print;
   for (int k = 0; k < 400; ++k) {
     GreyImage picture(41, 33);
@@ -148,7 +147,8 @@ TEST(BoardsGolden, DiscsOfEveryKind) {
 
 /// What cameras see of a board of 4 × 5 squares that is waved about, each later by so many seconds; some sightings and
 /// corners are missing.
-std::vector<BoardSighting> WavedBoard(Dice& dice, std::size_t cameras, int looks, double period_s, double late_s) {
+std::vector<BoardSighting> WavedBoard(testing::Dice& dice, std::size_t cameras, int looks, double period_s,
+                                      double late_s) {
   std::vector<BoardSighting> sightings;
   for (std::size_t c = 0; c < cameras; ++c) {
     const Camera camera = LookAt({.fx = 700, .fy = 690}, {0.5 - 0.6 * c, 0.2, -1.1 + 0.1 * c}, {0, 0, 0});
@@ -173,7 +173,7 @@ std::vector<BoardSighting> WavedBoard(Dice& dice, std::size_t cameras, int looks
 }
 
 TEST(BoardsGolden, FilmsInStep) {
-  Dice dice(3);
+  testing::Dice dice(3);
   Fingerprint views, steps;
   for (int k = 0; k < 5; ++k) {
     const std::size_t cameras = k == 1 ? 3 : 2;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -20,7 +21,6 @@
 namespace etude {
 namespace {
 
-using testing::Dice;
 using testing::Fingerprint;
 
 /// Within ±1000, so that numbers of wrong files do not hide those of right ones.
@@ -37,7 +37,7 @@ void AddCamera(Fingerprint& print, const Camera& camera) {
   for (int i = 0; i < 3; ++i) print.Add(camera.R_CW[i]);
 }
 
-Distortion AnyLens(Dice& dice, int kind) {
+Distortion AnyLens(testing::Dice& dice, int kind) {
   const auto some = [&](double most) { return most * dice.Signed(); };
   Distortion d{.k1 = some(0.4), .k2 = some(0.1), .k3 = some(0.03)};
   if (kind > 0) d.p1 = some(0.01), d.p2 = some(0.01);
@@ -48,7 +48,7 @@ Distortion AnyLens(Dice& dice, int kind) {
   return d;
 }
 
-Camera AnyCamera(Dice& dice, int kind) {
+Camera AnyCamera(testing::Dice& dice, int kind) {
   const Intrinsics in{.width = 640,
                       .height = 480,
                       .fx = 600 + 90 * dice.Signed(),
@@ -63,7 +63,7 @@ Camera AnyCamera(Dice& dice, int kind) {
 }
 
 TEST(CamerasGolden, LensesToTheirFoldsAndBeyond) {
-  Dice dice(1);
+  testing::Dice dice(1);
   Fingerprint rays, print;
   for (int k = 0; k < 180; ++k) {
     const Camera camera = AnyCamera(dice, k % 6);
@@ -81,7 +81,7 @@ TEST(CamerasGolden, LensesToTheirFoldsAndBeyond) {
 }
 
 /// Points of a box about the middle, as `camera` shows them, each off by `noise_px` at most.
-std::vector<PointPair> NoisyPairs(Dice& dice, const Camera& camera, int count, double noise_px,
+std::vector<PointPair> NoisyPairs(testing::Dice& dice, const Camera& camera, int count, double noise_px,
                                   const glm::dvec3& extents = glm::dvec3(1)) {
   std::vector<PointPair> pairs;
   while (static_cast<int>(pairs.size()) < count) {
@@ -93,7 +93,7 @@ std::vector<PointPair> NoisyPairs(Dice& dice, const Camera& camera, int count, d
 }
 
 TEST(CamerasGolden, MatricesOfNoisyPairs) {
-  Dice dice(2);
+  testing::Dice dice(2);
   Fingerprint print;
   for (int k = 0; k < 40; ++k) {
     const Camera camera = AnyCamera(dice, -1 - k % 2);
@@ -116,7 +116,7 @@ TEST(CamerasGolden, MatricesOfNoisyPairs) {
 }
 
 TEST(CamerasGolden, DirectionsAndPointsSeenByManyCamerasOfWhichSomeErr) {
-  Dice dice(3);
+  testing::Dice dice(3);
   Fingerprint limbs, points;
   for (int k = 0; k < 150; ++k) {
     const int count = 2 + k % 5;
@@ -151,39 +151,32 @@ TEST(CamerasGolden, DirectionsAndPointsSeenByManyCamerasOfWhichSomeErr) {
     for (const double tolerance : {5.0, 25.0}) {
       limbs.Add(AgreeingViews(strokes, tolerance));
       points.Add(AgreeingViews(plain, tolerance)).Add(AgreeingViews(plain, tolerance, weights));
-      const auto robust = TriangulateRobustly(weighted, {tolerance});
-      points.Add(robust.has_value());
-      if (robust) points.Add(robust->position).Add(robust->agrees).Add(robust->residual_px);
+      if (const auto robust = TriangulateRobustly(weighted, {tolerance}))
+        points.Add(robust->position).Add(robust->agrees).Add(robust->residual_px);
     }
     for (const TriangulatedPoint& point : {Triangulate(plain), TriangulateByPixels(plain)})
       points.Add(point.status).Add(point.position).Add(point.residual_px);
-    const auto alike = TriangulateRobustly(std::vector<WeightedSighting>{{plain[0]}, {plain[1]}});
-    points.Add(alike.has_value());
-    if (alike) points.Add(alike->position).Add(alike->residual_px);
-    const auto likeliest = TriangulateLikeliest(informed);
-    points.Add(likeliest.has_value());
-    if (likeliest) points.Add(likeliest->position);
+    if (const auto alike = TriangulateRobustly(std::vector<WeightedSighting>{{plain[0]}, {plain[1]}}))
+      points.Add(alike->position).Add(alike->residual_px);
+    if (const auto likeliest = TriangulateLikeliest(informed)) points.Add(likeliest->position);
     const auto equations = PointEquationsAt(informed, a);
     for (int i = 0; i < 3; ++i) points.Add(1e-4 * equations->information[i]);
     points.Add(1e-2 * equations->right);
   }
   EXPECT_TRUE(limbs.Is(3362, -71.2525456552));
-  EXPECT_TRUE(points.Is(17265, 3279.16756879));
+  EXPECT_TRUE(points.Is(16665, -2460.98813526));
 }
 
 void AddRig(Fingerprint& print, const Result<RefinedRig>& rig) {
   if (!rig) return void(print.Add(rig.error().message));
   for (const Camera& camera : rig->cameras) AddCamera(print, camera);
-  for (const TargetPlace& target : rig->targets) {
-    for (int i = 0; i < 3; ++i) print.Add(target.R_WT[i]);
-    print.Add(target.p_WT);
-  }
+  for (const TargetPlace& t : rig->targets) print.Add(t.R_WT[0]).Add(t.R_WT[1]).Add(t.R_WT[2]).Add(t.p_WT);
   print.Add(rig->camera_rms_px).Add(rig->rms_px).Add(rig->points).Add(rig->parameters);
   for (const IntrinsicsDeviation& d : rig->deviations) print.Add(d.fx).Add(d.fy).Add(d.cx).Add(d.cy);
 }
 
 TEST(CamerasGolden, CamerasRefinedForAFewSteps) {
-  Dice dice(4);
+  testing::Dice dice(4);
   Fingerprint print;
   for (int k = 0; k < 10; ++k) {
     const Camera camera = AnyCamera(dice, k % 3 - 1);
@@ -200,7 +193,7 @@ TEST(CamerasGolden, CamerasRefinedForAFewSteps) {
 }
 
 /// Boards of 6 × 4 corners as three cameras show them, with noise; some views are missing or cut off.
-std::vector<TargetView> BoardViews(Dice& dice, const std::vector<Camera>& cameras, int boards) {
+std::vector<TargetView> ViewsOfBoards(testing::Dice& dice, const std::vector<Camera>& cameras, int boards) {
   std::vector<TargetView> views;
   for (int b = 0; b < boards; ++b) {
     glm::dquat turn = dice.Rotation();
@@ -222,7 +215,7 @@ std::vector<TargetView> BoardViews(Dice& dice, const std::vector<Camera>& camera
 }
 
 TEST(CamerasGolden, RigsFromBoards) {
-  Dice dice(5);
+  testing::Dice dice(5);
   Fingerprint rigs, planes;
   for (int k = 0; k < 4; ++k) {
     std::vector<Camera> cameras;
@@ -231,7 +224,7 @@ TEST(CamerasGolden, RigsFromBoards) {
       cameras.push_back(LookAt(in, EyeAt(degrees), {0, 1, 0}));
       cameras.back().distortion = {.k1 = -0.1, .k2 = 0.03};
     }
-    const auto views = BoardViews(dice, cameras, 4 + k);
+    const auto views = ViewsOfBoards(dice, cameras, 4 + k);
     const std::vector<PictureSize> sizes(3, PictureSize{640, 480});
     AddRig(rigs, CalibrateFromPlanes(sizes, views));
     for (const int iterations : {1, 2, 4}) {
@@ -259,12 +252,11 @@ TEST(CamerasGolden, RigsFromBoards) {
       homographies.push_back(*homography);
       // One view, two, …: until they tell.
       const auto in = IntrinsicsFromPlanes(homographies, 640, 480);
-      planes.Add(in.has_value());
       if (in) planes.Add(in->fx).Add(in->fy).Add(in->cx).Add(in->cy).Add(in->skew).Add(in->width).Add(in->height);
     }
   }
   EXPECT_TRUE(rigs.Is(3495, -1190.10205386));
-  EXPECT_TRUE(planes.Is(1527, -150.447538301));
+  EXPECT_TRUE(planes.Is(1481, -636.162407991));
 }
 
 /// Calls `read` with the text, without each of its lines in turn, with each cut off or doubled, with each of its
@@ -303,7 +295,7 @@ struct FilePrints {
 };
 
 std::vector<NamedCamera> CamerasOfAllKinds() {
-  Dice dice(6);
+  testing::Dice dice(6);
   std::vector<NamedCamera> cameras;
   for (const int kind : {-1, 0, 2, 3, 4, 5})
     cameras.push_back({fmt::format("{} cam-{}", kind, kind), AnyCamera(dice, kind)});
@@ -311,37 +303,45 @@ std::vector<NamedCamera> CamerasOfAllKinds() {
   return cameras;
 }
 
+/// Without what stands beyond a number's ninth decimal: the last ones are the mathematics library's.
+std::string NineDecimals(const std::string& text) {
+  std::string cut;
+  for (std::size_t i = 0, decimals = 0; i < text.size(); ++i) {
+    decimals = text[i] == '.' ? 1 : decimals > 0 && std::isdigit(text[i]) ? decimals + 1 : 0;
+    if (decimals < 11) cut += text[i];
+  }
+  return cut;
+}
+
 TEST(CamerasGolden, RigsWrittenReadAndSpoilt) {
   const auto cameras = CamerasOfAllKinds();
   Fingerprint texts;
-  texts.Add(WriteRig(cameras)).Add(WritePose2SimCalibration(cameras));
-  for (const NamedCamera& named : cameras) texts.Add(WriteOpenCvCamera(named.camera));
-  EXPECT_TRUE(texts.Is(12835, -217.789899346));
+  texts.Add(NineDecimals(WriteRig(cameras))).Add(NineDecimals(WritePose2SimCalibration(cameras)));
+  for (const NamedCamera& named : cameras) texts.Add(NineDecimals(WriteOpenCvCamera(named.camera)));
+  EXPECT_TRUE(texts.Is(10597, 737.868805496));
   FilePrints prints;
   const auto read = [&](const std::string& text) { prints.Add(ReadRigFile(text, "rig")); };
   read(WriteRig(cameras));
   read(WritePose2SimCalibration(cameras));
   for (const NamedCamera& named : cameras) read(WriteOpenCvCamera(named.camera));
   const std::span<const NamedCamera> two = std::span(cameras).subspan(1, 2);
-  ForEachSpoilt(WriteRig(two), read);
-  ForEachSpoilt(WriteOpenCvCamera(cameras[5].camera), read);
-  ForEachSpoilt("# by hand\n" + WritePose2SimCalibration(two.first(1)) +
+  ForEachSpoilt(NineDecimals(WriteRig(two)), read);
+  ForEachSpoilt(NineDecimals(WriteOpenCvCamera(cameras[5].camera)), read);
+  ForEachSpoilt("# by hand\n" + NineDecimals(WritePose2SimCalibration(two.first(1))) +
                     "[cameras.3]\nignore = true\nmatrix = [ [1, 0,\n 2],[0, 3, 4], # K\n [0, 0, 1]]\nsize = [9, 8]\n"
                     "distortions = []\nrotation = [[1.0001, 0, 0], [0, 1, 0], [0, 0, 1]]\ntranslation = [0, \"#\", "
                     "1]\nfisheye = true\n",
                 read);
-  std::string caliscope = WritePose2SimCalibration(two.first(1));
+  std::string caliscope = NineDecimals(WritePose2SimCalibration(two.first(1)));
   caliscope.replace(0, caliscope.find(']'), "[cameras.12");
   ForEachSpoilt(caliscope, read);
-  for (const std::size_t count : {64, 65}) {
-    std::vector<NamedCamera> many;
-    for (std::size_t i = 0; i < count; ++i) many.push_back({fmt::format("c{}", i), cameras[0].camera});
-    read(WriteRig(many));
-    read(WritePose2SimCalibration(many));
-  }
+  std::vector<NamedCamera> many;
+  while (many.size() < 65) many.push_back({fmt::format("c{}", many.size()), cameras[0].camera});
+  for (const std::size_t count : {64, 65}) read(WriteRig(std::span(many).first(count)));
+  for (const std::size_t count : {64, 65}) read(WritePose2SimCalibration(std::span(many).first(count)));
   for (const std::size_t size : {1 << 20, (1 << 20) + 1}) read(std::string(size, ' '));
-  EXPECT_TRUE(prints.cameras.Is(23009, -5006.06991571));
-  EXPECT_TRUE(prints.complaints.Is(39214, 3534.36570887));
+  EXPECT_TRUE(prints.cameras.Is(23009, -4832.17023284));
+  EXPECT_TRUE(prints.complaints.Is(38902, 7710.76124717));
 }
 
 constexpr const char* kQualisysOfTwo = R"(<?xml version="1.0" encoding="UTF-8"?>

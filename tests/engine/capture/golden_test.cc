@@ -18,7 +18,6 @@
 namespace etude {
 namespace {
 
-using testing::Dice;
 using testing::Fingerprint;
 
 void AddMarks(Fingerprint& print, const TakeMarks& marks) {
@@ -33,13 +32,13 @@ void AddMarks(Fingerprint& print, const TakeMarks& marks) {
   }
 }
 
-void AddState(Fingerprint& print, const TreeState& state) {
+void AddTreeState(Fingerprint& print, const TreeState& state) {
   print.Add(state.root_position).Add(state.root_frame[0]).Add(state.root_frame[2]).Add(state.angles);
 }
 
 /// Marks of a dance by three cameras, off by some pixels, some by many; some are missing, for several frames too, and
 /// some strokes are short.
-TakeMarks CarelessMarks(Dice& dice, int frames, double noise_px, double pace = 0.1) {
+TakeMarks CarelessMarks(testing::Dice& dice, int frames, double noise_px, double pace = 0.1) {
   std::vector<BodyPose> poses;
   for (int k = 0; k < frames; ++k) poses.push_back(ModelPose(pace * k));
   TakeMarks marks = ExactMarks(poses, ThreeCameras());
@@ -84,13 +83,13 @@ void AddSeen(Fingerprint& print, const std::optional<LimbObservation>& seen) {
 void AddFrame(Fingerprint& print, const std::optional<RecoveredFrame>& frame) {
   print.Add(frame.has_value());
   if (!frame) return;
-  AddState(print, frame->state);
+  AddTreeState(print, frame->state);
   print.Add(frame->fixed.joints).Add(frame->pose.joints);
   for (const EffectorError& error : frame->errors) print.Add(error.position);
 }
 
 TEST(CaptureGolden, FramesMeasuredBridgedAndRecovered) {
-  Dice dice(1);
+  testing::Dice dice(1);
   Fingerprint agreeing, measured, bridged, recovered;
   for (int k = 0; k < 6; ++k) {
     TakeMarks marks = CarelessMarks(dice, 13 + k, 1 + k);
@@ -133,7 +132,7 @@ TEST(CaptureGolden, FramesMeasuredBridgedAndRecovered) {
 }
 
 TEST(CaptureGolden, JointsMeasuredSmoothedAndCompleted) {
-  Dice dice(2);
+  testing::Dice dice(2);
   Fingerprint measured, smooth, completed;
   for (int k = 0; k < 3; ++k) {
     TakeMarks marks = CarelessMarks(dice, 11 + k, 2);
@@ -184,7 +183,7 @@ TEST(CaptureGolden, JointsMeasuredSmoothedAndCompleted) {
 }
 
 TEST(CaptureGolden, TakesAdjustedForAFewSteps) {
-  Dice dice(3);
+  testing::Dice dice(3);
   Fingerprint bodies, takes;
   const TakeBody body = MakeTakeBody({.foot = 0.2, .shank = 0.45});
   for (const BodyPoint& point : body.measurable.points) bodies.Add(point.joint).Add(point.p_LQ);
@@ -205,7 +204,7 @@ TEST(CaptureGolden, TakesAdjustedForAFewSteps) {
     if (k == 2) options.bundle.smoothness = SmoothnessOf(MakeTakeBody({}), 30), options.marks = {1, 0.2};
     const AdjustedTake take = AdjustTake({.pictures = pictures, .lengths = {}, .start = start}, options);
     takes.Add(take.is_solved).Add(ListOf(take.body.lengths));
-    for (const TreeState& state : take.states) AddState(takes, state);
+    for (const TreeState& state : take.states) AddTreeState(takes, state);
     if (const auto lengths = MeasureLengths(pictures, joints, {.frames = 1 + 3 * k, .marks = {}}))
       takes.Add(ListOf(*lengths));
   }
@@ -214,7 +213,7 @@ TEST(CaptureGolden, TakesAdjustedForAFewSteps) {
 }
 
 TEST(CaptureGolden, PosesFittedToWhatNoBodyHas) {
-  Dice dice(4);
+  testing::Dice dice(4);
   Fingerprint print;
   for (const RestBody& rest : {PlainRestBody(), JointedRestBody(), SensorRestBody()}) {
     const CaptureBody body = FittedBody(rest).value();
@@ -235,9 +234,9 @@ TEST(CaptureGolden, PosesFittedToWhatNoBodyHas) {
       auto fit = fitter.Fit(wanted, last);
       print.Add(fit.has_value());
       if (!fit) continue;
-      AddState(print, fit->state);
+      AddTreeState(print, fit->state);
       print.Add(fit->squares);
-      AddState(print, fitter.Improve(wanted, StandingState(body.tree)));
+      AddTreeState(print, fitter.Improve(wanted, StandingState(body.tree)));
       if (k % 3) last = std::move(fit);
     }
     for (const std::size_t most : {5, 20}) {
@@ -249,7 +248,7 @@ TEST(CaptureGolden, PosesFittedToWhatNoBodyHas) {
 }
 
 TEST(CaptureGolden, ClocksOfCameras) {
-  Dice dice(5);
+  testing::Dice dice(5);
   Fingerprint print, offsets;
   for (int k = 0; k < 4; ++k) {
     const TakeMarks exact = CarelessMarks(dice, 24, 0.5 + k, 0.3);
@@ -278,7 +277,7 @@ TEST(CaptureGolden, ClocksOfCameras) {
 }
 
 TEST(CaptureGolden, CamerasCalibratedAndMarksWithoutTheirLenses) {
-  Dice dice(6);
+  testing::Dice dice(6);
   Fingerprint print;
   std::vector<std::vector<PointPair>> pairs(2);
   Camera camera = LookAt({}, {1, 1.5, 3.5}, {0, 0.9, 0});

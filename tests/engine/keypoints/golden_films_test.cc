@@ -16,12 +16,11 @@
 namespace etude {
 namespace {
 
-using testing::Dice;
 using testing::Fingerprint;
 
 /// One walker in films whose pixels went through `change`.
 template <typename Change>
-std::vector<PictureOfFilm> Films(Dice& dice, std::size_t count, double noise_px, const Change& change) {
+std::vector<PictureOfFilm> Films(testing::Dice& dice, std::size_t count, double noise_px, const Change& change) {
   const Crowd crowd(dice, 30, noise_px, 0.02, 15);
   std::vector<PictureOfFilm> films;
   for (std::size_t c = 0; c < count; ++c) {
@@ -36,7 +35,7 @@ std::vector<PictureOfFilm> Films(Dice& dice, std::size_t count, double noise_px,
 }
 
 TEST(FilmsGolden, WhatIsFoundWrongWithFilmsAndSessions) {
-  Dice dice(6);
+  testing::Dice dice(6);
   Fingerprint print;
   const std::vector<std::string> names = {"a", "b", "c", "d"};
   for (int k = 0; k < 13; ++k) {
@@ -80,7 +79,7 @@ TEST(FilmsGolden, WhatIsFoundWrongWithFilmsAndSessions) {
 }
 
 TEST(FilmsGolden, DoubtsAboutTheRig) {
-  Dice dice(7);
+  testing::Dice dice(7);
   Fingerprint print;
   const std::vector<std::string> names = {"a", "b", "c", "d"};
   for (int k = 0; k < 16; ++k) {
@@ -108,7 +107,7 @@ TEST(FilmsGolden, DoubtsAboutTheRig) {
 }
 
 TEST(FilmsGolden, ClocksOfFilms) {
-  Dice dice(8);
+  testing::Dice dice(8);
   Fingerprint print;
   for (int k = 0; k < 6; ++k) {
     Crowd crowd(dice, 36, k < 3 ? 0.5 + k : 4 * k - 8);
@@ -138,7 +137,7 @@ TEST(FilmsGolden, ClocksOfFilms) {
 }
 
 /// Stands on several places of a floor that is tilted, leans, and is so many times as large as in metres.
-std::vector<LandmarkPlaces> StandsAbout(Dice& dice, double size, double tilt_deg, double lean, bool has_toes) {
+std::vector<LandmarkPlaces> StandsAbout(testing::Dice& dice, double size, double tilt_deg, double lean, bool has_toes) {
   using enum Landmark;
   const glm::dmat3 R = glm::mat3_cast(glm::angleAxis(
       Radians(tilt_deg), glm::normalize(tilt_deg == 91 ? glm::dvec3(0.1, 0.2, 1) : glm::dvec3(1, 0.1, 0.3))));
@@ -164,7 +163,7 @@ std::vector<LandmarkPlaces> StandsAbout(Dice& dice, double size, double tilt_deg
 }
 
 TEST(FilmsGolden, PlacesOfRigs) {
-  Dice dice(9);
+  testing::Dice dice(9);
   Fingerprint print;
   const auto add = [&](const Result<RigPlace>& place) {
     print.Add(place.has_value());
@@ -215,7 +214,7 @@ TEST(FilmsGolden, NamesLayoutsMarksAndFits) {
   }
   for (const char* name : {"Hip", "root", "Pelvis", "top-head", "lfootindex", "R foot index", "@Z[`z{", "leftleft"})
     print.Add(LandmarkOfName(name));
-  Dice dice(10);
+  testing::Dice dice(10);
   for (int k = 0; k < 20; ++k) {
     Marks marks;
     const auto anywhere = [&] { return 100.0 * glm::dvec2(dice.Vector()); };

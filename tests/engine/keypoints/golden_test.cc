@@ -12,7 +12,6 @@
 namespace etude {
 namespace {
 
-using testing::Dice;
 using testing::Fingerprint;
 
 void AddPlaces(Fingerprint& print, const std::vector<LandmarkPlaces>& frames) {
@@ -29,7 +28,7 @@ void AddMatched(Fingerprint& print, const MatchedPerson& person) {
 }
 
 TEST(KeypointsGolden, PeopleFollowedMatchedAndMended) {
-  Dice dice(1);
+  testing::Dice dice(1);
   Fingerprint followed, matched, mended, limits;
   for (int k = 0; k < 6; ++k) {
     const Crowd crowd(dice, k == 2 ? 5 : k == 3 ? 8 : 27 + k, 1 + 3 * k);
@@ -61,7 +60,7 @@ TEST(KeypointsGolden, PeopleFollowedMatchedAndMended) {
 
 /// People whom nobody followed rightly: sides, whole persons and nobody, at random.
 TEST(KeypointsGolden, PeopleMistakenAtRandom) {
-  Dice dice(2);
+  testing::Dice dice(2);
   Fingerprint print;
   for (int k = 0; k < 8; ++k) {
     const Crowd crowd(dice, 24, 1 + k % 3, 0.05);
@@ -108,7 +107,7 @@ void AddRecovered(Fingerprint& print, const Result<RecoveredPerson>& person) {
 }
 
 TEST(KeypointsGolden, PeopleRecoveredAndAdjusted) {
-  Dice dice(3);
+  testing::Dice dice(3);
   Fingerprint recovered, adjusted;
   for (int k = 0; k < 5; ++k) {
     const double rate_hz = k == 2 ? 50 : 30;
@@ -143,7 +142,7 @@ TEST(KeypointsGolden, PeopleRecoveredAndAdjusted) {
 }
 
 /// A walker of whom landmarks are missing at random, some throughout; hands and ears are seen in some frames.
-std::vector<LandmarkPlaces> Gappy(Dice& dice, std::size_t frames, double noise, int kind) {
+std::vector<LandmarkPlaces> Gappy(testing::Dice& dice, std::size_t frames, double noise, int kind) {
   using enum Landmark;
   std::vector<LandmarkPlaces> walked;
   for (std::size_t k = 0; k < frames; ++k) {
@@ -168,7 +167,7 @@ std::vector<LandmarkPlaces> Gappy(Dice& dice, std::size_t frames, double noise, 
 }
 
 TEST(KeypointsGolden, PointsBridgedSmoothedAndFitted) {
-  Dice dice(4);
+  testing::Dice dice(4);
   Fingerprint points, fits;
   for (int kind = 0; kind < 6; ++kind) {
     std::vector<LandmarkPlaces> walked = Gappy(dice, 13 + kind, 0.02, kind);
@@ -202,7 +201,7 @@ void AddMarkers(Fingerprint& print, const MarkerMotion& motion) {
 }
 
 TEST(KeypointsGolden, MarkersBesideAReference) {
-  Dice dice(5);
+  testing::Dice dice(5);
   Fingerprint print, clocks;
   for (int k = 0; k < 9; ++k) {
     MarkerMotion motion = ToMarkers(Gappy(dice, 40 + 90 * (k % 3), 0.01, k), 30);

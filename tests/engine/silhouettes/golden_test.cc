@@ -15,10 +15,9 @@
 namespace etude {
 namespace {
 
-using testing::Dice;
 using testing::Fingerprint;
 
-void AddState(Fingerprint& print, const TreeState& state) {
+void AddPoseState(Fingerprint& print, const TreeState& state) {
   print.Add(state.root_position).Add(state.root_frame[0]).Add(state.root_frame[1]).Add(state.root_frame[2]);
   print.Add(state.angles);
 }
@@ -26,7 +25,7 @@ void AddState(Fingerprint& print, const TreeState& state) {
 void AddFit(Fingerprint& print, const std::optional<SilhouetteFit>& fit) {
   print.Add(fit.has_value());
   if (!fit) return;
-  AddState(print, fit->state);
+  AddPoseState(print, fit->state);
   print.Add(1e-3 * fit->picture_cost).Add(1e-3 * fit->cost).Add(fit->iterations);
 }
 
@@ -60,7 +59,7 @@ TEST(SilhouettesGolden, Bodies) {
 }
 
 /// Balls and lines anywhere, also across the edges.
-Mask AnyBlobs(Dice& dice, int width, int height) {
+Mask AnyBlobs(testing::Dice& dice, int width, int height) {
   Mask mask(width, height);
   for (int blob = 0; blob < 3; ++blob) {
     const double x0 = width * (0.5 + 0.5 * dice.Signed()), y0 = height * (0.5 + 0.5 * dice.Signed());
@@ -73,7 +72,7 @@ Mask AnyBlobs(Dice& dice, int width, int height) {
 }
 
 TEST(SilhouettesGolden, Outlines) {
-  Dice dice(1);
+  testing::Dice dice(1);
   Fingerprint print, distances;
   for (int k = 0; k < 40; ++k) {
     SilhouetteOptions options;
@@ -97,7 +96,7 @@ TEST(SilhouettesGolden, Outlines) {
 }
 
 TEST(SilhouettesGolden, DistancesToCones) {
-  Dice dice(2);
+  testing::Dice dice(2);
   Fingerprint print;
   for (int k = 0; k < 200; ++k) {
     const glm::dvec2 a = 10.0 * glm::dvec2(dice.Vector()), b = k % 5 ? 10.0 * glm::dvec2(dice.Vector()) : a;
@@ -165,7 +164,7 @@ TrackOptions OptionsOfSmallPictures() {
 
 TEST(SilhouettesGolden, FitsFromFarAwayThatAreCutOff) {
   const TurningTake take(4);
-  Dice dice(3);
+  testing::Dice dice(3);
   Fingerprint costs, slopes, fits, flesh;
   FitWorkspace workspace;
   for (int k = 0; k < 24; ++k) {
@@ -200,7 +199,7 @@ TEST(SilhouettesGolden, FitsFromFarAwayThatAreCutOff) {
 
 TEST(SilhouettesGolden, JointsOfAnotherBody) {
   const TurningTake take(5);
-  Dice dice(4);
+  testing::Dice dice(4);
   Fingerprint print;
   for (int k = 0; k < 5; ++k) {
     BodyPose pose = ToBodyPose(MakeSilhouetteBody(ShortLegged()), take.truth[k]);
@@ -210,11 +209,11 @@ TEST(SilhouettesGolden, JointsOfAnotherBody) {
       if (dice.Below(5) == 0) target.reset();
       if (target && dice.Below(3) == 0) target->sigma_m = 0.05;
     }
-    AddState(print, FitJoints(take.body, targets, take.truth[0]));
-    if (k % 2) AddState(print, FitJoints(take.body, targets));
-    AddState(print, TurnedRound(take.body, take.truth[k]));
+    AddPoseState(print, FitJoints(take.body, targets, take.truth[0]));
+    if (k % 2) AddPoseState(print, FitJoints(take.body, targets));
+    AddPoseState(print, TurnedRound(take.body, take.truth[k]));
   }
-  AddState(print, FitJoints(take.body, {}));
+  AddPoseState(print, FitJoints(take.body, {}));
   EXPECT_TRUE(print.Is(650, -63.4365201365));
 }
 
@@ -227,7 +226,7 @@ TEST(SilhouettesGolden, LimbsThatAreElsewhere) {
     const auto views = take.Views(frame, frame == 1);
     for (const auto& limb : take.body.limbs) {
       for (const TreeState& state : LimbPlaces(take.body, views, take.truth[frame], limb, options.cost))
-        AddState(places, state);
+        AddPoseState(places, state);
     }
     const TreeState start = Postures(take.body)[1 + frame];
     TreeState there = start;

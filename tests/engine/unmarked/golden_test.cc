@@ -12,7 +12,6 @@
 namespace etude {
 namespace {
 
-using testing::Dice;
 using testing::Fingerprint;
 
 /// Somebody in two colours who crosses a patterned room, swinging an arm, before two small cameras; nobody is in the
@@ -23,7 +22,7 @@ struct SmallFilms {
   std::vector<ColourImage> rooms;
   std::vector<std::vector<std::optional<SeenPerson>>> people;
 
-  SmallFilms(Dice& dice, int frames) {
+  SmallFilms(testing::Dice& dice, int frames) {
     const SilhouetteBody body = MakeSilhouetteBody(AdultLengths(1.66));
     for (Camera camera : CamerasAround({-40, 50})) {
       camera.intrinsics = {.width = 81, .height = 60, .fx = 75, .fy = 76, .cx = 40, .cy = 29, .skew = 0.5};
@@ -82,7 +81,7 @@ void AddRecovered(Fingerprint& print, const Result<UnmarkedMotion>& found) {
 }
 
 TEST(UnmarkedGolden, FilmsWithAndWithoutWhatIsKnown) {
-  Dice dice(1);
+  testing::Dice dice(1);
   const SmallFilms films(dice, 8);
   Fingerprint told, found;
   UnmarkedOptions options;
@@ -105,7 +104,7 @@ TEST(UnmarkedGolden, FilmsWithAndWithoutWhatIsKnown) {
 }
 
 TEST(UnmarkedGolden, StaturesLengthsAndSeenJoints) {
-  Dice dice(2);
+  testing::Dice dice(2);
   Fingerprint print;
   for (const double stature : {1.3, 1.74, 2.0}) {
     const LimbLengths l = AdultLengths(stature);

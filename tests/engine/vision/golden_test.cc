@@ -14,13 +14,12 @@
 namespace etude {
 namespace {
 
-using testing::Dice;
 using testing::Fingerprint;
 
 std::uint8_t LevelFrom(double level) { return static_cast<std::uint8_t>(std::clamp(level, 0.0, 255.0)); }
 
 /// `colour` in some light, with noise of so many levels.
-Rgb8 Noisy(Dice& dice, Rgb8 colour, double light, double noise) {
+Rgb8 Noisy(testing::Dice& dice, Rgb8 colour, double light, double noise) {
   const auto seen = [&](int level) { return LevelFrom(level * light + noise * dice.Signed() + 0.5); };
   const std::uint8_t r = seen(colour.r), g = seen(colour.g);
   return {r, g, seen(colour.b)};
@@ -91,7 +90,7 @@ struct SuitPicture {
 
 /// Somebody in a suit, in any pose and anywhere in the picture, of limbs that cover each other in any order, are
 /// thinner or thicker, and of which some are not there; noise, spots of their colours, and a frayed mask.
-SuitPicture AnyoneInSuit(Dice& dice, bool is_flat) {
+SuitPicture AnyoneInSuit(testing::Dice& dice, bool is_flat) {
   SuitPicture made;
   const LimbColours suit = SuitOfHues();
   const glm::dvec2 hip = glm::dvec2(60, 75) + 30.0 * glm::dvec2{dice.Signed(), dice.Signed()};
@@ -134,7 +133,7 @@ SuitPicture AnyoneInSuit(Dice& dice, bool is_flat) {
 }
 
 TEST(VisionGolden, LimbsOfColouredSuits) {
-  Dice dice(3);
+  testing::Dice dice(3);
   const LimbColours suit = SuitOfHues();
   Fingerprint regions, evidence, marks, spoilt;
   for (int k = 0; k < 150; ++k) {
@@ -200,7 +199,7 @@ TEST(VisionGolden, LinesOfRectanglesOfEverySize) {
 
 /// Limbs of a few pixels, whose borders have a few sides: about every threshold.
 TEST(VisionGolden, EvidenceOfSmallRectangles) {
-  Dice dice(8);
+  testing::Dice dice(8);
   Fingerprint print;
   for (int k = 0; k < 600; ++k) {
     LimbRegions regions{.width = 50, .height = 60, .trunk = {}, .limbs = {}, .borders = {}};
@@ -220,7 +219,7 @@ TEST(VisionGolden, EvidenceOfSmallRectangles) {
 }
 
 TEST(VisionGolden, MarksThatCoverEachOther) {
-  Dice dice(5);
+  testing::Dice dice(5);
   Fingerprint print;
   for (int k = 0; k < 150; ++k) {
     ColourImage picture(61 + k % 9, 47);
@@ -244,14 +243,14 @@ TEST(VisionGolden, MarksThatCoverEachOther) {
 }
 
 /// Colours in steps of fifteen levels, so that many lie exactly at a threshold.
-Rgb8 InSteps(Dice& dice) {
+Rgb8 InSteps(testing::Dice& dice) {
   const auto level = [&] { return static_cast<std::uint8_t>(15 * dice.Below(18)); };
   const std::uint8_t r = level(), g = level();
   return {r, g, level()};
 }
 
 TEST(VisionGolden, ChangeAsEverySegmenterSeesIt) {
-  Dice dice(2);
+  testing::Dice dice(2);
   ColourImage room(83, 61), picture(83, 61);
   for (std::size_t i = 0; i < room.pixels.size(); ++i) {
     room.pixels[i] = i % 19 == 0 ? Rgb8{} : InSteps(dice);
@@ -295,7 +294,7 @@ TEST(VisionGolden, ChangeAsEverySegmenterSeesIt) {
 }
 
 /// Somebody of many colours, some of them the room's, crosses a room in a light that drifts, with a shadow beside.
-std::vector<ColourImage> WalkThrough(Dice& dice, const ColourImage& room, int frames, int pixels) {
+std::vector<ColourImage> WalkThrough(testing::Dice& dice, const ColourImage& room, int frames, int pixels) {
   std::vector<ColourImage> film;
   for (int k = 0; k < frames; ++k) {
     ColourImage& picture = film.emplace_back(room);
@@ -315,7 +314,7 @@ std::vector<ColourImage> WalkThrough(Dice& dice, const ColourImage& room, int fr
 }
 
 TEST(VisionGolden, PeopleInFilms) {
-  Dice dice(4);
+  testing::Dice dice(4);
   ColourImage room(97, 61);
   for (int y = 0; y < room.height; ++y) {
     for (int x = 0; x < room.width; ++x) {
@@ -340,7 +339,7 @@ TEST(VisionGolden, PeopleInFilms) {
 }
 
 TEST(VisionGolden, RoomsBehindWhatMoves) {
-  Dice dice(6);
+  testing::Dice dice(6);
   std::vector<ColourImage> pictures;
   for (int k = 0; k < 9; ++k) {
     ColourImage& picture = pictures.emplace_back(23, 17);
@@ -360,7 +359,7 @@ TEST(VisionGolden, RoomsBehindWhatMoves) {
 }
 
 TEST(VisionGolden, PiecesOfMasksOfEverySize) {
-  Dice dice(7);
+  testing::Dice dice(7);
   Fingerprint print;
   for (const auto& [width, height] : {std::pair(1, 1), {1, 9}, {9, 1}, {5, 4}, {16, 7}, {17, 13}, {40, 23}}) {
     for (const int share : {1, 3, 5, 7, 9, 10}) {
