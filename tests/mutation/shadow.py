@@ -188,7 +188,7 @@ class Shadow:
         wrong."""
         self.write()
         write_when_changed(self.work / "mutant.h", (HERE / "mutant.h").read_text())
-        flags = f"-O1 -DNDEBUG -include {self.work}/mutant.h -Werror=vla -fmax-errors=0"
+        flags = f"-O1 -DNDEBUG -D_GLIBCXX_ASSERTIONS -include {self.work}/mutant.h -Werror=vla -fmax-errors=0"
         options = ["-DETUDE_TESTS=ON", "-DETUDE_UNITY=ON", "-DCMAKE_BUILD_TYPE=Mutation",
                    f"-DCMAKE_CXX_FLAGS_MUTATION={flags}"]
         subprocess.run(["cmake", "-S", self.tree, "-B", self.build, "-G", "Ninja", *options],
