@@ -222,7 +222,7 @@ TEST(BoardsGolden, WordsOfBoards) {
     if (*board) print.Add((*board)->is_charuco).Add((*board)->columns).Add((*board)->rows).Add((*board)->square);
     if (!*board) print.Add(board->error().message);
   }
-  EXPECT_TRUE(print.Is(1536, 2021.17243032));
+  EXPECT_TRUE(print.Is(1742, 2746.4490482));
 }
 
 }  // namespace
