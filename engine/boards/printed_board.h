@@ -19,7 +19,7 @@ namespace etude {
 /// A board of OpenCV's: a chessboard, or a ChArUco board.
 struct PrintedBoard {
   bool is_charuco = false;
-  int columns = 0, rows = 0;  ///< squares, 3 to 64 a side
+  int columns = 0, rows = 0;  ///< squares a side, 4 to 64 of a chessboard, 3 to 64 of a ChArUco board
   double square = 0;          ///< metres
 };
 

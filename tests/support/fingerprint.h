@@ -15,7 +15,10 @@ namespace etude::testing {
 
 /// How many numbers a computation gave, and their sum under fixed weights in [−1, 1): golden values of a whole result
 /// in two numbers. It changes when any of the numbers does, or when one is added, left out, or stands elsewhere. It
-/// says that something changed, not what: it stands beside tests that say what is right.
+/// says that something changed, not what: it stands beside tests that say what is right. A failure prints the numbers
+/// to keep; who keeps others says in the commit which results changed and why. Counts and errors have a print apart
+/// from that of many or large numbers, a billionth of which would hide them. Input is drawn one number an expression:
+/// compilers differ in the order of arguments.
 class Fingerprint {
  public:
   template <typename T>
