@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/angles.h"
 #include "engine/base/base64.h"
 #include "engine/base/cyclic_lookup.h"
 #include "engine/base/digest.h"
