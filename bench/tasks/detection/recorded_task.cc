@@ -28,8 +28,8 @@ BodyPose HalfWay(const BodyPose& from, const BodyPose& to) {
   BodyPose half = to;
   half[Role::kHipCentre] = 0.5 * (from[Role::kHipCentre] + to[Role::kHipCentre]);
   for (const auto& [parent, child] : AllBones()) {
-    const auto way = [&](const BodyPose& pose) {
-      const glm::dvec3 limb = pose[child] - pose[parent];
+    const auto way = [end = child, start = parent](const BodyPose& pose) {
+      const glm::dvec3 limb = pose[end] - pose[start];
       const double length = glm::length(limb);
       return length > 0 ? limb / length : limb;
     };
@@ -83,7 +83,7 @@ double WarpedStrayDeg(const SkeletonStream& meant, const SkeletonStream& danced)
     now[0] = {};
     for (std::size_t j = 0; j < to.size(); ++j) {
       Way& way = now[j + 1];
-      way = std::ranges::min({before[j], before[j + 1], now[j]}, {}, &Way::cost);
+      way = std::min({before[j], before[j + 1], now[j]}, [](const Way& a, const Way& b) { return a.cost < b.cost; });
       ++way.steps;
       for (std::size_t i = 0; i < way.squares.size(); ++i) {
         const double degrees = Degrees(AngleBetween(pose.parts[i], to[j].parts[i]));
