@@ -146,8 +146,29 @@ class CiFiles(EtudeCase):
         junit = base["artifacts"]["reports"]["junit"].replace("$RUN", variables["RUN"])
         self.assertTrue((self.repository / junit).exists())
 
+    def test_a_release_gets_every_package(self):
+        (self.repository / "dist").mkdir()
+        for name in "etude_1_amd64.deb", "etude-1-py3-none-any.whl":
+            (self.repository / "dist" / name).write_text(name)
+        github = yaml.safe_load((CI / "release.yml").read_text())["jobs"]["packages"]
+        attach = next(step for step in github["steps"] if "env" in step)
+        result = self.bash(attach["run"], {"GITHUB_REF_NAME": "v1", "GITHUB_REPOSITORY": "ann/etude"})
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("release upload v1 dist/etude-1-py3-none-any.whl dist/etude_1_amd64.deb --repo ann/etude --clobber",
+                      (self.folder / "gh").read_text())
+        gitlab = yaml.safe_load((CI / "gitlab-ci.yml").read_text())[".etude-packages"]
+        result = self.bash(gitlab["script"][-1], {"CI_API_V4_URL": "https://host/api/v4", "CI_PROJECT_ID": "3", "CI_COMMIT_TAG": "v1",
+                                                  "CI_JOB_TOKEN": "secret"})
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("https://host/api/v4/projects/3/packages/generic/etude/v1/etude_1_amd64.deb", (self.folder / "curl").read_text())
+        # Both build by the one script, on every Debian that is named.
+        debians = [str(number) for number in github["strategy"]["matrix"]["debian"]]
+        self.assertEqual(debians, gitlab["parallel"]["matrix"][0]["DEBIAN"])
+        self.assertIn({"run": "ci/packages dist"}, github["steps"])
+        self.assertIn("ci/packages dist", gitlab["script"])
+
     def test_what_brings_etude_is_written_as_shells_and_builders_read_it(self):
-        for script in "gate", "install":
+        for script in "gate", "install", "packages":
             subprocess.run(["bash", "-n", CI / script], check=True)
         found = containerfile((CI / "Containerfile").read_text())
         self.assertEqual([name for name, _ in found], ["FROM", "COPY", "RUN", "RUN", "CMD"])
