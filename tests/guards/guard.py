@@ -17,6 +17,7 @@ sys.dont_write_bytecode = True  # the sources stay as they are
 from rooms import NEVER_INCLUDES, may_include
 
 LAYERS = ["engine", "sim", "bench", "reports", "cli"]
+NO_LAYERS = ["build", "cmake", "examples", "out", "python", "tests"]  # may hold C++ that no layer includes
 FOLDERS = LAYERS + ["tests", "docs", "scripts", "scenarios", "examples", "cmake", "ci"]  # where pages stand
 
 # Heavy libraries, by the start of their include, and the only folders that may know them.
@@ -196,6 +197,9 @@ def lies_in(path, folders):
 
 def check_imports(relative, path):
     layer = relative.parts[0]
+    if layer not in LAYERS:
+        yield 1, f"{layer}/ is no layer, so that no guard reads it; allowed: {', '.join(LAYERS)}, or without rules {', '.join(NO_LAYERS)}"
+        return
     for number, target in includes(path):
         other = target.split("/")[0]
         if other in LAYERS and LAYERS.index(other) > LAYERS.index(layer):
@@ -314,7 +318,10 @@ def main():
     rule = of_the_tree[sys.argv[1]](root) if sys.argv[1] in of_the_tree else RULES[sys.argv[1]]
     must_flag = sys.argv[3:] == ["--must-flag"]
     checked, flagged = 0, set()
-    for layer in FOLDERS if rule is check_pages else LAYERS:
+    folders = FOLDERS if rule is check_pages else LAYERS
+    if rule is check_imports:  # finds folders that nobody has listed
+        folders = sorted(path.name for path in root.iterdir() if path.is_dir() and path.name[0] != "." and path.name not in NO_LAYERS)
+    for layer in folders:
         for path in sorted((root / layer).rglob("*")):
             is_build_file = path.name == "CMakeLists.txt" and rule is check_determinism
             kinds = {".md"} if rule is check_pages else {".h", ".cc"}

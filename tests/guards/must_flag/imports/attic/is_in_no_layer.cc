@@ -1,0 +1,1 @@
+// Belongs to a top folder that no guard knows.
