@@ -126,6 +126,7 @@ OutsideOutcome<void> WatchedProgram::Start() {
     environment.push_back("PYTHONPATH=" + python.string());
   }
   const FencedCommand fenced = options_.fence.Around(view.command, view.shown, view.start);
+  environment.insert(environment.end(), fenced.environment.begin(), fenced.environment.end());
   auto started = ChildProcess::Start({.program = fenced.words.front(),
                                       .arguments = {fenced.words.begin() + 1, fenced.words.end()},
                                       .error_file = errors_.path(),

@@ -148,6 +148,13 @@ Result<Descriptor> MakeFile(const std::string& text) {
   return file;
 }
 
+/// Sets (NAME=VALUE) or removes (NAME) a variable of an environment.
+void Change(std::vector<std::string>& environment, const std::string& change) {
+  const std::string start = change.substr(0, change.find('=')) + "=";
+  std::erase_if(environment, [&](const std::string& text) { return text.starts_with(start); });
+  if (change.size() >= start.size()) environment.push_back(change);
+}
+
 /// Starts a program where the kernel grants it no space of its own.
 Result<ChildProcess> StartUncontained(ChildOptions options) {
   options.contained = false;
@@ -221,8 +228,8 @@ Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
   std::vector<std::string> argument_texts = {options.program};
   argument_texts.insert(argument_texts.end(), options.arguments.begin(), options.arguments.end());
   std::vector<std::string> environment_texts = ClosedEnvironment();
-  if (options.limited) std::erase_if(environment_texts, [](const auto& text) { return text.starts_with("PWD="); });
-  environment_texts.insert(environment_texts.end(), options.environment.begin(), options.environment.end());
+  if (options.limited) Change(environment_texts, "PWD");
+  for (const std::string& change : options.environment) Change(environment_texts, change);
   const std::vector<char*> argv = Pointers(argument_texts);
   const std::vector<char*> envp = Pointers(environment_texts);
   const Descriptor ourselves(static_cast<int>(::syscall(SYS_pidfd_open, ::getpid(), 0)));

@@ -33,8 +33,9 @@ struct ChildOptions {
   /// It is the first process of a space of its own, where the kernel grants one: with it, and it goes with us, end all
   /// that it has started, whatever they were at.
   bool contained = false;
-  std::vector<std::string> told = {};         ///< what it can read from its descriptors 3, 4, …
-  std::vector<std::string> environment = {};  ///< NAME=VALUE, beside the closed environment
+  std::vector<std::string> told = {};  ///< what it can read from its descriptors 3, 4, …
+  /// Changes to the closed environment: NAME=VALUE sets a variable, NAME removes one.
+  std::vector<std::string> environment = {};
 };
 
 /// Makes what a child leaves behind from now on a child of this process, which ends it with the child. For processes

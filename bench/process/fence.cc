@@ -17,8 +17,11 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <map>
 #include <set>
+#include <sstream>
+#include <string_view>
 
 #include "bench/process/child_process.h"
 #include "bench/process/machine.h"
@@ -95,6 +98,24 @@ void Add(std::vector<std::string>& words, std::initializer_list<std::string> mor
   words.insert(words.end(), more.begin(), more.end());
 }
 
+/// What a program inside is told beside the closed environment: of our folders and of the user nothing.
+std::vector<std::string> Environment(const std::vector<fs::path>& shown) {
+  std::string folders;
+  const char* variable = ::getenv("PATH");
+  std::istringstream words(variable != nullptr ? variable : "");
+  for (std::string folder; std::getline(words, folder, ':');) {
+    const bool is_seen = Fence::IsOfSystem(folder) ||
+                         std::ranges::any_of(shown, [&](const fs::path& one) { return IsWithin(folder, one); });
+    if (is_seen) folders += (folders.empty() ? "" : ":") + folder;
+  }
+  return {fmt::format("PATH={}", folders),
+          fmt::format("HOME={}", kScratch[0]),
+          fmt::format("TMPDIR={}", kScratch[0]),
+          "USER",
+          "LOGNAME",
+          "SHELL"};
+}
+
 /// Sets the one limit that must be set inside: the kernel counts a user's threads by namespace.
 std::vector<std::string> Limiter() {
   const auto prlimit = FindProgram("prlimit");
@@ -104,13 +125,52 @@ std::vector<std::string> Limiter() {
   return {*prlimit, fmt::format("--nproc={0}:{0}", threads), "--"};
 }
 
+/// Lists what users other than root could not read, where this process is root, and sockets and named pipes, which can
+/// be written to through a read-only mount: of the folders in which an administrator puts settings and programs, and of
+/// /proc. Walks them, which takes some 5 ms per 1000 files.
+std::vector<fs::path> KeptFromUsers() {
+  const bool is_root = ::geteuid() == 0;
+  std::vector<fs::path> kept;
+  for (const char* root : {"/etc", "/opt", "/usr/local", "/proc"}) {
+    const bool is_proc = root == std::string_view("/proc");
+    if (is_proc && !is_root) continue;
+    std::error_code error;
+    fs::recursive_directory_iterator at(root, fs::directory_options::skip_permission_denied, error), end;
+    for (; !error && at != end; at.increment(error)) {
+      const fs::path& path = at->path();
+      // A fence has processes and network settings of its own.
+      const std::string name = path.filename().string();
+      const bool is_process = name.find_first_not_of("0123456789") == std::string::npos || name.ends_with("self");
+      if (is_proc && ((at.depth() == 0 && is_process) || path == "/proc/sys/net")) {
+        at.disable_recursion_pending();
+        continue;
+      }
+      std::error_code gone;
+      const fs::file_status status = at->symlink_status(gone);
+      if (gone || fs::is_symlink(status)) continue;
+      const fs::perms needed =
+          fs::is_directory(status) ? fs::perms::others_read | fs::perms::others_exec : fs::perms::others_read;
+      const fs::perms permissions = status.permissions();
+      const bool is_secret =
+          is_root && (permissions & needed) != needed && (permissions & fs::perms::owner_read) != fs::perms::none;
+      if (!is_secret && !fs::is_socket(status) && !fs::is_fifo(status)) continue;
+      kept.push_back(path);
+      at.disable_recursion_pending();
+    }
+  }
+  return kept;
+}
+
 /// The first line that a fenced command says, a refusal of the fence among them; "" when it says none in time.
 std::string FirstLineOf(const Fence& fence, const std::vector<std::string>& command) {
   std::vector<std::string> words = {"-c", R"(exec "$0" "$@" 2>&1)"};
   FencedCommand fenced = fence.Around(command, {});
   words.insert(words.end(), fenced.words.begin(), fenced.words.end());
-  auto child = ChildProcess::Start(
-      {.program = "sh", .arguments = std::move(words), .contained = true, .told = std::move(fenced.told)});
+  auto child = ChildProcess::Start({.program = "sh",
+                                    .arguments = std::move(words),
+                                    .contained = true,
+                                    .told = std::move(fenced.told),
+                                    .environment = std::move(fenced.environment)});
   if (!child) return ToString(child.error());
   pollfd watched{child->output(), POLLIN, 0};
   for (bool open = true; open && ::poll(&watched, 1, kTrialMs) > 0;) {
@@ -122,9 +182,10 @@ std::string FirstLineOf(const Fence& fence, const std::vector<std::string>& comm
 
 }  // namespace
 
-Fence Fence::Of(const std::string& program) {
+Fence Fence::Of(const std::string& program, std::vector<fs::path> kept) {
   Fence fence;
   fence.program_ = program;
+  fence.kept_ = std::move(kept);
   return fence;
 }
 
@@ -139,6 +200,7 @@ Fence Fence::Find() {
   // It tells its version from within the whole fence.
   const std::string said = FirstLineOf(fence, {*program, "--version"});
   fence.description_ = said;
+  fence.kept_ = KeptFromUsers();
   if (said.starts_with("bubblewrap ")) return fence;
   none.description_ = fmt::format("none ({})", said.empty() ? "bubblewrap says nothing" : said);
   return none;
@@ -180,11 +242,17 @@ FencedCommand Fence::Around(const std::vector<std::string>& command, const std::
   if (!IsUp()) return {command};
   std::vector<std::string> words = {"--unshare-user", "--unshare-pid", "--unshare-ipc", "--unshare-net"};
   Add(words, {"--unshare-uts", "--unshare-cgroup-try", "--disable-userns", "--cap-drop", "ALL"});
-  Add(words, {"--new-session", "--die-with-parent", "--dev", "/dev", "--proc", "/proc"});
+  Add(words, {"--new-session", "--die-with-parent", "--proc", "/proc", "--tmpfs", "/dev"});
+  // Not bubblewrap's --dev, which has terminals (/dev/pts): their number is one pool of the machine.
+  for (const char* device : {"/dev/null", "/dev/zero", "/dev/full", "/dev/random", "/dev/urandom", "/dev/tty"}) {
+    Add(words, {"--dev-bind-try", device, device});
+  }
+  Add(words, {"--symlink", "/proc/self/fd", "/dev/fd", "--symlink", "/proc/self/fd/0", "/dev/stdin"});
+  Add(words, {"--symlink", "/proc/self/fd/1", "/dev/stdout", "--symlink", "/proc/self/fd/2", "/dev/stderr"});
   Add(words, {"--ro-bind-try", "/sys/devices/system", "/sys/devices/system"});
   const std::string scratch_bytes = std::to_string(ProgramLimits::kFileBytes);
   for (const char* folder : kScratch) Add(words, {"--size", scratch_bytes, "--tmpfs", folder});
-  Add(words, {"--dir", "/run", "--setenv", "TMPDIR", kScratch[0], "--setenv", "HOME", kScratch[0]});
+  Add(words, {"--dir", "/run"});
   std::error_code error;
   for (const char* folder : kSystem) {
     const bool is_link = fs::is_symlink(folder, error);
@@ -195,11 +263,15 @@ FencedCommand Fence::Around(const std::vector<std::string>& command, const std::
   // tell its name.
   std::map<fs::path, bool> is_shown;
   for (const fs::path& path : shown) is_shown.emplace(path, true);
+  const auto is_within_shown = [&](const fs::path& path) {
+    return std::ranges::any_of(shown, [&](const fs::path& one) { return IsWithin(path, one); });
+  };
   for (const fs::path& path : hidden_) {
-    const bool is_seen = IsOfSystem(path) || std::ranges::any_of(shown, [&](const fs::path& one) {
-                           return IsWithin(path, one) && !HoldsScratch(path);
-                         });
+    const bool is_seen = IsOfSystem(path) || (is_within_shown(path) && !HoldsScratch(path));
     if (is_seen && fs::exists(path, error)) is_shown.insert_or_assign(path, false);
+  }
+  for (const fs::path& path : kept_) {
+    if (!is_within_shown(path) && fs::exists(path, error)) is_shown.emplace(path, false);
   }
   std::vector<std::string> masks;
   for (const auto& [path, is_seen] : is_shown) {
@@ -213,10 +285,11 @@ FencedCommand Fence::Around(const std::vector<std::string>& command, const std::
     }
   }
   words.insert(words.end(), masks.begin(), masks.end());
-  Add(words, {"--remount-ro", "/dev", "--remount-ro", "/", "--chdir", start.empty() ? kScratch[0] : start.string()});
+  for (const char* folder : {"/dev", "/proc", "/"}) Add(words, {"--remount-ro", folder});
+  Add(words, {"--chdir", start.empty() ? kScratch[0] : start.string()});
   std::string filter = SystemCallFilter();
   if (!filter.empty()) Add(words, {"--seccomp", "4"});
-  FencedCommand fenced{{program_, "--args", "3", "--"}, {""}};
+  FencedCommand fenced{{program_, "--args", "3", "--"}, {""}, Environment(shown)};
   for (const std::string& word : words) fenced.told[0] += word + '\0';
   if (!filter.empty()) fenced.told.push_back(std::move(filter));
   const std::vector<std::string> limiter = Limiter();

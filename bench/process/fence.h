@@ -13,8 +13,9 @@ namespace etude {
 /// The words that run a program behind a fence, and what bubblewrap is told besides: what programs inside could read in
 /// its command line must not name our folders.
 struct FencedCommand {
-  std::vector<std::string> words;      ///< a path and arguments
-  std::vector<std::string> told = {};  ///< what descriptors 3 and 4 give (ChildOptions::told)
+  std::vector<std::string> words;             ///< a path and arguments
+  std::vector<std::string> told = {};         ///< what descriptors 3 and 4 give (ChildOptions::told)
+  std::vector<std::string> environment = {};  ///< ChildOptions::environment, of bubblewrap and what is inside
 };
 
 /// A fence around programs that are not ours, made by bubblewrap where the kernel lets it: user, process, mount, ipc
@@ -26,8 +27,8 @@ class Fence {
   Fence() = default;
   /// The fence that this machine allows, tried once; else none, and `description` says why.
   static Fence Find();
-  /// The fence that another process has found: its `program`.
-  static Fence Of(const std::string& program);
+  /// The fence that another process has found: its `program`, and what it has `kept`.
+  static Fence Of(const std::string& program, std::vector<std::filesystem::path> kept = {});
   /// Tells whether every program sees a path, as part of the system.
   static bool IsOfSystem(const std::filesystem::path& path);
   /// Tells whether a folder holds one that programs have to write to, so that it cannot be shown as it is.
@@ -42,6 +43,8 @@ class Fence {
   /// Has programs inside see a folder empty, and a file not at all, even where the system or what is shown holds it.
   void Hide(const std::filesystem::path& path) { hidden_.push_back(path); }
   const std::vector<std::filesystem::path>& hidden() const { return hidden_; }
+  /// What of the system is not shown unless a program is granted it: what only root can read, where root asks.
+  const std::vector<std::filesystem::path>& kept() const { return kept_; }
 
   /// Memory in the scratch folders that a process inside sees.
   double ScratchMb(pid_t inside) const;
@@ -57,7 +60,7 @@ class Fence {
  private:
   std::string program_;
   std::string description_ = "none (not asked for)";
-  std::vector<std::filesystem::path> hidden_;
+  std::vector<std::filesystem::path> hidden_, kept_;
 };
 
 }  // namespace etude

@@ -80,6 +80,12 @@ Result<void> CheckFiles(const PreparedScenario& scenario, const ScenarioProgram&
   return {};
 }
 
+Json Texts(const std::vector<fs::path>& paths) {
+  Json texts = Json::array();
+  for (const fs::path& path : paths) texts.push_back(path.string());
+  return texts;
+}
+
 }  // namespace
 
 Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const OutsideRules& rules, const fs::path& folder,
@@ -119,14 +125,16 @@ Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const Outsid
 }
 
 Json EncodeFence(const Fence& fence) {
-  Json hidden = Json::array();
-  for (const fs::path& folder : fence.hidden()) hidden.push_back(folder.string());
-  return {{"program", fence.program()}, {"hidden", std::move(hidden)}};
+  return {{"program", fence.program()}, {"hidden", Texts(fence.hidden())}, {"kept", Texts(fence.kept())}};
 }
 
 Fence DecodeFence(const Json& json) {
-  Fence fence = Fence::Of(json.at("program").get<std::string>());
-  for (const Json& folder : json.at("hidden")) fence.Hide(folder.get<std::string>());
+  const auto paths = [&](const char* key) {
+    const auto texts = json.at(key).get<std::vector<std::string>>();
+    return std::vector<fs::path>(texts.begin(), texts.end());
+  };
+  Fence fence = Fence::Of(json.at("program").get<std::string>(), paths("kept"));
+  for (const fs::path& path : paths("hidden")) fence.Hide(path);
   return fence;
 }
 

@@ -8,15 +8,18 @@ import ctypes
 import json
 import os
 import pathlib
+import re
 import resource
 import signal
 import socket
+import stat
 import subprocess
 import sys
 import threading
 import time
 
 SPECIMEN, DEN = sys.argv[1], pathlib.Path(sys.argv[2])
+HARMLESS_DEVICES = {os.makedev(1, minor) for minor in (3, 5, 7, 8, 9)} | {os.makedev(5, 0)}  # null, zero, full, random, urandom, tty
 LIFE_S = 20  # of whatever is left behind, unless somebody ends it
 VICTIM = json.loads((DEN / "victim.json").read_text()) if (DEN / "victim.json").exists() else {}
 
@@ -434,6 +437,68 @@ def reads_others_temporary_files(problem):
         pass
 
 
+def opens_all_for_writing(problem):
+    """Tries every path that it sees, and to make a file in every folder. Nothing is written, and no device opened: what there is of
+    those is told by the rights to them. Without a fence it looks only where that does no harm."""
+    allowed = re.compile(r"/(tmp|var/tmp|dev/shm)(/.*)?"
+                         r"|/proc/[0-9]+/(task/[0-9]+/)?fd/[0-9]+")  # of its own processes: there are no others
+    found = []
+    for root in "/" if is_fenced() else ("/proc/sys", str(DEN), VICTIM["home"]):
+        for folder, _, names in os.walk(root):
+            for path in [folder, *(os.path.join(folder, name) for name in names)]:
+                if not allowed.fullmatch(path) and is_writable(path):
+                    found.append(path)
+    for path in found[:10]:
+        victimise(f"could write {path}")
+    if len(found) > 10:
+        victimise(f"could write {len(found) - 10} more")
+
+
+def is_writable(path):
+    if os.path.islink(path):
+        return False  # what it leads to has a path of its own
+    try:
+        status = os.stat(path)
+        if stat.S_ISDIR(status.st_mode):
+            path = os.path.join(path, "zoo-made")
+            os.close(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL))
+            os.unlink(path)
+            return True
+        if stat.S_ISCHR(status.st_mode) and status.st_rdev in HARMLESS_DEVICES:
+            return False
+        if not stat.S_ISREG(status.st_mode):
+            return os.access(path, os.W_OK)
+        os.close(os.open(path, os.O_WRONLY | os.O_NONBLOCK))
+        return True
+    except OSError:
+        return False
+
+
+def reads_secrets_of_the_machine(problem):
+    """What root may read, and nobody else."""
+    for path in ("/etc/shadow", "/etc/gshadow", "/proc/slabinfo", "/proc/sys/kernel/usermodehelper/bset"):
+        try:
+            with open(path, "rb") as file:
+                if file.read(1):
+                    victimise(f"read {path}")
+        except OSError:
+            pass
+
+
+def reads_who_runs_it(problem):
+    """The user's name and home, and the folder that Etude was started in, in any environment."""
+    own = {b"HOME=/tmp", b"PWD=" + os.getcwdb()}
+    for process in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            words = pathlib.Path(f"/proc/{process}/environ").read_bytes().split(b"\0")
+        except OSError:
+            continue
+        for word in words:
+            if word.startswith((b"USER=", b"LOGNAME=", b"PWD=", b"HOME=")) and word not in own:
+                victimise(f"read {word.decode()}")
+                return
+
+
 def fills_the_disk(problem):
     for folder in ("/tmp", "/var/tmp", "/dev/shm", str(DEN / "marks")):
         try:
@@ -681,7 +746,7 @@ def seeks_its_standard_error(problem):
 AT_THE_END = {"forks_twice_when_input_ends", "forks_thrice_when_input_ends", "forks_late_when_input_ends",
               "stops_itself_when_input_ends", "never_ends", "never_ends_in_a_thread"}
 HELPERS = {"say", "answer", "is_fenced", "live_on", "harm", "victimise", "daemon", "try_to_write",
-           "main"}
+           "is_writable", "main"}
 
 
 def specimens():

@@ -8,6 +8,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <string>
+#include <vector>
 
 #include "bench/process/child_process.h"
 #include "bench/process/machine.h"
@@ -27,14 +30,14 @@ Result<ChildProcess> Start(const FencedCommand& command) {
                               .arguments = {command.words.begin() + 1, command.words.end()},
                               .limited = true,
                               .contained = !command.told.empty(),
-                              .told = command.told});
+                              .told = command.told,
+                              .environment = command.environment});
 }
 
 /// All that a script says in the fence.
 std::string Say(const Fence& fence, const std::string& script, const std::vector<fs::path>& shown = {},
                 const fs::path& start = {}) {
-  const FencedCommand command = fence.Around({"/bin/sh", "-c", script + " 2>&1"}, shown, start);
-  auto child = Start(command);
+  auto child = Start(fence.Around({"/bin/sh", "-c", script + " 2>&1"}, shown, start));
   std::string said;
   for (bool open = true; open;) {
     pollfd watched{child->output(), POLLIN, 0};
@@ -88,6 +91,40 @@ TEST_F(FenceTest, NamesNothingOfOurs) {
   EXPECT_THAT(said, ::testing::Not(::testing::HasSubstr(here + "/")));
   EXPECT_THAT(said, ::testing::Not(::testing::HasSubstr("PWD=" + here)));
   EXPECT_EQ(Say(TheFence(), "ls /proc/self/fd | grep -v '^[0-2]$' | wc -l"), "1\n") << "ls's own alone";
+}
+
+TEST_F(FenceTest, TellsNothingOfTheUserInAnyEnvironment) {
+  std::map<const char*, std::string> before;
+  for (const char* name : {"PATH", "HOME", "USER", "LOGNAME", "SHELL"}) {
+    const char* value = ::getenv(name);
+    before[name] = value != nullptr ? value : "";
+    ::setenv(name, "/home/me", 1);
+  }
+  ::setenv("PATH", ("/home/me/bin:" + folder_ + ":/usr/bin:/bin").c_str(), 1);
+  const std::string look =
+      "cat /proc/[0-9]*/environ 2>/dev/null | tr '\\0' '\\n' | grep -E 'home/me|^(HOME|PATH)=' | sort -u";
+  const std::string fenced = Say(TheFence(), look), shown = Say(TheFence(), look, {folder_}), open = Say(Fence(), look);
+  for (const auto& [name, value] : before) ::setenv(name, value.c_str(), 1);
+  EXPECT_EQ(fenced, "HOME=/tmp\nPATH=/usr/bin:/bin\n");
+  EXPECT_EQ(shown, "HOME=/tmp\nPATH=" + folder_ + ":/usr/bin:/bin\n");
+  EXPECT_THAT(open, ::testing::HasSubstr("USER=/home/me\n")) << "the control";
+}
+
+// What root may do to the machine's settings, and read of its secrets, is nothing of a method's, even where root runs
+// it.
+TEST_F(FenceTest, MachineIsReadOnlyAndSecretsAreNotShownToRootEither) {
+  const std::string mounts = "awk '$6 ~ /^rw/ {print $5}' /proc/self/mountinfo | sort | tr '\\n' ' '; echo";
+  EXPECT_EQ(Say(TheFence(), mounts, {folder_}),
+            "/dev/full /dev/null /dev/random /dev/shm /dev/tty /dev/urandom /dev/zero /tmp /var/tmp \n");
+  const std::string count =
+      "find /proc/sys /proc/sysrq-trigger /proc/irq -writable -exec test -f {} ';' -print | wc -l";
+  EXPECT_EQ(Say(TheFence(), count), "0\n");
+  const std::string secrets = "cat /etc/shadow /proc/slabinfo /proc/sys/kernel/usermodehelper/bset 2>/dev/null | wc -c";
+  EXPECT_EQ(Say(TheFence(), secrets), "0\n");
+  if (::geteuid() != 0) GTEST_SKIP() << "the controls, which only root can change and read";
+  EXPECT_NE(Say(Fence(), count), "0\n");
+  EXPECT_NE(Say(Fence(), secrets), "0\n");
+  EXPECT_NE(Say(TheFence(), secrets, {"/etc/shadow"}), "0\n") << "it is granted";
 }
 
 TEST_F(FenceTest, HoldsNoProcessButItsOwn) {
