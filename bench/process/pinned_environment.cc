@@ -1,6 +1,7 @@
 #include "bench/process/pinned_environment.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <link.h>
 #include <unistd.h>
 
