@@ -79,10 +79,10 @@ std::string DigestOf(const std::vector<std::string>& texts) {
 /// part of our own build, which a journal's head names. What only draws pages, reads fonts or trains is not here, so
 /// that its updates change no run's identity.
 constexpr std::array kDecisiveLibraries = {
-    "libc.",      "libm.",      "libstdc++.",  "libOSMesa.",   "libglapi.",   "libLLVM",      "libblas.",
-    "liblapack.", "libatlas",   "libopenblas", "libgfortran.", "libcholmod.", "libcxsparse.", "libamd.",
-    "libcamd.",   "libcolamd.", "libccolamd.", "libmetis.",    "libhwy.",     "libjpeg.",     "libpng",
-    "libz.",      "libzip.",    "libOpenEXR",  "libImath",     "libIex",      "libtinygltf.", "libstb."};
+    "libc.",   "libm.",    "libstdc++.", "libOSMesa.",  "libEGL_mesa.", "libgallium",   "swrast_dri.", "libglapi.",
+    "libLLVM", "libblas.", "liblapack.", "libatlas",    "libopenblas",  "libgfortran.", "libcholmod.", "libcxsparse.",
+    "libamd.", "libcamd.", "libcolamd.", "libccolamd.", "libmetis.",    "libhwy.",      "libjpeg.",    "libpng",
+    "libz.",   "libzip.",  "libOpenEXR", "libImath",    "libIex",       "libtinygltf.", "libstb."};
 
 /// The builds of the decisive libraries, by name: the first half of their build IDs.
 Json DescribeLibraries() {

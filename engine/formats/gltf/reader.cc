@@ -218,12 +218,6 @@ bool ReadWholeFile(std::vector<unsigned char>* out, std::string*, const std::str
 
 bool WriteWholeFile(std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }
 
-/// Has nothing against any size: ReadWholeFile counts the bytes of all files together.
-bool GetFileSize(std::size_t* size, std::string*, const std::string&, void*) {
-  *size = 0;
-  return true;
-}
-
 /// Makes `parser` read files through `fetcher` alone. Templates, because tinygltf's versions differ: since 2.9 it also
 /// asks for a file's size, and where one callback is missing it keeps its own, which read any file, and says so.
 template <typename Callbacks, typename Parser>
@@ -233,7 +227,13 @@ Result<void> ReadOnlyThrough(Fetcher& fetcher, Parser& parser) {
   callbacks.ExpandFilePath = ExpandFilePath;
   callbacks.ReadWholeFile = ReadWholeFile;
   callbacks.WriteWholeFile = WriteWholeFile;
-  if constexpr (requires { callbacks.GetFileSizeInBytes; }) callbacks.GetFileSizeInBytes = GetFileSize;
+  if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
+    // Nothing is said against any size: ReadWholeFile counts the bytes of all files together.
+    callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string&, void*) {
+      *size = 0;
+      return true;
+    };
+  }
   callbacks.user_data = &fetcher;
   if constexpr (std::is_void_v<decltype(parser.SetFsCallbacks(callbacks))>) {
     parser.SetFsCallbacks(callbacks);
