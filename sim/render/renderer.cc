@@ -296,11 +296,14 @@ Result<void> LoadRenderer() {
 }
 
 std::string RendererVersion() {
-  const auto context = GlContext::Create();
-  if (!context) return context.error().message;
-  const auto* version = (*context)->functions().GetString(GL_VERSION);
-  if (version == nullptr) return "unknown version";
-  return fmt::format("{}, by {}", reinterpret_cast<const char*>(version), (*context)->library());
+  static const std::string version = [] {
+    const auto context = GlContext::Create();
+    if (!context) return context.error().message;
+    const auto* of_gl = (*context)->functions().GetString(GL_VERSION);
+    if (of_gl == nullptr) return std::string("unknown version");
+    return fmt::format("{}, by {}", reinterpret_cast<const char*>(of_gl), (*context)->library());
+  }();
+  return version;
 }
 
 View Renderer::Render(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets) {
