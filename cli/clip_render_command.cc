@@ -81,7 +81,7 @@ Result<std::vector<ClipActor>> Cast(const ClipRenderOptions& options) {
 Result<void> WriteSheet(const ClipRenderOptions& options) {
   ASSIGN_OR_RETURN(const auto size, ReadSize(options.size, {200, 260}));
   ASSIGN_OR_RETURN(auto actors, Cast(options));
-  ASSIGN_OR_RETURN(auto renderer, Renderer::Create());
+  ASSIGN_OR_RETURN(auto* const renderer, SharedRenderer());
   const bool alone = actors.size() == 1;
   const int frames = options.frames > 0 ? options.frames : alone ? 12 : 8;
   const int columns = options.columns > 0 ? options.columns : alone ? 6 : frames;
@@ -98,7 +98,7 @@ Result<bool> WriteFilm(const ClipRenderOptions& options) {
   if (actors.size() > 1) {
     return Fail({}, "a film shows one clip, these are {}; a contact sheet (.png) shows all", actors.size());
   }
-  ASSIGN_OR_RETURN(auto renderer, Renderer::Create());
+  ASSIGN_OR_RETURN(auto* const renderer, SharedRenderer());
   const Interrupt interrupt;
   const FilmOptions film{ViewNamed(options.view), size.width, size.height, WatchFilms(interrupt, options.jobs)};
   return UnlessInterrupted(FilmClip(std::move(actors.front()), film, options.output, *renderer), interrupt);

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -7,6 +8,7 @@
 
 #include "bench/finished_runs/finished_runs.h"
 #include "bench/gate/comparison.h"
+#include "bench/gate/systems.h"
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "cli/move_table.h"
@@ -40,9 +42,11 @@ Result<int> CompareCommand(const std::string& a, const std::string& b, Sealing s
   Snapshot before = TakeSnapshot(run_a), after = TakeSnapshot(run_b);
   const std::vector<std::string> incomparable = DropIncomparable(before, after);
   const SnapshotComparison comparison = CompareSnapshots(before, after, {});
+  const std::vector<std::string> systems = CompareSystems(run_a.data.system, run_b.data.system, before, after);
   if (as_json) {
     Json facts = FactsOf(comparison);
     facts["incomparable"] = incomparable;
+    facts["systems"] = systems;
     RETURN_IF_ERROR(PrintFacts("compare", std::move(facts)));
     return kSuccess;
   }
@@ -52,6 +56,7 @@ Result<int> CompareCommand(const std::string& a, const std::string& b, Sealing s
   PrintList("Not comparable, for the worlds are not the same:", incomparable);
   PrintList("Methods with other settings:", comparison.settings_changed);
   fmt::print("{}\n", CompareSentence(comparison));
+  for (const std::string& line : systems) fmt::print("{}\n", line);
   if (!run_b.data.fence.empty() || !run_b.data.key_digest.empty()) {
     fmt::print("B: {}.\n", DescribeWorlds(run_b.data));
   }

@@ -111,7 +111,7 @@ class FollowedCrowd {
 Result<bool> FilmCrowd(const CrowdCommandOptions& options, FollowedCrowd& followed, const FilmWatch& watch) {
   using Character = CrowdStage::Character;
   static_assert(std::is_trivially_copyable_v<Character>, "characters go to those who draw as they lie in memory");
-  ASSIGN_OR_RETURN(const auto renderer, Renderer::Create());
+  ASSIGN_OR_RETURN(auto* const renderer, SharedRenderer());
   CrowdStage stage(options.crowd.characters, kWidth, kHeight, *renderer);
   const double rate_hz = options.crowd.rate_hz;
   const int every = std::max(1, static_cast<int>(std::ceil(rate_hz / kFilmRateHz)));

@@ -24,6 +24,7 @@
 #include "engine/base/names.h"
 #include "engine/base/utf8.h"
 #include "reports/words/escape.h"
+#include "sim/render/renderer.h"
 
 namespace etude {
 namespace {
@@ -153,6 +154,7 @@ int Main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return ComplainOfArguments(app, error);
   }
+  if (auto choice = CheckRendererChoice(); !choice) return Complain(choice.error());
   if (!RunsUnpinned(app)) {
     if (auto pinned = EnterPinnedEnvironment(); !pinned) return Complain(pinned.error());
   }

@@ -102,9 +102,14 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libetude)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libetude-dev)
 # What is linked is found out; what is opened, started or read by name is told. The clips are those of the quick suite.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libosmesa6, ffmpeg, fonts-dejavu-core, bubblewrap, assimp-testmodels")
+if(OSMESA_FOUND)
+  set(draws libosmesa6)
+else()
+  set(draws "libegl1, libegl-mesa0, libgl1-mesa-dri")
+endif()
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "${draws}, ffmpeg, fonts-dejavu-core, bubblewrap, assimp-testmodels")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS python3)
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS libosmesa6)  # which pictures are drawn with
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "${draws}")  # which pictures are drawn with
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libetude (= ${PROJECT_VERSION}), libglm-dev")

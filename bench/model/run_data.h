@@ -38,6 +38,15 @@ struct CellRecording {
   Recording recording;
 };
 
+/// What a result may depend on beside this program, as a run's manifest tells.
+struct RunSystem {
+  std::string compiler;  ///< "12.2.0"
+  std::string glibc;     ///< "2.36"
+  std::string ceres;     ///< "2.1.0"
+  std::string renderer;  ///< "4.5 (Core Profile) Mesa 22.3.6, by OSMesa"; "" where nothing was drawn
+  friend bool operator==(const RunSystem&, const RunSystem&) = default;
+};
+
 /// A whole result folder in memory; of a run of many cells some of its worlds, and a way to all others.
 struct RunData {
   std::string suite;
@@ -47,6 +56,7 @@ struct RunData {
   std::string program_version;
   std::string command_line;  ///< from host.json
   std::string host;          ///< one line about the machine
+  RunSystem system;
   double wall_seconds = 0;
   std::vector<Row> rows;  ///< canonical order: scenario, condition, trial, method
   /// All rows, when there are too many to be held; `rows`, `series` and `cpu_seconds` are then those of whole worlds at

@@ -1,6 +1,7 @@
 #include "bench/process/pinned_environment.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <link.h>
 #include <unistd.h>
 
@@ -86,23 +87,10 @@ const std::vector<std::string>& PinnedEnvironment() {
 }
 
 const std::vector<std::string>& PassedVariables() {
-  static const std::vector<std::string> names = {"PATH",
-                                                 "HOME",
-                                                 "USER",
-                                                 "LOGNAME",
-                                                 "SHELL",
-                                                 "PWD",
-                                                 "TMPDIR",
-                                                 "TERM",
-                                                 "COLUMNS",
-                                                 "LINES",
-                                                 "NO_COLOR",
-                                                 "ASAN_OPTIONS",
-                                                 "LSAN_OPTIONS",
-                                                 "UBSAN_OPTIONS",
-                                                 "TSAN_OPTIONS",
-                                                 "GCOV_PREFIX",
-                                                 "GCOV_PREFIX_STRIP"};
+  static const std::vector<std::string> names = {
+      "PATH",         "HOME",         "USER",          "LOGNAME",      "SHELL",       "PWD",
+      "TMPDIR",       "TERM",         "COLUMNS",       "LINES",        "NO_COLOR",    "ETUDE_GL",
+      "ASAN_OPTIONS", "LSAN_OPTIONS", "UBSAN_OPTIONS", "TSAN_OPTIONS", "GCOV_PREFIX", "GCOV_PREFIX_STRIP"};
   return names;
 }
 

@@ -15,8 +15,9 @@ const std::vector<std::string>& PinnedEnvironment();
 /// The variable that may hold the key of secret worlds (bench/run/secret_key.h). No child is given it.
 inline constexpr const char* kKeyVariable = "ETUDE_SEED_KEY";
 
-/// The names of what may come from outside: where programs, homes and temporary files are, who asks, the terminal, and
-/// what sanitizers are told. Nothing of these reaches a result.
+/// The names of what may come from outside: where programs, homes and temporary files are, who asks, the terminal, how
+/// GL is reached, and what sanitizers are told. Nothing of these reaches a result, but for GL's, which the manifest
+/// tells.
 const std::vector<std::string>& PassedVariables();
 
 /// The whole environment of everything that computes, methods outside included: the pinned settings, and of ours what

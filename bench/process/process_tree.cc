@@ -81,8 +81,9 @@ ProcessUsage MeasureProcess(pid_t process) {
   if (read != 3) return {};
   static const double seconds_per_tick = 1.0 / static_cast<double>(::sysconf(_SC_CLK_TCK));
   static const double mb_per_page = static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1024 * 1024);
+  const double own_cpu_s = OwnCpuSeconds(process);
   return {static_cast<double>(resident_pages) * mb_per_page,
-          OwnCpuSeconds(process) + static_cast<double>(user_waited_for + system_waited_for) * seconds_per_tick, 1};
+          own_cpu_s + static_cast<double>(user_waited_for + system_waited_for) * seconds_per_tick, 1, own_cpu_s};
 }
 
 std::vector<pid_t> ChildrenOf(pid_t parent) {
@@ -104,6 +105,7 @@ ProcessUsage MeasureTree(pid_t root) {
     sum.resident_mb += usage.resident_mb;
     sum.cpu_s += usage.cpu_s;
     sum.processes += usage.processes;
+    sum.own_cpu_s += usage.own_cpu_s;
   }
   return sum;
 }

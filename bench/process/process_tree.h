@@ -33,6 +33,7 @@ struct ProcessUsage {
   double resident_mb = 0;  ///< pages that several of them share count for each
   double cpu_s = 0;        ///< with what was used by those that they have waited for
   std::size_t processes = 0;
+  double own_cpu_s = 0;  ///< without those waited for
 };
 
 /// `root` and all its living descendants, parents first. Processes come and go while this looks: it is

@@ -83,6 +83,17 @@ Result<void> LoadTimes(const fs::path& folder, RunData& run) {
   });
 }
 
+RunSystem SystemOf(const Json& manifest) {
+  RunSystem system{manifest.value("compiler", ""), manifest.value("glibc", ""), manifest.value("packages", ""), ""};
+  const std::size_t ceres = system.ceres.find("Ceres ");
+  system.ceres =
+      ceres == std::string::npos ? "" : system.ceres.substr(ceres + 6, system.ceres.find(',', ceres) - ceres - 6);
+  for (const Json& scenario : manifest.value("scenarios", Json::array())) {
+    if (system.renderer.empty()) system.renderer = scenario.value("platform", "");
+  }
+  return system;
+}
+
 Result<void> LoadManifest(const fs::path& folder, RunData& run) {
   ASSIGN_OR_RETURN(const auto manifest, ReadJsonFile(folder / "manifest.json"));
   ASSIGN_OR_RETURN(const auto host, ReadJsonFile(folder / "host.json"));
@@ -98,6 +109,7 @@ Result<void> LoadManifest(const fs::path& folder, RunData& run) {
     run.seed = keyed.Public();
     run.key_digest = keyed.Digest();
     run.program_version = manifest.at("etude").get<std::string>();
+    run.system = SystemOf(manifest);
     place.file = (folder / "host.json").string();
     run.fence = host.value("fence", "");
     for (const Json& shard : host.value("shards", Json::array())) {

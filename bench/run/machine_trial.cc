@@ -39,7 +39,7 @@ Result<void> TryRendererInACopy() {
   }
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
   if (WIFEXITED(status) && WEXITSTATUS(status) == kNotLoaded) RETURN_IF_ERROR(LoadRenderer());
-  return Fail({}, "nothing can be drawn: OSMesa gets no memory, or gives no context");
+  return Fail({}, "nothing can be drawn: Mesa gets no memory, or gives no context");
 }
 
 /// A fence that is there, and merely has no process or memory left today, is no reason to run programs without it.

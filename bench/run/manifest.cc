@@ -75,14 +75,15 @@ std::string DigestOf(const std::vector<std::string>& texts) {
 }
 
 /// The libraries whose code a result passes through, by the beginnings of their files' names: C and C++, the renderer
-/// and its compiler, linear algebra and orderings below Ceres, codecs of pictures. Ceres, Eigen, GLM and Random123 are
-/// part of our own build, which a journal's head names. What only draws pages, reads fonts or trains is not here, so
-/// that its updates change no run's identity.
+/// and its compiler, Ceres with linear algebra and orderings below it, codecs of pictures. Eigen, GLM, Random123, and
+/// on Debian 12 Ceres are part of our own build, which a journal's head names. What only draws pages, reads fonts or
+/// trains is not here, so that its updates change no run's identity.
 constexpr std::array kDecisiveLibraries = {
-    "libc.",      "libm.",      "libstdc++.",  "libOSMesa.",   "libglapi.",   "libLLVM",      "libblas.",
-    "liblapack.", "libatlas",   "libopenblas", "libgfortran.", "libcholmod.", "libcxsparse.", "libamd.",
-    "libcamd.",   "libcolamd.", "libccolamd.", "libmetis.",    "libhwy.",     "libjpeg.",     "libpng",
-    "libz.",      "libzip.",    "libOpenEXR",  "libImath",     "libIex",      "libtinygltf.", "libstb."};
+    "libc.",        "libm.",       "libstdc++.",   "libOSMesa.", "libEGL_mesa.", "libgallium", "swrast_dri.",
+    "libglapi.",    "libLLVM",     "libblas.",     "libceres.",  "liblapack.",   "libatlas",   "libopenblas",
+    "libgfortran.", "libcholmod.", "libcxsparse.", "libamd.",    "libcamd.",     "libcolamd.", "libccolamd.",
+    "libmetis.",    "libhwy.",     "libjpeg.",     "libpng",     "libz.",        "libzip.",    "libOpenEXR",
+    "libImath",     "libIex",      "libtinygltf.", "libstb."};
 
 /// The builds of the decisive libraries, by name: the first half of their build IDs.
 Json DescribeLibraries() {

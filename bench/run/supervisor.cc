@@ -29,8 +29,9 @@ constexpr double kLongWorldS = 1;          // to wait for such a world at the en
 constexpr int kGatherMicroseconds = 2000;  // where workers have work ahead, their answers are taken together
 constexpr int kMostDeathsInSetup = 3;      // one may be chance (out of memory, a stray kill); a row of them is not
 constexpr double kLongestSetupS = 600;     // clips are read in it
-constexpr double kGraceS = 10;             // a method outside is ended by the worker, which then still has to tell
-constexpr int kShutdownGraceMs = 3000;     // in which a worker lets its methods outside come to their end
+constexpr double kClockPerLimit = 20;   // what a worker needs a second of processor time for may take so many seconds
+constexpr double kGraceS = 10;          // a method outside is ended by the worker, which then still has to tell
+constexpr int kShutdownGraceMs = 3000;  // in which a worker lets its methods outside come to their end
 
 Clock::time_point After(double seconds) {
   constexpr double kLongest = 1e9;  // beyond any run, within what the clock can hold
@@ -43,13 +44,15 @@ struct Worker {
   Worker(ChildProcess child, Clock::time_point setup_deadline) : process(std::move(child)), deadline(setup_deadline) {}
 
   ChildProcess process;
-  Clock::time_point deadline;       ///< of what it is at
+  Clock::time_point deadline;       ///< of what it is at: past it, this machine was too slow
+  double cpu_s = 0;                 ///< its processor time when it was last looked at …
+  double cpu_began = 0;             ///< … and when it began what it is at
   bool ready = false;               ///< its set-up is done
   std::deque<Order> orders;         ///< the one it works on, with the methods not yet answered, and those it has ahead
   bool built = false;               ///< the world that it works on is
   bool dismissed = false;           ///< it ended, and no other takes its place
   Clock::time_point began = {};     ///< the world that it works on
-  Clock::time_point measured = {};  ///< when its memory was last looked at
+  Clock::time_point measured = {};  ///< when it was last looked at
   /// The condition of the last order that it was given.
   std::size_t condition = OrderQueue::kNowhere;
 };
@@ -127,11 +130,25 @@ class Supervisor {
   Pace& PaceOf(int scenario) { return paces_[static_cast<std::size_t>(scenario)]; }
   Pace& PaceOf(const Order& order) { return PaceOf(plan_.world(order.world).scenario); }
 
-  /// The clock starts for the world that is first in its orders.
+  static ProcessUsage Measure(Worker& worker) {
+    worker.measured = Clock::now();
+    const ProcessUsage usage = worker.process.MeasureAlone();  // it watches methods outside itself
+    worker.cpu_s = usage.own_cpu_s;
+    return usage;
+  }
+
+  /// A worker begins something that may take so long by the clock. What it used before does not count against it.
+  static void Begin(Worker& worker, double clock_s) {
+    constexpr auto kStale = std::chrono::milliseconds(100);
+    if (Clock::now() - worker.measured > kStale) Measure(worker);
+    worker.cpu_began = worker.cpu_s;
+    worker.deadline = After(clock_s);
+  }
+
   void BeginWorld(Worker& worker) {
     worker.built = false;
     worker.began = Clock::now();
-    worker.deadline = After(LimitsOf(worker.orders.front()).time_s);
+    Begin(worker, kClockPerLimit * LimitsOf(worker.orders.front()).time_s);
   }
 
   void EndWorld(Worker& worker) {
@@ -142,7 +159,7 @@ class Supervisor {
     worker.orders.empty() ? HandOut(worker) : BeginWorld(worker);
   }
 
-  /// The clock starts for the first method that is not answered yet.
+  /// Begins the first method that is not answered yet.
   void StartNextMethod(Worker& worker) {
     const Order& order = worker.orders.front();
     if (order.methods.empty()) return EndWorld(worker);
@@ -154,7 +171,7 @@ class Supervisor {
     for (const OutsideMetric& metric : plan_.scenario_of(order.world).scenario().outside_metrics) {
       measure_s += LongestAskSeconds(metric.program.time_s.value_or(limit_s)) + kGraceS;
     }
-    worker.deadline = After(ask_s + measure_s + (method.RunsInTask() ? limit_s : 0));
+    Begin(worker, ask_s + measure_s + (method.RunsInTask() ? kClockPerLimit * limit_s : 0));
   }
 
   Result<void> Step() {
@@ -190,18 +207,28 @@ class Supervisor {
     }
     const auto now = Clock::now();
     if (now > worker.deadline) {
-      const double limit = worker.orders.empty() ? kLongestSetupS : LimitsOf(worker.orders.front()).time_s;
-      return Replace(worker, Status::kTimeout, fmt::format("took longer than {:g} s", limit));
+      Measure(worker);
+      return Replace(worker, {},
+                     fmt::format("a worker was given {:.1f} s of processor time before its time by the clock was over",
+                                 worker.cpu_s - worker.cpu_began));
     }
     if (!worker.orders.empty() && now - worker.measured >= std::chrono::milliseconds(kPollMilliseconds)) {
-      worker.measured = now;
-      const double limit = LimitsOf(worker.orders.front()).memory_mb;
-      const double resident = worker.process.MeasureAlone().resident_mb;  // it watches methods outside itself
-      if (resident > limit) {
-        return Replace(worker, Status::kOutOfMemory, fmt::format("held more than {:g} MB of memory", limit));
+      const Limits& limits = LimitsOf(worker.orders.front());
+      const ProcessUsage usage = Measure(worker);
+      if (usage.resident_mb > limits.memory_mb) {
+        return Replace(worker, Status::kOutOfMemory, fmt::format("held more than {:g} MB of memory", limits.memory_mb));
+      }
+      if (worker.cpu_s - worker.cpu_began > limits.time_s) {
+        return Replace(worker, Status::kTimeout,
+                       fmt::format("took longer than {:g} s of processor time", limits.time_s));
       }
     }
     return {};
+  }
+
+  void CountNotRun(std::size_t cells, const std::string& why) {
+    if (not_run_ == 0) why_not_run_ = why;
+    not_run_ += cells;
   }
 
   /// False when a worker said something that it should not.
@@ -221,7 +248,7 @@ class Supervisor {
     }
     Order& order = worker.orders.front();
     if (line.starts_with(kNotRun)) {
-      if (not_run_++ == 0) why_not_run_ = line.substr(std::string_view(kNotRun).size());
+      CountNotRun(1, line.substr(std::string_view(kNotRun).size()));
       order.methods.erase(order.methods.begin());
       StartNextMethod(worker);
       return true;
@@ -234,8 +261,9 @@ class Supervisor {
     return true;
   }
 
-  /// Ends a worker, makes rows of what it was at, and starts another while there is work.
-  Result<void> Replace(Worker& worker, Status status, const std::string& reason) {
+  /// Ends a worker, makes rows of what it was at, and starts another while there is work. Without a status it is this
+  /// machine that ended it, and what it was at has no row.
+  Result<void> Replace(Worker& worker, std::optional<Status> status, const std::string& reason) {
     worker.process.Finish();
     if (!worker.ready && ++deaths_in_setup_ == kMostDeathsInSetup) {
       return Fail({kThisMachine}, "{} workers in a row failed in their set-up: {}", kMostDeathsInSetup, reason);
@@ -258,17 +286,19 @@ class Supervisor {
     return {};
   }
 
-  /// Delivers the cell in progress as lost (every cell, while the world was being built), and orders the rest anew.
-  Result<void> GiveUp(Order order, bool built, Status status, const std::string& reason) {
+  /// Delivers the cell in progress as lost (every cell, while the world was being built) unless this machine is to
+  /// blame, and orders the rest anew.
+  Result<void> GiveUp(Order order, bool built, std::optional<Status> status, const std::string& reason) {
     const World& world = plan_.world(order.world);
     const std::size_t lost = built ? 1 : order.methods.size();
-    for (std::size_t i = 0; i < lost; ++i) {
+    if (!status) CountNotRun(lost, reason);
+    for (std::size_t i = 0; status && i < lost; ++i) {
       const std::size_t method = order.methods[i];
       const std::string when = built ? reason : reason + " while its world was being built";
       const std::size_t cell = plan_.CellAt(order.world, method);
       const std::string line = EncodeCellLine(
-          cell, {plan_.scenario_of(order.world).EndedRow(world.condition, world.trial, method, status, when), {}});
-      RETURN_IF_ERROR(deliver_({{cell, status}, line}));
+          cell, {plan_.scenario_of(order.world).EndedRow(world.condition, world.trial, method, *status, when), {}});
+      RETURN_IF_ERROR(deliver_({{cell, *status}, line}));
     }
     order.methods.erase(order.methods.begin(), order.methods.begin() + static_cast<std::ptrdiff_t>(lost));
     if (!order.methods.empty()) orders_.PutBack(std::move(order));

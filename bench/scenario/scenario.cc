@@ -118,7 +118,9 @@ const FieldTable<StreamSource>& ReadingFields() {
 const FieldTable<Limits>& LimitFields() {
   using Key = Field<Limits>;
   static const FieldTable<Limits> table{
-      {Key::Number("time_s", &Limits::time_s, {0.001, 86'400}, "Seconds by the clock."),
+      {Key::Number(
+           "time_s", &Limits::time_s, {0.001, 86'400},
+           "Seconds of processor time, of a world and of each method; of a program outside, seconds by the clock."),
        Key::Number("memory_mb", &Limits::memory_mb, {16, 1'048'576},
                    "Resident memory of the worker, and of each program it has started.")}};
   return table;

@@ -40,6 +40,32 @@ struct FrameVariables {
   }
 };
 
+/// Ceres's QuaternionManifold, but for how it turns: its versions round differently (2.2 takes hypot for sqrt), and an
+/// adjustment of few steps magnifies that.
+class TurnManifold final : public ceres::Manifold {
+ public:
+  int AmbientSize() const override { return kTurnSize; }
+  int TangentSize() const override { return kTurnSize - 1; }
+
+  /// Turns by twice the tangent d: q ↦ (cos|d|, sin|d| d/|d|) q.
+  bool Plus(const double* q, const double* d, double* turned) const override {
+    const double norm = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    const double scale = norm > 0 ? std::sin(norm) / norm : 1.0;
+    const double w = std::cos(norm), x = scale * d[0], y = scale * d[1], z = scale * d[2];
+    turned[0] = w * q[0] - x * q[1] - y * q[2] - z * q[3];
+    turned[1] = w * q[1] + x * q[0] + y * q[3] - z * q[2];
+    turned[2] = w * q[2] - x * q[3] + y * q[0] + z * q[1];
+    turned[3] = w * q[3] + x * q[2] - y * q[1] + z * q[0];
+    return true;
+  }
+  bool PlusJacobian(const double* q, double* jacobian) const override { return ceres_.PlusJacobian(q, jacobian); }
+  bool Minus(const double* to, const double* from, double* d) const override { return ceres_.Minus(to, from, d); }
+  bool MinusJacobian(const double* q, double* jacobian) const override { return ceres_.MinusJacobian(q, jacobian); }
+
+ private:
+  ceres::QuaternionManifold ceres_;
+};
+
 /// All that Ceres changes.
 struct Variables {
   MeasurableBody body;  // with the lengths it had in the last evaluation
@@ -93,8 +119,8 @@ class PointGains {
   }
 
  private:
-  // Ceres's QuaternionManifold turns by twice its tangent d, q ↦ (cos|d|, sin|d| d/|d|) q, and multiplies what stands
-  // here by the derivative of q, whose columns are orthonormal: so here stands 2 · gain times its transpose.
+  // TurnManifold turns by twice its tangent, and Ceres multiplies what stands here by the derivative of q, whose
+  // columns are orthonormal: so here stands 2 · gain times its transpose.
   void AddTurn(double* cell, double gx, double gy, double gz) const {
     const auto& [w, x, y, z] = frame_.turn;
     cell[0] += 2 * (-x * gx - y * gy - z * gz);
@@ -290,7 +316,7 @@ class BundleProblem {
         place_(variables),
         problem_(Borrow(place_)) {
     for (FrameVariables& frame : variables_.frames) {
-      problem_.AddParameterBlock(frame.turn.data(), kTurnSize, &quaternion_);
+      problem_.AddParameterBlock(frame.turn.data(), kTurnSize, &turn_manifold_);
     }
     for (const BundleMark& mark : inputs.marks) AddMark(mark);
     for (FrameVariables& frame : variables_.frames) {
@@ -353,7 +379,7 @@ class BundleProblem {
   const BundleOptions& options_;
   Variables& variables_;
   const std::unique_ptr<ceres::LossFunction> loss_;
-  ceres::QuaternionManifold quaternion_;
+  TurnManifold turn_manifold_;
   std::vector<double> usual_;  ///< second differences of the smooth points, metres
   std::vector<std::unique_ptr<ceres::CostFunction>> costs_;
   PlaceEveryFrame place_;

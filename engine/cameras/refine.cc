@@ -4,7 +4,6 @@
 #include <ceres/crs_matrix.h>
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
-#include <ceres/rotation.h>
 #include <ceres/solver.h>
 
 #include <Eigen/Eigenvalues>
@@ -13,6 +12,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/cameras/angle_axis.h"
 #include "engine/cameras/camera_parameters.h"
 
 namespace etude {
@@ -34,11 +34,9 @@ struct ReprojectionError {
 
   template <typename T>
   bool operator()(const T* intrinsics, const T* camera, const T* target, T* residual) const {
-    const T in_target[3] = {T(p_TQ.x), T(p_TQ.y), T(p_TQ.z)};
-    T in_world[3], in_camera[3];
-    ceres::AngleAxisRotatePoint(target, in_target, in_world);
+    std::array<T, 3> in_world = RotateByAngleAxis(target, std::array<T, 3>{T(p_TQ.x), T(p_TQ.y), T(p_TQ.z)});
     for (int i = 0; i < 3; ++i) in_world[i] += target[3 + i];
-    ceres::AngleAxisRotatePoint(camera, in_world, in_camera);
+    std::array<T, 3> in_camera = RotateByAngleAxis(camera, in_world);
     for (int i = 0; i < 3; ++i) in_camera[i] += camera[3 + i];
     if (!(in_camera[2] > T(1e-9))) return false;
     const T x = in_camera[0] / in_camera[2], y = in_camera[1] / in_camera[2];
@@ -56,17 +54,11 @@ using IntrinsicsBlock = std::array<double, kIntrinsicsCount>;
 using PoseBlock = std::array<double, kPoseCount>;
 
 PoseBlock ToBlock(const glm::dmat3& R, const glm::dvec3& t) {
-  PoseBlock block{};
-  ceres::RotationMatrixToAngleAxis(&R[0][0], block.data());  // both by columns
-  for (int i = 0; i < 3; ++i) block[3 + i] = t[i];
-  return block;
+  const glm::dvec3 turn = ToAngleAxis(R);
+  return {turn.x, turn.y, turn.z, t.x, t.y, t.z};
 }
 
-glm::dmat3 RotationOf(const PoseBlock& block) {
-  glm::dmat3 R;
-  ceres::AngleAxisToRotationMatrix(block.data(), &R[0][0]);
-  return R;
-}
+glm::dmat3 RotationOf(const PoseBlock& block) { return FromAngleAxis({block[0], block[1], block[2]}); }
 
 IntrinsicsBlock ToBlock(const Camera& camera, const RefineOptions& options) {
   const Intrinsics& in = camera.intrinsics;

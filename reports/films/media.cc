@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
 #include <optional>
 
 #include "reports/films/capture_scene.h"
@@ -22,21 +21,7 @@ namespace {
 
 void Note(std::string& words, const std::string& more) { words += (words.empty() ? "" : " ") + more; }
 
-// Made once it is needed: a run without recordings needs no GL.
-class LazyRenderer {
- public:
-  Result<Renderer*> Get() {
-    if (!made_) made_ = Renderer::Create();
-    if (!*made_) return tl::unexpected(made_->error());
-    return (*made_)->get();
-  }
-
- private:
-  std::optional<Result<std::unique_ptr<Renderer>>> made_;
-};
-
-void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch& watch, LazyRenderer& lazy,
-                   Media& media) {
+void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch& watch, Media& media) {
   const auto has_pictures = [](const ScenarioSummary& scenario) {
     return scenario.task == "transition" || scenario.task == "capture";
   };
@@ -51,7 +36,7 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
     why = "There is no film of coach or cameras: this run kept no recordings of a coach or a capture.";
     return;
   }
-  const auto renderer = lazy.Get();
+  const auto renderer = SharedRenderer();
   if (!renderer) {
     why = "There are no pictures: " + ToString(renderer.error());
     return;
@@ -80,14 +65,14 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
 }
 
 // Of one recorded cell of each capture scenario, if it keeps moments.
-void MakePlates(const RunData& run, LazyRenderer& lazy, Media& media) {
+void MakePlates(const RunData& run, Media& media) {
   for (const ScenarioSummary& scenario : run.scenarios) {
     if (scenario.task != "capture") continue;
     const auto cell = ChooseCell(run, scenario, "recovered");
     if (!cell) continue;
     const auto panel = CapturePanel::Make(run, *cell);
     if (!panel || panel->Moments().empty()) continue;
-    const auto renderer = lazy.Get();
+    const auto renderer = SharedRenderer();
     if (!renderer) return;
     if (auto plate = DrawPlate(*panel, **renderer)) media.plates.push_back({scenario.name, std::move(*plate)});
   }
@@ -104,9 +89,9 @@ Film NoFilm(const std::filesystem::path& path, std::string why_not) {
 /// Films methods side by side in one world; else says why there is no film of `what`.
 template <typename SideBySide, typename Race>
 Film MakeComparingFilm(Result<Race> race, const std::string& scenario, std::string_view what,
-                       const std::filesystem::path& path, const FilmWatch& watch, LazyRenderer& lazy) {
+                       const std::filesystem::path& path, const FilmWatch& watch) {
   if (!race) return NoFilm(path, fmt::format("There is no film of {}: {}.", what, ToString(race.error())));
-  const auto renderer = lazy.Get();
+  const auto renderer = SharedRenderer();
   if (!renderer) return NoFilm(path, "There are no pictures: " + ToString(renderer.error()));
   SideBySide scene(std::move(*race), scenario, **renderer);
   return Shoot(scene, path, watch);
@@ -121,10 +106,10 @@ std::string FilmName(const RunData& run, std::size_t index, std::string_view wha
 
 /// Films a coached session, around a correction unless whole ones are wanted; else says why there is none.
 Film MakeSessionFilm(const std::optional<CastCell>& cell, const std::string& which, const std::filesystem::path& path,
-                     const MediaOptions& options, LazyRenderer& lazy) {
+                     const MediaOptions& options) {
   if (!cell) return NoFilm(path, "There is no film of a session: no motion of one was kept.");
   auto facts = ReadCoachedSession(*cell);
-  const auto renderer = facts ? lazy.Get() : Result<Renderer*>(nullptr);
+  const auto renderer = facts ? SharedRenderer() : Result<Renderer*>(nullptr);
   if (!facts || !renderer) {
     return NoFilm(path, "There is no film of a session: " + ToString(facts ? renderer.error() : facts.error()));
   }
@@ -136,10 +121,10 @@ Film MakeSessionFilm(const std::optional<CastCell>& cell, const std::string& whi
 
 /// Films a typical session, and the worst where that is another learner's or another coach's.
 void MakeSessionFilms(const RunData& run, std::size_t index, const MediaPaths& paths, const MediaOptions& options,
-                      LazyRenderer& lazy, Media& media) {
+                      Media& media) {
   const ScenarioSummary& scenario = run.scenarios[index];
   const auto add = [&](const std::optional<CastCell>& cell, const std::string& which, std::string_view file) {
-    Film film = MakeSessionFilm(cell, which, paths.films / FilmName(run, index, file), options, lazy);
+    Film film = MakeSessionFilm(cell, which, paths.films / FilmName(run, index, file), options);
     media.scenario_films.push_back({scenario.name, std::move(film)});
   };
   const auto typical = ChooseCell(run, scenario, "coach"), worst = ChooseWorstSession(run, scenario);
@@ -169,21 +154,19 @@ std::optional<Film> MakeJudgedFilm(const RunData& run, std::size_t index, const 
 
 Media MakeMedia(const RunData& run, const MediaPaths& paths, const MediaOptions& options) {
   Media media;
-  LazyRenderer renderer;
-  MakeStageFilm(run, paths, options.watch, renderer, media);
-  MakePlates(run, renderer, media);
+  MakeStageFilm(run, paths, options.watch, media);
+  MakePlates(run, media);
   for (std::size_t i = 0; i < run.scenarios.size() && !options.watch.IsStopped(); ++i) {
     const ScenarioSummary& scenario = run.scenarios[i];
     Film film;
     if (scenario.task == "ik") {
-      film =
-          MakeComparingFilm<ConvergenceScene>(FindIkRace(run, scenario), scenario.name, "two methods settling",
-                                              paths.films / FilmName(run, i, "convergence"), options.watch, renderer);
+      film = MakeComparingFilm<ConvergenceScene>(FindIkRace(run, scenario), scenario.name, "two methods settling",
+                                                 paths.films / FilmName(run, i, "convergence"), options.watch);
     } else if (auto race = FindTransitionRace(run, scenario)) {
       film = MakeComparingFilm<TransitionScene>(std::move(race), scenario.name, "transitions of several methods",
-                                                paths.films / FilmName(run, i, "transitions"), options.watch, renderer);
+                                                paths.films / FilmName(run, i, "transitions"), options.watch);
     } else if (scenario.task == "coach") {
-      MakeSessionFilms(run, i, paths, options, renderer, media);
+      MakeSessionFilms(run, i, paths, options, media);
       continue;
     } else if (scenario.task == "detection") {
       auto judged = MakeJudgedFilm(run, i, paths, options);

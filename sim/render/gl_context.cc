@@ -1,14 +1,14 @@
 #include "sim/render/gl_context.h"
 
-#include <GL/osmesa.h>
-#include <dlfcn.h>
-
-#include <cstdlib>
+#include <string_view>
 
 #ifdef __SANITIZE_ADDRESS__
-// OSMesa keeps 480 bytes of every destroyed context, fontconfig what it once read. The sanitizer asks every program
-// that links this file for what it shall not report, so that neither the tests nor a run by hand needs LSAN_OPTIONS.
-extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa\nleak:libfontconfig\n"; }
+// OSMesa keeps 480 bytes of every destroyed context, EGL its display, fontconfig what it once read. The sanitizer asks
+// every program that links this file for what it shall not report, so that neither the tests nor a run by hand needs
+// LSAN_OPTIONS.
+extern "C" const char* __lsan_default_suppressions() {
+  return "leak:libOSMesa\nleak:libEGL\nleak:libgallium\nleak:swrast_dri\nleak:libfontconfig\n";
+}
 #endif
 
 namespace etude {
@@ -30,77 +30,32 @@ Result<GLuint> CompileShader(const GlFunctions& gl, GLenum stage, const std::str
   return Fail({}, "this GL refuses one of Etude's shaders: {}", log);
 }
 
-/// The functions of OSMesa that it cannot be asked for by name.
-struct OsMesa {
-  decltype(&OSMesaCreateContextAttribs) CreateContextAttribs = nullptr;
-  decltype(&OSMesaDestroyContext) DestroyContext = nullptr;
-  decltype(&OSMesaMakeCurrent) MakeCurrent = nullptr;
-  decltype(&OSMesaGetProcAddress) GetProcAddress = nullptr;
-};
-
-Result<OsMesa> OpenOsMesa() {
-  // Work in parallel is done by processes, which may be copies of this one: GL keeps no threads, not for its cache
-  // either.
-  ::setenv("LP_NUM_THREADS", "0", 0);
-  ::setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
-  void* library = ::dlopen("libOSMesa.so.8", RTLD_LAZY | RTLD_LOCAL);
-  if (library == nullptr) return Fail({}, "OSMesa cannot be loaded: {}", ::dlerror());
-  OsMesa functions;
-#define ETUDE_OSMESA_LOAD(name)                                                                  \
-  functions.name = reinterpret_cast<decltype(functions.name)>(::dlsym(library, "OSMesa" #name)); \
-  if (!functions.name) return Fail({}, "OSMesa lacks the function OSMesa{}", #name);
-  ETUDE_OSMESA_LOAD(CreateContextAttribs)
-  ETUDE_OSMESA_LOAD(DestroyContext)
-  ETUDE_OSMESA_LOAD(MakeCurrent)
-  ETUDE_OSMESA_LOAD(GetProcAddress)
-#undef ETUDE_OSMESA_LOAD
-  return functions;
-}
-
-const Result<OsMesa>& GetOsMesa() {
-  static const Result<OsMesa> loaded = OpenOsMesa();
-  return loaded;
-}
-
 }  // namespace
 
-Result<void> GlContext::LoadLibrary() {
-  if (!GetOsMesa()) return tl::unexpected(GetOsMesa().error());
-  return {};
-}
-
 Result<std::unique_ptr<GlContext>> GlContext::Create() {
-  ASSIGN_OR_RETURN(const OsMesa mesa, GetOsMesa());
-  const int attributes[] = {OSMESA_FORMAT,
-                            OSMESA_RGBA,
-                            OSMESA_DEPTH_BITS,
-                            0,
-                            OSMESA_PROFILE,
-                            OSMESA_CORE_PROFILE,
-                            OSMESA_CONTEXT_MAJOR_VERSION,
-                            3,
-                            OSMESA_CONTEXT_MINOR_VERSION,
-                            3,
-                            0};
-  std::unique_ptr<GlContext> result(new GlContext);
-  result->context_ = mesa.CreateContextAttribs(attributes, nullptr);
-  if (!result->context_) return Fail({}, "OSMesa gives no OpenGL 3.3 core context");
+  RETURN_IF_ERROR(LoadedGlLibrary());
+  const GlLibrary& library = *LoadedGlLibrary();
+  std::unique_ptr<GlContext> result(new GlContext(library));
+  ASSIGN_OR_RETURN(result->context_, library.make_context());
   result->MakeCurrent();
-#define ETUDE_GL_LOAD(type, name)                                                    \
-  result->functions_.name = reinterpret_cast<type>(mesa.GetProcAddress("gl" #name)); \
-  if (!result->functions_.name) return Fail({}, "OSMesa lacks the OpenGL function gl{}", #name);
+#define ETUDE_GL_LOAD(type, name)                                                      \
+  result->functions_.name = reinterpret_cast<type>(library.find_function("gl" #name)); \
+  if (!result->functions_.name) return Fail({}, "{} lacks the OpenGL function gl{}", result->library(), #name);
   ETUDE_GL_FUNCTIONS(ETUDE_GL_LOAD)
 #undef ETUDE_GL_LOAD
+  const auto* renderer = reinterpret_cast<const char*>(result->functions_.GetString(GL_RENDERER));
+  if (renderer == nullptr || !std::string_view(renderer).starts_with("llvmpipe")) {
+    return Fail({}, "{} draws by {}; only Mesa's llvmpipe gives the same pixels on every machine", library.name,
+                renderer == nullptr ? "an unknown renderer" : renderer);
+  }
   return result;
 }
 
 GlContext::~GlContext() {
-  if (context_) GetOsMesa()->DestroyContext(static_cast<OSMesaContext>(context_));
+  if (context_) library_.destroy_context(context_);
 }
 
-void GlContext::MakeCurrent() {
-  GetOsMesa()->MakeCurrent(static_cast<OSMesaContext>(context_), unused_framebuffer_.data(), GL_UNSIGNED_BYTE, 64, 64);
-}
+void GlContext::MakeCurrent() { library_.make_current(context_); }
 
 Result<GLuint> GlContext::LinkProgram(const std::string& vertex_source, const std::string& fragment_source,
                                       const std::vector<std::string>& attributes) const {

@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "sim/render/gl_library.h"
 
 namespace etude {
 
-// Every GL function that this folder calls. They are asked of OSMesa by name, because the ready-made
-// loaders (libepoxy, GLEW) do not work with it.
+// Every GL function that this folder calls. They are asked of OSMesa or EGL by name, because the
+// ready-made loaders (libepoxy, GLEW) do not work with OSMesa.
 #define ETUDE_GL_FUNCTIONS(X)                                  \
   X(PFNGLACTIVETEXTUREPROC, ActiveTexture)                     \
   X(PFNGLATTACHSHADERPROC, AttachShader)                       \
@@ -90,11 +91,7 @@ struct GlFunctions {
 /// An offscreen GL 3.3 core context. Everything is drawn into framebuffer objects of our own.
 class GlContext {
  public:
-  /// Loads OSMesa, which Create does, too. It brings a compiler along (LLVM), whose loading takes longer than that of
-  /// most other libraries together: so it is not loaded when the program starts, but by those who draw.
-  static Result<void> LoadLibrary();
-
-  /// Fails when OSMesa cannot be loaded, has no such context or lacks a function, saying which.
+  /// Fails when no library can be loaded, or the one loaded has no such context or lacks a function, saying which.
   static Result<std::unique_ptr<GlContext>> Create();
   ~GlContext();
   GlContext(const GlContext&) = delete;
@@ -102,6 +99,8 @@ class GlContext {
 
   void MakeCurrent();
   const GlFunctions& functions() const { return functions_; }
+  /// The library that it is of: "OSMesa", "EGL".
+  const std::string& library() const { return library_.name; }
 
   /// Compiles and links; `attributes` get the locations 0, 1, 2, … in order. The shader's own
   /// messages travel in the error.
@@ -109,12 +108,11 @@ class GlContext {
                              const std::vector<std::string>& attributes = {}) const;
 
  private:
-  GlContext() = default;
+  explicit GlContext(const GlLibrary& library) : library_(library) {}
 
+  const GlLibrary& library_;
   void* context_ = nullptr;
   GlFunctions functions_;
-  // OSMesa insists on a default framebuffer, however small; nothing is drawn there.
-  std::vector<unsigned char> unused_framebuffer_ = std::vector<unsigned char>(64 * 64 * 4);
 };
 
 /// Makes a texture without filtering and leaves it bound.

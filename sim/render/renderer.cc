@@ -1,5 +1,7 @@
 #include "sim/render/renderer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
@@ -286,13 +288,22 @@ Result<Renderer*> SharedRenderer() {
   return (*shared)->get();
 }
 
-Result<void> LoadRenderer() { return GlContext::LoadLibrary(); }
+Result<void> CheckRendererChoice() { return CheckGlChoice(); }
+
+Result<void> LoadRenderer() {
+  RETURN_IF_ERROR(LoadedGlLibrary());
+  return {};
+}
 
 std::string RendererVersion() {
-  const auto context = GlContext::Create();
-  if (!context) return context.error().message;
-  const auto* version = (*context)->functions().GetString(GL_VERSION);
-  return version == nullptr ? "unknown version" : reinterpret_cast<const char*>(version);
+  static const std::string version = [] {
+    const auto context = GlContext::Create();
+    if (!context) return context.error().message;
+    const auto* of_gl = (*context)->functions().GetString(GL_VERSION);
+    if (of_gl == nullptr) return std::string("unknown version");
+    return fmt::format("{}, by {}", reinterpret_cast<const char*>(of_gl), (*context)->library());
+  }();
+  return version;
 }
 
 View Renderer::Render(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets) {

@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// Draws rooms and people offscreen with OSMesa (the one door to GL). Not thread-safe: one renderer
+/// Draws rooms and people offscreen with Mesa's llvmpipe (the one door to GL). Not thread-safe: one renderer
 /// per process is enough, it can be used for cameras of any size.
 class Renderer {
  public:
@@ -44,12 +44,15 @@ class Renderer {
 /// a hundred pictures. For one thread at a time, as every renderer; its pictures do not depend on what it drew before.
 Result<Renderer*> SharedRenderer();
 
+/// Fails when the variable ETUDE_GL, by which a user chooses how GL is reached, holds neither "osmesa" nor "egl".
+Result<void> CheckRendererChoice();
+
 /// Loads what draws, so that it is among the libraries of this process; whoever draws does so anyway. Fails when it
 /// cannot be loaded, saying why.
 Result<void> LoadRenderer();
 
-/// Returns the version of OpenGL and Mesa, on which pixels depend ("4.5 (Core Profile) Mesa 22.3.6"), or the reason why
-/// there is no context.
+/// Returns the version of OpenGL and Mesa, on which pixels depend, and how they were reached ("4.5 (Core Profile) Mesa
+/// 22.3.6, by OSMesa"), or the reason why there is no context.
 std::string RendererVersion();
 
 }  // namespace etude

@@ -54,7 +54,8 @@ for line in sys.stdin:
 """
 MB = 1 << 20
 PYTHON = "/usr/bin/python3"  # a fence shows what is the system's
-LIBRARY = "/usr/lib/x86_64-linux-gnu/libOSMesa.so.8"
+LIBRARIES = [path for name in ("libOSMesa.so.8", "libEGL.so.1")
+             if os.path.exists(path := f"/usr/lib/x86_64-linux-gnu/{name}")]  # each draws
 
 
 def limit(kind, value):
@@ -105,16 +106,20 @@ class Machine(EtudeCase):
              {"before": limit(resource.RLIMIT_NPROC, 1), **nobody}),
             ("few files", self.outside, "Too many open files", {"before": limit(resource.RLIMIT_NOFILE, 8)}),
             ("little address space", self.outside, "", {"before": limit(resource.RLIMIT_AS, self.least_space() + 8 * MB)}),
-            ("little address space to draw in", self.capture, "OSMesa", {"before": limit(resource.RLIMIT_AS, 256 * MB)}),
-            ("no renderer", self.capture, "OSMesa cannot be loaded",
-             {"wrapped": ["bwrap", "--dev-bind", "/", "/", "--ro-bind", "/dev/null", LIBRARY]}),
+            ("little address space to draw in", self.capture, "nothing can be drawn: ", {"before": limit(resource.RLIMIT_AS, 256 * MB)}),
+            ("no renderer", self.capture, "EGL cannot be loaded",
+             {"wrapped": ["bwrap", "--dev-bind", "/", "/",
+                          *(word for library in LIBRARIES for word in ("--ro-bind", "/dev/null", library))]}),
+            ("no OSMesa", self.capture, "OSMesa cannot be loaded",
+             {"environment": {"ETUDE_GL": "osmesa"},
+              "wrapped": ["bwrap", "--dev-bind", "/", "/", "--ro-bind", "/dev/null", LIBRARIES[0]]}),
             ("no program", self.outside, "method outside of scenario t cannot be asked: ", {}),
         ]
         for name, scenario, cause, how in settings:
             with self.subTest(name):
                 if name == "no program":
                     scenario = self.write("none.yaml", pathlib.Path(scenario).read_text().replace(PYTHON, "no-such"))
-                if name == "no renderer" and not os.path.exists(LIBRARY):
+                if name == "no OSMesa" and "OSMesa" not in LIBRARIES[0]:
                     continue
                 refused = self.run_here(scenario, "-o", self.out, **how)
                 self.assertEqual(refused.returncode, 3, refused.stderr)
@@ -123,6 +128,21 @@ class Machine(EtudeCase):
                 self.assertNotIn("etude-temporary", refused.stderr)
                 self.assertFalse(self.out.exists())
         self.run_suite(self.outside)  # the control
+
+    def test_gl_is_reached_as_it_is_told_and_the_manifest_tells_how(self):
+        wrong = self.run_here(self.capture, "-o", self.out, environment={"ETUDE_GL": "glx"})
+        self.assertEqual(wrong.returncode, 2)
+        self.assertEqual("etude: the environment variable ETUDE_GL: found 'glx'; allowed: osmesa, egl\n", wrong.stderr)
+        self.assertFalse(self.out.exists())
+        cells, ways = set(), {"libOSMesa": "osmesa", "libEGL": "egl"}
+        for library in LIBRARIES:
+            way = ways[pathlib.Path(library).name.split(".")[0]]
+            ran = self.run_here(self.capture, "-o", self.folder / way, environment={"ETUDE_GL": way})
+            self.assertEqual(ran.returncode, 0, ran.stderr)
+            scenario = json.loads((self.folder / way / "manifest.json").read_text())["scenarios"][0]
+            self.assertRegex(scenario["platform"].lower(), f"mesa [0-9.]+.*, by {way}$")
+            cells.add((self.folder / way / "cells.jsonl").read_bytes())
+        self.assertEqual(len(cells), 1, "the ways draw other pixels")
 
     def test_what_it_refuses_in_mid_run_is_not_run_and_resuming_runs_it(self):
         folder = self.folder / "temporary"

@@ -17,7 +17,7 @@ LIBRARIES = {
     "libcairo": "draws sheets and films",
     "libtinygltf": "figures", "libzip": "motions of AMASS",
     "libxml2": "tags, calibrations", "libyaml-cpp": "scenarios",
-    "libglog": "Ceres's", "libcholmod": "Ceres's", "libcxsparse": "Ceres's", "libspqr": "Ceres's",
+    "libceres": "least squares; part of the program on Debian 12", "libglog": "Ceres's", "libcholmod": "Ceres's", "libcxsparse": "Ceres's", "libspqr": "Ceres's",
     "liblapack": "Ceres's", "libblas": "Ceres's",
     "libhwy": "vectors", "libfmt": "text", "libxxhash": "digests", "libsodium": "signatures",
     "libstdc++": "C++", "libgcc_s": "C++", "libm": "C", "libc": "C", "ld-linux-x86-64": "C",

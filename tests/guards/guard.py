@@ -23,6 +23,7 @@ FOLDERS = LAYERS + ["tests", "docs", "scripts", "scenarios", "examples", "cmake"
 # Heavy libraries, by the start of their include, and the only folders that may know them.
 DOORS = {
     "yaml-cpp/": ["engine/document"],
+    "EGL/": ["sim/render"],
     "GL/": ["sim/render"],
     "tiny_gltf.h": ["engine/formats/gltf"],
     "OpenEXR/": ["sim/sensors"],

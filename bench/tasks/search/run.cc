@@ -15,6 +15,8 @@ bool IsBefore(const Neighbour& a, const Neighbour& b) {
   return a.distance != b.distance ? a.distance < b.distance : a.frame < b.frame;
 }
 
+using Counts = std::vector<std::int64_t>;
+
 FoundFrames FramesOf(std::span<const Neighbour> neighbours) {
   FoundFrames frames;
   for (const Neighbour& neighbour : neighbours) frames.push_back(neighbour.frame);
@@ -101,7 +103,7 @@ FoundFrames Choose(const std::vector<Neighbour>& all, SearchQuestion question, d
 }  // namespace
 
 SearchAnswer FindByIndex(const SearchProblem& problem, std::span<const Grades> queries, SearchQuestion question) {
-  SearchAnswer answer{.question = question, .found = {}, .distances = {{}}, .boxes = {{}}};
+  SearchAnswer answer{.question = question, .found = {}, .distances = Counts(), .boxes = Counts()};
   for (const Grades& query : queries) {
     SearchWork work;
     answer.found.push_back(AskIndex(problem, query, question, work));
@@ -112,7 +114,7 @@ SearchAnswer FindByIndex(const SearchProblem& problem, std::span<const Grades> q
 }
 
 SearchAnswer FindByBruteForce(const SearchProblem& problem, std::span<const Grades> queries, SearchQuestion question) {
-  SearchAnswer answer{.question = question, .found = {}, .distances = {{}}, .boxes = {}};
+  SearchAnswer answer{.question = question, .found = {}, .distances = Counts(), .boxes = {}};
   for (const Grades& query : queries) {
     std::int64_t seen = 0;
     answer.found.push_back(Scan(problem, query, question, seen));

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <opencv2/aruco.hpp>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -12,11 +11,19 @@
 
 #include "engine/boards/printed_board.h"
 
+#if ETUDE_ARUCO_IN_OBJDETECT
+#include <opencv2/objdetect/aruco_detector.hpp>
+#else
+#include <opencv2/aruco.hpp>
+#endif
+
 namespace etude {
 namespace {
 
+using DictionaryName = decltype(cv::aruco::DICT_4X4_1000);
+
 /// OpenCV's smaller dictionaries are the beginnings of these.
-constexpr std::array<std::pair<cv::aruco::PREDEFINED_DICTIONARY_NAME, const char*>, 9> kDictionaries = {
+constexpr std::array<std::pair<DictionaryName, const char*>, 9> kDictionaries = {
     {{cv::aruco::DICT_4X4_1000, "DICT_4X4"},
      {cv::aruco::DICT_5X5_1000, "DICT_5X5"},
      {cv::aruco::DICT_6X6_1000, "DICT_6X6"},
@@ -48,20 +55,29 @@ cv::Mat HomographyOfQuad(const Quad& quad) {
   return cv::getPerspectiveTransform(unit, quad);
 }
 
+/// Finds the markers of one dictionary, inverted ones too.
+void DetectMarkers(const cv::Mat& gray, DictionaryName name, std::vector<Quad>& quads, std::vector<int>& ids) {
+#if ETUDE_ARUCO_IN_OBJDETECT
+  cv::aruco::DetectorParameters parameters;
+  parameters.detectInvertedMarker = true;
+  cv::aruco::ArucoDetector(cv::aruco::getPredefinedDictionary(name), parameters).detectMarkers(gray, quads, ids);
+#else
+  const auto parameters = cv::aruco::DetectorParameters::create();
+  parameters->detectInvertedMarker = true;
+  cv::aruco::detectMarkers(gray, cv::aruco::getPredefinedDictionary(name), quads, ids, parameters);
+#endif
+}
+
 double Distance(const cv::Point2f& a, const cv::Point2f& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
 class OpenCvFinder : public PrintedBoardFinder {
  public:
-  explicit OpenCvFinder(const PrintedBoard& wanted) : board(wanted) {
-    cv::setNumThreads(1);
-    parameters->detectInvertedMarker = true;
-  }
+  explicit OpenCvFinder(const PrintedBoard& wanted) : board(wanted) { cv::setNumThreads(1); }
   std::vector<SeenCorner> Find(const ColourImage& picture) override;
   std::string Told() const override;
 
  private:
   const PrintedBoard board;
-  cv::Ptr<cv::aruco::DetectorParameters> parameters = cv::aruco::DetectorParameters::create();
   std::array<std::size_t, kDictionaries.size()> votes{};
   std::optional<std::size_t> dictionary;
   std::array<std::size_t, 2> layouts{};  ///< pictures that speak for a first marker in the second and the first square
@@ -71,8 +87,7 @@ class OpenCvFinder : public PrintedBoardFinder {
   std::map<int, Quad> Detect(const cv::Mat& gray, std::size_t which) const {
     std::vector<int> ids;
     std::vector<Quad> quads;
-    cv::aruco::detectMarkers(gray, cv::aruco::getPredefinedDictionary(kDictionaries[which].first), quads, ids,
-                             parameters);
+    DetectMarkers(gray, kDictionaries[which].first, quads, ids);
     std::map<int, Quad> markers;
     const int count = board.columns * board.rows / 2 + 1;
     for (std::size_t i = 0; i < ids.size(); ++i) {

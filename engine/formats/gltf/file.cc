@@ -153,7 +153,9 @@ Result<void> ReadSparse(const GltfFile& file, const tinygltf::Accessor& accessor
     return file.Refuse(where + ".indices.componentType", "found {}; allowed: 5121, 5123, 5125",
                        sparse.indices.componentType);
   }
-  if (sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0) {
+  // Of type int, or unsigned since tinygltf 2.9.
+  if (static_cast<std::int64_t>(sparse.indices.byteOffset) < 0 ||
+      static_cast<std::int64_t>(sparse.values.byteOffset) < 0) {
     return file.Refuse(where, "found a negative byteOffset");
   }
   const std::size_t count = static_cast<std::size_t>(sparse.count);

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "engine/base/names.h"
 #include "engine/base/result.h"
@@ -217,6 +218,31 @@ bool ReadWholeFile(std::vector<unsigned char>* out, std::string*, const std::str
 
 bool WriteWholeFile(std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }
 
+/// Makes `parser` read files through `fetcher` alone. Templates, because tinygltf's versions differ: since 2.9 it also
+/// asks for a file's size, and where one callback is missing it keeps its own, which read any file, and says so.
+template <typename Callbacks, typename Parser>
+Result<void> ReadOnlyThrough(Fetcher& fetcher, Parser& parser) {
+  Callbacks callbacks{};
+  callbacks.FileExists = FileExists;
+  callbacks.ExpandFilePath = ExpandFilePath;
+  callbacks.ReadWholeFile = ReadWholeFile;
+  callbacks.WriteWholeFile = WriteWholeFile;
+  if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
+    // Nothing is said against any size: ReadWholeFile counts the bytes of all files together.
+    callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string&, void*) {
+      *size = 0;
+      return true;
+    };
+  }
+  callbacks.user_data = &fetcher;
+  if constexpr (std::is_void_v<decltype(parser.SetFsCallbacks(callbacks))>) {
+    parser.SetFsCallbacks(callbacks);
+  } else if (!parser.SetFsCallbacks(callbacks)) {
+    return Fail({fetcher.file}, "this tinygltf does not take Etude's way to read files; no glTF is read");
+  }
+  return {};
+}
+
 /// Keeps a picture as it stands in its own file or URI. Of those within a buffer tinygltf has not checked the place.
 bool KeepEncoded(tinygltf::Image* image, const int, std::string*, std::string*, int, int, const unsigned char* bytes,
                  int size, void*) {
@@ -296,6 +322,22 @@ Result<void> CheckCounts(const nlohmann::json& json, const std::string& where, c
   return {};
 }
 
+/// Refuses file names with a NUL, plain or escaped: tinygltf 2.9 cuts a name there and asks for what is left of it.
+Result<void> CheckFileNames(const nlohmann::json& json, const std::string& file) {
+  for (const char* list : {"buffers", "images"}) {
+    if (!json.is_object() || !json.contains(list) || !json[list].is_array()) continue;
+    for (const auto& entry : json[list]) {
+      if (!entry.is_object() || !entry.contains("uri") || !entry["uri"].is_string()) continue;
+      const auto& uri = entry["uri"].get_ref<const std::string&>();
+      if (uri.starts_with("data:") || (uri.find('\0') == std::string::npos && uri.find("%00") == std::string::npos)) {
+        continue;
+      }
+      return Fail({file}, "names the file {}; allowed: files in its own folder", Quote(uri));
+    }
+  }
+  return {};
+}
+
 void PutNumber(std::string& bytes, std::size_t number) {
   for (int i = 0; i < 4; ++i) bytes += static_cast<char>((number >> (8 * i)) & 0xffU);
 }
@@ -358,13 +400,15 @@ Result<void> TidyAllNames(tinygltf::Model& model, const std::string& file) {
 Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const std::string& file,
                                                    const FetchFile& fetch, bool wants_pictures) {
   ASSIGN_OR_RETURN(auto container, OpenGltfContainer(bytes, file));
+  const auto json = nlohmann::json::parse(container.json, nullptr, /*allow_exceptions=*/false);
+  RETURN_IF_ERROR(CheckFileNames(json, file));
 
   const std::optional<std::string> without_meshes = WithoutDracoMeshes(container);
   if (without_meshes) bytes = *without_meshes;
   Fetcher fetcher{.fetch = &fetch, .file = file, .wants_pictures = wants_pictures, .complaint = {}};
   tinygltf::TinyGLTF parser;
   parser.SetImageLoader(KeepEncoded, nullptr);
-  parser.SetFsCallbacks({FileExists, ExpandFilePath, ReadWholeFile, WriteWholeFile, &fetcher});
+  RETURN_IF_ERROR(ReadOnlyThrough<tinygltf::FsCallbacks>(fetcher, parser));
   auto model = std::make_unique<tinygltf::Model>();
   std::string errors, warnings;
   bool is_read = false;
@@ -388,7 +432,7 @@ Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const
   if (!model->asset.version.starts_with("2.")) {
     return Fail({file}, "asset.version: found {}; allowed: 2.0", Quote(model->asset.version));
   }
-  RETURN_IF_ERROR(CheckCounts(nlohmann::json::parse(container.json, nullptr, /*allow_exceptions=*/false), "", file));
+  RETURN_IF_ERROR(CheckCounts(json, "", file));
   RETURN_IF_ERROR(TidyAllNames(*model, file));
   return model;
 }

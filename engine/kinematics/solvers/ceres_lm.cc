@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
+#include <utility>
 
 #include "engine/kinematics/solvers/ik_run.h"
 #include "engine/kinematics/solvers/linear_targets.h"
@@ -126,16 +127,30 @@ class Recorder final : public ceres::IterationCallback {
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
     if (step.iteration == 0) return ceres::SOLVER_CONTINUE;  // the start is recorded
+    const bool has_stalled = step.step_is_successful && StepLength(step) < stall_change_;
     run_.RecordFrames(residuals_.FramesAt(x_.data()), residuals_.angles());
-    if (step.step_is_successful && step.step_norm < stall_change_) run_.Stall();
+    if (has_stalled) run_.Stall();
     return run_.MustGoOn() ? ceres::SOLVER_CONTINUE : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
   }
 
  private:
+  // Ceres 2.2 tells 0 as the length of the first successful step. That step leads from the start to where the residuals
+  // were asked for last; x is no help, since Ceres keeps the best point so far there.
+  double StepLength(const ceres::IterationSummary& step) {
+    if (std::exchange(has_stepped_, true)) return step.step_norm;
+    double squares = 0;
+    for (std::size_t i = 0; i < residuals_.angles().size(); ++i) {
+      const double change = residuals_.angles()[i] - run_.start_angles()[i];
+      squares += change * change;
+    }
+    return std::sqrt(squares);
+  }
+
   IkRun& run_;
   const Residuals& residuals_;
   const std::vector<double>& x_;
   const double stall_change_;
+  bool has_stepped_ = false;
 };
 
 // Ceres's best for this kind of problem; every choice was measured against its alternatives.

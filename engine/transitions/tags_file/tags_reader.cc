@@ -102,8 +102,10 @@ struct XmlReader::State {
   Held<xmlTextReader, xmlFreeTextReader> reader;  // gone before its schema
 
   /// libxml2's way to complain. The first complaint counts: later ones may follow from it. Warnings count, too: no
-  /// tags file gives cause for one.
-  static void Complain(void* self, xmlErrorPtr error) {
+  /// tags file gives cause for one. A template because libxml2's own type of handler differs: the error is const from
+  /// 2.12 on.
+  template <typename ErrorPointer>
+  static void Complain(void* self, ErrorPointer error) {
     State& state = *static_cast<State*>(self);
     if (state.complaint) return;
     const int line = error->line > 0 ? error->line : state.Line();

@@ -1,6 +1,7 @@
 // Golden values of whole results, of noisy input, fits that are cut off early, and files that are spoilt line by line:
 // whatever changes a number or a word is noticed. What is right is said by the tests beside.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <array>

@@ -35,7 +35,7 @@ ETUDE_API std::vector<engine::Camera> StereoCameras(const engine::Motion& motion
 class ETUDE_API Studio {
  public:
   /// Throws BadInput for a motion without frames, no camera, pictures of more than 4096 pixels a side, a lens that
-  /// distorts, a scene out of range, and where nothing can be drawn (libOSMesa.so.8 is opened when it is needed).
+  /// distorts, a scene out of range, and where nothing can be drawn (OSMesa or EGL is opened when it is needed).
   Studio(const engine::Motion& motion, std::span<const engine::Camera> cameras, const StudioOptions& options = {});
   Studio(Studio&&) noexcept;
   Studio& operator=(Studio&&) noexcept;

@@ -25,7 +25,7 @@ TEST(SearchExchange, TheFileTheTermsAndTheQueriesAreEnoughToFindTheTruth) {
   const auto setting = task->Setting();
   const Json &told = *setting->json, queries = (*world->MakeProblem()->json)["queries"];
   ASSERT_EQ(setting->files.size(), 1u);
-  EXPECT_EQ(setting->files[0].name, told["file"]);
+  EXPECT_EQ(setting->files[0].name, told["file"].get<std::string>());
   EXPECT_EQ(told["query"], "nearest");
   ASSERT_EQ(told["terms"].size(), 24u);
   std::vector<double> library(300 * 24);

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 
 #include "tests/engine/formats/gltf/small_glb.h"
@@ -10,9 +12,9 @@
 namespace etude {
 namespace {
 
-using testing::GlbComplaint;
 using testing::Floats;
 using testing::Glb;
+using testing::GlbComplaint;
 using ::testing::HasSubstr;
 using testing::kSmallGltf;
 using testing::RawBytes;
@@ -182,7 +184,7 @@ TEST(BrokenGltf, IsRefusedForUrisThatLeaveItsFolder) {
   for (const char* uri :
        {"../bear.bin", "/etc/passwd", "file:///etc/passwd", "http://example.org/bear.bin", "C:bear.bin",
         "%2e%2e/bear.bin", "%2E%2E%2Fbear.bin", "parts/../../bear.bin", "parts/%2e%2e/x", "..", "~/bear.bin",
-        R"(\\host\\bear.bin)", R"(a\\..\\b)", R"($(reboot)\n)", R"(a\u0000.bin)", "data:text/html,x"}) {
+        R"(\\host\\bear.bin)", R"(a\\..\\b)", R"($(reboot)\n)", R"(a\u0000.bin)", "a%00.bin", "data:text/html,x"}) {
     SCOPED_TRACE(uri);
     const std::string text =
         Replaced(kSmallGltf, R"("byteLength":292)", fmt::format(R"("byteLength":292,"uri":"{}")", uri));
@@ -192,6 +194,19 @@ TEST(BrokenGltf, IsRefusedForUrisThatLeaveItsFolder) {
     });
     EXPECT_THAT(complaint, HasSubstr("allowed: files in its own folder"));
   }
+}
+
+// Files that are there: a parser that had its own way to read them would find them.
+TEST(BrokenGltf, CannotReadAFileBesideItsFolder) {
+  const std::filesystem::path beside = std::filesystem::path(::testing::TempDir()) / "etude_beside_its_folder.bin";
+  std::ofstream(beside, std::ios::binary) << SmallBinary();
+  for (const std::filesystem::path& uri : {beside, std::filesystem::relative(beside)}) {
+    SCOPED_TRACE(uri);
+    const std::string text =
+        Replaced(kSmallGltf, R"("byteLength":292)", fmt::format(R"("byteLength":292,"uri":"{}")", uri.string()));
+    EXPECT_THAT(GlbComplaint(text), HasSubstr("allowed: files in its own folder"));
+  }
+  std::filesystem::remove(beside);
 }
 
 TEST(BrokenGltf, IsRefusedWhenAFileItNamesIsMissingOrOfAnotherSize) {

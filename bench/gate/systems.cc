@@ -1,0 +1,124 @@
+#include "bench/gate/systems.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <span>
+#include <string_view>
+
+#include "engine/base/names.h"
+
+namespace etude {
+namespace {
+
+/// The largest difference of a metric's values.
+struct Difference {
+  const char* metric;
+  double most;
+};
+
+/// A system on which the quick suite was run, and how its results differ from Debian 12's. tests/cli/systems_test.py
+/// measures it anew; docs/guide/install.md shows it.
+struct MeasuredSystem {
+  const char* name;
+  const char *compiler, *glibc, *ceres, *mesa;  ///< beginnings of their versions
+  int cells_that_differ;
+  std::span<const Difference> differences;
+};
+
+constexpr int kQuickCells = 2192;
+constexpr std::array<MeasuredSystem, 2> kMeasured = {{
+    {"Debian 12", "12.", "2.36", "2.1.", "Mesa 22.3.", 0, {}},
+    {"Debian 13", "14.", "2.41", "2.2.", "Mesa 25.0.", 0, {}},
+}};
+
+const MeasuredSystem* FindMeasured(const RunSystem& system) {
+  const auto* const found = std::ranges::find_if(kMeasured, [&](const MeasuredSystem& measured) {
+    return system.compiler.starts_with(measured.compiler) && system.glibc == measured.glibc &&
+           system.ceres.starts_with(measured.ceres) &&
+           (system.renderer.empty() || system.renderer.find(measured.mesa) != std::string::npos);
+  });
+  return found == kMeasured.end() ? nullptr : found;
+}
+
+std::string Describe(const RunSystem& system, const MeasuredSystem* measured) {
+  const std::size_t mesa = system.renderer.find("Mesa ");
+  return fmt::format("GCC {}, glibc {}, Ceres {}{}{} ({})", system.compiler, system.glibc, system.ceres,
+                     system.renderer.empty() ? "" : ", ", system.renderer.substr(mesa == std::string::npos ? 0 : mesa),
+                     measured == nullptr ? "not measured" : measured->name);
+}
+
+using LargestDifferences = std::map<std::string, double, std::less<>>;
+
+/// The largest differences of the values that both snapshots hold, by metric; those that do not differ are left out.
+LargestDifferences DifferencesOf(const Snapshot& before, const Snapshot& after) {
+  LargestDifferences largest;
+  const auto add = [&](const SnapshotCells& a, const SnapshotCells& b) {
+    for (const SnapshotValues& of_a : a.metrics) {
+      const auto of_b = std::ranges::find(b.metrics, of_a.metric, &SnapshotValues::metric);
+      if (of_b == b.metrics.end()) continue;
+      for (std::size_t trial = 0; trial < std::min(of_a.values.size(), of_b->values.size()); ++trial) {
+        if (!of_a.values[trial] || !of_b->values[trial]) continue;
+        const double gap = std::abs(*of_a.values[trial] - *of_b->values[trial]);
+        if (gap > 0) largest[of_a.metric] = std::max(largest[of_a.metric], gap);
+      }
+    }
+  };
+  for (const SnapshotScenario& a : before.scenarios) {
+    const auto b = std::ranges::find(after.scenarios, a.name, &SnapshotScenario::name);
+    if (b == after.scenarios.end()) continue;
+    for (const SnapshotCells& cells : a.cells) {
+      const auto same = std::ranges::find_if(b->cells, [&](const SnapshotCells& other) {
+        return other.condition == cells.condition && other.method == cells.method;
+      });
+      if (same != b->cells.end()) add(cells, *same);
+    }
+  }
+  return largest;
+}
+
+/// What two systems were measured to differ by at most: as far as each is from Debian 12, together.
+LargestDifferences MeasuredBetween(const MeasuredSystem& a, const MeasuredSystem& b) {
+  LargestDifferences measured;
+  for (const MeasuredSystem* system : {&a, &b}) {
+    for (const Difference& one : system->differences) measured[one.metric] += one.most;
+  }
+  return measured;
+}
+
+std::string InWords(const LargestDifferences& differences) {
+  std::vector<std::string> words;
+  for (const auto& [metric, most] : differences) words.push_back(fmt::format("{} by {:.2g}", metric, most));
+  return Join(words);
+}
+
+}  // namespace
+
+std::vector<std::string> CompareSystems(const RunSystem& a, const RunSystem& b, const Snapshot& before,
+                                        const Snapshot& after) {
+  if (a == b) return {};
+  const MeasuredSystem *const of_a = FindMeasured(a), *const of_b = FindMeasured(b);
+  std::vector<std::string> lines = {"A: " + Describe(a, of_a), "B: " + Describe(b, of_b)};
+  if (of_a == nullptr || of_b == nullptr) {
+    lines.emplace_back("What differs may come from the system: nothing was measured between these two.");
+    return lines;
+  }
+  const LargestDifferences measured = MeasuredBetween(*of_a, *of_b);
+  const int cells = of_a->cells_that_differ + of_b->cells_that_differ;
+  lines.push_back(cells == 0
+                      ? fmt::format("Measured between these: none of the quick suite's {} cells differs.", kQuickCells)
+                      : fmt::format("Measured between these: at most {} of the quick suite's {} cells differ, {}.",
+                                    cells, kQuickCells, InWords(measured)));
+  LargestDifferences beyond = DifferencesOf(before, after);
+  std::erase_if(beyond, [&](const auto& one) {
+    const auto found = measured.find(one.first);
+    return found != measured.end() && one.second <= found->second;
+  });
+  if (!beyond.empty()) lines.push_back(fmt::format("Here more than measured: {}.", InWords(beyond)));
+  return lines;
+}
+
+}  // namespace etude

@@ -1,0 +1,44 @@
+#include "sim/render/gl_library.h"
+
+#include <cstdlib>
+#include <string_view>
+
+#include "engine/base/names.h"
+
+namespace etude {
+namespace {
+
+std::string_view Choice() {
+  const char* choice = std::getenv("ETUDE_GL");
+  return choice == nullptr ? "" : choice;
+}
+
+Result<GlLibrary> Load() {
+  RETURN_IF_ERROR(CheckGlChoice());
+  // Work in parallel is done by processes, which may be copies of this one: GL keeps no threads, not for its cache
+  // either.
+  ::setenv("LP_NUM_THREADS", "0", 0);
+  ::setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
+  if (Choice() == "osmesa") return LoadOsMesa();
+  if (Choice() == "egl") return LoadEgl();
+  auto by_osmesa = LoadOsMesa();
+  if (by_osmesa) return by_osmesa;
+  auto by_egl = LoadEgl();
+  if (by_egl) return by_egl;
+  return Fail({}, "nothing can be drawn: {}; {}", by_osmesa.error().message, by_egl.error().message);
+}
+
+}  // namespace
+
+Result<void> CheckGlChoice() {
+  const std::string_view choice = Choice();
+  if (choice.empty() || choice == "osmesa" || choice == "egl") return {};
+  return Fail({"the environment variable ETUDE_GL"}, "found {}; allowed: osmesa, egl", Quote(choice));
+}
+
+const Result<GlLibrary>& LoadedGlLibrary() {
+  static const Result<GlLibrary> loaded = Load();
+  return loaded;
+}
+
+}  // namespace etude

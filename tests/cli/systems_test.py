@@ -1,0 +1,103 @@
+"""Etude on the systems that docs/guide/install.md names: in a bare root of each it is built with warnings as errors from what
+scripts/setup installs, tested, packed, and its quick suite compared with this machine's. Heavy: half an hour of two cores a root;
+skipped, and told, where mmdebstrap or a mirror is not to be had."""
+import json
+import os
+import pathlib
+import shlex
+import shutil
+import subprocess
+import unittest
+
+from etude_case import ETUDE, EtudeCase, heavy
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SNAPSHOT = "20261101T000000Z"  # of sid, which changes daily
+
+# Makes a root the root of a process, which a chroot is not: in one, no fence can be put up.
+ENTER = """set -e
+mount --bind "$1" "$1"
+mount --rbind /dev "$1/dev"; mount --rbind /sys "$1/sys"; mount -t proc proc "$1/proc"
+cd "$1"; mkdir -p old; pivot_root . old; cd /srv/etude; umount -l /old
+export HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin
+"""
+
+
+def mirror():
+    """Where this machine's packages come from."""
+    told = subprocess.run(["apt-get", "indextargets", "--format", "$(REPO_URI)", "Created-By: Packages"],
+                          capture_output=True, text=True).stdout.split()
+    return next((uri for uri in told if uri.rstrip("/").endswith("/debian")), "http://deb.debian.org/debian")
+
+
+class Systems(EtudeCase):
+    def make_root(self, suite, uri, *options):
+        """A bare root of the suite with this tree in /srv/etude."""
+        if os.geteuid() != 0 or not shutil.which("mmdebstrap"):
+            self.skipTest("needs root and mmdebstrap")
+        root = self.folder / suite
+        made = subprocess.run(["mmdebstrap", "--variant=apt", "--mode=root", "--include=mount", *options, suite, root,
+                               f"deb {uri} {suite} main"], capture_output=True, text=True)
+        if made.returncode != 0:
+            self.skipTest(f"{uri} is not to be had: {made.stderr[-300:]}")
+        shutil.copy("/etc/resolv.conf", root / "etc")
+        files = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=ROOT, check=True,
+                               capture_output=True).stdout.decode().split("\0")
+        for file in filter(None, files):
+            (root / "srv/etude" / file).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(ROOT / file, root / "srv/etude" / file)
+        return root
+
+    def inside(self, root, *commands, **environment):
+        script = ENTER + "".join(f"export {name}={shlex.quote(value)}\n" for name, value in environment.items()) + \
+            "\n".join(commands)
+        log = root.parent / f"{root.name}.log"
+        with open(log, "a") as into:
+            code = subprocess.run(["unshare", "--mount", "--propagation", "private", "bash", "-c", script, "in", root],
+                                  stdout=into, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL).returncode
+        self.assertEqual(code, 0, log.read_text()[-5000:])
+
+    def builds_passes_and_runs_quick(self, root, name):
+        """Tests and all; the results differ from this machine's no more than the shipped table tells."""
+        self.inside(root, "scripts/test", ETUDE_WERROR="ON")
+        self.runs_quick_as_measured(root, name)
+        self.inside(root, "mkdir -p packages && (cd build/release && cpack -G DEB -B ../../packages) >/dev/null",
+                    "apt-get install -y -q --no-install-recommends ./packages/etude_*.deb",
+                    "cd /tmp && etude run quick/ik --trials 3 -o packed")
+
+    def runs_quick_as_measured(self, root, name):
+        self.inside(root, "build/release/etude run scenarios/quick -o out/quick")
+        here = self.folder / "here"
+        if not here.exists():
+            subprocess.run([ETUDE, "run", "quick", "-o", here], check=True, capture_output=True)
+        told = self.etude("compare", here, root / "srv/etude/out/quick")
+        self.assertEqual(told.returncode, 0, told.stderr)
+        self.assertIn(f"({name})", told.stdout)
+        ours, theirs = ([json.loads(line) for line in (folder / "cells.jsonl").read_text().splitlines()]
+                        for folder in (here, root / "srv/etude/out/quick"))
+        self.assertEqual([row["cell"] for row in ours], [row["cell"] for row in theirs])
+        differ = sum(a != b for a, b in zip(ours, theirs))
+        print(f"{name}: {differ} of {len(ours)} cells differ from those of here", flush=True)
+        print(told.stdout, flush=True)
+        self.assertNotIn("more than measured", told.stdout)
+
+    @heavy
+    def test_debian_12(self):
+        self.builds_passes_and_runs_quick(self.make_root("bookworm", mirror()), "Debian 12")
+
+    @heavy
+    def test_debian_13(self):
+        self.builds_passes_and_runs_quick(self.make_root("trixie", mirror()), "Debian 13")
+
+    @heavy
+    def test_what_comes_after_debian_13_builds_and_runs_quick_by_egl(self):
+        root = self.make_root("sid", f"http://snapshot.debian.org/archive/debian/{SNAPSHOT}",
+                              "--aptopt=Acquire::Check-Valid-Until \"false\"")
+        self.inside(root, "scripts/setup", "cmake --preset release -DETUDE_WERROR=ON", "cmake --build build/release")
+        self.runs_quick_as_measured(root, "sid")
+        manifest = json.loads((root / "srv/etude/out/quick/manifest.json").read_text())
+        self.assertIn("by EGL", json.dumps(manifest))
+
+
+if __name__ == "__main__":
+    unittest.main()
