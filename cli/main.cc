@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <memory>
 #include <new>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -92,17 +93,31 @@ bool RunsUnpinned(const CLI::App& app) {
   return app.got_subcommand("clip") && app.get_subcommand("clip")->got_subcommand("render");
 }
 
-/// Help whose words have the same order in every run: CLI11 keeps what an option excludes by its address.
+/// Help that is the same text in every run and by every CLI11: it keeps what an option excludes by its address, and its
+/// versions write defaults in other ways.
 class OrderedHelp : public CLI::Formatter {
  public:
   std::string make_option_opts(const CLI::Option* option) const override {
-    const std::string text = CLI::Formatter::make_option_opts(option);
-    const std::string label = get_label("Excludes") + ":";
-    const std::size_t at = text.find(label);
-    if (at == std::string::npos) return text;
-    std::vector<std::string> names = CLI::detail::split(text.substr(at + label.size() + 1), ' ');
+    std::string text;
+    if (option->get_type_size() != 0) {
+      if (!option->get_type_name().empty()) text += " " + get_label(option->get_type_name());
+      if (!option->get_default_str().empty()) text += "=" + option->get_default_str();
+      if (option->get_expected_max() == CLI::detail::expected_max_vector_size) {
+        text += " ...";
+      } else if (option->get_expected_min() > 1) {
+        text += fmt::format(" x {}", option->get_expected());
+      }
+      if (option->get_required()) text += " " + get_label("REQUIRED");
+    }
+    return text + Others("Needs", option->get_needs()) + Others("Excludes", option->get_excludes());
+  }
+
+ private:
+  std::string Others(const char* label, const std::set<CLI::Option*>& others) const {
+    std::vector<std::string> names;
+    for (const CLI::Option* other : others) names.push_back(other->get_name());
     std::ranges::sort(names);
-    return fmt::format("{} {}", text.substr(0, at + label.size()), fmt::join(names, " "));
+    return names.empty() ? "" : fmt::format(" {}: {}", get_label(label), fmt::join(names, " "));
   }
 };
 

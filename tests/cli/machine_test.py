@@ -109,10 +109,10 @@ class Machine(EtudeCase):
             ("little address space to draw in", self.capture, "nothing can be drawn: ", {"before": limit(resource.RLIMIT_AS, 256 * MB)}),
             ("no renderer", self.capture, "EGL cannot be loaded",
              {"wrapped": ["bwrap", "--dev-bind", "/", "/",
-                          *(word for library in LIBRARIES for word in ("--ro-bind", "/dev/null", library))]}),
+                          *(word for library in LIBRARIES for word in ("--ro-bind", "/dev/null", os.path.realpath(library)))]}),
             ("no OSMesa", self.capture, "OSMesa cannot be loaded",
              {"environment": {"ETUDE_GL": "osmesa"},
-              "wrapped": ["bwrap", "--dev-bind", "/", "/", "--ro-bind", "/dev/null", LIBRARIES[0]]}),
+              "wrapped": ["bwrap", "--dev-bind", "/", "/", "--ro-bind", "/dev/null", os.path.realpath(LIBRARIES[0])]}),
             ("no program", self.outside, "method outside of scenario t cannot be asked: ", {}),
         ]
         for name, scenario, cause, how in settings:

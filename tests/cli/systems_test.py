@@ -94,7 +94,7 @@ class Systems(EtudeCase):
         root = self.make_root("sid", f"http://snapshot.debian.org/archive/debian/{SNAPSHOT}",
                               "--aptopt=Acquire::Check-Valid-Until \"false\"")
         self.inside(root, "scripts/setup", "cmake --preset release -DETUDE_WERROR=ON", "cmake --build build/release")
-        self.runs_quick_as_measured(root, "sid")
+        self.runs_quick_as_measured(root, "not measured")
         manifest = json.loads((root / "srv/etude/out/quick/manifest.json").read_text())
         self.assertIn("by EGL", json.dumps(manifest))
 

@@ -72,9 +72,9 @@ TEST(StudioGolden, PicturesAreThoseThatWereRecorded) {
       std::ranges::find_if(kGolden, [&](const auto& of) { return version.find(of.mesa) != std::string::npos; });
   if (golden == kGolden.end()) GTEST_SKIP() << "nothing was recorded with " << version;
   // What ctest asked for is what draws.
-  const char* choice = std::getenv("ETUDE_GL");
-  if (choice != nullptr)
+  if (const char* choice = std::getenv("ETUDE_GL")) {
     EXPECT_TRUE(version.ends_with(std::string(choice) == "egl" ? "by EGL" : "by OSMesa")) << version;
+  }
   const auto renderer = SharedRenderer();
   ASSERT_TRUE(renderer) << ToString(renderer.error());
   std::size_t compared = 0;
