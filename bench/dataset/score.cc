@@ -210,7 +210,10 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
   outcome.run.seconds = meter.progress().seconds;
   if (outcome.run.stopped) return outcome;
   Json host = DescribeHost(options.command_line, WorkerCount(options.jobs), outcome.run.seconds);
-  if (!ProgramsOf(scenarios).empty()) host["fence"] = fence.description();
+  if (!ProgramsOf(scenarios).empty()) {
+    host["fence"] = fence.description();
+    host["memory"] = fence.MemoryDescription();
+  }
   RETURN_IF_ERROR(FinishRun(folder, plan, cells, host, WorkerCount(options.jobs), [](std::size_t) { return true; }));
   claimed.Keep();
   return outcome;

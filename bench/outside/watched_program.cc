@@ -11,6 +11,7 @@
 #include <array>
 #include <chrono>
 #include <fstream>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -92,7 +93,6 @@ void ErrorLog::Save() {
 namespace {
 
 constexpr std::chrono::milliseconds kLookEvery{20};  // at memory, and at whether it still runs
-constexpr std::chrono::milliseconds kLookAtMappingsEvery{200};
 
 tl::unexpected<OutsideFailure> NotStarted(const Error& error) {
   return tl::unexpected<OutsideFailure>({Status::kFailed, ToString(error), false});
@@ -125,6 +125,7 @@ OutsideOutcome<void> WatchedProgram::Start() {
     view.shown.push_back(python / "etude");
     environment.push_back("PYTHONPATH=" + python.string());
   }
+  group_ = ControlGroup::Make(options_.fence.groups(), options_.memory_mb);
   const FencedCommand fenced = options_.fence.Around(view.command, view.shown, view.start);
   environment.insert(environment.end(), fenced.environment.begin(), fenced.environment.end());
   auto started = ChildProcess::Start({.program = fenced.words.front(),
@@ -132,18 +133,21 @@ OutsideOutcome<void> WatchedProgram::Start() {
                                       .error_file = errors_.path(),
                                       .limited = true,
                                       .contained = options_.fence.IsUp(),
+                                      .control_group = group_.folder(),
                                       .told = fenced.told,
                                       .environment = std::move(environment)});
   if (!started) return NotStarted(started.error());
   child_ = std::move(*started);
-  cpu_s_ = cpu_charged_s_ = shared_mb_ = 0;
-  last_look_at_mappings_ = {};
+  if (group_.IsEmpty()) group_ = {};
+  meter_.emplace(child_->number());
+  cpu_s_ = cpu_charged_s_ = 0;
   return {};
 }
 
 std::string WatchedProgram::Stop(int patience_ms) {
   std::string end = child_ ? child_->Finish(patience_ms) : "not running";
   child_.reset();
+  group_ = {};
   return end;
 }
 
@@ -175,24 +179,32 @@ OutsideOutcome<std::string> WatchedProgram::WaitForLine(Clock::time_point deadli
 OutsideOutcome<void> WatchedProgram::Look() {
   last_look_ = Clock::now();
   errors_.Trim();
-  ProcessUsage usage = child_->Measure();
-  if (last_look_ >= last_look_at_mappings_ + kLookAtMappingsEvery) {
-    last_look_at_mappings_ = last_look_;
-    shared_mb_ = child_->MeasureSharedMappingsMb();
+  const TreeLoad load = meter_->Count();
+  const ScratchUse scratch = options_.fence.MeasureScratch(child_->FirstStarted());
+  // A peak is known to a tenth, or 4 MB.
+  const double held_mb = group_.IsUp() ? group_.HeldMb() + scratch.names_mb
+                                       : meter_->HeldMb(scratch.Mb(), std::min(options_.memory_mb, 1.1 * peak_mb_ + 4));
+  cpu_s_ = std::max(cpu_s_, load.cpu_s);  // it may have vanished meanwhile
+  peak_mb_ = std::max(peak_mb_, held_mb);
+  if (held_mb > options_.memory_mb) return TooMuchMemory();
+  for (const auto& [count, limit, what] : {std::tuple{load.processes, ProgramLimits::kProcesses, "processes"},
+                                           {load.threads, ProgramLimits::kThreads, "threads"},
+                                           {load.descriptors, ProgramLimits::kDescriptors, "open files"},
+                                           {load.pipes, ProgramLimits::kPipes, "pipes"},
+                                           {load.sockets, ProgramLimits::kSockets, "sockets"},
+                                           {load.file_locks, ProgramLimits::kFileLocks, "locks of files"}}) {
+    if (count > limit) return TooMuch(fmt::format("held more than {} {}", limit, what));
   }
-  usage.resident_mb += shared_mb_ + options_.fence.ScratchMb(child_->FirstStarted());
-  cpu_s_ = std::max(cpu_s_, usage.cpu_s);  // it may have vanished meanwhile
-  peak_mb_ = std::max(peak_mb_, usage.resident_mb);
-  if (usage.resident_mb > options_.memory_mb) {
-    return TooMuch(fmt::format("held more than {:g} MB of memory", options_.memory_mb));
-  }
-  if (usage.processes <= ProgramLimits::kProcesses) return {};
-  return TooMuch(fmt::format("held more than {} processes", ProgramLimits::kProcesses));
+  return {};
 }
 
 OutsideOutcome<void> WatchedProgram::LookAgain() {
   if (Clock::now() < last_look_ + kLookEvery) return {};
   return Look();
+}
+
+tl::unexpected<OutsideFailure> WatchedProgram::TooMuchMemory() const {
+  return TooMuch(fmt::format("held more than {:g} MB of memory", options_.memory_mb));
 }
 
 /// Says how a program ended from which no whole line will come any more.
@@ -205,6 +217,7 @@ OutsideFailure WatchedProgram::HowItEnded() {
   for (int i = 0; i < kDyingMs && !child_->HasEnded(); ++i) ::usleep(1000);
   if (!child_->HasEnded()) return {Status::kBadOutput, "closed its output, but went on running"};
   const std::string end = child_->Finish(0);
+  if (group_.IsUp() && group_.WasFull()) return TooMuchMemory().value();
   std::string reason = "ended with " + end;
   if (!part.empty()) reason += ", amid the line " + Printable(part);
   if (const std::string words = WithoutFolder(errors_.LastLine()); !words.empty()) {

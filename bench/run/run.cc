@@ -239,7 +239,10 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   if (outcome.stopped) return outcome;
   claimed.Keep();
   Json host = DescribeHost(options.command_line, WorkerCount(options.jobs), outcome.seconds);
-  if (!outcome.fence.empty()) host["fence"] = outcome.fence;
+  if (!outcome.fence.empty()) {
+    host["fence"] = outcome.fence;
+    host["memory"] = fence.MemoryDescription();
+  }
   ASSIGN_OR_RETURN(const bool is_whole, FinishFolder(folder, plan, cells, host, was_done, options));
   outcome.stopped = !is_whole;
   outcome.seconds = SecondsSince(start);
