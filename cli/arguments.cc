@@ -207,6 +207,11 @@ Action WithSecretKey(CLI::App& command, const std::optional<std::uint64_t>* seed
   };
 }
 
+void AddReuseKey(CLI::App& command, bool& reuse_key) {
+  command.add_flag("--reuse-key", reuse_key, "Take a key that was used before, whose worlds may be known")
+      ->needs(command.get_option("--seed-file"));
+}
+
 CLI::Option* AddJobs(CLI::App& command, int& jobs) {
   return command.add_option("-j,--jobs", jobs, "Worker processes (default: one per processor)")
       ->check(CLI::Range(1, 1024));

@@ -81,6 +81,7 @@ void DefineExport(CLI::App& app, Action& action) {
     std::ranges::for_each(WhichIsMeant(options->scenarios), Complain);
     return ExportCommand(*options);
   });
+  AddReuseKey(*command, options->reuse_key);
   command->callback([=, &action] { action = act; });
 }
 

@@ -17,6 +17,7 @@
 #include "bench/run/manifest.h"
 #include "bench/run/plan.h"
 #include "bench/run/suite.h"
+#include "bench/run/used_keys.h"
 
 namespace etude {
 namespace {
@@ -133,7 +134,7 @@ class Exporter {
   /// Adds the world's line to `index`; `on_part` is called of each of kParts that is done.
   Result<void> SaveWorld(int condition, int trial, const std::string& place, ExportOutcome& outcome,
                          std::vector<std::string>& index, const std::function<void(std::size_t)>& on_part) {
-    const auto world = scenario_.task(condition).MakeWorld(scenario_.KeyOf(trial), /*keeps_motion=*/false);
+    const auto world = scenario_.task(condition).MakeWorld(scenario_.KeyOf(condition, trial), /*keeps_motion=*/false);
     const std::string path = place + "/" + WorldName(scenario_, condition, trial);
     const Row row = scenario_.IdentityOf(condition, trial, 0);
     const auto why_skipped = world->WhySkipped();
@@ -202,6 +203,9 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress
   run.clip_facts = options.clip_facts;
   ASSIGN_OR_RETURN(const auto suite, ReadSuite(run));
   ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(suite));
+  const Json manifest = MakeManifest(suite, scenarios, options.program_version);
+  const KeyUse use{"export", suite.suite, DigestOfRun(manifest), {}, options.output};
+  if (options.key && !options.reuse_key) RETURN_IF_ERROR(CheckUnused(*options.key, use));
   ASSIGN_OR_RETURN(auto folder, NewFolder::Begin(options.output));
 
   const Plan plan(scenarios);
@@ -228,8 +232,8 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress
   index.insert(index.begin(), "scenario,task,condition,trial,clip,problem,prediction,skipped\n");
   RETURN_IF_ERROR(save("inputs/index.csv", fmt::format("{}", fmt::join(index, ""))));
   RETURN_IF_ERROR(save("README.md", kReadme));
-  RETURN_IF_ERROR(
-      SaveJson(folder.partial() / "manifest.json", MakeManifest(suite, scenarios, options.program_version)));
+  RETURN_IF_ERROR(SaveJson(folder.partial() / "manifest.json", manifest));
+  if (options.key) RETURN_IF_ERROR(NoteUse(*options.key, use, options.reuse_key));
   RETURN_IF_ERROR(folder.Finish());
   return outcome;
 }

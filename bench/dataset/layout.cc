@@ -74,8 +74,7 @@ std::vector<std::string> ConditionFolders(const Scenario& scenario) {
 
 std::string WorldName(const PreparedScenario& scenario, int condition, int trial) {
   if (scenario.setup().seed.IsPlain()) return TrialName(trial);
-  const std::string purpose = "exchange/export/" + CompactLabel(scenario.scenario().conditions[condition].swept);
-  return fmt::format("{:016x}", RandomStream(scenario.KeyOf(trial), purpose).Bits());
+  return fmt::format("{:016x}", RandomStream(scenario.KeyOf(condition, trial), "exchange/export").Bits());
 }
 
 Result<PredictionFiles> FindPredictions(const fs::path& folder, const Plan& plan, PredictionFaults& faults) {

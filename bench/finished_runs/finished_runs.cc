@@ -113,6 +113,10 @@ Result<std::vector<FinishedScenario>> LoadScenarios(const fs::path& path) {
       return Fail(place, "not a manifest: {}", error.what());
     }
     finished.push_back(FinishScenario(scenario, setup, clip_digests));
+    if (setup.seed.IsPlain()) continue;
+    for (auto& [condition, digest] : finished.back().worlds) {
+      digest = Digest().Add(digest).Add(std::int64_t{suite.secret_worlds}).Hex();
+    }
   }
   return finished;
 }
@@ -167,6 +171,7 @@ Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed)
       runner.Open(condition, trial);
       for (std::size_t m = 0; m < scenario.methods.size(); ++m) {
         FinishedCell cell = runner.Run(m);
+        if (!cell.is_measured) cell = runner.Measure(condition, std::move(cell));
         if (!cell.why_not_run.empty()) return Fail({kThisMachine}, "{}", cell.why_not_run);
         run.data.rows.push_back(std::move(cell.row));
       }

@@ -60,7 +60,8 @@ struct RunData {
 };
 
 /// Says what the worlds were drawn by, and whether a program that was asked could have known it: "seed 1", "seed 1,
-/// open worlds", "secret worlds, key 0123456789abcdef…".
+/// open worlds", "secret worlds, key 0123456789abcdef…". Under a sweep secret worlds of two conditions are not the
+/// same, which it says, too: a difference between conditions is then one between other worlds.
 std::string DescribeWorlds(const RunData& run);
 
 std::size_t CountRows(const RunData& run);

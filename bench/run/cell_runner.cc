@@ -96,7 +96,7 @@ void CellRunner::Open(int condition, int trial) {
   trial_ = trial;
   problem_.reset();
   const Stopwatch watch;
-  const WorldKey key = scenario_.KeyOf(trial);
+  const WorldKey key = scenario_.KeyOf(condition, trial);
   try {
     const bool keeps_motion = !metrics_.empty() || scenario_.scenario().recordings.KeepsTrial(trial);
     world_ = scenario_.task(condition).MakeWorld(key, keeps_motion);
@@ -123,12 +123,23 @@ FinishedCell CellRunner::Run(std::size_t method) {
   cell.usage.wall_s = watch.WallSeconds();
   cell.usage.cpu_s += watch.CpuSecondsUsed();
   cell.usage.peak_mb = std::max(cell.usage.peak_mb, peak_memory_.Mb());
-  if (why_not_run_.empty()) why_not_run_ = metrics_.Measure(cell.row.Id(), cell.row.result);
   cell.why_not_run = why_not_run_;
-  const RecordingSelection& kept = scenario_.scenario().recordings;
-  if (!kept.KeepsTrial(trial_) || !kept.KeepsMethod(cell.row.method)) cell.row.result.recording.reset();
-  scenario_.CompleteMetrics(condition_, cell.row);
+  cell.is_measured = metrics_.empty() || !cell.row.result.recording;
+  if (cell.is_measured) Complete(condition_, cell.row);
   return cell;
+}
+
+FinishedCell CellRunner::Measure(int condition, FinishedCell answered) {
+  answered.why_not_run = metrics_.Measure(answered.row.Id(), answered.row.result);
+  answered.is_measured = true;
+  Complete(condition, answered.row);
+  return answered;
+}
+
+void CellRunner::Complete(int condition, Row& row) const {
+  const RecordingSelection& kept = scenario_.scenario().recordings;
+  if (!kept.KeepsTrial(row.trial) || !kept.KeepsMethod(row.method)) row.result.recording.reset();
+  scenario_.CompleteMetrics(condition, row);
 }
 
 CellResult CellRunner::RunMethod(std::size_t method, CellUsage& usage) {

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "bench/files/files.h"
+#include "bench/process/machine.h"
 #include "bench/results/folder.h"
 
 namespace etude {
@@ -23,7 +24,7 @@ constexpr std::size_t kLargestPart = 1 << 20, kSmallestPart = 1 << 14;
 
 namespace fs = std::filesystem;
 
-constexpr int kJournalVersion = 3;
+constexpr int kJournalVersion = 4;
 constexpr int kHeads = 2;
 
 Result<JournalHead> DecodeHead(const std::string& line, const Place& place) {
@@ -87,19 +88,25 @@ void CellTable::Put(std::size_t cell, std::string line) {
 }
 
 Result<FinishedCell> CellTable::Read(std::size_t cell, const Plan& plan) {
+  ASSIGN_OR_RETURN(const auto line, ReadLine(cell));
+  return DecodeCellLine(line, plan.IdentityOf(cell), PlaceOf(cell));
+}
+
+Place CellTable::PlaceOf(std::size_t cell) const {
+  const std::uint32_t file = places_[cell].file;
+  return file == kInMemory ? Place() : Place{sources_[file].file.string()};
+}
+
+Result<std::string_view> CellTable::ReadLine(std::size_t cell) {
   const LinePlace& place = places_[cell];
-  if (place.file == kInMemory) {
-    return DecodeCellLine(lines_[place.offset], plan.IdentityOf(cell), {});
-  }
+  if (place.file == kInMemory) return lines_[place.offset];
   Source& source = sources_[place.file];
   const auto has_line = [&] {
     return place.offset >= source.begin && place.offset + place.length <= source.begin + source.part.size();
   };
   if (!has_line()) RETURN_IF_ERROR(ReadPart(source, place));
-  const Place where{source.file.string()};
-  if (!has_line()) return Fail(where, "was cut while it was read");
-  const auto line = std::string_view(source.part).substr(place.offset - source.begin, place.length);
-  return DecodeCellLine(line, plan.IdentityOf(cell), where);
+  if (!has_line()) return Fail(PlaceOf(cell), "was cut while it was read");
+  return std::string_view(source.part).substr(place.offset - source.begin, place.length);
 }
 
 Result<void> CellTable::ReadPart(Source& source, const LinePlace& place) const {
@@ -218,12 +225,12 @@ Result<JournalHead> ReadJournalHead(const fs::path& folder) {
   return ReadHead(in, path.string());
 }
 
-Result<JournalContent> ReadJournal(const fs::path& folder, const Plan& plan, CellTable& cells) {
+Result<JournalContent> ReadJournal(const fs::path& folder, const Plan& plan, CellTable& cells, CellTable* answered) {
   const fs::path path = folder / kJournalFile;
   ASSIGN_OR_RETURN(auto head, ReadJournalHead(folder));
   JournalContent content{.head = std::move(head), .damaged = {}};
   std::ifstream in(path, std::ios::binary);
-  const std::uint32_t file = cells.AddFile(path);
+  const std::uint32_t file = cells.AddFile(path), answered_file = answered == nullptr ? 0 : answered->AddFile(path);
   std::uint64_t offset = 0;
   int number = 1;
   for (std::string line; std::getline(in, line); ++number, offset += line.size() + 1) {
@@ -234,16 +241,36 @@ Result<JournalContent> ReadJournal(const fs::path& folder, const Plan& plan, Cel
       content.damaged.push_back(number);
       continue;
     }
-    ASSIGN_OR_RETURN(const bool counts, AddCell(*cell, {file, offset, line.size()}, {path.string(), number}, plan,
-                                                content.head.shard, cells));
+    if (!cell->is_measured && answered == nullptr) continue;
+    const LineInFile place{cell->is_measured ? file : answered_file, offset, line.size()};
+    ASSIGN_OR_RETURN(const bool counts, AddCell(*cell, place, {path.string(), number}, plan, content.head.shard,
+                                                cell->is_measured ? cells : *answered));
     if (!counts) {
       content.damaged.push_back(number);
       continue;
     }
+    if (!cell->is_measured) continue;
     ++content.cells;
     content.cells_ok += cell->status == Status::kOk ? 1 : 0;
   }
+  for (std::size_t cell = 0; answered != nullptr && cell < answered->size(); ++cell) {
+    content.answered += answered->Has(cell) && !cells.Has(cell) ? 1 : 0;
+  }
   return content;
+}
+
+Result<void> TemporaryLines::Add(std::size_t cell, std::string_view line) {
+  if (!journal_) {
+    auto folder = TemporaryFolder::Make("answered");
+    auto journal = folder ? Journal::Begin(folder->path(), {}) : tl::unexpected(folder.error());
+    if (!journal) return tl::unexpected(OfThisMachine(journal.error()));
+    cells_.AddFile(folder->path() / kJournalFile);
+    folder_ = std::move(*folder);
+    journal_.emplace(std::move(*journal));
+  }
+  ASSIGN_OR_RETURN(const auto offset, journal_->Append(line));
+  cells_.Put(cell, 0, offset, line.size());
+  return {};
 }
 
 }  // namespace etude

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "bench/run/cell_line.h"
 #include "bench/run/cell_runner.h"
 #include "bench/run/outside_programs.h"
+#include "bench/run/plan.h"
 #include "bench/run/secret_key.h"
 
 namespace etude {
@@ -26,7 +28,25 @@ int ProtocolError(const Error& error) {
   return 2;
 }
 
-/// Runs one order, answering as it goes.
+void Answer(std::size_t number, FinishedCell cell, std::ostream& out) {
+  const std::string why = cell.why_not_run;
+  out << (why.empty() ? EncodeCellLine(number, std::move(cell)) : kNotRun + why) << '\n' << std::flush;
+}
+
+/// Measures an answered cell.
+Result<void> Measure(const std::string& line, const Plan& plan, std::span<const std::unique_ptr<CellRunner>> runners,
+                     std::ostream& out) {
+  const Place place{"a worker's orders"};
+  const auto head = ReadCellLineHead(line);
+  if (!head || head->cell >= plan.cell_count()) return Fail(place, "not the line of a cell");
+  ASSIGN_OR_RETURN(auto answered, DecodeCellLine(line, plan.IdentityOf(head->cell), place));
+  const World& world = plan.world(plan.WorldOf(head->cell));
+  Answer(head->cell, runners[static_cast<std::size_t>(world.scenario)]->Measure(world.condition, std::move(answered)),
+         out);
+  return {};
+}
+
+/// Runs the methods of one order, answering as it goes.
 Result<void> Execute(const Json& order, std::span<const std::unique_ptr<CellRunner>> runners, std::ostream& out) {
   const Json& world = order.at("world");
   const auto scenario = world.at(0).get<std::size_t>();
@@ -37,9 +57,7 @@ Result<void> Execute(const Json& order, std::span<const std::unique_ptr<CellRunn
   out << kWorldBuilt << '\n' << std::flush;
   for (const Json& method : order.at("methods")) {
     const auto number = method.get<std::size_t>();
-    FinishedCell cell = runner.Run(number);
-    const std::string why = cell.why_not_run;
-    out << (why.empty() ? EncodeCellLine(first_cell + number, std::move(cell)) : kNotRun + why) << '\n' << std::flush;
+    Answer(first_cell + number, runner.Run(number), out);
   }
   return {};
 }
@@ -70,8 +88,14 @@ int RunWorker(std::istream& in, std::ostream& out) {
     for (const PreparedScenario& scenario : *scenarios) {
       runners.push_back(std::make_unique<CellRunner>(scenario, json->at("error_folder").get<std::string>(), fence));
     }
+    std::optional<Plan> plan;  // a large run's is worth making only where cells are measured
     out << kWorkerReady << '\n' << std::flush;
     while (std::getline(in, line)) {
+      if (line.starts_with(kAnsweredBegin)) {
+        if (!plan) plan.emplace(*scenarios);
+        if (auto done = Measure(line, *plan, runners, out); !done) return ProtocolError(done.error());
+        continue;
+      }
       const auto order = ReadJson(line, "a worker's orders");
       if (!order) return ProtocolError(order.error());
       if (auto done = Execute(*order, runners, out); !done) return ProtocolError(done.error());

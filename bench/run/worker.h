@@ -15,8 +15,9 @@ constexpr const char* kNotRun = "not run: ";
 /// The whole life of a worker process (`etude worker`): one line of set-up,
 /// `{"setup": …, "error_folder": "…", "fence": …}`, answered by kWorkerReady; then one line per order,
 /// `{"world": [scenario, condition, trial], "first_cell": 12, "methods": [0, 2]}` with the number of the world's first
-/// cell, answered by kWorldBuilt and one line per method, in order (cell_line.h, or kNotRun). Ends when `in` does.
-/// Returns the exit code; 2 when it is told something that it cannot understand.
+/// cell, answered by kWorldBuilt and one line per method, in order (cell_line.h, or kNotRun); or the line of a cell
+/// that has yet to be measured, answered by that of the measured one. Ends when `in` does. Returns the exit code; 2
+/// when it is told something that it cannot understand.
 int RunWorker(std::istream& in, std::ostream& out);
 
 }  // namespace etude
