@@ -46,7 +46,7 @@ const std::map<std::string_view, std::vector<std::string_view>>& ExamplesByComma
         "etude replay out/quick-1 --cell ik-weights/joint_noise_deg=5/003/fixed --pack cell.etude",
         "etude replay cell.etude"}},
       {"verify",
-       {"etude verify out/quick-1", "etude verify out/quick-1 --sample 100 --sign ~/.minisign/minisign.key",
+       {"etude verify out/quick-1", "etude verify out/quick-1 --sample all --sign ~/.minisign/minisign.key",
         "etude verify results --check minisign.pub"}},
       {"cite", {"etude cite out/quick-1", "etude cite out/quick-1 > etude.bib", "etude cite results/paper-table-2"}},
       {"gate",

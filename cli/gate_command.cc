@@ -18,6 +18,7 @@
 #include "cli/facts.h"
 #include "cli/move_table.h"
 #include "reports/gate_table.h"
+#include "reports/report.h"
 
 namespace etude {
 namespace {
@@ -104,9 +105,10 @@ Result<int> Judge(const GateOptions& options, const FinishedRun& run) {
   }
   ASSIGN_OR_RETURN(auto report, JudgeRun(run, baseline ? &*baseline : nullptr, options.baseline));
   report.run_folder = options.target;
-  const fs::path folder = fs::path(options.target) / "report";
-  RETURN_IF_ERROR(WriteFileAtomically(folder / "gate.md", WriteGateMarkdown(report)));
-  RETURN_IF_ERROR(WriteFileAtomically(folder / "gate.xml", WriteGateJunit(report)));
+  const FilePath folder = Inside(options.target) / "report";
+  RETURN_IF_ERROR(PlainFilesBelow(folder));  // no link among them
+  RETURN_IF_ERROR(WriteFileAtomically(folder / kGateMarkdown, WriteGateMarkdown(report)));
+  RETURN_IF_ERROR(WriteFileAtomically(folder / kGateJunit, WriteGateJunit(report)));
   if (options.as_json) {
     RETURN_IF_ERROR(PrintFacts("gate", FactsOf(report)));
   } else {

@@ -25,7 +25,7 @@ namespace {
 
 constexpr const char* kModule = "etude_clips_assimp.so";  // found beside the program, by its run path
 constexpr rlim_t kMemoryBytes = rlim_t{4} << 30, kProcessorSeconds = 60;
-constexpr std::size_t kLargestGlb = std::size_t{1} << 30, kLargestFile = kLargestGlb;
+constexpr std::size_t kLargestGlb = std::size_t{1} << 30;
 constexpr unsigned kOldestVersion = 7;
 constexpr const char* kGaveUp = "a damaged FBX file: its reader gave up";
 constexpr char kSaidGlb = 'G', kSaidComplaint = 'C';
@@ -133,7 +133,7 @@ std::optional<std::string> ReceiveBlock(int socket, std::size_t most, bool& is_t
     name = NameOfReader() + "\n";
   }
   bool is_too_long = false;
-  while (const auto bytes = ReceiveBlock(socket, kLargestFile, is_too_long)) {
+  while (const auto bytes = ReceiveBlock(socket, kLargestGlb, is_too_long)) {
     AllowProcessorTime(kProcessorSeconds);
     std::string said = missing;
     const bool went_well = read != nullptr && read(*bytes, said);

@@ -20,9 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 Result<SuiteSetup> ReadTarget(const ScoreOptions& options) {
-  std::error_code error;
-  const fs::path manifest = fs::path(options.target) / "manifest.json";
-  if (!fs::exists(manifest, error)) {
+  const FilePath manifest = Inside(options.target) / "manifest.json";
+  if (!Exists(manifest)) {
     RunOptions run;
     run.scenarios = {options.target};
     run.seed = options.seed;
@@ -47,11 +46,10 @@ Result<SuiteSetup> ReadTarget(const ScoreOptions& options) {
 Result<std::vector<PreparedScenario>> PrepareTarget(const SuiteSetup& suite, const ScoreOptions& options) {
   auto scenarios = PrepareAll(suite);
   if (!scenarios) return scenarios;
-  std::error_code error;
-  const fs::path manifest = fs::path(options.target) / "manifest.json";
-  if (fs::exists(manifest, error)) {
+  const FilePath manifest = Inside(options.target) / "manifest.json";
+  if (Exists(manifest)) {
     RETURN_IF_ERROR(CheckClips(manifest, *scenarios));
-    RETURN_IF_ERROR(CheckPrograms(manifest, *scenarios, options.outside));
+    RETURN_IF_ERROR(CheckPrograms(manifest.string(), *scenarios, options.outside));
   }
   return scenarios;
 }
@@ -66,20 +64,16 @@ std::string NameOf(const Plan& plan, std::size_t w) {
 
 constexpr std::uintmax_t kLargestAnswer = std::uintmax_t{16} << 20;  // as a program's; 60 s of poses take 3 MB
 
-Result<CellResult> JudgeFile(TaskWorld& world, const fs::path& file) {
-  std::error_code error;
-  const std::uintmax_t size = fs::file_size(file, error);
-  if (!error && size > kLargestAnswer) {
-    return Fail({file.string(), 0, 0}, "{} bytes; an answer has at most {}", size, kLargestAnswer);
-  }
-  ASSIGN_OR_RETURN(const auto answer, ReadJsonFile(file));
+Result<CellResult> JudgeFile(TaskWorld& world, const FilePath& file) {
+  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file, kLargestAnswer));
+  ASSIGN_OR_RETURN(const auto answer, ReadJson(text, file.string()));
   auto judged = JudgeAnswer(world, answer);
   if (!judged) return Fail({file.string(), 0, 0}, "{}", ToString(judged.error()));
   return judged;
 }
 
 /// Judges the answer in `file` to world `w`; what is wrong with it goes into `faults`.
-Row JudgeWorld(const Plan& plan, std::size_t w, const std::optional<fs::path>& file, OutsideMetrics& metrics,
+Row JudgeWorld(const Plan& plan, std::size_t w, const std::optional<FilePath>& file, OutsideMetrics& metrics,
                PredictionFaults& faults) {
   const PreparedScenario& scenario = plan.scenario_of(w);
   const World& world = plan.world(w);
@@ -194,7 +188,7 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
   ASSIGN_OR_RETURN(const auto answers, DescribeAnswers(plan, cells));
   manifest["scored"].update(answers);
   const fs::path folder = options.output;
-  RETURN_IF_ERROR(SaveJson(folder / "manifest.json", manifest));
+  RETURN_IF_ERROR(SaveJson(Inside(folder) / "manifest.json", manifest));
   const auto whole = RunOrders(
       suite, plan, plan.OrdersFor({}, cells.Done()),
       {.program = ThisProgram(), .error_folder = "", .fence = fence, .jobs = options.jobs, .stop = options.stop},

@@ -104,7 +104,7 @@ Result<Json> ReadJson(const std::string& text, const std::string& file, int line
   }
 }
 
-Result<Json> ReadJsonFile(const std::filesystem::path& path) {
+Result<Json> ReadJsonFile(const FilePath& path) {
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
   return ReadJson(text, path.string());
 }

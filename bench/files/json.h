@@ -1,11 +1,11 @@
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 
+#include "bench/files/file_path.h"
 #include "engine/base/result.h"
 
 namespace etude {
@@ -34,7 +34,7 @@ int NestingOf(std::string_view text);
 Result<Json> ReadJson(const std::string& text, const std::string& file, int line = 0);
 
 /// Reads a file of one JSON value; fails like ReadWholeFile and ReadJson.
-Result<Json> ReadJsonFile(const std::filesystem::path& path);
+Result<Json> ReadJsonFile(const FilePath& path);
 
 /// Reads one value as CBOR (RFC 8949), nested at most 100 deep. Refused, too, what Json::to_cbor never writes: lengths
 /// that are not told beforehand, and tags.

@@ -91,7 +91,7 @@ Result<void> CheckMetricVersions(const Json& manifest, const Place& place) {
 }
 
 /// The scenarios of manifest.json, read from the texts that it keeps.
-Result<std::vector<FinishedScenario>> LoadScenarios(const fs::path& path) {
+Result<std::vector<FinishedScenario>> LoadScenarios(const FilePath& path) {
   ASSIGN_OR_RETURN(const auto manifest, ReadJsonFile(path));
   const Place place{path.string(), 0, 0};
   ASSIGN_OR_RETURN(const auto suite, DecodeSetup(manifest, place));
@@ -177,14 +177,13 @@ Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed)
 
 Result<FinishedRun> LoadFinishedRun(const fs::path& folder, Sealing sealing) {
   FinishedRun run;
-  std::error_code none;
-  if (fs::exists(folder / kJournalFile, none)) {
+  if (Exists(Inside(folder) / kJournalFile)) {
     run.incomplete.push_back(
         fmt::format("the run did not come to its end, or is still under way ({} is there)", kJournalFile));
     return run;
   }
   ASSIGN_OR_RETURN(run.data, LoadRun(folder, sealing));
-  ASSIGN_OR_RETURN(run.scenarios, LoadScenarios(folder / "manifest.json"));
+  ASSIGN_OR_RETURN(run.scenarios, LoadScenarios(Inside(folder) / "manifest.json"));
   RETURN_IF_ERROR(CheckRows(run, {(folder / "cells.jsonl").string(), 0, 0}));
   if (run.data.cpu_seconds.empty() && std::any_of(run.scenarios.begin(), run.scenarios.end(), WantsTimes)) {
     return Fail({(folder / "timings.jsonl").string(), 0, 0}, "tells no times, which a gate of this run needs");

@@ -58,7 +58,7 @@ const std::string* FindDigest(const NamedDigests& digests, const std::string& na
 std::vector<bool> WorldsToCompare(const SnapshotCells& before, const SnapshotCells& after) {
   std::vector<bool> compared(std::min(before.statuses.size(), after.statuses.size()));
   for (std::size_t t = 0; t < compared.size(); ++t) {
-    compared[t] = !DependsOnMachine(before.statuses[t]) && !DependsOnMachine(after.statuses[t]);
+    compared[t] = !DependsOnMachine(StatusOf(before.statuses[t])) && !DependsOnMachine(StatusOf(after.statuses[t]));
   }
   return compared;
 }

@@ -31,6 +31,9 @@ struct FinishedRun {
   std::vector<std::string> incomplete;
 };
 
+/// The identities of all cells that a scenario asks for, in canonical order.
+std::vector<std::string> CellsOf(const Study& study);
+
 /// Checks `data.rows` against what the scenarios ask for, and notes what is missing. Fails on a row that is
 /// there twice, or that no scenario asks for.
 Result<void> CheckRows(FinishedRun& run, const Place& place);
@@ -70,9 +73,6 @@ struct Snapshot {
 char StatusLetter(Status status);
 /// The status of a letter; kFailed of any that is none.
 Status StatusOf(char letter);
-/// True if a cell of this letter ended as it did because of the machine (timeout, crashed, out of memory): its
-/// row says nothing about the method that another run could repeat.
-bool DependsOnMachine(char letter);
 
 /// Takes the gated metrics of a whole run.
 Snapshot TakeSnapshot(const FinishedRun& run);

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <fstream>
 #include <utility>
 #include <vector>
 
@@ -23,12 +22,21 @@ namespace {
 
 constexpr long kTail = 4096;  ///< bytes in which the last line is looked for
 
+/// Opens the file of a log for appending, and makes its folder. That stands in a run, which may be a stranger's that is
+/// gone on with, so that no link is followed there.
+Result<Descriptor> OpenLog(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.parent_path();
+  const FilePath path = Inside(folder.parent_path()) / folder.filename() / file.filename();
+  return OpenFile(path, O_WRONLY | O_APPEND | O_CREAT);
+}
+
 }  // namespace
 
 ErrorLog::ErrorLog(std::string file) : file_(std::move(file)) {
   if (file_.empty()) return;
   memory_ = ::memfd_create("standard error", MFD_CLOEXEC);
-  if (memory_ < 0) MakeItsFolder();
+  if (memory_ >= 0) return;
+  if (auto opened = OpenLog(file_)) unbuffered_ = std::move(*opened);
 }
 
 ErrorLog::~ErrorLog() {
@@ -37,7 +45,10 @@ ErrorLog::~ErrorLog() {
 }
 
 // Where there is no memory file, the program writes to the real one at once.
-std::string ErrorLog::path() const { return memory_ < 0 ? file_ : fmt::format("/proc/{}/fd/{}", ::getpid(), memory_); }
+std::string ErrorLog::path() const {
+  const int file = memory_ < 0 ? unbuffered_.number() : memory_;
+  return file < 0 ? "" : fmt::format("/proc/{}/fd/{}", ::getpid(), file);
+}
 
 long ErrorLog::Size() const {
   struct stat status {};
@@ -72,20 +83,17 @@ std::string ErrorLog::LastLine() const {
   return tail.substr(tail.find_last_of('\n') + 1);  // npos + 1 = 0
 }
 
-// The folder is made only when there is something to keep: most runs have none.
-void ErrorLog::MakeItsFolder() const {
-  std::error_code ignored;  // what a program says is not worth failing a cell
-  std::filesystem::create_directories(std::filesystem::path(file_).parent_path(), ignored);
-}
-
+// The file is made only when there is something to keep: most runs have none. What a program says is not worth failing
+// a cell: where the file cannot be written it is lost.
 void ErrorLog::Save() {
   const long size = Size();
   if (size == 0) return;
-  MakeItsFolder();
-  std::error_code absent;
-  const auto saved = std::filesystem::file_size(file_, absent);
-  const long room = absent ? kLargest : kLargest - static_cast<long>(std::min<std::uintmax_t>(saved, kLargest));
-  std::ofstream(file_, std::ios::binary | std::ios::app) << Read(0, std::min(size, room));
+  if (const auto file = OpenLog(file_)) {
+    struct stat status {};
+    const long saved = ::fstat(file->number(), &status) == 0 ? static_cast<long>(status.st_size) : kLargest;
+    const std::string text = Read(0, std::min(size, kLargest - std::min(saved, kLargest)));
+    std::ignore = ::write(file->number(), text.data(), text.size());
+  }
   if (::ftruncate(memory_, 0) != 0) return;
 }
 

@@ -34,12 +34,12 @@ class ErrorLog {
   void Save();
 
  private:
-  void MakeItsFolder() const;
   std::string Read(long start, long size) const;
   long Size() const;
 
   std::string file_;
   int memory_ = -1;
+  Descriptor unbuffered_;  ///< the file itself, where the system makes no file in memory
 };
 
 /// The reason why a program gave no answer.

@@ -1,32 +1,12 @@
 #pragma once
 
 #include <sys/types.h>
-#include <unistd.h>
 
-#include <utility>
 #include <vector>
 
+#include "bench/files/descriptor.h"
+
 namespace etude {
-
-/// A file descriptor that is closed at the end of its scope.
-class Descriptor {
- public:
-  explicit Descriptor(int number = -1) : number_(number) {}
-  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(number_, other.number_);
-    return *this;
-  }
-  ~Descriptor() { Close(); }
-  int number() const { return number_; }
-  int Release() { return std::exchange(number_, -1); }
-  void Close() {
-    if (number_ >= 0) ::close(std::exchange(number_, -1));
-  }
-
- private:
-  int number_;
-};
 
 /// The memory and processor time of a process and all its descendants.
 struct ProcessUsage {

@@ -19,6 +19,8 @@ namespace etude {
 /// The version of the layout of a result folder (docs/results.md), raised when old readers would fail.
 constexpr int kResultSchema = 3;
 
+/// Rows and their times, as lines of text.
+constexpr const char *kCellsFile = "cells.jsonl", *kTimingsFile = "timings.jsonl";
 /// Stands in a result folder while its run is under way, and after it was interrupted.
 constexpr const char* kJournalFile = "journal.jsonl";
 /// The file is there only where libraries changed while a run was made and somebody accepted that; it tells them, then
@@ -71,7 +73,7 @@ Result<RunData> LoadRun(const std::filesystem::path& folder, Sealing sealing = S
 Result<RunData> LoadRunOutline(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
 
 /// The file that keeps the recording of a cell (Row::Id), where there is one.
-std::filesystem::path RecordingFile(const std::filesystem::path& folder, const std::string& cell);
+FilePath RecordingFile(const std::filesystem::path& folder, const std::string& cell);
 
 /// Writes every row of a result folder as a line of cells.jsonl, whether or not the folder holds them so.
 Result<void> WriteRows(const std::filesystem::path& folder, Sealing sealing,

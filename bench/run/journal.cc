@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -72,7 +71,7 @@ std::vector<bool> CellTable::Done() const {
   return done;
 }
 
-std::uint32_t CellTable::AddFile(const std::filesystem::path& file) {
+std::uint32_t CellTable::AddFile(const FilePath& file) {
   sources_.push_back({.file = file});
   return static_cast<std::uint32_t>(sources_.size() - 1);
 }
@@ -107,25 +106,23 @@ Result<void> CellTable::ReadPart(Source& source, const LinePlace& place) const {
   // Lines stand in order of completion: the next cell's may stand a little before this one's.
   source.begin = place.offset - std::min<std::uint64_t>(place.offset, size / 2);
   source.part.resize(std::max<std::size_t>(size, place.offset - source.begin + place.length));
-  const int file = ::open(source.file.c_str(), O_RDONLY | O_CLOEXEC);
+  ASSIGN_OR_RETURN(const auto file, OpenFile(source.file, O_RDONLY));
   std::size_t read = 0;
-  while (file >= 0 && read < source.part.size()) {
-    const ssize_t count =
-        ::pread(file, source.part.data() + read, source.part.size() - read, static_cast<off_t>(source.begin + read));
+  while (read < source.part.size()) {
+    const ssize_t count = ::pread(file.number(), source.part.data() + read, source.part.size() - read,
+                                  static_cast<off_t>(source.begin + read));
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) break;
     read += static_cast<std::size_t>(count);
   }
-  if (file < 0) return Fail({source.file.string()}, "cannot be read: {}", std::strerror(errno));
-  ::close(file);
   source.part.resize(read);
   return {};
 }
 
 Result<Journal> Journal::Begin(const fs::path& folder, const JournalHead& head, const JournalLag& sync) {
-  Journal journal(folder / kJournalFile,
-                  ::open((folder / kJournalFile).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0644),
-                  sync);
+  const FilePath path = Inside(folder) / kJournalFile;
+  ASSIGN_OR_RETURN(auto file, OpenFile(path, O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, 0644));
+  Journal journal(path, std::move(file), sync);
   ASSIGN_OR_RETURN(const auto json, WriteJson({{"journal", kJournalVersion},
                                                {"manifest", head.manifest},
                                                {"build", head.build},
@@ -138,29 +135,19 @@ Result<Journal> Journal::Begin(const fs::path& folder, const JournalHead& head, 
 }
 
 Result<Journal> Journal::Continue(const fs::path& folder, const JournalLag& sync) {
-  const fs::path path = folder / kJournalFile;
-  Journal journal(path, ::open(path.c_str(), O_RDWR | O_APPEND | O_CLOEXEC), sync);
-  off_t end = ::lseek(journal.file_, 0, SEEK_END);
+  const FilePath path = Inside(folder) / kJournalFile;
+  ASSIGN_OR_RETURN(auto opened, OpenFile(path, O_RDWR | O_APPEND));
+  Journal journal(path, std::move(opened), sync);
+  const int file = journal.file_.number();
+  off_t end = ::lseek(file, 0, SEEK_END);
   for (char last = 0; end > 0; --end) {
-    if (::pread(journal.file_, &last, 1, end - 1) != 1 || last == '\n') break;
+    if (::pread(file, &last, 1, end - 1) != 1 || last == '\n') break;
   }
-  if (end < 0 || ::ftruncate(journal.file_, end) != 0) {
+  if (end < 0 || ::ftruncate(file, end) != 0) {
     return Fail({path.string(), 0, 0}, "cannot be continued: {}", std::strerror(errno));
   }
   journal.end_ = static_cast<std::uint64_t>(end);
   return journal;
-}
-
-Journal::Journal(Journal&& other) noexcept
-    : path_(std::move(other.path_)),
-      file_(std::exchange(other.file_, -1)),
-      sync_(other.sync_),
-      end_(other.end_),
-      unsynced_bytes_(other.unsynced_bytes_),
-      synced_at_(other.synced_at_) {}
-
-Journal::~Journal() {
-  if (file_ >= 0) ::close(file_);
 }
 
 Result<std::uint64_t> Journal::Append(std::string_view line) {
@@ -171,7 +158,7 @@ Result<std::uint64_t> Journal::Append(std::string_view line) {
 
 Result<void> Journal::Write(std::string_view lines) {
   for (std::size_t written = 0; written < lines.size();) {
-    const ssize_t count = ::write(file_, lines.data() + written, lines.size() - written);
+    const ssize_t count = ::write(file_.number(), lines.data() + written, lines.size() - written);
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) return Fail({path_.string(), 0, 0}, "cannot be written: {}", std::strerror(errno));
     written += static_cast<std::size_t>(count);
@@ -188,7 +175,7 @@ bool Journal::IsSyncDue() const {
 }
 
 Result<void> Journal::Sync() {
-  if (unsynced_bytes_ > 0 && ::fdatasync(file_) != 0) {
+  if (unsynced_bytes_ > 0 && ::fdatasync(file_.number()) != 0) {
     return Fail({path_.string(), 0, 0}, "cannot be synchronised: {}", std::strerror(errno));
   }
   unsynced_bytes_ = 0;
@@ -199,10 +186,12 @@ Result<void> Journal::Sync() {
 namespace {
 
 /// The first of the head's copies that is as it was written, from the lines at the file's beginning.
-Result<JournalHead> ReadHead(std::istream& in, const std::string& path) {
+Result<JournalHead> ReadHead(FileLines lines, const std::string& path) {
   std::string line;
   int read = 0;
-  while (read < kHeads && std::getline(in, line) && !in.eof()) {
+  while (read < kHeads) {
+    ASSIGN_OR_RETURN(const bool has_line, lines.Next(line));
+    if (!has_line || !lines.had_end()) break;
     ++read;
     if (HasRightSum(line)) return DecodeHead(line, {path, read, 0});
   }
@@ -213,21 +202,22 @@ Result<JournalHead> ReadHead(std::istream& in, const std::string& path) {
 }  // namespace
 
 Result<JournalHead> ReadJournalHead(const fs::path& folder) {
-  const fs::path path = folder / kJournalFile;
-  std::ifstream in(path, std::ios::binary);
-  return ReadHead(in, path.string());
+  const FilePath path = Inside(folder) / kJournalFile;
+  ASSIGN_OR_RETURN(auto lines, FileLines::Open(path));
+  return ReadHead(std::move(lines), path.string());
 }
 
 Result<JournalContent> ReadJournal(const fs::path& folder, const Plan& plan, CellTable& cells) {
-  const fs::path path = folder / kJournalFile;
+  const FilePath path = Inside(folder) / kJournalFile;
   ASSIGN_OR_RETURN(auto head, ReadJournalHead(folder));
   JournalContent content{.head = std::move(head), .damaged = {}};
-  std::ifstream in(path, std::ios::binary);
+  ASSIGN_OR_RETURN(auto lines, FileLines::Open(path));
   const std::uint32_t file = cells.AddFile(path);
   std::uint64_t offset = 0;
   int number = 1;
-  for (std::string line; std::getline(in, line); ++number, offset += line.size() + 1) {
-    if (in.eof()) break;  // it does not end in a line end: torn
+  for (std::string line;; ++number, offset += line.size() + 1) {
+    ASSIGN_OR_RETURN(const bool has_line, lines.Next(line));
+    if (!has_line || !lines.had_end()) break;  // a last line without its end is torn
     if (number <= kHeads) continue;
     const auto cell = ReadCellLineHead(line);
     if (!cell) {

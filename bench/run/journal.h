@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/files/file_path.h"
 #include "bench/process/clock.h"
 #include "bench/run/cell_line.h"
 #include "bench/run/plan.h"
@@ -23,7 +24,7 @@ class CellTable {
   std::vector<bool> Done() const;
 
   /// A file that holds lines of cells; what stands for it in Put.
-  std::uint32_t AddFile(const std::filesystem::path& file);
+  std::uint32_t AddFile(const FilePath& file);
   void Put(std::size_t cell, std::uint32_t file, std::uint64_t offset, std::size_t length);
   /// A line that stands in no file.
   void Put(std::size_t cell, std::string line);
@@ -39,7 +40,7 @@ class CellTable {
   };
   /// A file, and the part of it that was read last.
   struct Source {
-    std::filesystem::path file;
+    FilePath file;
     std::uint64_t begin = 0;
     std::string part = {};
   };
@@ -74,8 +75,6 @@ class Journal {
                                const JournalLag& sync = {});
   /// Goes on with a journal that `ReadJournal` has read; a last line that was torn is cut off.
   static Result<Journal> Continue(const std::filesystem::path& folder, const JournalLag& sync = {});
-  Journal(Journal&& other) noexcept;
-  ~Journal();
 
   /// Appends the line of a cell (cell_line.h); returns where in the file it stands.
   Result<std::uint64_t> Append(std::string_view line);
@@ -85,12 +84,12 @@ class Journal {
   Result<void> Sync();
 
  private:
-  Journal(std::filesystem::path path, int file, const JournalLag& sync)
-      : path_(std::move(path)), file_(file), sync_(sync) {}
+  Journal(FilePath path, Descriptor file, const JournalLag& sync)
+      : path_(std::move(path)), file_(std::move(file)), sync_(sync) {}
   Result<void> Write(std::string_view lines);
 
-  std::filesystem::path path_;
-  int file_ = -1;
+  FilePath path_;
+  Descriptor file_;
   JournalLag sync_;
   std::uint64_t end_ = 0;  ///< of the file
   std::size_t unsynced_bytes_ = 0;
@@ -108,8 +107,8 @@ struct JournalContent {
 
 /// Puts the cells of a journal into `cells` (one place per cell of `plan`). A last line without its end is what a kill
 /// leaves, and ignored; a line that is not as it was written (a flipped bit, something that somebody wrote into it)
-/// costs its cell alone, and a second line of a cell only itself. A good line that is no cell of the plan or of the shard
-/// is refused with file:line.
+/// costs its cell alone, and a second line of a cell only itself. A good line that is no cell of the plan or of the
+/// shard is refused with file:line.
 Result<JournalContent> ReadJournal(const std::filesystem::path& folder, const Plan& plan, CellTable& cells);
 
 }  // namespace etude

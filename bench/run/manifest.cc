@@ -125,7 +125,7 @@ SuiteSetup WithCanonicalNames(SuiteSetup suite) {
   return suite;
 }
 
-Result<Json> ReadManifestJson(const std::filesystem::path& path) {
+Result<Json> ReadManifestJson(const FilePath& path) {
   auto json = ReadJsonFile(path);
   if (!json) return json;
   const Json schema = json->is_object() ? json->value("schema", Json()) : Json();
@@ -158,12 +158,12 @@ Json MakeManifest(const SuiteSetup& suite, std::span<const PreparedScenario> sce
   return json;
 }
 
-Result<SuiteSetup> ReadManifest(const std::filesystem::path& path) {
+Result<SuiteSetup> ReadManifest(const FilePath& path) {
   ASSIGN_OR_RETURN(const auto json, ReadManifestJson(path));
   return DecodeSetup(json, {path.string(), 0, 0});
 }
 
-Result<void> CheckClips(const std::filesystem::path& path, std::span<const PreparedScenario> scenarios) {
+Result<void> CheckClips(const FilePath& path, std::span<const PreparedScenario> scenarios) {
   ASSIGN_OR_RETURN(const auto json, ReadManifestJson(path));
   for (std::size_t s = 0; s < scenarios.size(); ++s) {
     const Json now = DescribeMotions(scenarios[s]);
@@ -183,7 +183,7 @@ Result<void> CheckClips(const std::filesystem::path& path, std::span<const Prepa
   return {};
 }
 
-Result<PreparedRun> PrepareRun(const std::filesystem::path& manifest, const std::optional<SecretKey>& key) {
+Result<PreparedRun> PrepareRun(const FilePath& manifest, const std::optional<SecretKey>& key) {
   ASSIGN_OR_RETURN(auto suite, ReadManifest(manifest));
   RETURN_IF_ERROR(OpenSeeds(key, {manifest.string()}, suite));
   ASSIGN_OR_RETURN(auto scenarios, PrepareAll(suite));
@@ -212,9 +212,9 @@ bool AreOfLibraries(std::span<const JsonDifference> differences) {
 }
 
 Result<std::vector<JsonDifference>> OtherLibrariesOf(const std::filesystem::path& folder) {
-  const std::filesystem::path path = folder / kOtherLibrariesFile;
+  const FilePath path = Inside(folder) / kOtherLibrariesFile;
   std::vector<JsonDifference> noted;
-  if (std::error_code none; !std::filesystem::exists(path, none)) return noted;
+  if (!Exists(path)) return noted;
   ASSIGN_OR_RETURN(const auto json, ReadJsonFile(path));
   try {
     for (const Json& one : json) noted.push_back({one.at("path"), one.at("then"), one.at("now")});
@@ -231,7 +231,7 @@ Result<void> RecordOtherLibraries(const std::filesystem::path& folder, std::span
   }
   Json json = Json::array();
   for (const JsonDifference& one : noted) json.push_back({{"path", one.path}, {"then", one.then}, {"now", one.now}});
-  return SaveJson(folder / kOtherLibrariesFile, json);
+  return SaveJson(Inside(folder) / kOtherLibrariesFile, json);
 }
 
 Result<std::string> BuildDigest() {

@@ -42,7 +42,7 @@ Result<FolderState> CheckFolder(const fs::path& folder, const RunOptions& option
 /// A folder can only be gone on with by the same build, suite, seed and clips; by other libraries if that is asked for,
 /// which the folder then records.
 Result<void> CheckManifest(const fs::path& folder, const std::string& manifest, bool other_libraries) {
-  const fs::path path = folder / "manifest.json";
+  const FilePath path = Inside(folder) / "manifest.json";
   ASSIGN_OR_RETURN(const auto found, ReadWholeFile(path));
   if (found == manifest) return {};
   ASSIGN_OR_RETURN(const auto then, ReadJson(found, path.string()));
@@ -147,7 +147,7 @@ Result<OpenedJournal> OpenJournal(const fs::path& folder, const std::string& man
     before.cells_done = before.cells_before = found.cells;
     before.cells_ok = found.cells_ok;
   } else {
-    RETURN_IF_ERROR(WriteFileAtomically(folder / "manifest.json", manifest, OnDisk::kLater));
+    RETURN_IF_ERROR(WriteFileAtomically(Inside(folder) / "manifest.json", manifest, OnDisk::kLater));
     RETURN_IF_ERROR(SyncTree(folder));
     RETURN_IF_ERROR(SyncPathTo(folder));
   }
@@ -167,8 +167,8 @@ Result<bool> FinishFolder(const fs::path& folder, const Plan& plan, CellTable& c
     const auto goes_on = [&](std::size_t) { return options.stop == nullptr || !*options.stop; };
     return FinishRun(folder, plan, cells, host, WorkerCount(options.jobs), goes_on);
   }
-  if (std::error_code none; !was_done || !fs::exists(folder / "host.json", none)) {
-    RETURN_IF_ERROR(SaveJson(folder / "host.json", host, OnDisk::kLater));
+  if (!was_done || !Exists(Inside(folder) / "host.json")) {
+    RETURN_IF_ERROR(SaveJson(Inside(folder) / "host.json", host, OnDisk::kLater));
     RETURN_IF_ERROR(SyncTree(folder));
   }
   return true;
@@ -203,8 +203,8 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   ASSIGN_OR_RETURN(auto opened, OpenJournal(folder, manifest + "\n", head, continues, options, plan, cells));
   std::vector<Order> orders = plan.OrdersFor(options.shard, cells.Done());
   const bool was_done = continues && orders.empty();
-  JournalRecorder recorder(cells, std::move(opened.journal), cells.AddFile(folder / kJournalFile), opened.before,
-                           on_progress);
+  JournalRecorder recorder(cells, std::move(opened.journal), cells.AddFile(Inside(folder) / kJournalFile),
+                           opened.before, on_progress);
   const auto whole = RunOrders(suite, plan, std::move(orders),
                                {.program = ThisProgram(),
                                 .error_folder = (fs::absolute(folder) / "stderr").string(),

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -27,7 +26,7 @@ namespace fs = std::filesystem;
 /// The name of a part of a result folder, or of one that was being written.
 bool IsPartOfRun(const fs::path& name) {
   static const std::vector<std::string> parts = {
-      "manifest.json", "host.json",  kJournalFile,        kSealFile,   "cells.jsonl",  "timings.jsonl",
+      "manifest.json", "host.json",  kJournalFile,        kSealFile,   kCellsFile,     kTimingsFile,
       "series",        "recordings", "summary.json",      "report",    "video",        "stderr",
       kColumnsFolder,  kTimesFolder, kOtherLibrariesFile, kSignedFile, kSignatureFile, kLockFile};
   return std::any_of(parts.begin(), parts.end(),
@@ -35,10 +34,12 @@ bool IsPartOfRun(const fs::path& name) {
 }
 
 /// A journal without a whole head belongs to a run that was ended while it began.
-bool HoldsWholeLine(const fs::path& journal) {
-  std::ifstream in(journal, std::ios::binary);
+Result<bool> HoldsWholeLine(const FilePath& journal) {
+  if (!Exists(journal)) return false;
+  ASSIGN_OR_RETURN(auto lines, FileLines::Open(journal));
   std::string line;
-  return std::getline(in, line) && !in.eof();
+  ASSIGN_OR_RETURN(const bool has_line, lines.Next(line));
+  return has_line && lines.had_end();
 }
 
 }  // namespace
@@ -55,8 +56,9 @@ Result<FolderState> LookAtFolder(const fs::path& path) {
     }
   }
   if (error) return Fail(place, "cannot be read: {}", error.message());
-  if (HoldsWholeLine(path / kJournalFile)) return FolderState::kUnfinished;
-  return fs::exists(path / "host.json", error) ? FolderState::kFinished : FolderState::kFree;
+  ASSIGN_OR_RETURN(const bool is_begun, HoldsWholeLine(Inside(path) / kJournalFile));
+  if (is_begun) return FolderState::kUnfinished;
+  return Exists(Inside(path) / "host.json") ? FolderState::kFinished : FolderState::kFree;
 }
 
 Result<RunFolder> RunFolder::Claim(const fs::path& path, bool keep_contents) {
@@ -140,7 +142,7 @@ Result<bool> FinishRun(const fs::path& folder, const Plan& plan, CellTable& cell
   }
   if (!goes_on(cell)) return false;
   RETURN_IF_ERROR(results.Finish(summaries));
-  RETURN_IF_ERROR(SaveJson(folder / "host.json", host, OnDisk::kLater));
+  RETURN_IF_ERROR(SaveJson(Inside(folder) / "host.json", host, OnDisk::kLater));
   // The journal is the only other place that knows the results: it goes when all of them are on the disk.
   RETURN_IF_ERROR(SealRun(folder));
   RETURN_IF_ERROR(SyncTree(folder));

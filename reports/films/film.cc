@@ -184,7 +184,7 @@ class SoundFile {
   std::filesystem::path path_;
 };
 
-Result<std::string> Encode(Scene& scene, const std::filesystem::path& path, const FilmWatch& watch) {
+Result<std::string> Encode(Scene& scene, const FilePath& path, const FilmWatch& watch) {
   ASSIGN_OR_RETURN(const SoundFile sound, SoundFile::Make(scene));
   const auto draw = [&](int frame) { return scene.Draw(frame); };
   ASSIGN_OR_RETURN(const bool is_whole, EncodeFrames(path, scene.Frames(), kFilmRate, draw, watch, sound.path()));
@@ -192,15 +192,15 @@ Result<std::string> Encode(Scene& scene, const std::filesystem::path& path, cons
   return ReadWholeFile(path);
 }
 
-Result<bool> EncodeDrawn(const std::filesystem::path& path, int frames, int rate_hz, FilmWorkers workers,
-                         const FilmWatch& watch, const std::filesystem::path& sound) {
+Result<bool> EncodeDrawn(const FilePath& path, int frames, int rate_hz, FilmWorkers workers, const FilmWatch& watch,
+                         const std::filesystem::path& sound) {
   ASSIGN_OR_RETURN(auto encoder,
                    Encoder::Start(path, workers.width(), workers.height(), rate_hz, sound, Encoder::Form::kI420));
   for (int frame = 0; frame < frames; ++frame) {
     if (watch.IsStopped()) return false;
     ASSIGN_OR_RETURN(const auto picture, workers.Next());
     RETURN_IF_ERROR(encoder.Add(picture));
-    watch.Tell(path, static_cast<std::size_t>(frame + 1), static_cast<std::size_t>(frames));
+    watch.Tell(path.whole(), static_cast<std::size_t>(frame + 1), static_cast<std::size_t>(frames));
   }
   RETURN_IF_ERROR(encoder.Finish());
   return true;
@@ -208,15 +208,14 @@ Result<bool> EncodeDrawn(const std::filesystem::path& path, int frames, int rate
 
 }  // namespace
 
-Result<bool> EncodeFrames(const std::filesystem::path& path, int frames, int rate_hz,
-                          const std::function<Canvas(int frame)>& draw, const FilmWatch& watch,
-                          const std::filesystem::path& sound) {
+Result<bool> EncodeFrames(const FilePath& path, int frames, int rate_hz, const std::function<Canvas(int frame)>& draw,
+                          const FilmWatch& watch, const std::filesystem::path& sound) {
   const auto draw_alone = [&](int frame, std::span<const std::uint8_t>) { return draw(frame); };
   ASSIGN_OR_RETURN(auto workers, FilmWorkers::Start(frames, watch.jobs, draw_alone));
   return EncodeDrawn(path, frames, rate_hz, std::move(workers), watch, sound);
 }
 
-Result<bool> EncodeFedFrames(const std::filesystem::path& path, int frames, int rate_hz, FrameFeed feed,
+Result<bool> EncodeFedFrames(const FilePath& path, int frames, int rate_hz, FrameFeed feed,
                              const FilmWorkers::Draw& draw, const FilmWatch& watch) {
   ASSIGN_OR_RETURN(auto workers, FilmWorkers::Start(frames, watch.jobs, draw, std::move(feed)));
   return EncodeDrawn(path, frames, rate_hz, std::move(workers), watch, {});
@@ -234,9 +233,9 @@ Picture PictureOf(const Canvas& canvas, std::string caption) {
   return {canvas.Png(), canvas.width(), canvas.height(), std::move(caption)};
 }
 
-Film Shoot(Scene& scene, const std::filesystem::path& path, const FilmWatch& watch) {
+Film Shoot(Scene& scene, const FilePath& path, const FilmWatch& watch) {
   Film film;
-  film.file = path.filename().string();
+  film.file = path.whole().filename().string();
   film.poster = PictureOf(scene.Draw(scene.PosterFrame()), scene.Words());
   if (auto mp4 = Encode(scene, path, watch)) {
     film.mp4 = std::move(*mp4);
