@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/machine.h"
+
 namespace etude {
 namespace {
 
@@ -23,10 +25,8 @@ Place InFile(const std::filesystem::path& path) { return Place{.file = path.stri
 Result<void> CheckReadable(const std::filesystem::path& path) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) {
-    const bool absent = status.type() == std::filesystem::file_type::not_found;
-    return Fail(InFile(path), "{}", absent ? "no such file" : "cannot read this file: " + error.message());
-  }
+  if (status.type() == std::filesystem::file_type::not_found) return Fail(InFile(path), "no such file");
+  if (!std::filesystem::exists(status)) return CannotRead(path.string(), "cannot read this file", error.value());
   if (!std::filesystem::is_regular_file(status)) return Fail(InFile(path), "is no file");
   return {};
 }
@@ -37,10 +37,10 @@ bool Synced(int file) { return ::fsync(file) == 0 || errno == EINVAL || errno ==
 Result<void> Sync(const std::filesystem::path& path, int flags) {
   int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags);
   if (file < 0 && errno == EACCES) file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags);  // such as a lock
-  if (file < 0) return Fail({path.string()}, "cannot be opened to synchronise it: {}", std::strerror(errno));
+  if (file < 0) return CannotWrite(path.string(), "cannot be opened to synchronise it", errno);
   const int failed = Synced(file) ? 0 : errno;
   ::close(file);
-  if (failed != 0) return Fail({path.string()}, "cannot be synchronised: {}", std::strerror(failed));
+  if (failed != 0) return CannotWrite(path.string(), "cannot be synchronised", failed);
   return {};
 }
 
@@ -58,7 +58,7 @@ Result<void> MakeFolder(const std::filesystem::path& folder) {
   if (folder.empty()) return {};  // of a plain file name: the one we stand in
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) return Fail(InFile(folder), "cannot make this folder: {}", error.message());
+  if (error) return CannotWrite(folder.string(), "cannot make this folder", error.value());
   return {};
 }
 
@@ -119,7 +119,17 @@ PartialFile::~PartialFile() {
 }
 
 tl::unexpected<Error> PartialFile::Failure() const {
-  return Fail({path_.string()}, "cannot write this file: {}", std::strerror(errno));
+  return CannotWrite(path_.string(), "cannot write this file", errno);
+}
+
+Result<void> PartialFile::CheckRoom() const {
+  const std::array<char, kBuffer> more{};
+  const off_t end = ::lseek(file_, 0, SEEK_END);
+  const ssize_t count = ::pwrite(file_, more.data(), more.size(), end);
+  if (count == static_cast<ssize_t>(more.size())) return {};
+  // What was taken in part says the reason when the rest is tried.
+  if (count >= 0 && ::pwrite(file_, more.data(), more.size(), end + count) >= 0) return {};
+  return Failure();
 }
 
 Result<void> PartialFile::Finish(OnDisk when) {
@@ -168,12 +178,12 @@ Result<void> AtomicFile::Finish(OnDisk when) {
 
 Result<void> ReadInChunks(const std::filesystem::path& path, const std::function<void(std::string_view)>& use) {
   std::ifstream in(path, std::ios::binary);
-  if (!in) return Fail(InFile(path), "cannot read this file: {}", std::strerror(errno));
+  if (!in) return CannotRead(path.string(), "cannot read this file", errno);
   std::vector<char> chunk(1 << 18);
   while (in.read(chunk.data(), static_cast<std::streamsize>(chunk.size())) || in.gcount() > 0) {
     use({chunk.data(), static_cast<std::size_t>(in.gcount())});
   }
-  if (in.bad()) return Fail(InFile(path), "cannot read this file: {}", std::strerror(errno));
+  if (in.bad()) return CannotRead(path.string(), "cannot read this file", errno);
   return {};
 }
 
@@ -181,10 +191,10 @@ Result<void> ForEachLine(const std::filesystem::path& path,
                          const std::function<Result<void>(std::string_view, const Place&)>& use) {
   RETURN_IF_ERROR(CheckReadable(path));
   std::ifstream in(path, std::ios::binary);
-  if (!in) return Fail(InFile(path), "cannot read this file: {}", std::strerror(errno));
+  if (!in) return CannotRead(path.string(), "cannot read this file", errno);
   Place place{.file = path.string(), .line = 1};
   for (std::string line; std::getline(in, line); ++place.line) RETURN_IF_ERROR(use(line, place));
-  if (in.bad()) return Fail(InFile(path), "cannot read this file: {}", std::strerror(errno));
+  if (in.bad()) return CannotRead(path.string(), "cannot read this file", errno);
   return {};
 }
 
@@ -196,7 +206,7 @@ Result<std::string> ReadWholeFile(const std::filesystem::path& path) {
     return Fail(InFile(path), "{} MiB; at most {} MiB are read", size >> 20, kLargestFile >> 20);
   }
   std::ifstream in(path, std::ios::binary);
-  if (!in) return Fail(InFile(path), "cannot read this file: {}", std::strerror(errno));
+  if (!in) return CannotRead(path.string(), "cannot read this file", errno);
   std::string bytes;
   bytes.reserve(error ? 0 : size);
   std::array<char, 1 << 16> chunk{};
@@ -204,7 +214,7 @@ Result<std::string> ReadWholeFile(const std::filesystem::path& path) {
     bytes.append(chunk.data(), static_cast<std::size_t>(in.gcount()));
     if (bytes.size() > kLargestFile) return Fail(InFile(path), "grows while it is read");
   }
-  if (in.bad()) return Fail(InFile(path), "cannot read this file: {}", std::strerror(errno));
+  if (in.bad()) return CannotRead(path.string(), "cannot read this file", errno);
   return bytes;
 }
 
@@ -236,7 +246,7 @@ Result<void> SyncTree(const std::filesystem::path& folder) {
       RETURN_IF_ERROR(SyncFile(entry->path()));
     }
   }
-  if (error) return Fail({folder.string()}, "cannot be read: {}", error.message());
+  if (error) return CannotRead(folder.string(), "cannot be read", error.value());
   return SyncFolder(folder);
 }
 

@@ -50,6 +50,8 @@ class PartialFile {
   /// Gives the file its name.
   Result<void> Finish(OnDisk when = OnDisk::kAtOnce);
   tl::unexpected<Error> Failure() const;
+  /// Fails when the file cannot become longer: another program that was to write it has then met the same.
+  Result<void> CheckRoom() const;
 
  private:
   std::filesystem::path path_, name_;

@@ -21,7 +21,8 @@ struct DeleteJson {
 using JsonPtr = std::unique_ptr<Json, DeleteJson>;
 
 /// Writes JSON in the one way in which it leaves Etude: one line, keys in the order given, shortest digits that read
-/// back the same. Refuses NaN and infinity, which nlohmann would silently write as null, naming their path.
+/// back the same, characters that nobody sees (IsHidden) by their numbers. Refuses NaN and infinity, which nlohmann
+/// would silently write as null, naming their path.
 Result<std::string> WriteJson(const Json& json);
 
 /// Shows a value in a complaint: its JSON, cut after forty characters; a list by its length.

@@ -16,6 +16,7 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/base/machine.h"
 #include "sim/render/scene.h"
 #include "sim/sensors/image_files.h"
 
@@ -89,18 +90,21 @@ Result<Encoder> Encoder::Start(const std::filesystem::path& path, int width, int
   const Place place{.file = path.string()};
   ASSIGN_OR_RETURN(auto film, PartialFile::Claim(path));
   Log log(std::tmpfile(), std::fclose);
-  if (!log) return Fail(place, "cannot make a temporary file: {}", std::strerror(errno));
+  if (!log) return Fail({kThisMachine}, "no temporary file can be made: {}", std::strerror(errno));
   // A socket instead of a pipe: writing to a reader that has gone is then an error, not a signal.
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
-    return Fail(place, "cannot talk to {}: {}", program, std::strerror(errno));
+    return Fail({kThisMachine}, "{} cannot be talked to: {}", program, std::strerror(errno));
   }
   pid_t child = -1;
   const int error = StartFilmProgram(Arguments(program, film.name(), width, height, rate_hz, sound, form), ends[1],
                                      kNowhere, log.get(), child);
   close(ends[1]);
+  if (error != 0) close(ends[0]);
+  if (error != 0 && error != ENOENT) {
+    return Fail({kThisMachine}, "{} cannot be started: {}", program, std::strerror(error));
+  }
   if (error != 0) {
-    close(ends[0]);
     return Fail(place, "{} could not be started ({}); the Debian package of that name brings it", program,
                 std::strerror(error));
   }
@@ -157,7 +161,8 @@ int Encoder::CloseAndWait() {
 
 tl::unexpected<Error> Encoder::Complaint(const std::string& what) {
   const std::string words = FirstLineOf(log_.get());
-  return Fail(Place{.file = film_.path().string()}, "{}{}{}", what, words.empty() ? "" : ": ", words);
+  if (auto room = film_.CheckRoom(); !room) return tl::unexpected(room.error());
+  return Fail({film_.path().string()}, "{}{}{}", what, words.empty() ? "" : ": ", words);
 }
 
 Result<void> SaveTakeFilms(std::span<const Attachment> files, int rate_hz, const std::filesystem::path& folder) {

@@ -7,11 +7,11 @@
 
 #include "bench/files/json.h"
 #include "bench/metrics/catalogue.h"
-#include "bench/process/machine.h"
 #include "bench/run/cell_runner.h"
 #include "bench/run/outside_programs.h"
 #include "bench/scenario/scenario.h"
 #include "engine/base/digest.h"
+#include "engine/base/machine.h"
 
 namespace etude {
 namespace {
@@ -185,6 +185,7 @@ Result<FinishedRun> LoadFinishedRun(const fs::path& folder, Sealing sealing) {
   }
   ASSIGN_OR_RETURN(run.data, LoadRun(folder, sealing));
   ASSIGN_OR_RETURN(run.scenarios, LoadScenarios(folder / "manifest.json"));
+  RETURN_IF_ERROR(CheckStillThere(folder, run.data));
   RETURN_IF_ERROR(CheckRows(run, {(folder / "cells.jsonl").string(), 0, 0}));
   if (run.data.cpu_seconds.empty() && std::any_of(run.scenarios.begin(), run.scenarios.end(), WantsTimes)) {
     return Fail({(folder / "timings.jsonl").string(), 0, 0}, "tells no times, which a gate of this run needs");

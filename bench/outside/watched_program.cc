@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstring>
 #include <fstream>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "bench/outside/attachment_folder.h"
 #include "bench/outside/messages.h"
 #include "bench/outside/program_view.h"
+#include "engine/base/machine.h"
 
 namespace etude {
 namespace {
@@ -95,7 +97,9 @@ constexpr std::chrono::milliseconds kLookEvery{20};  // at memory, and at whethe
 constexpr std::chrono::milliseconds kLookAtMappingsEvery{200};
 
 tl::unexpected<OutsideFailure> NotStarted(const Error& error) {
-  return tl::unexpected<OutsideFailure>({Status::kFailed, ToString(error), false});
+  // That it is of this machine is told by who did not ask it.
+  return tl::unexpected<OutsideFailure>(
+      {Status::kFailed, IsOfThisMachine(error) ? error.message : ToString(error), false});
 }
 
 tl::unexpected<OutsideFailure> TooMuch(std::string reason) {
@@ -200,6 +204,9 @@ OutsideFailure WatchedProgram::HowItEnded() {
   if (child_->PartOfLine().size() > kLongestReply) {
     return {Status::kBadOutput,
             fmt::format("said a line of more than {} MiB: {}", kLongestReply >> 20, Printable(part))};
+  }
+  if (child_->broken_by() != 0) {
+    return {Status::kFailed, fmt::format("cannot be talked to: {}", std::strerror(child_->broken_by())), false};
   }
   for (int i = 0; i < kDyingMs && !child_->HasEnded(); ++i) ::usleep(1000);
   if (!child_->HasEnded()) return {Status::kBadOutput, "closed its output, but went on running"};

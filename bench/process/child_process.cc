@@ -24,9 +24,9 @@
 #include <set>
 #include <utility>
 
-#include "bench/process/machine.h"
 #include "bench/process/pinned_environment.h"
 #include "bench/process/process_tree.h"
+#include "engine/base/machine.h"
 
 namespace etude {
 namespace {
@@ -178,9 +178,10 @@ void EndOrphans() {
   }
 }
 
-/// Describes how a program ended. A shell, and a fence, tell a signal by an exit code beyond 128.
-std::string DescribeEnd(int status) {
-  const int code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+/// The exit code as a shell, and a fence, tell it: a signal is one beyond 128.
+int ExitCode(int status) { return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status); }
+
+std::string DescribeEnd(int code) {
   const int signal = code - 128;
   if (signal <= 0 || signal >= NSIG) return fmt::format("exit code {}", code);
   return fmt::format("signal {} ({})", signal, strsignal(signal));
@@ -216,7 +217,7 @@ Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
   Descriptor errors;
   if (!options.error_file.empty()) {
     errors = Descriptor(::open(options.error_file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666));
-    if (errors.number() < 0) return Fail({options.error_file, 0, 0}, "cannot write: {}", std::strerror(errno));
+    if (errors.number() < 0) return CannotWrite(options.error_file, "cannot write", errno);
   }
   std::vector<std::string> argument_texts = {options.program};
   argument_texts.insert(argument_texts.end(), options.arguments.begin(), options.arguments.end());
@@ -274,6 +275,8 @@ ChildProcess& ChildProcess::operator=(ChildProcess&& other) noexcept {
     pid_ = std::exchange(other.pid_, -1);
     input_ = std::exchange(other.input_, -1);
     output_ = std::exchange(other.output_, -1);
+    broken_by_ = std::exchange(other.broken_by_, 0);
+    exit_code_ = std::exchange(other.exit_code_, -1);
     unsent_ = std::move(other.unsent_);
     sent_ = std::exchange(other.sent_, 0);
     buffer_ = std::move(other.buffer_);
@@ -298,7 +301,10 @@ bool ChildProcess::SendOn() {
     const ssize_t count = ::write(input_, unsent_.data() + sent_, unsent_.size() - sent_);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return true;
-    if (count < 0) break;  // nobody will ever take the rest
+    if (count < 0) {  // nobody will ever take the rest
+      if (errno != EPIPE) broken_by_ = errno;
+      break;
+    }
     sent_ += static_cast<std::size_t>(count);
   }
   const bool all_sent = !HasUnsent();
@@ -323,10 +329,12 @@ bool ChildProcess::Receive(std::size_t longest_line) {
     const ssize_t count = ::read(output_, chunk.data(), chunk.size());
     if (count < 0 && errno == EINTR) continue;
     if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) break;
+    if (count < 0) broken_by_ = errno;
     if (count <= 0) return false;
     buffer_.append(chunk.data(), static_cast<std::size_t>(count));
     ++chunks;
   }
+  if (broken_by_ != 0) return false;
   return buffer_.size() <= longest_line || buffer_.find('\n', scanned_) != std::string::npos;
 }
 
@@ -372,7 +380,8 @@ std::string ChildProcess::Finish(int patience_ms) {
   ManagedChildren().erase(pid_);
   EndOrphans();
   pid_ = input_ = output_ = -1;
-  return DescribeEnd(status);
+  exit_code_ = ExitCode(status);
+  return DescribeEnd(exit_code_);
 }
 
 }  // namespace etude

@@ -66,7 +66,7 @@ class ChildProcess {
   int input() const { return input_; }
   /// Takes some of what can be read now (poll says whether there is more) and sends on what is unsent. Whole
   /// lines are then given by NextLine: take them all before the next call. False when the child has closed its
-  /// output, that is, ended, or when a line grows beyond `longest_line` bytes.
+  /// output, that is, ended, when a line grows beyond `longest_line` bytes, and when it cannot be talked to any more.
   bool Receive(std::size_t longest_line = std::size_t{1} << 30);
   std::optional<std::string> NextLine();
   /// The beginning of a line that has not been read to its end yet.
@@ -81,10 +81,14 @@ class ChildProcess {
   pid_t FirstStarted() const;
   /// True if the program itself has ended; what it has started may still hold its output open.
   bool HasEnded() const;
+  /// The errno by which this machine keeps us from talking to it; 0 = it does not.
+  int broken_by() const { return broken_by_; }
   /// Ends its input, gives it `patience_ms` to end by itself, then kills it; kills what it has started either
   /// way. Says how it ended: "exit code 2", "signal 11 (Segmentation fault)"; the latter also of exit code 139, by
   /// which shells and fences tell it.
   std::string Finish(int patience_ms = 50);
+  /// The exit code of a finished child; of one that a signal ended, 128 and its number. −1 before it is finished.
+  int exit_code() const { return exit_code_; }
 
  private:
   ChildProcess(pid_t pid, int input, int output) : pid_(pid), input_(input), output_(output) {}
@@ -94,6 +98,8 @@ class ChildProcess {
   pid_t pid_ = -1;
   int input_ = -1;
   int output_ = -1;
+  int broken_by_ = 0;
+  int exit_code_ = -1;
   std::string unsent_;
   std::size_t sent_ = 0;  ///< bytes of `unsent_` that are already gone
   std::string buffer_;

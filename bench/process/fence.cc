@@ -21,7 +21,7 @@
 #include <set>
 
 #include "bench/process/child_process.h"
-#include "bench/process/machine.h"
+#include "engine/base/machine.h"
 
 namespace etude {
 namespace {

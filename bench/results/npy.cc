@@ -10,6 +10,8 @@
 #include <cstring>
 #include <utility>
 
+#include "engine/base/machine.h"
+
 namespace etude {
 namespace {
 
@@ -44,13 +46,15 @@ Result<void> NpyWriter::Finish(std::vector<std::size_t> shape) {
 Result<NpyFile> NpyFile::Open(const std::filesystem::path& path, std::string_view type) {
   const Place place{path.string()};
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return Fail(place, "cannot read this file: {}", std::strerror(errno));
+  if (file < 0) return CannotRead(path.string(), "cannot read this file", errno);
   struct stat status {};
   const bool is_large = ::fstat(file, &status) == 0 && static_cast<std::size_t>(status.st_size) >= kHead;
   const auto size = is_large ? static_cast<std::size_t>(status.st_size) : 0;
   void* const memory = is_large ? ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file, 0) : MAP_FAILED;
+  const int reason = errno;
   ::close(file);
-  if (memory == MAP_FAILED) return Fail(place, "is no column: it is too short");
+  if (!is_large) return Fail(place, "is no column: it is too short");
+  if (memory == MAP_FAILED) return CannotRead(path.string(), "cannot read this file", reason);
   NpyFile opened(static_cast<const char*>(memory), size);
   const std::string_view head(opened.data_, kHead);
   const std::string wanted = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': (", type);

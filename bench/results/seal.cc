@@ -8,6 +8,7 @@
 #include "bench/files/json.h"
 #include "bench/results/folder.h"
 #include "engine/base/digest.h"
+#include "engine/base/machine.h"
 
 namespace etude {
 namespace {
@@ -44,7 +45,7 @@ Result<Digests> DigestsOf(const fs::path& folder) {
       digests[name.generic_string() + "/"] = "empty";
     }
   }
-  if (error) return Fail({folder.string()}, "cannot be read: {}", error.message());
+  if (error) return CannotRead(folder.string(), "cannot be read", error.value());
   return digests;
 }
 

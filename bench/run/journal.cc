@@ -13,6 +13,7 @@
 
 #include "bench/files/files.h"
 #include "bench/results/folder.h"
+#include "engine/base/machine.h"
 
 namespace etude {
 namespace {
@@ -116,7 +117,7 @@ Result<void> CellTable::ReadPart(Source& source, const LinePlace& place) const {
     if (count <= 0) break;
     read += static_cast<std::size_t>(count);
   }
-  if (file < 0) return Fail({source.file.string()}, "cannot be read: {}", std::strerror(errno));
+  if (file < 0) return CannotRead(source.file.string(), "cannot be read", errno);
   ::close(file);
   source.part.resize(read);
   return {};
@@ -145,7 +146,7 @@ Result<Journal> Journal::Continue(const fs::path& folder, const JournalLag& sync
     if (::pread(journal.file_, &last, 1, end - 1) != 1 || last == '\n') break;
   }
   if (end < 0 || ::ftruncate(journal.file_, end) != 0) {
-    return Fail({path.string(), 0, 0}, "cannot be continued: {}", std::strerror(errno));
+    return CannotWrite(path.string(), "cannot be continued", errno);
   }
   journal.end_ = static_cast<std::uint64_t>(end);
   return journal;
@@ -173,7 +174,7 @@ Result<void> Journal::Write(std::string_view lines) {
   for (std::size_t written = 0; written < lines.size();) {
     const ssize_t count = ::write(file_, lines.data() + written, lines.size() - written);
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return Fail({path_.string(), 0, 0}, "cannot be written: {}", std::strerror(errno));
+    if (count <= 0) return CannotWrite(path_.string(), "cannot be written", errno);
     written += static_cast<std::size_t>(count);
   }
   end_ += lines.size();
@@ -189,7 +190,7 @@ bool Journal::IsSyncDue() const {
 
 Result<void> Journal::Sync() {
   if (unsynced_bytes_ > 0 && ::fdatasync(file_) != 0) {
-    return Fail({path_.string(), 0, 0}, "cannot be synchronised: {}", std::strerror(errno));
+    return CannotWrite(path_.string(), "cannot be synchronised", errno);
   }
   unsynced_bytes_ = 0;
   synced_at_ = Clock::now();

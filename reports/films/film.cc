@@ -16,6 +16,7 @@
 #include "bench/files/files.h"
 #include "bench/files/temporary_folder.h"
 #include "bench/films/encoder.h"
+#include "engine/base/machine.h"
 #include "engine/formats/wav.h"
 #include "reports/films/look.h"
 #include "sim/music/music.h"
@@ -59,7 +60,8 @@ FilmWorkers::FilmWorkers(int frames, int jobs, int width, int height, FrameFeed 
 Result<void> FilmWorkers::MapSlots() {
   const std::size_t slots = workers_.size() * static_cast<std::size_t>(slots_), bytes = slots * SlotBytes();
   void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  if (memory == MAP_FAILED) return Fail({}, "there is no memory for {} frames: {}", slots, std::strerror(errno));
+  if (memory == MAP_FAILED)
+    return Fail({kThisMachine}, "there is no memory for {} frames: {}", slots, std::strerror(errno));
   memory_ = {static_cast<std::uint8_t*>(memory), Unmap{bytes}};
   return {};
 }
@@ -98,7 +100,7 @@ Result<FilmWorkers> FilmWorkers::Start(int frames, int jobs, const Draw& draw, F
   for (std::size_t i = 0; i < film.workers_.size(); ++i) {
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
-      return Fail({}, "cannot talk to a drawing process: {}", std::strerror(errno));
+      return Fail({kThisMachine}, "cannot talk to a drawing process: {}", std::strerror(errno));
     }
     const pid_t child = fork();
     if (child == 0) {
@@ -110,7 +112,7 @@ Result<FilmWorkers> FilmWorkers::Start(int frames, int jobs, const Draw& draw, F
     }
     close(ends[1]);
     film.workers_[i] = {.child = child, .talk = ends[0]};
-    if (child < 0) return Fail({}, "cannot start a drawing process: {}", std::strerror(errno));
+    if (child < 0) return Fail({kThisMachine}, "cannot start a drawing process: {}", std::strerror(errno));
   }
   if (film.feed_.bytes > 0) {
     std::ranges::copy(of_first, film.SlotOf(0, 0).feed.begin());

@@ -10,7 +10,7 @@
 #include <fstream>
 
 #include "bench/process/child_process.h"
-#include "bench/process/machine.h"
+#include "engine/base/machine.h"
 
 namespace etude {
 namespace {
