@@ -55,6 +55,7 @@ struct RunData {
   std::vector<ScenarioSummary> scenarios;
   std::vector<CellSeries> series;
   std::vector<CellRecording> recordings;
+  std::string seal;      ///< the text of its seal; "" = it has none, or was not loaded
   std::string unsealed;  ///< why the folder is not as the run wrote it, when it was read all the same; else ""
   std::map<std::string, double> cpu_seconds;  ///< processor time, by Row::Id(); empty where the folder tells of none
 };

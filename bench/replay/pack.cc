@@ -158,6 +158,7 @@ Result<void> PackCell(const std::string& folder, const std::string& cell, const 
   ASSIGN_OR_RETURN(SuiteSetup suite, ReadManifest(manifest));
   ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(suite));
   RETURN_IF_ERROR(CheckClips(manifest, scenarios));
+  RETURN_IF_ERROR(CheckStillThere(folder, run));
   const auto prepared = std::find_if(scenarios.begin(), scenarios.end(), [&](const PreparedScenario& scenario) {
     return scenario.scenario().name == row.scenario;
   });

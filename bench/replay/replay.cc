@@ -193,6 +193,7 @@ Result<std::vector<CellCheck>> ReplayRun(const ReplayOptions& options) {
         return {};
       });
   if (!whole) return tl::unexpected(whole.error());
+  RETURN_IF_ERROR(CheckStillThere(options.folder, run));
   std::vector<CellCheck> list;
   for (auto& [cell, check] : checks) list.push_back(std::move(check));
   return list;
@@ -275,6 +276,7 @@ Result<std::vector<Verified>> VerifyRun(const ReplayOptions& options, bool repla
   ASSIGN_OR_RETURN(const auto prepared, PrepareRun(folder / "manifest.json", options.key));
   ASSIGN_OR_RETURN(all.emplace_back(), VerifyRecordings(folder, run, prepared));
   ASSIGN_OR_RETURN(all.emplace_back(), VerifyCells(options, prepared));
+  RETURN_IF_ERROR(CheckStillThere(folder, run.data));
   return all;
 }
 

@@ -118,6 +118,9 @@ Result<void> LoadManifest(const fs::path& folder, RunData& run) {
   return {};
 }
 
+/// Two runs have two seals: they hold the digests of their times.
+std::string SealText(const fs::path& folder) { return ReadWholeFile(folder / kSealFile).value_or(""); }
+
 }  // namespace
 
 fs::path RecordingFile(const fs::path& folder, const std::string& cell) {
@@ -204,6 +207,7 @@ Result<RunData> LoadRunOutline(const fs::path& folder, Sealing sealing) {
   if (!fs::exists(folder / "manifest.json", error)) {
     return Fail(place, "is no run, for it holds no manifest.json; a run writes one (etude run)");
   }
+  run.seal = SealText(folder);
   RETURN_IF_ERROR(LoadManifest(folder, run));
   if (auto sealed = CheckSeal(folder); !sealed) {
     if (sealing == Sealing::kRequired) {
@@ -214,9 +218,16 @@ Result<RunData> LoadRunOutline(const fs::path& folder, Sealing sealing) {
   }
   ASSIGN_OR_RETURN(const auto summary, ReadJsonFile(folder / "summary.json"));
   ASSIGN_OR_RETURN(run.scenarios, DecodeSummaries(summary, {(folder / "summary.json").string(), 0, 0}));
-  if (!fs::exists(folder / kColumnsFolder, error)) return run;
-  ASSIGN_OR_RETURN(run.source, OpenColumns(folder, NamesOf(run.scenarios)));
+  if (fs::exists(folder / kColumnsFolder, error)) {
+    ASSIGN_OR_RETURN(run.source, OpenColumns(folder, NamesOf(run.scenarios)));
+  }
+  RETURN_IF_ERROR(CheckStillThere(folder, run));
   return run;
+}
+
+Result<void> CheckStillThere(const fs::path& folder, const RunData& run) {
+  if (SealText(folder) == run.seal) return {};
+  return Fail({folder.string()}, "was replaced by another run while it was read");
 }
 
 Result<RunData> LoadRun(const fs::path& folder, Sealing sealing) {
@@ -238,6 +249,7 @@ Result<RunData> LoadRun(const fs::path& folder, Sealing sealing) {
     RETURN_IF_ERROR(LoadTimes(folder, run));
   }
   RETURN_IF_ERROR(LoadRecordings(folder, run));
+  RETURN_IF_ERROR(CheckStillThere(folder, run));
   return run;
 }
 
@@ -245,8 +257,9 @@ Result<void> WriteRows(const fs::path& folder, Sealing sealing,
                        const std::function<Result<void>(std::string_view line)>& write) {
   ASSIGN_OR_RETURN(const auto run, LoadRunOutline(folder, sealing));
   if (!run.source) {
-    return ForEachLine(folder / kCellsFile,
-                       [&](std::string_view line, const Place&) { return write(std::string(line) + "\n"); });
+    RETURN_IF_ERROR(ForEachLine(folder / kCellsFile,
+                                [&](std::string_view line, const Place&) { return write(std::string(line) + "\n"); }));
+    return CheckStillThere(folder, run);
   }
   Row row;
   for (std::size_t place = 0; place < run.source->size(); ++place) {

@@ -64,11 +64,15 @@ enum class Sealing {
 };
 
 /// Reads a result folder. Fails with file:line when a file is missing, torn or of another schema
-/// version, when the run did not come to its end, and when its seal does not hold.
+/// version, when the run did not come to its end, when its seal does not hold, and when another run took its place
+/// meanwhile (CheckStillThere).
 Result<RunData> LoadRun(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
 
 /// A result folder without its rows, series and recordings.
 Result<RunData> LoadRunOutline(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
+
+/// Fails when another run has taken the folder's place since `run` was loaded from it.
+Result<void> CheckStillThere(const std::filesystem::path& folder, const RunData& run);
 
 /// The file that keeps the recording of a cell (Row::Id), where there is one.
 std::filesystem::path RecordingFile(const std::filesystem::path& folder, const std::string& cell);
