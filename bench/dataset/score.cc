@@ -190,7 +190,7 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
   if (outcome.run.stopped || !outcome.faults.empty()) return outcome;
 
   ASSIGN_OR_RETURN(auto claimed, RunFolder::Claim(options.output, /*keep_contents=*/false));
-  Json manifest = MakeManifest(suite, scenarios, options.program_version);
+  ASSIGN_OR_RETURN(auto manifest, MakeManifest(suite, scenarios, options.program_version));
   ASSIGN_OR_RETURN(const auto answers, DescribeAnswers(plan, cells));
   manifest["scored"].update(answers);
   const fs::path folder = options.output;

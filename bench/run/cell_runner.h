@@ -33,8 +33,8 @@ class CellRunner {
 
   /// Builds the world. Whatever goes wrong in it is told by every cell.
   void Open(int condition, int trial);
-  /// Runs a method in the open world. A task that throws gives a failed row, and one that gets no more memory
-  /// `out_of_memory`.
+  /// Runs a method in the open world. A task that throws gives a failed row. Where memory ends, the cell is
+  /// `out_of_memory` if it held more than the scenario allows; else the machine lacks it, and the cell is not run.
   FinishedCell Run(std::size_t method);
 
  private:
@@ -50,6 +50,8 @@ class CellRunner {
     double mb_ = 0;
   };
 
+  /// The result of a cell in which something was thrown; or `why_not_run_`.
+  CellResult Thrown(const std::string& when, const std::exception& error);
   CellResult RunMethod(std::size_t method, CellUsage& usage);
   CellResult AskOutside(std::size_t method, CellUsage& usage);
   CellResult RunWithProgram(std::size_t method, CellUsage& usage);
@@ -66,7 +68,8 @@ class CellRunner {
   int condition_ = 0, trial_ = 0;
   std::unique_ptr<TaskWorld> world_;
   CellResult why_no_world_;
-  std::string why_not_run_;  ///< the cell that is being run
+  std::string why_not_run_;        ///< the cell that is being run
+  std::string why_world_not_run_;  ///< the cells of a world that could not be built
   CellUsage world_usage_;
   PeakMemory peak_memory_;
   std::unique_ptr<Payload> setting_, problem_;  ///< of the open world, once asked for

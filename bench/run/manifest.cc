@@ -17,6 +17,7 @@
 #include "bench/results/folder.h"
 #include "bench/tasks/registry.h"
 #include "engine/base/digest.h"
+#include "engine/base/machine.h"
 #include "engine/base/names.h"
 #include "sim/render/renderer.h"
 
@@ -85,9 +86,10 @@ constexpr std::array kDecisiveLibraries = {
     "libz.",      "libzip.",    "libOpenEXR",  "libImath",     "libIex",      "libtinygltf.", "libstb."};
 
 /// The builds of the decisive libraries, by name: the first half of their build IDs.
-Json DescribeLibraries() {
+Result<Json> DescribeLibraries() {
   constexpr std::size_t kToldDigits = 20;
-  static_cast<void>(LoadRenderer());  // one that is missing is missing in the list
+  // A renderer that is not installed is missing in the list.
+  if (auto loaded = LoadRenderer(); !loaded && IsOfThisMachine(loaded.error())) return tl::unexpected(loaded.error());
   Json libraries = Json::object();
   for (const auto& [name, build] : LoadedLibraries()) {
     const bool counts = std::ranges::any_of(kDecisiveLibraries,
@@ -137,13 +139,15 @@ Result<Json> ReadManifestJson(const std::filesystem::path& path) {
 
 }  // namespace
 
-Json MakeManifest(const SuiteSetup& suite, std::span<const PreparedScenario> scenarios, const std::string& version) {
+Result<Json> MakeManifest(const SuiteSetup& suite, std::span<const PreparedScenario> scenarios,
+                          const std::string& version) {
+  ASSIGN_OR_RETURN(const auto libraries, DescribeLibraries());
   Json json{{"schema", kResultSchema},
             {"etude", version},
             {"compiler", __VERSION__},
             {"packages", ETUDE_PACKAGES},
             {"glibc", gnu_get_libc_version()},
-            {"libraries", DescribeLibraries()},
+            {"libraries", libraries},
             {"environment", DigestOf(PinnedEnvironment())}};
   json.update(EncodeSetup(WithCanonicalNames(suite)));
   for (const TaskKind& kind : AllTaskKinds()) {

@@ -11,8 +11,11 @@
 
 namespace etude {
 
-/// Makes manifest.json, which repeats the run. Its bytes do not depend on how or where it is run.
-Json MakeManifest(const SuiteSetup& suite, std::span<const PreparedScenario> scenarios, const std::string& version);
+/// Makes manifest.json, which repeats the run. Its bytes do not depend on how or where it is run. Fails, with an error
+/// of this machine, when the renderer is there and cannot be loaded: the libraries would not be those of the next
+/// start.
+Result<Json> MakeManifest(const SuiteSetup& suite, std::span<const PreparedScenario> scenarios,
+                          const std::string& version);
 
 /// The suite that a manifest describes. Fails when it is of another schema.
 Result<SuiteSetup> ReadManifest(const std::filesystem::path& path);

@@ -188,7 +188,8 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
     RETURN_IF_ERROR(CheckMetricVectors(scenarios, fence));
   }
   const Plan plan(scenarios);
-  ASSIGN_OR_RETURN(const auto manifest, WriteJson(MakeManifest(suite, scenarios, options.program_version)));
+  ASSIGN_OR_RETURN(const auto described, MakeManifest(suite, scenarios, options.program_version));
+  ASSIGN_OR_RETURN(const auto manifest, WriteJson(described));
   ASSIGN_OR_RETURN(const auto build, BuildDigest());
   const JournalHead head{Digest().Add(manifest + "\n").Hex(), build, options.shard};
 

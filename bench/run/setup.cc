@@ -278,7 +278,9 @@ Result<std::vector<PreparedScenario>> PrepareAll(const SuiteSetup& suite) {
 
 Result<void> AddScoredMethod(const ScoredMethod& method, Scenario& scenario) {
   if (!IsPlainName(method.name)) {
-    return Fail({}, "'{}' is no name of a method; allowed: letters, digits, '-', '_' and '.', at most 80", method.name);
+    return Fail(
+        {}, "'{}' is no name of a method; allowed: letters, digits, '_', and behind the first '-' and '.', at most 80",
+        method.name);
   }
   std::vector<MethodEntry>& methods = scenario.methods;
   if (method.alone) {

@@ -2,10 +2,12 @@
 
 #include <fmt/ranges.h>
 #include <poll.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <deque>
 #include <filesystem>
 #include <iterator>
@@ -15,10 +17,10 @@
 
 #include "bench/process/child_process.h"
 #include "bench/process/clock.h"
-#include "bench/process/machine.h"
 #include "bench/run/outside_programs.h"
 #include "bench/run/plan.h"
 #include "bench/run/worker.h"
+#include "engine/base/machine.h"
 
 namespace etude {
 namespace {
@@ -178,6 +180,7 @@ class Supervisor {
   }
 
   Result<void> WatchOver(Worker& worker, bool has_input) {
+    if (worker.process.broken_by() != 0) return ReplaceEnded(worker);  // it may never hear of what it is to do
     if (has_input) {
       const bool alive = worker.process.Receive();
       for (auto line = worker.process.NextLine(); line && !worker.dismissed; line = worker.process.NextLine()) {
@@ -185,7 +188,7 @@ class Supervisor {
         if (!taken) return Replace(worker, Status::kBadOutput, "its worker answered with something else");
       }
       if (worker.dismissed) return {};
-      if (!alive) return Replace(worker, Status::kCrashed, "its worker ended with " + worker.process.Finish());
+      if (!alive) return ReplaceEnded(worker);
       if (worker.ready) HandOut(worker);  // what it has ahead of it
     }
     const auto now = Clock::now();
@@ -202,6 +205,12 @@ class Supervisor {
       }
     }
     return {};
+  }
+
+  void CountNotRun(std::size_t cells, const std::string& why) {
+    const std::string prefix = std::string(kThisMachine) + ": ";  // which stands before it anyway
+    if (not_run_ == 0) why_not_run_ = why.starts_with(prefix) ? why.substr(prefix.size()) : why;
+    not_run_ += cells;
   }
 
   /// False when a worker said something that it should not.
@@ -221,7 +230,7 @@ class Supervisor {
     }
     Order& order = worker.orders.front();
     if (line.starts_with(kNotRun)) {
-      if (not_run_++ == 0) why_not_run_ = line.substr(std::string_view(kNotRun).size());
+      CountNotRun(1, line.substr(std::string_view(kNotRun).size()));
       order.methods.erase(order.methods.begin());
       StartNextMethod(worker);
       return true;
@@ -234,8 +243,21 @@ class Supervisor {
     return true;
   }
 
-  /// Ends a worker, makes rows of what it was at, and starts another while there is work.
-  Result<void> Replace(Worker& worker, Status status, const std::string& reason) {
+  /// Replaces a worker that ended by itself, or cannot be talked to.
+  Result<void> ReplaceEnded(Worker& worker) {
+    if (const int reason = worker.process.broken_by(); reason != 0) {
+      return Replace(worker, {}, fmt::format("a worker cannot be talked to: {}", std::strerror(reason)));
+    }
+    const std::string end = worker.process.Finish();
+    const int code = worker.process.exit_code();
+    if (code == kCannotGoOn) return Replace(worker, {}, "a worker could not go on");
+    if (code == 128 + SIGXCPU) return Replace(worker, {}, "the limit of processor time is reached (ulimit -t)");
+    return Replace(worker, Status::kCrashed, "its worker ended with " + end);
+  }
+
+  /// Ends a worker, makes rows of what it was at, and starts another while there is work. Without a status it is this
+  /// machine that ended it, and what it was at has no row.
+  Result<void> Replace(Worker& worker, std::optional<Status> status, const std::string& reason) {
     worker.process.Finish();
     if (!worker.ready && ++deaths_in_setup_ == kMostDeathsInSetup) {
       return Fail({kThisMachine}, "{} workers in a row failed in their set-up: {}", kMostDeathsInSetup, reason);
@@ -258,17 +280,19 @@ class Supervisor {
     return {};
   }
 
-  /// Delivers the cell in progress as lost (every cell, while the world was being built), and orders the rest anew.
-  Result<void> GiveUp(Order order, bool built, Status status, const std::string& reason) {
+  /// Delivers the cell in progress as lost (every cell, while the world was being built) unless this machine is to
+  /// blame, and orders the rest anew.
+  Result<void> GiveUp(Order order, bool built, std::optional<Status> status, const std::string& reason) {
     const World& world = plan_.world(order.world);
     const std::size_t lost = built ? 1 : order.methods.size();
-    for (std::size_t i = 0; i < lost; ++i) {
+    if (!status) CountNotRun(lost, reason);
+    for (std::size_t i = 0; status && i < lost; ++i) {
       const std::size_t method = order.methods[i];
       const std::string when = built ? reason : reason + " while its world was being built";
       const std::size_t cell = plan_.CellAt(order.world, method);
       const std::string line = EncodeCellLine(
-          cell, {plan_.scenario_of(order.world).EndedRow(world.condition, world.trial, method, status, when), {}});
-      RETURN_IF_ERROR(deliver_({{cell, status}, line}));
+          cell, {plan_.scenario_of(order.world).EndedRow(world.condition, world.trial, method, *status, when), {}});
+      RETURN_IF_ERROR(deliver_({{cell, *status}, line}));
     }
     order.methods.erase(order.methods.begin(), order.methods.begin() + static_cast<std::ptrdiff_t>(lost));
     if (!order.methods.empty()) orders_.PutBack(std::move(order));

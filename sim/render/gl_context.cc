@@ -3,7 +3,12 @@
 #include <GL/osmesa.h>
 #include <dlfcn.h>
 
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
+#include <new>
+
+#include "engine/base/machine.h"
 
 #ifdef __SANITIZE_ADDRESS__
 // OSMesa keeps 480 bytes of every destroyed context, fontconfig what it once read. The sanitizer asks every program
@@ -44,7 +49,12 @@ Result<OsMesa> OpenOsMesa() {
   ::setenv("LP_NUM_THREADS", "0", 0);
   ::setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
   void* library = ::dlopen("libOSMesa.so.8", RTLD_LAZY | RTLD_LOCAL);
-  if (library == nullptr) return Fail({}, "OSMesa cannot be loaded: {}", ::dlerror());
+  if (library == nullptr) {
+    const std::string why = ::dlerror();
+    // One that is there and cannot be loaded lacks something, such as address space.
+    const bool is_installed = why.find(std::strerror(ENOENT)) == std::string::npos;
+    return Fail({is_installed ? kThisMachine : ""}, "OSMesa cannot be loaded: {}", why);
+  }
   OsMesa functions;
 #define ETUDE_OSMESA_LOAD(name)                                                                  \
   functions.name = reinterpret_cast<decltype(functions.name)>(::dlsym(library, "OSMesa" #name)); \
@@ -124,6 +134,10 @@ Result<GLuint> GlContext::LinkProgram(const std::string& vertex_source, const st
   gl.GetProgramInfoLog(program, static_cast<GLsizei>(log.size()), &length, log.data());
   log.resize(static_cast<std::size_t>(length));
   return Fail({}, "this GL does not link one of Etude's shader programs: {}", log);
+}
+
+void CheckMemory(const GlFunctions& gl) {
+  if (gl.GetError() == GL_OUT_OF_MEMORY) throw std::bad_alloc();
 }
 
 GLuint MakeUnfilteredTexture(const GlFunctions& gl) {

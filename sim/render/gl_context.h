@@ -54,6 +54,7 @@ namespace etude {
   X(PFNGLGENRENDERBUFFERSPROC, GenRenderbuffers)               \
   X(PFNGLGENTEXTURESPROC, GenTextures)                         \
   X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                 \
+  X(PFNGLGETERRORPROC, GetError)                               \
   X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)             \
   X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                       \
   X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)               \
@@ -116,6 +117,9 @@ class GlContext {
   // OSMesa insists on a default framebuffer, however small; nothing is drawn there.
   std::vector<unsigned char> unused_framebuffer_ = std::vector<unsigned char>(64 * 64 * 4);
 };
+
+/// Throws std::bad_alloc when GL lacked memory since it was asked last: what it then drew is no picture.
+void CheckMemory(const GlFunctions& gl);
 
 /// Makes a texture without filtering and leaves it bound.
 GLuint MakeUnfilteredTexture(const GlFunctions& gl);

@@ -5,9 +5,13 @@
 
 #include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "bench/files/temporary_folder.h"
-#include "bench/process/machine.h"
+#include "bench/run/outside_programs.h"
+#include "bench/run/worker.h"
+#include "engine/base/machine.h"
 #include "tests/bench/run/prepared.h"
 
 namespace etude {
@@ -121,6 +125,53 @@ TEST_F(SupervisorTest, CellsThatThisMachineKeepsFromBeingRunHaveNoRowAndEndTheRu
   EXPECT_EQ(ToString(whole.error()),
             fmt::format("this machine: {} cells were not run: no room left", plan_.cell_count() - 1));
   EXPECT_EQ(rows_.size(), 1u);
+}
+
+TEST_F(SupervisorTest, WhatAWorkerThatThisMachineEndsWasAtIsNotRun) {
+  for (const std::string& end : {fmt::format("exit {}", kCannotGoOn), std::string("kill -XCPU $$")}) {
+    rows_.clear();
+    const auto in_cell = RunWith("echo ready\nread -r order\necho built\n" + end + "\n", 2);
+    ASSERT_FALSE(in_cell);
+    EXPECT_TRUE(IsOfThisMachine(in_cell.error())) << ToString(in_cell.error());
+    EXPECT_THAT(ToString(in_cell.error()), HasSubstr(fmt::format("{} cells were not run: ", plan_.cell_count())));
+    const auto in_world = RunWith("echo ready\nread -r order\n" + end + "\n");
+    ASSERT_FALSE(in_world);
+    EXPECT_THAT(ToString(in_world.error()), HasSubstr(fmt::format("{} cells were not run: ", plan_.cell_count())));
+    EXPECT_TRUE(rows_.empty());
+  }
+}
+
+/// Takes so many bytes and no more, as a pipe or a disk at its end.
+class FullBuffer : public std::streambuf {
+ public:
+  explicit FullBuffer(std::size_t room) : room_(room) {}
+  const std::string& taken() const { return taken_; }
+
+ private:
+  int_type overflow(int_type c) override {
+    if (taken_.size() == room_) return traits_type::eof();
+    taken_ += traits_type::to_char_type(c);
+    return c;
+  }
+
+  std::string taken_;
+  std::size_t room_;
+};
+
+TEST_F(SupervisorTest, AWorkerWhoseAnswersCannotBeWrittenEnds) {
+  const Json setup{{"setup", EncodeSetup(suite_)}, {"error_folder", ""}, {"fence", EncodeFence({})}, {"key", ""}};
+  const std::string order = R"({"world":[0,0,0],"first_cell":0,"methods":[0,1]})";
+  const std::string words = *WriteJson(setup) + "\n" + order + "\n";
+  std::istringstream all(words);
+  std::ostringstream said;
+  EXPECT_EQ(RunWorker(all, said), 0) << "the control";
+  for (const std::size_t room : {std::size_t{0}, std::string("ready\n").size(), std::string("ready\nbuilt\n").size()}) {
+    FullBuffer buffer(room);
+    std::ostream full(&buffer);
+    std::istringstream in(words);
+    EXPECT_EQ(RunWorker(in, full), kCannotGoOn) << room;
+    EXPECT_EQ(buffer.taken(), said.str().substr(0, room));
+  }
 }
 
 TEST_F(SupervisorTest, AnAnswerForAnotherCellIsNotTaken) {
