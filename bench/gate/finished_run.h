@@ -64,6 +64,7 @@ struct Snapshot {
   std::string suite;
   std::string program_version;
   std::vector<SnapshotScenario> scenarios;
+  std::string unsealed = {};  ///< of one that was read: why its seal does not vouch for it; else ""
 };
 
 /// 'o' ok, 'u' unsolved, 'f' failed, 't' timeout, 'c' crashed, 'm' out of memory, 'b' bad output, 's' skipped.
