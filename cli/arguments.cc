@@ -242,7 +242,7 @@ std::array<CLI::Option*, 7> AddWorldOptions(CLI::App& command, std::optional<std
 void AddUnsealed(CLI::App& command, Sealing& sealing) {
   command.add_flag_callback(
       "--unsealed", [&sealing] { sealing = Sealing::kIgnored; },
-      "Read a run although its folder was changed, and say so");
+      "Read a run, or a baseline, although it was changed, and say so");
 }
 
 void AddOutsideRules(CLI::App& command, OutsideRules& rules) {

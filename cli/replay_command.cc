@@ -121,7 +121,7 @@ Result<int> ReplayCommand(const ReplayCommandOptions& options) {
   std::optional<Snapshot> baseline;
   if (!options.baseline.empty()) {
     if (options.cells.empty()) return Fail({}, "--baseline is told beside cells: name them with --cell");
-    ASSIGN_OR_RETURN(baseline, LoadBaseline(options.baseline));
+    ASSIGN_OR_RETURN(baseline, TakeBaseline(options.baseline, options.sealing));
   }
   ASSIGN_OR_RETURN(const auto checks, ReplayRun({.folder = options.target,
                                                  .cells = options.cells,
