@@ -46,7 +46,7 @@ const std::map<std::string_view, std::vector<std::string_view>>& ExamplesByComma
         "etude replay out/quick-1 --cell ik-weights/joint_noise_deg=5/003/fixed --pack cell.etude",
         "etude replay cell.etude"}},
       {"verify",
-       {"etude verify out/quick-1", "etude verify out/quick-1 --sample 100 --sign ~/.minisign/minisign.key",
+       {"etude verify out/quick-1", "etude verify out/quick-1 --sample all --sign ~/.minisign/minisign.key",
         "etude verify results --check minisign.pub"}},
       {"cite", {"etude cite out/quick-1", "etude cite out/quick-1 > etude.bib", "etude cite results/paper-table-2"}},
       {"gate",
@@ -207,6 +207,11 @@ Action WithSecretKey(CLI::App& command, const std::optional<std::uint64_t>* seed
   };
 }
 
+void AddReuseKey(CLI::App& command, bool& reuse_key) {
+  command.add_flag("--reuse-key", reuse_key, "Take a key that was used before, whose worlds may be known")
+      ->needs(command.get_option("--seed-file"));
+}
+
 CLI::Option* AddJobs(CLI::App& command, int& jobs) {
   return command.add_option("-j,--jobs", jobs, "Worker processes (default: one per processor)")
       ->check(CLI::Range(1, 1024));
@@ -242,7 +247,7 @@ std::array<CLI::Option*, 7> AddWorldOptions(CLI::App& command, std::optional<std
 void AddUnsealed(CLI::App& command, Sealing& sealing) {
   command.add_flag_callback(
       "--unsealed", [&sealing] { sealing = Sealing::kIgnored; },
-      "Read a run although its folder was changed, and say so");
+      "Read a run, or a baseline, although it was changed, and say so");
 }
 
 void AddOutsideRules(CLI::App& command, OutsideRules& rules) {

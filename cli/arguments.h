@@ -40,6 +40,8 @@ Result<std::optional<SecretKey>> TakeSecretKey(const std::string& file, bool has
 /// is that of --seed; null where there is none. Both belong to what `act` keeps.
 Action WithSecretKey(CLI::App& command, const std::optional<std::uint64_t>* seed, std::optional<SecretKey>& key,
                      const Action& act);
+/// Adds --reuse-key, of commands with a --seed-file that refuse a key that was used before.
+void AddReuseKey(CLI::App& command, bool& reuse_key);
 /// Adds -j, --jobs.
 CLI::Option* AddJobs(CLI::App& command, int& jobs);
 /// Adds --overwrite.

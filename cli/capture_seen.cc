@@ -42,8 +42,8 @@ void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<S
   std::vector<std::string> names;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const FilmedView& view = views[i];
-    films.push_back({view.camera.camera, view.fit, {view.facts.width, view.facts.height}, std::move(people[i]),
-                     view.is_sized});
+    films.push_back(
+        {view.camera.camera, view.fit, {view.facts.width, view.facts.height}, std::move(people[i]), view.is_sized});
     names.push_back(view.camera.name);
   }
   SessionGuess session = GuessSession(films, names, rig.R_WF, least_confidence);

@@ -18,7 +18,9 @@ namespace {
 int CheckMethodCommand(OutsideOptions options, const std::string& seat, bool is_fenced, bool as_json) {
   AdoptOrphans();
   if (is_fenced) options.fence = Fence::Find();
-  if (!as_json) fmt::print("fence: {}\n", options.fence.description());
+  if (!as_json) {
+    fmt::print("fence: {}\nmemory: {}\n", options.fence.description(), options.fence.MemoryDescription());
+  }
   Json checks_made = Json::array();
   int checks = 0, passed = 0;
   const auto all_passed = CheckConformance(options, seat, [&](const ConformanceCheck& check) {
@@ -31,9 +33,10 @@ int CheckMethodCommand(OutsideOptions options, const std::string& seat, bool is_
   });
   if (!all_passed) return Complain(all_passed.error());
   if (as_json) {
-    const auto printed = PrintFacts(
-        "check-method",
-        {{"passed", *all_passed}, {"fence", options.fence.description()}, {"checks", std::move(checks_made)}});
+    const auto printed = PrintFacts("check-method", {{"passed", *all_passed},
+                                                     {"fence", options.fence.description()},
+                                                     {"memory", options.fence.MemoryDescription()},
+                                                     {"checks", std::move(checks_made)}});
     if (!printed) return Complain(printed.error());
     return *all_passed ? kSuccess : kNothingWorked;
   }

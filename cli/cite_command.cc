@@ -15,7 +15,7 @@ namespace {
 
 Result<int> CiteCommand(const std::string& folder, bool as_json) {
   ASSIGN_OR_RETURN(const auto run, LoadRunOutline(folder));
-  ASSIGN_OR_RETURN(const auto manifest, ReadWholeFile(folder + "/manifest.json"));
+  ASSIGN_OR_RETURN(const auto manifest, ReadWholeFile(Inside(folder) / "manifest.json"));
   const std::string digest = Digest().Add(std::string_view(manifest)).Hex();
   if (as_json) {
     RETURN_IF_ERROR(PrintFacts(

@@ -11,6 +11,7 @@
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "cli/output_file.h"
+#include "engine/base/csv.h"
 #include "engine/fuzzy/fuzzy_motion.h"
 
 namespace etude {
@@ -28,15 +29,15 @@ struct ClipGradesOptions {
 std::string GradesCsv(const FuzzyMotion& motion) {
   std::string csv = "frame,time_s";
   for (Feature feature : AllFeatures()) csv += fmt::format(",{}", FeatureName(feature));
-  for (const Term& term : AllTerms()) csv += fmt::format(",{}_{}", FeatureName(term.feature), term.name);
+  for (const Term& term : AllTerms()) csv += "," + CsvText(fmt::format("{}_{}", FeatureName(term.feature), term.name));
   for (Feature feature : AllFeatures()) csv += fmt::format(",{}_tag", FeatureName(feature));
   csv += ",pose\n";
   for (std::size_t i = 0; i < motion.grades.size(); ++i) {
     csv += fmt::format("{},{}", i, static_cast<double>(i) / motion.rate_hz);
     for (double value : motion.features[i].values) csv += fmt::format(",{}", value);
     for (double grade : motion.grades[i]) csv += fmt::format(",{}", grade);
-    for (Feature feature : AllFeatures()) csv += fmt::format(",{}", TagName(motion.tags[i], feature));
-    csv += fmt::format(",{}\n", motion.poses[i]);  // names of poses need no quotes
+    for (Feature feature : AllFeatures()) csv += fmt::format(",{}", CsvText(TagName(motion.tags[i], feature)));
+    csv += fmt::format(",{}\n", CsvText(motion.poses[i]));
   }
   return csv;
 }

@@ -4,8 +4,11 @@
 
 #include <cstdio>
 
+#include "bench/gate/baseline_file.h"
 #include "bench/model/run_data.h"
-#include "bench/process/machine.h"
+#include "bench/results/folder.h"
+#include "engine/base/machine.h"
+#include "engine/base/utf8.h"
 
 namespace etude {
 
@@ -21,8 +24,21 @@ int TellStopped(const Error& what_is_left) {
   return kInterrupted;
 }
 
-void TellUnsealed(const RunData& run) {
-  if (!run.unsealed.empty()) std::fputs(("etude: read unsealed: " + run.unsealed + "\n").c_str(), stderr);
+Result<int> UnlessReplaced(const std::string& folder, const RunData& run, int code) {
+  if (CheckStillThere(folder, run)) return code;
+  Complain({{folder, 0, 0}, "was replaced by another run while files were written into it: write them again"});
+  return kIncomplete;
+}
+
+void TellUnsealed(const std::string& why) {
+  if (!why.empty()) std::fputs(("etude: read unsealed: " + Visible(why) + "\n").c_str(), stderr);
+}
+
+Result<Snapshot> TakeBaseline(const std::string& path, Sealing sealing) {
+  ASSIGN_OR_RETURN(auto baseline, LoadBaseline(path, sealing == Sealing::kIgnored ? BaselineSeal::kMayBreak
+                                                                                  : BaselineSeal::kMustHold));
+  TellUnsealed(baseline.unsealed);
+  return baseline;
 }
 
 void PrintList(const std::string& title, const std::vector<std::string>& lines) {

@@ -3,12 +3,13 @@
 #include <string>
 #include <vector>
 
+#include "bench/gate/finished_run.h"
+#include "bench/results/folder.h"
 #include "cli/arguments.h"
 #include "engine/base/result.h"
 
 namespace etude {
 
-struct RunData;
 struct RunOutcome;
 
 // Exit codes of every command.
@@ -25,8 +26,14 @@ int Complain(const Error& error);
 int Finish(const Result<int>& code);
 /// Says that Ctrl-C came and what it left, and gives kInterrupted.
 int TellStopped(const Error& what_is_left = {{}, "stopped; nothing is kept"});
-/// Says on standard error that a run was read although its folder is not as it was written.
-void TellUnsealed(const RunData& run);
+/// Gives `code`; but where another run has taken the folder's place while files of this one were written into it, says
+/// so and gives kIncomplete.
+Result<int> UnlessReplaced(const std::string& folder, const RunData& run, int code);
+/// Says on standard error that something was read although its seal does not vouch for it; "" = it does.
+void TellUnsealed(const std::string& why);
+/// Reads a baseline, and says when no seal vouches for it. One whose seal does not fit is refused unless seals are
+/// ignored.
+Result<Snapshot> TakeBaseline(const std::string& path, Sealing sealing);
 /// Prints the tables of a finished run, and why methods have no answer; gives 1 when one has none, or no cell is ok.
 int ShowOutcome(const RunOutcome& outcome);
 /// Tells whether the parent had closed our standard output, so that nobody will read what is printed.

@@ -21,7 +21,7 @@ namespace {
 /// Loads a whole run; one that is not whole cannot be paired world by world.
 Result<FinishedRun> LoadWholeRun(const std::string& folder, Sealing sealing) {
   ASSIGN_OR_RETURN(auto run, LoadFinishedRun(folder, sealing));
-  TellUnsealed(run.data);
+  TellUnsealed(run.data.unsealed);
   if (!run.incomplete.empty()) return Fail({folder, 0, 0}, "{}", run.incomplete.front());
   return run;
 }

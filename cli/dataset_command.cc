@@ -12,6 +12,7 @@
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
+#include "engine/base/utf8.h"
 
 namespace etude {
 namespace {
@@ -20,7 +21,7 @@ void PrintFaults(const char* what, const std::vector<std::string>& faults) {
   constexpr std::size_t kMost = 20;
   if (faults.empty()) return;
   std::string text = fmt::format("{} {}\n", faults.size(), what);
-  for (std::size_t i = 0; i < std::min(faults.size(), kMost); ++i) text += "  " + faults[i] + "\n";
+  for (std::size_t i = 0; i < std::min(faults.size(), kMost); ++i) text += "  " + Visible(faults[i]) + "\n";
   if (faults.size() > kMost) text += fmt::format("  … and {} more\n", faults.size() - kMost);
   std::fputs(text.c_str(), stderr);
 }
@@ -81,6 +82,7 @@ void DefineExport(CLI::App& app, Action& action) {
     std::ranges::for_each(WhichIsMeant(options->scenarios), Complain);
     return ExportCommand(*options);
   });
+  AddReuseKey(*command, options->reuse_key);
   command->callback([=, &action] { action = act; });
 }
 

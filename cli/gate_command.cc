@@ -18,6 +18,7 @@
 #include "cli/facts.h"
 #include "cli/move_table.h"
 #include "reports/gate_table.h"
+#include "reports/report.h"
 
 namespace etude {
 namespace {
@@ -100,19 +101,20 @@ Result<int> Judge(const GateOptions& options, const FinishedRun& run) {
     if (std::error_code none; !fs::exists(options.baseline, none)) {
       return Fail({options.baseline, 0, 0}, "no such file; --update makes it of this run");
     }
-    ASSIGN_OR_RETURN(baseline, LoadBaseline(options.baseline));
+    ASSIGN_OR_RETURN(baseline, TakeBaseline(options.baseline, options.sealing));
   }
   ASSIGN_OR_RETURN(auto report, JudgeRun(run, baseline ? &*baseline : nullptr, options.baseline));
   report.run_folder = options.target;
-  const fs::path folder = fs::path(options.target) / "report";
-  RETURN_IF_ERROR(WriteFileAtomically(folder / "gate.md", WriteGateMarkdown(report)));
-  RETURN_IF_ERROR(WriteFileAtomically(folder / "gate.xml", WriteGateJunit(report)));
+  const FilePath folder = Inside(options.target) / "report";
+  RETURN_IF_ERROR(PlainFilesBelow(folder));  // no link among them
+  RETURN_IF_ERROR(WriteFileAtomically(folder / kGateMarkdown, WriteGateMarkdown(report)));
+  RETURN_IF_ERROR(WriteFileAtomically(folder / kGateJunit, WriteGateJunit(report)));
   if (options.as_json) {
     RETURN_IF_ERROR(PrintFacts("gate", FactsOf(report)));
   } else {
     PrintReport(report);
   }
-  return ExitCode(GateVerdictOf(report));
+  return UnlessReplaced(options.target, run.data, ExitCode(GateVerdictOf(report)));
 }
 
 /// Prints what moved from an old baseline to a new one, as far as their worlds are the same.
@@ -138,7 +140,8 @@ Result<int> Update(const GateOptions& options, const FinishedRun& run) {
   RETURN_IF_ERROR(ReadBaseline(text, options.target));
   std::optional<Snapshot> before;
   if (std::error_code none; fs::exists(options.baseline, none)) {
-    ASSIGN_OR_RETURN(before, LoadBaseline(options.baseline));  // what is no baseline is not written over
+    // What is no baseline is not written over.
+    ASSIGN_OR_RETURN(before, TakeBaseline(options.baseline, Sealing::kIgnored));
   }
   RETURN_IF_ERROR(WriteFileAtomically(options.baseline, text));
   if (before) PrintDifference(std::move(*before), now, run);
@@ -202,7 +205,7 @@ Result<int> GateCommand(const GateOptions& options) {
   if (options.verdicts) return VerdictsCommand(options.repetitions);
   if (options.self_test) return SelfTest(options);
   ASSIGN_OR_RETURN(const auto run, LoadFinishedRun(options.target, options.sealing));
-  TellUnsealed(run.data);
+  TellUnsealed(run.data.unsealed);
   return options.update ? Update(options, run) : Judge(options, run);
 }
 

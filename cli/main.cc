@@ -1,5 +1,6 @@
 #include <fcntl.h>
 #include <fmt/ranges.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -15,13 +16,15 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
-#include "bench/process/machine.h"
 #include "bench/process/pinned_environment.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
+#include "cli/visible_output.h"
+#include "engine/base/machine.h"
 #include "engine/base/names.h"
 #include "engine/base/utf8.h"
 #include "reports/words/escape.h"
@@ -146,6 +149,19 @@ void OpenStandardStreams() {
   }
 }
 
+/// Gives us the stack that the kernel usually grants, as far as its limit may be raised: it grows by itself. Fails
+/// where the deepest of our libraries would overflow it.
+Result<void> TakeStack() {
+  constexpr rlim_t kUsual = rlim_t{8} << 20, kLeast = rlim_t{1} << 20;
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= kUsual) return {};
+  limit.rlim_cur = std::min(limit.rlim_max, kUsual);
+  ::setrlimit(RLIMIT_STACK, &limit);
+  if (limit.rlim_cur >= kLeast) return {};
+  return Fail({kThisMachine}, "the stack may hold {} KiB; at least {} are needed (ulimit -s)", limit.rlim_cur >> 10,
+              kLeast >> 10);
+}
+
 int Main(int argc, char** argv) {
   if (auto named = CheckNames({argv, static_cast<std::size_t>(argc)}); !named) return Complain(named.error());
   CLI::App app(kAbout, "etude");
@@ -187,13 +203,19 @@ int main(int argc, char** argv) {
   etude::OpenStandardStreams();
   std::signal(SIGCHLD, SIG_DFL);  // ignored, as some parents leave it, it would swallow how our children end
   std::signal(SIGXFSZ, SIG_IGN);  // past a limit of file size, a write fails and is told of like any other
+  if (auto stack = etude::TakeStack(); !stack) return etude::Complain(stack.error());
+  etude::MakeOutputSafe();
   try {
     const int code = etude::Main(argc, argv);
     if (std::fflush(stdout) == 0) return code;
-    return etude::Complain({{"standard output", 0, 0}, std::strerror(errno)});
+    return etude::Complain(etude::CannotWrite("standard output", "cannot be written", errno).value());
   } catch (const std::bad_alloc&) {
     return etude::Complain({{etude::kThisMachine, 0, 0}, "there is no more memory"});
-  } catch (const std::exception& error) {  // an output that takes nothing more
+  } catch (const std::filesystem::filesystem_error& error) {
+    return etude::Complain({{}, error.what()});
+  } catch (const std::system_error& error) {  // fmt's, of an output that takes nothing more
+    return etude::Complain(etude::CannotWrite("standard output", "cannot be written", error.code().value()).value());
+  } catch (const std::exception& error) {
     return etude::Complain({{}, error.what()});
   }
 }

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 
+#include "engine/base/utf8.h"
+
 namespace etude {
 
 Result<void> CheckOutput(const std::string& path, bool overwrite) {
@@ -18,6 +20,6 @@ Result<void> CheckOutput(const std::string& path, bool overwrite) {
   return Fail({path, 0, 0}, "is there already; --overwrite replaces it");
 }
 
-void TellWritten(const std::string& path, std::FILE* stream) { fmt::print(stream, "written: {}\n", path); }
+void TellWritten(const std::string& path, std::FILE* stream) { fmt::print(stream, "written: {}\n", Visible(path)); }
 
 }  // namespace etude

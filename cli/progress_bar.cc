@@ -11,9 +11,9 @@ namespace {
 constexpr int kBarWidth = 32;
 
 /// Says how long `left` more take when `done` took `seconds`.
-std::string Remaining(std::size_t done, std::size_t left, double seconds) {
-  if (done == 0 || left == 0) return "";
-  return fmt::format(", about {:.0f} s to go", seconds / static_cast<double>(done) * static_cast<double>(left));
+std::string Remaining(double done, double left, double seconds) {
+  if (done <= 0 || left <= 0) return "";
+  return fmt::format(", about {:.0f} s to go", seconds / done * left);
 }
 
 /// Prints without a throw when nobody listens any more (fmt::print throws): that must not end a run.
@@ -30,12 +30,14 @@ bool ProgressBar::IsTooSoon(double share) const {
 }
 
 void ProgressBar::Show(const Progress& progress) {
-  const double share =
-      progress.cells == 0 ? 1 : static_cast<double>(progress.cells_done) / static_cast<double>(progress.cells);
-  Show(share,
-       fmt::format("{}/{} cells, {} ok, {:.0f} s", progress.cells_done, progress.cells, progress.cells_ok,
+  const auto cells = static_cast<double>(progress.cells);
+  const double done = progress.Work();
+  const std::string answered =
+      progress.cells_answered == 0 ? "" : fmt::format("{} to be measured, ", progress.cells_answered);
+  Show(progress.cells == 0 ? 1 : done / cells,
+       fmt::format("{}/{} cells, {} ok, {}{:.0f} s", progress.cells_done, progress.cells, progress.cells_ok, answered,
                    progress.seconds),
-       Remaining(progress.cells_done - progress.cells_before, progress.cells - progress.cells_done, progress.seconds));
+       Remaining(done - progress.work_before, cells - done, progress.seconds));
 }
 
 void ProgressBar::Show(double share, const std::string& what, const std::string& remaining) {
@@ -55,7 +57,8 @@ OnProgress ProgressOf(std::string what) {
   return [=, bar = ProgressBar(ProgressBar::Begins::kWhenItTakesLong), began = Clock::now()](std::size_t done,
                                                                                              std::size_t all) mutable {
     bar.Show(all == 0 ? 1 : static_cast<double>(done) / static_cast<double>(all),
-             fmt::format("{}/{} {}", done, all, what), Remaining(done, all - done, SecondsSince(began)));
+             fmt::format("{}/{} {}", done, all, what),
+             Remaining(static_cast<double>(done), static_cast<double>(all - done), SecondsSince(began)));
   };
 }
 

@@ -161,7 +161,8 @@ Result<LoadedStreams> Load(const RecogniseCommandOptions& options) {
   for (const Error& refused : loaded.refused) fmt::print(stderr, "left out: {}\n", ToString(refused));
   constexpr std::size_t kFew = 20;
   if (loaded.streams.size() <= kFew) {
-    for (const NamedStream& stream : loaded.streams) fmt::print(stderr, "{}: {}\n", stream.source, stream.description);
+    for (const NamedStream& stream : loaded.streams)
+      fmt::print(stderr, "{}\n", ToString(Error{{stream.source}, stream.description}));
   }
   return loaded;
 }

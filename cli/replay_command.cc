@@ -20,11 +20,11 @@ namespace etude {
 namespace {
 
 struct ReplayCommandOptions {
-  std::string target;              ///< a result folder, or a packed cell
-  std::vector<std::string> cells;  ///< by name; none: all
-  std::size_t sample = 0;          ///< this many of them, drawn by the run's seed; 0 = all
-  std::string pack_file;           ///< into which the one cell is packed instead, "" = none
-  std::string baseline;            ///< whose values are told beside those of the cells, "" = none
+  std::string target;                 ///< a result folder, or a packed cell
+  std::vector<std::string> cells;     ///< by name; none: all
+  std::optional<std::size_t> sample;  ///< this many of them, drawn by the run's seed; nothing = all
+  std::string pack_file;              ///< into which the one cell is packed instead, "" = none
+  std::string baseline;               ///< whose values are told beside those of the cells, "" = none
   bool overwrite = false, as_json = false;
   int jobs = 0;
   OutsideRules outside;
@@ -112,7 +112,7 @@ Result<int> ReplayCommand(const ReplayCommandOptions& options) {
   ASSIGN_OR_RETURN(const auto key, TakeSecretKey(options.key_file));
   std::error_code error;
   if (!std::filesystem::is_directory(options.target, error)) {
-    if (!options.cells.empty() || !options.pack_file.empty() || options.sample > 0) {
+    if (!options.cells.empty() || !options.pack_file.empty() || options.sample) {
       return Fail({options.target}, "is no result folder; --cell, --sample and --pack need one");
     }
     return ReplayFile(options.target, options.outside, key, options.as_json, interrupt);
@@ -121,17 +121,18 @@ Result<int> ReplayCommand(const ReplayCommandOptions& options) {
   std::optional<Snapshot> baseline;
   if (!options.baseline.empty()) {
     if (options.cells.empty()) return Fail({}, "--baseline is told beside cells: name them with --cell");
-    ASSIGN_OR_RETURN(baseline, LoadBaseline(options.baseline));
+    ASSIGN_OR_RETURN(baseline, TakeBaseline(options.baseline, options.sealing));
   }
-  ASSIGN_OR_RETURN(const auto checks, ReplayRun({.folder = options.target,
-                                                 .cells = options.cells,
-                                                 .sample = options.sample,
-                                                 .jobs = options.jobs,
-                                                 .outside = options.outside,
-                                                 .key = key,
-                                                 .sealing = options.sealing,
-                                                 .stop = interrupt.requested(),
-                                                 .on_progress = ProgressOf("cells")}));
+  ASSIGN_OR_RETURN(const auto replayed, ReplayRun({.folder = options.target,
+                                                   .cells = options.cells,
+                                                   .sample = options.sample,
+                                                   .jobs = options.jobs,
+                                                   .outside = options.outside,
+                                                   .key = key,
+                                                   .sealing = options.sealing,
+                                                   .stop = interrupt.requested(),
+                                                   .on_progress = ProgressOf("cells")}));
+  const std::vector<CellCheck>& checks = replayed.checks;
   const auto same = std::ranges::count(checks, true, &CellCheck::same);
   if (options.as_json) RETURN_IF_ERROR(PrintFacts("replay", FactsOf(checks, baseline ? &*baseline : nullptr)));
   for (const CellCheck& check : checks) {

@@ -10,6 +10,7 @@
 #include "cli/commands.h"
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
+#include "engine/base/machine.h"
 #include "reports/report.h"
 
 namespace etude {
@@ -28,14 +29,15 @@ Result<int> ReportCommand(const std::string& folder, const std::vector<std::stri
                           Sealing sealing, int jobs) {
   ASSIGN_OR_RETURN(options.real, ReadRealTakes(real));
   ASSIGN_OR_RETURN(const auto run, LoadRun(folder, sealing));
-  TellUnsealed(run);
+  TellUnsealed(run.unsealed);
   RETURN_IF_ERROR(CheckRowsAgainstSummary(folder, run));
   const Interrupt interrupt;
   options.watch = WatchFilms(interrupt, jobs);
   ASSIGN_OR_RETURN(const bool is_whole, WriteReport(run, folder, options));
   if (!is_whole) return TellStopped({{folder, 0, 0}, "stopped; the tables are written, the page is not"});
-  TellWritten(folder + "/report/index.html");
-  return kSuccess;
+  ASSIGN_OR_RETURN(const int code, UnlessReplaced(folder, run, kSuccess));
+  if (code == kSuccess) TellWritten(folder + "/report/index.html");
+  return code;
 }
 
 Result<int> RowsCommand(const std::string& folder, const std::string& file, bool overwrite, Sealing sealing) {
@@ -43,7 +45,7 @@ Result<int> RowsCommand(const std::string& folder, const std::string& file, bool
     if (OutputWasClosed()) return Fail({"standard output"}, "is closed; -o writes the rows into a file");
     RETURN_IF_ERROR(WriteRows(folder, sealing, [](std::string_view line) -> Result<void> {
       if (std::fwrite(line.data(), 1, line.size(), stdout) == line.size()) return {};
-      return Fail({"standard output"}, "cannot be written: {}", std::strerror(errno));
+      return CannotWrite("standard output", "cannot be written", errno);
     }));
     return kSuccess;
   }

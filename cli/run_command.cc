@@ -153,10 +153,10 @@ int RunCommand(const RunOptions& given) {
   }
   if (outcome->fence.starts_with("none")) Complain({{}, "methods outside ran in no fence: " + outcome->fence});
   if (outcome->stopped) {
+    const std::size_t kept = outcome->cells + outcome->cells_answered;
     return TellStopped({{},
-                        outcome->cells == 0 ? "stopped before any cell ended; nothing is kept"
-                                            : fmt::format("stopped; {} cells are kept in {}, --resume goes on",
-                                                          outcome->cells, folder)});
+                        kept == 0 ? "stopped before any cell ended; nothing is kept"
+                                  : fmt::format("stopped; {} cells are kept in {}, --resume goes on", kept, folder)});
   }
   if (!options.shard.IsWhole()) {
     fmt::print("Shard {}: {} of {} cells ok in {:.1f} s: {}\nNext, when all shards are done: etude merge DIR… -o DIR\n",
@@ -291,6 +291,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   auto dry_run = std::make_shared<bool>(false), as_json = std::make_shared<bool>(false);
   const Action act = WithSecretKey(*command, &options->seed, options->key,
                                    [=] { return *dry_run ? DryRunCommand(*options, *as_json) : RunCommand(*options); });
+  AddReuseKey(*command, options->reuse_key);
   CLI::Option* shard_option =
       command->add_option("--shard", *shard, "Run part i of n, as i/n; etude merge makes one run of all parts");
   CLI::Option* overwrite = AddOverwrite(*command, options->overwrite, "Replace a folder that already holds a run");

@@ -30,7 +30,7 @@ Result<void> WriteSheet(const SensorSheetOptions& options) {
   ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(suite));
   if (scenarios.empty()) return Fail({options.scenario, 0, 0}, "holds no scenario");
   const PreparedScenario& first = scenarios.front();
-  const auto world = first.task(0).MakeWorld(first.KeyOf(0), /*keeps_motion=*/false);
+  const auto world = first.task(0).MakeWorld(first.KeyOf(0, 0), /*keeps_motion=*/false);
   if (const auto why = world->WhySkipped()) return Fail({options.scenario, 0, 0}, "{}", *why);
   const auto sheet = world->MakeSensorSheet();
   if (!sheet) return Fail({options.scenario, 0, 0}, "{}", sheet.error().message);

@@ -39,7 +39,8 @@ Result<std::vector<TaughtMove>> Teach(const TeachCommandOptions& options) {
   ASSIGN_OR_RETURN(const auto loaded,
                    LoadStreams(options.streams, options.reading.Reading(), options.reading.Options(), clips));
   for (const Error& refused : loaded.refused) fmt::print(stderr, "left out: {}\n", ToString(refused));
-  for (const NamedStream& stream : loaded.streams) fmt::print(stderr, "{}: {}\n", stream.source, stream.description);
+  for (const NamedStream& stream : loaded.streams)
+    fmt::print(stderr, "{}\n", ToString(Error{{stream.source}, stream.description}));
   std::vector<LabelledPart> parts = WholeStreams(loaded.streams);
   if (!options.labels.empty()) {
     ASSIGN_OR_RETURN(const auto labels, LoadLabels(options.labels));

@@ -1,12 +1,14 @@
 #include <fmt/core.h>
+#include <sys/random.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bench/replay/replay.h"
+#include "bench/replay/verify.h"
 #include "bench/results/folder.h"
 #include "bench/results/seal.h"
 #include "bench/results/signature.h"
@@ -14,17 +16,104 @@
 #include "cli/facts.h"
 #include "cli/interrupt.h"
 #include "cli/output_file.h"
+#include "cli/progress_bar.h"
+#include "engine/base/machine.h"
+#include "engine/base/names.h"
 #include "reports/report.h"
 
 namespace etude {
 namespace {
 
+/// The usual sample misses 1 in 21 of those who forge 5 % of very many cells (0.95^59), fewer of few.
+constexpr const char* kUsualSample = "59";
+constexpr const char* kWholeSample = "all";
+constexpr std::size_t kLargestSample = 10'000'000;
+
 struct VerifyCommandOptions {
   ReplayOptions replay;
-  std::string key_file;     ///< of secret worlds, "" = none
-  std::string sign, check;  ///< keys, "" = none
+  std::string sample = kUsualSample;  ///< a number, or "all"
+  std::string key_file;               ///< of secret worlds, "" = none
+  std::string sign, check;            ///< keys, "" = none
   bool as_json = false;
 };
+
+/// Reads --sample; nothing of "all".
+std::optional<std::size_t> ReadSample(const std::string& text) {
+  std::size_t number = 0;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return text == kWholeSample ? std::nullopt : std::optional(number);
+}
+
+/// Gives "" for what --sample may be, else the complaint.
+std::string CheckSample(const std::string& text) {
+  if (text == kWholeSample) return "";
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error == std::errc() && end == text.data() + text.size() && number <= kLargestSample) return "";
+  return fmt::format("'{}' is no sample; allowed: 0 to {}, or '{}'", text, kLargestSample, kWholeSample);
+}
+
+/// Throws dice that nobody can foresee; of so many bits as every reader of JSON keeps.
+Result<std::uint64_t> FreshDice() {
+  std::uint64_t dice = 0;
+  if (::getrandom(&dice, sizeof dice, 0) != sizeof dice) return Fail({kThisMachine}, "gives no random numbers");
+  return dice >> 11;
+}
+
+std::string ShareInWords(double chance) {
+  if (chance == 0) return "none";
+  if (chance < 1e-6) return "fewer than 1 in a million";
+  if (chance <= 0.5) return fmt::format("1 in {:.{}f}", 1 / chance, chance > 0.1 ? 1 : 0);
+  return fmt::format("{:.3g} %", 100 * chance);
+}
+
+/// Tells by which dice the sample was drawn, and who is missed by it.
+std::string SampleInWords(const CellChoice& choice) {
+  std::vector<std::string> missed;
+  for (const MissedForgery& one : WhatIsMissed(choice)) {
+    const std::string share = ShareInWords(one.chance);
+    if (!one.method.empty()) {
+      missed.push_back(fmt::format("{} of those who forge half of {} ({})", share, one.method, one.forged));
+    } else if (missed.empty()) {
+      missed.push_back(fmt::format("{} of those who forge 5 % of the {} cells ({})", share, one.cells, one.forged));
+    } else {
+      missed.push_back(fmt::format("{} of those who forge one", share));
+    }
+  }
+  if (missed.empty()) return "Every cell that can be run again was.";
+  return fmt::format("The sample misses {}. --sample all misses none; --sample-seed {} draws this one again.",
+                     Join(missed), choice.dice);
+}
+
+/// Tells the rows that running cells again says nothing of, by method.
+std::vector<std::string> NotVerified(const CellChoice& choice) {
+  std::vector<std::string> lines;
+  for (const MethodRows& method : choice.methods) {
+    const std::string name = method.scenario + "/" + method.method;
+    if (!method.why_not.empty())
+      lines.push_back(fmt::format("{}: all {} cells: {}", name, method.rows, method.why_not));
+    for (const auto& [status, rows] : method.by_machine) {
+      lines.push_back(fmt::format("{}: {} of {} cells say {}, as their machine did; another need not", name, rows,
+                                  method.rows, status));
+    }
+  }
+  return lines;
+}
+
+Json FactsOf(const CellChoice& choice) {
+  Json missed = Json::array();
+  for (const MissedForgery& one : WhatIsMissed(choice)) {
+    missed.push_back({{"method", one.method.empty() ? Json() : Json(one.method)},
+                      {"forged", one.forged},
+                      {"cells", one.cells},
+                      {"chance", one.chance}});
+  }
+  return {{"seed", choice.dice},
+          {"drawn", choice.drawn},
+          {"cells", choice.drawable},
+          {"recorded", choice.recorded},
+          {"missed", std::move(missed)}};
+}
 
 /// The report, if there is one.
 Result<void> AddReport(const std::string& folder, std::vector<Verified>& all) {
@@ -45,6 +134,11 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
   replay.sealing = Sealing::kIgnored;  // that is told, and no reason to look no further
   replay.recorded_too = true;
   replay.without_programs = !replay.outside.allow_exec;
+  replay.on_progress = ProgressOf("cells");
+  replay.sample = ReadSample(options.sample);
+  if (!replay.dice) {
+    ASSIGN_OR_RETURN(replay.dice, FreshDice());
+  }
   std::vector<Verified> all;
   if (!options.check.empty()) {
     const auto signed_by = CheckSignature(replay.folder, options.check);
@@ -52,8 +146,8 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
     all.push_back({"signature" + (signed_by ? " of key " + *signed_by : ""), {}});
     if (!signed_by) all.back().differences.push_back(ToString(signed_by.error()));
   }
-  ASSIGN_OR_RETURN(auto verified, VerifyRun(replay, replay.sample > 0));
-  std::ranges::move(verified, std::back_inserter(all));
+  ASSIGN_OR_RETURN(auto verified, VerifyRun(replay, replay.sample != std::size_t{0}));
+  std::ranges::move(verified.checks, std::back_inserter(all));
   RETURN_IF_ERROR(AddReport(replay.folder, all));
   if (*interrupt.requested()) return TellStopped({{}, "stopped; nothing was found out"});
   std::size_t agree = 0;
@@ -65,9 +159,16 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
     if (one.differences.empty()) fmt::print("agrees   {}\n", one.what);
     PrintList("differs  " + one.what, one.differences);
   }
+  const std::optional<CellChoice>& choice = verified.choice;
+  const std::vector<std::string> not_verified = choice ? NotVerified(*choice) : std::vector<std::string>();
   if (options.as_json) {
-    RETURN_IF_ERROR(PrintFacts("verify", {{"agrees", agree == all.size()}, {"checks", std::move(checks)}}));
+    RETURN_IF_ERROR(PrintFacts("verify", {{"agrees", agree == all.size()},
+                                          {"checks", std::move(checks)},
+                                          {"sample", choice ? FactsOf(*choice) : Json()},
+                                          {"not_verified", not_verified}}));
   } else {
+    PrintList("Not verified:", not_verified);
+    fmt::print("{}\n", choice ? SampleInWords(*choice) : "No cell was run again.");
     fmt::print("{} of {} agree. Nobody can verify what it says of times and machines.\n", agree, all.size());
   }
   if (agree < all.size()) return kNothingWorked;
@@ -81,14 +182,16 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
 
 void DefineVerify(CLI::App& app, Action& action) {
   auto options = std::make_shared<VerifyCommandOptions>();
-  options->replay.sample = 10;
   CLI::App* command = app.add_subcommand("verify", "Whether a run says what its cells say, and these come out again");
   command->add_option("folder", options->replay.folder, "A result folder")->required();
   command
-      ->add_option("--sample", options->replay.sample,
-                   "Run so many cells again, beside all that left a recording; 0 = none")
-      ->check(CLI::Range(0, 10'000'000))
+      ->add_option("--sample", options->sample,
+                   "Run so many cells again, beside all that left a recording; 0 = none, all = every one")
+      ->check(CheckSample)
       ->capture_default_str();
+  command->add_option(
+      "--sample-seed", options->replay.dice,
+      "Draw them by this seed, to repeat what was found; a forger must not know it (default: fresh dice)");
   command->add_option("--sign", options->sign, "If all agrees, sign it with this secret key (minisign -G -W)");
   command->add_option("--check", options->check, "Check its signature with this public key, or file of one (minisign)");
   AddSeedFile(*command, options->key_file);

@@ -22,6 +22,7 @@ install(DIRECTORY python/etude DESTINATION share/etude/python PATTERN __pycache_
 file(WRITE "${CMAKE_BINARY_DIR}/etude.pth" "../../../share/etude/python\n")
 install(FILES "${CMAKE_BINARY_DIR}/etude.pth" DESTINATION lib/python3/dist-packages)
 install(DIRECTORY docs/ DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs" PATTERN schemas EXCLUDE)
+install(DIRECTORY findings DESTINATION "${CMAKE_INSTALL_DOCDIR}" USE_SOURCE_PERMISSIONS)
 install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 # What pages lead to stands where the program finds it; they find it where it stands in the source.
 set(links "${CMAKE_BINARY_DIR}/doc_links")

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "engine/base/csv.h"
 #include "reports/badge.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
@@ -99,9 +100,9 @@ std::string Legend(const ScenarioSummary& scenario) {
 
 std::string BeyondCsv(const Beyond& beyond) {
   return fmt::format("{},{},{},{},{},{},{},{},{}\n", beyond.units, ExactText(beyond.difference), ExactText(beyond.low),
-                     ExactText(beyond.high), ExactText(beyond.test.p), EscapeCsv(beyond.test.how),
+                     ExactText(beyond.high), ExactText(beyond.test.p), CsvText(beyond.test.how),
                      ExactText(beyond.p_holm), beyond.verdict ? VerdictName(*beyond.verdict) : "",
-                     EscapeCsv(beyond.why_open));
+                     CsvText(beyond.why_open));
 }
 
 /// Visits every condition's comparisons with baselines, then those with the strongest other method.
@@ -265,16 +266,16 @@ std::string ComparisonTableCsv(const ScenarioSummary& scenario) {
       "sign_flip_how,p_holm,effect_size,share_better,verdict,notes,against,unit,units,beyond_mean,beyond_ci95_low,"
       "beyond_ci95_high,beyond_p,beyond_how,beyond_p_holm,beyond_verdict,beyond_why_open\n";
   ForEachComparison(scenario, [&](const ConditionSummary& condition, const Comparison& c, Against against) {
-    csv += fmt::format("{},{},{},{},{},", EscapeCsv(scenario.name), EscapeCsv(ConditionLabel(condition.condition)),
-                       EscapeCsv(c.metric), EscapeCsv(c.baseline), EscapeCsv(c.method));
+    csv += fmt::format("{},{},{},{},{},", CsvText(scenario.name), CsvText(ConditionLabel(condition.condition)),
+                       CsvText(c.metric), CsvText(c.baseline), CsvText(c.method));
     csv += fmt::format("{},{},{},{},{},", c.pairs, c.differing, c.only_baseline, c.only_method, c.neither);
     csv += fmt::format("{},{},{},{},{},{},{},", ExactText(c.difference), ExactText(c.ci_low), ExactText(c.ci_high),
                        IntervalKindName(c.interval), ExactText(c.mean), ExactText(c.mean_low), ExactText(c.mean_high));
-    csv += fmt::format("{},{},{},{},{},", ExactText(c.signed_rank.p), EscapeCsv(c.signed_rank.how),
-                       ExactText(c.sign_flip.p), EscapeCsv(c.sign_flip.how), ExactText(c.p_holm));
+    csv += fmt::format("{},{},{},{},{},", ExactText(c.signed_rank.p), CsvText(c.signed_rank.how),
+                       ExactText(c.sign_flip.p), CsvText(c.sign_flip.how), ExactText(c.p_holm));
     csv += fmt::format("{},{},{},{},", ExactText(c.effect_size),
                        ExactText(c.pairs > 0 ? std::optional(c.share_better) : std::nullopt), VerdictName(c.verdict),
-                       EscapeCsv(Notes(c)));
+                       CsvText(Notes(c)));
     csv += fmt::format("{},{},", against == Against::kRival ? "rival" : "baseline", SamplingUnitName(scenario.unit));
     csv += BeyondCsv(c.beyond);
   });

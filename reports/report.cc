@@ -1,6 +1,7 @@
 #include "reports/report.h"
 
 #include <algorithm>
+#include <set>
 #include <string_view>
 
 #include "bench/files/files.h"
@@ -18,6 +19,10 @@ namespace etude {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char *kReportFolder = "report", *kFilmsFolder = "video", *kPicturesFolder = "pictures";
+constexpr const char* kPage = "index.html";
+constexpr const char* kStranger = " belongs to no report of this run";
 
 /// A file of a report that is text, by its path below `report`.
 struct ReportText {
@@ -76,39 +81,51 @@ bool HoldsAll(std::string_view page, std::string_view without_pictures) {
 }  // namespace
 
 Result<bool> WriteReport(const RunData& run, const std::filesystem::path& run_folder, const ReportOptions& options) {
-  const std::filesystem::path folder = run_folder / "report";
+  const FilePath folder = Inside(run_folder) / kReportFolder, films = Inside(run_folder) / kFilmsFolder;
+  for (const FilePath& made : {folder, films}) RETURN_IF_ERROR(PlainFilesBelow(made));
   // The cheap texts first, so that they are there even when rendering the film fails.
   ASSIGN_OR_RETURN(const auto texts, TextsOf(run));
   for (const auto& [path, text] : texts) RETURN_IF_ERROR(WriteFileAtomically(folder / path, text));
 
   Media media;
   if (options.pictures) {
-    media = MakeMedia(run, {.films = run_folder / "video", .pictures = folder / "pictures"},
+    media = MakeMedia(run, {.films = films, .pictures = folder / kPicturesFolder},
                       {.whole_sessions = options.whole_sessions, .watch = options.watch});
     if (options.watch.IsStopped()) return false;
   } else {
     media.film.why_not = "There is no film: none was asked for.";
   }
-  RETURN_IF_ERROR(WriteFileAtomically(folder / "index.html", WritePage(run, media, options.real)));
+  RETURN_IF_ERROR(WriteFileAtomically(folder / kPage, WritePage(run, media, options.real)));
   return true;
 }
 
 Result<ReportCheck> CheckReport(const RunData& run, const std::filesystem::path& run_folder) {
   ReportCheck check;
   ASSIGN_OR_RETURN(const auto texts, TextsOf(run));
-  const std::filesystem::path folder = run_folder / "report";
-  std::error_code none;
+  const FilePath folder = Inside(run_folder) / kReportFolder, films = Inside(run_folder) / kFilmsFolder;
+  std::set<fs::path> names = {kPage, kGateMarkdown, kGateJunit};
   for (const auto& [path, text] : texts) {
-    if (!fs::exists(folder / path, none)) continue;
+    names.insert(path);
+    if (!Exists(folder / path)) continue;
     ++check.files;
     ASSIGN_OR_RETURN(const auto found, ReadWholeFile(folder / path));
     if (found != text) check.differences.push_back((folder / path).string() + " is not what the run says");
   }
-  if (const fs::path page = folder / "index.html"; fs::exists(page, none)) {
+  if (const FilePath page = folder / kPage; Exists(page)) {
     ++check.files;
     ASSIGN_OR_RETURN(const auto found, ReadWholeFile(page));
     if (!HoldsAll(found, WritePage(run, {}, {})))
       check.differences.push_back(page.string() + " is not what the run says");
+  }
+  ASSIGN_OR_RETURN(const auto beside, PlainFilesBelow(folder));
+  for (const fs::path& name : beside) {
+    const bool is_picture = name.parent_path() == kPicturesFolder && name.extension() == ".exr";
+    if (!is_picture && !names.contains(name)) check.differences.push_back((folder / name).string() + kStranger);
+  }
+  ASSIGN_OR_RETURN(const auto filmed, PlainFilesBelow(films));
+  const std::set<std::string> film_names = FilmNames(run);
+  for (const fs::path& name : filmed) {
+    if (!film_names.contains(name.string())) check.differences.push_back((films / name).string() + kStranger);
   }
   return check;
 }

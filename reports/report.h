@@ -27,10 +27,13 @@ struct ReportOptions {
 /// stopped: there is no new page then.
 Result<bool> WriteReport(const RunData& run, const std::filesystem::path& run_folder, const ReportOptions& options);
 
+/// The files that `etude gate` leaves beside a report.
+constexpr const char *kGateMarkdown = "gate.md", *kGateJunit = "gate.xml";
+
 /// A report held against its run.
 struct ReportCheck {
   int files = 0;                         ///< that are there and were compared
-  std::vector<std::string> differences;  ///< what one says that the run does not
+  std::vector<std::string> differences;  ///< what one says that the run does not, and files that are none of a report
 };
 
 /// Compares the tables, motions and page of a folder with those that its run makes; pictures and films are left out.

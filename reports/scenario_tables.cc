@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/base/csv.h"
 #include "reports/comparison_table.h"
 #include "reports/page.h"
 #include "reports/paper/paper_a.h"
@@ -189,18 +190,18 @@ std::string NumberTableCsv(const RunData& run, const ScenarioSummary& scenario) 
   for (const ConditionSummary& condition : scenario.conditions) {
     for (const MethodSummary& method : condition.methods) {
       if (method.attempted > 0) {
-        csv += fmt::format("{},{},{},ok_share,,,{},{},{},{},0,,wilson\n", EscapeCsv(scenario.name),
-                           EscapeCsv(ConditionLabel(condition.condition)), EscapeCsv(method.method),
-                           ExactText(method.ok_low), ExactText(method.ok_high),
-                           static_cast<double>(method.ok) / method.attempted, method.attempted);
+        csv +=
+            fmt::format("{},{},{},ok_share,,,{},{},{},{},0,,wilson\n", CsvText(scenario.name),
+                        CsvText(ConditionLabel(condition.condition)), CsvText(method.method), ExactText(method.ok_low),
+                        ExactText(method.ok_high), static_cast<double>(method.ok) / method.attempted, method.attempted);
       }
       for (const MetricSummary& metric : method.metrics) {
         const MetricInfo* info = FindMetric(metric.id);
-        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", EscapeCsv(scenario.name),
-                           EscapeCsv(ConditionLabel(condition.condition)), EscapeCsv(method.method),
-                           EscapeCsv(metric.id), EscapeCsv(info == nullptr ? "" : info->unit), ExactText(metric.median),
+        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", CsvText(scenario.name),
+                           CsvText(ConditionLabel(condition.condition)), CsvText(method.method), CsvText(metric.id),
+                           CsvText(info == nullptr ? "" : info->unit), ExactText(metric.median),
                            ExactText(metric.ci_low), ExactText(metric.ci_high), ExactText(metric.mean), metric.present,
-                           metric.missing, EscapeCsv(MissingText(run, scenario, condition, method, metric)),
+                           metric.missing, CsvText(MissingText(run, scenario, condition, method, metric)),
                            IntervalKindName(metric.interval));
       }
     }

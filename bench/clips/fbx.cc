@@ -19,13 +19,14 @@
 #include <utility>
 
 #include "bench/process/pinned_environment.h"
+#include "engine/base/machine.h"
 
 namespace etude {
 namespace {
 
 constexpr const char* kModule = "etude_clips_assimp.so";  // found beside the program, by its run path
 constexpr rlim_t kMemoryBytes = rlim_t{4} << 30, kProcessorSeconds = 60;
-constexpr std::size_t kLargestGlb = std::size_t{1} << 30, kLargestFile = kLargestGlb;
+constexpr std::size_t kLargestGlb = std::size_t{1} << 30;
 constexpr unsigned kOldestVersion = 7;
 constexpr const char* kGaveUp = "a damaged FBX file: its reader gave up";
 constexpr char kSaidGlb = 'G', kSaidComplaint = 'C';
@@ -133,7 +134,7 @@ std::optional<std::string> ReceiveBlock(int socket, std::size_t most, bool& is_t
     name = NameOfReader() + "\n";
   }
   bool is_too_long = false;
-  while (const auto bytes = ReceiveBlock(socket, kLargestFile, is_too_long)) {
+  while (const auto bytes = ReceiveBlock(socket, kLargestGlb, is_too_long)) {
     AllowProcessorTime(kProcessorSeconds);
     std::string said = missing;
     const bool went_well = read != nullptr && read(*bytes, said);
@@ -154,7 +155,7 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
   if (child_ < 0) {
     std::array<int, 2> ends{};
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-      return Fail({}, "no pair of sockets can be made: {}", std::strerror(errno));
+      return Fail({kThisMachine}, "no pair of sockets can be made: {}", std::strerror(errno));
     }
     const pid_t parent = ::getpid();
     child_ = ::fork();
@@ -166,7 +167,7 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
     socket_ = ends[0];
     if (child_ < 0) {
       ::close(socket_);
-      return Fail({}, "no process can be started: {}", std::strerror(errno));
+      return Fail({kThisMachine}, "no process can be started: {}", std::strerror(errno));
     }
   }
   std::optional<std::string> said;

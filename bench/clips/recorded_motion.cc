@@ -1,5 +1,7 @@
 #include "bench/clips/recorded_motion.h"
 
+#include <fcntl.h>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -16,16 +18,24 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The files of a run's recordings that stand for `cell`: its own; of a world without a method, those of all methods.
-std::vector<fs::path> RecordingsOf(const fs::path& run, const std::string& cell) {
+std::vector<FilePath> RecordingsOf(const fs::path& run, const std::string& cell) {
+  if (FilePath own = RecordingFile(run, cell); Exists(own)) return {std::move(own)};
+  const std::string world = RecordingFile(run, cell + "/").whole().stem().string();
+  std::vector<fs::path> names;
   std::error_code none;
-  if (const fs::path own = RecordingFile(run, cell); fs::exists(own, none)) return {own};
-  const std::string world = RecordingFile(run, cell + "/").stem().string();
-  std::vector<fs::path> found;
   for (fs::directory_iterator at(run / "recordings", none), end; !none && at != end; at.increment(none)) {
-    if (at->path().filename().string().starts_with(world)) found.push_back(at->path());
+    if (at->path().filename().string().starts_with(world)) names.push_back(at->path().filename());
   }
-  std::ranges::sort(found);
+  std::ranges::sort(names);
+  std::vector<FilePath> found;
+  for (const fs::path& name : names) found.push_back(Inside(run) / "recordings" / name);
   return found;
+}
+
+/// A reference to the file of a recording. Links in a run, which may be a stranger's, are refused.
+Result<SplitReference> ReferTo(const FilePath& file, const std::optional<std::string>& animation) {
+  RETURN_IF_ERROR(OpenFile(file, O_RDONLY));
+  return SplitReference{file.string(), animation};
 }
 
 }  // namespace
@@ -50,26 +60,24 @@ Result<ClipFile> FileOfRecording(const std::string& text, const std::string& pat
 }
 
 Result<SplitReference> InRun(const SplitReference& wanted) {
-  std::error_code none;
   const fs::path run = wanted.path;
-  if (!wanted.animation || !fs::exists(run / "manifest.json", none)) return wanted;
+  if (!wanted.animation || !Exists(Inside(run) / "manifest.json")) return wanted;
   const std::size_t at = wanted.animation->rfind('@');
   const std::string cell = wanted.animation->substr(0, at);
-  SplitReference found{.path = "", .animation = std::nullopt};
+  std::optional<std::string> animation;
   if (at != std::string::npos) {
-    found.animation = wanted.animation->substr(at + 1);
+    animation = wanted.animation->substr(at + 1);
     for (const std::string& world : {cell, cell.substr(0, cell.rfind('/'))}) {
-      const fs::path other = RecordingFile(run, world + "/" + *found.animation);
-      if (fs::exists(other, none)) return SplitReference{other.string(), ""};
+      const FilePath other = RecordingFile(run, world + "/" + *animation);
+      if (Exists(other)) return ReferTo(other, "");
     }
   }
-  const std::vector<fs::path> files = RecordingsOf(run, cell);
+  const std::vector<FilePath> files = RecordingsOf(run, cell);
   if (files.empty()) {
     return Fail({wanted.path}, "recorded no cell {}: a scenario's key 'video' says which are; they are in {}",
                 Quote(cell), (run / "recordings").string());
   }
-  found.path = files.front().string();
-  return found;
+  return ReferTo(files.front(), animation);
 }
 
 std::string OwnTrack(const std::vector<Clip>& clips) {

@@ -17,6 +17,9 @@
 #include "bench/run/manifest.h"
 #include "bench/run/plan.h"
 #include "bench/run/suite.h"
+#include "bench/run/used_keys.h"
+#include "engine/base/csv.h"
+#include "engine/base/machine.h"
 
 namespace etude {
 namespace {
@@ -68,7 +71,7 @@ class NewFolder {
     for (fs::directory_iterator entry(folder.partial_, error), end; !error && entry != end; entry.increment(error)) {
       fs::remove_all(entry->path(), error);  // of an export that was killed
     }
-    if (error) return Fail({folder.partial_.string()}, "cannot be emptied: {}", error.message());
+    if (error) return CannotWrite(folder.partial_.string(), "cannot be emptied", error.value());
     return folder;
   }
   NewFolder(NewFolder&& other) noexcept
@@ -88,7 +91,7 @@ class NewFolder {
     RETURN_IF_ERROR(SyncTree(partial_));
     std::error_code error;
     fs::rename(partial_, path_, error);
-    if (error) return Fail({path_.string(), 0, 0}, "cannot be written: {}", error.message());
+    if (error) return CannotWrite(path_.string(), "cannot be written", error.value());
     ::close(std::exchange(lock_, -1));
     return SyncPathTo(path_);
   }
@@ -109,14 +112,6 @@ Result<void> SavePayload(const Payload& payload, const fs::path& folder, const c
   return {};
 }
 
-/// Writes a field of a CSV file, quoted where it must be.
-std::string Quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
 class Exporter {
  public:
   static constexpr std::size_t kParts = 3;  ///< of a world: its problem is made, written, its truth written
@@ -133,15 +128,15 @@ class Exporter {
   /// Adds the world's line to `index`; `on_part` is called of each of kParts that is done.
   Result<void> SaveWorld(int condition, int trial, const std::string& place, ExportOutcome& outcome,
                          std::vector<std::string>& index, const std::function<void(std::size_t)>& on_part) {
-    const auto world = scenario_.task(condition).MakeWorld(scenario_.KeyOf(trial), /*keeps_motion=*/false);
+    const auto world = scenario_.task(condition).MakeWorld(scenario_.KeyOf(condition, trial), /*keeps_motion=*/false);
     const std::string path = place + "/" + WorldName(scenario_, condition, trial);
     const Row row = scenario_.IdentityOf(condition, trial, 0);
     const auto why_skipped = world->WhySkipped();
     const bool is_plain = scenario_.setup().seed.IsPlain();
-    index.push_back(fmt::format("{},{},{},{},{},{},{},{}\n", row.scenario, row.task,
-                                Quoted(ConditionLabel(row.condition)), is_plain ? fmt::format("{}", trial) : "",
-                                is_plain ? Quoted(row.clip) : "", why_skipped ? "" : Quoted(path + "/problem.json"),
-                                why_skipped ? "" : Quoted(path + ".json"), Quoted(why_skipped.value_or(""))));
+    index.push_back(fmt::format("{},{},{},{},{},{},{},{}\n", CsvText(row.scenario), row.task,
+                                CsvText(ConditionLabel(row.condition)), is_plain ? fmt::format("{}", trial) : "",
+                                is_plain ? CsvText(row.clip) : "", why_skipped ? "" : CsvText(path + "/problem.json"),
+                                why_skipped ? "" : CsvText(path + ".json"), CsvText(why_skipped.value_or(""))));
     if (why_skipped) {
       ++outcome.skipped;
       return {};
@@ -202,6 +197,9 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress
   run.clip_facts = options.clip_facts;
   ASSIGN_OR_RETURN(const auto suite, ReadSuite(run));
   ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(suite));
+  ASSIGN_OR_RETURN(const auto manifest, MakeManifest(suite, scenarios, options.program_version));
+  const KeyUse use{"export", suite.suite, DigestOfRun(manifest), {}, options.output};
+  if (options.key && !options.reuse_key) RETURN_IF_ERROR(CheckUnused(*options.key, use));
   ASSIGN_OR_RETURN(auto folder, NewFolder::Begin(options.output));
 
   const Plan plan(scenarios);
@@ -228,8 +226,8 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress
   index.insert(index.begin(), "scenario,task,condition,trial,clip,problem,prediction,skipped\n");
   RETURN_IF_ERROR(save("inputs/index.csv", fmt::format("{}", fmt::join(index, ""))));
   RETURN_IF_ERROR(save("README.md", kReadme));
-  RETURN_IF_ERROR(
-      SaveJson(folder.partial() / "manifest.json", MakeManifest(suite, scenarios, options.program_version)));
+  RETURN_IF_ERROR(SaveJson(folder.partial() / "manifest.json", manifest));
+  if (options.key) RETURN_IF_ERROR(NoteUse(*options.key, use, options.reuse_key));
   RETURN_IF_ERROR(folder.Finish());
   return outcome;
 }

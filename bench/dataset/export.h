@@ -15,6 +15,7 @@ struct ExportOptions {
   std::vector<std::string> scenarios;  ///< files, or folders of *.yaml
   std::optional<std::uint64_t> seed;   ///< else each scenario's own, else 1
   std::optional<SecretKey> key = {};   ///< of secret worlds, in the place of a seed
+  bool reuse_key = false;              ///< take a key that was used before (used_keys.h)
   std::optional<int> trials;           ///< else each scenario's own
   std::vector<std::string> clips;      ///< replaces the scenarios' clips when not empty
   std::string joint_map;               ///< replaces the scenarios' joint maps when not empty

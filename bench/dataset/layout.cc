@@ -36,22 +36,28 @@ std::optional<std::string> WorldOf(const fs::path& name) {
   return is_number ? TrialName(trial) : stem;
 }
 
-/// Lists all files below `folder`, in order of their names, relative to it.
-Result<std::vector<fs::path>> FilesBelow(const fs::path& folder) {
+/// Lists all files below `folder`, in order of their names, relative to it. What is no file and no folder goes into
+/// `faults`.
+Result<std::vector<fs::path>> AnswersBelow(const fs::path& folder, PredictionFaults& faults) {
   const Place place{folder.string(), 0, 0};
   std::error_code error;
   if (!fs::is_directory(folder, error)) return Fail(place, "no such folder of predictions");
   std::vector<fs::path> files;
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    const bool is_folder = entry->is_directory(error);
-    if (entry->path().filename().string().starts_with('.')) {
-      if (is_folder) entry.disable_recursion_pending();
-    } else if (!is_folder) {
-      files.push_back(entry->path().lexically_relative(folder));
+    const fs::file_status status = entry->symlink_status(error);
+    const fs::path name = entry->path().lexically_relative(folder);
+    if (name.filename().string().starts_with('.')) {
+      if (fs::is_directory(status)) entry.disable_recursion_pending();
+    } else if (fs::is_regular_file(status)) {
+      files.push_back(name);
+    } else if (!fs::is_directory(status)) {
+      const char* const what = fs::is_symlink(status) ? "is a link" : "is no file";
+      faults.broken.push_back(fmt::format("{}: {}; an answer is a file of its own", name.generic_string(), what));
     }
   }
   if (error) return Fail(place, "cannot be read: {}", error.message());
   std::sort(files.begin(), files.end());
+  std::sort(faults.broken.begin(), faults.broken.end());
   return files;
 }
 
@@ -74,12 +80,11 @@ std::vector<std::string> ConditionFolders(const Scenario& scenario) {
 
 std::string WorldName(const PreparedScenario& scenario, int condition, int trial) {
   if (scenario.setup().seed.IsPlain()) return TrialName(trial);
-  const std::string purpose = "exchange/export/" + CompactLabel(scenario.scenario().conditions[condition].swept);
-  return fmt::format("{:016x}", RandomStream(scenario.KeyOf(trial), purpose).Bits());
+  return fmt::format("{:016x}", RandomStream(scenario.KeyOf(condition, trial), "exchange/export").Bits());
 }
 
 Result<PredictionFiles> FindPredictions(const fs::path& folder, const Plan& plan, PredictionFaults& faults) {
-  ASSIGN_OR_RETURN(const auto files, FilesBelow(folder));
+  ASSIGN_OR_RETURN(const auto files, AnswersBelow(folder, faults));
   // By "SCENARIO/CONDITION" and the world's name.
   std::map<std::pair<std::string, std::string>, std::size_t> worlds;
   for (std::size_t w = 0; w < plan.world_count(); ++w) {
@@ -95,10 +100,9 @@ Result<PredictionFiles> FindPredictions(const fs::path& folder, const Plan& plan
     if (world == worlds.end()) {
       faults.extra.push_back(file.generic_string());
     } else if (auto& place = found[world->second]) {
-      faults.duplicate.push_back(
-          fmt::format("{} (as {})", file.generic_string(), place->lexically_relative(folder).generic_string()));
+      faults.duplicate.push_back(fmt::format("{} (as {})", file.generic_string(), place->below().generic_string()));
     } else {
-      place = folder / file;
+      place = Inside(folder) / file;
     }
   }
   return found;

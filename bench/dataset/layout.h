@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/files/file_path.h"
 #include "bench/run/plan.h"
 #include "bench/scenario/scenario.h"
 
@@ -32,11 +33,11 @@ struct PredictionFaults {
 };
 
 /// The file that answers each world of a plan; nothing where there is none.
-using PredictionFiles = std::vector<std::optional<std::filesystem::path>>;
+using PredictionFiles = std::vector<std::optional<FilePath>>;
 
 /// Finds SCENARIO/CONDITION/TRIAL.json in `folder`: a trial is its number, with or without leading zeros; of
-/// secret worlds the name that export gave it.
-/// Everything else in there is noted as extra, but what begins with a dot. Fails when the folder cannot be read.
+/// secret worlds the name that export gave it. Everything else in there is noted as extra, but what begins with a dot;
+/// a link, which may lead to the truth, or a pipe is noted as broken. Fails when the folder cannot be read.
 Result<PredictionFiles> FindPredictions(const std::filesystem::path& folder, const Plan& plan,
                                         PredictionFaults& faults);
 

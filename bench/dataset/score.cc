@@ -1,6 +1,5 @@
 #include "bench/dataset/score.h"
 
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "bench/files/files.h"
@@ -12,6 +11,7 @@
 #include "bench/run/run_folder.h"
 #include "bench/run/suite.h"
 #include "bench/run/supervisor.h"
+#include "bench/run/used_keys.h"
 #include "engine/base/digest.h"
 
 namespace etude {
@@ -20,9 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 Result<SuiteSetup> ReadTarget(const ScoreOptions& options) {
-  std::error_code error;
-  const fs::path manifest = fs::path(options.target) / "manifest.json";
-  if (!fs::exists(manifest, error)) {
+  const FilePath manifest = Inside(options.target) / "manifest.json";
+  if (!Exists(manifest)) {
     RunOptions run;
     run.scenarios = {options.target};
     run.seed = options.seed;
@@ -47,11 +46,10 @@ Result<SuiteSetup> ReadTarget(const ScoreOptions& options) {
 Result<std::vector<PreparedScenario>> PrepareTarget(const SuiteSetup& suite, const ScoreOptions& options) {
   auto scenarios = PrepareAll(suite);
   if (!scenarios) return scenarios;
-  std::error_code error;
-  const fs::path manifest = fs::path(options.target) / "manifest.json";
-  if (fs::exists(manifest, error)) {
+  const FilePath manifest = Inside(options.target) / "manifest.json";
+  if (Exists(manifest)) {
     RETURN_IF_ERROR(CheckClips(manifest, *scenarios));
-    RETURN_IF_ERROR(CheckPrograms(manifest, *scenarios, options.outside));
+    RETURN_IF_ERROR(CheckPrograms(manifest.string(), *scenarios, options.outside));
   }
   return scenarios;
 }
@@ -66,30 +64,27 @@ std::string NameOf(const Plan& plan, std::size_t w) {
 
 constexpr std::uintmax_t kLargestAnswer = std::uintmax_t{16} << 20;  // as a program's; 60 s of poses take 3 MB
 
-Result<CellResult> JudgeFile(TaskWorld& world, const fs::path& file) {
-  std::error_code error;
-  const std::uintmax_t size = fs::file_size(file, error);
-  if (!error && size > kLargestAnswer) {
-    return Fail({file.string(), 0, 0}, "{} bytes; an answer has at most {}", size, kLargestAnswer);
-  }
-  ASSIGN_OR_RETURN(const auto answer, ReadJsonFile(file));
+Result<CellResult> JudgeFile(TaskWorld& world, const FilePath& file) {
+  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file, kLargestAnswer));
+  ASSIGN_OR_RETURN(const auto answer, ReadJson(text, file.string()));
   auto judged = JudgeAnswer(world, answer);
   if (!judged) return Fail({file.string(), 0, 0}, "{}", ToString(judged.error()));
   return judged;
 }
 
-/// Judges the answer in `file` to world `w`; what is wrong with it goes into `faults`.
-Row JudgeWorld(const Plan& plan, std::size_t w, const std::optional<fs::path>& file, OutsideMetrics& metrics,
-               PredictionFaults& faults) {
+/// Judges the answer in `file` to world `w`; what is wrong with it goes into `faults`. Programs measure it later.
+FinishedCell JudgeWorld(const Plan& plan, std::size_t w, const std::optional<FilePath>& file,
+                        PredictionFaults& faults) {
   const PreparedScenario& scenario = plan.scenario_of(w);
   const World& world = plan.world(w);
   const std::size_t method = plan.MethodCount(w) - 1;
   const auto ended = [&](Status status, const std::string& reason) {
-    return scenario.EndedRow(world.condition, world.trial, method, status, reason);
+    return FinishedCell{scenario.EndedRow(world.condition, world.trial, method, status, reason), {}};
   };
+  const bool has_programs = !scenario.scenario().outside_metrics.empty();  // that measure
   const bool is_filmed = scenario.scenario().recordings.KeepsTrial(world.trial);
   const auto built =
-      scenario.task(world.condition).MakeWorld(scenario.KeyOf(world.trial), is_filmed || !metrics.empty());
+      scenario.task(world.condition).MakeWorld(scenario.KeyOf(world.condition, world.trial), is_filmed || has_programs);
   if (const auto why = built->WhySkipped()) {
     if (file) faults.extra.push_back(fmt::format("{}.json ({})", NameOf(plan, w), *why));
     return ended(Status::kSkipped, *why);
@@ -103,14 +98,14 @@ Row JudgeWorld(const Plan& plan, std::size_t w, const std::optional<fs::path>& f
     faults.broken.push_back(ToString(judged.error()));
     return ended(Status::kBadOutput, judged.error().message);
   }
-  Row row = scenario.IdentityOf(world.condition, world.trial, method);
-  row.result = *std::move(judged);
-  if (const std::string why = metrics.Measure(row.Id(), row.result); !why.empty()) {
-    faults.broken.push_back(why);
+  FinishedCell cell{scenario.IdentityOf(world.condition, world.trial, method), {}};
+  cell.row.result = *std::move(judged);
+  cell.is_measured = !has_programs || !cell.row.result.recording;
+  if (cell.is_measured) {
+    if (!is_filmed) cell.row.result.recording.reset();
+    scenario.CompleteMetrics(world.condition, cell.row);
   }
-  if (!is_filmed) row.result.recording.reset();
-  scenario.CompleteMetrics(world.condition, row);
-  return row;
+  return cell;
 }
 
 /// Counts how far scoring has come.
@@ -134,29 +129,32 @@ class Meter {
   Progress progress_;
 };
 
-/// Puts a row per answer into `cells`. False when stopped.
-Result<bool> JudgeAll(const Plan& plan, const ScoreOptions& options, const Fence& fence, CellTable& cells,
+/// Puts a row per answer into `cells`, or into `answered` where programs have yet to measure it. False when stopped.
+Result<bool> JudgeAll(const Plan& plan, const ScoreOptions& options, CellTable& cells, TemporaryLines& answered,
                       PredictionFaults& faults, Meter& meter) {
-  std::map<const PreparedScenario*, OutsideMetrics> metrics;
   ASSIGN_OR_RETURN(const auto files, FindPredictions(options.predictions, plan, faults));
   for (std::size_t w = 0; w < plan.world_count(); ++w) {
     if (options.stop != nullptr && *options.stop) return false;
-    const PreparedScenario& scenario = plan.scenario_of(w);
-    OutsideMetrics& measuring = metrics.try_emplace(&scenario, scenario, "", fence).first->second;
-    Row row = JudgeWorld(plan, w, files[w], measuring, faults);
-    meter.Count(row.result.status);
     const std::size_t cell = plan.CellAt(w, plan.MethodCount(w) - 1);
-    cells.Put(cell, EncodeCellLine(cell, {std::move(row), {}}));
+    std::string line = EncodeCellLine(cell, JudgeWorld(plan, w, files[w], faults));
+    const CellLineHead head = *ReadCellLineHead(line);
+    if (head.is_measured) {
+      meter.Count(head.status);
+      cells.Put(cell, std::move(line));
+    } else {
+      RETURN_IF_ERROR(answered.Add(cell, line));
+    }
   }
   return true;
 }
 
 /// Describes what repeats this run beside the manifest: the answers, by their fingerprint.
-Result<Json> DescribeAnswers(const Plan& plan, CellTable& cells) {
+Result<Json> DescribeAnswers(const Plan& plan, CellTable& cells, CellTable& answered) {
   Digest digest;
   std::size_t answers = 0;
   for (std::size_t w = 0; w < plan.world_count(); ++w) {
-    ASSIGN_OR_RETURN(const auto scored, cells.Read(plan.CellAt(w, plan.MethodCount(w) - 1), plan));
+    const std::size_t cell = plan.CellAt(w, plan.MethodCount(w) - 1);
+    ASSIGN_OR_RETURN(const auto scored, (cells.Has(cell) ? cells : answered).Read(cell, plan));
     for (const auto& [stage, value] : scored.row.result.digests) {
       if (stage != "answer") continue;
       digest.Add(NameOf(plan, w)).Add(value);
@@ -182,27 +180,37 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
   RETURN_IF_ERROR(CheckMetricVectors(scenarios, fence));
   const Plan plan(scenarios);
   CellTable cells(plan.cell_count());
+  TemporaryLines answered(plan.cell_count());
   Meter meter(plan.cell_count(), on_progress);
   ScoreOutcome outcome{.run = {.folder = options.output}, .faults = {}};
-  ASSIGN_OR_RETURN(const auto judged, JudgeAll(plan, options, fence, cells, outcome.faults, meter));
+  ASSIGN_OR_RETURN(const auto judged, JudgeAll(plan, options, cells, answered, outcome.faults, meter));
   if (options.allow_missing) outcome.faults.missing.clear();
   outcome.run.stopped = !judged;
   if (outcome.run.stopped || !outcome.faults.empty()) return outcome;
 
   ASSIGN_OR_RETURN(auto claimed, RunFolder::Claim(options.output, /*keep_contents=*/false));
-  Json manifest = MakeManifest(suite, scenarios, options.program_version);
-  ASSIGN_OR_RETURN(const auto answers, DescribeAnswers(plan, cells));
+  ASSIGN_OR_RETURN(auto manifest, MakeManifest(suite, scenarios, options.program_version));
+  ASSIGN_OR_RETURN(const auto answers, DescribeAnswers(plan, cells, answered.cells()));
   manifest["scored"].update(answers);
   const fs::path folder = options.output;
-  RETURN_IF_ERROR(SaveJson(folder / "manifest.json", manifest));
-  const auto whole = RunOrders(
-      suite, plan, plan.OrdersFor({}, cells.Done()),
-      {.program = ThisProgram(), .error_folder = "", .fence = fence, .jobs = options.jobs, .stop = options.stop},
-      [&](const DeliveredCell& cell) -> Result<void> {
-        meter.Count(cell.head.status);
-        cells.Put(cell.head.cell, std::string(cell.line));
-        return {};
-      });
+  RETURN_IF_ERROR(SaveJson(Inside(folder) / "manifest.json", manifest));
+  if (!suite.seed.IsPlain()) {
+    const KeyUse use{"score", suite.suite, DigestOfRun(manifest), {}, folder};
+    RETURN_IF_ERROR(NoteUse(*options.key, use, /*may_be_used=*/true));
+  }
+  const auto whole = RunOrders(suite, plan, plan.OrdersFor({}, cells.Done()),
+                               {.program = ThisProgram(),
+                                .error_folder = "",
+                                .fence = fence,
+                                .jobs = options.jobs,
+                                .stop = options.stop,
+                                .answered = &answered.cells()},
+                               [&](const DeliveredCell& cell) -> Result<void> {
+                                 if (!cell.head.is_measured) return answered.Add(cell.head.cell, cell.line);
+                                 meter.Count(cell.head.status);
+                                 cells.Put(cell.head.cell, std::string(cell.line));
+                                 return {};
+                               });
   if (!whole) return tl::unexpected(whole.error());
   outcome.run.stopped = !*whole;
   outcome.run.cells = meter.progress().cells_done;
@@ -210,7 +218,10 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
   outcome.run.seconds = meter.progress().seconds;
   if (outcome.run.stopped) return outcome;
   Json host = DescribeHost(options.command_line, WorkerCount(options.jobs), outcome.run.seconds);
-  if (!ProgramsOf(scenarios).empty()) host["fence"] = fence.description();
+  if (!ProgramsOf(scenarios).empty()) {
+    host["fence"] = fence.description();
+    host["memory"] = fence.MemoryDescription();
+  }
   RETURN_IF_ERROR(FinishRun(folder, plan, cells, host, WorkerCount(options.jobs), [](std::size_t) { return true; }));
   claimed.Keep();
   return outcome;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench/files/files.h"
+#include "engine/base/utf8.h"
 
 namespace etude {
 namespace {
@@ -56,13 +57,33 @@ bool IsShallowCbor(std::string_view bytes) {
   return true;
 }
 
+/// JSON in which characters that nobody sees (IsHidden) are written as their numbers, which mean the same.
+std::string WithHiddenEscaped(std::string json) {
+  const auto is_ascii = [](char c) { return static_cast<unsigned char>(c) < 0x80; };
+  if (std::ranges::all_of(json, is_ascii)) return json;
+  std::string escaped;
+  for (std::string_view rest = json; !rest.empty();) {
+    const auto [code, length] = FirstCharacter(rest);
+    const auto number = static_cast<std::uint32_t>(code);
+    if (!IsHidden(code)) {
+      escaped += rest.substr(0, length);
+    } else if (number < 0x10000) {
+      escaped += fmt::format("\\u{:04x}", number);
+    } else {
+      escaped += fmt::format("\\u{:04x}\\u{:04x}", 0xd7c0 + (number >> 10), 0xdc00 + (number & 0x3ff));
+    }
+    rest.remove_prefix(length);
+  }
+  return escaped;
+}
+
 }  // namespace
 
 void DeleteJson::operator()(Json* json) const { delete json; }
 
 Result<std::string> WriteJson(const Json& json) {
   if (const auto path = FindNonFinite(json)) return Fail({}, "{} is not a finite number", *path);
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return WithHiddenEscaped(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 std::string ShowJson(const Json& json) {
@@ -104,7 +125,7 @@ Result<Json> ReadJson(const std::string& text, const std::string& file, int line
   }
 }
 
-Result<Json> ReadJsonFile(const std::filesystem::path& path) {
+Result<Json> ReadJsonFile(const FilePath& path) {
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
   return ReadJson(text, path.string());
 }

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 
+#include "bench/files/file_path.h"
 #include "engine/base/result.h"
 
 namespace etude {
@@ -21,7 +21,8 @@ struct DeleteJson {
 using JsonPtr = std::unique_ptr<Json, DeleteJson>;
 
 /// Writes JSON in the one way in which it leaves Etude: one line, keys in the order given, shortest digits that read
-/// back the same. Refuses NaN and infinity, which nlohmann would silently write as null, naming their path.
+/// back the same, characters that nobody sees (IsHidden) by their numbers. Refuses NaN and infinity, which nlohmann
+/// would silently write as null, naming their path.
 Result<std::string> WriteJson(const Json& json);
 
 /// Shows a value in a complaint: its JSON, cut after forty characters; a list by its length.
@@ -34,7 +35,7 @@ int NestingOf(std::string_view text);
 Result<Json> ReadJson(const std::string& text, const std::string& file, int line = 0);
 
 /// Reads a file of one JSON value; fails like ReadWholeFile and ReadJson.
-Result<Json> ReadJsonFile(const std::filesystem::path& path);
+Result<Json> ReadJsonFile(const FilePath& path);
 
 /// Reads one value as CBOR (RFC 8949), nested at most 100 deep. Refused, too, what Json::to_cbor never writes: lengths
 /// that are not told beforehand, and tags.

@@ -10,6 +10,8 @@
 #include <cstring>
 #include <utility>
 
+#include "engine/base/machine.h"
+
 namespace etude {
 
 namespace fs = std::filesystem;
@@ -33,29 +35,41 @@ int Lock(const fs::path& folder) {
 Result<TemporaryFolder> TemporaryFolder::Make(const std::string& purpose) {
   const char* told = ::getenv("TMPDIR");
   const fs::path parent = told != nullptr && *told != '\0' ? told : "/tmp";
-  const Place place{told != nullptr ? "TMPDIR=" + parent.string() : parent.string(), 0, 0};
+  const std::string place = told != nullptr ? "TMPDIR=" + parent.string() : parent.string();
   std::error_code error;
   if (!fs::is_directory(parent, error)) {
-    return Fail(place, "is no folder for temporary files{}", error ? ": " + error.message() : "");
+    return Fail({kThisMachine}, "{}: is no folder for temporary files{}", place, error ? ": " + error.message() : "");
   }
-  if (!parent.is_absolute()) return Fail(place, "is no folder for temporary files; allowed: a path that begins with /");
-  RemoveAbandoned();
+  if (!parent.is_absolute()) {
+    return Fail({kThisMachine}, "{}: is no folder for temporary files; allowed: a path that begins with /", place);
+  }
+  auto folder = MakeIn(parent, purpose);
+  if (!folder) return Fail({kThisMachine}, "{}: {}", place, folder.error().message);
+  return folder;
+}
+
+Result<TemporaryFolder> TemporaryFolder::MakeIn(const fs::path& parent, const std::string& purpose) {
+  RemoveAbandoned(parent);
   // It gets its final name when it is locked, lest another process take it for abandoned before.
   std::string name = (parent / ("." + std::string(kPrefix) + purpose + "-XXXXXX")).string();
-  if (::mkdtemp(name.data()) == nullptr) return Fail(place, "takes no temporary files: {}", std::strerror(errno));
-  const int lock = Lock(name);
+  const bool made = ::mkdtemp(name.data()) != nullptr;
+  const int lock = made ? Lock(name) : -1;
   const fs::path path = parent / fs::path(name).filename().string().substr(1);
-  if (::rename(name.c_str(), path.c_str()) != 0) {
-    ::close(lock);
-    return Fail(place, "takes no temporary files: {}", std::strerror(errno));
-  }
-  return TemporaryFolder(path, lock);
+  if (made && ::rename(name.c_str(), path.c_str()) == 0) return TemporaryFolder(path, lock);
+  const int reason = errno;
+  if (lock >= 0) ::close(lock);
+  if (made) ::rmdir(name.c_str());
+  return Fail({parent.string()}, "takes no temporary files: {}", std::strerror(reason));
 }
 
 void TemporaryFolder::RemoveAbandoned() {
+  std::error_code none;
+  RemoveAbandoned(fs::temp_directory_path(none));
+}
+
+void TemporaryFolder::RemoveAbandoned(const fs::path& parent) {
   std::error_code error;
-  for (fs::directory_iterator entry(fs::temp_directory_path(error), error), end; !error && entry != end;
-       entry.increment(error)) {
+  for (fs::directory_iterator entry(parent, error), end; !error && entry != end; entry.increment(error)) {
     if (!entry->path().filename().string().starts_with(kPrefix)) continue;
     const int lock = Lock(entry->path());
     if (lock < 0) continue;

@@ -7,13 +7,16 @@
 
 namespace etude {
 
-/// A folder of our own in the system's place for temporary files, removed with all in it at the end; after a kill, by
-/// the next process that makes one.
+/// A folder of our own, in the system's place for temporary files unless told another, removed with all in it at the
+/// end; after a kill, by the next process that makes one there.
 class TemporaryFolder {
  public:
   /// `purpose` becomes part of its name.
   static Result<TemporaryFolder> Make(const std::string& purpose);
-  /// Removes those whose processes have been killed. Make does it, too.
+  /// Makes it in a folder of the caller's choice, such as one of the file system that something is to be renamed in.
+  static Result<TemporaryFolder> MakeIn(const std::filesystem::path& parent, const std::string& purpose);
+  /// Removes those whose processes have been killed, of a folder or of the system's place. Make does it, too.
+  static void RemoveAbandoned(const std::filesystem::path& parent);
   static void RemoveAbandoned();
   TemporaryFolder(TemporaryFolder&& other) noexcept;
   TemporaryFolder& operator=(TemporaryFolder&& other) noexcept;

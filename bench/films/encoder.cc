@@ -16,6 +16,7 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/base/machine.h"
 #include "sim/render/scene.h"
 #include "sim/sensors/image_files.h"
 
@@ -25,8 +26,8 @@ namespace {
 // On drawn films, of all presets this one gives the smallest file, and none is faster by more than two milliseconds a
 // frame of 720 × 720. One thread: the number of threads changes the bytes. The bitexact flags keep dates and versions
 // out. Sound is FLAC: no floating-point arithmetic, so the same bytes on every CPU, and browsers play it in an MP4.
-std::vector<std::string> Arguments(const std::string& program, const std::filesystem::path& out, int width, int height,
-                                   int rate_hz, const std::filesystem::path& sound, Encoder::Form form) {
+std::vector<std::string> Arguments(const std::string& program, int width, int height, int rate_hz,
+                                   const std::filesystem::path& sound, Encoder::Form form) {
   const bool is_drawn = form == Encoder::Form::kI420;
   std::vector<std::string> all = {program, "-loglevel", "error", "-xerror", "-y"};
   const auto add = [&](const std::vector<std::string>& words) { all.insert(all.end(), words.begin(), words.end()); };
@@ -36,7 +37,9 @@ std::vector<std::string> Arguments(const std::string& program, const std::filesy
   if (sound.empty()) add({"-an"});
   add({"-sws_flags", "+accurate_rnd+bitexact", "-c:v", "libx264", "-preset", "veryfast", "-crf", "20"});
   add({"-pix_fmt", "yuv420p", "-threads", "1", "-fflags", "+bitexact", "-flags:v", "+bitexact"});
-  add({"-map_metadata", "-1", out.string()});
+  // The program opens the file that it was given as its output, not a name, at which a link may stand by then. It is
+  // opened anew, because what cannot seek takes no MP4.
+  add({"-map_metadata", "-1", "-f", "mp4", "/proc/self/fd/1"});
   return all;
 }
 
@@ -84,23 +87,26 @@ std::string FirstLineOf(std::FILE* log) {
   return words;
 }
 
-Result<Encoder> Encoder::Start(const std::filesystem::path& path, int width, int height, int rate_hz,
+Result<Encoder> Encoder::Start(const FilePath& path, int width, int height, int rate_hz,
                                const std::filesystem::path& sound, Form form, const std::string& program) {
   const Place place{.file = path.string()};
   ASSIGN_OR_RETURN(auto film, PartialFile::Claim(path));
   Log log(std::tmpfile(), std::fclose);
-  if (!log) return Fail(place, "cannot make a temporary file: {}", std::strerror(errno));
+  if (!log) return Fail({kThisMachine}, "no temporary file can be made: {}", std::strerror(errno));
   // A socket instead of a pipe: writing to a reader that has gone is then an error, not a signal.
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
-    return Fail(place, "cannot talk to {}: {}", program, std::strerror(errno));
+    return Fail({kThisMachine}, "{} cannot be talked to: {}", program, std::strerror(errno));
   }
   pid_t child = -1;
-  const int error = StartFilmProgram(Arguments(program, film.name(), width, height, rate_hz, sound, form), ends[1],
-                                     kNowhere, log.get(), child);
+  const int error =
+      StartFilmProgram(Arguments(program, width, height, rate_hz, sound, form), ends[1], film.file(), log.get(), child);
   close(ends[1]);
+  if (error != 0) close(ends[0]);
+  if (error != 0 && error != ENOENT) {
+    return Fail({kThisMachine}, "{} cannot be started: {}", program, std::strerror(error));
+  }
   if (error != 0) {
-    close(ends[0]);
     return Fail(place, "{} could not be started ({}); the Debian package of that name brings it", program,
                 std::strerror(error));
   }
@@ -157,10 +163,11 @@ int Encoder::CloseAndWait() {
 
 tl::unexpected<Error> Encoder::Complaint(const std::string& what) {
   const std::string words = FirstLineOf(log_.get());
-  return Fail(Place{.file = film_.path().string()}, "{}{}{}", what, words.empty() ? "" : ": ", words);
+  if (auto room = film_.CheckRoom(); !room) return tl::unexpected(room.error());
+  return Fail({film_.path().string()}, "{}{}{}", what, words.empty() ? "" : ": ", words);
 }
 
-Result<void> SaveTakeFilms(std::span<const Attachment> files, int rate_hz, const std::filesystem::path& folder) {
+Result<void> SaveTakeFilms(std::span<const Attachment> files, int rate_hz, const FilePath& folder) {
   std::optional<Encoder> film;
   std::string_view filmed;
   for (const Attachment& file : files) {
@@ -170,7 +177,7 @@ Result<void> SaveTakeFilms(std::span<const Attachment> files, int rate_hz, const
     ASSIGN_OR_RETURN(const auto picture, DecodeColourPng(file.bytes, kMostPixels));
     if (!film || take != filmed) {
       if (film) RETURN_IF_ERROR(film->Finish());
-      const std::filesystem::path path = folder / (std::string(take) + ".mp4");
+      const FilePath path = folder / (std::string(take) + ".mp4");
       ASSIGN_OR_RETURN(auto started, Encoder::Start(path, picture.width, picture.height, rate_hz));
       film.emplace(std::move(started));
       filmed = take;

@@ -27,7 +27,7 @@ class Encoder {
 
   /// Starts ffmpeg. Pictures must have this size (even numbers) and follow at `rate_hz`. `sound`: a WAV file that goes
   /// with them, kept without a loss (FLAC); empty = silence. Fails when `program` cannot be started, saying why.
-  static Result<Encoder> Start(const std::filesystem::path& path, int width, int height, int rate_hz,
+  static Result<Encoder> Start(const FilePath& path, int width, int height, int rate_hz,
                                const std::filesystem::path& sound = {}, Form form = Form::kRgb,
                                const std::string& program = "ffmpeg");
   ~Encoder();
@@ -67,6 +67,6 @@ std::string FirstLineOf(std::FILE* log);
 
 /// Puts the takes among `files` into `folder`, each as a film: `camera-1-0000.png`, `camera-1-0001.png`, … (in this
 /// order, PNG) become `camera-1.mp4`. Fails where ffmpeg does, for instance at odd widths.
-Result<void> SaveTakeFilms(std::span<const Attachment> files, int rate_hz, const std::filesystem::path& folder);
+Result<void> SaveTakeFilms(std::span<const Attachment> files, int rate_hz, const FilePath& folder);
 
 }  // namespace etude

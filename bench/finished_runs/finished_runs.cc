@@ -7,11 +7,11 @@
 
 #include "bench/files/json.h"
 #include "bench/metrics/catalogue.h"
-#include "bench/process/machine.h"
 #include "bench/run/cell_runner.h"
 #include "bench/run/outside_programs.h"
 #include "bench/scenario/scenario.h"
 #include "engine/base/digest.h"
+#include "engine/base/machine.h"
 
 namespace etude {
 namespace {
@@ -91,7 +91,7 @@ Result<void> CheckMetricVersions(const Json& manifest, const Place& place) {
 }
 
 /// The scenarios of manifest.json, read from the texts that it keeps.
-Result<std::vector<FinishedScenario>> LoadScenarios(const fs::path& path) {
+Result<std::vector<FinishedScenario>> LoadScenarios(const FilePath& path) {
   ASSIGN_OR_RETURN(const auto manifest, ReadJsonFile(path));
   const Place place{path.string(), 0, 0};
   ASSIGN_OR_RETURN(const auto suite, DecodeSetup(manifest, place));
@@ -113,6 +113,10 @@ Result<std::vector<FinishedScenario>> LoadScenarios(const fs::path& path) {
       return Fail(place, "not a manifest: {}", error.what());
     }
     finished.push_back(FinishScenario(scenario, setup, clip_digests));
+    if (setup.seed.IsPlain()) continue;
+    for (auto& [condition, digest] : finished.back().worlds) {
+      digest = Digest().Add(digest).Add(std::int64_t{suite.secret_worlds}).Hex();
+    }
   }
   return finished;
 }
@@ -167,6 +171,7 @@ Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed)
       runner.Open(condition, trial);
       for (std::size_t m = 0; m < scenario.methods.size(); ++m) {
         FinishedCell cell = runner.Run(m);
+        if (!cell.is_measured) cell = runner.Measure(condition, std::move(cell));
         if (!cell.why_not_run.empty()) return Fail({kThisMachine}, "{}", cell.why_not_run);
         run.data.rows.push_back(std::move(cell.row));
       }
@@ -177,14 +182,14 @@ Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed)
 
 Result<FinishedRun> LoadFinishedRun(const fs::path& folder, Sealing sealing) {
   FinishedRun run;
-  std::error_code none;
-  if (fs::exists(folder / kJournalFile, none)) {
+  if (Exists(Inside(folder) / kJournalFile)) {
     run.incomplete.push_back(
         fmt::format("the run did not come to its end, or is still under way ({} is there)", kJournalFile));
     return run;
   }
   ASSIGN_OR_RETURN(run.data, LoadRun(folder, sealing));
-  ASSIGN_OR_RETURN(run.scenarios, LoadScenarios(folder / "manifest.json"));
+  ASSIGN_OR_RETURN(run.scenarios, LoadScenarios(Inside(folder) / "manifest.json"));
+  RETURN_IF_ERROR(CheckStillThere(folder, run.data));
   RETURN_IF_ERROR(CheckRows(run, {(folder / "cells.jsonl").string(), 0, 0}));
   if (run.data.cpu_seconds.empty() && std::any_of(run.scenarios.begin(), run.scenarios.end(), WantsTimes)) {
     return Fail({(folder / "timings.jsonl").string(), 0, 0}, "tells no times, which a gate of this run needs");

@@ -9,6 +9,7 @@
 #include "bench/files/json.h"
 #include "bench/gate/placed_json.h"
 #include "bench/metrics/catalogue.h"
+#include "engine/base/digest.h"
 #include "engine/base/names.h"
 
 namespace etude {
@@ -62,6 +63,13 @@ constexpr std::string_view kAnswers = "ou";      // a method gave an answer, rig
 constexpr std::int64_t kMostTrials = 1'000'000;  // as a scenario may ask for
 constexpr std::int64_t kMostVersions = 1'000'000;
 
+/// The seal of a baseline: the digest of its JSON without the seal, so that its layout may change.
+Result<std::string> SealOf(Json baseline) {
+  baseline.erase("seal");
+  ASSIGN_OR_RETURN(const auto text, WriteJson(baseline));
+  return Digest().Add(std::string_view(text)).Hex();
+}
+
 /// The cells that a line can be about, by "scenario, condition, method".
 struct Slot {
   std::size_t trials = 0;
@@ -71,13 +79,21 @@ using Slots = std::map<std::string, Slot>;
 
 class BaselineReader {
  public:
-  BaselineReader(std::string file, JsonPlaces places) : file_(std::move(file)), places_(std::move(places)) {}
+  BaselineReader(std::string file, JsonPlaces places, BaselineSeal seal)
+      : file_(std::move(file)), places_(std::move(places)), seal_(seal) {}
 
   Result<Snapshot> Read(const Json& json) {
-    ASSIGN_OR_RETURN(const auto head, JsonObject::Of(json, PlaceOf("", 0), "a baseline",
-                                                     {"schema", "etude", "suite", "scenarios", "statuses", "values"}));
+    ASSIGN_OR_RETURN(const auto head,
+                     JsonObject::Of(json, PlaceOf("", 0), "a baseline",
+                                    {"schema", "etude", "suite", "scenarios", "statuses", "values"}, {"seal"}));
     ASSIGN_OR_RETURN(const auto schema, head.Whole("schema", 0, kMostVersions));
-    if (schema != kBaselineSchema) return Fail(head.place(), "schema {}; allowed: {}", schema, kBaselineSchema);
+    if (schema != kBaselineSchema && schema != kUnsealedSchema) {
+      return Fail(head.place(), "schema {}; allowed: {} and {}", schema, kUnsealedSchema, kBaselineSchema);
+    }
+    const bool is_sealed = schema != kUnsealedSchema;
+    if (is_sealed != head.Has("seal")) {
+      return Fail(head.place(), "a baseline of schema {} {}", schema, is_sealed ? "lacks its 'seal'" : "has a 'seal'");
+    }
     ASSIGN_OR_RETURN(snapshot_.suite, head.Text("suite"));
     ASSIGN_OR_RETURN(snapshot_.program_version, head.Text("etude"));
     RETURN_IF_ERROR(ForEach(head, "scenarios",
@@ -92,11 +108,27 @@ class BaselineReader {
     const auto has_answer = [](const auto& slot) {
       return slot.second.cells->statuses.find_first_of(kAnswers) != std::string::npos;
     };
-    if (std::ranges::any_of(slots_, has_answer)) return std::move(snapshot_);
-    return Fail(head.place(), "no cell is ok or unsolved: nothing could be worse");
+    if (!std::ranges::any_of(slots_, has_answer)) {
+      return Fail(head.place(), "no cell is ok or unsolved: nothing could be worse");
+    }
+    RETURN_IF_ERROR(CheckSeal(json, head));
+    return std::move(snapshot_);
   }
 
  private:
+  Result<void> CheckSeal(const Json& json, const JsonObject& head) {
+    if (!head.Has("seal")) {
+      snapshot_.unsealed = file_ + ": has no seal, for an older version wrote it; gate --update makes one";
+      return {};
+    }
+    ASSIGN_OR_RETURN(const auto told, head.Text("seal"));
+    ASSIGN_OR_RETURN(const auto found, SealOf(json));
+    if (told == found) return {};
+    snapshot_.unsealed = file_ + ": is not as gate --update wrote it: its seal does not fit";
+    if (seal_ == BaselineSeal::kMayBreak) return {};
+    return Fail({}, "{}; --unsealed reads it all the same", snapshot_.unsealed);
+  }
+
   Place PlaceOf(const std::string& list, std::size_t entry) const {
     const auto found = places_.lines.find(list);
     const bool known = found != places_.lines.end() && entry < found->second.size();
@@ -248,6 +280,7 @@ class BaselineReader {
 
   std::string file_;
   JsonPlaces places_;
+  BaselineSeal seal_;
   Snapshot snapshot_;
   Slots slots_;
 };
@@ -279,19 +312,22 @@ Result<std::string> WriteBaseline(const Snapshot& snapshot) {
   auto head = WriteJson({{"schema", kBaselineSchema}, {"etude", snapshot.program_version}, {"suite", snapshot.suite}});
   if (!head) return head;
   head->pop_back();  // its brace, to go on in it
-  return fmt::format("{},\n\"scenarios\":[{}\n],\n\"statuses\":[{}\n],\n\"values\":[{}\n]}}\n", *head, scenarios.text(),
-                     statuses.text(), values.text());
+  const std::string text = fmt::format("{},\n\"scenarios\":[{}\n],\n\"statuses\":[{}\n],\n\"values\":[{}\n]", *head,
+                                       scenarios.text(), statuses.text(), values.text());
+  ASSIGN_OR_RETURN(const auto json, ReadJson(text + "}", "a baseline"));
+  ASSIGN_OR_RETURN(const auto seal, SealOf(json));
+  return fmt::format("{},\n\"seal\":\"{}\"}}\n", text, seal);
 }
 
-Result<Snapshot> LoadBaseline(const std::filesystem::path& path) {
+Result<Snapshot> LoadBaseline(const std::filesystem::path& path, BaselineSeal seal) {
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
-  return ReadBaseline(text, path.string());
+  return ReadBaseline(text, path.string(), seal);
 }
 
-Result<Snapshot> ReadBaseline(const std::string& text, const std::string& file) {
+Result<Snapshot> ReadBaseline(const std::string& text, const std::string& file, BaselineSeal seal) {
   ASSIGN_OR_RETURN(const auto json, ReadJson(text, file));
   ASSIGN_OR_RETURN(auto places, FindJsonPlaces(text, file));
-  return BaselineReader(file, std::move(places)).Read(json);
+  return BaselineReader(file, std::move(places), seal).Read(json);
 }
 
 }  // namespace etude

@@ -58,7 +58,7 @@ const std::string* FindDigest(const NamedDigests& digests, const std::string& na
 std::vector<bool> WorldsToCompare(const SnapshotCells& before, const SnapshotCells& after) {
   std::vector<bool> compared(std::min(before.statuses.size(), after.statuses.size()));
   for (std::size_t t = 0; t < compared.size(); ++t) {
-    compared[t] = !DependsOnMachine(before.statuses[t]) && !DependsOnMachine(after.statuses[t]);
+    compared[t] = !DependsOnMachine(StatusOf(before.statuses[t])) && !DependsOnMachine(StatusOf(after.statuses[t]));
   }
   return compared;
 }
@@ -93,7 +93,9 @@ std::vector<std::string> WhyNotComparable(const SnapshotScenario& before, const 
     const std::string* other = FindDigest(after.worlds, condition);
     if (other == nullptr || *other == digest) continue;
     reasons.push_back(
-        fmt::format("{}: the worlds of condition {} are made from other parameters or clips", before.name, condition));
+        fmt::format("{}: the worlds of condition {} are made from other parameters or clips, or of another version "
+                    "of secret worlds",
+                    before.name, condition));
   }
   for (const auto& metric : before.metrics) {
     const auto* other = FindIn(after.metrics, [&](const auto& pair) { return pair.first == metric.first; });

@@ -14,23 +14,6 @@ namespace {
 
 constexpr std::string_view kStatusLetters = "ouftcmbs";  // in the order of Status
 
-/// The identities of all cells that a scenario asks for, in canonical order.
-std::vector<std::string> CellsOf(const Study& study) {
-  std::vector<std::string> ids;
-  Row row;
-  row.scenario = study.scenario;
-  for (const std::vector<SweptValue>& condition : study.conditions) {
-    row.condition = condition;
-    for (row.trial = 0; row.trial < study.trials; ++row.trial) {
-      for (const ComparedMethod& method : study.methods) {
-        row.method = method.name;
-        ids.push_back(row.Id());
-      }
-    }
-  }
-  return ids;
-}
-
 /// The rows of a run that are not held stand where their identities have them: none is there twice.
 Result<void> CheckRowsInOrder(const FinishedRun& run, const Place& place) {
   std::vector<std::string> wanted;
@@ -94,6 +77,22 @@ class ScenarioTaker {
 
 }  // namespace
 
+std::vector<std::string> CellsOf(const Study& study) {
+  std::vector<std::string> ids;
+  Row row;
+  row.scenario = study.scenario;
+  for (const std::vector<SweptValue>& condition : study.conditions) {
+    row.condition = condition;
+    for (row.trial = 0; row.trial < study.trials; ++row.trial) {
+      for (const ComparedMethod& method : study.methods) {
+        row.method = method.name;
+        ids.push_back(row.Id());
+      }
+    }
+  }
+  return ids;
+}
+
 Result<void> CheckRows(FinishedRun& run, const Place& place) {
   if (run.data.source) return CheckRowsInOrder(run, place);
   std::set<std::string> rows;
@@ -120,8 +119,6 @@ Status StatusOf(char letter) {
   const std::size_t place = kStatusLetters.find(letter);
   return place < kStatusLetters.size() ? static_cast<Status>(place) : Status::kFailed;
 }
-
-bool DependsOnMachine(char letter) { return letter == 't' || letter == 'c' || letter == 'm'; }
 
 Snapshot TakeSnapshot(const FinishedRun& run) {
   std::map<std::string, ScenarioTaker> takers;

@@ -31,6 +31,9 @@ struct FinishedRun {
   std::vector<std::string> incomplete;
 };
 
+/// The identities of all cells that a scenario asks for, in canonical order.
+std::vector<std::string> CellsOf(const Study& study);
+
 /// Checks `data.rows` against what the scenarios ask for, and notes what is missing. Fails on a row that is
 /// there twice, or that no scenario asks for.
 Result<void> CheckRows(FinishedRun& run, const Place& place);
@@ -64,15 +67,13 @@ struct Snapshot {
   std::string suite;
   std::string program_version;
   std::vector<SnapshotScenario> scenarios;
+  std::string unsealed = {};  ///< of one that was read: why its seal does not vouch for it; else ""
 };
 
 /// 'o' ok, 'u' unsolved, 'f' failed, 't' timeout, 'c' crashed, 'm' out of memory, 'b' bad output, 's' skipped.
 char StatusLetter(Status status);
 /// The status of a letter; kFailed of any that is none.
 Status StatusOf(char letter);
-/// True if a cell of this letter ended as it did because of the machine (timeout, crashed, out of memory): its
-/// row says nothing about the method that another run could repeat.
-bool DependsOnMachine(char letter);
 
 /// Takes the gated metrics of a whole run.
 Snapshot TakeSnapshot(const FinishedRun& run);

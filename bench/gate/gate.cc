@@ -19,7 +19,7 @@ std::map<std::pair<std::string, int>, double> SecondsOf(const FinishedRun& run, 
   ForEachRow(run.data, [&](const Row& row, std::size_t place) {
     if (row.scenario != scenario || row.method != method) return;
     const double measured = CpuSecondsOf(run.data, row, place).value_or(0);
-    if (measured <= 0 || DependsOnMachine(StatusLetter(row.result.status))) return;
+    if (measured <= 0 || DependsOnMachine(row.result.status)) return;
     seconds[{CompactLabel(row.condition), row.trial}] = measured;
   });
   return seconds;
@@ -94,7 +94,7 @@ std::vector<std::string> WhyIncomplete(const FinishedRun& run) {
   ForEachRow(run.data, [&](const Row& row, std::size_t) {
     all_skipped = all_skipped && row.result.status == Status::kSkipped;
     if (all_skipped && why_skipped.empty()) why_skipped = fmt::format("{}: {}", row.Id(), row.result.reason);
-    if (!DependsOnMachine(StatusLetter(row.result.status))) return;
+    if (!DependsOnMachine(row.result.status)) return;
     Ends& found = ends[{row.scenario, std::string(StatusName(row.result.status))}];
     if (found.cells++ == 0) found.first = fmt::format("{}: {}", row.Id(), row.result.reason);
   });

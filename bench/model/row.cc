@@ -18,6 +18,10 @@ std::string LabelOf(const std::vector<SweptValue>& condition, std::string_view s
 
 std::string_view StatusName(Status status) { return NameOfValue(kStatuses, status); }
 
+bool DependsOnMachine(Status status) {
+  return status == Status::kTimeout || status == Status::kCrashed || status == Status::kOutOfMemory;
+}
+
 std::optional<Status> FindStatus(std::string_view name) { return FindValue(kStatuses, name); }
 
 std::string CompactLabel(const std::vector<SweptValue>& condition) {

@@ -33,6 +33,9 @@ inline constexpr std::array<Named<Status>, 8> kStatuses = {{{"ok", Status::kOk},
                                                             {"skipped", Status::kSkipped}}};
 
 std::string_view StatusName(Status status);
+/// True if a cell ended so because of the limits of the machine it was run on (timeout, crashed, out of memory): its
+/// row says nothing about the method that another run could repeat.
+bool DependsOnMachine(Status status);
 /// The status of that name; nothing when there is none.
 std::optional<Status> FindStatus(std::string_view name);
 

@@ -2,12 +2,17 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 namespace etude {
 
 std::string DescribeWorlds(const RunData& run) {
   if (run.key_digest.empty()) return fmt::format("seed {}{}", run.seed, run.fence.empty() ? "" : ", open worlds");
   const bool is_unfenced = run.fence.starts_with("none");
-  return fmt::format("secret worlds, key {}…{}", run.key_digest.substr(0, 16),
+  const bool is_swept =
+      std::ranges::any_of(run.scenarios, [](const auto& scenario) { return scenario.conditions.size() > 1; });
+  return fmt::format("secret worlds, key {}…{}{}", run.key_digest.substr(0, 16),
+                     is_swept ? ", other worlds under every condition" : "",
                      is_unfenced ? ", programs in no fence" : "");
 }
 

@@ -65,12 +65,14 @@ struct RunData {
   std::vector<ScenarioSummary> scenarios;
   std::vector<CellSeries> series;
   std::vector<CellRecording> recordings;
+  std::string seal;      ///< the text of its seal; "" = it has none, or was not loaded
   std::string unsealed;  ///< why the folder is not as the run wrote it, when it was read all the same; else ""
   std::map<std::string, double> cpu_seconds;  ///< processor time, by Row::Id(); empty where the folder tells of none
 };
 
 /// Says what the worlds were drawn by, and whether a program that was asked could have known it: "seed 1", "seed 1,
-/// open worlds", "secret worlds, key 0123456789abcdef…".
+/// open worlds", "secret worlds, key 0123456789abcdef…". Under a sweep secret worlds of two conditions are not the
+/// same, which it says, too: a difference between conditions is then one between other worlds.
 std::string DescribeWorlds(const RunData& run);
 
 std::size_t CountRows(const RunData& run);

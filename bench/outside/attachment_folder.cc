@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bench/files/files.h"
+#include "engine/base/machine.h"
 
 namespace etude {
 
@@ -16,7 +17,7 @@ Result<AttachmentFolder> AttachmentFolder::Write(const fs::path& attachment_root
   AttachmentFolder folder;
   if (files.empty()) return folder;
   std::string name = (attachment_root / std::string(kNameLength, 'X')).string();
-  if (::mkdtemp(name.data()) == nullptr) return Fail({name, 0, 0}, "cannot be made: {}", std::strerror(errno));
+  if (::mkdtemp(name.data()) == nullptr) return CannotWrite(name, "cannot be made", errno);
   folder.path_ = name;
   for (const Attachment& file : files) {
     RETURN_IF_ERROR(WriteFileAtomically(folder.path_ / file.name, file.bytes, OnDisk::kLater));

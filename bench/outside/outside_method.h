@@ -27,7 +27,7 @@ struct OutsideOptions {
   Fence fence = {};                     ///< that it runs in
   std::vector<std::string> files = {};  ///< what the fence shows it (ProgramView)
   /// Keys the ids that stand for the names of settings and problems. Of a secret one, the program is started anew for
-  /// every setting: trials of several conditions share their dice, and one may give the answer of the other.
+  /// every setting, so that it carries nothing in its memory from one condition to the next.
   Seed seed = 1;
 };
 

@@ -10,25 +10,36 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <fstream>
+#include <cstring>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "bench/outside/attachment_folder.h"
 #include "bench/outside/messages.h"
 #include "bench/outside/program_view.h"
+#include "engine/base/machine.h"
 
 namespace etude {
 namespace {
 
 constexpr long kTail = 4096;  ///< bytes in which the last line is looked for
 
+/// Opens the file of a log for appending, and makes its folder. That stands in a run, which may be a stranger's that is
+/// gone on with, so that no link is followed there.
+Result<Descriptor> OpenLog(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.parent_path();
+  const FilePath path = Inside(folder.parent_path()) / folder.filename() / file.filename();
+  return OpenFile(path, O_WRONLY | O_APPEND | O_CREAT);
+}
+
 }  // namespace
 
 ErrorLog::ErrorLog(std::string file) : file_(std::move(file)) {
   if (file_.empty()) return;
   memory_ = ::memfd_create("standard error", MFD_CLOEXEC);
-  if (memory_ < 0) MakeItsFolder();
+  if (memory_ >= 0) return;
+  if (auto opened = OpenLog(file_)) unbuffered_ = std::move(*opened);
 }
 
 ErrorLog::~ErrorLog() {
@@ -37,7 +48,10 @@ ErrorLog::~ErrorLog() {
 }
 
 // Where there is no memory file, the program writes to the real one at once.
-std::string ErrorLog::path() const { return memory_ < 0 ? file_ : fmt::format("/proc/{}/fd/{}", ::getpid(), memory_); }
+std::string ErrorLog::path() const {
+  const int file = memory_ < 0 ? unbuffered_.number() : memory_;
+  return file < 0 ? "" : fmt::format("/proc/{}/fd/{}", ::getpid(), file);
+}
 
 long ErrorLog::Size() const {
   struct stat status {};
@@ -72,30 +86,28 @@ std::string ErrorLog::LastLine() const {
   return tail.substr(tail.find_last_of('\n') + 1);  // npos + 1 = 0
 }
 
-// The folder is made only when there is something to keep: most runs have none.
-void ErrorLog::MakeItsFolder() const {
-  std::error_code ignored;  // what a program says is not worth failing a cell
-  std::filesystem::create_directories(std::filesystem::path(file_).parent_path(), ignored);
-}
-
+// The file is made only when there is something to keep: most runs have none. What a program says is not worth failing
+// a cell: where the file cannot be written it is lost.
 void ErrorLog::Save() {
   const long size = Size();
   if (size == 0) return;
-  MakeItsFolder();
-  std::error_code absent;
-  const auto saved = std::filesystem::file_size(file_, absent);
-  const long room = absent ? kLargest : kLargest - static_cast<long>(std::min<std::uintmax_t>(saved, kLargest));
-  std::ofstream(file_, std::ios::binary | std::ios::app) << Read(0, std::min(size, room));
+  if (const auto file = OpenLog(file_)) {
+    struct stat status {};
+    const long saved = ::fstat(file->number(), &status) == 0 ? static_cast<long>(status.st_size) : kLargest;
+    const std::string text = Read(0, std::min(size, kLargest - std::min(saved, kLargest)));
+    std::ignore = ::write(file->number(), text.data(), text.size());
+  }
   if (::ftruncate(memory_, 0) != 0) return;
 }
 
 namespace {
 
 constexpr std::chrono::milliseconds kLookEvery{20};  // at memory, and at whether it still runs
-constexpr std::chrono::milliseconds kLookAtMappingsEvery{200};
 
 tl::unexpected<OutsideFailure> NotStarted(const Error& error) {
-  return tl::unexpected<OutsideFailure>({Status::kFailed, ToString(error), false});
+  // That it is of this machine is told by who did not ask it.
+  return tl::unexpected<OutsideFailure>(
+      {Status::kFailed, IsOfThisMachine(error) ? error.message : ToString(error), false});
 }
 
 tl::unexpected<OutsideFailure> TooMuch(std::string reason) {
@@ -125,6 +137,7 @@ OutsideOutcome<void> WatchedProgram::Start() {
     view.shown.push_back(python / "etude");
     environment.push_back("PYTHONPATH=" + python.string());
   }
+  group_ = ControlGroup::Make(options_.fence.groups(), options_.memory_mb);
   const FencedCommand fenced = options_.fence.Around(view.command, view.shown, view.start);
   environment.insert(environment.end(), fenced.environment.begin(), fenced.environment.end());
   auto started = ChildProcess::Start({.program = fenced.words.front(),
@@ -132,18 +145,21 @@ OutsideOutcome<void> WatchedProgram::Start() {
                                       .error_file = errors_.path(),
                                       .limited = true,
                                       .contained = options_.fence.IsUp(),
+                                      .control_group = group_.folder(),
                                       .told = fenced.told,
                                       .environment = std::move(environment)});
   if (!started) return NotStarted(started.error());
   child_ = std::move(*started);
-  cpu_s_ = cpu_charged_s_ = shared_mb_ = 0;
-  last_look_at_mappings_ = {};
+  if (group_.IsEmpty()) group_ = {};
+  meter_.emplace(child_->number());
+  cpu_s_ = cpu_charged_s_ = 0;
   return {};
 }
 
 std::string WatchedProgram::Stop(int patience_ms) {
   std::string end = child_ ? child_->Finish(patience_ms) : "not running";
   child_.reset();
+  group_ = {};
   return end;
 }
 
@@ -175,24 +191,32 @@ OutsideOutcome<std::string> WatchedProgram::WaitForLine(Clock::time_point deadli
 OutsideOutcome<void> WatchedProgram::Look() {
   last_look_ = Clock::now();
   errors_.Trim();
-  ProcessUsage usage = child_->Measure();
-  if (last_look_ >= last_look_at_mappings_ + kLookAtMappingsEvery) {
-    last_look_at_mappings_ = last_look_;
-    shared_mb_ = child_->MeasureSharedMappingsMb();
+  const TreeLoad load = meter_->Count();
+  const ScratchUse scratch = options_.fence.MeasureScratch(child_->FirstStarted());
+  // A peak is known to a tenth, or 4 MB.
+  const double held_mb = group_.IsUp() ? group_.HeldMb() + scratch.names_mb
+                                       : meter_->HeldMb(scratch.Mb(), std::min(options_.memory_mb, 1.1 * peak_mb_ + 4));
+  cpu_s_ = std::max(cpu_s_, load.cpu_s);  // it may have vanished meanwhile
+  peak_mb_ = std::max(peak_mb_, held_mb);
+  if (held_mb > options_.memory_mb) return TooMuchMemory();
+  for (const auto& [count, limit, what] : {std::tuple{load.processes, ProgramLimits::kProcesses, "processes"},
+                                           {load.threads, ProgramLimits::kThreads, "threads"},
+                                           {load.descriptors, ProgramLimits::kDescriptors, "open files"},
+                                           {load.pipes, ProgramLimits::kPipes, "pipes"},
+                                           {load.sockets, ProgramLimits::kSockets, "sockets"},
+                                           {load.file_locks, ProgramLimits::kFileLocks, "locks of files"}}) {
+    if (count > limit) return TooMuch(fmt::format("held more than {} {}", limit, what));
   }
-  usage.resident_mb += shared_mb_ + options_.fence.ScratchMb(child_->FirstStarted());
-  cpu_s_ = std::max(cpu_s_, usage.cpu_s);  // it may have vanished meanwhile
-  peak_mb_ = std::max(peak_mb_, usage.resident_mb);
-  if (usage.resident_mb > options_.memory_mb) {
-    return TooMuch(fmt::format("held more than {:g} MB of memory", options_.memory_mb));
-  }
-  if (usage.processes <= ProgramLimits::kProcesses) return {};
-  return TooMuch(fmt::format("held more than {} processes", ProgramLimits::kProcesses));
+  return {};
 }
 
 OutsideOutcome<void> WatchedProgram::LookAgain() {
   if (Clock::now() < last_look_ + kLookEvery) return {};
   return Look();
+}
+
+tl::unexpected<OutsideFailure> WatchedProgram::TooMuchMemory() const {
+  return TooMuch(fmt::format("held more than {:g} MB of memory", options_.memory_mb));
 }
 
 /// Says how a program ended from which no whole line will come any more.
@@ -202,9 +226,13 @@ OutsideFailure WatchedProgram::HowItEnded() {
     return {Status::kBadOutput,
             fmt::format("said a line of more than {} MiB: {}", kLongestReply >> 20, Printable(part))};
   }
+  if (child_->broken_by() != 0) {
+    return {Status::kFailed, fmt::format("cannot be talked to: {}", std::strerror(child_->broken_by())), false};
+  }
   for (int i = 0; i < kDyingMs && !child_->HasEnded(); ++i) ::usleep(1000);
   if (!child_->HasEnded()) return {Status::kBadOutput, "closed its output, but went on running"};
   const std::string end = child_->Finish(0);
+  if (group_.IsUp() && group_.WasFull()) return TooMuchMemory().value();
   std::string reason = "ended with " + end;
   if (!part.empty()) reason += ", amid the line " + Printable(part);
   if (const std::string words = WithoutFolder(errors_.LastLine()); !words.empty()) {

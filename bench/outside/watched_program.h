@@ -8,6 +8,8 @@
 #include "bench/outside/outside_method.h"
 #include "bench/process/child_process.h"
 #include "bench/process/clock.h"
+#include "bench/process/control_group.h"
+#include "bench/process/tree_meter.h"
 
 namespace etude {
 
@@ -34,12 +36,12 @@ class ErrorLog {
   void Save();
 
  private:
-  void MakeItsFolder() const;
   std::string Read(long start, long size) const;
   long Size() const;
 
   std::string file_;
   int memory_ = -1;
+  Descriptor unbuffered_;  ///< the file itself, where the system makes no file in memory
 };
 
 /// The reason why a program gave no answer.
@@ -86,7 +88,7 @@ class WatchedProgram {
 
   /// Returns the processor time that it has used since the last call, as last seen, seconds.
   double TakeCpuSeconds();
-  /// The largest resident size seen since ForgetPeak, MB.
+  /// The most memory seen since ForgetPeak, MB.
   double peak_mb() const { return peak_mb_; }
   void ForgetPeak() { peak_mb_ = 0; }
   /// Saves what it said on its standard error.
@@ -97,13 +99,15 @@ class WatchedProgram {
 
  private:
   OutsideFailure HowItEnded();
+  tl::unexpected<OutsideFailure> TooMuchMemory() const;
 
   const OutsideOptions& options_;
   ErrorLog errors_;
   std::optional<TemporaryFolder> attachment_root_;
+  ControlGroup group_;  ///< of the child; none where this machine gives none: then the meter counts its memory
   std::optional<ChildProcess> child_;
-  Clock::time_point last_look_{}, last_look_at_mappings_{};
-  double shared_mb_ = 0;      ///< in mappings, as last seen
+  std::optional<TreeMeter> meter_;  ///< of the child
+  Clock::time_point last_look_{};
   double cpu_s_ = 0;          ///< of the running program, as last seen
   double cpu_charged_s_ = 0;  ///< of that, taken before
   double peak_mb_ = 0;

@@ -24,9 +24,9 @@
 #include <set>
 #include <utility>
 
-#include "bench/process/machine.h"
 #include "bench/process/pinned_environment.h"
 #include "bench/process/process_tree.h"
+#include "engine/base/machine.h"
 
 namespace etude {
 namespace {
@@ -71,6 +71,9 @@ void LimitProgram() {
   ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
   Limit(RLIMIT_FSIZE, ProgramLimits::kFileBytes);
   Limit(RLIMIT_NOFILE, ProgramLimits::kOpenFiles);
+  Limit(RLIMIT_SIGPENDING, ProgramLimits::kPendingSignals);
+  Limit(RLIMIT_MEMLOCK, ProgramLimits::kLockedBytes);
+  Limit(RLIMIT_MSGQUEUE, 0);
   Limit(RLIMIT_CORE, 0);
 }
 
@@ -85,13 +88,19 @@ struct Becoming {
   bool limited, contained;
   std::string user_map, group_map;
   std::vector<Descriptor> told;
+  std::vector<std::pair<const char*, std::string>> user_limits;  ///< files of /proc, and what is written to them
 };
 
-/// Forks into a space of processes of its own, with the privileges there (not here) that a fence needs to begin.
-pid_t ForkContained() {
+/// Forks into a space of processes of its own, with the privileges there (not here) that a fence needs to begin, and
+/// into a control group (-1 = none).
+pid_t ForkContained(int control_group) {
   clone_args how{};
   how.flags = CLONE_NEWUSER | CLONE_NEWPID | CLONE_NEWNS;
   how.exit_signal = SIGCHLD;
+  if (control_group >= 0) {
+    how.flags |= CLONE_INTO_CGROUP;
+    how.cgroup = static_cast<std::uint64_t>(control_group);
+  }
   return static_cast<pid_t>(::syscall(SYS_clone3, &how, sizeof how));
 }
 
@@ -103,11 +112,14 @@ bool WriteTo(const char* path, std::string_view text) {
 }
 
 /// Makes a new space of processes what a fence expects of the one around it: we are ourselves there, and /proc tells
-/// it.
+/// it. What the kernel counts by user for all that is inside gets limits there, so that the user keeps some of it.
 bool SettleIn(const Becoming& child) {
-  return WriteTo("/proc/self/setgroups", "deny") && WriteTo("/proc/self/uid_map", child.user_map) &&
-         WriteTo("/proc/self/gid_map", child.group_map) &&
-         ::mount("proc", "/proc", "proc", MS_NOSUID | MS_NODEV | MS_NOEXEC, nullptr) == 0;
+  const bool has_settled = WriteTo("/proc/self/setgroups", "deny") && WriteTo("/proc/self/uid_map", child.user_map) &&
+                           WriteTo("/proc/self/gid_map", child.group_map) &&
+                           ::mount("proc", "/proc", "proc", MS_NOSUID | MS_NODEV | MS_NOEXEC, nullptr) == 0;
+  if (!has_settled || !child.limited) return has_settled;
+  for (const auto& [file, text] : child.user_limits) WriteTo(file, text);
+  return true;
 }
 
 [[noreturn]] void GiveUp(const Becoming& child, int reason) {
@@ -185,9 +197,10 @@ void EndOrphans() {
   }
 }
 
-/// Describes how a program ended. A shell, and a fence, tell a signal by an exit code beyond 128.
-std::string DescribeEnd(int status) {
-  const int code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+/// The exit code as a shell, and a fence, tell it: a signal is one beyond 128.
+int ExitCode(int status) { return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status); }
+
+std::string DescribeEnd(int code) {
   const int signal = code - 128;
   if (signal <= 0 || signal >= NSIG) return fmt::format("exit code {}", code);
   return fmt::format("signal {} ({})", signal, strsignal(signal));
@@ -223,7 +236,7 @@ Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
   Descriptor errors;
   if (!options.error_file.empty()) {
     errors = Descriptor(::open(options.error_file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666));
-    if (errors.number() < 0) return Fail({options.error_file, 0, 0}, "cannot write: {}", std::strerror(errno));
+    if (errors.number() < 0) return CannotWrite(options.error_file, "cannot write", errno);
   }
   std::vector<std::string> argument_texts = {options.program};
   argument_texts.insert(argument_texts.end(), options.arguments.begin(), options.arguments.end());
@@ -234,25 +247,29 @@ Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
   const std::vector<char*> envp = Pointers(environment_texts);
   const Descriptor ourselves(static_cast<int>(::syscall(SYS_pidfd_open, ::getpid(), 0)));
   if (ourselves.number() < 0) return Fail({kThisMachine}, "no process can be watched: {}", std::strerror(errno));
-  Becoming child{.path = path.c_str(),
-                 .argv = argv.data(),
-                 .envp = envp.data(),
-                 .input = input->read.number(),
-                 .output = output->write.number(),
-                 .errors = errors.number(),
-                 .report = report->write.number(),
-                 .parent = ourselves.number(),
-                 .limited = options.limited,
-                 .contained = options.contained,
-                 .user_map = fmt::format("{0} {0} 1", ::geteuid()),
-                 .group_map = fmt::format("{0} {0} 1", ::getegid()),
-                 .told = {}};
+  Becoming child{
+      .path = path.c_str(),
+      .argv = argv.data(),
+      .envp = envp.data(),
+      .input = input->read.number(),
+      .output = output->write.number(),
+      .errors = errors.number(),
+      .report = report->write.number(),
+      .parent = ourselves.number(),
+      .limited = options.limited,
+      .contained = options.contained,
+      .user_map = fmt::format("{0} {0} 1", ::geteuid()),
+      .group_map = fmt::format("{0} {0} 1", ::getegid()),
+      .told = {},
+      .user_limits = {{"/proc/sys/user/max_inotify_instances", std::to_string(ProgramLimits::kInotifyInstances)},
+                      {"/proc/sys/user/max_inotify_watches", std::to_string(ProgramLimits::kInotifyWatches)}}};
   for (const std::string& text : options.told) {
     ASSIGN_OR_RETURN(auto file, MakeFile(text));
     child.told.push_back(std::move(file));
   }
   ::signal(SIGPIPE, SIG_IGN);
-  const pid_t pid = options.contained ? ForkContained() : ::fork();
+  pid_t pid = options.contained ? ForkContained(options.control_group) : ::fork();
+  if (pid < 0 && options.control_group >= 0) pid = ForkContained(-1);
   if (pid == 0) BecomeProgram(child);
   if (pid < 0 && options.contained && errno != EAGAIN && errno != ENOMEM) return StartUncontained(options);
   if (pid < 0) return Fail({kThisMachine}, "no process can be started: {}", std::strerror(errno));
@@ -281,6 +298,8 @@ ChildProcess& ChildProcess::operator=(ChildProcess&& other) noexcept {
     pid_ = std::exchange(other.pid_, -1);
     input_ = std::exchange(other.input_, -1);
     output_ = std::exchange(other.output_, -1);
+    broken_by_ = std::exchange(other.broken_by_, 0);
+    exit_code_ = std::exchange(other.exit_code_, -1);
     unsent_ = std::move(other.unsent_);
     sent_ = std::exchange(other.sent_, 0);
     buffer_ = std::move(other.buffer_);
@@ -305,7 +324,10 @@ bool ChildProcess::SendOn() {
     const ssize_t count = ::write(input_, unsent_.data() + sent_, unsent_.size() - sent_);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return true;
-    if (count < 0) break;  // nobody will ever take the rest
+    if (count < 0) {  // nobody will ever take the rest
+      if (errno != EPIPE) broken_by_ = errno;
+      break;
+    }
     sent_ += static_cast<std::size_t>(count);
   }
   const bool all_sent = !HasUnsent();
@@ -330,10 +352,12 @@ bool ChildProcess::Receive(std::size_t longest_line) {
     const ssize_t count = ::read(output_, chunk.data(), chunk.size());
     if (count < 0 && errno == EINTR) continue;
     if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) break;
+    if (count < 0) broken_by_ = errno;
     if (count <= 0) return false;
     buffer_.append(chunk.data(), static_cast<std::size_t>(count));
     ++chunks;
   }
+  if (broken_by_ != 0) return false;
   return buffer_.size() <= longest_line || buffer_.find('\n', scanned_) != std::string::npos;
 }
 
@@ -348,11 +372,7 @@ std::optional<std::string> ChildProcess::NextLine() {
   return line;
 }
 
-ProcessUsage ChildProcess::Measure() const { return pid_ < 0 ? ProcessUsage{} : MeasureTree(pid_); }
-
 ProcessUsage ChildProcess::MeasureAlone() const { return pid_ < 0 ? ProcessUsage{} : MeasureProcess(pid_); }
-
-double ChildProcess::MeasureSharedMappingsMb() const { return pid_ < 0 ? 0 : etude::MeasureSharedMappingsMb(pid_); }
 
 pid_t ChildProcess::FirstStarted() const {
   const std::vector<pid_t> started = pid_ < 0 ? std::vector<pid_t>() : ChildrenOf(pid_);
@@ -379,7 +399,8 @@ std::string ChildProcess::Finish(int patience_ms) {
   ManagedChildren().erase(pid_);
   EndOrphans();
   pid_ = input_ = output_ = -1;
-  return DescribeEnd(status);
+  exit_code_ = ExitCode(status);
+  return DescribeEnd(exit_code_);
 }
 
 }  // namespace etude

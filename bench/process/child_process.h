@@ -17,9 +17,21 @@ namespace etude {
 /// The limits of a program that is not ours, beside the time and memory that a scenario allows it.
 struct ProgramLimits {
   static constexpr std::uint64_t kFileBytes = std::uint64_t{256} << 20;  ///< of a file; in a fence, of a scratch folder
-  static constexpr std::uint64_t kOpenFiles = 4096;
-  static constexpr std::uint64_t kThreads = 4096;  ///< of all its processes; in a fence, and not for root
-  static constexpr std::size_t kProcesses = 256;   ///< looked at 50 times a second
+  /// Of one process. Files that are on their way between processes can be as many, in all of a user's programs: so
+  /// many pipes and another 256 leave all others of the user some of the 1024 pipes of full size that the kernel
+  /// allows.
+  static constexpr std::uint64_t kOpenFiles = 512;
+  static constexpr std::uint64_t kPendingSignals = 1024;  ///< and timers
+  static constexpr std::uint64_t kLockedBytes = 1 << 20;  ///< kept from being swapped out
+  static constexpr int kInotifyInstances = 8, kInotifyWatches = 4096;
+
+  // Of all its processes, as looked at 50 times a second.
+  static constexpr std::size_t kProcesses = 256;
+  static constexpr std::size_t kThreads = 4096;
+  static constexpr std::size_t kDescriptors = 4096;
+  static constexpr std::size_t kPipes = 256;
+  static constexpr std::size_t kSockets = 1024;  ///< in a fence
+  static constexpr std::size_t kFileLocks = 16384;
 };
 
 /// The path of a program, the way a shell finds it.
@@ -33,6 +45,7 @@ struct ChildOptions {
   /// It is the first process of a space of its own, where the kernel grants one: with it, and it goes with us, end all
   /// that it has started, whatever they were at.
   bool contained = false;
+  int control_group = -1;              ///< ControlGroup::folder of the one that it starts in, if it is contained
   std::vector<std::string> told = {};  ///< what it can read from its descriptors 3, 4, …
   /// Changes to the closed environment: NAME=VALUE sets a variable, NAME removes one.
   std::vector<std::string> environment = {};
@@ -67,25 +80,27 @@ class ChildProcess {
   int input() const { return input_; }
   /// Takes some of what can be read now (poll says whether there is more) and sends on what is unsent. Whole
   /// lines are then given by NextLine: take them all before the next call. False when the child has closed its
-  /// output, that is, ended, or when a line grows beyond `longest_line` bytes.
+  /// output, that is, ended, when a line grows beyond `longest_line` bytes, and when it cannot be talked to any more.
   bool Receive(std::size_t longest_line = std::size_t{1} << 30);
   std::optional<std::string> NextLine();
   /// The beginning of a line that has not been read to its end yet.
   std::string_view PartOfLine() const { return std::string_view(buffer_).substr(line_start_); }
-  /// The usage of the child and its descendants now; zeros when it has ended.
-  ProcessUsage Measure() const;
-  /// The usage of the child alone.
+  /// The number of its process; -1 when it has been finished.
+  pid_t number() const { return pid_; }
+  /// The usage of the child alone, without its descendants (TreeMeter).
   ProcessUsage MeasureAlone() const;
-  /// MeasureSharedMappingsMb of the child and its descendants.
-  double MeasureSharedMappingsMb() const;
   /// The first process that the child has started and that is there; -1 when there is none.
   pid_t FirstStarted() const;
   /// True if the program itself has ended; what it has started may still hold its output open.
   bool HasEnded() const;
+  /// The errno by which this machine keeps us from talking to it; 0 = it does not.
+  int broken_by() const { return broken_by_; }
   /// Ends its input, gives it `patience_ms` to end by itself, then kills it; kills what it has started either
   /// way. Says how it ended: "exit code 2", "signal 11 (Segmentation fault)"; the latter also of exit code 139, by
   /// which shells and fences tell it.
   std::string Finish(int patience_ms = 50);
+  /// The exit code of a finished child; of one that a signal ended, 128 and its number. −1 before it is finished.
+  int exit_code() const { return exit_code_; }
 
  private:
   ChildProcess(pid_t pid, int input, int output) : pid_(pid), input_(input), output_(output) {}
@@ -95,6 +110,8 @@ class ChildProcess {
   pid_t pid_ = -1;
   int input_ = -1;
   int output_ = -1;
+  int broken_by_ = 0;
+  int exit_code_ = -1;
   std::string unsent_;
   std::size_t sent_ = 0;  ///< bytes of `unsent_` that are already gone
   std::string buffer_;

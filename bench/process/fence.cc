@@ -1,16 +1,11 @@
 #include "bench/process/fence.h"
 
 #include <fmt/core.h>
-#include <linux/audit.h>
-#include <linux/filter.h>
 #include <linux/magic.h>
-#include <linux/seccomp.h>
 #include <poll.h>
 #include <sys/resource.h>
-#include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/statfs.h>
-#include <sys/syscall.h>
 
 #include <algorithm>
 #include <array>
@@ -24,65 +19,17 @@
 #include <string_view>
 
 #include "bench/process/child_process.h"
-#include "bench/process/machine.h"
+#include "bench/process/control_group.h"
+#include "bench/process/system_call_filter.h"
+#include "engine/base/machine.h"
 
 namespace etude {
 namespace {
 
-#if defined(__x86_64__)
-constexpr std::uint32_t kArchitecture = AUDIT_ARCH_X86_64;
-#elif defined(__aarch64__)
-constexpr std::uint32_t kArchitecture = AUDIT_ARCH_AARCH64;
-#else
-constexpr std::uint32_t kArchitecture = 0;
-#endif
-
-constexpr std::array kRefused = {SYS_memfd_create, SYS_memfd_secret, SYS_shmget, SYS_msgget,
-                                 SYS_add_key,      SYS_request_key,  SYS_keyctl, SYS_io_uring_setup};
-constexpr std::array kFamilies = {AF_UNIX, AF_INET, AF_INET6, AF_NETLINK};
-constexpr std::uint32_t kOtherNumbers = 0x40000000;  // from here on the x32 ABI's, on x86-64; nobody's elsewhere
-
-constexpr sock_filter Load(std::size_t offset) {
-  return BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset));
-}
-constexpr sock_filter Return(std::uint32_t what) { return BPF_STMT(BPF_RET | BPF_K, what); }
-constexpr sock_filter SkipUnless(std::uint16_t test, std::uint32_t value, std::uint8_t count) {
-  return BPF_JUMP(static_cast<std::uint16_t>(BPF_JMP | test | BPF_K), value, 0, count);
-}
-
-/// A filter of system calls for programs that are not ours, as the kernel takes it (a seccomp BPF program): refuses
-/// memory that no look at processes and folders sees (memfd_create, SysV shared memory and queues), sockets of other
-/// families than UNIX, INET, INET6 and NETLINK, which no network namespace closes (AF_VSOCK speaks to the host), keys
-/// of the user's, and io_uring, which does all of these without system calls. "" where it is not known for this CPU.
-std::string SystemCallFilter() {
-  if (kArchitecture == 0) return "";
-  const sock_filter refuse = Return(SECCOMP_RET_ERRNO | ENOSYS), allow = Return(SECCOMP_RET_ALLOW);
-  std::vector<sock_filter> filter = {Load(offsetof(seccomp_data, arch)),
-                                     BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, kArchitecture, 1, 0),
-                                     refuse,
-                                     Load(offsetof(seccomp_data, nr)),
-                                     SkipUnless(BPF_JGE, kOtherNumbers, 1),
-                                     refuse};
-  for (const auto number : kRefused) {
-    filter.push_back(SkipUnless(BPF_JEQ, static_cast<std::uint32_t>(number), 1));
-    filter.push_back(refuse);
-  }
-  for (const auto number : {SYS_socket, SYS_socketpair}) {
-    filter.push_back(SkipUnless(BPF_JEQ, static_cast<std::uint32_t>(number), 2 * kFamilies.size() + 2));
-    filter.push_back(Load(offsetof(seccomp_data, args)));  // its lower half: both CPUs are little-endian
-    for (const int family : kFamilies) {
-      filter.push_back(SkipUnless(BPF_JEQ, static_cast<std::uint32_t>(family), 1));
-      filter.push_back(allow);
-    }
-    filter.push_back(Return(SECCOMP_RET_ERRNO | EAFNOSUPPORT));
-  }
-  filter.push_back(allow);
-  return {reinterpret_cast<const char*>(filter.data()), filter.size() * sizeof(sock_filter)};
-}
-
 namespace fs = std::filesystem;
 
 constexpr int kTrialMs = 5000;
+constexpr double kNameBytes = 700, kInodeBytes = 900;  // of a temporary file, as measured on Linux 6.18; of long names
 
 /// The folders that every program sees: the system's programs, libraries and settings.
 constexpr std::array kSystem = {"/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/etc", "/opt", "/nix"};
@@ -182,10 +129,11 @@ std::string FirstLineOf(const Fence& fence, const std::vector<std::string>& comm
 
 }  // namespace
 
-Fence Fence::Of(const std::string& program, std::vector<fs::path> kept) {
+Fence Fence::Of(const std::string& program, std::vector<fs::path> kept, std::string groups) {
   Fence fence;
   fence.program_ = program;
   fence.kept_ = std::move(kept);
+  fence.groups_ = std::move(groups);
   return fence;
 }
 
@@ -200,10 +148,17 @@ Fence Fence::Find() {
   // It tells its version from within the whole fence.
   const std::string said = FirstLineOf(fence, {*program, "--version"});
   fence.description_ = said;
-  fence.kept_ = KeptFromUsers();
-  if (said.starts_with("bubblewrap ")) return fence;
+  if (said.starts_with("bubblewrap ")) {
+    fence.kept_ = KeptFromUsers();
+    fence.groups_ = ControlGroup::FindPlace();
+    return fence;
+  }
   none.description_ = fmt::format("none ({})", said.empty() ? "bubblewrap says nothing" : said);
   return none;
+}
+
+std::string Fence::MemoryDescription() const {
+  return groups_.empty() ? "counted by shares of pages, 50 times a second" : "counted by the kernel (cgroup v2)";
 }
 
 Result<void> Fence::Try() const {
@@ -213,9 +168,10 @@ Result<void> Fence::Try() const {
   return Fail({kThisMachine}, "nothing can be run in the fence: {}", said.empty() ? "it says nothing" : said);
 }
 
-double Fence::ScratchMb(pid_t inside) const {
-  if (!IsUp()) return 0;
-  double bytes = 0;
+ScratchUse Fence::MeasureScratch(pid_t inside) const {
+  ScratchUse use;
+  if (!IsUp()) return use;
+  constexpr double kMb = 1 << 20;
   std::set<dev_t> seen;  // a folder may be one with another, or not be there yet
   if (struct stat ours{}; ::stat(kScratch[0], &ours) == 0) seen.insert(ours.st_dev);
   for (const char* folder : kScratch) {
@@ -224,9 +180,12 @@ double Fence::ScratchMb(pid_t inside) const {
     struct statfs system {};
     if (::stat(path.c_str(), &status) != 0 || !seen.insert(status.st_dev).second) continue;
     if (::statfs(path.c_str(), &system) != 0 || system.f_type != TMPFS_MAGIC) continue;
-    bytes += static_cast<double>(system.f_blocks - system.f_bfree) * static_cast<double>(system.f_bsize);
+    use.mb += static_cast<double>(system.f_blocks - system.f_bfree) * static_cast<double>(system.f_bsize) / kMb;
+    const auto files = static_cast<double>(system.f_files - system.f_ffree);
+    use.names_mb += files * kNameBytes / kMb;
+    use.inodes_mb += files * kInodeBytes / kMb;
   }
-  return bytes / (1 << 20);
+  return use;
 }
 
 bool Fence::IsOfSystem(const fs::path& path) {

@@ -18,6 +18,16 @@ struct FencedCommand {
   std::vector<std::string> environment = {};  ///< ChildOptions::environment, of bubblewrap and what is inside
 };
 
+/// Temporary files, which are memory.
+struct ScratchUse {
+  double mb = 0;  ///< of what was written to them
+  double names_mb = 0,
+         inodes_mb =
+             0;  ///< what the kernel keeps of each: its name, which it takes for easy to find again, and the rest
+
+  double Mb() const { return mb + names_mb + inodes_mb; }
+};
+
 /// A fence around programs that are not ours, made by bubblewrap where the kernel lets it: user, process, mount, ipc
 /// and network namespaces of their own, no capabilities, and of all files only the system's, what they are shown, both
 /// read-only, and scratch folders that go with them (docs/outside-methods.md).
@@ -27,8 +37,8 @@ class Fence {
   Fence() = default;
   /// The fence that this machine allows, tried once; else none, and `description` says why.
   static Fence Find();
-  /// The fence that another process has found: its `program`, and what it has `kept`.
-  static Fence Of(const std::string& program, std::vector<std::filesystem::path> kept = {});
+  /// The fence that another process has found: its `program`, and the `kept` and the `groups` that it tells.
+  static Fence Of(const std::string& program, std::vector<std::filesystem::path> kept = {}, std::string groups = "");
   /// Tells whether every program sees a path, as part of the system.
   static bool IsOfSystem(const std::filesystem::path& path);
   /// Tells whether a folder holds one that programs have to write to, so that it cannot be shown as it is.
@@ -40,14 +50,19 @@ class Fence {
   /// "bubblewrap 0.8.0"; "none (not asked for)".
   const std::string& description() const { return description_; }
 
+  /// ControlGroup::FindPlace; "" without a fence.
+  const std::string& groups() const { return groups_; }
+  /// "counted by the kernel (cgroup v2)"; by whom the memory of programs inside is counted.
+  std::string MemoryDescription() const;
+
   /// Has programs inside see a folder empty, and a file not at all, even where the system or what is shown holds it.
   void Hide(const std::filesystem::path& path) { hidden_.push_back(path); }
   const std::vector<std::filesystem::path>& hidden() const { return hidden_; }
   /// What of the system is not shown unless a program is granted it: what only root can read, where root asks.
   const std::vector<std::filesystem::path>& kept() const { return kept_; }
 
-  /// Memory in the scratch folders that a process inside sees.
-  double ScratchMb(pid_t inside) const;
+  /// What is in the scratch folders that a process inside sees.
+  ScratchUse MeasureScratch(pid_t inside) const;
 
   /// Fails, with an error of this machine, when nothing can be run inside now, though it could.
   Result<void> Try() const;
@@ -58,7 +73,7 @@ class Fence {
                        const std::filesystem::path& start = {}) const;
 
  private:
-  std::string program_;
+  std::string program_, groups_;
   std::string description_ = "none (not asked for)";
   std::vector<std::filesystem::path> hidden_, kept_;
 };

@@ -12,27 +12,12 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
-#include <map>
 #include <string>
-#include <string_view>
 
 namespace etude {
 namespace {
 
 constexpr std::size_t kMostProcesses = 4096;
-
-/// The text of one of /proc's small files; "" when the process has vanished.
-std::string ReadProcFile(const std::string& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return "";
-  std::string text;
-  std::array<char, 4096> chunk;
-  for (ssize_t count; (count = ::read(file, chunk.data(), chunk.size())) > 0;) {
-    text.append(chunk.data(), static_cast<std::size_t>(count));
-  }
-  ::close(file);
-  return text;
-}
 
 /// Adds the children that any thread of `parent` has started.
 void AddChildren(pid_t parent, std::vector<pid_t>& processes) {
@@ -68,22 +53,36 @@ bool Signal(const Descriptor& process, int signal) {
 
 }  // namespace
 
+std::string ReadProcFile(const std::string& path, std::size_t max_bytes) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return "";
+  std::string text;
+  std::array<char, 4096> chunk;
+  for (ssize_t count; text.size() < max_bytes && (count = ::read(file, chunk.data(), chunk.size())) > 0;) {
+    text.append(chunk.data(), static_cast<std::size_t>(count));
+  }
+  ::close(file);
+  return text;
+}
+
 ProcessUsage MeasureProcess(pid_t process) {
   const std::string stat = ReadProcFile(fmt::format("/proc/{}/stat", process));
   // The second field, the program's name in parentheses, may hold anything; numbers follow the last one.
   const std::size_t name_end = stat.rfind(')');
   if (name_end == std::string::npos) return {};
+  unsigned long faults = 0;
   long user_waited_for = 0, system_waited_for = 0, resident_pages = 0;
   const int read = std::sscanf(stat.c_str() + name_end + 1,
-                               " %*c %*s %*s %*s %*s %*s %*s %*s %*s %*s %*s %*s %*s"  // fields 3 to 15
+                               " %*c %*s %*s %*s %*s %*s %*s %lu %*s %*s %*s %*s %*s"  // fields 3 to 15, of them 10
                                " %ld %ld %*s %*s %*s %*s %*s %*s %ld",                 // 16, 17, 24
-                               &user_waited_for, &system_waited_for, &resident_pages);
-  if (read != 3) return {};
+                               &faults, &user_waited_for, &system_waited_for, &resident_pages);
+  if (read != 4) return {};
   static const double seconds_per_tick = 1.0 / static_cast<double>(::sysconf(_SC_CLK_TCK));
   static const double mb_per_page = static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1024 * 1024);
   const double own_cpu_s = OwnCpuSeconds(process);
   return {static_cast<double>(resident_pages) * mb_per_page,
-          own_cpu_s + static_cast<double>(user_waited_for + system_waited_for) * seconds_per_tick, 1, own_cpu_s};
+          own_cpu_s + static_cast<double>(user_waited_for + system_waited_for) * seconds_per_tick, faults, 1,
+          own_cpu_s};
 }
 
 std::vector<pid_t> ChildrenOf(pid_t parent) {
@@ -96,36 +95,6 @@ std::vector<pid_t> ProcessTree(pid_t root) {
   std::vector<pid_t> processes = {root};
   for (std::size_t i = 0; i < processes.size(); ++i) AddChildren(processes[i], processes);
   return processes;
-}
-
-ProcessUsage MeasureTree(pid_t root) {
-  ProcessUsage sum;
-  for (const pid_t process : ProcessTree(root)) {
-    const ProcessUsage usage = MeasureProcess(process);
-    sum.resident_mb += usage.resident_mb;
-    sum.cpu_s += usage.cpu_s;
-    sum.processes += usage.processes;
-    sum.own_cpu_s += usage.own_cpu_s;
-  }
-  return sum;
-}
-
-double MeasureSharedMappingsMb(pid_t root) {
-  std::map<unsigned long, unsigned long> sizes;  // by inode, of the process that maps most of it
-  for (const pid_t process : ProcessTree(root)) {
-    std::map<unsigned long, unsigned long> own;
-    const std::string maps = ReadProcFile(fmt::format("/proc/{}/maps", process));
-    constexpr std::string_view kName = "/dev/zero (deleted)\n";  // what the kernel calls them
-    for (std::size_t at = 0; (at = maps.find(kName, at)) != std::string::npos; at += kName.size()) {
-      unsigned long begin = 0, end = 0, inode = 0;
-      const char* line = maps.c_str() + maps.rfind('\n', at) + 1;  // npos + 1 = 0
-      if (std::sscanf(line, "%lx-%lx %*2c%*c%*1[s]%*s %*s %lu", &begin, &end, &inode) == 3) own[inode] += end - begin;
-    }
-    for (const auto& [inode, size] : own) sizes[inode] = std::max(sizes[inode], size);
-  }
-  double bytes = 0;
-  for (const auto& [inode, size] : sizes) bytes += static_cast<double>(size);
-  return bytes / (1024 * 1024);
 }
 
 HeldTree::HeldTree(pid_t root) {

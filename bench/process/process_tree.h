@@ -1,40 +1,27 @@
 #pragma once
 
 #include <sys/types.h>
-#include <unistd.h>
 
-#include <utility>
+#include <cstddef>
+#include <cstdint>
+#include <string>
 #include <vector>
+
+#include "bench/files/descriptor.h"
 
 namespace etude {
 
-/// A file descriptor that is closed at the end of its scope.
-class Descriptor {
- public:
-  explicit Descriptor(int number = -1) : number_(number) {}
-  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(number_, other.number_);
-    return *this;
-  }
-  ~Descriptor() { Close(); }
-  int number() const { return number_; }
-  int Release() { return std::exchange(number_, -1); }
-  void Close() {
-    if (number_ >= 0) ::close(std::exchange(number_, -1));
-  }
-
- private:
-  int number_;
-};
-
-/// The memory and processor time of a process and all its descendants.
+/// The memory and processor time of one process.
 struct ProcessUsage {
-  double resident_mb = 0;  ///< pages that several of them share count for each
-  double cpu_s = 0;        ///< with what was used by those that they have waited for
-  std::size_t processes = 0;
-  double own_cpu_s = 0;  ///< without those waited for
+  double resident_mb = 0;     ///< pages that it shares with others count in full
+  double cpu_s = 0;           ///< with what was used by those that it has waited for
+  std::uint64_t faults = 0;   ///< pages that it has touched for the first time, or that had to be copied
+  std::size_t processes = 0;  ///< 1; 0 when it has vanished
+  double own_cpu_s = 0;       ///< without those waited for
 };
+
+/// The text of one of /proc's files, or its first `max_bytes` and a bit; "" when the process has vanished.
+std::string ReadProcFile(const std::string& path, std::size_t max_bytes = std::size_t{1} << 30);
 
 /// `root` and all its living descendants, parents first. Processes come and go while this looks: it is
 /// what was seen on the way. Stops at 4096 of them.
@@ -43,12 +30,7 @@ std::vector<pid_t> ProcessTree(pid_t root);
 /// Lists the processes that any thread of `parent` has started, or adopted.
 std::vector<pid_t> ChildrenOf(pid_t parent);
 
-/// Zeros for what has vanished.
-ProcessUsage MeasureTree(pid_t root);
-/// The size of all mappings that a tree shares and no file backs: they may hold memory that is in nobody's resident
-/// size. Takes some 0.1 ms a process.
-double MeasureSharedMappingsMb(pid_t root);
-/// The process alone, without its descendants.
+/// The process alone, without its descendants; zeros when it has vanished.
 ProcessUsage MeasureProcess(pid_t process);
 
 /// A process and its descendants, held so that ending them cannot hit another process that has been given one of

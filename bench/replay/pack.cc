@@ -154,10 +154,11 @@ Result<void> PackCell(const std::string& folder, const std::string& cell, const 
   if (!place) return Fail({folder, 0, 0}, "holds no cell '{}'", cell);
   const Row row = RowAt(run, *place);
   // No dice are thrown: of secret worlds, the key is needed when the cell is replayed.
-  const fs::path manifest = fs::path(folder) / "manifest.json";
+  const FilePath manifest = Inside(folder) / "manifest.json";
   ASSIGN_OR_RETURN(SuiteSetup suite, ReadManifest(manifest));
   ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(suite));
   RETURN_IF_ERROR(CheckClips(manifest, scenarios));
+  RETURN_IF_ERROR(CheckStillThere(folder, run));
   const auto prepared = std::find_if(scenarios.begin(), scenarios.end(), [&](const PreparedScenario& scenario) {
     return scenario.scenario().name == row.scenario;
   });

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "bench/model/row.h"
+#include "bench/replay/cell_choice.h"
 #include "bench/results/folder.h"
 #include "bench/run/outside_programs.h"
 #include "engine/base/progress.h"
@@ -14,30 +16,31 @@
 
 namespace etude {
 
-struct PreparedRun;
-
 /// A cell that was run again.
 struct CellCheck {
   std::string cell;
   bool same = false;
   /// The place where it went another way: the first stage whose digest differs, else "status", a metric, "curves" or
-  /// "recording"; "" when the same.
+  /// "recording"; "cell", "task", "clip" or "units" of a row that is another's; "" when the same.
   std::string stage;
   std::string then, now;  ///< what stood there, what came now
   /// The row that came now, of a cell that was asked for by its name; without curves and recording.
   std::optional<Row> row = std::nullopt;
 };
 
-/// Compares a row with the one that came when the cell was run again: stage by stage, then status, then metrics.
+/// Compares what rows say of their world and method.
+CellCheck CompareIdentity(const Row& then, const Row& now);
+/// Compares a row with the one that came when the cell was run again: whose it is, stage by stage, status, metrics.
 CellCheck CompareRows(const Row& then, const Row& now);
 
 struct ReplayOptions {
   std::string folder;
-  std::vector<std::string> cells;  ///< identities as in cells.jsonl; empty = a sample
-  std::size_t sample = 0;          ///< how many cells, drawn by the suite's seed; 0 = all
-  bool recorded_too = false;       ///< and, of a sample, every cell that left a recording
-  bool without_programs = false;   ///< leaves out cells of methods outside
-  int jobs = 0;                    ///< 0 = one per processor
+  std::vector<std::string> cells;          ///< identities as in cells.jsonl; empty = a sample
+  std::optional<std::size_t> sample = {};  ///< so many cells are drawn; nothing = all
+  std::optional<std::uint64_t> dice = {};  ///< by this seed; nothing = the suite's, which whoever made the run knows
+  bool recorded_too = false;               ///< and, beside a sample, every cell that left a recording
+  bool without_programs = false;           ///< leaves out cells of methods outside
+  int jobs = 0;                            ///< 0 = one per processor
   OutsideRules outside;
   std::optional<SecretKey> key = {};  ///< of secret worlds
   Sealing sealing = Sealing::kRequired;
@@ -45,12 +48,15 @@ struct ReplayOptions {
   OnProgress on_progress = {};  ///< is told of cells
 };
 
-/// True if the run keeps a recording of the trial of this row.
-bool IsRecorded(const PreparedRun& run, const Row& row);
+struct ReplayOutcome {
+  std::vector<CellCheck> checks;  ///< in canonical order; of a replay that was stopped early, those that were done
+  CellChoice choice;
+};
 
 /// Runs cells of a finished run again, as its manifest describes them, and compares every stage, curve and recording.
-/// In canonical order. Stopped early, it gives those that were done.
-Result<std::vector<CellCheck>> ReplayRun(const ReplayOptions& options);
+Result<ReplayOutcome> ReplayRun(const ReplayOptions& options);
+/// The same, of a run that was read and made ready.
+Result<ReplayOutcome> ReplayPrepared(const ReplayOptions& options, const RunData& run, const PreparedRun& prepared);
 
 /// Writes all that is needed to repeat one cell elsewhere into one file: the scenario, the clips, and what came of it.
 Result<void> PackCell(const std::string& folder, const std::string& cell, const std::string& file,
@@ -60,18 +66,5 @@ Result<void> PackCell(const std::string& folder, const std::string& cell, const 
 Result<std::optional<CellCheck>> ReplayPack(const std::string& file, const OutsideRules& outside = {},
                                             const std::optional<SecretKey>& key = {},
                                             const std::atomic<bool>* stop = nullptr);
-
-/// One thing that a result folder says, held against what it must say.
-struct Verified {
-  std::string what;                      ///< "summary.json: recomputed from 480 rows"
-  std::vector<std::string> differences;  ///< empty when it agrees
-};
-
-/// Holds a result folder against itself and against this program, whether or not its seal was made anew: the seal; the
-/// rows, that they are those which the manifest asks for; the summary, its expectations among it, computed again from
-/// them; and, with `replays`, what recordings
-/// there may be and the cells that `options` choose, run again, for which secret worlds need their key. Fails when the
-/// folder cannot be read. The folder's times and what it says of its machine are beyond it.
-Result<std::vector<Verified>> VerifyRun(const ReplayOptions& options, bool replays);
 
 }  // namespace etude

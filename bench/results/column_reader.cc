@@ -1,5 +1,3 @@
-#include "bench/results/columns.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <utility>
 
 #include "bench/files/json.h"
+#include "bench/results/columns.h"
 #include "bench/results/npy.h"
 
 namespace etude {
@@ -21,15 +20,15 @@ namespace fs = std::filesystem;
 /// The columns of one scenario.
 class ScenarioColumns {
  public:
-  static Result<ScenarioColumns> Open(const fs::path& folder, const std::string& scenario) {
-    const fs::path own = folder / kColumnsFolder / scenario;
+  static Result<ScenarioColumns> Open(const FilePath& folder, const std::string& scenario) {
+    const FilePath own = folder / kColumnsFolder / scenario;
     ScenarioColumns columns;
     ASSIGN_OR_RETURN(columns.index_, ReadColumnIndex(own));
     const ColumnIndex& index = columns.index_;
     ASSIGN_OR_RETURN(columns.status_, columns.OpenColumn<std::uint8_t>(own, "status"));
     ASSIGN_OR_RETURN(columns.kind_, columns.OpenColumn<std::uint32_t>(own, "kind"));
     for (std::size_t i = 0; i < columns.texts_.size(); ++i) {
-      if (std::error_code none; !fs::exists(ColumnFile(own, kTextColumns[i]), none)) continue;
+      if (!Exists(ColumnFile(own, kTextColumns[i]))) continue;
       ASSIGN_OR_RETURN(columns.texts_[i], columns.OpenColumn<std::uint32_t>(own, kTextColumns[i]));
     }
     for (const ColumnIndex::Kind& kind : index.kinds) {
@@ -53,8 +52,8 @@ class ScenarioColumns {
         of_kind.curves.push_back(&columns.curves_->at(name));
       }
     }
-    const fs::path times = folder / kTimesFolder / scenario;
-    if (std::error_code none; fs::exists(ColumnFile(times, "cpu_s"), none)) {
+    const FilePath times = folder / kTimesFolder / scenario;
+    if (Exists(ColumnFile(times, "cpu_s"))) {
       ASSIGN_OR_RETURN(columns.cpu_s_, columns.OpenColumn<float>(times, "cpu_s"));
     }
     RETURN_IF_ERROR(columns.CheckNumbers(own));
@@ -134,16 +133,20 @@ class ScenarioColumns {
   using Files = std::map<std::string, NpyFile>;
 
   template <typename Number>
-  Result<NpyFile> OpenColumn(const fs::path& folder, const std::string& name) const {
+  Result<NpyFile> OpenColumn(const FilePath& folder, const std::string& name) const {
     ASSIGN_OR_RETURN(auto file, NpyFile::Open(ColumnFile(folder, name), kNpyType<Number>));
+    const Place place{ColumnFile(folder, name).string()};
     const std::size_t found = file.template Numbers<Number>().size();
-    if (found == index_.row_count()) return file;
-    return Fail({ColumnFile(folder, name).string()}, "holds {} numbers; its run has {} rows", found,
-                index_.row_count());
+    if (found != index_.row_count())
+      return Fail(place, "holds {} numbers; its run has {} rows", found, index_.row_count());
+    // We read the numbers in a row, NumPy reads them by the shape.
+    if (!file.HasShape(kNpyType<Number>, index_.shape()))
+      return Fail(place, "is not an array of condition, trial, method");
+    return file;
   }
 
   template <typename Number>
-  Result<void> OpenOnce(const fs::path& folder, const std::string& name, const std::unique_ptr<Files>& files) const {
+  Result<void> OpenOnce(const FilePath& folder, const std::string& name, const std::unique_ptr<Files>& files) const {
     if (files->contains(name)) return {};
     ASSIGN_OR_RETURN(auto file, OpenColumn<Number>(folder, name));
     files->emplace(name, std::move(file));
@@ -151,7 +154,7 @@ class ScenarioColumns {
   }
 
   /// No number of any column leads out of what is there.
-  Result<void> CheckNumbers(const fs::path& folder) const {
+  Result<void> CheckNumbers(const FilePath& folder) const {
     const Place place{folder.string()};
     for (const std::uint32_t kind : kind_->Numbers<std::uint32_t>()) {
       if (kind >= kinds_.size()) return Fail(place, "kind.npy holds {}; there are {} kinds", kind, kinds_.size());
@@ -178,7 +181,7 @@ class ScenarioColumns {
   }
 
   /// The lists of units among the texts.
-  Result<void> ReadUnits(const fs::path& folder) {
+  Result<void> ReadUnits(const FilePath& folder) {
     units_.resize(index_.texts.size());
     if (!texts_[kUnits]) return {};
     for (const std::uint32_t text : texts_[kUnits]->Numbers<std::uint32_t>()) {
@@ -248,7 +251,7 @@ Result<std::shared_ptr<const RowSource>> OpenColumns(const fs::path& folder,
                                                      const std::vector<std::string>& scenarios) {
   std::vector<ScenarioColumns> opened;
   for (const std::string& scenario : scenarios) {
-    ASSIGN_OR_RETURN(auto columns, ScenarioColumns::Open(folder, scenario));
+    ASSIGN_OR_RETURN(auto columns, ScenarioColumns::Open(Inside(folder), scenario));
     opened.push_back(std::move(columns));
   }
   return std::make_shared<const ColumnRows>(std::move(opened));

@@ -18,7 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kColumnsVersion = 2;
-constexpr const char* kIndexFile = "index.json";
 
 Json Encode(const ColumnIndex& index) {
   Json conditions = Json::array(), kinds = Json::array(), statuses = Json::array();
@@ -123,17 +122,36 @@ bool IsWhy(std::optional<int> why, const MetricValue& metric, const Row& row, co
 
 }  // namespace
 
-Result<void> WriteColumnIndex(const fs::path& folder, const ColumnIndex& index) {
+Result<void> WriteColumnIndex(const FilePath& folder, const ColumnIndex& index) {
   return SaveJson(folder / kIndexFile, Encode(index), OnDisk::kLater);
 }
 
-Result<ColumnIndex> ReadColumnIndex(const fs::path& folder) {
+Result<ColumnIndex> ReadColumnIndex(const FilePath& folder) {
   ASSIGN_OR_RETURN(const auto json, ReadJsonFile(folder / kIndexFile));
   return Decode(json, {(folder / kIndexFile).string()});
 }
 
-fs::path ColumnFile(const fs::path& folder, const std::string& name) { return folder / (name + ".npy"); }
+FilePath ColumnFile(const FilePath& folder, const std::string& name) { return folder / (name + ".npy"); }
 std::string DigestColumn(const std::string& stage) { return "digest_" + stage; }
+
+std::set<fs::path> FilesOfColumns(const ColumnIndex& index) {
+  const fs::path own = fs::path(kColumnsFolder) / index.scenario, times = fs::path(kTimesFolder) / index.scenario;
+  std::set<fs::path> files = {own / kIndexFile};
+  const auto add = [&](const fs::path& folder, const std::string& name) {
+    files.insert(ColumnFile(folder, name).whole());
+  };
+  for (const char* name : {"status", "kind", "reason", "clip", "units"}) add(own, name);
+  for (const auto& [name, time] : kTimes) add(times, name);
+  for (const ColumnIndex::Kind& kind : index.kinds) {
+    for (const std::string& metric : kind.metrics) add(own, metric);
+    for (const std::string& stage : kind.stages) add(own, DigestColumn(stage));
+    for (const Series& series : kind.series) {
+      add(own / kSeriesFolder, series.name);
+      add(own / kSeriesFolder, series.name + kCurveEnds);
+    }
+  }
+  return files;
+}
 
 template <typename Number>
 Result<void> NpyColumns<Number>::Put(std::size_t row, const std::string& name, Number number) {
@@ -163,12 +181,12 @@ Result<void> NpyColumns<Number>::Finish(const std::vector<std::size_t>& shape) {
 }
 
 ColumnWriter::ColumnWriter(const fs::path& folder, const Study& study)
-    : folder_(folder / kColumnsFolder / study.scenario),
+    : folder_(Inside(folder) / kColumnsFolder / study.scenario),
       values_(folder_, kNone),
       digests_(folder_, 0),
       places_(folder_, 0),
       statuses_(folder_, 0),
-      times_(folder / kTimesFolder / study.scenario, 0) {
+      times_(Inside(folder) / kTimesFolder / study.scenario, 0) {
   index_.scenario = study.scenario;
   index_.task = study.task;
   index_.conditions = study.conditions;
@@ -251,8 +269,7 @@ Result<void> ColumnWriter::Curve::FillUp(std::size_t rows) {
 }
 
 Result<void> ColumnWriter::Finish() {
-  const std::vector<std::size_t> shape = {index_.conditions.size(), static_cast<std::size_t>(index_.trials),
-                                          index_.methods.size()};
+  const std::vector<std::size_t> shape = index_.shape();
   RETURN_IF_ERROR(values_.Finish(shape));
   RETURN_IF_ERROR(digests_.Finish(shape));
   RETURN_IF_ERROR(places_.Finish(shape));

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -45,29 +46,38 @@ struct ColumnIndex {
   std::vector<std::string> texts = {""};  ///< reasons, clips and units, which columns name by their place
   std::vector<Kind> kinds;
 
+  /// The shape of arrays with a number for each row.
+  std::vector<std::size_t> shape() const {
+    return {conditions.size(), static_cast<std::size_t>(trials), methods.size()};
+  }
   std::size_t row_count() const { return conditions.size() * static_cast<std::size_t>(trials) * methods.size(); }
 };
 
 /// Fails, naming the path, when the file cannot be written.
-Result<void> WriteColumnIndex(const std::filesystem::path& folder, const ColumnIndex& index);
+Result<void> WriteColumnIndex(const FilePath& folder, const ColumnIndex& index);
 /// Fails, naming the path, when there is none, or one that contradicts itself.
-Result<ColumnIndex> ReadColumnIndex(const std::filesystem::path& folder);
+Result<ColumnIndex> ReadColumnIndex(const FilePath& folder);
 
-std::filesystem::path ColumnFile(const std::filesystem::path& folder, const std::string& name);
+FilePath ColumnFile(const FilePath& folder, const std::string& name);
 std::string DigestColumn(const std::string& stage);
+
+/// The file of a scenario's index, in its folder.
+constexpr const char* kIndexFile = "index.json";
+/// The files that hold the columns and times of a scenario, from the run's folder.
+std::set<std::filesystem::path> FilesOfColumns(const ColumnIndex& index);
 
 /// Columns of one kind of number. Rows of which nothing is put into one hold `fill` there.
 template <typename Number>
 class NpyColumns {
  public:
-  NpyColumns(std::filesystem::path folder, Number fill) : folder_(std::move(folder)), fill_(fill) {}
+  NpyColumns(FilePath folder, Number fill) : folder_(std::move(folder)), fill_(fill) {}
   Result<void> Put(std::size_t row, const std::string& name, Number number);
   Result<void> Finish(const std::vector<std::size_t>& shape);
 
  private:
   Result<void> FillUp(std::size_t rows, NpyWriter& writer) const;
 
-  std::filesystem::path folder_;
+  FilePath folder_;
   Number fill_;
   CyclicLookup<NpyWriter> columns_;
 };
@@ -94,7 +104,7 @@ class ColumnWriter {
   std::uint32_t TextOf(const std::string& text);
   std::uint32_t KindOf(const Row& row);
 
-  std::filesystem::path folder_;
+  FilePath folder_;
   ColumnIndex index_;
   std::size_t rows_ = 0;
   std::map<std::string, std::uint32_t> text_places_;

@@ -22,9 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kCellsFile = "cells.jsonl";
-constexpr const char* kTimingsFile = "timings.jsonl";
-
 /// "scenario/condition/trial/method" as one file name; a long one is cut, and told apart by its digest.
 std::string FileNameOf(std::string cell) {
   constexpr std::size_t kLongest = 200;  // file systems take 255 bytes, ending included
@@ -35,17 +32,17 @@ std::string FileNameOf(std::string cell) {
 
 /// Calls `use(json, place)` for every line; stops at the first complaint.
 template <typename Use>
-Result<void> ForEachJson(const fs::path& path, Use use) {
+Result<void> ForEachJson(const FilePath& path, Use use) {
   return ForEachLine(path, [&](std::string_view line, const Place& place) -> Result<void> {
     ASSIGN_OR_RETURN(const auto json, ReadJson(std::string(line), place.file, place.line));
     return use(json, place);
   });
 }
 
-Result<void> LoadSeries(const fs::path& folder, RunData& run) {
+Result<void> LoadSeries(const FilePath& folder, RunData& run) {
   for (const ScenarioSummary& scenario : run.scenarios) {
-    const fs::path path = folder / "series" / (scenario.name + ".jsonl");
-    if (std::error_code none; !fs::exists(path, none)) continue;
+    const FilePath path = folder / "series" / (scenario.name + ".jsonl");
+    if (!Exists(path)) continue;
     auto read = ForEachJson(path, [&](const Json& json, const Place& place) -> Result<void> {
       try {
         run.series.push_back({json.at("cell").get<std::string>(), DecodeSeries(json.at("series"))});
@@ -61,8 +58,8 @@ Result<void> LoadSeries(const fs::path& folder, RunData& run) {
 
 Result<void> LoadRecordings(const fs::path& folder, RunData& run) {
   for (const Row& row : run.rows) {
-    const fs::path path = RecordingFile(folder, row.Id());
-    if (std::error_code none; !fs::exists(path, none)) continue;
+    const FilePath path = RecordingFile(folder, row.Id());
+    if (!Exists(path)) continue;
     ASSIGN_OR_RETURN(const auto json, ReadJsonFile(path));
     ASSIGN_OR_RETURN(auto recording, DecodeRecording(json, {path.string(), 0, 0}));
     run.recordings.push_back({row.Id(), std::move(recording)});
@@ -70,9 +67,9 @@ Result<void> LoadRecordings(const fs::path& folder, RunData& run) {
   return {};
 }
 
-Result<void> LoadTimes(const fs::path& folder, RunData& run) {
-  const fs::path path = folder / kTimingsFile;
-  if (std::error_code none; !fs::exists(path, none)) return {};
+Result<void> LoadTimes(const FilePath& folder, RunData& run) {
+  const FilePath path = folder / kTimingsFile;
+  if (!Exists(path)) return {};
   return ForEachJson(path, [&](const Json& json, const Place& place) -> Result<void> {
     try {
       run.cpu_seconds[json.at("cell").get<std::string>()] = json.at("cpu_s").get<double>();
@@ -94,7 +91,7 @@ RunSystem SystemOf(const Json& manifest) {
   return system;
 }
 
-Result<void> LoadManifest(const fs::path& folder, RunData& run) {
+Result<void> LoadManifest(const FilePath& folder, RunData& run) {
   ASSIGN_OR_RETURN(const auto manifest, ReadJsonFile(folder / "manifest.json"));
   ASSIGN_OR_RETURN(const auto host, ReadJsonFile(folder / "host.json"));
   Place place{(folder / "manifest.json").string(), 0, 0};
@@ -119,8 +116,7 @@ Result<void> LoadManifest(const fs::path& folder, RunData& run) {
     }
     run.command_line = host.at("command_line").get<std::string>();
     run.host = host.at("host").get<std::string>();
-    std::error_code none;
-    if (fs::exists(folder / kOtherLibrariesFile, none)) {
+    if (Exists(folder / kOtherLibrariesFile)) {
       run.host += fmt::format("; libraries changed meanwhile ({})", kOtherLibrariesFile);
     }
     run.wall_seconds = host.at("wall_seconds").get<double>();
@@ -130,10 +126,13 @@ Result<void> LoadManifest(const fs::path& folder, RunData& run) {
   return {};
 }
 
+/// Two runs have two seals: they hold the digests of their times.
+std::string SealText(const FilePath& folder) { return ReadWholeFile(folder / kSealFile).value_or(""); }
+
 }  // namespace
 
-fs::path RecordingFile(const fs::path& folder, const std::string& cell) {
-  return folder / "recordings" / FileNameOf(cell);
+FilePath RecordingFile(const fs::path& folder, const std::string& cell) {
+  return Inside(folder) / "recordings" / FileNameOf(cell);
 }
 
 Result<ResultWriter> ResultWriter::Begin(const fs::path& folder, std::span<const Study> studies,
@@ -147,9 +146,9 @@ Result<ResultWriter> ResultWriter::Begin(const fs::path& folder, std::span<const
     writer.studies_.assign(studies.begin(), studies.end());
     return writer;
   }
-  ASSIGN_OR_RETURN(writer.cells_, AtomicFile::Begin(folder / kCellsFile));
+  ASSIGN_OR_RETURN(writer.cells_, AtomicFile::Begin(Inside(folder) / kCellsFile));
   if (!studies.empty()) {
-    ASSIGN_OR_RETURN(writer.timings_, AtomicFile::Begin(folder / kTimingsFile));
+    ASSIGN_OR_RETURN(writer.timings_, AtomicFile::Begin(Inside(folder) / kTimingsFile));
   }
   return writer;
 }
@@ -189,35 +188,37 @@ Result<void> ResultWriter::AddAsText(const Row& row, const CellUsage& usage) {
   }
   if (row.result.series.empty()) return {};
   if (!series_) {
-    ASSIGN_OR_RETURN(series_, AtomicFile::Begin(folder_ / "series" / (scenario_ + ".jsonl")));
+    ASSIGN_OR_RETURN(series_, AtomicFile::Begin(Inside(folder_) / "series" / (scenario_ + ".jsonl")));
   }
-  ASSIGN_OR_RETURN(const auto curves, WriteJson({{"cell", row.Id()}, {"series", EncodeSeries(row.result.series)}}));
+  ASSIGN_OR_RETURN(const auto curves, WriteJson(EncodeSeriesLine(row.Id(), row.result.series)));
   return series_->Write(curves + "\n");
 }
 
 Result<void> ResultWriter::Finish(const std::vector<ScenarioSummary>& scenarios) {
   RETURN_IF_ERROR(FinishScenario());
-  RETURN_IF_ERROR(SaveJson(folder_ / "summary.json", EncodeSummaries(scenarios), OnDisk::kLater));
+  RETURN_IF_ERROR(SaveJson(Inside(folder_) / "summary.json", EncodeSummaries(scenarios), OnDisk::kLater));
   if (timings_) RETURN_IF_ERROR(timings_->Finish(OnDisk::kLater));
   return cells_ ? cells_->Finish(OnDisk::kLater) : Result<void>();
 }
 
-Result<RunData> LoadRunOutline(const fs::path& folder, Sealing sealing) {
+Result<RunData> LoadRunOutline(const fs::path& path, Sealing sealing) {
   RunData run;
-  const Place place{folder.string(), 0, 0};
+  const FilePath folder = Inside(path);
+  const Place place{path.string(), 0, 0};
   std::error_code error;
-  if (!fs::is_directory(folder, error)) return Fail(place, "no such folder; a run writes one (etude run)");
-  if (fs::exists(folder / kJournalFile, error)) {
+  if (!fs::is_directory(path, error)) return Fail(place, "no such folder; a run writes one (etude run)");
+  if (Exists(folder / kJournalFile)) {
     return Fail(place,
                 "this run did not come to its end, is still under way, or is a shard ({} is there); "
                 "etude run --resume goes on with it, etude merge makes a run of shards",
                 kJournalFile);
   }
-  if (!fs::exists(folder / "manifest.json", error)) {
+  if (!Exists(folder / "manifest.json")) {
     return Fail(place, "is no run, for it holds no manifest.json; a run writes one (etude run)");
   }
+  run.seal = SealText(folder);
   RETURN_IF_ERROR(LoadManifest(folder, run));
-  if (auto sealed = CheckSeal(folder); !sealed) {
+  if (auto sealed = CheckSeal(path); !sealed) {
     if (sealing == Sealing::kRequired) {
       sealed.error().message += "; --unsealed reads the run all the same";
       return tl::unexpected(sealed.error());
@@ -226,9 +227,16 @@ Result<RunData> LoadRunOutline(const fs::path& folder, Sealing sealing) {
   }
   ASSIGN_OR_RETURN(const auto summary, ReadJsonFile(folder / "summary.json"));
   ASSIGN_OR_RETURN(run.scenarios, DecodeSummaries(summary, {(folder / "summary.json").string(), 0, 0}));
-  if (!fs::exists(folder / kColumnsFolder, error)) return run;
-  ASSIGN_OR_RETURN(run.source, OpenColumns(folder, NamesOf(run.scenarios)));
+  if (Exists(folder / kColumnsFolder)) {
+    ASSIGN_OR_RETURN(run.source, OpenColumns(path, NamesOf(run.scenarios)));
+  }
+  RETURN_IF_ERROR(CheckStillThere(path, run));
   return run;
+}
+
+Result<void> CheckStillThere(const fs::path& folder, const RunData& run) {
+  if (SealText(Inside(folder)) == run.seal) return {};
+  return Fail({folder.string()}, "was replaced by another run while it was read");
 }
 
 Result<RunData> LoadRun(const fs::path& folder, Sealing sealing) {
@@ -241,15 +249,16 @@ Result<RunData> LoadRun(const fs::path& folder, Sealing sealing) {
       if (const auto cpu_s = run.source->CpuSecondsOf(place)) run.cpu_seconds[row.Id()] = *cpu_s;
     }
   } else {
-    RETURN_IF_ERROR(ForEachJson(folder / kCellsFile, [&](const Json& json, const Place& line) -> Result<void> {
+    RETURN_IF_ERROR(ForEachJson(Inside(folder) / kCellsFile, [&](const Json& json, const Place& line) -> Result<void> {
       ASSIGN_OR_RETURN(auto row, DecodeRow(json, line));
       run.rows.push_back(std::move(row));
       return {};
     }));
-    RETURN_IF_ERROR(LoadSeries(folder, run));
-    RETURN_IF_ERROR(LoadTimes(folder, run));
+    RETURN_IF_ERROR(LoadSeries(Inside(folder), run));
+    RETURN_IF_ERROR(LoadTimes(Inside(folder), run));
   }
   RETURN_IF_ERROR(LoadRecordings(folder, run));
+  RETURN_IF_ERROR(CheckStillThere(folder, run));
   return run;
 }
 
@@ -257,8 +266,9 @@ Result<void> WriteRows(const fs::path& folder, Sealing sealing,
                        const std::function<Result<void>(std::string_view line)>& write) {
   ASSIGN_OR_RETURN(const auto run, LoadRunOutline(folder, sealing));
   if (!run.source) {
-    return ForEachLine(folder / kCellsFile,
-                       [&](std::string_view line, const Place&) { return write(std::string(line) + "\n"); });
+    RETURN_IF_ERROR(ForEachLine(Inside(folder) / kCellsFile,
+                                [&](std::string_view line, const Place&) { return write(std::string(line) + "\n"); }));
+    return CheckStillThere(folder, run);
   }
   Row row;
   for (std::size_t place = 0; place < run.source->size(); ++place) {

@@ -19,6 +19,8 @@ namespace etude {
 /// The version of the layout of a result folder (docs/results.md), raised when old readers would fail.
 constexpr int kResultSchema = 3;
 
+/// Rows and their times, as lines of text.
+constexpr const char *kCellsFile = "cells.jsonl", *kTimingsFile = "timings.jsonl";
 /// Stands in a result folder while its run is under way, and after it was interrupted.
 constexpr const char* kJournalFile = "journal.jsonl";
 /// The file is there only where libraries changed while a run was made and somebody accepted that; it tells them, then
@@ -64,14 +66,18 @@ enum class Sealing {
 };
 
 /// Reads a result folder. Fails with file:line when a file is missing, torn or of another schema
-/// version, when the run did not come to its end, and when its seal does not hold.
+/// version, when the run did not come to its end, when its seal does not hold, and when another run took its place
+/// meanwhile (CheckStillThere).
 Result<RunData> LoadRun(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
 
 /// A result folder without its rows, series and recordings.
 Result<RunData> LoadRunOutline(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
 
+/// Fails when another run has taken the folder's place since `run` was loaded from it.
+Result<void> CheckStillThere(const std::filesystem::path& folder, const RunData& run);
+
 /// The file that keeps the recording of a cell (Row::Id), where there is one.
-std::filesystem::path RecordingFile(const std::filesystem::path& folder, const std::string& cell);
+FilePath RecordingFile(const std::filesystem::path& folder, const std::string& cell);
 
 /// Writes every row of a result folder as a line of cells.jsonl, whether or not the folder holds them so.
 Result<void> WriteRows(const std::filesystem::path& folder, Sealing sealing,

@@ -4,11 +4,10 @@
 #include <fmt/ranges.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <utility>
+
+#include "engine/base/machine.h"
 
 namespace etude {
 namespace {
@@ -29,7 +28,7 @@ std::size_t SizeOf(std::string_view type) { return static_cast<std::size_t>(type
 
 }  // namespace
 
-Result<NpyWriter> NpyWriter::Begin(const std::filesystem::path& path, std::string_view type) {
+Result<NpyWriter> NpyWriter::Begin(const FilePath& path, std::string_view type) {
   ASSIGN_OR_RETURN(auto file, AtomicFile::Begin(path));
   RETURN_IF_ERROR(file.Write(std::string(NpyFile::kHead, ' ')));
   return NpyWriter(std::move(file), type);
@@ -41,16 +40,15 @@ Result<void> NpyWriter::Finish(std::vector<std::size_t> shape) {
   return file_.Finish(OnDisk::kLater);
 }
 
-Result<NpyFile> NpyFile::Open(const std::filesystem::path& path, std::string_view type) {
+Result<NpyFile> NpyFile::Open(const FilePath& path, std::string_view type) {
   const Place place{path.string()};
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return Fail(place, "cannot read this file: {}", std::strerror(errno));
+  ASSIGN_OR_RETURN(const auto file, OpenFile(path, O_RDONLY));
   struct stat status {};
-  const bool is_large = ::fstat(file, &status) == 0 && static_cast<std::size_t>(status.st_size) >= kHead;
+  const bool is_large = ::fstat(file.number(), &status) == 0 && static_cast<std::size_t>(status.st_size) >= kHead;
   const auto size = is_large ? static_cast<std::size_t>(status.st_size) : 0;
-  void* const memory = is_large ? ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file, 0) : MAP_FAILED;
-  ::close(file);
-  if (memory == MAP_FAILED) return Fail(place, "is no column: it is too short");
+  void* const memory = is_large ? ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.number(), 0) : MAP_FAILED;
+  if (!is_large) return Fail(place, "is no column: it is too short");
+  if (memory == MAP_FAILED) return CannotRead(path.string(), "cannot read this file", errno);
   NpyFile opened(static_cast<const char*>(memory), size);
   const std::string_view head(opened.data_, kHead);
   const std::string wanted = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': (", type);
@@ -59,6 +57,10 @@ Result<NpyFile> NpyFile::Open(const std::filesystem::path& path, std::string_vie
     return Fail(place, "is no column of numbers of type {}", type);
   }
   return opened;
+}
+
+bool NpyFile::HasShape(std::string_view type, std::span<const std::size_t> shape) const {
+  return std::string_view(data_, kHead) == HeadOf(type, shape);
 }
 
 NpyFile::NpyFile(NpyFile&& other) noexcept { *this = std::move(other); }

@@ -28,7 +28,7 @@ inline constexpr std::string_view kNpyType<std::uint8_t> = "|u1";
 /// A .npy file (NumPy's own format, version 1.0), written number by number: `numpy.load` and most else read it.
 class NpyWriter {
  public:
-  static Result<NpyWriter> Begin(const std::filesystem::path& path, std::string_view type);
+  static Result<NpyWriter> Begin(const FilePath& path, std::string_view type);
 
   template <typename Number>
   Result<void> Add(Number number) {
@@ -51,10 +51,13 @@ class NpyWriter {
 class NpyFile {
  public:
   /// Fails, naming the path, when it is none that NpyWriter wrote, or holds another number of numbers.
-  static Result<NpyFile> Open(const std::filesystem::path& path, std::string_view type);
+  static Result<NpyFile> Open(const FilePath& path, std::string_view type);
   NpyFile(NpyFile&& other) noexcept;
   NpyFile& operator=(NpyFile&& other) noexcept;
   ~NpyFile();
+
+  /// True if the file says that it holds numbers of this type in an array of this shape.
+  bool HasShape(std::string_view type, std::span<const std::size_t> shape) const;
 
   template <typename Number>
   std::span<const Number> Numbers() const {

@@ -103,6 +103,10 @@ Json EncodeSeries(const std::vector<Series>& series) {
   return list;
 }
 
+Json EncodeSeriesLine(const std::string& cell, const std::vector<Series>& series) {
+  return {{"cell", cell}, {"series", EncodeSeries(series)}};
+}
+
 std::vector<Series> DecodeSeries(const Json& json) {
   std::vector<Series> series;
   for (const Json& curve : json) {

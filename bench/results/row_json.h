@@ -11,6 +11,8 @@ Json EncodeRow(const Row& row);
 Result<Row> DecodeRow(const Json& json, const Place& place);
 
 Json EncodeSeries(const std::vector<Series>& series);
+/// A line of series/SCENARIO.jsonl.
+Json EncodeSeriesLine(const std::string& cell, const std::vector<Series>& series);
 std::vector<Series> DecodeSeries(const Json& json);
 
 /// The version of the files of `recordings/`. The first named no joints.

@@ -8,6 +8,7 @@
 #include "bench/files/json.h"
 #include "bench/results/folder.h"
 #include "engine/base/digest.h"
+#include "engine/base/machine.h"
 
 namespace etude {
 namespace {
@@ -36,7 +37,7 @@ Result<Digests> DigestsOf(const fs::path& folder) {
       entry.disable_recursion_pending();
     } else if (const fs::file_status status = entry->symlink_status(error); fs::is_regular_file(status)) {
       Digest digest;
-      RETURN_IF_ERROR(ReadInChunks(entry->path(), [&](std::string_view bytes) { digest.Add(bytes); }));
+      RETURN_IF_ERROR(ReadInChunks(Inside(folder) / name, [&](std::string_view bytes) { digest.Add(bytes); }));
       digests[name.generic_string()] = digest.Hex();
     } else if (!fs::is_directory(status)) {
       return Fail({entry->path().string()}, "is no file and no folder; a run writes nothing else");
@@ -44,13 +45,12 @@ Result<Digests> DigestsOf(const fs::path& folder) {
       digests[name.generic_string() + "/"] = "empty";
     }
   }
-  if (error) return Fail({folder.string()}, "cannot be read: {}", error.message());
+  if (error) return CannotRead(folder.string(), "cannot be read", error.value());
   return digests;
 }
 
-Result<Digests> ReadSeal(const fs::path& path) {
-  std::error_code none;
-  if (!fs::exists(path, none)) {
+Result<Digests> ReadSeal(const FilePath& path) {
+  if (!Exists(path)) {
     return Fail({path.string()}, "is missing: an older program wrote this run, or somebody took its seal away");
   }
   ASSIGN_OR_RETURN(const auto json, ReadJsonFile(path));
@@ -71,12 +71,12 @@ bool IsMadeFromResults(std::string_view part) { return part == "report" || part 
 
 Result<void> SealRun(const fs::path& folder) {
   ASSIGN_OR_RETURN(const auto digests, DigestsOf(folder));
-  return SaveJson(folder / kSealFile, {{"format", "etude-seal"}, {"version", kSealVersion}, {"files", digests}},
+  return SaveJson(Inside(folder) / kSealFile, {{"format", "etude-seal"}, {"version", kSealVersion}, {"files", digests}},
                   OnDisk::kLater);
 }
 
 Result<std::vector<std::string>> SealedNames(const fs::path& folder) {
-  ASSIGN_OR_RETURN(const auto sealed, ReadSeal(folder / kSealFile));
+  ASSIGN_OR_RETURN(const auto sealed, ReadSeal(Inside(folder) / kSealFile));
   std::vector<std::string> names;
   for (const auto& [name, digest] : sealed) {
     if (!name.ends_with('/')) names.push_back(name);
@@ -85,7 +85,7 @@ Result<std::vector<std::string>> SealedNames(const fs::path& folder) {
 }
 
 Result<void> CheckSeal(const fs::path& folder) {
-  ASSIGN_OR_RETURN(const auto sealed, ReadSeal(folder / kSealFile));
+  ASSIGN_OR_RETURN(const auto sealed, ReadSeal(Inside(folder) / kSealFile));
   ASSIGN_OR_RETURN(const auto found, DigestsOf(folder));
   for (const auto& [name, digest] : sealed) {
     const auto file = found.find(name);

@@ -76,7 +76,7 @@ Blake DigestOf(std::string_view text) {
   return digest;
 }
 
-Result<std::string> DigestOfFile(const fs::path& path) {
+Result<std::string> DigestOfFile(const FilePath& path) {
   crypto_generichash_state state;
   crypto_generichash_init(&state, nullptr, 0, crypto_generichash_BYTES_MAX);
   RETURN_IF_ERROR(ReadInChunks(path, [&](std::string_view bytes) {
@@ -96,7 +96,7 @@ Result<std::string> ListDigests(const fs::path& folder) {
   names.insert(names.begin(), kSealFile);
   std::string text;
   for (const std::string& name : names) {
-    ASSIGN_OR_RETURN(const auto digest, DigestOfFile(folder / name));
+    ASSIGN_OR_RETURN(const auto digest, DigestOfFile(Inside(folder) / name));
     text += digest + "  " + name + "\n";
   }
   return text;
@@ -136,8 +136,8 @@ Result<void> SignRun(const fs::path& folder, const std::string& secret_key) {
   std::array<unsigned char, crypto_sign_BYTES> over_all;
   crypto_sign_detached(over_all.data(), nullptr, all.data(), all.size(), secret);
   sodium_memzero(key.data(), key.size());
-  RETURN_IF_ERROR(WriteFileAtomically(folder / kSignedFile, digests));
-  return WriteFileAtomically(folder / kSignatureFile,
+  RETURN_IF_ERROR(WriteFileAtomically(Inside(folder) / kSignedFile, digests));
+  return WriteFileAtomically(Inside(folder) / kSignatureFile,
                              fmt::format("{}signature of a run of Etude\n{}\n{}{}\n{}\n", kComment, Encode(signature),
                                          kTrusted, trusted, Encode(over_all)));
 }
@@ -153,7 +153,7 @@ Result<std::string> CheckSignature(const fs::path& folder, const std::string& pu
   if (key.empty() || key[0] != 'E' || key[1] != 'd') {
     return Fail({public_key}, "is no public key of minisign, and no file of one");
   }
-  const fs::path path = folder / kSignatureFile;
+  const FilePath path = Inside(folder) / kSignatureFile;
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
   const std::vector<std::string> lines = LinesOf(text);
   const Bytes signature = Decode(lines.size() < 4 ? "" : lines[1], kSignatureSize);
@@ -167,7 +167,7 @@ Result<std::string> CheckSignature(const fs::path& folder, const std::string& pu
     return Fail({path.string()}, "is of key {}; the key given is {}",
                 NumberOf(std::span(signature).subspan(2, kNumber)), NumberOf(number));
   }
-  ASSIGN_OR_RETURN(const auto signed_text, ReadWholeFile(folder / kSignedFile));
+  ASSIGN_OR_RETURN(const auto signed_text, ReadWholeFile(Inside(folder) / kSignedFile));
   const Blake digest = DigestOf(signed_text);
   const Bytes all = Concat(std::span(signature).subspan(2 + kNumber), lines[2].substr(kTrusted.size()));
   const unsigned char* const holder = key.data() + 2 + kNumber;

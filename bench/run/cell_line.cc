@@ -19,6 +19,7 @@
 namespace etude {
 namespace {
 
+constexpr std::string_view kCellBegin = R"({"cell":)";
 constexpr std::string_view kSumBegin = R"(,"sum":")", kSumEnd = R"("})";
 constexpr std::size_t kSumSize = kSumBegin.size() + 16 + kSumEnd.size();
 
@@ -131,7 +132,8 @@ class LineReader {
 
 CellLineHead ReadHead(LineReader& reader) {
   CellLineHead head;
-  reader.Expect(R"({"cell":)");
+  head.is_measured = !reader.Skip(kAnsweredBegin);
+  if (head.is_measured) reader.Expect(kCellBegin);
   head.cell = reader.ReadNumber<std::size_t>();
   reader.Expect(R"(,"status":)");
   const auto status = FindStatus(reader.ReadString());
@@ -184,7 +186,8 @@ std::string EncodeCellLine(std::size_t cell, FinishedCell finished) {
   if (!bad.empty()) result = CellResult::Ended(Status::kBadOutput, bad);
 
   LineWriter line;
-  line.Add(R"({{"cell":{},"status":"{}")", cell, StatusName(result.status));
+  line.AddText(finished.is_measured || !bad.empty() ? kCellBegin : kAnsweredBegin);
+  line.Add(R"({},"status":"{}")", cell, StatusName(result.status));
   if (!result.reason.empty()) {
     line.AddText(R"(,"reason":)");
     line.AddString(result.reason);
@@ -238,7 +241,9 @@ Result<FinishedCell> DecodeCellLine(std::string_view line, Row identity, const P
   CellResult& result = cell.row.result;
   LineReader reader(line.substr(0, line.size() - kSumSize));
   try {
-    result.status = ReadHead(reader).status;
+    const CellLineHead head = ReadHead(reader);
+    result.status = head.status;
+    cell.is_measured = head.is_measured;
     result.reason = reader.Skip(R"(,"reason":)") ? reader.ReadString() : "";
     cell.usage = ReadUsage(reader);
     std::vector<std::size_t> missing;

@@ -18,16 +18,21 @@ namespace etude {
 ///      "values":[3,0.5,4,null],"why":["no truth"],"digests":["world","0123456789abcdef"],
 ///      "series":[["position_error_cm","iteration",[3,2,1]]],"recording":{…},"sum":"0123456789abcdef"}
 ///
-/// Parts that would be empty are left out, as is `reason` where there is none. The last two numbers of `usage` stand in
-/// a world's first cell only. A series of category indices appends the category names after its values. A value that is
-/// not finite, or a metric that the catalogue does not know, turns the cell into bad_output.
+/// A cell that other programs have yet to measure begins with `answered` in the place of `cell`, and has its motion as
+/// `recording`. Parts that would be empty are left out, as is `reason` where there is none. The last two numbers of
+/// `usage` stand in a world's first cell only. A series of category indices appends the category names after its
+/// values. A value that is not finite, or a metric that the catalogue does not know, turns the cell into bad_output.
 std::string EncodeCellLine(std::size_t cell, FinishedCell finished);
 
-/// The word that a line begins with.
+/// What a line begins with.
 struct CellLineHead {
   std::size_t cell = 0;
   Status status = Status::kFailed;
+  bool is_measured = true;  ///< false: FinishedCell::is_measured
 };
+
+/// The beginning of the line of a cell that has yet to be measured.
+inline constexpr std::string_view kAnsweredBegin = R"({"answered":)";
 
 /// Reads a line back; nothing when it is not as EncodeCellLine wrote it.
 std::optional<CellLineHead> ReadCellLineHead(std::string_view line);

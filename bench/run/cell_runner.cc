@@ -41,12 +41,10 @@ double ReadPeakMemoryMb() {
   return 0;
 }
 
-/// Returns the result of a cell in which something was thrown. How much memory there is is the machine's matter, and so
-/// is the status of a cell that lacked it.
-CellResult Thrown(const std::string& when, const std::exception& error) {
-  const bool is_short = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
-  return CellResult::Ended(is_short ? Status::kOutOfMemory : Status::kFailed,
-                           when + (is_short ? "there is no more memory" : error.what()));
+/// True if memory ended; a length that no memory could hold is a mistake of who asked for it.
+bool IsShortage(const std::exception& error) {
+  return dynamic_cast<const std::bad_alloc*>(&error) != nullptr &&
+         dynamic_cast<const std::bad_array_new_length*>(&error) == nullptr;
 }
 
 }  // namespace
@@ -95,8 +93,10 @@ void CellRunner::Open(int condition, int trial) {
   condition_ = condition;
   trial_ = trial;
   problem_.reset();
+  why_not_run_.clear();
+  why_world_not_run_.clear();
   const Stopwatch watch;
-  const WorldKey key = scenario_.KeyOf(trial);
+  const WorldKey key = scenario_.KeyOf(condition, trial);
   try {
     const bool keeps_motion = !metrics_.empty() || scenario_.scenario().recordings.KeepsTrial(trial);
     world_ = scenario_.task(condition).MakeWorld(key, keeps_motion);
@@ -106,6 +106,7 @@ void CellRunner::Open(int condition, int trial) {
   } catch (const std::exception& error) {
     world_.reset();
     why_no_world_ = Thrown("the world cannot be built: ", error);
+    why_world_not_run_ = why_not_run_;
   }
   world_usage_ = {.world_wall_s = watch.WallSeconds(), .world_cpu_s = watch.CpuSecondsUsed()};
 }
@@ -123,16 +124,40 @@ FinishedCell CellRunner::Run(std::size_t method) {
   cell.usage.wall_s = watch.WallSeconds();
   cell.usage.cpu_s += watch.CpuSecondsUsed();
   cell.usage.peak_mb = std::max(cell.usage.peak_mb, peak_memory_.Mb());
-  if (why_not_run_.empty()) why_not_run_ = metrics_.Measure(cell.row.Id(), cell.row.result);
   cell.why_not_run = why_not_run_;
-  const RecordingSelection& kept = scenario_.scenario().recordings;
-  if (!kept.KeepsTrial(trial_) || !kept.KeepsMethod(cell.row.method)) cell.row.result.recording.reset();
-  scenario_.CompleteMetrics(condition_, cell.row);
+  cell.is_measured = metrics_.empty() || !cell.row.result.recording;
+  if (cell.is_measured) Complete(condition_, cell.row);
   return cell;
 }
 
+CellResult CellRunner::Thrown(const std::string& when, const std::exception& error) {
+  if (!IsShortage(error)) return CellResult::Ended(Status::kFailed, when + error.what());
+  const double limit_mb = scenario_.scenario().limits.memory_mb;
+  if (ReadPeakMemoryMb() > limit_mb) {
+    return CellResult::Ended(Status::kOutOfMemory, fmt::format("{}held more than {:g} MB of memory", when, limit_mb));
+  }
+  why_not_run_ = fmt::format("memory ended below the {:g} MB that the scenario allows", limit_mb);
+  return {};
+}
+
+FinishedCell CellRunner::Measure(int condition, FinishedCell answered) {
+  answered.why_not_run = metrics_.Measure(answered.row.Id(), answered.row.result);
+  answered.is_measured = true;
+  Complete(condition, answered.row);
+  return answered;
+}
+
+void CellRunner::Complete(int condition, Row& row) const {
+  const RecordingSelection& kept = scenario_.scenario().recordings;
+  if (!kept.KeepsTrial(row.trial) || !kept.KeepsMethod(row.method)) row.result.recording.reset();
+  scenario_.CompleteMetrics(condition, row);
+}
+
 CellResult CellRunner::RunMethod(std::size_t method, CellUsage& usage) {
-  if (!world_) return why_no_world_;
+  if (!world_) {
+    why_not_run_ = why_world_not_run_;
+    return why_no_world_;
+  }
   if (const auto why = world_->WhySkipped()) return CellResult::Ended(Status::kSkipped, *why);
   if (auto tried = TryRenderer(scenario_); !tried) {
     why_not_run_ = ToString(tried.error());

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "bench/files/files.h"
 #include "bench/results/folder.h"
+#include "engine/base/machine.h"
 
 namespace etude {
 namespace {
@@ -23,7 +23,7 @@ constexpr std::size_t kLargestPart = 1 << 20, kSmallestPart = 1 << 14;
 
 namespace fs = std::filesystem;
 
-constexpr int kJournalVersion = 3;
+constexpr int kJournalVersion = 4;
 constexpr int kHeads = 2;
 
 Result<JournalHead> DecodeHead(const std::string& line, const Place& place) {
@@ -72,7 +72,7 @@ std::vector<bool> CellTable::Done() const {
   return done;
 }
 
-std::uint32_t CellTable::AddFile(const std::filesystem::path& file) {
+std::uint32_t CellTable::AddFile(const FilePath& file) {
   sources_.push_back({.file = file});
   return static_cast<std::uint32_t>(sources_.size() - 1);
 }
@@ -87,19 +87,25 @@ void CellTable::Put(std::size_t cell, std::string line) {
 }
 
 Result<FinishedCell> CellTable::Read(std::size_t cell, const Plan& plan) {
+  ASSIGN_OR_RETURN(const auto line, ReadLine(cell));
+  return DecodeCellLine(line, plan.IdentityOf(cell), PlaceOf(cell));
+}
+
+Place CellTable::PlaceOf(std::size_t cell) const {
+  const std::uint32_t file = places_[cell].file;
+  return file == kInMemory ? Place() : Place{sources_[file].file.string()};
+}
+
+Result<std::string_view> CellTable::ReadLine(std::size_t cell) {
   const LinePlace& place = places_[cell];
-  if (place.file == kInMemory) {
-    return DecodeCellLine(lines_[place.offset], plan.IdentityOf(cell), {});
-  }
+  if (place.file == kInMemory) return lines_[place.offset];
   Source& source = sources_[place.file];
   const auto has_line = [&] {
     return place.offset >= source.begin && place.offset + place.length <= source.begin + source.part.size();
   };
   if (!has_line()) RETURN_IF_ERROR(ReadPart(source, place));
-  const Place where{source.file.string()};
-  if (!has_line()) return Fail(where, "was cut while it was read");
-  const auto line = std::string_view(source.part).substr(place.offset - source.begin, place.length);
-  return DecodeCellLine(line, plan.IdentityOf(cell), where);
+  if (!has_line()) return Fail(PlaceOf(cell), "was cut while it was read");
+  return std::string_view(source.part).substr(place.offset - source.begin, place.length);
 }
 
 Result<void> CellTable::ReadPart(Source& source, const LinePlace& place) const {
@@ -107,25 +113,23 @@ Result<void> CellTable::ReadPart(Source& source, const LinePlace& place) const {
   // Lines stand in order of completion: the next cell's may stand a little before this one's.
   source.begin = place.offset - std::min<std::uint64_t>(place.offset, size / 2);
   source.part.resize(std::max<std::size_t>(size, place.offset - source.begin + place.length));
-  const int file = ::open(source.file.c_str(), O_RDONLY | O_CLOEXEC);
+  ASSIGN_OR_RETURN(const auto file, OpenFile(source.file, O_RDONLY));
   std::size_t read = 0;
-  while (file >= 0 && read < source.part.size()) {
-    const ssize_t count =
-        ::pread(file, source.part.data() + read, source.part.size() - read, static_cast<off_t>(source.begin + read));
+  while (read < source.part.size()) {
+    const ssize_t count = ::pread(file.number(), source.part.data() + read, source.part.size() - read,
+                                  static_cast<off_t>(source.begin + read));
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) break;
     read += static_cast<std::size_t>(count);
   }
-  if (file < 0) return Fail({source.file.string()}, "cannot be read: {}", std::strerror(errno));
-  ::close(file);
   source.part.resize(read);
   return {};
 }
 
 Result<Journal> Journal::Begin(const fs::path& folder, const JournalHead& head, const JournalLag& sync) {
-  Journal journal(folder / kJournalFile,
-                  ::open((folder / kJournalFile).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0644),
-                  sync);
+  const FilePath path = Inside(folder) / kJournalFile;
+  ASSIGN_OR_RETURN(auto file, OpenFile(path, O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, 0644));
+  Journal journal(path, std::move(file), sync);
   ASSIGN_OR_RETURN(const auto json, WriteJson({{"journal", kJournalVersion},
                                                {"manifest", head.manifest},
                                                {"build", head.build},
@@ -138,29 +142,19 @@ Result<Journal> Journal::Begin(const fs::path& folder, const JournalHead& head, 
 }
 
 Result<Journal> Journal::Continue(const fs::path& folder, const JournalLag& sync) {
-  const fs::path path = folder / kJournalFile;
-  Journal journal(path, ::open(path.c_str(), O_RDWR | O_APPEND | O_CLOEXEC), sync);
-  off_t end = ::lseek(journal.file_, 0, SEEK_END);
+  const FilePath path = Inside(folder) / kJournalFile;
+  ASSIGN_OR_RETURN(auto opened, OpenFile(path, O_RDWR | O_APPEND));
+  Journal journal(path, std::move(opened), sync);
+  const int file = journal.file_.number();
+  off_t end = ::lseek(file, 0, SEEK_END);
   for (char last = 0; end > 0; --end) {
-    if (::pread(journal.file_, &last, 1, end - 1) != 1 || last == '\n') break;
+    if (::pread(file, &last, 1, end - 1) != 1 || last == '\n') break;
   }
-  if (end < 0 || ::ftruncate(journal.file_, end) != 0) {
-    return Fail({path.string(), 0, 0}, "cannot be continued: {}", std::strerror(errno));
+  if (end < 0 || ::ftruncate(file, end) != 0) {
+    return CannotWrite(path.string(), "cannot be continued", errno);
   }
   journal.end_ = static_cast<std::uint64_t>(end);
   return journal;
-}
-
-Journal::Journal(Journal&& other) noexcept
-    : path_(std::move(other.path_)),
-      file_(std::exchange(other.file_, -1)),
-      sync_(other.sync_),
-      end_(other.end_),
-      unsynced_bytes_(other.unsynced_bytes_),
-      synced_at_(other.synced_at_) {}
-
-Journal::~Journal() {
-  if (file_ >= 0) ::close(file_);
 }
 
 Result<std::uint64_t> Journal::Append(std::string_view line) {
@@ -171,9 +165,9 @@ Result<std::uint64_t> Journal::Append(std::string_view line) {
 
 Result<void> Journal::Write(std::string_view lines) {
   for (std::size_t written = 0; written < lines.size();) {
-    const ssize_t count = ::write(file_, lines.data() + written, lines.size() - written);
+    const ssize_t count = ::write(file_.number(), lines.data() + written, lines.size() - written);
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return Fail({path_.string(), 0, 0}, "cannot be written: {}", std::strerror(errno));
+    if (count <= 0) return CannotWrite(path_.string(), "cannot be written", errno);
     written += static_cast<std::size_t>(count);
   }
   end_ += lines.size();
@@ -188,8 +182,8 @@ bool Journal::IsSyncDue() const {
 }
 
 Result<void> Journal::Sync() {
-  if (unsynced_bytes_ > 0 && ::fdatasync(file_) != 0) {
-    return Fail({path_.string(), 0, 0}, "cannot be synchronised: {}", std::strerror(errno));
+  if (unsynced_bytes_ > 0 && ::fdatasync(file_.number()) != 0) {
+    return CannotWrite(path_.string(), "cannot be synchronised", errno);
   }
   unsynced_bytes_ = 0;
   synced_at_ = Clock::now();
@@ -199,10 +193,12 @@ Result<void> Journal::Sync() {
 namespace {
 
 /// The first of the head's copies that is as it was written, from the lines at the file's beginning.
-Result<JournalHead> ReadHead(std::istream& in, const std::string& path) {
+Result<JournalHead> ReadHead(FileLines lines, const std::string& path) {
   std::string line;
   int read = 0;
-  while (read < kHeads && std::getline(in, line) && !in.eof()) {
+  while (read < kHeads) {
+    ASSIGN_OR_RETURN(const bool has_line, lines.Next(line));
+    if (!has_line || !lines.had_end()) break;
     ++read;
     if (HasRightSum(line)) return DecodeHead(line, {path, read, 0});
   }
@@ -213,37 +209,58 @@ Result<JournalHead> ReadHead(std::istream& in, const std::string& path) {
 }  // namespace
 
 Result<JournalHead> ReadJournalHead(const fs::path& folder) {
-  const fs::path path = folder / kJournalFile;
-  std::ifstream in(path, std::ios::binary);
-  return ReadHead(in, path.string());
+  const FilePath path = Inside(folder) / kJournalFile;
+  ASSIGN_OR_RETURN(auto lines, FileLines::Open(path));
+  return ReadHead(std::move(lines), path.string());
 }
 
-Result<JournalContent> ReadJournal(const fs::path& folder, const Plan& plan, CellTable& cells) {
-  const fs::path path = folder / kJournalFile;
+Result<JournalContent> ReadJournal(const fs::path& folder, const Plan& plan, CellTable& cells, CellTable* answered) {
+  const FilePath path = Inside(folder) / kJournalFile;
   ASSIGN_OR_RETURN(auto head, ReadJournalHead(folder));
   JournalContent content{.head = std::move(head), .damaged = {}};
-  std::ifstream in(path, std::ios::binary);
-  const std::uint32_t file = cells.AddFile(path);
+  ASSIGN_OR_RETURN(auto lines, FileLines::Open(path));
+  const std::uint32_t file = cells.AddFile(path), answered_file = answered == nullptr ? 0 : answered->AddFile(path);
   std::uint64_t offset = 0;
   int number = 1;
-  for (std::string line; std::getline(in, line); ++number, offset += line.size() + 1) {
-    if (in.eof()) break;  // it does not end in a line end: torn
+  for (std::string line;; ++number, offset += line.size() + 1) {
+    ASSIGN_OR_RETURN(const bool has_line, lines.Next(line));
+    if (!has_line || !lines.had_end()) break;  // a last line without its end is torn
     if (number <= kHeads) continue;
     const auto cell = ReadCellLineHead(line);
     if (!cell) {
       content.damaged.push_back(number);
       continue;
     }
-    ASSIGN_OR_RETURN(const bool counts, AddCell(*cell, {file, offset, line.size()}, {path.string(), number}, plan,
-                                                content.head.shard, cells));
+    if (!cell->is_measured && answered == nullptr) continue;
+    const LineInFile place{cell->is_measured ? file : answered_file, offset, line.size()};
+    ASSIGN_OR_RETURN(const bool counts, AddCell(*cell, place, {path.string(), number}, plan, content.head.shard,
+                                                cell->is_measured ? cells : *answered));
     if (!counts) {
       content.damaged.push_back(number);
       continue;
     }
+    if (!cell->is_measured) continue;
     ++content.cells;
     content.cells_ok += cell->status == Status::kOk ? 1 : 0;
   }
+  for (std::size_t cell = 0; answered != nullptr && cell < answered->size(); ++cell) {
+    content.answered += answered->Has(cell) && !cells.Has(cell) ? 1 : 0;
+  }
   return content;
+}
+
+Result<void> TemporaryLines::Add(std::size_t cell, std::string_view line) {
+  if (!journal_) {
+    auto folder = TemporaryFolder::Make("answered");
+    auto journal = folder ? Journal::Begin(folder->path(), {}) : tl::unexpected(folder.error());
+    if (!journal) return tl::unexpected(OfThisMachine(journal.error()));
+    cells_.AddFile(folder->path() / kJournalFile);
+    folder_ = std::move(*folder);
+    journal_.emplace(std::move(*journal));
+  }
+  ASSIGN_OR_RETURN(const auto offset, journal_->Append(line));
+  cells_.Put(cell, 0, offset, line.size());
+  return {};
 }
 
 }  // namespace etude

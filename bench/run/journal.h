@@ -2,10 +2,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "bench/files/file_path.h"
+#include "bench/files/temporary_folder.h"
 #include "bench/process/clock.h"
 #include "bench/run/cell_line.h"
 #include "bench/run/plan.h"
@@ -23,13 +26,15 @@ class CellTable {
   std::vector<bool> Done() const;
 
   /// A file that holds lines of cells; what stands for it in Put.
-  std::uint32_t AddFile(const std::filesystem::path& file);
+  std::uint32_t AddFile(const FilePath& file);
   void Put(std::size_t cell, std::uint32_t file, std::uint64_t offset, std::size_t length);
   /// A line that stands in no file.
   void Put(std::size_t cell, std::string line);
 
   /// The entry of a cell that is there. Quick when cells are asked for in about the order in which they stand.
   Result<FinishedCell> Read(std::size_t cell, const Plan& plan);
+  /// Its line, until another is asked for.
+  Result<std::string_view> ReadLine(std::size_t cell);
 
  private:
   struct LinePlace {
@@ -39,12 +44,14 @@ class CellTable {
   };
   /// A file, and the part of it that was read last.
   struct Source {
-    std::filesystem::path file;
+    FilePath file;
     std::uint64_t begin = 0;
     std::string part = {};
   };
 
   Result<void> ReadPart(Source& source, const LinePlace& place) const;
+  /// The file that a cell's line stands in, for complaints.
+  Place PlaceOf(std::size_t cell) const;
 
   std::vector<LinePlace> places_;
   std::vector<Source> sources_;
@@ -66,7 +73,8 @@ struct JournalLag {
 
 /// The append-only record of a run that is under way, and all that is left of a finished shard: JSON Lines, a
 /// head (twice, because everything hangs on it) and then one line per cell (cell_line.h) in order of completion, each
-/// written at once and synchronised in groups.
+/// written at once and synchronised in groups. A cell that other programs measure has two: the answered one, with its
+/// motion, and the finished one.
 class Journal {
  public:
   /// Begins a journal.
@@ -74,8 +82,6 @@ class Journal {
                                const JournalLag& sync = {});
   /// Goes on with a journal that `ReadJournal` has read; a last line that was torn is cut off.
   static Result<Journal> Continue(const std::filesystem::path& folder, const JournalLag& sync = {});
-  Journal(Journal&& other) noexcept;
-  ~Journal();
 
   /// Appends the line of a cell (cell_line.h); returns where in the file it stands.
   Result<std::uint64_t> Append(std::string_view line);
@@ -85,12 +91,12 @@ class Journal {
   Result<void> Sync();
 
  private:
-  Journal(std::filesystem::path path, int file, const JournalLag& sync)
-      : path_(std::move(path)), file_(file), sync_(sync) {}
+  Journal(FilePath path, Descriptor file, const JournalLag& sync)
+      : path_(std::move(path)), file_(std::move(file)), sync_(sync) {}
   Result<void> Write(std::string_view lines);
 
-  std::filesystem::path path_;
-  int file_ = -1;
+  FilePath path_;
+  Descriptor file_;
   JournalLag sync_;
   std::uint64_t end_ = 0;  ///< of the file
   std::size_t unsynced_bytes_ = 0;
@@ -104,12 +110,30 @@ struct JournalContent {
   JournalHead head;
   std::vector<int> damaged;  ///< numbers, from 1, of lines that do not count: not as written, or of a cell that has one
   std::size_t cells = 0, cells_ok = 0;
+  std::size_t answered = 0;  ///< other cells, which have yet to be measured
 };
 
-/// Puts the cells of a journal into `cells` (one place per cell of `plan`). A last line without its end is what a kill
+/// Puts the finished cells of a journal into `cells`, and those that were answered into `answered`, unless it is null
+/// (both have one place per cell of `plan`). A last line without its end is what a kill
 /// leaves, and ignored; a line that is not as it was written (a flipped bit, something that somebody wrote into it)
-/// costs its cell alone, and a second line of a cell only itself. A good line that is no cell of the plan or of the shard
-/// is refused with file:line.
-Result<JournalContent> ReadJournal(const std::filesystem::path& folder, const Plan& plan, CellTable& cells);
+/// costs its cell alone, and a second line of a cell only itself. A good line that is no cell of the plan or of the
+/// shard is refused with file:line.
+Result<JournalContent> ReadJournal(const std::filesystem::path& folder, const Plan& plan, CellTable& cells,
+                                   CellTable* answered = nullptr);
+
+/// Lines of cells in a temporary file, for those that only have to outlast this process's memory.
+class TemporaryLines {
+ public:
+  /// Has one place per cell. The file is made for the first line.
+  explicit TemporaryLines(std::size_t cells) : cells_(cells) {}
+  /// Fails with an error of this machine where the file cannot be made.
+  Result<void> Add(std::size_t cell, std::string_view line);
+  CellTable& cells() { return cells_; }
+
+ private:
+  CellTable cells_;
+  std::optional<TemporaryFolder> folder_;
+  std::optional<Journal> journal_;  ///< in it, the first file of `cells_`
+};
 
 }  // namespace etude

@@ -12,8 +12,8 @@
 #include "bench/files/files.h"
 #include "bench/files/temporary_folder.h"
 #include "bench/process/child_process.h"
-#include "bench/process/machine.h"
 #include "bench/tasks/registry.h"
+#include "engine/base/machine.h"
 #include "sim/render/renderer.h"
 
 namespace etude {
@@ -33,7 +33,7 @@ Result<void> TryRendererInACopy() {
     ::dup2(silence, STDERR_FILENO);
     ::_exit(!LoadRenderer() ? kNotLoaded : SharedRenderer() ? 0 : 1);
   }
-  if (copy < 0) return Fail({}, "no process can be started: {}", std::strerror(errno));
+  if (copy < 0) return Fail({kThisMachine}, "no process can be started: {}", std::strerror(errno));
   int status = 0;
   while (::waitpid(copy, &status, 0) < 0 && errno == EINTR) {
   }
@@ -66,7 +66,9 @@ Result<void> Try(std::span<const PreparedScenario> scenarios, const Fence& fence
       RETURN_IF_ERROR(CheckFence(fence));
       ASSIGN_OR_RETURN(const auto folder, TemporaryFolder::Make("trial"));
       if (auto kept = WriteFileAtomically(folder.path() / "file", "a file of some bytes\n"); !kept) {
-        return Fail({folder.path().parent_path().string()}, "takes no temporary files: {}", kept.error().message);
+        const std::string& said = kept.error().message;  // of a file whose name tells nobody anything: only the reason
+        return Fail({folder.path().parent_path().string()}, "takes no temporary files: {}",
+                    said.substr(said.rfind(": ") + 2));
       }
     }
   }

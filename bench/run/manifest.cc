@@ -17,6 +17,7 @@
 #include "bench/results/folder.h"
 #include "bench/tasks/registry.h"
 #include "engine/base/digest.h"
+#include "engine/base/machine.h"
 #include "engine/base/names.h"
 #include "sim/render/renderer.h"
 
@@ -86,9 +87,10 @@ constexpr std::array kDecisiveLibraries = {
     "libImath",     "libIex",      "libtinygltf.", "libstb."};
 
 /// The builds of the decisive libraries, by name: the first half of their build IDs.
-Json DescribeLibraries() {
+Result<Json> DescribeLibraries() {
   constexpr std::size_t kToldDigits = 20;
-  static_cast<void>(LoadRenderer());  // one that is missing is missing in the list
+  // A renderer that is not installed is missing in the list.
+  if (auto loaded = LoadRenderer(); !loaded && IsOfThisMachine(loaded.error())) return tl::unexpected(loaded.error());
   Json libraries = Json::object();
   for (const auto& [name, build] : LoadedLibraries()) {
     const bool counts = std::ranges::any_of(kDecisiveLibraries,
@@ -126,7 +128,7 @@ SuiteSetup WithCanonicalNames(SuiteSetup suite) {
   return suite;
 }
 
-Result<Json> ReadManifestJson(const std::filesystem::path& path) {
+Result<Json> ReadManifestJson(const FilePath& path) {
   auto json = ReadJsonFile(path);
   if (!json) return json;
   const Json schema = json->is_object() ? json->value("schema", Json()) : Json();
@@ -138,13 +140,15 @@ Result<Json> ReadManifestJson(const std::filesystem::path& path) {
 
 }  // namespace
 
-Json MakeManifest(const SuiteSetup& suite, std::span<const PreparedScenario> scenarios, const std::string& version) {
+Result<Json> MakeManifest(const SuiteSetup& suite, std::span<const PreparedScenario> scenarios,
+                          const std::string& version) {
+  ASSIGN_OR_RETURN(const auto libraries, DescribeLibraries());
   Json json{{"schema", kResultSchema},
             {"etude", version},
             {"compiler", __VERSION__},
             {"packages", ETUDE_PACKAGES},
             {"glibc", gnu_get_libc_version()},
-            {"libraries", DescribeLibraries()},
+            {"libraries", libraries},
             {"environment", DigestOf(PinnedEnvironment())}};
   json.update(EncodeSetup(WithCanonicalNames(suite)));
   for (const TaskKind& kind : AllTaskKinds()) {
@@ -159,12 +163,12 @@ Json MakeManifest(const SuiteSetup& suite, std::span<const PreparedScenario> sce
   return json;
 }
 
-Result<SuiteSetup> ReadManifest(const std::filesystem::path& path) {
+Result<SuiteSetup> ReadManifest(const FilePath& path) {
   ASSIGN_OR_RETURN(const auto json, ReadManifestJson(path));
   return DecodeSetup(json, {path.string(), 0, 0});
 }
 
-Result<void> CheckClips(const std::filesystem::path& path, std::span<const PreparedScenario> scenarios) {
+Result<void> CheckClips(const FilePath& path, std::span<const PreparedScenario> scenarios) {
   ASSIGN_OR_RETURN(const auto json, ReadManifestJson(path));
   for (std::size_t s = 0; s < scenarios.size(); ++s) {
     const Json now = DescribeMotions(scenarios[s]);
@@ -184,7 +188,7 @@ Result<void> CheckClips(const std::filesystem::path& path, std::span<const Prepa
   return {};
 }
 
-Result<PreparedRun> PrepareRun(const std::filesystem::path& manifest, const std::optional<SecretKey>& key) {
+Result<PreparedRun> PrepareRun(const FilePath& manifest, const std::optional<SecretKey>& key) {
   ASSIGN_OR_RETURN(auto suite, ReadManifest(manifest));
   RETURN_IF_ERROR(OpenSeeds(key, {manifest.string()}, suite));
   ASSIGN_OR_RETURN(auto scenarios, PrepareAll(suite));
@@ -213,9 +217,9 @@ bool AreOfLibraries(std::span<const JsonDifference> differences) {
 }
 
 Result<std::vector<JsonDifference>> OtherLibrariesOf(const std::filesystem::path& folder) {
-  const std::filesystem::path path = folder / kOtherLibrariesFile;
+  const FilePath path = Inside(folder) / kOtherLibrariesFile;
   std::vector<JsonDifference> noted;
-  if (std::error_code none; !std::filesystem::exists(path, none)) return noted;
+  if (!Exists(path)) return noted;
   ASSIGN_OR_RETURN(const auto json, ReadJsonFile(path));
   try {
     for (const Json& one : json) noted.push_back({one.at("path"), one.at("then"), one.at("now")});
@@ -232,7 +236,7 @@ Result<void> RecordOtherLibraries(const std::filesystem::path& folder, std::span
   }
   Json json = Json::array();
   for (const JsonDifference& one : noted) json.push_back({{"path", one.path}, {"then", one.then}, {"now", one.now}});
-  return SaveJson(folder / kOtherLibrariesFile, json);
+  return SaveJson(Inside(folder) / kOtherLibrariesFile, json);
 }
 
 Result<std::string> BuildDigest() {

@@ -11,14 +11,17 @@
 
 namespace etude {
 
-/// Makes manifest.json, which repeats the run. Its bytes do not depend on how or where it is run.
-Json MakeManifest(const SuiteSetup& suite, std::span<const PreparedScenario> scenarios, const std::string& version);
+/// Makes manifest.json, which repeats the run. Its bytes do not depend on how or where it is run. Fails, with an error
+/// of this machine, when the renderer is there and cannot be loaded: the libraries would not be those of the next
+/// start.
+Result<Json> MakeManifest(const SuiteSetup& suite, std::span<const PreparedScenario> scenarios,
+                          const std::string& version);
 
 /// The suite that a manifest describes. Fails when it is of another schema.
-Result<SuiteSetup> ReadManifest(const std::filesystem::path& path);
+Result<SuiteSetup> ReadManifest(const FilePath& path);
 
 /// Checks that `scenarios`, prepared from the suite of the manifest at `path`, have the very clips that it had then.
-Result<void> CheckClips(const std::filesystem::path& path, std::span<const PreparedScenario> scenarios);
+Result<void> CheckClips(const FilePath& path, std::span<const PreparedScenario> scenarios);
 
 /// A run made ready to be gone on with, merged or repeated.
 struct PreparedRun {
@@ -28,7 +31,7 @@ struct PreparedRun {
 
 /// Makes ready what a manifest describes, with the very clips that it had then.
 /// Secret worlds need their key.
-Result<PreparedRun> PrepareRun(const std::filesystem::path& manifest, const std::optional<SecretKey>& key = {});
+Result<PreparedRun> PrepareRun(const FilePath& manifest, const std::optional<SecretKey>& key = {});
 
 /// A value of a manifest that is another in a second one.
 struct JsonDifference {

@@ -30,7 +30,7 @@ struct Shards {
 Result<void> CheckManifest(const fs::path& folder, const JournalHead& head, bool other_libraries, Shards& shards) {
   if (head.manifest == Digest().Add(std::string_view(shards.manifest)).Hex()) return {};
   ASSIGN_OR_RETURN(const auto then, ReadJson(shards.manifest, shards.folders.begin()->second.string()));
-  ASSIGN_OR_RETURN(const auto now, ReadJsonFile(folder / "manifest.json"));
+  ASSIGN_OR_RETURN(const auto now, ReadJsonFile(Inside(folder) / "manifest.json"));
   const std::vector<JsonDifference> found = CompareManifests(then, now);
   const Place place{folder.string()};
   if (found.empty()) return Fail(place, "its manifest.json is not the one that it was begun with");
@@ -50,7 +50,7 @@ Result<void> AddShard(const fs::path& folder, const std::string& build, bool oth
   ASSIGN_OR_RETURN(const auto head, ReadJournalHead(folder));
   if (head.build != build) return Fail(place, "was run by build {} of etude, this is build {}", head.build, build);
   if (shards.folders.empty()) {
-    ASSIGN_OR_RETURN(auto manifest, ReadWholeFile(folder / "manifest.json"));
+    ASSIGN_OR_RETURN(auto manifest, ReadWholeFile(Inside(folder) / "manifest.json"));
     shards.manifest = std::move(manifest);
     shards.count = head.shard.count;
   }
@@ -105,7 +105,8 @@ Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(d
   const Clock::time_point start = Clock::now();
   ASSIGN_OR_RETURN(auto shards, FindShards(options.folders, options.other_libraries));
   if (shards.folders.empty()) return Fail({}, "there is nothing to merge: {}", Join(shards.missing, "; "));
-  ASSIGN_OR_RETURN(const auto prepared, PrepareRun(shards.folders.begin()->second / "manifest.json", options.key));
+  ASSIGN_OR_RETURN(const auto prepared,
+                   PrepareRun(Inside(shards.folders.begin()->second) / "manifest.json", options.key));
   const Plan plan(prepared.scenarios);
   CellTable cells(plan.cell_count());
   Json hosts = Json::array();
@@ -126,7 +127,7 @@ Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(d
     outcome.cells_ok += journal.cells_ok;
     const std::string what = WhatLacks(plan, journal.head.shard, folder, cells);
     if (!what.empty()) shards.missing.push_back(what);
-    ASSIGN_OR_RETURN(const auto host, what.empty() ? ReadJsonFile(folder / "host.json") : Json());
+    ASSIGN_OR_RETURN(const auto host, what.empty() ? ReadJsonFile(Inside(folder) / "host.json") : Json());
     hosts.push_back(host);
   }
   if (!shards.missing.empty()) {
@@ -139,7 +140,7 @@ Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(d
   }
   ASSIGN_OR_RETURN(auto claimed, RunFolder::Claim(options.output, false));
   outcome.why_unlocked = claimed.why_unlocked();
-  RETURN_IF_ERROR(WriteFileAtomically(fs::path(options.output) / "manifest.json", shards.manifest));
+  RETURN_IF_ERROR(WriteFileAtomically(Inside(options.output) / "manifest.json", shards.manifest));
   if (!shards.other_libraries.empty()) RETURN_IF_ERROR(RecordOtherLibraries(options.output, shards.other_libraries));
   Json host = DescribeHost(options.command_line, 0, 0);
   host["shards"] = std::move(hosts);

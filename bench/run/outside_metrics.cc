@@ -3,10 +3,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/process/machine.h"
 #include "bench/results/row_json.h"
 #include "bench/tasks/base/answer_fields.h"
 #include "bench/tasks/base/pose_json.h"
+#include "engine/base/machine.h"
 
 namespace etude {
 namespace {

@@ -125,7 +125,10 @@ Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const Outsid
 }
 
 Json EncodeFence(const Fence& fence) {
-  return {{"program", fence.program()}, {"hidden", Texts(fence.hidden())}, {"kept", Texts(fence.kept())}};
+  return {{"program", fence.program()},
+          {"hidden", Texts(fence.hidden())},
+          {"kept", Texts(fence.kept())},
+          {"groups", fence.groups()}};
 }
 
 Fence DecodeFence(const Json& json) {
@@ -133,7 +136,7 @@ Fence DecodeFence(const Json& json) {
     const auto texts = json.at(key).get<std::vector<std::string>>();
     return std::vector<fs::path>(texts.begin(), texts.end());
   };
-  Fence fence = Fence::Of(json.at("program").get<std::string>(), paths("kept"));
+  Fence fence = Fence::Of(json.at("program").get<std::string>(), paths("kept"), json.at("groups").get<std::string>());
   for (const fs::path& path : paths("hidden")) fence.Hide(path);
   return fence;
 }

@@ -63,8 +63,9 @@ std::vector<Order> Plan::OrdersFor(const Shard& shard, const std::vector<bool>& 
     const World& world = worlds_[order.world];
     const PreparedScenario& scenario = scenarios_[world.scenario];
     const bool is_plain = scenario.setup().seed.IsPlain();
-    return std::tuple(world.scenario, world.condition,
-                      is_plain ? 0 : RandomStream(scenario.KeyOf(world.trial), "exchange/order").Bits());
+    return std::tuple(
+        world.scenario, world.condition,
+        is_plain ? 0 : RandomStream(scenario.KeyOf(world.condition, world.trial), "exchange/order").Bits());
   };
   std::ranges::stable_sort(orders, {}, rank);
   return orders;

@@ -15,6 +15,7 @@
 #include "bench/run/run_folder.h"
 #include "bench/run/suite.h"
 #include "bench/run/supervisor.h"
+#include "bench/run/used_keys.h"
 #include "engine/base/digest.h"
 
 namespace etude {
@@ -42,7 +43,7 @@ Result<FolderState> CheckFolder(const fs::path& folder, const RunOptions& option
 /// A folder can only be gone on with by the same build, suite, seed and clips; by other libraries if that is asked for,
 /// which the folder then records.
 Result<void> CheckManifest(const fs::path& folder, const std::string& manifest, bool other_libraries) {
-  const fs::path path = folder / "manifest.json";
+  const FilePath path = Inside(folder) / "manifest.json";
   ASSIGN_OR_RETURN(const auto found, ReadWholeFile(path));
   if (found == manifest) return {};
   ASSIGN_OR_RETURN(const auto then, ReadJson(found, path.string()));
@@ -77,25 +78,38 @@ Result<void> CheckHead(const fs::path& folder, const JournalHead& found, const J
 /// Keeps what finished cells say on the disk, and tells how far the run has come.
 class JournalRecorder {
  public:
-  JournalRecorder(CellTable& cells, Journal journal, std::uint32_t file, const Progress& before,
-                  const std::function<void(const Progress&)>& on_progress)
-      : cells_(cells), journal_(std::move(journal)), file_(file), progress_(before), on_progress_(on_progress) {
+  JournalRecorder(CellTable& cells, CellTable* answered, Journal journal, const FilePath& file,
+                  const Progress& before, const std::function<void(const Progress&)>& on_progress)
+      : cells_(cells),
+        answered_(answered),
+        journal_(std::move(journal)),
+        file_(cells.AddFile(file)),
+        answered_file_(answered == nullptr ? 0 : answered->AddFile(file)),
+        progress_(before),
+        unsynced_(before),
+        on_progress_(on_progress) {
     on_progress_(progress_);
   }
 
   Result<void> Add(const DeliveredCell& cell) {
+    const std::size_t number = cell.head.cell;
     ASSIGN_OR_RETURN(const auto offset, journal_.Append(cell.line));
-    cells_.Put(cell.head.cell, file_, offset, cell.line.size());
-    ++unsynced_;
-    unsynced_ok_ += cell.head.status == Status::kOk ? 1 : 0;
+    if (cell.head.is_measured) {
+      cells_.Put(number, file_, offset, cell.line.size());
+      ++unsynced_.cells_done;
+      unsynced_.cells_ok += cell.head.status == Status::kOk ? 1 : 0;
+      unsynced_.cells_answered -= answered_ != nullptr && answered_->Has(number) ? 1 : 0;
+    } else {
+      answered_->Put(number, answered_file_, offset, cell.line.size());
+      ++unsynced_.cells_answered;
+    }
     return journal_.IsSyncDue() ? Sync() : Result<void>();
   }
 
   /// Puts on the disk what is not there yet; only then it counts.
   Result<void> Sync() {
     RETURN_IF_ERROR(journal_.Sync());
-    progress_.cells_done += std::exchange(unsynced_, 0);
-    progress_.cells_ok += std::exchange(unsynced_ok_, 0);
+    progress_ = unsynced_;
     progress_.seconds = SecondsSince(start_);
     on_progress_(progress_);
     return {};
@@ -106,10 +120,10 @@ class JournalRecorder {
  private:
   const Clock::time_point start_ = Clock::now();
   CellTable& cells_;
+  CellTable* answered_;  ///< null where nothing is measured by programs
   Journal journal_;
-  std::uint32_t file_;  ///< that the journal is in `cells_`
-  std::size_t unsynced_ = 0, unsynced_ok_ = 0;
-  Progress progress_;
+  std::uint32_t file_, answered_file_;  ///< that the journal is in the tables
+  Progress progress_, unsynced_;        ///< what is on the disk, and what is written
   const std::function<void(const Progress&)>& on_progress_;
 };
 
@@ -135,19 +149,22 @@ struct OpenedJournal {
   std::vector<int> damaged;
 };
 
-/// Begins the folder of a run, or goes on with what it holds, which is put into `cells`.
+/// Begins the folder of a run, or goes on with what it holds, which is put into `cells` and, unless null, `answered`.
 Result<OpenedJournal> OpenJournal(const fs::path& folder, const std::string& manifest, const JournalHead& head,
-                                  bool continues, const RunOptions& options, const Plan& plan, CellTable& cells) {
+                                  bool continues, const RunOptions& options, const Plan& plan, CellTable& cells,
+                                  CellTable* answered) {
   Progress before;
   std::vector<int> damaged;
   if (continues) {
-    ASSIGN_OR_RETURN(const auto found, ReadJournal(folder, plan, cells));
+    ASSIGN_OR_RETURN(const auto found, ReadJournal(folder, plan, cells, answered));
     RETURN_IF_ERROR(CheckHead(folder, found.head, head));
     damaged = found.damaged;
-    before.cells_done = before.cells_before = found.cells;
+    before.cells_done = found.cells;
     before.cells_ok = found.cells_ok;
+    before.cells_answered = found.answered;
+    before.work_before = before.Work();
   } else {
-    RETURN_IF_ERROR(WriteFileAtomically(folder / "manifest.json", manifest, OnDisk::kLater));
+    RETURN_IF_ERROR(WriteFileAtomically(Inside(folder) / "manifest.json", manifest, OnDisk::kLater));
     RETURN_IF_ERROR(SyncTree(folder));
     RETURN_IF_ERROR(SyncPathTo(folder));
   }
@@ -167,8 +184,8 @@ Result<bool> FinishFolder(const fs::path& folder, const Plan& plan, CellTable& c
     const auto goes_on = [&](std::size_t) { return options.stop == nullptr || !*options.stop; };
     return FinishRun(folder, plan, cells, host, WorkerCount(options.jobs), goes_on);
   }
-  if (std::error_code none; !was_done || !fs::exists(folder / "host.json", none)) {
-    RETURN_IF_ERROR(SaveJson(folder / "host.json", host, OnDisk::kLater));
+  if (!was_done || !Exists(Inside(folder) / "host.json")) {
+    RETURN_IF_ERROR(SaveJson(Inside(folder) / "host.json", host, OnDisk::kLater));
     RETURN_IF_ERROR(SyncTree(folder));
   }
   return true;
@@ -188,29 +205,39 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
     RETURN_IF_ERROR(CheckMetricVectors(scenarios, fence));
   }
   const Plan plan(scenarios);
-  ASSIGN_OR_RETURN(const auto manifest, WriteJson(MakeManifest(suite, scenarios, options.program_version)));
+  ASSIGN_OR_RETURN(const auto described, MakeManifest(suite, scenarios, options.program_version));
+  ASSIGN_OR_RETURN(const auto manifest, WriteJson(described));
   ASSIGN_OR_RETURN(const auto build, BuildDigest());
   const JournalHead head{Digest().Add(manifest + "\n").Hex(), build, options.shard};
 
   if (options.stop != nullptr && *options.stop) return RunOutcome{.folder = folder, .stopped = true};
   const bool continues = options.resume && state != FolderState::kFree;
+  const KeyUse use{"run", suite.suite, DigestOfRun(described), options.shard, folder};
+  // Of a secret run that is repeated, or gone on with, the worlds may be known.
+  const bool may_be_used = options.reuse_key || continues || !options.from.empty();
+  const bool is_secret = !suite.seed.IsPlain();
+  if (is_secret && !may_be_used) RETURN_IF_ERROR(CheckUnused(*options.key, use));
   ASSIGN_OR_RETURN(auto claimed, RunFolder::Claim(folder, continues));
   if (continues) {
     RETURN_IF_ERROR(CheckManifest(folder, manifest + "\n", options.other_libraries));
     if (state == FolderState::kFinished) return AlreadyWhole(folder);
   }
-  CellTable cells(plan.cell_count());
-  ASSIGN_OR_RETURN(auto opened, OpenJournal(folder, manifest + "\n", head, continues, options, plan, cells));
+  CellTable cells(plan.cell_count()), answered_cells(HasOutsideMetrics(plan) ? plan.cell_count() : 0);
+  CellTable* const answered = answered_cells.size() > 0 ? &answered_cells : nullptr;
+  ASSIGN_OR_RETURN(auto opened, OpenJournal(folder, manifest + "\n", head, continues, options, plan, cells, answered));
+  if (is_secret) RETURN_IF_ERROR(NoteUse(*options.key, use, may_be_used));
   std::vector<Order> orders = plan.OrdersFor(options.shard, cells.Done());
   const bool was_done = continues && orders.empty();
-  JournalRecorder recorder(cells, std::move(opened.journal), cells.AddFile(folder / kJournalFile), opened.before,
+  JournalRecorder recorder(cells, answered, std::move(opened.journal), Inside(folder) / kJournalFile, opened.before,
                            on_progress);
   const auto whole = RunOrders(suite, plan, std::move(orders),
                                {.program = ThisProgram(),
                                 .error_folder = (fs::absolute(folder) / "stderr").string(),
                                 .fence = fence,
                                 .jobs = options.jobs,
-                                .stop = options.stop},
+                                .stop = options.stop,
+                                .answered = answered,
+                                .on_all_answered = [&] { return recorder.Sync(); }},
                                [&](const DeliveredCell& cell) {
                                  auto kept = recorder.Add(cell);
                                  if (kept) claimed.Keep();
@@ -220,12 +247,14 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   const Progress& progress = recorder.progress();
   if (!whole) {
     Error failure = whole.error();
-    if (progress.cells_done > 0) failure.message += "; what was done is kept, --resume goes on with it";
+    const bool is_kept = progress.cells_done + progress.cells_answered > 0;
+    if (is_kept) failure.message += "; what was done is kept, --resume goes on with it";
     return tl::unexpected(std::move(failure));
   }
   RunOutcome outcome{.folder = folder,
                      .cells = progress.cells_done,
                      .cells_ok = progress.cells_ok,
+                     .cells_answered = progress.cells_answered,
                      .seconds = SecondsSince(start),
                      .stopped = !*whole,
                      .fence = ProgramsOf(scenarios).empty() ? "" : fence.description(),
@@ -239,7 +268,10 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   if (outcome.stopped) return outcome;
   claimed.Keep();
   Json host = DescribeHost(options.command_line, WorkerCount(options.jobs), outcome.seconds);
-  if (!outcome.fence.empty()) host["fence"] = outcome.fence;
+  if (!outcome.fence.empty()) {
+    host["fence"] = outcome.fence;
+    host["memory"] = fence.MemoryDescription();
+  }
   ASSIGN_OR_RETURN(const bool is_whole, FinishFolder(folder, plan, cells, host, was_done, options));
   outcome.stopped = !is_whole;
   outcome.seconds = SecondsSince(start);

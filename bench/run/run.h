@@ -21,6 +21,7 @@ struct RunOptions {
   std::string from;                    ///< the manifest.json of a run to be repeated
   std::optional<std::uint64_t> seed;   ///< else each scenario's own, else 1
   std::optional<SecretKey> key = {};   ///< of secret worlds, in the place of a seed
+  bool reuse_key = false;              ///< take a key that was used before (used_keys.h)
   std::optional<int> trials;           ///< else each scenario's own
   std::vector<std::string> clips;      ///< replaces the scenarios' clips when not empty
   std::vector<std::string> libraries;  ///< NAME=CLIPS, beside the scenarios' libraries; one name may stand repeatedly
@@ -48,14 +49,19 @@ struct Progress {
   std::size_t cells = 0;  ///< of this run or shard
   std::size_t cells_done = 0;
   std::size_t cells_ok = 0;
-  std::size_t cells_before = 0;  ///< of those done: by the run that this one resumes
+  std::size_t cells_answered = 0;  ///< others, which have yet to be measured by programs
+  double work_before = 0;          ///< Work() of the run that this one resumes
   double seconds = 0;
+
+  /// Counts cells that are done; one that has yet to be measured is half of its way.
+  double Work() const { return static_cast<double>(cells_done) + 0.5 * static_cast<double>(cells_answered); }
 };
 
 struct RunOutcome {
   std::filesystem::path folder;
   std::size_t cells = 0;  ///< that have their row
   std::size_t cells_ok = 0;
+  std::size_t cells_answered = 0;  ///< others, which have yet to be measured; when it ended early
   double seconds = 0;
   bool stopped = false;                   ///< ended early; the journal holds what was done
   std::string fence = {};                 ///< what methods outside ran in; "" = there were none

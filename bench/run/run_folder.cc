@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -18,6 +18,7 @@
 #include "bench/results/seal.h"
 #include "bench/run/sum_up.h"
 #include "bench/scenario/scenario.h"
+#include "engine/base/machine.h"
 
 namespace etude {
 namespace {
@@ -27,18 +28,44 @@ namespace fs = std::filesystem;
 /// The name of a part of a result folder, or of one that was being written.
 bool IsPartOfRun(const fs::path& name) {
   static const std::vector<std::string> parts = {
-      "manifest.json", "host.json",  kJournalFile,        kSealFile,   "cells.jsonl",  "timings.jsonl",
+      "manifest.json", "host.json",  kJournalFile,        kSealFile,   kCellsFile,     kTimingsFile,
       "series",        "recordings", "summary.json",      "report",    "video",        "stderr",
       kColumnsFolder,  kTimesFolder, kOtherLibrariesFile, kSignedFile, kSignatureFile, kLockFile};
   return std::any_of(parts.begin(), parts.end(),
                      [&](const std::string& part) { return name == part || name == TemporaryName(part); });
 }
 
+constexpr const char *kOldRun = "old", *kNewRun = "new";  // beside the folder, while one takes the other's place
+
+bool HoldsMoreThanLock(const fs::path& folder) {
+  std::error_code none;
+  return std::ranges::any_of(fs::directory_iterator(folder, none), fs::directory_iterator(),
+                             [](const auto& entry) { return entry.path().filename() != kLockFile; });
+}
+
+bool IsWithin(const fs::path& path, const fs::path& folder) {
+  const fs::path from = path.lexically_relative(folder);
+  return !from.empty() && *from.begin() != "..";
+}
+
+/// Gives the folder `fresh` the name `old`, and what had it the name `aside`, in one step where the file system can.
+bool Exchange(const fs::path& fresh, const fs::path& old, const fs::path& aside) {
+  if (::renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, old.c_str(), RENAME_EXCHANGE) == 0) {
+    return ::rename(fresh.c_str(), aside.c_str()) == 0;
+  }
+  if (::rename(old.c_str(), aside.c_str()) != 0) return false;
+  if (::rename(fresh.c_str(), old.c_str()) == 0) return true;
+  ::rename(aside.c_str(), old.c_str());
+  return false;
+}
+
 /// A journal without a whole head belongs to a run that was ended while it began.
-bool HoldsWholeLine(const fs::path& journal) {
-  std::ifstream in(journal, std::ios::binary);
+Result<bool> HoldsWholeLine(const FilePath& journal) {
+  if (!Exists(journal)) return false;
+  ASSIGN_OR_RETURN(auto lines, FileLines::Open(journal));
   std::string line;
-  return std::getline(in, line) && !in.eof();
+  ASSIGN_OR_RETURN(const bool has_line, lines.Next(line));
+  return has_line && lines.had_end();
 }
 
 }  // namespace
@@ -54,27 +81,67 @@ Result<FolderState> LookAtFolder(const fs::path& path) {
       return Fail(place, "holds something that is no run ('{}'); choose another folder with -o", name.string());
     }
   }
-  if (error) return Fail(place, "cannot be read: {}", error.message());
-  if (HoldsWholeLine(path / kJournalFile)) return FolderState::kUnfinished;
-  return fs::exists(path / "host.json", error) ? FolderState::kFinished : FolderState::kFree;
+  if (error) return CannotRead(path.string(), "cannot be read", error.value());
+  ASSIGN_OR_RETURN(const bool is_begun, HoldsWholeLine(Inside(path) / kJournalFile));
+  if (is_begun) return FolderState::kUnfinished;
+  return Exists(Inside(path) / "host.json") ? FolderState::kFinished : FolderState::kFree;
 }
 
 Result<RunFolder> RunFolder::Claim(const fs::path& path, bool keep_contents) {
-  const Place place{path.string(), 0, 0};
   std::error_code error;
   const bool made = !fs::exists(path, error);
   fs::create_directories(path, error);
-  if (error) return Fail(place, "cannot be made: {}", error.message());
+  if (error) return CannotWrite(path.string(), "cannot be made", error.value());
   RunFolder folder(path, made);
   RETURN_IF_ERROR(folder.Lock());
-  if (keep_contents) return folder;
-  for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
-    if (entry->path().filename() == kLockFile) continue;
-    fs::remove_all(entry->path(), error);
-    if (error) break;
-  }
-  if (error) return Fail(place, "cannot be emptied: {}", error.message());
+  if (keep_contents || !HoldsMoreThanLock(path)) return folder;
+  if (!folder.Replace()) RETURN_IF_ERROR(folder.Empty());
   return folder;
+}
+
+bool RunFolder::Replace() {
+  std::error_code error;
+  const fs::path old = fs::canonical(path_, error);  // a link to the folder stays
+  if (error || IsWithin(fs::current_path(error), old) || !old.has_relative_path()) return false;
+  auto aside = TemporaryFolder::MakeIn(old.parent_path(), "replaced");
+  if (!aside) return false;
+  // A folder of its own, locked before it gets the name.
+  const fs::path fresh = aside->path() / kNewRun;
+  fs::create_directory(fresh, old, error);
+  RunFolder successor(fresh, false);
+  if (error || !successor.Lock()) return false;
+  if (!Exchange(fresh, old, aside->path() / kOldRun)) return false;
+  std::swap(lock_, successor.lock_);
+  why_unlocked_ = successor.why_unlocked_;
+  successor.path_ = aside->path() / kOldRun;  // whose lock goes
+  aside_ = std::move(*aside);
+  is_ours_ = true;
+  return true;
+}
+
+Result<void> RunFolder::Empty() {
+  std::error_code error;
+  fs::remove(path_ / "host.json", error);
+  if (error) return CannotWrite(path_.string(), "cannot be emptied", error.value());
+  // Somebody who reads the run may be writing its report.
+  constexpr int kMostTries = 100, kPauseMicroseconds = 10'000;
+  for (int tries = 0; tries < kMostTries; ++tries) {
+    error.clear();
+    for (fs::directory_iterator entry(path_, error), end; !error && entry != end; entry.increment(error)) {
+      if (entry->path().filename() == kLockFile) continue;
+      fs::remove_all(entry->path(), error);
+      if (error) break;
+    }
+    if (error != std::errc::directory_not_empty) break;
+    ::usleep(kPauseMicroseconds);
+  }
+  if (error) return CannotWrite(path_.string(), "cannot be emptied", error.value());
+  return {};
+}
+
+void RunFolder::Keep() {
+  is_ours_ = false;
+  aside_.reset();
 }
 
 Result<void> RunFolder::Lock() {
@@ -82,7 +149,7 @@ Result<void> RunFolder::Lock() {
   while (true) {
     lock_ = ::open(file.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, S_IWUSR);
     if (lock_ < 0 && (errno == EROFS || errno == EACCES)) return {};  // nobody writes here
-    if (lock_ < 0) return Fail({file.string(), 0, 0}, "cannot be made: {}", std::strerror(errno));
+    if (lock_ < 0) return CannotWrite(file.string(), "cannot be made", errno);
     if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
       const int reason = errno;
       if (reason != EWOULDBLOCK) {
@@ -105,16 +172,17 @@ RunFolder::RunFolder(RunFolder&& other) noexcept
     : path_(std::move(other.path_)),
       is_ours_(std::exchange(other.is_ours_, false)),
       lock_(std::exchange(other.lock_, -1)),
+      aside_(std::exchange(other.aside_, std::nullopt)),
       why_unlocked_(std::move(other.why_unlocked_)) {}
 
 RunFolder::~RunFolder() {
   std::error_code ignored;
-  if (lock_ >= 0) fs::remove(path_ / kLockFile, ignored);
-  if (is_ours_) fs::remove_all(path_, ignored);
+  const bool is_put_back =
+      is_ours_ && aside_ && Exchange(aside_->path() / kOldRun, fs::canonical(path_, ignored), aside_->path() / kNewRun);
+  if (lock_ >= 0 && !is_put_back) fs::remove(path_ / kLockFile, ignored);
+  if (is_ours_ && !is_put_back) fs::remove_all(path_, ignored);
   if (lock_ >= 0) ::close(lock_);
 }
-
-namespace fs = std::filesystem;
 
 Result<bool> FinishRun(const fs::path& folder, const Plan& plan, CellTable& cells, const Json& host, int jobs,
                        const std::function<bool(std::size_t rows)>& goes_on) {
@@ -140,14 +208,14 @@ Result<bool> FinishRun(const fs::path& folder, const Plan& plan, CellTable& cell
   }
   if (!goes_on(cell)) return false;
   RETURN_IF_ERROR(results.Finish(summaries));
-  RETURN_IF_ERROR(SaveJson(folder / "host.json", host, OnDisk::kLater));
+  RETURN_IF_ERROR(SaveJson(Inside(folder) / "host.json", host, OnDisk::kLater));
   // The journal is the only other place that knows the results: it goes when all of them are on the disk.
   RETURN_IF_ERROR(SealRun(folder));
   RETURN_IF_ERROR(SyncTree(folder));
   RETURN_IF_ERROR(SyncPathTo(folder));
   std::error_code error;
   fs::remove(folder / kJournalFile, error);
-  if (error) return Fail({(folder / kJournalFile).string(), 0, 0}, "cannot be removed: {}", error.message());
+  if (error) return CannotWrite((folder / kJournalFile).string(), "cannot be removed", error.value());
   RETURN_IF_ERROR(SyncFolder(folder));
   return true;
 }

@@ -2,9 +2,11 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "bench/files/json.h"
+#include "bench/files/temporary_folder.h"
 #include "bench/run/journal.h"
 #include "engine/base/result.h"
 
@@ -20,28 +22,35 @@ enum class FolderState {
 Result<FolderState> LookAtFolder(const std::filesystem::path& path);
 
 /// A result folder that this run alone writes into. One that ends before any cell did takes the folder away again, if
-/// it made it.
+/// it made it, and puts the run that it was to replace back.
 class RunFolder {
  public:
-  /// Makes the folder and locks it against other runs, where the file system has locks; empties it unless it is to be
-  /// continued. What is locked is a file that nobody may read: behind a fence, where nothing can be written, no method
-  /// opens it, let alone locks it.
+  /// Makes the folder and locks it against other runs, where the file system has locks. What is locked is a file that
+  /// nobody may read: behind a fence, where nothing can be written, no method opens it, let alone locks it.
+  /// Unless the contents are to be kept, the folder is empty afterwards. What it held is set aside whole, in one step:
+  /// a process that reads it keeps its files, and whenever this process is killed, the folder holds the old run, or
+  /// nothing of it. Where it cannot be renamed (a mount point, the working folder, a parent that may not be written),
+  /// it is emptied in its place, host.json first, without which it counts as no run.
   static Result<RunFolder> Claim(const std::filesystem::path& path, bool keep_contents);
   RunFolder(RunFolder&& other) noexcept;
   ~RunFolder();
 
-  /// Says that there is something in it worth keeping from now on.
-  void Keep() { is_ours_ = false; }
+  /// Says that there is something in it worth keeping from now on; what it replaces is deleted.
+  void Keep();
   /// Returns why the folder could not be locked; "" = it is locked.
   const std::string& why_unlocked() const { return why_unlocked_; }
 
  private:
   RunFolder(std::filesystem::path path, bool made) : path_(std::move(path)), is_ours_(made) {}
   Result<void> Lock();
+  /// Puts an empty folder, locked by us, in the place of this one. False where it cannot be renamed.
+  bool Replace();
+  Result<void> Empty();
 
   std::filesystem::path path_;
-  bool is_ours_;   ///< made by this run, and nothing in it yet that is worth keeping
-  int lock_ = -1;  ///< the lock ends with the process, however that ends
+  bool is_ours_;                          ///< made by this run, and nothing in it yet that is worth keeping
+  int lock_ = -1;                         ///< the lock ends with the process, however that ends
+  std::optional<TemporaryFolder> aside_;  ///< holds what the folder held before, as `kOldRun`
   std::string why_unlocked_;
 };
 

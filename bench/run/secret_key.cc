@@ -47,10 +47,11 @@ Result<std::optional<SecretKey>> FindSecretKey(const std::string& file) {
 
 Result<void> CheckSecretWorlds(int version, const Place& place) {
   if (version == kSecretWorldsVersion) return {};
-  return Fail(place,
-              "its secret worlds are of version {}, this program makes version {}, in which public clips are "
-              "disguised; allowed: the program that made them",
-              version, kSecretWorldsVersion);
+  return Fail(
+      place,
+      "its secret worlds are of version {}, this program makes version {}, in which every condition has dice of "
+      "its own; allowed: the program that made them",
+      version, kSecretWorldsVersion);
 }
 
 Result<void> OpenSeeds(const std::optional<SecretKey>& key, const Place& place, SuiteSetup& suite) {

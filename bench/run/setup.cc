@@ -70,6 +70,17 @@ std::vector<std::string> UnitsOf(const std::vector<std::string>& clips, Sampling
   return {names.begin(), names.end()};
 }
 
+/// Names the dice of every condition: those of secret worlds by what is swept, so that another value changes no other
+/// condition's. The length keeps a label from reading as the beginning of a longer one.
+std::vector<std::string> NameDice(const Scenario& scenario, const Seed& seed) {
+  std::vector<std::string> names;
+  for (const Condition& condition : scenario.conditions) {
+    const std::string label = CompactLabel(condition.swept);
+    names.push_back(seed.IsPlain() ? scenario.name : fmt::format("{}/{}:{}", scenario.name, label.size(), label));
+  }
+  return names;
+}
+
 Json EncodeSeed(const Seed& seed) { return seed.IsPlain() ? Json(seed.number()) : Json(ToString(seed)); }
 
 Result<Seed> DecodeSeed(const Json& json, const Place& place) {
@@ -255,6 +266,7 @@ Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& s
   const auto clips_of = [&](const Condition& condition) -> const ClipLibrary& { return prepared.ClipsOf(condition); };
   ASSIGN_OR_RETURN(auto tasks, MakeTasks(prepared.scenario_, clips_of, suite.sources, prepared.recordings()));
   prepared.tasks_ = std::move(tasks);
+  prepared.dice_names_ = NameDice(prepared.scenario_, setup.seed);
   if (suite.scored) {
     RETURN_IF_ERROR(AddScoredMethod(*suite.scored, prepared.scenario_));
   }
@@ -278,7 +290,9 @@ Result<std::vector<PreparedScenario>> PrepareAll(const SuiteSetup& suite) {
 
 Result<void> AddScoredMethod(const ScoredMethod& method, Scenario& scenario) {
   if (!IsPlainName(method.name)) {
-    return Fail({}, "'{}' is no name of a method; allowed: letters, digits, '-', '_' and '.', at most 80", method.name);
+    return Fail(
+        {}, "'{}' is no name of a method; allowed: letters, digits, '_', and behind the first '-' and '.', at most 80",
+        method.name);
   }
   std::vector<MethodEntry>& methods = scenario.methods;
   if (method.alone) {
@@ -300,7 +314,7 @@ Result<void> AddScoredMethod(const ScoredMethod& method, Scenario& scenario) {
 }
 
 Row PreparedScenario::IdentityOf(int condition, int trial, std::size_t method) const {
-  const std::vector<std::string> clips = tasks_[condition]->ClipsOf(KeyOf(trial));
+  const std::vector<std::string> clips = tasks_[condition]->ClipsOf(KeyOf(condition, trial));
   Row row;
   row.scenario = scenario_.name;
   row.task = scenario_.task;

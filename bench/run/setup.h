@@ -46,8 +46,9 @@ struct ScoredMethod {
   bool alone = false;  ///< in the place of the scenarios' own methods, not beside them
 };
 
-/// The version of what secret worlds are made of; version 2 disguises clips (bench/tasks/base/disguise.h).
-inline constexpr int kSecretWorldsVersion = 2;
+/// The version of what secret worlds are made of. Version 2 disguises clips (bench/tasks/base/disguise.h); version 3
+/// throws dice of its own for every condition.
+inline constexpr int kSecretWorldsVersion = 3;
 
 /// The set-up of a suite, which the manifest keeps and every worker is started with.
 struct SuiteSetup {
@@ -82,8 +83,9 @@ class PreparedScenario {
   const LabelledStreams* recordings() const { return recordings_.get(); }
   const Task& task(int condition) const { return *tasks_[condition]; }
 
-  /// The key of a trial's dice.
-  WorldKey KeyOf(int trial) const { return {setup_.seed, scenario_.name, trial}; }
+  /// The key of the dice of a trial under a condition. Conditions of open worlds share it; secret worlds have one for
+  /// every condition, since two worlds of the same dice and of different noise tell their truth together.
+  WorldKey KeyOf(int condition, int trial) const { return {setup_.seed, dice_names_[condition], trial}; }
   /// A cell's row before anything is known about its result.
   Row IdentityOf(int condition, int trial, std::size_t method) const;
   /// The row of a cell that ended without measurements.
@@ -105,6 +107,7 @@ class PreparedScenario {
   std::map<std::string, ClipLibrary> libraries_;  ///< by name
   std::unique_ptr<LabelledStreams> recordings_;
   std::vector<std::unique_ptr<Task>> tasks_;  ///< one per condition
+  std::vector<std::string> dice_names_;       ///< by condition: WorldKey::scenario
 };
 
 /// True if a task of another kind sees by the cameras of the capture task.

@@ -2,10 +2,12 @@
 
 #include <fmt/ranges.h>
 #include <poll.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <deque>
 #include <filesystem>
 #include <iterator>
@@ -15,10 +17,10 @@
 
 #include "bench/process/child_process.h"
 #include "bench/process/clock.h"
-#include "bench/process/machine.h"
 #include "bench/run/outside_programs.h"
 #include "bench/run/plan.h"
 #include "bench/run/worker.h"
+#include "engine/base/machine.h"
 
 namespace etude {
 namespace {
@@ -66,8 +68,11 @@ struct Pace {
 
 class Supervisor {
  public:
-  Supervisor(const Plan& plan, std::vector<Order> orders, const SupervisorOptions& options, const Deliver& deliver)
+  /// Without `answered`, workers run the orders' methods; with it, they measure its cells.
+  Supervisor(const Plan& plan, std::vector<Order> orders, CellTable* answered, const SupervisorOptions& options,
+             const Deliver& deliver)
       : plan_(plan),
+        answered_(answered),
         orders_(plan, std::move(orders),
                 [this](int scenario) { return PaceOf(scenario).SecondsPerWorld().value_or(0) > kLongWorldS; }),
         options_(options),
@@ -107,24 +112,39 @@ class Supervisor {
   const Limits& LimitsOf(const Order& order) const { return plan_.scenario_of(order.world).scenario().limits; }
 
   /// Gives a worker what it has time for, or the end of its work.
-  void HandOut(Worker& worker) {
+  Result<void> HandOut(Worker& worker) {
     double ahead_s = 0;
     for (const Order& order : worker.orders) ahead_s += PaceOf(order).SecondsPerWorld().value_or(kAheadS);
     std::string lines;
     while (!orders_.empty() && (worker.orders.empty() || ahead_s < kAheadS)) {
       const Order& next = worker.orders.emplace_back(orders_.Take(worker.condition));
-      const World& world = plan_.world(next.world);
       if (!lines.empty()) lines += '\n';
-      fmt::format_to(std::back_inserter(lines), R"({{"world":[{},{},{}],"first_cell":{},"methods":[{}]}})",
-                     world.scenario, world.condition, world.trial, plan_.CellAt(next.world, 0),
-                     fmt::join(next.methods, ","));
+      RETURN_IF_ERROR(AddText(next, lines));
       ahead_s += PaceOf(next).SecondsPerWorld().value_or(kAheadS);
-      if (worker.orders.size() == 1) BeginWorld(worker);
+      if (worker.orders.size() == 1) RETURN_IF_ERROR(BeginWorld(worker));
     }
     if (!lines.empty()) worker.process.Send(lines);
-    if (!worker.orders.empty()) return;
+    if (!worker.orders.empty()) return {};
     worker.process.Finish(kShutdownGraceMs);
     worker.dismissed = true;
+    return {};
+  }
+
+  /// Adds what tells a worker of an order: the world, or the answered cells one by one.
+  Result<void> AddText(const Order& order, std::string& text) {
+    const World& world = plan_.world(order.world);
+    if (answered_ == nullptr) {
+      fmt::format_to(std::back_inserter(text), R"({{"world":[{},{},{}],"first_cell":{},"methods":[{}]}})",
+                     world.scenario, world.condition, world.trial, plan_.CellAt(order.world, 0),
+                     fmt::join(order.methods, ","));
+      return {};
+    }
+    for (std::size_t i = 0; i < order.methods.size(); ++i) {
+      ASSIGN_OR_RETURN(const auto line, answered_->ReadLine(plan_.CellAt(order.world, order.methods[i])));
+      if (i > 0) text += '\n';
+      text += line;
+    }
+    return {};
   }
 
   Pace& PaceOf(int scenario) { return paces_[static_cast<std::size_t>(scenario)]; }
@@ -145,33 +165,42 @@ class Supervisor {
     worker.deadline = After(clock_s);
   }
 
-  void BeginWorld(Worker& worker) {
-    worker.built = false;
+  /// Begins the world that is first in a worker's orders. To measure, no world is built.
+  Result<void> BeginWorld(Worker& worker) {
+    worker.built = answered_ != nullptr;
     worker.began = Clock::now();
     Begin(worker, kClockPerLimit * LimitsOf(worker.orders.front()).time_s);
+    return worker.built ? StartNextMethod(worker) : Result<void>();
   }
 
-  void EndWorld(Worker& worker) {
+  Result<void> EndWorld(Worker& worker) {
     Pace& pace = PaceOf(worker.orders.front());
     pace.seconds += SecondsSince(worker.began);
     ++pace.worlds;
     worker.orders.pop_front();
-    worker.orders.empty() ? HandOut(worker) : BeginWorld(worker);
+    return worker.orders.empty() ? HandOut(worker) : BeginWorld(worker);
   }
 
-  /// Begins the first method that is not answered yet.
-  void StartNextMethod(Worker& worker) {
+  /// Begins the first method whose line has not come yet.
+  Result<void> StartNextMethod(Worker& worker) {
     const Order& order = worker.orders.front();
     if (order.methods.empty()) return EndWorld(worker);
     const auto& methods = plan_.scenario_of(order.world).scenario().methods;
     const MethodEntry& method = methods[order.methods.front()];
     const double limit_s = LimitsOf(order).time_s;
-    const double ask_s = method.exec.empty() ? 0 : LongestAskSeconds(method.time_s.value_or(limit_s)) + kGraceS;
-    double measure_s = 0;
-    for (const OutsideMetric& metric : plan_.scenario_of(order.world).scenario().outside_metrics) {
-      measure_s += LongestAskSeconds(metric.program.time_s.value_or(limit_s)) + kGraceS;
+    const auto longest_ask_s = [&](const MethodEntry& program) {
+      return LongestAskSeconds(program.time_s.value_or(limit_s)) + kGraceS;
+    };
+    double seconds = method.RunsInTask() ? kClockPerLimit * limit_s : 0;
+    if (!method.exec.empty()) seconds += longest_ask_s(method);
+    if (answered_ != nullptr) {
+      seconds = 0;
+      for (const OutsideMetric& metric : plan_.scenario_of(order.world).scenario().outside_metrics) {
+        seconds += longest_ask_s(metric.program);
+      }
     }
-    Begin(worker, ask_s + measure_s + (method.RunsInTask() ? kClockPerLimit * limit_s : 0));
+    Begin(worker, seconds);
+    return {};
   }
 
   Result<void> Step() {
@@ -195,6 +224,7 @@ class Supervisor {
   }
 
   Result<void> WatchOver(Worker& worker, bool has_input) {
+    if (worker.process.broken_by() != 0) return ReplaceEnded(worker);  // it may never hear of what it is to do
     if (has_input) {
       const bool alive = worker.process.Receive();
       for (auto line = worker.process.NextLine(); line && !worker.dismissed; line = worker.process.NextLine()) {
@@ -202,8 +232,8 @@ class Supervisor {
         if (!taken) return Replace(worker, Status::kBadOutput, "its worker answered with something else");
       }
       if (worker.dismissed) return {};
-      if (!alive) return Replace(worker, Status::kCrashed, "its worker ended with " + worker.process.Finish());
-      if (worker.ready) HandOut(worker);  // what it has ahead of it
+      if (!alive) return ReplaceEnded(worker);
+      if (worker.ready) RETURN_IF_ERROR(HandOut(worker));  // what it has ahead of it
     }
     const auto now = Clock::now();
     if (now > worker.deadline) {
@@ -227,7 +257,8 @@ class Supervisor {
   }
 
   void CountNotRun(std::size_t cells, const std::string& why) {
-    if (not_run_ == 0) why_not_run_ = why;
+    const std::string prefix = std::string(kThisMachine) + ": ";  // which stands before it anyway
+    if (not_run_ == 0) why_not_run_ = why.starts_with(prefix) ? why.substr(prefix.size()) : why;
     not_run_ += cells;
   }
 
@@ -237,28 +268,43 @@ class Supervisor {
       if (line != kWorkerReady) return false;
       worker.ready = true;
       deaths_in_setup_ = 0;
-      HandOut(worker);
+      RETURN_IF_ERROR(HandOut(worker));
       return true;
     }
     if (worker.orders.empty()) return false;
     if (!worker.built) {
       worker.built = line == kWorldBuilt;
-      if (worker.built) StartNextMethod(worker);
+      if (worker.built) RETURN_IF_ERROR(StartNextMethod(worker));
       return worker.built;
     }
     Order& order = worker.orders.front();
     if (line.starts_with(kNotRun)) {
       CountNotRun(1, line.substr(std::string_view(kNotRun).size()));
       order.methods.erase(order.methods.begin());
-      StartNextMethod(worker);
+      RETURN_IF_ERROR(StartNextMethod(worker));
       return true;
     }
     const auto head = ReadCellLineHead(line);
     if (!head || head->cell != plan_.CellAt(order.world, order.methods.front())) return false;
+    const bool may_be_unmeasured =
+        answered_ == nullptr && !plan_.scenario_of(order.world).scenario().outside_metrics.empty();
+    if (!head->is_measured && !may_be_unmeasured) return false;
     order.methods.erase(order.methods.begin());
-    StartNextMethod(worker);
+    RETURN_IF_ERROR(StartNextMethod(worker));
     RETURN_IF_ERROR(deliver_({*head, line}));
     return true;
+  }
+
+  /// Replaces a worker that ended by itself, or cannot be talked to.
+  Result<void> ReplaceEnded(Worker& worker) {
+    if (const int reason = worker.process.broken_by(); reason != 0) {
+      return Replace(worker, {}, fmt::format("a worker cannot be talked to: {}", std::strerror(reason)));
+    }
+    const std::string end = worker.process.Finish();
+    const int code = worker.process.exit_code();
+    if (code == kCannotGoOn) return Replace(worker, {}, "a worker could not go on");
+    if (code == 128 + SIGXCPU) return Replace(worker, {}, "the limit of processor time is reached (ulimit -t)");
+    return Replace(worker, Status::kCrashed, "its worker ended with " + end);
   }
 
   /// Ends a worker, makes rows of what it was at, and starts another while there is work. Without a status it is this
@@ -306,6 +352,7 @@ class Supervisor {
   }
 
   const Plan& plan_;
+  CellTable* const answered_;  ///< that are measured; null = methods are run
   OrderQueue orders_;
   const SupervisorOptions& options_;
   const Deliver& deliver_;
@@ -317,12 +364,49 @@ class Supervisor {
   std::string why_not_run_;  ///< the first of them
 };
 
+/// The orders' cells that are among the answered ones, or those that are not.
+std::vector<Order> OrdersOf(const Plan& plan, const std::vector<Order>& orders, const CellTable& answered,
+                            bool are_answered) {
+  std::vector<Order> found;
+  for (Order order : orders) {
+    std::erase_if(order.methods,
+                  [&](std::size_t method) { return answered.Has(plan.CellAt(order.world, method)) != are_answered; });
+    if (!order.methods.empty()) found.push_back(std::move(order));
+  }
+  return found;
+}
+
+/// Runs methods, then measures what they have answered.
+Result<bool> RunAndMeasure(const SuiteSetup& setup, const Plan& plan, const std::vector<Order>& orders,
+                           const SupervisorOptions& options, const Deliver& deliver) {
+  CellTable& answered = *options.answered;
+  for (CellTable* const measured : {static_cast<CellTable*>(nullptr), &answered}) {
+    std::vector<Order> of_phase = OrdersOf(plan, orders, answered, measured != nullptr);
+    if (measured != nullptr && options.on_all_answered) RETURN_IF_ERROR(options.on_all_answered());
+    if (of_phase.empty()) continue;
+    ASSIGN_OR_RETURN(const bool whole, Supervisor(plan, std::move(of_phase), measured, options, deliver).Run(setup));
+    if (!whole) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Result<bool> RunOrders(const SuiteSetup& setup, const Plan& plan, std::vector<Order> orders,
                        const SupervisorOptions& options, const Deliver& deliver) {
   if (orders.empty()) return true;
-  return Supervisor(plan, std::move(orders), options, deliver).Run(setup);
+  if (!HasOutsideMetrics(plan)) return Supervisor(plan, std::move(orders), nullptr, options, deliver).Run(setup);
+  if (options.answered != nullptr) return RunAndMeasure(setup, plan, orders, options, deliver);
+  TemporaryLines lines(plan.cell_count());
+  SupervisorOptions keeping = options;
+  keeping.answered = &lines.cells();
+  return RunAndMeasure(setup, plan, orders, keeping, [&](const DeliveredCell& cell) {
+    return cell.head.is_measured ? deliver(cell) : lines.Add(cell.head.cell, cell.line);
+  });
+}
+
+bool HasOutsideMetrics(const Plan& plan) {
+  return std::ranges::any_of(plan.scenarios(), [](const auto& one) { return !one.scenario().outside_metrics.empty(); });
 }
 
 Result<FinishedCell> DeliveredCell::Read(const Plan& plan) const {

@@ -1,10 +1,15 @@
 #include "bench/run/worker.h"
 
 #include <Eigen/Core>
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
+#include <cstring>
 #include <iostream>
 #include <memory>
+#include <new>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,7 +17,9 @@
 #include "bench/run/cell_line.h"
 #include "bench/run/cell_runner.h"
 #include "bench/run/outside_programs.h"
+#include "bench/run/plan.h"
 #include "bench/run/secret_key.h"
+#include "engine/base/machine.h"
 
 namespace etude {
 namespace {
@@ -21,12 +28,35 @@ namespace {
 /// choice keeps the bytes the same on every machine.
 void FixEigenBlocking() { Eigen::setCpuCacheSizes(32 * 1024, 256 * 1024, 2 * 1024 * 1024); }
 
-int ProtocolError(const Error& error) {
+int GiveUp(const Error& error) {
   std::cerr << ToString(error) << '\n';
-  return 2;
+  return IsOfThisMachine(error) ? kCannotGoOn : 2;
 }
 
-/// Runs one order, answering as it goes.
+/// Says a line at once. Fails when it cannot be said: whoever waits for it would wait for ever.
+Result<void> Say(const std::string& line, std::ostream& out) {
+  if (out << line << '\n' << std::flush) return {};
+  return Fail({kThisMachine}, "a worker's answer cannot be written: {}", std::strerror(errno));
+}
+
+Result<void> Answer(std::size_t number, FinishedCell cell, std::ostream& out) {
+  const std::string why = cell.why_not_run;
+  return Say(why.empty() ? EncodeCellLine(number, std::move(cell)) : kNotRun + why, out);
+}
+
+/// Measures an answered cell.
+Result<void> Measure(const std::string& line, const Plan& plan, std::span<const std::unique_ptr<CellRunner>> runners,
+                     std::ostream& out) {
+  const Place place{"a worker's orders"};
+  const auto head = ReadCellLineHead(line);
+  if (!head || head->cell >= plan.cell_count()) return Fail(place, "not the line of a cell");
+  ASSIGN_OR_RETURN(auto answered, DecodeCellLine(line, plan.IdentityOf(head->cell), place));
+  const World& world = plan.world(plan.WorldOf(head->cell));
+  CellRunner& runner = *runners[static_cast<std::size_t>(world.scenario)];
+  return Answer(head->cell, runner.Measure(world.condition, std::move(answered)), out);
+}
+
+/// Runs the methods of one order, answering as it goes.
 Result<void> Execute(const Json& order, std::span<const std::unique_ptr<CellRunner>> runners, std::ostream& out) {
   const Json& world = order.at("world");
   const auto scenario = world.at(0).get<std::size_t>();
@@ -34,13 +64,41 @@ Result<void> Execute(const Json& order, std::span<const std::unique_ptr<CellRunn
   const auto first_cell = order.at("first_cell").get<std::size_t>();
   CellRunner& runner = *runners[scenario];
   runner.Open(world.at(1).get<int>(), world.at(2).get<int>());
-  out << kWorldBuilt << '\n' << std::flush;
+  RETURN_IF_ERROR(Say(kWorldBuilt, out));
   for (const Json& method : order.at("methods")) {
     const auto number = method.get<std::size_t>();
-    FinishedCell cell = runner.Run(number);
-    const std::string why = cell.why_not_run;
-    out << (why.empty() ? EncodeCellLine(first_cell + number, std::move(cell)) : kNotRun + why) << '\n' << std::flush;
+    RETURN_IF_ERROR(Answer(first_cell + number, runner.Run(number), out));
   }
+  return {};
+}
+
+Result<void> Work(std::istream& in, std::ostream& out) {
+  std::string line;
+  if (!std::getline(in, line)) return {};
+  const Place place{"a worker's set-up", 1, 0};
+  ASSIGN_OR_RETURN(const auto json, ReadJson(line, place.file, place.line));
+  ASSIGN_OR_RETURN(auto setup, DecodeSetup(json.at("setup"), place));
+  if (const auto key = ParseWords256(json.value("key", ""))) {
+    RETURN_IF_ERROR(OpenSeeds(SecretKey{*key, ""}, place, setup));
+  }
+  ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(setup));
+  const Fence fence = DecodeFence(json.at("fence"));
+  std::vector<std::unique_ptr<CellRunner>> runners;
+  for (const PreparedScenario& scenario : scenarios) {
+    runners.push_back(std::make_unique<CellRunner>(scenario, json.at("error_folder").get<std::string>(), fence));
+  }
+  std::optional<Plan> plan;  // a large run's is worth making only where cells are measured
+  RETURN_IF_ERROR(Say(kWorkerReady, out));
+  while (std::getline(in, line)) {
+    if (line.starts_with(kAnsweredBegin)) {
+      if (!plan) plan.emplace(scenarios);
+      RETURN_IF_ERROR(Measure(line, *plan, runners, out));
+      continue;
+    }
+    ASSIGN_OR_RETURN(const auto order, ReadJson(line, "a worker's orders"));
+    RETURN_IF_ERROR(Execute(order, runners, out));
+  }
+  if (&in == &std::cin && std::ferror(stdin) != 0) return Fail({kThisMachine}, "a worker's orders cannot be read");
   return {};
 }
 
@@ -52,34 +110,15 @@ int RunWorker(std::istream& in, std::ostream& out) {
   // A job scheduler signals every process of a job; only the parent decides whether workers stop.
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGTERM, SIG_IGN);
-  std::string line;
-  if (!std::getline(in, line)) return 0;
-  const Place place{"a worker's set-up", 1, 0};
-  const auto json = ReadJson(line, place.file, place.line);
-  if (!json) return ProtocolError(json.error());
+  in.exceptions(std::ios::badbit);  // memory for a line, else taken for the end
   try {
-    auto setup = DecodeSetup(json->at("setup"), place);
-    if (!setup) return ProtocolError(setup.error());
-    if (const auto key = ParseWords256(json->value("key", ""))) {
-      if (auto opened = OpenSeeds(SecretKey{*key, ""}, place, *setup); !opened) return ProtocolError(opened.error());
-    }
-    const auto scenarios = PrepareAll(*setup);
-    if (!scenarios) return ProtocolError(scenarios.error());
-    const Fence fence = DecodeFence(json->at("fence"));
-    std::vector<std::unique_ptr<CellRunner>> runners;
-    for (const PreparedScenario& scenario : *scenarios) {
-      runners.push_back(std::make_unique<CellRunner>(scenario, json->at("error_folder").get<std::string>(), fence));
-    }
-    out << kWorkerReady << '\n' << std::flush;
-    while (std::getline(in, line)) {
-      const auto order = ReadJson(line, "a worker's orders");
-      if (!order) return ProtocolError(order.error());
-      if (auto done = Execute(*order, runners, out); !done) return ProtocolError(done.error());
-    }
-  } catch (const Json::exception& error) {
-    return ProtocolError({place, error.what()});
+    const auto done = Work(in, out);
+    return done ? 0 : GiveUp(done.error());
+  } catch (const std::bad_alloc&) {
+    return GiveUp({{kThisMachine}, "there is no more memory for a worker"});
+  } catch (const std::exception& error) {
+    return GiveUp({{"a worker's orders"}, error.what()});
   }
-  return 0;
 }
 
 }  // namespace etude

@@ -99,11 +99,12 @@ bool IsPlainName(const std::string& name) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
            c == '.';
   };
-  return !name.empty() && name.size() <= 80 && name[0] != '.' && std::all_of(name.begin(), name.end(), plain);
+  return !name.empty() && name.size() <= 80 && name[0] != '.' && name[0] != '-' &&
+         std::all_of(name.begin(), name.end(), plain);
 }
 
 ValueKind PlainNameKind() {
-  return TextKind("at most 80 letters, digits, '-', '_', '.'", "^[A-Za-z0-9_-][A-Za-z0-9._-]{0,79}$");
+  return TextKind("at most 80 letters, digits, '-', '_', '.'", "^[A-Za-z0-9_][A-Za-z0-9._-]{0,79}$");
 }
 
 const FieldTable<MethodEntry>& OutsideMethodFields() {
@@ -136,8 +137,10 @@ const FieldTable<MethodEntry>& OutsideMethodFields() {
 std::string ReadPlainName(Fields& fields, std::string_view key) {
   std::string name = fields.RequiredText(key);
   if (fields.ok() && !IsPlainName(name)) {
-    fields.Complain(fields.node().Find(key)->place,
-                    fmt::format("'{}' is no {}; allowed: letters, digits, '-', '_' and '.', at most 80", name, key));
+    fields.Complain(
+        fields.node().Find(key)->place,
+        fmt::format("'{}' is no {}; allowed: letters, digits, '_', and behind the first '-' and '.', at most 80", name,
+                    key));
   }
   return name;
 }

@@ -5,8 +5,8 @@
 
 namespace etude {
 
-/// True when a name can be part of a cell's identity and of a file's name: letters, digits, '-', '_' and '.', at most
-/// 80, not beginning with a dot.
+/// True when a name can be part of a cell's identity and of a file's name: letters, digits, '_', and behind the
+/// first character '-' and '.', at most 80.
 bool IsPlainName(const std::string& name);
 /// A plain name as the value of a key.
 ValueKind PlainNameKind();

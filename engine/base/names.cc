@@ -4,10 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <cstdint>
-#include <utility>
+
+#include "engine/base/utf8.h"
 
 namespace etude {
 namespace {
@@ -30,32 +29,6 @@ int EditDistance(std::string_view a, std::string_view b) {
     }
   }
   return cost[a.size()][b.size()];
-}
-
-/// Returns how many bytes the printable character takes that `text` begins with, in UTF-8; 0 when there is none there:
-/// a control character, one that turns the direction of writing or takes no place, or bytes that are no UTF-8.
-std::size_t PrintableLength(std::string_view text) {
-  const auto first = static_cast<unsigned char>(text.front());
-  if (first < 0x80) return first >= ' ' && first <= '~' ? 1 : 0;
-  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
-  if (first < 0xc2 || first > 0xf4 || text.size() < length) return 0;
-  std::uint32_t code = first & (0xffU >> (length + 1));
-  for (const char c : text.substr(1, length - 1)) {
-    const auto byte = static_cast<unsigned char>(c);
-    if ((byte & 0xc0U) != 0x80) return 0;
-    code = code << 6U | (byte & 0x3fU);
-  }
-  constexpr std::array<std::pair<std::uint32_t, std::uint32_t>, 7> kHidden = {{{0x80, 0x9f},
-                                                                               {0x200b, 0x200f},
-                                                                               {0x2028, 0x202e},
-                                                                               {0x2060, 0x206f},
-                                                                               {0xd800, 0xdfff},
-                                                                               {0xfeff, 0xfeff},
-                                                                               {0x110000, 0x1fffff}}};
-  const std::uint32_t least = length == 2 ? 0x80 : length == 3 ? 0x800 : 0x10000;  // shorter forms are no UTF-8
-  const bool is_hidden =
-      std::ranges::any_of(kHidden, [&](auto range) { return range.first <= code && code <= range.second; });
-  return code < least || is_hidden ? 0 : length;
 }
 
 }  // namespace
@@ -93,9 +66,10 @@ std::string Quote(std::string_view text) {
   std::string quoted = "'";
   std::size_t shown = 0, at = 0;
   for (; at < text.size() && shown < kShown; ++shown) {
-    const std::size_t length = PrintableLength(text.substr(at));
-    quoted += length == 0 ? "?" : text.substr(at, length);
-    at += std::max<std::size_t>(length, 1);
+    const auto [code, length] = FirstCharacter(text.substr(at));
+    const bool is_seen = length > 0 && code >= ' ' && code != 0x7f && !IsHidden(code);
+    quoted += is_seen ? text.substr(at, length) : "?";
+    at += is_seen ? length : 1;
   }
   return quoted + (at < text.size() ? "…'" : "'");
 }

@@ -21,7 +21,7 @@ struct Error {
   std::string message;
 };
 
-/// Formats "file:line:column: message", leaving out what is not known; one line, control characters made spaces.
+/// Formats "file:line:column: message", leaving out what is not known; one line, safe to be shown (Visible).
 std::string ToString(const Error& error);
 std::string ToString(const Place& place);
 

@@ -1,49 +1,94 @@
 #include "engine/base/utf8.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <utility>
 
 namespace etude {
 namespace {
 
-std::uint8_t ByteAt(std::string_view text, std::size_t at) {
-  return at < text.size() ? static_cast<std::uint8_t>(text[at]) : 0;
-}
+constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD
 
-/// Returns how many bytes the character at `at` has (RFC 3629, section 4); 0 when no character begins there.
-std::size_t LengthAt(std::string_view text, std::size_t at) {
-  const std::uint8_t first = ByteAt(text, at), second = ByteAt(text, at + 1);
-  const auto follows = [&](std::size_t from, std::size_t to) {
-    for (std::size_t i = from; i < to; ++i) {
-      if ((ByteAt(text, at + i) & 0xc0) != 0x80) return false;
-    }
-    return true;
-  };
-  if (first < 0x80) return first == 0 ? 0 : 1;
-  if (first >= 0xc2 && first <= 0xdf) return follows(1, 2) ? 2 : 0;
-  if (first >= 0xe0 && first <= 0xef) {
-    const bool is_overlong = first == 0xe0 && second < 0xa0, is_surrogate = first == 0xed && second > 0x9f;
-    return !is_overlong && !is_surrogate && follows(1, 3) ? 3 : 0;
-  }
-  if (first >= 0xf0 && first <= 0xf4) {
-    const bool is_overlong = first == 0xf0 && second < 0x90, is_beyond = first == 0xf4 && second > 0x8f;
-    return !is_overlong && !is_beyond && follows(1, 4) ? 4 : 0;
-  }
-  return 0;
+/// Where the second byte of a longer character must lie: narrower than the others where a shorter form, a surrogate or
+/// a character beyond U+10FFFF would follow (RFC 3629, section 4).
+std::pair<std::uint8_t, std::uint8_t> SecondByteAfter(std::uint8_t first) {
+  if (first == 0xe0) return {0xa0, 0xbf};
+  if (first == 0xed) return {0x80, 0x9f};
+  if (first == 0xf0) return {0x90, 0xbf};
+  if (first == 0xf4) return {0x80, 0x8f};
+  return {0x80, 0xbf};
 }
 
 }  // namespace
 
+Utf8Character FirstCharacter(std::string_view text) {
+  const auto byte = [&](std::size_t at) { return static_cast<std::uint8_t>(text[at]); };
+  const std::uint8_t first = byte(0);
+  if (first < 0x80) return {first, 1};
+  if (first < 0xc2 || first > 0xf4) return {};
+  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  if (text.size() < length) return {};
+  const auto [least, most] = SecondByteAfter(first);
+  if (byte(1) < least || byte(1) > most) return {};
+  char32_t code = first & (0xffU >> (length + 1));
+  for (std::size_t at = 1; at < length; ++at) {
+    if ((byte(at) & 0xc0U) != 0x80) return {};
+    code = code << 6U | (byte(at) & 0x3fU);
+  }
+  return {code, length};
+}
+
 Result<void> CheckUtf8(std::string_view text, const std::string& file) {
   int line = 1, column = 1;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = LengthAt(text, at);
-    if (length == 0)
-      return Fail({file, line, column}, "byte 0x{:02x} is no UTF-8 text; save it as UTF-8", ByteAt(text, at));
-    column = text[at] == '\n' ? 1 : column + 1;
-    line += text[at] == '\n' ? 1 : 0;
-    at += length;
+  while (!text.empty()) {
+    const auto [code, length] = FirstCharacter(text);
+    if (length == 0 || code == 0) {
+      return Fail({file, line, column}, "byte 0x{:02x} is no UTF-8 text; save it as UTF-8",
+                  static_cast<std::uint8_t>(text.front()));
+    }
+    column = code == '\n' ? 1 : column + 1;
+    line += code == '\n' ? 1 : 0;
+    text.remove_prefix(length);
   }
   return {};
+}
+
+bool IsHidden(char32_t code) {
+  // Unicode's categories Cc, Cf, Zl and Zp beyond ASCII, but for signs of single scripts that are seen.
+  constexpr std::array<std::pair<char32_t, char32_t>, 10> kHidden = {{{0x80, 0x9f},
+                                                                      {0xad, 0xad},
+                                                                      {0x61c, 0x61c},
+                                                                      {0x180e, 0x180e},
+                                                                      {0x200b, 0x200f},
+                                                                      {0x2028, 0x202e},
+                                                                      {0x2060, 0x206f},
+                                                                      {0xfeff, 0xfeff},
+                                                                      {0xfff9, 0xfffb},
+                                                                      {0xe0000, 0xe007f}}};
+  return std::ranges::any_of(kHidden, [&](auto range) { return range.first <= code && code <= range.second; });
+}
+
+std::string NumberOf(char32_t code) { return fmt::format("[U+{:04X}]", static_cast<std::uint32_t>(code)); }
+
+std::string Visible(std::string_view text, std::string_view kept) {
+  std::string shown;
+  shown.reserve(text.size());
+  while (!text.empty()) {
+    const auto [code, length] = FirstCharacter(text);
+    const std::string_view bytes = text.substr(0, length);
+    if (length == 0) {
+      shown += kReplacement;
+    } else if ((code < ' ' || code == 0x7f) && kept.find(bytes) == std::string_view::npos) {
+      shown += ' ';
+    } else if (IsHidden(code)) {
+      shown += NumberOf(code);
+    } else {
+      shown += bytes;
+    }
+    text.remove_prefix(length == 0 ? 1 : length);
+  }
+  return shown;
 }
 
 }  // namespace etude

@@ -220,7 +220,7 @@
                  '−': '$-$', '–': '--', '°': '$^\\circ$', '±': '$\\pm$', '×': '$\\times$', '≤': '$\\le$', '≥': '$\\ge$', '“': '``', '”': "''", '’': "'", '…': '\\dots{}',
                  '↓': '$\\downarrow$', '↑': '$\\uparrow$', '▲': '$\\bigtriangleup$', '▼': '$\\bigtriangledown$'};
   const ESCAPES = {
-    TSV: (text) => text,
+    TSV: (text) => /^[=+@-]/.test(text) && isNaN(text) ? "'" + text : text,  // no formula in a spreadsheet
     Markdown: (text) => text.replace(/[\\`*_[\]<>#|&$~]/g, '\\$&'),
     LaTeX: (text) => text.replace(/[\\{}&%$#_]|[^\x20-\x7e]|[~^<>|]/gu, (c) => LATEX[c] ?? (c < '\x7f' ? '\\' + c : c)),
   };

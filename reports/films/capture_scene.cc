@@ -117,7 +117,7 @@ std::vector<Picture> DrawStrip(const CapturePanel& capture, Renderer& renderer) 
   return strip;
 }
 
-Result<void> SaveStripPictures(const CapturePanel& capture, Renderer& renderer, const std::filesystem::path& folder) {
+Result<void> SaveStripPictures(const CapturePanel& capture, Renderer& renderer, const FilePath& folder) {
   for (const int frame : StripFrames(capture)) {
     for (std::size_t camera = 0; camera < std::min(kShownCameras, capture.Cameras()); ++camera) {
       const std::string name = fmt::format("camera-{}-frame-{:03}.exr", camera + 1, frame);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,7 +14,7 @@ namespace etude {
 std::vector<Picture> DrawStrip(const CapturePanel& capture, Renderer& renderer);
 
 /// Saves the same moments with colour, depth and labels, as EXR files for other programs.
-Result<void> SaveStripPictures(const CapturePanel& capture, Renderer& renderer, const std::filesystem::path& folder);
+Result<void> SaveStripPictures(const CapturePanel& capture, Renderer& renderer, const FilePath& folder);
 
 /// Draws every stage of a capture's moments in the layout of paper B's figures 5.3 to 5.14: for each moment and camera
 /// the picture, the person cut out of it, the marks, the skeleton with its lengths fixed, and after inverse kinematics;

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "bench/films/encoder.h"
+#include "engine/base/machine.h"
 
 namespace etude {
 namespace {
@@ -33,10 +34,13 @@ Result<Child> StartReading(const Words& words, const Place& place) {
   child.log.reset(std::tmpfile());
   int ends[2];
   if (!child.log || pipe2(ends, O_CLOEXEC) != 0)
-    return Fail(place, "cannot talk to {}: {}", words[0], std::strerror(errno));
+    return Fail({kThisMachine}, "{} cannot be talked to: {}", words[0], std::strerror(errno));
   const int error = StartFilmProgram(words, kNowhere, ends[1], child.log.get(), child.pid);
   close(ends[1]);
   child.output.reset(fdopen(ends[0], "rb"));
+  if (error != 0 && error != ENOENT) {
+    return Fail({kThisMachine}, "{} cannot be started: {}", words[0], std::strerror(error));
+  }
   if (error != 0) {
     return Fail(place, "{} could not be started ({}); the Debian package ffmpeg brings it", words[0],
                 std::strerror(error));
@@ -83,7 +87,8 @@ Result<FilmFacts> ProbeFilm(const std::filesystem::path& path, const std::string
                     "default=nw=1", "file:" + path.string()},
                    place));
   auto keys = ReadKeys(child.output.get());
-  if (const int status = WaitForFilmProgram(child.pid); !WIFEXITED(status) || WEXITSTATUS(status) != 0 || keys.empty()) {
+  if (const int status = WaitForFilmProgram(child.pid);
+      !WIFEXITED(status) || WEXITSTATUS(status) != 0 || keys.empty()) {
     const std::string words = FirstLineOf(child.log.get());
     return Fail(place, "no film that ffmpeg can read{}{}", words.empty() ? "" : ": ", words);
   }

@@ -16,6 +16,7 @@
 #include "bench/files/files.h"
 #include "bench/files/temporary_folder.h"
 #include "bench/films/encoder.h"
+#include "engine/base/machine.h"
 #include "engine/formats/wav.h"
 #include "reports/films/look.h"
 #include "sim/music/music.h"
@@ -59,7 +60,8 @@ FilmWorkers::FilmWorkers(int frames, int jobs, int width, int height, FrameFeed 
 Result<void> FilmWorkers::MapSlots() {
   const std::size_t slots = workers_.size() * static_cast<std::size_t>(slots_), bytes = slots * SlotBytes();
   void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  if (memory == MAP_FAILED) return Fail({}, "there is no memory for {} frames: {}", slots, std::strerror(errno));
+  if (memory == MAP_FAILED)
+    return Fail({kThisMachine}, "there is no memory for {} frames: {}", slots, std::strerror(errno));
   memory_ = {static_cast<std::uint8_t*>(memory), Unmap{bytes}};
   return {};
 }
@@ -98,7 +100,7 @@ Result<FilmWorkers> FilmWorkers::Start(int frames, int jobs, const Draw& draw, F
   for (std::size_t i = 0; i < film.workers_.size(); ++i) {
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
-      return Fail({}, "cannot talk to a drawing process: {}", std::strerror(errno));
+      return Fail({kThisMachine}, "cannot talk to a drawing process: {}", std::strerror(errno));
     }
     const pid_t child = fork();
     if (child == 0) {
@@ -110,7 +112,7 @@ Result<FilmWorkers> FilmWorkers::Start(int frames, int jobs, const Draw& draw, F
     }
     close(ends[1]);
     film.workers_[i] = {.child = child, .talk = ends[0]};
-    if (child < 0) return Fail({}, "cannot start a drawing process: {}", std::strerror(errno));
+    if (child < 0) return Fail({kThisMachine}, "cannot start a drawing process: {}", std::strerror(errno));
   }
   if (film.feed_.bytes > 0) {
     std::ranges::copy(of_first, film.SlotOf(0, 0).feed.begin());
@@ -184,7 +186,7 @@ class SoundFile {
   std::filesystem::path path_;
 };
 
-Result<std::string> Encode(Scene& scene, const std::filesystem::path& path, const FilmWatch& watch) {
+Result<std::string> Encode(Scene& scene, const FilePath& path, const FilmWatch& watch) {
   ASSIGN_OR_RETURN(const SoundFile sound, SoundFile::Make(scene));
   const auto draw = [&](int frame) { return scene.Draw(frame); };
   ASSIGN_OR_RETURN(const bool is_whole, EncodeFrames(path, scene.Frames(), kFilmRate, draw, watch, sound.path()));
@@ -192,15 +194,15 @@ Result<std::string> Encode(Scene& scene, const std::filesystem::path& path, cons
   return ReadWholeFile(path);
 }
 
-Result<bool> EncodeDrawn(const std::filesystem::path& path, int frames, int rate_hz, FilmWorkers workers,
-                         const FilmWatch& watch, const std::filesystem::path& sound) {
+Result<bool> EncodeDrawn(const FilePath& path, int frames, int rate_hz, FilmWorkers workers, const FilmWatch& watch,
+                         const std::filesystem::path& sound) {
   ASSIGN_OR_RETURN(auto encoder,
                    Encoder::Start(path, workers.width(), workers.height(), rate_hz, sound, Encoder::Form::kI420));
   for (int frame = 0; frame < frames; ++frame) {
     if (watch.IsStopped()) return false;
     ASSIGN_OR_RETURN(const auto picture, workers.Next());
     RETURN_IF_ERROR(encoder.Add(picture));
-    watch.Tell(path, static_cast<std::size_t>(frame + 1), static_cast<std::size_t>(frames));
+    watch.Tell(path.whole(), static_cast<std::size_t>(frame + 1), static_cast<std::size_t>(frames));
   }
   RETURN_IF_ERROR(encoder.Finish());
   return true;
@@ -208,15 +210,14 @@ Result<bool> EncodeDrawn(const std::filesystem::path& path, int frames, int rate
 
 }  // namespace
 
-Result<bool> EncodeFrames(const std::filesystem::path& path, int frames, int rate_hz,
-                          const std::function<Canvas(int frame)>& draw, const FilmWatch& watch,
-                          const std::filesystem::path& sound) {
+Result<bool> EncodeFrames(const FilePath& path, int frames, int rate_hz, const std::function<Canvas(int frame)>& draw,
+                          const FilmWatch& watch, const std::filesystem::path& sound) {
   const auto draw_alone = [&](int frame, std::span<const std::uint8_t>) { return draw(frame); };
   ASSIGN_OR_RETURN(auto workers, FilmWorkers::Start(frames, watch.jobs, draw_alone));
   return EncodeDrawn(path, frames, rate_hz, std::move(workers), watch, sound);
 }
 
-Result<bool> EncodeFedFrames(const std::filesystem::path& path, int frames, int rate_hz, FrameFeed feed,
+Result<bool> EncodeFedFrames(const FilePath& path, int frames, int rate_hz, FrameFeed feed,
                              const FilmWorkers::Draw& draw, const FilmWatch& watch) {
   ASSIGN_OR_RETURN(auto workers, FilmWorkers::Start(frames, watch.jobs, draw, std::move(feed)));
   return EncodeDrawn(path, frames, rate_hz, std::move(workers), watch, {});
@@ -234,9 +235,9 @@ Picture PictureOf(const Canvas& canvas, std::string caption) {
   return {canvas.Png(), canvas.width(), canvas.height(), std::move(caption)};
 }
 
-Film Shoot(Scene& scene, const std::filesystem::path& path, const FilmWatch& watch) {
+Film Shoot(Scene& scene, const FilePath& path, const FilmWatch& watch) {
   Film film;
-  film.file = path.filename().string();
+  film.file = path.whole().filename().string();
   film.poster = PictureOf(scene.Draw(scene.PosterFrame()), scene.Words());
   if (auto mp4 = Encode(scene, path, watch)) {
     film.mp4 = std::move(*mp4);

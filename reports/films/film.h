@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/files/file_path.h"
 #include "engine/base/result.h"
 #include "reports/films/canvas.h"
 
@@ -135,11 +136,10 @@ class Scene {
 
 /// Encodes frames that FilmWorkers draw into `path`, with a sound file or none. False when `watch` stopped it: there is
 /// no file then.
-Result<bool> EncodeFrames(const std::filesystem::path& path, int frames, int rate_hz,
-                          const std::function<Canvas(int frame)>& draw, const FilmWatch& watch,
-                          const std::filesystem::path& sound = {});
+Result<bool> EncodeFrames(const FilePath& path, int frames, int rate_hz, const std::function<Canvas(int frame)>& draw,
+                          const FilmWatch& watch, const std::filesystem::path& sound = {});
 /// The same, in silence, of frames that are drawn from what `feed` gives.
-Result<bool> EncodeFedFrames(const std::filesystem::path& path, int frames, int rate_hz, FrameFeed feed,
+Result<bool> EncodeFedFrames(const FilePath& path, int frames, int rate_hz, FrameFeed feed,
                              const FilmWorkers::Draw& draw, const FilmWatch& watch);
 
 /// Makes an empty canvas of a film's size, with its heading in the uppermost 52 pixels.
@@ -149,6 +149,6 @@ Picture PictureOf(const Canvas& canvas, std::string caption);
 
 /// Draws the poster and encodes all frames into `path`. Without an encoder, or when `watch` stops it, the film is its
 /// poster and says why.
-Film Shoot(Scene& scene, const std::filesystem::path& path, const FilmWatch& watch = {});
+Film Shoot(Scene& scene, const FilePath& path, const FilmWatch& watch = {});
 
 }  // namespace etude

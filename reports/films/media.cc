@@ -19,6 +19,10 @@
 namespace etude {
 namespace {
 
+constexpr const char* kRunFilm = "etude.mp4";
+constexpr const char *kConvergence = "convergence", *kTransitions = "transitions", *kSession = "session",
+                     *kWorstSession = "worst-session", *kJudged = "judged";
+
 void Note(std::string& words, const std::string& more) { words += (words.empty() ? "" : " ") + more; }
 
 void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch& watch, Media& media) {
@@ -42,7 +46,7 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch&
     return;
   }
   const auto shoot = [&](Scene&& scene) {
-    Film film = Shoot(scene, paths.films / "etude.mp4", watch);
+    Film film = Shoot(scene, paths.films / kRunFilm, watch);
     if (!film.why_not.empty()) Note(why, film.why_not);
     film.why_not = why;
     media.film = std::move(film);
@@ -79,17 +83,17 @@ void MakePlates(const RunData& run, Media& media) {
 }
 
 /// The place of a film that cannot be made.
-Film NoFilm(const std::filesystem::path& path, std::string why_not) {
+Film NoFilm(const FilePath& path, std::string why_not) {
   Film film;
-  film.file = path.filename().string();
+  film.file = path.whole().filename().string();
   film.why_not = std::move(why_not);
   return film;
 }
 
 /// Films methods side by side in one world; else says why there is no film of `what`.
 template <typename SideBySide, typename Race>
-Film MakeComparingFilm(Result<Race> race, const std::string& scenario, std::string_view what,
-                       const std::filesystem::path& path, const FilmWatch& watch) {
+Film MakeComparingFilm(Result<Race> race, const std::string& scenario, std::string_view what, const FilePath& path,
+                       const FilmWatch& watch) {
   if (!race) return NoFilm(path, fmt::format("There is no film of {}: {}.", what, ToString(race.error())));
   const auto renderer = SharedRenderer();
   if (!renderer) return NoFilm(path, "There are no pictures: " + ToString(renderer.error()));
@@ -105,7 +109,7 @@ std::string FilmName(const RunData& run, std::size_t index, std::string_view wha
 }
 
 /// Films a coached session, around a correction unless whole ones are wanted; else says why there is none.
-Film MakeSessionFilm(const std::optional<CastCell>& cell, const std::string& which, const std::filesystem::path& path,
+Film MakeSessionFilm(const std::optional<CastCell>& cell, const std::string& which, const FilePath& path,
                      const MediaOptions& options) {
   if (!cell) return NoFilm(path, "There is no film of a session: no motion of one was kept.");
   auto facts = ReadCoachedSession(*cell);
@@ -128,12 +132,12 @@ void MakeSessionFilms(const RunData& run, std::size_t index, const MediaPaths& p
     media.scenario_films.push_back({scenario.name, std::move(film)});
   };
   const auto typical = ChooseCell(run, scenario, "coach"), worst = ChooseWorstSession(run, scenario);
-  add(typical, "a typical session", "session");
+  add(typical, "a typical session", kSession);
   const auto same = [&] {
     return worst->row->trial == typical->row->trial && worst->row->method == typical->row->method;
   };
   if (!worst || (typical && same())) return;
-  add(worst, "the worst session", "worst-session");
+  add(worst, "the worst session", kWorstSession);
 }
 
 /// Films a typical session before the sensor; nothing where no motion of one was kept, which scenarios need not.
@@ -143,7 +147,7 @@ std::optional<Film> MakeJudgedFilm(const RunData& run, std::size_t index, const 
   const auto cell = ChooseCell(run, scenario, "sensed");
   if (!cell) return std::nullopt;
   auto facts = ReadJudgedSession(run, *cell);
-  const std::filesystem::path path = paths.films / FilmName(run, index, "judged");
+  const FilePath path = paths.films / FilmName(run, index, kJudged);
   if (!facts) return NoFilm(path, "There is no film of a session: " + ToString(facts.error()));
   const int longest = options.whole_sessions ? std::numeric_limits<int>::max() : 24 * kFilmRate;
   JudgedScene scene(std::move(*facts), fmt::format("{} · trial {}", scenario.name, cell->row->trial), longest);
@@ -151,6 +155,16 @@ std::optional<Film> MakeJudgedFilm(const RunData& run, std::size_t index, const 
 }
 
 }  // namespace
+
+std::set<std::string> FilmNames(const RunData& run) {
+  std::set<std::string> names = {kRunFilm};
+  for (std::size_t i = 0; i < run.scenarios.size(); ++i) {
+    for (const char* what : {kConvergence, kTransitions, kSession, kWorstSession, kJudged}) {
+      names.insert(FilmName(run, i, what));
+    }
+  }
+  return names;
+}
 
 Media MakeMedia(const RunData& run, const MediaPaths& paths, const MediaOptions& options) {
   Media media;
@@ -161,10 +175,10 @@ Media MakeMedia(const RunData& run, const MediaPaths& paths, const MediaOptions&
     Film film;
     if (scenario.task == "ik") {
       film = MakeComparingFilm<ConvergenceScene>(FindIkRace(run, scenario), scenario.name, "two methods settling",
-                                                 paths.films / FilmName(run, i, "convergence"), options.watch);
+                                                 paths.films / FilmName(run, i, kConvergence), options.watch);
     } else if (auto race = FindTransitionRace(run, scenario)) {
       film = MakeComparingFilm<TransitionScene>(std::move(race), scenario.name, "transitions of several methods",
-                                                paths.films / FilmName(run, i, "transitions"), options.watch);
+                                                paths.films / FilmName(run, i, kTransitions), options.watch);
     } else if (scenario.task == "coach") {
       MakeSessionFilms(run, i, paths, options, media);
       continue;

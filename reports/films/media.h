@@ -1,6 +1,6 @@
 #pragma once
 
-#include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,14 +33,17 @@ struct Media {
 
 /// The folders that files go to which stand beside the page.
 struct MediaPaths {
-  std::filesystem::path films;     ///< a folder: the MP4s
-  std::filesystem::path pictures;  ///< a folder: colour, depth and labels of the strip's moments, as EXR
+  FilePath films;     ///< a folder: the MP4s
+  FilePath pictures;  ///< a folder: colour, depth and labels of the strip's moments, as EXR
 };
 
 struct MediaOptions {
   bool whole_sessions = false;  ///< sessions are not cut: coached ones around a correction, judged ones to 24 s
   FilmWatch watch = {};
 };
+
+/// The names that films of this run may have.
+std::set<std::string> FilmNames(const RunData& run);
 
 /// Draws what the recordings of a run show: the films, their posters, the strip and the pictures behind it.
 /// Whatever cannot be made is left out, with the reason in `why_not`; never a failure of the report.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/base/csv.h"
 #include "reports/paper/paper_b_tables.h"
 #include "reports/plots/curve_plot.h"
 #include "reports/words/cell_series.h"
@@ -250,8 +251,8 @@ std::string PaperBCsv(const RunData& run, const ScenarioSummary& scenario) {
   std::string csv;
   for (const PaperBCondition& condition : PaperBTables(run, scenario)) {
     for (const PaperBSet& set : condition.sets) {
-      const std::string prefix = fmt::format("{},{},{},", EscapeCsv(scenario.name),
-                                             EscapeCsv(ConditionLabel(condition.condition)), EscapeCsv(set.title));
+      const std::string prefix = fmt::format("{},{},{},", CsvText(scenario.name),
+                                             CsvText(ConditionLabel(condition.condition)), CsvText(set.title));
       for (const PaperTable& table : set.errors) csv += PaperTableCsv(table, prefix);
       for (const PaperTable& table : set.angles) csv += PaperTableCsv(table, prefix);
     }

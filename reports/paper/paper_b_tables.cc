@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "engine/base/csv.h"
 #include "reports/words/cell_series.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
@@ -98,8 +99,8 @@ std::string PaperTableCsv(const PaperTable& table, const std::string& prefix) {
     for (const PaperColumns& group : table.columns) {
       for (const std::string& name : group.names) {
         const std::optional<double>& value = row.values[i++];
-        csv += fmt::format("{}{},{},{},{},{}\n", prefix, EscapeCsv(table.caption), EscapeCsv(row.label),
-                           EscapeCsv(group.head), EscapeCsv(name), ExactText(value));
+        csv += fmt::format("{}{},{},{},{},{}\n", prefix, CsvText(table.caption), CsvText(row.label),
+                           CsvText(group.head), CsvText(name), ExactText(value));
       }
     }
   }

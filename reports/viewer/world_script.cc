@@ -14,6 +14,7 @@
 #include "engine/base/base64.h"
 #include "engine/motion/support.h"
 #include "reports/transitions/recorded_requests.h"
+#include "reports/words/escape.h"
 #include "reports/words/judged.h"
 
 namespace etude {
@@ -93,18 +94,12 @@ class Writer {
 
   Json Write(const ScenarioSummary& scenario, const std::string& title) {
     const auto [error, unit] = ErrorOf(task_);
-    json_ = {{"file", world_.file},
-             {"title", title},
-             {"rate_hz", RateHz()},
-             {"floor_m", 0},
-             {"error", error},
-             {"unit", unit},
-             {"notes", Json::array()},
-             {"cells", Json::array()},
-             {"bodies", Json::array()},
-             {"targets_m", Json::array()},
-             {"steps", Json::array()},
-             {"marks", Json::array()}};
+    json_ = {{"file", world_.file},     {"title", title},
+             {"rate_hz", RateHz()},     {"floor_m", 0},
+             {"error", error},          {"unit", unit},
+             {"notes", Json::array()},  {"cells", Json::array()},
+             {"bodies", Json::array()}, {"targets_m", Json::array()},
+             {"steps", Json::array()},  {"marks", Json::array()}};
     for (cell_ = 0; cell_ < world_.cells.size(); ++cell_) {
       const RecordedCell& cell = world_.cells[cell_];
       json_["cells"].push_back({{"id", cell.row->Id()},
@@ -341,7 +336,7 @@ std::string WorldScript(const RunData& run, const RecordedWorld& world) {
   std::string title = fmt::format("{}, {}", run.scenarios[world.scenario].name, world.Name());
   if (!row.clip.empty()) title += fmt::format(", {}", row.clip);
   const Json json = Writer(world, row.task).Write(run.scenarios[world.scenario], title);
-  return fmt::format("etudeMotion({});\n", json.dump(-1, ' ', true, Json::error_handler_t::replace));
+  return fmt::format("etudeMotion({});\n", EscapeScriptJson(json.dump(-1, ' ', true, Json::error_handler_t::replace)));
 }
 
 }  // namespace etude

@@ -10,7 +10,8 @@ namespace etude {
 /// name can neither break a file nor read as another.
 std::string EscapeMarkup(std::string_view text);
 
-/// Makes JSON safe inside a <script> element: no "<" survives, so nothing in it can end the element.
+/// Makes JSON safe inside a <script> element: no "<" survives, so nothing in it can end the element; what turns text
+/// around becomes its number.
 std::string EscapeScriptJson(std::string_view json);
 
 /// Makes text safe in a line or table cell of Markdown; what turns text around becomes its number.
@@ -19,9 +20,6 @@ std::string EscapeMarkdown(std::string_view text);
 /// Makes text safe in LaTeX outside of mathematics, for pdflatex without packages. A character beyond what its fonts
 /// hold becomes its number, "[U+4E2D]": a table with a foreign name still compiles.
 std::string EscapeLatex(std::string_view text);
-
-/// Writes a field of a CSV file (RFC 4180), quoted when it must be.
-std::string EscapeCsv(std::string_view text);
 
 /// Gives the name, without an ending, of the files of a run's scenario number `index`. A scenario's name comes from a
 /// file of the user: only harmless characters reach a path, and no two scenarios of a run share a name.

@@ -10,8 +10,9 @@
 
 namespace etude {
 
-/// The key of a world's dice: never the method, never the condition's values, so that every method meets the same world
-/// and a sweep changes strengths, not the dice.
+/// The key of a world's dice: never the method, so that every method meets the same world, and never the condition's
+/// values, so that a sweep changes strengths, not the dice. Secret worlds alone have dice of their own for every
+/// condition: `scenario` then names the condition, too.
 struct WorldKey {
   Seed suite_seed = 1;
   std::string_view scenario;

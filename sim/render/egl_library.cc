@@ -49,8 +49,7 @@ Result<GlLibrary> LoadEgl() {
   // Mesa's rasteriser, whatever graphics card there is.
   ::setenv("LIBGL_ALWAYS_SOFTWARE", "true", 1);
   ::setenv("GALLIUM_DRIVER", "llvmpipe", 1);
-  void* library = ::dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL);
-  if (library == nullptr) return Fail({}, "EGL cannot be loaded: {}", ::dlerror());
+  ASSIGN_OR_RETURN(void* const library, OpenGlLibrary("EGL", "libEGL.so.1"));
 #define ETUDE_EGL_LOAD(name)                                                      \
   egl.name = reinterpret_cast<decltype(egl.name)>(::dlsym(library, "egl" #name)); \
   if (!egl.name) return Fail({}, "EGL lacks the function egl{}; 1.5 is needed", #name);

@@ -208,6 +208,7 @@ KeptRoom KeptRooms::Draw(const Room& room, const Camera& camera) {
   std::vector<float> four(4 * pixels);
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT0);
   gl_.ReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, four.data());
+  CheckMemory(gl_);
   kept.colours.resize(3 * pixels);
   kept.depths.resize(pixels);
   for (std::size_t i = 0; i < pixels; ++i) {
@@ -216,6 +217,7 @@ KeptRoom KeptRooms::Draw(const Room& room, const Camera& camera) {
   }
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT1);
   gl_.ReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, four.data());
+  CheckMemory(gl_);
   kept.lamp_shares.resize(3 * pixels);
   kept.labels.resize(pixels);
   for (std::size_t i = 0; i < pixels; ++i) {

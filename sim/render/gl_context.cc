@@ -1,5 +1,6 @@
 #include "sim/render/gl_context.h"
 
+#include <new>
 #include <string_view>
 
 #ifdef __SANITIZE_ADDRESS__
@@ -79,6 +80,10 @@ Result<GLuint> GlContext::LinkProgram(const std::string& vertex_source, const st
   gl.GetProgramInfoLog(program, static_cast<GLsizei>(log.size()), &length, log.data());
   log.resize(static_cast<std::size_t>(length));
   return Fail({}, "this GL does not link one of Etude's shader programs: {}", log);
+}
+
+void CheckMemory(const GlFunctions& gl) {
+  if (gl.GetError() == GL_OUT_OF_MEMORY) throw std::bad_alloc();
 }
 
 GLuint MakeUnfilteredTexture(const GlFunctions& gl) {

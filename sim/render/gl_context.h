@@ -55,6 +55,7 @@ namespace etude {
   X(PFNGLGENRENDERBUFFERSPROC, GenRenderbuffers)               \
   X(PFNGLGENTEXTURESPROC, GenTextures)                         \
   X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                 \
+  X(PFNGLGETERRORPROC, GetError)                               \
   X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)             \
   X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                       \
   X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)               \
@@ -114,6 +115,9 @@ class GlContext {
   void* context_ = nullptr;
   GlFunctions functions_;
 };
+
+/// Throws std::bad_alloc when GL lacked memory since it was asked last: what it then drew is no picture.
+void CheckMemory(const GlFunctions& gl);
 
 /// Makes a texture without filtering and leaves it bound.
 GLuint MakeUnfilteredTexture(const GlFunctions& gl);

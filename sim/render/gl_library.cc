@@ -1,8 +1,13 @@
 #include "sim/render/gl_library.h"
 
+#include <dlfcn.h>
+
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <string_view>
 
+#include "engine/base/machine.h"
 #include "engine/base/names.h"
 
 namespace etude {
@@ -25,10 +30,19 @@ Result<GlLibrary> Load() {
   if (by_osmesa) return by_osmesa;
   auto by_egl = LoadEgl();
   if (by_egl) return by_egl;
-  return Fail({}, "nothing can be drawn: {}; {}", by_osmesa.error().message, by_egl.error().message);
+  const bool is_short = IsOfThisMachine(by_osmesa.error()) || IsOfThisMachine(by_egl.error());
+  return Fail({is_short ? kThisMachine : ""}, "nothing can be drawn: {}; {}", by_osmesa.error().message,
+              by_egl.error().message);
 }
 
 }  // namespace
+
+Result<void*> OpenGlLibrary(const char* name, const char* file) {
+  if (void* const library = ::dlopen(file, RTLD_LAZY | RTLD_LOCAL)) return library;
+  const std::string why = ::dlerror();
+  const bool is_installed = why.find(std::strerror(ENOENT)) == std::string::npos;
+  return Fail({is_installed ? kThisMachine : ""}, "{} cannot be loaded: {}", name, why);
+}
 
 Result<void> CheckGlChoice() {
   const std::string_view choice = Choice();

@@ -16,6 +16,10 @@ struct GlLibrary {
   void* (*find_function)(const char* name) = nullptr;  ///< null for one that there is not
 };
 
+/// Opens a shared library. Fails with an error of this machine where the library is there and cannot be loaded: it lacks
+/// something, such as address space.
+Result<void*> OpenGlLibrary(const char* name, const char* file);
+
 /// Loads OSMesa. Fails where it is missing, or was when this was built.
 Result<GlLibrary> LoadOsMesa();
 

@@ -179,6 +179,7 @@ void FrameTargets::Read(const PixelRect& rect, int top_row, Targets targets, Vie
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT0);
   // Four bytes a pixel are what the framebuffer holds; letting GL drop the fourth is slower.
   gl_.ReadPixels(rect.left, rect.top, width, rect.Height(), GL_RGBA, GL_UNSIGNED_BYTE, bytes_.data());
+  CheckMemory(gl_);
   const std::uint8_t* source = bytes_.data();
   for (int y = rect.top; y < rect.bottom; ++y) {
     Rgb8* row = &view.colour.At(rect.left, y - top_row);
@@ -192,6 +193,7 @@ void FrameTargets::Read(const PixelRect& rect, int top_row, Targets targets, Vie
 
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT1);
   gl_.ReadPixels(rect.left, rect.top, width, rect.Height(), GL_RED_INTEGER, GL_UNSIGNED_BYTE, bytes_.data());
+  CheckMemory(gl_);
   for (int y = 0; y < rect.Height(); ++y) {
     const std::uint8_t* labels = &bytes_[static_cast<std::size_t>(y) * width];
     std::uint32_t* row = &view.labels.At(rect.left, rect.top + y - top_row);
@@ -202,6 +204,7 @@ void FrameTargets::Read(const PixelRect& rect, int top_row, Targets targets, Vie
   depths_.resize(pixels);
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT2);
   gl_.ReadPixels(rect.left, rect.top, width, rect.Height(), GL_RED, GL_FLOAT, depths_.data());
+  CheckMemory(gl_);
   for (int y = 0; y < rect.Height(); ++y) {
     const float* depths = &depths_[static_cast<std::size_t>(y) * width];
     float* row = &view.depth.At(rect.left, rect.top + y - top_row);
@@ -215,6 +218,7 @@ void FrameTargets::Read(const PixelRect& rect, Overlay& overlay) {
   gl_.ReadPixels(rect.left, rect.top, rect.Width(), rect.Height(), GL_RGBA, GL_UNSIGNED_BYTE,
                  &overlay.bytes[4 * (static_cast<std::size_t>(rect.top) * overlay.width + rect.left)]);
   gl_.PixelStorei(GL_PACK_ROW_LENGTH, 0);
+  CheckMemory(gl_);
 }
 
 }  // namespace etude

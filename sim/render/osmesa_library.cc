@@ -44,8 +44,7 @@ void MakeOsMesaCurrent(void* context) {
 }  // namespace
 
 Result<GlLibrary> LoadOsMesa() {
-  void* library = ::dlopen("libOSMesa.so.8", RTLD_LAZY | RTLD_LOCAL);
-  if (library == nullptr) return Fail({}, "OSMesa cannot be loaded: {}", ::dlerror());
+  ASSIGN_OR_RETURN(void* const library, OpenGlLibrary("OSMesa", "libOSMesa.so.8"));
 #define ETUDE_OSMESA_LOAD(name)                                                            \
   osmesa.name = reinterpret_cast<decltype(osmesa.name)>(::dlsym(library, "OSMesa" #name)); \
   if (!osmesa.name) return Fail({}, "OSMesa lacks the function OSMesa{}", #name);

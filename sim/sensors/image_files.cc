@@ -16,6 +16,7 @@
 #include <fstream>
 
 #include "engine/base/image.h"
+#include "engine/base/machine.h"
 
 namespace etude {
 namespace {
@@ -30,7 +31,7 @@ Result<std::string> ReadBytes(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return Fail({path}, "no such file");
   const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) return Fail({path}, "cannot be read: {}", error.message());
+  if (error) return CannotRead(path, "cannot be read", error.value());
   if (size > kLargestFile) return Fail({path}, "{} bytes; a picture file has at most {}", size, kLargestFile);
   std::ifstream file(path, std::ios::binary);
   std::string bytes(size, '\0');
@@ -43,7 +44,7 @@ Result<void> WriteBytes(const std::string& bytes, const std::string& path) {
   std::ofstream file(path, std::ios::binary | std::ios::trunc);
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.close();
-  if (file.fail()) return Fail({path}, "cannot be written: {}", std::strerror(errno));
+  if (file.fail()) return CannotWrite(path, "cannot be written", errno);
   return {};
 }
 

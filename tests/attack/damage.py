@@ -1,7 +1,7 @@
 """Damaged files: of a sealed run, of one that is read all the same (--unsealed), of an interrupted run's journal, of a shard, a
-baseline and a pack. A damage is thrown from its round's number; then a command reads the file. What is sealed must be refused by its
-file's name; what is gone on with must give the same bytes or be refused; and nothing may end in a signal, or in more than one
-complaint."""
+baseline and a pack; and every kind of file that a command reads of its user. A damage is thrown from its round's number; then a
+command reads the file. What is sealed must be refused by its file's name; what is gone on with must give the same bytes or be
+refused; and nothing may end in a signal, or in more than one complaint."""
 import json
 import os
 import pathlib
@@ -20,6 +20,7 @@ methods:
 video: {compare: [fixed, least-squares], trials: [0]}
 """
 RESULTS = ("cells.jsonl", "summary.json")
+LOCK = shutil.ignore_patterns("lock")  # which nobody may read
 READERS = {
     "report": ["report", "--no-video", "RUN"],
     "gate": ["gate", "RUN", "--baseline", "BASELINE"],
@@ -27,6 +28,13 @@ READERS = {
     "rows": ["rows", "RUN"],
     "replay": ["replay", "RUN"],
     "verify": ["verify", "RUN"],
+}
+# Files of a user: how each is made, and what reads it.
+FILES = {f"clap.{ending}": (["clip", "convert", "builtin:clap", "FILE"], ["clip", "info", "FILE"])
+         for ending in ("bvh", "glb", "trc", "csv", "c3d", "npz", "mot")} | {
+    "tags.xml": (["bridge", "builtin:clap", "builtin:sway", "-o", "FILE"], ["bridge", "builtin:clap", "builtin:sway", "--check", "FILE"]),
+    "moves.yaml": (["teach", "clap.csv", "-o", "FILE"], ["recognise", "clap.csv", "--moves", "FILE"]),
+    "s.yaml": (None, ["run", "FILE", "--dry-run"]),
 }
 CAN_UNSEALED = ("report", "gate", "compare", "rows", "replay")
 
@@ -79,6 +87,9 @@ class Damage:
         self.shards = [self.folder / f"shard-{i}" for i in (1, 2)]
         for i, shard in enumerate(self.shards, 1):
             self.must("run", self.scenario, "-o", shard, "--jobs", "1", "--shard", f"{i}/2")
+        for name, (made, _) in FILES.items():
+            if made:
+                self.must(*("FILE" == word and name or word for word in made))
         self.interrupted = self.folder / "interrupted"
         self.interrupt()
 
@@ -104,18 +115,18 @@ class Damage:
             return self.interrupt()
         self.resumed = self.folder / "resumed"
         shutil.rmtree(self.resumed, ignore_errors=True)
-        shutil.copytree(self.interrupted, self.resumed)
+        shutil.copytree(self.interrupted, self.resumed, ignore=LOCK)
         self.must("run", self.scenario, "-o", self.resumed, "--jobs", "1", "--trials", "60", "--resume")
 
     def round(self, number):
         """Gives what was damaged how, what read it, and what was wrong with how that ended; "" when nothing was."""
         dice = random.Random(f"damage/{number}")
-        what = dice.choice(["sealed", "sealed", "unsealed", "unsealed", "journal", "shard", "baseline", "pack"])
-        copy = self.folder / f"round-{number}"
+        what = dice.choice(["sealed", "sealed", "unsealed", "unsealed", "journal", "shard", "baseline", "pack", *FILES])
+        copy = self.folder / f"round-{number}{pathlib.Path(what).suffix}"
         try:
             source = {"journal": self.interrupted, "shard": self.shards[1], "baseline": self.baseline,
-                      "pack": self.pack}.get(what, self.whole)
-            shutil.copytree(source, copy) if source.is_dir() else shutil.copyfile(source, copy)
+                      "pack": self.pack, **{name: self.folder / name for name in FILES}}.get(what, self.whole)
+            shutil.copytree(source, copy, ignore=LOCK) if source.is_dir() else shutil.copyfile(source, copy)
             files = [path for path in sorted(copy.rglob("*")) if path.is_file() and path.name != "lock"
                      and "report" not in path.relative_to(copy).parts] or [copy]  # a report can be made again
             if what == "journal":
@@ -126,6 +137,9 @@ class Damage:
             reader = dice.choice(sorted(CAN_UNSEALED if what == "unsealed" else READERS))
             if what in ("sealed", "unsealed"):
                 words = [copy if word == "RUN" else word for word in READERS[reader]] + ["--unsealed"] * (what == "unsealed")
+            elif what in FILES:
+                words = [copy if word == "FILE" else word for word in FILES[what][1]]
+                reader = words[0]
             else:
                 reader, words = {
                     "journal": ("run --resume", ["run", self.scenario, "-o", copy, "--jobs", "1", "--trials", "60", "--resume"]),
@@ -136,7 +150,7 @@ class Damage:
             words = [{"BASELINE": self.baseline, "WHOLE": self.whole}.get(word, word) for word in words]
             result = self.call(*words)
             wrong = self.wrong(what, reader, file, copy, result)
-            return {"round": number, "damaged": what, "file": file.name, "kind": kind, "reader": reader,
+            return {"damaged": what, "file": what if what in FILES else file.name, "kind": kind, "reader": reader,
                     "exit": result.returncode, "wrong": wrong}
         finally:
             for left in (copy, pathlib.Path(f"{copy}-merged")):

@@ -1,11 +1,13 @@
-"""What Etude is attacked with, counted: kills of a run's processes, damaged files, power cuts, and settings of a machine that hinder
-it. A round is a line of out/soak/attack/rounds.jsonl, so that this goes on where it was ended."""
+"""What Etude is attacked with, as root and as an ordinary user: tests at their full length, kills of a run's processes, damaged
+files. A round is a line of out/soak/attack/WHO/rounds.jsonl, so that this goes on where it was ended; a table of all rounds is
+printed, for docs/findings/faults.md."""
 import argparse
 import concurrent.futures
 import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -15,61 +17,67 @@ import damage
 import kills
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-TESTS = {  # what is a test, too: here with more of its cases
-    "cuts": ("power_cut_test.py", r"\d+ cuts, \d+ different disks, \d+ tried"),
-    "settings": ("machine_test.py", r"Ran \d+ tests.*"),
+NOBODY = 65534
+# An attack that is a test, too: its file below tests/, here with its heavy cases.
+TESTS = {
+    "the fence": "zoo/zoo_test.py",
+    "answers looked up": "zoo/lookup_test.py",
+    "secret worlds": "cli/secret_test.py",
+    "forged runs": "cli/verify_test.py",
+    "faults of the machine": "cli/machine_test.py",
+    "kills, full disks, cut journals": "cli/survival_test.py",
+    "power cuts": "cli/power_cut_test.py",
+    "interruption": "cli/interrupt_test.py",
+    "bad input": "cli/errors_test.py",
 }
+# Kills of these, at random moments of a run's start.
+KILLS = {
+    "kills of a run": [("run",)],
+    "kills of workers and launchers": [("worker",), ("launcher",), ("worker", "launcher")],
+}
+DAMAGE = "damaged files"
 
 
-def main():
-    parser = argparse.ArgumentParser(prog="scripts/soak attack", description=__doc__)
-    parser.add_argument("--only", nargs="+", choices=["kills", "damage", *TESTS], default=["kills", "damage", *TESTS])
-    parser.add_argument("--rounds", type=int, default=500, help="of each kind of kill, and of cuts; four times as many of damage")
-    parser.add_argument("--load", type=int, default=4, help="processes that want a processor while kills go on, beside them")
-    parser.add_argument("--jobs", type=int, default=8, help="kills at a time: they are each other's load, too")
-    parser.add_argument("--hours", type=float, default=24, help="after which it stops, to go on another time")
-    parser.add_argument("--etude", default=os.environ.get("ETUDE", "build/release/etude"))
-    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/soak/attack"))
-    options = parser.parse_args()
-    options.etude = os.path.abspath(options.etude)
-    options.out.mkdir(parents=True, exist_ok=True)
-    record = options.out / "rounds.jsonl"
-    lines = record.read_text().splitlines() if record.exists() else []
-    done = {(entry["kind"], entry["round"]): entry for entry in map(json.loads, lines)}
-    end = time.monotonic() + 3600 * options.hours
-    with record.open("a") as out:
-        def play(kind, number, of):
-            if (kind, number) in done or time.monotonic() > end:
-                return
-            entry = done[kind, number] = {"kind": kind, "round": number} | of()
+class Record:
+    """The rounds that were played by one user, and those to come."""
+
+    def __init__(self, folder, hours):
+        folder.mkdir(parents=True, exist_ok=True)
+        self.path, self.end = folder / "rounds.jsonl", time.monotonic() + 3600 * hours
+        lines = self.path.read_text().splitlines() if self.path.exists() else []
+        self.done = {(entry["attack"], entry["round"]): entry for entry in map(json.loads, lines)}
+
+    def play(self, attack, number, of):
+        if (attack, number) in self.done or time.monotonic() > self.end:
+            return
+        began = time.monotonic()
+        entry = {"attack": attack, "round": number} | of()
+        entry["seconds"] = round(time.monotonic() - began, 1)
+        self.done[attack, number] = entry
+        with self.path.open("a") as out:
             out.write(json.dumps(entry) + "\n")
-            out.flush()
-            if entry["wrong"]:
-                print(f"{kind}, round {number}: {entry['wrong']}", flush=True)
-
-        if "kills" in options.only:
-            all_kills(options, play)
-        if "damage" in options.only:
-            with tempfile.TemporaryDirectory() as folder:
-                made = damage.Damage(options.etude, folder)
-                for number in range(4 * options.rounds):
-                    play("damage", number, lambda: made.round(number))
-        for name in set(TESTS) & set(options.only):
-            play(name, options.rounds, lambda: tested(options, *TESTS[name]))
-    print(f"{'attack':<22} {'rounds':>7} {'of it':<60} {'wrong':>7}")
-    for kind in dict.fromkeys(kind for kind, _ in done):
-        entries = [entry for (of, _), entry in done.items() if of == kind]
-        print(f"{kind:<22} {len(entries):>7} {summary(entries):<60} {sum(bool(entry['wrong']) for entry in entries):>7}")
-    return any(entry["wrong"] for entry in done.values())
+        if entry["wrong"]:
+            print(f"{attack}, round {number}: {entry['wrong']}", flush=True)
 
 
-def all_kills(options, play):
+def tested(options, test):
+    """Runs a test; gives how many of its cases ran, and the names of those that failed."""
+    result = subprocess.run([sys.executable, ROOT / "tests" / test], cwd=ROOT, capture_output=True, text=True,
+                            env=os.environ | {"ETUDE": options.etude, "ETUDE_HEAVY": "1"})
+    said = result.stdout + result.stderr
+    failed = re.findall(r"^(?:FAIL|ERROR): (\S+)", said, re.MULTILINE)
+    ran, skipped = re.search(r"^Ran (\d+) test", said, re.MULTILINE), re.search(r"skipped=(\d+)", said)
+    what = f"{ran[1] if ran else 0} tests" + (f", {skipped[1]} of them skipped" if skipped else "")
+    return {"what": what, "wrong": failed or ([said[-500:]] if result.returncode else [])}
+
+
+def all_kills(options, record):
     load = kills.loads(options.load)
     try:
         with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-            games = [pool.submit(play, "+".join(targets), number,
-                                 lambda targets=targets, number=number: kills.round_of(options.etude, targets, number))
-                     for number in range(options.rounds) for targets in kills.TARGETS]
+            games = [pool.submit(record.play, attack, number, lambda targets=targets[number % len(targets)], number=number:
+                                 kills.round_of(options.etude, targets, number))
+                     for attack, targets in KILLS.items() if attack in options.only for number in range(options.kills)]
             for game in games:
                 game.result()
     finally:
@@ -77,19 +85,85 @@ def all_kills(options, play):
             process.kill()
 
 
-def tested(options, test, counts):
-    result = subprocess.run([sys.executable, ROOT / "tests/cli" / test], cwd=ROOT, capture_output=True, text=True,
-                            env=os.environ | {"ETUDE": options.etude, "ETUDE_CUTS": str(options.rounds)})
-    said = result.stdout + result.stderr
-    return {"counts": re.findall(counts, said), "wrong": said[-2000:] if result.returncode else ""}
+def all_damage(options, record):
+    with tempfile.TemporaryDirectory() as folder:
+        made = damage.Damage(options.etude, folder)
+        for number in range(options.mutants):
+            record.play(DAMAGE, number, lambda: made.round(number))
 
 
 def summary(entries):
     if "killed" in entries[0]:
         return f"{sum(entry['killed'] for entry in entries)} processes killed"
     if "damaged" in entries[0]:
-        return f"{sum(entry['exit'] == 2 for entry in entries)} refused, {sum(entry['exit'] != 2 for entry in entries)} read aright"
-    return "; ".join(entries[-1]["counts"])
+        kinds = len({entry["file"] for entry in entries})
+        return f"{kinds} kinds; {sum(entry['exit'] == 2 for entry in entries)} refused, the others read aright"
+    return entries[-1]["what"]
+
+
+def rows_of(record, who):
+    for attack in dict.fromkeys(attack for attack, _ in record.done):
+        entries = [entry for (of, _), entry in record.done.items() if of == attack]
+        wrong = sum(len(entry["wrong"]) if isinstance(entry["wrong"], list) else bool(entry["wrong"]) for entry in entries)
+        yield (f"| {attack} | {who} | {len(entries)} | {summary(entries)} | {wrong} | "
+               f"{sum(entry['seconds'] for entry in entries):.0f} |"), wrong
+
+
+def play_all(options, record):
+    if set(KILLS) & set(options.only):
+        all_kills(options, record)
+    if DAMAGE in options.only:
+        all_damage(options, record)
+    for attack, test in TESTS.items():
+        if attack in options.only:
+            record.play(attack, 0, lambda: tested(options, test))
+
+
+def play_as_nobody(options):
+    """The same attacks by a user without any rights, who cannot be told from any other. Gives that process's exit code."""
+    folder = options.out / "user"
+    folder.mkdir(parents=True, exist_ok=True)
+    scratch = tempfile.mkdtemp(prefix="attack-user-")
+    try:
+        for path in (folder, *folder.iterdir(), scratch):
+            os.chown(path, NOBODY, NOBODY)
+        python = shutil.which("python3", path="/usr/bin:/bin") or sys.executable  # not one of root's home
+        return subprocess.run([python, __file__, *sys.argv[1:], "--as-user"], user=NOBODY, group=NOBODY, extra_groups=[],
+                       env=os.environ | {"HOME": scratch, "TMPDIR": scratch, "PYTHONDONTWRITEBYTECODE": "1"}).returncode
+    finally:
+        shutil.rmtree(scratch)
+
+
+def main():
+    attacks = [*KILLS, DAMAGE, *TESTS]
+    parser = argparse.ArgumentParser(prog="scripts/soak attack", description=__doc__)
+    parser.add_argument("--only", nargs="+", choices=attacks, default=attacks, metavar="ATTACK", help="of: " + ", ".join(attacks))
+    parser.add_argument("--kills", type=int, default=300, help="rounds of each kind of kill")
+    parser.add_argument("--mutants", type=int, default=900, help="damaged files")
+    parser.add_argument("--load", type=int, default=4, help="processes that want a processor while kills go on, beside them")
+    parser.add_argument("--jobs", type=int, default=8, help="kills at a time: they are each other's load, too")
+    parser.add_argument("--hours", type=float, default=24, help="after which it stops, to go on another time")
+    parser.add_argument("--etude", default=os.environ.get("ETUDE", "build/release/etude"))
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/soak/attack"))
+    parser.add_argument("--as-user", action="store_true", help=argparse.SUPPRESS)  # by whom root had this started
+    options = parser.parse_args()
+    options.etude, is_root = os.path.abspath(options.etude), os.getuid() == 0
+    record = Record(options.out / ("root" if is_root else "user"), options.hours)
+    play_all(options, record)
+    if options.as_user:
+        return 0
+    records = {"root" if is_root else "user": record}
+    ended = play_as_nobody(options) if is_root else 0
+    if is_root:
+        records["user"] = Record(options.out / "user", 0)
+    else:
+        print("Not root: what root alone can try was not tried.", flush=True)
+    print("\n| attack | as | rounds | what | wrong | s |\n|---|---|---|---|---|---|")
+    rows = [row for who, played in records.items() for row in rows_of(played, who)]
+    print("\n".join(text for text, _ in rows))
+    if ended:
+        print(f"\nThe attacks as a user did not come to their end: exit code {ended}.")
+    return int(ended != 0 or any(wrong for _, wrong in rows))
 
 
 if __name__ == "__main__":

@@ -185,7 +185,7 @@ class Convert(Clips):
         self.refuses("convert", "builtin:*", fresh, says=["one file is converted at a time"], leaves=fresh)
         limited = subprocess.run(["sh", "-c", 'ulimit -f 8; trap "" XFSZ; exec "$0" clip convert "$1" "$2"', ETUDE, WALK,
                                   fresh], capture_output=True, text=True, timeout=60)
-        self.assertEqual(limited.returncode, 2, limited.stderr)
+        self.assertEqual(limited.returncode, 3, limited.stderr)
         self.assertIn("cannot write this file", limited.stderr)
         self.assertEqual([path.name for path in self.folder.iterdir()], ["there.bvh"])
 

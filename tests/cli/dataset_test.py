@@ -45,6 +45,15 @@ class DataSets(EtudeCase):
             path.write_text(json.dumps(truth))
         return index
 
+    def test_a_clips_name_is_no_formula_to_a_spreadsheet(self):
+        shutil.copy("/usr/share/assimp/models/BVH/01_03.bvh", self.folder / "=cmd|' !A0.bvh")
+        scenario = self.write("t.yaml", "scenario: t\nquestion: q\ntask: transition\n"
+                                        f"clips: ['{self.folder}/*.bvh', 'builtin:sway']\ntrials: 2\n"
+                                        "methods: [{name: cut, choice: now, join: cut}]\n")
+        self.assertEqual(self.etude("export", scenario, "-o", self.folder / "data").returncode, 0)
+        with open(self.folder / "data" / "inputs" / "index.csv", newline="") as file:
+            self.assertEqual([line["clip"] for line in csv.DictReader(file)], ["'=cmd|' !A0", "builtin:sway"])
+
     def test_clips_are_of_the_rate_that_is_told_and_a_data_set_keeps_it(self):
         clip = "/usr/share/assimp/models/BVH/01_03.bvh"  # 120 Hz
         scenario = self.write("t.yaml", f"scenario: t\nquestion: q\ntask: tracking\nclips: ['{clip}']\ntrials: 1\n"

@@ -1,6 +1,7 @@
 """Bad input gives one message that says where and what is allowed, exit code 2, and writes nothing."""
 import json
 import os
+import re
 import subprocess
 import unittest
 
@@ -131,17 +132,57 @@ class Errors(EtudeCase):
             self.assertIn(complaint, result.stderr)
         self.assertEqual(os.listdir(odd), [])
 
+    def test_no_message_and_no_table_shows_a_name_as_another(self):
+        """Names and values that turn the direction of writing, that nobody sees, or that command a terminal."""
+        hostile = "a\u202eb\u200f\u2066\ufeff\u009b"
+        bare = IK.split("sweep")[0]
+        files = {
+            "s.yaml": (IK + f"{hostile}: 4\n", ["run", "FILE", "-o", self.out]),
+            "solver.yaml": (IK.replace("solver: ccd", f"solver: '{hostile}'"), ["run", "FILE", "-o", self.out]),
+            "clips.yaml": (bare.replace("task: ik", "task: transition") + f"clips: ['{hostile}.bvh']\nmethods: [{{name: a, choice: now}}]\n",
+                           ["run", "FILE", "-o", self.out]),
+            "m.bvh": (BVH_HEAD.replace("Yrotaton", hostile), ["clip", "info", "FILE"]),
+            "m.trc": (f"PathFileType\t4\t{hostile}\n{hostile}", ["clip", "info", "FILE"]),
+            "m.csv": (f"{hostile}\n{hostile}", ["clip", "info", "FILE"]),
+            "m.glb": (hostile, ["clip", "info", "FILE"]),
+            "m.gltf": ('{"asset": {"version": "' + hostile + '"}}', ["clip", "info", "FILE"]),
+            "moves.yaml": (f"{hostile}: 1\n", ["recognise", "FILE", "--moves", "FILE"]),
+            "tags.xml": (f"<{hostile}/>", ["bridge", "--check", "FILE"]),
+            "manifest.json": ('{"schema": "' + hostile + '"}', ["run", "--from", "FILE", "-o", self.out]),
+            "cell.etude": ('{"' + hostile + '": 1}', ["replay", "FILE"]),
+            "fuzzy.yaml": (f"{hostile}: 1\n", ["clip", "grades", "builtin:clap", "--fuzzy", "FILE"]),
+            "pairs.csv": (f"{hostile},x,y,z,u,v\n", ["calibrate", "FILE", "--size", "1920x1080", "-o", "rig.yaml"]),
+        }
+        unseen = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u200b-\u200f\u202a-\u202e\u2060-\u2069\ufeff]")
+        shown = 0
+        for name, (text, words) in files.items():
+            path = self.write(hostile + name, text)
+            refused = self.etude(*(path if word == "FILE" else word for word in words))
+            self.assertEqual(refused.returncode, 2, f"{name}: {refused.stdout}{refused.stderr}")
+            self.assertEqual(unseen.findall(refused.stdout + refused.stderr), [], name)
+            shown += "[U+202E]" in refused.stderr
+        self.assertGreater(shown, 10)
+        for words in (["list", hostile], ["run", hostile], [hostile], ["clip", "info", f"builtin:{hostile}"], ["run", f"--{hostile}"]):
+            refused = self.etude(*words)
+            self.assertEqual((refused.returncode, unseen.findall(refused.stdout + refused.stderr)), (2, []), words)
+        clip = self.folder / f"{hostile}.csv"
+        self.assertEqual(unseen.findall(self.etude("clip", "convert", "builtin:clap", clip).stdout), [])
+        self.assertEqual(unseen.findall(self.etude("clip", "info", clip).stdout), [])
+        facts = self.etude("clip", "info", clip, "--json").stdout
+        self.assertEqual(unseen.findall(facts), [])
+        self.assertEqual(json.loads(facts)["clips"][0]["source"], str(clip))
+
     def test_a_full_output_is_told(self):
         with open("/dev/full", "w") as full:
             result = subprocess.run([ETUDE, "list", "metrics"], stdout=full, stderr=subprocess.PIPE, text=True)
-        self.assertEqual(result.returncode, 2)
+        self.assertEqual(result.returncode, 3)
         self.assertIn("No space left on device", result.stderr)
 
     def test_a_run_that_cannot_write_leaves_no_folder(self):
         path = self.write("s.yaml", IK)
         limit = 'ulimit -f 0; trap "" XFSZ; exec "$0" run "$1" -o "$2"'
         result = subprocess.run(["sh", "-c", limit, ETUDE, path, self.out], capture_output=True, text=True, timeout=60)
-        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertEqual(result.returncode, 3, result.stderr)
         self.assertIn("manifest.json: cannot write this file", result.stderr)
         self.assertFalse(self.out.exists())
 

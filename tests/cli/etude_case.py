@@ -39,12 +39,13 @@ IK = ik_scenario(trials=4)
 SHARED = ["manifest.json", "cells.jsonl", "columns", "summary.json", "series", "recordings"]
 
 
-def cells_in_journal(folder):
-    """How many cells a run has flushed so far."""
+def cells_in_journal(folder, kind="cell"):
+    """How many cells a run has flushed so far; of the kind `answered`: those that programs measure, before they do."""
     try:
-        return max(0, (folder / "journal.jsonl").read_bytes().count(b"\n") - 2)  # the first lines are its head, twice
+        lines = (folder / "journal.jsonl").read_bytes().split(b"\n")[:-1]
     except FileNotFoundError:
         return 0
+    return sum(line.startswith(f'{{"{kind}":'.encode()) for line in lines)
 
 
 def png_size(data):
@@ -117,9 +118,9 @@ class EtudeCase(unittest.TestCase):
         self.assertEqual(result.returncode, code, result.stderr)
         return [json.loads(line) for line in (out / "cells.jsonl").read_text().splitlines()]
 
-    def wait_for_cells(self, folder, count=1, limit_s=60):
+    def wait_for_cells(self, folder, count=1, limit_s=60, kind="cell"):
         deadline = time.monotonic() + limit_s
-        while cells_in_journal(folder) < count:
+        while cells_in_journal(folder, kind) < count:
             self.assertLess(time.monotonic(), deadline, f"no {count} cells in {limit_s} s")
             time.sleep(0.005)
 

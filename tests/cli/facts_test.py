@@ -23,7 +23,7 @@ class Facts(EtudeCase):
         first = json.loads(baseline.read_text())
         moved = next(line for line in first["values"] if line["metric"] == "position_error_cm")
         moved["values"] = [value + 1 for value in moved["values"]]
-        baseline.write_text(json.dumps(first))
+        baseline.write_text(json.dumps(first))  # which its seal does not fit
         cell = "ik/joint_noise_deg=2/000/fixed"
         calls = {
             "check-method": ["--task", "ik", "--no-fence", "--json", "--", "python3", OUTSIDE],
@@ -31,11 +31,11 @@ class Facts(EtudeCase):
             "clip grades": ["builtin:clap", "builtin:sway"],
             "clip map": ["builtin:clap"],
             "compare": [run, run],
-            "gate": [run, "--baseline", baseline],
+            "gate": [run, "--baseline", baseline, "--unsealed"],
             "list clips": [],
             "list methods": [],
             "list scenarios": [ROOT / "scenarios" / "quick"],
-            "replay": [run, "--cell", cell, "--baseline", baseline],
+            "replay": [run, "--cell", cell, "--baseline", baseline, "--unsealed"],
             "run --dry-run": [self.scenario],
             "verify": [run, "--sample", 2],
         }

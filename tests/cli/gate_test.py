@@ -86,7 +86,7 @@ class Gate(EtudeCase):
                 value = re.search(r'"metric":"position_error_cm","values":\[([^,]+),', text)
                 other = repr(float(value.group(1)) * (1 + 1e-14))
                 baseline.write_text(text[:value.start(1)] + other + text[value.end(1):])
-                self.assertIn("1 of 12", self.gate(run, "--baseline", baseline, expect=code))
+                self.assertIn("1 of 12", self.gate(run, "--baseline", baseline, "--unsealed", expect=code))
 
     def test_few_worlds_that_are_far_worse_fail_and_are_named_with_their_replay_command(self):
         self.make_baseline()
@@ -96,7 +96,7 @@ class Gate(EtudeCase):
         for far, code in (3, 0), (4, 1):
             line["values"] = [value - 5 if trial < far else value for trial, value in enumerate(whole)]
             self.baseline.write_text(json.dumps(baseline))
-            text = self.gate(self.out, "--baseline", self.baseline, expect=code)
+            text = self.gate(self.out, "--baseline", self.baseline, "--unsealed", expect=code)
             self.assertIn(f"{far} far worse", text)
             self.assertIn("too few to fail" if far == 3 else "worse in 4 worlds", text)
         commands = re.findall(r"etude replay (\S+) --cell (\S+)", text)
@@ -105,7 +105,7 @@ class Gate(EtudeCase):
         self.assertIn(commands[0][1], (self.out / "report" / "gate.xml").read_text())
         folder, cell = commands[0]
         self.assertIn(f"--cell {cell} --baseline {self.baseline}", text)
-        replayed = self.etude("replay", folder, "--cell", cell, "--baseline", self.baseline)
+        replayed = self.etude("replay", folder, "--cell", cell, "--baseline", self.baseline, "--unsealed")
         self.assertEqual(replayed.returncode, 0, replayed.stdout + replayed.stderr)
         self.assertIn(f"  {line['metric']}: {line['values'][0]} in the baseline, {whole[0]} now\n", replayed.stdout)
         self.assertIn(" in the baseline, and now\n", replayed.stdout)
@@ -119,8 +119,32 @@ class Gate(EtudeCase):
         after = self.baseline.read_text().splitlines()
         self.assertEqual(len(before), len(after))
         moved = [line for old, line in zip(before, after) if old != line]
-        self.assertTrue(all('"fixed"' in line for line in moved), moved)
+        self.assertTrue(all('"fixed"' in line for line in moved if not line.startswith('"seal"')), moved)
         self.gate(self.now, "--baseline", self.baseline, expect=0)
+
+    def test_a_baseline_that_was_edited_is_refused_by_its_seal(self):
+        """Each passed as "4 better, 8 same" when baselines had no seal."""
+        self.make_baseline()
+        whole = self.baseline.read_text()
+        self.assertNotIn("unsealed", self.gate(self.out, "--baseline", self.baseline, expect=0))
+        number = re.search(r'"metric":"position_error_cm","values":\[([^,]+),', whole)
+        for edited in (whole[:number.start(1)] + "99.5" + whole[number.end(1):], whole.replace('"cells":"o', '"cells":"u', 1)):
+            self.assertNotEqual(edited, whole)
+            self.baseline.write_text(edited)
+            told = self.gate(self.out, "--baseline", self.baseline, expect=2)
+            self.assertIn(f"{self.baseline}: is not as gate --update wrote it: its seal does not fit", told)
+            told = self.gate(self.out, "--baseline", self.baseline, "--unsealed", expect=0)
+            self.assertIn("etude: read unsealed: ", told)
+        # Its seal taken away, it is no baseline; called one of an older version, that is said. --update makes a new one.
+        self.baseline.write_text(re.sub(r',\n"seal":"\w+"', "", whole))
+        self.assertIn("a baseline of schema 2 lacks its 'seal'", self.gate(self.out, "--baseline", self.baseline, expect=2))
+        self.baseline.write_text(re.sub(r',\n"seal":"\w+"', "", whole).replace('"schema":2', '"schema":1'))
+        self.assertIn("has no seal, for an older version wrote it", self.gate(self.out, "--baseline", self.baseline, expect=0))
+        self.gate(self.out, "--baseline", self.baseline, "--update", expect=0)
+        self.assertEqual(self.baseline.read_text(), whole)
+        # Another layout is the same baseline.
+        self.baseline.write_text(json.dumps(json.loads(whole), indent=1))
+        self.assertNotIn("unsealed", self.gate(self.out, "--baseline", self.baseline, expect=0))
 
     def test_two_updates_at_once_leave_a_whole_baseline(self):
         self.make_baseline()
@@ -201,7 +225,7 @@ class Gate(EtudeCase):
         self.make_baseline()
         whole = self.baseline.read_text()
         self.assertIn("no such file; --update makes it of this run", self.gate(self.out, "--baseline", self.folder / "none.json", expect=2))
-        for broken in "", "{}", whole[:len(whole) // 2], whole.replace('"schema":1', '"schema":7'), \
+        for broken in "", "{}", whole[:len(whole) // 2], whole.replace('"schema":2', '"schema":7'), \
                 whole.replace('"seed":1', '"seed":1,"seed":1'), whole.replace('"trials":12', '"trials":null'), \
                 re.sub('"cells":"[a-z]+"', '"cells":"' + 12 * "f" + '"', whole), \
                 re.sub(r'"values":\[[^,]+,', '"values":[null,', whole, count=1):

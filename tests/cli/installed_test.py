@@ -79,7 +79,7 @@ class Installed(EtudeCase):
         package = next(self.folder.glob("etude_*.deb"))
         # What ci/Containerfile does, in a root that needs no builder of containers.
         image = containerfile((CI / "Containerfile").read_text())
-        self.assertEqual(image[:2], [["FROM", "debian:12"], ["COPY", "etude_*.deb /tmp/"]])
+        self.assertEqual(image[:2], [["FROM", "debian:13"], ["COPY", "etude_*.deb /tmp/"]])
         steps = [f"chroot \"$1\" sh -c {shlex.quote(words)}" for name, words in image if name == "RUN"]
         root = self.make_root(f"copy-in {package} /tmp", *steps)
         self.assertFalse((root / "usr" / "bin" / "c++").exists(), "a compiler came along")

@@ -89,6 +89,57 @@ class Machine(EtudeCase):
             more *= 1.3
         self.assertEqual(set(codes), {0, 3})
 
+    def test_a_capture_whose_memory_ends_is_not_run_and_resuming_runs_it(self):
+        """Rows `out_of_memory` once, which --resume did not mend."""
+        whole, codes = self.folder / "whole", []
+        self.run_suite(self.capture, out=whole)
+        for space in range(256, 512, 8) if HEAVY else (300,):
+            ended = self.run_here(self.capture, "-o", self.out, "--overwrite", before=limit(resource.RLIMIT_AS, space * MB))
+            codes.append(ended.returncode)
+            self.assertIn(ended.returncode, (0, 3), ended.stderr)
+            if "not run" in ended.stderr:
+                self.assertRegex(ended.stderr, "memory ended below the 4096 MB that the scenario allows|could not go on")
+                self.assertFalse((self.out / "cells.jsonl").exists())
+            self.run_suite(self.capture, "--resume")
+            self.assert_same_results(whole, self.out)
+        self.assertIn(3, codes)
+
+    def test_the_manifest_is_the_same_in_any_address_space(self):
+        """Without LLVM in it, --resume spoke of libraries that had changed."""
+        scenario, whole, least = self.write("ik.yaml", IK), self.folder / "whole", self.least_space()
+        self.run_suite(scenario, out=whole)
+        for more in range(0, 160, 8) if HEAVY else (16, 64):
+            ended = self.run_here(scenario, "-o", self.out, "--overwrite", before=limit(resource.RLIMIT_AS, least + more * MB))
+            self.assertIn(ended.returncode, (0, 3), ended.stderr)
+            if ended.returncode == 0:
+                self.assertEqual((self.out / "manifest.json").read_bytes(), (whole / "manifest.json").read_bytes())
+
+    def test_a_small_stack_is_made_larger_or_told(self):
+        scenario = self.write("ik.yaml", IK)
+        for kib in (64, 256):
+            refused = self.run_here(scenario, "-o", self.out, before=limit(resource.RLIMIT_STACK, kib << 10))
+            self.assertEqual((refused.returncode, refused.stderr.count("\n")), (3, 1), refused.stderr)
+            self.assertIn(f"this machine: the stack may hold {kib} KiB; at least 1024 are needed (ulimit -s)", refused.stderr)
+        self.assertFalse(self.out.exists())
+        hard = resource.getrlimit(resource.RLIMIT_STACK)[1]
+        larger = self.run_here(self.capture, "-o", self.out,
+                               before=lambda: resource.setrlimit(resource.RLIMIT_STACK, (64 << 10, hard)))
+        self.assertEqual(larger.returncode, 0, larger.stderr)
+
+    @unittest.skipUnless(shutil.which("strace"), "needs strace")
+    def test_a_write_that_fails_hangs_nobody_and_is_no_answer(self):
+        scenario, whole = self.write("ik.yaml", IK + "limits: {time_s: 30}\n"), self.folder / "whole"
+        self.run_suite(scenario, out=whole)
+        codes = []
+        for number in range(1, 41) if HEAVY else (2, 4):
+            ended = self.run_here(scenario, "-o", self.out, "--overwrite", "--jobs", "1", wrapped=[
+                "strace", "-f", "-o", "/dev/null", "-e", "trace=write", "-e", f"inject=write:error=EIO:when={number}"])
+            codes.append(ended.returncode)
+            self.assertIn(ended.returncode, (0, 3), f"write {number}: {ended.stderr}")
+            self.run_suite(scenario, "--resume")
+            self.assert_same_results(whole, self.out)
+        self.assertIn(3, codes)
+
     def test_what_the_machine_refuses_is_refused_with_its_cause_and_nothing_is_written(self):
         (self.folder / "file").touch()
         (self.folder / "relative").mkdir()

@@ -50,6 +50,18 @@ for line in sys.stdin:
 """
 
 
+SLOW_METHOD = """import json, sys, time
+for line in sys.stdin:
+    told = json.loads(line)
+    reply = {"type": told["type"] if told["type"] == "hello" else "ready", "protocol": 1, "name": "own", "version": "1"}
+    if told["type"] == "problem":
+        print("asked", file=sys.stderr, flush=True)
+        time.sleep(0.3)
+        reply = {"type": "answer", "id": told["id"], "answer": {"angles_deg": told["problem"]["start_angles_deg"]}}
+    print(json.dumps(reply), flush=True)
+"""
+
+
 VECTOR = "{cell: {tracks: [{name: solution, rate_hz: 30, frames: 1, joints_m: {hip_centre: [[0.25, 0, 0]]}}]}, "
 BAD = {"absent": "its program: hips hid", "silent": "null without a 'reason'", "text": '"much" is no number',
        "falls": "about to fall"}
@@ -138,10 +150,7 @@ class OwnMetrics(EtudeCase):
         self.run_suite(scenario, "--jobs", 1)
         parts = [self.folder / f"part{i}" for i in (1, 2)]
         command = ["run", scenario, "--shard", "1/2", "-o", str(parts[0])]
-        killed = subprocess.Popen([ETUDE, *command, "--jobs", "1"], stderr=subprocess.DEVNULL)
-        self.wait_for_cells(parts[0])
-        killed.kill()
-        killed.wait()
+        self.kill_at(1, "cell", command, parts[0])
         self.assertIn(cells_in_journal(parts[0]), (1, 2, 3))  # of four
         resumed = self.etude(*command, "--jobs", 2, "--resume")
         self.assertEqual(resumed.returncode, 0, resumed.stderr)
@@ -149,6 +158,48 @@ class OwnMetrics(EtudeCase):
         merged = self.etude("merge", *parts, "-o", self.folder / "merged")
         self.assertEqual(merged.returncode, 0, merged.stderr)
         self.assert_same_results(self.out, self.folder / "merged")
+
+    def kill_at(self, count, kind, command, folder):
+        """Kills a run of one worker when its journal has so many cells of a kind."""
+        killed = subprocess.Popen([ETUDE, *map(str, command), "--jobs", "1"], stderr=subprocess.DEVNULL, cwd=ROOT)
+        self.wait_for_cells(folder, count, kind=kind)
+        killed.kill()
+        killed.wait()
+
+    @heavy
+    def test_what_is_answered_or_measured_is_neither_asked_nor_measured_again_after_kills(self):
+        """Killed in the midst of methods and in the midst of metrics: each is asked once of each cell."""
+        (self.folder / "own").mkdir()
+        (self.folder / "own/own.py").write_text(SLOW_METHOD)
+        (self.folder / "m").mkdir()
+        (self.folder / "m/m.py").write_text(METRIC % "")
+        scenario = self.write("s.yaml", self.text(own("looks", "looks")).replace(str(self.shared), str(self.folder)).replace(
+            "{name: b, solver: damped-least-squares}", f"{{name: own, exec: [python3, '{self.folder}/own/own.py']}}"))
+        command = ["run", scenario, "-o", self.out, "--resume", "--sync-seconds", "0"]
+        self.kill_at(4, "answered", command, self.out)
+        self.assertEqual(cells_in_journal(self.out), 0)
+        told = self.etude("merge", self.out, "-o", self.folder / "merged")
+        self.assertIn("lacks 6 of 6 cells", told.stderr)
+        self.kill_at(2, "cell", command, self.out)
+        answered = (self.out / "stderr/s~own.txt").read_text().count("asked")
+        self.assertIn(answered, (3, 4))  # the one that was killed over is asked again
+        rows = self.run_suite(scenario, "--resume", "--jobs", 2)
+        self.assertEqual(len(rows), 6)
+        self.assertEqual((self.out / "stderr/s~own.txt").read_text().count("asked"), answered)
+        self.run_suite(scenario, out=self.folder / "whole")
+        self.assert_same_results(self.out, self.folder / "whole")
+
+    @heavy
+    def test_ctrl_c_keeps_what_was_answered(self):
+        scenario = self.write("s.yaml", self.text(own("looks", "looks")))
+        stopped = subprocess.Popen([ETUDE, "run", scenario, "-o", self.out, "--jobs", "1", "--sync-seconds", "0"],
+                                   stderr=subprocess.PIPE, text=True)
+        self.wait_for_cells(self.out, 6, kind="answered")
+        stopped.send_signal(2)
+        said = stopped.communicate()[1]
+        self.assertEqual(stopped.returncode, 130, said)
+        self.assertIn("6 cells are kept", said)
+        self.assertEqual(len(self.run_suite(scenario, "--resume")), 6)
 
     def test_it_is_versioned_asked_again_by_replay_and_verify_and_only_where_that_is_allowed(self):
         self.assertEqual(len({row["mine"] for row in self.told}), 4)
@@ -227,7 +278,7 @@ class OwnMetrics(EtudeCase):
         told = [row["off_m"] for row in rows if row["method"] == "told"]
         self.assertEqual([value > 0.01 for value in sorted(told)], [False, False, True])
         self.assertLess(sorted(told)[1], 1e-9)
-        run = self.run_suite(scenario, *secret, out=self.folder / "run")
+        run = self.run_suite(scenario, *secret, "--reuse-key", out=self.folder / "run")
         self.assertEqual([row for row in rows if row["method"] != "told"], run)
         self.assertTrue(all(row["off_m"] > 0 for row in run))
         self.assertEqual([file for folder in (self.out, self.folder / "run") for file in folder.rglob("*")

@@ -193,6 +193,9 @@ class Page(EtudeCase):
         head, row = browser.ask("copied").splitlines()
         self.assertEqual(row.split("\t")[:2], ["least-squares", "joint_noise_deg=5"])
         columns = len(head.split("\t"))
+        browser.ask("[...table.tBodies[0].rows].find((r) => !r.hidden).cells[0].textContent = '=1+1'")
+        browser.ask("[...tools.querySelectorAll('button')].find((b) => b.textContent === 'TSV').click()")
+        self.assertTrue(browser.ask("copied").splitlines()[1].startswith("'=1+1\t"), "no formula in a spreadsheet")
         browser.ask("[...tools.querySelectorAll('button')].find((b) => b.textContent === 'Columns').click();"
                     "tools.querySelector('.menu input:not(:checked)').click()")
         browser.ask("[...tools.querySelectorAll('button')].find((b) => b.textContent === 'LaTeX').click()")

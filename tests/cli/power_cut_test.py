@@ -64,6 +64,14 @@ class Disk:
     def inside(self, path):
         return path == self.root or path.startswith(self.root + b"/")
 
+    def paths_of(self, arguments):
+        """The paths that a call names, each alone or in an open folder."""
+        paths = []
+        for folder, text in re.findall(r'(?:(\w+), )?"((?:\\x[0-9a-f]{2})*)"', arguments):
+            above = self.open.get(int(folder)) if folder.isdigit() else None
+            paths.append(above + b"/" + unescaped(text) if isinstance(above, bytes) else unescaped(text))
+        return paths
+
     @staticmethod
     def move(names, paths):
         """All that stands in the first folder to the second."""
@@ -71,7 +79,7 @@ class Disk:
             names[paths[1] + path[len(paths[0]):]] = names.pop(path)
 
     def apply(self, name, arguments, result):
-        paths = strings_of(arguments)
+        paths = strings_of(arguments) if name.startswith(("write", "pwrite")) else self.paths_of(arguments)
         handle = int(arguments.split(",")[0]) if re.match(r"^\d+\b", arguments) else None
         if name in ("openat", "creat"):
             path = paths[0]

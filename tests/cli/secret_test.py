@@ -3,10 +3,11 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import unittest
 
-from etude_case import ETUDE, IK, EtudeCase, ik_scenario
+from etude_case import ETUDE, IK, EtudeCase, heavy, ik_scenario
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXAMPLE = ROOT / "examples/outside-methods/ik_dls.py"
@@ -63,7 +64,7 @@ class SecretWorlds(EtudeCase):
         again = self.etude("run", self.scenario, "-o", self.out, "--seed-file", raw, "--jobs", 1)
         self.assertIn("can be read by everybody", again.stderr)
         self.assert_same_results(self.run_folder, self.out)
-        self.run_suite(self.scenario, "--seed-file", self.other, out=self.folder / "other")
+        self.run_suite(self.scenario, "--seed-file", self.other, "--reuse-key", out=self.folder / "other")
         self.assertNotEqual((self.folder / "other/cells.jsonl").read_bytes(), (self.out / "cells.jsonl").read_bytes())
 
     def test_the_environment_of_a_server_gives_it_and_no_child_sees_it(self):
@@ -89,8 +90,8 @@ class SecretWorlds(EtudeCase):
         self.assertIn("ETUDE_SEED_KEY: is set, and --seed, too", refused.stderr)
 
     def test_the_folder_is_named_by_the_digest(self):
-        run = subprocess.run([ETUDE, "run", self.scenario, "--trials", "1", "--seed-file", self.key], capture_output=True,
-                             text=True, cwd=self.folder, timeout=120)
+        run = subprocess.run([ETUDE, "run", self.scenario, "--trials", "1", "--seed-file", self.key, "--reuse-key"],
+                             capture_output=True, text=True, cwd=self.folder, timeout=120)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual([folder.name for folder in (self.folder / "out").iterdir()], [f"ik-secret-{self.digest[:8]}"])
 
@@ -106,7 +107,7 @@ class SecretWorlds(EtudeCase):
         self.assertFalse(self.out.exists())
 
     def test_it_is_gone_on_with_and_replayed_by_its_key_alone(self):
-        self.run_suite(self.scenario, "--seed-file", self.key)
+        self.run_suite(self.scenario, "--seed-file", self.key, "--reuse-key")
         (self.folder / "plain").mkdir()
         self.run_suite(self.scenario, out=self.folder / "plain")
         resume = ["run", self.scenario, "-o", self.out, "--resume"]
@@ -127,17 +128,20 @@ class SecretWorlds(EtudeCase):
         self.assertIn("its worlds are secret", self.refuse("replay", pack))
         self.assertEqual(self.etude("replay", pack, "--seed-file", self.key).returncode, 0)
 
-    def test_worlds_of_before_clips_were_disguised_are_refused_with_the_reason(self):
+    def test_worlds_of_an_earlier_version_are_refused_with_the_reason(self):
         manifest = self.run_folder / "manifest.json"
         text = manifest.read_text()
-        self.assertIn('"secret_worlds":2', text.replace(" ", ""))
-        older = re.sub(r'"secret_worlds":\s*2,\s*', "", text)
-        says = "its secret worlds are of version 1, this program makes version 2, in which public clips are disguised"
-        self.assertIn(says, self.refuse("run", "--from", self.write("older.json", older), "-o", self.folder / "from",
-                                        "--seed-file", self.key))
+        self.assertIn('"secret_worlds":3', text.replace(" ", ""))
+        for version, older in ((1, re.sub(r'"secret_worlds":\s*3,\s*', "", text)),
+                               (2, re.sub(r'"secret_worlds":\s*3', '"secret_worlds":2', text))):
+            says = (f"its secret worlds are of version {version}, this program makes version 3, in which every condition has dice "
+                    "of its own")
+            self.assertIn(says, self.refuse("run", "--from", self.write("older.json", older), "-o", self.folder / "from",
+                                            "--seed-file", self.key))
         shard = ["run", self.scenario, "--shard", "1/2", "-o", self.out, "--seed-file", self.key]
-        self.assertEqual(self.etude(*shard).returncode, 0)
-        (self.out / "manifest.json").write_text(re.sub(r'"secret_worlds":\s*2,\s*', "", (self.out / "manifest.json").read_text()))
+        self.assertEqual(self.etude(*shard, "--reuse-key").returncode, 0)
+        of_shard = self.out / "manifest.json"
+        of_shard.write_text(re.sub(r'"secret_worlds":\s*3', '"secret_worlds":2', of_shard.read_text()))
         self.assertIn(says, self.refuse(*shard, "--resume"))
         # A run of a plain seed has no such version: it differs in its seed.
         plain = ["run", self.scenario, "--shard", "1/2", "-o", self.folder / "plain"]
@@ -146,15 +150,119 @@ class SecretWorlds(EtudeCase):
         self.assertIn("is of another run", told)
         self.assertNotIn("version", told)
         data = self.folder / "data"
-        self.assertEqual(self.etude("export", self.scenario, "-o", data, "--seed-file", self.key).returncode, 0)
+        self.assertEqual(self.etude("export", self.scenario, "-o", data, "--seed-file", self.key, "--reuse-key").returncode, 0)
         (data / "manifest.json").write_text(older)
         self.assertIn(says, self.refuse("score", data, self.folder, "-o", self.folder / "scored", "--seed-file", self.key))
 
-    def test_shards_of_one_key_are_merged_and_of_another_refused(self):
-        for index, key in ((1, self.key), (2, self.key)):
-            done = self.etude("run", self.scenario, "--seed-file", key, "--shard", f"{index}/2", "-o", self.folder / str(index))
+    def test_a_baseline_of_an_earlier_version_is_of_other_worlds(self):
+        older, baseline = self.folder / "older", self.folder / "base.json"
+        shutil.copytree(self.run_folder, older)
+        manifest = older / "manifest.json"
+        manifest.write_text(re.sub(r'"secret_worlds":\s*3', '"secret_worlds":2', manifest.read_text()))
+        for run, code in ((self.run_folder, 0), (older, 2)):
+            update = self.etude("gate", run, "--baseline", baseline, "--update", "--unsealed")
+            self.assertEqual(update.returncode, 0, update.stderr)
+            gate = self.etude("gate", self.run_folder, "--baseline", baseline)
+            self.assertEqual(gate.returncode, code, gate.stdout + gate.stderr)
+        self.assertIn("or of another version of secret worlds", gate.stderr)
+
+    def test_conditions_have_dice_of_their_own_that_hang_on_no_other(self):
+        def truths(name, *seed):
+            self.assertEqual(self.etude("export", self.scenario, "-o", self.folder / name, *seed).returncode, 0)
+            return {str(json.loads(file.read_text())["angles_deg"]) for file in (self.folder / name).glob("truth/*/*/*/truth.json")}
+
+        self.assertEqual(len(truths("secret", "--seed-file", self.key, "--reuse-key")), 4)
+        self.assertEqual(len(truths("plain")), 2, "the control: conditions of open worlds share their dice")
+        rows = {row["cell"]: row for row in map(json.loads, (self.run_folder / "cells.jsonl").read_text().splitlines())}
+        scenario = self.folder / "ik.yaml"
+        scenario.write_text(self.scenario.read_text().replace("[2, 5]", "[5, 1, 2]"))
+        again = self.run_suite(scenario, "--seed-file", self.key, "--reuse-key")
+        same = [row for row in again if row["joint_noise_deg"] != 1]
+        self.assertEqual(len(same), 8)
+        for row in same:
+            self.assertEqual(row, rows[row["cell"]])
+
+    def key_of_its_own(self):
+        """A key that nobody has used, and the lines of its list."""
+        key = self.folder / "own-key"
+        key.write_bytes(os.urandom(32))
+        key.chmod(0o600)
+        used = pathlib.Path(f"{key}.used")
+        return key, lambda: [json.loads(line) for line in used.read_text().splitlines()] if used.exists() else []
+
+    def test_a_key_is_used_once(self):
+        key, used = self.key_of_its_own()
+        asked = ["--seed-file", key]
+        self.run_suite(self.scenario, *asked)
+        self.assertEqual([line["command"] for line in used()], ["run"])
+        self.assertEqual(pathlib.Path(f"{key}.used").stat().st_mode & 0o777, 0o600)
+        says = f"own-key: was used before, and its worlds may be known: by 'etude run' of 'ik' into {self.out} ({key}.used:1)"
+        again = self.folder / "again"
+        for command in (["run", self.scenario, "-o", again], ["export", self.scenario, "-o", again],
+                        ["run", self.scenario, "-o", again, "--resume"], ["run", self.scenario, "-o", again, "--shard", "1/2"],
+                        ["run", self.scenario, "-o", self.out, "--overwrite"]):
+            self.assertIn(says, self.refuse(*command, *asked))
+        self.assertFalse(again.exists())
+        self.assertTrue((self.out / "cells.jsonl").exists(), "what is refused overwrites nothing")
+        for command in (["run", self.scenario, "-o", self.out, "--resume"], ["replay", self.out],
+                        ["run", "--from", self.out / "manifest.json", "-o", again]):
+            done = self.etude(*command, *asked)
             self.assertEqual(done.returncode, 0, done.stderr)
-        self.etude("run", self.scenario, "--seed-file", self.other, "--shard", "2/2", "-o", self.folder / "foreign")
+        self.assert_same_results(self.out, again)
+        self.assertEqual(len(used()), 2, "--from is told, too")
+        self.assertEqual(self.etude("export", self.scenario, "-o", self.folder / "data", *asked, "--reuse-key").returncode, 0)
+        self.assertEqual(used()[2]["command"], "export")
+        self.assertIn("--reuse-key requires --seed-file", self.refuse("run", self.scenario, "-o", self.folder / "x", "--reuse-key"))
+
+    @heavy
+    def test_a_dry_run_asks_about_other_worlds(self):
+        key, used = self.key_of_its_own()
+        script = self.folder / "method" / "method.py"
+        script.parent.mkdir()
+        script.write_text("import sys\nfor line in sys.stdin:\n    print(line, end='', file=sys.stderr, flush=True)\n"
+                          "    kind = 'hello' if '\"hello\"' in line else 'ready'\n"
+                          "    print('{\"type\": \"' + kind + '\", \"protocol\": 1, \"name\": \"m\", \"version\": \"1\"}', flush=True)\n")
+        scenario = self.write("ik.yaml", ik_scenario(trials=2) + f"  - {{name: mine, exec: [python3, '{script}']}}\n")
+        asked = lambda text: set(re.findall(r'"start_angles_deg":\[[^]]*\]', text))
+        dry = self.etude("run", scenario, "--seed-file", key, "--dry-run")
+        self.assertEqual(dry.returncode, 0, dry.stderr)
+        self.assertEqual(used(), [])
+        self.run_suite(scenario, "--seed-file", key, code=1)
+        of_run = asked((self.out / "stderr/ik~mine.txt").read_text())
+        self.assertEqual((len(of_run), bool(asked(dry.stderr))), (4, True))
+        self.assertFalse(of_run & asked(dry.stderr))
+
+    def test_an_export_uses_its_key_and_is_scored_by_it(self):
+        key, used = self.key_of_its_own()
+        data, answers = self.folder / "data", self.folder / "answers"
+        self.assertEqual(self.etude("export", self.scenario, "-o", data, "--seed-file", key, "--trials", 1).returncode, 0)
+        self.assertIn("by 'etude export' of 'ik'", self.refuse("run", self.scenario, "-o", self.out, "--seed-file", key))
+        answers.mkdir()
+        scored = self.etude("score", data, answers, "--allow-missing", "-o", self.out, "--seed-file", key)
+        self.assertLess(scored.returncode, 2, scored.stderr)
+        self.assertEqual([line["command"] for line in used()], ["export", "score"])
+
+    def test_what_is_interrupted_or_hindered_goes_on_with_its_key(self):
+        key, used = self.key_of_its_own()
+        scenario = self.write("ik.yaml", ik_scenario(trials=400))
+        run = subprocess.Popen([ETUDE, "run", scenario, "-o", self.out, "--seed-file", key, "--sync-seconds", "0"],
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.wait_for_cells(self.out)
+        self.assertEqual(len(used()), 1, "before the first cell")
+        run.kill()
+        run.wait()
+        self.assertEqual(len(self.run_suite(scenario, "--seed-file", key, "--resume")), 1600)
+        self.assertEqual(len(used()), 1)
+
+    def test_shards_of_one_key_are_merged_and_of_another_refused(self):
+        key = self.folder / "copy"  # of the key, which has a list of its own
+        shutil.copy(self.key, key)
+        shard = lambda index, key, *more: self.etude("run", self.scenario, "--seed-file", key, "--shard", f"{index}/2", *more)
+        for index in (1, 2):
+            done = shard(index, key, "-o", self.folder / str(index))
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("was used before", shard(2, key, "-o", self.folder / "second").stderr)
+        shard(2, self.other, "--reuse-key", "-o", self.folder / "foreign")
         self.assertIn("is a shard of another run", self.refuse("merge", self.folder / "1", self.folder / "foreign", "-o", self.out,
                                                                "--seed-file", self.key))
         merged = self.etude("merge", self.folder / "1", self.folder / "2", "-o", self.out, "--seed-file", self.key)
@@ -163,7 +271,7 @@ class SecretWorlds(EtudeCase):
 
     def test_an_export_tells_no_trial_and_is_scored_by_its_key(self):
         data = self.folder / "data"
-        self.assertEqual(self.etude("export", self.scenario, "-o", data, "--seed-file", self.key).returncode, 0)
+        self.assertEqual(self.etude("export", self.scenario, "-o", data, "--seed-file", self.key, "--reuse-key").returncode, 0)
         problems = sorted(data.glob("inputs/ik/*/*/problem.json"))
         self.assertEqual(len(problems), 4)
         answers = self.folder / "answers"
@@ -188,9 +296,9 @@ class SecretWorlds(EtudeCase):
         scenario = self.folder / "suite.yaml"
         scenario.write_text(ik_scenario(trials=1) + MINE)
         self.run_suite(scenario)
-        self.run_suite(scenario, "--seed-file", self.key, "--no-fence", out=self.folder / "unfenced")
-        for folder, says in ((self.out, "seed 1, open worlds"), (self.run_folder, f"secret worlds, key {self.digest[:16]}…"),
-                             (self.folder / "unfenced", f"secret worlds, key {self.digest[:16]}…, programs in no fence")):
+        self.run_suite(scenario, "--seed-file", self.key, "--reuse-key", "--no-fence", out=self.folder / "unfenced")
+        for folder, says in ((self.out, "seed 1, open worlds"), (self.run_folder, f"secret worlds, key {self.digest[:16]}…, other worlds under every condition"),
+                             (self.folder / "unfenced", f"secret worlds, key {self.digest[:16]}…, other worlds under every condition, programs in no fence")):
             self.assertEqual(self.etude("report", folder, "--no-video").returncode, 0)
             self.assertIn(f"<dd>{says}</dd>", (folder / "report" / "index.html").read_text())
             self.assertIn(says + ".\n", self.etude("compare", folder, folder).stdout)

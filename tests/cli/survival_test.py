@@ -334,7 +334,7 @@ methods:
     def test_a_full_disk_is_one_complaint_and_loses_nothing(self):
         limited = subprocess.run(["bash", "-c", 'ulimit -f 400; exec "$0" run "$1" -o "$2"', ETUDE, self.scenario, self.out],
                                  capture_output=True, text=True, timeout=60)
-        self.assertEqual(limited.returncode, 2)
+        self.assertEqual(limited.returncode, 3)
         self.assertEqual(len([line for line in limited.stderr.splitlines() if line.startswith("etude: ")]), 1)
         self.assertIn("--resume goes on with it", limited.stderr)
         self.resume()

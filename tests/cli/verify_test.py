@@ -2,6 +2,7 @@
 import base64
 import ctypes
 import json
+import math
 import re
 import shutil
 import subprocess
@@ -14,19 +15,19 @@ video: {compare: [fixed, least-squares], trials: [1]}
 """
 
 
-def digest_of(path):
-    """As seals tell it."""
+def fingerprint(data):
+    """As seals and journals tell it."""
     xxh3 = ctypes.CDLL("libxxhash.so.0").XXH3_64bits
     xxh3.restype = ctypes.c_uint64
-    data = path.read_bytes()
     return f"{xxh3(data, ctypes.c_size_t(len(data))):016x}"
 
 
 def reseal(folder):
     """Seals a folder anew, as a forger would."""
     seal = json.loads((folder / "seal.json").read_text())
-    for name in seal["files"]:
-        seal["files"][name] = digest_of(folder / name)
+    others = ("report", "video", "seal.json", "signed.b2", "signed.b2.minisig")
+    files = [path.relative_to(folder) for path in folder.rglob("*") if path.is_file()]
+    seal["files"] = {str(name): fingerprint((folder / name).read_bytes()) for name in files if name.parts[0] not in others}
     (folder / "seal.json").write_text(json.dumps(seal))
 
 
@@ -58,11 +59,13 @@ class Verify(EtudeCase):
 
     def test_a_run_that_nobody_touched_agrees_line_by_line(self):
         text = self.verify(expect=0)
-        for said in ("seal.json", "rows: those that", "summary.json: computed again from 24 rows", "recordings",
-                     "cells, the recorded ones among them, run again", "report: "):
+        for said in ("seal.json", "rows: those that", "files: those that", "texts: nothing", "worlds: every row",
+                     "summary.json: computed again from 24 rows", "20 of 20 cells and 4 that left a recording, run again",
+                     "report: "):
             self.assertRegex(text, f"(?m)^agrees   .*{re.escape(said)}")
-        self.assertRegex(text, r"6 of 6 agree")
-        self.assertNotIn("run again", self.verify("--sample", 0, expect=0))
+        self.assertRegex(text, r"8 of 8 agree")
+        self.assertIn("Every cell that can be run again was.", text)
+        self.assertNotIn("run again:", self.verify("--sample", 0, expect=0))
 
     def test_a_change_without_a_new_seal_is_told_of_and_the_rest_all_the_same(self):
         forge(self.out / "host.json", '"jobs":', '"jobs": ')
@@ -87,7 +90,19 @@ class Verify(EtudeCase):
             ("a row", lambda: forge(self.out / "cells.jsonl", row, "0.25"), "summary.json", "was"),
             ("a recording", lambda: forge(recording, height, "1.25"), "cells", "recording was"),
             ("a curve", lambda: forge(curves, error, "1.25"), "cells", "curves was"),
-            ("a recording more", lambda: shutil.copy(recording, recording.with_name("ik~other.json")), "recordings", "belongs to no cell"),
+            ("files more", lambda: [shutil.copy(recording, recording.with_name("ik~other.json")),
+                                    (self.out / "notes.html").write_text("ours is best"),
+                                    shutil.copytree(self.out / "series", self.out / "series" / "old")], "files",
+             "notes.html belongs to no run.*recordings/ik~other.json belongs to no run.*series/old/ik.jsonl belongs to no run"),
+            ("pages and films more", lambda: [(self.out / "report" / "final.html").write_text("ours is best"),
+                                              (self.out / "video").mkdir(exist_ok=True),
+                                              (self.out / "video" / "best.mp4").write_bytes(b"")], "report",
+             "final.html belongs to no report.*best.mp4 belongs to no report"),
+            ("what only others read", lambda: [
+                forge(manifest, '"schema":', '"suite":"x","schema":'),
+                forge(self.out / "cells.jsonl", '"trial":0', '"our_error":0,"trial":0'),
+                curves.write_text(curves.read_text() + curves.read_text().splitlines()[0] + "\n")], "texts",
+             "'suite' stands there twice.*cells.jsonl:1 is written otherwise.*ik.jsonl:25 is written otherwise"),
             ("a page", lambda: forge(self.out / "report" / "index.html", "Is it true?", "Is it so?"), "report", "index.html"),
             ("a table", lambda: forge(self.out / "report" / "tables" / "ik.csv", "fixed", "fixes"), "report", "ik.csv"),
         ]
@@ -97,18 +112,30 @@ class Verify(EtudeCase):
             name, change, found_by, said = self.forgeries()[i]
             with self.subTest(forged=name):
                 change()
-                seal = json.loads((self.out / "seal.json").read_text())
-                if name == "a recording more":
-                    seal["files"]["recordings/ik~other.json"] = ""
-                    (self.out / "seal.json").write_text(json.dumps(seal))
                 reseal(self.out)
-                replays = found_by in ("cells", "recordings")
+                replays = found_by == "cells"
                 found, text = self.differences("--sample", 24 if replays else 0)
                 self.assertIn(found_by, [words.lstrip("0123456789 ") or "cells" for words in found], text)
                 self.assertIn("agrees   seal.json", text)
-                self.assertIn(said, text)
+                self.assertRegex(text, re.compile(said, re.S))
             shutil.rmtree(self.out)
             shutil.copytree(self.whole, self.out)
+
+    def test_a_sample_tells_its_dice_and_what_it_misses(self):
+        def facts(*more):
+            return self.facts("verify", self.out, "--sample", 7, *more)["sample"]
+        first, second = facts(), facts()
+        self.assertNotEqual(first["seed"], second["seed"])  # nobody foresees it
+        self.assertEqual(facts("--sample-seed", first["seed"]), first)
+        self.assertEqual((first["drawn"], first["cells"], first["recorded"]), (7, 20, 4))
+        for missed, (method, forged, cells) in zip(first["missed"], [(None, 1, 20), ("ik/fixed", 5, 10), (None, 1, 20)]):
+            self.assertEqual((missed["method"], missed["forged"], missed["cells"]), (method, forged, cells))
+            self.assertAlmostEqual(missed["chance"], math.comb(20 - forged, 7) / math.comb(20, 7), 12)
+        said = self.verify("--sample", 7, "--sample-seed", 5, expect=0)
+        self.assertIn("65 % of those who forge 5 % of the 20 cells (1), 1 in 12 of those who forge half of ik/fixed (5)", said)
+        self.assertIn("--sample-seed 5 draws this one again", said)
+        self.assertEqual(self.facts("verify", self.out, "--sample", "all")["sample"]["missed"], [])
+        self.assertIn("'some' is no sample; allowed: 0 to 10000000, or 'all'", self.verify("--sample", "some", expect=2))
 
     def keys(self, name, *arguments):
         secret, public = self.folder / f"{name}.key", self.folder / f"{name}.pub"
@@ -149,8 +176,125 @@ class Verify(EtudeCase):
         self.verify("--sample", 0, "--sign", other, expect=1)
         self.assertFalse((self.out / "signed.b2").exists())
 
+    def test_rows_that_no_cell_can_confirm_are_counted_by_method(self):
+        shutil.rmtree(self.out)
+        text = ik_scenario(trials=2) + "  - {name: mine, exec: ['false']}\n"
+        self.run_suite(self.write("ik.yaml", text), code=1)
+        self.assertIn("ik/mine: all 4 cells: they ask programs (--allow-exec runs these)", self.verify(expect=0))
+        told = self.facts("verify", self.out)
+        self.assertEqual((told["sample"]["cells"], len(told["not_verified"])), (8, 1))
+        self.assertNotIn("Not verified", self.verify("--allow-exec", expect=0))
+
     def test_what_is_no_run_is_bad_input(self):
         self.assertEqual(self.etude("verify", self.folder / "none").returncode, 2)
+
+
+class Forgers(EtudeCase):
+    """Who owns the program, and has it sum up and seal what they forged."""
+
+    WORLDS = 40  # of two methods, least-squares the better one
+
+    @classmethod
+    def setUpClass(cls):
+        shared = cls.shared_folder()
+        cls.scenario = shared / "ik.yaml"
+        cls.scenario.write_text(ik_scenario(trials=cls.WORLDS // 2))
+        cls.shards = [shared / "1", shared / "2"]
+        for shard in cls.shards:
+            made = cls.etude("run", cls.scenario, "--shard", f"{shard.name}/2", "-j", 1, "-o", shard)
+            assert made.returncode == 0, made.stderr
+
+    def merge_forged(self, forge_line):
+        """Merges the shards' journals, of whose lines each was changed by `forge_line(cell, text)`."""
+        shards = []
+        for shard in self.shards:
+            shards.append(self.folder / shard.name)
+            shutil.copytree(shard, shards[-1])
+            journal = shards[-1] / "journal.jsonl"
+            *lines, _ = journal.read_text().split("\n")
+            for i, line in enumerate(lines[2:], 2):
+                text = line[:line.rindex(',"sum":')]
+                text = forge_line(int(re.match(r'{"cell":(\d+)', text)[1]), text)
+                lines[i] = f'{text},"sum":"{fingerprint(text.encode())}"}}'
+            journal.write_text("\n".join(lines) + "\n")
+        merged = self.etude("merge", *shards, "-o", self.out)
+        self.assertLess(merged.returncode, 2, merged.stderr)  # 1: a method has no answer
+
+    def verdict(self):
+        comparison = json.loads((self.out / "summary.json").read_text())["scenarios"][0]["conditions"][0]["comparisons"]
+        return [one["verdict"] for one in comparison if one["metric"] == "orientation_error_deg"]
+
+    def forge_all_but(self, spared):
+        """In every world of which none of these cells is, each method gets the other's answer."""
+        def swap(cell, text):
+            return text if cell // 2 in spared else text.replace(f'{{"cell":{cell},', f'{{"cell":{cell ^ 1},', 1)
+        self.merge_forged(swap)
+
+    def test_cannot_foresee_which_cells_are_run_again(self):
+        self.merge_forged(lambda cell, text: text)
+        honest = self.verdict()
+        names = [json.loads(line)["cell"] for line in (self.out / "cells.jsonl").read_text().splitlines()]
+        drawn = json.loads(self.etude("replay", self.out, "--sample", 10, "--json").stdout)["cells"]
+        spared = {names.index(one["cell"]) // 2 for one in drawn}
+        for folder in self.out, self.folder / "1", self.folder / "2":
+            shutil.rmtree(folder)
+        self.forge_all_but(spared)
+        self.assertNotEqual(self.verdict(), honest)
+        # By dice that they know (the run's own seed) they are missed; all else that they say agrees with itself.
+        foreseen = self.etude("verify", self.out, "-j", 1, "--sample", 10, "--sample-seed", 1)
+        self.assertEqual(foreseen.returncode, 0, foreseen.stdout)
+        unforeseen = self.etude("verify", self.out, "-j", 1)  # one in 10^11 that it misses
+        self.assertEqual(unforeseen.returncode, 1, unforeseen.stdout)
+        told = json.loads(self.etude("verify", self.out, "-j", 1, "--sample", "all", "--json").stdout)
+        self.assertFalse(told["agrees"])
+        self.assertEqual(sum(len(check["differences"]) for check in told["checks"]), 2 * (self.WORLDS - len(spared)))
+
+    def test_cannot_pass_off_the_answers_of_rivals_as_timeouts(self):
+        def time_out(cell, text):
+            if cell % 2 == 0:
+                return text
+            return f'{{"cell":{cell},"status":"timeout","reason":"took longer than 10 s","usage":[10,10,60]'
+        self.merge_forged(time_out)
+        said = self.etude("verify", self.out, "-j", 1, "--sample", 10, "--sample-seed", 2).stdout
+        self.assertIn("status was timeout and is ok; the machines differ, or it was forged", said)
+        self.assertIn(f"ik/least-squares: {self.WORLDS} of {self.WORLDS} cells say timeout", said)
+
+    def test_cannot_exchange_the_names_of_methods(self):
+        """Every row is what its cell answers, and stands where its cell does, but under the other's name."""
+        def methods(fixed, least_squares):
+            return ik_scenario(trials=4).split("  - ")[0] + (f"  - {{name: fixed, {fixed}, description: one}}\n"
+                                                             f"  - {{name: least-squares, {least_squares}, description: other}}\n")
+        ccd, squares = "solver: ccd, weights: fixed", "solver: damped-least-squares"
+        lie = self.folder / "lie"
+        lie.mkdir()
+        (lie / "ik.yaml").write_text(methods(squares, ccd))
+        self.run_suite(self.write("ik.yaml", methods(ccd, squares)), "-j", 1)
+        self.run_suite(lie / "ik.yaml", "-j", 1, out=lie / "out")
+        for name in "cells.jsonl", "series/ik.jsonl":
+            lines = (lie / "out" / name).read_text().splitlines(keepends=True)
+            (self.out / name).write_text("".join(b + a for a, b in zip(lines[::2], lines[1::2])))
+        shutil.copy(lie / "out" / "summary.json", self.out)
+        reseal(self.out)
+        found = self.etude("verify", self.out, "-j", 1, "--sample", "all")
+        self.assertEqual(found.returncode, 1, found.stdout)
+        self.assertIn("row 1 is ik/joint_noise_deg=2/000/least-squares; there belongs ik/joint_noise_deg=2/000/fixed", found.stdout)
+        replayed = self.etude("replay", self.out)
+        self.assertEqual(replayed.returncode, 1)
+        self.assertIn("0 of 16 cells came out the same", replayed.stdout)
+
+    def test_cannot_change_what_worlds_were_drawn_from(self):
+        scenario = self.write("t.yaml", "scenario: t\nquestion: q\ntask: tracking\nclips: ['builtin:clap', 'builtin:sway']\n"
+                                        "trials: 2\nmethods: [{name: a, solver: damped-least-squares}]\n")
+        self.run_suite(scenario, "-j", 1)
+        self.assertEqual(self.etude("verify", self.out, "-j", 1).returncode, 0)
+        cells = self.out / "cells.jsonl"
+        units = re.findall(r'"units":(\[[^]]+\])', cells.read_text())
+        self.assertEqual(len(set(units)), 2)
+        forge(cells, f'"units":{units[0]}', f'"units":{units[1]}')
+        reseal(self.out)
+        found = self.etude("verify", self.out, "--sample", 1)
+        self.assertEqual(found.returncode, 1)
+        self.assertRegex(found.stdout, r"(?m)^differs +worlds: every row .*\n  t/-/000/a: units was")
 
 
 if __name__ == "__main__":

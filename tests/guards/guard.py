@@ -77,7 +77,8 @@ BANNED_BELOW = [
 # Files are written through bench/files alone, whole and onto the disk; but for what grows line by line, or is none.
 WRITES = re.compile(r"std::o?fstream\b|\bfopen\(|\bO_CREAT\b|\bcreat\(")
 WRITERS = ["bench/files", "bench/outside/watched_program.cc", "bench/process/child_process.cc",
-           "bench/run/cell_runner.cc", "bench/run/journal.cc", "bench/run/run_folder.cc"]  # the last: a lock, which holds nothing
+           "bench/run/cell_runner.cc", "bench/run/journal.cc", "bench/run/used_keys.cc",
+           "bench/run/run_folder.cc"]  # the last: a lock, which holds nothing
 
 DRAW = re.compile(r"\b(\w+)\.(?:Bits|Chance|IndexBelow|Normal3?|Uniform)(?=\()|(?<=[(, ])(random|dice)(?=[,)])")
 INNERMOST = re.compile(r"([({\[])([^(){}\[\]]*)[)}\]]")

@@ -5,14 +5,24 @@ Behind the fence it runs the scenario itself under every seed that it can think 
 and for what it has left itself when it answered another condition. What it finds it says on standard error, LOOKUP first.
 Of task ik it answers the truth where it has it, else the pose that the problem starts in; of tracking the truth of that
 frame of all known ones whose ends are as far from each other, whatever the body's turn, place and size.
+
+`lookup.py carry MEMORY NOISE…` meets worlds of ik twice, with two strengths of noise, and works out what is without noise.
+What it was asked it remembers from start to start in the page cache: which pages of its own file MEMORY, which it can only
+read, are in memory. It also reads `notes.json` beside it, where there is one, and logs its own.
+`lookup.py tell` is a metric that tells the truth of the cell that it is asked about by locks on files of the system, which
+it may open for reading; `lookup.py listen` a method of detection that answers what the locks say.
 """
+import ctypes
+import fcntl
 import hashlib
 import itertools
 import json
 import math
+import mmap
 import os
 import pathlib
 import re
+import struct
 import subprocess
 import sys
 
@@ -153,8 +163,132 @@ def attack(den, seeds):
     converse(asked)
 
 
+class PageMemory:
+    """Texts written by reading pages of a file: a page that is in memory is a one. A region holds one text."""
+    REGION = 1 << 15  # pages
+
+    def __init__(self, file):
+        descriptor = os.open(file, os.O_RDONLY)
+        self.size = os.fstat(descriptor).st_size
+        self.pages = mmap.mmap(descriptor, self.size, prot=mmap.PROT_READ | mmap.PROT_WRITE, flags=mmap.MAP_PRIVATE)
+        self.pages.madvise(mmap.MADV_RANDOM)  # no page but the one that is touched
+
+    def read(self):
+        """All texts that were written, or None where the kernel does not tell."""
+        held = (ctypes.c_ubyte * (self.size // mmap.PAGESIZE))()
+        start = ctypes.addressof(ctypes.c_char.from_buffer(self.pages))
+        if ctypes.CDLL(None, use_errno=True).mincore(ctypes.c_void_p(start), ctypes.c_size_t(self.size), held) != 0:
+            return None
+        texts = []
+        for first in range(0, len(held), self.REGION):
+            bits = [page & 1 for page in held[first:first + self.REGION]]
+            whole = bytes(sum(bit << place for place, bit in enumerate(bits[at:at + 8])) for at in range(0, len(bits), 8))
+            length, = struct.unpack("<I", whole[:4])
+            if 0 < length < len(whole) - 12 and hashlib.sha256(whole[:4 + length]).digest()[:8] == whole[4 + length:12 + length]:
+                texts.append(whole[4:4 + length])
+        return texts
+
+    def write(self, region, text):
+        told = struct.pack("<I", len(text)) + text
+        told += hashlib.sha256(told).digest()[:8]
+        for place in range(8 * len(told)):
+            if told[place // 8] >> place % 8 & 1:
+                self.pages[(region * self.REGION + place) * mmap.PAGESIZE]
+
+
+def carry(file, noises):
+    """Answers what two strengths of the same noise agree in."""
+    memory = PageMemory(file)
+    texts = memory.read()
+    if texts is None:
+        found("no memory: the kernel does not tell which pages it holds")
+        texts = []
+    notes = pathlib.Path(__file__).with_name("notes.json")
+    known = [json.loads(text) for text in texts] + (json.loads(notes.read_text()) if notes.exists() else [])
+    found(f"remembers {sum(len(each) for each in known)} worlds")
+    asked_now = {}
+
+    def asked(message):
+        if message["type"] == "setting" and asked_now:  # of open worlds one start meets all conditions
+            known.append(dict(asked_now))
+            asked_now.clear()
+        if message["type"] != "problem":
+            return None
+        problem = message["problem"]
+        start = problem["start_angles_deg"]
+        # The ends of the limbs are where the truth puts them, whatever the noise.
+        world = hashlib.sha256(json.dumps(problem["targets"]).encode()).hexdigest()[:8]
+        asked_now[world] = start
+        for before, other in enumerate(known):
+            if world in other:
+                found("a world that was met before")
+                near, far = noises[before], noises[len(known)]
+                return {"angles_deg": [(far * a - near * b) / (far - near) for a, b in zip(other[world], start)]}
+        return {"angles_deg": start}
+
+    converse(asked)
+    memory.write(len(texts), json.dumps(asked_now).encode())
+    print("NOTES " + json.dumps(asked_now), file=sys.stderr, flush=True)
+
+
+LIVES = 64  # the lock that a method holds as long as it lives
+
+
+def locks():
+    """Files that every program may open for reading, the same ones for all."""
+    files = sorted(pathlib.Path("/usr/lib").glob("python3*/*.py"))[:LIVES + 1]
+    return [os.open(file, os.O_RDONLY) for file in files]
+
+
+def is_locked(descriptor):
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return True
+    fcntl.flock(descriptor, fcntl.LOCK_UN)
+    return False
+
+
+def tell():
+    """Holds the first lock of a pair for an event that was right, else the second; its value is whether a method lives."""
+    files = locks()
+
+    def asked(message):
+        if message["type"] != "problem":
+            return None
+        for file in files:
+            fcntl.flock(file, fcntl.LOCK_UN)
+        for event, told in enumerate(message["problem"]["extras"]["events"]):
+            fcntl.flock(files[2 * event + (told["truth"] != "right")], fcntl.LOCK_EX | fcntl.LOCK_NB)
+        return {"value": float(is_locked(files[LIVES]))}
+
+    converse(asked)
+
+
+def listen():
+    files = locks()
+    fcntl.flock(files[LIVES], fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+    def asked(message):
+        if message["type"] != "problem":
+            return None
+        calls = []
+        for event, window in enumerate(message["problem"]["events"]):
+            is_right, is_wrong = is_locked(files[2 * event]), is_locked(files[2 * event + 1])
+            if is_right != is_wrong:
+                found("a metric told of an event")
+            calls.append({"right_at_frame": window["begin_frame"] if is_right else None, "score": float(is_right)})
+        return {"events": calls, "alarms": []}
+
+    converse(asked)
+
+
 if __name__ == "__main__":
     if sys.argv[1] == "spy":
         spy(sys.argv[2])
+    elif sys.argv[1] == "carry":
+        carry(sys.argv[2], [float(noise) for noise in sys.argv[3:]])
+    elif sys.argv[1] in ("tell", "listen"):
+        {"tell": tell, "listen": listen}[sys.argv[1]]()
     else:
         attack(pathlib.Path(sys.argv[1]), sys.argv[2:])

@@ -1,6 +1,7 @@
 """A method that brings its own copy of Etude (lookup.py): of plain seeds it finds the worlds and answers the truth, of secret
 ones it finds nothing, in any task and seat. Of tracking it also recognises the frames of the public clip: in open worlds it
-answers their truth, in secret ones our own solver is nearer. ETUDE_LOOKUP_TASKS takes some of them."""
+answers their truth, in secret ones our own solver is nearer. ETUDE_LOOKUP_TASKS takes some of them. Others carry what they
+were asked from condition to condition or from run to run, or are told by a metric."""
 import json
 import os
 import pathlib
@@ -42,6 +43,68 @@ class Lookup(unittest.TestCase):
             self.skipTest("no fence here")
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="lookup-"))
         self.addCleanup(shutil.rmtree, self.folder, True)
+
+    def run_against(self, name, text, *options, den=(), is_refused=False):
+        """A run of the scenario `text`, in which DEN is a folder of an attacker with its files: rows and what it said."""
+        place = self.folder / name
+        (place / "den").mkdir(parents=True)
+        shutil.copy(LOOKUP, place / "den")
+        for file, content in dict(den).items():
+            (place / "den" / file).write_text(content)
+        with open(place / "den/memory", "wb") as memory:
+            memory.truncate(4 * (1 << 15) * os.sysconf("SC_PAGE_SIZE"))  # a hole: none of its pages is in memory
+        (place / "in").mkdir()
+        scenario, out = place / "in/lookup.yaml", place / "in/run"
+        scenario.write_text(text.replace("DEN", str(place / "den")))
+        run = subprocess.run([ETUDE, "run", scenario, "-o", out, "--jobs", "1", *map(str, options)], capture_output=True,
+                             text=True, timeout=600, cwd=place)
+        self.assertEqual(run.returncode == 2, is_refused, run.stderr)
+        if is_refused:
+            return [], run.stderr
+        said = "".join(log.read_text() for log in sorted((out / "stderr").glob("*")))
+        self.assertNotIn("Traceback", said, "an attacker that fell finds nothing")
+        return [json.loads(line) for line in (out / "cells.jsonl").read_text().splitlines()], said
+
+    def carrier(self, sweep, noises):
+        return (f"scenario: lookup\nquestion: Does it add up?\ntask: ik\ntrials: 3\nposes: {{uniform: 0.5}}\n{sweep}\nmethods:\n"
+                f"  - {{name: own, exec: [{PYTHON}, DEN/lookup.py, carry, DEN/memory, {noises}]}}\n")
+
+    def test_what_one_condition_asked_tells_nothing_of_the_next(self):
+        text = self.carrier("sweep: {joint_noise_deg: [2, 3, 4]}", "2, 3, 4")
+        later = lambda rows: [row["hidden_angle_error_deg"] for row in rows if row["joint_noise_deg"] != 2]
+        rows, said = self.run_against("secret", text, "--seed-file", self.key())
+        if "no memory" in said:
+            self.skipTest("the kernel does not tell which pages it holds")
+        # It remembers all that it was asked, and nothing of it helps.
+        self.assertEqual(re.findall(r"remembers (\d) worlds", said), ["0", "3", "6"])
+        self.assertNotIn("a world that was met before", said)
+        self.assertGreater(min(later(rows)), 0.1)
+        # The control: conditions of open worlds share their dice.
+        rows, said = self.run_against("plain", text)
+        self.assertEqual(len(later(rows)), 6)
+        self.assertLess(max(later(rows)), 1e-9, said)
+
+    def test_a_key_that_was_used_is_refused_since_two_runs_tell_their_truth_together(self):
+        key = self.key()
+        rows, said = self.run_against("first", self.carrier("joint_noise_deg: 2", "2"), "--seed-file", key)
+        self.assertGreater(min(row["hidden_angle_error_deg"] for row in rows), 0.1)
+        notes = {"notes.json": "[" + re.search("^NOTES (.*)$", said, re.M)[1] + "]"}
+        text = self.carrier("joint_noise_deg: 3", "2, 3")
+        _, refused = self.run_against("second", text, "--seed-file", key, den=notes, is_refused=True)
+        self.assertIn("was used before, and its worlds may be known: by 'etude run' of 'lookup' into", refused)
+        # The control: why it is refused.
+        rows, said = self.run_against("asked-for", text, "--seed-file", key, "--reuse-key", den=notes)
+        self.assertLess(max(row["hidden_angle_error_deg"] for row in rows), 1e-9, said)
+
+    def test_a_metric_tells_a_method_nothing(self):
+        told = f"exec: [{PYTHON}, DEN/lookup.py"
+        text = ("scenario: lookup\nquestion: Who tells?\ntask: detection\ntrials: 3\nclips: ['builtin:*']\nevents: 4\n"
+                f"methods:\n  - {{name: ours}}\n  - {{name: own, {told}, listen]}}\n"
+                f"metrics: [f1, {{name: lives, {told}, tell]}}]\n")
+        rows, said = self.run_against("told", text, "--seed-file", self.key())
+        self.assertNotIn("a metric told", said)
+        self.assertEqual({row["lives"] for row in rows}, {0}, "methods have ended when metrics are asked")
+        self.assertLess(max(row["f1"] for row in rows if row["method"] == "own"), 1)
 
     def release(self, task, *options):
         """What the attacker finds, and its rows."""

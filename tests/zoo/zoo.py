@@ -5,6 +5,7 @@ Every specimen is bounded by what it does itself, for the day on which no fence 
 within seconds; few megabytes; no signal but to those whom zoo_test.py has put there to be hit.
 """
 import ctypes
+import fcntl
 import json
 import os
 import pathlib
@@ -13,6 +14,7 @@ import resource
 import signal
 import socket
 import stat
+import struct
 import subprocess
 import sys
 import threading
@@ -23,7 +25,7 @@ HARMLESS_DEVICES = {os.makedev(1, minor) for minor in (3, 5, 7, 8, 9)} | {os.mak
 LIFE_S = 20  # of whatever is left behind, unless somebody ends it
 VICTIM = json.loads((DEN / "victim.json").read_text()) if (DEN / "victim.json").exists() else {}
 
-resource.setrlimit(resource.RLIMIT_AS, (1 << 31, 1 << 31))
+resource.setrlimit(resource.RLIMIT_AS, (1 << 31, resource.getrlimit(resource.RLIMIT_AS)[1]))
 resource.setrlimit(resource.RLIMIT_FSIZE, (64 << 20, 64 << 20))
 resource.setrlimit(resource.RLIMIT_CPU, (30, 30))
 signal.alarm(LIFE_S)
@@ -555,7 +557,6 @@ def leaves_its_root(problem):
 
 
 def types_at_the_terminal(problem):
-    import fcntl
     import termios
     try:
         with open("/dev/tty", "w") as terminal:
@@ -642,6 +643,369 @@ def hides_memory_in_mappings(problem):
         shared.madvise(mmap.MADV_DONTNEED)
     time.sleep(1)
     victimise("held 540 MB in mappings")
+
+
+def tell_of_memory(how, mb):
+    """Holds it for a second, in which it should have been ended if it is more than its limit of 400 MB and a bit."""
+    time.sleep(1)
+    if mb > 480:
+        victimise(f"held {mb:.0f} MB {how}")
+
+
+def in_children(fills, meanwhile=lambda: None):
+    """The sum of what functions tell, each in a process of its own, which goes on holding it."""
+    reading, writing = os.pipe()
+    for fill in fills:
+        if os.fork() == 0:
+            signal.alarm(15)
+            try:
+                filled = fill()
+            except (OSError, MemoryError):
+                filled = 0
+            os.write(writing, f"{filled:.3f} ".encode())
+            time.sleep(LIFE_S)
+            os._exit(0)
+    meanwhile()
+    told = ""
+    while told.count(" ") < len(fills):
+        told += os.read(reading, 4096).decode()
+    return sum(map(float, told.split()))
+
+
+def splits_a_shared_mapping(problem):
+    """1.2 GB in one piece of shared memory: each of six processes maps a sixth of it, and lets go what it has written."""
+    import mmap
+    libc = ctypes.CDLL(None, use_errno=True)
+    libc.munmap.argtypes = [ctypes.c_void_p, ctypes.c_size_t]
+    libc.madvise.argtypes = [ctypes.c_void_p, ctypes.c_size_t, ctypes.c_int]
+    part, piece = 200 << 20, 10 << 20
+    shared = mmap.mmap(-1, 6 * part)
+    start = ctypes.addressof(ctypes.c_char.from_buffer(shared))
+
+    def fill(number):
+        libc.munmap(start, number * part)
+        libc.munmap(start + (number + 1) * part, (5 - number) * part)
+        for at in range(start + number * part, start + (number + 1) * part, piece):
+            ctypes.memset(at, 1, piece)
+            libc.madvise(at, piece, mmap.MADV_DONTNEED)
+        return part / 1e6
+    in_children([lambda number=number: fill(number) for number in range(6)], lambda: libc.munmap(start, 6 * part))
+    tell_of_memory("in one mapping", 1200)
+
+
+def hides_memory_behind_one_page(problem):
+    """Of each of 60 pieces of shared memory one page stays mapped, and keeps all of it."""
+    libc = ctypes.CDLL(None, use_errno=True)
+    libc.mmap.restype, size = ctypes.c_void_p, 20 << 20
+    libc.munmap.argtypes = [ctypes.c_void_p, ctypes.c_size_t]
+    for _ in range(60):
+        start = libc.mmap(None, ctypes.c_size_t(size), 3, 0x21, -1, 0)
+        ctypes.memset(start, 1, size)
+        libc.munmap(start + 4096, size - 4096)
+    tell_of_memory("behind a page each", 60 * 21)
+
+
+def hides_memory_in_semaphores(problem):
+    """600 sets of 32000 each. Only fenced: elsewhere they would outlive it."""
+    libc = ctypes.CDLL(None, use_errno=True)
+    made = 0
+    while is_fenced() and made < 600 and libc.semget(0, 32000, 0o1600) >= 0:
+        made += 1
+    tell_of_memory("in semaphores", made * 32000 * 64 / 1e6)
+
+
+def hides_memory_in_page_tables(problem):
+    """Pages that are read, but never written, are all one; but each has its place in a table."""
+    import mmap
+
+    def fill():
+        resource.setrlimit(resource.RLIMIT_AS, (resource.RLIM_INFINITY,) * 2)
+        size, step = 75 << 30, 2 << 20
+        fill.memory = mmap.mmap(-1, size, mmap.MAP_PRIVATE | 0x4000, mmap.PROT_READ)  # MAP_NORESERVE
+        fill.memory.madvise(15)  # MADV_NOHUGEPAGE
+        sum(fill.memory[at] for at in range(0, size, step))
+        return size / step * 4096 / 1e6
+    tell_of_memory("in page tables", in_children([fill] * 8))
+
+
+def hides_memory_in_many_mappings(problem):
+    import mmap
+
+    def fill():
+        libc = ctypes.CDLL(None, use_errno=True)
+        libc.mprotect.argtypes = [ctypes.c_void_p, ctypes.c_size_t, ctypes.c_int]
+        fill.memory = mmap.mmap(-1, 256 << 20, mmap.MAP_PRIVATE)
+        start, made = ctypes.addressof(ctypes.c_char.from_buffer(fill.memory)), 0
+        while made < 32000 and libc.mprotect(start + made * 8192, 4096, 0) == 0:
+            made += 1
+        return made * 2 * 200 / 1e6
+    tell_of_memory("in mappings", in_children([fill] * 90))
+
+
+def fill_socket(link, most=1 << 30):
+    """Sends until it would have to wait; the MB that it took."""
+    link.setblocking(False)
+    sent = 0
+    try:
+        while sent < most:
+            sent += link.send(bytes(100_000))
+    except OSError:
+        pass
+    return sent / 1e6
+
+
+def hides_memory_in_sockets(problem):
+    def fill():
+        fill.pairs = []
+        while len(fill.pairs) < 200 and sum(mb for _, mb in fill.pairs) < 150:
+            pair = socket.socketpair()
+            for link in pair:
+                link.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, 1 << 20)
+            fill.pairs.append((pair, sum(map(fill_socket, pair))))
+        return sum(mb for _, mb in fill.pairs)
+    tell_of_memory("in sockets", in_children([fill] * 8))
+
+
+def hides_memory_in_flight(problem):
+    """Sockets full of bytes that are on their way to somebody who takes them not."""
+    def fill():
+        fill.way, mb = [socket.socketpair() for _ in range(60)], 0
+        for one, _ in fill.way:
+            one.setblocking(False)
+            try:
+                for _ in range(10):
+                    pair = socket.socketpair()
+                    pair[0].setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, 1 << 20)
+                    filled = fill_socket(pair[0], 400_000)
+                    socket.send_fds(one, [b"x"], [pair[1].fileno()])
+                    mb += filled
+            except OSError:
+                continue
+        return mb
+    tell_of_memory("in flight", in_children([fill] * 4))
+
+
+def hides_memory_in_a_queue(problem):
+    """Of a listener who accepts nobody: who has connected and sent is gone."""
+    listener, mb = socket.socket(socket.AF_UNIX), 0
+    listener.bind("\0zoo-queue")
+    listener.listen(8000)
+    while mb < 1200:
+        link = socket.socket(socket.AF_UNIX)
+        link.setblocking(False)
+        try:
+            link.connect("\0zoo-queue")
+        except OSError:
+            break
+        link.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, 1 << 20)
+        mb += fill_socket(link, 800_000)
+        link.close()
+    tell_of_memory("in a queue", mb)
+
+
+def hides_memory_in_connections(problem):
+    """TCP, to itself."""
+    listener, held, mb = socket.create_server(("127.0.0.1", 0), backlog=4000), [], 0
+    while mb < 1200 and len(held) < 240:
+        held.append(socket.create_connection(listener.getsockname()))
+        mb += fill_socket(held[-1], 8 << 20)
+    tell_of_memory("in connections", mb)
+
+
+def hides_memory_in_pipes(problem):
+    def fill():
+        fill.pipes, mb = [], 0
+        while len(fill.pipes) < 200:
+            fill.pipes.append(os.pipe())
+            try:
+                fcntl.fcntl(fill.pipes[-1][1], 1031, 1 << 20)  # F_SETPIPE_SZ
+            except OSError:
+                pass
+            os.set_blocking(fill.pipes[-1][1], False)
+            mb += os.write(fill.pipes[-1][1], bytes(1 << 20)) / 1e6
+        return mb
+    tell_of_memory("in pipes", in_children([fill] * 6))
+
+
+def hides_memory_in_pinned_pages(problem):
+    """Of each huge page a pipe holds one byte, and so the page, though nobody maps it any more."""
+    libc = ctypes.CDLL(None, use_errno=True)
+    libc.mmap.restype, size, page = ctypes.c_void_p, 40 << 20, 2 << 20
+    pipes = []
+    for _ in range(40):
+        start = libc.mmap(None, ctypes.c_size_t(size), 3, 0x22, -1, 0)
+        libc.madvise(ctypes.c_void_p(start), ctypes.c_size_t(size), 14)  # MADV_HUGEPAGE
+        pipes.append(os.pipe())
+        for at in range(start - start % page + page, start + size - page, page)[:15]:
+            ctypes.memset(at, 1, 1)
+            words = (ctypes.c_size_t * 2)(at, 1)
+            if libc.syscall({"x86_64": 278, "aarch64": 75}[os.uname().machine], pipes[-1][1], words, 1, 0) != 1:
+                return
+        libc.munmap(ctypes.c_void_p(start), ctypes.c_size_t(size))
+    tell_of_memory("in pinned pages", 40 * 15 * 2)
+
+
+def hides_memory_in_sent_pages(problem):
+    """Of each page of a file a socket holds one byte, and so the page, though the file is empty again."""
+    def fill():
+        fill.pairs, sent = [socket.socketpair() for _ in range(200)], 0
+        with open(f"/dev/shm/zoo-pages-{os.getpid()}", "wb+") as file:
+            for one, _ in fill.pairs:
+                one.setblocking(False)
+                file.write(bytes(2 << 20))
+                try:
+                    for page in range(512):
+                        sent += os.sendfile(one.fileno(), file.fileno(), page * 4096, 1)
+                except BlockingIOError:
+                    pass
+                file.seek(0)
+                file.truncate()
+            os.unlink(file.name)
+        return sent * 4096 / 1e6
+    tell_of_memory("in sent pages", in_children([fill] * 4))
+
+
+def hides_memory_in_filters(problem):
+    """Each of 900 threads has filters of system calls of its own, which allow everything."""
+    libc = ctypes.CDLL(None, use_errno=True)
+    rules = (ctypes.c_char * (8 * 4096))(*(struct.pack("HBBI", 0, 0, 0, 0) * 4095 + struct.pack("HBBI", 6, 0, 0, 0x7FFF0000)))
+    program = (ctypes.c_char * 16)(*struct.pack("HxxxxxxP", 4096, ctypes.addressof(rules)))
+    made, end = [], threading.Event()
+
+    def filter_itself():
+        while len(made) < 7000 and libc.prctl(22, 2, program) == 0:
+            made.append(1)
+        end.wait()
+    threading.stack_size(65536)
+    for _ in range(900):
+        threading.Thread(target=filter_itself, daemon=True).start()
+    tell_of_memory("in filters", len(made) * 0.08)
+    end.set()
+
+
+def hides_memory_in_empty_files(problem):
+    for folder in ("/tmp", "/var/tmp", "/dev/shm") if is_fenced() else ():
+        os.mkdir(f"{folder}/zoo-empty")
+        for number in range(110_000):
+            os.mknod(f"{folder}/zoo-empty/{number:0200d}")
+    tell_of_memory("in empty files", 330_000 * 1600e-6 if is_fenced() else 0)
+
+
+def hides_memory_in_locks(problem):
+    def fill():
+        fill.files, made = [], 0
+        for number in range(100):
+            fill.files.append(open(f"/tmp/zoo-lock-{os.getpid()}-{number}", "w"))
+            for at in reversed(range(1500)):  # the list is looked through from its beginning
+                fcntl.fcntl(fill.files[-1], fcntl.F_SETLK, struct.pack("hhqqi", fcntl.F_WRLCK, 0, 2 * at, 1, 0))
+                made += 1
+        return made * 230 / 1e6
+    tell_of_memory("in locks", in_children([fill] * 16))
+
+
+def holds_watches(problem):
+    """Of epoll: each of 250 watches 250 others, in eight processes."""
+    import select
+
+    def fill():
+        pipes = [os.eventfd(0) for _ in range(230)]
+        fill.watchers = [select.epoll() for _ in range(250)]
+        for watcher in fill.watchers:
+            for pipe in pipes:
+                watcher.register(pipe)
+        return len(pipes) * len(fill.watchers) * 200 / 1e6
+    tell_of_memory("in watches", in_children([fill] * 8))
+
+
+def forks_eighty_idle_children(problem):
+    """Which hold nothing of their own: this does no harm."""
+    for _ in range(80):
+        if os.fork() == 0:
+            signal.alarm(8)
+            time.sleep(LIFE_S)
+            os._exit(0)
+    time.sleep(1)
+
+
+# --- what all programs of a user, or of the machine, share ------------------------------------------------------------
+def take(make, most):
+    """Makes something until there is no more of it, holds it for a second."""
+    taken = 0
+    while taken < most:
+        try:
+            if make() < 0:
+                break
+        except OSError:
+            break
+        taken += 1
+    return taken
+
+
+def takes_inotify_instances(problem):
+    libc = ctypes.CDLL(None, use_errno=True)
+    in_children([lambda: take(lambda: libc.inotify_init1(0), 200)] * 4)
+    time.sleep(1)
+
+
+def takes_pipes(problem):
+    def make():
+        pipe = os.pipe()
+        try:
+            fcntl.fcntl(pipe[1], 1031, 1 << 20)  # F_SETPIPE_SZ
+        except OSError:
+            pass
+        return pipe[0]
+    in_children([lambda: take(make, 240)] * 8)
+    time.sleep(1)
+
+
+def takes_pipes_in_flight(problem):
+    def fill():
+        fill.ways = [socket.socketpair() for _ in range(100)]
+
+        def make():
+            pipe = os.pipe()
+            for one, _ in fill.ways:
+                one.setblocking(False)
+                try:
+                    socket.send_fds(one, [b"x"], [pipe[0]])
+                    break
+                except BlockingIOError:
+                    continue
+            else:
+                return -1
+            os.close(pipe[0])
+            os.close(pipe[1])
+            return 0
+        return take(make, 1500)
+    in_children([fill] * 4)
+    time.sleep(1)
+
+
+def takes_timers(problem):
+    libc, timer = ctypes.CDLL(None, use_errno=True), ctypes.c_void_p()
+    in_children([lambda: take(lambda: -abs(libc.timer_create(1, None, ctypes.byref(timer))), 100_000)] * 4)
+    time.sleep(1)
+
+
+def takes_semaphores(problem):
+    """Only fenced: elsewhere they would outlive it."""
+    libc = ctypes.CDLL(None, use_errno=True)
+    take(lambda: libc.semget(0, 1, 0o1600), 40_000 if is_fenced() else 0)
+    time.sleep(1)
+
+
+def takes_terminals(problem):
+    in_children([lambda: take(lambda: os.open("/dev/ptmx", os.O_RDWR | os.O_NOCTTY), 450 if is_fenced() else 4)] * 8)
+    time.sleep(1)
+
+
+def takes_asynchronous_requests(problem):
+    libc = ctypes.CDLL(None, use_errno=True)
+    number = {"x86_64": 206, "aarch64": 0}[os.uname().machine]  # io_setup
+    for size in (8000, 1000, 100, 1):
+        take(lambda: libc.syscall(number, size, ctypes.byref(ctypes.c_ulong(0))), 100)
+    time.sleep(1)
 
 
 def speaks_to_the_host(problem):
@@ -746,7 +1110,7 @@ def seeks_its_standard_error(problem):
 AT_THE_END = {"forks_twice_when_input_ends", "forks_thrice_when_input_ends", "forks_late_when_input_ends",
               "stops_itself_when_input_ends", "never_ends", "never_ends_in_a_thread"}
 HELPERS = {"say", "answer", "is_fenced", "live_on", "harm", "victimise", "daemon", "try_to_write",
-           "is_writable", "main"}
+           "is_writable", "tell_of_memory", "in_children", "fill_socket", "take", "main"}
 
 
 def specimens():

@@ -79,10 +79,10 @@ TEST_F(Predictions, AreFoundUnderTheNamesOfTheirWorlds) {
                            "ik/joint_noise_deg=5/001.JSON", ".DS_Store", ".git/config"});
   ASSERT_TRUE(files) << ToString(files.error());
   ASSERT_EQ(files->size(), 4u);
-  EXPECT_EQ((*files)[0]->filename(), "000.json");
-  EXPECT_EQ((*files)[1]->filename(), "1.json");
+  EXPECT_EQ((*files)[0]->below().filename(), "000.json");
+  EXPECT_EQ((*files)[1]->below().filename(), "1.json");
   EXPECT_FALSE((*files)[2]);
-  EXPECT_EQ((*files)[3]->filename(), "001.JSON");
+  EXPECT_EQ((*files)[3]->below().filename(), "001.JSON");
   EXPECT_TRUE(faults_.empty());
 }
 
@@ -106,6 +106,23 @@ TEST_F(Predictions, ThatAnswerAWorldTwiceAreDuplicates) {
   ASSERT_TRUE(Find({"ik/joint_noise_deg=2/0.json", "ik/joint_noise_deg=2/000.json", "ik/joint_noise_deg=2/000.JSON"}));
   EXPECT_THAT(faults_.duplicate, ElementsAre("ik/joint_noise_deg=2/000.JSON (as ik/joint_noise_deg=2/0.json)",
                                              "ik/joint_noise_deg=2/000.json (as ik/joint_noise_deg=2/0.json)"));
+}
+
+TEST_F(Predictions, ThatAreLinksOrNoFilesAreBrokenAndNotOpened) {
+  Write("truth.json", "{}");
+  fs::create_directories(folder_.path() / "answers/ik");
+  fs::create_directories(folder_.path() / "truth");
+  fs::create_directory_symlink(folder_.path() / "truth", folder_.path() / "answers/ik/joint_noise_deg=5");
+  Write("answers/ik/joint_noise_deg=2/000.json", "{}");
+  fs::create_symlink(folder_.path() / "truth.json", folder_.path() / "answers/ik/joint_noise_deg=2/001.json");
+  fs::create_symlink(folder_.path() / "truth.json", folder_.path() / "answers/.note");
+  const auto files = Find({});
+  ASSERT_TRUE(files);
+  EXPECT_THAT(faults_.broken, ElementsAre("ik/joint_noise_deg=2/001.json: is a link; an answer is a file of its own",
+                                          "ik/joint_noise_deg=5: is a link; an answer is a file of its own"));
+  EXPECT_TRUE((*files)[0]);
+  EXPECT_FALSE((*files)[1]);
+  EXPECT_FALSE((*files)[2]);
 }
 
 TEST_F(Predictions, NeedAFolder) {

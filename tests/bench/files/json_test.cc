@@ -26,6 +26,13 @@ TEST(Json, RefusesWhatIsNotAFiniteNumberAndNamesItsPath) {
   }
 }
 
+TEST(Json, WritesWhatNobodySeesByItsNumber) {
+  const Json json = {{"a\u202eb", "größe \u2066\U000E0041 𝄞"}};
+  const std::string text = *WriteJson(json);
+  EXPECT_EQ(text, R"({"a\u202eb":"größe \u2066\udb40\udc41 𝄞"})");
+  EXPECT_EQ(*ReadJson(text, "f"), json);
+}
+
 TEST(Json, CountsOnlyBracketsOutsideOfTexts) {
   EXPECT_EQ(NestingOf("1"), 0);
   EXPECT_EQ(NestingOf(R"([{"a": "[[[\"[["}])"), 2);

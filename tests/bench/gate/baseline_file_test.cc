@@ -32,8 +32,9 @@ std::string Replaced(std::string text, const std::string& from, const std::strin
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
+/// Of all but the seal, which an edited text never fits.
 std::string ComplaintAbout(const std::string& text) {
-  const auto read = ReadBaseline(text, "b.json");
+  const auto read = ReadBaseline(text, "b.json", BaselineSeal::kMayBreak);
   return read ? "" : ToString(read.error());
 }
 
@@ -51,8 +52,8 @@ TEST(Baseline, ReadsBackToTheDigit) {
 
 TEST(Baseline, HasOneLinePerMethodAndMetric) {
   const std::string text = Text();
-  // 2 conditions × 2 methods: statuses and two metrics each; one scenario; head, and four lines of brackets.
-  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4 + 8 + 1 + 7);
+  // 2 conditions × 2 methods: statuses and two metrics each; one scenario; head, and four lines of brackets; the seal.
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4 + 8 + 1 + 7 + 1);
   EXPECT_THAT(text,
               HasSubstr("\n{\"scenario\":\"s\",\"condition\":\"joint_noise_deg=1\",\"method\":\"a\",\"cells\":\"ooou"));
 }
@@ -63,8 +64,8 @@ TEST(Baseline, IsRefusedWhenAnythingOfItWasTamperedWith) {
   EXPECT_THAT(ComplaintAbout("{}"), HasSubstr("b.json: a baseline lacks 'schema'"));
   EXPECT_THAT(ComplaintAbout("[]"), HasSubstr("b.json: a baseline must be an object, found an empty list"));
   EXPECT_THAT(ComplaintAbout("[1, 2"), HasSubstr("b.json: not valid JSON"));
-  EXPECT_THAT(ComplaintAbout(Replaced(text, "\"schema\":1", "\"schema\":2")),
-              HasSubstr("b.json: schema 2; allowed: 1"));
+  EXPECT_THAT(ComplaintAbout(Replaced(text, "\"schema\":2", "\"schema\":3")),
+              HasSubstr("b.json: schema 3; allowed: 1 and 2"));
   EXPECT_THAT(ComplaintAbout(Replaced(text, "ooou", "ooo")), HasSubstr("are not 24 letters"));
   EXPECT_THAT(ComplaintAbout(Replaced(text, "ooou", "ooox")), HasSubstr("are not 24 letters"));
   EXPECT_THAT(ComplaintAbout(Replaced(text, "[10.0,", "[")), HasSubstr("23 values of position_error_cm"));
@@ -82,6 +83,25 @@ TEST(Baseline, IsRefusedWhenAnythingOfItWasTamperedWith) {
               HasSubstr("two lines of statuses of s, joint_noise_deg=1, b"));
   EXPECT_THAT(ComplaintAbout(Replaced(text, "\"method\":\"a\",\"metric\"", "\"method\":\"b\",\"metric\"")),
               HasSubstr("two lines of position_error_cm"));
+}
+
+TEST(Baseline, IsRefusedWhenItsSealDoesNotFitAndReadWhereThatIsAskedFor) {
+  const std::string edited = Replaced(Text(), "[10.0,", "[10.5,");
+  const auto refused = ReadBaseline(edited, "b.json");
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(ToString(refused.error()), HasSubstr("b.json: is not as gate --update wrote it: its seal does not fit"));
+  const auto read = ReadBaseline(edited, "b.json", BaselineSeal::kMayBreak);
+  ASSERT_TRUE(read);
+  EXPECT_THAT(read->unsealed, HasSubstr("its seal does not fit"));
+  EXPECT_EQ(ReadBaseline(Text(), "b.json")->unsealed, "");
+  // One of an older version has no seal.
+  std::string older = Replaced(Text(), "\"schema\":2", "\"schema\":1");
+  older.erase(older.find(",\n\"seal\""));
+  const auto unsealed = ReadBaseline(older + "}", "b.json");
+  ASSERT_TRUE(unsealed) << ToString(unsealed.error());
+  EXPECT_THAT(unsealed->unsealed, HasSubstr("has no seal"));
+  EXPECT_THAT(ComplaintAbout(Replaced(Text(), "\"schema\":2", "\"schema\":1")), HasSubstr("has a 'seal'"));
+  EXPECT_THAT(ComplaintAbout(Replaced(older + "}", "\"schema\":1", "\"schema\":2")), HasSubstr("lacks its 'seal'"));
 }
 
 TEST(Baseline, IsRefusedWhenAKeyStandsTwice) {
@@ -114,7 +134,7 @@ TEST(Baseline, IsRefusedWhenAValueIsNoneOrOfAnotherKind) {
                 HasSubstr("b.json:3: 'trials' of a scenario is "))
         << trials;
   }
-  EXPECT_THAT(complaint("\"schema\":1", "\"schema\":null"), HasSubstr("b.json: 'schema' of a baseline is null"));
+  EXPECT_THAT(complaint("\"schema\":2", "\"schema\":null"), HasSubstr("b.json: 'schema' of a baseline is null"));
   EXPECT_THAT(complaint("\"suite\":\"example\"", "\"suite\":7"),
               HasSubstr("'suite' of a baseline is 7; allowed: a text"));
   EXPECT_THAT(complaint("\"position_error_cm\":1", "\"position_error_cm\":null"),

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "bench/process/child_process.h"
-#include "bench/process/machine.h"
+#include "engine/base/machine.h"
 
 namespace etude {
 namespace {
@@ -116,8 +116,7 @@ TEST_F(FenceTest, MachineIsReadOnlyAndSecretsAreNotShownToRootEither) {
   const std::string mounts = "awk '$6 ~ /^rw/ {print $5}' /proc/self/mountinfo | sort | tr '\\n' ' '; echo";
   EXPECT_EQ(Say(TheFence(), mounts, {folder_}),
             "/dev/full /dev/null /dev/random /dev/shm /dev/tty /dev/urandom /dev/zero /tmp /var/tmp \n");
-  const std::string count =
-      "find /proc/sys /proc/sysrq-trigger /proc/irq -writable -exec test -f {} ';' -print | wc -l";
+  const std::string count = "find /proc/sys /proc/irq -writable -printf '%M\\n' | grep -c ^-";
   EXPECT_EQ(Say(TheFence(), count), "0\n");
   const std::string secrets = "cat /etc/shadow /proc/slabinfo /proc/sys/kernel/usermodehelper/bset 2>/dev/null | wc -c";
   EXPECT_EQ(Say(TheFence(), secrets), "0\n");
@@ -153,30 +152,86 @@ TEST_F(FenceTest, ScratchFoldersAreBounded) {
 }
 
 TEST_F(FenceTest, WhatIsInScratchFoldersIsCounted) {
-  const std::string script = "for f in /tmp /var/tmp /dev/shm; do head -c 20M /dev/zero >$f/a; done; echo; read x";
+  const std::string script =
+      "for f in /tmp /var/tmp /dev/shm; do head -c 20M /dev/zero >$f/a; done; echo; read x; "
+      "cd /tmp; touch $(seq 3000); echo; read x";
   auto child = Start(TheFence().Around({"/bin/sh", "-c", script}, {}));
   while (child->Receive() && !child->NextLine()) ::usleep(1000);
-  EXPECT_NEAR(TheFence().ScratchMb(child->FirstStarted()), 60, 1);
-  EXPECT_EQ(Fence().ScratchMb(child->FirstStarted()), 0);
+  EXPECT_NEAR(TheFence().MeasureScratch(child->FirstStarted()).Mb(), 60, 1);
+  EXPECT_EQ(Fence().MeasureScratch(child->FirstStarted()).Mb(), 0);
+  child->Send("");
+  while (child->Receive() && !child->NextLine()) ::usleep(1000);
+  EXPECT_NEAR(TheFence().MeasureScratch(child->FirstStarted()).Mb(), 64.8, 1.2) << "3000 files without a byte";
 }
 
 TEST_F(FenceTest, RefusesMemoryThatCannotBeCountedAndSocketsThatCannotBeFenced) {
   std::ofstream(folder_ + "/tries.py") << R"(
-import ctypes, errno, os, socket
+import ctypes, errno, fcntl, mmap, os, socket, struct
 libc = ctypes.CDLL(None, use_errno=True)
-def call(*words): return 'made' if libc.syscall(*words) >= 0 else errno.errorcode[ctypes.get_errno()]
+libc.mmap.restype = ctypes.c_void_p
+def say(name, result): print(name, 'made' if result not in (-1, 2**64 - 1) else errno.errorcode[ctypes.get_errno()])
+def call(name, x86_64, aarch64, *words):
+    say(name, libc.syscall({'x86_64': x86_64, 'aarch64': aarch64}[os.uname().machine], *words))
+call('memfd_create', 319, 279, b'x', 0)
+call('shmget', 29, 194, 0, 4096, 0o1600)
+call('msgget', 68, 186, 0, 0o1600)
+call('semget', 64, 190, 0, 1, 0o1600)
+call('mq_open', 240, 180, b'x', os.O_CREAT | os.O_RDWR, 0o600, 0)
+call('vmsplice', 278, 75, os.pipe()[1], 0, 0, 0)
+call('splice', 275, 76, 0, 0, 0, 0, 0, 0)
+call('sendfile', 40, 71, 1, 0, 0, 0)
+call('seccomp', 317, 277, 2, 0, 0)
+say('PR_SET_SECCOMP', libc.prctl(22, 2, 0))
+call('userfaultfd', 323, 282, 1)
+call('io_setup', 206, 0, 1, ctypes.byref(ctypes.c_ulong(0)))
+call('io_uring_setup', 425, 425, 1, bytes(120))
+call('keyctl', 250, 219, 0, -3, 0)
+def set_pipe(size): return libc.fcntl(os.pipe()[1], 1031, size)
+say('F_SETPIPE_SZ', set_pipe(1 << 16))
+with open('/tmp/' + str(os.getpid()), 'w+') as file:
+    say('F_OFD_SETLK', libc.fcntl(file.fileno(), 37, struct.pack('hhqqi', 1, 0, 0, 1, 0)))
+    say('F_SETLK', libc.fcntl(file.fileno(), 6, struct.pack('hhqqi', 1, 0, 0, 1, 0)))
+os.unlink('/tmp/' + str(os.getpid()))
+say('MAP_HUGETLB', libc.mmap(None, 2 << 20, 3, 0x40022, -1, 0))
+with socket.socket(socket.AF_UNIX) as link:
+    before = link.getsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF)
+    link.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, before // 4)
+    print('SO_SNDBUF', 'kept' if link.getsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF) == before else 'set')
+    program = (ctypes.c_char * 8)(*struct.pack('HBBI', 6, 0, 0, 0))
+    try: link.setsockopt(socket.SOL_SOCKET, 26, struct.pack('HxxxxxxP', 1, ctypes.addressof(program))); print('SO_ATTACH_FILTER set')
+    except OSError: print('SO_ATTACH_FILTER refused')
 def open_socket(family):
     try: return socket.socket(family, socket.SOCK_STREAM).close() or 'made'
     except OSError as error: return errno.errorcode[error.errno]
-try: memory = os.memfd_create('x') and 'made'
-except OSError as error: memory = errno.errorcode[error.errno]
-numbers = {'x86_64': (29, 250), 'aarch64': (194, 219)}[os.uname().machine]
-print(memory, call(numbers[0], 0, 4096, 0o1600), call(numbers[1], 0, -3, 0), call(425, 1, 0),
-      open_socket(socket.AF_UNIX), open_socket(socket.AF_INET), open_socket(40))
+print('sockets', *map(open_socket, (socket.AF_UNIX, socket.AF_INET, 40)))
 )";
   const std::string script = "/usr/bin/python3 " + folder_ + "/tries.py";
-  EXPECT_EQ(Say(TheFence(), script, {folder_}), "ENOSYS ENOSYS ENOSYS ENOSYS made made EAFNOSUPPORT\n");
-  EXPECT_THAT(Say(Fence(), script), ::testing::StartsWith("made made ")) << "the control";
+  EXPECT_EQ(Say(TheFence(), script, {folder_}),
+            "memfd_create ENOSYS\nshmget ENOSYS\nmsgget ENOSYS\nsemget ENOSYS\nmq_open ENOSYS\nvmsplice ENOSYS\n"
+            "splice EINVAL\nsendfile EINVAL\nseccomp EINVAL\nPR_SET_SECCOMP EINVAL\n"
+            "userfaultfd ENOSYS\nio_setup ENOSYS\nio_uring_setup ENOSYS\nkeyctl ENOSYS\n"
+            "F_SETPIPE_SZ EPERM\nF_OFD_SETLK EINVAL\nF_SETLK made\nMAP_HUGETLB ENOMEM\nSO_SNDBUF kept\n"
+            "SO_ATTACH_FILTER refused\nsockets made made EAFNOSUPPORT\n");
+  const std::string control = Say(Fence(), script);
+  for (const char* name :
+       {"memfd_create made", "shmget made", "semget made", "F_SETPIPE_SZ made", "F_OFD_SETLK made", "SO_SNDBUF set"}) {
+    EXPECT_THAT(control, ::testing::HasSubstr(name)) << "the control";
+  }
+}
+
+TEST_F(FenceTest, LeavesItsUserInotifyInstancesTimersAndLocks) {
+  std::ofstream(folder_ + "/takes.py") << R"(
+import ctypes, resource, signal
+libc = ctypes.CDLL(None)
+def count(make, most):
+    taken = 0
+    while taken < most and make() >= 0: taken += 1
+    return taken
+timer = ctypes.c_void_p()
+print(count(lambda: libc.inotify_init1(0), 100), count(lambda: libc.timer_create(1, None, ctypes.byref(timer)), 2000))
+)";
+  const std::string script = "/usr/bin/python3 " + folder_ + "/takes.py";
+  EXPECT_EQ(Say(TheFence(), script, {folder_}), "8 1024\n");
 }
 
 TEST_F(FenceTest, ToldAgainItSaysWhetherAnythingCanBeRunInside) {

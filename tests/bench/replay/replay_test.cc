@@ -40,6 +40,32 @@ TEST(CompareRows, SeesAStageThatOnlyOneSideHas) {
   EXPECT_EQ(CompareRows(now, Example()).now, "nothing");
 }
 
+TEST(CompareRows, SeesARowUnderTheNameOfAnother) {
+  const auto differs = [](auto change) {
+    Row then = Example();
+    then.units = {"clap", "sway"};
+    Row now = then;
+    change(then);
+    return CompareRows(then, now).stage;
+  };
+  EXPECT_EQ(differs([](Row& row) { row.method = "rival"; }), "cell");
+  EXPECT_EQ(differs([](Row& row) { row.trial = 4; }), "cell");
+  EXPECT_EQ(differs([](Row& row) { row.condition = {{"noise", "5"}}; }), "cell");
+  EXPECT_EQ(differs([](Row& row) { row.task = "ik"; }), "task");
+  EXPECT_EQ(differs([](Row& row) { row.clip = "builtin:clap"; }), "clip");
+  EXPECT_EQ(differs([](Row& row) { row.units = {"clap"}; }), "units");
+  EXPECT_EQ(differs([](Row&) {}), "");
+}
+
+TEST(CompareRows, OfACellThatItsMachineEndedNameTheStatusFirst) {
+  Row then = Example();
+  then.result = CellResult::Ended(Status::kTimeout, "took longer than 1 s");
+  const CellCheck check = CompareRows(then, Example());
+  EXPECT_EQ(check.stage, "status");
+  EXPECT_EQ(check.then, "timeout");
+  EXPECT_EQ(check.now, "ok");
+}
+
 TEST(CompareRows, SeesAStatusAValueAndAMissingOne) {
   Row now = Example();
   now.result.status = Status::kTimeout;

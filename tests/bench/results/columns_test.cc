@@ -191,6 +191,10 @@ TEST_F(ColumnsTest, ThatAreNotAsTheyWereWrittenAreRefused) {
               HasSubstr("is no column of numbers of type <f8"));
   EXPECT_THAT(with(own / "series" / "position_error_cm.ends.npy", [](std::string& text) { text.back() = 1; }),
               HasSubstr("do not follow each other"));
+  // NumPy would take the two methods of a trial for two trials of a method.
+  EXPECT_THAT(with(own / "position_error_cm.npy",
+                   [](std::string& text) { text.replace(text.find("(2, 4, 2)"), 9, "(2, 2, 4)"); }),
+              HasSubstr("is not an array of condition, trial, method"));
   EXPECT_THAT(with(own / "index.json", [](std::string& text) { text = "{}"; }), HasSubstr("not an index of columns"));
   const auto with_index = [&](const char* key, const nlohmann::json& value, const char* scenario = "poses") {
     return with(folder() / "columns" / scenario / "index.json", [&](std::string& text) {
@@ -211,7 +215,37 @@ TEST_F(ColumnsTest, ThatAreNotAsTheyWereWrittenAreRefused) {
     EXPECT_THAT(with_index(key.c_str(), "[", "clips"), HasSubstr("clips"));
   }
   fs::remove(own / "digest_world.npy");
-  EXPECT_THAT(Complaint(), HasSubstr("digest_world.npy: cannot read this file"));
+  EXPECT_THAT(Complaint(), HasSubstr("digest_world.npy: no such file"));
+}
+
+TEST_F(ColumnsTest, AreNotReadThroughLinksNorOutsideOfTheirRun) {
+  const fs::path own = folder() / "columns" / "poses", elsewhere = folder() / "elsewhere";
+  fs::rename(own, elsewhere);
+  fs::create_directory_symlink(elsewhere, own);
+  EXPECT_THAT(Complaint(), HasSubstr("poses: is a link"));
+  fs::remove(own);
+  fs::rename(elsewhere, own);
+  EXPECT_EQ(Complaint(), "");
+  fs::rename(own / "status.npy", folder() / "status.npy");
+  fs::create_symlink(folder() / "status.npy", own / "status.npy");
+  EXPECT_THAT(Complaint(), HasSubstr("status.npy: is a link"));
+  EXPECT_THAT(ToString(OpenColumns(folder(), {"../../columns/poses"}).error()), HasSubstr("leads out of"));
+}
+
+TEST_F(ColumnsTest, ListTheFilesThatTheyAreKeptIn) {
+  const auto index = ReadColumnIndex(folder() / "columns" / "poses");
+  ASSERT_TRUE(index);
+  const std::set<fs::path> files = FilesOfColumns(*index);
+  std::size_t found = 0;
+  for (const char* part : {"columns/poses", "timings/poses"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(folder() / part)) {
+      if (entry.is_directory()) continue;
+      ++found;
+      EXPECT_TRUE(files.contains(entry.path().lexically_relative(folder()))) << entry.path();
+    }
+  }
+  EXPECT_GT(found, 10u);
+  EXPECT_LE(found, files.size());
 }
 
 TEST_F(ColumnsTest, RefuseADigestThatIsNone) {

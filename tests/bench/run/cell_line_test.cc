@@ -1,10 +1,11 @@
-#include "bench/model/recording.h"
 #include "bench/run/cell_line.h"
 
 #include <gmock/gmock.h>
 
 #include <limits>
 #include <nlohmann/json.hpp>
+
+#include "bench/model/recording.h"
 
 namespace etude {
 namespace {
@@ -90,6 +91,25 @@ TEST(CellLine, TellsItsCellAndStatusFirst) {
   ASSERT_TRUE(head);
   EXPECT_EQ(head->cell, 12u);
   EXPECT_EQ(head->status, Status::kUnsolved);
+}
+
+TEST(CellLine, OfAnAnsweredCellSaysThatItHasYetToBeMeasured) {
+  FinishedCell cell = SampleCell();
+  cell.is_measured = false;
+  const std::string line = EncodeCellLine(12, cell);
+  EXPECT_THAT(line, testing::StartsWith(std::string(kAnsweredBegin) + "12,"));
+  EXPECT_FALSE(ReadCellLineHead(line)->is_measured);
+  EXPECT_EQ(ReadCellLineHead(line)->cell, 12u);
+  auto back = ThereAndBack(cell);
+  ASSERT_TRUE(back) << ToString(back.error());
+  EXPECT_FALSE(back->is_measured);
+  EXPECT_EQ(back->row.result.recording->tracks.size(), 1u);
+  back->is_measured = true;
+  EXPECT_EQ(EncodeCellLine(12, *std::move(back)), EncodeCellLine(12, SampleCell())) << "to every digit";
+  // What cannot be told to whom measures is bad output, and done.
+  cell.row.result.recording->tracks[0].motion.poses[0][Role::kSpine].y = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(ReadCellLineHead(EncodeCellLine(12, cell))->is_measured);
+  EXPECT_EQ(ReadCellLineHead(EncodeCellLine(12, cell))->status, Status::kBadOutput);
 }
 
 TEST(CellLine, ThatIsNotAsItWasWrittenIsNone) {

@@ -22,8 +22,8 @@ class JournalTest : public testing::Test {
     folder_.emplace(std::move(*made));
   }
 
-  std::string LineOf(std::size_t cell, double error) const {
-    FinishedCell finished{plan_.IdentityOf(cell), {.wall_s = 0.25, .cpu_s = 0.125, .peak_mb = 12}};
+  std::string LineOf(std::size_t cell, double error, bool is_measured = true) const {
+    FinishedCell finished{plan_.IdentityOf(cell), {.wall_s = 0.25, .cpu_s = 0.125, .peak_mb = 12}, is_measured};
     finished.row.result = CellResult::Ended(Status::kOk, "");
     finished.row.result.Measure("position_error_cm", error);
     finished.row.result.series.push_back({"position_error_cm", "iteration", {3, 2, error}});
@@ -138,6 +138,31 @@ TEST_F(JournalTest, ASecondLineOfACellCostsItselfAlone) {
   EXPECT_TRUE(cells.Has(0) && cells.Has(3));
   EXPECT_EQ(content->damaged, std::vector<int>{5});
   EXPECT_EQ(content->cells, 2u);
+}
+
+TEST_F(JournalTest, KeepsAnsweredCellsApartUntilTheyAreMeasured) {
+  {
+    auto journal = Journal::Begin(folder(), head_);
+    ASSERT_TRUE(journal);
+    for (const std::size_t cell : {5, 1, 4}) ASSERT_TRUE(journal->Append(LineOf(cell, 0.1, false)));
+    for (const std::size_t cell : {4, 0}) ASSERT_TRUE(journal->Append(LineOf(cell, 0.2)));
+    ASSERT_TRUE(journal->Append(LineOf(1, 0.3, false)));  // a second time
+  }
+  CellTable cells(plan_.cell_count()), answered(plan_.cell_count());
+  const auto content = ReadJournal(folder(), plan_, cells, &answered);
+  ASSERT_TRUE(content) << ToString(content.error());
+  EXPECT_EQ(content->cells, 2u);
+  EXPECT_EQ(content->answered, 2u);
+  EXPECT_EQ(content->damaged, std::vector<int>{8});
+  EXPECT_TRUE(cells.Has(4) && cells.Has(0) && !cells.Has(1) && !cells.Has(5));
+  EXPECT_EQ(answered.ReadLine(5).value(), LineOf(5, 0.1, false));
+  EXPECT_EQ(answered.ReadLine(1).value(), LineOf(1, 0.1, false));
+  // To whom merges, an answered cell is none.
+  CellTable merged(0);
+  const auto read = Read(merged);
+  ASSERT_TRUE(read) << ToString(read.error());
+  EXPECT_TRUE(read->damaged.empty());
+  EXPECT_EQ(std::ranges::count(merged.Done(), true), 2);
 }
 
 TEST_F(JournalTest, PassesOverGarbageWithALineEnd) {

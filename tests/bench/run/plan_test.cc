@@ -2,8 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <set>
 
+#include "sim/random/stream.h"
 #include "tests/bench/run/prepared.h"
 
 namespace etude {
@@ -52,6 +54,49 @@ TEST(Plan, OrdersOnlyWhatIsLeft) {
   EXPECT_THAT(orders[1].methods, testing::ElementsAre(0, 1));
 }
 
+SuiteSetup SecretSuite(const std::string& text = kSmallScenario) {
+  SuiteSetup suite = SmallSuite(text);
+  suite.seed = suite.scenarios.front().seed = Seed::Secret({1, 2, 3, 4});
+  return suite;
+}
+
+std::uint64_t FirstDieOf(const PreparedScenario& scenario, int condition, int trial) {
+  return RandomStream(scenario.KeyOf(condition, trial), "pose").Bits();
+}
+
+TEST(KeyOfWorld, IsSharedByConditionsOfAnOpenSeedAlone) {
+  const auto open = Prepared(SmallSuite()), secret = Prepared(SecretSuite());
+  EXPECT_EQ(open[0].KeyOf(0, 1).scenario, "small") << "golden worlds hang on it";
+  std::set<std::uint64_t> dice;
+  for (int trial = 0; trial < 3; ++trial) {
+    EXPECT_EQ(FirstDieOf(open[0], 0, trial), FirstDieOf(open[0], 1, trial));
+    for (int condition = 0; condition < 2; ++condition) dice.insert(FirstDieOf(secret[0], condition, trial));
+  }
+  EXPECT_EQ(dice.size(), 6u);
+}
+
+TEST(KeyOfWorld, OfASecretConditionIsThatOfItsValuesWhateverElseIsSwept) {
+  std::string more = kSmallScenario;
+  more.replace(more.find("[2, 5]"), 6, "[1, 5, 2]");
+  const auto secret = Prepared(SecretSuite()), swept_more = Prepared(SecretSuite(more));
+  EXPECT_EQ(FirstDieOf(secret[0], 0, 2), FirstDieOf(swept_more[0], 2, 2));
+  EXPECT_EQ(FirstDieOf(secret[0], 1, 2), FirstDieOf(swept_more[0], 1, 2));
+  EXPECT_NE(FirstDieOf(secret[0], 0, 2), FirstDieOf(swept_more[0], 0, 2));
+}
+
+TEST(Plan, OrdersSecretTrialsOtherwiseUnderEveryCondition) {
+  SuiteSetup suite = SecretSuite();
+  suite.scenarios.front().trials = 12;
+  const auto scenarios = Prepared(suite);
+  const Plan plan(scenarios);
+  std::vector<int> trials[2];
+  for (const Order& order : plan.OrdersFor({}, std::vector<bool>(plan.cell_count()))) {
+    trials[plan.world(order.world).condition].push_back(plan.world(order.world).trial);
+  }
+  EXPECT_NE(trials[0], trials[1]);
+  EXPECT_FALSE(std::ranges::is_sorted(trials[0]));
+}
+
 TEST(Shard, IsReadAndWritten) {
   const auto shard = ParseShard("2/8");
   ASSERT_TRUE(shard);
@@ -61,7 +106,6 @@ TEST(Shard, IsReadAndWritten) {
     EXPECT_FALSE(ParseShard(bad)) << bad;
   }
 }
-
 
 /// Two conditions of three worlds each: worlds 0 to 2, and 3 to 5.
 class OrderQueueTest : public testing::Test {

@@ -5,9 +5,13 @@
 
 #include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "bench/files/temporary_folder.h"
-#include "bench/process/machine.h"
+#include "bench/run/outside_programs.h"
+#include "bench/run/worker.h"
+#include "engine/base/machine.h"
 #include "tests/bench/run/prepared.h"
 
 namespace etude {
@@ -50,7 +54,8 @@ class SupervisorTest : public testing::Test {
       EXPECT_EQ(row.Id(), plan_.IdentityOf(cell).Id());
       EXPECT_EQ(StatusName(row.result.status), StatusName(status));
       EXPECT_THAT(row.result.reason, HasSubstr(why));
-      EXPECT_FALSE(row.result.metrics.empty());  // named as missing, or with the value that failing has
+      EXPECT_TRUE(status == Status::kOk ||
+                  !row.result.metrics.empty());  // named as missing, or with the value that failing has
     }
   }
 
@@ -153,6 +158,144 @@ TEST_F(SupervisorTest, CellsThatThisMachineKeepsFromBeingRunHaveNoRowAndEndTheRu
   EXPECT_EQ(ToString(whole.error()),
             fmt::format("this machine: {} cells were not run: no room left", plan_.cell_count() - 1));
   EXPECT_EQ(rows_.size(), 1u);
+}
+
+TEST_F(SupervisorTest, WhatAWorkerThatThisMachineEndsWasAtIsNotRun) {
+  for (const std::string& end : {fmt::format("exit {}", kCannotGoOn), std::string("kill -XCPU $$")}) {
+    rows_.clear();
+    const auto in_cell = RunWith("echo ready\nread -r order\necho built\n" + end + "\n", 2);
+    ASSERT_FALSE(in_cell);
+    EXPECT_TRUE(IsOfThisMachine(in_cell.error())) << ToString(in_cell.error());
+    EXPECT_THAT(ToString(in_cell.error()), HasSubstr(fmt::format("{} cells were not run: ", plan_.cell_count())));
+    const auto in_world = RunWith("echo ready\nread -r order\n" + end + "\n");
+    ASSERT_FALSE(in_world);
+    EXPECT_THAT(ToString(in_world.error()), HasSubstr(fmt::format("{} cells were not run: ", plan_.cell_count())));
+    EXPECT_TRUE(rows_.empty());
+  }
+}
+
+/// Takes so many bytes and no more, as a pipe or a disk at its end.
+class FullBuffer : public std::streambuf {
+ public:
+  explicit FullBuffer(std::size_t room) : room_(room) {}
+  const std::string& taken() const { return taken_; }
+
+ private:
+  int_type overflow(int_type c) override {
+    if (taken_.size() == room_) return traits_type::eof();
+    taken_ += traits_type::to_char_type(c);
+    return c;
+  }
+
+  std::string taken_;
+  std::size_t room_;
+};
+
+TEST_F(SupervisorTest, AWorkerWhoseAnswersCannotBeWrittenEnds) {
+  const Json setup{{"setup", EncodeSetup(suite_)}, {"error_folder", ""}, {"fence", EncodeFence({})}, {"key", ""}};
+  const std::string order = R"({"world":[0,0,0],"first_cell":0,"methods":[0,1]})";
+  const std::string words = *WriteJson(setup) + "\n" + order + "\n";
+  std::istringstream all(words);
+  std::ostringstream said;
+  EXPECT_EQ(RunWorker(all, said), 0) << "the control";
+  for (const std::size_t room : {std::size_t{0}, std::string("ready\n").size(), std::string("ready\nbuilt\n").size()}) {
+    FullBuffer buffer(room);
+    std::ostream full(&buffer);
+    std::istringstream in(words);
+    EXPECT_EQ(RunWorker(in, full), kCannotGoOn) << room;
+    EXPECT_EQ(buffer.taken(), said.str().substr(0, room));
+  }
+}
+
+/// A scenario that a program measures. Workers are given by what they say to a world and to an answered cell.
+class MeasuringSupervisorTest : public SupervisorTest {
+ protected:
+  MeasuringSupervisorTest()
+      : SupervisorTest("{time_s: 60, memory_mb: 4096}\nmetrics: [{name: judged, exec: [/bin/true]}]") {}
+
+  std::string LineOf(std::size_t cell, bool is_measured) const {
+    FinishedCell finished;
+    finished.row.result = CellResult::Ended(Status::kOk, "");
+    finished.is_measured = is_measured;
+    return EncodeCellLine(cell, std::move(finished));
+  }
+
+  /// A worker that notes when it begins, what it is told and when it ends. `measure` is done with an answered cell.
+  std::string Worker(const std::string& measure) const {
+    std::string world;
+    for (std::size_t w = 0; w < plan_.world_count(); ++w) {
+      world += fmt::format("*first_cell*:{},*) echo '{}'; echo '{}';;\n", plan_.CellAt(w, 0),
+                           LineOf(plan_.CellAt(w, 0), false), LineOf(plan_.CellAt(w, 1), false));
+    }
+    std::string cells;
+    for (std::size_t cell = 0; cell < plan_.cell_count(); ++cell) {
+      cells += fmt::format("'{}{},'*) echo '{}';;\n", kAnsweredBegin, cell, LineOf(cell, true));
+    }
+    return fmt::format(
+        "note() {{ echo \"$1\" >> '{}'; }}\nnote begins\necho ready\nwhile read -r order; do\n"
+        "case $order in '{{\"world\"'*) note world; echo built; case $order in {} esac;;\n"
+        "*) note cell; {}\ncase $order in {} esac;; esac\ndone\nsleep 0.1\nnote ends\n",
+        Noted(), world, measure, cells);
+  }
+
+  std::string Noted() const { return (folder_->path() / "noted").string(); }
+  std::vector<std::string> Notes() const {
+    std::ifstream in(Noted());
+    std::vector<std::string> notes;
+    for (std::string note; std::getline(in, note);) notes.push_back(note);
+    return notes;
+  }
+};
+
+TEST_F(MeasuringSupervisorTest, MeasuresWhenAllMethodsHaveAnsweredAndTheirWorkersHaveEnded) {
+  for (const int jobs : {1, 2}) {
+    rows_.clear();
+    std::filesystem::remove(Noted());
+    const auto whole = RunWith(Worker(":"), jobs);
+    ASSERT_TRUE(whole && *whole);
+    ExpectAll(Status::kOk, "");
+    std::size_t alive = 0, worlds = 0, cells = 0;
+    for (const std::string& note : Notes()) {
+      alive += note == "begins" ? 1 : 0;
+      alive -= note == "ends" ? 1 : 0;
+      worlds += note == "world" ? 1 : 0;
+      if (note == "cell" && cells++ == 0) {
+        EXPECT_EQ(worlds, plan_.world_count()) << "a method is asked after a metric was";
+        EXPECT_LE(alive, static_cast<std::size_t>(jobs)) << "a worker that ran methods lives";
+      }
+    }
+    EXPECT_EQ(worlds, plan_.world_count());
+    EXPECT_EQ(cells, plan_.cell_count());
+  }
+}
+
+TEST_F(MeasuringSupervisorTest, AWorkerThatDiesOverAnAnsweredCellTakesThatAloneWithIt) {
+  const std::string once = (folder_->path() / "once").string();
+  const auto whole = RunWith(Worker("[ -e '" + once + "' ] || { touch '" + once + "'; kill -SEGV $$; }"));
+  ASSERT_TRUE(whole && *whole);
+  ASSERT_EQ(rows_.size(), plan_.cell_count());
+  EXPECT_THAT(rows_[0].result.reason, HasSubstr("signal 11"));
+  for (std::size_t cell = 1; cell < plan_.cell_count(); ++cell) EXPECT_EQ(rows_[cell].result.status, Status::kOk);
+}
+
+TEST_F(MeasuringSupervisorTest, NothingIsMeasuredWhereAMethodCouldNotBeAsked) {
+  std::string worker = Worker(":");
+  const std::string last = LineOf(plan_.cell_count() - 1, false);
+  worker.replace(worker.find(last), last.size(), "not run: no room");
+  const auto whole = RunWith(worker);
+  ASSERT_FALSE(whole);
+  EXPECT_EQ(ToString(whole.error()), "this machine: 1 cells were not run: no room");
+  EXPECT_TRUE(rows_.empty());
+  EXPECT_EQ(std::ranges::count(Notes(), "cell"), 0);
+}
+
+TEST_F(SupervisorTest, AnAnswerThatIsNotMeasuredIsNotTakenWhereNothingMeasures) {
+  FinishedCell finished;
+  finished.is_measured = false;
+  const auto whole = RunWith("echo ready\nread -r order\necho built\ncat <<'END'\n" + EncodeCellLine(0, finished) +
+                             "\nEND\nread -r more\n");
+  ASSERT_TRUE(whole && *whole);
+  EXPECT_EQ(rows_[0].result.status, Status::kBadOutput);
 }
 
 TEST_F(SupervisorTest, AnAnswerForAnotherCellIsNotTaken) {

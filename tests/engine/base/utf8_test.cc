@@ -37,7 +37,7 @@ TEST(CheckUtf8, NamesThePlaceOfTheFirstWrongByte) {
   EXPECT_THAT(Utf8Complaint("a: größe\nb: \xff\n"), HasSubstr("file:2:4: byte 0xff is no UTF-8"));
   EXPECT_THAT(Utf8Complaint("größe \xc3"), HasSubstr("file:1:7: byte 0xc3")) << "columns count characters";
   EXPECT_THAT(Utf8Complaint("\xff\xfe"
-                        "a"),
+                            "a"),
               HasSubstr("file:1:1: byte 0xff"))
       << "UTF-16";
   EXPECT_THAT(Utf8Complaint(std::string_view("a\0", 2)), HasSubstr("file:1:2: byte 0x00"));
@@ -45,6 +45,35 @@ TEST(CheckUtf8, NamesThePlaceOfTheFirstWrongByte) {
   EXPECT_NE(Utf8Complaint("\xe0\x80\xaf"), "") << "overlong";
   EXPECT_NE(Utf8Complaint("\xf0\x80\x80\xaf"), "") << "overlong";
   EXPECT_NE(Utf8Complaint("\xe2\x82"), "") << "cut off";
+}
+
+TEST(FirstCharacter, IsReadWithItsNumber) {
+  for (std::uint32_t c = 0; c <= 0x10ffff; ++c) {
+    if (c >= 0xd800 && c <= 0xdfff) continue;
+    const std::string text = Encoded(c) + "x";
+    const Utf8Character read = FirstCharacter(text);
+    ASSERT_EQ(read.code, c);
+    ASSERT_EQ(read.length, text.size() - 1);
+  }
+  for (const char* none : {"\xff", "\xc3", "\xc0\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xe0\x80\x80"}) {
+    EXPECT_EQ(FirstCharacter(none).length, 0u);
+  }
+}
+
+TEST(Visible, ShowsWhatIsHiddenAndCommandsNoTerminal) {
+  EXPECT_EQ(Visible("größer → 5 °, 𝄞"), "größer → 5 °, 𝄞");
+  EXPECT_EQ(Visible("exe.\u202efdp"), "exe.[U+202E]fdp");
+  for (const std::uint32_t c :
+       {0x80U, 0x9bU, 0x200bU, 0x200fU, 0x202aU, 0x202eU, 0x2066U, 0x2069U, 0xfeffU, 0xe0041U}) {
+    EXPECT_EQ(Visible("a" + Encoded(c) + "b"), "a" + NumberOf(c) + "b");
+  }
+  EXPECT_EQ(Visible("\x1b[2Ja\r\nb\tc\x7f"), " [2Ja  b c ");
+  EXPECT_EQ(Visible("a\nb\tc\r", "\n\t"), "a\nb\tc ");
+  EXPECT_EQ(Visible("\xff\xc3"), "\ufffd\ufffd");
+}
+
+TEST(Errors, ShowNoNameAsAnother) {
+  EXPECT_EQ(ToString(Error{{"a\u202eb", 3, 0}, "found \u2066c\x1b[1m"}), "a[U+202E]b:3: found [U+2066]c [1m");
 }
 
 }  // namespace

@@ -289,7 +289,7 @@ TEST(FormatsGolden, OfTrcAndMotive) {
     print.Add(IsMotiveCsv(text));
     AddRead(print, ReadMotiveCsv(text, "a.csv"));
   }
-  EXPECT_TRUE(print.Is(7840, 2053.54710846));
+  EXPECT_TRUE(print.Is(7840, 2052.90727109));
 }
 
 TEST(FormatsGolden, OfTextsThatAreTooLong) {

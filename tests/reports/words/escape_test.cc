@@ -31,18 +31,15 @@ TEST(Markup, ShowsWhatTurnsTextAround) {
 
 TEST(ScriptJson, CannotEndItsElement) {
   EXPECT_EQ(EscapeScriptJson(R"({"a":"</script><!--"})"), R"({"a":"\u003c/script>\u003c!--"})");
+  EXPECT_EQ(EscapeScriptJson(R"({"a\\":"\u202e\u00e4\\u202e"})"
+                             "\u2066"),
+            R"({"a\\":"[U+202E]\u00e4\\u202e"}[U+2066])");
 }
 
 TEST(Markdown, KeepsATableCellInOneCell) { EXPECT_EQ(EscapeMarkdown("a|b\n*c*"), "a\\|b \\*c\\*"); }
 
 TEST(Markdown, MakesNoFormulaAndStrikesNothingOut) {
   EXPECT_EQ(EscapeMarkdown("from $1 to $2, ~~never~~"), "from \\$1 to \\$2, \\~\\~never\\~\\~");
-}
-
-TEST(Csv, QuotesOnlyWhatNeedsIt) {
-  EXPECT_EQ(EscapeCsv("plain"), "plain");
-  EXPECT_EQ(EscapeCsv("a,b"), "\"a,b\"");
-  EXPECT_EQ(EscapeCsv("say \"no\""), "\"say \"\"no\"\"\"");
 }
 
 TEST(EscapeLatex, LeavesNoCharacterItsMeaning) {

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "bench/files/json.h"
+#include "bench/run/plan.h"
+#include "bench/run/secret_key.h"
+
+namespace etude {
+
+/// What threw dice under a secret key.
+struct KeyUse {
+  std::string command;  ///< "run", "export", "score"
+  std::string suite;
+  std::string manifest;  ///< DigestOfRun
+  Shard shard = {};
+  std::filesystem::path folder;  ///< that it wrote
+};
+
+/// A digest of a manifest that shards of one run share, whatever libraries they run under.
+std::string DigestOfRun(const Json& manifest);
+
+/// Refuses a key that stands in the list of used keys, KEYFILE.used: whoever was asked in those worlds may know them. A
+/// shard may use the key of the run's other shards. Refused, too: a list that cannot be read or written. A key from
+/// the environment or a pipe has no list.
+Result<void> CheckUnused(const SecretKey& key, const KeyUse& use);
+
+/// Adds a use to the list, on the disk when this returns; checks it again, since two runs may begin at the same time.
+/// With `may_be_used` nothing is refused, and a list that cannot be written is left as it is.
+Result<void> NoteUse(const SecretKey& key, const KeyUse& use, bool may_be_used);
+
+}  // namespace etude

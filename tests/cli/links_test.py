@@ -1,0 +1,140 @@
+"""Nothing is followed below a folder that somebody else filled: no command writes, reads or tells through a link in it."""
+import os
+import shutil
+import unittest
+
+from etude_case import IK, EtudeCase, ik_scenario
+
+SCENARIO = ik_scenario(trials=2) + "video: {compare: [fixed, least-squares], trials: [1]}\n"
+
+
+class Links(EtudeCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scenario, cls.whole = cls.run_once(SCENARIO)
+
+    def setUp(self):
+        super().setUp()
+        shutil.copytree(self.whole, self.out)
+        self.home = self.folder / "home"  # of the user, who only asks for a stranger's run
+        self.home.mkdir()
+        (self.home / "key").write_text("secret\n")
+
+    def refuse(self, link, *arguments):
+        done = self.etude(*arguments)
+        self.assertEqual(done.returncode, 2, (arguments, done.stdout, done.stderr))
+        self.assertIn(f"{link}: is a link", done.stderr)
+        self.assertNotIn("secret", done.stdout + done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+
+    def assert_home_untouched(self):
+        self.assertEqual([path.name for path in self.home.iterdir()], ["key"])
+        self.assertEqual((self.home / "key").read_text(), "secret\n")
+
+    def test_are_not_written_through(self):
+        for part, commands in [("report", [["report", "--no-video"], ["gate"], ["verify", "--sample", 0]]),
+                               ("report/tables", [["report", "--no-video"]]),
+                               ("report/index.html", [["report", "--no-video"]]),
+                               ("report/gate.md", [["gate"]]),
+                               ("report/tables/ik.csv", [["report", "--no-video"]]),
+                               ("video", [["report"]]),
+                               ("video/convergence.mp4", [["report"]])]:
+            link = self.out / part
+            link.parent.mkdir(parents=True, exist_ok=True)
+            link.symlink_to(self.home / "key" if link.suffix else self.home)
+            for command, *more in commands:
+                with self.subTest(linked=part, command=command):
+                    self.refuse(link, command, self.out, *more)
+                    self.assert_home_untouched()
+                    beside = [path for name in ("report", "video") for path in (self.out / name).rglob("*")
+                              if not (self.out / name).is_symlink() and path.is_file() and not path.is_symlink()]
+                    self.assertEqual(beside, [], "nothing half-written")
+            link.unlink()
+            for name in "report", "video":
+                shutil.rmtree(self.out / name, ignore_errors=True)
+
+    def test_are_not_read_through(self):
+        recording = sorted((self.out / "recordings").iterdir())[0].relative_to(self.out)
+        readers = [["report", "--no-video"], ["compare", self.whole], ["replay", "--sample", 1], ["rows"]]
+        for part in ["manifest.json", "host.json", "summary.json", "cells.jsonl", "timings.jsonl", "series",
+                     "series/ik.jsonl", "recordings", recording]:
+            link, kept = self.out / part, self.folder / "kept"
+            link.rename(kept)
+            link.symlink_to(kept)  # what it says is right, and it is not ours to read
+            for command, *more in [["gate"], *(readers if part == "cells.jsonl" else [])]:
+                with self.subTest(linked=str(part), command=command):
+                    self.refuse(link, command, self.out, *more, "--unsealed")
+            if part == "cells.jsonl":
+                self.refuse(link, "verify", self.out, "--sample", 0)
+            link.unlink()
+            kept.rename(link)
+        self.assertEqual(self.etude("gate", self.out).returncode, 0)
+
+    def test_in_recordings_are_no_clips(self):
+        recording = sorted((self.out / "recordings").iterdir())[0]
+        recording.rename(self.folder / "kept")
+        recording.symlink_to(self.folder / "kept")
+        cell = recording.stem.replace("~", "/")
+        self.refuse(recording, "clip", "info", f"{self.out}#{cell}")
+
+    def test_that_a_user_names_are_the_users_word(self):
+        (self.folder / "mine").symlink_to(self.out)
+        self.assertEqual(self.etude("report", self.folder / "mine", "--no-video").returncode, 0)
+        self.assertTrue((self.out / "report" / "index.html").exists())
+
+    def test_that_are_pipes_are_not_waited_for(self):
+        (self.out / "summary.json").unlink()
+        os.mkfifo(self.out / "summary.json")
+        done = self.etude("gate", self.out, "--unsealed")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("summary.json: is no file", done.stderr)
+
+    def test_in_a_shard_are_neither_gone_on_with_nor_merged(self):
+        scenario, shard = self.write("t.yaml", IK), self.folder / "1"
+        for i in 1, 2:
+            self.assertEqual(self.etude("run", scenario, "--shard", f"{i}/2", "-o", self.folder / str(i)).returncode, 0)
+        journal, kept = shard / "journal.jsonl", self.folder / "kept"
+        lines = journal.read_text().splitlines(keepends=True)
+        for text in "".join(lines), "".join(lines[:-3]):  # whole; with cells that are still to be run
+            journal.unlink()
+            kept.write_text(text)
+            journal.symlink_to(kept)
+            self.refuse(journal, "run", scenario, "--shard", "1/2", "--resume", "-o", shard)
+            self.refuse(journal, "merge", shard, self.folder / "2", "-o", self.folder / "merged")
+            self.assertEqual(kept.read_text(), text)
+
+    def test_take_no_last_words_of_programs(self):
+        program = self.write("method.py", "import sys\nprint('words', file=sys.stderr)\n")
+        text = IK + f"  - {{name: mine, exec: [python3, {program}]}}\n"
+        scenario, shard = self.write("t.yaml", text), self.folder / "1"
+        run = ["run", scenario, "--shard", "1/2", "-o", shard]
+        self.etude(*run)
+        self.assertTrue((shard / "stderr" / "ik~mine.txt").exists())
+        journal = shard / "journal.jsonl"
+        journal.write_text("".join(journal.read_text().splitlines(keepends=True)[:-4]))
+        shutil.rmtree(shard / "stderr")
+        (shard / "stderr").symlink_to(self.home)
+        self.etude(*run, "--resume")
+        self.assert_home_untouched()
+
+    def test_are_no_answers(self):
+        scenario, data, answers = self.write("t.yaml", IK), self.folder / "data", self.folder / "answers"
+        self.assertEqual(self.etude("export", scenario, "-o", data).returncode, 0)
+        for truth in sorted((data / "truth").rglob("truth.json")):
+            answer = answers / truth.parent.relative_to(data / "truth").with_suffix(".json")
+            answer.parent.mkdir(parents=True, exist_ok=True)
+            answer.symlink_to(truth)
+        done = self.etude("score", data, answers, "-o", self.folder / "scored")
+        self.assertEqual(done.returncode, 2, done.stdout)
+        self.assertIn("ik/joint_noise_deg=2/000.json: is a link; an answer is a file of its own", done.stderr)
+        self.assertFalse((self.folder / "scored").exists())
+        shutil.rmtree(answers)
+        (answers / "ik").mkdir(parents=True)
+        (answers / "ik" / "joint_noise_deg=2").symlink_to(data / "truth" / "ik" / "joint_noise_deg=2")
+        done = self.etude("score", data, answers, "-o", self.folder / "scored", "--allow-missing")
+        self.assertEqual(done.returncode, 2, done.stdout)
+        self.assertIn("ik/joint_noise_deg=2: is a link", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
