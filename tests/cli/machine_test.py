@@ -94,7 +94,8 @@ class Machine(EtudeCase):
         whole, codes = self.folder / "whole", []
         self.run_suite(self.capture, out=whole)
         for space in range(256, 512, 8) if HEAVY else (300,):
-            ended = self.run_here(self.capture, "-o", self.out, "--overwrite", before=limit(resource.RLIMIT_AS, space * MB))
+            shutil.rmtree(self.out, ignore_errors=True)
+            ended = self.run_here(self.capture, "-o", self.out, before=limit(resource.RLIMIT_AS, space * MB))
             codes.append(ended.returncode)
             self.assertIn(ended.returncode, (0, 3), ended.stderr)
             if "not run" in ended.stderr:
