@@ -50,6 +50,7 @@ ErrorLog::~ErrorLog() {
 // Where there is no memory file, the program writes to the real one at once.
 std::string ErrorLog::path() const {
   const int file = memory_ < 0 ? unbuffered_.number() : memory_;
+  if (memory_ >= 0) ::fchmod(memory_, S_IRUSR | S_IWUSR);  // the last program may have shut it
   return file < 0 ? "" : fmt::format("/proc/{}/fd/{}", ::getpid(), file);
 }
 

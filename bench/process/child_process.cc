@@ -74,7 +74,7 @@ void LimitProgram() {
   Limit(RLIMIT_SIGPENDING, ProgramLimits::kPendingSignals);
   Limit(RLIMIT_MEMLOCK, ProgramLimits::kLockedBytes);
   Limit(RLIMIT_MSGQUEUE, 0);
-  Limit(RLIMIT_CORE, 0);
+  Limit(RLIMIT_CORE, 1);  // at 1 the kernel starts no helper of the machine either, which it does at 0
 }
 
 /// The program that a forked child becomes, all made ready before: between fork and exec only system calls are safe.

@@ -78,7 +78,7 @@ std::vector<std::string> Limiter() {
 std::vector<fs::path> KeptFromUsers() {
   const bool is_root = ::geteuid() == 0;
   std::vector<fs::path> kept;
-  for (const char* root : {"/etc", "/opt", "/usr/local", "/proc"}) {
+  for (const char* root : {"/etc", "/opt", "/usr/local", "/nix/var", "/proc"}) {
     const bool is_proc = root == std::string_view("/proc");
     if (is_proc && !is_root) continue;
     std::error_code error;

@@ -2,8 +2,10 @@
 
 #include <fcntl.h>
 #include <linux/audit.h>
+#include <linux/close_range.h>
 #include <linux/filter.h>
 #include <linux/seccomp.h>
+#include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
@@ -49,6 +51,13 @@ constexpr auto kRefused = std::to_array<Refusal>({
     {SYS_io_setup, ENOSYS},
     {SYS_landlock_create_ruleset, ENOSYS},
     {SYS_fanotify_init, ENOSYS},
+    {SYS_setxattr, EOPNOTSUPP},  // these three: attributes of files in memory are nobody's memory
+    {SYS_lsetxattr, EOPNOTSUPP},
+    {SYS_fsetxattr, EOPNOTSUPP},
+    // Threads with open files of their own, and processes that share them: their files and locks are not found. The
+    // arguments of clone3 cannot be looked at; without it, C libraries use clone.
+    {SYS_unshare, EPERM},
+    {SYS_clone3, ENOSYS},
     // It does all of these without system calls.
     {SYS_io_uring_setup, ENOSYS},
     // The user's keys, and what the kernel knows of others.
@@ -102,8 +111,23 @@ std::string SystemCallFilter() {
   for (const auto number : {SYS_socket, SYS_socketpair}) AddCall(filter, number, families);
   AddCall(filter, SYS_fcntl,
           {LoadArgument(1), SkipUnless(BPF_JEQ, F_SETPIPE_SZ, 1), Refuse(EPERM), SkipUnless(BPF_JEQ, F_OFD_SETLK, 1),
-           Refuse(EINVAL), SkipUnless(BPF_JEQ, F_OFD_SETLKW, 1), Refuse(EINVAL), kAllow});
-  AddCall(filter, SYS_prctl, {LoadArgument(0), SkipUnless(BPF_JEQ, PR_SET_SECCOMP, 1), Refuse(EINVAL), kAllow});
+           Refuse(EINVAL), SkipUnless(BPF_JEQ, F_OFD_SETLKW, 1), Refuse(EINVAL), SkipUnless(BPF_JEQ, F_SETLEASE, 1),
+           Refuse(EINVAL), kAllow});
+  constexpr std::uint32_t kFutexHash = 78;  // PR_FUTEX_HASH of Linux 6.16: up to a gigabyte that is nobody's
+  AddCall(filter, SYS_prctl,
+          {LoadArgument(0), SkipUnless(BPF_JEQ, PR_SET_SECCOMP, 1), Refuse(EINVAL), SkipUnless(BPF_JEQ, kFutexHash, 1),
+           Refuse(EINVAL), kAllow});
+  AddCall(filter, SYS_close_range,
+          {LoadArgument(2), SkipUnless(BPF_JSET, CLOSE_RANGE_UNSHARE, 1), Refuse(EINVAL), kAllow});
+  // Open files are shared by the threads of a process, and by nobody else.
+  AddCall(filter, SYS_clone,
+          {LoadArgument(0), BPF_STMT(BPF_ALU | BPF_AND | BPF_K, CLONE_THREAD | CLONE_FILES),
+           SkipUnless(BPF_JEQ, CLONE_THREAD, 1), Refuse(EINVAL), SkipUnless(BPF_JEQ, CLONE_FILES, 1), Refuse(EINVAL),
+           kAllow});
+  constexpr std::uint32_t kCollapse = 25;  // MADV_COLLAPSE
+  AddCall(filter, SYS_madvise,
+          {LoadArgument(2), SkipUnless(BPF_JEQ, MADV_HUGEPAGE, 1), Refuse(EINVAL), SkipUnless(BPF_JEQ, kCollapse, 1),
+           Refuse(EINVAL), kAllow});
   AddCall(filter, SYS_mmap, {LoadArgument(3), SkipUnless(BPF_JSET, MAP_HUGETLB, 1), Refuse(ENOMEM), kAllow});
   // Whoever asks for other buffers is told that it has them, as by a kernel that rounds.
   constexpr int kDone = 0;

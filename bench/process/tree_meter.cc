@@ -2,11 +2,15 @@
 
 #include <dirent.h>
 #include <fmt/core.h>
+#include <linux/kcmp.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -71,26 +75,28 @@ ProcessBound BoundOf(pid_t process) {
 /// not tell.
 double ProportionalMb(pid_t process, double bound_mb) {
   const std::string shares = ReadProcFile(fmt::format("/proc/{}/smaps_rollup", process));
-  if (shares.empty()) return bound_mb;
+  if (shares.empty()) return ::access(fmt::format("/proc/{}", process).c_str(), F_OK) == 0 ? bound_mb : 0;
   return (FieldOf(shares, "\nPss_Anon:") + FieldOf(shares, "\nPss_File:") + FieldOf(shares, "\nSwapPss:")) / 1024;
 }
 
-/// Counts the pipes that processes hold open. Files of a process that nobody may look at count as such.
+/// Counts the pipes, named ones too, that processes hold open. Files of a process that nobody may look at count as
+/// such.
 std::size_t CountPipes(const std::vector<pid_t>& processes) {
-  std::set<std::string> pipes;
+  std::set<std::pair<dev_t, ino_t>> pipes;
   std::size_t hidden = 0;
   for (const pid_t process : processes) {
     const std::string folder = fmt::format("/proc/{}/fd", process);
     DIR* files = ::opendir(folder.c_str());
     if (files == nullptr) {
+      if (errno != EACCES) continue;  // it has ended
       hidden += CountDescriptors(process, ReadProcFile(fmt::format("/proc/{}/status", process)));
       continue;
     }
     while (const dirent* file = ::readdir(files)) {
-      std::array<char, 64> target{};
-      const ssize_t length = ::readlinkat(::dirfd(files), file->d_name, target.data(), target.size());
-      const std::string_view name(target.data(), length > 0 ? static_cast<std::size_t>(length) : 0);
-      if (name.starts_with("pipe:")) pipes.emplace(name);
+      struct stat status {};
+      if (::fstatat(::dirfd(files), file->d_name, &status, 0) == 0 && S_ISFIFO(status.st_mode)) {
+        pipes.emplace(status.st_dev, status.st_ino);
+      }
     }
     ::closedir(files);
   }
@@ -228,10 +234,20 @@ double TreeMeter::HeldMb(double scratch_mb, double precise_from_mb) {
   double private_mb = std::min(bound_mb, precise_.private_mb + std::max(bound_mb - precise_.bound_mb, touched_mb));
   if (private_mb + others_mb > precise_from_mb) {
     private_mb = 0;
-    for (std::size_t i = 0; i < processes_.size(); ++i) private_mb += ProportionalMb(processes_[i], bounds_mb_[i]);
+    for (std::size_t i = 0; i < processes_.size(); ++i) {
+      if (!SharesMemoryBefore(i)) private_mb += ProportionalMb(processes_[i], bounds_mb_[i]);
+    }
     precise_ = {private_mb, bound_mb, touched_pages_};
   }
   return private_mb + others_mb;
+}
+
+bool TreeMeter::SharesMemoryBefore(std::size_t at) const {
+  for (std::size_t i = 0; i < at; ++i) {
+    if (std::abs(bounds_mb_[i] - bounds_mb_[at]) > 1) continue;
+    if (::syscall(SYS_kcmp, processes_[i], processes_[at], KCMP_VM, 0, 0) == 0) return true;
+  }
+  return false;
 }
 
 double TreeMeter::SharedMemory::Mb() const {

@@ -67,6 +67,8 @@ class TreeMeter {
   };
 
   void LookAtMappings();
+  /// True if a process has the very memory of one before it in the list, as a child has until it becomes a program.
+  bool SharesMemoryBefore(std::size_t at) const;
 
   const pid_t root_;
   Pace mappings_pace_{std::chrono::milliseconds(100)}, kernel_pace_{std::chrono::milliseconds(100)};

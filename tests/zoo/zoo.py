@@ -1061,6 +1061,44 @@ def dumps_core(problem):
     os.abort()
 
 
+def has_files_of_its_own_in_a_thread(problem):
+    """Open files that a look at the process does not find, and locks that belong to nobody."""
+    libc = ctypes.CDLL(None, use_errno=True)
+    if libc.unshare(0x400) == 0:  # CLONE_FILES
+        victimise("has open files that nobody counts")
+
+
+def keeps_memory_in_attributes(problem):
+    try:
+        pathlib.Path("/tmp/zoo-attributes").write_text("zoo")
+        os.setxattr("/tmp/zoo-attributes", "user.zoo", bytes(4096))
+        victimise("keeps memory in attributes")
+    except OSError:
+        pass
+
+
+def sizes_the_futex_table(problem):
+    if ctypes.CDLL(None).prctl(78, 1, 1 << 10, 0, 0) == 0:
+        victimise("took kernel memory for futexes")
+
+
+def takes_a_lease(problem):
+    """Whoever opens the file for writing then waits for it."""
+    import fcntl
+    try:
+        with open(__file__) as file:
+            fcntl.fcntl(file, fcntl.F_SETLEASE, fcntl.F_RDLCK)
+            victimise("holds up those who write its own file")
+    except OSError:
+        pass
+
+
+def shuts_its_standard_error(problem):
+    """The file is Etude's, and the next program of this method opens it."""
+    os.fchmod(2, 0)
+    os._exit(0)
+
+
 # --- descriptors -----------------------------------------------------------------------------------------------------
 def closes_its_descriptors(problem):
     for number in (0, 1, 2):
