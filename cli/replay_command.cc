@@ -121,6 +121,7 @@ Result<int> ReplayCommand(const ReplayCommandOptions& options) {
   std::optional<Snapshot> baseline;
   if (!options.baseline.empty()) {
     if (options.cells.empty()) return Fail({}, "--baseline is told beside cells: name them with --cell");
+    RETURN_IF_ERROR(LoadRunOutline(options.target, options.sealing));  // which tells of metrics that it added
     ASSIGN_OR_RETURN(baseline, TakeBaseline(options.baseline, options.sealing));
   }
   ASSIGN_OR_RETURN(const auto replayed, ReplayRun({.folder = options.target,

@@ -116,12 +116,15 @@ Json FactsOf(const CellChoice& choice) {
 }
 
 /// The report, if there is one.
-Result<void> AddReport(const std::string& folder, std::vector<Verified>& all) {
+Result<void> AddReport(const std::string& folder, std::vector<Verified>& all, std::vector<std::string>& not_verified) {
   ASSIGN_OR_RETURN(auto run, LoadRun(folder, Sealing::kIgnored));
   run.unsealed.clear();  // which a report of the run would tell
   ASSIGN_OR_RETURN(auto check, CheckReport(run, folder));
   if (check.files > 0) {
     all.push_back({fmt::format("report: {} files, made again", check.files), std::move(check.differences)});
+    not_verified.emplace_back(
+        "report/ and video/: pictures, films, what a gate wrote, and whatever stands beside the tables; etude report "
+        "makes them anew");
   }
   return {};
 }
@@ -148,7 +151,9 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
   }
   ASSIGN_OR_RETURN(auto verified, VerifyRun(replay, replay.sample != std::size_t{0}));
   std::ranges::move(verified.checks, std::back_inserter(all));
-  RETURN_IF_ERROR(AddReport(replay.folder, all));
+  std::vector<std::string> not_verified;
+  if (verified.choice) not_verified = NotVerified(*verified.choice);
+  RETURN_IF_ERROR(AddReport(replay.folder, all, not_verified));
   if (*interrupt.requested()) return TellStopped({{}, "stopped; nothing was found out"});
   std::size_t agree = 0;
   Json checks = Json::array();
@@ -160,7 +165,6 @@ Result<int> VerifyCommand(VerifyCommandOptions options) {
     PrintList("differs  " + one.what, one.differences);
   }
   const std::optional<CellChoice>& choice = verified.choice;
-  const std::vector<std::string> not_verified = choice ? NotVerified(*choice) : std::vector<std::string>();
   if (options.as_json) {
     RETURN_IF_ERROR(PrintFacts("verify", {{"agrees", agree == all.size()},
                                           {"checks", std::move(checks)},

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -40,11 +41,15 @@ object per problem, under the same names: `SCENARIO/CONDITION/TRIAL.json`. Judge
     etude score THIS_FOLDER PREDICTIONS -o RESULT --name METHOD
 )";
 
-/// The folder beside `path` that is filled first.
-fs::path PartialOf(const fs::path& path) {
+/// The whole path of a folder, without a slash at its end.
+fs::path Named(const fs::path& path) {
   std::error_code error;
-  return fs::absolute(path, error).lexically_normal().string() + ".partial";
+  const fs::path named = fs::weakly_canonical(fs::absolute(path, error), error);
+  return named.has_filename() ? named : named.parent_path();
 }
+
+/// The folder beside `path` that is filled first.
+fs::path PartialOf(const fs::path& path) { return Named(path).string() + ".partial"; }
 
 /// Opens and locks a folder; −1 when another process holds it.
 int Lock(const fs::path& folder) {
@@ -52,6 +57,12 @@ int Lock(const fs::path& folder) {
   if (lock < 0 || LockUnlessTaken(lock, folder)) return lock;
   ::close(lock);
   return -1;
+}
+
+/// True if an export puts this at the top of its folder.
+bool IsOfExport(const fs::path& name) {
+  constexpr std::array kParts = {"inputs", "truth", "README.md", "manifest.json"};
+  return std::ranges::any_of(kParts, [&](const char* part) { return name == part || name == TemporaryName(part); });
 }
 
 /// A folder that is being filled under another name, and gets its own when it is whole; else it goes away again.
@@ -68,8 +79,15 @@ class NewFolder {
     RETURN_IF_ERROR(MakeFolder(PartialOf(path)));
     NewFolder folder(path, Lock(PartialOf(path)));
     if (folder.lock_ < 0) return Fail(place, "another export is writing it; choose another folder with -o");
+    // What is there is of an export that was killed, or somebody else's.
     for (fs::directory_iterator entry(folder.partial_, error), end; !error && entry != end; entry.increment(error)) {
-      fs::remove_all(entry->path(), error);  // of an export that was killed
+      if (IsOfExport(entry->path().filename())) continue;
+      ::close(std::exchange(folder.lock_, -1));
+      return Fail({entry->path().string()},
+                  "is in the way of the export, and not of one; choose another folder with -o");
+    }
+    for (fs::directory_iterator entry(folder.partial_, error), end; !error && entry != end; entry.increment(error)) {
+      fs::remove_all(entry->path(), error);
     }
     if (error) return CannotWrite(folder.partial_.string(), "cannot be emptied", error.value());
     return folder;
@@ -97,8 +115,7 @@ class NewFolder {
   }
 
  private:
-  NewFolder(const fs::path& path, int lock)
-      : path_(fs::absolute(path).lexically_normal()), partial_(PartialOf(path)), lock_(lock) {}
+  NewFolder(const fs::path& path, int lock) : path_(Named(path)), partial_(PartialOf(path)), lock_(lock) {}
 
   fs::path path_, partial_;
   int lock_;  ///< −1 once it is finished

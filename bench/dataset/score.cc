@@ -176,7 +176,8 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
   }
   ASSIGN_OR_RETURN(const auto scenarios, PrepareTarget(suite, options));
 
-  ASSIGN_OR_RETURN(const Fence fence, FenceFor(scenarios, options.outside, options.output, options.key));
+  ASSIGN_OR_RETURN(Fence fence, FenceFor(scenarios, options.outside, options.output, options.key));
+  HideTruthIn(options.target, fence);
   RETURN_IF_ERROR(CheckMetricVectors(scenarios, fence));
   const Plan plan(scenarios);
   CellTable cells(plan.cell_count());

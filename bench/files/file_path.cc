@@ -110,7 +110,8 @@ Result<Descriptor> OpenFile(const FilePath& path, int flags, mode_t mode) {
   ASSIGN_OR_RETURN(const auto spot, FileSpot::Find(path, (flags & O_CREAT) != 0));
   // Opening a pipe would wait for its other end; of a regular file O_NONBLOCK changes nothing.
   const int more = O_CLOEXEC | O_NONBLOCK | O_NOCTTY | (path.is_inside() ? O_NOFOLLOW : 0);
-  Descriptor file(::openat(spot.folder(), spot.name().c_str(), flags | more, mode));
+  // A file is emptied only when it is known to be the one that was meant.
+  Descriptor file(::openat(spot.folder(), spot.name().c_str(), (flags & ~O_TRUNC) | more, mode));
   if (file.number() < 0) {
     const int reason = errno;
     if (path.is_inside() && IsLink(spot.folder(), spot.name())) return RefuseLink(path.whole());
@@ -121,6 +122,12 @@ Result<Descriptor> OpenFile(const FilePath& path, int flags, mode_t mode) {
   }
   struct stat status {};
   if (::fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode)) return Fail({path.string()}, "is no file");
+  if (path.is_inside() && (flags & O_ACCMODE) != O_RDONLY && status.st_nlink > 1) {
+    return Fail({path.string()}, "has another name (a hard link), at which it would be written, too");
+  }
+  if ((flags & O_TRUNC) != 0 && ::ftruncate(file.number(), 0) != 0) {
+    return CannotWrite(path.string(), "cannot write this file", errno);
+  }
   return file;
 }
 

@@ -119,7 +119,8 @@ class BaselineReader {
   Result<void> CheckSeal(const Json& json, const JsonObject& head) {
     if (!head.Has("seal")) {
       snapshot_.unsealed = file_ + ": has no seal, for an older version wrote it; gate --update makes one";
-      return {};
+      if (seal_ == BaselineSeal::kMayBreak) return {};
+      return Fail({}, "{}; --unsealed reads it all the same", snapshot_.unsealed);
     }
     ASSIGN_OR_RETURN(const auto told, head.Text("seal"));
     ASSIGN_OR_RETURN(const auto found, SealOf(json));

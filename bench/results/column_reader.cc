@@ -170,11 +170,14 @@ class ScenarioColumns {
     }
     for (const auto& [name, ends] : *ends_) {
       std::uint64_t last = 0;
-      const std::size_t values =
-          curves_->at(name.substr(0, name.size() - std::string_view(kCurveEnds).size())).Numbers<double>().size();
+      const NpyFile& curve = curves_->at(name.substr(0, name.size() - std::string_view(kCurveEnds).size()));
+      const std::array<std::size_t, 1> values = {curve.Numbers<double>().size()};
       for (const std::uint64_t end : ends.Numbers<std::uint64_t>()) {
-        if (end < last || end > values) return Fail(place, "the curves of {} do not follow each other", name);
+        if (end < last || end > values[0]) return Fail(place, "the curves of {} do not follow each other", name);
         last = end;
+      }
+      if (last != values[0] || !curve.HasShape(kNpyType<double>, values)) {
+        return Fail(place, "holds values of {} that belong to no curve", name);
       }
     }
     return {};

@@ -87,6 +87,8 @@ Result<ColumnIndex> Decode(const Json& json, const Place& place) {
   }
   if (index.conditions.empty() || index.trials < 1 || index.methods.empty()) return Fail(place, "tells of no cells");
   if (index.texts.empty()) return Fail(place, "holds no texts, the first of which is empty");
+  // Other readers take from it what this one does not look at.
+  if (nlohmann::json(Encode(index)) != nlohmann::json(json)) return Fail(place, "is not written as a run writes it");
   return index;
 }
 

@@ -121,7 +121,13 @@ Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const Outsid
   fence.Hide(program.parent_path().parent_path() / "share/etude/scenarios");
   fence.Hide("/usr/share/assimp");
   if (!folder.empty()) fence.Hide(fs::absolute(folder).lexically_normal());
+  if (key && !key->file.empty()) fence.Hide(Canonical(key->file));
   return fence;
+}
+
+void HideTruthIn(const fs::path& folder, Fence& fence) {
+  const fs::path whole = fs::absolute(folder).lexically_normal();
+  for (const char* name : {"truth", "recordings", "series", "columns", "cells.jsonl"}) fence.Hide(whole / name);
 }
 
 Json EncodeFence(const Fence& fence) {

@@ -31,6 +31,9 @@ Result<void> CheckPrograms(const std::string& file, std::span<const PreparedScen
 Result<Fence> FenceFor(std::span<const PreparedScenario> scenarios, const OutsideRules& rules,
                        const std::filesystem::path& folder, const std::optional<SecretKey>& key);
 
+/// Has no program see the truth that an exported folder or a run holds, if `folder` is one.
+void HideTruthIn(const std::filesystem::path& folder, Fence& fence);
+
 /// Encodes a fence for a worker's set-up, and decodes it there.
 Json EncodeFence(const Fence& fence);
 Fence DecodeFence(const Json& json);

@@ -78,8 +78,8 @@ Result<void> CheckHead(const fs::path& folder, const JournalHead& found, const J
 /// Keeps what finished cells say on the disk, and tells how far the run has come.
 class JournalRecorder {
  public:
-  JournalRecorder(CellTable& cells, CellTable* answered, Journal journal, const FilePath& file,
-                  const Progress& before, const std::function<void(const Progress&)>& on_progress)
+  JournalRecorder(CellTable& cells, CellTable* answered, Journal journal, const FilePath& file, const Progress& before,
+                  const std::function<void(const Progress&)>& on_progress)
       : cells_(cells),
         answered_(answered),
         journal_(std::move(journal)),
@@ -199,7 +199,8 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   const fs::path folder = FolderFor(options, suite);
   ASSIGN_OR_RETURN(const auto state, CheckFolder(folder, options));
   ASSIGN_OR_RETURN(const auto scenarios, PrepareToRun(suite, options));
-  ASSIGN_OR_RETURN(const Fence fence, FenceFor(scenarios, options.outside, folder, options.key));
+  ASSIGN_OR_RETURN(Fence fence, FenceFor(scenarios, options.outside, folder, options.key));
+  if (!options.from.empty()) HideTruthIn(fs::absolute(options.from).parent_path(), fence);
   if (!options.resume || state != FolderState::kFinished) {
     RETURN_IF_ERROR(TryMachine(scenarios, fence));
     RETURN_IF_ERROR(CheckMetricVectors(scenarios, fence));
@@ -212,15 +213,15 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
 
   if (options.stop != nullptr && *options.stop) return RunOutcome{.folder = folder, .stopped = true};
   const bool continues = options.resume && state != FolderState::kFree;
-  const KeyUse use{"run", suite.suite, DigestOfRun(described), options.shard, folder};
-  // Of a secret run that is repeated, or gone on with, the worlds may be known.
-  const bool may_be_used = options.reuse_key || continues || !options.from.empty();
+  const KeyUse use{"run", suite.suite, DigestOfRun(described), options.shard, folder, continues, !options.from.empty()};
+  const bool may_be_used = options.reuse_key;
   const bool is_secret = !suite.seed.IsPlain();
-  if (is_secret && !may_be_used) RETURN_IF_ERROR(CheckUnused(*options.key, use));
+  if (is_secret && !may_be_used && !continues) RETURN_IF_ERROR(CheckUnused(*options.key, use));
   ASSIGN_OR_RETURN(auto claimed, RunFolder::Claim(folder, continues));
   if (continues) {
     RETURN_IF_ERROR(CheckManifest(folder, manifest + "\n", options.other_libraries));
     if (state == FolderState::kFinished) return AlreadyWhole(folder);
+    if (is_secret && !may_be_used) RETURN_IF_ERROR(CheckUnused(*options.key, use));
   }
   CellTable cells(plan.cell_count()), answered_cells(HasOutsideMetrics(plan) ? plan.cell_count() : 0);
   CellTable* const answered = answered_cells.size() > 0 ? &answered_cells : nullptr;

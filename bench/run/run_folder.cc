@@ -147,7 +147,14 @@ void RunFolder::Keep() {
 Result<void> RunFolder::Lock() {
   const fs::path file = path_ / kLockFile;
   while (true) {
-    lock_ = ::open(file.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, S_IWUSR);
+    // Opening a pipe would wait for its other end.
+    lock_ = ::open(file.c_str(), O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, S_IWUSR);
+    struct stat kind {};
+    if (lock_ < 0 ? errno == ENXIO : ::fstat(lock_, &kind) == 0 && !S_ISREG(kind.st_mode)) {
+      if (lock_ >= 0) ::close(std::exchange(lock_, -1));
+      is_ours_ = false;
+      return Fail({file.string()}, "is no file");
+    }
     if (lock_ < 0 && (errno == EROFS || errno == EACCES)) return {};  // nobody writes here
     if (lock_ < 0) return CannotWrite(file.string(), "cannot be made", errno);
     if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {

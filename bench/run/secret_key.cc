@@ -34,6 +34,9 @@ Result<std::optional<SecretKey>> FindSecretKey(const std::string& file) {
     const auto words = ParseKey(bytes);
     if (!words) return Fail({file}, "{} bytes that are no key; allowed: {}", bytes.size(), kAllowed);
     std::error_code error;
+    if (std::filesystem::hard_link_count(file, error) > 1 && !error) {
+      return Fail({file}, "has another name (a hard link), by which a program could read it; allowed: a copy");
+    }
     return SecretKey{*words, std::filesystem::absolute(file, error).lexically_normal()};
   }
   char* text = std::getenv(kKeyVariable);

@@ -45,6 +45,11 @@ bool AreOtherShards(const Json& a, const Json& b) {
          of_a->count == of_b->count && of_a->index != of_b->index;
 }
 
+/// True if `use` repeats the run that a line of the list tells of.
+bool IsRepeated(const Json& line, const Json& use) {
+  return line.at("command") == "run" && use.at("command") == "run" && line.at("manifest") == use.at("manifest");
+}
+
 /// The list of used keys, open and locked, where the file system has locks.
 class UsedKeys {
  public:
@@ -65,10 +70,12 @@ class UsedKeys {
 
   bool Has(const Json& use) const { return std::ranges::find(lines_, use) != lines_.end(); }
 
-  Result<void> Check(const SecretKey& key, const Json& use) const {
+  Result<void> Check(const SecretKey& key, const Json& use, const KeyUse& how) const {
+    if (how.continues && Has(use)) return {};
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       const Json& line = lines_[i];
       if (line.at("key") != use.at("key") || AreOtherShards(line, use)) continue;
+      if (how.repeats && IsRepeated(line, use)) continue;
       const auto text = [&](const char* name) { return line.at(name).get<std::string>(); };
       return Fail({key.file.string()},
                   "was used before, and its worlds may be known: by 'etude {}' of '{}' into {} ({}:{}); allowed: a new "
@@ -142,24 +149,25 @@ Result<void> CheckUnused(const SecretKey& key, const KeyUse& use) {
   std::error_code none;
   // Nothing is made before all is known to be right.
   if (!fs::exists(fs::symlink_status(list, none))) {
-    if (::access(list.parent_path().c_str(), W_OK) == 0) return {};
+    if (use.continues || use.repeats || ::access(list.parent_path().c_str(), W_OK) == 0) return {};
     return UsedKeys::NotWritable(list);
   }
   ASSIGN_OR_RETURN(const auto keys, UsedKeys::Open(list));
-  return keys.Check(key, Encode(key, use));
+  return keys.Check(key, Encode(key, use), use);
 }
 
 Result<void> NoteUse(const SecretKey& key, const KeyUse& use, bool may_be_used) {
   const fs::path list = ListOf(key);
   if (list.empty()) return {};
+  const bool may_be_known = may_be_used || use.continues || use.repeats;
   auto keys = UsedKeys::Open(list);
-  if (!keys && may_be_used) return {};
+  if (!keys && may_be_known) return {};
   if (!keys) return tl::unexpected(keys.error());
   const Json line = Encode(key, use);
-  if (may_be_used && keys->Has(line)) return {};
-  if (!may_be_used) RETURN_IF_ERROR(keys->Check(key, line));
+  if (may_be_known && keys->Has(line)) return {};
+  if (!may_be_used) RETURN_IF_ERROR(keys->Check(key, line, use));
   auto added = keys->Add(line);
-  return may_be_used ? Result<void>() : added;
+  return may_be_known ? Result<void>() : added;
 }
 
 }  // namespace etude

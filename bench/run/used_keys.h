@@ -16,6 +16,8 @@ struct KeyUse {
   std::string manifest;  ///< DigestOfRun
   Shard shard = {};
   std::filesystem::path folder;  ///< that it wrote
+  bool continues = false;        ///< it goes on with a run (`--resume`), which the list must tell of
+  bool repeats = false;          ///< it repeats a run (`--from`): runs of the same manifest may have used the key
 };
 
 /// A digest of a manifest that shards of one run share, whatever libraries they run under.

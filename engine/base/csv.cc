@@ -20,7 +20,7 @@ bool BeginsFormula(std::string_view text) {
 std::string CsvText(std::string_view text) {
   std::string field = Visible(text);
   if (BeginsFormula(field)) field.insert(0, 1, '\'');
-  if (field.find_first_of(",\"") == std::string::npos) return field;
+  if (field.find_first_of(",;\"") == std::string::npos) return field;
   std::string quoted = "\"";
   for (const char c : field) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + '"';

@@ -55,17 +55,26 @@ Result<void> CheckUtf8(std::string_view text, const std::string& file) {
 }
 
 bool IsHidden(char32_t code) {
-  // Unicode's categories Cc, Cf, Zl and Zp beyond ASCII, but for signs of single scripts that are seen.
-  constexpr std::array<std::pair<char32_t, char32_t>, 10> kHidden = {{{0x80, 0x9f},
-                                                                      {0xad, 0xad},
-                                                                      {0x61c, 0x61c},
-                                                                      {0x180e, 0x180e},
-                                                                      {0x200b, 0x200f},
-                                                                      {0x2028, 0x202e},
-                                                                      {0x2060, 0x206f},
-                                                                      {0xfeff, 0xfeff},
-                                                                      {0xfff9, 0xfffb},
-                                                                      {0xe0000, 0xe007f}}};
+  // Unicode's categories Cc, Zl and Zp beyond ASCII, and its Default_Ignorable_Code_Point.
+  using Range = std::pair<char32_t, char32_t>;
+  constexpr auto kHidden = std::to_array<Range>({{0x80, 0x9f},
+                                                 {0xad, 0xad},
+                                                 {0x34f, 0x34f},
+                                                 {0x61c, 0x61c},
+                                                 {0x115f, 0x1160},
+                                                 {0x17b4, 0x17b5},
+                                                 {0x180b, 0x180f},
+                                                 {0x200b, 0x200f},
+                                                 {0x2028, 0x202e},
+                                                 {0x2060, 0x206f},
+                                                 {0x3164, 0x3164},
+                                                 {0xfe00, 0xfe0f},
+                                                 {0xfeff, 0xfeff},
+                                                 {0xffa0, 0xffa0},
+                                                 {0xfff0, 0xfffb},
+                                                 {0x1bca0, 0x1bca3},
+                                                 {0x1d173, 0x1d17a},
+                                                 {0xe0000, 0xe0fff}});
   return std::ranges::any_of(kHidden, [&](auto range) { return range.first <= code && code <= range.second; });
 }
 

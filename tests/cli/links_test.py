@@ -31,6 +31,16 @@ class Links(EtudeCase):
         self.assertEqual([path.name for path in self.home.iterdir()], ["key"])
         self.assertEqual((self.home / "key").read_text(), "secret\n")
 
+    def test_a_pipe_in_the_place_of_a_lock_is_not_waited_for(self):
+        scenario = self.write("ik.yaml", SCENARIO)
+        (self.out / "lock").unlink(missing_ok=True)
+        os.mkfifo(self.out / "lock")
+        for words in (["--overwrite"], ["--resume"]):
+            done = self.etude("run", scenario, "-o", self.out, *words)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(f"{self.out}/lock: is no file", done.stderr)
+        self.assertTrue((self.out / "cells.jsonl").exists())
+
     def test_are_not_written_through(self):
         for part, commands in [("report", [["report", "--no-video"], ["gate"], ["verify", "--sample", 0]]),
                                ("report/tables", [["report", "--no-video"]]),

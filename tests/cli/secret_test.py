@@ -214,6 +214,30 @@ class SecretWorlds(EtudeCase):
         self.assertEqual(used()[2]["command"], "export")
         self.assertIn("--reuse-key requires --seed-file", self.refuse("run", self.scenario, "-o", self.folder / "x", "--reuse-key"))
 
+    def test_worlds_that_an_export_told_are_no_secret_of_a_run(self):
+        key, used = self.key_of_its_own()
+        data, out = self.folder / "data", self.folder / "again"
+        self.assertEqual(self.etude("export", self.scenario, "-o", data, "--seed-file", key, "--trials", 1).returncode, 0)
+        self.assertIn("by 'etude export'", self.refuse("run", "--from", data / "manifest.json", "-o", out, "--seed-file", key))
+        self.assertEqual(len(used()), 1)
+        self.assertEqual(self.etude("run", "--from", data / "manifest.json", "-o", out, "--seed-file", key, "--reuse-key").returncode, 0)
+
+    def test_a_key_that_a_program_could_read_is_refused_or_hidden(self):
+        key, _ = self.key_of_its_own()
+        os.link(key, self.folder / "innocent")
+        self.assertIn("has another name (a hard link)", self.refuse("run", self.scenario, "-o", self.out, "--seed-file", key))
+        self.assertFalse(self.out.exists())
+
+    def test_what_goes_on_is_a_run_that_the_list_tells_of(self):
+        key, _ = self.key_of_its_own()
+        shard, copy = self.folder / "shard", self.folder / "copy"
+        self.assertEqual(self.etude("run", self.scenario, "-o", shard, "--shard", "1/2", "--seed-file", key).returncode, 0)
+        copy.mkdir()
+        for name in ("manifest.json", "journal.jsonl"):
+            text = (shard / name).read_text()
+            (copy / name).write_text("".join(text.splitlines(True)[:2]) if name == "journal.jsonl" else text)
+        self.assertIn("was used before", self.refuse("run", self.scenario, "-o", copy, "--shard", "1/2", "--resume", "--seed-file", key))
+
     @heavy
     def test_a_dry_run_asks_about_other_worlds(self):
         key, used = self.key_of_its_own()

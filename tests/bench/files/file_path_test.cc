@@ -101,6 +101,18 @@ TEST_F(FilesInside, AreNotWrittenFirstIntoAnothersFile) {
   EXPECT_EQ(Ours(), "secret");
 }
 
+TEST_F(FilesInside, ThatHaveAnotherNameAreReadAndNotWritten) {
+  fs::create_hard_link(ours_ / "key", theirs_ / "journal");
+  for (const int flags : {O_WRONLY | O_APPEND, O_WRONLY | O_CREAT | O_TRUNC, O_RDWR}) {
+    const auto opened = OpenFile(Inside(theirs_) / "journal", flags);
+    ASSERT_FALSE(opened);
+    EXPECT_THAT(ToString(opened.error()), HasSubstr("run/journal: has another name (a hard link)"));
+  }
+  EXPECT_EQ(Ours(), "secret");
+  EXPECT_EQ(ReadWholeFile(Inside(theirs_) / "journal"), "secret");
+  EXPECT_TRUE(OpenFile(theirs_ / "journal", O_WRONLY)) << "a path that a person gave";
+}
+
 TEST_F(FilesInside, HaveNoNamesThatLeadOutOfTheirFolder) {
   for (const fs::path& name :
        {fs::path("../home/key"), fs::path("report/../../home/key"), ours_ / "key", fs::path("..")}) {

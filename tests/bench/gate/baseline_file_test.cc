@@ -97,7 +97,10 @@ TEST(Baseline, IsRefusedWhenItsSealDoesNotFitAndReadWhereThatIsAskedFor) {
   // One of an older version has no seal.
   std::string older = Replaced(Text(), "\"schema\":2", "\"schema\":1");
   older.erase(older.find(",\n\"seal\""));
-  const auto unsealed = ReadBaseline(older + "}", "b.json");
+  const auto without_seal = ReadBaseline(older + "}", "b.json");
+  ASSERT_FALSE(without_seal);
+  EXPECT_THAT(ToString(without_seal.error()), HasSubstr("has no seal"));
+  const auto unsealed = ReadBaseline(older + "}", "b.json", BaselineSeal::kMayBreak);
   ASSERT_TRUE(unsealed) << ToString(unsealed.error());
   EXPECT_THAT(unsealed->unsealed, HasSubstr("has no seal"));
   EXPECT_THAT(ComplaintAbout(Replaced(Text(), "\"schema\":2", "\"schema\":1")), HasSubstr("has a 'seal'"));

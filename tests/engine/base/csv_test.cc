@@ -20,6 +20,7 @@ TEST(CsvText, IsNoFormulaToASpreadsheet) {
   }
   EXPECT_EQ(CsvText("\t=1"), "' =1");
   EXPECT_EQ(CsvText("\r=1"), "' =1");
+  EXPECT_EQ(CsvText("a;=1"), "\"a;=1\"") << "where a semicolon separates, it would be a cell of its own";
   EXPECT_EQ(CsvText("a=1"), "a=1");
   EXPECT_EQ(CsvText("−1"), "−1") << "a minus sign begins no formula";
 }

@@ -64,7 +64,7 @@ TEST(Visible, ShowsWhatIsHiddenAndCommandsNoTerminal) {
   EXPECT_EQ(Visible("größer → 5 °, 𝄞"), "größer → 5 °, 𝄞");
   EXPECT_EQ(Visible("exe.\u202efdp"), "exe.[U+202E]fdp");
   for (const std::uint32_t c :
-       {0x80U, 0x9bU, 0x200bU, 0x200fU, 0x202aU, 0x202eU, 0x2066U, 0x2069U, 0xfeffU, 0xe0041U}) {
+       {0x80U, 0x9bU, 0x200bU, 0x200fU, 0x202aU, 0x202eU, 0x2066U, 0x2069U, 0xfeffU, 0xe0041U, 0x34fU, 0x115fU, 0x3164U, 0xfe0fU, 0x1d173U, 0xe0100U}) {
     EXPECT_EQ(Visible("a" + Encoded(c) + "b"), "a" + NumberOf(c) + "b");
   }
   EXPECT_EQ(Visible("\x1b[2Ja\r\nb\tc\x7f"), " [2Ja  b c ");
