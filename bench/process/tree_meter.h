@@ -39,7 +39,7 @@ class TreeMeter {
   double HeldMb(double scratch_mb, double precise_from_mb);
 
  private:
-  /// Has something done every now and then, and leaves nineteen twentieths of the time to others.
+  /// Has something done every now and then, and leaves nineteen twentieths of the time to others where it is quick.
   class Pace {
    public:
     explicit Pace(std::chrono::milliseconds least) : least_(least) {}
@@ -47,7 +47,9 @@ class TreeMeter {
     /// Notes that what began at `start` has ended.
     void Took(Clock::time_point start) {
       const Clock::time_point now = Clock::now();
-      next_ = std::max<Clock::time_point>(start + least_, now + 19 * (now - start));
+      constexpr std::chrono::milliseconds kMaxPause{300};  // what makes looks slow shall not make us blind
+      next_ =
+          std::max<Clock::time_point>(start + least_, now + std::min<Clock::duration>(19 * (now - start), kMaxPause));
     }
 
    private:
@@ -71,7 +73,7 @@ class TreeMeter {
   bool SharesMemoryBefore(std::size_t at) const;
 
   const pid_t root_;
-  Pace mappings_pace_{std::chrono::milliseconds(100)}, kernel_pace_{std::chrono::milliseconds(100)};
+  Pace mappings_pace_{std::chrono::milliseconds(0)}, kernel_pace_{std::chrono::milliseconds(100)};
   Pace pipes_pace_{std::chrono::milliseconds(0)};
   std::vector<pid_t> processes_;
   std::vector<double> bounds_mb_;  ///< of each of them: its private memory, with pages that it shares with others

@@ -168,7 +168,8 @@ TEST(TreeMeter, CountsWhatTheKernelKeepsForThem) {
       "for at in range(4000): fcntl.fcntl(file, fcntl.F_SETLK, struct.pack('hhqqi', fcntl.F_WRLCK, 0, 2 * at, 1, 0))\n"
       "hold()";
   const ChildProcess locking = Python(locks);
-  EXPECT_EQ(TreeMeter(locking.number()).Count().file_locks, 4000u);
+  // The kernel's list is read in parts: where other programs lock and unlock meanwhile, a line may come twice or not.
+  EXPECT_NEAR(static_cast<double>(TreeMeter(locking.number()).Count().file_locks), 4000, 40);
 }
 
 TEST(TreeMeter, CountsDescriptorsPipesAndThreads) {

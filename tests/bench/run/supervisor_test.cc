@@ -220,7 +220,7 @@ class MeasuringSupervisorTest : public SupervisorTest {
     return EncodeCellLine(cell, std::move(finished));
   }
 
-  /// A worker that notes when it begins, what it is told and when it ends. `measure` is done with an answered cell.
+  /// A worker that notes its first order, what it is told and when it ends. `measure` is done with an answered cell.
   std::string Worker(const std::string& measure) const {
     std::string world;
     for (std::size_t w = 0; w < plan_.world_count(); ++w) {
@@ -232,9 +232,10 @@ class MeasuringSupervisorTest : public SupervisorTest {
       cells += fmt::format("'{}{},'*) echo '{}';;\n", kAnsweredBegin, cell, LineOf(cell, true));
     }
     return fmt::format(
-        "note() {{ echo \"$1\" >> '{}'; }}\nnote begins\necho ready\nwhile read -r order; do\n"
+        "note() {{ echo \"$1\" >> '{}'; }}\nbegan=\necho ready\nwhile read -r order; do\n"
+        "[ -n \"$began\" ] || {{ began=1; note begins; }}\n"
         "case $order in '{{\"world\"'*) note world; echo built; case $order in {} esac;;\n"
-        "*) note cell; {}\ncase $order in {} esac;; esac\ndone\nsleep 0.1\nnote ends\n",
+        "*) note cell; {}\ncase $order in {} esac;; esac\ndone\nsleep 0.1\n[ -z \"$began\" ] || note ends\n",
         Noted(), world, measure, cells);
   }
 
