@@ -92,9 +92,9 @@ Result<PartialFile> PartialFile::Claim(const FilePath& path) {
   std::error_code ignored;
   partial.made_folder_ = !folder.empty() && !std::filesystem::exists(folder, ignored);
   ASSIGN_OR_RETURN(partial.spot_, FileSpot::Find(path, /*makes_folders=*/true));
-  constexpr int kMostTries = 1000;  // a try fails where another process writes the same file, or has just finished it
+  constexpr int kMaxTries = 1000;  // a try fails where another process writes the same file, or has just finished it
   constexpr int kFlags = O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
-  for (int copy = 0; copy < kMostTries; ++copy) {
+  for (int copy = 0; copy < kMaxTries; ++copy) {
     partial.name_ = NameOfCopy(partial.spot_.name(), copy / 2).string();
     const int file = ::openat(partial.spot_.folder(), partial.name_.c_str(), kFlags, 0666);
     if (file < 0 && errno == ELOOP && path.is_inside()) return RefuseLink(folder / partial.name_);

@@ -153,8 +153,8 @@ Result<void> CompareLines(const FilePath& file, const std::function<Result<std::
   });
 }
 
-/// Holds every byte of what other programs read, too, against what this one has read of it: no key stands twice, no row
-/// or curve is there that nobody looked at.
+/// Compares the text files that other programs read, too, with what this program has read from them. Differences are
+/// keys that stand twice, and rows or curves that this program did not read.
 Result<Verified> VerifyText(const FilePath& folder, const FinishedRun& run) {
   Verified verified{"texts: nothing in them that this program has not read", {}};
   std::vector<FilePath> files = {folder / "manifest.json", folder / "host.json"};

@@ -41,7 +41,7 @@ double ReadPeakMemoryMb() {
   return 0;
 }
 
-/// True if memory ended; a length that no memory could hold is a mistake of who asked for it.
+/// True if memory ended; a length that no memory could hold is a mistake of the code that asked for it.
 bool IsShortage(const std::exception& error) {
   return dynamic_cast<const std::bad_alloc*>(&error) != nullptr &&
          dynamic_cast<const std::bad_array_new_length*>(&error) == nullptr;

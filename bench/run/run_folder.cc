@@ -124,8 +124,8 @@ Result<void> RunFolder::Empty() {
   fs::remove(path_ / "host.json", error);
   if (error) return CannotWrite(path_.string(), "cannot be emptied", error.value());
   // Somebody who reads the run may be writing its report.
-  constexpr int kMostTries = 100, kPauseMicroseconds = 10'000;
-  for (int tries = 0; tries < kMostTries; ++tries) {
+  constexpr int kMaxTries = 100, kPauseMicroseconds = 10'000;
+  for (int tries = 0; tries < kMaxTries; ++tries) {
     error.clear();
     for (fs::directory_iterator entry(path_, error), end; !error && entry != end; entry.increment(error)) {
       if (entry->path().filename() == kLockFile) continue;

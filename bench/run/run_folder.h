@@ -21,8 +21,8 @@ enum class FolderState {
 /// Looks at what a folder holds. Something that is no run is refused: it is never written into.
 Result<FolderState> LookAtFolder(const std::filesystem::path& path);
 
-/// A result folder that this run alone writes into. One that ends before any cell did takes the folder away again, if
-/// it made it, and puts the run that it was to replace back.
+/// A result folder that this run alone writes into. A run that ends before its first cell removes the folder if it made
+/// it, and puts the run that it was to replace back in its place.
 class RunFolder {
  public:
   /// Makes the folder and locks it against other runs, where the file system has locks. What is locked is a file that

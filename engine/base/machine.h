@@ -7,7 +7,7 @@
 
 namespace etude {
 
-/// The place of errors that neither the input nor a method has made, but the machine: no process can be started, the
+/// The place of errors that the machine caused, not the input and not a method: no process can be started, the
 /// disk is full. What hinders us from asking a method is no answer of it.
 constexpr const char* kThisMachine = "this machine";
 

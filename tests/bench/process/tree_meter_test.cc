@@ -33,7 +33,7 @@ def hold(): print('held', flush=True); sys.stdin.readline()
 MB = 1 << 20
 )";
 
-/// A Python program that has said that it holds what it shall.
+/// A Python program that runs a script and has said that it holds the memory in question.
 ChildProcess Python(const std::string& script) {
   auto child = ChildProcess::Start({.program = "/usr/bin/python3", .arguments = {"-c", kPrelude + script}});
   EXPECT_TRUE(child);
