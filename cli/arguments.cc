@@ -9,11 +9,11 @@
 #include <map>
 #include <string_view>
 
-#include "bench/process/pinned_environment.h"
 #include "bench/results/folder.h"
 #include "bench/run/outside_programs.h"
 #include "bench/run/worker.h"
 #include "cli/commands.h"
+#include "io/process/pinned_environment.h"
 
 namespace etude {
 namespace {

@@ -1,24 +1,19 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string>
 #include <vector>
 
-#include "bench/clips/clip_library.h"
-#include "bench/files/files.h"
-#include "bench/tasks/transition/stage.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "engine/transitions/tags_file/tags_file.h"
-#include "reports/clips/bridge_summary.h"
-#include "sim/choreography/slow_demonstration.h"
+#include "io/files/files.h"
+#include "tools/clips/bridge_summary.h"
 
 namespace etude {
 namespace {
@@ -45,73 +40,19 @@ constexpr const char* kBridgeExamples =
     "  etude bridge 'mocap/*.bvh' --threshold 0.6 --json      everything, for another program\n"
     "  etude bridge --check tags.xml 'mocap/*.bvh'            is the file valid, and does it fit these clips?";
 
-/// Is true of the clips by which a coach corrects (paper A, section 3.3): shaking the head, waving, a slow
-/// demonstration; and the puzzled act.
-bool IsCorrective(const std::string& source) {
-  const std::string slow = "builtin:" + std::string(kSlowDemonstrationPrefix);
-  const bool is_act = source == "builtin:head_shake" || source == "builtin:wave" || source == "builtin:puzzled";
-  return is_act || source.starts_with(slow);
-}
-
-/// Expands references into clips, each once, in the order of their first mention.
-Result<std::vector<std::string>> ListReferences(const std::vector<std::string>& named) {
-  auto all = ExpandAll(named);
-  if (!all) return all;
-  std::set<std::string> seen;
-  std::erase_if(*all, [&](const std::string& reference) { return !seen.insert(reference).second; });
-  return all;
-}
-
-/// Is true when a reference names the clip; that of a glTF file names all its animations.
-bool Names(const std::string& reference, const LibraryClip& clip) {
-  return clip.source == reference || clip.source.starts_with(reference + "#");
-}
-
-/// Names the clips; files of the same name are told apart by their folders.
-std::vector<std::string> UniqueNames(const std::vector<LibraryClip>& clips) {
-  std::vector<std::string> names;
-  for (const LibraryClip& clip : clips) {
-    const auto has_name = [&](const LibraryClip& other) { return other.name == clip.name; };
-    names.push_back(std::count_if(clips.begin(), clips.end(), has_name) > 1 ? clip.source : clip.name);
-  }
-  return names;
-}
-
-Result<BridgeLibrary> LoadBridgeLibrary(const BridgeCommandOptions& options) {
-  BridgeLibrary loaded;
-  ASSIGN_OR_RETURN(loaded.system, ReadFuzzy(options.fuzzy));
-  ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
-  ASSIGN_OR_RETURN(const auto wanted, ListReferences(options.to));
-  std::vector<std::string> named = options.clips;
-  named.insert(named.end(), wanted.begin(), wanted.end());
-  ASSIGN_OR_RETURN(const auto references, ListReferences(named));
-  ASSIGN_OR_RETURN(const auto clips, LoadClips(references, {}, reading, ProgressOf("clips read")));
-
-  std::vector<BodyMotion> motions;
-  for (const LibraryClip& clip : clips.clips) {
-    const bool is_wanted =
-        std::any_of(wanted.begin(), wanted.end(), [&](const std::string& reference) { return Names(reference, clip); });
-    if (wanted.empty() ? IsCorrective(clip.source) : is_wanted)
-      loaded.corrective.push_back(static_cast<int>(motions.size()));
-    motions.push_back(clip.motion);
-    loaded.sources.push_back(clip.source);
-  }
-  loaded.tag_rules.memberships = loaded.system.memberships;
-  loaded.tag_rules.weights = loaded.system.weights;
-  loaded.tag_rules.min_clips = options.min_clips;
-  loaded.tag_rules.most_per_class = options.most_per_class;
-  loaded.match_rules = {.weights = loaded.system.weights,
-                        .threshold = options.threshold,
-                        .pick = Pick::kFirst,
-                        .within_class = options.within_class};
-  loaded.library = MakeLibrary(UniqueNames(clips.clips), motions, JudgedProportions(), loaded.tag_rules);
-  loaded.library.in_betweens = BuildInBetweens(
-      loaded.library.tagged, {.weights = loaded.system.weights, .threshold = options.threshold, .tween = {}});
-  return loaded;
-}
-
-BridgeTags TagsOf(const BridgeLibrary& loaded) {
-  return CollectTags(loaded.library, loaded.sources, loaded.system, loaded.tag_rules, loaded.match_rules);
+Result<BridgeLibrary> LoadLibrary(const BridgeCommandOptions& options) {
+  BridgeOptions bridge{.clips = options.clips,
+                       .to = options.to,
+                       .system = {},
+                       .threshold = options.threshold,
+                       .min_clips = options.min_clips,
+                       .most_per_class = options.most_per_class,
+                       .within_class = options.within_class,
+                       .reading = {},
+                       .on_progress = ProgressOf("clips read")};
+  ASSIGN_OR_RETURN(bridge.system, ReadFuzzy(options.fuzzy));
+  ASSIGN_OR_RETURN(bridge.reading, ReadOptions(options.reading));
+  return LoadBridgeLibrary(bridge);
 }
 
 /// Takes over the rules of a tags file, so that its clips are tagged as they were.
@@ -140,7 +81,7 @@ Result<int> CheckTags(const BridgeCommandOptions& options) {
                tags.keys.size());
     return kSuccess;
   }
-  ASSIGN_OR_RETURN(const auto loaded, LoadBridgeLibrary(OptionsOf(tags, options)));
+  ASSIGN_OR_RETURN(const auto loaded, LoadLibrary(OptionsOf(tags, options)));
   const TagsComparison comparison = CompareTags(tags, TagsOf(loaded));
   if (!comparison.differences.empty()) {
     const std::size_t count = comparison.differences.size();
@@ -152,20 +93,11 @@ Result<int> CheckTags(const BridgeCommandOptions& options) {
   return kSuccess;
 }
 
-/// Writes the tags, after reading them back.
-Result<void> WriteTags(const BridgeLibrary& loaded, const std::string& path) {
-  const BridgeTags tags = TagsOf(loaded);
-  ASSIGN_OR_RETURN(const auto text, WriteTagsFile(tags));
-  ASSIGN_OR_RETURN(const auto back, ReadTagsFile(text, path));
-  if (!(back == tags)) return Fail({path, 0, 0}, "reads back as other tags; nothing was written");
-  return WriteFileAtomically(path, text);
-}
-
 Result<int> BridgeCommand(const BridgeCommandOptions& options) {
   if (!options.check.empty()) return CheckTags(options);
   if (options.clips.empty()) return Fail({}, "etude bridge needs clips, or --check a tags file");
   if (!options.output.empty()) RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
-  ASSIGN_OR_RETURN(const auto loaded, LoadBridgeLibrary(options));
+  ASSIGN_OR_RETURN(const auto loaded, LoadLibrary(options));
   if (!options.output.empty()) RETURN_IF_ERROR(WriteTags(loaded, options.output));
   const Coverage coverage(loaded.library.tagged, loaded.match_rules, options.wait_s,
                           ProgressOf("comparisons of a clip"));

@@ -1,19 +1,15 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 
-#include "bench/files/files.h"
-#include "cli/capture.h"
-#include "cli/clip_reading.h"
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "cli/output_file.h"
-#include "engine/formats/trc.h"
+#include "cli/terminal_listener.h"
 #include "engine/keypoints/people.h"
+#include "tools/capture/capture_films.h"
 
 namespace etude {
 namespace {
@@ -56,65 +52,34 @@ constexpr const char* kCaptureExamples =
     "                -o motion.trc --points keypoints.trc --film overlay.mp4 --smooth 6 --report page.html\n"
     "  etude capture --rig rig.yaml cam1.mp4 cam2.mp4 --silhouettes --stature 1.8 -o motion.bvh --report page.html";
 
+struct CaptureCommandOptions {
+  CaptureFilmsOptions capture;
+  bool overwrite = false;
+  bool as_json = false;
+};
+
 Result<int> CaptureCommand(const CaptureCommandOptions& options) {
   Aside aside(options.as_json);
+  const CaptureFilmsOptions& capture = options.capture;
   for (const std::string* path :
-       {&options.output, &options.points, &options.film, &options.report, &options.distances}) {
+       {&capture.output, &capture.points, &capture.film, &capture.report, &capture.distances}) {
     if (!path->empty()) RETURN_IF_ERROR(CheckOutput(*path, options.overwrite));
   }
-  RETURN_IF_ERROR(FormatOfName(options.output));
-  if (options.keypoints.empty() && options.marks.empty() && !options.silhouettes) {
-    return Fail({}, "what shall tell where the person is? allowed: --keypoints DIR, --marks DIR or --silhouettes");
-  }
-  std::optional<MarkerMotion> reference;
-  if (!options.reference.empty()) {
-    ASSIGN_OR_RETURN(const auto text, ReadWholeFile(options.reference));
-    ASSIGN_OR_RETURN(reference, ReadTrc(text, options.reference));
-  }
-  if (options.silhouettes && options.sync_s > 0) return Fail({}, "--sync: outlines tell no clock; cut the films alike");
-  if (options.silhouettes && !options.keypoints.empty() && options.stature_m > 0) {
-    return Fail({}, "--stature: the keypoints tell how tall the person is");
-  }
-  RETURN_IF_ERROR(CheckPlace(options.place));
-  ASSIGN_OR_RETURN(FilmedSession session, OpenFilms(options));
-  const FilmFacts facts = session.views.front().facts;
-  fmt::print("{} films, {} frames at {:g} Hz\n", session.views.size(), facts.frames, facts.rate_hz);
-  if (reference && std::abs(reference->rate_hz - facts.rate_hz) > kOneRate * facts.rate_hz) {
-    fmt::print("reference: resampled from {:g} to {:g} Hz, straight between its frames\n", reference->rate_hz,
-               facts.rate_hz);
-    reference = AtRate(std::move(*reference), facts.rate_hz);
-  }
-  Json seen = Json::array();
-  for (const FilmedView& view : session.views) {
-    seen.push_back({{"film", view.path.string()}, {"camera", view.camera.name}});
-  }
-  Json told = {{"films", std::move(seen)}, {"frames", facts.frames}, {"rate_hz", facts.rate_hz},
-               {"keypoints", nullptr},     {"silhouettes", nullptr}, {"output", options.output}};
-  bool is_whole = false;
-  if (options.silhouettes && options.keypoints.empty()) {
-    const auto place = PlaceRig(session.rig, options.place);
-    if (!place) return Fail({options.rig}, "{}", place.error().message);
-    for (FilmedView& view : session.views) {
-      if (view.fit.quarter_turns != 0) {
-        return Fail({view.path.string()}, "its pictures are turned, and outlines do not tell which way; turn the film");
-      }
-      view.camera.camera = Placed(*place, view.camera.camera);
-    }
-    ASSIGN_OR_RETURN(is_whole, CaptureUnmarked(options, session, reference, told));
-  } else {
-    ASSIGN_OR_RETURN(is_whole, CaptureKeypoints(options, std::move(session), reference, told));
-  }
-  if (!is_whole) return TellStopped({{options.film}, "stopped; there is no film"});
+  ASSIGN_OR_RETURN(const CapturedFilms captured, CaptureFilms(capture));
+  if (!captured.is_whole) return TellStopped({{capture.film}, "stopped; there is no film"});
   aside.End();
-  if (options.as_json) RETURN_IF_ERROR(PrintFacts("capture", std::move(told)));
+  if (options.as_json) RETURN_IF_ERROR(PrintFacts("capture", *captured.facts));
   return kSuccess;
 }
 
 }  // namespace
 
 void DefineCapture(CLI::App& app, const std::string& command_line, Action& action) {
-  auto options = std::make_shared<CaptureCommandOptions>();
+  auto asked = std::make_shared<CaptureCommandOptions>();
+  CaptureFilmsOptions* options = &asked->capture;
   options->command_line = command_line;
+  options->version = ETUDE_VERSION;
+  options->listener = TerminalListener();
   CLI::App* command = app.add_subcommand("capture", "The motion of a person out of films by several cameras");
   command->add_option("films", options->films, "A film of each camera, all begun at the same moment (else: --sync)")
       ->required();
@@ -194,10 +159,10 @@ void DefineCapture(CLI::App& app, const std::string& command_line, Action& actio
                    "The films' clocks may differ by this much, s: how much is found from the keypoints (0: they agree)")
       ->check(NumberWithin(0, 60, "time in s"))
       ->capture_default_str();
-  AddOverwrite(*command, options->overwrite, "Replace files that are there");
-  AddJson(*command, options->as_json);
+  AddOverwrite(*command, asked->overwrite, "Replace files that are there");
+  AddJson(*command, asked->as_json);
   command->footer(kCaptureExamples);
-  command->callback([=, &action] { action = [=] { return Finish(CaptureCommand(*options)); }; });
+  command->callback([=, &action] { action = [=] { return Finish(CaptureCommand(*asked)); }; });
 }
 
 }  // namespace etude

@@ -6,11 +6,11 @@
 
 #include "bench/outside/conformance.h"
 #include "bench/outside/outside_method.h"
-#include "bench/process/child_process.h"
 #include "bench/tasks/registry.h"
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "engine/base/names.h"
+#include "io/process/child_process.h"
 
 namespace etude {
 namespace {

@@ -4,11 +4,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bench/files/files.h"
 #include "bench/results/folder.h"
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "engine/base/digest.h"
+#include "io/files/files.h"
 
 namespace etude {
 namespace {

@@ -6,18 +6,18 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bench/clips/clip_library.h"
-#include "bench/clips/convert.h"
-#include "bench/files/files.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "cli/move_table.h"
 #include "cli/output_file.h"
 #include "engine/base/names.h"
-#include "reports/clips/clip_facts.h"
-#include "reports/clips/contact_index.h"
-#include "reports/clips/role_sheet.h"
+#include "io/clips/clip_library.h"
+#include "io/clips/convert.h"
+#include "io/files/files.h"
+#include "tools/clips/clip_facts.h"
+#include "tools/clips/contact_index.h"
+#include "tools/clips/role_sheet.h"
 
 namespace etude {
 namespace {
@@ -43,7 +43,7 @@ struct ClipInfoOptions {
 /// Prints the facts of all clips. Exit 2 when one is not understood; the others are told all the same.
 Result<int> ClipInfoCommand(const ClipInfoOptions& options) {
   ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
-  ASSIGN_OR_RETURN(const auto references, ExpandAll(options.clips));
+  ASSIGN_OR_RETURN(const auto references, ExpandReferences(options.clips));
   std::vector<ClipFacts> all;
   for (const std::string& reference : references) {
     for (ClipFacts& facts : FactsOf(reference, reading)) {
@@ -88,7 +88,7 @@ Result<int> ClipConvertCommand(const ClipConvertOptions& given) {
   ASSIGN_OR_RETURN(const auto format, FormatOfName(given.output));
   ASSIGN_OR_RETURN(auto reading, ReadOptions(given.reading));
   ASSIGN_OR_RETURN(const auto trim, ReadTrim(given.trim));
-  ASSIGN_OR_RETURN(const auto references, ExpandAll({given.input}));
+  ASSIGN_OR_RETURN(const auto references, ExpandReferences({given.input}));
   if (references.size() > 1) {
     return Fail({}, "'{}' stands for {} clips; one file is converted at a time", given.input, references.size());
   }
@@ -266,7 +266,9 @@ Result<int> ClipMapCommand(const ClipMapOptions& options) {
   RETURN_IF_ERROR(CheckMapOutputs(options));
   ASSIGN_OR_RETURN(const auto reading, ReadOptions({.joint_map = options.joint_map, .unit = "", .up = ""}));
   // All animations of a file move the same skeleton: the first one shows it.
-  ASSIGN_OR_RETURN(const auto clips, ReadClips(options.clip));
+  OpenOptions as_file;
+  as_file.recorded = reading.recorded;
+  ASSIGN_OR_RETURN(const auto clips, ReadClips(options.clip, as_file));
   const Skeleton& skeleton = clips.front().clip.skeleton;
   const auto map = FindJointMap(skeleton, options.clip, reading.roles ? &*reading.roles : nullptr);
   RETURN_IF_ERROR(WritePreview(options, clips.front().clip, map ? &*map : nullptr));

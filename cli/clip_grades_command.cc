@@ -5,14 +5,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bench/clips/clip_library.h"
-#include "bench/files/files.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "cli/output_file.h"
 #include "engine/base/csv.h"
 #include "engine/fuzzy/fuzzy_motion.h"
+#include "io/clips/clip_library.h"
+#include "io/files/files.h"
 
 namespace etude {
 namespace {

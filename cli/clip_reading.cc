@@ -2,11 +2,12 @@
 
 #include <CLI/CLI.hpp>
 
-#include "bench/clips/references.h"
-#include "bench/files/files.h"
-#include "bench/tasks/base/fuzzy_key.h"
+#include "bench/run/recorded_motions.h"
 #include "cli/arguments.h"
 #include "engine/base/names.h"
+#include "engine/fuzzy/open_fuzzy_system.h"
+#include "io/clips/references.h"
+#include "io/files/files.h"
 
 namespace etude {
 
@@ -23,6 +24,7 @@ void AddClipReading(CLI::App& command, ClipReading& reading, const std::string& 
 
 Result<OpenOptions> ReadOptions(const ClipReading& reading) {
   OpenOptions options;
+  options.recorded = &MotionsOfRuns();
   if (!reading.joint_map.empty()) {
     ASSIGN_OR_RETURN(const auto text, ReadWholeFile(reading.joint_map));
     ASSIGN_OR_RETURN(auto roles, ReadJointMapFile(text, reading.joint_map));
@@ -45,16 +47,6 @@ Result<std::optional<TimeSpan>> ReadTrim(const std::string& text) {
   const auto span = ParseTimeSpan(text);
   if (!span) return Fail({}, "--trim: {}", span.error().message);
   return std::optional(*span);
-}
-
-Result<std::vector<std::string>> ExpandAll(const std::vector<std::string>& references) {
-  std::vector<std::string> all;
-  for (const std::string& reference : references) {
-    ASSIGN_OR_RETURN(auto expanded, ExpandReference(reference, {}));
-    all.insert(all.end(), expanded.begin(), expanded.end());
-    if (all.size() > kMostClips) return Fail({}, "more than {} clips", kMostClips);
-  }
-  return all;
 }
 
 Result<FuzzySystem> ReadFuzzy(const std::string& reference) {

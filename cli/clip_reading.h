@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "bench/clips/convert.h"
-#include "bench/clips/open_clip.h"
 #include "engine/base/result.h"
 #include "engine/fuzzy/fuzzy_system.h"
+#include "io/clips/convert.h"
+#include "io/clips/open_clip.h"
 
 namespace CLI {
 class App;
@@ -32,9 +32,6 @@ Result<OpenOptions> ReadOptions(const ClipReading& reading);
 
 /// Reads --trim; nothing without it.
 Result<std::optional<TimeSpan>> ReadTrim(const std::string& text);
-
-/// Expands all references to single clips, in order.
-Result<std::vector<std::string>> ExpandAll(const std::vector<std::string>& references);
 
 /// Reads --fuzzy: builtin:NAME or a file; "" is paper A's system.
 Result<FuzzySystem> ReadFuzzy(const std::string& reference);

@@ -2,14 +2,14 @@
 #include <filesystem>
 #include <memory>
 
-#include "bench/files/files.h"
 #include "cli/arguments.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
-#include "reports/clips/clip_film.h"
-#include "reports/clips/contact_sheet.h"
+#include "io/files/files.h"
+#include "tools/clips/clip_film.h"
+#include "tools/clips/contact_sheet.h"
 
 namespace etude {
 namespace {
@@ -62,7 +62,7 @@ Viewpoint ViewNamed(const std::string& name) {
 Result<std::vector<ClipActor>> Cast(const ClipRenderOptions& options) {
   ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
   ASSIGN_OR_RETURN(const auto trim, ReadTrim(options.trim));
-  ASSIGN_OR_RETURN(const auto references, ExpandAll(options.clips));
+  ASSIGN_OR_RETURN(const auto references, ExpandReferences(options.clips));
   std::vector<ClipActor> actors;
   for (const std::string& reference : references) {
     ASSIGN_OR_RETURN(auto clips, ReadClips(reference, reading));

@@ -11,8 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "bench/files/files.h"
-#include "bench/streams/live_coach.h"
 #include "cli/commands.h"
 #include "cli/output_file.h"
 #include "engine/coaching/policy.h"
@@ -23,8 +21,10 @@
 #include "engine/teaching/moves_file.h"
 #include "engine/transitions/choices/choice.h"
 #include "engine/transitions/joins/join.h"
+#include "io/files/files.h"
 #include "sim/choreography/dance_of.h"
 #include "sim/music/music.h"
+#include "tools/live_coach.h"
 
 namespace etude {
 namespace {

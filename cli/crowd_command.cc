@@ -13,7 +13,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "bench/files/files.h"
 #include "bench/tasks/tracking/crowd.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
@@ -22,7 +21,8 @@
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "engine/kinematics/body_tree.h"
-#include "reports/clips/crowd_stage.h"
+#include "io/files/files.h"
+#include "tools/clips/crowd_stage.h"
 
 namespace etude {
 namespace {

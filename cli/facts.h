@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "bench/files/json.h"
 #include "bench/gate/comparison.h"
 #include "engine/base/result.h"
+#include "io/files/json.h"
 
 namespace CLI {
 class App;

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/calibration/verdict_rates.h"
-#include "bench/files/files.h"
 #include "bench/finished_runs/finished_runs.h"
 #include "bench/gate/baseline_file.h"
 #include "bench/gate/gate.h"
@@ -17,6 +16,7 @@
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "cli/move_table.h"
+#include "io/files/files.h"
 #include "reports/gate_table.h"
 #include "reports/report.h"
 

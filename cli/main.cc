@@ -19,7 +19,6 @@
 #include <system_error>
 #include <vector>
 
-#include "bench/process/pinned_environment.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
@@ -27,7 +26,8 @@
 #include "engine/base/machine.h"
 #include "engine/base/names.h"
 #include "engine/base/utf8.h"
-#include "reports/words/escape.h"
+#include "io/drawing/escape.h"
+#include "io/process/pinned_environment.h"
 #include "sim/render/renderer.h"
 
 namespace etude {

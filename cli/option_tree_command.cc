@@ -5,11 +5,11 @@
 #include <functional>
 #include <memory>
 
-#include "bench/files/files.h"
 #include "bench/run/shipped.h"
 #include "cli/commands.h"
 #include "cli/output_file.h"
 #include "engine/base/names.h"
+#include "io/files/files.h"
 
 // What is made of the option tree: completion for shells, manual pages, and a page of all. Nothing of them is written
 // by hand.

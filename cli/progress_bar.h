@@ -2,11 +2,11 @@
 
 #include <string>
 
-#include "bench/process/clock.h"
 #include "bench/run/run.h"
 #include "cli/interrupt.h"
 #include "engine/base/progress.h"
-#include "reports/films/film.h"
+#include "io/drawing/film.h"
+#include "io/process/clock.h"
 
 namespace etude {
 

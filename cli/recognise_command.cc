@@ -9,8 +9,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bench/files/files.h"
-#include "bench/streams/label_scores.h"
+#include "bench/tasks/detection/label_scores.h"
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "cli/stream_reading.h"
@@ -20,6 +19,7 @@
 #include "engine/recognition/recognisers.h"
 #include "engine/streams/live_stream.h"
 #include "engine/teaching/moves_file.h"
+#include "io/files/files.h"
 
 namespace etude {
 namespace {

@@ -4,13 +4,13 @@
 #include <cstring>
 #include <memory>
 
-#include "bench/files/files.h"
 #include "bench/results/folder.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "engine/base/machine.h"
+#include "io/files/files.h"
 #include "reports/report.h"
 
 namespace etude {

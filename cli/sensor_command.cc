@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "bench/files/files.h"
 #include "bench/sensor_fit/fit.h"
 #include "bench/sensor_fit/statistics.h"
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "cli/output_file.h"
+#include "io/files/files.h"
 #include "sim/skeleton_sensor/options.h"
 
 namespace etude {

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "bench/files/files.h"
 #include "bench/run/suite.h"
 #include "cli/commands.h"
 #include "cli/output_file.h"
-#include "reports/clips/contact_sheet.h"
+#include "io/files/files.h"
+#include "tools/clips/contact_sheet.h"
 
 namespace etude {
 namespace {

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "bench/streams/load.h"
 #include "cli/clip_reading.h"
+#include "io/streams/load.h"
 
 namespace CLI {
 class App;

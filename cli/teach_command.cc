@@ -4,14 +4,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bench/files/files.h"
-#include "bench/streams/teach.h"
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "cli/output_file.h"
 #include "cli/stream_reading.h"
 #include "engine/base/names.h"
 #include "engine/teaching/moves_file.h"
+#include "engine/teaching/teach_moves.h"
+#include "io/files/files.h"
 
 namespace etude {
 namespace {

@@ -14,8 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include "bench/clips/clip_library.h"
-#include "bench/files/files.h"
 #include "bench/tasks/coach/train_coached.h"
 #include "bench/tasks/detection/train_recogniser.h"
 #include "bench/training/tuning.h"
@@ -26,6 +24,8 @@
 #include "cli/progress_bar.h"
 #include "engine/base/named.h"
 #include "engine/base/names.h"
+#include "io/clips/clip_library.h"
+#include "io/files/files.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/random/stream.h"
 
@@ -108,7 +108,7 @@ Result<std::vector<bool>> ChooseHeldOut(const std::vector<std::string>& names, c
 
 Result<Split> LoadSplit(const TrainOptions& options) {
   ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
-  ASSIGN_OR_RETURN(const auto references, ExpandAll(options.clips));
+  ASSIGN_OR_RETURN(const auto references, ExpandReferences(options.clips));
   ASSIGN_OR_RETURN(auto library, LoadClips(references, {}, reading, ProgressOf("clips read")));
   std::vector<std::string> names;
   std::vector<BodyMotion> motions;
@@ -258,7 +258,7 @@ constexpr const char* kHeader =
     "# Trees: measure and limit of each question, then what the answers add to the log-odds of \"right\".\n";
 
 Result<Trained> TrainLearnt(const TrainOptions& options) {
-  ASSIGN_OR_RETURN(const auto references, ExpandAll(options.clips));
+  ASSIGN_OR_RETURN(const auto references, ExpandReferences(options.clips));
   ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
   ASSIGN_OR_RETURN(const ClipLibrary library, LoadClips(references, {}, reading, ProgressOf("clips read")));
   const Repertoire repertoire = RepertoireOf(library);

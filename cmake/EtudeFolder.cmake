@@ -136,7 +136,7 @@ endfunction()
 # etude_test_program(<name> FOLDERS <folder>... DEPENDS <folder>... LIBRARIES <target>...)
 #   Makes the program etude_tests_<name> of every .cc file of the folders of tests/, and of all below them. A folder mirrors
 #   the one that it tests (tests/engine/motion tests engine/motion), which is linked. Each is one of ctest's tests, in the
-#   pinned environment (bench/process): most single tests take less time than to start them (tests/README.md). The target
+#   pinned environment (io/process): most single tests take less time than to start them (tests/README.md). The target
 #   etude_tests_<folder> builds its program. Tests whose names begin with HEAVY_ are one more, with the label "heavy".
 function(etude_test_program NAME)
   cmake_parse_arguments(ARG "" "" "FOLDERS;DEPENDS;LIBRARIES" ${ARGN})

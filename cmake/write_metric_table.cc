@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "bench/files/files.h"
-#include "bench/files/json.h"
 #include "engine/document/fields.h"
+#include "io/files/files.h"
+#include "io/files/json.h"
 
 namespace etude {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "reports/words/escape.h"
+#include "io/drawing/escape.h"
 
 namespace etude {
 namespace {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "engine/base/csv.h"
+#include "io/drawing/escape.h"
 #include "reports/badge.h"
-#include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/judged.h"
 

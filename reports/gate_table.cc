@@ -9,8 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "io/drawing/escape.h"
 #include "reports/junit.h"
-#include "reports/words/escape.h"
 
 namespace etude {
 namespace {

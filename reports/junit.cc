@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "reports/words/escape.h"
+#include "io/drawing/escape.h"
 #include "reports/words/findings.h"
 
 namespace etude {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 
+#include "io/drawing/escape.h"
 #include "reports/comparison_table.h"
 #include "reports/overview_table.h"
 #include "reports/page.h"
@@ -10,7 +11,6 @@
 #include "reports/paper/paper_b_section.h"
 #include "reports/transitions/transition_section.h"
 #include "reports/words/answer.h"
-#include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"
 #include "reports/words/judged.h"

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "io/drawing/escape.h"
 #include "reports/badge.h"
 #include "reports/words/cell_series.h"
-#include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"
 #include "reports/words/judged.h"

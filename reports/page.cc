@@ -5,18 +5,18 @@
 #include <algorithm>
 #include <array>
 
-#include "reports/assets/assets.h"
+#include "io/drawing/assets/assets.h"
+#include "io/drawing/escape.h"
+#include "io/drawing/marks.h"
 #include "reports/badge.h"
 #include "reports/comparison_table.h"
 #include "reports/overview_table.h"
 #include "reports/paper/paper_a.h"
 #include "reports/paper/paper_b_section.h"
 #include "reports/plots/growth.h"
-#include "reports/plots/marks.h"
 #include "reports/scenario_card.h"
 #include "reports/transitions/recorded_requests.h"
 #include "reports/viewer/recorded_worlds.h"
-#include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"
 

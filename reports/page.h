@@ -4,7 +4,7 @@
 #include <string>
 
 #include "bench/model/run_data.h"
-#include "bench/real_takes/real_take.h"
+#include "io/real_takes/real_take.h"
 #include "reports/films/media.h"
 
 namespace etude {

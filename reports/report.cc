@@ -4,8 +4,9 @@
 #include <set>
 #include <string_view>
 
-#include "bench/files/files.h"
 #include "bench/recordings/capture_extras.h"
+#include "io/drawing/escape.h"
+#include "io/files/files.h"
 #include "reports/comparison_table.h"
 #include "reports/films/media.h"
 #include "reports/junit.h"
@@ -13,7 +14,6 @@
 #include "reports/paper/paper_b_section.h"
 #include "reports/viewer/world_script.h"
 #include "reports/words/cell_series.h"
-#include "reports/words/escape.h"
 
 namespace etude {
 namespace {

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "bench/model/run_data.h"
-#include "bench/real_takes/real_take.h"
 #include "engine/base/result.h"
-#include "reports/films/film.h"
+#include "io/drawing/film.h"
+#include "io/real_takes/real_take.h"
 
 namespace etude {
 

@@ -8,20 +8,20 @@
 #include <span>
 #include <string_view>
 
-#include "bench/files/json.h"
 #include "engine/base/base64.h"
+#include "io/drawing/escape.h"
+#include "io/drawing/marks.h"
+#include "io/files/json.h"
 #include "reports/badge.h"
 #include "reports/comparison_table.h"
 #include "reports/overview_table.h"
 #include "reports/paper/paper_a.h"
 #include "reports/paper/paper_b_section.h"
 #include "reports/plots/growth.h"
-#include "reports/plots/marks.h"
 #include "reports/plots/plot_section.h"
 #include "reports/transitions/transition_section.h"
 #include "reports/viewer/recorded_worlds.h"
 #include "reports/words/cell_series.h"
-#include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/judged.h"
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "engine/base/csv.h"
+#include "io/drawing/escape.h"
 #include "reports/comparison_table.h"
 #include "reports/page.h"
 #include "reports/paper/paper_a.h"
 #include "reports/paper/paper_b_section.h"
 #include "reports/words/answer.h"
-#include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"
 #include "reports/words/judged.h"

@@ -12,15 +12,15 @@
 #include <utility>
 
 #include "bench/dataset/layout.h"
-#include "bench/files/files.h"
-#include "bench/files/json.h"
-#include "bench/films/encoder.h"
 #include "bench/run/manifest.h"
 #include "bench/run/plan.h"
 #include "bench/run/suite.h"
 #include "bench/run/used_keys.h"
 #include "engine/base/csv.h"
 #include "engine/base/machine.h"
+#include "io/files/files.h"
+#include "io/files/json.h"
+#include "io/films/encoder.h"
 
 namespace etude {
 namespace {

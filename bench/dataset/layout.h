@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "bench/files/file_path.h"
 #include "bench/run/plan.h"
 #include "bench/scenario/scenario.h"
+#include "io/files/file_path.h"
 
 namespace etude {
 

@@ -2,9 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/files/files.h"
-#include "bench/files/json.h"
-#include "bench/process/clock.h"
 #include "bench/run/cell_runner.h"
 #include "bench/run/manifest.h"
 #include "bench/run/outside_metrics.h"
@@ -13,6 +10,9 @@
 #include "bench/run/supervisor.h"
 #include "bench/run/used_keys.h"
 #include "engine/base/digest.h"
+#include "io/files/files.h"
+#include "io/files/json.h"
+#include "io/process/clock.h"
 
 namespace etude {
 namespace {

@@ -5,13 +5,13 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/files/json.h"
 #include "bench/metrics/catalogue.h"
 #include "bench/run/cell_runner.h"
 #include "bench/run/outside_programs.h"
 #include "bench/scenario/scenario.h"
 #include "engine/base/digest.h"
 #include "engine/base/machine.h"
+#include "io/files/json.h"
 
 namespace etude {
 namespace {

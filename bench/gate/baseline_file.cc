@@ -5,12 +5,12 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "bench/files/files.h"
-#include "bench/files/json.h"
 #include "bench/gate/placed_json.h"
 #include "bench/metrics/catalogue.h"
 #include "engine/base/digest.h"
 #include "engine/base/names.h"
+#include "io/files/files.h"
+#include "io/files/json.h"
 
 namespace etude {
 namespace {

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "bench/files/json.h"
 #include "engine/base/names.h"
+#include "io/files/json.h"
 
 namespace etude {
 namespace {

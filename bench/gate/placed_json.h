@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/files/json.h"
 #include "engine/base/result.h"
+#include "io/files/json.h"
 
 namespace etude {
 

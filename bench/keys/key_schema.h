@@ -2,9 +2,9 @@
 
 #include <span>
 
-#include "bench/files/json.h"
 #include "bench/keys/key_info.h"
 #include "engine/document/node.h"
+#include "io/files/json.h"
 
 namespace etude {
 

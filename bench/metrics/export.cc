@@ -5,9 +5,9 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "bench/files/json.h"
 #include "bench/metrics/catalogue.h"
 #include "engine/motion/body.h"
+#include "io/files/json.h"
 
 namespace etude {
 namespace {

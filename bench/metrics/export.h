@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "bench/files/json.h"
 #include "engine/base/result.h"
+#include "io/files/json.h"
 
 namespace etude {
 

@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "bench/clips/clip_library.h"
-#include "bench/clips/references.h"
 #include "engine/fuzzy/features.h"
+#include "io/clips/clip_library.h"
+#include "io/clips/references.h"
 #include "sim/choreography/varied_library.h"
 
 namespace etude {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/files/json.h"
+#include "io/files/json.h"
 
 namespace etude {
 

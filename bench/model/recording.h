@@ -3,10 +3,10 @@
 #include <string>
 #include <string_view>
 
-#include "bench/files/json.h"
 #include "bench/model/row.h"
 #include "engine/base/digest.h"
 #include "engine/motion/body.h"
+#include "io/files/json.h"
 
 namespace etude {
 

@@ -6,8 +6,8 @@
 #include <cstring>
 #include <utility>
 
-#include "bench/files/files.h"
 #include "engine/base/machine.h"
+#include "io/files/files.h"
 
 namespace etude {
 

@@ -6,15 +6,15 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "bench/clips/clip_library.h"
 #include "bench/outside/messages.h"
 #include "bench/outside/seated_program.h"
-#include "bench/process/clock.h"
 #include "bench/tasks/registry.h"
 #include "engine/base/angles.h"
 #include "engine/base/named.h"
 #include "engine/base/names.h"
 #include "engine/document/node.h"
+#include "io/clips/clip_library.h"
+#include "io/process/clock.h"
 
 namespace etude {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "bench/files/json.h"
+#include "io/files/json.h"
 
 namespace etude {
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "bench/files/json.h"
 #include "bench/model/payload.h"
 #include "bench/model/row.h"
-#include "bench/process/fence.h"
+#include "io/files/json.h"
+#include "io/process/fence.h"
 #include "sim/random/seed.h"
 
 namespace etude {

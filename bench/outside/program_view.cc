@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bench/process/fence.h"
+#include "io/process/fence.h"
 
 namespace etude {
 namespace {

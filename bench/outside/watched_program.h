@@ -4,12 +4,12 @@
 #include <optional>
 #include <string>
 
-#include "bench/files/temporary_folder.h"
 #include "bench/outside/outside_method.h"
-#include "bench/process/child_process.h"
-#include "bench/process/clock.h"
-#include "bench/process/control_group.h"
-#include "bench/process/tree_meter.h"
+#include "io/files/temporary_folder.h"
+#include "io/process/child_process.h"
+#include "io/process/clock.h"
+#include "io/process/control_group.h"
+#include "io/process/tree_meter.h"
 
 namespace etude {
 

@@ -7,8 +7,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "bench/files/json.h"
 #include "engine/base/result.h"
+#include "io/files/json.h"
 
 namespace etude {
 

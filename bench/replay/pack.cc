@@ -5,14 +5,14 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "bench/clips/references.h"
-#include "bench/files/files.h"
-#include "bench/files/temporary_folder.h"
 #include "bench/replay/replay.h"
 #include "bench/results/folder.h"
 #include "bench/results/row_json.h"
 #include "bench/run/manifest.h"
 #include "bench/run/supervisor.h"
+#include "io/clips/references.h"
+#include "io/files/files.h"
+#include "io/files/temporary_folder.h"
 
 namespace etude {
 namespace {

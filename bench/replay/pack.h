@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-#include "bench/files/json.h"
 #include "bench/model/row.h"
 #include "bench/run/setup.h"
+#include "io/files/json.h"
 
 namespace etude {
 

@@ -6,13 +6,13 @@
 #include <set>
 #include <utility>
 
-#include "bench/files/files.h"
-#include "bench/files/temporary_folder.h"
 #include "bench/results/row_json.h"
 #include "bench/run/manifest.h"
 #include "bench/run/supervisor.h"
 #include "engine/base/digest.h"
 #include "engine/base/names.h"
+#include "io/files/files.h"
+#include "io/files/temporary_folder.h"
 
 namespace etude {
 namespace {

@@ -7,7 +7,6 @@
 #include <set>
 #include <utility>
 
-#include "bench/files/files.h"
 #include "bench/finished_runs/finished_runs.h"
 #include "bench/results/row_json.h"
 #include "bench/results/seal.h"
@@ -18,6 +17,7 @@
 #include "bench/run/supervisor.h"
 #include "bench/statistics/scenario_table.h"
 #include "engine/base/names.h"
+#include "io/files/files.h"
 
 namespace etude {
 namespace {

@@ -8,9 +8,9 @@
 #include <optional>
 #include <utility>
 
-#include "bench/files/json.h"
 #include "bench/results/columns.h"
 #include "bench/results/npy.h"
+#include "io/files/json.h"
 
 namespace etude {
 namespace {

@@ -9,8 +9,8 @@
 #include <tuple>
 #include <utility>
 
-#include "bench/files/files.h"
-#include "bench/files/json.h"
+#include "io/files/files.h"
+#include "io/files/json.h"
 
 namespace etude {
 namespace {

@@ -6,8 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "bench/files/files.h"
-#include "bench/files/json.h"
 #include "bench/metrics/export.h"
 #include "bench/results/columns.h"
 #include "bench/results/row_json.h"
@@ -15,6 +13,8 @@
 #include "bench/results/summary_json.h"
 #include "engine/base/digest.h"
 #include "engine/base/named.h"
+#include "io/files/files.h"
+#include "io/files/json.h"
 #include "sim/random/seed.h"
 
 namespace etude {

@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/files/files.h"
-#include "bench/files/json.h"
 #include "bench/model/run_data.h"
 #include "bench/model/study.h"
 #include "bench/results/columns.h"
+#include "io/files/files.h"
+#include "io/files/json.h"
 
 namespace etude {
 

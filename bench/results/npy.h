@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/files/files.h"
+#include "io/files/files.h"
 
 namespace etude {
 

@@ -4,11 +4,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "bench/files/files.h"
-#include "bench/files/json.h"
 #include "bench/results/folder.h"
 #include "engine/base/digest.h"
 #include "engine/base/machine.h"
+#include "io/files/files.h"
+#include "io/files/json.h"
 
 namespace etude {
 namespace {

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/files/files.h"
 #include "bench/results/seal.h"
+#include "io/files/files.h"
 
 namespace etude {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "bench/files/json.h"
 #include "bench/model/summary.h"
+#include "io/files/json.h"
 
 namespace etude {
 

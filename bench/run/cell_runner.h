@@ -6,9 +6,9 @@
 
 #include "bench/model/row.h"
 #include "bench/outside/outside_method.h"
-#include "bench/process/clock.h"
 #include "bench/run/outside_metrics.h"
 #include "bench/run/setup.h"
+#include "io/process/clock.h"
 
 namespace etude {
 

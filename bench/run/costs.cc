@@ -8,11 +8,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "bench/files/json.h"
-#include "bench/process/clock.h"
 #include "bench/run/shipped.h"
 #include "bench/run/sum_up.h"
 #include "engine/base/digest.h"
+#include "io/files/json.h"
+#include "io/process/clock.h"
 
 namespace etude {
 namespace {

@@ -4,13 +4,13 @@
 #include <numeric>
 #include <set>
 
-#include "bench/process/clock.h"
 #include "bench/run/cell_runner.h"
 #include "bench/run/costs.h"
 #include "bench/run/suite.h"
 #include "bench/run/supervisor.h"
 #include "bench/scenario/scenario.h"
 #include "bench/statistics/summary.h"
+#include "io/process/clock.h"
 
 namespace etude {
 namespace {

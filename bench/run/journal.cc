@@ -10,9 +10,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "bench/files/files.h"
 #include "bench/results/folder.h"
 #include "engine/base/machine.h"
+#include "io/files/files.h"
 
 namespace etude {
 namespace {

@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/files/file_path.h"
-#include "bench/files/temporary_folder.h"
-#include "bench/process/clock.h"
 #include "bench/run/cell_line.h"
 #include "bench/run/plan.h"
+#include "io/files/file_path.h"
+#include "io/files/temporary_folder.h"
+#include "io/process/clock.h"
 
 namespace etude {
 

@@ -9,11 +9,11 @@
 #include <cstring>
 #include <utility>
 
-#include "bench/files/files.h"
-#include "bench/files/temporary_folder.h"
-#include "bench/process/child_process.h"
 #include "bench/tasks/registry.h"
 #include "engine/base/machine.h"
+#include "io/files/files.h"
+#include "io/files/temporary_folder.h"
+#include "io/process/child_process.h"
 #include "sim/render/renderer.h"
 
 namespace etude {

@@ -2,9 +2,9 @@
 
 #include <span>
 
-#include "bench/process/fence.h"
 #include "bench/run/setup.h"
 #include "engine/base/result.h"
+#include "io/process/fence.h"
 
 namespace etude {
 

@@ -9,16 +9,16 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "bench/files/files.h"
 #include "bench/metrics/catalogue.h"
 #include "bench/metrics/export.h"
 #include "bench/model/recording.h"
-#include "bench/process/pinned_environment.h"
 #include "bench/results/folder.h"
 #include "bench/tasks/registry.h"
 #include "engine/base/digest.h"
 #include "engine/base/machine.h"
 #include "engine/base/names.h"
+#include "io/files/files.h"
+#include "io/process/pinned_environment.h"
 #include "sim/render/renderer.h"
 
 namespace etude {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "bench/files/json.h"
 #include "bench/run/plan.h"
 #include "bench/run/secret_key.h"
+#include "io/files/json.h"
 
 namespace etude {
 

@@ -1,8 +1,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "bench/files/files.h"
-#include "bench/process/clock.h"
 #include "bench/results/folder.h"
 #include "bench/run/journal.h"
 #include "bench/run/manifest.h"
@@ -11,6 +9,8 @@
 #include "bench/run/supervisor.h"
 #include "engine/base/digest.h"
 #include "engine/base/names.h"
+#include "io/files/files.h"
+#include "io/process/clock.h"
 
 namespace etude {
 namespace {

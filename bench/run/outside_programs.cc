@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/outside/program_view.h"
-#include "bench/process/child_process.h"
+#include "io/process/child_process.h"
 
 namespace etude {
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "bench/files/json.h"
-#include "bench/process/fence.h"
 #include "bench/run/secret_key.h"
 #include "bench/run/setup.h"
+#include "io/files/json.h"
+#include "io/process/fence.h"
 
 namespace etude {
 

@@ -4,9 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "bench/files/files.h"
-#include "bench/files/json.h"
-#include "bench/process/clock.h"
 #include "bench/results/folder.h"
 #include "bench/run/journal.h"
 #include "bench/run/machine_trial.h"
@@ -17,6 +14,9 @@
 #include "bench/run/supervisor.h"
 #include "bench/run/used_keys.h"
 #include "engine/base/digest.h"
+#include "io/files/files.h"
+#include "io/files/json.h"
+#include "io/process/clock.h"
 
 namespace etude {
 namespace {

@@ -12,13 +12,13 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "bench/files/files.h"
 #include "bench/results/columns.h"
 #include "bench/results/folder.h"
 #include "bench/results/seal.h"
 #include "bench/run/sum_up.h"
 #include "bench/scenario/scenario.h"
 #include "engine/base/machine.h"
+#include "io/files/files.h"
 
 namespace etude {
 namespace {

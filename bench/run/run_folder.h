@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "bench/files/json.h"
-#include "bench/files/temporary_folder.h"
 #include "bench/run/journal.h"
 #include "engine/base/result.h"
+#include "io/files/json.h"
+#include "io/files/temporary_folder.h"
 
 namespace etude {
 

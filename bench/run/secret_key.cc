@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "bench/files/files.h"
-#include "bench/process/pinned_environment.h"
+#include "io/files/files.h"
+#include "io/process/pinned_environment.h"
 
 namespace etude {
 namespace {

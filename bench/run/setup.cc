@@ -9,10 +9,12 @@
 #include <numeric>
 #include <set>
 
+#include "bench/run/recorded_motions.h"
 #include "bench/scenario/judging.h"
 #include "bench/scenario/methods.h"
 #include "bench/tasks/base/sensor_key.h"
 #include "bench/tasks/registry.h"
+#include "io/streams/load.h"
 
 namespace etude {
 namespace {
@@ -174,6 +176,7 @@ namespace {
 
 Result<OpenOptions> OpenOptionsOf(const ScenarioSetup& setup, const SourceTexts& texts) {
   OpenOptions how;
+  how.recorded = &MotionsOfRuns();
   if (setup.joint_map.empty()) return how;
   const auto text = texts.find(setup.joint_map);
   if (text == texts.end()) return Fail({setup.file, 0, 0}, "the text of '{}' is missing", setup.joint_map);

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "bench/files/json.h"
 #include "bench/scenario/scenario.h"
-#include "bench/streams/load.h"
 #include "bench/tasks/base/task.h"
+#include "engine/teaching/labelled_streams.h"
+#include "io/files/json.h"
 #include "sim/random/seed.h"
 
 namespace etude {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "bench/files/files.h"
 #include "engine/base/names.h"
+#include "io/files/files.h"
 
 namespace etude {
 namespace {

@@ -6,14 +6,16 @@
 #include <set>
 #include <string_view>
 
-#include "bench/clips/open_clip.h"
-#include "bench/clips/references.h"
-#include "bench/files/files.h"
 #include "bench/run/manifest.h"
+#include "bench/run/recorded_motions.h"
 #include "bench/run/shipped.h"
 #include "bench/scenario/methods.h"
 #include "bench/tasks/registry.h"
 #include "engine/base/digest.h"
+#include "io/clips/open_clip.h"
+#include "io/clips/references.h"
+#include "io/files/files.h"
+#include "io/streams/load.h"
 
 namespace etude {
 namespace {
@@ -101,6 +103,7 @@ Result<std::vector<std::string>> OnlyUnderstood(const std::vector<std::string>& 
 
 Result<void> LeaveOutRefused(ScenarioSetup& setup, const SourceTexts& texts) {
   OpenOptions how;
+  how.recorded = &MotionsOfRuns();
   if (!setup.joint_map.empty()) {
     ASSIGN_OR_RETURN(auto roles, ReadJointMapFile(texts.at(setup.joint_map), setup.joint_map));
     how.roles = std::move(roles);

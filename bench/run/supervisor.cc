@@ -15,12 +15,12 @@
 #include <optional>
 #include <thread>
 
-#include "bench/process/child_process.h"
-#include "bench/process/clock.h"
 #include "bench/run/outside_programs.h"
 #include "bench/run/plan.h"
 #include "bench/run/worker.h"
 #include "engine/base/machine.h"
+#include "io/process/child_process.h"
+#include "io/process/clock.h"
 
 namespace etude {
 namespace {

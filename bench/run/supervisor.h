@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/process/fence.h"
 #include "bench/run/cell_line.h"
 #include "bench/run/journal.h"
 #include "bench/run/plan.h"
+#include "io/process/fence.h"
 
 namespace etude {
 

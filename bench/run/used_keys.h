@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <string>
 
-#include "bench/files/json.h"
 #include "bench/run/plan.h"
 #include "bench/run/secret_key.h"
+#include "io/files/json.h"
 
 namespace etude {
 

@@ -13,13 +13,13 @@
 #include <span>
 #include <vector>
 
-#include "bench/process/child_process.h"
 #include "bench/run/cell_line.h"
 #include "bench/run/cell_runner.h"
 #include "bench/run/outside_programs.h"
 #include "bench/run/plan.h"
 #include "bench/run/secret_key.h"
 #include "engine/base/machine.h"
+#include "io/process/child_process.h"
 
 namespace etude {
 namespace {

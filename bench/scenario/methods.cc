@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "bench/files/json.h"
 #include "bench/keys/key_schema.h"
 #include "engine/base/names.h"
+#include "io/files/json.h"
 
 namespace etude {
 namespace {

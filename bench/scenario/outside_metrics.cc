@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "bench/files/json.h"
 #include "bench/keys/key_schema.h"
 #include "bench/scenario/judging.h"
 #include "bench/scenario/methods.h"
 #include "engine/base/names.h"
 #include "engine/motion/body.h"
+#include "io/files/json.h"
 
 namespace etude {
 namespace {

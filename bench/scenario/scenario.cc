@@ -6,8 +6,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/files/files.h"
-#include "bench/files/json.h"
 #include "bench/keys/key_schema.h"
 #include "bench/scenario/judging.h"
 #include "bench/scenario/methods.h"
@@ -17,6 +15,8 @@
 #include "bench/tasks/registry.h"
 #include "engine/base/named.h"
 #include "engine/base/names.h"
+#include "io/files/files.h"
+#include "io/files/json.h"
 
 namespace etude {
 namespace {

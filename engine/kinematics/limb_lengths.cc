@@ -5,8 +5,8 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "engine/base/euler.h"
 #include "engine/base/directions.h"
+#include "engine/base/euler.h"
 
 namespace etude {
 namespace {

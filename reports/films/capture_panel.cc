@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "reports/films/look.h"
+#include "io/drawing/look.h"
 #include "reports/transitions/recorded_requests.h"
 
 namespace etude {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "bench/recordings/capture_extras.h"
-#include "reports/films/canvas.h"
+#include "io/drawing/canvas.h"
+#include "io/drawing/film.h"
 #include "reports/films/cast.h"
-#include "reports/films/film.h"
 #include "sim/camera/lens.h"
 #include "sim/render/renderer.h"
 #include "sim/stage/stage.h"

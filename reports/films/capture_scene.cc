@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 
-#include "bench/files/files.h"
 #include "engine/base/angles.h"
-#include "reports/films/look.h"
-#include "sim/sensors/image_files.h"
+#include "io/drawing/look.h"
+#include "io/files/files.h"
+#include "io/images/image_files.h"
 
 namespace etude {
 namespace {

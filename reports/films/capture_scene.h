@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "io/drawing/film.h"
 #include "reports/films/capture_panel.h"
-#include "reports/films/film.h"
 #include "sim/render/renderer.h"
 
 namespace etude {

@@ -10,7 +10,7 @@
 
 #include "bench/model/recording.h"
 #include "engine/base/angles.h"
-#include "reports/films/look.h"
+#include "io/drawing/look.h"
 #include "reports/words/cell_series.h"
 #include "reports/words/figures.h"
 #include "sim/character/characters.h"

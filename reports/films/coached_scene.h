@@ -8,8 +8,8 @@
 #include "engine/base/result.h"
 #include "engine/motion/body.h"
 #include "engine/motion/character.h"
+#include "io/drawing/film.h"
 #include "reports/films/cast.h"
-#include "reports/films/film.h"
 #include "reports/films/session_parts.h"
 #include "sim/render/renderer.h"
 

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "engine/base/angles.h"
+#include "io/drawing/look.h"
 #include "reports/films/capture_panel.h"
-#include "reports/films/look.h"
 #include "reports/words/figures.h"
 #include "sim/body/shape.h"
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "reports/films/canvas.h"
-#include "reports/films/film.h"
+#include "io/drawing/canvas.h"
+#include "io/drawing/film.h"
+#include "io/drawing/studio.h"
 #include "reports/films/ik_race.h"
-#include "reports/films/studio.h"
 
 namespace etude {
 

@@ -6,9 +6,9 @@
 #include <iterator>
 #include <utility>
 
-#include "bench/files/json.h"
 #include "bench/model/recording.h"
 #include "bench/recordings/task_extras.h"
+#include "io/files/json.h"
 #include "reports/films/cast.h"
 #include "reports/words/cell_series.h"
 #include "reports/words/figures.h"

@@ -10,7 +10,7 @@
 #include "bench/model/recording.h"
 #include "engine/fuzzy/features.h"
 #include "engine/recognition/key_pose.h"
-#include "reports/films/look.h"
+#include "io/drawing/look.h"
 #include "reports/words/cell_series.h"
 #include "reports/words/figures.h"
 

@@ -9,8 +9,8 @@
 #include "engine/motion/body.h"
 #include "engine/recognition/sight.h"
 #include "engine/recognition/taught_move.h"
+#include "io/drawing/film.h"
 #include "reports/films/cast.h"
-#include "reports/films/film.h"
 #include "reports/films/session_parts.h"
 
 namespace etude {

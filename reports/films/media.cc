@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "io/drawing/escape.h"
 #include "reports/films/capture_scene.h"
 #include "reports/films/cast.h"
 #include "reports/films/coached_scene.h"
@@ -14,7 +15,6 @@
 #include "reports/films/stage_scene.h"
 #include "reports/films/transition_race.h"
 #include "reports/films/transition_scene.h"
-#include "reports/words/escape.h"
 
 namespace etude {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/model/run_data.h"
-#include "reports/films/film.h"
+#include "io/drawing/film.h"
 
 namespace etude {
 

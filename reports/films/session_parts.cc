@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "reports/films/look.h"
+#include "io/drawing/look.h"
 
 namespace etude {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "engine/fuzzy/features.h"
 #include "engine/motion/body.h"
-#include "reports/films/canvas.h"
+#include "io/drawing/canvas.h"
 
 namespace etude {
 

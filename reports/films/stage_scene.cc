@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "reports/films/look.h"
-#include "reports/films/studio.h"
+#include "io/drawing/look.h"
+#include "io/drawing/studio.h"
 #include "reports/films/transition_plots.h"
 #include "sim/character/characters.h"
 #include "sim/character/posed.h"

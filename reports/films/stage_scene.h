@@ -7,9 +7,9 @@
 #include "engine/base/result.h"
 #include "engine/motion/body.h"
 #include "engine/motion/character.h"
-#include "reports/films/canvas.h"
+#include "io/drawing/canvas.h"
+#include "io/drawing/film.h"
 #include "reports/films/cast.h"
-#include "reports/films/film.h"
 #include "reports/transitions/recorded_requests.h"
 #include "sim/render/renderer.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "bench/metrics/transition_smoothness.h"
-#include "reports/films/look.h"
+#include "io/drawing/look.h"
 #include "reports/films/session_parts.h"
 #include "reports/words/figures.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reports/films/canvas.h"
+#include "io/drawing/canvas.h"
 #include "reports/films/transition_race.h"
 #include "reports/transitions/recorded_requests.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bench/model/run_data.h"
-#include "reports/films/film.h"
+#include "io/drawing/film.h"
 #include "reports/transitions/recorded_requests.h"
 
 namespace etude {

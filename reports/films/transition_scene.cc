@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reports/films/look.h"
+#include "io/drawing/look.h"
 #include "reports/transitions/transition_section.h"
 #include "reports/words/figures.h"
 #include "sim/character/characters.h"

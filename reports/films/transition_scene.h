@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "engine/motion/character.h"
-#include "reports/films/canvas.h"
-#include "reports/films/film.h"
-#include "reports/films/studio.h"
+#include "io/drawing/canvas.h"
+#include "io/drawing/film.h"
+#include "io/drawing/studio.h"
 #include "reports/films/transition_plots.h"
 #include "reports/films/transition_race.h"
 

@@ -8,8 +8,8 @@
 
 #include "engine/fuzzy/fuzzy_system.h"
 #include "engine/fuzzy/membership.h"
-#include "reports/plots/panel.h"
-#include "reports/words/escape.h"
+#include "io/drawing/escape.h"
+#include "io/drawing/panel.h"
 
 namespace etude {
 namespace {

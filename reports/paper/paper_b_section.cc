@@ -6,10 +6,10 @@
 #include <array>
 
 #include "engine/base/csv.h"
+#include "io/drawing/escape.h"
 #include "reports/paper/paper_b_tables.h"
 #include "reports/plots/curve_plot.h"
 #include "reports/words/cell_series.h"
-#include "reports/words/escape.h"
 #include "reports/words/figures.h"
 
 namespace etude {

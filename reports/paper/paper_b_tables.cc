@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "engine/base/csv.h"
+#include "io/drawing/escape.h"
 #include "reports/words/cell_series.h"
-#include "reports/words/escape.h"
 #include "reports/words/figures.h"
 
 namespace etude {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "reports/plots/marks.h"
-#include "reports/words/escape.h"
+#include "io/drawing/escape.h"
+#include "io/drawing/marks.h"
 
 namespace etude {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/plots/panel.h"
+#include "io/drawing/panel.h"
 
 namespace etude {
 

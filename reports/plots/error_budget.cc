@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "reports/plots/panel.h"
+#include "io/drawing/escape.h"
+#include "io/drawing/panel.h"
 #include "reports/plots/plot_section.h"
-#include "reports/words/escape.h"
 #include "reports/words/figures.h"
 
 namespace etude {

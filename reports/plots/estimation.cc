@@ -6,11 +6,11 @@
 #include <optional>
 #include <set>
 
-#include "reports/plots/marks.h"
-#include "reports/plots/panel.h"
+#include "io/drawing/escape.h"
+#include "io/drawing/marks.h"
+#include "io/drawing/panel.h"
 #include "reports/plots/plot_section.h"
 #include "reports/words/cell_series.h"
-#include "reports/words/escape.h"
 #include "reports/words/figures.h"
 
 namespace etude {

@@ -7,9 +7,9 @@
 #include <optional>
 #include <set>
 
+#include "io/drawing/escape.h"
 #include "reports/plots/curve_plot.h"
 #include "reports/words/cell_series.h"
-#include "reports/words/escape.h"
 #include "reports/words/figures.h"
 
 namespace etude {

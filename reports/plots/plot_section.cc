@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "io/drawing/escape.h"
 #include "reports/plots/verdicts.h"
 #include "reports/words/answer.h"
-#include "reports/words/escape.h"
 #include "reports/words/figures.h"
 
 namespace etude {

@@ -6,10 +6,10 @@
 
 #include "bench/statistics/curves/curves.h"
 #include "bench/statistics/distributions.h"
-#include "reports/plots/marks.h"
-#include "reports/plots/panel.h"
+#include "io/drawing/escape.h"
+#include "io/drawing/marks.h"
+#include "io/drawing/panel.h"
 #include "reports/plots/verdicts.h"
-#include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/judged.h"
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <set>
 
+#include "io/drawing/escape.h"
 #include "reports/plots/verdicts.h"
 #include "reports/words/answer.h"
-#include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/judged.h"
 

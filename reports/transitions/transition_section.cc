@@ -8,7 +8,7 @@
 #include <numeric>
 #include <span>
 
-#include "reports/words/escape.h"
+#include "io/drawing/escape.h"
 #include "reports/words/figures.h"
 
 namespace etude {

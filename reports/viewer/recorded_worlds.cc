@@ -8,8 +8,8 @@
 #include <span>
 #include <string_view>
 
-#include "bench/files/json.h"
-#include "reports/words/escape.h"
+#include "io/drawing/escape.h"
+#include "io/files/json.h"
 #include "reports/words/figures.h"
 #include "reports/words/judged.h"
 

@@ -9,12 +9,12 @@
 #include <span>
 #include <string_view>
 
-#include "bench/files/json.h"
 #include "bench/recordings/task_extras.h"
 #include "engine/base/base64.h"
 #include "engine/motion/support.h"
+#include "io/drawing/escape.h"
+#include "io/files/json.h"
 #include "reports/transitions/recorded_requests.h"
-#include "reports/words/escape.h"
 #include "reports/words/judged.h"
 
 namespace etude {

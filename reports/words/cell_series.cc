@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "reports/words/escape.h"
+#include "io/drawing/escape.h"
 
 namespace etude {
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "sim/sensors/normals.h"
+#include "sim/depth_camera/normals.h"
 
 namespace etude {
 namespace {

@@ -63,7 +63,7 @@ class Installed(EtudeCase):
 
     def links_lead_somewhere(self, docs):
         """Every link of an installed page, but for those into the source's rooms, which nothing of is installed."""
-        rooms, followed = {"engine", "sim", "bench", "reports", "cli", "tests", "CONTRIBUTING.md"}, 0
+        rooms, followed = {"engine", "sim", "io", "bench", "tools", "reports", "cli", "tests", "CONTRIBUTING.md"}, 0
         for page in docs.rglob("*.md"):
             text = re.sub(r"```.*?```|`[^`\n]*`", "", page.read_text(), flags=re.S)
             for link in re.findall(r"\]\((?!\w+:)([^)#\s]+)", text):

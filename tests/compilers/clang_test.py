@@ -14,7 +14,7 @@ import tempfile
 
 BUILD = pathlib.Path(os.environ["BUILD"])
 ROOT = pathlib.Path(os.environ["ROOT"])
-ROOMS = ("engine", "sim", "bench", "reports", "cli")
+ROOMS = ("engine", "sim", "io", "bench", "tools", "reports", "cli")
 CLANG = ["clang++", "-fsyntax-only", "-Wno-everything"]
 
 

@@ -172,7 +172,7 @@ class Pages(unittest.TestCase):
 
     def test_every_room_is_one_click_from_the_architecture(self):
         page = (ROOT / "docs" / "architecture.md").read_text()
-        rooms = [path.relative_to(ROOT) for floor in ("engine", "sim", "bench", "reports", "cli")
+        rooms = [path.relative_to(ROOT) for floor in ("engine", "sim", "io", "bench", "tools", "reports", "cli")
                  for path in sorted((ROOT / floor).rglob("README.md"))]
         self.assertGreater(len(rooms), 70)
         self.assertEqual([str(room) for room in rooms if f"](../{room})" not in page], [])

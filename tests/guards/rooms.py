@@ -12,7 +12,7 @@ ANY = ["cli", "bench/micro"]  # programs: they may include whatever they like
 def may_include(root=ROOT):
     """room: the other rooms that its files may include; None for any."""
     table = {room: None for room in ANY}
-    for layer in ["engine", "sim", "bench", "reports"]:
+    for layer in ["engine", "sim", "io", "bench", "tools", "reports"]:
         for path in sorted((root / layer).rglob("CMakeLists.txt")):
             if call := re.search(r"^etude_folder\((.*?)\)", path.read_text(), re.M | re.S):
                 depends = re.search(r"\bDEPENDS\s+(.*?)\s*(?:\b(?:PRIVATE_)?LIBRARIES\b|$)", call[1], re.S)
@@ -23,7 +23,7 @@ def may_include(root=ROOT):
 # What makes worlds, asks methods in them, or reads what people wrote: all that knows a task.
 TASKS = "bench/tasks bench/scenario bench/outside bench/run bench/finished_runs bench/dataset bench/replay bench/training"
 # What worlds of some task are made of.
-MATERIAL = "bench/clips engine/document engine/formats engine/recognition engine/retargeting sim/choreography sim/performer"
+MATERIAL = "io/clips engine/document engine/formats engine/recognition engine/retargeting sim/choreography sim/performer"
 
 # (rooms with all below them, what none of their files may include even through others). Folders hold for all below.
 NEVER_INCLUDES = [
@@ -31,6 +31,6 @@ NEVER_INCLUDES = [
     ("bench/model", "bench/metrics bench/results bench/statistics bench/gate bench/recordings reports"),
     ("bench/model bench/recordings bench/results bench/statistics bench/metrics bench/gate reports", TASKS),
     ("bench/model bench/recordings bench/results bench/statistics bench/metrics bench/gate", MATERIAL),
-    ("reports/words reports/growth reports/transitions reports/paper", "bench/clips engine/retargeting sim"),
-    ("reports/films", "bench/clips"),
+    ("reports/words reports/growth reports/transitions reports/paper", "io/clips engine/retargeting sim"),
+    ("reports/films io/drawing", "io/clips"),
 ]

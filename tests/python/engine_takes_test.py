@@ -142,7 +142,7 @@ class BesideWorkers(unittest.TestCase):
 
     def digests(self, task, digest, method, **keys):
         """By trial: of the cells of one method, and of what Python answers in the environment that workers are given."""
-        pinned = {**os.environ, "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4"}  # bench/process/pinned_environment.cc
+        pinned = {**os.environ, "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4"}  # io/process/pinned_environment.cc
         etude = os.environ["ETUDE"]
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "reports/words/escape.h"
+#include "io/drawing/escape.h"
 #include "reports/words/findings.h"
 #include "tests/reports/support/example_run.h"
 

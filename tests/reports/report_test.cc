@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "bench/files/files.h"
+#include "io/files/files.h"
 #include "tests/reports/support/effector_run.h"
 #include "tests/reports/support/example_run.h"
 #include "tests/support/gtest_printers.h"

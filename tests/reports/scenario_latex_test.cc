@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "io/drawing/escape.h"
 #include "reports/page.h"
-#include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "tests/reports/support/count_of.h"
 #include "tests/reports/support/example_run.h"

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/files/json.h"
 #include "engine/base/result.h"
 #include "engine/document/fields.h"
+#include "io/files/json.h"
 
 namespace etude {
 

@@ -3,9 +3,7 @@
 namespace etude {
 namespace {
 
-constexpr std::string_view kBuiltin = "builtin:";
-
-bool IsFuzzyFile(std::string_view reference) { return !reference.starts_with(kBuiltin); }
+bool IsFuzzyFile(std::string_view reference) { return !reference.starts_with(kBuiltinFuzzySystem); }
 
 }  // namespace
 
@@ -22,12 +20,6 @@ Result<FuzzySystem> FuzzySystemOf(const TaskInput& input) {
   }
   return OpenFuzzySystem(named->scalar, named->place,
                          [&](const std::string&) -> Result<std::string> { return input.texts.at(kFuzzyKey); });
-}
-
-Result<FuzzySystem> OpenFuzzySystem(const std::string& reference, const Place& asked_at, const FuzzyTextOf& text_of) {
-  if (!IsFuzzyFile(reference)) return LoadBuiltinFuzzySystem(reference.substr(kBuiltin.size()), asked_at);
-  ASSIGN_OR_RETURN(const auto text, text_of(reference));
-  return ReadFuzzySystem(text, reference);
 }
 
 }  // namespace etude

@@ -1,12 +1,10 @@
 #pragma once
 
-#include <functional>
-#include <string>
 #include <string_view>
 
 #include "bench/keys/field_table.h"
 #include "bench/tasks/base/task.h"
-#include "engine/fuzzy/fuzzy_system.h"
+#include "engine/fuzzy/open_fuzzy_system.h"
 
 namespace etude {
 
@@ -21,11 +19,5 @@ Field<Options> FuzzyField() {
 
 /// The fuzzy system that the condition names, paper A's when it names none.
 Result<FuzzySystem> FuzzySystemOf(const TaskInput& input);
-
-/// Gives the text of a file that `fuzzy` names.
-using FuzzyTextOf = std::function<Result<std::string>(const std::string& file)>;
-
-/// Opens `builtin:NAME` or a file; `asked_at` is where the reference stands.
-Result<FuzzySystem> OpenFuzzySystem(const std::string& reference, const Place& asked_at, const FuzzyTextOf& text_of);
 
 }  // namespace etude

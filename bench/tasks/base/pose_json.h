@@ -3,10 +3,10 @@
 #include <span>
 #include <string>
 
-#include "bench/files/json.h"
 #include "bench/model/recording.h"
 #include "engine/base/result.h"
 #include "engine/motion/body.h"
+#include "io/files/json.h"
 
 namespace etude {
 

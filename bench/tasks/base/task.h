@@ -8,14 +8,14 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/files/json.h"
 #include "bench/keys/key_info.h"
 #include "bench/model/payload.h"
 #include "bench/model/recording.h"
 #include "bench/model/row.h"
-#include "bench/model/sensor_sheet.h"
 #include "bench/model/unit.h"
 #include "engine/document/fields.h"
+#include "io/drawing/sensor_sheet.h"
+#include "io/files/json.h"
 #include "sim/random/stream.h"
 
 namespace etude {
@@ -97,7 +97,7 @@ struct TaskInput {
   /// The texts of the files that the condition names, by key (ValueKind::names_file).
   std::map<std::string, std::string> texts = {};
   /// The recordings that stand in place of simulated people, where the scenario has `streams` or `labels`
-  /// (bench/streams); outlives the task.
+  /// (engine/teaching/labelled_streams.h); outlives the task.
   const LabelledStreams* recordings = nullptr;
 };
 

@@ -4,9 +4,9 @@
 #include <span>
 #include <string>
 
-#include "bench/files/json.h"
 #include "engine/kinematics/ik_problem.h"
 #include "engine/kinematics/tree.h"
+#include "io/files/json.h"
 
 namespace etude {
 

@@ -4,9 +4,9 @@
 #include <cassert>
 #include <nlohmann/json.hpp>
 
-#include "bench/files/json.h"
 #include "bench/tasks/base/answer_fields.h"
 #include "engine/keypoints/people.h"
+#include "io/files/json.h"
 
 namespace etude {
 namespace {

@@ -3,11 +3,11 @@
 #include <span>
 #include <string>
 
-#include "bench/files/json.h"
 #include "engine/base/image.h"
 #include "engine/base/result.h"
 #include "engine/cameras/camera.h"
 #include "engine/vision/strokes.h"
+#include "io/files/json.h"
 
 namespace etude {
 

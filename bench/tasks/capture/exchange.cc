@@ -15,9 +15,9 @@
 #include "engine/formats/trc.h"
 #include "engine/motion/clip.h"
 #include "engine/vision/strokes.h"
+#include "io/images/image_files.h"
 #include "sim/camera/jpeg.h"
 #include "sim/depth_camera/depth_camera.h"
-#include "sim/sensors/image_files.h"
 
 namespace etude {
 namespace {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "bench/model/sensor_sheet.h"
 #include "bench/tasks/base/task.h"
 #include "bench/tasks/capture/stages.h"
 #include "engine/capture/recover_frames.h"
+#include "io/drawing/sensor_sheet.h"
 
 namespace etude {
 

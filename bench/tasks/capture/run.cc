@@ -16,6 +16,7 @@
 #include "engine/kinematics/capture_body.h"
 #include "engine/kinematics/start_angles.h"
 #include "engine/motion/rest_body.h"
+#include "engine/unmarked/join_outlines.h"
 
 namespace etude {
 namespace {
@@ -109,7 +110,7 @@ void RecoverBundle(CaptureRun& run) {
   }
 }
 
-/// Recovers the person that `etude capture` makes of the same marks, frame by frame.
+/// Recovers a person from the marks as keypoints (engine/keypoints), frame by frame.
 Result<RecoveredPerson> PersonByKeypoints(const CaptureStages& stages, const CaptureRun& run) {
   std::vector<SeenPeople> people;
   double longer_side = 0;
@@ -138,27 +139,25 @@ void TakePerson(const RecoveredPerson& person, const std::vector<bool>& is_lost,
   }
 }
 
-/// Recovers the motion as `etude capture --poses frames` does from the same marks.
+/// Recovers the motion from the marks as keypoints, each frame by itself.
 void RecoverByKeypoints(const CaptureStages& stages, CaptureRun& run) {
   run.frames.resize(stages.world().truth.size());
   const auto person = PersonByKeypoints(stages, run);
   if (person) TakePerson(*person, person->is_held, run);
 }
 
-/// Joins what outlines told with the marks, as `etude capture --keypoints --silhouettes` does.
+/// Joins what outlines told with the marks. Frames without outlines keep what the marks alone tell.
 void JoinKeypoints(const CaptureStages& stages, CaptureRun& run) {
   auto person = PersonByKeypoints(stages, run);
   if (!person) return;
-  const auto seen = std::ranges::find_if(person->people, [](const auto& one) { return one.cameras >= 2; });
-  const MatchedPerson matched = *seen;
-  AdjustPersonOptions adjust{.rate_hz = kJudgedRateHz};
+  const MatchedPerson matched = person->people[IndexOfPerson(*person, 0).value_or(0)];
+  const AdjustPersonOptions adjust{.rate_hz = kJudgedRateHz};
   AdjustPerson(run.cameras.matrices, matched, adjust, *person);
   BodyMotion outlines = person->motion;
   for (std::size_t k = 0; k < run.frames.size(); ++k) {
     if (run.frames[k]) outlines.poses[k] = run.frames[k]->pose;
   }
-  adjust.outlines = &outlines;
-  if (!AdjustPerson(run.cameras.matrices, matched, adjust, *person)) return;
+  if (!JoinOutlines(run.cameras.matrices, matched, outlines, adjust, *person)) return;
   TakePerson(*person, std::vector<bool>(run.frames.size()), run);
 }
 

@@ -7,8 +7,8 @@
 
 #include "bench/tasks/base/answer_fields.h"
 #include "bench/tasks/capture/coco.h"
+#include "io/images/image_files.h"
 #include "sim/body/shape.h"
-#include "sim/sensors/image_files.h"
 
 namespace etude {
 namespace {

@@ -7,13 +7,13 @@
 #include <span>
 #include <vector>
 
-#include "bench/clips/clip_library.h"
 #include "bench/tasks/capture/options.h"
 #include "engine/cameras/camera.h"
 #include "engine/capture/measure_frames.h"
 #include "engine/kinematics/limb_lengths.h"
 #include "engine/motion/body.h"
 #include "engine/motion/rest_body.h"
+#include "io/clips/clip_library.h"
 #include "sim/character/posed.h"
 #include "sim/random/stream.h"
 #include "sim/render/scene.h"

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "bench/metrics/coach.h"
-#include "bench/statistics/curves/curves.h"
 #include "bench/metrics/transition_smoothness.h"
 #include "bench/model/recording.h"
+#include "bench/statistics/curves/curves.h"
 #include "bench/tasks/coach/exchange.h"
 #include "bench/tasks/coach/learner_player.h"
 #include "engine/base/digest.h"

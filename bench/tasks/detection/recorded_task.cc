@@ -10,7 +10,6 @@
 #include <limits>
 #include <map>
 
-#include "bench/streams/teach.h"
 #include "bench/tasks/detection/exchange.h"
 #include "bench/tasks/detection/session_world.h"
 #include "engine/base/angles.h"
@@ -18,6 +17,7 @@
 #include "engine/motion/edit.h"
 #include "engine/recognition/pose_vector.h"
 #include "engine/teaching/moves_file.h"
+#include "engine/teaching/teach_moves.h"
 
 namespace etude {
 namespace {

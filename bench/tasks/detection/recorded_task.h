@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "bench/streams/load.h"
 #include "bench/tasks/base/task.h"
 #include "bench/tasks/detection/operating_point.h"
 #include "bench/tasks/detection/options.h"
 #include "bench/tasks/detection/world.h"
+#include "engine/teaching/labelled_streams.h"
 #include "sim/performer/fault.h"
 
 namespace etude {

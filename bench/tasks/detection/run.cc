@@ -4,8 +4,8 @@
 #include <cassert>
 #include <iterator>
 
-#include "bench/streams/watch.h"
 #include "bench/tasks/sensing/camera_stream.h"
+#include "engine/teaching/watch.h"
 
 namespace etude {
 namespace {

@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/clips/clip_library.h"
 #include "bench/tasks/detection/options.h"
 #include "engine/recognition/recognise.h"
 #include "engine/recognition/taught_move.h"
+#include "io/clips/clip_library.h"
 #include "sim/performer/session.h"
 #include "sim/skeleton_sensor/skeleton_sensor.h"
 

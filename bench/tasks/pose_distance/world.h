@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "bench/clips/clip_library.h"
 #include "engine/fuzzy/features.h"
 #include "engine/transitions/library/body_proportions.h"
+#include "io/clips/clip_library.h"
 #include "sim/choreography/controls.h"
 #include "sim/random/stream.h"
 

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "bench/clips/clip_library.h"
 #include "engine/fuzzy/fuzzy_system.h"
 #include "engine/transitions/search/grade_index.h"
+#include "io/clips/clip_library.h"
 #include "sim/random/stream.h"
 
 namespace etude {

@@ -5,10 +5,10 @@
 #include <string>
 #include <utility>
 
-#include "bench/clips/clip_library.h"
-#include "bench/clips/references.h"
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/gauss_newton.h"
+#include "io/clips/clip_library.h"
+#include "io/clips/references.h"
 #include "sim/choreography/move.h"
 
 namespace etude {

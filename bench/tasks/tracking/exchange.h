@@ -1,9 +1,9 @@
 #pragma once
 
-#include "bench/files/json.h"
 #include "bench/model/payload.h"
 #include "bench/tasks/tracking/run.h"
 #include "bench/tasks/tracking/world.h"
+#include "io/files/json.h"
 
 namespace etude {
 

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "bench/clips/clip_library.h"
 #include "bench/tasks/tracking/options.h"
 #include "engine/kinematics/tree.h"
+#include "io/clips/clip_library.h"
 #include "sim/random/stream.h"
 
 namespace etude {

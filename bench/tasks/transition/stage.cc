@@ -6,6 +6,7 @@
 
 #include "bench/metrics/transition_smoothness.h"
 #include "sim/choreography/canonical_body.h"
+#include "sim/choreography/judged_proportions.h"
 #include "sim/choreography/move.h"
 
 namespace etude {
@@ -27,8 +28,6 @@ void CastClips(const ClipLibrary& library, bool asks_for_acts, Stage& stage) {
 }
 
 }  // namespace
-
-BodyProportions JudgedProportions() { return MakeBodyProportions(StandingPose(), kScenarioHipHeight); }
 
 std::vector<double> NaturalJumpsOf(const Stage& stage, int from, int to) {
   std::vector<double> jumps = stage.natural_jumps_cm[from];

@@ -3,16 +3,12 @@
 #include <string>
 #include <vector>
 
-#include "bench/clips/clip_library.h"
 #include "bench/metrics/transition_join.h"
 #include "engine/fuzzy/fuzzy_system.h"
 #include "engine/transitions/library/library.h"
+#include "io/clips/clip_library.h"
 
 namespace etude {
-
-/// The proportions of the body that performs all clips when transitions are judged: its hips stand at 0.90 m
-/// (docs/reference/metrics.md).
-BodyProportions JudgedProportions();
 
 /// The rules by which a library is made ready for transitions.
 struct StageRules {

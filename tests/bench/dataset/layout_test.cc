@@ -5,8 +5,8 @@
 
 #include <fstream>
 
-#include "bench/files/temporary_folder.h"
 #include "bench/run/suite.h"
+#include "io/files/temporary_folder.h"
 
 namespace etude {
 namespace {

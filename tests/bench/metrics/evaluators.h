@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "bench/files/json.h"
+#include "io/files/json.h"
 
 namespace etude {
 

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "bench/files/json.h"
 #include "engine/base/image.h"
 #include "engine/motion/body.h"
+#include "io/files/json.h"
 
 namespace etude {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/clips/clip_library.h"
 #include "bench/tasks/registry.h"
+#include "io/clips/clip_library.h"
 
 namespace etude {
 namespace {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bench/files/files.h"
+#include "io/files/files.h"
 #include "tests/support/gtest_printers.h"
 
 namespace etude {

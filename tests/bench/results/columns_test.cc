@@ -5,11 +5,11 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "bench/files/files.h"
-#include "bench/files/temporary_folder.h"
 #include "bench/results/folder.h"
 #include "bench/results/row_json.h"
 #include "bench/results/seal.h"
+#include "io/files/files.h"
+#include "io/files/temporary_folder.h"
 
 namespace etude {
 namespace {

@@ -6,12 +6,12 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "bench/files/files.h"
 #include "bench/model/recording.h"
 #include "bench/results/folder.h"
 #include "bench/results/row_json.h"
 #include "bench/results/seal.h"
 #include "bench/results/summary_json.h"
+#include "io/files/files.h"
 
 namespace etude {
 namespace {

@@ -3,11 +3,11 @@
 
 #include <filesystem>
 
-#include "bench/files/files.h"
-#include "bench/files/temporary_folder.h"
 #include "bench/run/setup.h"
 #include "bench/run/suite.h"
 #include "engine/fuzzy/fuzzy_system.h"
+#include "io/files/files.h"
+#include "io/files/temporary_folder.h"
 
 namespace etude {
 namespace {

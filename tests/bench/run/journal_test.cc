@@ -4,9 +4,9 @@
 
 #include <numeric>
 
-#include "bench/files/files.h"
-#include "bench/files/temporary_folder.h"
 #include "bench/results/folder.h"
+#include "io/files/files.h"
+#include "io/files/temporary_folder.h"
 #include "tests/bench/run/prepared.h"
 
 namespace etude {

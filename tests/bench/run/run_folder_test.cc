@@ -4,9 +4,9 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
-#include "bench/files/files.h"
-#include "bench/files/temporary_folder.h"
 #include "bench/results/seal.h"
+#include "io/files/files.h"
+#include "io/files/temporary_folder.h"
 
 namespace etude {
 namespace {

@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "bench/files/temporary_folder.h"
 #include "bench/run/outside_programs.h"
 #include "bench/run/worker.h"
 #include "engine/base/machine.h"
+#include "io/files/temporary_folder.h"
 #include "tests/bench/run/prepared.h"
 
 namespace etude {

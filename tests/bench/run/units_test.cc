@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <set>
 
-#include "bench/files/files.h"
-#include "bench/files/temporary_folder.h"
 #include "engine/formats/bvh.h"
 #include "engine/motion/clip.h"
+#include "io/files/files.h"
+#include "io/files/temporary_folder.h"
 #include "sim/choreography/move.h"
 #include "tests/bench/run/prepared.h"
 

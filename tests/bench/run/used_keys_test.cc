@@ -10,8 +10,8 @@
 #include <optional>
 #include <vector>
 
-#include "bench/files/files.h"
-#include "bench/files/temporary_folder.h"
+#include "io/files/files.h"
+#include "io/files/temporary_folder.h"
 
 namespace etude {
 namespace {

@@ -1,10 +1,10 @@
 #include <filesystem>
 #include <sstream>
 
-#include "bench/clips/clip_library.h"
-#include "bench/files/files.h"
 #include "bench/scenario/keys.h"
 #include "bench/tasks/registry.h"
+#include "io/clips/clip_library.h"
+#include "io/files/files.h"
 #include "tests/bench/scenario/parse.h"
 
 namespace etude {

@@ -1,7 +1,7 @@
-#include "bench/clips/clip_library.h"
 #include "bench/scenario/keys.h"
 #include "bench/tasks/registry.h"
 #include "engine/kinematics/solvers/ik_solver.h"
+#include "io/clips/clip_library.h"
 #include "tests/bench/scenario/parse.h"
 #include "tests/support/run_world.h"
 

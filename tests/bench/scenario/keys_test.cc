@@ -3,9 +3,9 @@
 #include <map>
 #include <set>
 
-#include "bench/clips/clip_library.h"
 #include "bench/tasks/registry.h"
 #include "engine/base/names.h"
+#include "io/clips/clip_library.h"
 #include "tests/bench/scenario/parse.h"
 
 namespace etude {

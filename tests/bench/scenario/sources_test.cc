@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "bench/files/files.h"
-#include "bench/files/temporary_folder.h"
+#include "io/files/files.h"
+#include "io/files/temporary_folder.h"
 #include "tests/bench/scenario/parse.h"
 
 namespace etude {

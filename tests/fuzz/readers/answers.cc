@@ -1,8 +1,8 @@
 #include <nlohmann/json.hpp>
 
-#include "bench/clips/clip_library.h"
 #include "bench/outside/conformance.h"
 #include "bench/outside/messages.h"
+#include "io/clips/clip_library.h"
 #include "tests/fuzz/readers/target.h"
 
 namespace etude::fuzz {

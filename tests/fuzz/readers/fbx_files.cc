@@ -8,10 +8,10 @@
 #include <utility>
 #include <variant>
 
-#include "bench/clips/fbx.h"
 #include "engine/formats/gltf/gltf.h"
 #include "engine/retargeting/joint_map.h"
 #include "engine/retargeting/to_body.h"
+#include "io/clips/fbx.h"
 #include "tests/fuzz/readers/target.h"
 
 namespace etude::fuzz {

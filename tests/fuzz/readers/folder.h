@@ -4,7 +4,7 @@
 #include <fstream>
 #include <string_view>
 
-#include "bench/files/temporary_folder.h"
+#include "io/files/temporary_folder.h"
 #include "tests/fuzz/readers/target.h"
 
 namespace etude::fuzz {

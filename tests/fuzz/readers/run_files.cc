@@ -1,6 +1,5 @@
 #include <nlohmann/json.hpp>
 
-#include "bench/files/files.h"
 #include "bench/gate/baseline_file.h"
 #include "bench/recordings/capture_extras.h"
 #include "bench/replay/pack.h"
@@ -9,6 +8,7 @@
 #include "bench/results/seal.h"
 #include "bench/run/journal.h"
 #include "bench/run/manifest.h"
+#include "io/files/files.h"
 #include "tests/fuzz/readers/folder.h"
 #include "tests/fuzz/readers/target.h"
 

@@ -181,7 +181,7 @@ TEST_F(Convergence, ShowsNoErrorsOfWhatWasNotAskedFor) {
   for (IkPath& path : race_.paths) std::ranges::fill(path.orientation_deg, 0);
   ConvergenceScene positions(race_, "race", *renderer_);
   const ColourImage pixels = positions.Draw(positions.Frames() - 1).Pixels();
-  // The second method's colour (reports/plots/marks.h) is in the plot of positions, not in that of orientations.
+  // The second method's colour (io/drawing/marks.h) is in the plot of positions, not in that of orientations.
   ASSERT_EQ(race_.paths[1].method_index, 1u);
   const Rgb8 teal{0x9f, 0xf5, 0xd4};
   int left = 0, right = 0;

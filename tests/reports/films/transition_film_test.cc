@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "bench/metrics/transition_smoothness.h"
-#include "reports/films/look.h"
+#include "io/drawing/look.h"
 #include "reports/films/transition_plots.h"
 #include "reports/films/transition_race.h"
 #include "reports/films/transition_scene.h"

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "bench/recordings/task_extras.h"
-#include "reports/assets/assets.h"
+#include "io/drawing/assets/assets.h"
 #include "tests/reports/support/example_run.h"
 
 namespace etude {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "bench/clips/clip_library.h"
 #include "engine/base/angles.h"
+#include "io/clips/clip_library.h"
 
 namespace etude {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/files/files.h"
-#include "bench/files/temporary_folder.h"
-#include "bench/keypoints/read_people.h"
 #include "engine/keypoints/people.h"
+#include "io/files/files.h"
+#include "io/files/temporary_folder.h"
+#include "io/keypoints/read_people.h"
 
 namespace etude {
 namespace {

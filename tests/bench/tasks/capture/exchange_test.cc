@@ -15,7 +15,7 @@
 #include "engine/document/node.h"
 #include "engine/formats/bvh.h"
 #include "tests/bench/tasks/base/cell_values.h"
-#include "tests/sim/sensors/exr_files.h"
+#include "tests/io/images/exr_files.h"
 
 namespace etude {
 namespace {

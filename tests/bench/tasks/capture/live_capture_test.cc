@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/clips/clip_library.h"
 #include "bench/tasks/capture/run.h"
+#include "io/clips/clip_library.h"
 #include "tests/support/gtest_printers.h"
 
 namespace etude {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "bench/clips/clip_library.h"
 #include "engine/base/angles.h"
 #include "engine/base/directions.h"
+#include "io/clips/clip_library.h"
 #include "tests/support/gtest_printers.h"
 
 namespace etude {

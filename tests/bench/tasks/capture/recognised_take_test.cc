@@ -4,10 +4,10 @@
 #include <limits>
 #include <vector>
 
-#include "bench/clips/clip_library.h"
 #include "bench/metrics/pose_error.h"
 #include "bench/tasks/base/disguise.h"
 #include "bench/tasks/capture/world.h"
+#include "io/clips/clip_library.h"
 
 // Somebody who knows every public clip recognises the one in the pictures, and answers it. How well, at best: of all
 // windows of the clip, at every begin and pace, the one that is nearest to the truth, put in its place and size.

@@ -8,11 +8,11 @@
 #include <optional>
 #include <sstream>
 
-#include "bench/clips/clip_library.h"
 #include "bench/tasks/base/task_kinds.h"
 #include "bench/tasks/capture/take_cameras.h"
 #include "engine/document/node.h"
 #include "engine/vision/change_detection.h"
+#include "io/clips/clip_library.h"
 #include "tests/bench/tasks/base/cell_values.h"
 
 namespace etude {

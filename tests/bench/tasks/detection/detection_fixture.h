@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/clips/clip_library.h"
 #include "bench/tasks/base/task_kinds.h"
+#include "io/clips/clip_library.h"
 #include "tests/bench/tasks/base/cell_values.h"
 #include "tests/support/run_world.h"
 

@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-#include "bench/streams/label_scores.h"
+#include "bench/tasks/detection/label_scores.h"
 #include "bench/tasks/detection/recorded_task.h"
 #include "engine/base/directions.h"
-#include "tests/bench/streams/record_people.h"
 #include "tests/bench/tasks/detection/detection_fixture.h"
+#include "tests/io/streams/record_people.h"
 #include "tests/support/run_world.h"
 
 namespace etude {

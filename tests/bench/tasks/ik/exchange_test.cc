@@ -5,12 +5,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/clips/clip_library.h"
 #include "bench/tasks/base/task_kinds.h"
 #include "bench/tasks/ik/run.h"
 #include "engine/base/angles.h"
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/ik_solver.h"
+#include "io/clips/clip_library.h"
 #include "tests/bench/tasks/base/cell_values.h"
 #include "tests/bench/tasks/base/exchange_checks.h"
 

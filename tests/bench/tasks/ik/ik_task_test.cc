@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bench/clips/clip_library.h"
 #include "bench/metrics/catalogue.h"
 #include "bench/tasks/base/task_kinds.h"
+#include "io/clips/clip_library.h"
 #include "tests/support/run_world.h"
 
 namespace etude {

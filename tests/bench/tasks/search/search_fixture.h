@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
-#include "bench/clips/clip_library.h"
 #include "bench/tasks/base/task_kinds.h"
 #include "engine/document/node.h"
+#include "io/clips/clip_library.h"
 
 namespace etude {
 

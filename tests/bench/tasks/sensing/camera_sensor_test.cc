@@ -1,8 +1,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/clips/clip_library.h"
 #include "bench/tasks/sensing/camera_stream.h"
+#include "io/clips/clip_library.h"
 #include "tests/support/gtest_printers.h"
 
 namespace etude {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/clips/clip_library.h"
 #include "engine/kinematics/body_tree.h"
+#include "io/clips/clip_library.h"
 
 namespace etude {
 

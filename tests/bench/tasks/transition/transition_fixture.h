@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/clips/clip_library.h"
 #include "bench/tasks/base/task_kinds.h"
 #include "engine/document/node.h"
+#include "io/clips/clip_library.h"
 #include "sim/choreography/move.h"
 #include "tests/support/run_world.h"
 

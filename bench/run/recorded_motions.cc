@@ -1,0 +1,99 @@
+#include "bench/run/recorded_motions.h"
+
+#include <fcntl.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "bench/model/recording.h"
+#include "bench/results/folder.h"
+#include "bench/results/row_json.h"
+#include "engine/base/names.h"
+#include "engine/retargeting/rig.h"
+#include "io/clips/open_clip.h"
+#include "sim/choreography/canonical_body.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The files of a run's recordings that stand for `cell`: its own; of a world without a method, those of all methods.
+std::vector<FilePath> RecordingsOf(const fs::path& run, const std::string& cell) {
+  if (FilePath own = RecordingFile(run, cell); Exists(own)) return {std::move(own)};
+  const std::string world = RecordingFile(run, cell + "/").whole().stem().string();
+  std::vector<fs::path> names;
+  std::error_code none;
+  for (fs::directory_iterator at(run / "recordings", none), end; !none && at != end; at.increment(none)) {
+    if (at->path().filename().string().starts_with(world)) names.push_back(at->path().filename());
+  }
+  std::ranges::sort(names);
+  std::vector<FilePath> found;
+  for (const fs::path& name : names) found.push_back(Inside(run) / "recordings" / name);
+  return found;
+}
+
+/// A reference to the file of a recording. Links in a run, which may be a stranger's, are refused.
+Result<SplitReference> ReferTo(const FilePath& file, const std::optional<std::string>& animation) {
+  RETURN_IF_ERROR(OpenFile(file, O_RDONLY));
+  return SplitReference{file.string(), animation};
+}
+
+class ResultFolders : public RecordedMotions {
+ public:
+  bool IsRecording(std::string_view text) const override {
+    return text.starts_with(R"({"recording":)") || text.starts_with(R"({"tracks":)");  // the latter: version 1
+  }
+
+  Result<ClipFile> Read(const std::string& text, const std::string& path) const override {
+    ASSIGN_OR_RETURN(const auto recording, ReadRecording(text, path));
+    ClipFile file{.format = ClipFormat::kRecording,
+                  .figure = {.name = "", .skeleton = {}, .materials = {}, .meshes = {}},
+                  .clips = {}};
+    for (const Track& track : recording.tracks) {
+      if (track.motion.poses.empty()) continue;
+      file.clips.push_back(RigClip(track.motion, StandingPose(), track.name));
+      file.notes.emplace_back("of a run's recording");
+    }
+    if (file.clips.empty()) return Fail({path}, "a recording without a motion");
+    file.figure.skeleton = file.clips.front().skeleton;
+    return file;
+  }
+
+  Result<SplitReference> Find(const SplitReference& wanted) const override {
+    const fs::path run = wanted.path;
+    if (!wanted.animation || !Exists(Inside(run) / "manifest.json")) return wanted;
+    const std::size_t at = wanted.animation->rfind('@');
+    const std::string cell = wanted.animation->substr(0, at);
+    std::optional<std::string> animation;
+    if (at != std::string::npos) {
+      animation = wanted.animation->substr(at + 1);
+      for (const std::string& world : {cell, cell.substr(0, cell.rfind('/'))}) {
+        const FilePath other = RecordingFile(run, world + "/" + *animation);
+        if (Exists(other)) return ReferTo(other, "");
+      }
+    }
+    const std::vector<FilePath> files = RecordingsOf(run, cell);
+    if (files.empty()) {
+      return Fail({wanted.path}, "recorded no cell {}: a scenario's key 'video' says which are; they are in {}",
+                  Quote(cell), (run / "recordings").string());
+    }
+    return ReferTo(files.front(), animation);
+  }
+
+  std::string OwnTrack(const std::vector<Clip>& clips) const override {
+    for (const char* name : {"recovered", "solution", "coach", "sensed"}) {
+      if (std::ranges::find(clips, name, &Clip::name) != clips.end()) return name;
+    }
+    return clips.back().name;
+  }
+};
+
+}  // namespace
+
+const RecordedMotions& MotionsOfRuns() {
+  static const ResultFolders folders;
+  return folders;
+}
+
+}  // namespace etude

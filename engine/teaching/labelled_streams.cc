@@ -1,0 +1,133 @@
+#include "engine/teaching/labelled_streams.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <regex>
+#include <set>
+
+#include "engine/recognition/recognise.h"
+
+namespace etude {
+namespace {
+
+/// Returns whom the labels of each stream name; "" where they name nobody.
+Result<std::vector<std::string>> NamedByLabels(const LabelledStreams& all) {
+  std::vector<std::string> names(all.streams.size());
+  for (const LabelledPart& part : all.parts) {
+    std::string& name = names[part.stream];
+    if (!name.empty() && !part.person.empty() && name != part.person) {
+      return Fail({all.file, part.line}, "{} shows {}, and {} before; a recording shows one person",
+                  all.streams[part.stream].name, part.person, name);
+    }
+    if (name.empty()) name = part.person;
+  }
+  return names;
+}
+
+}  // namespace
+
+std::string PersonInName(std::string_view name) {
+  static const std::regex kKnown[] = {std::regex("^S\\d{3}C\\d{3}(P\\d{3})R\\d{3}A\\d{3}"),
+                                      std::regex("^P\\d_\\d_\\w*_(p\\d+)$"), std::regex("(?:^|_)(s\\d\\d)_e\\d\\d")};
+  for (const std::regex& known : kKnown) {
+    std::match_results<std::string_view::const_iterator> match;
+    if (std::regex_search(name.begin(), name.end(), match, known)) return match[1].str();
+  }
+  return "";
+}
+
+Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, const std::string& file,
+                                              const std::vector<NamedStream>& streams) {
+  constexpr double kOutside = 0.5;
+  std::vector<LabelledPart> parts;
+  for (std::size_t s = 0; s < streams.size(); ++s) {
+    const NamedStream& stream = streams[s];
+    const auto count = static_cast<int>(stream.stream.frames.size());
+    const double length = count / stream.stream.rate_hz;
+    for (const Label& label : labels) {
+      if (!IsLabelOf(label, stream.name)) continue;
+      const double shift = label.by_own_clock ? stream.start_s : 0;
+      const double from = label.from_s ? *label.from_s - shift : 0, to = label.to_s ? *label.to_s - shift : length;
+      if (from < -kOutside || from > length || to > length + kOutside) {
+        return Fail({file, label.line}, "from {:.3f} to {:.3f} s of {}; allowed: its {:.3f} s", from, to, stream.name,
+                    length);
+      }
+      LabelledPart& part = parts.emplace_back();
+      part.stream = s;
+      part.move = label.move;
+      part.fault = label.fault;
+      part.person = label.person.empty() ? stream.person : label.person;
+      part.is_action_point = label.IsActionPoint();
+      part.line = label.line;
+      const FrameInterval frames = FramesBetween(from, part.is_action_point ? from : to, stream.stream);
+      part.begin = std::min(frames.begin, count - 1);
+      part.end = std::max(part.begin + 1, frames.end);
+    }
+  }
+  if (parts.empty()) return Fail({file}, "none of the labels is of a recording here, such as {}", streams.front().name);
+  std::ranges::stable_sort(parts, [](const LabelledPart& a, const LabelledPart& b) {
+    return a.stream != b.stream ? a.stream < b.stream : a.begin < b.begin;
+  });
+  return parts;
+}
+
+std::vector<LabelledPart> WholeStreams(const std::vector<NamedStream>& streams) {
+  static const std::regex kNtuAction("^S\\d{3}C\\d{3}P\\d{3}R\\d{3}(A\\d{3})");
+  std::vector<LabelledPart> parts;
+  for (std::size_t s = 0; s < streams.size(); ++s) {
+    const NamedStream& stream = streams[s];
+    std::smatch match;
+    const bool is_ntu = std::regex_search(stream.name, match, kNtuAction);
+    LabelledPart& part = parts.emplace_back();
+    part.stream = s;
+    part.move = is_ntu ? match[1].str() : stream.name;
+    part.person = stream.person;
+    part.end = static_cast<int>(stream.stream.frames.size());
+  }
+  return parts;
+}
+
+SkeletonStream PartOf(const SkeletonStream& stream, int begin, int end) {
+  const auto first = stream.frames.begin();
+  return {.rate_hz = stream.rate_hz, .frames = {first + begin, first + end}};
+}
+
+Result<LabelledStreams> LabelStreams(std::vector<NamedStream> streams, const LabelTexts& labels) {
+  LabelledStreams all;
+  all.streams = std::move(streams);
+  all.file = all.streams.front().source;
+  if (labels.empty()) {
+    all.parts = WholeStreams(all.streams);
+  } else {
+    all.file = labels.begin()->first;
+    std::vector<Label> read;
+    for (const auto& [file, text] : labels) {
+      ASSIGN_OR_RETURN(const auto some, ReadLabels(text, file, std::filesystem::path(file).stem().string()));
+      read.insert(read.end(), some.begin(), some.end());
+    }
+    ASSIGN_OR_RETURN(all.parts, MatchLabels(read, all.file, all.streams));
+  }
+  ASSIGN_OR_RETURN(const auto named, NamedByLabels(all));
+  std::map<std::string, std::vector<std::size_t>> streams_of;
+  for (std::size_t s = 0; s < all.streams.size(); ++s) {
+    NamedStream& stream = all.streams[s];
+    if (!named[s].empty()) stream.person = named[s];
+    if (stream.person.empty()) {
+      stream.person = stream.name;
+      if (all.nobody.empty()) all.nobody = stream.name;
+    }
+    streams_of[stream.person].push_back(s);
+  }
+  for (auto& [name, own] : streams_of) all.people.push_back({name, std::move(own)});
+  std::set<std::string> moves;
+  for (LabelledPart& part : all.parts) {
+    part.person = all.streams[part.stream].person;
+    moves.insert(part.move);
+  }
+  all.moves.assign(moves.begin(), moves.end());
+  return all;
+}
+
+}  // namespace etude

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "engine/recognition/taught_move.h"
+#include "engine/teaching/labelled_streams.h"
+
+namespace etude {
+
+/// Teaches every move of these parts, by name: right ones are examples, wrong ones counter-examples. An action point is
+/// a moment, so the performance is taken to be the time around it: from half-way after the action point before it, at
+/// most two seconds, to at most one second after (ours). Parts for which `takes` says no are left out. Fails as
+/// TeachMove does; without `is_strict` a move without a usable right performance is left out instead, and so is a
+/// performance that cannot be learnt from.
+Result<std::vector<TaughtMove>> TeachMoves(const std::vector<NamedStream>& streams,
+                                           const std::vector<LabelledPart>& parts,
+                                           const std::function<bool(const LabelledPart&)>& takes, bool is_strict);
+
+/// Returns the parts with action points turned into performances as above; the others stay as they are.
+std::vector<LabelledPart> PerformancesOf(const std::vector<LabelledPart>& parts,
+                                         const std::vector<NamedStream>& streams);
+
+}  // namespace etude

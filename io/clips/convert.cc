@@ -1,0 +1,209 @@
+#include "io/clips/convert.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <string_view>
+
+#include "engine/base/names.h"
+#include "engine/formats/bvh.h"
+#include "engine/formats/c3d.h"
+#include "engine/formats/gltf/gltf.h"
+#include "engine/formats/joint_csv.h"
+#include "engine/formats/trc.h"
+#include "engine/motion/edit.h"
+#include "engine/retargeting/joint_arrays.h"
+#include "engine/retargeting/opensim_motion.h"
+#include "engine/retargeting/proportions.h"
+#include "engine/retargeting/rig.h"
+#include "sim/character/characters.h"
+#include "sim/choreography/canonical_body.h"
+
+namespace etude {
+namespace {
+
+bool ParseSeconds(std::string_view text, double& seconds) {
+  if (text.empty()) return true;  // an open end
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+  return error == std::errc() && end == text.data() + text.size() && std::isfinite(seconds) && seconds >= 0;
+}
+
+// As much as ReadBvh takes.
+constexpr double kLargestResampled = 1e9;
+
+/// Numbers of another unit and up axis, in metres and Y up.
+Clip InMetres(Clip clip, double metres_per_unit, UpAxis up) {
+  const double half = glm::radians(-90.0) / 2;
+  const glm::dquat upright =
+      up == UpAxis::kY ? glm::dquat(1, 0, 0, 0) : glm::dquat(std::cos(half), std::sin(half), 0, 0);
+  const auto convert = [&](LocalTransform& local, bool is_root) {
+    local.translation *= metres_per_unit;
+    if (!is_root) return;
+    local.translation = upright * local.translation;
+    local.rotation = upright * local.rotation;
+  };
+  for (std::size_t i = 0; i < clip.skeleton.joints.size(); ++i) {
+    Joint& joint = clip.skeleton.joints[i];
+    convert(joint.rest, joint.parent < 0);
+    for (LocalPose& frame : clip.frames) convert(frame[i], joint.parent < 0);
+  }
+  return clip;
+}
+
+Result<Clip> Edited(const Clip& clip, const ConvertOptions& options) {
+  auto edited = TrimTo(clip, options.trim);
+  if (!edited) return edited;
+  if (options.rate_hz) {
+    const double frames = 1 + edited->DurationSeconds() * *options.rate_hz;
+    const double bytes = frames * static_cast<double>(edited->skeleton.joints.size() * sizeof(LocalTransform));
+    if (bytes > kLargestResampled) {
+      return Fail({}, "{:.0f} frames of {} joints would take {:.1f} GB; allowed: {:.0f} GB", frames,
+                  edited->skeleton.joints.size(), bytes / 1e9, kLargestResampled / 1e9);
+    }
+    *edited = Resample(*edited, *options.rate_hz);
+  }
+  if (options.mirror) *edited = Mirror(*edited);
+  return edited;
+}
+
+/// Finds the unit that a BVH file is in, and which axis is up.
+Result<BodyConversion> FindUnit(const SourceClip& source, const OpenOptions& options) {
+  auto opened = UnderstandClip(source, options);
+  if (opened) return std::move(opened->body);
+  if (options.body.metres_per_unit) {
+    BodyConversion told;
+    told.metres_per_unit = *options.body.metres_per_unit;
+    told.up = options.body.up.value_or(UpAxis::kY);
+    told.unit = "given";
+    return told;
+  }
+  return Fail(opened.error().place, "{}; GLB is in metres: without roles --unit must say what the file is in",
+              opened.error().message);
+}
+
+Result<Converted> ConvertOwnSkeletons(std::vector<SourceClip> sources, MotionFormat format,
+                                      const ConvertOptions& options) {
+  Converted converted{.bytes = "", .note = "own skeleton"};
+  std::vector<Clip> clips;
+  for (const SourceClip& source : sources) {
+    auto edited = Edited(source.clip, options);
+    if (!edited) return Fail({source.source, 0, 0}, "{}", edited.error().message);
+    if (format == MotionFormat::kGlb && source.format != ClipFormat::kGltf && source.format != ClipFormat::kGlb) {
+      ASSIGN_OR_RETURN(const auto unit, FindUnit(source, options.open));
+      *edited = InMetres(std::move(*edited), unit.metres_per_unit, unit.up);
+      if (clips.empty()) {
+        converted.note += fmt::format("; in metres, 1 unit = {:.4g} cm ({})", 100 * unit.metres_per_unit, unit.unit);
+      }
+    }
+    clips.push_back(std::move(*edited));
+  }
+  for (const std::string& remark : sources.front().remarks) converted.note += "; " + remark;
+  if (format == MotionFormat::kBvh) {
+    converted.bytes = WriteBvh(std::move(clips.front()));
+    return converted;
+  }
+  const SourceClip& first = sources.front();
+  const bool keeps_meshes = first.character && !options.mirror && options.performer == Performer::kFile;
+  if (first.character && options.mirror) {
+    converted.note += "; without its meshes, which do not fit the mirrored skeleton";
+  }
+  const Character bones{first.name, clips.front().skeleton, {}, {}};
+  converted.bytes = WriteGlb(keeps_meshes ? *first.character : bones, clips);
+  return converted;
+}
+
+Character PerformerOf(Performer performer, const BodyPose& rest, const std::string& name) {
+  if (performer == Performer::kBear) return BearCharacter();
+  if (performer == Performer::kMannequin) return MannequinCharacter();
+  return {name, BodySkeleton(rest), {}, {}};
+}
+
+Result<Converted> ConvertBodies(std::vector<SourceClip> sources, MotionFormat format, const ConvertOptions& options) {
+  const bool has_figure = options.performer == Performer::kBear || options.performer == Performer::kMannequin;
+  OpenOptions open = options.open;
+  open.body.rate_hz = options.rate_hz.value_or(kJudgedRateHz);
+  const bool is_canonical = options.retarget || has_figure;
+  Converted converted;
+  std::string note;
+  std::vector<Clip> clips;
+  BodyPose rest = StandingPose();
+  for (SourceClip& source : sources) {
+    auto part = TrimTo(source.clip, options.trim);
+    if (!part) return Fail({source.source, 0, 0}, "{}", part.error().message);
+    source.clip = std::move(*part);
+    ASSIGN_OR_RETURN(auto opened, UnderstandClip(std::move(source), open));
+    note = opened.body.note;
+    BodyMotion motion = std::move(opened.body.motion);
+    if (options.mirror) motion = Mirror(motion);
+    if (is_canonical) motion = Retarget(motion, StandingPose());
+    const std::string& name = opened.source.name;
+    if (format == MotionFormat::kTrc) converted.bytes = WriteTrc(motion, name);
+    if (format == MotionFormat::kCsv) converted.bytes = WriteJointCsv(motion);
+    if (format == MotionFormat::kC3d) converted.bytes = WriteC3d(motion);
+    // The rest pose of a body with its own proportions: standing as the canonical one does.
+    if (!is_canonical && clips.empty()) rest = Retarget({.poses = {rest}}, motion.poses.front()).poses.front();
+    if (format == MotionFormat::kNpz) converted.bytes = WriteBodyNpz(motion, rest);
+    if (format == MotionFormat::kMot) converted.bytes = WriteOpenSimMotion(motion, rest, name);
+    clips.push_back(RigClip(motion, rest, opened.source.clip.name));
+  }
+  converted.note = clips.size() == 1 ? "as a body: " + note : fmt::format("{} clips as bodies", clips.size());
+  if (format == MotionFormat::kBvh) converted.bytes = WriteBvh(clips.front());
+  if (format == MotionFormat::kGlb) {
+    converted.bytes = WriteGlb(PerformerOf(options.performer, rest, clips.front().name), clips);
+  }
+  return converted;
+}
+
+}  // namespace
+
+Result<TimeSpan> ParseTimeSpan(const std::string& text) {
+  TimeSpan span{0, std::numeric_limits<double>::infinity()};
+  const std::size_t colon = text.find(':');
+  const bool is_span = colon != std::string::npos &&
+                       ParseSeconds(std::string_view(text).substr(0, colon), span.from_s) &&
+                       ParseSeconds(std::string_view(text).substr(colon + 1), span.to_s);
+  if (!is_span) {
+    return Fail({}, "{} is no span of time; allowed: FROM:TO in seconds, such as 1.5:4, 2: or :3", Quote(text));
+  }
+  if (span.to_s < span.from_s) return Fail({}, "{} ends before it starts", Quote(text));
+  return span;
+}
+
+Result<Clip> TrimTo(const Clip& clip, const std::optional<TimeSpan>& span) {
+  if (!span) return clip;
+  const bool is_open = span->to_s == std::numeric_limits<double>::infinity();
+  return Trim(clip, span->from_s, is_open ? std::max(span->from_s, clip.DurationSeconds()) : span->to_s);
+}
+
+Result<MotionFormat> FormatOfName(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension == ".bvh") return MotionFormat::kBvh;
+  if (extension == ".glb") return MotionFormat::kGlb;
+  if (extension == ".trc") return MotionFormat::kTrc;
+  if (extension == ".csv") return MotionFormat::kCsv;
+  if (extension == ".c3d") return MotionFormat::kC3d;
+  if (extension == ".npz") return MotionFormat::kNpz;
+  if (extension == ".mot") return MotionFormat::kMot;
+  return Fail({path, 0, 0},
+              "is no name of a format that is written; allowed: .bvh, .glb, .trc, .csv, .c3d, .npz, .mot");
+}
+
+Result<Converted> ConvertClips(std::vector<SourceClip> clips, MotionFormat format, const ConvertOptions& options) {
+  const bool has_figure = options.performer == Performer::kBear || options.performer == Performer::kMannequin;
+  if (has_figure && format != MotionFormat::kGlb) return Fail({}, "only GLB holds a character; write to a .glb file");
+  if (clips.size() > 1 && format != MotionFormat::kGlb) {
+    std::vector<std::string> names;
+    for (const SourceClip& clip : clips) names.push_back(clip.clip.name);
+    return Fail({clips.front().source, 0, 0},
+                "only GLB holds several animations; choose one of the {} with FILE#NAME: {}", clips.size(),
+                Join(names));
+  }
+  const bool has_only_joints = format != MotionFormat::kBvh && format != MotionFormat::kGlb;
+  const bool as_body = options.ground || options.retarget || has_figure || has_only_joints;
+  return as_body ? ConvertBodies(std::move(clips), format, options)
+                 : ConvertOwnSkeletons(std::move(clips), format, options);
+}
+
+}  // namespace etude

@@ -1,0 +1,431 @@
+#include "io/clips/open_clip.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <map>
+
+#include "engine/base/names.h"
+#include "engine/formats/acclaim.h"
+#include "engine/formats/amass.h"
+#include "engine/formats/bvh.h"
+#include "engine/formats/c3d.h"
+#include "engine/formats/deepmimic.h"
+#include "engine/formats/gltf/gltf.h"
+#include "engine/formats/joint_csv.h"
+#include "engine/formats/motive_csv.h"
+#include "engine/formats/npz.h"
+#include "engine/formats/text_scanner.h"
+#include "engine/formats/trc.h"
+#include "engine/motion/edit.h"
+#include "engine/retargeting/joint_arrays.h"
+#include "engine/retargeting/markers.h"
+#include "engine/retargeting/opensim_motion.h"
+#include "engine/retargeting/rig.h"
+#include "io/clips/fbx.h"
+#include "io/clips/other_files.h"
+#include "io/clips/references.h"
+#include "io/files/files.h"
+#include "io/images/image_files.h"
+#include "sim/camera/jpeg.h"
+#include "sim/choreography/canonical_body.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Reads files until together they would be too large.
+class CappedReader {
+ public:
+  Result<std::string> Read(const fs::path& path) {
+    std::error_code not_there;  // ReadWholeFile says it better
+    const std::uintmax_t size = fs::file_size(path, not_there);
+    if (!not_there && size > left_) {
+      return Fail({path.string(), 0, 0}, "{} MB; at most {} MB of a clip are read", (size + 999'999) / 1'000'000,
+                  kLargestClipFile / 1'000'000);
+    }
+    auto bytes = ReadWholeFile(path);
+    if (bytes) left_ -= std::min<std::uintmax_t>(left_, bytes->size());
+    return bytes;
+  }
+
+ private:
+  std::uintmax_t left_ = kLargestClipFile;
+};
+
+Result<std::string> ReadBeside(const std::string& path, const std::string& uri, CappedReader& reader) {
+  const auto fail = [&](const std::string& why) { return Fail({path, 0, 0}, "its file {}: {}", Quote(uri), why); };
+  std::error_code error;
+  const fs::path folder = fs::canonical(fs::path(path), error).parent_path();
+  const fs::path file = fs::canonical(folder / uri, error);
+  if (error) return fail(error.message());
+  // A link may lead anywhere: what counts is where the file really is.
+  const auto ends = std::ranges::mismatch(folder, file);
+  if (ends.in1 != folder.end()) return fail("a link that leads out of the folder");
+  auto bytes = reader.Read(file);
+  if (!bytes) return fail(bytes.error().message);
+  return bytes;
+}
+
+Result<ColourImage> DecodeTexture(std::string_view bytes, std::size_t most_pixels) {
+  return bytes.starts_with("\x89PNG") ? DecodeColourPng(bytes, most_pixels) : ReadJpeg(bytes, most_pixels);
+}
+
+ClipFile FileOfOne(ClipFormat format, Clip clip) {
+  ClipFile file{.format = format,
+                .figure = {.name = clip.name, .skeleton = clip.skeleton, .materials = {}, .meshes = {}},
+                .clips = {}};
+  file.clips.push_back(std::move(clip));
+  return file;
+}
+
+/// A file that holds a body already, made as `note` tells.
+ClipFile FileOfBody(ClipFormat format, const BodyMotion& motion, const std::string& path, const char* note) {
+  ClipFile file = FileOfOne(format, RigClip(motion, StandingPose(), fs::path(path).stem().string()));
+  file.notes = {note};
+  return file;
+}
+
+/// Finds the skeleton of an Acclaim motion.
+Result<std::string> AcclaimSkeletonBeside(const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  const std::string stem = fs::path(path).stem().string();
+  std::vector<std::string> found;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string ending = entry->path().extension().string();
+    if (ending != ".asf" && ending != ".ASF") continue;
+    if (entry->path().stem() == stem || stem.starts_with(entry->path().stem().string() + "_")) {
+      return entry->path().string();
+    }
+    found.push_back(entry->path().string());
+  }
+  if (found.size() == 1) return found.front();
+  return Fail({path},
+              "an Acclaim motion, whose skeleton is another file: {} .asf files are in its folder; allowed: one, or "
+              "one that begins its name ('01.asf' of '01_01.amc')",
+              found.empty() ? "no" : std::to_string(found.size()));
+}
+
+Result<Clip> ReadAcclaim(std::string_view bytes, const std::string& path, CappedReader& reader) {
+  ASSIGN_OR_RETURN(const auto skeleton_path, AcclaimSkeletonBeside(path));
+  ASSIGN_OR_RETURN(const auto text, reader.Read(skeleton_path));
+  ASSIGN_OR_RETURN(const auto skeleton, ReadAcclaimSkeleton(text, skeleton_path));
+  return ReadAcclaimMotion(bytes, skeleton, path);
+}
+
+/// The roles that the bones of a VRM file play; spine, hands, feet and the crown are found as usual.
+std::optional<TaughtRoles> RolesOfBones(const std::map<std::string, int>& bones, const Skeleton& skeleton) {
+  constexpr std::pair<const char*, Role> kBones[] = {
+      {"leftUpperArm", Role::kLeftShoulder}, {"rightUpperArm", Role::kRightShoulder},
+      {"leftLowerArm", Role::kLeftElbow},    {"rightLowerArm", Role::kRightElbow},
+      {"leftHand", Role::kLeftWrist},        {"rightHand", Role::kRightWrist},
+      {"leftUpperLeg", Role::kLeftHip},      {"rightUpperLeg", Role::kRightHip},
+      {"leftLowerLeg", Role::kLeftKnee},     {"rightLowerLeg", Role::kRightKnee},
+      {"leftFoot", Role::kLeftAnkle},        {"rightFoot", Role::kRightAnkle},
+      {"neck", Role::kShoulderCentre}};
+  TaughtRoles roles;
+  for (const auto& [bone, role] : kBones) {
+    const auto found = bones.find(bone);
+    if (found == bones.end()) continue;
+    const std::string& name = skeleton.joints[found->second].name;
+    if (skeleton.Find(name) == found->second) roles.joints[role] = {name, {}};
+  }
+  return roles.joints.empty() ? std::nullopt : std::optional(std::move(roles));
+}
+
+/// Makes clips of the bodies that markers show.
+Result<ClipFile> FileOfMarkers(ClipFormat format, MarkerMotion markers, const std::string& path, char up = 0) {
+  ASSIGN_OR_RETURN(const auto bodies, FindMarkerBodies(std::move(markers), path, up));
+  ClipFile file{.format = format, .figure = {.name = "", .skeleton = {}, .materials = {}, .meshes = {}}, .clips = {}};
+  for (const MarkerBody& body : bodies) {
+    file.clips.push_back(RigClip(body.motion, StandingPose(), body.name));
+    file.notes.push_back(body.note);
+  }
+  file.figure.skeleton = file.clips.front().skeleton;
+  return file;
+}
+
+Result<ClipFile> ReadJointTable(std::string_view text, const std::string& path) {
+  ASSIGN_OR_RETURN(const auto csv, ReadJointCsv(text, path));
+  MarkerMotion markers{.rate_hz = csv.rate_hz.value_or(kJudgedRateHz), .names = {}, .frames = {}};
+  for (const Role role : AllRoles()) markers.names.emplace_back(RoleName(role));
+  for (const auto& frame : csv.frames) markers.frames.emplace_back(frame.begin(), frame.end());
+  return FileOfMarkers(ClipFormat::kCsv, std::move(markers), path, 'Y');
+}
+
+/// Reads a file of markers; nothing when it is none.
+std::optional<Result<ClipFile>> ReadMarkers(std::string_view bytes, const std::string& path) {
+  if (IsC3d(bytes)) {
+    auto read = ReadC3d(bytes, path);
+    if (!read) return tl::unexpected(read.error());
+    return FileOfMarkers(ClipFormat::kC3d, std::move(read->markers), path, read->up);
+  }
+  if (IsMotiveCsv(bytes)) {
+    auto read = ReadMotiveCsv(bytes, path);
+    if (!read) return tl::unexpected(read.error());
+    return FileOfMarkers(ClipFormat::kMotive, *std::move(read), path, 'Y');
+  }
+  const std::string_view heading = bytes.substr(0, bytes.find('\n'));
+  if (heading.starts_with("PathFileType")) {
+    auto read = ReadTrc(bytes, path);
+    if (!read) return tl::unexpected(read.error());
+    return FileOfMarkers(ClipFormat::kTrc, *std::move(read), path);
+  }
+  if (heading.find("_x_m") != std::string_view::npos) return ReadJointTable(bytes, path);
+  return std::nullopt;
+}
+
+Result<std::vector<SourceClip>> ReadBuiltin(const std::string& reference) {
+  ASSIGN_OR_RETURN(const auto builtin, LoadBuiltinClip(reference.substr(kBuiltinPrefix.size()), {}));
+  Clip clip = RigClip(builtin.motion, StandingPose(), reference.substr(kBuiltinPrefix.size()));
+  return std::vector<SourceClip>{{reference, reference, ClipFormat::kBuiltin, std::move(clip), nullptr}};
+}
+
+/// Finds the clip of that name; exporters write "Armature|Jump", where "Jump" alone does if there is but one.
+std::vector<Clip>::iterator FindAnimation(std::vector<Clip>& clips, const std::string& name) {
+  const auto exactly = std::ranges::find(clips, name, &Clip::name);
+  if (exactly != clips.end()) return exactly;
+  const auto ends_so = [&](const Clip& clip) { return clip.name.ends_with("|" + name); };
+  return std::ranges::count_if(clips, ends_so) == 1 ? std::ranges::find_if(clips, ends_so) : clips.end();
+}
+
+/// Keeps the one animation that was asked for, or all.
+Result<void> KeepWanted(const SplitReference& wanted, const Character& figure, std::vector<Clip>& clips) {
+  if (clips.empty()) {
+    return Fail({wanted.path, 0, 0}, "holds no animation, only a figure (joints: {}, meshes: {})",
+                figure.skeleton.joints.size(), figure.meshes.size());
+  }
+  if (!wanted.animation) return {};
+  const auto named = FindAnimation(clips, *wanted.animation);
+  if (named == clips.end()) {
+    std::vector<std::string> names;
+    for (const Clip& clip : clips) names.push_back(clip.name);
+    return Fail({wanted.path, 0, 0}, "{}", UnknownName("animation", *wanted.animation, names));
+  }
+  Clip only = std::move(*named);
+  clips.clear();
+  clips.push_back(std::move(only));
+  return {};
+}
+
+/// The roles that are taught by the user, else by the file.
+const TaughtRoles* TaughtBy(const OpenOptions& options, const std::optional<TaughtRoles>& file) {
+  if (options.roles && !options.roles->joints.empty()) return &*options.roles;
+  return file ? &*file : nullptr;
+}
+
+/// Roots clips at the hips whose file roots them at the chest or the head, unless meshes need their skeleton as it is.
+void RootAtHips(Clip& clip, bool has_meshes, std::vector<std::string>& remarks) {
+  const auto has_scales = [](const LocalPose& pose) {
+    return std::ranges::any_of(pose, [](const LocalTransform& local) { return local.scale != glm::dvec3(1); });
+  };
+  const int root = has_meshes ? -1 : FindNewRoot(clip.skeleton);
+  if (root < 0 || has_scales(RestPose(clip.skeleton)) || std::ranges::any_of(clip.frames, has_scales)) return;
+  remarks.push_back(fmt::format("rooted at {} instead of {}", Quote(clip.skeleton.joints[root].name),
+                                Quote(clip.skeleton.joints[0].name)));
+  clip = WithRootAt(clip, root);
+}
+
+/// Finds the ground of a file with several clips. A skeleton without roles has none; UnderstandClip says what it lacks.
+std::optional<Ground> GroundOf(const ClipFile& file, const std::string& path, const OpenOptions& options) {
+  if (file.clips.size() < 2) return std::nullopt;
+  const auto map = FindJointMap(file.clips.front().skeleton, path, TaughtBy(options, file.roles));
+  BodyOptions told = options.body;
+  if (options.roles && !told.up) told.up = options.roles->up;
+  return map ? FindGround(file.clips, *map, told) : std::nullopt;
+}
+
+/// Takes scales out of the frames that the rest pose has not, and says so. A skeleton without roles stays as it is.
+void TakeScalesOut(ClipFile& file, const std::string& path, const OpenOptions& options) {
+  const auto has_scales = [](const Clip& clip) {
+    return std::ranges::any_of(clip.frames, [&](const LocalPose& frame) {
+      for (std::size_t i = 0; i < frame.size(); ++i) {
+        if (frame[i].scale != clip.skeleton.joints[i].rest.scale) return true;
+      }
+      return false;
+    });
+  };
+  if (std::ranges::none_of(file.clips, has_scales)) return;
+  const auto map = FindJointMap(file.clips.front().skeleton, path, TaughtBy(options, file.roles));
+  if (!map) return;
+  if (const auto ratio = UndoScales(file.clips, *map)) {
+    file.remarks.push_back(fmt::format(
+        "the frames show a body {:.3g} times as tall as the rest pose, by scales that it has not: undone", *ratio));
+  }
+}
+
+/// Opens a clip of our own skeleton, which has a joint of the name of every role, exactly there.
+Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& options) {
+  OpenedClip opened{.source = std::move(source), .map = {}, .body = {}};
+  for (const Role role : AllRoles()) {
+    opened.map.points[Index(role)].joint = opened.source.clip.skeleton.Find(std::string(RoleName(role)));
+  }
+  std::string note = opened.source.note.empty() ? "the canonical body" : opened.source.note;
+  if (options.metres_per_unit || options.up) note += "; unit and up axis are its own, not those told";
+  opened.body = {.metres_per_unit = 1, .unit = "metre", .note = note, .motion = {}};
+  const Clip clip = Resample(opened.source.clip, options.rate_hz);
+  opened.body.motion.rate_hz = options.rate_hz;
+  std::vector<GlobalTransform> globals;
+  for (const LocalPose& frame : clip.frames) {
+    ComputeGlobals(clip.skeleton, frame, globals);
+    BodyPose pose = Evaluate(opened.map, globals);
+    // A sensor's hip centre need not be midway between its hips, where Evaluate puts that of other skeletons.
+    if (opened.source.format != ClipFormat::kBuiltin) {
+      pose[Role::kHipCentre] = globals[opened.map[Role::kHipCentre].joint].position;
+    }
+    opened.body.motion.poses.push_back(pose);
+  }
+  return opened;
+}
+
+}  // namespace
+
+std::string_view FormatName(ClipFormat format) {
+  constexpr std::array kNames = {"BVH", "glTF", "GLB", "FBX", "DeepMimic", "Acclaim", "AMASS",     "C3D",
+                                 "TRC", "CSV",  "NPZ", "NPY", "Motive",    "MOT",     "recording", "built-in"};
+  return kNames[static_cast<std::size_t>(format)];
+}
+
+Result<ClipFile> ReadClipFile(const std::string& path, const std::optional<std::string>& layout,
+                              const RecordedMotions* recorded) {
+  CappedReader reader;
+  ASSIGN_OR_RETURN(const auto bytes, reader.Read(path));
+  TextScanner scanner(bytes, path);
+  const bool has_text = scanner.SkipToText();
+  const Token first = has_text ? scanner.Next() : Token{};
+
+  ClipFile file;
+  if (IsZip(bytes)) {
+    ASSIGN_OR_RETURN(const auto arrays, ReadNpz(bytes, path));
+    if (IsBodyNpz(arrays)) {
+      ASSIGN_OR_RETURN(const auto motion, ReadBodyNpz(arrays, path));
+      return FileOfBody(ClipFormat::kNpz, motion, path, "Etude's own arrays");
+    }
+    ASSIGN_OR_RETURN(auto clip, ReadAmass(arrays, path));
+    return FileOfOne(ClipFormat::kAmass, std::move(clip));
+  }
+  if (IsNpy(bytes)) {
+    ASSIGN_OR_RETURN(const auto array, ReadNpy(bytes, path));
+    std::string note;
+    ASSIGN_OR_RETURN(const auto joints, JointsOfArray(array, layout, path, note));
+    ASSIGN_OR_RETURN(file, FileOfMarkers(ClipFormat::kNpy, joints, path));
+    for (std::string& told : file.notes) told += "; " + note;
+    return file;
+  }
+  if (auto markers = ReadMarkers(bytes, path)) return *std::move(markers);
+  if (recorded != nullptr && recorded->IsRecording(bytes)) return recorded->Read(bytes, path);
+  if (first.text == "Coordinates" && HasModelOfAngles(bytes)) {
+    ASSIGN_OR_RETURN(const auto motion, ReadOpenSimMotion(bytes, path));
+    return FileOfBody(ClipFormat::kMot, motion, path, "angles of the model in the file's head");
+  }
+  if (first.text == "{" && IsDeepMimicMotion(bytes)) {
+    ASSIGN_OR_RETURN(auto clip, ReadDeepMimicMotion(bytes, path));
+    return FileOfOne(ClipFormat::kDeepMimic, std::move(clip));
+  }
+  const bool is_fbx = IsFbx(bytes);
+  if (first.text == "{" && bytes.find("\"asset\"") == std::string::npos) {
+    return Fail(scanner.At(first), "{}", DescribeOtherFile(bytes, first.text));
+  }
+  if (is_fbx || bytes.starts_with("glTF") || first.text == "{") {
+    file.format = is_fbx ? ClipFormat::kFbx : first.text == "{" ? ClipFormat::kGltf : ClipFormat::kGlb;
+    FbxMotion fbx;
+    if (is_fbx) {
+      ASSIGN_OR_RETURN(fbx, ReadFbx(bytes, path));
+      file.remarks.push_back("read by " + fbx.reader);
+    }
+    ASSIGN_OR_RETURN(auto content,
+                     ReadGltf(
+                         is_fbx ? fbx.glb : bytes, path,
+                         [&](const std::string& uri) { return ReadBeside(path, uri, reader); }, DecodeTexture));
+    for (std::string& remark : content.remarks) file.remarks.push_back(std::move(remark));
+    file.figure = std::move(content.character);
+    file.clips = std::move(content.clips);
+    file.roles = RolesOfBones(content.bones, file.figure.skeleton);
+    return file;
+  }
+  if (IsAcclaimMotion(bytes)) {
+    ASSIGN_OR_RETURN(auto clip, ReadAcclaim(bytes, path, reader));
+    return FileOfOne(ClipFormat::kAcclaim, std::move(clip));
+  }
+  constexpr std::string_view kBvhStart = "HIERARCHY";
+  if (!std::ranges::equal(first.text, kBvhStart, {}, [](char c) { return c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c; })) {
+    return Fail(
+        scanner.At(first),
+        "{}; allowed: BVH (it begins with HIERARCHY), glTF 2.0 (.glb, .gltf), FBX, Acclaim's .amc, AMASS's .npz, "
+        "C3D, TRC, joint CSV, Motive's CSV, .npy of joints, .mot of ours, DeepMimic's motions",
+        DescribeOtherFile(bytes, first.text));
+  }
+  ASSIGN_OR_RETURN(auto clip, ReadBvh(bytes, path, &file.remarks));
+  ClipFile read = FileOfOne(ClipFormat::kBvh, std::move(clip));
+  read.remarks = std::move(file.remarks);
+  return read;
+}
+
+Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const OpenOptions& options) {
+  if (reference.starts_with(kBuiltinPrefix)) return ReadBuiltin(reference);
+  SplitReference wanted = Split(reference);
+  if (options.recorded != nullptr) {
+    ASSIGN_OR_RETURN(wanted, options.recorded->Find(wanted));
+  }
+  ASSIGN_OR_RETURN(auto file, ReadClipFile(FileOf(wanted.path), wanted.animation, options.recorded));
+  const std::string stem = fs::path(FileOf(wanted.path)).stem().string();
+  const bool is_recording = file.format == ClipFormat::kRecording;
+  if (!is_recording && options.roles && options.roles->rate_hz) {
+    for (Clip& clip : file.clips) clip.rate_hz = *options.roles->rate_hz;
+  }
+  if (is_recording && wanted.animation == "") wanted.animation = options.recorded->OwnTrack(file.clips);
+  const bool has_animations =
+      file.format == ClipFormat::kGltf || file.format == ClipFormat::kGlb || file.format == ClipFormat::kFbx;
+  const bool is_one = !has_animations && !is_recording && file.clips.size() == 1;
+  if (is_one) {
+    if (wanted.animation && file.format != ClipFormat::kNpy) {
+      return Fail({wanted.path, 0, 0}, "a {} file has one motion; '#{}' chooses one of a glTF file",
+                  FormatName(file.format), *wanted.animation);
+    }
+    const std::string source = wanted.path + (wanted.animation ? "#" + *wanted.animation : "");
+    std::vector<SourceClip> only;  // moved into: an initializer list would copy the frames
+    only.push_back({stem, source, file.format, std::move(file.clips.front()), nullptr, std::nullopt,
+                    file.notes.empty() ? "" : file.notes.front(), file.remarks});
+    return only;
+  }
+  std::map<std::string, std::string> notes;
+  for (std::size_t i = 0; i < file.notes.size(); ++i) notes[file.clips[i].name] = file.notes[i];
+  TakeScalesOut(file, wanted.path, options);
+  const std::optional<Ground> ground = GroundOf(file, wanted.path, options);
+  RETURN_IF_ERROR(KeepWanted(wanted, file.figure, file.clips));
+  const bool has_meshes = !file.figure.meshes.empty();
+  const auto figure = has_meshes ? std::make_shared<const Character>(std::move(file.figure)) : nullptr;
+  std::vector<SourceClip> clips;
+  for (Clip& clip : file.clips) {
+    const std::string animation = "#" + clip.name;
+    const std::string note = notes[clip.name];
+    clips.push_back({stem + animation, wanted.path + animation, file.format, std::move(clip), figure, ground, note,
+                     file.remarks, file.roles});
+  }
+  return clips;
+}
+
+Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options) {
+  const bool is_body = source.format == ClipFormat::kBuiltin || !source.note.empty();
+  if (is_body) return UnderstandBuiltin(std::move(source), options.body);
+  RootAtHips(source.clip, source.character != nullptr, source.remarks);
+  ASSIGN_OR_RETURN(auto map, FindJointMap(source.clip.skeleton, source.source, TaughtBy(options, source.roles)));
+  BodyOptions told = options.body;
+  if (options.roles) {
+    if (!told.metres_per_unit) told.metres_per_unit = options.roles->metres_per_unit;
+    if (!told.up) told.up = options.roles->up;
+  }
+  if (source.ground) {
+    told.up = source.ground->up;
+    told.floor = source.ground->floor;
+    told.stature = source.ground->stature;
+  }
+  ASSIGN_OR_RETURN(auto body, ToBodyMotion(source.clip, map, source.source, told));
+  for (const std::string& remark : source.remarks) body.note += "; " + remark;
+  return OpenedClip{std::move(source), std::move(map), std::move(body)};
+}
+
+}  // namespace etude

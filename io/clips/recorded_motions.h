@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/motion/clip.h"
+#include "io/clips/references.h"
+
+namespace etude {
+
+struct ClipFile;
+
+/// Reads motions that runs recorded. Runs belong to rooms above this one, so whoever opens clips hands an
+/// implementation in (`OpenOptions::recorded`); `bench/run/recorded_motions.h` has it.
+class RecordedMotions {
+ public:
+  virtual ~RecordedMotions() = default;
+
+  /// Replaces "RUN#CELL@NAME" by the file of that cell's recording and the track in it; an empty track name stands for
+  /// the recorded method's own (`OwnTrack`). Returns any other reference unchanged. Fails if the run recorded no such
+  /// cell.
+  virtual Result<SplitReference> Find(const SplitReference& wanted) const = 0;
+
+  /// Returns true if a file's text begins as a recording does.
+  virtual bool IsRecording(std::string_view text) const = 0;
+
+  /// Reads the motions of a recording; each clip has its track's name. `path` is for complaints.
+  virtual Result<ClipFile> Read(const std::string& text, const std::string& path) const = 0;
+
+  /// Returns the name of the track that the recorded method made.
+  virtual std::string OwnTrack(const std::vector<Clip>& clips) const = 0;
+};
+
+}  // namespace etude

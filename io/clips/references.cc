@@ -1,0 +1,143 @@
+#include "io/clips/references.h"
+
+#include <glob.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/names.h"
+#include "sim/choreography/song.h"
+
+namespace etude {
+namespace {
+
+/// Clips that a package installs, called by its name, so that neither a scenario nor a result holds a path of a
+/// machine.
+struct PackagedClips {
+  std::string_view prefix;   ///< of a reference
+  std::string_view package;  ///< of Debian
+  std::string_view folder;
+  std::string_view ending;
+};
+constexpr std::array kPackagedClips = {
+    PackagedClips{"assimp:", "assimp-testmodels", "/usr/share/assimp/models/BVH/", ".bvh"}};
+
+const PackagedClips* FindPackage(std::string_view reference) {
+  const auto found =
+      std::ranges::find_if(kPackagedClips, [&](const PackagedClips& one) { return reference.starts_with(one.prefix); });
+  return found == kPackagedClips.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> FilesMatching(const std::string& pattern) {
+  // glob calls itself for every '/', each time with a copy of the pattern: thousands of them overflow its stack.
+  constexpr std::size_t kLongestPattern = 1000;
+  if (pattern.size() > kLongestPattern) return {};
+  glob_t matches{};
+  const int status = ::glob(pattern.c_str(), GLOB_TILDE, nullptr, &matches);
+  std::vector<std::string> files;
+  for (std::size_t i = 0; status == 0 && i < matches.gl_pathc; ++i) files.emplace_back(matches.gl_pathv[i]);
+  ::globfree(&matches);
+  return files;
+}
+
+std::vector<std::string> BuiltinsOf(const std::string& reference) {
+  const std::string wanted = reference.substr(kBuiltinPrefix.size());
+  std::vector<std::string> names = wanted == "*"       ? BuiltinMoveNames()
+                                   : wanted == "acts"  ? BuiltinActNames()
+                                   : wanted == "songs" ? BuiltinSongNames()
+                                                       : std::vector<std::string>{wanted};
+  for (std::string& name : names) name.insert(0, kBuiltinPrefix);
+  return names;
+}
+
+std::vector<std::string> FilesOf(const std::string& reference) {
+  std::error_code ignored;
+  if (std::filesystem::exists(reference, ignored)) return {reference};  // brackets in it are no pattern then
+  if (const PackagedClips* package = FindPackage(reference)) {
+    std::vector<std::string> files = FilesMatching(FileOf(reference));
+    for (std::string& file : files) file = std::string(package->prefix) + std::filesystem::path(file).stem().string();
+    return files;
+  }
+  if (std::vector<std::string> files = FilesMatching(reference); !files.empty()) return files;
+  const SplitReference split = Split(reference);
+  if (!split.animation) return {};
+  if (std::filesystem::exists(split.path, ignored)) return {reference};
+  std::vector<std::string> files = FilesMatching(split.path);
+  for (std::string& match : files) match += "#" + *split.animation;
+  return files;
+}
+
+}  // namespace
+
+Result<BuiltinClip> LoadBuiltinClip(const std::string& name, const Place& place) {
+  const std::vector<std::string> songs = BuiltinSongNames();
+  if (std::ranges::find(songs, name) != songs.end()) {
+    auto song = LoadBuiltinSong(name);
+    if (!song) return Fail(place, "{}", song.error().message);
+    return BuiltinClip{std::move(song->motion), std::nullopt};
+  }
+  auto move = LoadBuiltinMove(name);
+  if (!move) {
+    // It knows moves and acts, and their near misses; a song's name may have been meant as well.
+    const std::string nearest = NearestName(name, songs);
+    return Fail(place, "{}; songs: {}{}", move.error().message, Join(songs),
+                nearest.empty() ? "" : " (did you mean '" + nearest + "'?)");
+  }
+  BuiltinClip clip{move->motion, std::nullopt};
+  if (!move->key_poses.empty()) clip.move = std::move(*move);
+  return clip;
+}
+
+Result<std::vector<std::string>> ExpandReference(const std::string& reference, const Place& place) {
+  const bool is_builtin = reference.starts_with(kBuiltinPrefix);
+  std::vector<std::string> found = is_builtin ? BuiltinsOf(reference) : FilesOf(reference);
+  if (const PackagedClips* package = FindPackage(reference); found.empty() && package != nullptr) {
+    return Fail(place, "no clip matches '{}'; {} come with the package {}, in {}", reference, package->prefix,
+                package->package, package->folder);
+  }
+  if (found.empty()) {
+    return Fail(place,
+                "no clip matches '{}'; allowed: builtin:NAME, assimp:NAME, a BVH or glTF file, file.glb#ANIMATION, or "
+                "a pattern such "
+                "as 'mocap/*.bvh'",
+                reference);
+  }
+  if (found.size() > kMostClips) return Fail(place, "'{}' stands for more than {} clips", reference, kMostClips);
+  return found;
+}
+
+std::string FileOf(const std::string& reference) {
+  const PackagedClips* package = FindPackage(reference);
+  std::error_code ignored;
+  if (package == nullptr || std::filesystem::exists(reference, ignored)) return reference;
+  return std::string(package->folder) + reference.substr(package->prefix.size()) + std::string(package->ending);
+}
+
+SplitReference Split(const std::string& reference) {
+  std::error_code ignored;
+  if (std::filesystem::exists(reference, ignored)) return {reference, std::nullopt};
+  // Both a file's and an animation's name may hold a '#': try each as the separator until the part before it exists.
+  for (std::size_t hash = reference.rfind('#'); hash != std::string::npos && hash > 0;
+       hash = reference.rfind('#', hash - 1)) {
+    std::string path = reference.substr(0, hash);
+    if (std::filesystem::exists(path, ignored)) return {std::move(path), reference.substr(hash + 1)};
+  }
+  const std::size_t hash = reference.find('#');
+  if (hash == std::string::npos) return {reference, std::nullopt};
+  return {reference.substr(0, hash), reference.substr(hash + 1)};
+}
+
+Result<std::vector<std::string>> ExpandReferences(const std::vector<std::string>& references) {
+  std::vector<std::string> all;
+  for (const std::string& reference : references) {
+    ASSIGN_OR_RETURN(auto expanded, ExpandReference(reference, {}));
+    all.insert(all.end(), expanded.begin(), expanded.end());
+    if (all.size() > kMostClips) return Fail({}, "more than {} clips", kMostClips);
+  }
+  return all;
+}
+
+}  // namespace etude

@@ -1,0 +1,97 @@
+#include "io/files/temporary_folder.h"
+
+#include <fcntl.h>
+#include <stdlib.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "engine/base/machine.h"
+
+namespace etude {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kPrefix = "etude-temporary-";  // nobody calls a folder of results so
+
+/// Locks a folder until we end; -1 when another process has it, or the folder is not ours.
+int Lock(const fs::path& folder) {
+  const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  struct stat status {};
+  const bool is_ours = lock >= 0 && ::fstat(lock, &status) == 0 && status.st_uid == ::geteuid();
+  if (is_ours && ::flock(lock, LOCK_EX | LOCK_NB) == 0) return lock;
+  if (lock >= 0) ::close(lock);
+  return -1;
+}
+
+}  // namespace
+
+Result<TemporaryFolder> TemporaryFolder::Make(const std::string& purpose) {
+  const char* told = ::getenv("TMPDIR");
+  const fs::path parent = told != nullptr && *told != '\0' ? told : "/tmp";
+  const std::string place = told != nullptr ? "TMPDIR=" + parent.string() : parent.string();
+  std::error_code error;
+  if (!fs::is_directory(parent, error)) {
+    return Fail({kThisMachine}, "{}: is no folder for temporary files{}", place, error ? ": " + error.message() : "");
+  }
+  if (!parent.is_absolute()) {
+    return Fail({kThisMachine}, "{}: is no folder for temporary files; allowed: a path that begins with /", place);
+  }
+  auto folder = MakeIn(parent, purpose);
+  if (!folder) return Fail({kThisMachine}, "{}: {}", place, folder.error().message);
+  return folder;
+}
+
+Result<TemporaryFolder> TemporaryFolder::MakeIn(const fs::path& parent, const std::string& purpose) {
+  RemoveAbandoned(parent);
+  // It gets its final name when it is locked, lest another process take it for abandoned before.
+  std::string name = (parent / ("." + std::string(kPrefix) + purpose + "-XXXXXX")).string();
+  const bool made = ::mkdtemp(name.data()) != nullptr;
+  const int lock = made ? Lock(name) : -1;
+  const fs::path path = parent / fs::path(name).filename().string().substr(1);
+  if (made && ::rename(name.c_str(), path.c_str()) == 0) return TemporaryFolder(path, lock);
+  const int reason = errno;
+  if (lock >= 0) ::close(lock);
+  if (made) ::rmdir(name.c_str());
+  return Fail({parent.string()}, "takes no temporary files: {}", std::strerror(reason));
+}
+
+void TemporaryFolder::RemoveAbandoned() {
+  std::error_code none;
+  RemoveAbandoned(fs::temp_directory_path(none));
+}
+
+void TemporaryFolder::RemoveAbandoned(const fs::path& parent) {
+  std::error_code error;
+  for (fs::directory_iterator entry(parent, error), end; !error && entry != end; entry.increment(error)) {
+    if (!entry->path().filename().string().starts_with(kPrefix)) continue;
+    const int lock = Lock(entry->path());
+    if (lock < 0) continue;
+    std::error_code ignored;
+    fs::remove_all(entry->path(), ignored);
+    ::close(lock);
+  }
+}
+
+TemporaryFolder::TemporaryFolder(TemporaryFolder&& other) noexcept
+    : path_(std::exchange(other.path_, {})), lock_(std::exchange(other.lock_, -1)) {}
+
+TemporaryFolder& TemporaryFolder::operator=(TemporaryFolder&& other) noexcept {
+  std::swap(path_, other.path_);
+  std::swap(lock_, other.lock_);
+  return *this;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  if (!path_.empty()) fs::remove_all(path_, ignored);
+  if (lock_ >= 0) ::close(lock_);
+}
+
+}  // namespace etude

@@ -1,0 +1,268 @@
+#include "io/keypoints/read_people.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "engine/keypoints/people.h"
+#include "engine/vision/strokes.h"
+#include "io/files/files.h"
+#include "io/files/json.h"
+#include "io/images/image_files.h"
+#include "io/keypoints/keypoint_lists.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kOurPixelCentre = 0.5;
+constexpr double kLargestPixel = 1e6;
+
+/// Orders names with the numbers in them by their value: frame 9 comes before frame 10.
+bool NaturallyBefore(const fs::path& a, const fs::path& b) {
+  const std::string x = a.filename().string(), y = b.filename().string();
+  std::size_t i = 0, j = 0;
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  while (i < x.size() && j < y.size()) {
+    if (is_digit(x[i]) && is_digit(y[j])) {
+      std::size_t end_x = i, end_y = j;
+      while (end_x < x.size() && is_digit(x[end_x])) ++end_x;
+      while (end_y < y.size() && is_digit(y[end_y])) ++end_y;
+      std::string_view m = std::string_view(x).substr(i, end_x - i), n = std::string_view(y).substr(j, end_y - j);
+      while (m.size() > 1 && m.front() == '0') m.remove_prefix(1);
+      while (n.size() > 1 && n.front() == '0') n.remove_prefix(1);
+      if (m != n) return m.size() != n.size() ? m.size() < n.size() : m < n;
+      i = end_x;
+      j = end_y;
+    } else {
+      if (x[i] != y[j]) return x[i] < y[j];
+      ++i;
+      ++j;
+    }
+  }
+  return x.size() - i != y.size() - j ? x.size() - i < y.size() - j : x < y;
+}
+
+Result<std::vector<fs::path>> FilesIn(const fs::path& folder, const char* ending) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ending) files.push_back(entry.path());
+  }
+  if (error) return Fail({folder.string()}, "{}", error.message());
+  if (files.empty()) return Fail({folder.string()}, "no {} file in it", ending);
+  std::ranges::sort(files, NaturallyBefore);
+  return files;
+}
+
+/// Python writes a number that is none as a bare NaN, which JSON does not know: estimators say so of what they did not
+/// see. As null, which it does.
+std::string WithNullForNan(std::string text) {
+  constexpr std::string_view kNan = "NaN";
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (in_string && text[i] == '\\') {
+      ++i;
+    } else if (text[i] == '"') {
+      in_string = !in_string;
+    } else if (!in_string && std::string_view(text).substr(i).starts_with(kNan)) {
+      text.replace(i, kNan.size(), "null");
+    }
+  }
+  return text;
+}
+
+bool IsAnySeen(const SeenPerson& person) {
+  return std::ranges::any_of(person.keypoints, [](const Keypoint& keypoint) { return keypoint.confidence > 0; });
+}
+
+Result<std::vector<SeenPerson>> ReadFrame(const fs::path& file, const std::string& layout) {
+  const Place place{file.string()};
+  ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(file));
+  ASSIGN_OR_RETURN(const Json json, ReadJson(WithNullForNan(text), file.string()));
+  std::vector<SeenPerson> frame;
+  if (json.is_array()) {  // MMPose's: a list of people
+    ASSIGN_OR_RETURN(auto people, PeopleOfList(json, layout, {}, place));
+    std::ranges::copy_if(people, std::back_inserter(frame), IsAnySeen);
+    return frame;
+  }
+  const Json* people = Member(json, "people");
+  if (people == nullptr || !people->is_array())
+    return Fail(place, "no list 'people'; allowed: JSON as OpenPose writes it, or MMPose's list of people");
+  if (people->size() > kMostPeople) return Fail(place, "{} people; allowed: {}", people->size(), kMostPeople);
+  for (const Json& person : *people) {
+    ASSIGN_OR_RETURN(const auto points, Triples(Member(person, "pose_keypoints_2d"), place));
+    if (points.empty()) continue;
+    ASSIGN_OR_RETURN(const SeenPerson seen, ToPerson(points, layout, {}, place));
+    if (IsAnySeen(seen)) frame.push_back(seen);
+  }
+  return frame;
+}
+
+Result<PeopleOfFilm> ReadFolder(const fs::path& folder, const std::string& layout) {
+  ASSIGN_OR_RETURN(const auto files, FilesIn(folder, ".json"));
+  PeopleOfFilm film;
+  for (const fs::path& file : files) {
+    ASSIGN_OR_RETURN(auto frame, ReadFrame(file, layout));
+    film.frames.push_back(std::move(frame));
+  }
+  return film;
+}
+
+/// The names that a COCO file's category gives its keypoints.
+std::vector<std::string> NamesOf(const Json& json) {
+  const Json* categories = Member(json, "categories");
+  if (categories == nullptr || !categories->is_array() || categories->empty()) return {};
+  return TextsOf(Member(categories->front(), "keypoints"));
+}
+
+struct CocoPerson {
+  std::size_t frame;
+  std::vector<Keypoint> points;  ///< v as confidence
+};
+
+Result<std::map<double, std::size_t>> FramesOf(const Json& images, PeopleOfFilm& film, const Place& place) {
+  std::map<double, std::size_t> frames;
+  for (const Json& image : images) {
+    const Json *id = Member(image, "id"), *width = Member(image, "width"), *height = Member(image, "height");
+    if (id == nullptr || !id->is_number()) return Fail(place, "an image without a number 'id'");
+    if (!frames.try_emplace(id->get<double>(), frames.size()).second) {
+      return Fail(place, "two images with the id {}", id->dump());
+    }
+    if (width != nullptr && width->is_number() && height != nullptr && height->is_number()) {
+      const int w = static_cast<int>(std::clamp(width->get<double>(), 0.0, kLargestPixel));
+      const int h = static_cast<int>(std::clamp(height->get<double>(), 0.0, kLargestPixel));
+      if (film.width != 0 && (w != film.width || h != film.height)) {
+        return Fail(place, "images of {} x {} and of {} x {} pixels in one film", film.width, film.height, w, h);
+      }
+      film.width = w;
+      film.height = h;
+    }
+  }
+  return frames;
+}
+
+Result<PeopleOfFilm> ReadCoco(const Json& json, const std::string& layout, const Place& place) {
+  const Json *images = Member(json, "images"), *annotations = Member(json, "annotations");
+  if (images == nullptr || !images->is_array() || annotations == nullptr || !annotations->is_array()) {
+    return Fail(
+        place,
+        "no lists 'images' and 'annotations'; allowed: COCO's keypoint files and results, AlphaPose's, MMPose's, "
+        "MediaPipe's landmarks, or a folder of OpenPose's JSON");
+  }
+  const std::vector<std::string> names = NamesOf(json);
+  PeopleOfFilm film;
+  ASSIGN_OR_RETURN(const auto frames, FramesOf(*images, film, place));
+  std::vector<CocoPerson> people;
+  double most = 0;
+  for (const Json& annotation : *annotations) {
+    const Json* id = Member(annotation, "image_id");
+    const auto frame = id != nullptr && id->is_number() ? frames.find(id->get<double>()) : frames.end();
+    if (frame == frames.end()) return Fail(place, "an annotation of an image that is not listed");
+    ASSIGN_OR_RETURN(auto points, Triples(Member(annotation, "keypoints"), place));
+    for (const Keypoint& point : points) most = std::max(most, point.confidence);
+    people.push_back({frame->second, std::move(points)});
+  }
+  film.frames.resize(frames.size());
+  if (film.frames.empty()) return Fail(place, "no image");
+  for (CocoPerson& person : people) {
+    // Flags, when a 2 is among them; else scores.
+    for (Keypoint& point : person.points) point.confidence /= most > 1 ? 2 : 1;
+    ASSIGN_OR_RETURN(const SeenPerson seen, ToPerson(person.points, layout, names, place));
+    if (film.frames[person.frame].size() >= kMostPeople)
+      return Fail(place, "more than {} people in a frame", kMostPeople);
+    film.frames[person.frame].push_back(seen);
+  }
+  return film;
+}
+
+}  // namespace
+
+namespace {
+
+/// Takes keypoints within 0…1 as shares of the film's pictures.
+void Denormalise(const FilmOfKeypoints& of, PeopleOfFilm& film) {
+  constexpr double kMost = 1.1;
+  constexpr int kSmallPicture = 16;
+  if (of.width < kSmallPicture || of.height < kSmallPicture) return;
+  std::size_t seen = 0;
+  for (const auto& frame : film.frames) {
+    for (const SeenPerson& person : frame) {
+      for (const Keypoint& keypoint : person.keypoints) {
+        const glm::dvec2 p = keypoint.pixel - kOurPixelCentre;
+        if (keypoint.confidence <= 0) continue;
+        if (std::abs(p.x) > kMost || std::abs(p.y) > kMost) return;
+        ++seen;
+      }
+    }
+  }
+  if (seen == 0) return;
+  for (auto& frame : film.frames) {
+    for (SeenPerson& person : frame) {
+      for (Keypoint& keypoint : person.keypoints) {
+        keypoint.pixel = (keypoint.pixel - kOurPixelCentre) * glm::dvec2(of.width, of.height);
+      }
+    }
+  }
+  film.told = fmt::format("keypoints within 0 to 1 taken as shares of {} x {} pixels", of.width, of.height);
+}
+
+Result<PeopleOfFilm> ReadFile(const fs::path& file, const std::string& layout, const FilmOfKeypoints& of) {
+  ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(file));
+  ASSIGN_OR_RETURN(const Json json, ReadJson(WithNullForNan(text), file.string()));
+  const Place place{file.string()};
+  return IsKeypointList(json) ? ReadKeypointList(json, layout, of, place) : ReadCoco(json, layout, place);
+}
+
+}  // namespace
+
+Result<PeopleOfFilm> ReadKeypoints(const fs::path& path, const std::string& layout, const FilmOfKeypoints& of) {
+  ASSIGN_OR_RETURN(PeopleOfFilm film, fs::is_directory(path) ? ReadFolder(path, layout) : ReadFile(path, layout, of));
+  Denormalise(of, film);
+  return film;
+}
+
+Result<PeopleOfFilm> ReadMarkedPictures(const fs::path& folder) {
+  ASSIGN_OR_RETURN(const auto files, FilesIn(folder, ".png"));
+  PeopleOfFilm film;
+  for (const fs::path& file : files) {
+    ASSIGN_OR_RETURN(const ColourImage picture, LoadColourPng(file.string()));
+    if (film.width != 0 && (picture.width != film.width || picture.height != film.height)) {
+      return Fail({file.string()}, "{} x {} pixels, the pictures before it {} x {}", picture.width, picture.height,
+                  film.width, film.height);
+    }
+    film.width = picture.width;
+    film.height = picture.height;
+    const SeenPerson person = PersonOf(ReadMarks(picture));
+    film.frames.emplace_back();
+    if (HeightPx(person) > 0) film.frames.back().push_back(person);
+  }
+  return film;
+}
+
+Result<fs::path> EntryOfFilm(const fs::path& folder, const std::string& film) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    const bool begins = name.starts_with(film);
+    if (begins && (name.size() == film.size() || !std::isalnum(static_cast<unsigned char>(name[film.size()])))) {
+      found.push_back(entry.path());
+    }
+  }
+  std::ranges::sort(found);
+  if (error) return Fail({folder.string()}, "{}", error.message());
+  if (found.empty()) return Fail({folder.string()}, "nothing in it begins with the film's name {}", film);
+  if (found.size() > 1) {
+    return Fail({folder.string()}, "both {} and {} begin with the film's name {}", found[0].filename().string(),
+                found[1].filename().string(), film);
+  }
+  return found.front();
+}
+
+}  // namespace etude

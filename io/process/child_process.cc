@@ -1,0 +1,406 @@
+#include "io/process/child_process.h"
+
+#include <fcntl.h>
+#include <linux/close_range.h>
+#include <linux/sched.h>
+#include <poll.h>
+#include <sched.h>
+#include <signal.h>
+#include <sys/ioctl.h>
+#include <sys/mman.h>
+#include <sys/mount.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <set>
+#include <utility>
+
+#include "engine/base/machine.h"
+#include "io/process/pinned_environment.h"
+#include "io/process/process_tree.h"
+
+namespace etude {
+namespace {
+
+bool IsProgram(const std::string& path) {
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) && ::access(path.c_str(), X_OK) == 0;
+}
+
+constexpr int kChunksPerReceive = 16;  // a child that never stops talking must not keep us from looking at the clock
+
+std::vector<char*> Pointers(std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  for (std::string& text : texts) pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+constexpr int kNotContained = -1;  // in the place of an errno
+
+struct Pipe {
+  Descriptor read, write;
+};
+
+Result<Pipe> MakePipe() {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+    return Fail({kThisMachine}, "no pipe can be made: {}", std::strerror(errno));
+  return Pipe{Descriptor(ends[0]), Descriptor(ends[1])};
+}
+
+void Limit(__rlimit_resource resource, rlim_t most) {
+  rlimit limit{};
+  ::getrlimit(resource, &limit);
+  limit.rlim_max = std::min(limit.rlim_max, most);
+  limit.rlim_cur = std::min(limit.rlim_cur, limit.rlim_max);
+  ::setrlimit(resource, &limit);
+}
+
+/// Sets the limits that keep a program that is not ours within bounds wherever it runs.
+void LimitProgram() {
+  ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+  Limit(RLIMIT_FSIZE, ProgramLimits::kFileBytes);
+  Limit(RLIMIT_NOFILE, ProgramLimits::kOpenFiles);
+  Limit(RLIMIT_SIGPENDING, ProgramLimits::kPendingSignals);
+  Limit(RLIMIT_MEMLOCK, ProgramLimits::kLockedBytes);
+  Limit(RLIMIT_MSGQUEUE, 0);
+  Limit(RLIMIT_CORE, 1);  // at 1 the kernel starts no helper of the machine either, which it does at 0
+}
+
+/// The program that a forked child becomes, all made ready before: between fork and exec only system calls are safe.
+struct Becoming {
+  const char* path;
+  char* const* argv;
+  char* const* envp;
+  int input, output, errors;  ///< -1 = it keeps ours
+  int report;                 ///< where it writes why it cannot become the program
+  int parent;                 ///< a pidfd of ours
+  bool limited, contained;
+  std::string user_map, group_map;
+  std::vector<Descriptor> told;
+  std::vector<std::pair<const char*, std::string>> user_limits;  ///< files of /proc, and what is written to them
+};
+
+/// Forks into a space of processes of its own, with the privileges there (not here) that a fence needs to begin, and
+/// into a control group (-1 = none).
+pid_t ForkContained(int control_group) {
+  clone_args how{};
+  how.flags = CLONE_NEWUSER | CLONE_NEWPID | CLONE_NEWNS;
+  how.exit_signal = SIGCHLD;
+  if (control_group >= 0) {
+    how.flags |= CLONE_INTO_CGROUP;
+    how.cgroup = static_cast<std::uint64_t>(control_group);
+  }
+  return static_cast<pid_t>(::syscall(SYS_clone3, &how, sizeof how));
+}
+
+bool WriteTo(const char* path, std::string_view text) {
+  const int file = ::open(path, O_WRONLY | O_CLOEXEC);
+  const bool written = file >= 0 && ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  if (file >= 0) ::close(file);
+  return written;
+}
+
+/// Makes a new space of processes what a fence expects of the one around it: we are ourselves there, and /proc tells
+/// it. What the kernel counts by user for all that is inside gets limits there, so that the user keeps some of it.
+bool SettleIn(const Becoming& child) {
+  const bool has_settled = WriteTo("/proc/self/setgroups", "deny") && WriteTo("/proc/self/uid_map", child.user_map) &&
+                           WriteTo("/proc/self/gid_map", child.group_map) &&
+                           ::mount("proc", "/proc", "proc", MS_NOSUID | MS_NODEV | MS_NOEXEC, nullptr) == 0;
+  if (!has_settled || !child.limited) return has_settled;
+  for (const auto& [file, text] : child.user_limits) WriteTo(file, text);
+  return true;
+}
+
+[[noreturn]] void GiveUp(const Becoming& child, int reason) {
+  if (::write(child.report, &reason, sizeof reason) < 0) ::_exit(126);
+  ::_exit(127);
+}
+
+/// Turns a forked child into the program.
+[[noreturn]] void BecomeProgram(const Becoming& child) {
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // orphans below it stay below it, where they can be found
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  pollfd parent{child.parent, POLLIN, 0};
+  if (::poll(&parent, 1, 0) != 0) ::_exit(0);  // we died before the line above
+  for (const int number : {SIGINT, SIGTERM, SIGPIPE, SIGCHLD, SIGXFSZ}) ::signal(number, SIG_DFL);
+  if (child.contained && !SettleIn(child)) GiveUp(child, kNotContained);
+  if (child.limited) LimitProgram();
+  ::dup2(child.input, STDIN_FILENO);
+  ::dup2(child.output, STDOUT_FILENO);
+  if (child.errors >= 0) ::dup2(child.errors, STDERR_FILENO);
+  ::close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);
+  for (std::size_t i = 0; i < child.told.size(); ++i) {
+    const int wanted = STDERR_FILENO + 1 + static_cast<int>(i);
+    // Those of what is told were opened last, behind two pipes and the report: none is overwritten that is still
+    // wanted.
+    if (::dup2(child.told[i].number(), wanted) < 0 || ::lseek(wanted, 0, SEEK_SET) != 0) GiveUp(child, errno);
+  }
+  ::execve(child.path, child.argv, child.envp);
+  GiveUp(child, errno);
+}
+
+/// A file in memory that holds a text.
+Result<Descriptor> MakeFile(const std::string& text) {
+  Descriptor file(::memfd_create("text", MFD_CLOEXEC));
+  if (file.number() < 0 || ::write(file.number(), text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
+    return Fail({kThisMachine}, "no file in memory can be made: {}", std::strerror(errno));
+  }
+  return file;
+}
+
+/// Sets (NAME=VALUE) or removes (NAME) a variable of an environment.
+void Change(std::vector<std::string>& environment, const std::string& change) {
+  const std::string start = change.substr(0, change.find('=')) + "=";
+  std::erase_if(environment, [&](const std::string& text) { return text.starts_with(start); });
+  if (change.size() >= start.size()) environment.push_back(change);
+}
+
+/// Starts a program where the kernel grants it no space of its own.
+Result<ChildProcess> StartUncontained(ChildOptions options) {
+  options.contained = false;
+  return ChildProcess::Start(options);
+}
+
+/// The children of this process that are spoken to. Where it adopts orphans, all others are such.
+std::set<pid_t>& ManagedChildren() {
+  static std::set<pid_t> children;
+  return children;
+}
+
+/// Ends what a child that has ended left behind, if this process adopts it.
+void EndOrphans() {
+  int adopts = 0;
+  ::prctl(PR_GET_CHILD_SUBREAPER, &adopts);
+  if (adopts == 0) return;
+  constexpr int kMostLooks = 100;  // at orphans of orphans
+  bool found = true;
+  for (int i = 0; found && i < kMostLooks; ++i) {
+    found = false;
+    for (const pid_t child : ChildrenOf(::getpid())) {
+      if (ManagedChildren().contains(child)) continue;
+      found = true;
+      HeldTree(child).Kill();
+      ::waitpid(child, nullptr, 0);
+    }
+  }
+}
+
+/// The exit code as a shell, and a fence, tell it: a signal is one beyond 128.
+int ExitCode(int status) { return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status); }
+
+std::string DescribeEnd(int code) {
+  const int signal = code - 128;
+  if (signal <= 0 || signal >= NSIG) return fmt::format("exit code {}", code);
+  return fmt::format("signal {} ({})", signal, strsignal(signal));
+}
+
+}  // namespace
+
+Result<std::string> FindProgram(const std::string& name) {
+  if (name.find('/') != std::string::npos) {
+    if (::access(name.c_str(), F_OK) != 0) return Fail({name, 0, 0}, "no such program: {}", std::strerror(errno));
+    if (!IsProgram(name)) return Fail({name, 0, 0}, "is no program that may be executed");
+    return name;
+  }
+  const char* variable = ::getenv("PATH");
+  const std::string folders = variable != nullptr ? variable : "/usr/bin:/bin";
+  for (std::size_t start = 0; start <= folders.size();) {
+    const std::size_t end = std::min(folders.find(':', start), folders.size());
+    const std::string folder = end == start ? "." : folders.substr(start, end - start);
+    if (std::string path = folder + "/" + name; !name.empty() && IsProgram(path)) return path;
+    start = end + 1;
+  }
+  return Fail({}, "no program '{}' in PATH ({})", name, folders);
+}
+
+void AdoptOrphans() { ::prctl(PR_SET_CHILD_SUBREAPER, 1); }
+
+Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
+  ASSIGN_OR_RETURN(const auto path, FindProgram(options.program));
+  auto input = MakePipe(), output = MakePipe(), report = MakePipe();
+  for (const auto* pipe : {&input, &output, &report}) {
+    if (!*pipe) return tl::unexpected(pipe->error());
+  }
+  Descriptor errors;
+  if (!options.error_file.empty()) {
+    errors = Descriptor(::open(options.error_file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666));
+    if (errors.number() < 0) return CannotWrite(options.error_file, "cannot write", errno);
+  }
+  std::vector<std::string> argument_texts = {options.program};
+  argument_texts.insert(argument_texts.end(), options.arguments.begin(), options.arguments.end());
+  std::vector<std::string> environment_texts = ClosedEnvironment();
+  if (options.limited) Change(environment_texts, "PWD");
+  for (const std::string& change : options.environment) Change(environment_texts, change);
+  const std::vector<char*> argv = Pointers(argument_texts);
+  const std::vector<char*> envp = Pointers(environment_texts);
+  const Descriptor ourselves(static_cast<int>(::syscall(SYS_pidfd_open, ::getpid(), 0)));
+  if (ourselves.number() < 0) return Fail({kThisMachine}, "no process can be watched: {}", std::strerror(errno));
+  Becoming child{
+      .path = path.c_str(),
+      .argv = argv.data(),
+      .envp = envp.data(),
+      .input = input->read.number(),
+      .output = output->write.number(),
+      .errors = errors.number(),
+      .report = report->write.number(),
+      .parent = ourselves.number(),
+      .limited = options.limited,
+      .contained = options.contained,
+      .user_map = fmt::format("{0} {0} 1", ::geteuid()),
+      .group_map = fmt::format("{0} {0} 1", ::getegid()),
+      .told = {},
+      .user_limits = {{"/proc/sys/user/max_inotify_instances", std::to_string(ProgramLimits::kInotifyInstances)},
+                      {"/proc/sys/user/max_inotify_watches", std::to_string(ProgramLimits::kInotifyWatches)}}};
+  for (const std::string& text : options.told) {
+    ASSIGN_OR_RETURN(auto file, MakeFile(text));
+    child.told.push_back(std::move(file));
+  }
+  ::signal(SIGPIPE, SIG_IGN);
+  pid_t pid = options.contained ? ForkContained(options.control_group) : ::fork();
+  if (pid < 0 && options.control_group >= 0) pid = ForkContained(-1);
+  if (pid == 0) BecomeProgram(child);
+  if (pid < 0 && options.contained && errno != EAGAIN && errno != ENOMEM) return StartUncontained(options);
+  if (pid < 0) return Fail({kThisMachine}, "no process can be started: {}", std::strerror(errno));
+  ManagedChildren().insert(pid);
+  report->write.Close();
+  int reason = 0;
+  ssize_t count = 0;
+  while ((count = ::read(report->read.number(), &reason, sizeof reason)) < 0 && errno == EINTR) {
+  }
+  if (count > 0) {
+    ::waitpid(pid, nullptr, 0);
+    ManagedChildren().erase(pid);
+    if (reason == kNotContained) return StartUncontained(options);
+    return Fail({path, 0, 0}, "cannot be executed: {}", std::strerror(reason));
+  }
+  ::fcntl(input->write.number(), F_SETFL, O_NONBLOCK);
+  ::fcntl(output->read.number(), F_SETFL, O_NONBLOCK);
+  return ChildProcess(pid, input->write.Release(), output->read.Release());
+}
+
+ChildProcess::ChildProcess(ChildProcess&& other) noexcept { *this = std::move(other); }
+
+ChildProcess& ChildProcess::operator=(ChildProcess&& other) noexcept {
+  if (this != &other) {
+    Finish();
+    pid_ = std::exchange(other.pid_, -1);
+    input_ = std::exchange(other.input_, -1);
+    output_ = std::exchange(other.output_, -1);
+    broken_by_ = std::exchange(other.broken_by_, 0);
+    exit_code_ = std::exchange(other.exit_code_, -1);
+    unsent_ = std::move(other.unsent_);
+    sent_ = std::exchange(other.sent_, 0);
+    buffer_ = std::move(other.buffer_);
+    line_start_ = std::exchange(other.line_start_, 0);
+    scanned_ = std::exchange(other.scanned_, 0);
+  }
+  return *this;
+}
+
+ChildProcess::~ChildProcess() { Finish(); }
+
+bool ChildProcess::Send(const std::string& line) {
+  unsent_.erase(0, sent_);
+  sent_ = 0;
+  unsent_ += line;
+  unsent_ += '\n';
+  return SendOn();
+}
+
+bool ChildProcess::SendOn() {
+  while (HasUnsent()) {
+    const ssize_t count = ::write(input_, unsent_.data() + sent_, unsent_.size() - sent_);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return true;
+    if (count < 0) {  // nobody will ever take the rest
+      if (errno != EPIPE) broken_by_ = errno;
+      break;
+    }
+    sent_ += static_cast<std::size_t>(count);
+  }
+  const bool all_sent = !HasUnsent();
+  unsent_.clear();
+  sent_ = 0;
+  return all_sent;
+}
+
+std::size_t ChildProcess::UnreadBytes() const {
+  int in_pipe = 0;
+  if (::ioctl(input_, FIONREAD, &in_pipe) != 0) in_pipe = 0;
+  return static_cast<std::size_t>(in_pipe) + unsent_.size() - sent_;
+}
+
+bool ChildProcess::Receive(std::size_t longest_line) {
+  SendOn();  // a child that no longer listens may still have something to say
+  buffer_.erase(0, line_start_);
+  scanned_ -= line_start_;
+  line_start_ = 0;
+  std::array<char, 1 << 16> chunk;
+  for (int chunks = 0; chunks < kChunksPerReceive;) {
+    const ssize_t count = ::read(output_, chunk.data(), chunk.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) break;
+    if (count < 0) broken_by_ = errno;
+    if (count <= 0) return false;
+    buffer_.append(chunk.data(), static_cast<std::size_t>(count));
+    ++chunks;
+  }
+  if (broken_by_ != 0) return false;
+  return buffer_.size() <= longest_line || buffer_.find('\n', scanned_) != std::string::npos;
+}
+
+std::optional<std::string> ChildProcess::NextLine() {
+  const std::size_t end = buffer_.find('\n', scanned_);
+  if (end == std::string::npos) {
+    scanned_ = buffer_.size();
+    return std::nullopt;
+  }
+  std::string line = buffer_.substr(line_start_, end - line_start_);
+  line_start_ = scanned_ = end + 1;
+  return line;
+}
+
+ProcessUsage ChildProcess::MeasureAlone() const { return pid_ < 0 ? ProcessUsage{} : MeasureProcess(pid_); }
+
+pid_t ChildProcess::FirstStarted() const {
+  const std::vector<pid_t> started = pid_ < 0 ? std::vector<pid_t>() : ChildrenOf(pid_);
+  return started.empty() ? -1 : started.front();
+}
+
+bool ChildProcess::HasEnded() const {
+  siginfo_t info{};
+  if (pid_ < 0 || ::waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) != 0) return true;
+  return info.si_pid == pid_;
+}
+
+std::string ChildProcess::Finish(int patience_ms) {
+  if (pid_ < 0) return "not running";
+  HeldTree tree(pid_);  // descendants of a child that ended could not be found any more
+  ::close(input_);
+  for (int i = 0; i < patience_ms && !HasEnded(); ++i) ::usleep(1000);
+  ::close(output_);
+  tree.Kill();
+  ::kill(-pid_, SIGKILL);  // before it is reaped: until then its number, and so its group's, is nobody else's
+  int status = 0;
+  while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+  }
+  ManagedChildren().erase(pid_);
+  EndOrphans();
+  pid_ = input_ = output_ = -1;
+  exit_code_ = ExitCode(status);
+  return DescribeEnd(exit_code_);
+}
+
+}  // namespace etude

@@ -1,0 +1,169 @@
+#include "io/process/control_group.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+#include "io/process/child_process.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kPrefix = "etude-";  // then the process that made it, and its number there
+constexpr int kEndingMs = 100;                  // that the last process in a group takes to be gone
+
+bool Write(const fs::path& file, std::string_view text) {
+  const Descriptor opened(::open(file.c_str(), O_WRONLY | O_CLOEXEC));
+  return opened.number() >= 0 &&
+         ::write(opened.number(), text.data(), text.size()) == static_cast<ssize_t>(text.size());
+}
+
+/// The folder of the group that this process is in; "" without cgroup v2.
+fs::path OwnGroup(fs::path& top) {
+  std::istringstream groups(ReadProcFile("/proc/self/cgroup")), mounts(ReadProcFile("/proc/self/mountinfo"));
+  std::string own;
+  for (std::string line; std::getline(groups, line);) {
+    if (line.starts_with("0::/")) own = line.substr(3);
+  }
+  for (std::string line; !own.empty() && std::getline(mounts, line);) {
+    // "36 24 0:30 / /sys/fs/cgroup rw,nosuid - cgroup2 cgroup2 rw"
+    if (line.find(" - cgroup2 ") == std::string::npos) continue;
+    std::istringstream words(line);
+    std::string number, parent, device, root, mount;
+    words >> number >> parent >> device >> root >> mount;
+    const std::string start = root == "/" ? "" : root;
+    if (!own.starts_with(start)) continue;
+    top = mount;
+    return fs::path(mount + own.substr(start.size())).lexically_normal();
+  }
+  return {};
+}
+
+bool HasWord(const std::string& text, std::string_view wanted) {
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (word == wanted) return true;
+  }
+  return false;
+}
+
+/// True if groups below a folder count memory, and we may make some and start processes in them.
+bool IsPlace(const fs::path& folder) {
+  return HasWord(ReadProcFile((folder / "cgroup.subtree_control").string()), "memory") &&
+         ::access(folder.c_str(), W_OK) == 0 && ::access((folder / "cgroup.procs").c_str(), W_OK) == 0;
+}
+
+/// Makes our own group a place, if it is ours alone: a group that passes its controllers on holds no process itself.
+bool MakePlaceOf(const fs::path& own) {
+  const fs::path below = own / fmt::format("{}{}", kPrefix, ::getpid());
+  std::error_code error;
+  if (!HasWord(ReadProcFile((own / "cgroup.controllers").string()), "memory") || !fs::create_directory(below, error))
+    return false;
+  const std::string we = std::to_string(::getpid());
+  if (Write(below / "cgroup.procs", we)) {
+    if (Write(own / "cgroup.subtree_control", "+memory +pids") || Write(own / "cgroup.subtree_control", "+memory"))
+      return true;
+    Write(own / "cgroup.procs", we);
+  }
+  fs::remove(below, error);
+  return false;
+}
+
+/// Removes the groups of processes that are gone. Of others, and of those in which somebody still is, the kernel
+/// refuses it.
+void RemoveLeftGroups(const fs::path& place) {
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(place, error)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(kPrefix)) continue;
+    const int maker = std::atoi(name.c_str() + kPrefix.size());
+    if (maker > 0 && ::kill(maker, 0) != 0 && errno == ESRCH) ::rmdir(entry.path().c_str());
+  }
+}
+
+double NumberOf(const std::string& text, std::string_view name) {
+  const std::string start = fmt::format("\n{} ", name);
+  const std::size_t at = text.find(start);
+  return at == std::string::npos ? 0 : std::strtod(text.c_str() + at + start.size(), nullptr);
+}
+
+}  // namespace
+
+std::string ControlGroup::FindPlace() {
+  fs::path top;
+  const fs::path own = OwnGroup(top);
+  if (own.empty()) return "";
+  fs::path place;
+  if (IsPlace(own) || MakePlaceOf(own)) place = own;
+  for (fs::path above = own; place.empty() && above != top && above.has_relative_path();) {
+    above = above.parent_path();
+    if (IsPlace(above)) place = above;
+  }
+  if (!place.empty()) RemoveLeftGroups(place);
+  return place.string();
+}
+
+ControlGroup ControlGroup::Make(const std::string& place, double max_mb) {
+  static int made = 0;
+  ControlGroup group;
+  if (place.empty()) return group;
+  group.path_ = fmt::format("{}/{}{}-{}", place, kPrefix, ::getpid(), ++made);
+  std::error_code error;
+  if (!fs::create_directory(group.path_, error)) return {};
+  // Looks end a program that holds too much; the kernel ends one that takes it between two of them.
+  const double most_bytes = (1.25 * max_mb + 64) * (1 << 20);
+  const bool is_limited = Write(group.path_ + "/memory.max", fmt::format("{:.0f}", most_bytes)) &&
+                          Write(group.path_ + "/memory.oom.group", "1");
+  Write(group.path_ + "/pids.max", std::to_string(ProgramLimits::kThreads));
+  group.folder_ = Descriptor(is_limited ? ::open(group.path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1);
+  if (!group.IsUp()) ::rmdir(group.path_.c_str());
+  return group;
+}
+
+ControlGroup& ControlGroup::operator=(ControlGroup&& other) noexcept {
+  if (this != &other) {
+    Remove();
+    path_ = std::move(other.path_);
+    folder_ = std::move(other.folder_);
+  }
+  return *this;
+}
+
+double ControlGroup::HeldMb() const {
+  const std::string stat = "\n" + Read("memory.stat");
+  double bytes = NumberOf(stat, "anon") + NumberOf(stat, "shmem") + NumberOf(stat, "sock") +
+                 std::strtod(Read("memory.swap.current").c_str(), nullptr);
+  if (const double kernel = NumberOf(stat, "kernel"); kernel > 0) {
+    bytes += kernel - NumberOf(stat, "slab_reclaimable");
+  } else {  // before Linux 5.18
+    for (const char* part : {"kernel_stack", "pagetables", "percpu", "slab_unreclaimable"})
+      bytes += NumberOf(stat, part);
+  }
+  return bytes / (1 << 20);
+}
+
+bool ControlGroup::WasFull() const {
+  const std::string events = "\n" + Read("memory.events");
+  return NumberOf(events, "oom_kill") > 0;
+}
+
+std::string ControlGroup::Read(const char* name) const { return ReadProcFile(fmt::format("{}/{}", path_, name)); }
+
+void ControlGroup::Remove() {
+  if (!IsUp()) return;
+  folder_.Close();
+  for (int i = 0; i < kEndingMs && ::rmdir(path_.c_str()) != 0 && errno == EBUSY; ++i) ::usleep(1000);
+}
+
+}  // namespace etude

@@ -1,0 +1,260 @@
+#include "io/process/fence.h"
+
+#include <fmt/core.h>
+#include <linux/magic.h>
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/statfs.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string_view>
+
+#include "engine/base/machine.h"
+#include "io/process/child_process.h"
+#include "io/process/control_group.h"
+#include "io/process/system_call_filter.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kTrialMs = 5000;
+constexpr double kNameBytes = 700, kInodeBytes = 900;  // of a temporary file, as measured on Linux 6.18; of long names
+
+/// The folders that every program sees: the system's programs, libraries and settings.
+constexpr std::array kSystem = {"/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/etc", "/opt", "/nix"};
+/// Folders to write to, empty at first.
+constexpr std::array kScratch = {"/tmp", "/var/tmp", "/dev/shm"};
+
+bool IsWithin(const fs::path& path, const fs::path& folder) {
+  const auto [at_folder, at_path] = std::ranges::mismatch(folder, path);
+  return at_folder == folder.end();
+}
+
+void Add(std::vector<std::string>& words, std::initializer_list<std::string> more) {
+  words.insert(words.end(), more.begin(), more.end());
+}
+
+/// What a program inside is told beside the closed environment: of our folders and of the user nothing.
+std::vector<std::string> Environment(const std::vector<fs::path>& shown) {
+  std::string folders;
+  const char* variable = ::getenv("PATH");
+  std::istringstream words(variable != nullptr ? variable : "");
+  for (std::string folder; std::getline(words, folder, ':');) {
+    const bool is_seen = Fence::IsOfSystem(folder) ||
+                         std::ranges::any_of(shown, [&](const fs::path& one) { return IsWithin(folder, one); });
+    if (is_seen) folders += (folders.empty() ? "" : ":") + folder;
+  }
+  return {fmt::format("PATH={}", folders),
+          fmt::format("HOME={}", kScratch[0]),
+          fmt::format("TMPDIR={}", kScratch[0]),
+          "USER",
+          "LOGNAME",
+          "SHELL"};
+}
+
+/// Sets the one limit that must be set inside: the kernel counts a user's threads by namespace.
+std::vector<std::string> Limiter() {
+  const auto prlimit = FindProgram("prlimit");
+  rlimit ours{};
+  if (!prlimit || ::getrlimit(RLIMIT_NPROC, &ours) != 0) return {};
+  const std::uint64_t threads = std::min<std::uint64_t>(ours.rlim_max, ProgramLimits::kThreads);
+  return {*prlimit, fmt::format("--nproc={0}:{0}", threads), "--"};
+}
+
+/// Lists what users other than root could not read, where this process is root, and sockets and named pipes, which can
+/// be written to through a read-only mount: of the folders in which an administrator puts settings and programs, and of
+/// /proc. Walks them, which takes some 5 ms per 1000 files.
+std::vector<fs::path> KeptFromUsers() {
+  const bool is_root = ::geteuid() == 0;
+  std::vector<fs::path> kept;
+  for (const char* root : {"/etc", "/opt", "/usr/local", "/nix/var", "/proc"}) {
+    const bool is_proc = root == std::string_view("/proc");
+    if (is_proc && !is_root) continue;
+    std::error_code error;
+    fs::recursive_directory_iterator at(root, fs::directory_options::skip_permission_denied, error), end;
+    for (; !error && at != end; at.increment(error)) {
+      const fs::path& path = at->path();
+      // A fence has processes and network settings of its own.
+      const std::string name = path.filename().string();
+      const bool is_process = name.find_first_not_of("0123456789") == std::string::npos || name.ends_with("self");
+      if (is_proc && ((at.depth() == 0 && is_process) || path == "/proc/sys/net")) {
+        at.disable_recursion_pending();
+        continue;
+      }
+      std::error_code gone;
+      const fs::file_status status = at->symlink_status(gone);
+      if (gone || fs::is_symlink(status)) continue;
+      const fs::perms needed =
+          fs::is_directory(status) ? fs::perms::others_read | fs::perms::others_exec : fs::perms::others_read;
+      const fs::perms permissions = status.permissions();
+      const bool is_secret =
+          is_root && (permissions & needed) != needed && (permissions & fs::perms::owner_read) != fs::perms::none;
+      if (!is_secret && !fs::is_socket(status) && !fs::is_fifo(status)) continue;
+      kept.push_back(path);
+      at.disable_recursion_pending();
+    }
+  }
+  return kept;
+}
+
+/// The first line that a fenced command says, a refusal of the fence among them; "" when it says none in time.
+std::string FirstLineOf(const Fence& fence, const std::vector<std::string>& command) {
+  std::vector<std::string> words = {"-c", R"(exec "$0" "$@" 2>&1)"};
+  FencedCommand fenced = fence.Around(command, {});
+  words.insert(words.end(), fenced.words.begin(), fenced.words.end());
+  auto child = ChildProcess::Start({.program = "sh",
+                                    .arguments = std::move(words),
+                                    .contained = true,
+                                    .told = std::move(fenced.told),
+                                    .environment = std::move(fenced.environment)});
+  if (!child) return ToString(child.error());
+  pollfd watched{child->output(), POLLIN, 0};
+  for (bool open = true; open && ::poll(&watched, 1, kTrialMs) > 0;) {
+    open = child->Receive();
+    if (auto line = child->NextLine()) return *line;
+  }
+  return "";
+}
+
+}  // namespace
+
+Fence Fence::Of(const std::string& program, std::vector<fs::path> kept, std::string groups) {
+  Fence fence;
+  fence.program_ = program;
+  fence.kept_ = std::move(kept);
+  fence.groups_ = std::move(groups);
+  return fence;
+}
+
+Fence Fence::Find() {
+  Fence none;
+  const auto program = FindProgram("bwrap");
+  if (!program) {
+    none.description_ = "none (bubblewrap is not installed)";
+    return none;
+  }
+  Fence fence = Of(*program);
+  // It tells its version from within the whole fence.
+  const std::string said = FirstLineOf(fence, {*program, "--version"});
+  fence.description_ = said;
+  if (said.starts_with("bubblewrap ")) {
+    fence.kept_ = KeptFromUsers();
+    fence.groups_ = ControlGroup::FindPlace();
+    return fence;
+  }
+  none.description_ = fmt::format("none ({})", said.empty() ? "bubblewrap says nothing" : said);
+  return none;
+}
+
+std::string Fence::MemoryDescription() const {
+  return groups_.empty() ? "counted by shares of pages, 50 times a second" : "counted by the kernel (cgroup v2)";
+}
+
+Result<void> Fence::Try() const {
+  if (!IsUp()) return {};
+  const std::string said = FirstLineOf(*this, {program_, "--version"});
+  if (said.starts_with("bubblewrap ")) return {};
+  return Fail({kThisMachine}, "nothing can be run in the fence: {}", said.empty() ? "it says nothing" : said);
+}
+
+ScratchUse Fence::MeasureScratch(pid_t inside) const {
+  ScratchUse use;
+  if (!IsUp()) return use;
+  constexpr double kMb = 1 << 20;
+  std::set<dev_t> seen;  // a folder may be one with another, or not be there yet
+  if (struct stat ours{}; ::stat(kScratch[0], &ours) == 0) seen.insert(ours.st_dev);
+  for (const char* folder : kScratch) {
+    const std::string path = fmt::format("/proc/{}/root{}", inside, folder);
+    struct stat status {};
+    struct statfs system {};
+    if (::stat(path.c_str(), &status) != 0 || !seen.insert(status.st_dev).second) continue;
+    if (::statfs(path.c_str(), &system) != 0 || system.f_type != TMPFS_MAGIC) continue;
+    use.mb += static_cast<double>(system.f_blocks - system.f_bfree) * static_cast<double>(system.f_bsize) / kMb;
+    const auto files = static_cast<double>(system.f_files - system.f_ffree);
+    use.names_mb += files * kNameBytes / kMb;
+    use.inodes_mb += files * kInodeBytes / kMb;
+  }
+  return use;
+}
+
+bool Fence::IsOfSystem(const fs::path& path) {
+  return std::ranges::any_of(kSystem, [&](const char* folder) { return IsWithin(path, folder); });
+}
+
+bool Fence::HoldsScratch(const fs::path& folder) {
+  return std::ranges::any_of(kScratch, [&](const char* scratch) { return IsWithin(scratch, folder); });
+}
+
+FencedCommand Fence::Around(const std::vector<std::string>& command, const std::vector<fs::path>& shown,
+                            const fs::path& start) const {
+  if (!IsUp()) return {command};
+  std::vector<std::string> words = {"--unshare-user", "--unshare-pid", "--unshare-ipc", "--unshare-net"};
+  Add(words, {"--unshare-uts", "--unshare-cgroup-try", "--disable-userns", "--cap-drop", "ALL"});
+  Add(words, {"--new-session", "--die-with-parent", "--proc", "/proc", "--tmpfs", "/dev"});
+  // Not bubblewrap's --dev, which has terminals (/dev/pts): their number is one pool of the machine.
+  for (const char* device : {"/dev/null", "/dev/zero", "/dev/full", "/dev/random", "/dev/urandom", "/dev/tty"}) {
+    Add(words, {"--dev-bind-try", device, device});
+  }
+  Add(words, {"--symlink", "/proc/self/fd", "/dev/fd", "--symlink", "/proc/self/fd/0", "/dev/stdin"});
+  Add(words, {"--symlink", "/proc/self/fd/1", "/dev/stdout", "--symlink", "/proc/self/fd/2", "/dev/stderr"});
+  Add(words, {"--ro-bind-try", "/sys/devices/system", "/sys/devices/system"});
+  const std::string scratch_bytes = std::to_string(ProgramLimits::kFileBytes);
+  for (const char* folder : kScratch) Add(words, {"--size", scratch_bytes, "--tmpfs", folder});
+  Add(words, {"--dir", "/run"});
+  std::error_code error;
+  for (const char* folder : kSystem) {
+    const bool is_link = fs::is_symlink(folder, error);
+    const std::string target = is_link ? fs::read_symlink(folder, error).string() : folder;
+    Add(words, {is_link ? "--symlink" : "--ro-bind-try", target, folder});
+  }
+  // In this order a folder comes before what it holds. What lies in no folder that is seen needs no hiding, which would
+  // tell its name.
+  std::map<fs::path, bool> is_shown;
+  for (const fs::path& path : shown) is_shown.emplace(path, true);
+  const auto is_within_shown = [&](const fs::path& path) {
+    return std::ranges::any_of(shown, [&](const fs::path& one) { return IsWithin(path, one); });
+  };
+  for (const fs::path& path : hidden_) {
+    const bool is_seen = IsOfSystem(path) || (is_within_shown(path) && !HoldsScratch(path));
+    if (is_seen && fs::exists(path, error)) is_shown.insert_or_assign(path, false);
+  }
+  for (const fs::path& path : kept_) {
+    if (!is_within_shown(path) && fs::exists(path, error)) is_shown.emplace(path, false);
+  }
+  std::vector<std::string> masks;
+  for (const auto& [path, is_seen] : is_shown) {
+    if (is_seen) {
+      Add(words, {"--ro-bind", path.string(), path.string()});
+    } else if (fs::is_directory(path, error)) {
+      Add(words, {"--tmpfs", path.string()});
+      Add(masks, {"--remount-ro", path.string()});
+    } else {
+      Add(words, {"--ro-bind", "/dev/null", path.string()});
+    }
+  }
+  words.insert(words.end(), masks.begin(), masks.end());
+  for (const char* folder : {"/dev", "/proc", "/"}) Add(words, {"--remount-ro", folder});
+  Add(words, {"--chdir", start.empty() ? kScratch[0] : start.string()});
+  std::string filter = SystemCallFilter();
+  if (!filter.empty()) Add(words, {"--seccomp", "4"});
+  FencedCommand fenced{{program_, "--args", "3", "--"}, {""}, Environment(shown)};
+  for (const std::string& word : words) fenced.told[0] += word + '\0';
+  if (!filter.empty()) fenced.told.push_back(std::move(filter));
+  const std::vector<std::string> limiter = Limiter();
+  fenced.words.insert(fenced.words.end(), limiter.begin(), limiter.end());
+  fenced.words.insert(fenced.words.end(), command.begin(), command.end());
+  return fenced;
+}
+
+}  // namespace etude

@@ -1,0 +1,136 @@
+#include "io/process/process_tree.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <signal.h>
+#include <sys/syscall.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+namespace etude {
+namespace {
+
+constexpr std::size_t kMostProcesses = 4096;
+
+/// Adds the children that any thread of `parent` has started.
+void AddChildren(pid_t parent, std::vector<pid_t>& processes) {
+  const std::string folder = fmt::format("/proc/{}/task", parent);
+  DIR* threads = ::opendir(folder.c_str());
+  if (threads == nullptr) return;
+  while (const dirent* thread = ::readdir(threads)) {
+    if (thread->d_name[0] == '.') continue;
+    const std::string children = ReadProcFile(fmt::format("{}/{}/children", folder, thread->d_name));
+    const char* at = children.c_str();
+    for (char* end = nullptr; processes.size() < kMostProcesses; at = end) {
+      const long child = std::strtol(at, &end, 10);
+      if (end == at) break;
+      processes.push_back(static_cast<pid_t>(child));
+    }
+  }
+  ::closedir(threads);
+}
+
+/// The CPU time of a process alone, to the nanosecond, where /proc/<pid>/stat counts in hundredths of a second.
+double OwnCpuSeconds(pid_t process) {
+  clockid_t clock;
+  timespec time;
+  if (::clock_getcpuclockid(process, &clock) != 0 || ::clock_gettime(clock, &time) != 0) return 0;
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+constexpr int kMostLooks = 100;  // at a tree that grows while it is held
+
+bool Signal(const Descriptor& process, int signal) {
+  return ::syscall(SYS_pidfd_send_signal, process.number(), signal, nullptr, 0) == 0;
+}
+
+}  // namespace
+
+std::string ReadProcFile(const std::string& path, std::size_t max_bytes) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return "";
+  std::string text;
+  std::array<char, 4096> chunk;
+  for (ssize_t count; text.size() < max_bytes && (count = ::read(file, chunk.data(), chunk.size())) > 0;) {
+    text.append(chunk.data(), static_cast<std::size_t>(count));
+  }
+  ::close(file);
+  return text;
+}
+
+ProcessUsage MeasureProcess(pid_t process) {
+  const std::string stat = ReadProcFile(fmt::format("/proc/{}/stat", process));
+  // The second field, the program's name in parentheses, may hold anything; numbers follow the last one.
+  const std::size_t name_end = stat.rfind(')');
+  if (name_end == std::string::npos) return {};
+  unsigned long faults = 0;
+  long user_waited_for = 0, system_waited_for = 0, resident_pages = 0;
+  const int read = std::sscanf(stat.c_str() + name_end + 1,
+                               " %*c %*s %*s %*s %*s %*s %*s %lu %*s %*s %*s %*s %*s"  // fields 3 to 15, of them 10
+                               " %ld %ld %*s %*s %*s %*s %*s %*s %ld",                 // 16, 17, 24
+                               &faults, &user_waited_for, &system_waited_for, &resident_pages);
+  if (read != 4) return {};
+  static const double seconds_per_tick = 1.0 / static_cast<double>(::sysconf(_SC_CLK_TCK));
+  static const double mb_per_page = static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1024 * 1024);
+  const double own_cpu_s = OwnCpuSeconds(process);
+  return {static_cast<double>(resident_pages) * mb_per_page,
+          own_cpu_s + static_cast<double>(user_waited_for + system_waited_for) * seconds_per_tick, faults, 1,
+          own_cpu_s};
+}
+
+std::vector<pid_t> ChildrenOf(pid_t parent) {
+  std::vector<pid_t> children;
+  AddChildren(parent, children);
+  return children;
+}
+
+std::vector<pid_t> ProcessTree(pid_t root) {
+  std::vector<pid_t> processes = {root};
+  for (std::size_t i = 0; i < processes.size(); ++i) AddChildren(processes[i], processes);
+  return processes;
+}
+
+HeldTree::HeldTree(pid_t root) {
+  AddTree(root);
+  for (int i = 0; i < kMostLooks && Grow(); ++i) {
+  }
+}
+
+void HeldTree::Kill() {
+  // A stopped process starts no other, but may have just forked: stop and list until two passes find nothing new.
+  for (int i = 0, quiet = 0; i < kMostLooks && quiet < 2; ++i) {
+    SignalAll(SIGSTOP);
+    quiet = Grow() ? 0 : quiet + 1;
+  }
+  SignalAll(SIGKILL);
+}
+
+bool HeldTree::Grow() {
+  const std::size_t before = processes_.size();
+  for (std::size_t i = 0; i < before; ++i) {
+    constexpr int kOnlyAsk = 0;
+    if (Signal(processes_[i].handle, kOnlyAsk)) AddTree(processes_[i].number);
+  }
+  return processes_.size() > before;
+}
+
+void HeldTree::AddTree(pid_t root) {
+  for (const pid_t number : ProcessTree(root)) {
+    const bool known = std::any_of(processes_.begin(), processes_.end(),
+                                   [&](const Process& process) { return process.number == number; });
+    if (!known) processes_.push_back({number, Descriptor(static_cast<int>(::syscall(SYS_pidfd_open, number, 0)))});
+  }
+}
+
+void HeldTree::SignalAll(int signal) const {
+  for (const Process& process : processes_) Signal(process.handle, signal);
+}
+
+}  // namespace etude

@@ -1,0 +1,288 @@
+#include "io/process/tree_meter.h"
+
+#include <dirent.h>
+#include <fmt/core.h>
+#include <linux/kcmp.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <iterator>
+#include <numeric>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "io/process/process_tree.h"
+
+namespace etude {
+namespace {
+
+constexpr double kMb = 1 << 20;
+
+// What the kernel keeps for each, as measured on Linux 6.18 (docs/outside-methods.md).
+constexpr double kThreadMb = 25e3 / kMb, kMappingMb = 250 / kMb, kLockMb = 250 / kMb;
+
+constexpr std::size_t kFewDescriptors = 256;   // from here on pipes are told from other files
+constexpr std::size_t kFewSockets = 64;        // from here on each counts as full
+constexpr std::size_t kMaxMappings = 1 << 20;  // that one look reads
+constexpr std::size_t kMaxLockBytes = 4 << 20;
+constexpr int kMaxLooksUnseen = 3;
+
+/// A number of kB, or of what else, that a line of /proc's gives; 0 when there is no such line.
+double FieldOf(std::string_view text, std::string_view name) {
+  const std::size_t at = text.find(name);
+  return at == std::string_view::npos ? 0
+                                      : static_cast<double>(std::strtoull(text.data() + at + name.size(), nullptr, 10));
+}
+
+/// The memory of one process, as /proc/<pid>/status tells it: pages that others share count in full.
+struct ProcessBound {
+  double private_mb = 0;  ///< anonymous pages and pages of files, resident or swapped out
+  double shared_mb = 0;   ///< of shared memory and temporary files
+  double page_tables_mb = 0;
+  std::size_t threads = 0, descriptors = 0;
+};
+
+std::size_t CountDescriptors(pid_t process, std::string_view status) {
+  const std::string folder = fmt::format("/proc/{}/fd", process);
+  struct stat told {};
+  if (::stat(folder.c_str(), &told) == 0 && told.st_size > 0) return static_cast<std::size_t>(told.st_size);
+  DIR* files = ::opendir(folder.c_str());  // before Linux 6.2
+  if (files == nullptr) return static_cast<std::size_t>(FieldOf(status, "\nFDSize:"));
+  std::size_t count = 0;
+  while (const dirent* file = ::readdir(files)) count += file->d_name[0] != '.' ? 1 : 0;
+  ::closedir(files);
+  return count;
+}
+
+ProcessBound BoundOf(pid_t process) {
+  const std::string status = ReadProcFile(fmt::format("/proc/{}/status", process));
+  const auto mb = [&](std::string_view name) { return FieldOf(status, name) / 1024; };
+  return {mb("\nRssAnon:") + mb("\nRssFile:") + mb("\nVmSwap:"), mb("\nRssShmem:"), mb("\nVmPTE:"),
+          static_cast<std::size_t>(FieldOf(status, "\nThreads:")), CountDescriptors(process, status)};
+}
+
+/// The private memory of a process in which a page that n processes map counts as 1/n; `bound_mb` where the kernel does
+/// not tell.
+double ProportionalMb(pid_t process, double bound_mb) {
+  const std::string shares = ReadProcFile(fmt::format("/proc/{}/smaps_rollup", process));
+  if (shares.empty()) return ::access(fmt::format("/proc/{}", process).c_str(), F_OK) == 0 ? bound_mb : 0;
+  return (FieldOf(shares, "\nPss_Anon:") + FieldOf(shares, "\nPss_File:") + FieldOf(shares, "\nSwapPss:")) / 1024;
+}
+
+/// Counts the pipes, named ones too, that processes hold open. Files of a process that nobody may look at count as
+/// such.
+std::size_t CountPipes(const std::vector<pid_t>& processes) {
+  std::set<std::pair<dev_t, ino_t>> pipes;
+  std::size_t hidden = 0;
+  for (const pid_t process : processes) {
+    const std::string folder = fmt::format("/proc/{}/fd", process);
+    DIR* files = ::opendir(folder.c_str());
+    if (files == nullptr) {
+      if (errno != EACCES) continue;  // it has ended
+      hidden += CountDescriptors(process, ReadProcFile(fmt::format("/proc/{}/status", process)));
+      continue;
+    }
+    while (const dirent* file = ::readdir(files)) {
+      struct stat status {};
+      if (::fstatat(::dirfd(files), file->d_name, &status, 0) == 0 && S_ISFIFO(status.st_mode)) {
+        pipes.emplace(status.st_dev, status.st_ino);
+      }
+    }
+    ::closedir(files);
+  }
+  return pipes.size() + hidden;
+}
+
+/// Counts the locks of files that processes hold or wait for.
+std::size_t CountLocks(const std::vector<pid_t>& processes) {
+  const std::set<pid_t> ours(processes.begin(), processes.end());
+  const std::string locks = ReadProcFile("/proc/locks", kMaxLockBytes);
+  std::size_t count = 0;
+  for (std::size_t at = 0, end = 0; at < locks.size(); at = end + 1) {
+    end = std::min(locks.find('\n', at), locks.size());
+    // "1: POSIX  ADVISORY  WRITE 1234 fe:00:5678 0 EOF"; "1: -> …" waits for the one before
+    std::array<char, 64> line{};
+    locks.copy(line.data(), std::min(end - at, line.size() - 1), at);
+    int owner = 0;
+    const char* rest = std::strstr(line.data(), "ADVISORY");
+    if (rest != nullptr && std::sscanf(rest, "%*s %*s %d", &owner) == 1 && ours.contains(owner)) ++count;
+  }
+  return count;
+}
+
+/// Counts the sockets of the network namespace of a process.
+std::size_t CountSockets(pid_t process) {
+  return static_cast<std::size_t>(
+      FieldOf(ReadProcFile(fmt::format("/proc/{}/net/sockstat", process)), "sockets: used "));
+}
+
+/// The bytes that wait in the queues of all TCP sockets in the network namespace of a process.
+double QueuedTcpBytes(pid_t process) {
+  double bytes = 0;
+  for (const char* name : {"tcp", "tcp6"}) {
+    const std::string table = ReadProcFile(fmt::format("/proc/{}/net/{}", process, name));
+    for (std::size_t at = table.find('\n'); at != std::string::npos; at = table.find('\n', at + 1)) {
+      unsigned long sent = 0, received = 0;
+      if (std::sscanf(table.c_str() + at + 1, " %*s %*s %*s %*s %lx:%lx", &sent, &received) == 2) {
+        bytes += static_cast<double>(sent + received);
+      }
+    }
+  }
+  return bytes;
+}
+
+/// What a socket of any other kind can hold: programs in a fence cannot set it.
+double FullSocketMb() {
+  static const double size = std::atof(ReadProcFile("/proc/sys/net/core/wmem_default").c_str()) / kMb;
+  return size;
+}
+
+bool HasOwnNetwork(pid_t process) {
+  struct stat theirs {
+  }, ours{};
+  return ::stat(fmt::format("/proc/{}/ns/net", process).c_str(), &theirs) == 0 &&
+         ::stat("/proc/self/ns/net", &ours) == 0 && theirs.st_ino != ours.st_ino;
+}
+
+/// Adds a part to a set of parts that do not touch.
+void AddPart(std::map<std::uint64_t, std::uint64_t>& parts, std::uint64_t begin, std::uint64_t end) {
+  auto next = parts.upper_bound(begin);
+  if (next != parts.begin() && std::prev(next)->second >= begin) --next;
+  while (next != parts.end() && next->first <= end) {
+    begin = std::min(begin, next->first);
+    end = std::max(end, next->second);
+    next = parts.erase(next);
+  }
+  parts[begin] = end;
+}
+
+}  // namespace
+
+TreeLoad TreeMeter::Count() {
+  processes_ = ProcessTree(root_);
+  bounds_mb_.clear();
+  const TreeLoad before = std::exchange(load_, {});
+  page_tables_mb_ = most_shared_mb_ = 0;
+
+  // What two small files of each process tell.
+  std::map<pid_t, std::uint64_t> faults;
+  for (const pid_t process : processes_) {
+    const ProcessUsage usage = MeasureProcess(process);
+    const ProcessBound bound = BoundOf(process);
+    load_.cpu_s += usage.cpu_s;
+    load_.processes += usage.processes;
+    load_.threads += bound.threads;
+    load_.descriptors += bound.descriptors;
+    const auto known = faults_.find(process);
+    touched_pages_ += usage.faults - (known == faults_.end() ? 0 : std::min(known->second, usage.faults));
+    faults[process] = usage.faults;
+    bounds_mb_.push_back(bound.private_mb);
+    page_tables_mb_ += bound.page_tables_mb;
+    most_shared_mb_ = std::max(most_shared_mb_, bound.shared_mb);
+  }
+  faults_ = std::move(faults);
+  least_since_mb_ = std::min(least_since_mb_, most_shared_mb_);
+  peak_since_mb_ = std::max(peak_since_mb_, most_shared_mb_);
+
+  // What the kernel keeps lists of, which may be long.
+  load_.sockets = before.sockets;
+  load_.file_locks = before.file_locks;
+  load_.pipes = before.pipes;
+  if (const Clock::time_point start = Clock::now(); kernel_pace_.IsDue(start)) {
+    const bool has_network = processes_.size() > 1 && HasOwnNetwork(processes_[1]);
+    load_.sockets = has_network ? CountSockets(processes_[1]) : 0;
+    tcp_mb_ = has_network ? QueuedTcpBytes(processes_[1]) / kMb : 0;
+    load_.file_locks = CountLocks(processes_);
+    kernel_pace_.Took(start);
+  }
+  if (load_.descriptors <= kFewDescriptors) {
+    load_.pipes = 0;
+  } else if (const Clock::time_point start = Clock::now(); pipes_pace_.IsDue(start)) {
+    load_.pipes = CountPipes(processes_);
+    pipes_pace_.Took(start);
+  }
+  return load_;
+}
+
+double TreeMeter::HeldMb(double scratch_mb, double precise_from_mb) {
+  if (const Clock::time_point start = Clock::now(); mappings_pace_.IsDue(start)) {
+    LookAtMappings();
+    mappings_pace_.Took(start);
+  }
+  double shared_mb = scratch_mb;
+  for (const auto& [inode, memory] : shared_) shared_mb += memory.Mb();
+  const auto full_sockets = static_cast<double>(std::max(load_.sockets, kFewSockets) - kFewSockets);
+  const double others_mb = std::max(shared_mb, most_shared_mb_) + page_tables_mb_ +
+                           kThreadMb * static_cast<double>(load_.threads) +
+                           kMappingMb * static_cast<double>(mappings_) +
+                           kLockMb * static_cast<double>(load_.file_locks) + FullSocketMb() * full_sockets + tcp_mb_;
+
+  // A process gets a page of its own by touching it, and the bound grows by that unless another page goes.
+  static const double mb_per_page = static_cast<double>(::sysconf(_SC_PAGESIZE)) / kMb;
+  const double bound_mb = std::accumulate(bounds_mb_.begin(), bounds_mb_.end(), 0.0);
+  const double touched_mb = static_cast<double>(touched_pages_ - precise_.touched_pages) * mb_per_page;
+  double private_mb = std::min(bound_mb, precise_.private_mb + std::max(bound_mb - precise_.bound_mb, touched_mb));
+  if (private_mb + others_mb > precise_from_mb) {
+    private_mb = 0;
+    for (std::size_t i = 0; i < processes_.size(); ++i) {
+      if (!SharesMemoryBefore(i)) private_mb += ProportionalMb(processes_[i], bounds_mb_[i]);
+    }
+    precise_ = {private_mb, bound_mb, touched_pages_};
+  }
+  return private_mb + others_mb;
+}
+
+bool TreeMeter::SharesMemoryBefore(std::size_t at) const {
+  for (std::size_t i = 0; i < at; ++i) {
+    if (std::abs(bounds_mb_[i] - bounds_mb_[at]) > 1) continue;
+    if (::syscall(SYS_kcmp, processes_[i], processes_[at], KCMP_VM, 0, 0) == 0) return true;
+  }
+  return false;
+}
+
+double TreeMeter::SharedMemory::Mb() const {
+  double mb = hidden_mb;
+  for (const auto& [begin, end] : parts) mb += static_cast<double>(end - begin) / kMb;
+  return mb;
+}
+
+void TreeMeter::LookAtMappings() {
+  for (auto& [inode, memory] : shared_) ++memory.looks_unseen;
+  mappings_ = 0;
+  std::size_t looked_at = 0;
+  for (const pid_t process : processes_) {
+    const std::string maps = ReadProcFile(fmt::format("/proc/{}/maps", process));
+    mappings_ += static_cast<std::size_t>(std::ranges::count(maps, '\n'));
+    constexpr std::string_view kName = "/dev/zero (deleted)\n";  // what the kernel calls them
+    for (std::size_t at = 0; (at = maps.find(kName, at)) != std::string::npos; at += kName.size()) {
+      unsigned long begin = 0, end = 0, offset = 0, inode = 0;
+      const char* line = maps.c_str() + maps.rfind('\n', at) + 1;  // npos + 1 = 0
+      if (std::sscanf(line, "%lx-%lx %*2c%*c%*1[s] %lx %*s %lu", &begin, &end, &offset, &inode) != 4) continue;
+      AddPart(shared_[inode].parts, offset, offset + (end - begin));
+      shared_[inode].looks_unseen = 0;
+    }
+    if (++looked_at; mappings_ > kMaxMappings) break;
+  }
+  mappings_ = mappings_ * processes_.size() / std::max<std::size_t>(looked_at, 1);
+  // A process that was started while we looked may have the only mapping left.
+  std::erase_if(shared_, [](const auto& one) { return one.second.looks_unseen > kMaxLooksUnseen; });
+
+  // Pages that came and went since the last look may be held by any of the new ones.
+  double gone_mb = std::exchange(peak_since_mb_, most_shared_mb_) - std::exchange(least_since_mb_, most_shared_mb_);
+  for (const auto& [inode, memory] : shared_) gone_mb -= memory.is_new ? memory.Mb() : 0;
+  for (auto& [inode, memory] : shared_) {
+    if (std::exchange(memory.is_new, false)) memory.hidden_mb = std::max(gone_mb, 0.0);
+  }
+}
+
+}  // namespace etude

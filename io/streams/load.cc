@@ -1,0 +1,180 @@
+#include "io/streams/load.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "engine/recognition/recognise.h"
+#include "io/clips/clip_library.h"
+#include "io/clips/references.h"
+#include "io/files/files.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostFiles = 100'000;
+
+bool IsClip(const std::string& reference) {
+  if (reference.starts_with("builtin:")) return true;
+  const SplitReference split = Split(reference);
+  std::string ending = fs::path(FileOf(split.path)).extension().string();
+  for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  constexpr std::array kOfClips = {".bvh", ".glb", ".gltf", ".vrm", ".vrma", ".fbx", ".amc", ".c3d", ".npz", ".npy"};
+  return split.animation || std::ranges::find(kOfClips, ending) != kOfClips.end();
+}
+
+std::string Describe(const StreamRecording& recording, const MadeStream& made) {
+  const std::size_t frames = made.stream.frames.size();
+  std::string text =
+      fmt::format("{}, {:.1f} s, {} tracking states", StreamFormatName(recording.format),
+                  static_cast<double>(frames) / made.stream.rate_hz, recording.tells_states ? "with" : "no");
+  if (!recording.tells_times) text += fmt::format(", no clock: taken for {:g} Hz", recording.rate_hz);
+  if (!recording.is_level) text += ", " + Describe(made.level);
+  if (made.lost_frames > 0) text += fmt::format(", nobody in {} of {} frames", made.lost_frames, frames);
+  for (const std::string& remark : recording.remarks) text += ", " + remark;
+  constexpr double kBackwards = -0.35;  // as CheckSides has it for clips
+  const auto feet = FeetForward(made.stream);
+  if (feet && *feet < kBackwards) text += ", feet point backwards: mirrored? (--reflect)";
+  return text;
+}
+
+/// Lists all files below a folder, sorted; links to folders are not followed.
+Result<std::vector<std::string>> FilesBelow(const std::string& folder) {
+  std::vector<std::string> files;
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    if (at->is_regular_file(error)) files.push_back(at->path().string());
+    if (files.size() > kMostFiles) return Fail({folder}, "over {} files", kMostFiles);
+  }
+  if (error) return Fail({folder}, "{}", error.message());
+  std::ranges::sort(files);
+  return files;
+}
+
+/// Tells by its beginning whether a file of a folder may be a recording; labels and read-mes are none.
+Result<bool> LooksLikeStream(const std::string& path) {
+  if (IsClip(path)) return true;
+  if (fs::path(path).extension() == ".tagstream") return false;
+  ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(path));
+  return DetectStreamFormat(text).has_value();
+}
+
+Result<void> AddFolder(const std::string& folder, const StreamReading& reading, const StreamOptions& options,
+                       const OpenOptions& clips, LoadedStreams& loaded) {
+  ASSIGN_OR_RETURN(const auto files, FilesBelow(folder));
+  for (const std::string& file : files) {
+    const auto is_stream = LooksLikeStream(file);
+    if (!is_stream || !*is_stream) {
+      ++loaded.passed_over;
+      continue;
+    }
+    auto streams = LoadStream(file, reading, options, clips);
+    if (!streams) {
+      loaded.refused.push_back(streams.error());
+      continue;
+    }
+    std::ranges::move(*streams, std::back_inserter(loaded.streams));
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<NamedStream> StreamsOf(const ClipLibrary& library) {
+  std::vector<NamedStream> streams;
+  for (const LibraryClip& clip : library.clips) {
+    streams.push_back({.name = clip.name,
+                       .source = clip.source,
+                       .person = "",
+                       .stream = StreamOf(clip.motion),
+                       .start_s = 0,
+                       .description = fmt::format("clip, {:.1f} s{}{}", clip.motion.DurationSeconds(),
+                                                  clip.note.empty() ? "" : ", ", clip.note),
+                       .motion = clip.motion});
+  }
+  return streams;
+}
+
+Result<std::vector<NamedStream>> LoadStream(const std::string& reference, const StreamReading& reading,
+                                            const StreamOptions& options, const OpenOptions& clips) {
+  if (IsClip(reference)) {
+    ASSIGN_OR_RETURN(const ClipLibrary library, LoadClips({reference}, {}, clips));
+    return StreamsOf(library);
+  }
+  ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(reference));
+  if (!reading.format && !DetectStreamFormat(text)) {
+    if (const auto library = LoadClips({reference}, {}, clips)) return StreamsOf(*library);
+  }
+  ASSIGN_OR_RETURN(const StreamRecording recording, ReadStreamRecording(text, reference, reading));
+  ASSIGN_OR_RETURN(MadeStream made, MakeStream(recording, reference, options));
+  const std::string name = fs::path(reference).stem().string();
+  std::vector<NamedStream> streams;
+  streams.push_back({.name = name,
+                     .source = reference,
+                     .person = PersonInName(name),
+                     .stream = {},
+                     .start_s = made.start_s,
+                     .description = Describe(recording, made)});
+  streams.back().stream = std::move(made.stream);
+  return streams;
+}
+
+Result<LoadedStreams> LoadStreams(const std::vector<std::string>& references, const StreamReading& reading,
+                                  const StreamOptions& options, const OpenOptions& clips) {
+  LoadedStreams loaded;
+  for (const std::string& reference : references) {
+    std::error_code ignored;
+    if (fs::is_directory(reference, ignored)) {
+      RETURN_IF_ERROR(AddFolder(reference, reading, options, clips, loaded));
+      continue;
+    }
+    const auto expanded = ExpandReference(reference, {});
+    if (!expanded && IsClip(reference)) return tl::unexpected(expanded.error());
+    if (!expanded) return Fail({reference}, "no such recording; allowed: a file, a pattern, a folder, a clip");
+    for (const std::string& one : *expanded) {
+      auto streams = LoadStream(one, reading, options, clips);
+      if (!streams && expanded->size() == 1) return tl::unexpected(streams.error());
+      if (!streams) {
+        loaded.refused.push_back(streams.error());
+        continue;
+      }
+      std::ranges::move(*streams, std::back_inserter(loaded.streams));
+    }
+  }
+  const bool is_told = clips.body.metres_per_unit || clips.body.up || (clips.roles && !clips.roles->joints.empty());
+  const auto is_clip = [](const NamedStream& stream) { return stream.motion.has_value(); };
+  if (is_told && !loaded.streams.empty() && std::ranges::none_of(loaded.streams, is_clip)) {
+    return Fail({loaded.streams.front().source},
+                "a recording of a sensor, whose unit and joints are its format's; --joint-map, --unit and --up are of "
+                "clips");
+  }
+  if (!loaded.streams.empty()) return loaded;
+  if (!loaded.refused.empty()) return tl::unexpected(loaded.refused.front());
+  return Fail({references.empty() ? "" : references.front()}, "no recordings of skeletons");
+}
+
+Result<std::vector<std::string>> LabelFiles(const std::string& path) {
+  std::error_code ignored;
+  if (!fs::is_directory(path, ignored)) return std::vector{path};
+  ASSIGN_OR_RETURN(auto files, FilesBelow(path));
+  std::erase_if(files, [](const std::string& file) { return fs::path(file).extension() != ".tagstream"; });
+  if (files.empty()) return Fail({path}, "no .tagstream in it; allowed: a labels file, or a folder of tag streams");
+  return files;
+}
+
+Result<std::vector<Label>> LoadLabels(const std::string& path) {
+  ASSIGN_OR_RETURN(const auto files, LabelFiles(path));
+  std::vector<Label> labels;
+  for (const std::string& file : files) {
+    ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(file));
+    ASSIGN_OR_RETURN(const auto read, ReadLabels(text, file, fs::path(file).stem().string()));
+    labels.insert(labels.end(), read.begin(), read.end());
+  }
+  return labels;
+}
+
+}  // namespace etude

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "engine/transitions/library/body_proportions.h"
+
+namespace etude {
+
+/// Returns the proportions of the body that performs all clips when transitions are judged: its hips stand at 0.90 m
+/// (docs/reference/metrics.md).
+BodyProportions JudgedProportions();
+
+}  // namespace etude

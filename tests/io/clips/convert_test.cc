@@ -1,0 +1,174 @@
+#include "io/clips/convert.h"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "engine/formats/bvh.h"
+#include "engine/formats/gltf/gltf.h"
+#include "engine/motion/statistics.h"
+#include "sim/choreography/canonical_body.h"
+#include "sim/choreography/move.h"
+#include "tests/io/clips/clip_folder.h"
+
+namespace etude {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* kReal = "/usr/share/assimp/models/BVH/01_03.bvh";
+
+class ConvertTest : public ClipFolder {
+ protected:
+  std::string Convert(const std::string& reference, MotionFormat format, const ConvertOptions& options = {}) {
+    auto clips = ReadClips(reference);
+    EXPECT_TRUE(clips) << reference;
+    const auto converted = ConvertClips(std::move(*clips), format, options);
+    EXPECT_TRUE(converted) << ToString(converted.error());
+    return converted ? converted->bytes : "";
+  }
+  std::string Complaint(const std::string& reference, MotionFormat format, const ConvertOptions& options = {}) {
+    const auto converted = ConvertClips(*ReadClips(reference), format, options);
+    EXPECT_FALSE(converted);
+    return converted ? "" : ToString(converted.error());
+  }
+  /// The farthest that a joint of `b` is from the joint of that name in `a`, whose unit has `metres`.
+  static double WorstGap(const Clip& a, double metres, const Clip& b) {
+    std::vector<GlobalTransform> in_a, in_b;
+    double worst = a.frames.size() == b.frames.size() ? 0 : std::numeric_limits<double>::infinity();
+    for (std::size_t frame = 0; frame < std::min(a.frames.size(), b.frames.size()); ++frame) {
+      ComputeGlobals(a.skeleton, a.frames[frame], in_a);
+      ComputeGlobals(b.skeleton, b.frames[frame], in_b);
+      for (std::size_t joint = 0; joint < a.skeleton.joints.size(); ++joint) {
+        const int other = b.skeleton.Find(a.skeleton.joints[joint].name);
+        if (other < 0) return std::numeric_limits<double>::infinity();
+        worst = std::max(worst, glm::distance(metres * in_a[joint].position, in_b[other].position));
+      }
+    }
+    return worst;
+  }
+  static GltfContent ReadBack(const std::string& glb) {
+    auto content = ReadGltf(glb, "back.glb", [](const std::string&) { return Fail({}, "nothing is outside"); });
+    EXPECT_TRUE(content) << ToString(content.error());
+    return content ? *content : GltfContent{};
+  }
+};
+
+TEST_F(ConvertTest, BvhToBvhKeepsTheFilesOwnSkeletonAndUnit) {
+  const Clip before = ReadClips(kReal)->front().clip;
+  const auto after = ReadBvh(Convert(kReal, MotionFormat::kBvh), "after.bvh");
+  ASSERT_TRUE(after);
+  EXPECT_EQ(after->skeleton.joints.size(), before.skeleton.joints.size());
+  EXPECT_EQ(after->rate_hz, before.rate_hz);
+  EXPECT_LT(WorstGap(before, 1, *after), 1e-4);
+}
+
+TEST_F(ConvertTest, BvhToGlbIsInMetresAndComesBackAsTheSamePlaces) {
+  const auto opened = UnderstandClip(ReadClips(kReal)->front(), {});
+  ASSERT_TRUE(opened);
+  const double metres = opened->body.metres_per_unit;
+  EXPECT_NE(metres, 1);
+  const std::string glb = Convert(kReal, MotionFormat::kGlb);
+  const GltfContent back = ReadBack(glb);
+  ASSERT_EQ(back.clips.size(), 1u);
+  EXPECT_LT(WorstGap(opened->source.clip, metres, back.clips[0]), 1e-4);
+  EXPECT_GT(WorstGap(opened->source.clip, 1, back.clips[0]), 1) << "the control: in another unit";
+
+  const auto again = ReadBvh(Convert(Write("own.glb", glb), MotionFormat::kBvh), "again.bvh");
+  ASSERT_TRUE(again);
+  EXPECT_LT(WorstGap(opened->source.clip, metres, *again), 1e-4);
+}
+
+TEST_F(ConvertTest, ATrimmedMirroredResampledClipIsAllThree) {
+  ConvertOptions options;
+  options.trim = TimeSpan{0.5, 1.0};
+  options.rate_hz = 30;
+  options.mirror = true;
+  const Clip before = ReadClips(kReal)->front().clip;
+  const auto after = ReadBvh(Convert(kReal, MotionFormat::kBvh, options), "after.bvh");
+  ASSERT_TRUE(after);
+  EXPECT_EQ(after->frames.size(), 16u);
+  std::vector<GlobalTransform> was, is;
+  ComputeGlobals(before.skeleton, before.frames[static_cast<std::size_t>(0.5 * before.rate_hz)], was);
+  ComputeGlobals(after->skeleton, after->frames[0], is);
+  const glm::dvec3 left = was[before.skeleton.Find("LeftHand")].position;
+  const glm::dvec3 right = is[after->skeleton.Find("RightHand")].position;
+  EXPECT_LT(glm::distance(glm::dvec3(-left.x, left.y, left.z), right), 1e-4);
+}
+
+TEST_F(ConvertTest, WhatWouldNotFitIntoMemoryIsRefused) {
+  ConvertOptions options;
+  options.rate_hz = 1e6;
+  EXPECT_THAT(Complaint(kReal, MotionFormat::kBvh, options), HasSubstr("GB; allowed: 1 GB"));
+  EXPECT_THAT(Complaint(kReal, MotionFormat::kCsv, options), HasSubstr("poses"));
+}
+
+TEST_F(ConvertTest, ARetargetedBodyHasTheCanonicalLimbsAndAGroundedOneItsOwn) {
+  ConvertOptions grounded, retargeted;
+  grounded.ground = true;
+  retargeted.retarget = true;
+  const auto own = UnderstandClip(ReadClips(kReal)->front(), {});
+  for (const auto& [options, thigh] :
+       {std::pair{grounded,
+                  glm::distance(own->body.motion.poses[0][Role::kLeftHip], own->body.motion.poses[0][Role::kLeftKnee])},
+        std::pair{retargeted, glm::distance(StandingPose()[Role::kLeftHip], StandingPose()[Role::kLeftKnee])}}) {
+    const auto clip = ReadBvh(Convert(kReal, MotionFormat::kBvh, options), "body.bvh");
+    ASSERT_TRUE(clip);
+    EXPECT_EQ(clip->rate_hz, kJudgedRateHz);
+    const int knee = clip->skeleton.Find("left_knee");
+    ASSERT_GE(knee, 0);
+    EXPECT_NEAR(glm::length(clip->skeleton.joints[knee].rest.translation), thigh, 1e-3);
+  }
+}
+
+TEST_F(ConvertTest, ABearDancesInAGlbWithItsMeshes) {
+  ConvertOptions options;
+  options.performer = Performer::kBear;
+  const GltfContent bear = ReadBack(Convert("builtin:clap", MotionFormat::kGlb, options));
+  EXPECT_FALSE(bear.character.meshes.empty());
+  ASSERT_EQ(bear.clips.size(), 1u);
+  EXPECT_EQ(bear.clips[0].name, "clap");
+  EXPECT_EQ(bear.clips[0].frames.size(), LoadBuiltinMove("clap")->motion.poses.size());
+  EXPECT_THAT(Complaint("builtin:clap", MotionFormat::kBvh, options), HasSubstr("only GLB holds a character"));
+}
+
+TEST_F(ConvertTest, SeveralAnimationsBecomeAGlbOrAComplaint) {
+  Write("numbers.bin", AnimationBytes());
+  const std::string dance = Write("dance.gltf", GltfWithAnimations("numbers.bin"));
+  EXPECT_EQ(ReadBack(Convert(dance, MotionFormat::kGlb)).clips.size(), 2u);
+  EXPECT_THAT(Complaint(dance, MotionFormat::kBvh),
+              HasSubstr("choose one of the 2 with FILE#NAME: Armature|Jump, Armature|Walk"));
+}
+
+TEST_F(ConvertTest, WithoutAUnitThereIsNoGlb) {
+  const std::string path = Write("two.bvh", kTwoJoints);
+  EXPECT_THAT(Complaint(path, MotionFormat::kGlb), HasSubstr("--unit must say"));
+  ConvertOptions options;
+  options.open.body.metres_per_unit = 0.01;
+  options.open.body.up = UpAxis::kZ;
+  const GltfContent glb = ReadBack(Convert(path, MotionFormat::kGlb, options));
+  std::vector<GlobalTransform> globals;
+  ComputeGlobals(glb.character.skeleton, glb.clips[0].frames[1], globals);
+  // (1, 10, 0) centimetres with Z up: lying along what is −Z now.
+  EXPECT_LT(glm::distance(globals[glb.character.skeleton.Find("Chest")].position, glm::dvec3(0.01, 0, -0.1)), 1e-6);
+}
+
+TEST(TimeSpanTest, EndsMayBeLeftOut) {
+  EXPECT_EQ(ParseTimeSpan("1.5:4")->from_s, 1.5);
+  EXPECT_EQ(ParseTimeSpan("1.5:4")->to_s, 4);
+  EXPECT_EQ(ParseTimeSpan(":3")->from_s, 0);
+  EXPECT_EQ(ParseTimeSpan("2:")->to_s, std::numeric_limits<double>::infinity());
+  for (const char* wrong : {"", "3", "a:b", "-1:2", "1:2:3", "nan:2", "1:inf", "4:1"}) {
+    EXPECT_FALSE(ParseTimeSpan(wrong)) << wrong;
+  }
+}
+
+TEST(FormatTest, IsToldByTheExtension) {
+  EXPECT_EQ(FormatOfName("a/b.glb"), MotionFormat::kGlb);
+  const auto unknown = FormatOfName("a/b.fbx");
+  ASSERT_FALSE(unknown);
+  EXPECT_THAT(unknown.error().message, HasSubstr(".bvh, .glb, .trc, .csv"));
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,241 @@
+#include "io/clips/open_clip.h"
+
+#include <gmock/gmock.h>
+
+#include "io/clips/clip_library.h"
+#include "io/clips/references.h"
+#include "sim/choreography/song.h"
+#include "tests/io/clips/clip_folder.h"
+
+namespace etude {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class OpenClipTest : public ClipFolder {
+ protected:
+  void SetUp() override {
+    Write("numbers.bin", AnimationBytes());
+    dance_ = Write("dance.gltf", GltfWithAnimations("numbers.bin"));
+  }
+
+  std::vector<std::string> Expanded(const std::string& reference) {
+    const auto expanded = ExpandReference(reference, {});
+    EXPECT_TRUE(expanded) << reference;
+    return expanded ? *expanded : std::vector<std::string>{};
+  }
+  static std::string Complaint(const std::string& reference) {
+    const auto clips = ReadClips(reference);
+    EXPECT_FALSE(clips) << reference;
+    return clips ? "" : ToString(clips.error());
+  }
+
+  std::string dance_;
+};
+
+TEST_F(OpenClipTest, EveryAnimationIsAClipOfItsOwn) {
+  const auto clips = ReadClips(dance_);
+  ASSERT_TRUE(clips) << ToString(clips.error());
+  ASSERT_EQ(clips->size(), 2u);
+  EXPECT_EQ(clips->at(0).name, "dance#Armature|Jump");
+  EXPECT_EQ(clips->at(1).source, dance_ + "#Armature|Walk");
+  EXPECT_EQ(clips->at(0).character, nullptr) << "nodes without meshes are no figure";
+}
+
+TEST_F(OpenClipTest, AnAnimationIsChosenByNameOrByItsEnd) {
+  for (const std::string name : {"#Armature|Walk", "#Walk"}) {
+    const auto clips = ReadClips(dance_ + name);
+    ASSERT_TRUE(clips) << ToString(clips.error());
+    ASSERT_EQ(clips->size(), 1u);
+    EXPECT_EQ(clips->front().source, dance_ + "#Armature|Walk");
+  }
+  EXPECT_THAT(Complaint(dance_ + "#Armature|Wolk"), HasSubstr("did you mean 'Armature|Walk'? Allowed: Armature|Jump"));
+  EXPECT_THAT(Complaint(dance_ + "#"), HasSubstr("unknown animation ''"));
+}
+
+TEST_F(OpenClipTest, FilesWithoutMotionAndChoicesWithoutMeaningAreRefused) {
+  EXPECT_THAT(Complaint(Write("figure.gltf", GltfWith(""))), HasSubstr("holds no animation, only a figure (joints: 2"));
+  EXPECT_THAT(Complaint(Write("a.bvh", kTwoJoints) + "#Jump"), HasSubstr("a BVH file has one motion"));
+}
+
+TEST_F(OpenClipTest, AFileThatItselfHoldsASignIsThatFile) {
+  const std::string sharp = Write("take#2.bvh", kTwoJoints);
+  const auto clips = ReadClips(sharp);
+  ASSERT_TRUE(clips) << ToString(clips.error());
+  EXPECT_EQ(clips->front().name, "take#2");
+  Write("numbers[1].bvh", kTwoJoints);
+  EXPECT_THAT(Expanded(In("numbers[1].bvh")), ElementsAre(In("numbers[1].bvh")));
+}
+
+TEST_F(OpenClipTest, PatternsStandForFilesInOrderEachWithTheAnimation) {
+  const std::string a = Write("a.bvh", kTwoJoints), b = Write("b.bvh", kTwoJoints);
+  EXPECT_THAT(Expanded(In("*.bvh")), ElementsAre(a, b));
+  EXPECT_THAT(Expanded(In("d*.gltf#Walk")), ElementsAre(dance_ + "#Walk"));
+  const auto none = ExpandReference(In("*.fbx"), {.file = "s.yaml", .line = 3, .column = 9});
+  ASSERT_FALSE(none);
+  EXPECT_THAT(ToString(none.error()), HasSubstr("s.yaml:3:9: no clip matches '"));
+}
+
+TEST_F(OpenClipTest, BuiltinsAreMovesActsAndSongs) {
+  EXPECT_EQ(Expanded("builtin:*").size(), BuiltinMoveNames().size());
+  EXPECT_EQ(Expanded("builtin:acts").size(), BuiltinActNames().size());
+  ASSERT_EQ(Expanded("builtin:songs").size(), BuiltinSongNames().size());
+  const auto song = LoadBuiltinClip(BuiltinSongNames().front(), {});
+  ASSERT_TRUE(song);
+  EXPECT_FALSE(song->move) << "a song is no move that a recogniser was taught";
+  EXPECT_TRUE(LoadBuiltinClip("clap", {})->move);
+  EXPECT_TRUE(LoadBuiltinClip("wave", {}));
+  EXPECT_THAT(Complaint("builtin:clapp"), HasSubstr("did you mean 'clap'?"));
+}
+
+TEST_F(OpenClipTest, ABuiltinClipIsUnderstoodAsTheVeryBodyThatDancedIt) {
+  auto clips = ReadClips("builtin:boxing");
+  ASSERT_TRUE(clips);
+  const auto opened = UnderstandClip(std::move(clips->front()), {});
+  ASSERT_TRUE(opened);
+  const BodyMotion danced = LoadBuiltinMove("boxing")->motion;
+  ASSERT_EQ(opened->body.motion.poses.size(), danced.poses.size());
+  double worst = 0;
+  for (std::size_t i = 0; i < danced.poses.size(); ++i) {
+    for (const Role role : AllRoles()) {
+      worst = std::max(worst, glm::distance(opened->body.motion.poses[i][role], danced.poses[i][role]));
+    }
+  }
+  EXPECT_LT(worst, 1e-9);
+}
+
+TEST_F(OpenClipTest, ALibraryTakesAllKindsInOrderAndNamesWhatItCannotUnderstand) {
+  const std::string real = "/usr/share/assimp/models/BVH/01_03.bvh";
+  const auto library = LoadClips({"builtin:clap", real, "builtin:wave"}, {});
+  ASSERT_TRUE(library) << ToString(library.error());
+  ASSERT_EQ(library->clips.size(), 3u);
+  EXPECT_EQ(library->clips[1].name, "01_03");
+  EXPECT_EQ(library->clips[1].source, real);
+  EXPECT_THAT(library->clips[1].note, HasSubstr("1 unit = 5.6"));
+  EXPECT_FALSE(library->clips[1].move);
+  const auto broken = LoadClips({"builtin:clap", dance_}, {});
+  ASSERT_FALSE(broken);
+  EXPECT_THAT(ToString(broken.error()), HasSubstr("dance.gltf#Armature|Jump: no joint found for left_shoulder"));
+}
+
+TEST_F(OpenClipTest, WhatIsTaughtComesBeforeWhatIsFound) {
+  const std::string real = "/usr/share/assimp/models/BVH/01_03.bvh";
+  const auto taught = ReadJointMapFile("roles:\n  left_hand: RightHand\n", "m.yaml");
+  ASSERT_TRUE(taught) << ToString(taught.error());
+  OpenOptions options;
+  options.roles = *taught;
+  const auto swapped = LoadClips({real}, {}, options);
+  ASSERT_FALSE(swapped) << "a left hand on the right arm";
+  EXPECT_THAT(ToString(swapped.error()), HasSubstr("left_hand is played by 'RightHand'"));
+}
+
+class ClipFileTest : public ClipFolder {
+ protected:
+  std::string Complaint(const std::string& path) {
+    const auto file = ReadClipFile(path);
+    EXPECT_FALSE(file) << path;
+    return file ? "" : ToString(file.error());
+  }
+};
+
+TEST_F(ClipFileTest, TheFormatIsToldByContentNotByName) {
+  const auto bvh = ReadClipFile(Write("really_bvh.glb", kTwoJoints));
+  ASSERT_TRUE(bvh) << ToString(bvh.error());
+  EXPECT_EQ(bvh->format, ClipFormat::kBvh);
+  EXPECT_EQ(bvh->clips.size(), 1u);
+  const auto gltf = ReadClipFile(Write("really_gltf.bvh", GltfWith("")));
+  ASSERT_TRUE(gltf) << ToString(gltf.error());
+  EXPECT_EQ(gltf->format, ClipFormat::kGltf);
+  EXPECT_TRUE(gltf->clips.empty());
+  EXPECT_EQ(gltf->figure.skeleton.joints.size(), 2u);
+}
+
+TEST_F(ClipFileTest, WhatIsNeitherIsToldWithWhatIsAllowed) {
+  EXPECT_NE(Complaint(Write("x.bvh", "hello\n")).find("x.bvh:1:1: a file that begins with 'hello'; allowed: BVH"),
+            std::string::npos);
+  EXPECT_NE(Complaint(Write("empty.glb", "")).find("an empty file"), std::string::npos);
+  EXPECT_NE(Complaint(Write("a.fbx", "Kaydara FBX Binary  ...")).find("a damaged FBX file: "), std::string::npos);
+  for (const auto& [bytes, told] : std::vector<std::pair<std::string, const char*>>{
+           {"\x1f\x8b\x08", "a gzip file: unpack it"},
+           {"\x80\x04}.", "a pickled Python object, which is never opened"},
+           {"\xff\xfeH", "text in UTF-16: save it as UTF-8"},
+           {"version https://git-lfs.github.com/spec/v1\n", "a pointer of Git LFS"},
+           {"Coordinates\n", "an OpenSim table"},
+           {"my walk.sto\nversion=1\nendheader\n", "an OpenSim table"},
+           {":version 1.10\n:name x\n", "an Acclaim skeleton"},
+           {"Vocaloid Motion Data 0002", "a motion of MikuMikuDance (.vmd), whose model is another file"},
+           {"#usda 1.0\n", "a USD scene: export glTF"},
+           {"NO_OF_FRAMES\t100\n", "Qualisys' TSV: export C3D from QTM"},
+           {"\xEF\xBB\xBFTrajectories\n100\n", "Vicon's CSV: export C3D from Nexus"},
+           {"# by hand\n[Header]\nFileType htr\n[SegmentNames&Hierarchy]\n", "Motion Analysis' HTR"},
+           {"<?xml version=\"1.0\"?>\n<mvnx version=\"4\">", "Xsens' MVNX: export BVH"},
+           {"<?xml version=\"1.0\"?>\n<COLLADA>", "a Collada scene"},
+           {"<?xml version=\"1.0\"?>\n<thing/>", "XML of no kind known here"},
+           {std::string("\0\0\0 ftypisom", 12), "a film, picture or sound, no motion"},
+           {std::string("\x55\xaa\0\1", 4), "a binary file of no kind known here; export BVH, FBX or C3D"},
+           {"{\"Bodies\": []}", "JSON that is neither glTF (it has no \"asset\")"},
+           {"[{\"keypoints\": []}]", "a JSON list; write joints with numpy.save"},
+           {"frame,x,y,z\n", "a table that begins with 'frame,x,y,z'; one of joints has columns left_wrist_x_m"}}) {
+    EXPECT_NE(Complaint(Write("other", bytes)).find(told), std::string::npos) << told;
+  }
+  EXPECT_NE(Complaint(folder_.path().string()).find("is no file"), std::string::npos);
+  EXPECT_NE(Complaint(In("none.bvh")).find("no such file"), std::string::npos);
+}
+
+TEST_F(ClipFileTest, AFileThatIsTooLargeIsRefusedBeforeItIsRead) {
+  const std::string path = Write("huge.bvh", "HIERARCHY");
+  std::filesystem::resize_file(path, kLargestClipFile + 1);  // takes no room on the disk
+  EXPECT_NE(Complaint(path).find("501 MB; at most 500 MB"), std::string::npos);
+}
+
+TEST_F(ClipFileTest, BuffersAreReadFromTheFilesOwnFolder) {
+  Write("deeper/numbers.bin", AnimationBytes());
+  const auto file = ReadClipFile(Write("a.gltf", GltfWithAnimations("deeper/numbers.bin")));
+  ASSERT_TRUE(file) << ToString(file.error());
+  EXPECT_EQ(file->clips.size(), 2u);
+  EXPECT_NE(Complaint(Write("b.gltf", GltfWithAnimations("absent.bin"))).find("'absent.bin': No such file"),
+            std::string::npos);
+}
+
+TEST_F(ClipFileTest, NothingOutsideTheFolderIsRead) {
+  Write("outside/numbers.bin", AnimationBytes());
+  Write("inside/numbers.bin", AnimationBytes());
+  std::filesystem::create_symlink(In("outside/numbers.bin"), In("inside/link.bin"));
+  std::filesystem::create_symlink(In("inside/numbers.bin"), In("inside/fine.bin"));
+  // The control: a link that stays inside is followed.
+  EXPECT_TRUE(ReadClipFile(Write("inside/fine.gltf", GltfWithAnimations("fine.bin"))));
+  EXPECT_NE(
+      Complaint(Write("inside/a.gltf", GltfWithAnimations("link.bin"))).find("a link that leads out of the folder"),
+      std::string::npos);
+  for (const std::string uri : {"../outside/numbers.bin", "%2e%2e/outside/numbers.bin", "/etc/hostname",
+                                "file:///etc/hostname", "http://localhost/numbers.bin"}) {
+    EXPECT_FALSE(ReadClipFile(Write("inside/b.gltf", GltfWithAnimations(uri)))) << uri;
+  }
+}
+
+TEST_F(ClipFileTest, BuffersCountTogetherWithTheFile) {
+  Write("numbers.bin", AnimationBytes());
+  std::filesystem::resize_file(In("numbers.bin"), kLargestClipFile - 10);
+  EXPECT_NE(Complaint(Write("a.gltf", GltfWithAnimations("numbers.bin"))).find("at most 500 MB"), std::string::npos);
+}
+
+// Debian's assimp-testmodels: one box, its picture beside it, within a URI and within the GLB.
+TEST_F(ClipFileTest, TexturesAreTheSameWhereverTheyStand) {
+  const std::string models = "/usr/share/assimp/models/glTF2/BoxTextured-glTF";
+  std::vector<SharedTexture> textures;
+  for (const std::string name : {"/BoxTextured.gltf", "-Embedded/BoxTextured.gltf", "-Binary/BoxTextured.glb"}) {
+    if (!std::filesystem::exists(models + name)) GTEST_SKIP() << "no " << models << name;
+    const auto file = ReadClipFile(models + name);
+    ASSERT_TRUE(file) << ToString(file.error());
+    ASSERT_EQ(file->figure.materials.size(), 1u);
+    textures.push_back(file->figure.materials[0].texture);
+    ASSERT_TRUE(textures.back()) << name;
+    EXPECT_GT(textures.back()->picture.width, 100);
+    EXPECT_TRUE(textures.back()->picture.pixels == textures.front()->picture.pixels) << name;
+  }
+}
+
+}  // namespace
+
+}  // namespace etude

@@ -1,0 +1,246 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "bench/model/recording.h"
+#include "bench/recordings/capture_extras.h"
+#include "io/drawing/canvas.h"
+#include "io/drawing/look.h"
+#include "reports/films/capture_panel.h"
+#include "reports/films/capture_scene.h"
+#include "reports/films/cast.h"
+#include "reports/films/stage_scene.h"
+#include "tests/reports/support/example_run.h"
+#include "tests/support/gtest_printers.h"
+
+namespace etude {
+namespace {
+
+using ::testing::HasSubstr;
+
+// What cairo makes of the panel's colour for the body's left side.
+constexpr Rgb8 kLeftBone{255, 204, 76};
+
+TEST(Canvas, ShowsAnImageWhereItWasPut) {
+  ColourImage red(4, 4, {200, 10, 20});
+  Canvas canvas(20, 10);
+  canvas.DrawImage(red, {10, 0, 10, 10});
+  const ColourImage pixels = canvas.Pixels();
+  EXPECT_EQ(pixels.At(15, 5), (Rgb8{200, 10, 20}));
+  EXPECT_EQ(pixels.At(5, 5), (Rgb8{0, 0, 0}));
+  EXPECT_TRUE(canvas.Png().starts_with("\x89PNG"));
+}
+
+TEST(Canvas, CutsTextThatDoesNotFit) {
+  Canvas canvas(300, 40);
+  canvas.DrawText({0, 30}, std::string(200, 'W'), 20, {1, 1, 1, 1}, 100);
+  const ColourImage pixels = canvas.Pixels();
+  int inside = 0, outside = 0;
+  for (int y = 0; y < pixels.height; ++y) {
+    for (int x = 0; x < pixels.width; ++x) (x <= 101 ? inside : outside) += pixels.At(x, y).r > 0;
+  }
+  EXPECT_GT(inside, 100);
+  EXPECT_EQ(outside, 0);
+}
+
+TEST(Canvas, DrawsTextThatIsALittleTooWideSmaller) {
+  const std::string text = "as the sensor saw it";
+  const auto drawn = [&](double size, double room) {
+    Canvas canvas(300, 40);
+    canvas.DrawText({0, 30}, text, size, {1, 1, 1, 1}, room);
+    return canvas.Pixels().pixels;
+  };
+  const double width = Canvas(300, 40).TextWidth(text, 20);
+  const auto shown = drawn(20, 0.85 * width);
+  bool is_whole = false;
+  for (double size = 15; size < 20; size += 0.25) is_whole = is_whole || shown == drawn(size, width);
+  EXPECT_TRUE(is_whole) << "no letter is lost";
+  EXPECT_NE(shown, drawn(20, width));
+}
+
+TEST(Outline, IsTheRimOfTheMask) {
+  Mask mask(7, 7);
+  for (int y = 1; y < 6; ++y) {
+    for (int x = 1; x < 6; ++x) mask.At(x, y) = 1;
+  }
+  const Mask outline = OutlineOf(mask);
+  int set = 0;
+  for (const auto pixel : outline.pixels) set += pixel;
+  EXPECT_EQ(set, 16);
+  EXPECT_EQ(outline.At(3, 3), 0);
+  EXPECT_EQ(outline.At(1, 3), 1);
+}
+
+TEST(Cast, PrefersATypicalCellOfTheMethodThatAnswers) {
+  RunData run = ExampleRun();
+  const Recording recording{{{"recovered", BodyMotion{30, {BodyPose{}}}}}, "{}"};
+  for (const Row& row : run.rows) {
+    // Trials 2…10; what a trial's error is grows with its number.
+    if (row.scenario == "capture" && row.trial >= 2 && row.trial <= 10) run.recordings.push_back({row.Id(), recording});
+  }
+  const auto chosen = ChooseCell(run, "capture", "recovered");
+  ASSERT_TRUE(chosen.has_value());
+  EXPECT_EQ(chosen->row->method, "ccd-fixed");
+  EXPECT_EQ(chosen->row->trial, 6);
+  EXPECT_FALSE(ChooseCell(run, "capture", "coach").has_value());
+  EXPECT_FALSE(ChooseCell(run, "transition", "coach").has_value());
+}
+
+TEST(CoachPanel, CutsALongMotionAroundItsSeam) {
+  RunData run = ExampleRun();
+  AddRecordings(run);
+  const auto cell = ChooseCell(run, "transition", "coach");
+  ASSERT_TRUE(cell.has_value());
+  const auto panel = CoachPanel::Make(*cell, 60);
+  ASSERT_TRUE(panel.has_value()) << ToString(panel.error());
+  EXPECT_EQ(panel->Frames(), 60);
+  EXPECT_EQ(panel->FirstPoint(), 30);
+}
+
+TEST(CoachPanel, KnowsBothChangesOfAnInBetweenClip) {
+  RunData run = ExampleRun();
+  AddRecordings(run);
+  run.recordings.front().recording.extras_json =
+      R"({"transition_frame": 80, "transition_frames": [95, 80, 5000], "from": "builtin:side_kick", "to": "clap"})";
+  const auto panel = CoachPanel::Make(*ChooseCell(run, "transition", "coach"), 500);
+  ASSERT_TRUE(panel.has_value()) << ToString(panel.error());
+  EXPECT_EQ(panel->FirstPoint(), 80);
+  EXPECT_THAT(panel->Title(), HasSubstr("side kick → clap"));
+}
+
+TEST(CoachPanel, RefusesARecordingWithoutASeam) {
+  RunData run = ExampleRun();
+  AddRecordings(run);
+  run.recordings.front().recording.extras_json = R"({"from": "clap"})";
+  const auto panel = CoachPanel::Make(*ChooseCell(run, "transition", "coach"), 60);
+  ASSERT_FALSE(panel.has_value());
+  EXPECT_THAT(ToString(panel.error()), HasSubstr("transition_frame"));
+}
+
+TEST(CapturePanel, RefusesMasksThatDoNotFitTheMotion) {
+  RunData run = ExampleRun();
+  AddRecordings(run);
+  auto& recording = run.recordings.back().recording;
+  recording.tracks.front().motion.poses.pop_back();
+  const auto panel = CapturePanel::Make(run, *ChooseCell(run, "capture", "recovered"));
+  ASSERT_FALSE(panel.has_value());
+  EXPECT_THAT(ToString(panel.error()), HasSubstr("differ in length"));
+}
+
+TEST(CapturePanel, DrawsTheSkeletonOverThePersonAndKeepsBothInThePicture) {
+  RunData run = ExampleRun();
+  AddRecordings(run);
+  const auto panel = CapturePanel::Make(run, *ChooseCell(run, "capture", "recovered"));
+  ASSERT_TRUE(panel.has_value()) << ToString(panel.error());
+  const auto renderer = SharedRenderer();
+  ASSERT_TRUE(renderer.has_value()) << ToString(renderer.error());
+  Canvas canvas(432, 324);
+  panel->Draw(canvas, **renderer, 0, 20);
+  const ColourImage pixels = canvas.Pixels();
+  int bones = 0, highest = pixels.height, lowest = 0;
+  for (int y = 0; y < pixels.height; ++y) {
+    for (int x = 0; x < pixels.width; ++x) {
+      if (pixels.At(x, y) != kLeftBone) continue;
+      ++bones;
+      highest = std::min(highest, y);
+      lowest = std::max(lowest, y);
+    }
+  }
+  EXPECT_GT(bones, 100);
+  // Cut to the person: from the raised hand to the foot it takes most of the picture's height.
+  EXPECT_GT(lowest - highest, pixels.height / 2);
+  EXPECT_GT(highest, 0);
+  EXPECT_LT(lowest, pixels.height - 1);
+}
+
+// The example's capture, with a moment of which every stage is kept.
+std::optional<Picture> PlateOf(const std::vector<CaptureExtras::Moment>& moments, Renderer& renderer) {
+  RunData run = ExampleRun();
+  AddRecordings(run);
+  Recording& recording = run.recordings.back().recording;
+  auto extras = ReadCaptureExtras(recording.extras_json);
+  extras->moments = moments;
+  recording.extras_json = WriteCaptureExtras(*extras);
+  return DrawPlate(*CapturePanel::Make(run, *ChooseCell(run, "capture", "recovered")), renderer);
+}
+
+TEST(CapturePlate, ShowsEveryStageOfTheMomentsThatAreKeptAndTheSequence) {
+  const auto renderer = SharedRenderer();
+  ASSERT_TRUE(renderer.has_value()) << ToString(renderer.error());
+  EXPECT_FALSE(PlateOf({}, **renderer)) << "a recording that keeps none";
+  const CaptureExtras::Moment early{.frame = 0, .fixed = {}, .marks = {{{{300, 100}, {340, 300}, {255, 0, 0}}}, {}}};
+  CaptureExtras::Moment late = early, unmarked = early;
+  late.frame = 17;
+  unmarked.marks[0].clear();
+  const auto one = PlateOf({early}, **renderer), two = PlateOf({early, late}, **renderer);
+  ASSERT_TRUE(one && two);
+  EXPECT_EQ(one->width, two->width);
+  EXPECT_EQ((two->height - one->height) * 5, (one->height - 28) * 2) << "two rows more than five: one for each camera";
+  EXPECT_NE(one->png, PlateOf({unmarked}, **renderer)->png) << "marks are drawn";
+  EXPECT_NE(one->png, PlateOf({late}, **renderer)->png);
+  EXPECT_THAT(one->caption, HasSubstr("figures 5.3 to 5.15"));
+}
+
+// The share of pixels beneath the heading, from column to column, that show nothing.
+double EmptyShare(const ColourImage& picture, int from, int to) {
+  static const Rgb8 nothing = BeginFrame("").Pixels().At(2, 400);
+  int empty = 0, all = 0;
+  for (int y = 60; y < 700; ++y) {
+    for (int x = from; x < to; ++x, ++all) empty += picture.At(x, y) == nothing;
+  }
+  return static_cast<double>(empty) / all;
+}
+
+TEST(StageScene, GivesTheWholeFrameToTheCoach) {
+  RunData run = ExampleRun();
+  AddRecordings(run);
+  auto coach = CoachPanel::Make(*ChooseCell(run, "transition", "coach"), StageScene::kLongest);
+  ASSERT_TRUE(coach);
+  EXPECT_EQ(EmptyShare(BeginFrame("nothing").Pixels(), 20, 1260), 1);
+  StageScene scene(**SharedRenderer(), std::move(*coach));
+  EXPECT_THAT(scene.Words(), HasSubstr("The coach"));
+  EXPECT_LT(EmptyShare(scene.Draw(scene.PosterFrame()).Pixels(), 20, 1260), 0.05);
+}
+
+TEST(CaptureScene, ShowsTheMethodsOfOneWorldSideBySideAndColoursTheirErrors) {
+  RunData run = ExampleRun();
+  AddRecordings(run);
+  // The same capture by another method, which put one hand half a metre too high.
+  const CastCell first = *ChooseCell(run, "capture", "recovered");
+  CellRecording worse = run.recordings.back();
+  worse.cell = [&] {
+    Row row = *first.row;
+    row.method = "ccd-fixed";
+    return row.Id();
+  }();
+  for (Track& track : worse.recording.tracks) {
+    if (track.name != "recovered") continue;
+    for (BodyPose& pose : track.motion.poses) pose[Role::kLeftHand].y += 0.5;
+  }
+  const auto alone = FindCaptures(run, first);
+  ASSERT_TRUE(alone);
+  EXPECT_EQ(alone->size(), 1u);
+  run.recordings.push_back(worse);
+  const auto both = FindCaptures(run, *ChooseCell(run, "capture", "recovered"));
+  ASSERT_TRUE(both) << ToString(both.error());
+  ASSERT_EQ(both->size(), 2u);
+  CaptureScene scene(**SharedRenderer(), *both);
+  EXPECT_THAT(scene.Words(), HasSubstr("what ccd-fixed and ccd-adaptive recovered"));
+  const ColourImage picture = scene.Draw(scene.PosterFrame()).Pixels();
+  const auto red_from = [&](int from, int to) {
+    int red = 0;
+    for (int y = 130; y < 640; ++y) {
+      for (int x = from; x < to; ++x) {
+        const Rgb8 pixel = picture.At(x, y);
+        red += pixel.r > 240 && pixel.g < 90 && pixel.b < 90;
+      }
+    }
+    return red;
+  };
+  EXPECT_GT(red_from(460, 858), 40) << "the hand";
+  EXPECT_EQ(red_from(866, 1264), 0) << "the other method is not as far off";
+}
+
+}  // namespace
+}  // namespace etude

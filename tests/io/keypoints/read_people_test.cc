@@ -1,0 +1,180 @@
+#include "io/keypoints/read_people.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "io/files/files.h"
+#include "io/files/temporary_folder.h"
+
+namespace etude {
+namespace {
+
+using testing::HasSubstr;
+
+class ReadPeople : public testing::Test {
+ protected:
+  ReadPeople() : folder_(*TemporaryFolder::Make("read-people")) {}
+  std::filesystem::path Write(const std::string& name, const std::string& text) {
+    const std::filesystem::path path = folder_.path() / name;
+    EXPECT_TRUE(WriteFileAtomically(path, text));
+    return path;
+  }
+  static std::string Triples(std::size_t count, const std::string& first = "10, 20, 0.5") {
+    std::string list = first;
+    for (std::size_t i = 1; i < count; ++i) list += ", 0, 0, 0";
+    return list;
+  }
+  static std::string OpenPose(std::size_t count, const std::string& first = "10, 20, 0.5") {
+    return R"({"version": 1.3, "people": [{"pose_keypoints_2d": [)" + Triples(count, first) + "]}]}";
+  }
+  std::string Reason(const std::filesystem::path& path, const std::string& layout = "") {
+    const auto film = ReadKeypoints(path, layout);
+    return film ? "no complaint" : ToString(film.error());
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ReadPeople, TakesOpenPosesFramesInTheOrderOfTheirNumbers) {
+  Write("a/f_10.json", OpenPose(25, "30, 40, 0.7"));
+  Write("a/f_9.json", OpenPose(25));
+  Write("a/f_0100.json", R"({"people": []})");
+  const auto film = ReadKeypoints(folder_.path() / "a", "body_25b");
+  ASSERT_TRUE(film) << ToString(film.error());
+  ASSERT_EQ(film->frames.size(), 3u);
+  EXPECT_EQ(film->frames[0][0][Landmark::kNose].pixel, glm::dvec2(10.5, 20.5));
+  EXPECT_DOUBLE_EQ(film->frames[1][0][Landmark::kNose].confidence, 0.7);
+  EXPECT_EQ(film->frames[0][0][Landmark::kNeck].confidence, 0);
+  EXPECT_TRUE(film->frames[2].empty());
+}
+
+TEST_F(ReadPeople, TakesWhatPythonWritesOfKeypointsThatWereNotSeen) {
+  Write("a/f_0.json", OpenPose(26, "NaN, NaN, NaN, 30, 40, 0.7"));
+  Write("a/f_1.json",
+        R"({"note": "NaN \" NaN", "people": [{"pose_keypoints_2d": [)" + Triples(26, "NaN, 1, NaN") + "]}]}");
+  const auto film = ReadKeypoints(folder_.path() / "a", "");
+  ASSERT_FALSE(film) << "27 keypoints";
+  Write("a/f_0.json", R"({"people": [{"pose_keypoints_2d": [)" + Triples(25, "NaN, NaN, NaN, 30, 40, 0.7") + "]}]}");
+  const auto seen = ReadKeypoints(folder_.path() / "a", "");
+  ASSERT_TRUE(seen) << ToString(seen.error());
+  EXPECT_EQ(seen->frames[0][0][Landmark::kNose].confidence, 0);
+  EXPECT_EQ(seen->frames[0][0][Landmark::kLeftEye].pixel, glm::dvec2(30.5, 40.5));
+  EXPECT_TRUE(seen->frames[1].empty()) << "nobody";
+  Write("a/f_1.json", OpenPose(26, "nan, 1, 1"));
+  EXPECT_THAT(Reason(folder_.path() / "a"), HasSubstr("not valid JSON"));
+}
+
+TEST_F(ReadPeople, AsksWhichOrderTwentyFiveKeypointsHave) {
+  Write("a/1.json", OpenPose(25));
+  EXPECT_THAT(Reason(folder_.path() / "a"), HasSubstr("body_25 or body_25b; tell which one by --layout"));
+  EXPECT_EQ(Reason(folder_.path() / "a", "body_25"), "no complaint");
+  EXPECT_THAT(Reason(folder_.path() / "a", "coco"), HasSubstr("25 keypoints a person, not coco; allowed: coco (17)"));
+}
+
+TEST_F(ReadPeople, ReadsCocoWithFlagsOrScores) {
+  const auto coco = [&](const std::string& v) {
+    return R"({"images": [{"id": 7, "width": 640, "height": 480}, {"id": 3, "width": 640, "height": 480}],
+      "annotations": [{"image_id": 3, "keypoints": [)" +
+           Triples(17, "1, 2, " + v) + "]}]}";
+  };
+  const auto flags = ReadKeypoints(Write("flags.json", coco("2")), "");
+  ASSERT_TRUE(flags) << ToString(flags.error());
+  ASSERT_EQ(flags->frames.size(), 2u);
+  EXPECT_TRUE(flags->frames[0].empty());
+  EXPECT_DOUBLE_EQ(flags->frames[1][0][Landmark::kNose].confidence, 1);
+  EXPECT_EQ(flags->width, 640);
+  const auto scores = ReadKeypoints(Write("scores.json", coco("0.25")), "");
+  EXPECT_DOUBLE_EQ(scores->frames[1][0][Landmark::kNose].confidence, 0.25);
+}
+
+TEST_F(ReadPeople, ReadsResultsOfAlphaPoseAndCocoInTheFramesThatTheirImagesName) {
+  const auto result = [&](const std::string& image, const std::string& x) {
+    return R"({"image_id": )" + image + R"(, "category_id": 1, "keypoints": [)" + Triples(17, x + ", 2, 0.5") + "]}";
+  };
+  const FilmOfKeypoints film{.width = 640, .height = 480, .frames = 4};
+  const auto alpha =
+      ReadKeypoints(Write("alpha.json", "[" + result("\"v_0.jpg\"", "10") + "," + result("\"v_3.jpg\"", "13") + "," +
+                                            result("\"v_3.jpg\"", "14") + "]"),
+                    "", film);
+  ASSERT_TRUE(alpha) << ToString(alpha.error());
+  ASSERT_EQ(alpha->frames.size(), 4u);
+  EXPECT_TRUE(alpha->frames[1].empty());
+  EXPECT_EQ(alpha->frames[3].size(), 2u);
+  EXPECT_EQ(alpha->frames[3][1][Landmark::kNose].pixel, glm::dvec2(14.5, 2.5));
+  const auto from_one =
+      ReadKeypoints(Write("coco.json", "[" + result("1", "10") + "," + result("4", "13") + "]"), "", film);
+  ASSERT_TRUE(from_one) << ToString(from_one.error());
+  EXPECT_EQ(from_one->frames[0].size(), 1u) << "1 to 4 of four frames count from 1";
+  EXPECT_EQ(from_one->told, "");
+  const auto within = ReadKeypoints(Write("within.json", "[" + result("1", "10") + "]"), "", film);
+  EXPECT_EQ(within->frames[1].size(), 1u);
+  EXPECT_THAT(within->told, HasSubstr("taken as counted from 0"));
+  EXPECT_THAT(Reason(Write("noname.json", "[" + result("\"last\"", "1") + "]")), HasSubstr("image_id has no number"));
+}
+
+TEST_F(ReadPeople, ReadsMmposeByTheNamesThatItGives) {
+  std::string names, points, scores;
+  const char* kOrder[] = {"left_hip",    "left_knee",     "left_ankle", "right_hip",  "right_knee",
+                          "right_ankle", "left_shoulder", "left_elbow", "left_wrist", "right_shoulder",
+                          "right_elbow", "right_wrist",   "nose",       "tail"};
+  for (std::size_t i = 0; i < std::size(kOrder); ++i) {
+    const char* comma = i == 0 ? "" : ", ";
+    names += fmt::format("{}\"{}\": \"{}\"", comma, i, kOrder[i]);
+    points += fmt::format("{}[{}, 7]", comma, 20 + i);
+    scores += fmt::format("{}0.75", comma);
+  }
+  const std::string info =
+      R"("instance_info": [{"frame_id": 1, "instances": []}, {"frame_id": 2, "instances": [{"keypoints": [)" + points +
+      R"(], "keypoint_scores": [)" + scores + "]}]}]}";
+  const FilmOfKeypoints film{.width = 640, .height = 480, .frames = 2};
+  const auto read =
+      ReadKeypoints(Write("m.json", R"({"meta_info": {"keypoint_id2name": {)" + names + "}}, " + info), "", film);
+  ASSERT_TRUE(read) << ToString(read.error());
+  ASSERT_EQ(read->frames.size(), 2u);
+  EXPECT_EQ(read->frames[1][0][Landmark::kRightHip].pixel, glm::dvec2(23.5, 7.5));
+  EXPECT_DOUBLE_EQ(read->frames[1][0][Landmark::kNose].confidence, 0.75);
+  EXPECT_THAT(Reason(Write("nameless.json", "{" + info)), HasSubstr("14 keypoints a person; allowed: coco (17)"));
+}
+
+TEST_F(ReadPeople, TakesSharesOfThePicture) {
+  std::string points;
+  for (int i = 0; i < 33; ++i)
+    points += std::string(i == 0 ? "" : ", ") + R"({"x": 0.25, "y": 0.5, "z": 0, "visibility": 0.9})";
+  const auto path = Write("p.json", R"([{"pose_landmarks": [)" + points + R"(]}, {"pose_landmarks": null}])");
+  const auto read = ReadKeypoints(path, "", {.width = 640, .height = 480, .frames = 2});
+  ASSERT_TRUE(read) << ToString(read.error());
+  EXPECT_EQ(read->frames[0][0][Landmark::kLeftHeel].pixel, glm::dvec2(160, 240));
+  EXPECT_TRUE(read->frames[1].empty());
+  EXPECT_THAT(read->told, HasSubstr("shares of 640 x 480 pixels"));
+  EXPECT_EQ(ReadKeypoints(path, "")->frames[0][0][Landmark::kNose].pixel, glm::dvec2(0.75, 1))
+      << "of an unknown film: pixels";
+}
+
+TEST_F(ReadPeople, RefusesWithTheFileAndTheReason) {
+  EXPECT_THAT(Reason(Write("a.json", "{")), HasSubstr("a.json"));
+  EXPECT_THAT(Reason(Write("b.json", "[]")), HasSubstr("no lists 'images' and 'annotations'"));
+  EXPECT_THAT(Reason(Write("c.json", R"({"images": [], "annotations": []})")), HasSubstr("no image"));
+  EXPECT_THAT(Reason(Write("d.json", R"({"images": [{"id": 1}, {"id": 1}], "annotations": []})")),
+              HasSubstr("two images"));
+  Write("e/1.json", OpenPose(17, "1, \"x\", 1"));
+  EXPECT_THAT(Reason(folder_.path() / "e"), HasSubstr("a keypoint's number is \"x\""));
+  Write("f/1.json", OpenPose(17, "1, 1e300, 1"));
+  EXPECT_THAT(Reason(folder_.path() / "f"), HasSubstr("a keypoint's number is 1e+300"));
+  Write("g/note.txt", "");
+  EXPECT_THAT(Reason(folder_.path() / "g"), HasSubstr("no .json file in it"));
+}
+
+TEST_F(ReadPeople, FindsTheEntryOfAFilm) {
+  Write("cam1_json/1.json", "");
+  Write("cam10.json", "");
+  Write("cam2.json", "");
+  Write("cam2_b.json", "");
+  EXPECT_EQ(EntryOfFilm(folder_.path(), "cam1")->filename(), "cam1_json");
+  EXPECT_EQ(EntryOfFilm(folder_.path(), "cam10")->filename(), "cam10.json");
+  EXPECT_THAT(EntryOfFilm(folder_.path(), "cam2").error().message, HasSubstr("both cam2.json and cam2_b.json"));
+  EXPECT_THAT(EntryOfFilm(folder_.path(), "cam3").error().message, HasSubstr("nothing in it begins"));
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,214 @@
+#include "io/process/tree_meter.h"
+
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <string>
+#include <vector>
+
+#include "io/process/child_process.h"
+#include "io/process/fence.h"
+
+namespace etude {
+namespace {
+
+constexpr double kAlways = 0, kNever = 1e9;  // from where on a look is precise
+
+std::string ReadLine(ChildProcess& child) {
+  for (bool is_open = true; is_open;) {
+    if (const auto line = child.NextLine()) return *line;
+    pollfd watched{child.output(), POLLIN, 0};
+    ::poll(&watched, 1, 10000);
+    is_open = child.Receive();
+  }
+  return child.NextLine().value_or("(it ended)");
+}
+
+constexpr const char* kPrelude = R"(
+import ctypes, fcntl, mmap, os, socket, struct, sys, threading, time
+def touch(memory, size, begin=0):
+    for at in range(begin, begin + size, 4096): memory[at] = 1
+def hold(): print('held', flush=True); sys.stdin.readline()
+MB = 1 << 20
+)";
+
+/// A Python program that runs a script and has said that it holds the memory in question.
+ChildProcess Python(const std::string& script) {
+  auto child = ChildProcess::Start({.program = "/usr/bin/python3", .arguments = {"-c", kPrelude + script}});
+  EXPECT_TRUE(child);
+  EXPECT_EQ(ReadLine(*child), "held");
+  return std::move(*child);
+}
+
+double Look(TreeMeter& meter, double precise_from_mb = kAlways) {
+  meter.Count();
+  return meter.HeldMb(0, precise_from_mb);
+}
+
+/// What one look says that a script holds beyond Python itself, MB.
+double HeldMb(const std::string& script, double precise_from_mb = kAlways) {
+  const ChildProcess plain = Python("hold()"), child = Python(script);
+  TreeMeter own(plain.number()), all(child.number());
+  return Look(all, precise_from_mb) - Look(own, precise_from_mb);
+}
+
+// 40 children of a program of 20 MB, that do nothing, hold little.
+TEST(TreeMeter, CountsAPageOnceHoweverManyProcessesShareIt) {
+  const std::string script =
+      "own = bytearray(os.urandom(20 * MB))\n"
+      "for _ in range(40):\n"
+      "  if os.fork() == 0: time.sleep(60); os._exit(0)\n"
+      "hold()";
+  EXPECT_NEAR(HeldMb(script), 50, 30);
+  EXPECT_GT(HeldMb(script, kNever), 40 * 20) << "the control: a bound";
+}
+
+TEST(TreeMeter, MeasuresItselfAndAllThatItHasStarted) {
+  // 30 MB in a child, some work in a second one, whose parent has ended and which left the group.
+  const ChildProcess child = Python(
+      "reading, writing = os.pipe()\n"
+      "if os.fork() == 0: own = bytearray(os.urandom(30 * MB)); os.write(writing, b'x'); time.sleep(60)\n"
+      "if os.fork() == 0:\n"
+      "  os.setsid()\n"
+      "  if os.fork() == 0:\n"
+      "    sum(range(1000000)); os.write(writing, b'x'); time.sleep(60)\n"
+      "  os._exit(0)\n"
+      "os.read(reading, 1); os.read(reading, 1); hold()");
+  TreeMeter meter(child.number());
+  EXPECT_NEAR(Look(meter), 45, 12);
+  const TreeLoad load = meter.Count();
+  EXPECT_GT(load.cpu_s, 0.02);
+  EXPECT_EQ(load.processes, 4u);
+}
+
+TEST(TreeMeter, SeesPagesThatAChildWritesToAfterAPreciseLook) {
+  ChildProcess child = Python(
+      "own = bytearray(40 * MB); touch(own, 40 * MB)\n"
+      "if os.fork() == 0:\n"
+      "  hold(); touch(own, 40 * MB); print('held', flush=True); time.sleep(60)\n"
+      "time.sleep(60)");
+  TreeMeter meter(child.number());
+  const double before = Look(meter);
+  EXPECT_NEAR(before, 55, 12);
+  child.Send("");
+  EXPECT_EQ(ReadLine(child), "held");
+  EXPECT_GT(Look(meter, kNever), before + 35) << "a bound, from the pages touched";
+  EXPECT_NEAR(Look(meter), before + 40, 8);
+}
+
+TEST(TreeMeter, CountsSharedMemoryByAllPartsThatWereEverMapped) {
+  // 60 MB, of which each process maps a third; the first look sees all of it, later ones the thirds.
+  const std::string split =
+      "memory = mmap.mmap(-1, 60 * MB); touch(memory, 60 * MB)\n"
+      "libc = ctypes.CDLL(None); libc.munmap.argtypes = [ctypes.c_void_p, ctypes.c_size_t]\n"
+      "start = ctypes.addressof(ctypes.c_char.from_buffer(memory))\n"
+      "if os.fork() == 0: libc.munmap(start, 40 * MB); time.sleep(60)\n"
+      "if os.fork() == 0: libc.munmap(start, 20 * MB); libc.munmap(start + 40 * MB, 20 * MB); time.sleep(60)\n"
+      "libc.munmap(start + 20 * MB, 40 * MB); time.sleep(0.3); hold()";
+  EXPECT_NEAR(HeldMb(split), 62, 8);
+  ChildProcess child = Python(
+      "memory = mmap.mmap(-1, 60 * MB); touch(memory, 60 * MB); hold()\n"
+      "libc = ctypes.CDLL(None); libc.munmap.argtypes = [ctypes.c_void_p, ctypes.c_size_t]\n"
+      "start = ctypes.addressof(ctypes.c_char.from_buffer(memory))\n"
+      "libc.munmap(start + MB, 59 * MB); hold()\n"
+      "libc.munmap(start, MB); hold()");
+  TreeMeter meter(child.number());
+  const auto held = [&] {
+    double mb = 0;
+    for (int i = 0; i < 6; ++i, ::usleep(110000)) mb = Look(meter);
+    return mb;
+  };
+  const double whole = held();
+  child.Send("");
+  EXPECT_EQ(ReadLine(child), "held");
+  EXPECT_NEAR(held(), whole, 2) << "its pages stay";
+  child.Send("");
+  EXPECT_EQ(ReadLine(child), "held");
+  EXPECT_NEAR(held(), whole - 60, 2) << "nobody maps any of it";
+}
+
+// A piece that was unmapped but for one page before anybody looked at it: its pages were seen to come and go.
+TEST(TreeMeter, CountsSharedMemoryBehindAPageThatStaysMapped) {
+  ChildProcess child = Python(
+      "libc = ctypes.CDLL(None); libc.munmap.argtypes = [ctypes.c_void_p, ctypes.c_size_t]\n"
+      "hold()\n"
+      "memory = mmap.mmap(-1, 30 * MB); touch(memory, 30 * MB); hold()\n"
+      "libc.munmap(ctypes.addressof(ctypes.c_char.from_buffer(memory)) + 4096, 30 * MB - 4096); hold()\n"
+      "other = mmap.mmap(-1, 10 * MB); touch(other, 10 * MB); hold()");
+  TreeMeter meter(child.number());
+  const double before = Look(meter);
+  const auto go_on = [&] {
+    child.Send("");
+    EXPECT_EQ(ReadLine(child), "held");
+  };
+  go_on();
+  meter.Count();  // and no look at mappings
+  go_on();
+  ::usleep(110000);
+  EXPECT_NEAR(Look(meter), before + 30, 4);
+  go_on();
+  ::usleep(110000);
+  EXPECT_NEAR(Look(meter), before + 40, 4) << "what stays mapped hides nothing";
+}
+
+TEST(TreeMeter, CountsSharedMemoryThatIsInNobodysResidentSize) {
+  EXPECT_NEAR(HeldMb("memory = mmap.mmap(-1, 20 * MB); touch(memory, 20 * MB); memory.madvise(mmap.MADV_DONTNEED)\n"
+                     "private = mmap.mmap(-1, 70 * MB, mmap.MAP_PRIVATE); os.fork(); hold()"),
+              25, 6);
+}
+
+TEST(TreeMeter, CountsWhatTheKernelKeepsForThem) {
+  const std::string tables =
+      "memory = mmap.mmap(-1, 16 << 30, mmap.MAP_PRIVATE | 0x4000, mmap.PROT_READ); memory.madvise(15)\n"
+      "sum(memory[at] for at in range(0, 16 << 30, 2 * MB)); hold()";
+  EXPECT_NEAR(HeldMb(tables), 32, 3) << "8192 page tables, of pages that are all one";
+  const std::string locks =
+      "file = open('/tmp/tree-meter-' + str(os.getpid()), 'w'); os.unlink(file.name)\n"
+      "for at in range(4000): fcntl.fcntl(file, fcntl.F_SETLK, struct.pack('hhqqi', fcntl.F_WRLCK, 0, 2 * at, 1, 0))\n"
+      "hold()";
+  const ChildProcess locking = Python(locks);
+  // The kernel's list is read in parts: where other programs lock and unlock meanwhile, a line may come twice or not.
+  EXPECT_NEAR(static_cast<double>(TreeMeter(locking.number()).Count().file_locks), 4000, 40);
+}
+
+TEST(TreeMeter, CountsDescriptorsPipesAndThreads) {
+  const ChildProcess child = Python(
+      "pipes = [os.pipe() for _ in range(150)]; files = [open('/dev/null') for _ in range(10)]\n"
+      "for _ in range(5): threading.Thread(target=time.sleep, args=(60,), daemon=True).start()\n"
+      "hold()");
+  const TreeLoad load = TreeMeter(child.number()).Count();
+  EXPECT_EQ(load.descriptors, 313u);
+  EXPECT_NEAR(static_cast<double>(load.pipes), 152.5, 1) << "with its standard input and output, and perhaps ours";
+  EXPECT_EQ(load.threads, 6u);
+  EXPECT_EQ(load.sockets, 0u) << "those of a network that it shares with us are not its own";
+}
+
+// Sockets in flight, or in the queue of a listener who accepts nobody, are in no process's list.
+TEST(TreeMeter, CountsSocketsThatNoProcessHasOpen) {
+  const Fence fence = Fence::Find();
+  if (!fence.IsUp()) GTEST_SKIP() << fence.description();
+  const std::string script = std::string(kPrelude) +
+                             "one, other = socket.socketpair()\n"
+                             "for _ in range(50):\n"
+                             "  pair = socket.socketpair(); pair[0].send(bytes(100000))\n"
+                             "  socket.send_fds(one, [b'x'], [pair[1].fileno()])\n"
+                             "hold()";
+  const FencedCommand command = fence.Around({"/usr/bin/python3", "-c", script}, {});
+  auto child = ChildProcess::Start({.program = command.words[0],
+                                    .arguments = {command.words.begin() + 1, command.words.end()},
+                                    .limited = true,
+                                    .contained = true,
+                                    .told = command.told});
+  ASSERT_TRUE(child);
+  EXPECT_EQ(ReadLine(*child), "held");
+  TreeMeter meter(child->number());
+  const TreeLoad load = meter.Count();
+  EXPECT_GE(load.sockets, 102u) << "each with a half that has been closed, whose bytes are still on their way";
+  EXPECT_LT(load.sockets, 120u);
+  EXPECT_LT(load.descriptors, 30u);
+  EXPECT_GT(meter.HeldMb(0, kAlways), 5 + 40 * 0.2);
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,174 @@
+#include "io/streams/load.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "engine/formats/bvh.h"
+#include "engine/formats/joint_csv.h"
+#include "engine/motion/edit.h"
+#include "engine/teaching/teach_moves.h"
+#include "io/clips/clip_library.h"
+#include "io/files/files.h"
+#include "io/files/temporary_folder.h"
+
+namespace etude {
+namespace {
+
+TEST(PersonInName, KnowsTheSetsNames) {
+  EXPECT_EQ(PersonInName("S001C002P003R002A013"), "P003");
+  EXPECT_EQ(PersonInName("P1_1_10A_p06"), "p06");
+  EXPECT_EQ(PersonInName("joints_s01_e02"), "s01");
+  EXPECT_EQ(PersonInName("G3-Kinect-CTK-P1T1-Unknown-C-0"), "");
+}
+
+std::vector<NamedStream> TwoStreams() {
+  std::vector<NamedStream> streams(2);
+  streams[0].name = "a";
+  streams[0].person = "from-name";
+  streams[1].name = "b";
+  streams[1].start_s = 100;
+  for (NamedStream& stream : streams) stream.stream.frames.resize(90);
+  return streams;
+}
+
+TEST(MatchLabels, CutsByTimeAndShiftsClocks) {
+  const auto labels =
+      ReadLabels("clip,from_s,to_s,move,truth,person\na,1,2,m,right,\na,,,m,half,x\nc,1,2,m,right,\n", "l");
+  auto parts = MatchLabels(*labels, "l", TwoStreams());
+  ASSERT_TRUE(parts) << ToString(parts.error());
+  ASSERT_EQ(parts->size(), 2u);  // of c there is no recording
+  EXPECT_EQ((*parts)[0].fault, "half");
+  EXPECT_EQ((*parts)[0].end, 90);
+  EXPECT_EQ((*parts)[0].person, "x");
+  EXPECT_EQ((*parts)[1].begin, 30);
+  EXPECT_EQ((*parts)[1].end, 60);
+  EXPECT_EQ((*parts)[1].person, "from-name");
+  std::vector<Label> tags = {{.clip = "b", .from_s = 101.0, .to_s = {}, .move = "m", .fault = "", .person = ""}};
+  tags[0].by_own_clock = true;
+  parts = MatchLabels(tags, "l", TwoStreams());
+  ASSERT_TRUE(parts);
+  EXPECT_TRUE((*parts)[0].is_action_point);
+  EXPECT_EQ((*parts)[0].begin, 30);
+}
+
+TEST(MatchLabels, RefusesTimesOutsideAndLabelsOfNothing) {
+  const auto late = ReadLabels("clip,from_s,to_s,move,truth\na,1,2,m,right\na,2,9,m,right\n", "l");
+  EXPECT_EQ(ToString(MatchLabels(*late, "l", TwoStreams()).error()),
+            "l:3: from 2.000 to 9.000 s of a; allowed: its 3.000 s");
+  const auto other = ReadLabels("clip,from_s,to_s,move,truth\nz,1,2,m,right\n", "l");
+  EXPECT_EQ(ToString(MatchLabels(*other, "l", TwoStreams()).error()),
+            "l: none of the labels is of a recording here, such as a");
+}
+
+TEST(PerformancesOf, AnActionPointIsTheTimeAroundIt) {
+  std::vector<NamedStream> streams = TwoStreams();
+  streams[0].stream.frames.resize(400);
+  std::vector<LabelledPart> points(3);
+  const int at[] = {100, 130, 300};
+  for (std::size_t i = 0; i < 3; ++i)
+    points[i] = {
+        .stream = 0, .move = "m", .fault = "", .person = "", .begin = at[i], .end = at[i] + 1, .is_action_point = true};
+  const auto parts = PerformancesOf(points, streams);
+  EXPECT_EQ(parts[0].begin, 40);  // two seconds before
+  EXPECT_EQ(parts[0].end, 116);   // half-way to the next
+  EXPECT_EQ(parts[1].begin, 115);
+  EXPECT_EQ(parts[1].end, 161);  // one second after
+  EXPECT_EQ(parts[2].begin, 240);
+}
+
+TEST(LoadStreams, AFolderPassesOverWhatIsNoneAndTellsWhatIsBroken) {
+  const auto folder = TemporaryFolder::Make("streams");
+  ASSERT_TRUE(folder);
+  BodyMotion motion;
+  motion.poses.push_back(BodyPose{});
+  for (const Role role : AllRoles()) motion.poses[0][role] = glm::dvec3(0, 0.1 * static_cast<double>(Index(role)), 0);
+  const std::filesystem::path root = folder->path();
+  ASSERT_TRUE(WriteFileAtomically(root / "deep/good.csv", WriteJointCsv(motion)));
+  ASSERT_TRUE(WriteFileAtomically(root / "readme.txt", "words\n"));
+  ASSERT_TRUE(WriteFileAtomically(root / "broken.csv", "head_x_m,head_y_m,head_z_m\n1,2,3\n"));
+  const auto loaded = LoadStreams({root.string()}, {}, {});
+  ASSERT_TRUE(loaded) << ToString(loaded.error());
+  ASSERT_EQ(loaded->streams.size(), 1u);
+  EXPECT_EQ(loaded->streams[0].name, "good");
+  EXPECT_EQ(loaded->passed_over, 1);
+  EXPECT_EQ(loaded->refused.size(), 1u);
+  EXPECT_FALSE(LoadStreams({(root / "broken.csv").string()}, {}, {}));
+}
+
+/// A body as OpenNI's sensors give it to BVH, without fingers and toes, facing +Z; knees `back` cm behind the line from
+/// hip to ankle.
+std::string OpenNiBvh(double back) {
+  const std::string channels = "CHANNELS 3 Zrotation Xrotation Yrotation\n";
+  const auto joint = [&](const std::string& name, double x, double y, double z, const std::string& children) {
+    const std::string below = children.empty() ? "End Site\n{\nOFFSET 0 0 0\n}\n" : children;
+    return fmt::format("JOINT {}\n{{\nOFFSET {} {} {}\n{}{}}}\n", name, x, y, z, channels, below);
+  };
+  const auto arm = [&](const std::string& side, double left, double up) {
+    return joint(side + "_SHOULDER#", left * 15, up, 0,
+                 joint(side + "_ELBOW", left * 28, 0, 0, joint(side + "_HAND", left * 25, 0, 0, "")));
+  };
+  const auto leg = [&](const std::string& side, double left, double down) {
+    return joint(side + "_HIP#", left * 9, down, 0,
+                 joint(side + "_KNEE", 0, -40, -back, joint(side + "_FOOT", 0, -40, back, "")));
+  };
+  const std::string root = arm("LEFT", 1, 28) + arm("RIGHT", -1, 28) + leg("LEFT", 1, -18) + leg("RIGHT", -1, -18) +
+                           joint("NECK#", 0, 28, 0, joint("HEAD", 0, 23, 0, ""));
+  const int joints = 14;
+  std::string text =
+      "HIERARCHY\nROOT TORSO#\n{\nOFFSET 0 98 0\nCHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation "
+      "Yrotation\n" +
+      root + "}\nMOTION\nFrames: 30\nFrame Time: 0.033333\n";
+  for (int t = 0; t < 30; ++t) {
+    text += "0 98 0 0 0 0";
+    for (int value = 0; value < 3 * joints; ++value) text += fmt::format(" {}", value == 0 ? t : 0);  // the first turns
+    text += '\n';
+  }
+  return text;
+}
+
+TEST(LoadStreams, KneesThatASensorOverstretchesAreToldAndThoseThatBendBackwardsRefused) {
+  const auto folder = TemporaryFolder::Make("openni");
+  ASSERT_TRUE(folder);
+  const std::string path = (std::filesystem::path(folder->path()) / "wave.bvh").string();
+  const auto load = [&](double back) {
+    EXPECT_TRUE(WriteFileAtomically(path, OpenNiBvh(back)));
+    return LoadStream(path, {}, {});
+  };
+  const auto straight = load(0), bent = load(13), overstretched = load(4);
+  ASSERT_TRUE(straight) << ToString(straight.error());
+  EXPECT_EQ(straight->front().description.find("overstretch"), std::string::npos);
+  ASSERT_FALSE(bent);  // by 36 degrees: no sensor's slip
+  EXPECT_NE(ToString(bent.error()).find("the knees bend backwards"), std::string::npos);
+  ASSERT_TRUE(overstretched) << ToString(overstretched.error());
+  EXPECT_EQ(overstretched->front().stream.frames.size(), 30u);
+  EXPECT_NE(overstretched->front().description.find("the knees overstretch by 11° on the average"), std::string::npos)
+      << overstretched->front().description;
+}
+
+TEST(LoadStreams, ARecordingRootedAtTheHeadShowsTheSameBody) {
+  const auto folder = TemporaryFolder::Make("head");
+  ASSERT_TRUE(folder);
+  const auto load = [&](const std::string& text) {
+    const std::string path = (std::filesystem::path(folder->path()) / "wave.bvh").string();
+    EXPECT_TRUE(WriteFileAtomically(path, text));
+    return LoadStream(path, {}, {});
+  };
+  const auto clip = ReadBvh(OpenNiBvh(0), "wave.bvh");
+  ASSERT_TRUE(clip) << ToString(clip.error());
+  const Clip rooted_at_head = WithRootAt(*clip, clip->skeleton.Find("HEAD"));
+  ASSERT_EQ(rooted_at_head.skeleton.joints[0].name, "HEAD");
+  const auto by_torso = load(OpenNiBvh(0)), by_head = load(WriteBvh(rooted_at_head));
+  ASSERT_TRUE(by_torso) << ToString(by_torso.error());
+  ASSERT_TRUE(by_head) << ToString(by_head.error());
+  const auto &expected = by_torso->front().stream.frames, &frames = by_head->front().stream.frames;
+  ASSERT_EQ(frames.size(), expected.size());
+  for (std::size_t t = 0; t < frames.size(); ++t) {
+    for (const Role role : AllRoles()) {
+      EXPECT_LT(glm::distance(frames[t][role].position, expected[t][role].position), 1e-5)
+          << t << ' ' << RoleName(role);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace etude

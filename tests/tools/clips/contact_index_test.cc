@@ -1,0 +1,47 @@
+#include "tools/clips/contact_index.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace etude {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// The left foot stands all the time; the right one is half a metre up in the second half.
+BodyMotion OnOneLeg() {
+  BodyMotion motion;
+  motion.poses.resize(40);
+  for (std::size_t f = 20; f < 40; ++f)
+    motion.poses[f][Role::kRightFoot].y = motion.poses[f][Role::kRightAnkle].y = 0.5;
+  return motion;
+}
+
+std::size_t CountOf(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+TEST(ContactIndex, HasABarWhereAFootStands) {
+  const std::string svg = ContactIndexSvg("a < b", OnOneLeg());
+  EXPECT_THAT(svg, HasSubstr("a &lt; b: left foot stands 100 % of the time, right foot stands 48 %"))
+      << "the frame before it leaves is fast already";
+  EXPECT_EQ(CountOf(svg, "<polyline"), 4u) << "height and speed of two feet";
+  EXPECT_EQ(CountOf(svg, "<rect x="), 2u);
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+}
+
+TEST(ContactIndex, OfABodyThatStandsOnItsHandsHasNone) {
+  BodyMotion handstand;
+  handstand.poses.resize(1);
+  for (glm::dvec3& joint : handstand.poses[0].joints) joint.y = 1;
+  handstand.poses[0][Role::kLeftHand].y = handstand.poses[0][Role::kRightHand].y = 0;
+  const std::string svg = ContactIndexSvg("handstand", handstand);
+  EXPECT_EQ(CountOf(svg, "<rect x="), 0u);
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,398 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+
+#include "engine/base/order_statistics.h"
+#include "engine/boards/board_views.h"
+#include "engine/boards/film_steps.h"
+#include "engine/cameras/rig_file.h"
+#include "io/drawing/look.h"
+#include "io/files/files.h"
+#include "io/films/decoder.h"
+#include "io/images/image_files.h"
+#include "sim/camera/jpeg.h"
+#include "tools/calibrate/calibrate_rig.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<std::vector<Board>> ReadBoards(const std::vector<std::string>& texts) {
+  std::vector<Board> boards;
+  for (const std::string& text : texts) {
+    ASSIGN_OR_RETURN(const Board board, ReadCodedBoard(text));
+    for (const Board& other : boards) {
+      if (board.first_code < other.first_code + CountCodes(other) &&
+          other.first_code < board.first_code + CountCodes(board)) {
+        return Fail({}, "--board {}: another board has its codes, too; allowed: @{} and more", text,
+                    other.first_code + CountCodes(other));
+      }
+    }
+    boards.push_back(board);
+  }
+  return boards;
+}
+
+/// The pictures of a folder, in the order of their names.
+Result<std::vector<fs::path>> PicturesIn(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    std::string ending = entry.path().extension().string();
+    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (ending == ".png" || ending == ".jpg" || ending == ".jpeg") files.push_back(entry.path());
+  }
+  if (error) return Fail({folder.string()}, "{}", error.message());
+  if (files.empty()) return Fail({folder.string()}, "no picture in it; allowed: PNG and JPG");
+  std::ranges::sort(files);
+  return files;
+}
+
+Result<ColourImage> ReadPicture(const fs::path& path) {
+  constexpr std::size_t kMostPixels = 100'000'000;
+  ASSIGN_OR_RETURN(const std::string bytes, ReadWholeFile(path));
+  if (bytes.starts_with("\x89PNG")) return LoadColourPng(path.string());
+  auto picture = ReadJpeg(bytes, kMostPixels);
+  if (!picture) return Fail({path.string()}, "{}", picture.error().message);
+  return picture;
+}
+
+/// The boards that the pictures of one camera showed.
+struct CameraBoards {
+  std::string name;
+  std::size_t looked = 0, with_board = 0, corners = 0;
+  double period_s = 0;  ///< of a film, between looks; 0: of a folder
+  int every = 1;
+  ColourImage best;  ///< the picture with most corners
+  std::size_t most = 0;
+};
+
+Result<void> AddPicture(std::size_t camera, const std::string& moment, const ColourImage& picture, int look,
+                        const std::string& file, BoardViews& views, CameraBoards& seen) {
+  const auto corners = views.Add(camera, moment, picture, look);
+  if (!corners) return Fail({file}, "{}", corners.error().message);
+  ++seen.looked;
+  seen.with_board += *corners > 0 ? 1 : 0;
+  seen.corners += *corners;
+  if (seen.best.pixels.empty() || *corners > seen.most) {
+    seen.best = picture;
+    seen.most = *corners;
+  }
+  return {};
+}
+
+Result<void> AddFolder(std::size_t camera, const fs::path& folder, const CalibrateOptions& options, BoardViews& views, CameraBoards& seen) {
+  ASSIGN_OR_RETURN(const auto files, PicturesIn(folder));
+  const OnProgress progress = options.listener.progress(fmt::format("pictures of {}", seen.name));
+  for (const fs::path& file : files) {
+    ASSIGN_OR_RETURN(const ColourImage picture, ReadPicture(file));
+    RETURN_IF_ERROR(AddPicture(camera, file.stem().string(), picture, -1, file.string(), views, seen));
+    progress(seen.looked, files.size());
+  }
+  return {};
+}
+
+/// Every so many pictures of a film; a picture's number names its moment.
+Result<void> AddFilm(std::size_t camera, const fs::path& film, const CalibrateOptions& options, BoardViews& views,
+                     CameraBoards& seen) {
+  ASSIGN_OR_RETURN(const FilmFacts facts, ProbeFilm(film));
+  constexpr int kUsual = 30, kPictures = 200;
+  const bool is_printed = ReadPrintedBoard(options.boards.front()).has_value();
+  seen.every = options.every > 0 ? options.every
+               : is_printed      ? std::max(1, static_cast<int>(facts.frames) / kPictures)
+                                 : kUsual;
+  seen.period_s = seen.every / (facts.rate_hz > 0 ? facts.rate_hz : 1.0);
+  const OnProgress progress = options.listener.progress(fmt::format("frames of {}", seen.name));
+  ASSIGN_OR_RETURN(Decoder decoder, Decoder::Start(film, facts));
+  ColourImage frame;
+  for (int i = 0;; ++i) {
+    ASSIGN_OR_RETURN(const bool is_there, decoder.Next(frame));
+    if (!is_there) return {};
+    progress(static_cast<std::size_t>(i), static_cast<std::size_t>(facts.frames));
+    if (i % seen.every != 0) continue;
+    RETURN_IF_ERROR(AddPicture(camera, fmt::format("{:08}", i), frame, i / seen.every, film.string(), views, seen));
+  }
+}
+
+/// The board that is looked for: one of OpenCV's, or our own.
+Result<BoardViews> SearchFor(const CalibrateOptions& options) {
+  const auto printed = ReadPrintedBoard(options.boards.front());
+  if (!printed) {
+    ASSIGN_OR_RETURN(const auto boards, ReadBoards(options.boards));
+    return BoardViews(boards);
+  }
+  ASSIGN_OR_RETURN(const PrintedBoard board, *printed);
+  if (options.boards.size() > 1)
+    return Fail({}, "--board: one chessboard or ChArUco board; there are {}", options.boards.size());
+  if (!board.is_charuco && (board.columns + board.rows) % 2 == 0 && options.inputs.size() > 1) {
+    return Fail(
+        {},
+        "--board {}: turned by 180° it looks the same, so two cameras cannot be joined; allowed: columns + rows "
+        "odd",
+        options.boards.front());
+  }
+  ASSIGN_OR_RETURN(auto finder, MakePrintedBoardFinder(board));
+  return BoardViews(board, std::move(finder));
+}
+
+/// The residual of each view.
+std::vector<double> ResidualsOf(const RefinedRig& rig, std::span<const TargetView> views) {
+  std::vector<double> rms;
+  for (const TargetView& view : views) {
+    rms.push_back(ReprojectionRms(rig.cameras[view.camera], rig.targets[view.target], view.pairs));
+  }
+  return rms;
+}
+
+/// Views whose boards are numbered without gaps, in their order: as `CalibrateFromPlanes` numbers them.
+std::vector<TargetView> Numbered(std::vector<TargetView> views) {
+  std::vector<std::optional<std::size_t>> number;
+  std::size_t count = 0;
+  std::erase_if(views, [](const TargetView& view) { return !HomographyOf(view.pairs); });
+  for (TargetView& view : views) {
+    if (view.target >= number.size()) number.resize(view.target + 1);
+    auto& as = number[view.target];
+    if (!as) as = count++;
+    view.target = *as;
+  }
+  return views;
+}
+
+/// Calibrates, and again without pictures that are blurred or moved: those three times as far off as most.
+Result<RefinedRig> CalibrateWithoutBlurred(const BoardViews& search, const CalibrateOptions& options,
+                                           std::vector<TargetView>& views) {
+  views = Numbered(std::move(views));
+  const std::size_t all = views.size();
+  constexpr int kMostRounds = 3;
+  for (int round = 0;; ++round) {
+    ASSIGN_OR_RETURN(RefinedRig rig, CalibrateFromPlanes(search.sizes(), views, RefineOptionsOf(options)));
+    const std::vector<double> rms = ResidualsOf(rig, views);
+    constexpr double kFar = 3, kLeastPx = 0.3;
+    const double limit = std::max(kLeastPx, kFar * UpperMedian(rms));
+    std::vector<TargetView> kept;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      if (rms[i] <= limit) kept.push_back(views[i]);
+    }
+    if (search.Told().empty() || kept.size() == views.size() || round == kMostRounds) {
+      if (views.size() < all) {
+        options.listener.print(fmt::format("{} of {} pictures of boards left out: three times as far off as most\n", all - views.size(), all));
+      }
+      return rig;
+    }
+    views = Numbered(std::move(kept));
+  }
+}
+
+/// The views of one camera, as if there were no other.
+std::vector<TargetView> ViewsOf(std::size_t camera, std::span<const TargetView> views) {
+  std::vector<TargetView> own;
+  for (const TargetView& view : views) {
+    if (view.camera == camera) own.push_back({0, own.size(), view.pairs});
+  }
+  return own;
+}
+
+/// Finds the films' times, says them, and gives the views at common moments.
+Result<std::vector<TargetView>> SetInStep(const CalibrateOptions& options, const BoardViews& search,
+                                          const std::vector<CameraBoards>& seen) {
+  const bool are_films = std::ranges::all_of(seen, [](const CameraBoards& s) { return s.period_s > 0; });
+  if (!are_films || seen.size() < 2) return search.views();
+  std::vector<double> period_s;
+  for (const CameraBoards& s : seen) period_s.push_back(s.period_s);
+  constexpr double kLooks = 2;
+  const double most_s = options.sync_s > 0 ? options.sync_s : kLooks * period_s.front();
+  ASSIGN_OR_RETURN(const FilmSteps steps, FindFilmSteps(search.sizes(), search.sightings(), period_s, most_s,
+                                                        RefineOptionsOf(options), options.listener.progress("times of films")));
+  for (std::size_t i = 1; i < seen.size(); ++i) {
+    const double late_s = steps.late_s[i];
+    if (late_s == 0) continue;
+    constexpr double kMs = 1000;
+    options.listener.print(fmt::format(
+        "{}: shows a moment {:.0f} ms ({:.2f} frames) {} than {}; mended: its corners are taken between frames\n",
+        seen[i].name, kMs * std::abs(late_s), std::abs(late_s) / seen[i].period_s * seen[i].every,
+        late_s > 0 ? "later" : "earlier", seen.front().name));
+    if (std::abs(late_s) > most_s - 0.5 * period_s.front()) {
+      options.listener.print(fmt::format("doubtful: that is as far as was looked; --sync {:.1f} looks further\n", 2 * most_s + 0.1));
+    }
+  }
+  if (steps.after_px < steps.before_px) {
+    options.listener.print(fmt::format("residual of all films as if in step {:.3f} px, with these times {:.3f} px\n", steps.before_px,
+               steps.after_px));
+  }
+  return ViewsInStep(search.sightings(), period_s, steps.late_s);
+}
+
+/// Says how well each camera explains its own boards alone, and where cameras disagree.
+void TellResiduals(const RefinedRig& rig, const CalibrateOptions& options, std::span<const PictureSize> sizes,
+                   std::span<const TargetView> views, const std::vector<CameraBoards>& seen) {
+  const std::vector<double> rms = ResidualsOf(rig, views);
+  options.listener.print(fmt::format("\nresiduals, px RMS{:>14}{:>10}{:>12}{:>10}\n", "together", "alone", "a board's", "worst"));
+  bool do_disagree = false;
+  for (std::size_t camera = 0; camera < seen.size(); ++camera) {
+    std::vector<double> own;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      if (views[i].camera == camera) own.push_back(rms[i]);
+    }
+    const std::array size = {sizes[camera]};
+    const auto alone = CalibrateFromPlanes(size, ViewsOf(camera, views), RefineOptionsOf(options));
+    const double together = rig.camera_rms_px[camera];
+    options.listener.print(fmt::format("{:<17}{:>14.3f}{:>10}{:>12.3f}{:>10.3f}\n", seen[camera].name, together,
+               alone ? fmt::format("{:.3f}", alone->rms_px) : "-", UpperMedian(own), std::ranges::max(own)));
+    constexpr double kTimes = 3, kLeastPx = 0.5;
+    do_disagree = do_disagree || (alone && together > kLeastPx && together > kTimes * alone->rms_px);
+  }
+  if (!do_disagree) return;
+  options.listener.print(fmt::format(
+      "doubtful: cameras explain their boards far better alone than together: films out of step{}, a camera\n"
+      "that moved, or a board that bends\n",
+      seen.front().every > 1 ? " (--every 1 would tell)" : ""));
+}
+
+/// The digits at a name's end: 0 of cam_0; "" of none.
+std::string NumberAtEnd(const std::string& name) {
+  std::size_t from = name.size();
+  while (from > 0 && std::isdigit(static_cast<unsigned char>(name[from - 1]))) --from;
+  return name.substr(from);
+}
+
+constexpr const char* kOpenCv = "opencv";  // of --beside: no file, its calibrateCamera
+
+/// Compares with what OpenCV makes of the very same corners; it knows one camera, so each is taken alone.
+Result<void> CompareWithOpenCv(const CalibrateOptions& options, std::span<const PictureSize> sizes,
+                               std::span<const TargetView> views, const std::vector<CameraBoards>& seen) {
+  options.listener.print(fmt::format("\nbeside OpenCV's calibrateCamera, on the same corners, each camera alone:\n"));
+  constexpr double kPercent = 100;
+  for (std::size_t camera = 0; camera < seen.size(); ++camera) {
+    const std::vector<TargetView> own = ViewsOf(camera, views);
+    const auto alone = CalibrateFromPlanes(sizes.subspan(camera, 1), own, RefineOptionsOf(options));
+    if (!alone) {
+      options.listener.print(fmt::format("  {:<14} not to be calibrated alone: {}\n", seen[camera].name, alone.error().message));
+      continue;
+    }
+    ASSIGN_OR_RETURN(const OpenCvCalibration theirs, CalibrateByOpenCv(own, sizes[camera], RefineOptionsOf(options).lens));
+    const Intrinsics &a = alone->cameras.front().intrinsics, &b = theirs.intrinsics;
+    options.listener.print(fmt::format(
+        "  {:<14} focal lengths {:.2f}, {:.2f} px, there {:.2f}, {:.2f} ({:+.3f}, {:+.3f} %); residual {:.4f} px, "
+        "there {:.4f}\n",
+        seen[camera].name, a.fx, a.fy, b.fx, b.fy, kPercent * (a.fx / b.fx - 1), kPercent * (a.fy / b.fy - 1),
+        alone->rms_px, theirs.rms_px));
+  }
+  return {};
+}
+
+/// Compares with another calibration of these cameras, on the very same corners.
+Result<void> CompareBeside(const CalibrateOptions& options, const RefinedRig& rig, std::span<const TargetView> views,
+                           const std::vector<CameraBoards>& seen) {
+  const std::string& file = options.beside;
+  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file));
+  ASSIGN_OR_RETURN(const std::vector<NamedCamera> theirs, ReadRig(text, file));
+  std::vector<Camera> cameras;
+  for (const CameraBoards& own : seen) {
+    auto same = std::ranges::find(theirs, own.name, &NamedCamera::name);
+    if (same == theirs.end() && !NumberAtEnd(own.name).empty()) {
+      same = std::ranges::find(theirs, NumberAtEnd(own.name), [](const NamedCamera& c) { return NumberAtEnd(c.name); });
+    }
+    if (same == theirs.end()) return Fail({file}, "no camera {}, nor of that number", own.name);
+    cameras.push_back(same->camera);
+  }
+  const auto placed = PlaceBoards(cameras, views);
+  if (!placed) return Fail({file}, "{}", placed.error().message);
+  options.listener.print(fmt::format("\nbeside {}, on the same corners:\n", file));
+  constexpr double kPercent = 100;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const Intrinsics &a = rig.cameras[i].intrinsics, &b = cameras[i].intrinsics;
+    options.listener.print(fmt::format(
+        "  {:<14} focal lengths {:.1f}, {:.1f} px, there {:.1f}, {:.1f} ({:+.1f}, {:+.1f} %); residual {:.3f} px, "
+        "there {:.3f}\n",
+        seen[i].name, a.fx, a.fy, b.fx, b.fy, kPercent * (a.fx / b.fx - 1), kPercent * (a.fy / b.fy - 1),
+        rig.camera_rms_px[i], placed->camera_rms_px[i]));
+    if (i == 0) continue;
+    options.listener.print(fmt::format("  {:<14} {:.3f} m from {}, there {:.3f}\n", "", glm::distance(rig.cameras[i].p_WC, rig.cameras[0].p_WC),
+               seen.front().name, glm::distance(cameras[i].p_WC, cameras[0].p_WC)));
+  }
+  return {};
+}
+
+/// Draws each camera's best picture with the corners of all: yellow below half a pixel, orange below one, else red.
+std::string PictureOfBoards(const RefinedRig& rig, std::span<const TargetView> views, std::vector<CameraBoards> seen) {
+  constexpr int kWidth = 640, kGap = 8;
+  double height = kGap;
+  for (const CameraBoards& s : seen) height += kWidth * static_cast<double>(s.best.height) / s.best.width + kGap;
+  Canvas canvas(kWidth + 2 * kGap, static_cast<int>(std::ceil(height)));
+  canvas.FillBox({0, 0, static_cast<double>(canvas.width()), height}, kBackdrop);
+  double top = kGap;
+  for (std::size_t camera = 0; camera < seen.size(); ++camera) {
+    const CameraBoards& s = seen[camera];
+    const double scale = static_cast<double>(kWidth) / s.best.width;
+    const Box panel{kGap, top, kWidth, scale * s.best.height};
+    canvas.DrawImage(s.best, panel);
+    canvas.FillBox(panel, {0, 0, 0, 0.35});
+    for (const TargetView& view : views) {
+      for (const PointPair& pair : view.pairs) {
+        const TargetPlace& place = rig.targets[view.target];
+        const auto shown = Project(rig.cameras[view.camera], place.R_WT * pair.world + place.p_WT);
+        if (view.camera != camera || !shown) continue;
+        constexpr double kLonger = 20, kHalfPx = 0.5;
+        const glm::dvec2 at = glm::dvec2(panel.x, panel.y) + scale * pair.pixel;
+        const double off = glm::distance(*shown, pair.pixel);
+        const Paint paint = off < kHalfPx ? Paint{1, 0.9, 0.2, 1}
+                            : off < 1     ? Paint{1, 0.55, 0.1, 1}
+                                          : Paint{1, 0.2, 0.2, 1};
+        canvas.DrawLine(at, at + kLonger * scale * (*shown - pair.pixel), 1, paint);
+        canvas.DrawDot(at, 1.6, paint);
+      }
+    }
+    DrawTag(canvas, panel,
+            fmt::format("{}: board in {} of {} pictures, {:.2f} px; errors x 20", s.name, s.with_board, s.looked,
+                        rig.camera_rms_px[camera]));
+    top += panel.height + kGap;
+  }
+  return canvas.Png();
+}
+
+}  // namespace
+
+Result<Calibrated> CalibrateFromPictures(const CalibrateOptions& options) {
+  ASSIGN_OR_RETURN(BoardViews search, SearchFor(options));
+  std::vector<CameraBoards> seen(options.inputs.size());
+  for (std::size_t camera = 0; camera < options.inputs.size(); ++camera) {
+    fs::path input = options.inputs[camera];
+    CameraBoards& own = seen[camera];
+    if (!input.has_filename()) input = input.parent_path();
+    own.name = input.stem().string();
+    RETURN_IF_ERROR(fs::is_directory(input) ? AddFolder(camera, input, options, search, own)
+                                            : AddFilm(camera, input, options, search, own));
+    options.listener.print(fmt::format("{}: {} pictures, {} of them with a board, {} corners\n", options.inputs[camera], own.looked,
+               own.with_board, own.corners));
+  }
+  if (!search.Told().empty()) options.listener.print(fmt::format("the board: {}\n", search.Told()));
+  ASSIGN_OR_RETURN(std::vector<TargetView> views, SetInStep(options, search, seen));
+  ASSIGN_OR_RETURN(RefinedRig refined, CalibrateWithoutBlurred(search, options, views));
+  TellResiduals(refined, options, search.sizes(), views, seen);
+  if (options.beside == kOpenCv) {
+    RETURN_IF_ERROR(CompareWithOpenCv(options, search.sizes(), views, seen));
+  } else if (!options.beside.empty()) {
+    RETURN_IF_ERROR(CompareBeside(options, refined, views, seen));
+  }
+  if (!options.picture.empty()) {
+    RETURN_IF_ERROR(WriteFileAtomically(options.picture, PictureOfBoards(refined, views, seen)));
+    TellWritten(options.listener, options.picture);
+  }
+  TurnToStance(options.world == "floor" ? BoardStance::kOnFloor : BoardStance::kOnWall, refined.cameras);
+  Calibrated rig;
+  rig.rms_px = refined.camera_rms_px;
+  rig.points.resize(refined.cameras.size());
+  for (const TargetView& view : views) rig.points[view.camera] += view.pairs.size();
+  for (std::size_t i = 0; i < refined.cameras.size(); ++i) {
+    rig.cameras.push_back({seen[i].name, refined.cameras[i]});
+    rig.deviations.push_back(refined.deviations[i]);
+  }
+  return rig;
+}
+
+}  // namespace etude

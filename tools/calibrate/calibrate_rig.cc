@@ -1,0 +1,178 @@
+#include "tools/calibrate/calibrate_rig.h"
+
+#include <fmt/core.h>
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include "engine/base/angles.h"
+#include "engine/cameras/camera_parameters.h"
+#include "engine/cameras/dlt.h"
+#include "engine/cameras/pairs_file.h"
+#include "engine/cameras/rig_file.h"
+#include "io/files/files.h"
+#include "io/images/image_files.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "8x8x0.2" as numbers; nothing of anything else.
+std::optional<std::vector<double>> NumbersByX(std::string_view text) {
+  std::vector<double> numbers;
+  while (true) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{}) return std::nullopt;
+    numbers.push_back(value);
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    if (text.empty()) return numbers;
+    if (text.front() != 'x') return std::nullopt;
+    text.remove_prefix(1);
+  }
+}
+
+bool IsWholeWithin(double value, double low, double high) {
+  return value == std::floor(value) && value >= low && value <= high;
+}
+
+}  // namespace
+
+Result<Board> ReadCodedBoard(const std::string& text) {
+  const std::size_t at = text.find('@');
+  const auto numbers = NumbersByX(std::string_view(text).substr(0, at));
+  const auto first =
+      at == std::string::npos ? std::vector<double>{0} : NumbersByX(std::string_view(text).substr(at + 1));
+  const bool is_board = numbers && numbers->size() == 3 && IsWholeWithin((*numbers)[0], 3, kMostSquares) &&
+                        IsWholeWithin((*numbers)[1], 3, kMostSquares) && (*numbers)[2] >= 0.001 &&
+                        (*numbers)[2] <= 10 && first && first->size() == 1 &&
+                        IsWholeWithin(first->front(), 0, kCodeCount);
+  if (!is_board) {
+    return Fail({}, "--board {}: no board; allowed: 3 to {} squares a side and their metres, as 8x8x0.2 or 8x8x0.2@32",
+                text, kMostSquares);
+  }
+  const Board board{.columns = static_cast<int>((*numbers)[0]),
+                    .rows = static_cast<int>((*numbers)[1]),
+                    .square = (*numbers)[2],
+                    .first_code = static_cast<int>(first->front())};
+  if (board.first_code + CountCodes(board) > kCodeCount) {
+    return Fail({}, "--board {}: it takes codes {} to {}; allowed: below {}", text, board.first_code,
+                board.first_code + CountCodes(board) - 1, kCodeCount);
+  }
+  return board;
+}
+
+RefineOptions RefineOptionsOf(const CalibrateOptions& options) {
+  RefineOptions refine{.skew = options.skew};
+  refine.lens = options.lens == "none"      ? LensModel::kPinhole
+                : options.lens == "radial3" ? LensModel::kRadial3
+                                            : LensModel::kRadial2;
+  return refine;
+}
+
+namespace {
+
+Result<void> SetSize(const std::string& text, std::vector<CameraPairs>& cameras) {
+  for (CameraPairs& camera : cameras) {
+    if (camera.width > 0) continue;
+    const auto size = NumbersByX(text);
+    if (!size || size->size() != 2 || !IsWholeWithin((*size)[0], 1, 65536) || !IsWholeWithin((*size)[1], 1, 65536)) {
+      return Fail({}, "--size '{}'; needed with point pairs as CSV: the pictures' width and height, as 1920x1080",
+                  text);
+    }
+    camera.width = static_cast<int>((*size)[0]);
+    camera.height = static_cast<int>((*size)[1]);
+  }
+  return {};
+}
+
+Result<Calibrated> FromPairs(const CalibrateOptions& options) {
+  const std::string& file = options.inputs.front();
+  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file));
+  ASSIGN_OR_RETURN(auto cameras, ReadPointPairs(text, file));
+  RETURN_IF_ERROR(SetSize(options.size, cameras));
+  Calibrated rig;
+  for (const CameraPairs& of : cameras) {
+    const auto complain = [&](const Error& error) { return Fail({file}, "camera {}: {}", of.name, error.message); };
+    rig.points.push_back(of.pairs.size());
+    if (options.method == "refined") {
+      const auto refined = RefineCamera(of.pairs, of.width, of.height, RefineOptionsOf(options));
+      if (!refined) return complain(refined.error());
+      rig.cameras.push_back({of.name, refined->cameras.front()});
+      rig.deviations.push_back(refined->deviations.front());
+    } else {
+      const auto matrix = Calibrate(of.pairs, CalibrationNamed(options.method));
+      if (!matrix) return complain(matrix.error());
+      const auto parameters = Decompose(*matrix);
+      if (!parameters) return complain(parameters.error());
+      rig.cameras.push_back({of.name, ToCamera(*parameters, of.width, of.height)});
+      rig.deviations.push_back(std::nullopt);
+    }
+    rig.rms_px.push_back(ReprojectionRms(rig.cameras.back().camera, {}, of.pairs));
+  }
+  return rig;
+}
+
+std::string TextOf(const Calibrated& rig) {
+  std::string text;
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    const Camera& camera = rig.cameras[i].camera;
+    const Intrinsics& in = camera.intrinsics;
+    const Distortion& d = camera.distortion;
+    const CameraParameters p = ParametersIn(camera);
+    text += fmt::format("\n{}: reprojection error {:.3f} px RMS over {} points\n", rig.cameras[i].name, rig.rms_px[i],
+               rig.points[i]);
+    const auto& s = rig.deviations[i];
+    const auto with = [&](double value, double deviation) {
+      return s ? fmt::format("{:.2f} ± {:.2f}", value, deviation) : fmt::format("{:.2f}", value);
+    };
+    text += fmt::format("  focal lengths    {}, {} px   principal point {}, {} px\n", with(in.fx, s ? s->fx : 0),
+               with(in.fy, s ? s->fy : 0), with(in.cx, s ? s->cx : 0), with(in.cy, s ? s->cy : 0));
+    if (!d.IsNone())
+      text += fmt::format("  lens             k1 {:.5f}  k2 {:.5f}  p1 {:.6f}  p2 {:.6f}  k3 {:.5f}\n", d.k1, d.k2, d.p1, d.p2,
+                 d.k3);
+    text += fmt::format("  stands at        {:.3f}, {:.3f}, {:.3f} m\n", camera.p_WC.x, camera.p_WC.y, camera.p_WC.z);
+    text += fmt::format("  paper B's        f {:.2f}  du {:.5f}  dv {:g}  pu {:.2f}  pv {:.2f}  theta {:.3f} deg\n",
+               p.focal_length, p.delta_u, p.delta_v, p.principal_u, p.principal_v, Degrees(p.skew));
+    text += fmt::format("                   omega {:.3f}  phi {:.3f}  kappa {:.3f} deg   t {:.4f}, {:.4f}, {:.4f} m\n",
+               Degrees(p.omega), Degrees(p.phi), Degrees(p.kappa), p.t.x, p.t.y, p.t.z);
+  }
+  return text;
+}
+
+}  // namespace
+
+Result<void> PrintBoard(const CalibrateOptions& options) {
+  ASSIGN_OR_RETURN(const Board board, ReadCodedBoard(options.boards.front()));
+  constexpr int kPixelsPerModule = 16;
+  constexpr int kSide = kPixelsPerModule * kModules, kMargin = kSide / 2;
+  ColourImage picture(board.columns * kSide + 2 * kMargin, board.rows * kSide + 2 * kMargin, Rgb8{255, 255, 255});
+  for (int y = 0; y < board.rows * kSide; ++y) {
+    for (int x = 0; x < board.columns * kSide; ++x) {
+      const glm::dvec2 place = board.square / kSide * glm::dvec2(x + 0.5, y + 0.5);
+      if (IsBlackAt(board, place)) picture.At(x + kMargin, y + kMargin) = {0, 0, 0};
+    }
+  }
+  RETURN_IF_ERROR(WriteFileAtomically(options.print, EncodePng(picture)));
+  TellWritten(options.listener, options.print);
+  options.listener.print(fmt::format("{} x {} squares; print it so that one is {:g} mm, glue it flat, measure it again\n", board.columns,
+             board.rows, 1000 * board.square));
+  return {};
+}
+
+Result<Calibrated> CalibrateRig(const CalibrateOptions& options) {
+  const std::string ending = fs::path(options.inputs.front()).extension().string();
+  const bool is_pairs = options.inputs.size() == 1 && (ending == ".csv" || ending == ".yaml" || ending == ".yml");
+  if (is_pairs && !(options.picture + options.beside).empty())
+    return Fail({}, "--picture and --beside are of boards; {} has point pairs", options.inputs.front());
+  ASSIGN_OR_RETURN(Calibrated rig, is_pairs ? FromPairs(options) : CalibrateFromPictures(options));
+  options.listener.print(TextOf(rig));
+  RETURN_IF_ERROR(WriteFileAtomically(options.output, WriteRig(rig.cameras)));
+  options.listener.print("\n");
+  TellWritten(options.listener, options.output);
+  return rig;
+}
+
+}  // namespace etude

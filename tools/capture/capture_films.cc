@@ -1,0 +1,61 @@
+#include "tools/capture/capture_films.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "engine/formats/trc.h"
+#include "io/files/files.h"
+#include "tools/capture/capture_parts.h"
+
+namespace etude {
+
+Result<CapturedFilms> CaptureFilms(const CaptureFilmsOptions& options) {
+  RETURN_IF_ERROR(FormatOfName(options.output));
+  if (options.keypoints.empty() && options.marks.empty() && !options.silhouettes) {
+    return Fail({}, "what shall tell where the person is? allowed: --keypoints DIR, --marks DIR or --silhouettes");
+  }
+  std::optional<MarkerMotion> reference;
+  if (!options.reference.empty()) {
+    ASSIGN_OR_RETURN(const auto text, ReadWholeFile(options.reference));
+    ASSIGN_OR_RETURN(reference, ReadTrc(text, options.reference));
+  }
+  if (options.silhouettes && options.sync_s > 0) return Fail({}, "--sync: outlines tell no clock; cut the films alike");
+  if (options.silhouettes && !options.keypoints.empty() && options.stature_m > 0) {
+    return Fail({}, "--stature: the keypoints tell how tall the person is");
+  }
+  RETURN_IF_ERROR(CheckPlace(options.place));
+  ASSIGN_OR_RETURN(FilmedSession session, OpenFilms(options));
+  const FilmFacts facts = session.views.front().facts;
+  options.listener.print(fmt::format("{} films, {} frames at {:g} Hz\n", session.views.size(), facts.frames, facts.rate_hz));
+  if (reference && std::abs(reference->rate_hz - facts.rate_hz) > kOneRate * facts.rate_hz) {
+    options.listener.print(fmt::format("reference: resampled from {:g} to {:g} Hz, straight between its frames\n", reference->rate_hz,
+               facts.rate_hz));
+    reference = AtRate(std::move(*reference), facts.rate_hz);
+  }
+  Json seen = Json::array();
+  for (const FilmedView& view : session.views) {
+    seen.push_back({{"film", view.path.string()}, {"camera", view.camera.name}});
+  }
+  Json told = {{"films", std::move(seen)}, {"frames", facts.frames}, {"rate_hz", facts.rate_hz},
+               {"keypoints", nullptr},     {"silhouettes", nullptr}, {"output", options.output}};
+  bool is_whole = false;
+  if (options.silhouettes && options.keypoints.empty()) {
+    const auto place = PlaceRig(session.rig, options.place);
+    if (!place) return Fail({options.rig}, "{}", place.error().message);
+    for (FilmedView& view : session.views) {
+      if (view.fit.quarter_turns != 0) {
+        return Fail({view.path.string()}, "its pictures are turned, and outlines do not tell which way; turn the film");
+      }
+      view.camera.camera = Placed(*place, view.camera.camera);
+    }
+    ASSIGN_OR_RETURN(is_whole, CaptureUnmarked(options, session, reference, told));
+  } else {
+    ASSIGN_OR_RETURN(is_whole, CaptureKeypoints(options, std::move(session), reference, told));
+  }
+  return CapturedFilms{is_whole, std::make_unique<Json>(std::move(told))};
+}
+
+}  // namespace etude

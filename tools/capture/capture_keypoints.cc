@@ -1,0 +1,288 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "engine/formats/trc.h"
+#include "engine/keypoints/adjust_person.h"
+#include "engine/keypoints/agreement.h"
+#include "engine/keypoints/doubt_rig.h"
+#include "engine/unmarked/join_outlines.h"
+#include "io/files/files.h"
+#include "tools/capture/capture_parts.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+RecoverPersonOptions RecoverOptionsOf(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views) {
+  double longer_side = 0;
+  for (const FilmedView& view : views) {
+    const Intrinsics& in = view.camera.camera.intrinsics;
+    longer_side = std::max<double>({longer_side, static_cast<double>(in.width), static_cast<double>(in.height)});
+  }
+  RecoverPersonOptions recover = UsualRecovery(views.front().facts.rate_hz, longer_side);
+  recover.person = static_cast<std::size_t>(options.person - 1);
+  recover.cutoff_hz = options.smooth_hz;
+  recover.longest_gap_s = options.longest_gap_s;
+  constexpr double kLeastShare = 0.004;  // of the picture's longer side: what rounding and lenses leave
+  recover.least_outlier_px = kLeastShare * longer_side;
+  if (options.outlier_px > 0) recover.triangulate.robust.outlier_px = recover.least_outlier_px = options.outlier_px;
+  recover.mends = recover.match.may_be_swapped = true;
+  return recover;
+}
+
+std::string PeopleText(const RecoveredPerson& person, const std::vector<FilmedView>& views) {
+  std::string text;
+  int number = 0, alone = 0;
+  for (const MatchedPerson& one : person.people) {
+    if (one.cameras < 2) {
+      ++alone;
+      continue;
+    }
+    std::string by;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      const auto frames = std::ranges::count_if(one.seen[i], [](const auto& seen) { return seen.has_value(); });
+      if (frames > 0) by += fmt::format("{}{} ({} frames)", by.empty() ? "" : ", ", views[i].camera.name, frames);
+    }
+    text += fmt::format("person {}: seen by {}; rays miss by {:.1f} % of the height\n", ++number, by, 100 * one.error);
+  }
+  if (alone > 0) text += fmt::format("{} tracks of people or errors that one camera alone saw\n", alone);
+  return text;
+}
+
+std::string ReportText(const RecoveredPerson& person, const std::vector<FilmedView>& views) {
+  std::string text;
+  const LimbLengths& l = person.body.lengths;
+  constexpr double kCmPerMetre = 100;
+  text += fmt::format("points: {:.1f} % found, {:.1f} px off the keypoints (median), outliers beyond {:.1f} px",
+             100 * person.report.found, person.report.residual_px, person.outlier_px);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    text += fmt::format("{} {} {:.1f} %", i == 0 ? "; left out:" : ",", views[i].camera.name, 100 * person.report.rejected[i]);
+  }
+  text += fmt::format(
+      "\nlengths, cm: shank {:.1f}, thigh {:.1f}, trunk {:.1f}, upper arm {:.1f}, forearm {:.1f}, hips {:.1f}, "
+      "shoulders {:.1f}\n",
+      kCmPerMetre * l.shank, kCmPerMetre * l.thigh, kCmPerMetre * l.trunk, kCmPerMetre * l.upper_arm,
+      kCmPerMetre * l.forearm, kCmPerMetre * l.hip_width, kCmPerMetre * l.shoulder_width);
+  const auto held = std::ranges::count(person.is_held, true);
+  if (held > 0) text += fmt::format("{} frames show too little and hold the last pose\n", held);
+  return text;
+}
+
+/// Encodes what was found out of keypoints, for programs.
+Json FactsOf(const RecoveredPerson& person, const std::vector<FilmedView>& views,
+             const std::vector<std::string>& told) {
+  Json cameras = Json::array(), fit = Json::array();
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    cameras.push_back({{"camera", views[i].camera.name}, {"left_out_share", person.report.rejected[i]}});
+  }
+  const MarkerMotion points = JointMarkers(person.landmarks, person.motion.rate_hz);
+  for (const MarkerAgreement& row : CompareMarkers(JointMarkers(person.motion), points)) {
+    if (row.frames > 0) fit.push_back({{"joint", row.name}, {"median_mm", row.median_mm}, {"p95_mm", row.p95_mm}});
+  }
+  const LimbLengths& l = person.body.lengths;
+  return {{"people", std::ranges::count_if(person.people, [](const auto& one) { return one.cameras >= 2; })},
+          {"found_share", person.report.found},
+          {"residual_px", person.report.residual_px},
+          {"outlier_px", person.outlier_px},
+          {"held_frames", std::ranges::count(person.is_held, true)},
+          {"cameras", std::move(cameras)},
+          {"lengths_m",
+           {{"shank", l.shank},
+            {"thigh", l.thigh},
+            {"trunk", l.trunk},
+            {"upper_arm", l.upper_arm},
+            {"forearm", l.forearm},
+            {"hips", l.hip_width},
+            {"shoulders", l.shoulder_width}}},
+          {"fit", std::move(fit)},
+          {"told", told}};
+}
+
+/// Tells how far the joints of the written motion are from the points that they were fitted to.
+std::string FitText(const RecoveredPerson& person) {
+  std::string text;
+  const MarkerMotion skeleton = JointMarkers(person.motion);
+  const MarkerMotion points = JointMarkers(person.landmarks, person.motion.rate_hz);
+  std::vector<MarkerAgreement> rows = CompareMarkers(skeleton, points);
+  rows.push_back(CompareAllMarkers(skeleton, points));
+  text += fmt::format("\nDistance of the skeleton's joints to the triangulated points, mm:\n{:<16}{:>8}{:>8}\n", "", "median",
+             "p95");
+  for (const MarkerAgreement& row : rows) {
+    if (row.frames > 0) text += fmt::format("{:<16}{:>8.1f}{:>8.1f}\n", row.name, row.median_mm, row.p95_mm);
+  }
+  return text;
+}
+
+/// Follows the person by the films' outlines, too.
+Result<UnmarkedMotion> WithOutlines(const RecoveredPerson& person, std::size_t chosen, const ReducedTake& take,
+                                    const CaptureFilmsOptions& options) {
+  return RecoverByOutlines(take, options, person.motion.rate_hz,
+                           {.person = &person.people[chosen], .lengths = person.body.lengths});
+}
+
+AdjustPersonOptions AdjustOf(const RecoverPersonOptions& recover) {
+  return {.rate_hz = recover.rate_hz, .least_confidence = recover.triangulate.least_confidence};
+}
+
+/// Compares joints of outlines and keypoints together with a reference; pairs as if there were no other camera.
+Result<std::vector<ComparedColumn>> CompareWithOutlines(const MarkerMotion& reference, const BodyMotion& both,
+                                                        const SeenFilms& films, const ReducedTake& take,
+                                                        const RecoverPersonOptions& recover,
+                                                        const CaptureFilmsOptions& options) {
+  const MarkerMotion joints = JointsOfReference(reference);
+  std::vector<ComparedColumn> columns{CompareColumn("all", JointMarkers(both), joints)};
+  for (const CameraPair& pair : PairsOf(films.cameras.size())) {
+    const std::array cameras = {films.cameras[pair.first], films.cameras[pair.second]};
+    const std::array people = {films.people[pair.first], films.people[pair.second]};
+    auto seen = RecoverPerson(cameras, people, recover);
+    const std::size_t chosen = seen ? IndexOfPerson(*seen, recover.person).value_or(0) : 0;
+    if (seen) AdjustPerson(cameras, seen->people[chosen], AdjustOf(recover), *seen);
+    const auto found = seen ? WithOutlines(*seen, chosen, PairOf(take, pair), options)
+                            : Result<UnmarkedMotion>(tl::unexpected(seen.error()));
+    if (found) JoinOutlines(cameras, seen->people[chosen], found->motion, AdjustOf(recover), *seen);
+    columns.push_back(found ? CompareColumn(pair.heading, JointMarkers(seen->motion), joints)
+                            : ComparedColumn{pair.heading + kLost, {}, {}});
+  }
+  return columns;
+}
+
+/// Compares the person with a reference. Points of a pair of cameras are found among the same persons as if there were
+/// no other camera.
+std::vector<ComparedColumn> CompareWithReference(const MarkerMotion& reference, const RecoveredPerson& person,
+                                                 const SeenFilms& films, const RecoverPersonOptions& options) {
+  const auto column = [&](std::string heading, const RecoveredPerson& of) {
+    return CompareColumn(std::move(heading), ToMarkers(of.landmarks, options.rate_hz), reference);
+  };
+  std::vector<ComparedColumn> columns{column("all", person)};
+  for (const CameraPair& pair : PairsOf(films.cameras.size())) {
+    const std::array cameras = {films.cameras[pair.first], films.cameras[pair.second]};
+    const std::array people = {films.people[pair.first], films.people[pair.second]};
+    const auto recovered = RecoverPerson(cameras, people, options);
+    columns.push_back(recovered ? column(pair.heading, *recovered) : ComparedColumn{pair.heading + kLost, {}, {}});
+  }
+  return columns;
+}
+
+}  // namespace
+
+Result<bool> WriteFilm(const CaptureFilmsOptions& options, const std::vector<OverlayView>& overlays,
+                       const BodyMotion& motion) {
+  auto is_whole = options.listener.film(
+      [&](const FilmWatch& watch) { return WriteOverlayFilm(options.film, overlays, motion, watch); });
+  if (is_whole && *is_whole) TellWritten(options.listener, options.film);
+  return is_whole;
+}
+
+std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const RecoveredPerson& person,
+                                    std::size_t chosen, const std::vector<FilmClock>& clocks) {
+  std::vector<OverlayView> overlays;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const FilmedView& view = views[i];
+    overlays.push_back(
+        {view.camera.name, view.path, view.facts, view.camera.camera, view.fit, clocks[i].offset, {}, clocks[i].drift});
+    for (auto seen : person.people[chosen].seen[i]) {
+      // Matched persons are told without the lens.
+      for (Keypoint& keypoint : seen ? std::span<Keypoint>(seen->keypoints) : std::span<Keypoint>()) {
+        const auto rig = DistortPixel(view.camera.camera, keypoint.pixel);
+        keypoint = rig && keypoint.confidence > 0 ? Keypoint{view.fit.ToFilm(*rig), keypoint.confidence} : Keypoint{};
+      }
+      overlays.back().keypoints.push_back(seen);
+    }
+  }
+  return overlays;
+}
+
+/// Says what the keypoints say against the rig.
+void TellDoubts(const MatchedPerson& person, const std::vector<FilmedView>& views, double least_confidence,
+                ToldLines& told) {
+  std::vector<Camera> cameras;
+  std::vector<std::string> names;
+  for (const FilmedView& view : views) {
+    cameras.push_back(view.camera.camera);
+    names.push_back(view.camera.name);
+  }
+  for (const std::string& doubt : DoubtRig(cameras, names, person, least_confidence)) {
+    told.Tell("doubtful: " + doubt);
+  }
+}
+
+Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession session,
+                              const std::optional<MarkerMotion>& reference, Json& facts) {
+  std::vector<FilmedView>& views = session.views;
+  const RecoverPersonOptions recover = RecoverOptionsOf(options, views);
+  ASSIGN_OR_RETURN(SeenFilms films, SeeFilms(options, recover, session));
+  ASSIGN_OR_RETURN(RecoveredPerson located, LocatePerson(films.cameras, films.people, recover));
+  const auto place = PlaceRig(session.rig, located.landmarks, recover.rate_hz, options.place);
+  if (!place) return Fail({options.rig}, "{}", place.error().message);
+  films.told.Tell(fmt::format("rig, {}: {}", session.rig.format, place->told));
+  if (!place->IsNone()) {
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      views[i].camera.camera = Placed(*place, views[i].camera.camera);
+      films.cameras[i] = MatrixOf(views[i].camera.camera);
+    }
+    for (LandmarkPlaces& frame : located.landmarks) {
+      for (auto& point : frame) {
+        if (point) point = (*place)(*point);
+      }
+    }
+  }
+  ASSIGN_OR_RETURN(RecoveredPerson person, FitLocated(std::move(located), recover));
+  const std::size_t chosen = IndexOfPerson(person, recover.person).value_or(0);
+  if (options.poses == "bundle" && options.smooth_hz == 0) {
+    if (!AdjustPerson(films.cameras, person.people[chosen], AdjustOf(recover), person)) {
+      films.told.Tell("doubtful: no motion explains all keypoints at once; every frame is by itself");
+    }
+  }
+  options.listener.print(PeopleText(person, views));
+  TellMends(person, chosen, views, films.told);
+  TellDoubts(person.people[chosen], views, recover.triangulate.least_confidence, films.told);
+  options.listener.print(ReportText(person, views) + FitText(person));
+  facts["keypoints"] = FactsOf(person, views, films.told.lines);
+  ReducedTake take;
+  std::optional<UnmarkedMotion> both;
+  if (options.silhouettes) {
+    ASSIGN_OR_RETURN(take, ReadTake(options, views, films.clocks));
+    ASSIGN_OR_RETURN(both, WithOutlines(person, chosen, take, options));
+    facts["silhouettes"] = {{"stature_m", both->stature_m}, {"cost", both->cost}, {"held_frames", both->held}};
+    if (JoinOutlines(films.cameras, person.people[chosen], both->motion, AdjustOf(recover), person)) {
+      films.told.Tell(fmt::format("outlines cost {:.0f} a picture; joints are those of keypoints and outlines together",
+                       both->cost));
+    } else {
+      films.told.Tell("doubtful: no motion explains keypoints and outlines at once; the joints are the keypoints' own");
+    }
+  }
+  RETURN_IF_ERROR(WriteMotion(options.output, person.clip, person.motion));
+  if (!options.points.empty()) {
+    const std::string name = fs::path(options.output).stem().string();
+    RETURN_IF_ERROR(WriteFileAtomically(options.points, WriteTrc(ToMarkers(person.landmarks, recover.rate_hz), name)));
+    TellWritten(options.listener, options.points);
+  }
+  if (reference) {
+    const std::string what = fmt::format("Distance of the {} to {}, median, mm.",
+                                         both ? "joints" : "triangulated keypoints", options.reference);
+    const MarkerMotion in_time = InTimeWith(ToMarkers(person.landmarks, recover.rate_hz), *reference, films.told);
+    std::vector<ComparedColumn> columns;
+    if (both) {
+      ASSIGN_OR_RETURN(columns, CompareWithOutlines(in_time, person.motion, films, take, recover, options));
+    } else {
+      columns = CompareWithReference(in_time, person, films, recover);
+    }
+    RETURN_IF_ERROR(TellColumns(what + " Where it was made of the same keypoints,\nthis is agreement, not error.",
+                                columns, views, options));
+  }
+  if (!options.film.empty()) {
+    ASSIGN_OR_RETURN(const bool is_whole,
+                     WriteFilm(options, OverlaysOf(views, person, chosen, films.clocks), person.motion));
+    if (!is_whole) return false;
+  }
+  if (options.report.empty()) return true;
+  return WriteReport(options, views, person, chosen, films, both ? &*both : nullptr);
+}
+
+}  // namespace etude

@@ -1,0 +1,176 @@
+#include "tools/capture/capture_page.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "engine/base/base64.h"
+#include "io/drawing/assets/assets.h"
+#include "io/drawing/escape.h"
+#include "io/drawing/marks.h"
+#include "io/drawing/panel.h"
+
+namespace etude {
+namespace {
+
+constexpr double kHeight = 190, kTop = 8, kBottom = 166, kWide = 900, kRight = 890;
+
+/// The curve as an SVG path; of more frames than the panel has room for, the largest of each few.
+std::string PathOf(const TakeCurve& curve, const Axis& across, const Axis& up, double rate_hz) {
+  constexpr std::size_t kMostPoints = 450;
+  const std::size_t stride = (curve.values.size() + kMostPoints - 1) / kMostPoints;
+  std::string path;
+  bool is_down = false;
+  for (std::size_t from = 0; from < curve.values.size(); from += stride) {
+    std::optional<double> most;
+    for (std::size_t i = from; i < std::min(from + stride, curve.values.size()); ++i) {
+      if (curve.values[i]) most = std::max(most.value_or(*curve.values[i]), *curve.values[i]);
+    }
+    if (most) {
+      path += fmt::format("{}{:.1f} {:.1f}", is_down ? "L" : "M", across.At(static_cast<double>(from) / rate_hz),
+                          up.At(*most));
+    }
+    is_down = most.has_value();
+  }
+  return path;
+}
+
+/// A figure of curves over time with its legend.
+std::string CurvesHtml(const std::vector<TakeCurve>& curves, double rate_hz, std::string_view caption) {
+  std::vector<double> all;
+  std::size_t frames = 1;
+  for (const TakeCurve& curve : curves) {
+    frames = std::max(frames, curve.values.size());
+    for (const auto& value : curve.values) {
+      if (value) all.push_back(*value);
+    }
+  }
+  if (all.empty()) return "";
+  Axis up = AxisAroundZero(all);
+  up.from = kBottom, up.to = kTop;
+  const Axis across{.low = 0, .high = static_cast<double>(frames) / rate_hz, .from = kPanelLeft, .to = kRight};
+  std::string svg = BeginPanel(kHeight, caption, kWide, "plot wide") + LyingGrid(across, kTop, kBottom) +
+                    UprightGrid(up, kPanelLeft, kRight);
+  std::string legend;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    svg += MethodLine(i, PathOf(curves[i], across, up, rate_hz));
+    legend += fmt::format("<span class=\"method\">{} {}</span> ", LineKeySvg(i), EscapeMarkup(curves[i].name));
+  }
+  return fmt::format(
+      "<figure class=\"plots\"><figcaption>{}</figcaption>{}</svg><p class=\"quiet legend\">{}</p></figure>",
+      EscapeMarkup(caption), svg, legend);
+}
+
+std::string TableHtml(const std::vector<std::string>& heads, const std::vector<std::vector<std::string>>& rows) {
+  std::string html = "<div class=\"scroll\" tabindex=\"0\"><table><thead><tr>";
+  for (std::size_t i = 0; i < heads.size(); ++i) {
+    html += fmt::format("<th scope=\"col\"{}>{}</th>", i == 0 ? "" : " class=\"n\"", EscapeMarkup(heads[i]));
+  }
+  html += "</tr></thead><tbody>";
+  for (const auto& row : rows) {
+    html += "<tr>";
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      html += fmt::format("<td{}>{}</td>", i == 0 ? "" : " class=\"n\"", EscapeMarkup(row[i]));
+    }
+    html += "</tr>";
+  }
+  return html + "</tbody></table></div>";
+}
+
+std::string FilmHtml(const CapturePage& page) {
+  const std::string caption = EscapeMarkup(page.still.caption);
+  const std::string poster = "data:image/png;base64," + Base64(page.still.png);
+  if (page.mp4.empty()) {
+    return page.still.png.empty() ? ""
+                                  : fmt::format(
+                                        "<figure class=\"film\"><img width=\"{}\" height=\"{}\" src=\"{}\" "
+                                        "alt=\"{}\"><figcaption>{} The film is too long for a page{}.</figcaption>"
+                                        "</figure>",
+                                        page.still.width, page.still.height, poster, caption, caption,
+                                        page.film.empty() ? "" : ": " + EscapeMarkup(page.film));
+  }
+  return fmt::format(
+      "<figure class=\"film\"><video controls loop muted playsinline width=\"{}\" height=\"{}\" poster=\"{}\" "
+      "src=\"data:video/mp4;base64,{}\" aria-label=\"{}\"></video><figcaption>{}</figcaption></figure>",
+      page.still.width, page.still.height, poster, Base64(page.mp4), caption, caption);
+}
+
+std::string ToldHtml(const CapturePage& page) {
+  if (page.told.empty()) return "";
+  std::string html = "<section class=\"card\"><h2>What was found out, and mended</h2><ul>";
+  for (const std::string& line : page.told) {
+    const bool is_doubt = line.starts_with("doubtful");
+    html += fmt::format("<li>{}{}</li>", is_doubt ? "<span class=\"badge open\">doubtful</span> " : "",
+                        EscapeMarkup(is_doubt ? line.substr(line.find(':') + 1) : line));
+  }
+  return html + "</ul></section>\n";
+}
+
+std::string ResidualsHtml(const CameraResiduals& residuals, double rate_hz) {
+  std::vector<TakeCurve> curves;
+  std::vector<std::vector<std::string>> rows;
+  std::vector<std::string> heads = {"Camera", "Frames", "Median, " + residuals.unit, "95 %, " + residuals.unit};
+  const bool has_keypoints =
+      std::ranges::any_of(residuals.cameras, [](const auto& camera) { return camera.left_out.has_value(); });
+  if (has_keypoints) heads.emplace_back("Keypoints left out");
+  for (const CapturedCamera& camera : residuals.cameras) {
+    curves.push_back(camera.residual);
+    std::vector<double> values;
+    for (const auto& value : camera.residual.values) {
+      if (value) values.push_back(*value);
+    }
+    std::ranges::sort(values);
+    const auto rank = [&](double share) {
+      if (values.empty()) return std::string("—");
+      return fmt::format("{:.1f}", values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))]);
+    };
+    constexpr double kMedian = 0.5, kMost = 0.95, kPercent = 100;
+    rows.push_back({camera.name, fmt::format("{}", values.size()), rank(kMedian), rank(kMost)});
+    if (has_keypoints) rows.back().push_back(fmt::format("{:.1f} %", kPercent * camera.left_out.value_or(0)));
+  }
+  return CurvesHtml(curves, rate_hz, residuals.caption) + TableHtml(heads, rows);
+}
+
+std::string CamerasHtml(const CapturePage& page) {
+  std::string html = "<section class=\"card\"><h2>How well the cameras agree</h2>";
+  for (const CameraResiduals& residuals : page.residuals) html += ResidualsHtml(residuals, page.rate_hz);
+  return html + "</section>\n";
+}
+
+std::string BodyHtml(const CapturePage& page) {
+  std::vector<std::vector<std::string>> lengths, fit;
+  for (const auto& [name, cm] : page.lengths_cm) lengths.push_back({name, fmt::format("{:.1f}", cm)});
+  for (const auto& [name, mm] : page.fit)
+    fit.push_back({name, fmt::format("{:.1f}", mm[0]), fmt::format("{:.1f}", mm[1])});
+  return "<section class=\"card\"><h2>Feet and floor</h2>" +
+         CurvesHtml(page.feet_cm, page.rate_hz,
+                    "Height of each foot's lowest joint above the floor, cm, over seconds") +
+         "</section>\n<section class=\"card\"><h2>The body</h2><p>" + EscapeMarkup(page.limbs) + "</p>" +
+         TableHtml({"Limb", "Length, cm"}, lengths) +
+         (fit.empty() ? ""
+                      : "<p>The skeleton's joints, from the points that they were fitted to:</p>" +
+                            TableHtml({"Joint", "Median, mm", "95 %, mm"}, fit)) +
+         "</section>\n";
+}
+
+}  // namespace
+
+std::string WriteCapturePage(const CapturePage& page) {
+  return fmt::format(
+             "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta "
+             "http-equiv=\"Content-Security-Policy\" "
+             "content=\"default-src 'none'; style-src 'unsafe-inline'; img-src data:; media-src data:\"><meta "
+             "name=\"viewport\" content=\"width=device-width, initial-scale=1\"><meta name=\"color-scheme\" "
+             "content=\"light dark\"><title>{} · Etude</title><style>{}{}.plot.wide {{ max-width: none; "
+             "}}</style></head>\n"
+             "<body><main><header><p class=\"eyebrow\">Etude · capture</p><h1>{}</h1><p "
+             "class=\"verdict\">{}</p></header>",
+             EscapeMarkup(page.title), ReportCss(), MarksCss(), EscapeMarkup(page.title), EscapeMarkup(page.verdict)) +
+         FilmHtml(page) + ToldHtml(page) + CamerasHtml(page) + BodyHtml(page) +
+         fmt::format(
+             "<footer><dl><div><dt>Etude</dt><dd>{}</dd></div><div><dt>Command</dt><dd>{}</dd></div></dl></footer>"
+             "</main></body></html>\n",
+             EscapeMarkup(page.version), EscapeMarkup(page.command));
+}
+
+}  // namespace etude

@@ -1,0 +1,174 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "engine/base/order_statistics.h"
+#include "io/files/files.h"
+#include "io/files/temporary_folder.h"
+#include "tools/capture/capture_parts.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The median distance of a frame's keypoints to the points that all cameras make, as the camera shows them.
+std::optional<double> ResidualOf(const ProjectionMatrix& camera, const SeenPerson& seen, const LandmarkPlaces& places) {
+  std::vector<double> distances;
+  for (std::size_t i = 0; i < kLandmarkCount; ++i) {
+    if (!(seen.keypoints[i].confidence > 0) || !places[i]) continue;
+    if (const auto pixel = Project(camera, *places[i]))
+      distances.push_back(glm::distance(*pixel, seen.keypoints[i].pixel));
+  }
+  if (distances.empty()) return std::nullopt;
+  return UpperMedian(distances);
+}
+
+std::vector<TakeCurve> FeetOf(const BodyMotion& motion) {
+  constexpr double kCm = 100;
+  std::vector<TakeCurve> feet;
+  for (const auto& [name, ankle, toe] : {std::tuple("left foot", Role::kLeftAnkle, Role::kLeftFoot),
+                                         {"right foot", Role::kRightAnkle, Role::kRightFoot}}) {
+    TakeCurve& curve = feet.emplace_back(TakeCurve{name, {}});
+    for (const BodyPose& pose : motion.poses) curve.values.push_back(kCm * std::min(pose[ankle].y, pose[toe].y));
+  }
+  return feet;
+}
+
+CameraResiduals ResidualsOf(const std::vector<FilmedView>& views, const RecoveredPerson& person, std::size_t chosen,
+                            const SeenFilms& films) {
+  CameraResiduals residuals{
+      .caption =
+          "Distance of a camera's keypoints to the points that all cameras make, px, over seconds: the median "
+          "of each frame",
+      .unit = "px",
+      .cameras = {}};
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    CapturedCamera& camera = residuals.cameras.emplace_back();
+    camera.name = camera.residual.name = views[i].camera.name;
+    camera.left_out = person.report.rejected[i];
+    const auto& seen = person.people[chosen].seen[i];
+    for (std::size_t frame = 0; frame < person.landmarks.size(); ++frame) {
+      const bool is_seen = frame < seen.size() && seen[frame];
+      camera.residual.values.push_back(is_seen ? ResidualOf(films.cameras[i], *seen[frame], person.landmarks[frame])
+                                               : std::nullopt);
+    }
+  }
+  return residuals;
+}
+
+CapturePage PageOf(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
+                   const RecoveredPerson& person, std::size_t chosen, const SeenFilms& films,
+                   const UnmarkedMotion* both) {
+  constexpr double kPercent = 100;
+  CapturePage page = BeginPage(options, person.motion, person.body.lengths, films.told.lines);
+  page.verdict = fmt::format(
+      "{} cameras, {} frames at {:g} Hz: {:.1f} % of the points found, {:.1f} px off the keypoints in the median",
+      views.size(), person.motion.poses.size(), person.motion.rate_hz, kPercent * person.report.found,
+      person.report.residual_px);
+  page.residuals.push_back(ResidualsOf(views, person, chosen, films));
+  if (both != nullptr) {
+    page.residuals.push_back(ResidualsOfOutlines(views, *both));
+    page.verdict += fmt::format("; body and outlines differ by {:.0f} %", MedianOf(page.residuals.back()));
+  }
+  page.verdict += fmt::format("; {}.", DoubtsOf(films.told.lines));
+  page.limbs = options.poses == "bundle" && options.smooth_hz == 0
+                   ? "Limbs are as long as explains all keypoints best."
+                   : "Limbs are as long as in the median of what was seen.";
+  const MarkerMotion points = JointMarkers(person.landmarks, person.motion.rate_hz);
+  for (const MarkerAgreement& row : CompareMarkers(JointMarkers(person.motion), points)) {
+    if (row.frames > 0) page.fit.emplace_back(row.name, std::array{row.median_mm, row.p95_mm});
+  }
+  page.still.caption =
+      "The skeleton as each camera would show it (lines; left blue, right orange), and the keypoints it was made of "
+      "(green).";
+  return page;
+}
+
+}  // namespace
+
+CapturePage BeginPage(const CaptureFilmsOptions& options, const BodyMotion& motion, const LimbLengths& lengths,
+                      const std::vector<std::string>& told) {
+  constexpr double kCm = 100;
+  CapturePage page;
+  page.title = fs::path(options.output).stem().string();
+  page.rate_hz = motion.rate_hz;
+  page.film = options.film;
+  page.told = told;
+  page.feet_cm = FeetOf(motion);
+  const LimbLengths& l = lengths;
+  for (const auto& [name, metres] : {std::pair("shank", l.shank),
+                                     {"thigh", l.thigh},
+                                     {"trunk", l.trunk},
+                                     {"upper arm", l.upper_arm},
+                                     {"forearm", l.forearm},
+                                     {"hips", l.hip_width},
+                                     {"shoulders", l.shoulder_width}}) {
+    page.lengths_cm.emplace_back(name, kCm * metres);
+  }
+  page.version = options.version;
+  page.command = options.command_line;
+  return page;
+}
+
+CameraResiduals ResidualsOfOutlines(const std::vector<FilmedView>& views, const UnmarkedMotion& person) {
+  constexpr double kPercent = 100;
+  CameraResiduals residuals{
+      .caption =
+          "Share of what the body or the person's outline covers in a camera's picture that only one of them "
+          "does, %, over seconds",
+      .unit = "%",
+      .cameras = {}};
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    CapturedCamera& camera = residuals.cameras.emplace_back();
+    camera.name = camera.residual.name = views[i].camera.name;
+    for (const auto& apart : person.apart[i]) {
+      camera.residual.values.push_back(apart ? std::optional(kPercent * *apart) : std::nullopt);
+    }
+  }
+  return residuals;
+}
+
+double MedianOf(const CameraResiduals& residuals) {
+  std::vector<double> all;
+  for (const CapturedCamera& camera : residuals.cameras) {
+    for (const auto& value : camera.residual.values) {
+      if (value) all.push_back(*value);
+    }
+  }
+  constexpr double kNothingAlike = 100;
+  return all.empty() ? kNothingAlike : UpperMedian(std::move(all));
+}
+
+std::string DoubtsOf(const std::vector<std::string>& told) {
+  const auto doubts = std::ranges::count_if(told, [](const std::string& s) { return s.starts_with("doubtful"); });
+  return doubts == 0 ? "nothing is doubtful" : fmt::format("{} told below to be doubtful", doubts);
+}
+
+Result<bool> WritePage(const CaptureFilmsOptions& options, CapturePage page, const std::vector<OverlayView>& overlays,
+                       const BodyMotion& motion) {
+  ASSIGN_OR_RETURN(const TemporaryFolder folder, TemporaryFolder::Make("capture-report"));
+  const fs::path film = folder.path() / "overlay.mp4";
+  ASSIGN_OR_RETURN(const bool is_whole, options.listener.film([&](const FilmWatch& watch) {
+    return WriteOverlayFilm(film, overlays, motion, watch, &page.still);
+  }));
+  if (!is_whole) return false;
+  constexpr std::uintmax_t kMostBytes = 16'000'000;
+  std::error_code unreadable;
+  if (fs::file_size(film, unreadable) <= kMostBytes && !unreadable) {
+    ASSIGN_OR_RETURN(page.mp4, ReadWholeFile(film.string()));
+  }
+  RETURN_IF_ERROR(WriteFileAtomically(options.report, WriteCapturePage(page)));
+  TellWritten(options.listener, options.report);
+  return true;
+}
+
+Result<bool> WriteReport(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
+                         const RecoveredPerson& person, std::size_t chosen, const SeenFilms& films,
+                         const UnmarkedMotion* both) {
+  return WritePage(options, PageOf(options, views, person, chosen, films, both),
+                   OverlaysOf(views, person, chosen, films.clocks), person.motion);
+}
+
+}  // namespace etude

@@ -1,0 +1,265 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include "engine/keypoints/guess_session.h"
+#include "io/keypoints/read_people.h"
+#include "tools/capture/capture_parts.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Reads the people of a film, in the file's pixels; the view learns whether the file names their pictures' size.
+Result<SeenPeople> ReadPeople(const CaptureFilmsOptions& options, FilmedView& view) {
+  const bool is_marks = !options.marks.empty();
+  ASSIGN_OR_RETURN(const fs::path entry,
+                   EntryOfFilm(is_marks ? options.marks : options.keypoints, view.path.stem().string()));
+  const FilmOfKeypoints of{view.facts.width, view.facts.height, static_cast<std::size_t>(view.facts.frames)};
+  ASSIGN_OR_RETURN(PeopleOfFilm film, is_marks ? ReadMarkedPictures(entry) : ReadKeypoints(entry, options.layout, of));
+  if (!film.told.empty()) options.listener.print(fmt::format("{}: {}\n", entry.filename().string(), film.told));
+  if (film.frames.size() != static_cast<std::size_t>(view.facts.frames)) {
+    return Fail({entry.string()}, "{} frames, the film {} {}", film.frames.size(), view.path.string(),
+                view.facts.frames);
+  }
+  const bool is_turned = film.width == view.facts.height && film.height == view.facts.width;
+  if (film.width != 0 && !is_turned && (film.width != view.facts.width || film.height != view.facts.height)) {
+    return Fail({entry.string()}, "of pictures of {} x {} pixels, the film {} x {}", film.width, film.height,
+                view.facts.width, view.facts.height);
+  }
+  view.is_sized = film.width != 0;
+  return std::move(film.frames);
+}
+
+/// Brings all people into the rig's pictures and says what was done for that.
+void FitPeople(const RigFile& rig, std::vector<FilmedView>& views, std::vector<SeenPeople>& people,
+               double least_confidence, ToldLines& told_lines) {
+  std::vector<PictureOfFilm> films;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const FilmedView& view = views[i];
+    films.push_back(
+        {view.camera.camera, view.fit, {view.facts.width, view.facts.height}, std::move(people[i]), view.is_sized});
+    names.push_back(view.camera.name);
+  }
+  SessionGuess session = GuessSession(films, names, rig.R_WF, least_confidence);
+  if (!session.mended.empty()) told_lines.Tell("mended: " + session.mended);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    films[i].camera = views[i].camera.camera = session.cameras[i];
+    films[i].people = people[i] = std::move(session.people[i]);
+  }
+  const std::vector<PictureGuess> guesses = GuessPictures(films, least_confidence);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    FilmedView& view = views[i];
+    const PictureGuess& guess = guesses[i];
+    std::string told = guess.told;
+    if (told.empty() && view.fit.quarter_turns != 0) {
+      told = "pictures turned by 90° clockwise (their size and the other cameras say so)";
+    }
+    if (!told.empty()) told_lines.Tell(fmt::format("{}: {}", view.camera.name, told));
+    for (auto& frame : people[i]) {
+      for (SeenPerson& person : frame) {
+        for (Keypoint& keypoint : person.keypoints) keypoint.pixel = guess.fit.ToRig(keypoint.pixel);
+      }
+    }
+    // Keypoints of unfitted pictures say nothing of the film's own.
+    const bool is_films_own = guess.fit.scale == view.fit.scale && guess.fit.shift == view.fit.shift;
+    if (is_films_own) view.fit = guess.fit;
+  }
+}
+
+constexpr double kMsPerSecond = 1000;
+
+/// Finds the films' clocks as --sync asks, and tells them.
+void Synchronise(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
+                 const RecoverPersonOptions& recover, SeenFilms& films) {
+  const double rate = recover.rate_hz;
+  std::size_t shortest = films.people.front().size();
+  for (const SeenPeople& people : films.people) shortest = std::min(shortest, people.size());
+  // Beyond half of a film there is too little in common to judge by.
+  const int most =
+      std::clamp(static_cast<int>(std::lround(options.sync_s * rate)), 1, std::max(1, static_cast<int>(shortest / 2)));
+  const SyncOptions clocks{.most_frames = most, .most_px = recover.triangulate.robust.outlier_px};
+  const std::vector<ClockOffset> found = EstimateOffsets(films.cameras, films.people, {clocks, recover.match.follow});
+  std::string untold;
+  std::string told = fmt::format("clocks, after {}'s:", views.front().camera.name);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    films.clocks[i].offset = found[i].frames;
+    if (!found[i].is_told) untold += (untold.empty() ? "" : ", ") + views[i].camera.name;
+    if (i == 0) continue;
+    told += fmt::format("{} {} {:+.2f} frames ({:+.0f} ms)", i == 1 ? "" : ",", views[i].camera.name,
+                        films.clocks[i].offset, kMsPerSecond * films.clocks[i].offset / rate);
+  }
+  films.told.Tell(told);
+  if (untold.empty()) return;
+  films.told.Tell(fmt::format("no keypoints tell the clock of {}: people hardly move, or it is further off than --sync {:g}",
+                   untold, options.sync_s));
+}
+
+/// The clocks that the films' own rates say; said where they differ.
+void ClocksOfRates(const std::vector<FilmedView>& views, SeenFilms& films) {
+  const double rate = views.front().facts.rate_hz;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const double own = views[i].facts.rate_hz;
+    if (own == rate) continue;
+    const bool is_one = std::abs(own - rate) <= kOneRate * rate;
+    if (!is_one) films.clocks[i].drift = rate / own - 1;
+    films.told.Tell(fmt::format("{}: {:g} frames a second beside {:g}, {}", views[i].camera.name, own, rate,
+                     is_one ? "taken as one rate" : "its keypoints resampled by cubics between its frames"));
+  }
+}
+
+/// Names films that seem late where keypoints err too much to mend them.
+void DoubtClocks(const std::vector<FilmedView>& views, const RecoverPersonOptions& recover, int most,
+                 SeenFilms& films) {
+  const SyncOptions clocks{.most_frames = most, .most_px = recover.triangulate.robust.outlier_px};
+  const auto guessed = EstimateOffsets(films.cameras, films.people, {clocks, recover.match.follow});
+  for (std::size_t i = 1; i < views.size(); ++i) {
+    const double frames = guessed[i].frames;
+    if (!guessed[i].is_told || std::abs(frames) < 1) continue;
+    films.told.Tell(fmt::format("doubtful: {}: its frames seem {:.1f} frames {} than {}'s; --sync {:.1f} would set it",
+                     views[i].camera.name, std::abs(frames), frames > 0 ? "later" : "earlier",
+                     views.front().camera.name, std::ceil(10 * (std::abs(frames) + 2) / recover.rate_hz) / 10));
+  }
+}
+
+/// Tells the drift that a film's keypoints show, where its rate is taken for the first one's though both tell another.
+void TellDrift(const std::vector<FilmedView>& views, std::size_t film, const FilmClock& taken, const FilmClock& nearest,
+               std::size_t frames, SeenFilms& films) {
+  const double rate = views.front().facts.rate_hz, own = views[film].facts.rate_hz;
+  if (own == rate || std::abs(own - rate) > kOneRate * rate) return;
+  const auto over_film = [&](double drift) { return drift * static_cast<double>(frames); };
+  Tell(
+      films.told,
+      fmt::format("{}: drift measured: {:+.2f} frames over the film, {:+.2f} if both rates were right; too little said "
+                  "to mend it",
+                  views[film].camera.name, over_film(nearest.drift - taken.drift), over_film(rate / own - 1)));
+}
+
+/// Mends clocks that the keypoints contradict.
+void MendClocks(const std::vector<FilmedView>& views, const RecoverPersonOptions& recover, bool is_set,
+                SeenFilms& films) {
+  const double rate = recover.rate_hz;
+  const std::size_t frames = films.people.front().size();
+  constexpr double kMostSeconds = 0.5;
+  const int most = is_set ? 1
+                          : std::clamp(static_cast<int>(std::lround(kMostSeconds * rate)), 1,
+                                       std::max(1, static_cast<int>(frames / 4)));
+  const auto found = FindClocks(films.cameras, films.people, films.clocks, most, recover.match.follow);
+  const bool has_own_rates = std::ranges::any_of(films.clocks, [](const FilmClock& clock) { return clock.drift != 0; });
+  const bool is_any_mended = std::ranges::any_of(found, &FoundClock::is_mended);
+  if (!is_set && !is_any_mended && !has_own_rates) DoubtClocks(views, recover, most, films);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (!found[i].is_mended) TellDrift(views, i, films.clocks[i], found[i].nearest, frames, films);
+    if (!found[i].is_mended) continue;
+    const FilmClock before = films.clocks[i], now = found[i].clock;
+    films.clocks[i] = now;
+    const double half = 0.5 * static_cast<double>(frames);
+    const double late = now.offset - before.offset + (now.drift - before.drift) * half;
+    const double drift = (now.drift - before.drift) * static_cast<double>(frames);
+    std::string told =
+        fmt::format("its frames are {:.2f} frames ({:.0f} ms) {} than {}'s", std::abs(late),
+                    kMsPerSecond * std::abs(late) / rate, late > 0 ? "later" : "earlier", views.front().camera.name);
+    constexpr double kHardly = 0.02;
+    if (std::abs(drift) > kHardly) {
+      told += fmt::format(" in the middle of the film, and its rate is {:.4f} Hz: {:.2f} frames over it",
+                          rate / (1 + now.drift), std::abs(drift));
+    }
+    films.told.Tell(fmt::format("{}: {}; mended (loss {:.2f} to {:.3f})", views[i].camera.name, told, found[i].before,
+                                 found[i].after));
+  }
+}
+
+/// "3 to 20, 25": frames counted from 1.
+std::string FramesText(const std::vector<std::size_t>& frames) {
+  std::string text;
+  constexpr std::size_t kMostRanges = 12;
+  std::size_t ranges = 0;
+  for (std::size_t i = 0; i < frames.size(); ++ranges) {
+    std::size_t j = i;
+    while (j + 1 < frames.size() && frames[j + 1] == frames[j] + 1) ++j;
+    if (ranges == kMostRanges) return text + fmt::format(", … ({} in all)", frames.size());
+    text += text.empty() ? "" : ", ";
+    text += i == j ? fmt::format("{}", frames[i] + 1) : fmt::format("{} to {}", frames[i] + 1, frames[j] + 1);
+    i = j + 1;
+  }
+  return text;
+}
+
+}  // namespace
+
+Result<SeenFilms> SeeFilms(const CaptureFilmsOptions& options, const RecoverPersonOptions& recover,
+                           FilmedSession& session) {
+  std::vector<FilmedView>& views = session.views;
+  SeenFilms films{.cameras = {}, .people = {}, .clocks = {}, .told = {options.listener.print}};
+  for (const std::string& line : session.told) films.told.Tell(line);
+  films.clocks.resize(views.size());
+  for (FilmedView& view : views) {
+    ASSIGN_OR_RETURN(SeenPeople people, ReadPeople(options, view));
+    films.people.push_back(std::move(people));
+  }
+  FitPeople(session.rig, views, films.people, recover.triangulate.least_confidence, films.told);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    films.people[i] = UndistortPeople(views[i].camera.camera, std::move(films.people[i]));
+    films.cameras.push_back(MatrixOf(views[i].camera.camera));
+  }
+  ClocksOfRates(views, films);
+  if (options.sync_s > 0) Synchronise(options, views, recover, films);
+  MendClocks(views, recover, options.sync_s > 0, films);
+  const std::size_t frames = films.people.front().size();
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    films.people[i] = PeopleInTime(films.people[i], films.clocks[i], frames, recover.match.follow);
+  }
+  return films;
+}
+
+void TellMends(const RecoveredPerson& person, std::size_t chosen, const std::vector<FilmedView>& views,
+               ToldLines& told) {
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const auto is_seen = [](const auto& seen) { return seen.has_value(); };
+    if (std::ranges::any_of(person.people[chosen].seen[i], is_seen)) continue;
+    told.Tell(fmt::format("doubtful: {}: nobody in its film fits the person of the other cameras: is it this film, and "
+                     "its camera as the rig says? It is left out",
+                     views[i].camera.name));
+  }
+  for (const Mend& mend : person.mends) {
+    const char* what = "";
+    switch (mend.kind) {
+      case Mend::Kind::kSwappedSides:
+        what = "left and right exchanged";
+        break;
+      case Mend::Kind::kSwappedArms:
+        what = "left and right of face and arms exchanged";
+        break;
+      case Mend::Kind::kSwappedLegs:
+        what = "left and right of hips and legs exchanged";
+        break;
+      case Mend::Kind::kOtherPerson:
+        what = "somebody else's keypoints; the person's own taken";
+        break;
+      case Mend::Kind::kNobody:
+        what = "keypoints that are not this person's left out";
+        break;
+    }
+    told.Tell(fmt::format("mended: {}: {}, frames {}", views[mend.camera].camera.name, what, FramesText(mend.frames)));
+  }
+  constexpr double kDoubtful = 0.1;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (person.report.rejected[i] <= kDoubtful) continue;
+    told.Tell(fmt::format("doubtful: {}: {:.0f} % of its keypoints disagree with the other cameras'",
+                           views[i].camera.name, 100 * person.report.rejected[i]));
+  }
+  constexpr double kDoubtfulError = 0.03;
+  for (const MatchedPerson& one : person.people) {
+    if (one.cameras < 2 || one.error <= kDoubtfulError) continue;
+    told.Tell(fmt::format("doubtful: rays miss by {:.1f} % of a person's height; estimators err by 1 to 2 %",
+                           100 * one.error));
+    break;
+  }
+}
+
+}  // namespace etude

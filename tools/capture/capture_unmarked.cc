@@ -1,0 +1,250 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "engine/base/order_statistics.h"
+#include "engine/keypoints/agreement.h"
+#include "engine/kinematics/limb_lengths.h"
+#include "engine/unmarked/recover_unmarked.h"
+#include "io/keypoints/read_people.h"
+#include "tools/capture/capture_parts.h"
+#include "tools/capture/reduced_film.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostPictures = 4000;  // small ones, of all films together: they are held in memory, 2 GB
+
+Result<ColourImage> ReadRoom(const std::string& folder, const FilmedView& view) {
+  ASSIGN_OR_RETURN(const fs::path entry, EntryOfFilm(folder, view.path.stem().string()));
+  ASSIGN_OR_RETURN(const FilmFacts facts, ProbeFilm(entry));
+  if (facts.width != view.facts.width || facts.height != view.facts.height) {
+    return Fail({entry.string()}, "a picture of {} x {} pixels, the film {} {} x {}", facts.width, facts.height,
+                view.path.string(), view.facts.width, view.facts.height);
+  }
+  ASSIGN_OR_RETURN(auto pictures,
+                   ReadReduced(entry, facts, view.camera.camera, view.fit, UnmarkedTake::kPictureSide, 1));
+  if (pictures.empty()) return Fail({entry.string()}, "no picture in it");
+  return std::move(pictures.front());
+}
+
+/// The clocks that the films' own rates say; told where they differ.
+std::vector<FilmClock> ClocksByRates(const std::vector<FilmedView>& views, ToldLines& told) {
+  const FilmFacts& first = views.front().facts;
+  std::vector<FilmClock> clocks;
+  for (const FilmedView& view : views) {
+    clocks.emplace_back();
+    const double own = view.facts.rate_hz, rate = first.rate_hz;
+    if (own == rate) continue;
+    constexpr double kMs = 1000;
+    const double seconds = static_cast<double>(first.frames) / rate;
+    const bool is_one = std::abs(own - rate) <= kOneRate * rate;
+    if (!is_one) clocks.back().drift = rate / own - 1;
+    told.Tell(fmt::format("{}: {:g} frames a second beside {:g}, ", view.camera.name, own, rate) +
+                   (is_one ? fmt::format("taken as one rate; were both right, it would be off by {:.0f} ms in the end",
+                                         kMs * seconds * std::abs(own / rate - 1))
+                           : fmt::format("its nearest pictures taken, off by up to {:.0f} ms", 0.5 * kMs / own)));
+  }
+  return clocks;
+}
+
+/// Takes of a film the pictures nearest to the first film's moments.
+std::vector<ColourImage> InTime(std::vector<ColourImage> film, const FilmClock& clock, std::size_t frames) {
+  if (clock == FilmClock{} && film.size() == frames) return film;
+  std::vector<ColourImage> in_time;
+  for (std::size_t k = 0; k < frames; ++k) {
+    const double at = std::clamp(clock.FrameAt(static_cast<double>(k)), 0.0, static_cast<double>(film.size() - 1));
+    in_time.push_back(film[static_cast<std::size_t>(std::lround(at))]);
+  }
+  return in_time;
+}
+
+}  // namespace
+
+Result<ReducedTake> ReadTake(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
+                             const std::vector<FilmClock>& clocks) {
+  std::size_t pictures = 0;
+  for (const FilmedView& view : views) pictures += view.facts.frames;
+  if (pictures > kMostPictures) {
+    return Fail({views.front().path.string()},
+                "{} films of {} frames in all; at most {} pictures are held in memory, that is {} frames of each",
+                views.size(), pictures, kMostPictures, kMostPictures / views.size());
+  }
+  ReducedTake take;
+  for (const FilmedView& view : views) {
+    take.cameras.push_back(ReducedCamera(view.camera.camera, UnmarkedTake::kPictureSide));
+    take.reductions.push_back(take.cameras.back().intrinsics.fx / view.camera.camera.intrinsics.fx);
+    ASSIGN_OR_RETURN(auto film, ReadReduced(view.path, view.facts, view.camera.camera, view.fit,
+                                            UnmarkedTake::kPictureSide, view.facts.frames));
+    if (film.empty() || film.size() != static_cast<std::size_t>(view.facts.frames)) {
+      return Fail({view.path.string()}, "{} frames, though it tells of {}", film.size(), view.facts.frames);
+    }
+    take.pictures.push_back(InTime(std::move(film), clocks[take.pictures.size()], views.front().facts.frames));
+    if (options.rooms.empty()) continue;
+    ASSIGN_OR_RETURN(ColourImage room, ReadRoom(options.rooms, view));
+    take.rooms.push_back(std::move(room));
+  }
+  return take;
+}
+
+Result<UnmarkedMotion> RecoverByOutlines(const ReducedTake& take, const CaptureFilmsOptions& options, double rate_hz,
+                                         const SeenBeside& beside) {
+  std::vector<std::vector<std::optional<SeenPerson>>> people;
+  for (std::size_t c = 0; beside.person != nullptr && c < take.cameras.size(); ++c) {
+    people.push_back(beside.person->seen[c]);
+    for (auto& seen : people.back()) {
+      for (Keypoint& keypoint : seen ? std::span<Keypoint>(seen->keypoints) : std::span<Keypoint>()) {
+        keypoint.pixel *= take.reductions[c];
+      }
+    }
+  }
+  return RecoverUnmarked({.cameras = take.cameras,
+                          .pictures = take.pictures,
+                          .rooms = take.rooms,
+                          .rate_hz = rate_hz,
+                          .stature_m = options.stature_m > 0 ? std::optional(options.stature_m) : std::nullopt,
+                          .lengths = beside.lengths,
+                          .people = people});
+}
+
+ReducedTake PairOf(const ReducedTake& take, const CameraPair& pair) {
+  ReducedTake two;
+  for (const std::size_t i : {pair.first, pair.second}) {
+    two.cameras.push_back(take.cameras[i]);
+    two.reductions.push_back(take.reductions[i]);
+    two.pictures.push_back(take.pictures[i]);
+    if (!take.rooms.empty()) two.rooms.push_back(take.rooms[i]);
+  }
+  return two;
+}
+
+MarkerMotion JointsOfReference(const MarkerMotion& reference) {
+  const bool has_landmarks =
+      std::ranges::any_of(reference.names, [](const std::string& name) { return FindLandmark(name).has_value(); });
+  if (!has_landmarks) return reference;
+  MarkerMotion joints = JointMarkers(ToLandmarks(reference), reference.rate_hz);
+  const auto knows = [&](Landmark landmark) {
+    return std::ranges::find(reference.names, LandmarkName(landmark)) != reference.names.end();
+  };
+  const auto forget = [&](Role role) {
+    for (auto& frame : joints.frames) frame[Index(role)].reset();
+  };
+  if (!knows(Landmark::kLeftHand)) forget(Role::kLeftHand);
+  if (!knows(Landmark::kRightHand)) forget(Role::kRightHand);
+  if (!knows(Landmark::kLeftBigToe)) forget(Role::kLeftFoot);
+  if (!knows(Landmark::kRightBigToe)) forget(Role::kRightFoot);
+  return joints;
+}
+
+namespace {
+
+Result<std::vector<ComparedColumn>> CompareWithReference(const MarkerMotion& reference, const UnmarkedMotion& person,
+                                                         const ReducedTake& take, const CaptureFilmsOptions& options,
+                                                         ToldLines& told) {
+  const MarkerMotion motion = JointMarkers(person.motion);
+  const MarkerMotion joints = InTimeWith(motion, JointsOfReference(reference), told);
+  std::vector<ComparedColumn> columns{CompareColumn("all", motion, joints)};
+  const std::vector<CameraPair> pairs = PairsOf(take.cameras.size());
+  const OnProgress tell = options.listener.progress("pairs of cameras");
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    tell(i, pairs.size());
+    const auto pair = RecoverByOutlines(PairOf(take, pairs[i]), options, motion.rate_hz);
+    columns.push_back(pair ? CompareColumn(pairs[i].heading, JointMarkers(pair->motion), joints)
+                           : ComparedColumn{pairs[i].heading + kLost, {}, {}});
+  }
+  tell(pairs.size(), pairs.size());
+  return columns;
+}
+
+std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const std::vector<FilmClock>& clocks,
+                                    std::size_t frames) {
+  std::vector<OverlayView> overlays;
+  for (const FilmedView& view : views) {
+    overlays.push_back({.name = view.camera.name,
+                        .film = view.path,
+                        .facts = view.facts,
+                        .camera = view.camera.camera,
+                        .fit = view.fit,
+                        .keypoints = {},
+                        .drift = clocks[overlays.size()].drift});
+    overlays.back().keypoints.resize(frames);
+  }
+  return overlays;
+}
+
+std::vector<double> KnownOf(const std::vector<std::optional<double>>& values) {
+  std::vector<double> known;
+  for (const auto& value : values) {
+    if (value) known.push_back(*value);
+  }
+  return known;
+}
+
+/// Tells what was found and what is doubtful, a line each.
+void TellUnmarked(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
+                  const UnmarkedMotion& person, ToldLines& told) {
+  told.Tell(fmt::format("stature: {:.2f} m{}; outlines cost {:.0f} a picture", person.stature_m,
+                         options.stature_m > 0 ? "" : ", found from the outlines", person.cost));
+  if (person.held > 0) {
+    told.Tell(fmt::format("doubtful: {} frames show nobody to two cameras and hold the last pose", person.held));
+  }
+  constexpr double kMostApart = 0.5, kDoubtfulShare = 0.1, kPercent = 100;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const std::vector<double> apart = KnownOf(person.apart[i]);
+    const auto far = std::ranges::count_if(apart, [](double share) { return share > kMostApart; });
+    const double share = static_cast<double>(far) / static_cast<double>(std::max<std::size_t>(1, apart.size()));
+    if (share <= kDoubtfulShare) continue;
+    told.Tell(fmt::format("doubtful: {}: in {:.0f} % of its frames body and outline share less than half",
+                           views[i].camera.name, kPercent * share));
+  }
+}
+
+Result<bool> WriteUnmarkedReport(const CaptureFilmsOptions& options, const std::vector<FilmedView>& views,
+                                 const UnmarkedMotion& person, const std::vector<FilmClock>& clocks,
+                                 const std::vector<std::string>& told) {
+  CapturePage page = BeginPage(options, person.motion, MeasureLimbLengths(person.motion.poses), told);
+  page.residuals.push_back(ResidualsOfOutlines(views, person));
+  page.verdict = fmt::format(
+      "{} cameras, {} frames at {:g} Hz: body and outlines differ by {:.0f} % in the median; {}.", views.size(),
+      person.motion.poses.size(), person.motion.rate_hz, MedianOf(page.residuals.back()), DoubtsOf(told));
+  page.limbs = "Limbs are an adult's, scaled to the stature.";
+  page.still.caption = "The skeleton as each camera would show it (lines; left blue, right orange).";
+  return WritePage(options, std::move(page), OverlaysOf(views, clocks, person.motion.poses.size()), person.motion);
+}
+
+}  // namespace
+
+Result<bool> CaptureUnmarked(const CaptureFilmsOptions& options, const FilmedSession& session,
+                             const std::optional<MarkerMotion>& reference, Json& facts) {
+  if (!options.points.empty()) return Fail({}, "--points: silhouettes have no keypoints to write");
+  const std::vector<FilmedView>& views = session.views;
+  ToldLines told{options.listener.print};
+  for (const std::string& line : session.told) told.Tell(line);
+  const std::vector<FilmClock> clocks = ClocksByRates(views, told);
+  ASSIGN_OR_RETURN(const ReducedTake take, ReadTake(options, views, clocks));
+  ASSIGN_OR_RETURN(const UnmarkedMotion person, RecoverByOutlines(take, options, views.front().facts.rate_hz));
+  TellUnmarked(options, views, person, told);
+  facts["silhouettes"] = {{"stature_m", person.stature_m}, {"cost", person.cost}, {"held_frames", person.held}};
+  RETURN_IF_ERROR(WriteMotion(options.output, person.clip, person.motion));
+  if (!options.film.empty()) {
+    ASSIGN_OR_RETURN(const bool is_whole,
+                     WriteFilm(options, OverlaysOf(views, clocks, person.motion.poses.size()), person.motion));
+    if (!is_whole) return false;
+  }
+  if (reference) {
+    ASSIGN_OR_RETURN(const auto columns, CompareWithReference(*reference, person, take, options, told));
+    RETURN_IF_ERROR(TellColumns(
+        fmt::format("Distance of the joints to {}, median, mm: error, as far as the reference itself is right.",
+                    options.reference),
+        columns, views, options));
+  }
+  return options.report.empty() ? true : WriteUnmarkedReport(options, views, person, clocks, told.lines);
+}
+
+}  // namespace etude

@@ -1,0 +1,311 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "engine/formats/bvh.h"
+#include "engine/formats/c3d.h"
+#include "engine/formats/gltf/gltf.h"
+#include "engine/formats/joint_csv.h"
+#include "engine/formats/trc.h"
+#include "engine/retargeting/joint_arrays.h"
+#include "engine/retargeting/opensim_motion.h"
+#include "engine/retargeting/proportions.h"
+#include "io/files/files.h"
+#include "io/real_takes/real_take.h"
+#include "sim/choreography/canonical_body.h"
+#include "tools/capture/capture_parts.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Reduces a name to its letters and digits in lower case: cam_01 and Cam01 are one name.
+std::string Bare(std::string_view name) {
+  std::string bare;
+  for (const char c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)))
+      bare += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return bare;
+}
+
+std::string NamesOf(const std::vector<NamedCamera>& rig) {
+  std::string names;
+  for (const NamedCamera& camera : rig) names += (names.empty() ? "" : ", ") + camera.name;
+  return names;
+}
+
+Result<NamedCamera> CameraOfFilm(const CaptureFilmsOptions& options, const std::vector<NamedCamera>& rig,
+                                 std::size_t film) {
+  const std::string stem = fs::path(options.films[film]).stem().string();
+  const std::string wanted = options.cameras.empty() ? stem : options.cameras[film];
+  for (const NamedCamera& camera : rig) {
+    if (Bare(camera.name) == Bare(wanted)) return camera;
+  }
+  if (!options.cameras.empty()) return Fail({options.rig}, "no camera {}; there are {}", wanted, NamesOf(rig));
+  return Fail({options.films[film]}, "the rig has no camera of that name, but {}; tell which by --cameras",
+              NamesOf(rig));
+}
+
+/// The files of a rig: one, or two that belong together, beside each other or in a folder.
+struct RigPaths {
+  fs::path first, second;
+};
+
+Result<RigPaths> RigPathsOf(const fs::path& path) {
+  constexpr std::pair<const char*, const char*> kPairs[] = {
+      {"intri.yml", "extri.yml"}, {"intrinsics.yml", "extrinsics.yml"}, {"cameras.txt", "images.txt"}};
+  const bool is_folder = fs::is_directory(path);
+  const fs::path folder = is_folder ? path : path.parent_path();
+  for (const auto& [inside, outside] : kPairs) {
+    const bool is_named = path.filename() == inside || path.filename() == outside;
+    if (!is_named && !(is_folder && fs::exists(folder / inside))) continue;
+    if (!fs::exists(folder / inside) || !fs::exists(folder / outside)) {
+      return Fail({path.string()}, "needed beside each other: {} and {}", inside, outside);
+    }
+    return RigPaths{folder / inside, folder / outside};
+  }
+  if (is_folder) {
+    return Fail({path.string()},
+                "a folder without intri.yml and extri.yml, intrinsics.yml and extrinsics.yml, or "
+                "cameras.txt and images.txt; else name the file");
+  }
+  return RigPaths{path, {}};
+}
+
+Result<RigFile> OpenRig(const std::string& path) {
+  ASSIGN_OR_RETURN(const RigPaths paths, RigPathsOf(path));
+  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(paths.first.string()));
+  if (paths.second.empty()) return ReadRigFile(text, path);
+  ASSIGN_OR_RETURN(const auto other, ReadWholeFile(paths.second.string()));
+  return ReadRigPair(text, other, paths.first.string());
+}
+
+/// Finds the size of a camera's pictures that the rig does not tell: the film's, or turned, or another one scaled, as
+/// the principal point lies nearest to the middle. Lengths of another size are brought to the film's.
+void FindSize(FilmedView& view, std::vector<std::string>& told) {
+  Intrinsics& in = view.camera.camera.intrinsics;
+  const glm::dvec2 film(view.facts.width, view.facts.height), middle(in.cx, in.cy);
+  const auto off = [&](const glm::dvec2& size) {
+    return std::max(std::abs(std::log(2 * middle.x / size.x)), std::abs(std::log(2 * middle.y / size.y)));
+  };
+  glm::dvec2 best = film;
+  double scale = 1;
+  constexpr double kLikely = 0.25, kSure = 0.15;
+  if (middle.x > 0 && middle.y > 0 && off(film) > kLikely) {
+    for (const double gain : {1.0, 0.25, 1.0 / 3, 0.375, 0.5, 2.0 / 3, 0.75, 4.0 / 3, 1.5, 2.0, 8.0 / 3, 3.0, 4.0}) {
+      for (const glm::dvec2& size : {gain * film, gain * glm::dvec2(film.y, film.x)}) {
+        if (off(size) > kSure || off(size) >= off(best)) continue;
+        best = size;
+        scale = gain;
+      }
+    }
+  }
+  if (best != film) {
+    told.push_back(
+        fmt::format("{}: the rig tells no size, but a middle at ({:.0f}, {:.0f}): taken as of pictures of {:.0f} "
+                    "x {:.0f} pixels, the film's have {:.0f} x {:.0f}",
+                    view.camera.name, in.cx, in.cy, best.x, best.y, film.x, film.y));
+  }
+  for (double* length : {&in.fx, &in.fy, &in.cx, &in.cy, &in.skew}) *length /= scale;
+  in.width = static_cast<int>(std::lround(best.x / scale));
+  in.height = static_cast<int>(std::lround(best.y / scale));
+}
+
+/// Checks that films run together: as many frames of one rate, or as long where rates differ.
+Result<void> CheckTogether(const std::vector<FilmedView>& views, bool may_differ_in_time) {
+  const FilmedView& first = views.front();
+  for (const FilmedView& view : views) {
+    if (!(view.facts.rate_hz > 0)) {
+      return Fail({view.path.string()}, "it does not tell how many frames a second it has");
+    }
+    if (may_differ_in_time) continue;
+    const bool is_one_rate = std::abs(view.facts.rate_hz - first.facts.rate_hz) <= kOneRate * first.facts.rate_hz;
+    if (is_one_rate && view.facts.frames != first.facts.frames) {
+      return Fail({view.path.string()}, "{} frames, {} {}; cut them alike, or let keypoints tell the time (--sync)",
+                  view.facts.frames, first.path.string(), first.facts.frames);
+    }
+    const double seconds = static_cast<double>(view.facts.frames) / view.facts.rate_hz;
+    const double wanted = static_cast<double>(first.facts.frames) / first.facts.rate_hz;
+    const double frame = 1 / std::min(view.facts.rate_hz, first.facts.rate_hz);
+    constexpr double kFrames = 1.5;
+    if (!is_one_rate && std::abs(seconds - wanted) > kFrames * frame) {
+      return Fail({view.path.string()},
+                  "{:.3g} s at {:g} frames a second, {} {:.3g} s at {:g} frames a second; cut them alike, or let "
+                  "keypoints tell the time (--sync)",
+                  seconds, view.facts.rate_hz, first.path.string(), wanted, first.facts.rate_hz);
+    }
+  }
+  return {};
+}
+
+std::string BytesOf(Clip clip, const BodyMotion& motion, MotionFormat format, const std::string& name) {
+  clip.name = name;
+  switch (format) {
+    case MotionFormat::kBvh:
+      return WriteBvh(std::move(clip));
+    case MotionFormat::kGlb:
+      return WriteGlb(Character{.name = name, .skeleton = clip.skeleton, .materials = {}, .meshes = {}}, {&clip, 1});
+    case MotionFormat::kTrc:
+      return WriteTrc(motion, name);
+    case MotionFormat::kCsv:
+      return WriteJointCsv(motion);
+    case MotionFormat::kC3d:
+      return WriteC3d(motion);
+    case MotionFormat::kNpz:
+      return WriteBodyNpz(motion, StandingPose());
+    case MotionFormat::kMot:
+      return WriteOpenSimMotion(motion, Retarget({.poses = {StandingPose()}}, motion.poses.front()).poses.front(),
+                                name);
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<FilmedSession> OpenFilms(const CaptureFilmsOptions& options) {
+  ASSIGN_OR_RETURN(RigFile rig_file, OpenRig(options.rig));
+  const std::vector<NamedCamera>& rig = rig_file.cameras;
+  constexpr std::size_t kMostFilms = 64;
+  if (options.films.size() < 2 || options.films.size() > kMostFilms) {
+    return Fail({}, "{} film{}; allowed: 2 to {}, one of each camera", options.films.size(),
+                options.films.size() == 1 ? "" : "s", kMostFilms);
+  }
+  if (!options.cameras.empty() && options.cameras.size() != options.films.size()) {
+    return Fail({}, "--cameras names {} cameras for {} films", options.cameras.size(), options.films.size());
+  }
+  std::vector<FilmedView> views;
+  std::vector<std::string> told;
+  for (std::size_t i = 0; i < options.films.size(); ++i) {
+    FilmedView view{.path = options.films[i], .facts = {}, .camera = {}, .fit = {}};
+    ASSIGN_OR_RETURN(view.camera, CameraOfFilm(options, rig, i));
+    ASSIGN_OR_RETURN(view.facts, ProbeFilm(view.path));
+    for (const FilmedView& other : views) {
+      if (other.camera.name == view.camera.name) {
+        return Fail({view.path.string()}, "camera {} has {} already", view.camera.name, other.path.string());
+      }
+    }
+    Intrinsics& in = view.camera.camera.intrinsics;
+    if (in.width == 0) FindSize(view, told);
+    const bool is_turned = options.fit == "none" && in.width != in.height && in.width == view.facts.height &&
+                           in.height == view.facts.width;
+    if (is_turned) {  // keypoints will tell which way
+      view.fit = {.quarter_turns = 1, .size = {in.width, in.height}};
+      views.push_back(std::move(view));
+      continue;
+    }
+    const auto fit =
+        FitPictures(*FindFitMode(options.fit), {in.width, in.height}, {view.facts.width, view.facts.height});
+    if (!fit) return Fail({view.path.string()}, "{}", fit.error().message);
+    view.fit = *fit;
+    views.push_back(std::move(view));
+  }
+  RETURN_IF_ERROR(CheckTogether(views, options.sync_s > 0));
+  return FilmedSession{std::move(views), std::move(rig_file), std::move(told)};
+}
+
+Result<void> WriteMotion(const std::string& path, Clip clip, const BodyMotion& motion) {
+  ASSIGN_OR_RETURN(const MotionFormat format, FormatOfName(path));
+  RETURN_IF_ERROR(WriteFileAtomically(path, BytesOf(std::move(clip), motion, format, fs::path(path).stem().string())));
+  TellWritten(options.listener, path);
+  return {};
+}
+
+ComparedColumn CompareColumn(std::string heading, const MarkerMotion& markers, const MarkerMotion& reference) {
+  return {std::move(heading), CompareMarkers(markers, reference), CompareAllMarkers(markers, reference)};
+}
+
+MarkerMotion InTimeWith(const MarkerMotion& motion, MarkerMotion reference, ToldLines& told) {
+  const std::size_t frames = motion.frames.size();
+  if (reference.frames.size() != frames) {
+    told.Tell(fmt::format("reference: {} frames beside {}: the first {} are compared", reference.frames.size(), frames,
+                           std::min(reference.frames.size(), frames)));
+  }
+  const double own_rate = reference.rate_hz;
+  constexpr double kWritten = 1e-5;  // 29.97 is how 30000/1001 is written
+  if (std::abs(own_rate - motion.rate_hz) > kWritten * own_rate) {
+    const auto clock = MeasureClock(motion, reference);
+    const bool is_mended = clock && clock->after < 0.5 * clock->before;
+    std::string said = "; no marker of both tells how they drift apart";
+    if (clock) {
+      said = fmt::format(": {:+.2f} frames of drift measured, {:+.2f} in the middle{}", clock->DriftOver(frames),
+                         clock->at + 0.5 * clock->DriftOver(frames), is_mended ? "; undone" : ", too little to undo");
+    }
+    told.Tell(fmt::format("reference: {:g} frames a second beside {:g}, taken as one rate{}", own_rate, motion.rate_hz,
+                           said));
+    if (is_mended) reference = AtClock(reference, *clock, frames, motion.rate_hz);
+  }
+  return reference;
+}
+
+namespace {
+
+std::string ColumnsText(const std::string& words, const std::vector<ComparedColumn>& columns,
+                        const std::vector<FilmedView>& views) {
+  std::string text = fmt::format("\n{} Cameras:", words);
+  for (std::size_t i = 0; i < views.size(); ++i) text += fmt::format(" {} {}", i + 1, views[i].camera.name);
+  text += fmt::format("\n{:<16}", "");
+  for (const ComparedColumn& column : columns) text += fmt::format("{:>8}", column.heading);
+  text += "\n";
+  for (const MarkerAgreement& marker : columns.front().markers) {
+    text += fmt::format("{:<16}", marker.name);
+    for (const ComparedColumn& column : columns) {
+      const auto found = std::ranges::find(column.markers, marker.name, &MarkerAgreement::name);
+      const bool is_there = found != column.markers.end() && found->frames > 0;
+      text += fmt::format("{:>8}", is_there ? fmt::format("{:.1f}", found->median_mm) : "-");
+    }
+    text += "\n";
+  }
+  for (const auto& [label, member] :
+       {std::pair("all, median", &MarkerAgreement::median_mm), {"all, p95", &MarkerAgreement::p95_mm}}) {
+    text += fmt::format("{:<16}", label);
+    for (const ComparedColumn& column : columns)
+      text += fmt::format("{:>8}", column.all.frames > 0 ? fmt::format("{:.1f}", column.all.*member) : "-");
+    text += "\n";
+  }
+  return text;
+}
+
+RealTake RealTakeOf(const std::vector<ComparedColumn>& columns, const std::vector<FilmedView>& views,
+                    const CaptureFilmsOptions& options) {
+  RealTake take{.name = fs::path(options.output).stem().string(),
+                .recovery = options.silhouettes         ? "silhouettes"
+                            : options.keypoints.empty() ? "marks"
+                                                        : "keypoints",
+                .reference = fs::path(options.reference).filename().string(),
+                .frames = static_cast<int>(views.front().facts.frames),
+                .rate_hz = views.front().facts.rate_hz};
+  for (const FilmedView& view : views) take.films.push_back(view.path.filename().string());
+  for (const ComparedColumn& column : columns) {
+    const std::string cameras = column.heading.substr(0, column.heading.find(kLost));
+    RealDistance& distance = take.distances.emplace_back(RealDistance{.cameras = cameras});
+    if (column.all.frames == 0) continue;
+    distance.median_mm = column.all.median_mm;
+    distance.p95_mm = column.all.p95_mm;
+  }
+  return take;
+}
+
+}  // namespace
+
+Result<void> TellColumns(const std::string& words, const std::vector<ComparedColumn>& columns,
+                         const std::vector<FilmedView>& views, const CaptureFilmsOptions& options) {
+  options.listener.print(ColumnsText(words, columns, views));
+  if (options.distances.empty()) return {};
+  RETURN_IF_ERROR(WriteFileAtomically(options.distances, WriteRealTake(RealTakeOf(columns, views, options))));
+  TellWritten(options.listener, options.distances);
+  return {};
+}
+
+std::vector<CameraPair> PairsOf(std::size_t films) {
+  std::vector<CameraPair> pairs;
+  for (std::size_t i = 0; films > 2 && i < films; ++i) {
+    for (std::size_t j = i + 1; j < films; ++j) pairs.push_back({i, j, fmt::format("{}+{}", i + 1, j + 1)});
+  }
+  return pairs;
+}
+
+}  // namespace etude

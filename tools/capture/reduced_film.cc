@@ -1,0 +1,80 @@
+#include "tools/capture/reduced_film.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace etude {
+namespace {
+
+double ReductionOf(const Intrinsics& in, int side) {
+  return std::max(1.0, static_cast<double>(std::max(in.width, in.height)) / side);
+}
+
+/// The film's pixels that one pixel of the reduced picture covers: left ≤ x < right, top ≤ y < bottom.
+struct Patch {
+  int left = 0, top = 0, right = 0, bottom = 0;
+};
+
+Image<Patch> PatchesOf(const FilmFacts& facts, const Camera& camera, const PixelFit& fit, int side) {
+  const Intrinsics small = ReducedCamera(camera, side).intrinsics;
+  const double reduction = ReductionOf(camera.intrinsics, side);
+  const glm::dvec2 half = 0.5 * reduction * fit.scale;
+  Image<Patch> patches(small.width, small.height);
+  for (int y = 0; y < small.height; ++y) {
+    for (int x = 0; x < small.width; ++x) {
+      const auto seen = DistortPixel(camera, reduction * glm::dvec2(x + 0.5, y + 0.5));
+      if (!seen) continue;
+      const glm::dvec2 low = fit.ToFilm(*seen) - half, high = low + 2.0 * half;
+      const auto within = [](double value, int most) {
+        return static_cast<int>(std::lround(std::clamp<double>(value, 0, most)));
+      };
+      patches.At(x, y) = {within(low.x, facts.width), within(low.y, facts.height), within(high.x, facts.width),
+                          within(high.y, facts.height)};
+    }
+  }
+  return patches;
+}
+
+Rgb8 MeanOf(const ColourImage& picture, const Patch& patch) {
+  int r = 0, g = 0, b = 0;
+  const int count = (patch.right - patch.left) * (patch.bottom - patch.top);
+  if (count <= 0) return {};
+  for (int y = patch.top; y < patch.bottom; ++y) {
+    for (int x = patch.left; x < patch.right; ++x) {
+      const Rgb8 pixel = picture.At(x, y);
+      r += pixel.r, g += pixel.g, b += pixel.b;
+    }
+  }
+  const auto mean = [&](int sum) { return static_cast<std::uint8_t>((sum + count / 2) / count); };
+  return {mean(r), mean(g), mean(b)};
+}
+
+}  // namespace
+
+Camera ReducedCamera(const Camera& camera, int side) {
+  Camera small = camera;
+  small.distortion = {};
+  const double reduction = ReductionOf(camera.intrinsics, side);
+  Intrinsics& in = small.intrinsics;
+  in.width = static_cast<int>(std::lround(in.width / reduction));
+  in.height = static_cast<int>(std::lround(in.height / reduction));
+  for (double* length : {&in.fx, &in.fy, &in.cx, &in.cy, &in.skew}) *length /= reduction;
+  return small;
+}
+
+Result<std::vector<ColourImage>> ReadReduced(const std::filesystem::path& path, const FilmFacts& facts,
+                                             const Camera& camera, const PixelFit& fit, int side, std::size_t most) {
+  const Image<Patch> patches = PatchesOf(facts, camera, fit, side);
+  ASSIGN_OR_RETURN(Decoder decoder, Decoder::Start(path, facts));
+  std::vector<ColourImage> pictures;
+  ColourImage frame;
+  while (pictures.size() < most) {
+    ASSIGN_OR_RETURN(const bool is_there, decoder.Next(frame));
+    if (!is_there) break;
+    ColourImage& picture = pictures.emplace_back(patches.width, patches.height);
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) picture.pixels[i] = MeanOf(frame, patches.pixels[i]);
+  }
+  return pictures;
+}
+
+}  // namespace etude

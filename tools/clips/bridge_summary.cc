@@ -1,0 +1,212 @@
+#include "tools/clips/bridge_summary.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+
+#include "engine/base/names.h"
+#include "io/files/json.h"
+
+namespace etude {
+namespace {
+
+/// The widest matrix that fits a terminal; --json has wider ones.
+constexpr int kWidestMatrix = 24;
+
+/// A clip's row of the table.
+struct ClipSummary {
+  int frames = 0, bridge_frames = 0;
+  int poses = 0;           ///< different combinations of tags among its bridge frames
+  int reached = 0;         ///< other clips that it leads into
+  double frame_share = 0;  ///< mean over the other clips, likewise the next
+  double in_between_share = 0;
+  std::optional<double> worst_wait_s;  ///< of the clips that it leads into
+};
+
+ClipSummary Summarize(const TaggedClip& clip, const Coverage& coverage, int from) {
+  ClipSummary summary;
+  summary.frames = clip.FrameCount();
+  summary.bridge_frames = static_cast<int>(clip.bridge_frames.size());
+  std::set<Tags> poses;
+  for (int frame : clip.bridge_frames) poses.insert(clip.tags[frame]);
+  summary.poses = static_cast<int>(poses.size());
+  const int others = coverage.ClipCount() - 1;
+  for (int to = 0; to < coverage.ClipCount(); ++to) {
+    if (to == from) continue;
+    const PairCoverage& pair = coverage.Of(from, to);
+    summary.frame_share += pair.frame_share / others;
+    summary.in_between_share += pair.in_between_share / others;
+    if (!pair.worst_wait_s) continue;
+    ++summary.reached;
+    summary.worst_wait_s = std::max(summary.worst_wait_s.value_or(0), *pair.worst_wait_s);
+  }
+  return summary;
+}
+
+std::vector<ClipSummary> SummarizeAll(const BridgeLibrary& loaded, const Coverage& coverage) {
+  std::vector<ClipSummary> all;
+  for (int c = 0; c < coverage.ClipCount(); ++c) all.push_back(Summarize(loaded.library.tagged[c], coverage, c));
+  return all;
+}
+
+ClipSummary Total(const std::vector<ClipSummary>& clips) {
+  ClipSummary total;
+  for (const ClipSummary& clip : clips) {
+    total.frames += clip.frames;
+    total.bridge_frames += clip.bridge_frames;
+    total.frame_share += clip.frame_share * clip.frames;
+    total.in_between_share += clip.in_between_share * clip.frames;
+  }
+  if (total.frames > 0) {
+    total.frame_share /= total.frames;
+    total.in_between_share /= total.frames;
+  }
+  return total;
+}
+
+double Percent(double part, double whole) { return whole > 0 ? 100 * part / whole : 0; }
+
+std::vector<std::string> NamesOf(const std::vector<int>& clips, const MotionLibrary& library) {
+  std::vector<std::string> names;
+  for (int clip : clips) names.push_back(library.names[clip]);
+  return names;
+}
+
+int NameWidth(const MotionLibrary& library) {
+  std::size_t width = 4;
+  for (const std::string& name : library.names) width = std::max(width, name.size());
+  return static_cast<int>(std::min<std::size_t>(width, 40));
+}
+
+std::string ClipsAsText(const BridgeLibrary& loaded, const std::vector<ClipSummary>& clips, double wait_s) {
+  std::string text;
+  const int width = NameWidth(loaded.library);
+  text += fmt::format(
+      "\n     {:{}}  frames  bridge frames  poses  leads into  frames with a match  worst wait  in-between\n", "clip",
+      width);
+  for (std::size_t c = 0; c < clips.size(); ++c) {
+    const ClipSummary& clip = clips[c];
+    text += fmt::format(
+        "{:>3}  {:{}}  {:>6}  {:>6} ({:>3.0f} %)  {:>5}  {:>3} of {:<3}  {:>17.0f} %  {:>10}  {:>8.0f} %\n", c + 1,
+        loaded.library.names[c], width, clip.frames, clip.bridge_frames, Percent(clip.bridge_frames, clip.frames),
+        clip.poses, clip.reached, clips.size() - 1, 100 * clip.frame_share,
+        clip.worst_wait_s ? fmt::format("{:.1f} s", *clip.worst_wait_s) : "-", 100 * clip.in_between_share);
+  }
+  text += fmt::format(
+      "\nposes: different sets of ten tags. frames with a match: of all frames, d < {} to some frame of another\n"
+      "clip, mean over the other clips. worst wait: until a bridge frame that leads on, over the clips reached; the\n"
+      "clip starts over at its end. in-between: how often a transition within {} s needs one, mean over the other "
+      "clips.\n",
+      loaded.match_rules.threshold, wait_s);
+  return text;
+}
+
+/// Writes the percentage of the row's bridge frames that match one of the column; "." is none at all.
+std::string MatrixAsText(const BridgeLibrary& loaded, const Coverage& coverage) {
+  std::string text;
+  const int count = coverage.ClipCount(), width = NameWidth(loaded.library);
+  text += fmt::format("\nPercent of the row's bridge frames that match a bridge frame of the column:\n     {:{}}", "",
+                      width);
+  for (int to = 0; to < count; ++to) text += fmt::format(" {:>3}", to + 1);
+  text += "\n";
+  for (int from = 0; from < count; ++from) {
+    text += fmt::format("{:>3}  {:{}}", from + 1, loaded.library.names[from], width);
+    for (int to = 0; to < count; ++to) {
+      const PairCoverage& pair = coverage.Of(from, to);
+      const std::string share = pair.worst_wait_s ? fmt::format("{:.0f}", 100 * pair.bridge_share) : ".";
+      text += fmt::format(" {:>3}", from == to ? "-" : share);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string WaysAsText(const BridgeLibrary& loaded, const Coverage& coverage) {
+  std::string text = "\n";
+  for (int wanted : loaded.corrective) {
+    const std::vector<std::string> without = NamesOf(coverage.WithoutWayInto(wanted), loaded.library);
+    const std::string& name = loaded.library.names[wanted];
+    if (without.empty()) {
+      text += fmt::format("Every clip has a bridge frame into {}.\n", name);
+    } else {
+      text += fmt::format("No bridge frame leads into {} from: {}.\n", name, Join(without));
+    }
+  }
+  if (loaded.corrective.empty())
+    text += "No corrective clip was named (--to), so that ways into one were not sought.\n";
+  return text;
+}
+
+}  // namespace
+
+std::string BridgeSummaryAsText(const BridgeLibrary& loaded, const Coverage& coverage, double wait_s) {
+  std::string text;
+  const std::vector<ClipSummary> clips = SummarizeAll(loaded, coverage);
+  const ClipSummary total = Total(clips);
+  text +=
+      fmt::format("{} clips, {} frames, {} bridge frames ({:.0f} %); fuzzy system {}, threshold {}{}\n", clips.size(),
+                  total.frames, total.bridge_frames, Percent(total.bridge_frames, total.frames), loaded.system.name,
+                  loaded.match_rules.threshold, loaded.match_rules.within_class ? ", within the class" : "");
+  text += ClipsAsText(loaded, clips, wait_s);
+  if (coverage.ClipCount() <= kWidestMatrix) {
+    text += MatrixAsText(loaded, coverage);
+  } else {
+    text += fmt::format("\nThe matrix of {} × {} clips is in --json.\n", clips.size(), clips.size());
+  }
+  text += WaysAsText(loaded, coverage);
+  if (coverage.ClipCount() == 1) return text + "It is the only clip: there is no other to lead into.\n";
+  text += fmt::format(
+      "From any frame into any other clip within {} s: {:.0f} % directly, {:.0f} % through an in-between, made of {} "
+      "key\n"
+      "poses; an in-between takes at most {:.1f} s.\n",
+      wait_s, 100 * (1 - total.in_between_share), 100 * total.in_between_share, loaded.library.in_betweens.keys.size(),
+      LongestInBetween(loaded.library.in_betweens.tween, kJudgedRateHz));
+  return text;
+}
+
+Json BridgeSummaryAsJson(const BridgeLibrary& loaded, const Coverage& coverage, double wait_s) {
+  const std::vector<ClipSummary> clips = SummarizeAll(loaded, coverage);
+  const auto or_null = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
+  Json of_clips = Json::array(), pairs = Json::array(), ways = Json::array();
+  for (int from = 0; from < coverage.ClipCount(); ++from) {
+    const ClipSummary& clip = clips[from];
+    of_clips.push_back({{"name", loaded.library.names[from]},
+                        {"source", loaded.sources[from]},
+                        {"frames", clip.frames},
+                        {"bridge_frames", clip.bridge_frames},
+                        {"poses", clip.poses},
+                        {"leads_into", clip.reached},
+                        {"partner_share", clip.frame_share},
+                        {"worst_wait_s", or_null(clip.worst_wait_s)},
+                        {"in_between_share", clip.in_between_share}});
+    for (int to = 0; to < coverage.ClipCount(); ++to) {
+      if (to == from) continue;
+      const PairCoverage& pair = coverage.Of(from, to);
+      pairs.push_back({{"from", loaded.library.names[from]},
+                       {"to", loaded.library.names[to]},
+                       {"frame_share", pair.frame_share},
+                       {"bridge_share", pair.bridge_share},
+                       {"worst_wait_s", or_null(pair.worst_wait_s)},
+                       {"in_between_share", pair.in_between_share}});
+    }
+  }
+  for (int wanted : loaded.corrective) {
+    ways.push_back({{"into", loaded.library.names[wanted]},
+                    {"not_from", NamesOf(coverage.WithoutWayInto(wanted), loaded.library)}});
+  }
+  const MotionLibrary& library = loaded.library;
+  return {{"fuzzy_system", loaded.system.name},
+          {"threshold", loaded.match_rules.threshold},
+          {"within_class", loaded.match_rules.within_class},
+          {"wait_s", wait_s},
+          {"clips", of_clips},
+          {"pairs", pairs},
+          {"corrective", ways},
+          {"keys", library.in_betweens.keys.size()},
+          {"longest_in_between_s", LongestInBetween(library.in_betweens.tween, kJudgedRateHz)}};
+}
+
+}  // namespace etude

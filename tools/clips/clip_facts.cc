@@ -1,0 +1,353 @@
+#include "tools/clips/clip_facts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/names.h"
+#include "engine/capture/fit_pose.h"
+#include "engine/retargeting/proportions.h"
+#include "io/drawing/numbers.h"
+
+namespace etude {
+namespace {
+
+/// The lowest joint of a pose, finger tips aside: rigs place them carelessly.
+Role LowestJoint(const BodyPose& pose) {
+  Role lowest = Role::kHipCentre;
+  for (const Role role : AllRoles()) {
+    const bool is_finger_tip = role == Role::kLeftHand || role == Role::kRightHand;
+    if (!is_finger_tip && pose[role].y < pose[lowest].y) lowest = role;
+  }
+  return lowest;
+}
+
+void RemarkOnPenetration(const BodyMotion& motion, std::vector<std::string>& remarks) {
+  constexpr double kDeep = 0.05;
+  double depth = 0;
+  std::size_t deepest = 0, frames = 0;
+  for (std::size_t f = 0; f < motion.poses.size(); ++f) {
+    const double here = -motion.poses[f][LowestJoint(motion.poses[f])].y;
+    if (here > kDeep) ++frames;
+    if (here <= depth) continue;
+    depth = here;
+    deepest = f;
+  }
+  if (depth <= kDeep) return;
+  remarks.push_back(fmt::format(
+      "{} is {:.0f} cm below the floor at {:.2f} s; {:.0f} % of the frames are over 5 cm deep",
+      RoleName(LowestJoint(motion.poses[deepest])), 100 * depth, static_cast<double>(deepest) / motion.rate_hz,
+      100.0 * static_cast<double>(frames) / static_cast<double>(motion.poses.size())));
+}
+
+/// True if trunk and legs stand: who sits or lies has seats, cushions and the body's own thickness below the joints.
+bool IsUpright(const BodyPose& pose) {
+  constexpr double kSteep = 0.7;
+  using enum Role;
+  const glm::dvec3 trunk = pose[kShoulderCentre] - pose[kHipCentre];
+  const double leg = glm::distance(pose[kLeftHip], pose[kLeftKnee]) + glm::distance(pose[kLeftKnee], pose[kLeftAnkle]);
+  const double ankles = std::min(pose[kLeftAnkle].y, pose[kRightAnkle].y);
+  return trunk.y > kSteep * glm::length(trunk) && pose[kHipCentre].y - ankles > kSteep * leg;
+}
+
+/// A height at which a body may stay, and for how long: nobody jumps for a second, some sit on high chairs, and of who
+/// dances toes lie up to 5 cm above the lowest twentieth for two seconds, 9 for one.
+struct Hovering {
+  double height_m, longest_s;
+  bool is_upright;
+};
+constexpr Hovering kHoverings[] = {{0.5, 1, false}, {0.25, 1, true}, {0.09, 2, true}};
+
+void RemarkOnFloating(const BodyMotion& motion, std::vector<std::string>& remarks) {
+  for (const Hovering& kind : kHoverings) {
+    std::size_t longest = 0, last = 0, run = 0;
+    for (std::size_t f = 0; f < motion.poses.size(); ++f) {
+      const BodyPose& pose = motion.poses[f];
+      const bool hovers = pose[LowestJoint(pose)].y > kind.height_m && (!kind.is_upright || IsUpright(pose));
+      run = hovers ? run + 1 : 0;
+      if (run <= longest) continue;
+      longest = run;
+      last = f;
+    }
+    const double seconds = static_cast<double>(longest) / motion.rate_hz;
+    if (seconds <= kind.longest_s) continue;
+    remarks.push_back(fmt::format(
+        "floats: no joint is within {:.0f} cm of the floor for {:.1f} s from {:.2f} s on; are there steps, or is the "
+        "floor elsewhere?",
+        100 * kind.height_m, seconds, static_cast<double>(last + 1 - longest) / motion.rate_hz));
+    return;
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> RemarksOn(const BodyMotion& motion, const MotionStatistics& statistics) {
+  constexpr double kFast_m_s = 10;  // sprinters' feet
+  std::vector<std::string> remarks;
+  if (statistics.speed_median_m_s > kFast_m_s) {
+    remarks.push_back(fmt::format("the fastest joint moves at {:.1f} m/s in the median frame; is the frame time right?",
+                                  statistics.speed_median_m_s));
+  }
+  RemarkOnPenetration(motion, remarks);
+  RemarkOnFloating(motion, remarks);
+  return remarks;
+}
+
+std::optional<std::string> RemarkOnSliding(const BodyMotion& motion, const RestBody& rest) {
+  constexpr std::size_t kMostPoses = 120;
+  constexpr double kLeast = 0.002, kMmPerMetre = 1000;
+  const auto misfit = MeasureRigidMisfit(rest, motion.poses, kMostPoses);
+  if (!misfit || misfit->mean_m < kLeast) return std::nullopt;
+  return fmt::format(
+      "joints slide: a skeleton that keeps its lengths stays {:.1f} mm off (worst joint, mean over the frames), {:.0f} "
+      "mm at {:.2f} s ({})",
+      kMmPerMetre * misfit->mean_m, kMmPerMetre * misfit->worst_m, static_cast<double>(misfit->pose) / motion.rate_hz,
+      RoleName(misfit->role));
+}
+
+namespace {
+
+/// Names a material: "Fur", or "Fur (texture of 1024 x 1024)".
+std::string NameOf(const Material& material) {
+  if (!material.texture) return material.name;
+  const ColourImage& picture = material.texture->picture;
+  return fmt::format("{} (texture of {} x {})", material.name, picture.width, picture.height);
+}
+
+FigureFacts FactsOfFigure(const Character& figure) {
+  FigureFacts facts;
+  facts.meshes = figure.meshes.size();
+  if (figure.meshes.empty()) return facts;
+  for (const SkinnedMesh& mesh : figure.meshes) facts.triangles += mesh.triangles.size();
+  for (const Material& material : figure.materials) facts.materials.push_back(NameOf(material));
+  return facts;
+}
+
+void CountJoints(const Skeleton& skeleton, ClipFacts& facts) {
+  facts.end_sites = static_cast<std::size_t>(std::ranges::count_if(skeleton.joints, &Joint::is_end_site));
+  facts.joints = skeleton.joints.size() - facts.end_sites;
+}
+
+ClipFacts FactsOfSource(const SourceClip& source) {
+  ClipFacts facts;
+  facts.name = source.name;
+  facts.source = source.source;
+  facts.format = source.format;
+  facts.frames = source.clip.frames.size();
+  facts.rate_hz = source.clip.rate_hz;
+  facts.duration_s = source.clip.DurationSeconds();
+  CountJoints(source.clip.skeleton, facts);
+  if (source.character) facts.figure = FactsOfFigure(*source.character);
+  return facts;
+}
+
+BodyFacts FactsOfBody(const OpenedClip& clip) {
+  const BodyConversion& body = clip.body;
+  BodyFacts facts{.joints = {},
+                  .composed = clip.map.composed,
+                  .unit = body.unit,
+                  .metres_per_unit = body.metres_per_unit,
+                  .up = body.up,
+                  .floor = body.floor,
+                  .dropped_t_pose = body.dropped_frames > 0,
+                  .note = body.note,
+                  .motion = ComputeStatistics(body.motion),
+                  .remarks = {}};
+  facts.remarks = RemarksOn(body.motion, facts.motion);
+  auto sliding = RemarkOnSliding(body.motion, MeasureBody(clip.source.clip, clip.map, body));
+  if (sliding) facts.remarks.push_back(std::move(*sliding));
+  for (const Role role : AllRoles()) {
+    facts.joints[Index(role)] = clip.source.clip.skeleton.joints[clip.map[role].joint].name;
+  }
+  return facts;
+}
+
+/// Collects what can be told of a file that gives no clip.
+ClipFacts FactsWithoutClip(const std::string& reference, const OpenOptions& options, Error complaint) {
+  ClipFacts facts;
+  facts.name = facts.source = reference;
+  facts.complaint = std::move(complaint);
+  const auto file = ReadClipFile(reference, std::nullopt, options.recorded);
+  if (!file) return facts;
+  facts.format = file->format;
+  CountJoints(file->figure.skeleton, facts);
+  facts.figure = FactsOfFigure(file->figure);
+  return facts;
+}
+
+Json OrNull(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
+Json JsonOf(const BodyFacts& body) {
+  Json roles = Json::object();
+  for (const Role role : AllRoles()) {
+    const bool composed = std::ranges::find(body.composed, role) != body.composed.end();
+    roles[std::string(RoleName(role))] = {{"joint", body.joints[Index(role)]}, {"composed", composed}};
+  }
+  const MotionStatistics& motion = body.motion;
+  const FootSlide& slide = motion.foot_slide;
+  return {{"unit", body.unit},
+          {"metres_per_unit", body.metres_per_unit},
+          {"up", body.up == UpAxis::kY ? "y" : "z"},
+          {"floor_units", body.floor},
+          {"dropped_t_pose", body.dropped_t_pose},
+          {"note", body.note},
+          {"stature_m", motion.stature_m},
+          {"travelled_m", motion.travelled_m},
+          {"speed_median_m_s", motion.speed_median_m_s},
+          {"speed_p95_m_s", motion.speed_p95_m_s},
+          {"speed_peak_m_s", motion.speed_peak_m_s},
+          {"fastest", RoleName(motion.fastest)},
+          {"foot_slide_m_s", OrNull(slide.mean)},
+          {"foot_slide_left_m_s", OrNull(slide.of_foot[0])},
+          {"foot_slide_right_m_s", OrNull(slide.of_foot[1])},
+          {"stance_left_share", slide.stance_share[0]},
+          {"stance_right_share", slide.stance_share[1]},
+          {"lowest_foot_m", motion.lowest_foot_m},
+          {"remarks", body.remarks},
+          {"roles", std::move(roles)}};
+}
+
+Json JsonOf(const ClipFacts& facts) {
+  const bool is_read = facts.format.has_value();
+  Json json = {{"name", facts.name},
+               {"source", facts.source},
+               {"format", is_read ? Json(FormatName(*facts.format)) : Json()},
+               {"complaint", facts.complaint ? Json(ToString(*facts.complaint)) : Json()}};
+  if (!is_read) return json;
+  json["frames"] = facts.frames;
+  json["rate_hz"] = facts.frames > 0 ? Json(facts.rate_hz) : Json();
+  json["duration_s"] = facts.duration_s;
+  json["joints"] = facts.joints;
+  json["end_sites"] = facts.end_sites;
+  json["meshes"] = facts.figure.meshes;
+  json["triangles"] = facts.figure.triangles;
+  json["materials"] = facts.figure.materials;
+  json["body"] = facts.body ? JsonOf(*facts.body) : Json();
+  return json;
+}
+
+constexpr std::size_t kLineWidth = 110;
+
+std::string Line(const std::string& title, const std::string& text) { return fmt::format("  {:<8} {}\n", title, text); }
+
+/// Writes items one after the other, in as many lines as they need.
+std::string WrappedLine(const std::string& title, const std::vector<std::string>& items) {
+  std::string lines, line;
+  for (const std::string& item : items) {
+    if (!line.empty() && line.size() + 2 + item.size() > kLineWidth) {
+      lines += Line(lines.empty() ? title : "", line + ",");
+      line.clear();
+    }
+    line += (line.empty() ? "" : ", ") + item;
+  }
+  return lines + Line(lines.empty() ? title : "", line);
+}
+
+std::string FileLine(const ClipFacts& facts) {
+  std::string text(FormatName(*facts.format));
+  if (facts.frames > 0) {
+    text += fmt::format(", {} at {:.6g} Hz, {:.2f} s", Plural(static_cast<long long>(facts.frames), "frame"),
+                        facts.rate_hz, facts.duration_s);
+  }
+  text += "; " + Plural(static_cast<long long>(facts.joints), "joint");
+  if (facts.end_sites > 0) text += ", " + Plural(static_cast<long long>(facts.end_sites), "end site");
+  return Line("file", text);
+}
+
+std::string FigureLine(const FigureFacts& figure) {
+  if (figure.meshes == 0) return "";
+  const bool one = figure.meshes == 1;
+  return Line("figure", fmt::format("{} mesh{}, {}; materials: {}", figure.meshes, one ? "" : "es",
+                                    Plural(static_cast<long long>(figure.triangles), "triangle"),
+                                    figure.materials.empty() ? std::string(kNoValue) : Join(figure.materials)));
+}
+
+std::string CmPerSecond(const std::optional<double>& speed_m_s) {
+  return speed_m_s ? fmt::format("{:.1f} cm/s", 100 * *speed_m_s) : std::string(kNoValue);
+}
+
+std::string BodyLines(const BodyFacts& body) {
+  const MotionStatistics& motion = body.motion;
+  const FootSlide& slide = motion.foot_slide;
+  std::string feet = "no foot ever stands";
+  if (slide.mean) {
+    feet = "standing feet slide " + CmPerSecond(slide.mean);
+    if (slide.of_foot[0] && slide.of_foot[1]) {
+      feet += fmt::format(" (left {}, right {})", CmPerSecond(slide.of_foot[0]), CmPerSecond(slide.of_foot[1]));
+    }
+  }
+  std::string remarks;
+  for (const std::string& remark : body.remarks) remarks += Line("remark", remark);
+  return Line("body",
+              fmt::format("{:.2f} m tall; {}; {} up", motion.stature_m, body.note, body.up == UpAxis::kY ? "Y" : "Z")) +
+         Line("motion",
+              fmt::format("travels {:.1f} m; fastest joint: median {:.2f}, 95 % {:.2f}, peak {:.2f} m/s ({}); {}",
+                          motion.travelled_m, motion.speed_median_m_s, motion.speed_p95_m_s, motion.speed_peak_m_s,
+                          RoleName(motion.fastest), feet)) +
+         remarks;
+}
+
+std::vector<std::string> RoleItems(const BodyFacts& body) {
+  std::vector<std::string> items;
+  for (const Role role : AllRoles()) {
+    const bool composed = std::ranges::find(body.composed, role) != body.composed.end();
+    items.push_back(
+        fmt::format("{} {}{}", RoleName(role), composed ? "composed on " : "= ", Quote(body.joints[Index(role)])));
+  }
+  return items;
+}
+
+}  // namespace
+
+std::vector<ClipFacts> FactsOf(const std::string& reference, const OpenOptions& options) {
+  auto clips = ReadClips(reference, options);
+  if (!clips) return {FactsWithoutClip(reference, options, clips.error())};
+  std::vector<ClipFacts> all;
+  for (SourceClip& clip : *clips) {
+    ClipFacts facts = FactsOfSource(clip);
+    const auto opened = UnderstandClip(std::move(clip), options);
+    if (opened) {
+      facts.body = FactsOfBody(*opened);
+    } else {
+      facts.complaint = opened.error();
+    }
+    all.push_back(std::move(facts));
+  }
+  return all;
+}
+
+ClipFacts FactsOf(const OpenedClip& clip) {
+  ClipFacts facts = FactsOfSource(clip.source);
+  facts.body = FactsOfBody(clip);
+  return facts;
+}
+
+Json FactsAsJson(const std::vector<ClipFacts>& facts) {
+  Json clips = Json::array();
+  for (const ClipFacts& clip : facts) clips.push_back(JsonOf(clip));
+  return {{"clips", std::move(clips)}};
+}
+
+std::string FactsAsText(const ClipFacts& facts, const ClipFacts* before) {
+  std::string text = facts.name == facts.source ? facts.name : fmt::format("{}  ({})", facts.name, facts.source);
+  text += "\n";
+  if (facts.format) text += FileLine(facts) + FigureLine(facts.figure);
+  if (facts.body) {
+    text += BodyLines(*facts.body);
+    const bool as_before = before != nullptr && before->body && before->body->joints == facts.body->joints;
+    text += as_before ? Line("roles", "as above") : WrappedLine("roles", RoleItems(*facts.body));
+  }
+  if (facts.complaint) text += Line("but", facts.complaint->message);
+  return text;
+}
+
+std::string FactsAsLine(const ClipFacts& facts) {
+  std::string text = fmt::format("{} · {:.1f} s at {:.4g} Hz · {}", FormatName(*facts.format), facts.duration_s,
+                                 facts.rate_hz, Plural(static_cast<long long>(facts.joints), "joint"));
+  if (!facts.body) return text;
+  return text + fmt::format(" · {:.2f} m tall · feet slide {} · {}", facts.body->motion.stature_m,
+                            CmPerSecond(facts.body->motion.foot_slide.mean), facts.body->note);
+}
+
+}  // namespace etude

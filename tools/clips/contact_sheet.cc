@@ -1,0 +1,139 @@
+#include "tools/clips/contact_sheet.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "io/drawing/look.h"
+#include "tools/clips/clip_facts.h"
+
+namespace etude {
+namespace {
+
+constexpr double kSheetDetail = 2;
+constexpr int kMargin = 16;
+constexpr int kGap = 6;
+constexpr int kTitle = 46;       // room for a clip's name and facts above its pictures
+constexpr double kLegend = 190;  // room that the legend leaves beside the first clip's name
+constexpr int kNarrowest = 640;  // titles need some room, however few pictures there are
+constexpr double kNameSize = 16, kFactsSize = 12.5, kTimeSize = 12;
+
+int RowsOf(int pictures, int columns) { return (pictures + columns - 1) / columns; }
+
+void DrawTitle(Canvas& canvas, const ClipFacts& facts, double y, double room) {
+  canvas.DrawText({kMargin, y + 18}, facts.name, kNameSize, kInk, room, true);
+  canvas.DrawText({kMargin, y + 37}, FactsAsLine(facts), kFactsSize, kSoftInk, room);
+}
+
+/// Draws a clip's pictures in rows of `columns`, from `y` downwards.
+void DrawPictures(Canvas& canvas, const Shot& shot, const std::vector<int>& frames, const SheetOptions& options,
+                  double y, Studio& studio, Renderer& renderer) {
+  for (int k = 0; k < static_cast<int>(frames.size()); ++k) {
+    const int frame = frames[static_cast<std::size_t>(k)];
+    const int column = k % options.columns, row = k / options.columns;
+    const Box box{static_cast<double>(kMargin + column * (options.width + kGap)), y + row * (options.height + kGap),
+                  static_cast<double>(options.width), static_cast<double>(options.height)};
+    shot.Draw(canvas, box, studio, renderer, frame);
+    canvas.DrawText({box.x + 10, box.y + 20}, fmt::format("{:.2f} s", shot.SecondsAt(frame)), kTimeSize, kSoftInk,
+                    box.width);
+  }
+}
+
+constexpr double kSensorWidth = 260, kSensorHeight = 195;
+constexpr double kHead = 40, kRowTitle = 26, kCaption = 20;
+constexpr double kTitleSize = 18, kRowSize = 14, kCaptionSize = 12.5;
+constexpr double kRowHeight = kRowTitle + kSensorHeight + kCaption + kGap;
+
+Paint PaintOf(const Rgb8& colour) { return {colour.r / 255.0, colour.g / 255.0, colour.b / 255.0, 1}; }
+
+// The largest box of the picture's shape in the middle of another.
+Box Inside(const ColourImage& picture, const Box& box) {
+  const double scale = std::min(box.width / picture.width, box.height / picture.height);
+  const double width = scale * picture.width, height = scale * picture.height;
+  return {box.x + (box.width - width) / 2, box.y + (box.height - height) / 2, width, height};
+}
+
+void DrawMarks(Canvas& canvas, const SheetPicture& shown, const Box& box) {
+  const glm::dvec2 scale{box.width / shown.picture.width, box.height / shown.picture.height};
+  const Box picture{0, 0, static_cast<double>(shown.picture.width), static_cast<double>(shown.picture.height)};
+  const auto inside = [&](const glm::dvec2& p) {
+    return p.x >= 0 && p.y >= 0 && p.x <= picture.width && p.y <= picture.height;
+  };
+  for (const SheetMark& mark : shown.marks) {
+    if (!inside(mark.a) || !inside(mark.b)) continue;  // nothing is drawn over the neighbours
+    const glm::dvec2 corner{box.x, box.y};
+    if (mark.a == mark.b) {
+      canvas.DrawDot(corner + mark.a * scale, 3, PaintOf(mark.colour));
+    } else {
+      canvas.DrawLine(corner + mark.a * scale, corner + mark.b * scale, 1.8, PaintOf(mark.colour));
+    }
+  }
+}
+
+void DrawRow(Canvas& canvas, const SheetRow& row, double y) {
+  canvas.DrawText({kMargin, y + 17}, row.title, kRowSize, kInk, canvas.width() - 2 * kMargin, true);
+  double x = kMargin;
+  for (const SheetPicture& shown : row.pictures) {
+    const Box box = Inside(shown.picture, {x, y + kRowTitle, kSensorWidth, kSensorHeight});
+    canvas.DrawImage(shown.picture, box);
+    DrawMarks(canvas, shown, box);
+    canvas.DrawText({x, y + kRowTitle + kSensorHeight + 15}, shown.caption, kCaptionSize, kSoftInk, kSensorWidth);
+    x += kSensorWidth + kGap;
+  }
+}
+
+}  // namespace
+
+Result<std::string> DrawContactSheet(std::vector<ClipActor> actors, const SheetOptions& options, Renderer& renderer) {
+  std::vector<Shot> shots;
+  std::vector<std::vector<int>> frames;
+  int columns = 1, height = kMargin;
+  for (ClipActor& actor : actors) {
+    shots.emplace_back(std::move(actor), options.from, 0);
+    frames.push_back(SpreadFrames(shots.back(), options.frames));
+    const int pictures = static_cast<int>(frames.back().size());
+    columns = std::max(columns, std::min(options.columns, pictures));
+    height += kTitle + RowsOf(pictures, options.columns) * (options.height + kGap) + kMargin;
+  }
+  const int width = std::max(2 * kMargin + columns * (options.width + kGap) - kGap, kNarrowest);
+  if (width > kLargestSheet || height > kLargestSheet) {
+    return Fail({}, "the sheet would have {} × {} pixels; allowed: {} a side: fewer clips, fewer or smaller pictures",
+                width, height, kLargestSheet);
+  }
+  ViewBounds bounds;
+  for (std::size_t i = 0; i < shots.size(); ++i) shots[i].Include(frames[i], bounds);
+  Studio studio(options.width, options.height, kSheetDetail, bounds);
+
+  Canvas canvas(width, height);
+  canvas.FillBox({0, 0, static_cast<double>(width), static_cast<double>(height)}, kBackdrop);
+  DrawLegend(canvas, width - kMargin, kMargin + 14);
+  double y = kMargin;
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    const double legend = i == 0 ? kLegend : 0;
+    DrawTitle(canvas, FactsOf(shots[i].actor().clip()), y, width - 2 * kMargin - legend);
+    y += kTitle;
+    DrawPictures(canvas, shots[i], frames[i], options, y, studio, renderer);
+    y += RowsOf(static_cast<int>(frames[i].size()), options.columns) * (options.height + kGap) + kMargin;
+  }
+  return canvas.Png();
+}
+
+Result<std::string> DrawSensorSheet(const SensorSheet& sheet) {
+  std::size_t columns = 0;
+  for (const SheetRow& row : sheet.rows) columns = std::max(columns, row.pictures.size());
+  if (columns == 0) return Fail({}, "there is no picture to show");
+  const double width = 2 * kMargin + static_cast<double>(columns) * (kSensorWidth + kGap) - kGap;
+  const double height = kHead + static_cast<double>(sheet.rows.size()) * kRowHeight + kMargin;
+  if (width > kLargestSheet || height > kLargestSheet) {
+    return Fail({}, "the sheet would have {:g} × {:g} pixels; allowed: {} a side", width, height, kLargestSheet);
+  }
+  Canvas canvas(static_cast<int>(width), static_cast<int>(height));
+  canvas.FillBox({0, 0, width, height}, kBackdrop);
+  canvas.DrawText({kMargin, 27}, sheet.title, kTitleSize, kInk, width - 2 * kMargin, true);
+  for (std::size_t i = 0; i < sheet.rows.size(); ++i) {
+    DrawRow(canvas, sheet.rows[i], kHead + static_cast<double>(i) * kRowHeight);
+  }
+  return canvas.Png();
+}
+
+}  // namespace etude

@@ -1,0 +1,150 @@
+#include "tools/clips/role_sheet.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "engine/base/names.h"
+#include "io/drawing/look.h"
+#include "tools/clips/contact_sheet.h"
+
+namespace etude {
+namespace {
+
+constexpr int kSheetWidth = 1200, kLeastHeight = 760;
+constexpr double kEdge = 18, kColumn = 360, kLine = 18, kFoot = 56, kTop = 44;
+constexpr double kLabelSize = 13;
+constexpr Paint kBone{0.45, 0.49, 0.52, 1}, kLeader{0.30, 0.33, 0.36, 1};
+
+/// A joint in the picture, and what stands beside it.
+struct SheetJoint {
+  glm::dvec2 at{0};  ///< pixels
+  std::string words;
+  Paint paint = kSoftInk;
+  bool plays = false;
+};
+
+std::vector<glm::dvec3> PlacesOf(const Clip& clip) {
+  std::vector<GlobalTransform> globals;
+  ComputeGlobals(clip.skeleton, clip.frames.empty() ? RestPose(clip.skeleton) : clip.frames.front(), globals);
+  std::vector<glm::dvec3> places;
+  for (const GlobalTransform& joint : globals) places.push_back(joint.position);
+  return places;
+}
+
+/// The directions that lie to the right and upward in the picture. Up is Y or Z, along which the body is longer.
+std::pair<glm::dvec3, glm::dvec3> ViewOf(const std::vector<glm::dvec3>& places,
+                                         const std::array<RoleOnSheet, kRoleCount>& roles) {
+  glm::dvec3 low = places.front(), high = low;
+  for (const glm::dvec3& place : places) low = glm::min(low, place), high = glm::max(high, place);
+  const glm::dvec3 size = high - low;
+  const bool is_z_up = size.z > size.y;
+  const glm::dvec3 up = is_z_up ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
+  for (const auto& [left, right] :
+       {std::pair{Role::kLeftShoulder, Role::kRightShoulder}, {Role::kLeftHip, Role::kRightHip}}) {
+    const int a = roles[Index(left)].joint, b = roles[Index(right)].joint;
+    if (a < 0 || b < 0) continue;
+    const glm::dvec3 across = places[a] - places[b], level = across - glm::dot(across, up) * up;
+    if (glm::length(level) > 0.5 * glm::length(across)) return {glm::normalize(level), up};
+  }
+  const double depth = is_z_up ? size.y : size.z;
+  if (size.x >= depth) return {glm::dvec3(1, 0, 0), up};
+  return {is_z_up ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1), up};
+}
+
+void Label(const std::array<RoleOnSheet, kRoleCount>& roles, std::vector<SheetJoint>& joints) {
+  using By = RoleOnSheet::By;
+  for (const Role role : AllRoles()) {
+    const auto& [joint, by] = roles[Index(role)];
+    if (joint < 0) continue;
+    SheetJoint& shown = joints[joint];
+    const bool is_sure = by == By::kName || by == By::kComposed;
+    shown.words += fmt::format("{} {}{}", shown.plays ? "," : "  =", RoleName(role),
+                               by == By::kComposed   ? " (rides on it)"
+                               : by == By::kAnatomy  ? " (by build)"
+                               : by == By::kProposed ? " ?"
+                                                     : "");
+    shown.paint = is_sure ? kAccent : kWarm;
+    shown.plays = true;
+  }
+}
+
+/// Writes labels of one side below each other, each as near to its joint's height as the others leave it.
+void DrawColumn(Canvas& canvas, std::vector<const SheetJoint*> joints, bool is_left) {
+  std::ranges::stable_sort(joints, {}, [](const SheetJoint* joint) { return joint->at.y; });
+  const double bottom = canvas.height() - kFoot;
+  double y = kTop;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const SheetJoint& joint = *joints[i];
+    const double last = bottom - kLine * static_cast<double>(joints.size() - i);  // leaves room for those that follow
+    y = std::clamp(joint.at.y, std::min(y, last), last);
+    const double width = std::min(canvas.TextWidth(joint.words, kLabelSize, joint.plays), kColumn);
+    const double x = is_left ? kEdge + kColumn - width : canvas.width() - kEdge - kColumn;
+    const double from = is_left ? kEdge + kColumn + 6 : x - 6;
+    canvas.DrawLine({from, y}, joint.at, 1, kLeader);
+    canvas.DrawText({x, y + 4}, joint.words, kLabelSize, joint.paint, kColumn, joint.plays);
+    y += kLine;
+  }
+}
+
+std::string MissingRoles(const std::array<RoleOnSheet, kRoleCount>& roles) {
+  std::vector<std::string> missing;
+  for (const Role role : AllRoles()) {
+    if (roles[Index(role)].joint < 0) missing.emplace_back(RoleName(role));
+  }
+  return missing.empty() ? "every role is played" : "no joint for: " + Join(missing);
+}
+
+}  // namespace
+
+Result<std::string> DrawRoleSheet(const Clip& clip, const std::array<RoleOnSheet, kRoleCount>& roles) {
+  const std::vector<glm::dvec3> places = PlacesOf(clip);
+  const auto [right, up] = ViewOf(places, roles);
+  std::vector<SheetJoint> joints(places.size());
+  glm::dvec2 low(INFINITY), high(-INFINITY);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    joints[i] = {.at = {glm::dot(right, places[i]), -glm::dot(up, places[i])},
+                 .words = Quote(clip.skeleton.joints[i].name)};
+    low = glm::min(low, joints[i].at), high = glm::max(high, joints[i].at);
+  }
+  const double size = std::max(high.x - low.x, high.y - low.y);
+  if (!std::isfinite(size) || size <= 0) return Fail({}, "a skeleton of no size: there is nothing to draw");
+  Label(roles, joints);
+
+  const auto is_labelled = [&](std::size_t i) { return joints[i].plays || !clip.skeleton.joints[i].is_end_site; };
+  std::array<std::vector<const SheetJoint*>, 2> columns;
+  const double middle = (low.x + high.x) / 2;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    if (is_labelled(i)) columns[joints[i].at.x < middle ? 0 : 1].push_back(&joints[i]);
+  }
+  const double lines = static_cast<double>(std::max(columns[0].size(), columns[1].size()));
+  const double height = std::max<double>(kLeastHeight, kTop + kLine * (lines + 1) + kFoot);
+  if (height > kLargestSheet) return Fail({}, "{} joints: too many for one picture", joints.size());
+
+  Canvas canvas(kSheetWidth, static_cast<int>(height));
+  canvas.FillBox({0, 0, kSheetWidth, height}, kBackdrop);
+  const double room_x = kSheetWidth - 2 * (kEdge + kColumn + 30), room_y = kLeastHeight - kTop - kFoot - 40;
+  const double scale =
+      std::min(room_x / std::max(high.x - low.x, 1e-9 * size), room_y / std::max(high.y - low.y, 1e-9 * size));
+  const glm::dvec2 centre(kSheetWidth / 2.0, (kTop + height - kFoot) / 2);
+  for (SheetJoint& joint : joints) joint.at = centre + scale * (joint.at - (low + high) / 2.0);
+
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const int parent = clip.skeleton.joints[i].parent;
+    if (parent >= 0) canvas.DrawLine(joints[parent].at, joints[i].at, 4, kBone);
+  }
+  DrawColumn(canvas, columns[0], true);
+  DrawColumn(canvas, columns[1], false);
+  for (const SheetJoint& joint : joints) canvas.DrawDot(joint.at, joint.plays ? 5 : 3, joint.paint);
+  canvas.DrawText({kEdge, 26}, clip.name, 17, kInk, kSheetWidth - 2 * kEdge, true);
+  canvas.DrawText({kEdge, height - 32}, MissingRoles(roles), kLabelSize, kInk, kSheetWidth - 2 * kEdge, true);
+  canvas.DrawText(
+      {kEdge, height - 12},
+      "blue: found by names, or at the end of such a limb; orange: by the body's build; white: plays no role",
+      kLabelSize, kSoftInk, kSheetWidth - 2 * kEdge);
+  return canvas.Png();
+}
+
+}  // namespace etude
