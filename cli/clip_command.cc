@@ -14,6 +14,7 @@
 #include "engine/base/names.h"
 #include "io/clips/clip_library.h"
 #include "io/clips/convert.h"
+#include "io/clips/references.h"
 #include "io/files/files.h"
 #include "tools/clips/clip_facts.h"
 #include "tools/clips/contact_index.h"

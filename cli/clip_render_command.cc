@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/output_file.h"
 #include "cli/progress_bar.h"
+#include "io/clips/references.h"
 #include "io/files/files.h"
 #include "tools/clips/clip_film.h"
 #include "tools/clips/contact_sheet.h"

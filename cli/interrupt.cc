@@ -1,17 +1,17 @@
 #include "cli/interrupt.h"
 
 #include <poll.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <optional>
 #include <string_view>
 
 #include "cli/commands.h"
+#include "io/process/forked_copy.h"
 
 namespace etude {
 namespace {
@@ -51,26 +51,21 @@ const std::atomic<bool>* Interrupt::requested() const { return &stop_requested; 
 int DoInterruptibly(const std::function<int()>& work, const std::function<void()>& clean_up) {
   const Interrupt interrupt;
   std::fflush(nullptr);  // lest the copy print it, too
-  const pid_t parent = ::getpid(), child = ::fork();
-  if (child < 0) {
-    Complain({{}, std::string("no process can be started: ") + std::strerror(errno)});
-    return kIncomplete;
-  }
-  if (child == 0) {
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    const int code = ::getppid() == parent ? work() : kInterrupted;
+  auto copy = ForkedCopy::Start([&](int) {
+    const int code = work();
     std::fflush(nullptr);
-    ::_exit(code);
-  }
-  int status = 0;
-  while (::waitpid(child, &status, WNOHANG) == 0) {
-    if (*interrupt.requested()) ::kill(child, SIGKILL);
+    return code;
+  });
+  if (!copy) return Complain(copy.error());
+  std::optional<int> status;
+  while (!(status = copy->StatusIfEnded())) {
+    if (*interrupt.requested()) copy->Kill();
     ::poll(nullptr, 0, 20);
   }
-  if (WIFEXITED(status)) return WEXITSTATUS(status);
+  if (WIFEXITED(*status)) return WEXITSTATUS(*status);
   clean_up();
   if (*interrupt.requested()) return TellStopped();
-  Complain({{}, "stopped by " + std::string(::strsignal(WTERMSIG(status))) + "; nothing is kept"});
+  Complain({{}, "stopped by " + std::string(::strsignal(WTERMSIG(*status))) + "; nothing is kept"});
   return kIncomplete;
 }
 

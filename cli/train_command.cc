@@ -25,6 +25,7 @@
 #include "engine/base/named.h"
 #include "engine/base/names.h"
 #include "io/clips/clip_library.h"
+#include "io/clips/references.h"
 #include "io/files/files.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/random/stream.h"

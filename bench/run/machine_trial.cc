@@ -14,6 +14,7 @@
 #include "io/files/files.h"
 #include "io/files/temporary_folder.h"
 #include "io/process/child_process.h"
+#include "io/process/forked_copy.h"
 #include "sim/render/renderer.h"
 
 namespace etude {
@@ -27,16 +28,12 @@ bool Draws(const PreparedScenario& prepared) {
 /// A copy of this process tries to make a renderer: where memory is short, its libraries end the process that asks.
 Result<void> TryRendererInACopy() {
   constexpr int kNotLoaded = 2;
-  const pid_t copy = ::fork();
-  if (copy == 0) {
+  ASSIGN_OR_RETURN(ForkedCopy copy, ForkedCopy::Start([](int) {
     const int silence = ::open("/dev/null", O_WRONLY);
     ::dup2(silence, STDERR_FILENO);
-    ::_exit(!LoadRenderer() ? kNotLoaded : SharedRenderer() ? 0 : 1);
-  }
-  if (copy < 0) return Fail({kThisMachine}, "no process can be started: {}", std::strerror(errno));
-  int status = 0;
-  while (::waitpid(copy, &status, 0) < 0 && errno == EINTR) {
-  }
+    return !LoadRenderer() ? kNotLoaded : SharedRenderer() ? 0 : 1;
+  }));
+  const int status = copy.Wait();
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
   if (WIFEXITED(status) && WEXITSTATUS(status) == kNotLoaded) RETURN_IF_ERROR(LoadRenderer());
   return Fail({}, "nothing can be drawn: Mesa gets no memory, or gives no context");

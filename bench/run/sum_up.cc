@@ -1,9 +1,6 @@
 #include "bench/run/sum_up.h"
 
-#include <fcntl.h>
 #include <poll.h>
-#include <signal.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,7 +13,7 @@
 #include <utility>
 
 #include "bench/results/summary_json.h"
-#include "engine/base/machine.h"
+#include "io/process/forked_copy.h"
 
 namespace etude {
 namespace {
@@ -25,36 +22,23 @@ constexpr std::uint64_t kComplaint = ~std::uint64_t{0};
 
 /// A copy at work, and what of its answers has come: number, length, text; number, length, text; …
 struct Copy {
-  pid_t pid = -1;
-  int output = -1;
+  ForkedCopy process;
   std::string said = {};
 };
 
-bool WriteAll(int file, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t count = ::write(file, bytes.data(), bytes.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(count));
-  }
-  return true;
-}
-
 bool Say(int file, std::uint64_t number, std::string_view text) {
   const std::array<std::uint64_t, 2> head = {number, text.size()};
-  return WriteAll(file, {reinterpret_cast<const char*>(head.data()), sizeof head}) && WriteAll(file, text);
+  return SendAll(file, {reinterpret_cast<const char*>(head.data()), sizeof head}) && SendAll(file, text);
 }
 
-[[noreturn]] void Work(std::size_t first, std::size_t count, std::size_t step, int output, pid_t parent,
-                       const std::function<Result<std::string>(std::size_t)>& work) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);  // it died before the line above
+int Work(std::size_t first, std::size_t count, std::size_t step, int output,
+         const std::function<Result<std::string>(std::size_t)>& work) {
   for (std::size_t i = first; i < count; i += step) {
     const auto text = work(i);
     if (!text) Say(output, kComplaint, ToString(text.error()));
-    if (!text || !Say(output, i, *text)) ::_exit(1);
+    if (!text || !Say(output, i, *text)) return 1;
   }
-  ::_exit(0);
+  return 0;
 }
 
 /// Takes whole answers from what a copy has said, and counts them.
@@ -74,30 +58,13 @@ Result<void> Take(Copy& copy, std::vector<std::string>& answers, std::size_t& ta
   return {};
 }
 
-/// The copies, ended and reaped whatever happens.
+/// The copies at work.
 class Copies {
  public:
-  ~Copies() {
-    for (Copy& copy : copies_) {
-      ::kill(copy.pid, SIGKILL);
-      End(copy);
-    }
-  }
-
   Result<void> Start(std::size_t count, std::size_t jobs, const std::function<Result<std::string>(std::size_t)>& work) {
-    const pid_t parent = ::getpid();
     for (std::size_t first = 0; first < jobs; ++first) {
-      std::array<int, 2> ends{};
-      if (::pipe2(ends.data(), O_CLOEXEC) != 0)
-        return Fail({kThisMachine}, "no pipe can be made: {}", std::strerror(errno));
-      const pid_t pid = ::fork();
-      if (pid == 0) Work(first, count, jobs, ends[1], parent, work);
-      ::close(ends[1]);
-      if (pid < 0) {
-        ::close(ends[0]);
-        return Fail({kThisMachine}, "no process can be started: {}", std::strerror(errno));
-      }
-      copies_.push_back({pid, ends[0]});
+      ASSIGN_OR_RETURN(auto copy, ForkedCopy::Start([&](int output) { return Work(first, count, jobs, output, work); }));
+      copies_.push_back({std::move(copy)});
     }
     return {};
   }
@@ -106,19 +73,20 @@ class Copies {
     std::size_t taken = 0;
     while (!copies_.empty()) {
       std::vector<pollfd> watched;
-      for (const Copy& copy : copies_) watched.push_back({copy.output, POLLIN, 0});
+      for (const Copy& copy : copies_) watched.push_back({copy.process.socket(), POLLIN, 0});
       ::poll(watched.data(), watched.size(), -1);
       for (std::size_t i = copies_.size(); i-- > 0;) {
         if (watched[i].revents == 0) continue;
         std::array<char, 1 << 16> chunk;
-        const ssize_t count = ::read(copies_[i].output, chunk.data(), chunk.size());
+        const ssize_t count = ::read(copies_[i].process.socket(), chunk.data(), chunk.size());
         if (count < 0 && errno == EINTR) continue;
         if (count > 0) {
           copies_[i].said.append(chunk.data(), static_cast<std::size_t>(count));
           RETURN_IF_ERROR(Take(copies_[i], answers, taken));
           continue;
         }
-        const bool went_well = End(copies_[i]);
+        const int status = copies_[i].process.Wait();
+        const bool went_well = WIFEXITED(status) && WEXITSTATUS(status) == 0;
         copies_.erase(copies_.begin() + static_cast<std::ptrdiff_t>(i));
         if (!went_well) return Fail({}, "a process that sums up ended before its work");
       }
@@ -128,15 +96,6 @@ class Copies {
   }
 
  private:
-  /// True if it ended by itself, and well.
-  static bool End(Copy& copy) {
-    ::close(copy.output);
-    int status = 0;
-    while (::waitpid(copy.pid, &status, 0) < 0 && errno == EINTR) {
-    }
-    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
-  }
-
   std::vector<Copy> copies_;
 };
 

@@ -1,15 +1,11 @@
 #include "io/clips/fbx.h"
 
 #include <dlfcn.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <csignal>
 #include <cstdint>
 #include <cstring>
@@ -18,7 +14,7 @@
 #include <optional>
 #include <utility>
 
-#include "engine/base/machine.h"
+#include "io/process/forked_copy.h"
 #include "io/process/pinned_environment.h"
 
 namespace etude {
@@ -80,44 +76,23 @@ void AllowProcessorTime(rlim_t seconds) {
 /// Sends a length and so many bytes; false when nobody is at the other end.
 bool SendBlock(int socket, std::string_view bytes) {
   const std::uint64_t size = bytes.size();
-  for (std::string_view part : {std::string_view(reinterpret_cast<const char*>(&size), sizeof size), bytes}) {
-    while (!part.empty()) {
-      const ssize_t count = ::send(socket, part.data(), part.size(), MSG_NOSIGNAL);
-      if (count < 0 && errno == EINTR) continue;
-      if (count <= 0) return false;
-      part.remove_prefix(static_cast<std::size_t>(count));
-    }
-  }
-  return true;
-}
-
-bool Receive(int socket, char* bytes, std::size_t size) {
-  while (size > 0) {
-    const ssize_t count = ::recv(socket, bytes, size, 0);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return false;
-    bytes += count;
-    size -= static_cast<std::size_t>(count);
-  }
-  return true;
+  return SendAll(socket, {reinterpret_cast<const char*>(&size), sizeof size}) && SendAll(socket, bytes);
 }
 
 /// Receives what SendBlock sent; nothing when nobody is at the other end, or it is longer than `most`.
 std::optional<std::string> ReceiveBlock(int socket, std::size_t most, bool& is_too_long) {
   std::uint64_t size = 0;
-  if (!Receive(socket, reinterpret_cast<char*>(&size), sizeof size)) return std::nullopt;
+  if (!ReceiveAll(socket, reinterpret_cast<char*>(&size), sizeof size)) return std::nullopt;
   is_too_long = size > most;
   std::string bytes;
   if (is_too_long) return std::nullopt;
   bytes.resize(size);
-  return Receive(socket, bytes.data(), size) ? std::optional(std::move(bytes)) : std::nullopt;
+  return ReceiveAll(socket, bytes.data(), size) ? std::optional(std::move(bytes)) : std::nullopt;
 }
 
 /// The child: answers each file with kSaidGlb, the name of the reader and a line break, and the GLB file, or with
 /// kSaidComplaint and a complaint.
-[[noreturn]] void BeReader(int socket, pid_t parent) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);  // it died before the line above
+int BeReader(int socket) {
   Limit(RLIMIT_AS, MappedBytes() + kMemoryBytes);
   Limit(RLIMIT_CORE, 0);
   // What it falls on ends it, whatever the parent does on such signals.
@@ -140,7 +115,7 @@ std::optional<std::string> ReceiveBlock(int socket, std::size_t most, bool& is_t
     const bool went_well = read != nullptr && read(*bytes, said);
     if (!SendBlock(socket, (went_well ? kSaidGlb + name : std::string(1, kSaidComplaint)) + said)) break;
   }
-  ::_exit(0);
+  return 0;
 }
 
 }  // namespace
@@ -152,27 +127,13 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
     return Fail({path}, "an FBX file of version {}; allowed: {} (of 2011 or later): export it anew, or convert it",
                 version, kOldestVersion);
   }
-  if (child_ < 0) {
-    std::array<int, 2> ends{};
-    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-      return Fail({kThisMachine}, "no pair of sockets can be made: {}", std::strerror(errno));
-    }
-    const pid_t parent = ::getpid();
-    child_ = ::fork();
-    if (child_ == 0) {
-      ::close(ends[0]);
-      BeReader(ends[1], parent);
-    }
-    ::close(ends[1]);
-    socket_ = ends[0];
-    if (child_ < 0) {
-      ::close(socket_);
-      return Fail({kThisMachine}, "no process can be started: {}", std::strerror(errno));
-    }
+  if (!child_) {
+    ASSIGN_OR_RETURN(auto started, ForkedCopy::Start(BeReader));
+    child_ = std::move(started);
   }
   std::optional<std::string> said;
   bool is_too_long = false;
-  if (SendBlock(socket_, bytes)) said = ReceiveBlock(socket_, kLargestGlb, is_too_long);
+  if (SendBlock(child_->socket(), bytes)) said = ReceiveBlock(child_->socket(), kLargestGlb, is_too_long);
   if (said && said->starts_with(kSaidGlb)) {
     const std::size_t line = said->find('\n');
     return FbxMotion{.glb = said->substr(line + 1), .reader = said->substr(1, line - 1)};
@@ -182,7 +143,8 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
     const std::string why = said->size() < 2 ? kGaveUp : said->substr(1, kLongest);
     return Fail({path}, "{}{}", why, said->size() > 1 + kLongest ? " …" : "");
   }
-  const int status = End();
+  const int status = child_->Wait();
+  child_.reset();
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   if (is_too_long || signal == SIGXCPU || signal == SIGKILL) {
     return Fail({path},
@@ -192,19 +154,6 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
   if (signal == 0) return Fail({path}, "{}", kGaveUp);
   return Fail({path}, "{} {} ({})", kReaderFell, signal, ::strsignal(signal));
 }
-
-int FbxReader::End() {
-  int status = 0;
-  if (child_ < 0) return status;
-  ::shutdown(socket_, SHUT_RDWR);  // whoever else was forked meanwhile holds it open
-  ::close(socket_);
-  while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) {
-  }
-  child_ = -1;
-  return status;
-}
-
-FbxReader::~FbxReader() { End(); }
 
 Result<FbxMotion> ReadFbx(std::string_view bytes, const std::string& path) { return FbxReader().Read(bytes, path); }
 

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <sys/types.h>
-
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "engine/base/result.h"
+#include "io/process/forked_copy.h"
 
 namespace etude {
 
@@ -30,20 +30,11 @@ inline constexpr std::string_view kReaderFell = "a damaged FBX file: its reader 
 /// that a file ended is begun anew.
 class FbxReader {
  public:
-  FbxReader() = default;
-  ~FbxReader();
-  FbxReader(const FbxReader&) = delete;
-  FbxReader& operator=(const FbxReader&) = delete;
-
   /// Fails when the module is not there, and when the file is damaged, too large or ends the child.
   Result<FbxMotion> Read(std::string_view bytes, const std::string& path);
 
  private:
-  /// Waits for the child's end; returns its status.
-  int End();
-
-  pid_t child_ = -1;
-  int socket_ = -1;
+  std::optional<ForkedCopy> child_;
 };
 
 /// Reads one file in a child of its own.

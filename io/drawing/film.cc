@@ -1,10 +1,6 @@
 #include "io/drawing/film.h"
 
-#include <signal.h>
 #include <sys/mman.h>
-#include <sys/socket.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -27,20 +23,11 @@ namespace {
 // Long enough that frames which share a picture share a process, short enough that all of them end together.
 constexpr int kChunk = 8;
 
-bool Tell(int talk) {
-  const char byte = 1;
-  ssize_t sent = 0;
-  do sent = send(talk, &byte, 1, MSG_NOSIGNAL);
-  while (sent < 0 && errno == EINTR);
-  return sent == 1;
-}
+bool Tell(int talk) { return SendAll(talk, "."); }
 
 bool Hear(int talk) {
   char byte = 0;
-  ssize_t heard = 0;
-  do heard = recv(talk, &byte, 1, 0);
-  while (heard < 0 && errno == EINTR);
-  return heard == 1;
+  return ReceiveAll(talk, &byte, 1);
 }
 
 }  // namespace
@@ -77,7 +64,7 @@ std::size_t FilmWorkers::WorkerOf(int frame) const {
   return static_cast<std::size_t>(frame / chunk_) % workers_.size();
 }
 
-void FilmWorkers::Work(std::size_t worker, int talk, const Draw& draw) const {
+int FilmWorkers::Work(std::size_t worker, int talk, const Draw& draw) const {
   int drawn = 0;
   for (int frame = 0; frame < frames_; ++frame) {
     if (WorkerOf(frame) != worker) continue;
@@ -87,7 +74,7 @@ void FilmWorkers::Work(std::size_t worker, int talk, const Draw& draw) const {
     if (!Tell(talk)) break;
     ++drawn;
   }
-  _exit(0);  // nothing of our parent's is ended
+  return 0;
 }
 
 Result<FilmWorkers> FilmWorkers::Start(int frames, int jobs, const Draw& draw, FrameFeed feed) {
@@ -98,21 +85,8 @@ Result<FilmWorkers> FilmWorkers::Start(int frames, int jobs, const Draw& draw, F
   FilmWorkers film(frames, jobs, first.width(), first.height(), std::move(feed));
   RETURN_IF_ERROR(film.MapSlots());
   for (std::size_t i = 0; i < film.workers_.size(); ++i) {
-    int ends[2];
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
-      return Fail({kThisMachine}, "cannot talk to a drawing process: {}", std::strerror(errno));
-    }
-    const pid_t child = fork();
-    if (child == 0) {
-      close(ends[0]);
-      for (const Worker& other : film.workers_) {
-        if (other.talk >= 0) close(other.talk);
-      }
-      film.Work(i, ends[1], draw);
-    }
-    close(ends[1]);
-    film.workers_[i] = {.child = child, .talk = ends[0]};
-    if (child < 0) return Fail({kThisMachine}, "cannot start a drawing process: {}", std::strerror(errno));
+    ASSIGN_OR_RETURN(auto copy, ForkedCopy::Start([&](int talk) { return film.Work(i, talk, draw); }));
+    film.workers_[i].copy = std::move(copy);
   }
   if (film.feed_.bytes > 0) {
     std::ranges::copy(of_first, film.SlotOf(0, 0).feed.begin());
@@ -121,20 +95,10 @@ Result<FilmWorkers> FilmWorkers::Start(int frames, int jobs, const Draw& draw, F
   return film;
 }
 
-FilmWorkers::~FilmWorkers() {
-  for (const Worker& worker : workers_) {
-    if (worker.talk >= 0) close(worker.talk);
-    if (worker.child < 0) continue;
-    kill(worker.child, SIGKILL);
-    while (waitpid(worker.child, nullptr, 0) < 0 && errno == EINTR) {
-    }
-  }
-}
-
 void FilmWorkers::TellFed(std::size_t worker) {
   ++fed_;
   ++workers_[worker].fed;
-  Tell(workers_[worker].talk);
+  Tell(workers_[worker].copy->socket());
 }
 
 Result<void> FilmWorkers::FeedAhead() {
@@ -151,11 +115,11 @@ Result<std::span<const std::uint8_t>> FilmWorkers::Next() {
   if (next_ > 0) {
     Worker& last = workers_[WorkerOf(next_ - 1)];
     ++last.taken;
-    if (feed_.bytes == 0) Tell(last.talk);
+    if (feed_.bytes == 0) Tell(last.copy->socket());
   }
   RETURN_IF_ERROR(FeedAhead());
   const std::size_t worker = WorkerOf(next_);
-  if (next_ >= frames_ || !Hear(workers_[worker].talk))
+  if (next_ >= frames_ || !Hear(workers_[worker].copy->socket()))
     return Fail({}, "a drawing process has ended before its frames");
   ++next_;
   return SlotOf(worker, workers_[worker].taken).picture;

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <sys/types.h>
-
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "engine/base/result.h"
 #include "io/drawing/canvas.h"
 #include "io/files/file_path.h"
+#include "io/process/forked_copy.h"
 
 namespace etude {
 
@@ -37,7 +37,6 @@ class FilmWorkers {
   /// Draws the first frame here, so that what every frame needs is made once, and starts `jobs` processes (0 = one per
   /// processor). Threads of this process, if it has any, must not hold what `draw` needs.
   static Result<FilmWorkers> Start(int frames, int jobs, const Draw& draw, FrameFeed feed = {});
-  ~FilmWorkers();
   FilmWorkers(FilmWorkers&&) noexcept = default;
   FilmWorkers& operator=(FilmWorkers&&) = delete;
 
@@ -49,8 +48,8 @@ class FilmWorkers {
 
  private:
   struct Worker {
-    pid_t child = -1;
-    int talk = -1;           ///< a socket: bytes that say "drawn" from it, "fed", or without a feed "free again", to it
+    /// On its socket, bytes say "drawn" from it, and "fed", or without a feed "free again", to it.
+    std::optional<ForkedCopy> copy;
     int fed = 0, taken = 0;  ///< frames of its own
   };
   struct Unmap {
@@ -66,7 +65,7 @@ class FilmWorkers {
   FilmWorkers(int frames, int jobs, int width, int height, FrameFeed feed);
   Result<void> MapSlots();
   Slot SlotOf(std::size_t worker, int place) const;
-  [[noreturn]] void Work(std::size_t worker, int talk, const Draw& draw) const;
+  int Work(std::size_t worker, int talk, const Draw& draw) const;
   void TellFed(std::size_t worker);
   Result<void> FeedAhead();
   std::size_t PictureBytes() const { return static_cast<std::size_t>(width_) * height_ * 3 / 2; }

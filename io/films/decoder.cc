@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "engine/base/machine.h"
-#include "io/films/encoder.h"
+#include "io/process/spawn.h"
 
 namespace etude {
 namespace {
@@ -35,7 +35,7 @@ Result<Child> StartReading(const Words& words, const Place& place) {
   int ends[2];
   if (!child.log || pipe2(ends, O_CLOEXEC) != 0)
     return Fail({kThisMachine}, "{} cannot be talked to: {}", words[0], std::strerror(errno));
-  const int error = StartFilmProgram(words, kNowhere, ends[1], child.log.get(), child.pid);
+  const int error = SpawnProgram(words, kNowhere, ends[1], child.log.get(), child.pid);
   close(ends[1]);
   child.output.reset(fdopen(ends[0], "rb"));
   if (error != 0 && error != ENOENT) {
@@ -87,7 +87,7 @@ Result<FilmFacts> ProbeFilm(const std::filesystem::path& path, const std::string
                     "default=nw=1", "file:" + path.string()},
                    place));
   auto keys = ReadKeys(child.output.get());
-  if (const int status = WaitForFilmProgram(child.pid);
+  if (const int status = WaitFor(child.pid);
       !WIFEXITED(status) || WEXITSTATUS(status) != 0 || keys.empty()) {
     const std::string words = FirstLineOf(child.log.get());
     return Fail(place, "no film that ffmpeg can read{}{}", words.empty() ? "" : ": ", words);
@@ -150,7 +150,7 @@ Result<bool> Decoder::Next(ColourImage& frame) {
 
 int Decoder::CloseAndWait() {
   frames_.reset();
-  return WaitForFilmProgram(std::exchange(child_, -1));
+  return WaitFor(std::exchange(child_, -1));
 }
 
 }  // namespace etude

@@ -1,9 +1,7 @@
 #include "io/films/encoder.h"
 
-#include <fcntl.h>
 #include <fmt/core.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,6 +12,7 @@
 #include <utility>
 
 #include "engine/base/machine.h"
+#include "io/process/spawn.h"
 
 namespace etude {
 namespace {
@@ -40,39 +39,6 @@ std::vector<std::string> Arguments(const std::string& program, int width, int he
 
 }  // namespace
 
-int StartFilmProgram(const std::vector<std::string>& words, int input, int output, std::FILE* log, pid_t& child) {
-  std::vector<char*> argv;
-  for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
-  argv.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  const auto attach = [&](int given, int standard, int mode) {
-    if (given < 0) return posix_spawn_file_actions_addopen(&actions, standard, "/dev/null", mode, 0);
-    return posix_spawn_file_actions_adddup2(&actions, given, standard);
-  };
-  attach(input, STDIN_FILENO, O_RDONLY);
-  attach(output, STDOUT_FILENO, O_WRONLY);
-  attach(fileno(log), STDERR_FILENO, O_WRONLY);
-  const int error = posix_spawnp(&child, argv.front(), &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  return error;
-}
-
-int WaitForFilmProgram(pid_t child) {
-  int status = 0;
-  while (child >= 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return status;
-}
-
-std::string FirstLineOf(std::FILE* log) {
-  std::string words(400, '\0');
-  std::rewind(log);
-  words.resize(std::fread(words.data(), 1, words.size(), log));
-  words.resize(std::min(words.find('\n'), words.size()));
-  return words;
-}
-
 Result<Encoder> Encoder::Start(const FilePath& path, int width, int height, int rate_hz,
                                const std::filesystem::path& sound, Form form, const std::string& program) {
   const Place place{.file = path.string()};
@@ -86,7 +52,7 @@ Result<Encoder> Encoder::Start(const FilePath& path, int width, int height, int 
   }
   pid_t child = -1;
   const int error =
-      StartFilmProgram(Arguments(program, width, height, rate_hz, sound, form), ends[1], film.file(), log.get(), child);
+      SpawnProgram(Arguments(program, width, height, rate_hz, sound, form), ends[1], film.file(), log.get(), child);
   close(ends[1]);
   if (error != 0) close(ends[0]);
   if (error != 0 && error != ENOENT) {
@@ -144,7 +110,7 @@ Result<void> Encoder::Finish() {
 
 int Encoder::CloseAndWait() {
   if (pictures_ >= 0) close(std::exchange(pictures_, -1));
-  return WaitForFilmProgram(std::exchange(child_, -1));
+  return WaitFor(std::exchange(child_, -1));
 }
 
 tl::unexpected<Error> Encoder::Complaint(const std::string& what) {

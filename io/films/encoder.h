@@ -52,16 +52,4 @@ class Encoder {
   Log log_;       ///< what ffmpeg says on its standard error
 };
 
-// What reading films asks of such programs, too.
-
-/// Stands for a program's input or output where it has none.
-inline constexpr int kNowhere = -1;
-/// Starts a program (no shell) between two descriptors; what it says on its standard error goes to `log`. Returns 0,
-/// or why it could not be started (errno).
-int StartFilmProgram(const std::vector<std::string>& words, int input, int output, std::FILE* log, pid_t& child);
-/// Waits for its end; −1 stands for one that has ended. Returns its status.
-int WaitForFilmProgram(pid_t child);
-/// Returns the first line of a log, which names the cause; what follows are consequences.
-std::string FirstLineOf(std::FILE* log);
-
 }  // namespace etude

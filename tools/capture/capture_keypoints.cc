@@ -257,7 +257,7 @@ Result<bool> CaptureKeypoints(const CaptureFilmsOptions& options, FilmedSession 
       films.told.Tell("doubtful: no motion explains keypoints and outlines at once; the joints are the keypoints' own");
     }
   }
-  RETURN_IF_ERROR(WriteMotion(options.output, person.clip, person.motion));
+  RETURN_IF_ERROR(WriteMotion(options, person.clip, person.motion));
   if (!options.points.empty()) {
     const std::string name = fs::path(options.output).stem().string();
     RETURN_IF_ERROR(WriteFileAtomically(options.points, WriteTrc(ToMarkers(person.landmarks, recover.rate_hz), name)));

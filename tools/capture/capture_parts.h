@@ -90,8 +90,8 @@ std::vector<OverlayView> OverlaysOf(const std::vector<FilmedView>& views, const 
 Result<bool> WriteFilm(const CaptureFilmsOptions& options, const std::vector<OverlayView>& overlays,
                        const BodyMotion& motion);
 
-/// Writes a clip, and the same as twenty joints, in the format that the file's name tells.
-Result<void> WriteMotion(const std::string& path, Clip clip, const BodyMotion& motion);
+/// Writes a clip, and the same as twenty joints, to `options.output` in the format that its name tells.
+Result<void> WriteMotion(const CaptureFilmsOptions& options, Clip clip, const BodyMotion& motion);
 
 constexpr char kLost = '!';
 

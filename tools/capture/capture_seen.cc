@@ -133,8 +133,7 @@ void TellDrift(const std::vector<FilmedView>& views, std::size_t film, const Fil
   const double rate = views.front().facts.rate_hz, own = views[film].facts.rate_hz;
   if (own == rate || std::abs(own - rate) > kOneRate * rate) return;
   const auto over_film = [&](double drift) { return drift * static_cast<double>(frames); };
-  Tell(
-      films.told,
+  films.told.Tell(
       fmt::format("{}: drift measured: {:+.2f} frames over the film, {:+.2f} if both rates were right; too little said "
                   "to mend it",
                   views[film].camera.name, over_film(nearest.drift - taken.drift), over_film(rate / own - 1)));

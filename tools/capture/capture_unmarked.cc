@@ -231,7 +231,7 @@ Result<bool> CaptureUnmarked(const CaptureFilmsOptions& options, const FilmedSes
   ASSIGN_OR_RETURN(const UnmarkedMotion person, RecoverByOutlines(take, options, views.front().facts.rate_hz));
   TellUnmarked(options, views, person, told);
   facts["silhouettes"] = {{"stature_m", person.stature_m}, {"cost", person.cost}, {"held_frames", person.held}};
-  RETURN_IF_ERROR(WriteMotion(options.output, person.clip, person.motion));
+  RETURN_IF_ERROR(WriteMotion(options, person.clip, person.motion));
   if (!options.film.empty()) {
     ASSIGN_OR_RETURN(const bool is_whole,
                      WriteFilm(options, OverlaysOf(views, clocks, person.motion.poses.size()), person.motion));

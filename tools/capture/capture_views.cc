@@ -207,7 +207,8 @@ Result<FilmedSession> OpenFilms(const CaptureFilmsOptions& options) {
   return FilmedSession{std::move(views), std::move(rig_file), std::move(told)};
 }
 
-Result<void> WriteMotion(const std::string& path, Clip clip, const BodyMotion& motion) {
+Result<void> WriteMotion(const CaptureFilmsOptions& options, Clip clip, const BodyMotion& motion) {
+  const std::string& path = options.output;
   ASSIGN_OR_RETURN(const MotionFormat format, FormatOfName(path));
   RETURN_IF_ERROR(WriteFileAtomically(path, BytesOf(std::move(clip), motion, format, fs::path(path).stem().string())));
   TellWritten(options.listener, path);

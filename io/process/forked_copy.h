@@ -1,0 +1,53 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string_view>
+
+#include "engine/base/result.h"
+
+namespace etude {
+
+/// A copy of this process (fork) that does one piece of work and ends. Both sides hold one end of a pair of sockets. The
+/// kernel ends the copy if this process dies; the destructor ends it (SIGKILL) and reaps it. Threads of this process, if
+/// it has any, must not hold what `work` needs.
+class ForkedCopy {
+ public:
+  /// Starts a copy that runs `work` with its end of the sockets; what `work` returns becomes its exit code, and no
+  /// destructor or exit handler of this process runs in it. Fails with an error of this machine.
+  static Result<ForkedCopy> Start(const std::function<int(int socket)>& work);
+  ForkedCopy(ForkedCopy&& other) noexcept;
+  ForkedCopy& operator=(ForkedCopy&& other) noexcept;
+  ~ForkedCopy();
+
+  /// The descriptor of our end of the sockets; −1 after `Wait`.
+  int socket() const { return socket_; }
+
+  /// Ends it with SIGKILL. It must still be waited for.
+  void Kill();
+
+  /// Closes our end of the sockets, waits for its end, and returns its status as waitpid gives it.
+  int Wait();
+
+  /// Returns its status if it has ended; does not wait.
+  std::optional<int> StatusIfEnded();
+
+ private:
+  ForkedCopy(pid_t pid, int socket) : pid_(pid), socket_(socket) {}
+  void CloseSocket();
+
+  pid_t pid_ = -1;  ///< −1: it has been reaped
+  int socket_ = -1;
+  int status_ = 0;
+};
+
+/// Writes all bytes to a socket. Returns false if nobody listens at the other end.
+bool SendAll(int socket, std::string_view bytes);
+
+/// Reads exactly `size` bytes from a socket. Returns false if the other end is closed before.
+bool ReceiveAll(int socket, char* bytes, std::size_t size);
+
+}  // namespace etude
