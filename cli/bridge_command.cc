@@ -41,7 +41,7 @@ constexpr const char* kBridgeExamples =
     "  etude bridge --check tags.xml 'mocap/*.bvh'            is the file valid, and does it fit these clips?";
 
 Result<BridgeLibrary> LoadLibrary(const BridgeCommandOptions& options) {
-  BridgeOptions bridge{.clips = options.clips,
+  BridgeLibraryOptions bridge{.clips = options.clips,
                        .to = options.to,
                        .system = {},
                        .threshold = options.threshold,

@@ -7,12 +7,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bench/calibration/verdict_rates.h"
 #include "bench/finished_runs/finished_runs.h"
 #include "bench/gate/baseline_file.h"
 #include "bench/gate/gate.h"
 #include "bench/gate/self_test.h"
 #include "bench/results/folder.h"
+#include "bench/statistics/verdict_rates.h"
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "cli/move_table.h"

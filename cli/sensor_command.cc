@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "bench/sensor_fit/fit.h"
-#include "bench/sensor_fit/statistics.h"
 #include "cli/commands.h"
 #include "cli/facts.h"
 #include "cli/output_file.h"
 #include "io/files/files.h"
 #include "sim/skeleton_sensor/options.h"
+#include "tools/sensor_fit/fit.h"
+#include "tools/sensor_fit/statistics.h"
 
 namespace etude {
 namespace {

@@ -46,7 +46,7 @@ std::vector<std::string> UniqueNames(const std::vector<LibraryClip>& clips) {
 
 }  // namespace
 
-Result<BridgeLibrary> LoadBridgeLibrary(const BridgeOptions& options) {
+Result<BridgeLibrary> LoadBridgeLibrary(const BridgeLibraryOptions& options) {
   BridgeLibrary loaded;
   loaded.system = options.system;
   ASSIGN_OR_RETURN(const auto wanted, ListReferences(options.to));

@@ -13,7 +13,7 @@
 namespace etude {
 
 /// What a library of clips is made of, and the rules by which its frames are tagged and matched.
-struct BridgeOptions {
+struct BridgeLibraryOptions {
   std::vector<std::string> clips;  ///< references; each clip counts once
   std::vector<std::string> to;     ///< the corrective clips; empty: the coach's own among `clips`. They join the library
   FuzzySystem system;
@@ -36,7 +36,7 @@ struct BridgeLibrary {
 };
 
 /// Loads the clips, has one body perform them, and finds their bridge frames. Fails as `LoadClips` does.
-Result<BridgeLibrary> LoadBridgeLibrary(const BridgeOptions& options);
+Result<BridgeLibrary> LoadBridgeLibrary(const BridgeLibraryOptions& options);
 
 /// Returns the tags of a library, as its file holds them.
 BridgeTags TagsOf(const BridgeLibrary& loaded);

@@ -1,4 +1,4 @@
-#include "bench/sensor_fit/statistics.h"
+#include "tools/sensor_fit/statistics.h"
 
 #include <fmt/format.h>
 

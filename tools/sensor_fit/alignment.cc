@@ -1,4 +1,4 @@
-#include "bench/sensor_fit/alignment.h"
+#include "tools/sensor_fit/alignment.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,8 +1,8 @@
-#include "bench/sensor_fit/alignment.h"
+#include "tools/sensor_fit/alignment.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/bench/sensor_fit/small_recording.h"
+#include "tests/tools/sensor_fit/small_recording.h"
 
 namespace etude {
 namespace {

@@ -1,10 +1,10 @@
-#include "bench/sensor_fit/statistics.h"
+#include "tools/sensor_fit/statistics.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "tests/bench/sensor_fit/small_recording.h"
+#include "tests/tools/sensor_fit/small_recording.h"
 
 // Statistics of recordings whose errors were made up: each against its closed form.
 

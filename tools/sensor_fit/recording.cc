@@ -1,4 +1,4 @@
-#include "bench/sensor_fit/recording.h"
+#include "tools/sensor_fit/recording.h"
 
 #include <algorithm>
 #include <cmath>

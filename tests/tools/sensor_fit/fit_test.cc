@@ -1,10 +1,10 @@
-#include "bench/sensor_fit/fit.h"
+#include "tools/sensor_fit/fit.h"
 
 #include <gtest/gtest.h>
 
-#include "bench/sensor_fit/statistics.h"
 #include "sim/skeleton_sensor/options.h"
-#include "tests/bench/sensor_fit/small_recording.h"
+#include "tests/tools/sensor_fit/small_recording.h"
+#include "tools/sensor_fit/statistics.h"
 
 // A sensor is recovered from what it was seen to do: recordings are simulated with a sensor that the fit does not know.
 

@@ -1,4 +1,4 @@
-#include "bench/calibration/verdict_rates.h"
+#include "bench/statistics/verdict_rates.h"
 
 #include <gtest/gtest.h>
 

@@ -3,10 +3,10 @@
 #include <functional>
 #include <optional>
 
-#include "bench/sensor_fit/alignment.h"
-#include "bench/sensor_fit/statistics.h"
 #include "sim/random/stream.h"
 #include "sim/skeleton_sensor/options.h"
+#include "tools/sensor_fit/alignment.h"
+#include "tools/sensor_fit/statistics.h"
 
 namespace etude {
 

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "bench/sensor_fit/alignment.h"
-#include "bench/sensor_fit/recording.h"
 #include "sim/skeleton_sensor/options.h"
+#include "tools/sensor_fit/alignment.h"
+#include "tools/sensor_fit/recording.h"
 
 namespace etude {
 

@@ -2,9 +2,9 @@
 
 #include <glm/gtc/quaternion.hpp>
 
-#include "bench/sensor_fit/fit.h"
 #include "sim/choreography/move.h"
 #include "sim/random/stream.h"
+#include "tools/sensor_fit/fit.h"
 
 namespace etude {
 

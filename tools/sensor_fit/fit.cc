@@ -1,4 +1,4 @@
-#include "bench/sensor_fit/fit.h"
+#include "tools/sensor_fit/fit.h"
 
 #include <algorithm>
 #include <cmath>

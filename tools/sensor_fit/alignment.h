@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "bench/sensor_fit/recording.h"
+#include "tools/sensor_fit/recording.h"
 
 namespace etude {
 
