@@ -12,41 +12,18 @@
 #include <cassert>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 
 #include "engine/base/image.h"
-#include "engine/base/machine.h"
+#include "io/files/files.h"
 
 namespace etude {
 namespace {
 
 // A picture of the largest size that does not compress at all, with room to spare.
-constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 28;
+constexpr std::uintmax_t kLargestPictureFile = std::uintmax_t{1} << 28;
 // Of pictures that are no camera's: what GL and JPEG can hold.
 constexpr std::uint32_t kLargestSide = 16'384;
 constexpr int kRunsAlone = 3;  // zlib's Z_RLE
-
-Result<std::string> ReadBytes(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return Fail({path}, "no such file");
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) return CannotRead(path, "cannot be read", error.value());
-  if (size > kLargestFile) return Fail({path}, "{} bytes; a picture file has at most {}", size, kLargestFile);
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes(size, '\0');
-  if (!file.read(bytes.data(), static_cast<std::streamsize>(size))) return Fail({path}, "cannot be read");
-  return bytes;
-}
-
-Result<void> WriteBytes(const std::string& bytes, const std::string& path) {
-  errno = 0;
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (file.fail()) return CannotWrite(path, "cannot be written", errno);
-  return {};
-}
 
 // --- PNG
 
@@ -164,11 +141,8 @@ std::string EncodePpm(const ColourImage& image) {
   return bytes.append(reinterpret_cast<const char*>(image.pixels.data()), 3 * image.pixels.size());
 }
 
-Result<void> SavePng(const ColourImage& image, const std::string& path) { return WriteBytes(EncodePng(image), path); }
-Result<void> SavePng(const Mask& mask, const std::string& path) { return WriteBytes(EncodePng(mask), path); }
-
 Result<ColourImage> LoadColourPng(const std::string& path) {
-  ASSIGN_OR_RETURN(const auto bytes, ReadBytes(path));
+  ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(path, kLargestPictureFile));
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) {

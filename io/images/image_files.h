@@ -23,9 +23,6 @@ std::string EncodePng(const Mask& mask);
 /// Returns the bytes of a binary PPM file (P6), which every picture library reads, and which costs no time.
 std::string EncodePpm(const ColourImage& image);
 
-Result<void> SavePng(const ColourImage& image, const std::string& path);
-Result<void> SavePng(const Mask& mask, const std::string& path);
-
 /// Reads any PNG as 8-bit RGB; transparent parts lie on black.
 Result<ColourImage> LoadColourPng(const std::string& path);
 /// Decodes the bytes of a PNG file of at most so many pixels; transparent parts keep their own colours. The error names

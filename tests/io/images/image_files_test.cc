@@ -47,27 +47,21 @@ View SomeView() {
   return view;
 }
 
-std::string Bytes(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 void Write(const std::string& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
 
 TEST_F(ImageFiles, ColourComesBackFromPngBitForBit) {
   const ColourImage image = SomeView().colour;
-  ASSERT_TRUE(SavePng(image, At("a.png")));
+  Write(At("a.png"), EncodePng(image));
   const auto back = LoadColourPng(At("a.png"));
   ASSERT_TRUE(back) << ToString(back.error());
   EXPECT_EQ(back->width, image.width);
   EXPECT_EQ(back->pixels, image.pixels);
-  EXPECT_EQ(Bytes(At("a.png")), EncodePng(image));
 }
 
 TEST_F(ImageFiles, MasksAreWhiteOnBlack) {
   Mask mask(19, 7);
   for (std::size_t i = 0; i < mask.pixels.size(); i += 3) mask.pixels[i] = 1;
-  ASSERT_TRUE(SavePng(mask, At("m.png")));
+  Write(At("m.png"), EncodePng(mask));
   const auto seen = LoadColourPng(At("m.png"));
   ASSERT_TRUE(seen) << ToString(seen.error());
   for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
@@ -147,10 +141,8 @@ TEST_F(ImageFiles, AnExrKeepsFurtherDepthsBesideTheTrueOnes) {
 TEST_F(ImageFiles, EveryComplaintNamesTheFile) {
   const std::string missing = At("missing/picture");
   EXPECT_THAT(ToString(LoadColourPng(missing).error()), HasSubstr(missing));
-  EXPECT_THAT(ToString(SavePng(SomeView().colour, missing).error()), HasSubstr(missing));
   const std::string folder = folder_.string();
   EXPECT_FALSE(LoadColourPng(folder));
-  EXPECT_FALSE(SavePng(SomeView().colour, folder));
 }
 
 TEST_F(ImageFiles, DamagedFilesAreRefused) {
