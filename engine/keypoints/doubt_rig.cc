@@ -20,10 +20,10 @@ constexpr int kGains = 15;
 constexpr double kGainStep = 0.02;
 double GainAt(int i) { return 1 + kGainStep * (i - kGains / 2); }
 
-/// The costs of all gains.
+/// The costs at all gains.
 using Costs = std::array<double, kGains>;
 
-/// The gain of the least cost, between the two beside it by a parabola; nothing at an end.
+/// Returns the gain of minimal cost, refined by a parabola through its neighbours; nullopt at an end of the range.
 std::optional<double> GainOfLeast(const Costs& costs) {
   const auto at = static_cast<int>(std::ranges::min_element(costs) - costs.begin());
   if (at == 0 || at + 1 == kGains) return std::nullopt;
@@ -32,7 +32,8 @@ std::optional<double> GainOfLeast(const Costs& costs) {
   return GainAt(at) + (bend > 0 ? 0.5 * kGainStep * (before - after) / bend : 0);
 }
 
-/// The standard error of a gain by leaving out one part of the costs at a time; nothing where it reaches an end.
+/// Returns the jackknife standard error of the gain, leaving out one part of the costs at a time; nullopt if a gain is
+/// at an end of the range or there are fewer than four parts.
 std::optional<double> ErrorByParts(const Costs& whole, std::span<const Costs> parts) {
   std::vector<double> gains;
   for (const Costs& part : parts) {
@@ -52,14 +53,15 @@ std::optional<double> ErrorByParts(const Costs& whole, std::span<const Costs> pa
   return std::sqrt((count - 1) / count * squares);
 }
 
-/// A factor on the focal length of a film, or of all.
+/// A factor on the focal length of one film, or of all films (`film` is nullopt).
 struct FocalGain {
   std::optional<std::size_t> film;
   double gain = 1, error = 0;
   double cost = 0;
 };
 
-/// Shares of a square read as shares of the picture, as pixels of the picture; bars lie on both sides by that share.
+/// A reading of relative coordinates as those of a square that contains the picture. `padded` is the share of the
+/// square's padding that lies before the picture.
 struct SquareReading {
   double padded;
   const char* told;
@@ -74,9 +76,9 @@ class Doubter {
   Doubter(std::span<const Camera> cameras, std::span<const std::string> names, const MatchedPerson& person,
           double least_confidence)
       : cameras_(cameras), names_(names), person_(person), least_confidence_(least_confidence) {
-    constexpr std::size_t kMostFrames = 60;
+    constexpr std::size_t kMaxFrames = 60;
     const std::size_t frames = person.seen.empty() ? 0 : person.seen.front().size();
-    const std::size_t stride = std::max<std::size_t>(1, frames / kMostFrames);
+    const std::size_t stride = std::max<std::size_t>(1, frames / kMaxFrames);
     for (std::size_t frame = 0; frame < frames; frame += stride) frames_.push_back(frame);
   }
 
@@ -94,7 +96,8 @@ class Doubter {
     return frame < seen.size() && seen[frame] ? &*seen[frame] : nullptr;
   }
 
-  /// Calls `take` with the place in frames_, the landmark and the distance of each two sightings of one landmark.
+  /// Calls `take` with the index in frames_, the landmark and the epipolar distance of each pair of sightings of one
+  /// landmark.
   void ForEachDistance(std::span<const double> gains, const Read& read,
                        const std::function<void(std::size_t, std::size_t, double)>& take) const {
     for (std::size_t a = 0; a < cameras_.size(); ++a) {
@@ -140,6 +143,7 @@ class Doubter {
     Costs whole{};
     std::array<Costs, kLandmarkCount> by_landmark{};
     std::array<Costs, kTimes> by_time{};
+    // Sum the loss at every gain, in all, by landmark and by tenth of the time.
     const double far = 9 * usual_px * usual_px;
     for (int i = 0; i < kGains; ++i) {
       ForEachDistance(Gains(film, GainAt(i)), AsSaid, [&](std::size_t k, std::size_t landmark, double d) {
@@ -156,14 +160,16 @@ class Doubter {
   }
 
   std::optional<std::string> DoubtFocalLengths() const {
-    constexpr double kNormal = 1.4826, kLeastUsualPx = 0.05;  // a median's share of a deviation
-    const double miss = MedianMiss(Gains({}, 1), AsSaid), usual_px = std::max(kLeastUsualPx, kNormal * miss);
+    constexpr double kNormal = 1.4826, kMinUsualPx = 0.05;  // standard deviation / median of |x|, normal distribution
+    const double miss = MedianMiss(Gains({}, 1), AsSaid), usual_px = std::max(kMinUsualPx, kNormal * miss);
+    // Take the film, or all films, whose best gain has the lowest cost.
     std::optional<FocalGain> best = Estimate({}, usual_px);
-    constexpr std::size_t kMostFilms = 8;
-    for (std::size_t film = 0; film < std::min(kMostFilms, cameras_.size()); ++film) {
+    constexpr std::size_t kMaxFilms = 8;
+    for (std::size_t film = 0; film < std::min(kMaxFilms, cameras_.size()); ++film) {
       const auto one = Estimate(film, usual_px);
       if (one && (!best || one->cost < best->cost)) best = one;
     }
+    // Warn only if the gain is plausible and significant.
     constexpr double kLeast = 0.02, kErrors = 4, kMost = 0.12;
     if (!best) return std::nullopt;
     const double off = std::abs(best->gain - 1);
@@ -180,12 +186,12 @@ class Doubter {
                        best->film ? " (or the camera was moved)" : "");
   }
 
-  /// The median distance of the shoulders, as a share of a leg; 0 where they are not seen.
+  /// Returns the median shoulder width as a share of the leg's length; 0 if they are not seen.
   double ShouldersOfLegs(const Read& read) const {
     std::vector<double> shoulders, thighs, shanks;
     for (const std::size_t frame : frames_) {
       const auto add = [&](Landmark a, Landmark b, std::vector<double>& lengths) {
-        const auto p = PlaceOf(frame, a, read), q = PlaceOf(frame, b, read);
+        const auto p = PositionOf(frame, a, read), q = PositionOf(frame, b, read);
         if (p && q) lengths.push_back(glm::distance(*p, *q));
       };
       add(kLeftShoulder, kRightShoulder, shoulders);
@@ -198,7 +204,8 @@ class Doubter {
     return UpperMedian(std::move(shoulders)) / (UpperMedian(std::move(thighs)) + UpperMedian(std::move(shanks)));
   }
 
-  std::optional<glm::dvec3> PlaceOf(std::size_t frame, Landmark landmark, const Read& read) const {
+  // Triangulates a landmark in one frame; nullopt if that fails.
+  std::optional<glm::dvec3> PositionOf(std::size_t frame, Landmark landmark, const Read& read) const {
     std::vector<Sighting> sightings;
     for (std::size_t film = 0; film < cameras_.size(); ++film) {
       const SeenPerson* seen = Seen(film, frame);
@@ -212,6 +219,7 @@ class Doubter {
   std::optional<std::string> DoubtReading() const {
     const Intrinsics& in = cameras_.front().intrinsics;
     constexpr double kUsual = 0.42, kClearly = 1.17, kSomewhat = 1.1, kClearlyLess = 0.9;
+    // The factor by which a ratio differs from the usual one.
     const double said = ShouldersOfLegs(AsSaid);
     const auto strange = [&](double share) { return share > kUsual ? share / kUsual : kUsual / share; };
     if (in.width == in.height || said == 0 || strange(said) < kSomewhat) return std::nullopt;
@@ -219,6 +227,7 @@ class Doubter {
     const double miss = MedianMiss(as_they_are, AsSaid);
     double least = (strange(said) < kClearly ? kClearlyLess : 1) * miss;
     std::optional<std::string> told;
+    // Try the other readings; keep the one with the smallest distances.
     for (const SquareReading& square : kSquares) {
       const Read read = [&](std::size_t film, const glm::dvec2& p) {
         const Intrinsics& own = cameras_[film].intrinsics;
@@ -227,7 +236,7 @@ class Doubter {
         return p * side / size - square.padded * (side - size);
       };
       const double share = ShouldersOfLegs(read);
-      // The reading stretches one axis, and distances with it.
+      // The reading stretches one axis, and the distances with it.
       const auto [shorter, longer] = std::minmax(in.width, in.height);
       const double miss_read =
           MedianMiss(as_they_are, read) * static_cast<double>(shorter) / static_cast<double>(longer);
