@@ -30,13 +30,12 @@ constexpr double kActionPointTolerance = 0.333;
 
 /// Reads labels; the format is recognised by its content:
 ///
-///
-///     Etude's CSV, one heading and one row per label; `person` may be missing; `truth` is `right` or the fault's name:
-///       clip,from_s,to_s,move,truth,person
-///       seq-1,0.5,3.1,arms-open,right,anna
-///     MSRC-12's tag stream, `XQPCTick;Tag` and one row per tag: action points of the recording `clip`, by its own
-///     clock UTKinect's actionLabel.txt: `s01_e01`, then `walk: 252 390`, frames at 30 Hz by the recording's own clock;
-///       labels of NaN are left out; a label belongs to any recording whose name contains `s01_e01`
+///   Etude's CSV, one heading and one row per label; `person` may be missing; `truth` is `right` or the fault's name:
+///     clip,from_s,to_s,move,truth,person
+///     seq-1,0.5,3.1,arms-open,right,anna
+///   MSRC-12's tag stream, `XQPCTick;Tag` and one row per tag: action points of the recording `clip`, by its own clock
+///   UTKinect's actionLabel.txt: `s01_e01`, then `walk: 252 390` in frames at 30 Hz by the recording's own clock;
+///     labels of NaN are left out; a label belongs to any recording whose name contains `s01_e01`
 ///
 /// Fails, with file, line and column, for unknown headings, texts in place of times, ends that are not after their
 /// beginnings, a file without labels, and more than 16 MiB.
