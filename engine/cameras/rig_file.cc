@@ -227,9 +227,11 @@ const glm::dmat3 kYUpOfZUp(0, 0, 1, 1, 0, 0, 0, 1, 0);  // (x, y, z) of the file
 Result<RigFile> Read(std::string_view text, const std::string& file) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return Fail({}, "nothing in it");
+  // XML.
   if (text[first] == '<') {
     ASSIGN_OR_RETURN(auto cameras, ReadQualisysCalibration(text));
     return RigFile{std::move(cameras), "Qualisys", kYUpOfZUp, 0.001};
+    // OpenCV's YAML: a rig, or one camera.
   }
   if (text.starts_with("%YAML") || text.find("opencv-matrix") != std::string_view::npos) {
     ASSIGN_OR_RETURN(const Node root, ParseYaml(WithoutDirective(text), file));
@@ -245,6 +247,7 @@ Result<RigFile> Read(std::string_view text, const std::string& file) {
     }
     ASSIGN_OR_RETURN(const Camera camera, ReadOpenCvCamera(text));
     return RigFile{{{"camera", camera}}, "OpenCV's YAML"};
+    // TOML.
   }
   if (text[first] == '[' || text.find("\n[") != std::string_view::npos) {
     ASSIGN_OR_RETURN(auto cameras, ReadPose2SimCalibration(text));

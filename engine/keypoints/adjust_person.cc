@@ -17,7 +17,7 @@ namespace {
 
 using enum Landmark;
 
-constexpr double kLeastErrorPx = 0.1;
+constexpr double kMinErrorPx = 0.1;
 
 /// Returns the median of the χ² distribution (Wilson and Hilferty's approximation).
 double MedianOfChiSquare(double freedoms) {
@@ -129,8 +129,8 @@ class Adjuster {
       const glm::dvec3 second = *before - 2.0 * *now + *after;
       squares.push_back(glm::dot(second, second) / 3);
     }
-    constexpr std::size_t kFewest = 10;
-    if (squares.size() < kFewest) return std::nullopt;
+    constexpr std::size_t kMinCount = 10;
+    if (squares.size() < kMinCount) return std::nullopt;
     std::ranges::sort(squares);
     squares.resize(squares.size() - squares.size() / 20);
     return std::accumulate(squares.begin(), squares.end(), 0.0) / static_cast<double>(squares.size());
@@ -323,8 +323,8 @@ double KeypointErrorPx(std::span<const ProjectionMatrix> cameras, const MatchedP
       squares.push_back(views * point->residual_px * point->residual_px / MedianOfChiSquare(2 * views - 3));
     }
   }
-  if (squares.empty()) return kLeastErrorPx;
-  return std::max(kLeastErrorPx, std::sqrt(UpperMedian(std::move(squares))));
+  if (squares.empty()) return kMinErrorPx;
+  return std::max(kMinErrorPx, std::sqrt(UpperMedian(std::move(squares))));
 }
 
 bool AdjustPerson(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen,

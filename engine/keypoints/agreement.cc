@@ -147,8 +147,8 @@ std::optional<ReferenceClock> MeasureClock(const MarkerMotion& motion, const Mar
         ++count;
       }
     }
-    constexpr std::size_t kFewest = 30;
-    return count < kFewest ? std::nullopt : std::optional(sum / static_cast<double>(count));
+    constexpr std::size_t kMinCount = 30;
+    return count < kMinCount ? std::nullopt : std::optional(sum / static_cast<double>(count));
   };
   const auto before = loss_of({});
   if (!before) return std::nullopt;

@@ -44,8 +44,8 @@ std::optional<double> ErrorByParts(const Costs& whole, std::span<const Costs> pa
     if (!gain) return std::nullopt;
     gains.push_back(*gain);
   }
-  constexpr std::size_t kFewest = 4;
-  if (gains.size() < kFewest) return std::nullopt;
+  constexpr std::size_t kMinParts = 4;
+  if (gains.size() < kMinParts) return std::nullopt;
   double mean = 0, squares = 0;
   const auto count = static_cast<double>(gains.size());
   for (const double gain : gains) mean += gain / count;
@@ -69,12 +69,12 @@ struct SquareReading {
 constexpr std::array kSquares = {SquareReading{0.5, "a square about the picture"},
                                  SquareReading{0, "the picture's longer side"}};
 
-class Doubter {
+class RigChecker {
  public:
   using Read = std::function<glm::dvec2(std::size_t film, const glm::dvec2& pixel)>;
 
-  Doubter(std::span<const Camera> cameras, std::span<const std::string> names, const MatchedPerson& person,
-          double least_confidence)
+  RigChecker(std::span<const Camera> cameras, std::span<const std::string> names, const MatchedPerson& person,
+             double least_confidence)
       : cameras_(cameras), names_(names), person_(person), least_confidence_(least_confidence) {
     constexpr std::size_t kMaxFrames = 60;
     const std::size_t frames = person.seen.empty() ? 0 : person.seen.front().size();
@@ -84,7 +84,7 @@ class Doubter {
 
   std::vector<std::string> Run() {
     std::vector<std::string> told;
-    for (const auto& one : {DoubtReading(), DoubtFocalLengths()}) {
+    for (const auto& one : {CheckReading(), CheckFocalLengths()}) {
       if (one) told.push_back(*one);
     }
     return told;
@@ -130,7 +130,7 @@ class Doubter {
     return distances.empty() ? 0 : UpperMedian(std::move(distances));
   }
 
-  static glm::dvec2 AsSaid(std::size_t, const glm::dvec2& pixel) { return pixel; }
+  static glm::dvec2 AsDeclared(std::size_t, const glm::dvec2& pixel) { return pixel; }
 
   std::vector<double> Gains(const std::optional<std::size_t>& film, double gain) const {
     std::vector<double> gains(cameras_.size(), film ? 1 : gain);
@@ -146,7 +146,7 @@ class Doubter {
     // Sum the loss at every gain, in all, by landmark and by tenth of the time.
     const double far = 9 * usual_px * usual_px;
     for (int i = 0; i < kGains; ++i) {
-      ForEachDistance(Gains(film, GainAt(i)), AsSaid, [&](std::size_t k, std::size_t landmark, double d) {
+      ForEachDistance(Gains(film, GainAt(i)), AsDeclared, [&](std::size_t k, std::size_t landmark, double d) {
         const double cost = d * d / (d * d + far);
         whole[i] += cost;
         by_landmark[landmark][i] += cost;
@@ -159,9 +159,9 @@ class Doubter {
     return FocalGain{film, *gain, std::max(*a, *b), *std::ranges::min_element(whole)};
   }
 
-  std::optional<std::string> DoubtFocalLengths() const {
+  std::optional<std::string> CheckFocalLengths() const {
     constexpr double kNormal = 1.4826, kMinUsualPx = 0.05;  // standard deviation / median of |x|, normal distribution
-    const double miss = MedianMiss(Gains({}, 1), AsSaid), usual_px = std::max(kMinUsualPx, kNormal * miss);
+    const double miss = MedianMiss(Gains({}, 1), AsDeclared), usual_px = std::max(kMinUsualPx, kNormal * miss);
     // Take the film, or all films, whose best gain has the lowest cost.
     std::optional<FocalGain> best = Estimate({}, usual_px);
     constexpr std::size_t kMaxFilms = 8;
@@ -170,10 +170,10 @@ class Doubter {
       if (one && (!best || one->cost < best->cost)) best = one;
     }
     // Warn only if the gain is plausible and significant.
-    constexpr double kLeast = 0.02, kErrors = 4, kMost = 0.12;
+    constexpr double kMinChange = 0.02, kMinStandardErrors = 4, kMaxChange = 0.12;
     if (!best) return std::nullopt;
     const double off = std::abs(best->gain - 1);
-    if (off < kLeast || off > kMost || off < kErrors * best->error) return std::nullopt;
+    if (off < kMinChange || off > kMaxChange || off < kMinStandardErrors * best->error) return std::nullopt;
     std::string whose = best->film ? fmt::format("with a focal length {:.3f} ± {:.3f} times {}'s", best->gain,
                                                  best->error, names_[*best->film])
                                    : fmt::format("with focal lengths {:.3f} ± {:.3f} times those of all cameras",
@@ -182,7 +182,7 @@ class Doubter {
       whose += fmt::format(" (or {:.3f} times {}'s)", 1 / best->gain, names_[1 - *best->film]);
     }
     return fmt::format("{} rays would miss by {:.2f} px instead of {:.2f}{}", whose,
-                       MedianMiss(Gains(best->film, best->gain), AsSaid), miss,
+                       MedianMiss(Gains(best->film, best->gain), AsDeclared), miss,
                        best->film ? " (or the camera was moved)" : "");
   }
 
@@ -216,15 +216,15 @@ class Doubter {
     return point.status == PointStatus::kOk ? std::optional(point.position) : std::nullopt;
   }
 
-  std::optional<std::string> DoubtReading() const {
+  std::optional<std::string> CheckReading() const {
     const Intrinsics& in = cameras_.front().intrinsics;
     constexpr double kUsual = 0.42, kClearly = 1.17, kSomewhat = 1.1, kClearlyLess = 0.9;
     // The factor by which a ratio differs from the usual one.
-    const double said = ShouldersOfLegs(AsSaid);
+    const double said = ShouldersOfLegs(AsDeclared);
     const auto strange = [&](double share) { return share > kUsual ? share / kUsual : kUsual / share; };
     if (in.width == in.height || said == 0 || strange(said) < kSomewhat) return std::nullopt;
     const std::vector<double> as_they_are = Gains({}, 1);
-    const double miss = MedianMiss(as_they_are, AsSaid);
+    const double miss = MedianMiss(as_they_are, AsDeclared);
     double least = (strange(said) < kClearly ? kClearlyLess : 1) * miss;
     std::optional<std::string> told;
     // Try the other readings; keep the one with the smallest distances.
@@ -261,7 +261,7 @@ class Doubter {
 
 std::vector<std::string> DoubtRig(std::span<const Camera> cameras, std::span<const std::string> names,
                                   const MatchedPerson& person, double least_confidence) {
-  return Doubter(cameras, names, person, least_confidence).Run();
+  return RigChecker(cameras, names, person, least_confidence).Run();
 }
 
 }  // namespace etude

@@ -106,8 +106,8 @@ class Guesser {
       if (p.confidence < least_confidence_ || q.confidence < least_confidence_) continue;
       distances.push_back(std::abs(geometry.DistancePx(p.pixel, q.pixel)));
     }
-    constexpr std::size_t kFewest = 5;
-    if (distances.size() < kFewest) return std::nullopt;
+    constexpr std::size_t kMinCount = 5;
+    if (distances.size() < kMinCount) return std::nullopt;
     return UpperMedian(std::move(distances)) / std::max(1.0, std::max(HeightPx(one), HeightPx(other)));
   }
 

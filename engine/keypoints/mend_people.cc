@@ -79,7 +79,7 @@ class Mender {
     scale_px_ = ScalePx();
     for (std::size_t group = 0; group < kGroups; ++group) SwapBack(group);
     for (std::size_t group = 0; group < kGroups; ++group) ResolveFacing(group);
-    TellSwaps();
+    ReportSwaps();
     return std::move(mends_);
   }
 
@@ -99,8 +99,8 @@ class Mender {
       for (std::size_t i = 0; i < kLandmarkCount; ++i) {
         if (const auto px = DistancePx(c, labelled.keypoints[i], o, other.keypoints[i])) distances.push_back(*px);
       }
-      constexpr std::size_t kFewest = 5;
-      if (distances.size() < kFewest) continue;
+      constexpr std::size_t kMinCount = 5;
+      if (distances.size() < kMinCount) continue;
       const double misfit = UpperMedian(std::move(distances)) / std::max(1.0, HeightPx(one));
       if (!least || misfit < *least) least = misfit;
     }
@@ -189,8 +189,8 @@ class Mender {
         }
       }
     }
-    constexpr double kLeastPx = 0.7;
-    return distances.empty() ? kLeastPx : std::max(kLeastPx, 2 * 1.4826 * UpperMedian(std::move(distances)));
+    constexpr double kMinPx = 0.7;
+    return distances.empty() ? kMinPx : std::max(kMinPx, 2 * 1.4826 * UpperMedian(std::move(distances)));
   }
 
   double Loss(double px) const { return px * px / (px * px + scale_px_ * scale_px_); }
@@ -255,7 +255,7 @@ class Mender {
 
   // Swaps the sides of the camera with the largest gain, and repeats.
   void SwapBack(std::size_t group) {
-    constexpr double kLeastGain = 1.5;
+    constexpr double kMinGain = 1.5;
     for (std::size_t round = 0; round < 3 * cameras_.size(); ++round) {
       Course best;
       std::size_t camera = 0;
@@ -266,7 +266,7 @@ class Mender {
           camera = c;
         }
       }
-      if (!(best.gain > kLeastGain)) return;
+      if (!(best.gain > kMinGain)) return;
       for (std::size_t frame = 0; frame < frames_; ++frame) {
         if (best.is_swapped[frame]) Flip(group, camera, frame);
       }
@@ -356,7 +356,7 @@ class Mender {
   }
 
   // Reports the swapped frames by camera: both groups, arms only, legs only.
-  void TellSwaps() {
+  void ReportSwaps() {
     for (std::size_t c = 0; c < cameras_.size(); ++c) {
       Mend both{Mend::Kind::kSwappedSides, c, {}}, arms{Mend::Kind::kSwappedArms, c, {}},
           legs{Mend::Kind::kSwappedLegs, c, {}};

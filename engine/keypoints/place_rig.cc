@@ -19,11 +19,11 @@ using enum Landmark;
 struct LengthUnit {
   std::string_view name;
   double metres;
-  double least_stature_m;  ///< rare units must give an adult
+  double min_stature_m;  ///< rare units must give an adult
 };
-constexpr double kLeastStature = 0.5, kMostStature = 2.2, kAdult = 1.2;
-constexpr std::array kUnits = {LengthUnit{"m", 1, kLeastStature}, LengthUnit{"cm", 0.01, kLeastStature},
-                               LengthUnit{"mm", 0.001, kLeastStature}, LengthUnit{"inch", 0.0254, kAdult},
+constexpr double kMinStature = 0.5, kMaxStature = 2.2, kAdult = 1.2;
+constexpr std::array kUnits = {LengthUnit{"m", 1, kMinStature}, LengthUnit{"cm", 0.01, kMinStature},
+                               LengthUnit{"mm", 0.001, kMinStature}, LengthUnit{"inch", 0.0254, kAdult},
                                LengthUnit{"foot", 0.3048, kAdult}};
 
 struct FileAxis {
@@ -154,7 +154,7 @@ std::vector<glm::dvec3> Resting(std::span<const LandmarkPlaces> points, const st
 /// is 0.6 % of the stature.
 FeetPlane PlaneOfFeet(std::span<const LandmarkPlaces> points, const glm::dvec3& person_up, double rate_hz,
                       double stature) {
-  constexpr double kPersonLeans = 0.1, kMostCounted = 20;
+  constexpr double kPersonLeans = 0.1, kMaxCounted = 20;
   const double sigma = 0.006 * stature;
   const double metre = stature / 1.7;
   FeetPlane plane{person_up, kPersonLeans};
@@ -175,7 +175,7 @@ FeetPlane PlaneOfFeet(std::span<const LandmarkPlaces> points, const glm::dvec3& 
       if (resting.empty()) continue;
       glm::dvec3 mean(0);
       for (const glm::dvec3& p : resting) mean += p / static_cast<double>(resting.size());
-      const double weight = std::min(1.0, kMostCounted / static_cast<double>(resting.size())) / (sigma * sigma);
+      const double weight = std::min(1.0, kMaxCounted / static_cast<double>(resting.size())) / (sigma * sigma);
       for (const glm::dvec3& p : resting) {
         const glm::dvec2 q = glm::transpose(tangent) * (p - mean);
         information += weight * glm::outerProduct(q, q);
@@ -210,11 +210,11 @@ FeetPlane PlaneOfFeet(std::span<const LandmarkPlaces> points, const glm::dvec3& 
 const LengthUnit* LikelyUnit(double file_units) {
   for (const LengthUnit& unit : kUnits) {
     const double stature = unit.metres * file_units;
-    if (stature >= kAdult && stature <= kMostStature) return &unit;
+    if (stature >= kAdult && stature <= kMaxStature) return &unit;
   }
   for (const LengthUnit& unit : kUnits) {
     const double stature = unit.metres * file_units;
-    if (stature >= unit.least_stature_m && stature <= kMostStature) return &unit;
+    if (stature >= unit.min_stature_m && stature <= kMaxStature) return &unit;
   }
   return nullptr;
 }
@@ -227,10 +227,10 @@ Result<double> UnitOf(const RigFile& rig, double file_units, const PlaceOptions&
   if (options.unit != "auto") {
     const double metres = *MetresOf(options.unit);
     const double stature = metres * file_units;
-    if (stature < kLeastStature || stature > kMostStature) {
+    if (stature < kMinStature || stature > kMaxStature) {
       return Fail(
           {}, "in {} the person would be {:.3g} m tall; allowed: {:g} to {:g} m; for one of {:g} m: --rig-unit {:.4g}",
-          UnitText(metres), stature, kLeastStature, kMostStature, kUsualStature, factor);
+          UnitText(metres), stature, kMinStature, kMaxStature, kUsualStature, factor);
     }
     told = fmt::format("lengths in {} (as you say: a person of {:.2f} m)", UnitText(metres), stature);
     return metres;
@@ -241,7 +241,7 @@ Result<double> UnitOf(const RigFile& rig, double file_units, const PlaceOptions&
   }
   // Keep the format's unit if it gives a plausible stature.
   const double usual = rig.unit_m * file_units;
-  if (usual >= kLeastStature && usual <= kMostStature) {
+  if (usual >= kMinStature && usual <= kMaxStature) {
     told = fmt::format("lengths in {} (a person of {:.2f} m)", UnitText(rig.unit_m), usual);
     return rig.unit_m;
   }

@@ -16,7 +16,7 @@
 namespace etude {
 namespace {
 
-constexpr std::ptrdiff_t kLeastJoints = 8;
+constexpr std::ptrdiff_t kMinJoints = 8;
 constexpr double kUnseen = 0.01;  // the weight of a joint that was not seen but completed
 constexpr int kRootSteps = 3;     // twenty steps reduce the distance of joints by only one percent more
 
@@ -110,7 +110,7 @@ std::vector<std::optional<TreeState>> FitPerson(const CaptureBody& body, std::sp
   for (const LandmarkPlaces& landmarks : frames) {
     const RoleVectors joints = JointsOf(landmarks);
     states.emplace_back();
-    if (std::ranges::count_if(joints, [](const auto& joint) { return joint.has_value(); }) < kLeastJoints) continue;
+    if (std::ranges::count_if(joints, [](const auto& joint) { return joint.has_value(); }) < kMinJoints) continue;
     const std::optional<BodyPose> completed = CompleteJoints(joints, like);
     if (!completed) continue;
     const PoseTargets wanted = TargetsOf(joints, *completed);
@@ -150,9 +150,9 @@ SeenPeople UndistortPeople(const Camera& camera, SeenPeople people) {
 }
 
 RecoverPersonOptions UsualRecovery(double rate_hz, double longer_side_px) {
-  constexpr double kOutlierShare = 0.03, kLongestAbsence = 0.5;  // seconds
+  constexpr double kOutlierShare = 0.03, kMaxAbsence_s = 0.5;  // seconds
   RecoverPersonOptions options{.rate_hz = rate_hz, .match = {}, .triangulate = {}};
-  options.match.follow.longest_absence = std::max(1, static_cast<int>(std::lround(kLongestAbsence * rate_hz)));
+  options.match.follow.longest_absence = std::max(1, static_cast<int>(std::lround(kMaxAbsence_s * rate_hz)));
   options.triangulate.robust.outlier_px = kOutlierShare * longer_side_px;
   return options;
 }

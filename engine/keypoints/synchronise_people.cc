@@ -95,12 +95,12 @@ Misfit MisfitOf(const EpipolarGeometry& geometry, const MovingPerson& one, doubl
 /// Adds, for each person of one camera, the misfit to the best-fitting person of the other.
 void AddMisfit(const EpipolarGeometry& geometry, const OffsetFilm& one, const OffsetFilm& other, double offset,
                std::size_t frames, const PeopleSyncOptions& options, Misfit& all) {
-  constexpr int kFewest = 30;
+  constexpr int kMinCount = 30;
   for (const MovingPerson& person : one.people) {
     Misfit best;
     for (const MovingPerson& somebody : other.people) {
       const Misfit pair = MisfitOf(geometry, person, one.offset.frames, somebody, offset, frames, options);
-      if (pair.count >= kFewest && (best.count == 0 || pair.mean() < best.mean())) best = pair;
+      if (pair.count >= kMinCount && (best.count == 0 || pair.mean() < best.mean())) best = pair;
     }
     all.variance += best.variance;
     all.count += best.count;
@@ -193,6 +193,7 @@ class ClockFinder {
     const std::size_t stride = std::max<std::size_t>(1, frames_ / kMaxFrames);
     double sum = 0;
     std::size_t count = 0;
+    // Sum the losses over at most 60 frames, the other cameras, and the people.
     for (std::size_t frame = 0; frame < frames_; frame += stride) {
       const auto time = static_cast<double>(frame);
       const std::vector<SeenPerson> here = PeopleAt(films_[c], clock, time);
@@ -213,8 +214,8 @@ class ClockFinder {
         }
       }
     }
-    constexpr std::size_t kFewest = 60;
-    return count < kFewest ? std::nullopt : std::optional(sum / static_cast<double>(count));
+    constexpr std::size_t kMinCount = 60;
+    return count < kMinCount ? std::nullopt : std::optional(sum / static_cast<double>(count));
   }
 
   static std::vector<SeenPerson> PeopleAt(const ClockedFilm& film, const FilmClock& clock, double time) {
@@ -227,8 +228,8 @@ class ClockFinder {
 
   std::pair<double, std::size_t> PairLoss(const EpipolarGeometry& geometry, const SeenPerson& a,
                                           const SeenPerson& b) const {
-    constexpr double kLeastPx = 1.5, kShare = 0.01;
-    const double scale = std::max(kLeastPx, kShare * HeightPx(b));
+    constexpr double kMinPx = 1.5, kShare = 0.01;
+    const double scale = std::max(kMinPx, kShare * HeightPx(b));
     double sum = 0;
     std::size_t count = 0;
     for (std::size_t i = 0; i < kLandmarkCount; ++i) {

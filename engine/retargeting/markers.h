@@ -25,7 +25,8 @@ struct MarkerBody {
 /// - for Plug-in Gait, knees and ankles 5 and 3.5 cm inward from their single marker, perpendicular to the limb;
 ///   shoulders 4.5 cm below theirs, along the trunk; elbows at the marker;
 /// - joints missing from a set: hip and shoulder centre midway between the joints, the spine midway between both, the
-///   head 0.3 trunk lengths above, hands 0.7 forearm lengths beyond the wrist, toes 16 cm in front of the ankle.
+///   head 0.3 trunk lengths above, hands 0.7 forearm lengths beyond the wrist, toes 16 cm ahead of the ankle and 4 cm
+///   below.
 /// Gaps of up to a second are interpolated linearly and counted. With longer gaps, only the longest stretch without one
 /// is kept, and the note states it. Positions at 0, 0, 0 count as gaps if the marker is elsewhere in other frames. `up`
 /// is 'Y', 'Z', or 0: then it is the axis along which shoulders are farthest from ankles.

@@ -207,9 +207,9 @@ std::vector<bool> Held(const KinematicTree& tree, const TreeState& state, const 
 Eigen::VectorXd Step(const Linearisation& linear, const std::vector<bool>& held, double damping) {
   Eigen::MatrixXd h = linear.hessian();
   Eigen::VectorXd g = linear.gradient();
-  constexpr double kLeast = 1e-6;
+  constexpr double kMinDiagonal = 1e-6;
   for (Eigen::Index i = 0; i < g.size(); ++i) {
-    h(i, i) += damping * h(i, i) + kLeast;
+    h(i, i) += damping * h(i, i) + kMinDiagonal;
     if (!held[i]) continue;
     h.row(i).setZero();
     h.col(i).setZero();

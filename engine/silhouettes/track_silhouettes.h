@@ -20,7 +20,7 @@ struct SilhouetteTake {
   /// The body's approximate pose in the first frame, if it is known because the person begins in an agreed pose.
   /// Without it the start is found from the pictures (a "cold" start).
   std::optional<TreeState> start;
-  /// `joints[camera][frame]`: joints seen beside the silhouettes; empty if there are none.
+  /// `joints[camera][frame]`: joints seen in addition to the silhouettes; empty if there are no joints.
   std::span<const std::vector<std::vector<SeenJoint>>> joints = {};
 };
 

@@ -114,7 +114,7 @@ LimbImage Classified(const ColourImage& picture, const Mask& person, const LimbC
 /// Replaces each pixel by the majority of its 3 × 3 neighbourhood, which removes noise and lines of mixed colours along
 /// edges.
 LimbImage Voted(const LimbImage& limbs) {
-  constexpr int kMost = 5;
+  constexpr int kMajority = 5;
   LimbImage voted(limbs.width, limbs.height);
   const PixelBox box = Grown(BoxOf(limbs), 1, limbs);
   for (int y = box.low.y; y < box.high.y; ++y) {
@@ -124,7 +124,7 @@ LimbImage Voted(const LimbImage& limbs) {
         for (int u = std::max(0, x - 1); u <= std::min(limbs.width - 1, x + 1); ++u) ++votes[limbs.At(u, v)];
       }
       const auto most = std::ranges::max_element(votes);
-      if (*most >= kMost) voted.At(x, y) = static_cast<std::uint8_t>(most - votes.begin());
+      if (*most >= kMajority) voted.At(x, y) = static_cast<std::uint8_t>(most - votes.begin());
     }
   }
   return voted;
