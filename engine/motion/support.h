@@ -47,7 +47,8 @@ std::vector<Bearing> FindBearing(std::span<const BodyPose> poses, double rate_hz
 
 /// The rules for a foot in stance. They are stricter than those for support, so that contacts are unambiguous.
 constexpr SupportRules kFootRules{.lowest = 0.06, .rest_speed = 0.3};
-/// For each foot (in the order of Side), true in every frame in which its toes or its ankle bear the body by kFootRules.
+/// For each foot (in the order of Side), true in every frame in which its toes or its ankle bear the body by
+/// kFootRules.
 using FootContacts = std::array<std::vector<bool>, 2>;
 FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz);
 
