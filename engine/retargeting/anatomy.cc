@@ -271,7 +271,7 @@ struct TipLength {
 };
 // CMU's fingers are half as long as a hand.
 constexpr TipLength kPlausibleHand{0.4, 1.6};
-// The feet of Boxing_Toes are 1.4 times as long as paper B's, and those of KayKit's toys 2.6 times as long as these.
+// The feet of Boxing_Toes are 1.4 times as long as paper B's, those of KayKit's toys 2.6 times as long as paper B's.
 constexpr TipLength kPlausibleFoot{0.4, 3.0};
 // A single "Head" joint lies at the skull's base, at 0.2 of the trunk.
 constexpr TipLength kPlausibleHead{0.5, 1.6};
