@@ -7,15 +7,15 @@
 
 namespace etude {
 
-// Rotations by Rodrigues' vector: the axis times the angle in radians. Ceres has these functions, too, but its versions
-// round differently (2.2 takes hypot for sqrt), and a fit of few steps magnifies that.
+// Rotations by Rodrigues' vector: the axis times the angle in radians. Ceres has these functions, too, but its rounding
+// differs between versions (2.2 uses hypot instead of sqrt), and a fit of few steps amplifies the difference.
 
-/// Returns R(v) p. `T` is double or a type that differentiates, such as Ceres's Jet.
+/// Returns R(v) p. `T` is double or an automatic-differentiation type, such as Ceres's Jet.
 template <typename T>
 std::array<T, 3> RotateByAngleAxis(const T* v, const std::array<T, 3>& p) {
   using std::cos, std::sin, std::sqrt;
   const T square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-  // The root of zero has no derivative. This near to zero the first order is exact.
+  // The square root has no derivative at zero. So close to zero, the first-order form is exact.
   if (!(square > T(std::numeric_limits<double>::epsilon()))) {
     return {p[0] + (v[1] * p[2] - v[2] * p[1]), p[1] + (v[2] * p[0] - v[0] * p[2]), p[2] + (v[0] * p[1] - v[1] * p[0])};
   }
@@ -28,7 +28,7 @@ std::array<T, 3> RotateByAngleAxis(const T* v, const std::array<T, 3>& p) {
           p[2] * cosine + cross[2] * sine + w[2] * along};
 }
 
-/// Returns v with R(v) = R, of length π at most.
+/// Returns v with R(v) = R and |v| ≤ π.
 glm::dvec3 ToAngleAxis(const glm::dmat3& R);
 
 /// Returns R(v).

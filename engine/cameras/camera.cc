@@ -8,11 +8,11 @@
 namespace etude {
 namespace {
 
-/// The derivatives of (x', y') by x (first column) and by y, of five coefficients.
+/// Returns the Jacobian of the model with five coefficients: the derivatives of (x', y') by x (first column) and by y.
 glm::dmat2 BrownJacobian(const Distortion& d, const glm::dvec2& ray) {
   const double x = ray.x, y = ray.y, r2 = x * x + y * y;
   const double gain = 1 + r2 * (d.k1 + r2 * (d.k2 + r2 * d.k3));
-  const double slope = 2 * (d.k1 + r2 * (2 * d.k2 + r2 * 3 * d.k3));  // of `gain`, by r², twice
+  const double slope = 2 * (d.k1 + r2 * (2 * d.k2 + r2 * 3 * d.k3));  // twice the derivative of `gain` by r²
   const double mixed = x * y * slope + 2 * d.p1 * x + 2 * d.p2 * y;
   return {gain + x * x * slope + 2 * d.p1 * y + 6 * d.p2 * x, mixed, mixed,
           gain + y * y * slope + 6 * d.p1 * y + 2 * d.p2 * x};
@@ -28,7 +28,7 @@ bool HasFiveCoefficients(const Distortion& d) {
   return !d.is_fisheye && d == Distortion{.k1 = d.k1, .k2 = d.k2, .p1 = d.p1, .p2 = d.p2, .k3 = d.k3};
 }
 
-/// The homography from an upright sensor to a tilted one.
+/// Returns the homography from an upright sensor to a tilted one.
 glm::dmat3 TiltOf(double tau_x, double tau_y) {
   const double cx = std::cos(tau_x), sx = std::sin(tau_x), cy = std::cos(tau_y), sy = std::sin(tau_y);
   const glm::dmat3 about_x(1, 0, 0, 0, cx, -sx, 0, sx, cx), about_y(cy, 0, sy, 0, 1, 0, -sy, 0, cy);
@@ -36,7 +36,7 @@ glm::dmat3 TiltOf(double tau_x, double tau_y) {
   return glm::dmat3(R[2][2], 0, 0, 0, R[2][2], 0, -R[2][0], -R[2][1], 1) * R;
 }
 
-/// Brown and Conrady's model of all fourteen coefficients.
+/// The model of Brown and Conrady with all fourteen coefficients.
 glm::dvec2 FullBrown(const Distortion& d, const glm::dvec2& ray) {
   const double r2 = glm::dot(ray, ray);
   const double gain = (1 + r2 * (d.k1 + r2 * (d.k2 + r2 * d.k3))) / (1 + r2 * (d.k4 + r2 * (d.k5 + r2 * d.k6)));
@@ -58,16 +58,16 @@ double FisheyeSlope(const Distortion& d, double angle) {
   return 1 + a2 * (3 * d.k1 + a2 * (5 * d.k2 + a2 * (7 * d.k3 + a2 * 9 * d.k4)));
 }
 
-constexpr int kMostSteps = 30;
+constexpr int kMaxSteps = 30;
 constexpr double kCloseEnough = 1e-12;
 
-/// The ray in front of the camera that a fisheye shows at `distorted`.
+/// Returns the ray in front of the camera that a fisheye shows at `distorted`.
 std::optional<glm::dvec2> UndistortFisheye(const Distortion& d, const glm::dvec2& distorted) {
   const double wanted = glm::length(distorted);
   if (wanted == 0) return distorted;
   constexpr double kWidest = 0.4999 * kPi;
   double angle = std::min(wanted, kWidest);
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const double slope = FisheyeSlope(d, angle);
     if (!(slope > 0) || !(angle > 0) || !(angle < 0.5 * kPi)) return std::nullopt;
     const double missing = wanted - FisheyeRadius(d, angle);
@@ -98,9 +98,9 @@ std::optional<glm::dvec2> Undistort(const Distortion& distortion, const glm::dve
   if (distortion.IsNone()) return distorted;
   if (distortion.is_fisheye) return UndistortFisheye(distortion, distorted);
   glm::dvec2 ray = distorted;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const glm::dmat2 jacobian = JacobianOf(distortion, ray);
-    // Where the determinant turns negative, the picture folds back: what lies there is no solution.
+    // A determinant that is not positive means that the picture folds back; there is no solution beyond.
     if (!(glm::determinant(jacobian) > 0) || !(jacobian[0][0] > 0)) return std::nullopt;
     const glm::dvec2 missing = distorted - Distort(distortion, ray);
     ray += glm::inverse(jacobian) * missing;
@@ -146,7 +146,7 @@ std::optional<glm::dvec2> Project(const ProjectionMatrix& matrix, const glm::dve
 
 namespace {
 
-/// The ray (x, y, 1) in the camera's frame of a pinhole's pixel, and back.
+/// Returns the ray (x, y, 1), in the camera's frame, of a pinhole's pixel; PixelOf is its inverse.
 glm::dvec2 RayOf(const Intrinsics& in, const glm::dvec2& pixel) {
   const double y = (pixel.y - in.cy) / in.fy;
   return {(pixel.x - in.cx - in.skew * y) / in.fx, y};
@@ -168,7 +168,7 @@ std::optional<glm::dvec2> DistortPixel(const Camera& camera, const glm::dvec2& p
   if (camera.distortion.IsNone()) return pixel;
   const glm::dvec2 ray = RayOf(camera.intrinsics, pixel);
   const glm::dvec2 distorted = Distort(camera.distortion, ray);
-  // What the lens folds back is seen at the place whose own ray is another one.
+  // If the model folds back here, undistortion returns another ray.
   constexpr double kSameRay = 1e-6;
   const auto back = Undistort(camera.distortion, distorted);
   if (!back || glm::length(*back - ray) > kSameRay) return std::nullopt;

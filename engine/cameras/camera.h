@@ -6,20 +6,22 @@
 
 namespace etude {
 
-/// The distortion of a lens: OpenCV's models with its coefficients and signs. With r² = x² + y², Brown and Conrady's
-/// takes the ray through (x, y, 1) in the camera's frame to that through
+/// The distortion of a lens, in OpenCV's models with its coefficients and signs. With r² = x² + y², the model of Brown
+/// and Conrady maps the ray through (x, y, 1) in the camera's frame to the ray through (x', y', 1):
 ///
-///     x' = x g + 2 p1 x y + p2 (r² + 2 x²) + s1 r² + s2 r⁴,    g = (1 + k1 r² + k2 r⁴ + k3 r⁶) / (1 + k4 r² + k5 r⁴ +
-///     k6 r⁶) y' = y g + p1 (r² + 2 y²) + 2 p2 x y + s3 r² + s4 r⁴
+///     g  = (1 + k1 r² + k2 r⁴ + k3 r⁶) / (1 + k4 r² + k5 r⁴ + k6 r⁶)
+///     x' = x g + 2 p1 x y + p2 (r² + 2 x²) + s1 r² + s2 r⁴
+///     y' = y g + p1 (r² + 2 y²) + 2 p2 x y + s3 r² + s4 r⁴
 ///
-/// and a sensor tilted by tau_x, then tau_y about its axes shows that where it meets it. A fisheye (Kannala and Brandt
-/// 2006) shows a ray that is θ from the axis at the distance θ (1 + k1 θ² + k2 θ⁴ + k3 θ⁶ + k4 θ⁸) from it instead. The
-/// intrinsics turn the result into a pixel. With all coefficients zero and no fisheye the camera is a pinhole.
+/// A sensor tilted about its axes by tau_x, then tau_y, shows that ray at its intersection with the sensor. A fisheye
+/// (Kannala and Brandt 2006) instead shows a ray at the angle θ from the axis at the distance θ (1 + k1 θ² + k2 θ⁴ + k3
+/// θ⁶ + k4 θ⁸) from the centre. The intrinsics then map the result to a pixel. With all coefficients zero and no
+/// fisheye, the camera is a pinhole.
 struct Distortion {
-  double k1 = 0, k2 = 0;                  ///< radial; k1 < 0 is a barrel
-  double p1 = 0, p2 = 0;                  ///< tangential: a lens that is not parallel to the sensor
-  double k3 = 0;                          ///< radial, the sixth power
-  double k4 = 0, k5 = 0, k6 = 0;          ///< the rational model's denominator; of a fisheye k4 alone
+  double k1 = 0, k2 = 0;                  ///< radial; k1 < 0 is barrel distortion
+  double p1 = 0, p2 = 0;                  ///< tangential: the lens is not parallel to the sensor
+  double k3 = 0;                          ///< radial, sixth power
+  double k4 = 0, k5 = 0, k6 = 0;          ///< denominator of the rational model; of these, a fisheye uses k4
   double s1 = 0, s2 = 0, s3 = 0, s4 = 0;  ///< thin prism
   double tau_x = 0, tau_y = 0;            ///< tilt of the sensor, radians
   bool is_fisheye = false;
@@ -31,9 +33,9 @@ struct Distortion {
 /// Returns the distorted point (x', y') of the ray through (x, y, 1).
 glm::dvec2 Distort(const Distortion& distortion, const glm::dvec2& ray);
 
-/// Returns the (x, y) nearest to the axis that `Distort` takes to `distorted`, by Newton's method to 1e-12; nothing
-/// when there is none: beyond the radius at which the model turns back on itself, it shows no lens; of a fisheye
-/// nothing that is not in front of the camera.
+/// Returns the (x, y) nearest to the axis that `Distort` maps to `distorted`, by Newton's method to 1e-12. Returns
+/// nullopt if there is none: beyond the radius at which the model folds back (it describes no lens there), and, for a
+/// fisheye, outside the half-space in front of the camera.
 std::optional<glm::dvec2> Undistort(const Distortion& distortion, const glm::dvec2& distorted);
 
 /// The intrinsics of a camera in pixels. Image axes: u right, v down, origin at the top left corner; the centre of
@@ -48,7 +50,7 @@ struct Intrinsics {
   double skew = 0;
 };
 
-/// A camera in the world W. Its own frame C has x right, y down, z forward (as OpenCV).
+/// A camera in the world W. Its own frame C has x right, y down, z forward (as in OpenCV).
 struct Camera {
   Intrinsics intrinsics;
   glm::dmat3 R_CW{1};  ///< rotates world directions into the camera's frame
@@ -56,29 +58,29 @@ struct Camera {
   Distortion distortion{};
 };
 
-/// Returns the camera at `p_WC` looking at the point T at `p_WT`, its v axis pointing down as far as possible. T is not
-/// at the camera, and the view is not vertical.
+/// Returns the camera at `p_WC` that looks at the point T at `p_WT`, with its v axis as close to downwards as possible.
+/// Preconditions: T is not at the camera, and the view is not vertical.
 Camera LookAt(const Intrinsics& intrinsics, const glm::dvec3& p_WC, const glm::dvec3& p_WT);
 
-/// Paper B's H (section 2.2), from the world to pixels: (u·w, v·w, w)ᵀ = H (X, Y, Z, 1)ᵀ with p_WQ = (X, Y, Z) of a
-/// point Q; defined up to scale.
+/// Paper B's H (section 2.2), from the world to pixels: (u·w, v·w, w)ᵀ = H (X, Y, Z, 1)ᵀ for a point Q at p_WQ = (X, Y,
+/// Z); defined up to scale.
 struct ProjectionMatrix {
   std::array<std::array<double, 4>, 3> h{};
 };
 
-/// Returns the matrix of the camera's pinhole; its distortion is left out.
+/// Returns the projection matrix of the camera's pinhole, without its distortion.
 ProjectionMatrix MatrixOf(const Camera& camera);
 
-/// Returns the pixel that shows the point Q at `p_WQ`; nothing when Q lies on or behind the camera's plane. The sign of
-/// H is taken such that w > 0 in front of the camera (DLT normalises it so).
+/// Returns the pixel that shows the point Q at `p_WQ`; nullopt if Q lies on or behind the camera's plane. The sign of H
+/// must be such that w > 0 in front of the camera (DLT normalises it so).
 std::optional<glm::dvec2> Project(const ProjectionMatrix& matrix, const glm::dvec3& p_WQ);
 
-/// Returns the pixel at which the camera with its lens shows Q; nothing also far outside the picture, where a lens of
-/// that distortion would fold the world back into it.
+/// Returns the pixel at which the camera with its lens shows Q. Returns nullopt also far outside the picture, where the
+/// distortion model would fold the world back into it.
 std::optional<glm::dvec2> Project(const Camera& camera, const glm::dvec3& p_WQ);
 
-/// `DistortPixel` returns the pixel at which the lens shows what a pinhole shows at `pixel`, `UndistortPixel` its
-/// inverse; nothing where there is none.
+/// `DistortPixel` maps a pixel of the pinhole to the pixel of the lens; `UndistortPixel` is its inverse. Both return
+/// nullopt where there is no such pixel.
 std::optional<glm::dvec2> DistortPixel(const Camera& camera, const glm::dvec2& pixel);
 std::optional<glm::dvec2> UndistortPixel(const Camera& camera, const glm::dvec2& pixel);
 

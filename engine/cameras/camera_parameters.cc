@@ -23,6 +23,7 @@ Result<CameraParameters> Decompose(const ProjectionMatrix& matrix) {
     for (const double value : row) sum += std::abs(value);
   }
   if (!std::isfinite(sum)) return Fail({}, "a camera matrix with a number that is not finite");
+  // Normalise so that the third row is the viewing axis.
   const auto row = [&](int i) { return glm::dvec3(matrix.h[i][0], matrix.h[i][1], matrix.h[i][2]); };
   const double scale = glm::length(row(2));
   if (!(scale > 0)) return Fail({}, "a camera matrix whose third row is empty: a camera at infinity");
@@ -36,6 +37,7 @@ Result<CameraParameters> Decompose(const ProjectionMatrix& matrix) {
   if (!(glm::dot(a1, glm::cross(a2, a3)) > 0)) {
     return Fail({}, "a camera matrix of a mirrored picture; is an axis of the world or of the pixels turned round?");
   }
+  // Intrinsics and rotation from dot and cross products of the rows.
   CameraParameters p;
   p.principal_u = glm::dot(a1, a3);
   p.principal_v = glm::dot(a2, a3);
@@ -45,7 +47,7 @@ Result<CameraParameters> Decompose(const ProjectionMatrix& matrix) {
   p.delta_u = p.focal_length / (glm::length(n1) * sine);
   const glm::dvec3 r1 = n2 / glm::length(n2), r2 = glm::cross(a3, r1);
   SetAngles(glm::transpose(glm::dmat3(r1, r2, a3)), p);
-  // K t is the last column.
+  // The last column is K t.
   const double fx = p.focal_length / p.delta_u, fy = p.focal_length / sine;
   p.t.z = matrix.h[2][3] / scale;
   p.t.y = (matrix.h[1][3] / scale - p.principal_v * p.t.z) / fy;

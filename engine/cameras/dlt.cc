@@ -15,22 +15,24 @@ constexpr Named<Calibration> kCalibrations[] = {
 
 using Matrix34 = Eigen::Matrix<double, 3, 4>;
 
-// Below this share of its largest extent, a cloud of points counts as flat: the relief that separates
-// H's entries would be smaller than any measuring error.
+// A cloud of points whose smallest extent is below this share of its largest counts as flat: measurement errors would
+// exceed the depth that H's entries depend on.
 constexpr double kFlat = 1e-4;
-// Below this ratio of singular values (of the normalised system) a second H fits as well as the first.
+// Below this ratio of singular values (of the normalised system) a second H fits the pairs equally well.
 constexpr double kUndetermined = 1e-9;
 
 Eigen::Vector3d ToEigen(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
+// Returns why the pairs do not determine a camera; nullopt if they may.
 std::optional<std::string> ReasonToRefuse(std::span<const PointPair> pairs) {
-  constexpr std::size_t kFewest = 6;
-  if (pairs.size() < kFewest) return fmt::format("{} point pairs; at least 6 are needed", pairs.size());
+  constexpr std::size_t kMinPairs = 6;
+  if (pairs.size() < kMinPairs) return fmt::format("{} point pairs; at least 6 are needed", pairs.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const PointPair& p = pairs[i];
     const double sum = p.world.x + p.world.y + p.world.z + p.pixel.x + p.pixel.y;
     if (!std::isfinite(sum)) return fmt::format("point pair {} is not finite", i + 1);
   }
+  // Compute the extents of the world points by principal components.
   Eigen::MatrixXd cloud(pairs.size(), 3);
   for (std::size_t i = 0; i < pairs.size(); ++i) cloud.row(i) = ToEigen(pairs[i].world).transpose();
   cloud.rowwise() -= cloud.colwise().mean().eval();
@@ -40,8 +42,8 @@ std::optional<std::string> ReasonToRefuse(std::span<const PointPair> pairs) {
   return std::nullopt;
 }
 
-// A shift and scale p' = scale · (p − mean), so that the points lie around the origin at a mean distance
-// of the square root of their dimension (Hartley 1997).
+// A shift and scale p' = scale · (p − mean) after which the points lie around the origin at a mean distance of the
+// square root of their dimension (Hartley 1997).
 template <int N>
 struct Normalisation {
   Eigen::Matrix<double, N, 1> mean = Eigen::Matrix<double, N, 1>::Zero();
@@ -70,10 +72,10 @@ Normalisation<N> NormalisationOf(std::size_t count, PointAt point_at) {
 
 struct Solution {
   Matrix34 H;
-  double determined;  // second smallest over largest singular value
+  double determined;  // ratio of the second smallest to the largest singular value
 };
 
-// Two equations per pair (2.4 and 2.5 of the paper, now for the entries of H), solved for |H| = 1.
+// Solves the two equations of each pair (2.4 and 2.5 of the paper, here for the entries of H) for |H| = 1.
 Solution SolveDlt(std::span<const PointPair> pairs, const Normalisation<3>& world, const Normalisation<2>& pixel) {
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * pairs.size(), 12);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -104,8 +106,8 @@ Result<ProjectionMatrix> Calibrate(std::span<const PointPair> pairs, Calibration
   const auto world = NormalisationOf<3>(pairs.size(), [&](std::size_t i) { return ToEigen(pairs[i].world); });
   const auto pixel = NormalisationOf<2>(
       pairs.size(), [&](std::size_t i) { return Eigen::Vector2d(pairs[i].pixel.x, pairs[i].pixel.y); });
-  // The normalised system decides whether the pairs determine a camera, whichever way it is then solved:
-  // the plain one mixes metres with squared pixels, so its singular values say little.
+  // The normalised system decides if the pairs determine a camera, whichever system is then solved: the plain one mixes
+  // metres with squared pixels, so its singular values are not meaningful.
   const Solution normalised = SolveDlt(pairs, world, pixel);
   if (!(normalised.determined > kUndetermined)) {
     return Fail({}, "cannot calibrate a camera: more than one camera fits these point pairs; move some of them");
@@ -114,6 +116,7 @@ Result<ProjectionMatrix> Calibrate(std::span<const PointPair> pairs, Calibration
                          ? SolveDlt(pairs, {}, {}).H
                          : Matrix34(pixel.Matrix().inverse() * normalised.H * world.Matrix());
 
+  // Scale H so that w is the depth, positive for the first point.
   double scale = H.row(2).head<3>().norm();
   const double w = H.row(2) * ToEigen(pairs[0].world).homogeneous();
   if (w < 0) scale = -scale;

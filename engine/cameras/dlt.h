@@ -20,24 +20,24 @@ struct PointPair {
 enum class Calibration {
   kDlt,            ///< "dlt": least squares on H's entries, |H| = 1 (paper B, section 2.2)
   kDltNormalised,  ///< "dlt-normalised": the same after Hartley's shift and scale of both point sets
-  /// "refined": from there, the camera with its lens of least squared reprojection error. More than a matrix:
-  /// `RefineCamera` (refine.h); `Calibrate` gives the matrix that it starts from.
+  /// "refined": starting from "dlt-normalised", minimises the squared reprojection error over the camera and its lens.
+  /// This is more than a matrix: see `RefineCamera` (refine.h). `Calibrate` returns only the matrix of the start.
   kRefined,
 };
 
 /// Returns the names used in scenarios: "dlt", "dlt-normalised", "refined".
 std::vector<std::string> CalibrationNames();
-/// Returns the calibration of that name, which is one of CalibrationNames().
+/// Returns the calibration of that name, which must be one of CalibrationNames().
 Calibration CalibrationNamed(std::string_view name);
 
 /// Computes the projection matrix that maps the pairs' world points to their pixels, by the direct linear transform.
-/// The result is scaled such that w is the depth in metres, positive in front of the camera. Fails, saying why, when
-/// the pairs do not determine a camera: fewer than six, a number that is not finite, world points (nearly) in one plane
-/// or on one line, or pairs that no camera can have seen.
+/// The result is scaled so that w is the depth in metres, positive in front of the camera. Fails, with the reason, if
+/// the pairs do not determine a camera: fewer than six pairs, a number that is not finite, world points (nearly) in one
+/// plane or on one line, or pairs that no camera can have seen.
 Result<ProjectionMatrix> Calibrate(std::span<const PointPair> pairs, Calibration calibration);
 
-/// Returns the root mean square distance between the pixels and the projected world points, pixels; infinity when
-/// `matrix` does not show some point.
+/// Returns the root mean square distance between the pixels and the projected world points, pixels; infinity if
+/// `matrix` cannot project some point.
 double ReprojectionRms(const ProjectionMatrix& matrix, std::span<const PointPair> pairs);
 
 }  // namespace etude

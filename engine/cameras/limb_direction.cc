@@ -13,7 +13,7 @@ namespace {
 // Two rays this close to each other span no plane: 0.01 pixel at a focal length of 600.
 constexpr double kSamePixel = 1e-5;
 
-// The planes of the strokes that have a length.
+// Returns the planes of the strokes that have a length.
 std::vector<StrokePlane> PlanesOf(std::span<const LimbSighting> sightings) {
   std::vector<StrokePlane> planes;
   for (const LimbSighting& sighting : sightings) {
@@ -33,7 +33,7 @@ double LargestPlaneAngle(std::span<const StrokePlane> planes) {
   return largest;
 }
 
-// The unit vector nearest to normal to all normals, each times its weight; its sign means nothing.
+// Returns the unit vector most nearly perpendicular to all weighted normals; its sign is arbitrary.
 glm::dvec3 LineAlong(std::span<const StrokePlane> planes, std::span<const double> weights) {
   if (planes.size() == 2) return glm::normalize(glm::cross(planes[0].normal_W, planes[1].normal_W));
   Eigen::MatrixX3d normals(planes.size(), 3);
@@ -46,10 +46,10 @@ glm::dvec3 LineAlong(std::span<const StrokePlane> planes, std::span<const double
   return {along_W[0], along_W[1], along_W[2]};
 }
 
-// Returns the inverse of what an error of a pixel at the stroke's ends makes of Nᵢ·d, relative to the largest.
+// Returns the inverse of the error of Nᵢ·d per pixel at the stroke's ends, relative to the largest.
 std::vector<double> WeightsOf(std::span<const StrokePlane> planes, const glm::dvec3& along_W) {
   std::vector<double> weights;
-  constexpr double kEndOn = 0.05;  // sine: a limb seen along itself tells nothing sure, however short its stroke
+  constexpr double kEndOn = 0.05;  // sine; limits the weight of a limb seen end-on
   for (const StrokePlane& plane : planes) {
     const glm::dvec3 middle = glm::normalize(plane.ray_a_W + plane.ray_b_W);
     weights.push_back(plane.length_px / std::max(kEndOn, glm::length(glm::cross(middle, along_W))));
@@ -59,8 +59,8 @@ std::vector<double> WeightsOf(std::span<const StrokePlane> planes, const glm::dv
   return weights;
 }
 
-// Returns how far `direction` leads from ray a towards ray b, in [−1, 1]. Within the plane, direction = α·a + β·b; a
-// point on ray a moving along it is seen moving towards b exactly when β > 0.
+// Returns a value in [−1, 1] that is positive if `direction` leads from ray a towards ray b: within the plane,
+// direction = α·a + β·b, and a point on ray a that moves along it is seen to move towards b exactly if β > 0.
 double Sense(const StrokePlane& plane, const glm::dvec3& direction_W) {
   return glm::dot(glm::cross(plane.ray_a_W, direction_W), plane.normal_W);
 }
@@ -71,7 +71,7 @@ glm::dvec3 ViewingRay(const ProjectionMatrix& matrix, const glm::dvec2& pixel) {
   const auto& h = matrix.h;
   const glm::dvec3 h1(h[0][0], h[0][1], h[0][2]), h2(h[1][0], h[1][1], h[1][2]), h3(h[2][0], h[2][1], h[2][2]);
   const glm::dvec3 ray_W = glm::cross(h1 - pixel.x * h3, h2 - pixel.y * h3);
-  return glm::dot(h3, ray_W) < 0 ? -ray_W : ray_W;  // w must grow along the ray
+  return glm::dot(h3, ray_W) < 0 ? -ray_W : ray_W;  // w must increase along the ray
 }
 
 std::optional<StrokePlane> PlaneOf(const LimbSighting& sighting) {
@@ -80,7 +80,7 @@ std::optional<StrokePlane> PlaneOf(const LimbSighting& sighting) {
                    b_W = glm::normalize(ViewingRay(matrix, stroke.b));
   const glm::dvec3 normal_W = glm::cross(a_W, b_W);
   const double length = glm::length(normal_W);
-  if (!(length > kSamePixel)) return std::nullopt;  // also for NaN
+  if (!(length > kSamePixel)) return std::nullopt;  // true for NaN, too
   return StrokePlane{normal_W / length, a_W, b_W, glm::distance(stroke.a, stroke.b)};
 }
 
@@ -90,6 +90,7 @@ LimbDirection ComputeLimbDirection(std::span<const LimbSighting> sightings, doub
   limb.plane_angle = LargestPlaneAngle(planes);
   if (limb.plane_angle < std::max(smallest_plane_angle, kSamePixel)) return limb;
 
+  // Solve with equal weights, then with the weights that follow from that solution.
   const std::vector<double> alike(planes.size(), 1.0);
   const glm::dvec3 along_W = LineAlong(planes, WeightsOf(planes, LineAlong(planes, alike)));
   double sense = 0;

@@ -18,7 +18,7 @@ constexpr double kOurPixelCentre = 0.5;
 bool IsSide(double pixels) { return pixels >= 1 && pixels <= 65536 && pixels == std::floor(pixels); }
 
 bool AreFinite(const OpenCvParameters& p) {
-  double sum = 0;  // not finite when any of them is not
+  double sum = 0;  // not finite if any of the numbers is not
   for (const double value : p.camera_matrix) sum += std::abs(value);
   for (const double value : p.distortion) sum += std::abs(value);
   for (int i = 0; i < 3; ++i) sum += glm::length(p.R[i]) + std::abs(p.T[i]);
@@ -39,6 +39,7 @@ std::vector<double> CoefficientsOf(const Distortion& d) {
   if (d.is_fisheye) return {d.k1, d.k2, d.k3, d.k4};
   const std::array all = {d.k1, d.k2, d.p1, d.p2, d.k3, d.k4, d.k5, d.k6, d.s1, d.s2, d.s3, d.s4, d.tau_x, d.tau_y};
   std::size_t count = all.size();
+  // Drop trailing coefficients that are zero, down to 5.
   for (const std::size_t fewer : {12, 8, 5}) {
     if (std::all_of(all.begin() + static_cast<std::ptrdiff_t>(fewer), all.end(), [](double c) { return c == 0; })) {
       count = fewer;
@@ -151,14 +152,14 @@ std::string RealText(double value) {
 
 namespace {
 
-/// FileStorage tells a real number from a whole one by its point.
+/// Formats a number for FileStorage, which recognises a real number by its decimal point.
 std::string Real(double value) {
   std::string text = fmt::format("{}", value);
   if (text.find_first_of(".en") == std::string::npos) text += ".";
   return text;
 }
 
-/// `values` row by row.
+/// Formats a matrix; `values` are row by row.
 std::string Matrix(std::string_view name, int rows, int columns, const std::vector<double>& values) {
   std::vector<std::string> texts;
   for (const double value : values) texts.push_back(Real(value));
@@ -166,7 +167,7 @@ std::string Matrix(std::string_view name, int rows, int columns, const std::vect
                      fmt::join(texts, ", "));
 }
 
-/// Returns what follows "name:" at the beginning of a line, to the end of the text.
+/// Returns the text after "name:" at the beginning of a line, up to the end of `text`.
 std::optional<std::string_view> Behind(std::string_view text, std::string_view name) {
   const std::string wanted = "\n" + std::string(name) + ":";
   const std::size_t at = text.find(wanted);
@@ -174,7 +175,7 @@ std::optional<std::string_view> Behind(std::string_view text, std::string_view n
   return text.substr(at + wanted.size());
 }
 
-/// The numbers of a matrix; empty when there is none of that name, or it cannot be read.
+/// Returns the numbers of a matrix; empty if there is none of that name or it cannot be read.
 std::vector<double> MatrixNamed(std::string_view text, std::string_view name) {
   const auto behind = Behind(text, name);
   if (!behind) return {};

@@ -10,18 +10,18 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kLargestPairsText = std::size_t{1} << 20;
-constexpr std::size_t kMostCamerasInFile = 64;
+constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
+constexpr std::size_t kMaxCameras = 64;
 constexpr std::string_view kHeading = "camera,x,y,z,u,v";
-/// The centre of our first pixel is (0.5, 0.5).
+/// The offset from OpenCV's pixel coordinates: the centre of our first pixel is (0.5, 0.5).
 constexpr double kFromOpenCv = 0.5;
 
 using Five = std::array<double, 5>;
 
 Result<PointPair> ToPair(const Five& v, const Place& place) {
-  constexpr double kMost = 1e9;
+  constexpr double kMaxAbsolute = 1e9;
   for (const double value : v) {
-    if (!(std::abs(value) <= kMost)) return Fail(place, "{} in a point pair; allowed: within ±10⁹", value);
+    if (!(std::abs(value) <= kMaxAbsolute)) return Fail(place, "{} in a point pair; allowed: within ±10⁹", value);
   }
   return PointPair{{v[0], v[1], v[2]}, {v[3] + kFromOpenCv, v[4] + kFromOpenCv}};
 }
@@ -46,6 +46,7 @@ Result<std::vector<CameraPairs>> ReadCsv(std::string_view text, const std::strin
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view here = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
+    // Skip the heading, blank lines and comments.
     const Place place{file, ++line, 0};
     const std::vector<std::string_view> words = Split(here);
     if (line == 1) continue;  // the heading
@@ -53,6 +54,7 @@ Result<std::vector<CameraPairs>> ReadCsv(std::string_view text, const std::strin
     if (words.size() != 6 || words[0].empty()) {
       return Fail(place, "'{}'; allowed: a camera's name and five numbers, {}", here, kHeading);
     }
+    // Parse the five numbers and add the pair to its camera.
     Five values;
     for (std::size_t i = 0; i < 5; ++i) {
       const std::string_view word = words[i + 1];
@@ -113,12 +115,12 @@ Result<std::vector<CameraPairs>> ReadYaml(std::string_view text, const std::stri
 }  // namespace
 
 Result<std::vector<CameraPairs>> ReadPointPairs(std::string_view text, const std::string& file) {
-  if (text.size() > kLargestPairsText) return Fail({file}, "{} bytes; allowed: {}", text.size(), kLargestPairsText);
+  if (text.size() > kMaxBytes) return Fail({file}, "{} bytes; allowed: {}", text.size(), kMaxBytes);
   std::string heading(text.substr(0, text.find('\n')));
   std::erase_if(heading, [](char c) { return c == ' ' || c == '\r' || c == '\t'; });
   ASSIGN_OR_RETURN(auto cameras, heading == kHeading ? ReadCsv(text, file) : ReadYaml(text, file));
-  if (cameras.empty() || cameras.size() > kMostCamerasInFile) {
-    return Fail({file}, "point pairs of {} cameras; allowed: 1 to {}", cameras.size(), kMostCamerasInFile);
+  if (cameras.empty() || cameras.size() > kMaxCameras) {
+    return Fail({file}, "point pairs of {} cameras; allowed: 1 to {}", cameras.size(), kMaxCameras);
   }
   return cameras;
 }

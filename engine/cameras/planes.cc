@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Matrix3d;
 
-/// Shifts points to their mean and scales them to a mean distance of √2 (Hartley 1997).
+/// Returns the map that shifts points to their mean and scales them to a mean distance of √2 (Hartley 1997).
 Matrix3d Normaliser(const Eigen::MatrixX2d& points) {
   const Eigen::RowVector2d mean = points.colwise().mean();
   const double distance = (points.rowwise() - mean).rowwise().norm().mean();
@@ -35,7 +35,7 @@ glm::dmat3 ToGlm(const Matrix3d& m) {
   return out;
 }
 
-/// The rotation nearest to a matrix (Frobenius).
+/// Returns the rotation nearest to a matrix (Frobenius norm).
 glm::dmat3 NearestRotation(const glm::dmat3& m) {
   Matrix3d e;
   for (int column = 0; column < 3; ++column) {
@@ -47,7 +47,7 @@ glm::dmat3 NearestRotation(const glm::dmat3& m) {
   return ToGlm(U * svd.matrixV().transpose());
 }
 
-/// X_AC of X_AB and X_BC.
+/// Returns X_AC of X_AB and X_BC.
 TargetPlace Product(const TargetPlace& ab, const TargetPlace& bc) {
   return {ab.R_WT * bc.R_WT, ab.R_WT * bc.p_WT + ab.p_WT};
 }
@@ -57,20 +57,20 @@ TargetPlace Inverse(const TargetPlace& pose) {
   return {R, -(R * pose.p_WT)};
 }
 
-/// A view of which a homography could be had.
+/// A view with its homography.
 struct PlaneView {
   const TargetView* view;
   glm::dmat3 homography;
   TargetPlace pose_CT{};
 };
 
-/// Places of cameras and boards, found from view to view.
+/// The poses of cameras and boards, found one after the other.
 class Places {
  public:
   Places(std::size_t cameras, std::size_t targets) : cameras_(cameras), targets_(targets) {}
 
-  /// Joins one view, beginning at the board that is the world: always the view with most corners of those that join
-  /// something known and something unknown. False when nothing is left to join.
+  /// Adds one pose: of the views with a known and an unknown side, takes the one with the most corners. Returns false
+  /// if there is none. The first board must be set before.
   bool Join(std::span<const PlaneView> views) {
     const PlaneView* best = nullptr;
     for (const PlaneView& view : views) {
@@ -104,6 +104,7 @@ Result<glm::dmat3> HomographyOf(std::span<const PointPair> pairs) {
   }
   if (!plane.allFinite() || !picture.allFinite()) return Fail({}, "a corner that is not finite");
   if (LieOnALine(plane) || LieOnALine(picture)) return Fail({}, "the corners lie on one line");
+  // Two equations for each pair, in normalised coordinates.
   const Matrix3d Np = Normaliser(plane), Ni = Normaliser(picture);
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * count, 9);
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -142,7 +143,7 @@ Result<Intrinsics> IntrinsicsFromPlanes(std::span<const glm::dmat3> homographies
     A.row(row) << h[0].x * h[0].x - h[1].x * h[1].x, h[0].y * h[0].y - h[1].y * h[1].y;
     rhs[row++] = h[1].z * h[1].z - h[0].z * h[0].z;
   }
-  // Two unknowns where the planes tell both apart, else square pixels.
+  // Solve for both unknowns if the planes determine both; otherwise assume square pixels.
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
   constexpr double kTellsApart = 0.02;
   Eigen::Vector2d ab = svd.solve(rhs);
@@ -151,8 +152,8 @@ Result<Intrinsics> IntrinsicsFromPlanes(std::span<const glm::dmat3> homographies
     ab.setConstant(both.dot(rhs) / both.squaredNorm());
   }
   const Eigen::Vector2d focal = unit * ab.cwiseSqrt().cwiseInverse();
-  constexpr double kLongest = 50;  // in picture widths: nothing that films a person
-  if (!(ab.minCoeff() > 0) || !focal.allFinite() || focal.maxCoeff() > kLongest * unit) {
+  constexpr double kMaxFocal = 50;  // in picture widths; longer lenses are implausible for filming a person
+  if (!(ab.minCoeff() > 0) || !focal.allFinite() || focal.maxCoeff() > kMaxFocal * unit) {
     return Fail({}, "the boards face the camera straight on, which does not tell its focal length; tilt some of them");
   }
   return Intrinsics{width, height, focal[0], focal[1], width / 2.0, height / 2.0, 0};
@@ -169,6 +170,7 @@ TargetPlace PoseOfPlane(const Intrinsics& in, const glm::dmat3& homography) {
 }
 
 Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::span<const TargetView> views,
+                                       // Keep the views that have a homography.
                                        const RefineOptions& options) {
   std::size_t targets = 0;
   std::vector<PlaneView> usable;
@@ -176,6 +178,7 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
     targets = std::max(targets, view.target + 1);
     if (auto homography = HomographyOf(view.pairs)) usable.push_back({&view, *homography});
   }
+  // Intrinsics of each camera.
   RigGuess guess;
   for (std::size_t camera = 0; camera < sizes.size(); ++camera) {
     std::vector<glm::dmat3> homographies;
@@ -190,7 +193,7 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
   for (PlaneView& view : usable) {
     view.pose_CT = PoseOfPlane(guess.cameras[view.view->camera].intrinsics, view.homography);
   }
-  // Numbers of boards without those that no view is left of.
+  // Renumber the boards without those that have no view left.
   std::vector<std::optional<std::size_t>> number(targets);
   std::vector<TargetView> kept;
   std::size_t boards = 0;
@@ -200,6 +203,7 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
     kept.push_back({view.view->camera, *as, view.view->pairs});
   }
   for (std::size_t i = 0; i < usable.size(); ++i) usable[i].view = &kept[i];
+  // Find all poses, starting from the first board.
   Places places(sizes.size(), boards);
   places.targets_.front() = TargetPlace{};
   while (places.Join(usable)) {
@@ -216,6 +220,7 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
   return RefineRig(guess, kept, options);
 }
 
+// The pose of each board follows from its first usable view.
 Result<RefinedRig> PlaceBoards(std::span<const Camera> cameras, std::span<const TargetView> views) {
   RigGuess guess{.cameras = {cameras.begin(), cameras.end()}, .targets = {}};
   std::vector<std::optional<std::size_t>> number;

@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-/// Turns our world (Y up) into Pose2Sim's (Z up): (z, x, y).
+/// Rotates our world (Y up) into Pose2Sim's (Z up): (z, x, y).
 const glm::dmat3 kZUpOfYUp = glm::transpose(glm::dmat3(0, 0, 1, 1, 0, 0, 0, 1, 0));
 
 std::string Vector(std::span<const double> values) {
@@ -21,7 +21,7 @@ std::string Vector(std::span<const double> values) {
   return text + "]";
 }
 
-/// The axis of a rotation, as long as its angle.
+/// Returns Rodrigues' vector of a rotation.
 glm::dvec3 RodriguesOf(const glm::dmat3& R) {
   glm::dquat q = glm::normalize(glm::quat_cast(R));
   if (q.w < 0) q = -q;
@@ -49,8 +49,8 @@ std::string_view Trimmed(std::string_view text) {
   return from == std::string_view::npos ? std::string_view{} : text.substr(from, to - from + 1);
 }
 
-/// Files with six digits hold rotations that are none to the last one: the nearest, by Newton's iteration; what is no
-/// rotation at all stays as it is.
+/// Returns the rotation nearest to a matrix that was rounded to six digits, by Newton's iteration. A matrix that is
+/// farther from a rotation is returned unchanged.
 glm::dmat3 Orthonormal(const glm::dmat3& R) {
   const glm::dmat3 off = R * glm::transpose(R) - glm::dmat3(1);
   constexpr double kRounded = 1e-3;
@@ -62,7 +62,7 @@ glm::dmat3 Orthonormal(const glm::dmat3& R) {
   return near;
 }
 
-/// A line's value without its comment.
+/// Returns a line without its comment.
 std::string_view WithoutComment(std::string_view line) {
   bool in_string = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -74,9 +74,11 @@ std::string_view WithoutComment(std::string_view line) {
 
 using Keys = std::map<std::string, std::string, std::less<>>;
 
+// Reads one camera's table, which began at `line`.
 Result<NamedCamera> ReadTable(const std::string& name, const Keys& keys, int line) {
   const Place place{.file = {}, .line = line, .column = 1};
   std::map<std::string, std::vector<double>> values;
+  // Parse the required lists of numbers.
   for (const auto& [key, count] : std::map<std::string, std::size_t>{
            {"size", 2}, {"matrix", 9}, {"distortions", 0}, {"rotation", 0}, {"translation", 3}}) {
     const auto found = keys.find(key);
@@ -101,6 +103,7 @@ Result<NamedCamera> ReadTable(const std::string& name, const Keys& keys, int lin
                            .is_fisheye = fisheye != keys.end() && fisheye->second == "true"};
   const auto camera = CameraOf(p);
   if (!camera) return Fail(place, "camera {}: {}", name, camera.error().message);
+  // Prefer the table's own name key.
   std::string shown = name;
   if (const auto own = keys.find("name"); own != keys.end() && own->second.size() >= 2 && own->second.front() == '"') {
     shown = own->second.substr(1, own->second.size() - 2);
@@ -121,6 +124,7 @@ Result<std::vector<NamedCamera>> ReadPose2SimCalibration(std::string_view text) 
   std::string name;
   Keys keys;
   int line = 0, table_line = 0;
+  // Ends a table: adds its camera if it is one.
   const auto finish = [&]() -> Result<void> {
     const auto ignored = keys.find("ignore");  // Caliscope's
     const bool is_ignored = ignored != keys.end() && ignored->second == "true";
@@ -145,7 +149,7 @@ Result<std::vector<NamedCamera>> ReadPose2SimCalibration(std::string_view text) 
     if (here.front() == '[' && here.back() == ']' && equals == std::string_view::npos) {
       RETURN_IF_ERROR(finish());
       name = here.substr(1, here.size() - 2);
-      // Caliscope's tables are cameras.0, cameras.1, …
+      // Caliscope's tables are named cameras.0, cameras.1, …
       if (constexpr std::string_view kOf = "cameras."; name.starts_with(kOf)) name = "cam_" + name.substr(kOf.size());
       table_line = line;
       continue;
@@ -153,7 +157,7 @@ Result<std::vector<NamedCamera>> ReadPose2SimCalibration(std::string_view text) 
     if (equals == std::string_view::npos) return Fail({{}, line, 1}, "neither a table nor a key: {}", here);
     std::string& value = keys[std::string(Trimmed(here.substr(0, equals)))];
     value = Trimmed(here.substr(equals + 1));
-    // A list may go on over lines.
+    // A list may continue over several lines.
     while (value.starts_with('[') && std::ranges::count(value, '[') > std::ranges::count(value, ']') && !text.empty()) {
       value += std::string(" ").append(next_line());
     }

@@ -15,18 +15,18 @@ struct NamedCamera {
   Camera camera;
 };
 
-/// Writes the cameras of a rig as Pose2Sim's calibration file (TOML; Pagnon et al. 2021): a table per camera with
-/// `name`, `size`, `matrix`, `distortions` (k1, k2, p1, p2; and k3 where there is one), `rotation` (Rodrigues' vector)
-/// and `translation` (metres) of the world in the camera's frame, `fisheye`. Pixels are OpenCV's. Pose2Sim's world has
-/// Z up, ours Y: its (x, y, z) is our (z, x, y), so that what Pose2Sim triangulates and turns Y up is told in our
-/// world.
+/// Writes the cameras of a rig as Pose2Sim's calibration file (TOML; Pagnon et al. 2021): one table for each camera
+/// with `name`, `size`, `matrix`, `distortions` (k1, k2, p1, p2; and k3 if there is one), `rotation` (Rodrigues'
+/// vector) and `translation` (metres) of the world in the camera's frame, and `fisheye`. Pixels are OpenCV's.
+/// Pose2Sim's world has Z up, ours Y: its (x, y, z) is our (z, x, y), so that motions which Pose2Sim triangulates and
+/// rotates to Y up are in our world.
 std::string WritePose2SimCalibration(std::span<const NamedCamera> cameras);
 
 /// Reads what WritePose2SimCalibration, Pose2Sim, Anipose, FreeMoCap or Caliscope has written: tables with those keys,
-/// named `[cam_01]` or `[cameras.1]` ("cam_1"), `rotation` as Rodrigues' vector or matrix, lists over several lines;
-/// other tables (`metadata`) and Caliscope's ignored cameras are skipped. These files tell neither unit nor axes:
-/// metres and Pose2Sim's Z up are assumed. Fails, naming line and camera, when a table lacks one of those keys or they
-/// are no camera's.
+/// named `[cam_01]` or `[cameras.1]` ("cam_1"), `rotation` as Rodrigues' vector or as a matrix, lists over several
+/// lines. Other tables (`metadata`) and Caliscope's ignored cameras are skipped. The files contain neither unit nor
+/// axes: metres and Pose2Sim's Z up are assumed. Fails, naming line and camera, if a table lacks one of those keys or
+/// its values are not those of a camera.
 Result<std::vector<NamedCamera>> ReadPose2SimCalibration(std::string_view text);
 
 }  // namespace etude

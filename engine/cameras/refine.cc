@@ -18,27 +18,30 @@
 namespace etude {
 namespace {
 
-/// The intrinsics of a camera, as Ceres moves it.
+/// The intrinsics of a camera, in the order of the parameter block.
 enum Intrinsic { kFx, kFy, kCx, kCy, kSkew, kK1, kK2, kP1, kP2, kK3, kIntrinsicsCount };
 constexpr std::array<const char*, kIntrinsicsCount> kIntrinsicsNames = {
     "focal length", "focal length", "principal point", "principal point", "skew",
     "distortion",   "distortion",   "distortion",      "distortion",      "distortion"};
-/// A pose: Rodrigues' vector, then the translation; of a camera R_CW and p_CW, of a target R_WT and p_WT.
+/// A pose's parameter block: Rodrigues' vector, then the translation; R_CW and p_CW for a camera, R_WT and p_WT for a
+/// target.
 constexpr int kPoseCount = 6;
 
-/// The reprojection error of a point. The distortion is that of camera.h, repeated here because Ceres differentiates
-/// it.
+/// The reprojection error of a point. It repeats the five-coefficient distortion of camera.h because Ceres
+/// differentiates it.
 struct ReprojectionError {
   glm::dvec3 p_TQ;
   glm::dvec2 pixel;
 
   template <typename T>
   bool operator()(const T* intrinsics, const T* camera, const T* target, T* residual) const {
+    // From the target to the world to the camera.
     std::array<T, 3> in_world = RotateByAngleAxis(target, std::array<T, 3>{T(p_TQ.x), T(p_TQ.y), T(p_TQ.z)});
     for (int i = 0; i < 3; ++i) in_world[i] += target[3 + i];
     std::array<T, 3> in_camera = RotateByAngleAxis(camera, in_world);
     for (int i = 0; i < 3; ++i) in_camera[i] += camera[3 + i];
     if (!(in_camera[2] > T(1e-9))) return false;
+    // Perspective division, distortion, intrinsics.
     const T x = in_camera[0] / in_camera[2], y = in_camera[1] / in_camera[2];
     const T r2 = x * x + y * y;
     const T gain = 1.0 + r2 * (intrinsics[kK1] + r2 * (intrinsics[kK2] + r2 * intrinsics[kK3]));
@@ -67,7 +70,7 @@ IntrinsicsBlock ToBlock(const Camera& camera, const RefineOptions& options) {
   return {in.fx, in.fy, in.cx, in.cy, in.skew, d.k1, d.k2, d.p1, d.p2, d.k3};
 }
 
-/// Returns the intrinsics that are held.
+/// Returns the indices of the intrinsics that are held fixed.
 std::vector<int> Held(const RefineOptions& options) {
   std::vector<int> held;
   const bool holds_lens = options.lens == LensModel::kPinhole || options.lens == LensModel::kAsInCamera;
@@ -80,7 +83,7 @@ std::vector<int> Held(const RefineOptions& options) {
   return held;
 }
 
-/// A sum of squares, what it depends on, and Ceres's view of both.
+/// The least-squares problem, its parameters, and Ceres's representation of it.
 class Bundle {
  public:
   Bundle(const RigGuess& guess, std::span<const TargetView> views, const RefineOptions& options)
@@ -111,7 +114,7 @@ class Bundle {
     if (targets_.size() > 1) o.linear_solver_ordering = TargetsFirst();
     o.num_threads = 1;
     o.max_num_iterations = options_.most_iterations;
-    // Stopped by the digits of doubles, not before: what a fit leaves is judged against the corners' own error.
+    // Iterate to the precision of doubles, because the remaining error is compared with that of the corners.
     o.function_tolerance = 1e-15;
     o.parameter_tolerance = 1e-14;
     o.gradient_tolerance = 1e-14;
@@ -124,7 +127,8 @@ class Bundle {
     return {};
   }
 
-  /// Computes the parameters' deviations from the inverse of JᵀJ. Fails when the views leave a parameter undetermined.
+  /// Computes the standard deviations of the parameters from the inverse of JᵀJ. Fails if the views leave a parameter
+  /// undetermined.
   Result<std::vector<IntrinsicsDeviation>> Deviations() {
     if (options_.hold_cameras) return std::vector<IntrinsicsDeviation>(intrinsics_.size());
     const Eigen::MatrixXd normal = NormalMatrix();
@@ -132,15 +136,17 @@ class Bundle {
     for (Eigen::Index i = 0; i < scale.size(); ++i) {
       if (!(scale[i] > 0)) return Undetermined(static_cast<std::size_t>(i));
     }
+    // Scale to a unit diagonal, then test the eigenvalues.
     const Eigen::MatrixXd scaled = scale.cwiseInverse().asDiagonal() * normal * scale.cwiseInverse().asDiagonal();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
-    // Below, a change of some parameters by their whole size is as good as none.
+    // Below this ratio, some parameters can change by their whole size without effect.
     constexpr double kSingular = 1e-12;
     if (!(eigen.eigenvalues()[0] > kSingular * eigen.eigenvalues()[scaled.rows() - 1])) {
       Eigen::Index worst = 0;
       eigen.eigenvectors().col(0).cwiseAbs().maxCoeff(&worst);
       return Undetermined(static_cast<std::size_t>(worst));
     }
+    // Variances are the diagonal of the inverse, times the variance of the residuals.
     const Eigen::MatrixXd inverse =
         eigen.eigenvectors() * eigen.eigenvalues().cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
     const double freedom = 2.0 * static_cast<double>(points_) - static_cast<double>(parameters());
@@ -177,10 +183,10 @@ class Bundle {
   }
 
  private:
-  /// The free parameter that a column of the Jacobian belongs to.
+  /// The free parameter of a column of the Jacobian.
   struct Column {
-    std::size_t camera = 0;  ///< or the target, counted behind the cameras
-    int intrinsic = -1;      ///< Intrinsic, or −1: of a pose
+    std::size_t camera = 0;  ///< or the target, counted after the cameras
+    int intrinsic = -1;      ///< an Intrinsic; −1 for a pose
   };
 
   void AddView(const TargetView& view) {
@@ -211,9 +217,11 @@ class Bundle {
     return ordering;
   }
 
+  // Returns JᵀJ over the free parameters, and sets columns_ and cost_.
   Eigen::MatrixXd NormalMatrix() {
     ceres::Problem::EvaluateOptions evaluate;
     columns_.clear();
+    // List the free parameter blocks in order, with the columns that they have.
     for (std::size_t i = 0; i < intrinsics_.size(); ++i) {
       if (!options_.hold_intrinsics) {
         evaluate.parameter_blocks.push_back(intrinsics_[i].data());
@@ -228,6 +236,7 @@ class Bundle {
       evaluate.parameter_blocks.push_back(targets_[i].data());
       columns_.insert(columns_.end(), kPoseCount, Column{intrinsics_.size() + i, -1});
     }
+    // Evaluate the Jacobian and sum up its products.
     ceres::CRSMatrix jacobian;
     problem_.Evaluate(evaluate, &cost_, nullptr, nullptr, &jacobian);
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(jacobian.num_cols, jacobian.num_cols);
@@ -280,7 +289,7 @@ Result<void> CheckViews(const RigGuess& guess, std::span<const TargetView> views
   return {};
 }
 
-void AddErrors(std::span<const TargetView> views, RefinedRig& rig) {
+void AddRms(std::span<const TargetView> views, RefinedRig& rig) {
   std::vector<double> squares(rig.cameras.size());
   std::vector<std::size_t> points(rig.cameras.size());
   double sum = 0;
@@ -314,7 +323,7 @@ Result<RefinedRig> RefineRig(const RigGuess& guess, std::span<const TargetView> 
       return Fail({}, "camera {}: no focal length above 0 fits the points", i + 1);
     }
   }
-  AddErrors(views, rig);
+  AddRms(views, rig);
   if (!std::isfinite(rig.rms_px)) {
     return Fail({}, "the best fit folds the picture back within the points: too few of them, or pairs mixed up");
   }

@@ -11,14 +11,14 @@
 
 namespace etude {
 
-/// The pose of a calibration target T, rigid with known points, in the world W: p_WQ = R_WT p_TQ + p_WT.
+/// The pose of a calibration target T (a rigid set of known points) in the world W: p_WQ = R_WT p_TQ + p_WT.
 struct TargetPlace {
   glm::dmat3 R_WT{1};
   glm::dvec3 p_WT{0};
 };
 
-/// The point pairs that one picture shows of a target. Points that were measured in the world are a target that stands
-/// at the world's origin.
+/// The point pairs of a target in one picture. Points that were measured in the world form a target at the world's
+/// origin.
 struct TargetView {
   std::size_t camera = 0;
   std::size_t target = 0;
@@ -27,30 +27,30 @@ struct TargetView {
 
 enum class LensModel {
   kPinhole,     ///< no distortion
-  kRadial2,     ///< k1, k2, p1, p2: enough for most lenses
-  kRadial3,     ///< and k3: wide angles, when pictures fill their corners
-  kAsInCamera,  ///< distortion as the start has it, held
+  kRadial2,     ///< k1, k2, p1, p2: sufficient for most lenses
+  kRadial3,     ///< and k3: for wide angles whose pictures have points in the corners
+  kAsInCamera,  ///< the distortion of the start, held fixed
 };
 
 struct RefineOptions {
   LensModel lens = LensModel::kRadial2;
-  /// Frees the skew. Sensors have had none for decades: only when paper B's eleven degrees of freedom are wanted.
+  /// Estimates the skew. Sensors have had none for decades, so set it only to get paper B's eleven degrees of freedom.
   bool skew = false;
-  /// Holds focal lengths, principal points and lenses as the start has them: rigs whose cameras were calibrated one by
+  /// Holds focal lengths, principal points and lenses fixed at the start: for rigs whose cameras were calibrated one by
   /// one and then set up.
   bool hold_intrinsics = false;
-  /// Holds everything of the cameras and frees the first target instead: how well known cameras explain views.
+  /// Holds the cameras fixed and frees the first target instead: measures how well known cameras explain the views.
   bool hold_cameras = false;
   int most_iterations = 200;
 };
 
-/// A first guess of all cameras and targets.
+/// Start values of all cameras and targets.
 struct RigGuess {
   std::vector<Camera> cameras;
-  std::vector<TargetPlace> targets;  ///< the first stays where it is: it is what "the world" means
+  std::vector<TargetPlace> targets;  ///< the first one is held fixed: it defines the world
 };
 
-/// The standard deviations of a camera's intrinsics, pixels, if the corners err independently and alike.
+/// The standard deviations of a camera's intrinsics, pixels, if the corners' errors are independent and equally large.
 struct IntrinsicsDeviation {
   double fx = 0, fy = 0, cx = 0, cy = 0;
 };
@@ -58,18 +58,18 @@ struct IntrinsicsDeviation {
 struct RefinedRig {
   std::vector<Camera> cameras;
   std::vector<TargetPlace> targets;
-  /// Root mean square distance between pixels and projected points, of each camera and of all.
+  /// Root mean square distance between pixels and projected points, for each camera and for all.
   std::vector<double> camera_rms_px;
   double rms_px = 0;
   std::size_t points = 0;  ///< N
-  std::size_t parameters = 0;  ///< p, the free ones. With errors of σ a coordinate, rms_px is near σ √2 √((2N−p) / 2N)
-  std::vector<IntrinsicsDeviation> deviations;  ///< of held cameras all 0
+  std::size_t parameters = 0;  ///< p, free ones. With errors of σ per coordinate, rms_px is near σ √2 √((2N−p) / 2N)
+  std::vector<IntrinsicsDeviation> deviations;  ///< 0 for cameras held fixed
 };
 
-/// Finds the cameras and places of targets that make the sum of squared reprojection errors smallest (`refined`;
-/// Levenberg–Marquardt by Ceres), with distortion. `guess` is near it: from `Calibrate`, `Decompose` or planes.h. Fails
-/// when a camera has no view, when there are fewer equations than unknowns, when the start does not show a point, and
-/// when the views leave something undetermined: it is named.
+/// Finds the cameras and target poses that minimise the sum of squared reprojection errors, with distortion (method
+/// "refined"; Levenberg–Marquardt by Ceres). `guess` must be near the solution: from `Calibrate`, `Decompose` or
+/// planes.h. Fails if a camera has no view, if there are fewer equations than unknowns, if the start does not show a
+/// point, and if the views leave a parameter undetermined, which the message names.
 Result<RefinedRig> RefineRig(const RigGuess& guess, std::span<const TargetView> views,
                              const RefineOptions& options = {});
 
@@ -77,8 +77,8 @@ Result<RefinedRig> RefineRig(const RigGuess& guess, std::span<const TargetView> 
 Result<RefinedRig> RefineCamera(std::span<const PointPair> pairs, int width, int height,
                                 const RefineOptions& options = {});
 
-/// Returns the root mean square distance of the views' pixels from what the camera, with its lens, shows; infinity when
-/// it does not show some point.
+/// Returns the root mean square distance between the pairs' pixels and the pixels at which the camera with its lens
+/// shows their points; infinity if it does not show some point.
 double ReprojectionRms(const Camera& camera, const TargetPlace& target, std::span<const PointPair> pairs);
 
 }  // namespace etude

@@ -30,14 +30,14 @@ const xmlNode* Child(const xmlNode* parent, const char* name) {
   return nullptr;
 }
 
-Place PlaceOf(const xmlNode* node) { return {{}, static_cast<int>(xmlGetLineNo(node)), 0}; }
+Place PlaceOfNode(const xmlNode* node) { return {{}, static_cast<int>(xmlGetLineNo(node)), 0}; }
 
 std::string Text(const xmlNode* node, const char* attribute) {
   const std::unique_ptr<xmlChar, void (*)(void*)> value(xmlGetProp(node, Bytes(attribute)), xmlFree);
   return value ? reinterpret_cast<const char*>(value.get()) : "";
 }
 
-/// The attributes of an element as numbers; the first one that is none is kept as a complaint.
+/// Reads attributes of an element as numbers; remembers the first one that is not a number.
 class Numbers {
  public:
   explicit Numbers(const xmlNode* node) : node_(node) {}
@@ -51,7 +51,7 @@ class Numbers {
     return value;
   }
   Result<void> Finish() const {
-    if (!complaint_.empty()) return Fail(PlaceOf(node_), "{}", complaint_);
+    if (!complaint_.empty()) return Fail(PlaceOfNode(node_), "{}", complaint_);
     return {};
   }
 
@@ -75,8 +75,8 @@ Result<Window> WindowOf(const xmlNode* camera, const Window& sensor) {
 
 Result<OpenCvParameters> InsideOf(const xmlNode* camera, const xmlNode* intrinsic) {
   Numbers of(intrinsic);
-  constexpr double kLargestPixelRange = 16384;
-  const double unit = of["sensorMaxU"] > kLargestPixelRange ? 64 : 1;  // of a pixel
+  constexpr double kMaxPixelRange = 16384;
+  const double unit = of["sensorMaxU"] > kMaxPixelRange ? 64 : 1;  // units per pixel
   const auto side = [&](const char* low, const char* high) { return std::round((of[high] - of[low]) / unit); };
   const Window sensor{0, 0, side("sensorMinU", "sensorMaxU"), side("sensorMinV", "sensorMaxV")};
   ASSIGN_OR_RETURN(const Window window, WindowOf(camera, sensor));
@@ -93,14 +93,14 @@ Result<OpenCvParameters> InsideOf(const xmlNode* camera, const xmlNode* intrinsi
 
 Result<NamedCamera> ReadCamera(const xmlNode* node) {
   const std::string name = Text(node, "serial");
-  const Place place = PlaceOf(node);
+  const Place place = PlaceOfNode(node);
   const xmlNode *transform = Child(node, "transform"), *intrinsic = Child(node, "intrinsic");
   if (name.empty()) return Fail(place, "a camera without a serial number");
   if (transform == nullptr) return Fail(place, "camera {} has no transform", name);
   if (intrinsic == nullptr) return Fail(place, "camera {} has no intrinsic", name);
   ASSIGN_OR_RETURN(OpenCvParameters p, InsideOf(node, intrinsic));
   Numbers of(transform);
-  // By rows: the camera's axes (x right, y up, z behind) in QTM's world, whose z is up.
+  // Row by row: the camera's axes (x right, y up, z backwards) in QTM's world, whose z is up.
   const glm::dvec3 right(of["r11"], of["r12"], of["r13"]), up(of["r21"], of["r22"], of["r23"]),
       behind(of["r31"], of["r32"], of["r33"]);
   constexpr double kMetresPerMm = 0.001;
@@ -117,7 +117,7 @@ Result<NamedCamera> ReadCamera(const xmlNode* node) {
 }  // namespace
 
 Result<std::vector<NamedCamera>> ReadQualisysCalibration(std::string_view text) {
-  // No entities, no network, no words on the terminal.
+  // No entity substitution, no network, no messages on the terminal.
   const std::unique_ptr<xmlDoc, void (*)(xmlDoc*)> document(
       xmlReadMemory(text.data(), static_cast<int>(text.size()), nullptr, nullptr,
                     XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING),
@@ -128,7 +128,7 @@ Result<std::vector<NamedCamera>> ReadQualisysCalibration(std::string_view text) 
   }
   const xmlNode* root = xmlDocGetRootElement(document.get());
   if (!IsNamed(root, "calibration")) {
-    return Fail(PlaceOf(root), "<{}>; allowed: <calibration> of Qualisys Track Manager",
+    return Fail(PlaceOfNode(root), "<{}>; allowed: <calibration> of Qualisys Track Manager",
                 reinterpret_cast<const char*>(root->name));
   }
   const xmlNode* cameras = Child(root, "cameras");
@@ -138,17 +138,17 @@ Result<std::vector<NamedCamera>> ReadQualisysCalibration(std::string_view text) 
     ASSIGN_OR_RETURN(auto camera, ReadCamera(node));
     rig.push_back(std::move(camera));
   }
-  if (rig.empty()) return Fail(PlaceOf(root), "no camera");
+  if (rig.empty()) return Fail(PlaceOfNode(root), "no camera");
   return rig;
 }
 
 namespace {
 
-constexpr std::size_t kLargestText = std::size_t{1} << 20;
-constexpr std::size_t kMostCamerasRead = 64;
+constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
+constexpr std::size_t kMaxCameras = 64;
 constexpr std::string_view kYamlDirective = "%YAML:1.0\n---\n";
 
-/// Every line of a camera's own file, moved in; without its first two.
+/// Returns the text of a camera's own file without its first two lines, indented.
 std::string Indented(std::string text) {
   text.erase(0, kYamlDirective.size());
   std::string out;
@@ -160,7 +160,7 @@ std::string Indented(std::string text) {
   return out;
 }
 
-/// FileStorage's names are words that begin with a letter.
+/// Makes a valid key of FileStorage: a word that begins with a letter.
 std::string FileStorageName(std::string name) {
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
   for (char& c : name) {
@@ -200,8 +200,8 @@ Result<Camera> ReadCamera(const Node& node) {
 Result<std::vector<NamedCamera>> ReadOwnRig(const Node& root) {
   const Node* names = root.Find("cameras");
   ASSIGN_OR_RETURN(const auto cameras, AsTexts(*names));
-  if (cameras.empty() || cameras.size() > kMostCamerasRead) {
-    return Fail(names->place, "{} cameras; allowed: 1 to {}", cameras.size(), kMostCamerasRead);
+  if (cameras.empty() || cameras.size() > kMaxCameras) {
+    return Fail(names->place, "{} cameras; allowed: 1 to {}", cameras.size(), kMaxCameras);
   }
   std::vector<NamedCamera> rig;
   for (const std::string& name : cameras) {
@@ -214,21 +214,24 @@ Result<std::vector<NamedCamera>> ReadOwnRig(const Node& root) {
   return rig;
 }
 
-/// OpenCV's first line is no YAML directive to YAML's own readers.
+/// Replaces OpenCV's first line, which other YAML readers reject as a directive, by a comment.
 std::string WithoutDirective(std::string_view text) {
   std::string plain(text);
   if (plain.starts_with("%YAML:")) plain.replace(0, std::min(plain.find('\n'), plain.size()), "#");
   return plain;
 }
 
-const glm::dmat3 kYUpOfZUp(0, 0, 1, 1, 0, 0, 0, 1, 0);  // (x, y, z) is our (y, z, x)
+const glm::dmat3 kYUpOfZUp(0, 0, 1, 1, 0, 0, 0, 1, 0);  // (x, y, z) of the file is our (y, z, x)
 
+// Recognises the format by the first characters or by keys, and reads it.
 Result<RigFile> Read(std::string_view text, const std::string& file) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return Fail({}, "nothing in it");
+  // XML.
   if (text[first] == '<') {
     ASSIGN_OR_RETURN(auto cameras, ReadQualisysCalibration(text));
     return RigFile{std::move(cameras), "Qualisys", kYUpOfZUp, 0.001};
+    // OpenCV's YAML: a rig, or one camera.
   }
   if (text.starts_with("%YAML") || text.find("opencv-matrix") != std::string_view::npos) {
     ASSIGN_OR_RETURN(const Node root, ParseYaml(WithoutDirective(text), file));
@@ -244,6 +247,7 @@ Result<RigFile> Read(std::string_view text, const std::string& file) {
     }
     ASSIGN_OR_RETURN(const Camera camera, ReadOpenCvCamera(text));
     return RigFile{{{"camera", camera}}, "OpenCV's YAML"};
+    // TOML.
   }
   if (text[first] == '[' || text.find("\n[") != std::string_view::npos) {
     ASSIGN_OR_RETURN(auto cameras, ReadPose2SimCalibration(text));
@@ -257,7 +261,7 @@ Result<RigFile> Read(std::string_view text, const std::string& file) {
               "or Caliscope, XML of Qualisys; EasyMocap's, OpenCV's or COLMAP's pair of files");
 }
 
-/// The checks that all formats share.
+/// Applies the checks that all formats share.
 Result<RigFile> Checked(Result<RigFile> rig, const std::string& file) {
   if (!rig) {
     Error error = rig.error();
@@ -265,8 +269,7 @@ Result<RigFile> Checked(Result<RigFile> rig, const std::string& file) {
     return tl::unexpected(std::move(error));
   }
   const std::vector<NamedCamera>& cameras = rig->cameras;
-  if (cameras.size() > kMostCamerasRead)
-    return Fail({file}, "{} cameras; allowed: {}", cameras.size(), kMostCamerasRead);
+  if (cameras.size() > kMaxCameras) return Fail({file}, "{} cameras; allowed: {}", cameras.size(), kMaxCameras);
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (cameras[i].name == cameras[j].name) return Fail({file}, "two cameras of the name {}", cameras[i].name);
@@ -288,14 +291,14 @@ std::string WriteRig(std::span<const NamedCamera> cameras) {
 }
 
 Result<RigFile> ReadRigFile(std::string_view text, const std::string& file) {
-  if (text.size() > kLargestText) return Fail({file}, "{} bytes; allowed: {}", text.size(), kLargestText);
+  if (text.size() > kMaxBytes) return Fail({file}, "{} bytes; allowed: {}", text.size(), kMaxBytes);
   return Checked(Read(text, file), file);
 }
 
 Result<RigFile> ReadRigPair(std::string_view inside, std::string_view outside, const std::string& file) {
-  constexpr std::size_t kLargestPair = 64 * kLargestText;  // COLMAP lists points, too
-  if (inside.size() + outside.size() > kLargestPair) {
-    return Fail({file}, "{} bytes; allowed: {}", inside.size() + outside.size(), kLargestPair);
+  constexpr std::size_t kMaxPairBytes = 64 * kMaxBytes;  // COLMAP's files list points, too
+  if (inside.size() + outside.size() > kMaxPairBytes) {
+    return Fail({file}, "{} bytes; allowed: {}", inside.size() + outside.size(), kMaxPairBytes);
   }
   if (inside.find("opencv-matrix") == std::string_view::npos) return Checked(ReadColmap(inside, outside), file);
   const auto parse = [&](std::string_view text) { return ParseYaml(WithoutDirective(text), file); };

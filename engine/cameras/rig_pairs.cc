@@ -34,10 +34,10 @@ Result<std::vector<double>> MatrixAt(const Node& camera, std::string_view key, s
 
 namespace {
 
-/// Turns a world with Z up, or one that is a camera's frame, into ours.
+/// Rotates a world with Z up, or one that is a camera's frame, into ours.
 const glm::dmat3 kOursOfZUp(0, 0, 1, 1, 0, 0, 0, 1, 0);
 
-/// Moves the file's world into ours and makes the camera; without a size where the file tells none.
+/// Makes the camera in our world; its picture size is 0 x 0 if the file has none.
 Result<NamedCamera> CameraIn(const std::string& name, OpenCvParameters p, const glm::dmat3& R_WF, const Place& place) {
   p.R = p.R * glm::transpose(R_WF);
   const bool is_sizeless = p.width == 0 && p.height == 0;
@@ -103,7 +103,7 @@ struct ColmapLine {
   std::vector<std::string> words;
 };
 
-/// The lines that are no comments; empty ones, too, since images may see no points.
+/// Returns the lines that are not comments, including empty ones: an image may have no points.
 std::vector<ColmapLine> LinesOf(std::string_view text) {
   std::vector<ColmapLine> lines;
   for (int number = 1; !text.empty(); ++number) {
@@ -124,6 +124,7 @@ std::vector<ColmapLine> LinesOf(std::string_view text) {
   return lines;
 }
 
+// Parses the words of a line from `first` to before `last` as numbers.
 Result<std::vector<double>> NumbersFrom(const ColmapLine& line, std::size_t first, std::size_t last) {
   std::vector<double> numbers;
   for (std::size_t i = first; i < last; ++i) {
@@ -138,10 +139,11 @@ Result<std::vector<double>> NumbersFrom(const ColmapLine& line, std::size_t firs
   return numbers;
 }
 
-/// The place of each parameter of a model: f (both), x, y (focal lengths), u, v (principal point), then distortion.
+/// The order of a model's parameters: `focal` is "f" (one focal length) or "xy" (two); then the principal point u, v;
+/// then the distortion.
 struct ColmapModel {
   std::string_view focal;
-  std::vector<std::size_t> distortion;  ///< their places among OpenCV's
+  std::vector<std::size_t> distortion;  ///< indices in OpenCV's list
   bool is_fisheye = false;
 };
 
@@ -159,6 +161,7 @@ const std::map<std::string, ColmapModel, std::less<>>& ColmapModels() {
   return models;
 }
 
+// Reads one camera's line of cameras.txt.
 Result<OpenCvParameters> InsideOf(const ColmapLine& line) {
   const Place place{{}, line.number, 0};
   constexpr std::size_t kBefore = 4;
@@ -199,6 +202,7 @@ Result<RigFile> ReadColmap(std::string_view cameras, std::string_view images) {
     ASSIGN_OR_RETURN(inside[line.words.front()], InsideOf(line));
   }
   RigFile rig{.cameras = {}, .format = "COLMAP", .R_WF = kOursOfZUp, .has_unit = false};
+  // Each image has two lines; the second one lists its points.
   bool is_points = false;
   for (const ColmapLine& line : LinesOf(images)) {
     if (is_points || line.words.empty()) {

@@ -10,21 +10,21 @@
 
 namespace etude {
 
-/// Reads the numbers of a matrix that OpenCV wrote into YAML under `key`. Fails for what is none, and for other counts
-/// than rows × columns, where `rows` is not 0.
+/// Reads the numbers of a matrix that OpenCV wrote into YAML under `key`. Fails if it is not a matrix, and, unless
+/// `rows` is 0, if the count is not rows × columns.
 Result<std::vector<double>> MatrixAt(const Node& camera, std::string_view key, std::size_t rows, std::size_t columns);
 
-/// Reads EasyMocap's pair: `names`, `K_<name>`, `dist_<name>` (and `H_`, `W_`) inside; `Rot_<name>` or `R_<name>`,
-/// `T_<name>` outside. Its chessboard's world has Z up, in metres.
+/// Reads EasyMocap's pair: `names`, `K_<name>`, `dist_<name>` (and `H_`, `W_`) from the intrinsics; `Rot_<name>` or
+/// `R_<name>`, `T_<name>` from the extrinsics. The world is that of its chessboard, Z up, in metres.
 Result<RigFile> ReadEasyMocap(const Node& intrinsics, const Node& extrinsics);
 
-/// Reads OpenCV's stereo pair: M1, D1, M2, D2 inside; R, T, which lead from the first camera's frame to the second's,
-/// outside. The world is the first camera's frame; the cameras are "left" and "right". Rectified matrices are passed
-/// over: the films are not rectified.
+/// Reads OpenCV's stereo pair: M1, D1, M2, D2 from the intrinsics; R and T, which map from the first camera's frame to
+/// the second's, from the extrinsics. The world is the first camera's frame; the cameras are named "left" and "right".
+/// Rectification matrices are ignored because the films are not rectified.
 Result<RigFile> ReadOpenCvStereo(const Node& intrinsics, const Node& extrinsics);
 
-/// Reads COLMAP's text model: one image a camera, which gives it its name (without folders and ending). COLMAP's first
-/// pixel has its centre at (0.5, 0.5), as ours. Its lengths have no unit.
+/// Reads COLMAP's text model with one image for each camera; the image's name, without folder and extension, becomes
+/// the camera's. COLMAP's first pixel has its centre at (0.5, 0.5), as ours has. Its lengths have no unit.
 Result<RigFile> ReadColmap(std::string_view cameras, std::string_view images);
 
 }  // namespace etude

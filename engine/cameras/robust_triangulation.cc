@@ -18,7 +18,7 @@ std::optional<PointEquations> PointEquationsAt(std::span<const InformedSighting>
     if (!pixel) return std::nullopt;
     const auto& h = seen.sighting.matrix.h;
     const double depth = h[2][0] * p_WQ.x + h[2][1] * p_WQ.y + h[2][2] * p_WQ.z + h[2][3];
-    glm::dmat3x2 gains;  // of u and v, column by column for x, y, z
+    glm::dmat3x2 gains;  // derivatives of u and v by x, y, z (columns)
     for (int axis = 0; axis < 3; ++axis) {
       for (int k = 0; k < 2; ++k) gains[axis][k] = (h[k][axis] - (*pixel)[k] * h[2][axis]) / depth;
     }
@@ -48,7 +48,7 @@ std::optional<LikeliestPoint> TriangulateLikeliest(std::span<const InformedSight
 
 namespace {
 
-/// The distance, in pixels, of each view from the point that two others triangulate; infinity when it cannot show it.
+/// The distance of each view, in pixels, from the point that two views triangulate; infinity if it cannot show it.
 using DistanceOfView = std::vector<double>;
 
 struct Consensus {
@@ -75,7 +75,8 @@ Consensus ConsensusOf(const DistanceOfView& distances, double tolerance_px, std:
   return consensus;
 }
 
-// `distances_by(i, j)`: of all views from what the views i and j say, or nothing.
+// Returns the best consensus over all pairs. `distances_by(i, j)` returns the distances of all views from the point of
+// views i and j, or nullopt.
 template <typename DistancesBy>
 std::vector<std::size_t> LargestConsensus(std::size_t count, double tolerance_px, std::span<const double> weights,
                                           const DistancesBy& distances_by) {
@@ -156,6 +157,7 @@ std::vector<bool> AgreeingOf(std::span<const WeightedSighting> sightings, double
   return agrees;
 }
 
+// Returns the most likely position from the agreeing sightings.
 std::optional<glm::dvec3> PointOf(std::span<const WeightedSighting> sightings, const std::vector<bool>& agrees) {
   std::vector<InformedSighting> informed;
   for (std::size_t i = 0; i < sightings.size(); ++i) {
@@ -171,6 +173,7 @@ std::optional<RobustPoint> TriangulateRobustly(std::span<const WeightedSighting>
                                                const RobustOptions& options) {
   RobustPoint found{.agrees = AgreeingOf(sightings, options.outlier_px)};
   constexpr int kRounds = 3;
+  // Alternate between the position and the set of sightings within the threshold.
   for (int round = 0; round < kRounds; ++round) {
     const auto point = PointOf(sightings, found.agrees);
     if (!point) return std::nullopt;
@@ -183,6 +186,7 @@ std::optional<RobustPoint> TriangulateRobustly(std::span<const WeightedSighting>
     found.agrees = std::move(agrees);
   }
   if (std::ranges::count(found.agrees, true) < 2) return std::nullopt;
+  // Compute the residual over the agreeing sightings.
   double squares = 0, weights = 0;
   for (std::size_t i = 0; i < sightings.size(); ++i) {
     if (!found.agrees[i]) continue;

@@ -11,8 +11,8 @@
 namespace etude {
 namespace {
 
-// Rows whose smallest singular value is below this share of the largest meet too flatly: with pixels
-// off by one the point would be metres off. Two cameras 1° apart give about 10⁻².
+// Below this ratio of the smallest to the largest singular value, the rays meet at too small an angle: an error of one
+// pixel would move the point by metres. Two cameras 1° apart give about 10⁻².
 constexpr double kParallel = 1e-3;
 
 double ResidualPx(std::span<const Sighting> sightings, const glm::dvec3& p_WQ) {
@@ -25,14 +25,14 @@ double ResidualPx(std::span<const Sighting> sightings, const glm::dvec3& p_WQ) {
   return std::sqrt(squares / static_cast<double>(sightings.size()));
 }
 
-// In front of the camera, in units of its own; the same for all scales of H.
+// Returns the distance from the camera's plane in the unit of the world; it does not depend on the scale of H.
 double DepthOf(const ProjectionMatrix& matrix, const glm::dvec3& p_WQ) {
   const auto& h3 = matrix.h[2];
   const double scale = std::sqrt(h3[0] * h3[0] + h3[1] * h3[1] + h3[2] * h3[2]);
   return std::abs(h3[0] * p_WQ.x + h3[1] * p_WQ.y + h3[2] * p_WQ.z + h3[3]) / scale;
 }
 
-// Each sighting's two rows times its weight.
+// Solves the linear equations, with each sighting's two rows multiplied by its weight.
 TriangulatedPoint TriangulateWeighted(std::span<const Sighting> sightings, std::span<const double> weights) {
   TriangulatedPoint point;
   if (sightings.size() < 2) return point;
@@ -55,7 +55,7 @@ TriangulatedPoint TriangulateWeighted(std::span<const Sighting> sightings, std::
   if (!(svd.singularValues()[2] > kParallel * svd.singularValues()[0])) return point;
   const Eigen::Vector3d V = svd.solve(b);
   const glm::dvec3 p_WQ(V[0], V[1], V[2]);
-  // Behind a camera: no camera can have seen it there.
+  // A point behind a camera cannot have been seen by it.
   const double residual = ResidualPx(sightings, p_WQ);
   if (residual < 0) return point;
   return {PointStatus::kOk, p_WQ, residual};
@@ -98,7 +98,7 @@ TriangulatedPoint TriangulateByPixels(std::span<const Sighting> sightings) {
 
 namespace {
 
-/// The inverse of the matrix's left square: from pixels to directions in the world.
+/// Returns the inverse of the matrix's left 3 × 3 block, which maps pixels to directions in the world.
 glm::dmat3 DirectionsOf(const ProjectionMatrix& matrix) {
   const auto& h = matrix.h;
   return glm::inverse(

@@ -14,22 +14,22 @@ struct Sighting {
   glm::dvec2 pixel{0};
 };
 
-/// The line of sight of a pixel: all places that it can show.
+/// The line of sight of a pixel: all points that the pixel may show.
 struct SightLine {
   glm::dvec3 camera_W{0};     ///< the camera's centre, metres
   glm::dvec3 direction_W{0};  ///< unit, away from the camera
 };
 
-/// Returns the line of sight; nothing when the matrix has no centre (a camera at infinity) or a number is not finite.
+/// Returns the line of sight; nullopt if the matrix has no centre (a camera at infinity) or a number is not finite.
 std::optional<SightLine> SightLineOf(const Sighting& sighting);
 
-/// Returns the place on the line, in front of the camera, that is nearest to the point at `p_WQ`.
+/// Returns the point on the line, in front of the camera, that is nearest to the point at `p_WQ`.
 glm::dvec3 NearestOn(const SightLine& line, const glm::dvec3& p_WQ);
 
 enum class PointStatus {
   kOk,
   kTooFewViews,     ///< fewer than two sightings
-  kIllConditioned,  ///< the viewing rays are (nearly) parallel, or the sightings are not finite
+  kIllConditioned,  ///< the lines of sight are (nearly) parallel, or a sighting is not finite
 };
 
 struct TriangulatedPoint {
@@ -39,26 +39,26 @@ struct TriangulatedPoint {
 };
 
 /// Triangulates the point Q seen by two or more cameras (paper B, section 2.4): each sighting gives two linear
-/// equations, and p_WQ = V = (MᵀM)⁻¹ Mᵀb. The rows are divided by |h₃|, so that the arbitrary scale of an H does not
-/// weigh its camera. (The paper prints h₁₄ for h₂₄ in the v rows: misprint.)
+/// equations, and p_WQ = V = (MᵀM)⁻¹ Mᵀb. The rows are divided by |h₃| so that a camera's weight does not depend on the
+/// arbitrary scale of its H. (The paper prints h₁₄ for h₂₄ in the v rows, a misprint.)
 TriangulatedPoint Triangulate(std::span<const Sighting> sightings);
 
-/// Triangulates like `Triangulate`, with every row divided by the point's depth before its camera as well *(ours)*, so
-/// that distances in pixels are minimised: a camera far away sees a point less exactly, and weighs less (iterated
-/// linear least squares, Hartley and Sturm 1997, section 4.3; three rounds). Two equally far cameras give the point of
-/// `Triangulate`.
+/// Triangulates like `Triangulate`, but divides every row by the point's depth in its camera as well *(ours)*, so that
+/// distances in pixels are minimised: a distant camera measures the point less exactly and has less weight (iterated
+/// linear least squares, Hartley and Sturm 1997, section 4.3; three rounds). Two cameras at equal distances give the
+/// result of `Triangulate`.
 TriangulatedPoint TriangulateByPixels(std::span<const Sighting> sightings);
 
-/// The epipolar constraint of two cameras, which holds for a point at any depth: bᵀ F a = 0 for its pixels a in the
-/// first and b in the second picture.
+/// The epipolar constraint of two cameras: bᵀ F a = 0 for the pixels a in the first and b in the second picture of one
+/// point at any depth.
 class EpipolarGeometry {
  public:
-  /// Returns the geometry of two cameras; nothing when a matrix has no centre (a camera at infinity).
+  /// Returns the geometry of two cameras; nullopt if a matrix has no centre (a camera at infinity).
   static std::optional<EpipolarGeometry> Of(const ProjectionMatrix& first, const ProjectionMatrix& second);
 
   /// Returns by how many pixels two sightings must move to show one point, root mean square over the two pictures, to
-  /// first order (Sampson's distance; Hartley and Zisserman, section 11.4.3). No point need be triangulated. Its sign
-  /// tells on which side of the other's line each is.
+  /// first order (Sampson's distance; Hartley and Zisserman, section 11.4.3). No point needs to be triangulated. The
+  /// sign states on which side of the epipolar lines the pixels lie.
   double DistancePx(const glm::dvec2& first, const glm::dvec2& second) const;
 
  private:

@@ -17,22 +17,22 @@ namespace {
 
 using enum Landmark;
 
-constexpr double kLeastErrorPx = 0.1;
+constexpr double kMinErrorPx = 0.1;
 
-/// The median of the χ² distribution (Wilson and Hilferty).
+/// Returns the median of the χ² distribution (Wilson and Hilferty's approximation).
 double MedianOfChiSquare(double freedoms) {
   const double root = 1 - 2 / (9 * freedoms);
   return freedoms * root * root * root;
 }
 
-/// A joint where one picture shows it, if it does.
+/// A joint and its keypoint in one picture.
 struct SeenAt {
   Role role;
   Keypoint keypoint;
 };
 
-/// The place midway between two landmarks, as the picture shows it: where it would be seen, off by the mean of what
-/// both landmarks are. The middle of the two pixels is nearer to the camera's nearer one.
+/// Returns the midpoint of two landmarks as the picture shows it: the projection of the midpoint in space, shifted by
+/// the mean offset of both keypoints. The midpoint of the two pixels would lie closer to the nearer landmark.
 Keypoint MiddleOf(const ProjectionMatrix& camera, const SeenPerson& seen, const LandmarkPlaces& places, Landmark a,
                   Landmark b) {
   const glm::dvec3 &p = *places[Index(a)], &q = *places[Index(b)];
@@ -42,7 +42,7 @@ Keypoint MiddleOf(const ProjectionMatrix& camera, const SeenPerson& seen, const 
   return {*middle + off, std::min(seen[a].confidence, seen[b].confidence)};
 }
 
-/// The joints that landmarks show themselves, as `JointsOf` takes them.
+/// Returns the joints that the landmarks show directly, by the rules of `JointsOf`.
 std::vector<SeenAt> JointsIn(const ProjectionMatrix& camera, const SeenPerson& seen, const LandmarkPlaces& places) {
   constexpr std::array<std::pair<Landmark, Role>, 16> kSame = {{{kLeftShoulder, Role::kLeftShoulder},
                                                                 {kRightShoulder, Role::kRightShoulder},
@@ -71,7 +71,7 @@ std::vector<SeenAt> JointsIn(const ProjectionMatrix& camera, const SeenPerson& s
 
 using BoneLengths = std::array<double, kRoleCount>;
 
-/// The body of a person in smooth motion, as a bundle takes it.
+/// Sets up the bundle adjustment of a person's body and smooth motion.
 class Adjuster {
  public:
   Adjuster(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen, const AdjustPersonOptions& options,
@@ -88,7 +88,8 @@ class Adjuster {
     BundleSmoothness& smooth = bundle.smoothness.emplace();
     smooth.rate_hz = options_.rate_hz;
     smooth.acceleration = options_.acceleration;
-    // The angles of this body turn freely, over a full turn and through their singular places: its points tell enough.
+    // No acceleration penalty on angles: those of this body may pass through full turns and singular orientations, and
+    // the penalty on points is sufficient.
     smooth.angle_acceleration = std::numeric_limits<double>::infinity();
     smooth.points.resize(measurable_.points.size());
     smooth.accelerations.resize(measurable_.points.size());
@@ -104,7 +105,8 @@ class Adjuster {
   }
 
  private:
-  /// Poses of calmly moving points: from trembling ones the search takes many steps, and may end elsewhere.
+  /// Returns start poses fitted to smoothed points: from noisy ones the solver takes many steps and may reach another
+  /// minimum.
   std::vector<TreeState> SmoothStart() const {
     constexpr double kCalmHz = 3;
     std::vector<LandmarkPlaces> points = person_.landmarks;
@@ -117,7 +119,7 @@ class Adjuster {
     return start;
   }
 
-  /// The mean square of a joint's second differences over so many frames, along one axis; the largest few left out.
+  /// Returns the mean square of a joint's second differences at `lag` frames, along one axis, without the largest 5 %.
   std::optional<double> SquareOver(Role role, std::size_t lag) const {
     std::vector<double> squares;
     for (std::size_t k = lag; k + lag < joints_.size(); ++k) {
@@ -127,16 +129,17 @@ class Adjuster {
       const glm::dvec3 second = *before - 2.0 * *now + *after;
       squares.push_back(glm::dot(second, second) / 3);
     }
-    constexpr std::size_t kFewest = 10;
-    if (squares.size() < kFewest) return std::nullopt;
+    constexpr std::size_t kMinCount = 10;
+    if (squares.size() < kMinCount) return std::nullopt;
     std::ranges::sort(squares);
     squares.resize(squares.size() - squares.size() / 20);
     return std::accumulate(squares.begin(), squares.end(), 0.0) / static_cast<double>(squares.size());
   }
 
-  /// Noise adds as much to differences over one frame as over several, a motion's acceleration the fourth power.
+  /// Estimates the acceleration scale of a joint. Second differences at lag 1 and at a longer lag contain the same
+  /// noise, while the part of the acceleration grows with the fourth power of the lag.
   double AccelerationOf(Role role) const {
-    constexpr double kSeconds = 0.1, kBursts = 1.5;  // a motion's accelerations are not evenly large
+    constexpr double kSeconds = 0.1, kBursts = 1.5;  // 1.5: accelerations come in bursts
     const double lag = std::max(2.0, std::round(kSeconds * options_.rate_hz));
     const auto one = SquareOver(role, 1), several = SquareOver(role, static_cast<std::size_t>(lag));
     if (!one || !several) return options_.acceleration;
@@ -144,8 +147,8 @@ class Adjuster {
     return std::max(options_.acceleration, kBursts * std::sqrt(square) * options_.rate_hz * options_.rate_hz);
   }
 
-  /// Every bone is a length of its own, but for those beside a place that no landmark shows: the trunk's two share one,
-  /// as do both hips' and both shoulders'.
+  /// Makes the body with its adjustable lengths. Every bone has its own length, except beside joints that no landmark
+  /// shows: the two bones of the trunk share one length, as do both hips and both shoulders.
   bool MakeBody() {
     const KinematicTree& tree = person_.body.tree;
     measurable_.tree = tree;
@@ -156,6 +159,7 @@ class Adjuster {
       points_[Index(role)] = static_cast<int>(measurable_.points.size());
       measurable_.points.push_back({person_.body.roles[Index(role)].joint, person_.body.roles[Index(role)].p_LQ});
     }
+    // Lengthen one bone by a metre and take the change of all offsets as its derivative.
     for (const Bone& bone : AllBones()) {
       using enum Role;
       if (bone.child == kShoulderCentre || bone.child == kRightShoulder || bone.child == kRightHip) continue;
@@ -180,7 +184,8 @@ class Adjuster {
     if (child == kLeftShoulder || child == kLeftHip) bones[Index(Mirrored(child))] += metres;
   }
 
-  /// All offsets are linear in the lengths: what a metre of one adds is how the body that has it differs.
+  /// Adds the derivatives of all offsets by one length. Offsets are linear in the lengths, so these are the differences
+  /// to the body with that bone longer by a metre.
   void AddShares(const CaptureBody& longer) {
     const int length = static_cast<int>(bones_.size());
     for (std::size_t j = 0; j < measurable_.tree.joints.size(); ++j) {
@@ -195,7 +200,8 @@ class Adjuster {
     }
   }
 
-  /// No landmark shows how the trunk bends, so that a longer one that bends would explain errors.
+  /// Locks the spine's bending angles. No landmark shows how the trunk bends, so a longer trunk that bends would fit
+  /// the errors.
   void KeepTrunkStraight() {
     const TreeJoint& spine =
         measurable_.tree.joints[static_cast<std::size_t>(person_.body.roles[Index(Role::kShoulderCentre)].joint)];
@@ -204,6 +210,7 @@ class Adjuster {
     }
   }
 
+  // Adds a mark for each keypoint, and holds the joints that fewer than two cameras see.
   void AddMarks() {
     const double error = KeypointErrorPx(cameras_, seen_, options_.least_confidence, person_.outlier_px);
     std::vector<std::array<int, kRoleCount>> views(person_.states.size());
@@ -229,8 +236,9 @@ class Adjuster {
     if (options_.outlines != nullptr) AddOutlines(error);
   }
 
-  /// Joints by outlines are seen by every camera, as far off as they usually are from the keypoints' own. They err
-  /// alike in frames that follow each other, so that a second of them counts as one.
+  /// Adds marks for the joints of the motion from silhouettes, in every camera. Their standard deviation is the median
+  /// distance to the motion from keypoints, times the square root of the frame rate: errors of neighbouring frames are
+  /// correlated, so the marks of one second count as one.
   void AddOutlines(double least_px) {
     const auto alike = std::sqrt(std::max(1.0, options_.rate_hz));
     const std::size_t frames = std::min(person_.states.size(), options_.outlines->poses.size());
@@ -258,8 +266,8 @@ class Adjuster {
                       glm::dmat2(1 / (sigma_px * sigma_px))});
   }
 
-  /// Holds a joint that fewer than two cameras show about where the frame by itself had it: a tenth of the height, or
-  /// twice the error of the keypoints that it is always made of.
+  /// Adds marks that hold a joint seen by fewer than two cameras near the position of the single frame: the standard
+  /// deviation is a tenth of the height, or twice `error_px` if that is given.
   void HoldUnseen(std::size_t frame, Role role, const std::optional<double>& error_px) {
     constexpr double kShareOfHeight = 0.1, kComposed = 2;
     const BodyPose& pose = person_.motion.poses[frame];
@@ -272,6 +280,7 @@ class Adjuster {
     }
   }
 
+  // Writes the solution to the person; returns false if a length is not positive.
   bool Take(const BundleSolution& solution) {
     BoneLengths bones{};
     for (std::size_t i = 0; i < bones_.size(); ++i) AddTo(bones, bones_[i], solution.lengths[i]);
@@ -289,8 +298,8 @@ class Adjuster {
   RecoveredPerson& person_;
   MeasurableBody measurable_;
   std::array<int, kRoleCount> points_{};
-  std::vector<Role> bones_;          ///< of each length
-  std::vector<RoleVectors> joints_;  ///< of each frame, as landmarks tell them
+  std::vector<Role> bones_;          ///< the bone of each length
+  std::vector<RoleVectors> joints_;  ///< in each frame, from landmarks
   std::vector<BundleMark> marks_;
 };
 
@@ -298,7 +307,7 @@ class Adjuster {
 
 double KeypointErrorPx(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen, double least_confidence,
                        double outlier_px) {
-  std::vector<double> squares;  // each of which estimates the variance, in the median
+  std::vector<double> squares;  // each element is an estimate of the variance that is unbiased in the median
   const std::size_t frames = seen.seen.empty() ? 0 : seen.seen.front().size();
   for (std::size_t frame = 0; frame < frames; ++frame) {
     for (std::size_t i = 0; i < kLandmarkCount; ++i) {
@@ -314,8 +323,8 @@ double KeypointErrorPx(std::span<const ProjectionMatrix> cameras, const MatchedP
       squares.push_back(views * point->residual_px * point->residual_px / MedianOfChiSquare(2 * views - 3));
     }
   }
-  if (squares.empty()) return kLeastErrorPx;
-  return std::max(kLeastErrorPx, std::sqrt(UpperMedian(std::move(squares))));
+  if (squares.empty()) return kMinErrorPx;
+  return std::max(kMinErrorPx, std::sqrt(UpperMedian(std::move(squares))));
 }
 
 bool AdjustPerson(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen,

@@ -9,28 +9,28 @@ namespace etude {
 
 struct AdjustPersonOptions {
   double rate_hz = 30;
-  double least_confidence = 0.1;  ///< keypoints below are passed over
-  double acceleration = 8;        ///< the least usual one of a joint along each axis, m/s²
-  /// The motion that outlines tell in the same frames; null: none. Each joint of it counts for as much as it is usually
-  /// off the motion that keypoints alone tell.
+  double least_confidence = 0.1;  ///< keypoints of lower confidence are ignored
+  double acceleration = 8;        ///< lower bound of a joint's acceleration scale along each axis, m/s²
+  /// The motion recovered from silhouettes in the same frames; null: none. The weight of each of its joints follows
+  /// from its usual distance to the motion from keypoints alone.
   const BodyMotion* outlines = nullptr;
 };
 
-/// Estimates the standard deviation of a person's keypoints along u and v, pixels, from how far those of each landmark
-/// miss the point that they make: n views of a point have 2n − 3 degrees of freedom. At least a tenth of a pixel. What
-/// all cameras err alike, and along a line of two cameras' rays, is not seen by it.
+/// Estimates the standard deviation of a person's keypoints along u and v, pixels, from the residuals of their
+/// triangulation: a point seen in n views has 2n − 3 degrees of freedom. Returns at least a tenth of a pixel. The
+/// estimate does not contain errors that all cameras share, nor errors along the common epipolar line of two cameras.
 double KeypointErrorPx(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen, double least_confidence,
                        double outlier_px);
 
-/// Adjusts a recovered motion as a whole (`AdjustBundle`) *(ours)*: one body, the lengths of its bones and its poses in
-/// all frames, that explains the keypoints of all pictures at once, each as sure as its confidence and the error of all
-/// say, far ones mistrusted, in a motion of small accelerations: of each joint as large as its own over a tenth of a
-/// second, what the noise adds taken off. Where a landmark is seen by fewer than two cameras the joint stays about
-/// where the frame by itself had it, to a tenth of the person's height; joints that are made of landmarks beside them
-/// to a hundredth. The trunk is one length, and bends where that explains more than 3° of it. Returns whether it was
-/// solved; else `person` is as it was.
-/// @param cameras without their lenses, as are the pixels, in the world of `person`
-/// @param seen the keypoints that `person` was recovered from
+/// Adjusts a recovered motion as a whole (`AdjustBundle`) *(ours)*: one body (bone lengths) and its poses in all frames
+/// that explain the keypoints of all pictures at once. A keypoint's standard deviation follows from its confidence and
+/// `KeypointErrorPx`; the loss is robust. The motion is smooth: each joint's acceleration scale is its own over a tenth
+/// of a second, minus the part due to noise. A landmark that fewer than two cameras see keeps its joint near the
+/// position of the single frame, within a tenth of the person's height; a joint that is never seen itself but composed
+/// of other landmarks is kept within twice the keypoint error. The trunk has one length; the spine does not bend
+/// forward or sideways. Returns true if the problem was solved; otherwise `person` is unchanged.
+/// @param cameras of the rig without distortion, in the world of `person`; the pixels are undistorted, too
+/// @param seen the keypoints from which `person` was recovered
 bool AdjustPerson(std::span<const ProjectionMatrix> cameras, const MatchedPerson& seen,
                   const AdjustPersonOptions& options, RecoveredPerson& person);
 

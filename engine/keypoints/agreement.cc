@@ -18,7 +18,8 @@ MarkerAgreement Summed(std::string name, std::vector<double> distances_mm) {
   return {.name = std::move(name), .median_mm = at(0.5), .p95_mm = at(0.95), .frames = distances_mm.size()};
 }
 
-/// Distances of one marker of the reference to its namesake, millimetres; empty without one.
+/// Returns the distances of one marker of the reference to the marker of that name, millimetres; empty if there is
+/// none.
 std::vector<double> Distances(const MarkerMotion& motion, const MarkerMotion& reference, std::size_t marker) {
   std::vector<double> distances;
   const auto found = std::ranges::find(motion.names, reference.names[marker]);
@@ -32,7 +33,7 @@ std::vector<double> Distances(const MarkerMotion& motion, const MarkerMotion& re
   return distances;
 }
 
-/// Returns where a marker is at any time of its frames; nothing before, after, or beside a frame without it.
+/// Interpolates a marker at a fractional frame; nullopt outside the recording or beside a frame without the marker.
 std::optional<glm::dvec3> MarkerAt(const MarkerMotion& markers, double frame, std::size_t marker) {
   constexpr double kSameTime = 1e-9;
   if (frame < -kSameTime || frame > static_cast<double>(markers.frames.size() - 1) + kSameTime) return std::nullopt;
@@ -44,7 +45,7 @@ std::optional<glm::dvec3> MarkerAt(const MarkerMotion& markers, double frame, st
   return next ? std::optional(glm::mix(*here, *next, share)) : std::nullopt;
 }
 
-/// The markers that both motions name: their numbers in one and the other.
+/// Returns the indices, in both motions, of the markers that both name.
 std::vector<std::pair<std::size_t, std::size_t>> SharedMarkers(const MarkerMotion& a, const MarkerMotion& b) {
   std::vector<std::pair<std::size_t, std::size_t>> shared;
   for (std::size_t i = 0; i < a.names.size(); ++i) {
@@ -124,14 +125,15 @@ std::optional<ReferenceClock> MeasureClock(const MarkerMotion& motion, const Mar
   const auto shared = SharedMarkers(motion, reference);
   if (shared.empty() || motion.frames.empty() || reference.frames.empty()) return std::nullopt;
   const double middle = 0.5 * static_cast<double>(motion.frames.size());
-  const auto clock_of = [&](double shift, double turn) {  // `turn`: frames over half of the motion
+  const auto clock_of = [&](double shift, double turn) {  // `turn`: drift over half of the motion, frames
     const double stretch = turn / middle;
     return ReferenceClock{.at = shift - turn, .stretch = stretch};
   };
+  // The mean loss of a clock over at most 200 frames; nullopt if too few markers are shared.
   const auto loss_of = [&](const ReferenceClock& clock) -> std::optional<double> {
-    constexpr std::size_t kMostFrames = 200;  // more say it no better
+    constexpr std::size_t kMaxFrames = 200;  // more frames hardly change the loss
     constexpr double kFar = 0.03;
-    const std::size_t stride = std::max<std::size_t>(1, motion.frames.size() / kMostFrames);
+    const std::size_t stride = std::max<std::size_t>(1, motion.frames.size() / kMaxFrames);
     double sum = 0;
     std::size_t count = 0;
     for (std::size_t k = 0; k < motion.frames.size(); k += stride) {
@@ -145,13 +147,14 @@ std::optional<ReferenceClock> MeasureClock(const MarkerMotion& motion, const Mar
         ++count;
       }
     }
-    constexpr std::size_t kFewest = 30;
-    return count < kFewest ? std::nullopt : std::optional(sum / static_cast<double>(count));
+    constexpr std::size_t kMinCount = 30;
+    return count < kMinCount ? std::nullopt : std::optional(sum / static_cast<double>(count));
   };
   const auto before = loss_of({});
   if (!before) return std::nullopt;
   double shift = 0, turn = 0, least = *before;
-  const auto look_at = [&](double s, double t) {
+  // Keep the clock of the lowest loss so far.
+  const auto try_clock = [&](double s, double t) {
     const auto loss = loss_of(clock_of(s, t));
     if (!loss || !(*loss < least)) return false;
     shift = s;
@@ -159,13 +162,16 @@ std::optional<ReferenceClock> MeasureClock(const MarkerMotion& motion, const Mar
     least = *loss;
     return true;
   };
+  // Grid search.
   for (double t = -3; t <= 3; t += 1) {
-    for (double s = -2; s <= 2; s += 1) look_at(s, t);
+    for (double s = -2; s <= 2; s += 1) try_clock(s, t);
   }
+  // Local search along both axes with a shrinking step.
   constexpr double kFirstStep = 0.5, kLastStep = 0.002;
   for (double step = kFirstStep; step > kLastStep;) {
     const double s = shift, t = turn;
-    const bool is_better = look_at(s + step, t) || look_at(s - step, t) || look_at(s, t + step) || look_at(s, t - step);
+    const bool is_better =
+        try_clock(s + step, t) || try_clock(s - step, t) || try_clock(s, t + step) || try_clock(s, t - step);
     if (!is_better) step *= 0.5;
   }
   ReferenceClock clock = clock_of(shift, turn);

@@ -20,10 +20,10 @@ constexpr int kGains = 15;
 constexpr double kGainStep = 0.02;
 double GainAt(int i) { return 1 + kGainStep * (i - kGains / 2); }
 
-/// The costs of all gains.
+/// The costs at all gains.
 using Costs = std::array<double, kGains>;
 
-/// The gain of the least cost, between the two beside it by a parabola; nothing at an end.
+/// Returns the gain of minimal cost, refined by a parabola through its neighbours; nullopt at an end of the range.
 std::optional<double> GainOfLeast(const Costs& costs) {
   const auto at = static_cast<int>(std::ranges::min_element(costs) - costs.begin());
   if (at == 0 || at + 1 == kGains) return std::nullopt;
@@ -32,7 +32,8 @@ std::optional<double> GainOfLeast(const Costs& costs) {
   return GainAt(at) + (bend > 0 ? 0.5 * kGainStep * (before - after) / bend : 0);
 }
 
-/// The standard error of a gain by leaving out one part of the costs at a time; nothing where it reaches an end.
+/// Returns the jackknife standard error of the gain, leaving out one part of the costs at a time; nullopt if a gain is
+/// at an end of the range or there are fewer than four parts.
 std::optional<double> ErrorByParts(const Costs& whole, std::span<const Costs> parts) {
   std::vector<double> gains;
   for (const Costs& part : parts) {
@@ -43,8 +44,8 @@ std::optional<double> ErrorByParts(const Costs& whole, std::span<const Costs> pa
     if (!gain) return std::nullopt;
     gains.push_back(*gain);
   }
-  constexpr std::size_t kFewest = 4;
-  if (gains.size() < kFewest) return std::nullopt;
+  constexpr std::size_t kMinParts = 4;
+  if (gains.size() < kMinParts) return std::nullopt;
   double mean = 0, squares = 0;
   const auto count = static_cast<double>(gains.size());
   for (const double gain : gains) mean += gain / count;
@@ -52,14 +53,15 @@ std::optional<double> ErrorByParts(const Costs& whole, std::span<const Costs> pa
   return std::sqrt((count - 1) / count * squares);
 }
 
-/// A factor on the focal length of a film, or of all.
+/// A factor on the focal length of one film, or of all films (`film` is nullopt).
 struct FocalGain {
   std::optional<std::size_t> film;
   double gain = 1, error = 0;
   double cost = 0;
 };
 
-/// Shares of a square read as shares of the picture, as pixels of the picture; bars lie on both sides by that share.
+/// A reading of relative coordinates as those of a square that contains the picture. `padded` is the share of the
+/// square's padding that lies before the picture.
 struct SquareReading {
   double padded;
   const char* told;
@@ -67,22 +69,22 @@ struct SquareReading {
 constexpr std::array kSquares = {SquareReading{0.5, "a square about the picture"},
                                  SquareReading{0, "the picture's longer side"}};
 
-class Doubter {
+class RigChecker {
  public:
   using Read = std::function<glm::dvec2(std::size_t film, const glm::dvec2& pixel)>;
 
-  Doubter(std::span<const Camera> cameras, std::span<const std::string> names, const MatchedPerson& person,
-          double least_confidence)
+  RigChecker(std::span<const Camera> cameras, std::span<const std::string> names, const MatchedPerson& person,
+             double least_confidence)
       : cameras_(cameras), names_(names), person_(person), least_confidence_(least_confidence) {
-    constexpr std::size_t kMostFrames = 60;
+    constexpr std::size_t kMaxFrames = 60;
     const std::size_t frames = person.seen.empty() ? 0 : person.seen.front().size();
-    const std::size_t stride = std::max<std::size_t>(1, frames / kMostFrames);
+    const std::size_t stride = std::max<std::size_t>(1, frames / kMaxFrames);
     for (std::size_t frame = 0; frame < frames; frame += stride) frames_.push_back(frame);
   }
 
   std::vector<std::string> Run() {
     std::vector<std::string> told;
-    for (const auto& one : {DoubtReading(), DoubtFocalLengths()}) {
+    for (const auto& one : {CheckReading(), CheckFocalLengths()}) {
       if (one) told.push_back(*one);
     }
     return told;
@@ -94,7 +96,8 @@ class Doubter {
     return frame < seen.size() && seen[frame] ? &*seen[frame] : nullptr;
   }
 
-  /// Calls `take` with the place in frames_, the landmark and the distance of each two sightings of one landmark.
+  /// Calls `take` with the index in frames_, the landmark and the epipolar distance of each pair of sightings of one
+  /// landmark.
   void ForEachDistance(std::span<const double> gains, const Read& read,
                        const std::function<void(std::size_t, std::size_t, double)>& take) const {
     for (std::size_t a = 0; a < cameras_.size(); ++a) {
@@ -127,7 +130,7 @@ class Doubter {
     return distances.empty() ? 0 : UpperMedian(std::move(distances));
   }
 
-  static glm::dvec2 AsSaid(std::size_t, const glm::dvec2& pixel) { return pixel; }
+  static glm::dvec2 AsDeclared(std::size_t, const glm::dvec2& pixel) { return pixel; }
 
   std::vector<double> Gains(const std::optional<std::size_t>& film, double gain) const {
     std::vector<double> gains(cameras_.size(), film ? 1 : gain);
@@ -140,9 +143,10 @@ class Doubter {
     Costs whole{};
     std::array<Costs, kLandmarkCount> by_landmark{};
     std::array<Costs, kTimes> by_time{};
+    // Sum the loss at every gain, in all, by landmark and by tenth of the time.
     const double far = 9 * usual_px * usual_px;
     for (int i = 0; i < kGains; ++i) {
-      ForEachDistance(Gains(film, GainAt(i)), AsSaid, [&](std::size_t k, std::size_t landmark, double d) {
+      ForEachDistance(Gains(film, GainAt(i)), AsDeclared, [&](std::size_t k, std::size_t landmark, double d) {
         const double cost = d * d / (d * d + far);
         whole[i] += cost;
         by_landmark[landmark][i] += cost;
@@ -155,19 +159,21 @@ class Doubter {
     return FocalGain{film, *gain, std::max(*a, *b), *std::ranges::min_element(whole)};
   }
 
-  std::optional<std::string> DoubtFocalLengths() const {
-    constexpr double kNormal = 1.4826, kLeastUsualPx = 0.05;  // a median's share of a deviation
-    const double miss = MedianMiss(Gains({}, 1), AsSaid), usual_px = std::max(kLeastUsualPx, kNormal * miss);
+  std::optional<std::string> CheckFocalLengths() const {
+    constexpr double kNormal = 1.4826, kMinUsualPx = 0.05;  // standard deviation / median of |x|, normal distribution
+    const double miss = MedianMiss(Gains({}, 1), AsDeclared), usual_px = std::max(kMinUsualPx, kNormal * miss);
+    // Take the film, or all films, whose best gain has the lowest cost.
     std::optional<FocalGain> best = Estimate({}, usual_px);
-    constexpr std::size_t kMostFilms = 8;
-    for (std::size_t film = 0; film < std::min(kMostFilms, cameras_.size()); ++film) {
+    constexpr std::size_t kMaxFilms = 8;
+    for (std::size_t film = 0; film < std::min(kMaxFilms, cameras_.size()); ++film) {
       const auto one = Estimate(film, usual_px);
       if (one && (!best || one->cost < best->cost)) best = one;
     }
-    constexpr double kLeast = 0.02, kErrors = 4, kMost = 0.12;
+    // Warn only if the gain is plausible and significant.
+    constexpr double kMinChange = 0.02, kMinStandardErrors = 4, kMaxChange = 0.12;
     if (!best) return std::nullopt;
     const double off = std::abs(best->gain - 1);
-    if (off < kLeast || off > kMost || off < kErrors * best->error) return std::nullopt;
+    if (off < kMinChange || off > kMaxChange || off < kMinStandardErrors * best->error) return std::nullopt;
     std::string whose = best->film ? fmt::format("with a focal length {:.3f} ± {:.3f} times {}'s", best->gain,
                                                  best->error, names_[*best->film])
                                    : fmt::format("with focal lengths {:.3f} ± {:.3f} times those of all cameras",
@@ -176,16 +182,16 @@ class Doubter {
       whose += fmt::format(" (or {:.3f} times {}'s)", 1 / best->gain, names_[1 - *best->film]);
     }
     return fmt::format("{} rays would miss by {:.2f} px instead of {:.2f}{}", whose,
-                       MedianMiss(Gains(best->film, best->gain), AsSaid), miss,
+                       MedianMiss(Gains(best->film, best->gain), AsDeclared), miss,
                        best->film ? " (or the camera was moved)" : "");
   }
 
-  /// The median distance of the shoulders, as a share of a leg; 0 where they are not seen.
+  /// Returns the median shoulder width as a share of the leg's length; 0 if they are not seen.
   double ShouldersOfLegs(const Read& read) const {
     std::vector<double> shoulders, thighs, shanks;
     for (const std::size_t frame : frames_) {
       const auto add = [&](Landmark a, Landmark b, std::vector<double>& lengths) {
-        const auto p = PlaceOf(frame, a, read), q = PlaceOf(frame, b, read);
+        const auto p = PositionOf(frame, a, read), q = PositionOf(frame, b, read);
         if (p && q) lengths.push_back(glm::distance(*p, *q));
       };
       add(kLeftShoulder, kRightShoulder, shoulders);
@@ -198,7 +204,8 @@ class Doubter {
     return UpperMedian(std::move(shoulders)) / (UpperMedian(std::move(thighs)) + UpperMedian(std::move(shanks)));
   }
 
-  std::optional<glm::dvec3> PlaceOf(std::size_t frame, Landmark landmark, const Read& read) const {
+  // Triangulates a landmark in one frame; nullopt if that fails.
+  std::optional<glm::dvec3> PositionOf(std::size_t frame, Landmark landmark, const Read& read) const {
     std::vector<Sighting> sightings;
     for (std::size_t film = 0; film < cameras_.size(); ++film) {
       const SeenPerson* seen = Seen(film, frame);
@@ -209,16 +216,18 @@ class Doubter {
     return point.status == PointStatus::kOk ? std::optional(point.position) : std::nullopt;
   }
 
-  std::optional<std::string> DoubtReading() const {
+  std::optional<std::string> CheckReading() const {
     const Intrinsics& in = cameras_.front().intrinsics;
     constexpr double kUsual = 0.42, kClearly = 1.17, kSomewhat = 1.1, kClearlyLess = 0.9;
-    const double said = ShouldersOfLegs(AsSaid);
+    // The factor by which a ratio differs from the usual one.
+    const double said = ShouldersOfLegs(AsDeclared);
     const auto strange = [&](double share) { return share > kUsual ? share / kUsual : kUsual / share; };
     if (in.width == in.height || said == 0 || strange(said) < kSomewhat) return std::nullopt;
     const std::vector<double> as_they_are = Gains({}, 1);
-    const double miss = MedianMiss(as_they_are, AsSaid);
+    const double miss = MedianMiss(as_they_are, AsDeclared);
     double least = (strange(said) < kClearly ? kClearlyLess : 1) * miss;
     std::optional<std::string> told;
+    // Try the other readings; keep the one with the smallest distances.
     for (const SquareReading& square : kSquares) {
       const Read read = [&](std::size_t film, const glm::dvec2& p) {
         const Intrinsics& own = cameras_[film].intrinsics;
@@ -227,7 +236,7 @@ class Doubter {
         return p * side / size - square.padded * (side - size);
       };
       const double share = ShouldersOfLegs(read);
-      // The reading stretches one axis, and distances with it.
+      // The reading stretches one axis, and the distances with it.
       const auto [shorter, longer] = std::minmax(in.width, in.height);
       const double miss_read =
           MedianMiss(as_they_are, read) * static_cast<double>(shorter) / static_cast<double>(longer);
@@ -252,7 +261,7 @@ class Doubter {
 
 std::vector<std::string> DoubtRig(std::span<const Camera> cameras, std::span<const std::string> names,
                                   const MatchedPerson& person, double least_confidence) {
-  return Doubter(cameras, names, person, least_confidence).Run();
+  return RigChecker(cameras, names, person, least_confidence).Run();
 }
 
 }  // namespace etude

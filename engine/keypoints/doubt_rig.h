@@ -9,20 +9,21 @@
 
 namespace etude {
 
-/// Returns what a person's keypoints say against the rig or the way they were read, a sentence each *(ours)*; nothing
-/// is mended by it, for keypoints do not tell which is true.
+/// Returns warnings about the rig, or about how the keypoints were read, one sentence each *(ours)*. Nothing is
+/// corrected, because keypoints do not tell which of the two is wrong.
 ///
-/// **Focal lengths**, one film's or all alike: the factor, at most 12 % off, of the least Σ d² / (d² + 9 σ²), d the
-/// distances of keypoints from the other films' epipolar lines, σ what they usually are. It is told where it is 2 %
-/// off, and four of its own standard errors: the jackknife's, over kinds of landmarks or tenths of the time, whichever
-/// is more, so that what an estimator errs alike in all frames counts as error. Where all films are off alike the
-/// person merely has another size: at 2 px the error is 1 % with four cameras around, 4 % with two, which tell nothing
-/// then.
+/// **Focal lengths** of one film or of all: the factor, at most 12 % from 1, that minimises Σ d² / (d² + 9 σ²), where d
+/// are the distances of keypoints from the other films' epipolar lines and σ is their usual size. A warning is given if
+/// the factor is off by at least 2 % and by four of its standard errors. The standard error is the jackknife's, over
+/// landmarks or over tenths of the time, whichever is larger, so that an estimator's constant errors count as errors.
+/// If all focal lengths are wrong by the same factor, the person merely has another size: at 2 px the error of the
+/// factor is then 1 % with four cameras around, and 4 % with two, which give no warning.
 ///
-/// **Shares of a square**, read as shares of the picture: they show a squat or a lean person. Told where shoulders are
-/// more than 1.17 times too wide or too narrow for legs (.42 of a leg is usual), another reading makes them likelier
-/// and rays miss by less; or 1.1 times, and rays miss by a tenth less.
-/// @param cameras of the films, without their lenses, as are the pixels
+/// **Relative coordinates of a square** that were read as relative coordinates of the picture show a squat or a lean
+/// person. A warning is given if the ratio of shoulders to legs differs from the usual 0.42 by a factor of more than
+/// 1.17, and another reading brings it nearer and lowers the rays' distances; or by more than 1.1, if these fall by a
+/// tenth.
+/// @param cameras of the films, without distortion; the pixels are undistorted, too
 std::vector<std::string> DoubtRig(std::span<const Camera> cameras, std::span<const std::string> names,
                                   const MatchedPerson& person, double least_confidence);
 

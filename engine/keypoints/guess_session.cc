@@ -17,7 +17,7 @@
 namespace etude {
 namespace {
 
-/// A guess of how a picture was turned and mirrored, and whether its keypoints are the rig's own pixels.
+/// A hypothesis of how a picture was rotated and mirrored, and whether its keypoints are the rig's own pixels.
 struct Guess {
   int quarter_turns = 0;
   bool is_mirrored = false;
@@ -43,11 +43,13 @@ class Guesser {
  public:
   Guesser(std::span<const PictureOfFilm> films, double least_confidence)
       : films_(films), least_confidence_(least_confidence), geometry_(films.size()), guesses_(films.size()) {
+    // Sample at most forty frames.
     std::size_t frames = films.empty() ? 0 : films.front().people.size();
     for (const PictureOfFilm& film : films) frames = std::min(frames, film.people.size());
-    constexpr std::size_t kMostFrames = 40;
-    const std::size_t stride = std::max<std::size_t>(1, frames / kMostFrames);
+    constexpr std::size_t kMaxFrames = 40;
+    const std::size_t stride = std::max<std::size_t>(1, frames / kMaxFrames);
     for (std::size_t frame = 0; frame < frames; frame += stride) sampled_.push_back(frame);
+    // Compute the epipolar geometry of every pair of cameras.
     for (std::size_t a = 0; a < films.size(); ++a) {
       for (std::size_t b = 0; b < films.size(); ++b) {
         geometry_[a].push_back(a == b ? std::nullopt
@@ -69,7 +71,7 @@ class Guesser {
     return found;
   }
 
-  /// The mean over all pairs of films of that guess.
+  /// Returns the mean distance over all pairs of films if `guess` holds for all of them.
   double MissOfAll(const Guess& guess) {
     double total = 0;
     for (std::size_t a = 0; a < films_.size(); ++a) {
@@ -79,7 +81,7 @@ class Guesser {
   }
 
  private:
-  /// The people of the sampled frames in the rig's pixels, without the lens.
+  /// Returns the people of the sampled frames in the rig's pixels, undistorted.
   const SeenPeople& PeopleBy(std::size_t c, const Guess& guess) {
     const auto key = std::pair(c, guess);
     if (const auto known = people_.find(key); known != people_.end()) return known->second;
@@ -94,6 +96,8 @@ class Guesser {
     return people_[key] = UndistortPeople(films_[c].camera, std::move(people));
   }
 
+  // Returns the median epipolar distance of two people as a share of the height; nullopt if they share too few
+  // keypoints.
   std::optional<double> MisfitOf(const EpipolarGeometry& geometry, const SeenPerson& one,
                                  const SeenPerson& other) const {
     std::vector<double> distances;
@@ -102,12 +106,13 @@ class Guesser {
       if (p.confidence < least_confidence_ || q.confidence < least_confidence_) continue;
       distances.push_back(std::abs(geometry.DistancePx(p.pixel, q.pixel)));
     }
-    constexpr std::size_t kFewest = 5;
-    if (distances.size() < kFewest) return std::nullopt;
+    constexpr std::size_t kMinCount = 5;
+    if (distances.size() < kMinCount) return std::nullopt;
     return UpperMedian(std::move(distances)) / std::max(1.0, std::max(HeightPx(one), HeightPx(other)));
   }
 
-  /// The median over frames and people of who fits best.
+  /// Returns the median, over frames and people, of the smallest distance to any person and labelling in the other
+  /// film.
   double Miss(std::size_t a, const Guess& guess_a, std::size_t b, const Guess& guess_b) {
     const auto key = std::tuple(a, guess_a, b, guess_b);
     if (const auto known = misses_.find(key); known != misses_.end()) return known->second;
@@ -131,6 +136,7 @@ class Guesser {
     return misses_[key] = misses.empty() ? kNothing : UpperMedian(std::move(misses));
   }
 
+  // Returns the median distance of one film to all others under a hypothesis.
   double MissOf(std::size_t c, const Guess& guess) {
     std::vector<double> misses;
     for (std::size_t o = 0; o < films_.size(); ++o) {
@@ -139,6 +145,7 @@ class Guesser {
     return misses.empty() ? 0 : LowerPercentile(misses, 0.5);
   }
 
+  // Reads the keypoints of all films as the rig's own pixels if that reduces the distance.
   void ChooseStored() {
     bool is_fitted = false;
     for (const PictureOfFilm& film : films_) {
@@ -159,6 +166,7 @@ class Guesser {
     }
   }
 
+  // Corrects the film with the largest gain; returns false if there is none.
   bool TurnWorst() {
     constexpr double kOff = 0.003, kBetter = 0.5, kNearly = 1.5, kPercent = 100;
     struct Change {
@@ -166,6 +174,7 @@ class Guesser {
       std::size_t camera = 0;
       Guess guess;
     };
+    // Find the two best hypotheses over all films.
     std::optional<Change> best, second;
     for (std::size_t c = 0; c < films_.size(); ++c) {
       const double before = MissOf(c, guesses_[c]);
@@ -176,7 +185,7 @@ class Guesser {
           if (guess == guesses_[c]) continue;
           const Change change{MissOf(c, guess), before, c, guess};
           if (!(change.after < std::min(kNotAsSaid, kBetter * before))) continue;
-          // What is changed least is likelier of guesses that are alike.
+          // Among nearly equal hypotheses the first, with the smallest change, is preferred.
           if (!best || change.after < 0.999 * best->after) {
             second = best;
             best = change;
@@ -187,6 +196,7 @@ class Guesser {
       }
     }
     if (!best) return false;
+    // Apply the best one and explain it.
     guesses_[best->camera] = best->guess;
     const auto words = [](const Guess& guess) {
       std::string text = guess.is_mirrored ? "mirrored" : "";
@@ -229,16 +239,16 @@ namespace {
 
 using Films = std::vector<PictureOfFilm>;
 
-constexpr std::size_t kMostFilms = 8;  // of which pairs and single ones are tried
+constexpr std::size_t kMaxFilms = 8;  // above which exchanges are not tried
 
-/// A way from a file's pixel to a pixel of the film, whose size is given.
+/// A map from a file's pixel to a pixel of the film, whose size is given.
 struct Reading {
   std::string_view told;
   glm::dvec2 (*pixel)(const glm::dvec2& p, const glm::dvec2& size);
 };
 
-/// Corrects a pixel that was read as a share of the picture and is one of a square about it, which has the share
-/// `padded` of its bars before the picture.
+/// Converts a pixel that was read as relative to the picture but is relative to a square around it. `padded` is the
+/// share of the square's padding that lies before the picture.
 glm::dvec2 OfSquare(const glm::dvec2& p, const glm::dvec2& size, double padded) {
   const double side = std::max(size.x, size.y);
   return p * side / size - padded * (side - size);
@@ -256,7 +266,7 @@ constexpr std::array kReadings = {
     Reading{"keypoints are shares of the picture's longer side",
             [](const glm::dvec2& p, const glm::dvec2& size) { return OfSquare(p, size, 0); }}};
 
-/// Changes all that the rig's file says of where a camera is: p_C = R_CF p_F + t.
+/// Reinterprets the pose that the rig's file states for a camera: p_C = R_CF p_F + t.
 Camera WithPose(Camera camera, const glm::dmat3& R_WF, bool is_inverse, bool is_opengl) {
   glm::dmat3 R_CF = camera.R_CW * R_WF;
   glm::dvec3 t = -(camera.R_CW * camera.p_WC);
@@ -289,6 +299,7 @@ class SessionGuesser {
     SessionGuess found;
     const double said = MissOfPictures(films_, least_confidence_);
     constexpr double kOff = 0.001, kBetter = 0.5, kPercent = 100;
+    // Test all hypotheses and keep the best one that halves the distance.
     if (said > kOff) {
       least_ = kBetter * std::min(said, MissAsGuessed());
       TryPoses();
@@ -308,7 +319,7 @@ class SessionGuesser {
   }
 
  private:
-  /// Measures what is left where pictures are read as they alone would be guessed.
+  /// Returns the distance that remains if each film's pictures are corrected by `GuessPictures` alone.
   double MissAsGuessed() const {
     Films guessed = films_;
     const std::vector<PictureGuess> guesses = GuessPictures(films_, least_confidence_);
@@ -316,6 +327,7 @@ class SessionGuesser {
     return MissOfPictures(guessed, least_confidence_);
   }
 
+  // Keeps the films if they lower the distance.
   void Try(Films films, std::string told) {
     const double miss = MissOfPictures(films, least_confidence_);
     if (!(miss < least_)) return;
@@ -336,7 +348,7 @@ class SessionGuesser {
   }
 
   void TryExchanges() {
-    if (films_.size() > kMostFilms) return;
+    if (films_.size() > kMaxFilms) return;
     for (std::size_t a = 0; a < films_.size(); ++a) {
       for (std::size_t b = a + 1; b < films_.size(); ++b) {
         if (!AreAlike(films_[a], films_[b])) continue;

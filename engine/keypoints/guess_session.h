@@ -12,51 +12,51 @@
 
 namespace etude {
 
-/// One film's keypoints as their file has them, and how its pictures are said to have come of the rig's.
+/// One film's keypoints as in their file, and how its pictures are declared to derive from the rig's.
 struct PictureOfFilm {
   Camera camera;
-  PixelFit fit;           ///< as said
+  PixelFit fit;           ///< as declared
   glm::dvec2 film_px{0};  ///< the size of the film's pictures
   SeenPeople people;      ///< in the file's pixels
-  bool is_sized = false;  ///< the file names the size of the film's pictures: its pixels are theirs
+  bool is_sized = false;  ///< true if the file states the size of the film's pictures, so its pixels are the film's
 };
 
-/// The way in which the keypoints of a film are to be read.
+/// The map by which the keypoints of a film are to be read.
 struct PictureGuess {
   PixelFit fit;
-  std::string told;  ///< "" where it is as said
+  std::string told;  ///< explanation for people; "" if the map is as declared
 };
 
-/// Finds how keypoints lie in the rig's pictures *(ours)*: as said by `fit`, or, one camera after the other and each
-/// time the one that gains most, turned by quarters or mirrored, where that brings the keypoints to less than half of
-/// the distance from the other cameras' epipolar lines (median over frames, people that fit best and either labelling,
-/// as a share of the height), to less than 5 % of the height, and they were more than 0.3 % off (what errs by itself is
-/// never halved). Where pictures were fitted, keypoints of all films may be the rig's own pixels instead (an estimator
-/// that ran on the original pictures): whichever misses less, unless a file names the film's size. Of two cameras, and
-/// where a second guess is nearly as good, `told` says so.
+/// Finds how keypoints lie in the rig's pictures *(ours)*: as `fit` declares, or rotated by quarter turns or mirrored.
+/// Cameras are corrected one after the other, the largest gain first. A correction needs keypoints that were more than
+/// 0.3 % of the height off the other cameras' epipolar lines, and must reduce this distance to less than half and to
+/// less than 5 % of the height (median over frames, over the best-fitting people and labelling of sides). Random errors
+/// are never halved. If pictures were fitted, the keypoints of all films may instead be the rig's own pixels (the
+/// estimator ran on the original pictures): the reading with the smaller distance is taken, unless a file states the
+/// film's size. `told` says if a second guess is nearly as good, as with two cameras.
 std::vector<PictureGuess> GuessPictures(std::span<const PictureOfFilm> films, double least_confidence);
 
-/// Measures how far keypoints that are read as said lie from the other cameras' epipolar lines, as a share of the
-/// height: the mean over pairs of cameras of those medians. 1 where nothing can be said.
+/// Returns the distance of keypoints, read as declared, from the other cameras' epipolar lines, as a share of the
+/// height: the mean over pairs of cameras of the medians. 1 if it cannot be computed.
 double MissOfPictures(std::span<const PictureOfFilm> films, double least_confidence);
 
-/// Beyond this share of the height something is wrong, not only imprecise.
+/// A distance above this share of the height indicates a mistake, not only imprecision.
 constexpr double kNotAsSaid = 0.05;
 
-/// A mistake of a whole session that its keypoints show.
+/// The correction of a mistake that concerns a whole session.
 struct SessionGuess {
   std::vector<Camera> cameras;     ///< of the films
   std::vector<SeenPeople> people;  ///< of the films, in their pixels
-  std::string mended;              ///< what was done, "" where all is as said
+  std::string mended;              ///< description of the correction; "" if everything is as declared
 };
 
-/// Finds what is wrong with a whole session *(ours)*: the films of two cameras exchanged; a rig whose poses lead from
-/// the cameras to the world, whose cameras look along −z (OpenGL's), or both; keypoints of pictures of another size,
-/// counted from below, with x and y exchanged, all mirrored, or shares of a square about the picture or of its longer
-/// side. Of these the one with which keypoints are nearest to the other cameras' epipolar lines (`MissOfPictures`) is
-/// taken where that is less than half of what is left otherwise, pictures read as `GuessPictures` finds them, and less
-/// than 5 % of the height. Exchanges are looked for among at most eight films.
-/// @param R_WF from the axes of the rig's file to the cameras' world
+/// Finds a mistake that concerns a whole session *(ours)*: the films of two cameras exchanged; a rig whose poses map
+/// from the cameras to the world, whose cameras look along −z (OpenGL), or both; keypoints of pictures of another size,
+/// with v counted from below, with x and y exchanged, all mirrored, or relative to a square around the picture or to
+/// its longer side. The candidate with the smallest distance to epipolar lines (`MissOfPictures`) is taken if that is
+/// less than half of what remains otherwise, with pictures read as `GuessPictures` finds them, and less than 5 % of the
+/// height. Exchanges are tried among at most eight films.
+/// @param R_WF rotation from the axes of the rig's file to the cameras' world
 SessionGuess GuessSession(std::span<const PictureOfFilm> films, std::span<const std::string> names,
                           const glm::dmat3& R_WF, double least_confidence);
 

@@ -36,7 +36,7 @@ constexpr SideRoles kSideRoles[] = {{Role::kLeftShoulder, Role::kLeftElbow, Role
 constexpr double kHandOfForearm = 0.72;
 constexpr double kFootLength = 0.18;
 
-/// Returns the direction that the body faces: normal to the hips' line and the trunk, level.
+/// Returns the direction that the body faces: horizontal and perpendicular to the line between the hips.
 std::optional<glm::dvec3> FacingOf(const RoleVectors& joints) {
   const auto &left = joints[Index(Role::kLeftHip)], &right = joints[Index(Role::kRightHip)];
   if (!left || !right) return std::nullopt;
@@ -68,6 +68,7 @@ std::vector<LandmarkPlaces> TriangulatePerson(std::span<const ProjectionMatrix> 
   std::vector<double> residuals, used(cameras.size()), rejected(cameras.size());
   std::array<std::size_t, kLandmarkCount> found{};
   for (std::size_t frame = 0; frame < frames; ++frame) {
+    // Triangulate the landmark from the cameras that see it with enough confidence.
     for (std::size_t i = 0; i < kLandmarkCount; ++i) {
       std::vector<WeightedSighting> sightings;
       std::vector<std::size_t> by;
@@ -78,6 +79,7 @@ std::vector<LandmarkPlaces> TriangulatePerson(std::span<const ProjectionMatrix> 
         by.push_back(camera);
       }
       const auto point = TriangulateRobustly(sightings, options.robust);
+      // Count the point, and the outliers of each camera.
       if (!point) continue;
       places[frame][i] = point->position;
       residuals.push_back(point->residual_px);
@@ -88,6 +90,7 @@ std::vector<LandmarkPlaces> TriangulatePerson(std::span<const ProjectionMatrix> 
       }
     }
   }
+  // Summarise over all points.
   if (report != nullptr) {
     report->rejected.clear();
     for (std::size_t c = 0; c < cameras.size(); ++c)
@@ -117,7 +120,7 @@ void BridgePoints(std::span<LandmarkPlaces> frames, std::size_t longest_gap) {
 
 void SmoothPoints(std::span<LandmarkPlaces> frames, double rate_hz, double cutoff_hz) {
   if (!(cutoff_hz < rate_hz / 2)) return;
-  // exp(−2π²σ²f²) = 1/√2 at the cutoff.
+  // The standard deviation from exp(−2π²σ²f²) = 1/√2 at the cutoff.
   const double sigma = std::sqrt(std::log(2.0)) / (2 * kPi * cutoff_hz) * rate_hz;  // frames
   const auto reach = static_cast<std::ptrdiff_t>(std::ceil(3 * sigma));
   const std::vector<LandmarkPlaces> before(frames.begin(), frames.end());
@@ -127,7 +130,7 @@ void SmoothPoints(std::span<LandmarkPlaces> frames, double rate_hz, double cutof
       if (!before[static_cast<std::size_t>(frame)][i]) continue;
       glm::dvec3 sum(0);
       double weights = 0;
-      // As far to one side as to the other, so that the ends of a film do not lag.
+      // The window is symmetric so that the ends of a film are not shifted in time.
       const std::ptrdiff_t far = std::min({reach, frame, count - 1 - frame});
       for (std::ptrdiff_t k = -far; k <= far; ++k) {
         const auto& place = before[static_cast<std::size_t>(frame + k)][i];
@@ -151,6 +154,7 @@ RoleVectors JointsOf(const LandmarkPlaces& marks) {
   head = at(kHead);
   if (!head) head = Middle(at(kLeftEar), at(kRightEar));
   if (!head) head = at(kNose);
+  // Substitute a missing head and missing feet.
   const auto &hips = joints[Index(Role::kHipCentre)], &shoulders = joints[Index(Role::kShoulderCentre)];
   constexpr double kNeckOfTrunk = 0.5;
   if (!head && hips && shoulders) head = *shoulders + kNeckOfTrunk * (*shoulders - *hips);

@@ -14,7 +14,8 @@
 namespace etude {
 namespace {
 
-/// Returns the distance of the keypoints of two sightings by one camera, as a share of the person's height.
+/// Returns the median distance of the keypoints of two detections in one camera, as a share of the person's height;
+/// infinity if they share fewer than three.
 double StepBetween(const SeenPerson& a, const SeenPerson& b, double least_confidence) {
   std::vector<double> steps;
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
@@ -23,8 +24,8 @@ double StepBetween(const SeenPerson& a, const SeenPerson& b, double least_confid
       steps.push_back(glm::distance(p.pixel, q.pixel));
     }
   }
-  constexpr std::size_t kFewest = 3;
-  if (steps.size() < kFewest) return std::numeric_limits<double>::infinity();
+  constexpr std::size_t kMinCount = 3;
+  if (steps.size() < kMinCount) return std::numeric_limits<double>::infinity();
   return UpperMedian(std::move(steps)) / std::max(1.0, HeightPx(a));
 }
 
@@ -35,12 +36,14 @@ class Follower {
   std::vector<PersonTrack> Follow() {
     std::vector<PersonTrack> tracks;
     for (std::size_t frame = 0; frame < people_.size(); ++frame) {
+      // Extend the tracks by the nearest unambiguous candidates.
       std::vector<bool> taken(people_[frame].size()), extended(tracks.size());
       for (const auto& [step, track, person] : Candidates(tracks, frame)) {
         if (taken[person] || extended[track]) continue;
         tracks[track].entries[frame] = person;
         taken[person] = extended[track] = true;
       }
+      // Everybody else begins a track.
       for (std::size_t person = 0; person < taken.size(); ++person) {
         if (!taken[person]) tracks.push_back({{{frame, person}}});
       }
@@ -51,7 +54,7 @@ class Follower {
  private:
   using Candidate = std::tuple<double, std::size_t, std::size_t>;  ///< step, track, person
 
-  /// The nearest first; without those that have a rival nearly as near.
+  /// Returns the possible extensions by ascending step, without those that have a rival nearly as near.
   std::vector<Candidate> Candidates(const std::vector<PersonTrack>& tracks, std::size_t frame) const {
     std::vector<Candidate> all;
     for (std::size_t t = 0; t < tracks.size(); ++t) {
@@ -88,12 +91,13 @@ std::vector<PersonTrack> FollowPeople(const SeenPeople& people, const FollowOpti
 
 namespace {
 
-/// A person followed in one of the cameras.
+/// A person tracked in one of the cameras.
 struct Track : PersonTrack {
   std::size_t camera = 0;
 };
 
-/// Nearest point to two lines; nothing of parallel ones.
+/// Returns the midpoint of the shortest segment between two rays; nullopt if they are parallel or it lies behind a
+/// camera.
 std::optional<glm::dvec3> MiddleOf(const SightLine& a, const SightLine& b) {
   const double cosine = glm::dot(a.direction_W, b.direction_W);
   const double sine2 = 1 - cosine * cosine;
@@ -115,6 +119,7 @@ class Joiner {
   }
 
   std::vector<MatchedPerson> Join() {
+    // Compute the error of every pair of tracks in different cameras.
     std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
     for (std::size_t a = 0; a < tracks_.size(); ++a) {
       for (std::size_t b = a + 1; b < tracks_.size(); ++b) {
@@ -124,6 +129,7 @@ class Joiner {
         if (error < options_.largest_error) pairs.emplace_back(error, a, b);
       }
     }
+    // Join groups, the best pairs first.
     std::ranges::sort(pairs);
     for (const auto& [error, a, b] : pairs) {
       if (group_[a] != group_[b] && MayJoin(group_[a], group_[b])) Unite(group_[a], group_[b]);
@@ -132,8 +138,8 @@ class Joiner {
   }
 
  private:
-  /// Returns the error of two tracks in different cameras: the median over frames and keypoints, infinite when they
-  /// share too little.
+  /// Returns the error of two tracks in different cameras: the median over frames and keypoints, infinite if they share
+  /// too few.
   double ErrorOf(std::size_t a, std::size_t b) const {
     const Track &one = tracks_[a], &other = tracks_[b];
     if (one.camera == other.camera) return std::numeric_limits<double>::infinity();
@@ -145,8 +151,8 @@ class Joiner {
       const auto found = other.entries.find(frame);
       if (found != other.entries.end()) shared.push_back({frame, entry, found->second});
     }
-    constexpr std::size_t kMostFrames = 60;
-    const std::size_t stride = std::max<std::size_t>(1, shared.size() / kMostFrames);
+    constexpr std::size_t kMaxFrames = 60;
+    const std::size_t stride = std::max<std::size_t>(1, shared.size() / kMaxFrames);
     const auto error_of = [&](bool is_swapped) {
       std::vector<double> errors;
       for (std::size_t i = 0; i < shared.size(); i += stride) {
@@ -155,8 +161,8 @@ class Joiner {
         AddErrors(one.camera, is_swapped ? WithSidesSwapped(first) : first, other.camera,
                   people_[other.camera][at.frame][at.other], errors);
       }
-      constexpr std::size_t kFewest = 8;
-      return errors.size() < kFewest ? std::numeric_limits<double>::infinity() : UpperMedian(std::move(errors));
+      constexpr std::size_t kMinCount = 8;
+      return errors.size() < kMinCount ? std::numeric_limits<double>::infinity() : UpperMedian(std::move(errors));
     };
     const double error = error_of(false);
     if (!options_.may_be_swapped || !(error >= options_.largest_error)) return error;
@@ -174,15 +180,15 @@ class Joiner {
       const auto middle = line_a && line_b ? MiddleOf(*line_a, *line_b) : std::nullopt;
       const auto shown_a = middle ? Project(cameras_[camera_a], *middle) : std::nullopt;
       const auto shown_b = middle ? Project(cameras_[camera_b], *middle) : std::nullopt;
-      // Rays that meet nowhere in front are no match.
+      // Rays whose nearest points lie behind a camera do not match.
       errors.push_back(shown_a && shown_b
                            ? glm::distance(*shown_a, p.pixel) / height_a + glm::distance(*shown_b, q.pixel) / height_b
                            : std::numeric_limits<double>::max());
     }
   }
 
-  /// Returns whether two groups may be one person: no camera sees it twice at a time, and all pairs that can be
-  /// compared fit.
+  /// Returns true if two groups may be one person: no two tracks of one camera overlap in time, and the mean error of
+  /// the pairs that can be compared is below the limit.
   bool MayJoin(std::size_t g, std::size_t h) const {
     double sum = 0;
     std::size_t count = 0;
@@ -209,6 +215,7 @@ class Joiner {
 
   std::vector<MatchedPerson> Persons() const {
     std::vector<MatchedPerson> persons;
+    // Each group is one person; collect its detections and errors.
     for (std::size_t g = 0; g < tracks_.size(); ++g) {
       if (group_[g] != g) continue;
       MatchedPerson person;
@@ -240,7 +247,7 @@ class Joiner {
   const std::span<const SeenPeople> people_;
   const MatchOptions& options_;
   const std::vector<Track> tracks_;
-  std::vector<std::size_t> group_;  ///< of each track: the number of its first one
+  std::vector<std::size_t> group_;  ///< of each track: the index of the group's first track
   std::map<std::pair<std::size_t, std::size_t>, double> errors_;
 };
 
@@ -256,7 +263,7 @@ std::vector<MatchedPerson> MatchPeople(std::span<const ProjectionMatrix> cameras
     for (PersonTrack& track : FollowPeople(people[camera], options.follow))
       tracks.push_back({std::move(track), camera});
   }
-  // A glimpse says nothing over time. In a very short film everything is one.
+  // A track of a few frames cannot be compared over time. In a very short film, half of the frames are enough.
   const std::size_t shortest = std::min<std::size_t>(5, (people.front().size() + 1) / 2);
   std::erase_if(tracks, [&](const Track& track) { return track.entries.size() < shortest; });
   return Joiner(cameras, people, options, std::move(tracks)).Join();

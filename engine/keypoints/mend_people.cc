@@ -27,7 +27,7 @@ using enum Landmark;
 
 constexpr std::size_t kGroups = 2;  // arms, legs
 
-/// The pairs of a group, left and right.
+/// Returns the left and right landmarks of a group.
 const std::vector<std::pair<Landmark, Landmark>>& PairsOf(std::size_t group) {
   static const std::array<std::vector<std::pair<Landmark, Landmark>>, kGroups> pairs = {
       {{{kLeftEye, kRightEye},
@@ -78,8 +78,8 @@ class Mender {
     FindPersonAgain();
     scale_px_ = ScalePx();
     for (std::size_t group = 0; group < kGroups; ++group) SwapBack(group);
-    for (std::size_t group = 0; group < kGroups; ++group) Face(group);
-    TellSwaps();
+    for (std::size_t group = 0; group < kGroups; ++group) ResolveFacing(group);
+    ReportSwaps();
     return std::move(mends_);
   }
 
@@ -89,8 +89,8 @@ class Mender {
     return std::abs(geometry_[a][b]->DistancePx(p.pixel, q.pixel));
   }
 
-  /// The median distance of a person in camera `c` from the person in camera `o`, as a share of the height; of the
-  /// better labelling. Nothing where they share too little.
+  /// Returns the median epipolar distance of a person in camera `c` to the person in camera `o`, as a share of the
+  /// height, for the better labelling of sides. Returns nullopt if they share too few keypoints.
   std::optional<double> MisfitOf(std::size_t c, const SeenPerson& one, std::size_t o, const SeenPerson& other) const {
     std::optional<double> least;
     for (const bool is_swapped : {false, true}) {
@@ -99,15 +99,15 @@ class Mender {
       for (std::size_t i = 0; i < kLandmarkCount; ++i) {
         if (const auto px = DistancePx(c, labelled.keypoints[i], o, other.keypoints[i])) distances.push_back(*px);
       }
-      constexpr std::size_t kFewest = 5;
-      if (distances.size() < kFewest) continue;
+      constexpr std::size_t kMinCount = 5;
+      if (distances.size() < kMinCount) continue;
       const double misfit = UpperMedian(std::move(distances)) / std::max(1.0, HeightPx(one));
       if (!least || misfit < *least) least = misfit;
     }
     return least;
   }
 
-  /// The median over the other cameras.
+  /// Returns the median misfit over the other cameras.
   std::optional<double> MisfitOf(std::size_t c, std::size_t frame, const SeenPerson& one) const {
     std::vector<double> misfits;
     for (std::size_t o = 0; o < cameras_.size(); ++o) {
@@ -123,7 +123,7 @@ class Mender {
     constexpr double kOff = 0.05, kBetter = 1.0 / 3;
     for (std::size_t frame = 0; frame < frames_; ++frame) {
       for (std::size_t round = 0; round < cameras_.size(); ++round) {
-        // The worst camera first: what it shows spoils the others' figures, too.
+        // Take the worst camera first: its keypoints also raise the misfit of the others.
         std::optional<std::size_t> worst;
         double most = kOff;
         std::size_t seeing = 0;
@@ -134,6 +134,7 @@ class Mender {
           ++seeing;
           const auto misfit = MisfitOf(c, frame, *person_.seen[c][frame]);
           if (!misfit || *misfit <= kOff) continue;
+          // Look for a person in the same picture that fits much better.
           for (const SeenPerson& candidate : people_[c][frame]) {
             const auto other = MisfitOf(c, frame, candidate);
             if (other && *other < kBetter * *misfit && (!has_better || *misfit > most)) {
@@ -149,10 +150,12 @@ class Mender {
           }
         }
         if (!worst || (!has_better && seeing < 3)) break;
+        // Replace the keypoints, or remove them if three cameras or more see the person.
         person_.seen[*worst][frame] = has_better ? instead : std::nullopt;
         (has_better ? found : nobody)[*worst].frames.push_back(frame);
       }
     }
+    // Report the corrections by camera.
     for (std::size_t c = 0; c < cameras_.size(); ++c) {
       for (auto* list : {&found, &nobody}) {
         Mend& mend = (*list)[c];
@@ -165,7 +168,7 @@ class Mender {
     }
   }
 
-  /// Returns twice the robust standard deviation of the epipolar distances, of the better labelling of every pair.
+  /// Returns twice the robust standard deviation of the epipolar distances, for the better labelling of each pair.
   double ScalePx() const {
     std::vector<double> distances;
     for (std::size_t frame = 0; frame < frames_; ++frame) {
@@ -186,13 +189,13 @@ class Mender {
         }
       }
     }
-    constexpr double kLeastPx = 0.7;
-    return distances.empty() ? kLeastPx : std::max(kLeastPx, 2 * 1.4826 * UpperMedian(std::move(distances)));
+    constexpr double kMinPx = 0.7;
+    return distances.empty() ? kMinPx : std::max(kMinPx, 2 * 1.4826 * UpperMedian(std::move(distances)));
   }
 
   double Loss(double px) const { return px * px / (px * px + scale_px_ * scale_px_); }
 
-  /// Returns what it costs in a frame to leave a group as it is, and to swap it.
+  /// Returns the costs in one frame of keeping a group's labels and of swapping them.
   std::array<double, 2> CostsOf(std::size_t group, std::size_t c, std::size_t frame) const {
     std::array<double, 2> costs{};
     const auto& one = person_.seen[c][frame];
@@ -210,16 +213,19 @@ class Mender {
     return costs;
   }
 
+  /// A sequence of labellings of one camera over time.
   struct Course {
     std::vector<bool> is_swapped;
-    double gain = 0;  ///< over leaving everything as it is
+    double gain = 0;  ///< reduction of the cost against keeping all labels
   };
 
+  // Finds the labelling of minimal cost over time (Viterbi).
   Course CourseOf(std::size_t group, std::size_t c) const {
     constexpr double kChange = 1.5;
-    std::vector<std::array<bool, 2>> from(frames_);  // whether the best way into a state came from the swapped one
+    std::vector<std::array<bool, 2>> from(frames_);  // true: the best path into the state comes from the swapped one
     std::array<double, 2> total{};
     double as_it_is = 0;
+    // Forward pass: the lowest cost of each of the two states.
     for (std::size_t frame = 0; frame < frames_; ++frame) {
       const auto costs = CostsOf(group, c, frame);
       as_it_is += costs[0];
@@ -231,6 +237,7 @@ class Mender {
       }
       total = next;
     }
+    // Backward pass: read the path.
     Course course{std::vector<bool>(frames_), as_it_is - std::min(total[0], total[1])};
     bool state = total[1] < total[0];
     for (std::size_t frame = frames_; frame-- > 0;) {
@@ -246,8 +253,9 @@ class Mender {
     flips_[group][c][frame] = !flips_[group][c][frame];
   }
 
+  // Swaps the sides of the camera with the largest gain, and repeats.
   void SwapBack(std::size_t group) {
-    constexpr double kLeastGain = 1.5;
+    constexpr double kMinGain = 1.5;
     for (std::size_t round = 0; round < 3 * cameras_.size(); ++round) {
       Course best;
       std::size_t camera = 0;
@@ -258,14 +266,15 @@ class Mender {
           camera = c;
         }
       }
-      if (!(best.gain > kLeastGain)) return;
+      if (!(best.gain > kMinGain)) return;
       for (std::size_t frame = 0; frame < frames_; ++frame) {
         if (best.is_swapped[frame]) Flip(group, camera, frame);
       }
     }
   }
 
-  std::optional<glm::dvec3> PlaceOf(std::size_t frame, Landmark landmark) const {
+  // Triangulates a landmark in one frame; nullopt if that fails.
+  std::optional<glm::dvec3> PositionOf(std::size_t frame, Landmark landmark) const {
     std::vector<Sighting> sightings;
     for (std::size_t c = 0; c < cameras_.size(); ++c) {
       const auto& seen = person_.seen[c][frame];
@@ -278,26 +287,27 @@ class Mender {
   }
 
   std::optional<glm::dvec3> MiddleOf(std::size_t frame, Landmark a, Landmark b) const {
-    const auto p = PlaceOf(frame, a), q = PlaceOf(frame, b);
+    const auto p = PositionOf(frame, a), q = PositionOf(frame, b);
     return p && q ? std::optional(0.5 * (*p + *q)) : std::nullopt;
   }
 
-  /// Which way the body looks, of what has no side or takes both: nothing where that is not seen.
+  /// Returns the facing direction from landmarks without a side, or from midpoints of both sides; nullopt if they are
+  /// not seen.
   std::optional<glm::dvec3> ForwardOf(std::size_t frame) const {
     auto from = MiddleOf(frame, kLeftHeel, kRightHeel), to = MiddleOf(frame, kLeftBigToe, kRightBigToe);
     if (!from) from = MiddleOf(frame, kLeftAnkle, kRightAnkle);
     if (!from || !to) {
       from = MiddleOf(frame, kLeftEar, kRightEar);
-      to = PlaceOf(frame, kNose);
+      to = PositionOf(frame, kNose);
     }
     return from && to ? std::optional(*to - *from) : std::nullopt;
   }
 
-  /// Above 0 where left is on the left; nothing where it is not seen or says little.
+  /// Returns a value above 0 if left is on the body's left; nullopt if it is not seen or ambiguous.
   std::optional<double> Chirality(std::size_t group, std::size_t frame) const {
     const auto hips = MiddleOf(frame, kLeftHip, kRightHip), shoulders = MiddleOf(frame, kLeftShoulder, kRightShoulder);
-    const auto left = PlaceOf(frame, group == 0 ? kLeftShoulder : kLeftHip);
-    const auto right = PlaceOf(frame, group == 0 ? kRightShoulder : kRightHip);
+    const auto left = PositionOf(frame, group == 0 ? kLeftShoulder : kLeftHip);
+    const auto right = PositionOf(frame, group == 0 ? kRightShoulder : kRightHip);
     const auto forward = ForwardOf(frame);
     if (!hips || !shoulders || !left || !right || !forward) return std::nullopt;
     const glm::dvec3 facing = glm::cross(*left - *right, *shoulders - *hips);
@@ -310,10 +320,12 @@ class Mender {
     return std::ranges::any_of(flips_[group], [&](const std::vector<bool>& camera) { return camera[frame]; });
   }
 
-  /// Tells which of the cameras was wrong where sides were swapped back, by whether they lie as a body's do.
-  void Face(std::size_t group) {
+  /// Finds which camera was wrong where sides were swapped: if the body then faces backwards, the swap is reversed in
+  /// all cameras.
+  void ResolveFacing(std::size_t group) {
     std::vector<std::optional<double>> sides;
     for (std::size_t frame = 0; frame < frames_; ++frame) sides.push_back(Chirality(group, frame));
+    // True if at least `share` of the frames with a facing direction have left and right exchanged.
     const auto is_wrong = [&](std::size_t first, std::size_t last, double share) {
       std::size_t wrong = 0, told = 0;
       for (std::size_t frame = first; frame < last; ++frame) {
@@ -328,7 +340,8 @@ class Mender {
         for (std::size_t c = 0; c < cameras_.size(); ++c) Flip(group, c, frame);
       }
     };
-    constexpr double kNearlyAll = 0.9, kMost = 0.6;
+    // Swap the whole take if nearly all frames are wrong; otherwise test each run of swapped frames.
+    constexpr double kNearlyAll = 0.9, kMajority = 0.6;
     if (frames_ > 0 && is_wrong(0, frames_, kNearlyAll)) return flip_all(0, frames_);
     for (std::size_t first = 0; first < frames_;) {
       if (!HasFlip(group, first)) {
@@ -337,12 +350,13 @@ class Mender {
       }
       std::size_t last = first;
       while (last < frames_ && HasFlip(group, last)) ++last;
-      if (is_wrong(first, last, kMost)) flip_all(first, last);
+      if (is_wrong(first, last, kMajority)) flip_all(first, last);
       first = last;
     }
   }
 
-  void TellSwaps() {
+  // Reports the swapped frames by camera: both groups, arms only, legs only.
+  void ReportSwaps() {
     for (std::size_t c = 0; c < cameras_.size(); ++c) {
       Mend both{Mend::Kind::kSwappedSides, c, {}}, arms{Mend::Kind::kSwappedArms, c, {}},
           legs{Mend::Kind::kSwappedLegs, c, {}};

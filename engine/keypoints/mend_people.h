@@ -9,38 +9,39 @@
 
 namespace etude {
 
-/// Returns the landmark of the other side; one that has no side is its own.
+/// Returns the landmark on the other side; a landmark without a side is returned unchanged.
 Landmark OtherSide(Landmark landmark);
 /// Returns the person with left and right exchanged.
 SeenPerson WithSidesSwapped(const SeenPerson& person);
 
-/// A mistake in a person's keypoints in one camera that was mended.
+/// A corrected mistake in a person's keypoints in one camera.
 struct Mend {
   enum class Kind {
-    kSwappedSides,  ///< left and right exchanged, of the whole body
-    kSwappedArms,   ///< … of face, shoulders and arms only
-    kSwappedLegs,   ///< … of hips, legs and feet only
-    kOtherPerson,   ///< somebody else's keypoints; the person's own were found
-    kNobody,        ///< somebody else's keypoints; the person's own are not there, and the frame is left out
+    kSwappedSides,  ///< left and right exchanged on the whole body
+    kSwappedArms,   ///< … on face, shoulders and arms only
+    kSwappedLegs,   ///< … on hips, legs and feet only
+    kOtherPerson,   ///< another person's keypoints; replaced by the person's own
+    kNobody,        ///< another person's keypoints; the person's own are missing, and the frame is left out
   };
   Kind kind = Kind::kSwappedSides;
   std::size_t camera = 0;
   std::vector<std::size_t> frames;  ///< ascending
 };
 
-/// Mends a person whom two cameras or more saw *(ours)*. First identity: where a camera's keypoints lie off the
-/// epipolar lines of the others', by 5 % of the height and three times more than another person's of that picture do,
-/// that one is taken, and nobody where a third camera contradicts and nobody fits. Then sides: of each camera, for arms
-/// and legs by themselves, both labellings are held against the other cameras' keypoints (Geman–McClure's loss of the
-/// epipolar distance, its scale twice the residuals' own), and over time the cheaper course is taken (Viterbi, a change
-/// costs 1.5); the camera that gains most is mended first. Of two cameras only facing tells which one was wrong: toes
-/// are before heels or ankles, the nose before the ears. Where a body is the wrong way round in every camera for nine
-/// tenths of the frames, all are swapped.
+/// Corrects the keypoints of a person seen by two cameras or more *(ours)*. Identity first: if a camera's keypoints lie
+/// more than 5 % of the height off the other cameras' epipolar lines, and those of another person in that picture less
+/// than a third of that, the other person's are taken; if nobody fits and at least three cameras see the person, the
+/// frame is left out. Sides second: for each camera, arms and legs separately, both labellings are compared with the
+/// other cameras' keypoints (Geman–McClure's loss of the epipolar distance, with a scale of twice the residuals'
+/// standard deviation), and the cheapest sequence of labellings is taken (Viterbi; a change costs 1.5). The camera with
+/// the largest gain comes first. With two cameras only the facing direction tells which one was wrong: toes are in
+/// front of heels or ankles, the nose in front of the ears. If the body faces the wrong way in nine tenths of the
+/// frames, sides are swapped in all cameras.
 std::vector<Mend> MendPerson(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                              double least_confidence, MatchedPerson& person);
 
-/// Returns a limit for outliers, pixels, from the residuals' own distribution: eight times their robust standard
-/// deviation (1.48 · median), at least `least_px`, at most `most_px`.
+/// Returns an outlier threshold in pixels from the distribution of the residuals: eight times their robust standard
+/// deviation (1.48 · median), at least `least_px` and at most `most_px`.
 double OutlierLimit(std::span<const ProjectionMatrix> cameras, const MatchedPerson& person, double least_confidence,
                     double least_px, double most_px);
 

@@ -16,7 +16,7 @@ constexpr std::array<std::string_view, kLandmarkCount> kNames = {
     "RWrist",    "LHip",  "RHip",    "LKnee",     "RKnee", "LAnkle",    "RAnkle",    "Neck",   "Head",   "LBigToe",
     "LSmallToe", "LHeel", "RBigToe", "RSmallToe", "RHeel", "MidHip",    "LHand",     "RHand"};
 
-/// The landmarks of a list of their names, apart by blanks; "-" is none.
+/// Parses a list of landmark names, separated by blanks; "-" stands for no landmark.
 std::vector<Landmark> Listed(std::string_view names) {
   std::vector<Landmark> landmarks;
   while (!names.empty()) {
@@ -88,11 +88,14 @@ const KeypointLayout* FindKeypointLayout(std::string_view name) {
 Landmark LandmarkOfName(std::string_view name) {
   std::string bare;
   for (const char c : name) {
+    // Drop separators and case.
     if (c >= 'a' && c <= 'z') bare += c;
     if (c >= 'A' && c <= 'Z') bare += static_cast<char>(c - 'A' + 'a');
   }
+  // Names that differ from ours by more than the word for the side.
   if (bare == "midhip" || bare == "hip" || bare == "pelvis" || bare == "root") return Landmark::kMidHip;
   if (bare == "headtop" || bare == "tophead") return Landmark::kHead;
+  // Write the side as one letter in front.
   for (const std::string_view side : {"left", "right"}) {
     if (bare.starts_with(side)) bare = std::string(side.substr(0, 1)) + std::string(bare.substr(side.size()));
     if (bare.ends_with(side))
@@ -121,7 +124,7 @@ double HeightPx(const SeenPerson& person) {
 
 namespace {
 
-/// The landmark at a joint that strokes begin or end at, or a disc marks.
+/// Returns the landmark at a joint where strokes end or a disc lies; nullopt for other joints.
 std::optional<Landmark> LandmarkAt(Role role) {
   constexpr std::pair<Role, Landmark> kSame[] = {
       {Role::kLeftShoulder, Landmark::kLeftShoulder}, {Role::kRightShoulder, Landmark::kRightShoulder},
@@ -159,7 +162,7 @@ SeenPerson PersonOf(const Marks& marks) {
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
     if (counts[i] > 0) person.keypoints[i] = {sums[i] / static_cast<double>(counts[i]), 1};
   }
-  // A disc says where the end is better than its stroke.
+  // A disc is more accurate than the end of the stroke.
   for (std::size_t i = 0; i < kEffectorCount; ++i) {
     const auto landmark = LandmarkAt(EffectorMarks()[i].role);
     if (marks.effectors[i] && landmark) person[*landmark] = {*marks.effectors[i], 1};

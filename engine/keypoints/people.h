@@ -13,7 +13,7 @@ namespace etude {
 
 struct Marks;
 
-/// Places of a body that estimators of keypoints know, and the finger tips that marks tell. Left is the person's own.
+/// The body landmarks that keypoint estimators detect, and the finger tips that marks show. Left is the person's own.
 enum class Landmark {
   kNose,
   kLeftEye,
@@ -43,14 +43,14 @@ enum class Landmark {
   kMidHip,
   kLeftHand,
   kRightHand,
-  kNoLandmark,  ///< in layouts: a point that nothing here needs
+  kNoLandmark,  ///< in layouts: a point that is not used
 };
 
 constexpr std::size_t kLandmarkCount = 28;
 
 constexpr std::size_t Index(Landmark landmark) { return static_cast<std::size_t>(landmark); }
 
-/// Returns the name that OpenPose and Pose2Sim use: "RHip", "LBigToe", …
+/// Returns the landmark's name in OpenPose and Pose2Sim: "RHip", "LBigToe", …
 std::string_view LandmarkName(Landmark landmark);
 std::optional<Landmark> FindLandmark(std::string_view name);
 
@@ -58,22 +58,22 @@ std::optional<Landmark> FindLandmark(std::string_view name);
 struct KeypointLayout {
   std::string name;
   std::vector<Landmark> landmarks;
-  std::size_t more = 0;  ///< points of face and hands that follow, and are passed over
+  std::size_t more = 0;  ///< number of further points, of face and hands, that are ignored
 };
 
 /// Returns all layouts: "coco" (17 points), "coco_18" (OpenPose's), "body_25" and "body_25b" (25 each, in different
-/// orders; OpenPose), "halpe_26", "mediapipe" (33), "coco_wholebody" (133), "halpe_136"; "halpe_26_hands" (ours):
-/// halpe_26 and the finger tips, which are all landmarks, as `etude export` writes marks.
+/// orders; OpenPose), "halpe_26", "mediapipe" (33), "coco_wholebody" (133), "halpe_136", and "halpe_26_hands" (ours):
+/// halpe_26 with the finger tips, which contains every landmark; `etude export` writes marks in it.
 std::span<const KeypointLayout> KeypointLayouts();
 std::vector<std::string> KeypointLayoutNames();
-/// Finds a layout by its name; null when there is none.
+/// Finds a layout by its name; returns null if there is none.
 const KeypointLayout* FindKeypointLayout(std::string_view name);
 
-/// Finds the landmark that estimators give one of these names, whatever its case and breaks: "left_shoulder",
-/// "LShoulder", "Left Big Toe", "mid_hip"; kNoLandmark for other names.
+/// Finds the landmark of an estimator's name for it, ignoring case and separators: "left_shoulder", "LShoulder", "Left
+/// Big Toe", "mid_hip". Returns kNoLandmark for other names.
 Landmark LandmarkOfName(std::string_view name);
 
-/// The pixel at which a picture shows a landmark, and the estimator's confidence: 0 = not seen, 1 = sure.
+/// The pixel of a landmark in a picture, and the estimator's confidence: 0 = not seen, 1 = certain.
 struct Keypoint {
   glm::dvec2 pixel{0};
   double confidence = 0;
@@ -87,14 +87,14 @@ struct SeenPerson {
   const Keypoint& operator[](Landmark landmark) const { return keypoints[Index(landmark)]; }
 };
 
-/// Everybody in each frame of one camera, in no order.
+/// All people in each frame of one camera, in no particular order.
 using SeenPeople = std::vector<std::vector<SeenPerson>>;
 
-/// Returns the height of the box around all keypoints that were seen, pixels; 0 when none was.
+/// Returns the height of the box around all keypoints that were seen, pixels; 0 if none was.
 double HeightPx(const SeenPerson& person);
 
-/// Makes keypoints of the marks of one picture (paper B, section 4.2): joints are the ends of strokes, their mean where
-/// strokes meet; tips are the discs. What is marked has confidence 1.
+/// Makes keypoints from the marks of one picture (paper B, section 4.2): a joint is the end of a stroke, or the mean of
+/// the ends where several strokes meet; a tip is its disc's centre. Marked landmarks have confidence 1.
 SeenPerson PersonOf(const Marks& marks);
 
 }  // namespace etude

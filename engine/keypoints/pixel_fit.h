@@ -9,13 +9,13 @@
 
 namespace etude {
 
-/// The map from the rig's pixels to a film's: scale · rig + shift, each axis by itself; then mirrored, then turned.
+/// The map from the rig's pixels to a film's: scale · rig + shift on each axis, then the mirroring, then the rotation.
 struct PixelFit {
   glm::dvec2 scale{1};
   glm::dvec2 shift{0};
   int quarter_turns = 0;     ///< clockwise, 0 to 3
-  bool is_mirrored = false;  ///< left and right, before it is turned
-  glm::dvec2 size{0};        ///< of the film's picture before it is turned; of one that is turned or mirrored
+  bool is_mirrored = false;  ///< left and right exchanged, before the rotation
+  glm::dvec2 size{0};        ///< of the film's picture before the rotation; set if it is rotated or mirrored
 
   glm::dvec2 ToFilm(const glm::dvec2& rig) const;
   glm::dvec2 ToRig(const glm::dvec2& film) const;
@@ -23,18 +23,18 @@ struct PixelFit {
   friend bool operator==(const PixelFit&, const PixelFit&) = default;
 };
 
-/// The way pictures of one size were made from those of another.
+/// The way in which pictures of one size were made from pictures of another.
 enum class FitMode {
-  kNone,       ///< "none": not at all; other sizes are refused
-  kLetterbox,  ///< "letterbox": scaled alike in both axes until they fit in, bars of equal size added
-  kStretch,    ///< "stretch": scaled in each axis by itself
-  kCrop,       ///< "crop": cut off alike on opposite sides, or bars added; not scaled
+  kNone,       ///< "none": unchanged; other sizes are refused
+  kLetterbox,  ///< "letterbox": scaled equally on both axes until they fit, with bars of equal size
+  kStretch,    ///< "stretch": scaled on each axis separately
+  kCrop,       ///< "crop": cropped equally on opposite sides, or padded with bars; not scaled
 };
 
 std::optional<FitMode> FindFitMode(std::string_view name);
 
-/// Computes the map from the rig's pixels to the film's. Fails when sizes differ and `mode` is kNone, and for sizes of
-/// nothing.
+/// Computes the map from the rig's pixels to the film's. Fails if the sizes differ and `mode` is kNone, and if a size
+/// is not positive.
 Result<PixelFit> FitPictures(FitMode mode, const glm::dvec2& rig, const glm::dvec2& film);
 
 }  // namespace etude

@@ -19,11 +19,11 @@ using enum Landmark;
 struct LengthUnit {
   std::string_view name;
   double metres;
-  double least_stature_m;  ///< rarer units must give an adult
+  double min_stature_m;  ///< rare units must give an adult
 };
-constexpr double kLeastStature = 0.5, kMostStature = 2.2, kAdult = 1.2;
-constexpr std::array kUnits = {LengthUnit{"m", 1, kLeastStature}, LengthUnit{"cm", 0.01, kLeastStature},
-                               LengthUnit{"mm", 0.001, kLeastStature}, LengthUnit{"inch", 0.0254, kAdult},
+constexpr double kMinStature = 0.5, kMaxStature = 2.2, kAdult = 1.2;
+constexpr std::array kUnits = {LengthUnit{"m", 1, kMinStature}, LengthUnit{"cm", 0.01, kMinStature},
+                               LengthUnit{"mm", 0.001, kMinStature}, LengthUnit{"inch", 0.0254, kAdult},
                                LengthUnit{"foot", 0.3048, kAdult}};
 
 struct FileAxis {
@@ -60,7 +60,7 @@ std::string UnitText(double metres) {
   return fmt::format("units of {:g} m", metres);
 }
 
-/// Returns the least rotation that takes `up` to our y.
+/// Returns the smallest rotation that maps `up` to our y axis.
 glm::dmat3 Upright(const glm::dvec3& up) {
   const glm::dvec3 y(0, 1, 0);
   const glm::dvec3 axis = glm::cross(up, y);
@@ -74,7 +74,7 @@ double AngleBetween(const glm::dvec3& a, const glm::dvec3& b) {
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-/// Returns the name of the camera whose frame is the file's world, "" when there is none.
+/// Returns the name of the camera whose frame is the file's world; "" if there is none.
 std::string CameraOfTheWorld(const RigFile& rig) {
   for (const NamedCamera& named : rig.cameras) {
     const glm::dmat3 R_CF = named.camera.R_CW * rig.R_WF;
@@ -86,7 +86,7 @@ std::string CameraOfTheWorld(const RigFile& rig) {
   return {};
 }
 
-/// The median leg, hip to knee to ankle, in the rig's lengths, times two. Nothing when no frame shows one.
+/// Returns twice the median leg (hip to knee to ankle) in the rig's lengths; nullopt if no frame shows one.
 std::optional<double> StatureOf(std::span<const LandmarkPlaces> points) {
   std::vector<double> thighs, shanks;
   for (const LandmarkPlaces& at : points) {
@@ -102,7 +102,7 @@ std::optional<double> StatureOf(std::span<const LandmarkPlaces> points) {
   return kStatureOfLeg * (UpperMedian(thighs) + UpperMedian(shanks));
 }
 
-/// The mean direction from the ankles to the shoulders.
+/// Returns the mean direction from the ankles to the shoulders.
 std::optional<glm::dvec3> PersonsUp(std::span<const LandmarkPlaces> points) {
   glm::dvec3 sum(0);
   for (const LandmarkPlaces& at : points) {
@@ -115,21 +115,21 @@ std::optional<glm::dvec3> PersonsUp(std::span<const LandmarkPlaces> points) {
   return sum / length;
 }
 
-/// The floor as resting feet tell it.
+/// The floor as estimated from resting feet.
 struct FeetPlane {
   glm::dvec3 up;
-  double accuracy = 0;  ///< radians, one standard deviation in the worse direction
+  double accuracy = 0;  ///< standard deviation in the worse direction, radians
   double height = 0;    ///< of the floor along `up`
 };
 
-/// The soles lie this far below each landmark of a foot, metres.
+/// The landmarks of a foot, and the height of each above the sole, metres.
 constexpr std::array<std::pair<std::array<Landmark, 2>, double>, 4> kFeet = {{{{kLeftAnkle, kRightAnkle}, 0.08},
                                                                               {{kLeftHeel, kRightHeel}, 0.03},
                                                                               {{kLeftBigToe, kRightBigToe}, 0.02},
                                                                               {{kLeftSmallToe, kRightSmallToe}, 0.02}}};
 
-/// Places of a foot's landmark while it rests low: slower than a fifth of the stature a second, and within a twentieth
-/// of it of the lowest tenth along `up`.
+/// Returns the positions of a foot landmark while it rests on the floor: its speed is below a fifth of the stature per
+/// second, and its height within a twentieth of the stature of the lowest tenth along `up`.
 std::vector<glm::dvec3> Resting(std::span<const LandmarkPlaces> points, const std::array<Landmark, 2>& kind,
                                 const glm::dvec3& up, double rate_hz, double stature) {
   std::vector<glm::dvec3> slow;
@@ -148,17 +148,19 @@ std::vector<glm::dvec3> Resting(std::span<const LandmarkPlaces> points, const st
   return slow;
 }
 
-/// Improves `person_up` by the feet: the direction n of least Σ (n · q)² / σ² + |n − person|² / 0.1², q the places of
-/// one kind of landmark about their mean, no more than twenty of each counted, and the means of the kinds, above the
-/// soles, about theirs; σ is 0.6 % of the stature.
+/// Refines `person_up` by the feet: finds the direction n that minimises Σ (n · q)² / σ² + |n − person_up|² / 0.1². The
+/// q are the positions of one kind of landmark relative to their mean (their total weight is limited to that of
+/// twenty), and the means of the kinds, corrected for their height above the sole, relative to the mean of the means. σ
+/// is 0.6 % of the stature.
 FeetPlane PlaneOfFeet(std::span<const LandmarkPlaces> points, const glm::dvec3& person_up, double rate_hz,
                       double stature) {
-  constexpr double kPersonLeans = 0.1, kMostCounted = 20;
+  constexpr double kPersonLeans = 0.1, kMaxCounted = 20;
   const double sigma = 0.006 * stature;
   const double metre = stature / 1.7;
   FeetPlane plane{person_up, kPersonLeans};
   constexpr int kRounds = 3;
   for (int round = 0; round < kRounds; ++round) {
+    // Normal equations for a small tilt in the tangent plane of `up`, with the prior.
     const glm::dvec3 side = glm::normalize(std::abs(plane.up.x) < 0.6 ? glm::cross(plane.up, glm::dvec3(1, 0, 0))
                                                                       : glm::cross(plane.up, glm::dvec3(0, 1, 0)));
     const glm::dmat2x3 tangent(side, glm::cross(plane.up, side));
@@ -167,12 +169,13 @@ FeetPlane PlaneOfFeet(std::span<const LandmarkPlaces> points, const glm::dvec3& 
     glm::dvec2 right = glm::transpose(tangent) * lean / (kPersonLeans * kPersonLeans);
     std::vector<double> floors;
     std::vector<std::pair<glm::dvec3, double>> means;  // of each kind, and how far it is above the sole
+    // Add the positions of each kind of landmark.
     for (const auto& [kind, above] : kFeet) {
       const auto resting = Resting(points, kind, plane.up, rate_hz, stature);
       if (resting.empty()) continue;
       glm::dvec3 mean(0);
       for (const glm::dvec3& p : resting) mean += p / static_cast<double>(resting.size());
-      const double weight = std::min(1.0, kMostCounted / static_cast<double>(resting.size())) / (sigma * sigma);
+      const double weight = std::min(1.0, kMaxCounted / static_cast<double>(resting.size())) / (sigma * sigma);
       for (const glm::dvec3& p : resting) {
         const glm::dvec2 q = glm::transpose(tangent) * (p - mean);
         information += weight * glm::outerProduct(q, q);
@@ -181,6 +184,7 @@ FeetPlane PlaneOfFeet(std::span<const LandmarkPlaces> points, const glm::dvec3& 
       floors.push_back(glm::dot(plane.up, mean) - above * metre);
       means.emplace_back(mean, above * metre);
     }
+    // Add the means of the kinds.
     glm::dvec3 middle(0);
     double middle_above = 0;
     for (const auto& [mean, above] : means) {
@@ -192,6 +196,7 @@ FeetPlane PlaneOfFeet(std::span<const LandmarkPlaces> points, const glm::dvec3& 
       information += glm::outerProduct(q, q) / (sigma * sigma);
       right -= (glm::dot(plane.up, mean - middle) - (above - middle_above)) / (sigma * sigma) * q;
     }
+    // Tilt `up` by the solution; the smaller eigenvalue gives the accuracy.
     plane.up = glm::normalize(plane.up + tangent * (glm::inverse(information) * right));
     const double half = 0.5 * (information[0][0] + information[1][1]);
     const double least = half - std::sqrt(std::max(0.0, half * half - glm::determinant(information)));
@@ -201,15 +206,15 @@ FeetPlane PlaneOfFeet(std::span<const LandmarkPlaces> points, const glm::dvec3& 
   return plane;
 }
 
-/// The unit that makes it a person; the format's own first.
+/// Returns the unit that gives an adult's stature, or else a plausible one; null if there is none.
 const LengthUnit* LikelyUnit(double file_units) {
   for (const LengthUnit& unit : kUnits) {
     const double stature = unit.metres * file_units;
-    if (stature >= kAdult && stature <= kMostStature) return &unit;
+    if (stature >= kAdult && stature <= kMaxStature) return &unit;
   }
   for (const LengthUnit& unit : kUnits) {
     const double stature = unit.metres * file_units;
-    if (stature >= unit.least_stature_m && stature <= kMostStature) return &unit;
+    if (stature >= unit.min_stature_m && stature <= kMaxStature) return &unit;
   }
   return nullptr;
 }
@@ -218,13 +223,14 @@ constexpr double kUsualStature = 1.7;
 
 Result<double> UnitOf(const RigFile& rig, double file_units, const PlaceOptions& options, std::string& told) {
   const double factor = kUsualStature / file_units;
+  // A requested unit must give a plausible stature.
   if (options.unit != "auto") {
     const double metres = *MetresOf(options.unit);
     const double stature = metres * file_units;
-    if (stature < kLeastStature || stature > kMostStature) {
+    if (stature < kMinStature || stature > kMaxStature) {
       return Fail(
           {}, "in {} the person would be {:.3g} m tall; allowed: {:g} to {:g} m; for one of {:g} m: --rig-unit {:.4g}",
-          UnitText(metres), stature, kLeastStature, kMostStature, kUsualStature, factor);
+          UnitText(metres), stature, kMinStature, kMaxStature, kUsualStature, factor);
     }
     told = fmt::format("lengths in {} (as you say: a person of {:.2f} m)", UnitText(metres), stature);
     return metres;
@@ -233,11 +239,13 @@ Result<double> UnitOf(const RigFile& rig, double file_units, const PlaceOptions&
     return Fail({}, "{}'s lengths have no unit; tell one by --rig-unit: for a person of {:g} m it is {:.4g} m",
                 rig.format, kUsualStature, factor);
   }
+  // Keep the format's unit if it gives a plausible stature.
   const double usual = rig.unit_m * file_units;
-  if (usual >= kLeastStature && usual <= kMostStature) {
+  if (usual >= kMinStature && usual <= kMaxStature) {
     told = fmt::format("lengths in {} (a person of {:.2f} m)", UnitText(rig.unit_m), usual);
     return rig.unit_m;
   }
+  // Otherwise look for another unit.
   const LengthUnit* likely = LikelyUnit(file_units);
   if (likely == nullptr) {
     return Fail({},
@@ -252,7 +260,7 @@ Result<double> UnitOf(const RigFile& rig, double file_units, const PlaceOptions&
 
 double Degrees(double radians) { return radians * 180 / kPi; }
 
-/// Takes the up axis, in the cameras' world, and whether the feet told it.
+/// Returns the up axis in the cameras' world, and true if the feet determined it.
 Result<std::pair<glm::dvec3, bool>> UpOf(const RigFile& rig, const glm::dvec3& person, const FeetPlane& plane,
                                          const PlaceOptions& options, std::string& told) {
   const glm::dvec3 usual(0, 1, 0);
@@ -263,6 +271,7 @@ Result<std::pair<glm::dvec3, bool>> UpOf(const RigFile& rig, const glm::dvec3& p
     }
     return std::string("y");
   };
+  // A requested axis must not put the person upside down.
   if (options.up != "auto" && options.up != "floor") {
     const glm::dvec3 up = rig.R_WF * AxisOf(options.up)->direction;
     const double off = Degrees(AngleBetween(up, person));
@@ -277,7 +286,8 @@ Result<std::pair<glm::dvec3, bool>> UpOf(const RigFile& rig, const glm::dvec3& p
   const double off = Degrees(AngleBetween(usual, person));
   const double tilt = Degrees(AngleBetween(usual, plane.up)), accuracy = Degrees(plane.accuracy);
   constexpr double kTold = 3, kTilted = 8, kSure = 3;
-  // Caliscope's axes are some board's; where a format has its own, feet on a beam are no reason to tilt the world.
+  // Caliscope's axes are those of a calibration board. For formats that define an up axis, feet that are not level (on
+  // a beam) are no reason to tilt the world.
   const bool is_level = rig.format != "Caliscope" || tilt < std::max(kSure * accuracy, kTilted);
   if (options.up == "auto" && camera.empty() && rig.has_unit && off < kFar && is_level) {
     told = fmt::format("up is {} (the person leans {:.0f}° from it)", usual_name(), off);
@@ -288,6 +298,7 @@ Result<std::pair<glm::dvec3, bool>> UpOf(const RigFile& rig, const glm::dvec3& p
     }
     return std::pair(usual, false);
   }
+  // Prefer an axis of the file that is close to the normal of the feet's plane.
   if (camera.empty() && options.up == "auto") {
     for (const FileAxis& axis : kAxes) {
       const glm::dvec3 up = rig.R_WF * axis.direction;
@@ -331,6 +342,7 @@ Result<RigPlace> PlaceRig(const RigFile& rig, std::span<const LandmarkPlaces> po
   if (!stature || !person)
     return Fail({}, "no frame shows hips, knees, ankles and shoulders: nothing tells the rig's unit and up");
   RigPlace place;
+  // Unit, then up axis.
   std::string unit_told, up_told;
   ASSIGN_OR_RETURN(const double unit, UnitOf(rig, *stature / rig.unit_m, options, unit_told));
   const FeetPlane plane = PlaneOfFeet(points, *person, rate_hz, *stature);
@@ -338,13 +350,14 @@ Result<RigPlace> PlaceRig(const RigFile& rig, std::span<const LandmarkPlaces> po
   place.scale = unit == rig.unit_m ? 1 : unit / rig.unit_m;
   place.R = Upright(up.first);
   place.stature_m = place.scale * *stature;
+  // The floor.
   std::string floor_told = ", the floor as the file has it";
   const bool at_feet = options.floor == "feet" || (options.floor == "auto" && up.second);
   if (const auto height = WholeNumber(options.floor)) {
     place.shift.y = -*height;
     floor_told = fmt::format(", the floor at {:g} m of it", *height);
   } else if (at_feet) {
-    // Along the axis that was taken, which need not be the feet's own.
+    // Along the chosen axis, which may differ from the normal of the feet's plane.
     const FeetPlane level = PlaneOfFeet(points, up.first, rate_hz, *stature);
     place.shift.y = -place.scale * level.height;
     floor_told = ", the floor under the feet";

@@ -13,52 +13,52 @@
 
 namespace etude {
 
-/// The ways in which lengths and directions of a rig are to be taken.
+/// The options for the unit, the up axis and the floor of a rig.
 struct PlaceOptions {
-  /// "auto", a name of RigUnits(), or metres in one unit of the file.
+  /// "auto", a name of RigUnits(), or the number of metres in one unit of the file.
   std::string unit = "auto";
-  /// "auto", an axis of the file that points up ("z", "-y"), or "floor": square to the plane that the feet stand on.
+  /// "auto", an axis of the file that points up ("z", "-y"), or "floor": perpendicular to the plane of the feet.
   std::string up = "auto";
-  /// The floor becomes height 0: "auto" (at the feet where the up axis was found from them, else as the file has it),
-  /// "keep", "feet", or its height in metres.
+  /// The position of the floor, which becomes height 0: "auto" (at the feet if they determined the up axis, otherwise
+  /// as in the file), "keep", "feet", or its height in metres.
   std::string floor = "auto";
 };
 
 /// Returns "m, cm, mm, inch, foot".
 std::string RigUnits();
 
-/// Fails for texts of `options` that mean nothing.
+/// Fails if a text of `options` has no meaning.
 Result<void> CheckPlace(const PlaceOptions& options);
 
-/// The findings about a rig's world, and the way into ours: p' = scale · R · p + shift.
+/// The map from a rig's world to ours: p' = scale · R · p + shift.
 struct RigPlace {
   double scale = 1;
   glm::dmat3 R{1};
   glm::dvec3 shift{0};
-  double stature_m = 0;  ///< of the person, as its legs and trunk tell; 0: nothing was asked of a person
-  std::string told;      ///< what was taken and why, for people: "lengths in mm (…), up is -y (…)"
+  double stature_m = 0;  ///< of the person, from legs and trunk; 0 if no person was used
+  std::string told;      ///< explanation for people: "lengths in mm (…), up is -y (…)"
 
   glm::dvec3 operator()(const glm::dvec3& p) const { return scale * (R * p) + shift; }
   bool IsNone() const { return scale == 1 && R == glm::dmat3(1) && shift == glm::dvec3(0); }
 };
 
-/// Finds unit and up axis of a rig from a person that it shows *(ours)*. The stature is 2.0 times a leg (hip, knee,
-/// ankle, medians over frames). As the format has it, a unit stays where that gives 0.5 to 2.2 m; else metres,
-/// centimetres and millimetres are tried, then inches and feet, which must give 1.2 to 2.2 m. Up stays where the
-/// format's axis is within 35° of the person's own mean (ankles to shoulders) and the world is no camera's frame; else
-/// it is square to the plane of resting feet (ankles, heels, toes each in a plane of its own), as far as these tell,
-/// and along the person where they do not; an axis of the file within 4° of it is taken exactly. Fails where no unit
-/// makes it a person, naming the factor that would, for lengths without a unit, and for a person that is upside down in
-/// the axes that were asked for.
-/// @param points of the person, triangulated by the rig as its file has it
+/// Finds the unit and the up axis of a rig from a person in it *(ours)*. The stature is 2.0 times the leg (hip, knee,
+/// ankle; medians over frames). The format's unit is kept if the stature is then 0.5 to 2.2 m; otherwise metres,
+/// centimetres and millimetres are tried, then inches and feet, which must give 1.2 to 2.2 m. The format's up axis is
+/// kept if it is within 35° of the person's mean direction (ankles to shoulders) and the world is not a camera's frame.
+/// Otherwise up is perpendicular to the plane of resting feet (ankles, heels and toes each in a parallel plane) as far
+/// as these determine it, and along the person where they do not; if an axis of the file is within 4° of it, that axis
+/// is taken. Fails if no unit gives a plausible stature (the message names the factor that would), if lengths have no
+/// unit, and if the person is upside down with the requested axis.
+/// @param points of the person, triangulated with the rig as in its file
 Result<RigPlace> PlaceRig(const RigFile& rig, std::span<const LandmarkPlaces> points, double rate_hz,
                           const PlaceOptions& options);
 
-/// Places a rig without a person: what `options` say, and the format's own where they say "auto". Fails for lengths
-/// without a unit, and for a world that is a camera's frame without its up axis, naming the options.
+/// Places a rig without a person, by `options` and, for "auto", by the format's conventions. Fails if lengths have no
+/// unit, or if the world is a camera's frame and no up axis is given; the message names the options.
 Result<RigPlace> PlaceRig(const RigFile& rig, const PlaceOptions& options);
 
-/// Moves a camera into the placed world.
+/// Transforms a camera into the placed world.
 Camera Placed(const RigPlace& place, Camera camera);
 
 }  // namespace etude

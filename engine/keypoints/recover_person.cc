@@ -16,9 +16,9 @@
 namespace etude {
 namespace {
 
-constexpr std::ptrdiff_t kLeastJoints = 8;
-constexpr double kUnseen = 0.01;  // the weight of a joint that was completed
-constexpr int kRootSteps = 3;     // twenty bring joints nearer by one percent more
+constexpr std::ptrdiff_t kMinJoints = 8;
+constexpr double kUnseen = 0.01;  // the weight of a joint that was not seen but completed
+constexpr int kRootSteps = 3;     // twenty steps reduce the distance of joints by only one percent more
 
 std::optional<double> MedianDistance(std::span<const RoleVectors> frames, Role a, Role b) {
   std::vector<double> lengths;
@@ -31,7 +31,7 @@ std::optional<double> MedianDistance(std::span<const RoleVectors> frames, Role a
 }
 
 std::optional<double> MedianBone(std::span<const RoleVectors> frames, const Bone& bone) {
-  // No landmark is the spine's: it shares the trunk.
+  // No landmark shows the spine, so it divides the trunk in a fixed ratio.
   const bool is_below = bone.child == Role::kSpine, is_above = bone.parent == Role::kSpine;
   if (!is_below && !is_above) return MedianDistance(frames, bone.parent, bone.child);
   const auto trunk = MedianDistance(frames, Role::kHipCentre, Role::kShoulderCentre);
@@ -39,7 +39,8 @@ std::optional<double> MedianBone(std::span<const RoleVectors> frames, const Bone
   return (is_below ? kSpineShare : 1 - kSpineShare) * *trunk;
 }
 
-/// Readers of clips look for a joint that is called the head, and BVH ends each branch by an end without a name.
+/// Adds a joint named "head" to the clip's skeleton: readers of clips look for one, and in BVH the end of a branch has
+/// no name.
 void NameHead(CaptureBody& body) {
   const auto head = std::ranges::find(body.skeleton, "head_end", &CaptureBody::ClipJoint::name);
   if (head == body.skeleton.end()) return;
@@ -54,13 +55,14 @@ void NameHead(CaptureBody& body) {
 PoseTargets TargetsOf(const RoleVectors& joints, const BodyPose& completed) {
   PoseTargets wanted{.places = completed, .weights = {}};
   for (std::size_t i = 0; i < kRoleCount; ++i) wanted.weights[i] = joints[i] ? 1 : kUnseen;
-  // Where the trunk is seen shorter than its bones nobody sees which way it bends: it stays nearly straight.
+  // If the trunk is seen shorter than its bones, its bending direction is unknown; this target keeps it nearly
+  // straight.
   if (joints[Index(Role::kHipCentre)] && joints[Index(Role::kShoulderCentre)]) wanted.weights[Index(Role::kSpine)] = 1;
   return wanted;
 }
 
-/// The root stands at the left toe's place, whose errors then are the whole body's: in turn it moves by the mean of
-/// what all joints are off, and the angles follow.
+/// Alternates between moving the root by the mean offset of all joints and fitting the angles. The root stands at the
+/// left toe, whose error would otherwise shift the whole body.
 TreeState MoveRoot(const CaptureBody& body, const PoseFitter& fitter, const PoseTargets& wanted, TreeState state) {
   for (int step = 0; step < kRootSteps; ++step) {
     const BodyPose pose = ToBodyPose(body, state);
@@ -79,7 +81,7 @@ TreeState MoveRoot(const CaptureBody& body, const PoseFitter& fitter, const Pose
 }  // namespace
 
 Result<CaptureBody> BodyOfBones(const std::array<double, kRoleCount>& lengths) {
-  BodyPose straight;  // of which only the lengths of its bones count
+  BodyPose straight;  // only the lengths of its bones are used
   for (const Bone& bone : AllBones()) {
     straight[bone.child] = straight[bone.parent] + glm::dvec3(0, lengths[Index(bone.child)], 0);
   }
@@ -108,7 +110,7 @@ std::vector<std::optional<TreeState>> FitPerson(const CaptureBody& body, std::sp
   for (const LandmarkPlaces& landmarks : frames) {
     const RoleVectors joints = JointsOf(landmarks);
     states.emplace_back();
-    if (std::ranges::count_if(joints, [](const auto& joint) { return joint.has_value(); }) < kLeastJoints) continue;
+    if (std::ranges::count_if(joints, [](const auto& joint) { return joint.has_value(); }) < kMinJoints) continue;
     const std::optional<BodyPose> completed = CompleteJoints(joints, like);
     if (!completed) continue;
     const PoseTargets wanted = TargetsOf(joints, *completed);
@@ -123,7 +125,7 @@ std::vector<std::optional<TreeState>> FitPerson(const CaptureBody& body, std::sp
 
 namespace {
 
-/// Every frame: those without a state show the last one before, leading ones the first. At least one has a state.
+/// Fills frames without a state with the last one before, or the first one at the start. Precondition: one has a state.
 std::vector<TreeState> HoldStates(std::span<const std::optional<TreeState>> states) {
   const auto first = std::ranges::find_if(states, [](const auto& state) { return state.has_value(); });
   assert(first != states.end());
@@ -148,9 +150,9 @@ SeenPeople UndistortPeople(const Camera& camera, SeenPeople people) {
 }
 
 RecoverPersonOptions UsualRecovery(double rate_hz, double longer_side_px) {
-  constexpr double kOutlierShare = 0.03, kLongestAbsence = 0.5;  // seconds
+  constexpr double kOutlierShare = 0.03, kMaxAbsence_s = 0.5;  // seconds
   RecoverPersonOptions options{.rate_hz = rate_hz, .match = {}, .triangulate = {}};
-  options.match.follow.longest_absence = std::max(1, static_cast<int>(std::lround(kLongestAbsence * rate_hz)));
+  options.match.follow.longest_absence = std::max(1, static_cast<int>(std::lround(kMaxAbsence_s * rate_hz)));
   options.triangulate.robust.outlier_px = kOutlierShare * longer_side_px;
   return options;
 }
@@ -160,6 +162,7 @@ Result<RecoveredPerson> LocatePerson(std::span<const ProjectionMatrix> cameras, 
   assert(cameras.size() >= 2 && cameras.size() == people.size());
   RecoveredPerson person;
   person.people = MatchPeople(cameras, people, options.match);
+  // The candidates are those that two cameras or more saw.
   std::vector<std::size_t> in_space;
   for (std::size_t i = 0; i < person.people.size(); ++i) {
     if (person.people[i].cameras >= 2) in_space.push_back(i);

@@ -15,7 +15,7 @@ class MovingPerson {
 
   const PersonTrack& track() const { return track_; }
 
-  /// Returns the person between frames; nothing where a frame next to that time does not show it.
+  /// Returns the person at a fractional frame; nullopt if a frame next to it does not show the person.
   std::optional<SeenPerson> At(double frame) const {
     if (frame < 0) return std::nullopt;
     const auto at = static_cast<std::size_t>(frame);
@@ -46,25 +46,25 @@ class MovingPerson {
   const PersonTrack& track_;
 };
 
-/// People of one camera, whose clock is known or asked.
-struct Witness {
+/// The tracked people of one camera, and its offset, known or sought.
+struct OffsetFilm {
   std::vector<MovingPerson> people;
   ClockOffset offset;
 };
 
 struct Misfit {
   double squares = 0;   ///< of all distances
-  double variance = 0;  ///< the same about the mean of each landmark's, summed up
+  double variance = 0;  ///< sum of squared deviations from the mean of each landmark
   int count = 0;
 
   double mean() const { return squares / count; }
 };
 
-/// Computes the misfit of two people, in every so many frames of the first camera's time.
+/// Computes the misfit of two people over at most 100 frames, evenly spaced in the first camera's time.
 Misfit MisfitOf(const EpipolarGeometry& geometry, const MovingPerson& one, double one_offset, const MovingPerson& other,
                 double other_offset, std::size_t frames, const PeopleSyncOptions& options) {
-  constexpr std::size_t kMostFrames = 100;  // a longer film says it no better
-  const std::size_t stride = std::max<std::size_t>(1, frames / kMostFrames);
+  constexpr std::size_t kMaxFrames = 100;  // more frames hardly change the result
+  const std::size_t stride = std::max<std::size_t>(1, frames / kMaxFrames);
   std::array<double, kLandmarkCount> sums{}, squares{};
   std::array<int, kLandmarkCount> counts{};
   for (std::size_t frame = 0; frame < frames; frame += stride) {
@@ -81,6 +81,7 @@ Misfit MisfitOf(const EpipolarGeometry& geometry, const MovingPerson& one, doubl
       ++counts[i];
     }
   }
+  // Sum over landmarks; a constant offset of a landmark is not a misfit in time.
   Misfit misfit;
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
     if (counts[i] == 0) continue;
@@ -91,15 +92,15 @@ Misfit MisfitOf(const EpipolarGeometry& geometry, const MovingPerson& one, doubl
   return misfit;
 }
 
-/// Everybody of one camera against whoever fits best of another's.
-void AddMisfit(const EpipolarGeometry& geometry, const Witness& one, const Witness& other, double offset,
+/// Adds, for each person of one camera, the misfit to the best-fitting person of the other.
+void AddMisfit(const EpipolarGeometry& geometry, const OffsetFilm& one, const OffsetFilm& other, double offset,
                std::size_t frames, const PeopleSyncOptions& options, Misfit& all) {
-  constexpr int kFewest = 30;
+  constexpr int kMinCount = 30;
   for (const MovingPerson& person : one.people) {
     Misfit best;
     for (const MovingPerson& somebody : other.people) {
       const Misfit pair = MisfitOf(geometry, person, one.offset.frames, somebody, offset, frames, options);
-      if (pair.count >= kFewest && (best.count == 0 || pair.mean() < best.mean())) best = pair;
+      if (pair.count >= kMinCount && (best.count == 0 || pair.mean() < best.mean())) best = pair;
     }
     all.variance += best.variance;
     all.count += best.count;
@@ -110,14 +111,16 @@ void AddMisfit(const EpipolarGeometry& geometry, const Witness& one, const Witne
 
 std::vector<ClockOffset> EstimateOffsets(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                                          const PeopleSyncOptions& options) {
+  // Track the people of each camera.
   std::vector<std::vector<PersonTrack>> tracks;
-  std::vector<Witness> witnesses;
+  std::vector<OffsetFilm> offset_films;
   for (const SeenPeople& of_camera : people) tracks.push_back(FollowPeople(of_camera, options.follow));
   for (std::size_t camera = 0; camera < people.size(); ++camera) {
-    Witness& witness = witnesses.emplace_back();
-    for (const PersonTrack& track : tracks[camera]) witness.people.emplace_back(people[camera], track);
+    OffsetFilm& added = offset_films.emplace_back();
+    for (const PersonTrack& track : tracks[camera]) added.people.emplace_back(people[camera], track);
   }
-  witnesses.front().offset.is_told = true;
+  // Estimate each offset against the cameras before it, then once more against all.
+  offset_films.front().offset.is_told = true;
   constexpr int kRounds = 2;
   for (int round = 0; round < kRounds; ++round) {
     for (std::size_t camera = 1; camera < cameras.size(); ++camera) {
@@ -126,21 +129,21 @@ std::vector<ClockOffset> EstimateOffsets(std::span<const ProjectionMatrix> camer
         for (std::size_t other = 0; other < (round == 0 ? camera : cameras.size()); ++other) {
           const auto geometry = EpipolarGeometry::Of(cameras[other], cameras[camera]);
           if (other == camera || !geometry) continue;
-          AddMisfit(*geometry, witnesses[other], witnesses[camera], offset, people[0].size(), options, all);
+          AddMisfit(*geometry, offset_films[other], offset_films[camera], offset, people[0].size(), options, all);
         }
         return all.count > 0 ? std::optional(all.variance / all.count) : std::nullopt;
       };
-      witnesses[camera].offset = FindOffset(misfit_at, options.clocks.most_frames);
+      offset_films[camera].offset = FindOffset(misfit_at, options.clocks.most_frames);
     }
   }
   std::vector<ClockOffset> offsets;
-  for (const Witness& witness : witnesses) offsets.push_back(witness.offset);
+  for (const OffsetFilm& added : offset_films) offsets.push_back(added.offset);
   return offsets;
 }
 
 namespace {
 
-/// The people of one camera, and where its clock stands.
+/// The people of one camera, and its clock.
 struct ClockedFilm {
   std::vector<MovingPerson> people;
   FilmClock clock;
@@ -165,7 +168,7 @@ class ClockFinder {
     constexpr double kHalf = 0.5;
     for (int round = 0; round < kRounds; ++round) {
       for (std::size_t c = 1; c < films_.size(); ++c) {
-        // First against those before it, whose clocks are found already.
+        // In the first round compare only with the films before it, whose clocks are already found.
         const std::size_t others = round == 0 ? c : films_.size();
         const FilmClock given = films_[c].clock;
         const auto before = LossOf(c, given, others);
@@ -183,12 +186,14 @@ class ClockFinder {
   }
 
  private:
-  /// The mean loss over keypoints; of each person whoever fits best in each of the first `others` cameras.
+  /// Returns the mean loss over keypoints: each person is compared with the best-fitting person of each of the first
+  /// `others` cameras. Returns nullopt if too few keypoints are shared.
   std::optional<double> LossOf(std::size_t c, const FilmClock& clock, std::size_t others) const {
-    constexpr std::size_t kMostFrames = 60;
-    const std::size_t stride = std::max<std::size_t>(1, frames_ / kMostFrames);
+    constexpr std::size_t kMaxFrames = 60;
+    const std::size_t stride = std::max<std::size_t>(1, frames_ / kMaxFrames);
     double sum = 0;
     std::size_t count = 0;
+    // Sum the losses over at most 60 frames, the other cameras, and the people.
     for (std::size_t frame = 0; frame < frames_; frame += stride) {
       const auto time = static_cast<double>(frame);
       const std::vector<SeenPerson> here = PeopleAt(films_[c], clock, time);
@@ -209,8 +214,8 @@ class ClockFinder {
         }
       }
     }
-    constexpr std::size_t kFewest = 60;
-    return count < kFewest ? std::nullopt : std::optional(sum / static_cast<double>(count));
+    constexpr std::size_t kMinCount = 60;
+    return count < kMinCount ? std::nullopt : std::optional(sum / static_cast<double>(count));
   }
 
   static std::vector<SeenPerson> PeopleAt(const ClockedFilm& film, const FilmClock& clock, double time) {
@@ -223,8 +228,8 @@ class ClockFinder {
 
   std::pair<double, std::size_t> PairLoss(const EpipolarGeometry& geometry, const SeenPerson& a,
                                           const SeenPerson& b) const {
-    constexpr double kLeastPx = 1.5, kShare = 0.01;
-    const double scale = std::max(kLeastPx, kShare * HeightPx(b));
+    constexpr double kMinPx = 1.5, kShare = 0.01;
+    const double scale = std::max(kMinPx, kShare * HeightPx(b));
     double sum = 0;
     std::size_t count = 0;
     for (std::size_t i = 0; i < kLandmarkCount; ++i) {
@@ -240,12 +245,13 @@ class ClockFinder {
   std::pair<FilmClock, double> Search(std::size_t c, const FilmClock& given, double before, int most_frames,
                                       std::size_t others) const {
     const double middle = 0.5 * static_cast<double>(frames_);
-    const auto moved = [&](double shift, double stretch) {  // `stretch`: frames over half of the film
+    const auto moved = [&](double shift, double stretch) {  // `stretch`: drift over half of the film, frames
       const double drift = stretch / std::max(1.0, middle);
       return FilmClock{given.offset + shift - stretch, given.drift + drift};
     };
+    // Keep the clock of the lowest loss so far.
     double shift = 0, stretch = 0, least = before;
-    const auto look_at = [&](double s, double t) {
+    const auto try_clock = [&](double s, double t) {
       const auto loss = LossOf(c, moved(s, t), others);
       if (!loss || !(*loss < least)) return false;
       shift = s;
@@ -253,17 +259,19 @@ class ClockFinder {
       least = *loss;
       return true;
     };
-    for (int s = -most_frames; s <= most_frames; ++s) look_at(s, 0);
+    // Grid search: offsets first, then drifts near the best offset.
+    for (int s = -most_frames; s <= most_frames; ++s) try_clock(s, 0);
     const double coarse = shift;
-    constexpr double kMostStretch = 3;
-    for (double t = -kMostStretch; most_frames > 0 && t <= kMostStretch; t += 1) {
-      for (double s = -2; s <= 2; s += 1) look_at(coarse + s, t);
+    constexpr double kMaxStretch = 3;
+    for (double t = -kMaxStretch; most_frames > 0 && t <= kMaxStretch; t += 1) {
+      for (double s = -2; s <= 2; s += 1) try_clock(coarse + s, t);
     }
+    // Local search along both axes with a shrinking step.
     constexpr double kFirstStep = 0.5, kLastStep = 0.002;
     for (double step = kFirstStep; step > kLastStep;) {
       const double s = shift, t = stretch;
       const bool is_better =
-          look_at(s + step, t) || look_at(s - step, t) || look_at(s, t + step) || look_at(s, t - step);
+          try_clock(s + step, t) || try_clock(s - step, t) || try_clock(s, t + step) || try_clock(s, t - step);
       if (!is_better) step *= 0.5;
     }
     return {moved(shift, stretch), least};

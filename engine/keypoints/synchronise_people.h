@@ -14,12 +14,13 @@ struct PeopleSyncOptions {
   FollowOptions follow;
 };
 
-/// Estimates how late each camera's pictures are, as the overload for marks does *(ours)*: its frame k was taken at k +
-/// offset of the first camera's time. Nobody need know who is who: at each offset every person whom the first camera
-/// followed is whomever of the other's people the keypoints meet best, squared distances (`EpipolarGeometry`) in the
-/// mean. A camera of which nothing tells the time has offset 0; the first camera's is told by definition.
-/// @param cameras without their lenses, as are the pixels
-/// @param people of each camera, as many frames as it has
+/// Estimates the delay of each camera's pictures *(ours)*, like the overload for marks: its frame k was taken at frame
+/// time k + offset of the first camera. People need not be identified: at each offset, every person tracked in the
+/// first camera is compared with all people of the other, and the one of the lowest mean squared epipolar distance
+/// (`EpipolarGeometry`) counts. A camera whose offset cannot be determined gets 0; the first camera's is known by
+/// definition.
+/// @param cameras of the rig without distortion; the pixels are undistorted, too
+/// @param people of each camera, each with its own number of frames
 std::vector<ClockOffset> EstimateOffsets(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                                          const PeopleSyncOptions& options = {});
 
@@ -34,21 +35,22 @@ struct FilmClock {
 
 struct FoundClock {
   FilmClock clock;
-  double before = 0, after = 0;  ///< the loss of the clock that was given, and of the one that was found
-  bool is_mended = false;        ///< false: `clock` is the one that was given
-  FilmClock nearest;             ///< the clock of the least loss, whether that says enough or not
+  double before = 0, after = 0;  ///< the loss of the given clock, and of the one that was found
+  bool is_mended = false;        ///< false: `clock` is the given one
+  FilmClock nearest;             ///< the clock of minimal loss, even if it was not accepted
 };
 
-/// Finds clocks that explain the keypoints far better than those that are given *(ours)*: offsets up to `most_frames`
-/// from them and drifts that make up to three frames over the film, by the mean Geman–McClure loss of epipolar
-/// distances at 1 % of the height, first on a grid and then ever finer to a five-hundredth of a frame. A clock that
-/// does not halve the loss is left as it is: keypoints that err are no reason to move a clock.
+/// Finds clocks that explain the keypoints much better than the given ones *(ours)*. The search covers offsets of up to
+/// `max_frames` from them and drifts of up to three frames over half of the film; it minimises the mean Geman–McClure
+/// loss of epipolar distances at a scale of 1 % of the height, first on a grid, then with ever smaller steps down to a
+/// five-hundredth of a frame. A clock is changed only if that halves the loss, because wrong keypoints alone are not
+/// evidence of a wrong clock.
 std::vector<FoundClock> FindClocks(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                                    std::span<const FilmClock> given, int most_frames, const FollowOptions& options);
 
-/// Returns one camera's people at the first one's times, `frames` of them: between frames each follows the cubic
-/// through their own keypoints (`PixelBetween`), as sure as the less sure frame. Nobody is where the film has no
-/// frames.
+/// Returns `frames` frames of one camera's people at the first camera's times. Between frames each person's keypoints
+/// follow a cubic (`PixelBetween`), with the lower confidence of the two frames. Nobody is present where the film has
+/// no frames.
 SeenPeople PeopleInTime(const SeenPeople& people, const FilmClock& clock, std::size_t frames,
                         const FollowOptions& options = {});
 SeenPeople PeopleInTime(const SeenPeople& people, double offset, std::size_t frames, const FollowOptions& options = {});

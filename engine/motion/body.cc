@@ -8,7 +8,7 @@ namespace {
 
 struct RoleFacts {
   std::string_view name;
-  Role parent;  // its own for the root
+  Role parent;  // the root's parent is itself
   Role mirrored;
 };
 
@@ -85,7 +85,7 @@ BodyPose FloorMove::Apply(const BodyPose& pose) const {
 }
 
 glm::dvec3 Facing(const BodyPose& pose) {
-  // Both rows of the torso point to the person's left (+X at rest); left × up is forward.
+  // The lines of hips and shoulders point to the person's left (+X at rest); left × up is forward.
   const glm::dvec3 left = (pose[kLeftHip] - pose[kRightHip]) + (pose[kLeftShoulder] - pose[kRightShoulder]);
   const glm::dvec3 forward = glm::cross(left, glm::dvec3(0, 1, 0));
   const double length = glm::length(forward);

@@ -11,9 +11,9 @@
 
 namespace etude {
 
-/// The twenty joints of the canonical body: Kinect v1's, and the meeting point of both papers and of
-/// every file format. Parents come before children. "Left" is the person's own left: with the person
-/// facing +Z and Y up, left is +X.
+/// The twenty joints of the canonical body, which are those of Kinect v1; both papers and every file format are mapped
+/// to them. Parents come before children. "Left" is the person's own left: if the person faces +Z and Y is up, left is
+/// +X.
 enum class Role {
   kHipCentre,  ///< midway between the hips (paper B's navel)
   kSpine,
@@ -43,18 +43,18 @@ constexpr std::size_t Index(Role role) { return static_cast<std::size_t>(role); 
 
 /// Lists all roles in order.
 std::span<const Role, kRoleCount> AllRoles();
-/// Returns "hip_centre", "left_shoulder", …: the names used in every file Etude reads or writes.
+/// Returns "hip_centre", "left_shoulder", …: the names used in every file that Etude reads or writes.
 std::string_view RoleName(Role role);
 std::optional<Role> FindRole(std::string_view name);
-/// Returns the joint that it hangs from; the hip centre has none.
+/// Returns the joint's parent; the hip centre has none.
 std::optional<Role> ParentOf(Role role);
 /// A side of the body, the person's own.
 enum class Side { kLeft, kRight };
 
-/// Returns the same joint of the other side; a joint of the middle itself.
+/// Returns the same joint on the other side; a joint on the body's middle line is returned unchanged.
 Role Mirrored(Role role);
 
-/// One frame: where the twenty joints are, metres, in the world (right-handed, Y up).
+/// One frame: the positions of the twenty joints in the world, metres (right-handed, Y up).
 struct BodyPose {
   std::array<glm::dvec3, kRoleCount> joints{};
 
@@ -62,10 +62,10 @@ struct BodyPose {
   const glm::dvec3& operator[](Role role) const { return joints[Index(role)]; }
 };
 
-/// The rate at which all motions are judged (docs/reference/metrics.md).
+/// The frame rate at which all motions are evaluated (docs/reference/metrics.md).
 constexpr double kJudgedRateHz = 30.0;
 
-/// A sequence of frames at a fixed rate: what sensors see, pipelines produce and metrics judge.
+/// A sequence of frames at a constant rate: the data that sensors see, pipelines produce and metrics evaluate.
 struct BodyMotion {
   double rate_hz = kJudgedRateHz;
   std::vector<BodyPose> poses;
@@ -78,13 +78,13 @@ struct Bone {
   Role parent;
   Role child;
 };
-/// The nineteen limbs, in the order of their child's role.
+/// Lists the nineteen limbs, in the order of their child's role.
 std::span<const Bone, kRoleCount - 1> AllBones();
 
 double BoneLength(const BodyPose& pose, const Bone& bone);
 
-/// A rigid move on the floor: turn about the vertical axis, then shift. What may be done to a clip
-/// without changing its dance.
+/// A rigid motion on the floor: a rotation about the vertical axis, then a translation. It changes where a clip is
+/// danced, not the dance.
 struct FloorMove {
   double yaw = 0;  ///< radians about +Y
   double x = 0;    ///< metres
@@ -94,20 +94,20 @@ struct FloorMove {
   BodyPose Apply(const BodyPose& pose) const;
 };
 
-/// The unit horizontal direction the body faces: normal to hips and shoulders, +Z at rest. Falls back
-/// to +Z for a degenerate pose (body lying along the vertical plane).
+/// Returns the unit horizontal direction that the body faces: perpendicular to the lines of hips and shoulders, +Z at
+/// rest. Returns +Z for a degenerate pose (hips and shoulders on vertical lines).
 glm::dvec3 Facing(const BodyPose& pose);
-/// The angle of `Facing` about +Y from +Z, in (−π, π].
+/// Returns the angle of `Facing` about +Y from +Z, in (−π, π].
 double Heading(const BodyPose& pose);
-/// The move that puts `pose` at the origin of the floor (hip centre above it), facing +Z.
+/// Returns the move that puts `pose` at the origin of the floor, with the hip centre above it, facing +Z.
 FloorMove ToOrigin(const BodyPose& pose);
 
-/// Returns the move on the floor (yaw, x, z) that lays `pose` onto `onto`: same heading, hip centres above each other.
-/// Heights and limbs stay as they are.
+/// Returns the move on the floor (yaw, x, z) that aligns `pose` with `onto`: equal headings, and hip centres above each
+/// other. Heights and limbs do not change.
 FloorMove AlignOnFloor(const BodyPose& pose, const BodyPose& onto);
 
-/// Returns the distance of two poses once facing and place on the floor are taken away: that of the worst joint after
-/// `AlignOnFloor`, metres.
+/// Returns the distance of two poses apart from heading and position on the floor: the largest distance of a joint
+/// after `AlignOnFloor`, metres.
 double PoseGap(const BodyPose& a, const BodyPose& b);
 
 }  // namespace etude

@@ -3,20 +3,21 @@
 namespace etude {
 namespace {
 
-/// An affine move p ↦ shift + axes · p.
+/// An affine map p ↦ shift + axes · p.
 struct Move {
   glm::dmat3 axes{0};
   glm::dvec3 shift{0};
 };
 
-/// The inverse transpose but for a positive factor. Unlike it, this exists for flattened joints too.
+/// Returns the cofactor matrix, which is the inverse transpose up to a positive factor and exists for flattened joints,
+/// too.
 glm::dmat3 NormalAxes(const glm::dmat3& axes) {
   const glm::dmat3 cofactors(glm::cross(axes[1], axes[2]), glm::cross(axes[2], axes[0]), glm::cross(axes[0], axes[1]));
   const bool is_mirrored = glm::dot(axes[0], cofactors[0]) < 0;
   return is_mirrored ? -cofactors : cofactors;
 }
 
-glm::dvec3 Turned(const glm::dmat3& normal_axes, const glm::dvec3& normal) {
+glm::dvec3 TransformedNormal(const glm::dmat3& normal_axes, const glm::dvec3& normal) {
   const glm::dvec3 turned = normal_axes * normal;
   const double length = glm::length(turned);
   return length > 0 ? turned / length : normal;
@@ -25,6 +26,7 @@ glm::dvec3 Turned(const glm::dmat3& normal_axes, const glm::dvec3& normal) {
 }  // namespace
 
 DeformedMesh Deform(const SkinnedMesh& mesh, const std::vector<GlobalTransform>& globals) {
+  // Compute the map of every binding.
   std::vector<Move> moves;
   std::vector<glm::dmat3> normal_moves;
   for (const SkinnedMesh::Binding& binding : mesh.bindings) {
@@ -40,9 +42,10 @@ DeformedMesh Deform(const SkinnedMesh& mesh, const std::vector<GlobalTransform>&
     if (vertex.weights[0] == 1) {  // most vertices of most meshes
       const Move& move = moves[vertex.bindings[0]];
       deformed.positions.push_back(move.shift + move.axes * vertex.position);
-      deformed.normals.push_back(Turned(normal_moves[vertex.bindings[0]], vertex.normal));
+      deformed.normals.push_back(TransformedNormal(normal_moves[vertex.bindings[0]], vertex.normal));
       continue;
     }
+    // Blend the maps of up to four bindings.
     Move blend;
     for (std::size_t i = 0; i < vertex.weights.size(); ++i) {
       if (vertex.weights[i] == 0) continue;
@@ -51,7 +54,7 @@ DeformedMesh Deform(const SkinnedMesh& mesh, const std::vector<GlobalTransform>&
       blend.shift += vertex.weights[i] * move.shift;
     }
     deformed.positions.push_back(blend.shift + blend.axes * vertex.position);
-    deformed.normals.push_back(Turned(NormalAxes(blend.axes), vertex.normal));
+    deformed.normals.push_back(TransformedNormal(NormalAxes(blend.axes), vertex.normal));
   }
   return deformed;
 }

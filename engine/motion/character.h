@@ -11,11 +11,11 @@
 
 namespace etude {
 
-/// The paint of a surface.
+/// The material of a surface.
 struct Material {
   std::string name;
   glm::dvec3 colour{0.8};   ///< linear RGB, 0…1 (glTF's base colour factor)
-  SharedTexture texture{};  ///< in its place where there is one: it has been multiplied by the colour
+  SharedTexture texture{};  ///< replaces `colour` if set: it has been multiplied by it
 };
 
 /// A surface that follows a skeleton by linear blend skinning (glTF's skin). A rigid mesh has one binding.
@@ -23,14 +23,14 @@ struct SkinnedMesh {
   /// A joint that may move vertices.
   struct Binding {
     int joint = 0;               ///< of the character's skeleton
-    glm::dmat4 inverse_bind{1};  ///< from the mesh's frame into the joint's, when bound
+    glm::dmat4 inverse_bind{1};  ///< from the mesh's frame to the joint's, in the bind pose
   };
   struct Vertex {
     glm::dvec3 position{0};
     glm::dvec3 normal{0};                       ///< unit
     std::array<int, 4> bindings{};              ///< indices into the mesh's bindings
     std::array<double, 4> weights{1, 0, 0, 0};  ///< sum to 1
-    glm::dvec2 on_texture{0};                   ///< where on its material's texture
+    glm::dvec2 on_texture{0};                   ///< texture coordinates
   };
 
   std::string name;
@@ -40,7 +40,7 @@ struct SkinnedMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
 };
 
-/// A figure that can be drawn: surfaces on a skeleton. In the unit and axes of its file.
+/// A figure that can be drawn: surfaces on a skeleton, in the unit and axes of its file.
 struct Character {
   std::string name;
   Skeleton skeleton;
@@ -54,8 +54,8 @@ struct DeformedMesh {
   std::vector<glm::dvec3> normals;  ///< unit
 };
 
-/// Deforms a mesh by linear blend skinning: v ↦ Σ wᵢ · globalᵢ · inverse_bindᵢ · v. `globals` is ComputeGlobals's
-/// output for the skeleton that the mesh is bound to. Normals go through the inverse transpose.
+/// Deforms a mesh by linear blend skinning: v ↦ Σ wᵢ · globalᵢ · inverse_bindᵢ · v. `globals` is the output of
+/// ComputeGlobals for the skeleton that the mesh is bound to. Normals are transformed by the inverse transpose.
 DeformedMesh Deform(const SkinnedMesh& mesh, const std::vector<GlobalTransform>& globals);
 
 }  // namespace etude

@@ -12,11 +12,11 @@
 namespace etude {
 namespace {
 
-struct Turn {
+struct SideWord {
   std::string_view from, to;
 };
-// Long ones first: what begins with "left" also begins with "l".
-constexpr std::array<Turn, 10> kTurns = {{
+// Longer words come first because "left" also begins with "l".
+constexpr std::array<SideWord, 10> kSideWords = {{
     {"left", "right"},
     {"Left", "Right"},
     {"LEFT", "RIGHT"},
@@ -34,10 +34,10 @@ bool IsUpper(char c) { return c >= 'A' && c <= 'Z'; }
 bool IsLetter(char c) { return IsLower(c) || IsUpper(c); }
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
-/// Returns the index behind the namespace: "mixamorig:LeftArm".
+/// Returns the index after the namespace: "mixamorig:LeftArm".
 std::size_t StartOfName(std::string_view name) { return name.find_last_of(':') + 1; }
 
-/// Returns the index behind the word that begins at `at`: "Left|Arm", "l|Shldr", "L|Thigh", "upper|_arm".
+/// Returns the index after the word that begins at `at`: "Left|Arm", "l|Shldr", "L|Thigh", "upper|_arm".
 std::size_t EndOfWord(std::string_view name, std::size_t at) {
   std::size_t end = at + 1;
   for (; end < name.size() && IsLetter(name[end]); ++end) {
@@ -49,15 +49,15 @@ std::size_t EndOfWord(std::string_view name, std::size_t at) {
   return end;
 }
 
-std::string Replaced(std::string_view name, std::size_t at, const Turn& turn) {
+std::string Replaced(std::string_view name, std::size_t at, const SideWord& turn) {
   return std::string(name.substr(0, at)).append(turn.to).append(name.substr(at + turn.from.size()));
 }
 
-/// The other side's names of a joint whose own may begin with a side, most likely first.
+/// Returns the possible names on the other side of a joint whose name may begin with a side, the most likely first.
 std::vector<std::string> IfGlued(std::string_view name) {
   std::vector<std::string> others;
   const std::size_t start = StartOfName(name);
-  for (const Turn& turn : kTurns) {
+  for (const SideWord& turn : kSideWords) {
     if (name.substr(start).starts_with(turn.from)) others.push_back(Replaced(name, start, turn));
   }
   return others;
@@ -74,7 +74,7 @@ std::string OtherSide(std::string_view name) {
     const std::size_t end = EndOfWord(name, at);
     const std::string_view word = name.substr(at, end - at);
     const bool is_numbered = word.size() == 1 && end < name.size() && IsDigit(name[end]);  // "L5"
-    for (const Turn& turn : kTurns) {
+    for (const SideWord& turn : kSideWords) {
       if (word == turn.from && !is_numbered) return Replaced(name, at, turn);
     }
     at = end;
@@ -101,7 +101,7 @@ namespace {
 
 constexpr glm::dquat kNoTurn{1, 0, 0, 0};
 
-/// The image of a transform whose parent and child frames are both reflected: M T M with M = diag(−1, 1, 1).
+/// Reflects a transform between frames that are both reflected: M T M with M = diag(−1, 1, 1).
 void Reflect(LocalTransform& local) {
   local.translation.x = -local.translation.x;
   local.rotation.y = -local.rotation.y;
@@ -112,17 +112,17 @@ bool HasScales(const LocalPose& pose) {
   return std::ranges::any_of(pose, [](const LocalTransform& local) { return local.scale != glm::dvec3(1); });
 }
 
-/// The rotation nearest to a matrix, its polar part, by Newton's iteration (Higham 1986). None for a matrix that
-/// mirrors, or flattens so far that its inverse means nothing.
+/// Returns the rotation nearest to a matrix, its polar factor, by Newton's iteration (Higham 1986). Returns nullopt for
+/// a matrix that mirrors, or that is too flat to invert.
 std::optional<glm::dquat> NearestRotation(glm::dmat3 axes) {
   const double size = std::sqrt(glm::dot(axes[0], axes[0]) + glm::dot(axes[1], axes[1]) + glm::dot(axes[2], axes[2]));
   constexpr double kFlat = 1e-9;
   if (!(glm::determinant(axes) > kFlat * size * size * size)) return std::nullopt;
   axes /= std::cbrt(glm::determinant(axes));
-  // Quadratic once near; from the flattest matrix above in about forty halvings.
-  constexpr int kMostSteps = 60;
+  // Convergence is quadratic near the solution; from the flattest allowed matrix it takes about forty halvings before.
+  constexpr int kMaxSteps = 60;
   constexpr double kSame = 1e-15;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const glm::dmat3 next = 0.5 * (axes + glm::transpose(glm::inverse(axes)));
     const glm::dmat3 change = next - axes;
     axes = next;
@@ -134,7 +134,7 @@ std::optional<glm::dquat> NearestRotation(glm::dmat3 axes) {
   return glm::normalize(glm::quat_cast(axes));
 }
 
-/// Computes the transforms of a skeleton in one pose without scales.
+/// Converts poses of a skeleton to poses without scales.
 class ScaleRemover {
  public:
   explicit ScaleRemover(const Skeleton& skeleton) : skeleton_(skeleton), rotations_(skeleton.joints.size()) {}
@@ -227,7 +227,7 @@ Clip WithoutScales(Clip clip) {
 Clip WithWorldAxesAtRest(Clip clip) {
   std::vector<Joint>& joints = clip.skeleton.joints;
   if (std::ranges::all_of(joints, [](const Joint& joint) { return joint.rest.rotation == kNoTurn; })) return clip;
-  // With R₀ a joint's axes at rest, in the world: the new frame is the old one turned by R₀⁻¹.
+  // With a joint's axes R₀ at rest in the world, the new frame is the old one rotated by R₀⁻¹.
   std::vector<glm::dquat> at_rest(joints.size());
   const auto above = [&](std::size_t joint) {
     return joints[joint].parent < 0 ? kNoTurn : at_rest[joints[joint].parent];
@@ -249,7 +249,7 @@ Clip WithWorldAxesAtRest(Clip clip) {
 Clip WithOneRoot(Clip clip) {
   std::vector<Joint>& joints = clip.skeleton.joints;
   if (std::ranges::count(joints, -1, &Joint::parent) == 1) return clip;
-  // Every index moves by one, and −1 becomes the new root's.
+  // Every index increases by one, so the parent −1 becomes the new root.
   for (Joint& joint : joints) ++joint.parent;
   joints.insert(joints.begin(), {.name = UnusedName(clip.skeleton, "root"), .parent = -1, .rest = {}});
   for (LocalPose& pose : clip.frames) pose.insert(pose.begin(), LocalTransform{});
@@ -258,6 +258,7 @@ Clip WithOneRoot(Clip clip) {
 
 Clip WithRootAt(const Clip& clip, int joint) {
   const std::vector<Joint>& old = clip.skeleton.joints;
+  // Reverse the path from the new root to the old one.
   std::vector<int> parents;
   for (const Joint& one : old) parents.push_back(one.parent);
   for (int child = joint, parent = old[joint].parent; parent >= 0;) {
@@ -266,7 +267,8 @@ Clip WithRootAt(const Clip& clip, int joint) {
     child = std::exchange(parent, next);
   }
   parents[joint] = -1;
-  // Parents first again: each joint as soon as its parent has its place, in the old order.
+  // Order the joints so that parents come first: each joint as soon as its parent has an index, otherwise in the old
+  // order.
   std::vector<int> order, place(old.size(), -1);
   while (order.size() < old.size()) {
     for (int i = 0; i < static_cast<int>(old.size()); ++i) {
@@ -277,6 +279,7 @@ Clip WithRootAt(const Clip& clip, int joint) {
   }
   Clip rooted{.name = clip.name, .skeleton = {}, .rate_hz = clip.rate_hz, .frames = {}};
   std::vector<GlobalTransform> globals;
+  // Converts a pose: a joint with its old parent keeps its transform, any other gets it from the world.
   const auto in_order = [&](const LocalPose& pose) {
     ComputeGlobals(clip.skeleton, pose, globals);
     LocalPose moved;
@@ -293,6 +296,7 @@ Clip WithRootAt(const Clip& clip, int joint) {
     }
     return moved;
   };
+  // Build the skeleton and convert every frame.
   const LocalPose rest = in_order(RestPose(clip.skeleton));
   for (std::size_t k = 0; k < order.size(); ++k) {
     const int parent = parents[order[k]];

@@ -7,7 +7,7 @@ namespace {
 
 using enum Role;
 
-// A limb's name is that of the joint that it turns about, where it is the only one.
+// Returns a limb's name: that of the joint about which it rotates, unless several limbs share it.
 std::string NameOfLimbTo(const Bone& bone) {
   if (bone.child == kSpine) return "lower_back";
   if (bone.child == kLeftShoulder) return "left_collar";

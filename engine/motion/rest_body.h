@@ -10,12 +10,12 @@
 
 namespace etude {
 
-/// Returns the direction at rest of the limb that ends in a joint: a person who stands with hanging arms, facing +Z;
-/// hips and shoulders to the person's left are +X.
+/// Returns the direction, at rest, of the limb that ends in a joint. At rest a person stands with hanging arms and
+/// faces +Z; the left hip and shoulder point to +X.
 glm::dvec3 DirectionAtRest(Role child);
 
-/// One person's body as it can be measured before a take: its joints in some pose at rest, metres, Y up, facing +Z. It
-/// says how far joints are from each other, and nothing of how they turn.
+/// One person's body as measured before a take: its joints in a rest pose, metres, Y up, facing +Z. It contains the
+/// distances of joints but not how they rotate.
 struct RestBody {
   struct Joint {
     std::string name;
@@ -30,12 +30,12 @@ struct RestBody {
   std::vector<Joint> joints;  ///< parents before children; the first one is the only root
   std::array<RolePlace, kRoleCount> roles;
 
-  /// The twenty joints at rest.
+  /// Returns the twenty joints at rest.
   BodyPose Pose() const;
 };
 
-/// Makes a body of the twenty roles alone: a rigid pelvis with both hips, and every other limb a joint of its own, each
-/// as long as it is on average over `poses`, of which there is one at least. It stands with hanging arms.
+/// Makes a body of the twenty roles only: a rigid pelvis with both hips, and one joint for every other limb. Each limb
+/// has its mean length over `poses`, of which there must be at least one. The body stands with hanging arms.
 RestBody RestBodyOf(std::span<const BodyPose> poses);
 
 }  // namespace etude

@@ -13,7 +13,7 @@ namespace {
 
 using enum Role;
 
-/// The value below which `share` of all values lie, straight between neighbours.
+/// Returns the value below which `share` of all values lie, interpolated linearly.
 double Quantile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
   const double rank = share * static_cast<double>(values.size() - 1);
@@ -64,7 +64,7 @@ double Stature(const BodyPose& pose) {
     }
     return length;
   };
-  // Below the ankles and above the head's joint: 4 to 12 % of the stature in the files at hand.
+  // The parts below the ankles and above the head joint are 4 to 12 % of the stature in our files.
   constexpr double kMeasuredShare = 0.92;
   const double left_leg = way({kLeftAnkle, kLeftKnee, kLeftHip});
   const double right_leg = way({kRightAnkle, kRightKnee, kRightHip});
@@ -89,6 +89,7 @@ FootSlide MeasureFootSlide(const BodyMotion& motion) {
   constexpr Role kFeet[2][2] = {{kLeftAnkle, kLeftFoot}, {kRightAnkle, kRightFoot}};
   const std::vector<BodyPose> velocities = JointVelocities(motion.poses, motion.rate_hz);
   const std::vector<Bearing> bearing = FindBearing(motion.poses, motion.rate_hz, kFootRules);
+  // Estimate the floor.
   std::vector<double> lowest;
   for (const BodyPose& pose : motion.poses) {
     lowest.push_back(std::ranges::min(pose.joints, {}, [](const glm::dvec3& joint) { return joint.y; }).y);
@@ -96,6 +97,7 @@ FootSlide MeasureFootSlide(const BodyMotion& motion) {
   FootSlide slide;
   if (motion.poses.empty()) return slide;
   const double reach = Quantile(lowest, kFloorQuantile) + kFootRules.height;
+  // Sum the speed of each foot over the frames in which it stands.
   std::array<double, 2> sum{}, stances{};
   for (std::size_t f = 0; f < motion.poses.size(); ++f) {
     const bool is_carried = bearing[f].rests.none() && lowest[f] <= reach;
@@ -112,6 +114,7 @@ FootSlide MeasureFootSlide(const BodyMotion& motion) {
       ++stances[side];
     }
   }
+  // Average for each foot and for both.
   for (std::size_t side = 0; side < 2; ++side) {
     if (stances[side] > 0) slide.of_foot[side] = sum[side] / stances[side];
     slide.stance_share[side] = stances[side] / static_cast<double>(motion.poses.size());

@@ -22,8 +22,8 @@ namespace {
 
 double FloorSpeed(const glm::dvec3& velocity) { return std::hypot(velocity.x, velocity.z); }
 
-/// Tells in which frames of a clip the mass centre falls as SupportRules says of a flight, by its second difference
-/// over a tenth of a second to either side; near the clip's ends as in the nearest frame that has both.
+/// Returns in which frames of a clip the mass centre falls by SupportRules::min_fall or more, from its second
+/// difference over a tenth of a second in each direction; near the clip's ends, the nearest frame with both is used.
 std::vector<bool> FallingFrames(std::span<const BodyPose> poses, double rate_hz, const SupportRules& rules) {
   constexpr double kReach_s = 0.1;
   const int reach = std::max(static_cast<int>(std::lround(kReach_s * rate_hz)), 1);
@@ -41,6 +41,7 @@ std::vector<bool> FallingFrames(std::span<const BodyPose> poses, double rate_hz,
   return falls;
 }
 
+// Finds the lowest joints of one frame and which of them are at rest.
 Bearing BearingOf(const BodyPose& pose, const BodyPose& velocity, bool falls, const SupportRules& rules) {
   constexpr double kGliding = 3;
   double lowest = pose.joints[0].y;
@@ -57,12 +58,14 @@ Bearing BearingOf(const BodyPose& pose, const BodyPose& velocity, bool falls, co
   return bearing;
 }
 
-/// Tells whether the mass centre flies from frame `first` to `last`: a parabola fits its height that bends as a fall.
+/// Returns true if the mass centre is in free flight from frame `first` to `last`: a parabola fits its height, and its
+/// acceleration is that of a fall.
 bool FitsFlight(std::span<const BodyPose> poses, int first, int last, double rate_hz, const SupportRules& rules) {
-  constexpr int kFewest = 5;
+  constexpr int kMinFrames = 5;
   const int count = last - first + 1;
-  if (count < kFewest) return false;
-  const auto time = [&](int i) { return (i - 0.5 * (count - 1)) / rate_hz; };  // from the middle: odd moments vanish
+  if (count < kMinFrames) return false;
+  const auto time = [&](int i) { return (i - 0.5 * (count - 1)) / rate_hz; };  // centred, so odd moments vanish
+  // Compute the mean height and the mean squared time.
   std::vector<double> height;
   double mean = 0, mean_square = 0;
   for (int i = 0; i < count; ++i) {
@@ -70,6 +73,7 @@ bool FitsFlight(std::span<const BodyPose> poses, int first, int last, double rat
     mean += height.back() / count;
     mean_square += time(i) * time(i) / count;
   }
+  // Fit a parabola by least squares; its terms are orthogonal.
   double rise = 0, bend = 0, bend_norm = 0;
   for (int i = 0; i < count; ++i) {
     const double t = time(i), square = t * t - mean_square;
@@ -78,6 +82,7 @@ bool FitsFlight(std::span<const BodyPose> poses, int first, int last, double rat
     bend_norm += square * square;
   }
   bend /= bend_norm;
+  // Compute the root mean square deviation from it.
   double stray = 0;
   for (int i = 0; i < count; ++i) {
     const double t = time(i), off = height[i] - (mean + rise * t + bend * (t * t - mean_square));
@@ -87,6 +92,7 @@ bool FitsFlight(std::span<const BodyPose> poses, int first, int last, double rat
   return rules.least_fall <= fall && fall <= rules.most_fall && std::sqrt(stray) <= rules.flight_stray;
 }
 
+// Marks each run of frames without support that is a flight.
 void MarkFlights(std::span<const BodyPose> shown, int first, double rate_hz, const SupportRules& rules,
                  std::vector<Support>& support) {
   const auto by_nothing = [](const Support& s) { return !s.Holds(); };
@@ -121,10 +127,10 @@ FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz) {
   return contacts;
 }
 
-/// A clip, looked at once, that is asked what holds up the frames shown.
-class SupportFinder::Witness {
+/// A clip that is analysed once and then queried for the support of shown frames.
+class SupportFinder::ClipSupport {
  public:
-  Witness(const SupportingClip& clip, double rate_hz, const SupportRules& rules)
+  ClipSupport(const SupportingClip& clip, double rate_hz, const SupportRules& rules)
       : clip_(clip),
         rules_(rules),
         window_(static_cast<int>(std::lround(rules.window_s * rate_hz))),
@@ -153,6 +159,7 @@ class SupportFinder::Witness {
   int LastFrame() const { return static_cast<int>(clip_.poses.size()) - 1; }
   double Height(int frame, std::size_t j) const { return clip_.poses[frame].joints[j].y; }
 
+  // Returns true if the joint moves like one that bears the clip at that time.
   bool Follows(int frame, std::size_t j, const BodyPose& pose, const BodyPose& velocity) const {
     const int now = frame - clip_.begin;
     for (int f = std::max(now - 1, 0); f <= std::min(now + 1, LastFrame()); ++f) {
@@ -164,22 +171,24 @@ class SupportFinder::Witness {
     return false;
   }
 
+  // Returns true if the joint is at rest at a height at which the clip's joint rests.
   bool RestsAsHere(int frame, std::size_t j, const BodyPose& pose, const BodyPose& velocity) const {
     if (glm::length(velocity.joints[j]) > rules_.rest_speed) return false;
     const double height = pose.joints[j].y;
     const std::vector<double> heights = HeightsOfRest(frame, j);
     for (std::size_t i = 0; i < heights.size(); ++i) {
-      // Sunk into the floor it is held all the same.
+      // A joint that has sunk into the floor is supported, too.
       if (i == 0 && height >= heights[i] - rules_.level && height <= heights[i] + rules_.height) return true;
-      // A joint that also rests a little lower, as toes do whose heel bears, stands on nothing up here.
+      // If the clip's joint also rests a little lower (toes below a bearing heel), this height is not a surface.
       const bool surface = i > 0 && heights[i] - heights[i - 1] > rules_.level;
       if (surface && std::abs(height - heights[i]) <= rules_.height) return true;
     }
     return false;
   }
 
-  /// The heights at which the clip's joint rests about a frame shown, rising; at its first or last frame where the clip
-  /// has not begun or is over. Where it never rests, as who walks on the spot, the lowest at which it ever bears.
+  /// Returns the heights, ascending, at which the clip's joint rests near a shown frame, or near the clip's first or
+  /// last frame outside of the clip. For a joint that never rests (walking on the spot), returns the lowest height at
+  /// which it bears.
   std::vector<double> HeightsOfRest(int frame, std::size_t j) const {
     const int from = std::min(frame, clip_.left_at) - window_ - clip_.begin, to = frame + window_ - clip_.begin;
     std::vector<double> heights;
@@ -196,13 +205,13 @@ class SupportFinder::Witness {
   int window_ = 0;  // frames
   std::vector<BodyPose> velocities_;
   std::vector<Bearing> bearing_;
-  JointSet ever_bear_, ever_rest_;           // all that rests bears
-  std::array<double, kRoleCount> lowest_{};  // height at which a joint bears
+  JointSet ever_bear_, ever_rest_;           // every joint that rests also bears
+  std::array<double, kRoleCount> lowest_{};  // lowest height at which each joint bears
 };
 
 SupportFinder::SupportFinder(std::span<const SupportingClip> clips, double rate_hz, const SupportRules& rules)
     : rate_hz_(rate_hz), rules_(rules) {
-  for (const SupportingClip& clip : clips) witnesses_.emplace_back(clip, rate_hz, rules);
+  for (const SupportingClip& clip : clips) clip_supports_.emplace_back(clip, rate_hz, rules);
 }
 
 SupportFinder::~SupportFinder() = default;
@@ -217,8 +226,8 @@ std::vector<Support> SupportFinder::Find(std::span<const BodyPose> shown, int fi
   };
   for (int frame = first; goes_on(frame); ++frame) {
     Support& here = support.emplace_back();
-    for (const Witness& witness : witnesses_) {
-      here.joints |= witness.SupportAt(frame, shown[frame], velocities[frame]);
+    for (const ClipSupport& clip_support : clip_supports_) {
+      here.joints |= clip_support.SupportAt(frame, shown[frame], velocities[frame]);
     }
   }
   MarkFlights(shown, first, rate_hz_, rules_, support);
@@ -258,13 +267,13 @@ glm::dvec3 MassCentre(const BodyPose& pose) {
 std::optional<double> BalanceOffset(const BodyPose& pose, const JointSet& joints) {
   const glm::dvec3 mass = MassCentre(pose);
   const glm::dvec2 centre(mass.x, mass.z);
-  std::vector<glm::dvec2> points;  // from below the mass centre
+  std::vector<glm::dvec2> points;  // relative to the point below the mass centre
   for (std::size_t j = 0; j < kRoleCount; ++j) {
     if (joints[j]) points.push_back(glm::dvec2(pose.joints[j].x, pose.joints[j].z) - centre);
   }
   if (points.empty()) return std::nullopt;
-  // A hull that does not hold the origin is nearest on a line between two of its points. Seen from there, one of its
-  // points has all others on its left.
+  // If the hull does not contain the origin, the nearest point is on a line between two of the points, and from some
+  // vertex all points lie on the left as seen from the origin.
   bool holds = true;
   double nearest = glm::length(points.front());
   for (const glm::dvec2& a : points) {

@@ -15,96 +15,98 @@ namespace etude {
 /// A set of joints, by role.
 using JointSet = std::bitset<kRoleCount>;
 
-/// The rules of support: what holds a body up, whatever its floor. Metres, seconds. Ours; tuned on a hundred requests
-/// to each of ten libraries (built-in moves, captures, cartoons), judged on two hundred others.
+/// The rules by which joints support a body, without an assumed floor. Metres, seconds. Ours; tuned on a hundred
+/// requests to each of ten libraries (built-in moves, captures, cartoons) and evaluated on two hundred others.
 struct SupportRules {
-  double lowest = 0.12;       ///< a joint this little above the body's lowest one may bear it
-  double rest_speed = 0.5;    ///< a joint that is no faster is at rest: feet roll, and takes are noisy
-  double height = 0.025;      ///< a shown joint may be so far above the height at which a clip's own joint rests
-  double level = 0.12;        ///< heights of rest further apart than this are two surfaces: a floor and a step
-  double window_s = 1.0 / 3;  ///< a clip is asked where a joint rests so long before and after the shown frame
-  /// A body that nothing holds is in flight while the vertical acceleration of its mass centre, metres per second², is
-  /// within this band and it strays from its parabola by no more than `flight_stray` (root mean square).
+  double lowest = 0.12;       ///< a joint may bear the body if it is at most this high above the lowest joint
+  double rest_speed = 0.5;    ///< a joint is at rest up to this speed: feet roll, and takes are noisy
+  double height = 0.025;      ///< allowed height of a shown joint above the clip's own joint at rest
+  double level = 0.12;        ///< heights of rest farther apart than this are two surfaces: a floor and a step
+  double window_s = 1.0 / 3;  ///< a clip's rest heights are searched this long before and after a frame
+  /// A body without support is in flight if the vertical acceleration of its mass centre is in this band, metres per
+  /// second², and its height deviates from a parabola by at most `flight_stray` (root mean square).
   double least_fall = 6.5, most_fall = 13;
   double flight_stray = 0.008;
 };
 
-/// The joints that hold a body up in one frame of a clip.
+/// The joints that support a body in one frame of a clip.
 struct Bearing {
-  JointSet rests;  ///< those of its lowest joints that are at rest; none while its mass centre falls (least_fall)
-  /// `rests`; where it is empty (a jump, a walk on the spot, a foot that skates), all of the lowest joints, for the
-  /// clip itself shows it so, but for those of a body that glides: faster over the floor than SupportRules::rest_speed
-  /// and three times as fast as they move as seen from the hips.
+  JointSet rests;  ///< lowest joints that are at rest; none while the mass centre falls (min_fall)
+  /// Equals `rests` unless that is empty (a jump, walking on the spot, a skating foot). Then it contains all of the
+  /// lowest joints, because the clip itself shows them as support, except those that glide: faster over the floor than
+  /// SupportRules::rest_speed and than three times their speed relative to the hips.
   JointSet bears;
 };
 
-/// The velocities of all joints, metres per second: central differences, and one-sided ones at both ends; 0 of a single
+/// Returns the velocities of all joints, metres per second: central differences, one-sided at both ends; 0 for a single
 /// frame.
 std::vector<BodyPose> JointVelocities(std::span<const BodyPose> poses, double rate_hz);
 
-/// Finds what bears a body in every frame of its clip. No floor is assumed: a joint may bear when it is one of the
-/// lowest.
+/// Finds the joints that bear a body in every frame of its clip. No floor is assumed: any of the lowest joints may.
 std::vector<Bearing> FindBearing(std::span<const BodyPose> poses, double rate_hz, const SupportRules& rules = {});
 
-/// The rules of a foot that stands, narrower than those of support: it should do so clearly.
+/// The rules for a foot in stance. They are stricter than those for support, so that contacts are unambiguous.
 constexpr SupportRules kFootRules{.lowest = 0.06, .rest_speed = 0.3};
-/// Tells whether each foot bears the body by kFootRules, with its toes or its ankle; by side (Side's order) and frame.
+/// For each foot (in the order of Side), true in every frame in which its toes or its ankle bear the body by
+/// kFootRules.
 using FootContacts = std::array<std::vector<bool>, 2>;
 FootContacts FindFootContacts(std::span<const BodyPose> poses, double rate_hz);
 
-/// A clip that tells what a body may rest on where it is shown.
+/// A clip that shows on what a body may be supported while it is played.
 struct SupportingClip {
-  std::span<const BodyPose> poses;  ///< placed on the floor as it is shown
-  int begin = 0;                    ///< the frame shown where poses[0] stands; may be beyond the frames asked for
-  /// The last shown frame that was the clip's own: what it rested on there may be rested on later, too. None: a clip
-  /// that is entered.
+  std::span<const BodyPose> poses;  ///< positioned on the floor as shown
+  int begin = 0;                    ///< index of the shown frame of poses[0]; may be outside of the requested frames
+  /// The last shown frame that belonged to the clip. The body may still be supported later where the clip supports it
+  /// in that frame. Default: the clip is not left.
   int left_at = std::numeric_limits<int>::max();
 };
 
-/// The joints that hold a body up in a frame that is shown.
+/// The joints that support a body in a shown frame.
 struct Support {
-  JointSet joints;      ///< those that rest where, or move as, the clips' own do
-  bool flight = false;  ///< it flies: nothing need hold it
+  JointSet joints;      ///< those that rest where a clip's do, or move as they do
+  bool flight = false;  ///< the body is in flight and needs no support
 
   bool Holds() const { return joints.any() || flight; }
 };
 
-/// Finds what holds up a body where clips are shown. The clips alone say what can: a motion that floats cannot be its
-/// own floor. A joint supports
-/// - when it is at rest where the same joint rests in a clip at about that time: at most SupportRules::height above the
-///   lowest of these places and at most SupportRules::level below it, or within `height` of a higher surface, or
-/// - when it does what a joint that bears the clip does at that frame or the next to it: its height differs by no more
-///   than SupportRules::height, its velocity by no more than SupportRules::rest_speed.
-/// Frames in a row without any are a flight when the mass centre falls as SupportRules says over them, or over them and
-/// the frame before and after, five frames at least, and something holds the body in those two: it takes off and lands.
+/// Finds what supports a body where clips are shown. Only the clips define possible support, so a floating motion
+/// cannot be its own floor. A joint supports
+/// - if it is at rest where the same joint of a clip rests near that time: at most SupportRules::height above the
+///   lowest of these positions and at most SupportRules::level below it, or within `height` of a higher surface; or
+/// - if it moves like a joint that bears the clip in that frame or a neighbouring one: its height differs by at most
+///   SupportRules::height, its velocity by at most SupportRules::rest_speed.
+/// Consecutive frames without support are a flight if the body is supported in the frames before and after them (it
+/// takes off and lands), and if the mass centre falls as SupportRules states over these frames, or over these and the
+/// two neighbouring ones, at least five frames in all.
 class SupportFinder {
  public:
-  /// The clips' poses must outlive this.
+  /// The clips' poses must outlive this object.
   SupportFinder(std::span<const SupportingClip> clips, double rate_hz, const SupportRules& rules = {});
   ~SupportFinder();
   SupportFinder(const SupportFinder&) = delete;
   SupportFinder& operator=(const SupportFinder&) = delete;
 
-  /// Returns what holds the body up in the frames `first` … `last` of `shown`, both within it.
+  /// Returns the support of the body in the frames `first` … `last` of `shown`; both must be within it.
   std::vector<Support> Find(std::span<const BodyPose> shown, int first, int last) const;
 
  private:
-  class Witness;
+  class ClipSupport;
   const double rate_hz_;
   const SupportRules rules_;
-  std::vector<Witness> witnesses_;
+  std::vector<ClipSupport> clip_supports_;
 };
 
-/// Finds as SupportFinder::Find does, of clips that are asked once.
+/// Does the same as SupportFinder::Find, for clips that are used once.
 std::vector<Support> FindSupport(std::span<const BodyPose> shown, std::span<const SupportingClip> clips, int first,
                                  int last, double rate_hz, const SupportRules& rules = {});
 
-/// The centre of mass: of fourteen segments, their masses and centres Dempster's as in Winter (2009), "Biomechanics and
-/// Motor Control of Human Movement", table 4.1; head and neck at the head joint, hands to the finger tips.
+/// Returns the centre of mass of fourteen segments, with Dempster's masses and centres as in Winter (2009),
+/// "Biomechanics and Motor Control of Human Movement", table 4.1; head and neck are at the head joint, hands extend to
+/// the finger tips.
 glm::dvec3 MassCentre(const BodyPose& pose);
 
-/// The distance over the floor from the point below the mass centre to the convex hull of `joints`, seen from above,
-/// metres; 0 within it. None without joints. Feet have no width here.
+/// Returns the horizontal distance from the mass centre to the convex hull of `joints`, metres; 0 inside it. Returns
+/// nullopt without joints. Feet have no width here.
 std::optional<double> BalanceOffset(const BodyPose& pose, const JointSet& joints);
 
 }  // namespace etude

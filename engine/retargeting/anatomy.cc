@@ -15,8 +15,9 @@ namespace {
 
 using enum Role;
 
-/// 1 where a ratio lies between `low` and `high`, falling off beyond; 0 when it is no number.
-double Met(double ratio, double low, double high) {
+/// Returns 1 if a ratio lies between `low` and `high`, less outside (a Gaussian of its logarithm), and 0 if it is not
+/// finite or not positive.
+double RangeScore(double ratio, double low, double high) {
   if (!std::isfinite(ratio) || ratio <= 0) return 0;
   constexpr double kFallOff = 0.25;
   const double off = std::max({std::log(low / ratio), std::log(ratio / high), 0.0}) / kFallOff;
@@ -28,45 +29,46 @@ glm::dvec3 DirectionOf(const glm::dvec3& v) {
   return length > 0 ? v / length : glm::dvec3(0);
 }
 
-/// The joints from one outwards to the farthest end below it, along the bones.
+/// The path of joints from one to the farthest end below it, along the bones.
 struct Chain {
   std::vector<int> joints;
   double length = 0;  ///< of all its bones
 };
 
-/// Two brothers with equally long chains.
+/// Two siblings with equally long chains.
 struct ChainPair {
   std::array<Chain, 2> chains;
 };
 
-/// The three joints of both limbs of a pair, by their places along the chains.
+/// The three joints of both limbs of a pair, as indices along the chains.
 struct Limbs {
   const ChainPair* pair = nullptr;
   std::array<std::size_t, 3> at{};
-  double met = 0;
+  double score = 0;
 
   int Joint(std::size_t side, std::size_t i) const { return pair->chains[side].joints[at[i]]; }
   int Tip(std::size_t side) const { return pair->chains[side].joints.back(); }
 };
 
-/// The proportions of a limb: what counts as met, and the middle of it, which decides between two that are.
+/// The plausible proportions of a limb; the middle of each range decides between two candidates within it.
 struct Proportions {
   double upper_low, upper_high;  ///< upper bone over lower one
-  double end_low, end_high;      ///< what is beyond the lower bone, over that
-  double skipped_high;           ///< what is before the upper bone, over that
+  double end_low, end_high;      ///< length beyond the lower bone, over the lower bone
+  double skipped_high;           ///< length before the upper bone, over the upper bone
 };
 constexpr Proportions kLegProportions{0.8, 1.25, 0.15, 0.75, 0.35};
 constexpr Proportions kArmProportions{0.8, 1.45, 0.2, 1.2, 1.0};
 
-class Anatomist {
+class AnatomyFinder {
  public:
-  explicit Anatomist(const SkeletonTree& tree) : tree_(tree), below_(static_cast<std::size_t>(tree.size())) {
+  explicit AnatomyFinder(const SkeletonTree& tree) : tree_(tree), below_(static_cast<std::size_t>(tree.size())) {
+    // Compute the longest chain below every joint, from the last joint to the first.
     for (int i = tree.size() - 1; i >= 0; --i) {
       below_[i].joints.insert(below_[i].joints.begin(), i);
       const int parent = tree.ParentOf(i);
       if (parent < 0) continue;
       const double length = below_[i].length + glm::distance(tree.RestOf(i), tree.RestOf(parent));
-      // The brother that stands first wins a tie: loops run from the last to the first.
+      // Siblings are visited from last to first, so the first one wins a tie.
       if (length < below_[parent].length || (length == 0 && !below_[parent].joints.empty())) continue;
       below_[parent] = {below_[i].joints, length};
     }
@@ -77,6 +79,7 @@ class Anatomist {
     best.joints.fill(-1);
     const std::vector<ChainPair> pairs = Pairs();
     double second = 0;
+    // Score every two pairs as legs and arms; remember the second best.
     for (const ChainPair& legs : pairs) {
       for (const ChainPair& arms : pairs) {
         if (&legs == &arms || AreNested(legs, arms)) continue;
@@ -85,29 +88,29 @@ class Anatomist {
         if (proposal.confidence > best.confidence) best = proposal;
       }
     }
-    // Another body in the same skeleton that is as likely halves the confidence.
+    // If another body in the same skeleton is equally likely, the confidence is halved.
     if (best.confidence > 0) best.confidence *= 1 - 0.5 * second / best.confidence;
     return best;
   }
 
  private:
-  /// Lists the longest pairs of brothers.
+  /// Lists up to eight pairs of siblings with the longest chains.
   std::vector<ChainPair> Pairs() const {
-    constexpr std::size_t kMostPairs = 8, kFewestJoints = 3;
-    constexpr double kAlike = 0.05;
+    constexpr std::size_t kMaxPairs = 8, kMinJoints = 3;
+    constexpr double kMaxLengthDifference = 0.05;
     std::vector<ChainPair> pairs;
     for (int a = 0; a < tree_.size(); ++a) {
       for (int b = a + 1; b < tree_.size(); ++b) {
         if (tree_.ParentOf(a) < 0 || tree_.ParentOf(a) != tree_.ParentOf(b)) continue;
         const Chain &one = below_[a], &other = below_[b];
-        const bool is_alike = std::abs(one.length - other.length) <= kAlike * one.length &&
-                              one.joints.size() == other.joints.size() && one.joints.size() >= kFewestJoints;
+        const bool is_alike = std::abs(one.length - other.length) <= kMaxLengthDifference * one.length &&
+                              one.joints.size() == other.joints.size() && one.joints.size() >= kMinJoints;
         if (is_alike && one.length > 0) pairs.push_back({{one, other}});
       }
     }
     std::ranges::stable_sort(pairs, std::ranges::greater(),
                              [](const ChainPair& pair) { return pair.chains[0].length; });
-    if (pairs.size() > kMostPairs) pairs.resize(kMostPairs);
+    if (pairs.size() > kMaxPairs) pairs.resize(kMaxPairs);
     return pairs;
   }
 
@@ -124,49 +127,51 @@ class Anatomist {
 
   double Bone(int from, int to) const { return glm::distance(tree_.RestOf(from), tree_.RestOf(to)); }
 
-  /// Finds the three joints along a pair of chains that meet the proportions best.
+  /// Finds the three joints along a pair of chains that fit the proportions best.
   Limbs FindLimbs(const ChainPair& pair, const Proportions& wanted) const {
     Limbs best{.pair = &pair};
     double best_rank = 0;
     const std::vector<int>& chain = pair.chains[0].joints;
-    constexpr std::size_t kLongest = 20;  // what is beyond is fingers, or no limb
-    const std::size_t count = std::min(chain.size(), kLongest);
+    constexpr std::size_t kMaxChain = 20;  // joints beyond are fingers, or not part of a limb
+    const std::size_t count = std::min(chain.size(), kMaxChain);
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t j = i + 1; j < count; ++j) {
         for (std::size_t k = j + 1; k < count; ++k) {
+          // The score is the product over the proportions and the symmetry of the sides.
           const double upper = Bone(chain[i], chain[j]), lower = Bone(chain[j], chain[k]);
           const double end = Bone(chain[k], chain.back()), skipped = Bone(chain[0], chain[i]);
           constexpr double kNoEnd = 0.8;
-          const double met = Met(upper / lower, wanted.upper_low, wanted.upper_high) *
-                             (end > 0 ? Met(end / lower, wanted.end_low, wanted.end_high) : kNoEnd) *
-                             (skipped > 0 ? Met(skipped / upper, 1e-9, wanted.skipped_high) : 1) *
-                             OtherSideMet(pair, i, j, k);
+          const double score = RangeScore(upper / lower, wanted.upper_low, wanted.upper_high) *
+                               (end > 0 ? RangeScore(end / lower, wanted.end_low, wanted.end_high) : kNoEnd) *
+                               (skipped > 0 ? RangeScore(skipped / upper, 1e-9, wanted.skipped_high) : 1) *
+                               SymmetryScore(pair, i, j, k);
+          // Among equal scores, prefer proportions near the middle of their range.
           const double ratio = std::log(upper / lower / std::sqrt(wanted.upper_low * wanted.upper_high));
           const double ending = end > 0 ? std::log(end / lower / std::sqrt(wanted.end_low * wanted.end_high)) : 0;
-          const double rank = met * std::exp(-0.1 * (ratio * ratio + 0.3 * ending * ending));
-          if (!(rank > best_rank)) continue;  // bones of no length give no rank
+          const double rank = score * std::exp(-0.1 * (ratio * ratio + 0.3 * ending * ending));
+          if (!(rank > best_rank)) continue;  // NaN from bones without length is never accepted
           best_rank = rank;
           best.at = {i, j, k};
-          best.met = met;
+          best.score = score;
         }
       }
     }
     return best;
   }
 
-  /// Says how well the bones of the other side are as long.
-  double OtherSideMet(const ChainPair& pair, std::size_t i, std::size_t j, std::size_t k) const {
+  /// Returns a score for equal lengths of the bones on the other side.
+  double SymmetryScore(const ChainPair& pair, std::size_t i, std::size_t j, std::size_t k) const {
     constexpr double kLow = 0.95;
     const auto& [one, other] = pair.chains;
-    return Met(Bone(one.joints[i], one.joints[j]) / Bone(other.joints[i], other.joints[j]), kLow, 1 / kLow) *
-           Met(Bone(one.joints[j], one.joints[k]) / Bone(other.joints[j], other.joints[k]), kLow, 1 / kLow);
+    return RangeScore(Bone(one.joints[i], one.joints[j]) / Bone(other.joints[i], other.joints[j]), kLow, 1 / kLow) *
+           RangeScore(Bone(one.joints[j], one.joints[k]) / Bone(other.joints[j], other.joints[k]), kLow, 1 / kLow);
   }
 
   glm::dvec3 Middle(const Limbs& limbs, std::size_t i) const {
     return 0.5 * (tree_.RestOf(limbs.Joint(0, i)) + tree_.RestOf(limbs.Joint(1, i)));
   }
 
-  /// Says whether some joint that is part of no limb lies straight on from the trunk.
+  /// Returns true if a joint that belongs to no limb lies beyond the neck in the direction of the trunk.
   bool HasHead(const Limbs& legs, const Limbs& arms, const glm::dvec3& neck, const glm::dvec3& up, double trunk) const {
     for (int joint = 0; joint < tree_.size(); ++joint) {
       const glm::dvec3 from_neck = tree_.RestOf(joint) - neck;
@@ -184,35 +189,40 @@ class Anatomist {
   AnatomyProposal Judge(const ChainPair& leg_pair, const ChainPair& arm_pair) const {
     AnatomyProposal proposal{.joints = {}, .confidence = 0};
     proposal.joints.fill(-1);
+    // Find the joints of both limbs, and compare trunk, legs and arms.
     const Limbs legs = FindLimbs(leg_pair, kLegProportions), arms = FindLimbs(arm_pair, kArmProportions);
-    if (legs.met == 0 || arms.met == 0) return proposal;
+    if (legs.score == 0 || arms.score == 0) return proposal;
     const glm::dvec3 hips = Middle(legs, 0), shoulders = Middle(arms, 0);
     const glm::dvec3 up = DirectionOf(shoulders - hips);
     const double trunk = glm::distance(shoulders, hips);
     const double leg = Bone(legs.Joint(0, 0), legs.Joint(0, 1)) + Bone(legs.Joint(0, 1), legs.Joint(0, 2));
     const double arm = Bone(arms.Joint(0, 0), arms.Joint(0, 1)) + Bone(arms.Joint(0, 1), arms.Joint(0, 2));
-    proposal.confidence = legs.met * arms.met * Met(trunk / leg, 0.35, 0.85) * Met(leg / arm, 1.1, 2.0);
+    proposal.confidence =
+        legs.score * arms.score * RangeScore(trunk / leg, 0.35, 0.85) * RangeScore(leg / arm, 1.1, 2.0);
     constexpr double kHeadless = 0.85;
     if (!HasHead(legs, arms, shoulders, up, trunk)) proposal.confidence *= kHeadless;
 
+    // Legs must point away from the trunk, and hips and shoulders be parallel and across it.
     glm::dvec3 toes(0);
     for (std::size_t side = 0; side < 2; ++side) {
       const glm::dvec3 ankle = tree_.RestOf(legs.Joint(side, 2));
       const double down = glm::dot(DirectionOf(ankle - tree_.RestOf(legs.Joint(side, 0))), -up);
-      proposal.confidence *= Met(down, 0.9, 1.1);
+      proposal.confidence *= RangeScore(down, 0.9, 1.1);
       toes += DirectionOf(tree_.RestOf(legs.Tip(side)) - ankle);
     }
     const glm::dvec3 across = DirectionOf(tree_.RestOf(legs.Joint(0, 0)) - tree_.RestOf(legs.Joint(1, 0)));
     const glm::dvec3 arms_across = DirectionOf(tree_.RestOf(arms.Joint(0, 0)) - tree_.RestOf(arms.Joint(1, 0)));
     constexpr double kAligned = 0.9;
-    proposal.confidence *= Met(std::abs(glm::dot(across, arms_across)), kAligned, 1.1);
-    proposal.confidence *= Met(1.1 - std::abs(glm::dot(across, up)), kAligned, 1.2);
+    proposal.confidence *= RangeScore(std::abs(glm::dot(across, arms_across)), kAligned, 1.1);
+    proposal.confidence *= RangeScore(1.1 - std::abs(glm::dot(across, up)), kAligned, 1.2);
 
+    // Determine left from the toes.
     const glm::dvec3 forward = toes - up * glm::dot(toes, up) - across * glm::dot(toes, across);
     constexpr double kForward = 0.7, kNoToes = 0.6;
     const bool has_toes = glm::length(forward) > kForward;
     if (!has_toes) proposal.confidence *= kNoToes;
     const glm::dvec3 left = has_toes ? glm::cross(up, forward) : glm::dvec3(1, 0, 0);
+    // Assign the joints to the roles by side.
     for (const Limb& limb : kLimbs) {
       const Limbs& found = limb.is_arm ? arms : legs;
       const bool is_first_left = glm::dot(limb.is_arm ? arms_across : across, left) >= 0;
@@ -223,12 +233,12 @@ class Anatomist {
   }
 
   const SkeletonTree& tree_;
-  std::vector<Chain> below_;  ///< by joint
+  std::vector<Chain> below_;  ///< for each joint
 };
 
 }  // namespace
 
-AnatomyProposal ProposeByAnatomy(const SkeletonTree& tree) { return Anatomist(tree).Propose(); }
+AnatomyProposal ProposeByAnatomy(const SkeletonTree& tree) { return AnatomyFinder(tree).Propose(); }
 
 bool JointMapDraft::IsComposed(Role role) const {
   return std::ranges::find(map_.composed, role) != map_.composed.end();
@@ -249,28 +259,28 @@ namespace {
 
 using enum Role;
 
-// Tips relative to the limb they end (an adult's, cm).
+// Lengths of the tips relative to the limb before them (an adult's, cm).
 constexpr double kHandPerForearm = 18.0 / 25.0;
 constexpr double kFootPerShank = 18.0 / 42.0;
 constexpr double kHeadPerTrunk = 25.0 / 50.0;
 
-/// The range in which a tip's length is believed, relative to the proportion above.
+/// The plausible range of a tip's length, relative to the proportion above.
 struct TipLength {
   double shortest;
   double longest;
 };
 // CMU's fingers are half as long as a hand.
-constexpr TipLength kBelievedHand{0.4, 1.6};
-// Boxing_Toes' feet are 1.4 times as long as paper B's, KayKit's toys stand on feet of 2.6 times that.
-constexpr TipLength kBelievedFoot{0.4, 3.0};
-// A lone "Head" joint lies at the skull's base, at 0.2 of the trunk.
-constexpr TipLength kBelievedHead{0.5, 1.6};
+constexpr TipLength kPlausibleHand{0.4, 1.6};
+// The feet of Boxing_Toes are 1.4 times as long as paper B's, those of KayKit's toys 2.6 times as long as paper B's.
+constexpr TipLength kPlausibleFoot{0.4, 3.0};
+// A single "Head" joint lies at the skull's base, at 0.2 of the trunk.
+constexpr TipLength kPlausibleHead{0.5, 1.6};
 
-// Tips as far as that from each other are equally far: files print six decimals, also of metres.
+// Tips whose distances differ by less than this share are equally far: files have six decimals, even in metres.
 constexpr double kEquallyFar = 1e-4;
 
-/// The finger that a joint below `top` belongs to: its own name's, else that of the next joint above it that is named
-/// so. End sites have no names of their own.
+/// Returns the finger of a joint below `top`: by its own name, or by the name of the next joint above it that names a
+/// finger. End sites have no names of their own.
 Finger FingerBelow(const SkeletonTree& tree, int joint, int top) {
   for (; joint != top; joint = tree.ParentOf(joint)) {
     const Finger finger = FingerOf(tree.NameOf(joint));
@@ -279,12 +289,12 @@ Finger FingerBelow(const SkeletonTree& tree, int joint, int top) {
   return Finger::kNotNamed;
 }
 
-/// The farthest descendant of `top` (or `top` itself) from `base` at a believable distance, of those that `may_be` it.
-/// Of several equally far ones that of the longest finger by name, else the skeleton's first: rounding would choose
-/// another one on the left than on the right.
+/// Returns the farthest descendant of `top` (or `top` itself) from `base` at a plausible distance, among those for
+/// which `may_be` is true. Among equally far ones it is that of the most suitable finger by name, else the skeleton's
+/// first; otherwise rounding could choose different ones on the left and on the right.
 template <typename MayBe>
 std::optional<int> FarthestTip(const SkeletonTree& tree, int top, const glm::dvec3& base, double proportion,
-                               const TipLength& believed, MayBe may_be) {
+                               const TipLength& plausible, MayBe may_be) {
   struct Tip {
     int joint;
     double distance;
@@ -293,8 +303,8 @@ std::optional<int> FarthestTip(const SkeletonTree& tree, int top, const glm::dve
   double longest = 0;
   for (int i = top; i < tree.size(); ++i) {
     const double distance = glm::distance(tree.RestOf(i), base);
-    const bool is_believed = distance >= believed.shortest * proportion && distance <= believed.longest * proportion;
-    if (!is_believed || (i != top && !tree.HangsFrom(i, top)) || !may_be(i)) continue;
+    const bool is_plausible = distance >= plausible.shortest * proportion && distance <= plausible.longest * proportion;
+    if (!is_plausible || (i != top && !tree.HangsFrom(i, top)) || !may_be(i)) continue;
     tips.push_back({i, distance});
     longest = std::max(longest, distance);
   }
@@ -303,59 +313,59 @@ std::optional<int> FarthestTip(const SkeletonTree& tree, int top, const glm::dve
   return std::ranges::min_element(tips, {}, [&](const Tip& tip) { return FingerBelow(tree, tip.joint, top); })->joint;
 }
 
-glm::dvec3 RestForward(const JointMapDraft& places) {
-  return glm::cross(places.RestOf(kLeftHip) - places.RestOf(kRightHip),
-                    places.RestOf(kShoulderCentre) - places.RestOf(kHipCentre));
+glm::dvec3 RestForward(const JointMapDraft& draft) {
+  return glm::cross(draft.RestOf(kLeftHip) - draft.RestOf(kRightHip),
+                    draft.RestOf(kShoulderCentre) - draft.RestOf(kHipCentre));
 }
 
-void FindLimbTip(JointMapDraft& places, const Limb& limb) {
+void FindLimbTip(JointMapDraft& draft, const Limb& limb) {
   const auto [upper, middle, last] = limb.roles;
-  const glm::dvec3 end = places.RestOf(last);
-  const glm::dvec3 last_bone = end - places.RestOf(middle);
+  const glm::dvec3 end = draft.RestOf(last);
+  const glm::dvec3 last_bone = end - draft.RestOf(middle);
   const double length = glm::length(last_bone) * (limb.is_arm ? kHandPerForearm : kFootPerShank);
-  // What hangs from a control is no part of the body.
-  if (!IsFree(places, last)) {
-    const TipLength& believed = limb.is_arm ? kBelievedHand : kBelievedFoot;
-    const int top = places.JointOf(last);
-    const auto is_no_thumb = [&](int joint) { return FingerBelow(places.tree(), joint, top) != Finger::kThumb; };
-    const auto tip = FarthestTip(places.tree(), top, end, length, believed, is_no_thumb);
-    if (tip) return places.Set(limb.tip, *tip);
+  // A joint that hangs from a separate control is not part of the body.
+  if (!IsFree(draft, last)) {
+    const TipLength& plausible = limb.is_arm ? kPlausibleHand : kPlausibleFoot;
+    const int top = draft.JointOf(last);
+    const auto is_no_thumb = [&](int joint) { return FingerBelow(draft.tree(), joint, top) != Finger::kThumb; };
+    const auto tip = FarthestTip(draft.tree(), top, end, length, plausible, is_no_thumb);
+    if (tip) return draft.Set(limb.tip, *tip);
   }
-  const glm::dvec3 direction = limb.is_arm ? last_bone : RestForward(places);
+  const glm::dvec3 direction = limb.is_arm ? last_bone : RestForward(draft);
   const double size = glm::length(direction);
-  places.Compose(limb.tip, places.JointOf(last), size > 0 ? end + direction * (length / size) : end);
+  draft.Compose(limb.tip, draft.JointOf(last), size > 0 ? end + direction * (length / size) : end);
 }
 
-void FindHeadTip(JointMapDraft& places) {
-  const glm::dvec3 neck = places.RestOf(kShoulderCentre);
-  const glm::dvec3 trunk = neck - 0.5 * (places.RestOf(kLeftHip) + places.RestOf(kRightHip));
-  if (!places.Has(kHead)) return places.Compose(kHead, places.JointOf(kShoulderCentre), neck + trunk * kHeadPerTrunk);
-  const int head = places.JointOf(kHead);
-  // Eyes, jaws and ears hang from the head too, but forward or aside: the crown is straight on from the trunk.
+void FindHeadTip(JointMapDraft& draft) {
+  const glm::dvec3 neck = draft.RestOf(kShoulderCentre);
+  const glm::dvec3 trunk = neck - 0.5 * (draft.RestOf(kLeftHip) + draft.RestOf(kRightHip));
+  if (!draft.Has(kHead)) return draft.Compose(kHead, draft.JointOf(kShoulderCentre), neck + trunk * kHeadPerTrunk);
+  const int head = draft.JointOf(kHead);
+  // Eyes, jaws and ears descend from the head, too, but point forward or sideways; the crown continues the trunk.
   constexpr double kAside = Radians(30);
   const auto is_straight_on = [&](int joint) {
-    return joint == head || AngleBetween(places.tree().RestOf(joint) - places.RestOf(kHead), trunk) <= kAside;
+    return joint == head || AngleBetween(draft.tree().RestOf(joint) - draft.RestOf(kHead), trunk) <= kAside;
   };
   const auto tip =
-      FarthestTip(places.tree(), head, neck, glm::length(trunk) * kHeadPerTrunk, kBelievedHead, is_straight_on);
-  if (tip) return places.Set(kHead, *tip);
-  places.Compose(kHead, head, neck + trunk * kHeadPerTrunk);
+      FarthestTip(draft.tree(), head, neck, glm::length(trunk) * kHeadPerTrunk, kPlausibleHead, is_straight_on);
+  if (tip) return draft.Set(kHead, *tip);
+  draft.Compose(kHead, head, neck + trunk * kHeadPerTrunk);
 }
 
 }  // namespace
 
-void FindTips(JointMapDraft& places, const std::array<bool, kRoleCount>& is_taught) {
+void FindTips(JointMapDraft& draft, const std::array<bool, kRoleCount>& is_taught) {
   for (const Limb& limb : kLimbs) {
-    if (!is_taught[Index(limb.tip)]) FindLimbTip(places, limb);
+    if (!is_taught[Index(limb.tip)]) FindLimbTip(draft, limb);
   }
-  if (!is_taught[Index(kHead)]) FindHeadTip(places);
+  if (!is_taught[Index(kHead)]) FindHeadTip(draft);
 }
 
-bool IsFree(const JointMapDraft& places, Role end) {
-  const int joint = places.JointOf(end);
+bool IsFree(const JointMapDraft& draft, Role end) {
+  const int joint = draft.JointOf(end);
   return std::ranges::none_of(kLimbs, [&](const Limb& limb) {
-    const int top = places.JointOf(limb.roles[0]);
-    return joint == top || places.tree().HangsFrom(joint, top);
+    const int top = draft.JointOf(limb.roles[0]);
+    return joint == top || draft.tree().HangsFrom(joint, top);
   });
 }
 

@@ -8,25 +8,26 @@
 
 namespace etude {
 
-/// The limbs that a skeleton's build proposes, whatever its joints are called.
+/// The limbs that a skeleton's shape suggests, independently of its joints' names.
 struct AnatomyProposal {
-  /// Shoulders, elbows, wrists, hips, knees and ankles, by Index(role); −1 of all others, and of all where no two pairs
-  /// of limbs were found.
+  /// Shoulders, elbows, wrists, hips, knees and ankles, by Index(role); −1 for all other roles, and for all roles if no
+  /// two pairs of limbs were found.
   std::array<int, kRoleCount> joints;
   double confidence = 0;  ///< 0 to 1
 };
 
-/// A proposal may be used unasked from this confidence on.
+/// A proposal with at least this confidence may be used without confirmation.
 constexpr double kSureAnatomy = 0.9;
 
-/// Proposes the limbs by the shape of the tree and the rest pose (ours). Legs and arms are two pairs of brothers with
-/// equally long chains of bones below them; the trunk leads from the legs to the arms, and legs lead the other way. In
-/// each chain the three joints are those whose bones have the proportions of people's. Left is where up × forward
-/// points, forward where the toes do; without toes the sides are as in a body that faces +Z, at little confidence.
-/// The confidence is the product of how well each of these is met: 1 within the range of adults, falling off beyond.
+/// Proposes the limbs by the topology of the tree and the rest pose (ours). Legs and arms are two pairs of siblings
+/// with equally long chains of bones below them. The trunk leads from the legs to the arms, and the legs point the
+/// opposite way. In each chain, the three joints are those whose bones have human proportions. Left is the direction up
+/// × forward, and forward is where the toes point; without toes, the sides are those of a body that faces +Z, with a
+/// lower confidence. The confidence is the product of scores for these criteria: 1 within the range of adults,
+/// decreasing outside.
 AnatomyProposal ProposeByAnatomy(const SkeletonTree& tree);
 
-/// A joint map while it is being found, and where its roles are in the rest pose. `tree` must outlive this.
+/// A joint map under construction, with the positions of its roles in the rest pose. `tree` must outlive this object.
 class JointMapDraft {
  public:
   explicit JointMapDraft(const SkeletonTree& tree) : tree_(tree) {}
@@ -40,9 +41,9 @@ class JointMapDraft {
   const std::string& NameOf(Role role) const { return tree_.NameOf(JointOf(role)); }
   const glm::dvec3& RestOf(Role role) const { return rest_[Index(role)]; }
 
-  /// The joint itself plays the role.
+  /// Assigns a joint to the role.
   void Set(Role role, int joint);
-  /// A point fixed to `joint`, at `rest` in the rest pose, plays the role.
+  /// Assigns a point fixed to `joint`, at `rest` in the rest pose, to the role.
   void Compose(Role role, int joint, const glm::dvec3& rest);
 
  private:
@@ -51,14 +52,14 @@ class JointMapDraft {
   std::array<glm::dvec3, kRoleCount> rest_{};
 };
 
-/// Finds hands, feet and head that are not taught, when all other roles have their places: the farthest descendant of
-/// wrist, ankle and head at a believable distance, else composed in the proportions of paper B's body. No thumb is the
-/// tip of a hand; of equally far tips (within 10⁻⁴) the middle finger is taken, then index, ring and little finger,
-/// then the skeleton's first, on the left as on the right. A head joint that was found by name stands in the head's
-/// role; it becomes the tip's carrier.
-void FindTips(JointMapDraft& places, const std::array<bool, kRoleCount>& is_taught);
+/// Finds hands, feet and head that are not given, after all other roles are known: the farthest descendant of wrist,
+/// ankle and head at a plausible distance, or else a point composed in the proportions of paper B's body. A thumb is
+/// never the tip of a hand. Among equally far tips (within 10⁻⁴) the middle finger is taken, then index, ring and
+/// little finger, then the skeleton's first, so that both sides agree. A head joint that was found by name is first
+/// assigned to the head; it then becomes the joint that carries the tip.
+void FindTips(JointMapDraft& draft, const std::array<bool, kRoleCount>& is_taught);
 
-/// Says whether a wrist or ankle is moved by a control of its own instead of by any limb.
-bool IsFree(const JointMapDraft& places, Role end);
+/// Returns true if a wrist or ankle is not part of any limb but is moved by a separate control.
+bool IsFree(const JointMapDraft& draft, Role end);
 
 }  // namespace etude

@@ -15,7 +15,7 @@ namespace {
 
 struct JointLayout {
   std::string_view name;
-  std::vector<std::string_view> joints;  ///< as FindMarkerBodies knows them, or names that it passes over
+  std::vector<std::string_view> joints;  ///< names that FindMarkerBodies knows, or names that it ignores
 };
 
 const std::vector<JointLayout>& Layouts() {
@@ -53,7 +53,7 @@ const std::vector<JointLayout>& Layouts() {
   return layouts;
 }
 
-/// The unit in which the joints of a frame spread as a person's do, over 0.8 to 2.3 m; else metres.
+/// Returns the unit in which the median extent of a frame's joints is that of a person, 0.8 to 2.3 m; otherwise metres.
 double UnitOfSpread(const MarkerMotion& motion) {
   std::vector<double> spreads;
   for (const auto& frame : motion.frames) {
@@ -103,6 +103,7 @@ Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional
   if (array.shape.size() != 3 || array.shape[2] != 3 || array.shape[0] == 0) {
     return Fail({file}, "an array of {}; allowed: frames × joints × 3", ShapeOf(array));
   }
+  // Find the layout by its name or by the number of joints.
   const std::size_t frames = array.shape[0], joints = array.shape[1];
   const auto fits = [&](const JointLayout& one) { return one.joints.size() == joints; };
   const auto is_named = [&](const JointLayout& one) { return fits(one) && (!layout || *layout == one.name); };
@@ -115,6 +116,7 @@ Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional
                 file, Join(JointLayoutNames()));
   }
   const JointLayout& found = *std::ranges::find_if(Layouts(), is_named);
+  // Copy the positions; a NaN is a missing joint.
   MarkerMotion motion{.rate_hz = kJudgedRateHz, .names = {}, .frames = {}};
   for (const std::string_view joint : found.joints) motion.names.emplace_back(joint);
   for (std::size_t f = 0; f < frames; ++f) {
@@ -122,13 +124,14 @@ Result<MarkerMotion> JointsOfArray(const NumberArray& array, const std::optional
     for (std::size_t j = 0; j < joints; ++j) {
       const double* at = &array.values[3 * (f * joints + j)];
       if (std::isnan(at[0]) || std::isnan(at[1]) || std::isnan(at[2])) continue;
-      constexpr double kMost = 1e9;
-      if (std::abs(at[0]) > kMost || std::abs(at[1]) > kMost || std::abs(at[2]) > kMost) {
-        return Fail({file}, "frame {}, joint {} lies beyond ±{:g}", f, j, kMost);
+      constexpr double kMaxAbsolute = 1e9;
+      if (std::abs(at[0]) > kMaxAbsolute || std::abs(at[1]) > kMaxAbsolute || std::abs(at[2]) > kMaxAbsolute) {
+        return Fail({file}, "frame {}, joint {} lies beyond ±{:g}", f, j, kMaxAbsolute);
       }
       frame[j] = glm::dvec3(at[0], at[1], at[2]);
     }
   }
+  // Convert to metres.
   const double unit = UnitOfSpread(motion);
   for (auto& frame : motion.frames) {
     for (auto& place : frame) {
@@ -146,12 +149,14 @@ std::string WriteBodyNpz(const BodyMotion& motion, const BodyPose& rest) {
   NumberArray positions = ArrayOf({frames, kRoleCount, 3}), translations = positions,
               offsets = ArrayOf({kRoleCount, 3});
   NumberArray rotations = ArrayOf({frames, kRoleCount, 4}), parents = ArrayOf({kRoleCount});
+  // Names, parents and offsets of the skeleton.
   std::vector<std::string> names;
   for (const Joint& joint : clip.skeleton.joints) {
     names.push_back(joint.name);
     parents.values.push_back(joint.parent);
     Add(joint.rest.translation, offsets);
   }
+  // Positions and local transforms of every frame.
   std::vector<GlobalTransform> globals;
   for (const LocalPose& frame : clip.frames) {
     ComputeGlobals(clip.skeleton, frame, globals);
@@ -180,16 +185,16 @@ Result<BodyMotion> ReadBodyNpz(const Npz& arrays, const std::string& file) {
   if (!is_body) {
     return Fail({file}, "positions of {}; allowed: frames × 20 × 3", ShapeOf(positions));
   }
-  constexpr double kSlowest = 0.1, kFastest = 10'000;
-  if (rate.values.size() != 1 || !(rate.values[0] >= kSlowest && rate.values[0] <= kFastest)) {
-    return Fail({file}, "rate_hz: allowed: one number from {:g} to {:g}", kSlowest, kFastest);
+  constexpr double kMinRate_hz = 0.1, kMaxRate_hz = 10'000;
+  if (rate.values.size() != 1 || !(rate.values[0] >= kMinRate_hz && rate.values[0] <= kMaxRate_hz)) {
+    return Fail({file}, "rate_hz: allowed: one number from {:g} to {:g}", kMinRate_hz, kMaxRate_hz);
   }
   BodyMotion motion{.rate_hz = rate.values[0], .poses = std::vector<BodyPose>(positions.shape[0])};
   for (std::size_t i = 0; i < positions.values.size(); ++i) {
-    constexpr double kMost = 1e9;
-    if (!(std::abs(positions.values[i]) <= kMost)) {
+    constexpr double kMaxAbsolute = 1e9;
+    if (!(std::abs(positions.values[i]) <= kMaxAbsolute)) {
       return Fail({file}, "positions of frame {}: {} is beyond ±{:g}", i / (3 * kRoleCount), positions.values[i],
-                  kMost);
+                  kMaxAbsolute);
     }
     motion.poses[i / (3 * kRoleCount)].joints[i / 3 % kRoleCount][static_cast<int>(i % 3)] = positions.values[i];
   }

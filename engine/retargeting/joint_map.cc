@@ -16,7 +16,7 @@ namespace {
 
 using enum Role;
 
-/// Lists the first names of the file, for complaints.
+/// Lists up to sixty names of the file, for error messages.
 std::string NamesSeen(const Skeleton& skeleton) {
   constexpr std::size_t kShownNames = 60;
   std::vector<std::string> seen;
@@ -29,11 +29,11 @@ std::string NamesSeen(const Skeleton& skeleton) {
 class MapFinder {
  public:
   MapFinder(const Skeleton& skeleton, const std::string& file)
-      : skeleton_(skeleton), file_(file), tree_(skeleton), names_(skeleton), places_(tree_) {}
+      : skeleton_(skeleton), file_(file), tree_(skeleton), names_(skeleton), draft_(tree_) {}
 
   Result<JointMap> Find(const TaughtRoles* taught) {
     if (taught != nullptr) {
-      RETURN_IF_ERROR(TakeTaught(*taught));
+      RETURN_IF_ERROR(AssignTaught(*taught));
     }
     RETURN_IF_ERROR(FindLimbs());
     RETURN_IF_ERROR(FindPelvis());
@@ -41,15 +41,15 @@ class MapFinder {
     FindSpine();
     RETURN_IF_ERROR(CheckTree());
     RETURN_IF_ERROR(CheckSides());
-    FindTips(places_, is_taught_);
-    JointMap map = places_.map();
+    FindTips(draft_, is_taught_);
+    JointMap map = draft_.map();
     map.by_anatomy = by_anatomy_;
     map.confidence = confidence_;
     return map;
   }
 
  private:
-  Result<void> TakeTaught(const TaughtRoles& taught) {
+  Result<void> AssignTaught(const TaughtRoles& taught) {
     for (const auto& [role, joint] : taught.joints) {
       const int found = skeleton_.Find(joint.name);
       if (found < 0) {
@@ -59,43 +59,46 @@ class MapFinder {
         return Fail(joint.place, "{} has no joint named {}{}; {}", file_, Quote(joint.name),
                     nearest.empty() ? "" : "; did you mean " + Quote(nearest) + "?", NamesSeen(skeleton_));
       }
-      places_.Set(role, found);
+      draft_.Set(role, found);
       is_taught_[Index(role)] = true;
     }
     return {};
   }
 
   Result<void> FindLimbs() {
+    // Find the joints of every limb by name.
     std::vector<std::string> missing;
     std::vector<Role> missing_roles;
     for (const Limb& limb : kLimbs) {
-      const std::array<int, 3> taught = {places_.JointOf(limb.roles[0]), places_.JointOf(limb.roles[1]),
-                                         places_.JointOf(limb.roles[2])};
+      const std::array<int, 3> taught = {draft_.JointOf(limb.roles[0]), draft_.JointOf(limb.roles[1]),
+                                         draft_.JointOf(limb.roles[2])};
       const FoundLimb found = FindLimb(names_, tree_, limb.is_arm ? ArmSchemes() : LegSchemes(), limb.side, taught);
       if (prefix_.empty()) prefix_ = found.prefix;
       for (std::size_t i = 0; i < 3; ++i) {
         if (found.joints[i] >= 0) {
-          places_.Set(limb.roles[i], found.joints[i]);
+          draft_.Set(limb.roles[i], found.joints[i]);
           continue;
         }
         missing_roles.push_back(limb.roles[i]);
         missing.emplace_back(RoleName(limb.roles[i]));
-        // Beside joints of one scheme, the name that this scheme has for the missing one.
+        // If other joints of a scheme were found, suggest its name for the missing one.
         if (found.scheme != nullptr) missing.back() += fmt::format(" (a '{}')", found.scheme->joints[i]);
       }
     }
     if (missing.empty()) return {};
+    // Take the missing ones from the skeleton's shape if that agrees with the names and is certain enough.
     const AnatomyProposal proposal = ProposeByAnatomy(tree_);
     const bool agrees = std::ranges::all_of(AllRoles(), [&](Role role) {
-      return proposal.joints[Index(role)] < 0 || !places_.Has(role) ||
-             places_.JointOf(role) == proposal.joints[Index(role)];
+      return proposal.joints[Index(role)] < 0 || !draft_.Has(role) ||
+             draft_.JointOf(role) == proposal.joints[Index(role)];
     });
     if (agrees && proposal.confidence >= kSureAnatomy) {
-      for (const Role role : missing_roles) places_.Set(role, proposal.joints[Index(role)]);
+      for (const Role role : missing_roles) draft_.Set(role, proposal.joints[Index(role)]);
       by_anatomy_ = std::move(missing_roles);
       confidence_ = proposal.confidence;
       return {};
     }
+    // Otherwise fail, with the proposal in the message.
     std::string guess;
     if (agrees && proposal.confidence > 0) {
       guess = fmt::format(
@@ -108,17 +111,18 @@ class MapFinder {
   }
 
   Result<void> FindPelvis() {
-    if (places_.Has(kHipCentre)) return {};
-    const int pelvis = tree_.CommonAncestor(places_.JointOf(kLeftHip), places_.JointOf(kRightHip));
+    if (draft_.Has(kHipCentre)) return {};
+    const int pelvis = tree_.CommonAncestor(draft_.JointOf(kLeftHip), draft_.JointOf(kRightHip));
     if (pelvis < 0) {
-      return Fail({file_}, "{} and {}, the hips, hang from no common joint", Quote(places_.NameOf(kLeftHip)),
-                  Quote(places_.NameOf(kRightHip)));
+      return Fail({file_}, "{} and {}, the hips, hang from no common joint", Quote(draft_.NameOf(kLeftHip)),
+                  Quote(draft_.NameOf(kRightHip)));
     }
-    places_.Set(kHipCentre, pelvis);
+    draft_.Set(kHipCentre, pelvis);
     return {};
   }
 
-  /// The first joint so named that `fits`, or −1; one with the limbs' prefix if there is any.
+  /// Returns the first joint with one of these names for which `fits` is true, preferably with the limbs' prefix; −1 if
+  /// there is none.
   template <typename Fits>
   int FindInMiddle(std::span<const std::string_view> role_names, Fits fits) const {
     for (const std::string_view name : role_names) {
@@ -132,41 +136,42 @@ class MapFinder {
   }
 
   void FindNeckAndHead() {
-    const auto is_above_pelvis = [&](int joint) { return tree_.HangsFrom(joint, places_.JointOf(kHipCentre)); };
+    const auto is_above_pelvis = [&](int joint) { return tree_.HangsFrom(joint, draft_.JointOf(kHipCentre)); };
     int head = FindInMiddle(HeadNames(), is_above_pelvis);
-    if (head < 0) head = HeadByBuild();
-    if (!places_.Has(kHead) && head >= 0) places_.Set(kHead, head);
-    if (places_.Has(kShoulderCentre)) return;
-    // CMU's "Neck" lies on the chest joint that it hangs from, its "Neck1" at the neck's base. Limbs serve as the
-    // measure since their lengths do not depend on the rest pose.
-    const double tiny = 0.01 * glm::distance(places_.RestOf(kLeftShoulder), places_.RestOf(kLeftElbow));
+    if (head < 0) head = HeadByShape();
+    if (!draft_.Has(kHead) && head >= 0) draft_.Set(kHead, head);
+    if (draft_.Has(kShoulderCentre)) return;
+    // CMU's "Neck" lies at its parent, a chest joint; its "Neck1" is at the base of the neck. The threshold is relative
+    // to a limb's length because that does not depend on the rest pose.
+    const double tiny = 0.01 * glm::distance(draft_.RestOf(kLeftShoulder), draft_.RestOf(kLeftElbow));
     const int neck = FindInMiddle(NeckNames(), [&](int joint) {
       return is_above_pelvis(joint) && (head < 0 || tree_.HangsFrom(head, joint)) &&
              glm::distance(tree_.RestOf(joint), tree_.RestOf(tree_.ParentOf(joint))) > tiny;
     });
-    if (neck >= 0) return places_.Set(kShoulderCentre, neck);
-    const int carrier = tree_.CommonAncestor(places_.JointOf(kLeftShoulder), places_.JointOf(kRightShoulder));
-    places_.Compose(kShoulderCentre, std::max(carrier, 0),
-                    0.5 * (places_.RestOf(kLeftShoulder) + places_.RestOf(kRightShoulder)));
+    if (neck >= 0) return draft_.Set(kShoulderCentre, neck);
+    const int carrier = tree_.CommonAncestor(draft_.JointOf(kLeftShoulder), draft_.JointOf(kRightShoulder));
+    draft_.Compose(kShoulderCentre, std::max(carrier, 0),
+                   0.5 * (draft_.RestOf(kLeftShoulder) + draft_.RestOf(kRightShoulder)));
   }
 
-  /// The joint below the top of what goes straight on from the trunk beyond the shoulders, or −1: limbs aside, the
-  /// joint is farther than the shoulders by 0.15 of the trunk and no more than by 0.8.
-  int HeadByBuild() const {
-    const int carrier = tree_.CommonAncestor(places_.JointOf(kLeftShoulder), places_.JointOf(kRightShoulder));
-    const glm::dvec3 neck = 0.5 * (places_.RestOf(kLeftShoulder) + places_.RestOf(kRightShoulder));
-    const glm::dvec3 trunk = neck - 0.5 * (places_.RestOf(kLeftHip) + places_.RestOf(kRightHip));
-    constexpr double kNearest = 0.15, kFarthest = 0.8, kAside = Radians(30);
-    double highest = kNearest;
+  /// Returns the parent of the highest joint beyond the shoulders in the direction of the trunk, or that joint itself;
+  /// −1 if there is none. The joint belongs to no limb and is 0.15 to 0.8 trunk lengths beyond the shoulders.
+  int HeadByShape() const {
+    const int carrier = tree_.CommonAncestor(draft_.JointOf(kLeftShoulder), draft_.JointOf(kRightShoulder));
+    const glm::dvec3 neck = 0.5 * (draft_.RestOf(kLeftShoulder) + draft_.RestOf(kRightShoulder));
+    const glm::dvec3 trunk = neck - 0.5 * (draft_.RestOf(kLeftHip) + draft_.RestOf(kRightHip));
+    constexpr double kMinHeight = 0.15, kMaxHeight = 0.8, kAside = Radians(30);
+    double highest = kMinHeight;
     int head = -1;
+    // Find the highest such joint.
     for (int joint = std::max(carrier, 0) + 1; carrier >= 0 && joint < tree_.size(); ++joint) {
       const glm::dvec3 on = tree_.RestOf(joint) - neck;
       const double height = glm::dot(on, trunk) / glm::dot(trunk, trunk);
       const auto is_of_limb = [&](const Limb& limb) {
-        const int top = places_.JointOf(limb.roles[0]);
+        const int top = draft_.JointOf(limb.roles[0]);
         return joint == top || tree_.HangsFrom(joint, top);
       };
-      if (!(height > highest && height <= kFarthest) || AngleBetween(on, trunk) > kAside) continue;
+      if (!(height > highest && height <= kMaxHeight) || AngleBetween(on, trunk) > kAside) continue;
       if (!tree_.HangsFrom(joint, carrier) || std::ranges::any_of(kLimbs, is_of_limb)) continue;
       highest = height;
       head = joint;
@@ -175,17 +180,17 @@ class MapFinder {
     return is_end ? tree_.ParentOf(head) : head;
   }
 
-  /// The joint nearest to half the way from the pelvis to the base of the neck.
+  /// Assigns the joint nearest to the middle of the chain from the pelvis to the base of the neck.
   void FindSpine() {
-    if (places_.Has(kSpine)) return;
-    // Distances along the chain do not depend on the rest pose, which some files have folded up.
-    const int pelvis = places_.JointOf(kHipCentre);
-    const int neck = places_.JointOf(kShoulderCentre);
+    if (draft_.Has(kSpine)) return;
+    // Distances along the chain do not depend on the rest pose, which is folded up in some files.
+    const int pelvis = draft_.JointOf(kHipCentre);
+    const int neck = draft_.JointOf(kShoulderCentre);
     std::vector<int> chain;
     std::vector<double> from_neck;
     double way = 0;
-    glm::dvec3 last = places_.RestOf(kShoulderCentre);
-    for (int joint = places_.IsComposed(kShoulderCentre) ? neck : tree_.ParentOf(neck); joint >= pelvis;
+    glm::dvec3 last = draft_.RestOf(kShoulderCentre);
+    for (int joint = draft_.IsComposed(kShoulderCentre) ? neck : tree_.ParentOf(neck); joint >= pelvis;
          joint = tree_.ParentOf(joint)) {
       way += glm::distance(last, tree_.RestOf(joint));
       last = tree_.RestOf(joint);
@@ -197,58 +202,58 @@ class MapFinder {
       const double distance = std::abs(from_neck[i] - 0.5 * way);
       if (chain[i] == pelvis || distance >= nearest) continue;
       nearest = distance;
-      places_.Set(kSpine, chain[i]);
+      draft_.Set(kSpine, chain[i]);
     }
-    if (!places_.Has(kSpine))
-      places_.Compose(kSpine, pelvis, 0.5 * (places_.RestOf(kShoulderCentre) + places_.RestOf(kHipCentre)));
+    if (!draft_.Has(kSpine))
+      draft_.Compose(kSpine, pelvis, 0.5 * (draft_.RestOf(kShoulderCentre) + draft_.RestOf(kHipCentre)));
   }
 
-  Result<void> CheckHangs(Role child, Role parent) const {
-    if (tree_.HangsFrom(places_.JointOf(child), places_.JointOf(parent))) return {};
+  Result<void> CheckDescends(Role child, Role parent) const {
+    if (tree_.HangsFrom(draft_.JointOf(child), draft_.JointOf(parent))) return {};
     return Fail({file_}, "{} is played by {}, which does not descend from {}, the {}", RoleName(child),
-                Quote(places_.NameOf(child)), Quote(places_.NameOf(parent)), RoleName(parent));
+                Quote(draft_.NameOf(child)), Quote(draft_.NameOf(parent)), RoleName(parent));
   }
 
   Result<void> CheckTree() const {
     std::vector<Bone> pairs;
     if (is_taught_[Index(kSpine)]) pairs.push_back({kHipCentre, kSpine});
-    if (!places_.IsComposed(kShoulderCentre)) pairs.push_back({kHipCentre, kShoulderCentre});
-    if (!places_.IsComposed(kShoulderCentre) && places_.Has(kHead)) pairs.push_back({kShoulderCentre, kHead});
+    if (!draft_.IsComposed(kShoulderCentre)) pairs.push_back({kHipCentre, kShoulderCentre});
+    if (!draft_.IsComposed(kShoulderCentre) && draft_.Has(kHead)) pairs.push_back({kShoulderCentre, kHead});
     for (const Limb& limb : kLimbs) {
       pairs.push_back({kHipCentre, limb.roles[0]});
       pairs.push_back({limb.roles[0], limb.roles[1]});
-      if (!IsFree(places_, limb.roles[2])) pairs.push_back({limb.roles[1], limb.roles[2]});
+      if (!IsFree(draft_, limb.roles[2])) pairs.push_back({limb.roles[1], limb.roles[2]});
       if (is_taught_[Index(limb.tip)]) pairs.push_back({limb.roles[2], limb.tip});
     }
     if (is_taught_[Index(kHead)]) pairs.push_back({kHipCentre, kHead});
     for (const Bone& pair : pairs) {
-      RETURN_IF_ERROR(CheckHangs(pair.child, pair.parent));
+      RETURN_IF_ERROR(CheckDescends(pair.child, pair.parent));
     }
     for (const Role role : {kSpine, kShoulderCentre, kHead}) {
-      if (IsFree(places_, role)) continue;
-      return Fail({file_}, "{} is played by {}, which is part of a limb", RoleName(role), Quote(places_.NameOf(role)));
+      if (IsFree(draft_, role)) continue;
+      return Fail({file_}, "{} is played by {}, which is part of a limb", RoleName(role), Quote(draft_.NameOf(role)));
     }
     return {};
   }
 
   Result<void> CheckSides() const {
-    const glm::dvec3 across = places_.RestOf(kLeftHip) - places_.RestOf(kRightHip);
-    const double left = glm::dot(places_.RestOf(kLeftHip) - places_.RestOf(kHipCentre), across);
-    const double right = glm::dot(places_.RestOf(kRightHip) - places_.RestOf(kHipCentre), across);
+    const glm::dvec3 across = draft_.RestOf(kLeftHip) - draft_.RestOf(kRightHip);
+    const double left = glm::dot(draft_.RestOf(kLeftHip) - draft_.RestOf(kHipCentre), across);
+    const double right = glm::dot(draft_.RestOf(kRightHip) - draft_.RestOf(kHipCentre), across);
     if (left > 0 && right < 0) return {};
     return Fail({file_}, "{} and {} lie on the same side of {} in the rest pose; a left and a right hip are needed",
-                Quote(places_.NameOf(kLeftHip)), Quote(places_.NameOf(kRightHip)), Quote(places_.NameOf(kHipCentre)));
+                Quote(draft_.NameOf(kLeftHip)), Quote(draft_.NameOf(kRightHip)), Quote(draft_.NameOf(kHipCentre)));
   }
 
   const Skeleton& skeleton_;
   const std::string& file_;
   const SkeletonTree tree_;
   const JointNames names_;
-  std::string prefix_;  ///< of the limbs' names
+  std::string prefix_;  ///< common prefix of the limbs' names
   std::vector<Role> by_anatomy_;
   double confidence_ = 1;
   std::array<bool, kRoleCount> is_taught_{};
-  JointMapDraft places_;
+  JointMapDraft draft_;
 };
 
 }  // namespace

@@ -8,8 +8,8 @@ namespace {
 
 using enum Language;
 
-// Where a scheme names the collar bone "shoulder" or a helper "hip", a more specific row must come before the one
-// that would take these for the joint.
+// If a scheme calls the collar bone "shoulder" or a helper "hip", a more specific row must precede the row that would
+// take these for the joint.
 constexpr LimbNames kArmSchemes[] = {
     {{"arm", "forearm", "hand"}},                // MotionBuilder: CMU, LAFAN1, Mixamo, MASS, Rokoko, DeepMotion
     {{"arm", "elbow", "wrist"}},                 // "Shoulder" is the collar bone: MikuMikuDance in English
@@ -94,7 +94,7 @@ constexpr LimbNames kLegSchemes[] = {
     {{"hanche", "genou", "pied"}, kFrench},
 };
 
-// Kinect, and our own role, call that place the middle of the shoulders.
+// Kinect, and our own role, name the middle of the shoulders.
 constexpr std::string_view kNeckNames[] = {"shouldercentre",
                                            "shouldercenter",
                                            "spineshoulder",
@@ -112,17 +112,17 @@ constexpr std::pair<std::string_view, Finger> kFingerNames[] = {
 };
 
 constexpr std::string_view kTechnicalWords[] = {"jnt", "joint", "jt", "bone"};
-constexpr std::size_t kMostSuffixes = 2;
-constexpr std::size_t kLongestName = 64;
-constexpr std::size_t kMostFound = 16;
+constexpr std::size_t kMaxSuffixes = 2;
+constexpr std::size_t kMaxNameLength = 64;
+constexpr std::size_t kMaxFound = 16;
 
 bool IsLower(char c) { return c >= 'a' && c <= 'z'; }
 bool IsUpper(char c) { return c >= 'A' && c <= 'Z'; }
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 bool IsBeyondAscii(char c) { return static_cast<unsigned char>(c) >= 0x80; }
 
-/// Returns a name in UTF-8 with Latin-1's accented letters as plain ones, also where the accent is a character of its
-/// own (as macOS writes names).
+/// Returns a name in UTF-8 with Latin-1's accented letters replaced by plain ones, also if the accent is a separate
+/// character (as in names written by macOS).
 std::string WithoutAccents(std::string_view name) {
   constexpr std::string_view kPlain =
       "AAAAAA?CEEEEIIII?NOOOOO?OUUUUY??aaaaaa?ceeeeiiii?nooooo?ouuuuy?y";  // from U+00C0
@@ -142,8 +142,7 @@ std::string WithoutAccents(std::string_view name) {
   return plain;
 }
 
-/// Says whether a new word begins at `i`, within a word: "upLeg", "Bip01", "LHip" (where the next letter is small
-/// again).
+/// Returns true if a new word begins at `i` inside a word: "upLeg", "Bip01", "LHip" (a capital before a small letter).
 bool BeginsWord(std::string_view name, std::size_t i) {
   const char before = name[i - 1];
   const char here = name[i];
@@ -168,7 +167,7 @@ std::vector<std::string> WordsOf(std::string_view name) {
 
 bool IsNumber(const std::string& word) { return std::ranges::all_of(word, IsDigit); }
 
-/// Moves a side before a number: "upperarm01.L" is read like "upperarm.L.01": the number counts as a suffix.
+/// Moves a side before a number: "upperarm01.L" is read like "upperarm.L.01", and the number counts as a suffix.
 void PutSideBeforeNumber(std::vector<std::string>& words) {
   constexpr std::string_view kSides[] = {"l", "r", "left", "right"};
   if (words.size() < 3 || std::ranges::find(kSides, words.back()) == std::end(kSides)) return;
@@ -206,7 +205,7 @@ JointNames::JointNames(const Skeleton& skeleton) {
 void JointNames::AddReadings(const Joint& joint, int index) {
   std::string_view name = joint.name;
   name.remove_prefix(name.find_last_of(":|") + 1);
-  if (name.size() > kLongestName) return;
+  if (name.size() > kMaxNameLength) return;
   std::vector<std::string> words = WordsOf(WithoutAccents(name));
   PutSideBeforeNumber(words);
   for (std::size_t suffixes = 0; !words.empty(); ++suffixes) {
@@ -219,7 +218,7 @@ void JointNames::AddReadings(const Joint& joint, int index) {
       if (!IsDigit(word.front())) prefix += word;
       begin += word.size();
     }
-    if (suffixes == kMostSuffixes || !IsTechnical(words.back())) return;
+    if (suffixes == kMaxSuffixes || !IsTechnical(words.back())) return;
     words.pop_back();
   }
 }
@@ -227,7 +226,7 @@ void JointNames::AddReadings(const Joint& joint, int index) {
 std::vector<NamedJoint> JointNames::FindAny(std::span<const std::string> forms) const {
   std::vector<NamedJoint> found;
   for (const Reading& reading : readings_) {
-    if (found.size() < kMostFound && std::ranges::find(forms, reading.name) != forms.end()) {
+    if (found.size() < kMaxFound && std::ranges::find(forms, reading.name) != forms.end()) {
       found.push_back(reading.joint);
     }
   }

@@ -12,7 +12,7 @@ SkeletonTree::SkeletonTree(const Skeleton& skeleton) : skeleton_(skeleton) {
 
 bool SkeletonTree::HangsFrom(int joint, int ancestor) const {
   if (joint == ancestor) return false;
-  while (joint > ancestor) joint = ParentOf(joint);  // parents stand first
+  while (joint > ancestor) joint = ParentOf(joint);  // parents come first
   return joint == ancestor;
 }
 
@@ -31,7 +31,7 @@ glm::dvec3 SkeletonTree::InFrameOf(int joint, const glm::dvec3& point) const {
 
 namespace {
 
-// How good a find is; below: the number of joints that are named.
+// Ratings of a result; lower ratings are the number of joints found by name.
 constexpr int kAllNamed = 3;
 constexpr int kLooseChain = 4;
 constexpr int kChain = 5;
@@ -52,14 +52,14 @@ Candidates CandidatesOf(const JointNames& names, const LimbNames& scheme, Side s
     if (taught[i] >= 0) candidates[i] = {{.joint = taught[i], .prefix = "", .suffixes = 0}};
   }
   if (taught == std::array{-1, -1, -1}) return candidates;
-  // A taught joint may be called anything, so prefixes no longer tell what belongs together.
+  // A given joint may have any name, so prefixes do not show what belongs together.
   for (auto& of_joint : candidates) {
     for (NamedJoint& candidate : of_joint) candidate.prefix.clear();
   }
   return candidates;
 }
 
-/// Takes every candidate triple of one prefix and keeps the best.
+/// Tries every triple of candidates with one prefix and keeps the best.
 class Search {
  public:
   Search(const SkeletonTree& tree, FoundLimb& best) : tree_(tree), best_(best) {}
@@ -81,7 +81,7 @@ class Search {
   }
 
  private:
-  /// Finds the joints there are by name, hanging together or not, for complaints.
+  /// Finds the joints that exist by name, even if they form no chain, for error messages.
   void TryNames(const LimbNames& scheme, const Candidates& candidates) {
     for (const auto& of_joint : candidates) {
       for (const NamedJoint& candidate : of_joint) TryPrefix(scheme, candidates, candidate.prefix);

@@ -28,7 +28,7 @@ inline constexpr std::array<Limb, 4> kLimbs = {{
 }};
 inline constexpr std::span<const Limb, 2> kLegs = std::span(kLimbs).last<2>();
 
-/// The tree of a skeleton's joints, with their places in its rest pose. `skeleton` must outlive this.
+/// The tree of a skeleton's joints with their positions in the rest pose. `skeleton` must outlive this object.
 class SkeletonTree {
  public:
   explicit SkeletonTree(const Skeleton& skeleton);
@@ -38,11 +38,11 @@ class SkeletonTree {
   int ParentOf(int joint) const { return skeleton_.joints[joint].parent; }
   const glm::dvec3& RestOf(int joint) const { return rest_[joint].position; }
 
-  /// Says whether `joint` hangs from `ancestor`, at whatever distance; a joint does not hang from itself.
+  /// Returns true if `joint` is a descendant of `ancestor`; a joint is not a descendant of itself.
   bool HangsFrom(int joint, int ancestor) const;
-  /// The lowest joint that carries both, or −1.
+  /// Returns the lowest common ancestor of two joints, or −1.
   int CommonAncestor(int a, int b) const;
-  /// Returns `point` of the rest pose in the joint's own frame; zero when that frame has no size.
+  /// Returns `point` of the rest pose in the joint's own frame; zero if that frame is singular.
   glm::dvec3 InFrameOf(int joint, const glm::dvec3& point) const;
 
  private:
@@ -50,16 +50,17 @@ class SkeletonTree {
   std::vector<GlobalTransform> rest_;
 };
 
-/// A limb found by its names: its joints from the trunk outwards, −1 where a joint is missing.
+/// A limb found by names: its joints from the trunk outwards; −1 for a missing joint.
 struct FoundLimb {
   std::array<int, 3> joints{-1, -1, -1};
   std::string prefix;                 ///< common to the joints' names
-  const LimbNames* scheme = nullptr;  ///< that names the most joints; null when none names any
+  const LimbNames* scheme = nullptr;  ///< the scheme that names the most joints; null if none names any
 };
 
-/// Finds a limb by the first scheme that names three joints, under one prefix, which hang from each other. Control rigs
-/// keep feet apart from the legs: if need be, the third may hang from neither of the others. When no scheme does,
-/// gives the joints of the scheme that names the most. Joints of `taught` that are not −1 are taken as they are.
+/// Finds a limb by the first scheme whose three names, under one prefix, belong to joints that descend from each other.
+/// In control rigs, feet are separate from the legs: as a second choice, the third joint may descend from neither of
+/// the others. If no scheme fits, returns the joints of the scheme that names the most. Joints of `taught` that are not
+/// −1 are used as they are.
 FoundLimb FindLimb(const JointNames& names, const SkeletonTree& tree, std::span<const LimbNames> schemes, Side side,
                    const std::array<int, 3>& taught);
 

@@ -41,8 +41,8 @@ Result<double> ReadUnit(std::string_view text, const Place& place) {
   }
   double metres = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), metres);
-  constexpr double kSmallest = 1e-6, kLargest = 1e3;
-  if (error == std::errc() && end == text.data() + text.size() && metres >= kSmallest && metres <= kLargest) {
+  constexpr double kMin_m = 1e-6, kMax_m = 1e3;
+  if (error == std::errc() && end == text.data() + text.size() && metres >= kMin_m && metres <= kMax_m) {
     return metres;
   }
   return Fail(place, "{} is no unit; allowed: m, cm, mm, in, ft, cmu (5.64 cm), or how many metres one unit has",
@@ -50,19 +50,21 @@ Result<double> ReadUnit(std::string_view text, const Place& place) {
 }
 
 Result<TaughtRoles> ReadJointMapFile(std::string_view yaml, const std::string& file) {
+  // Read unit, up axis and rate.
   ASSIGN_OR_RETURN(const auto document, ParseYaml(yaml, file));
   Fields fields(document, "a joint map");
   const Node* roles = fields.Raw("roles");
   const Node* unit = fields.Raw("unit");
   const std::string up = fields.Choice("up", {"y", "z"}, "");
-  constexpr double kSlowest = 0.1, kFastest = 10'000;
+  constexpr double kMinRate_hz = 0.1, kMaxRate_hz = 10'000;
   TaughtRoles taught;
-  taught.rate_hz = fields.OptionalNumber("rate", {kSlowest, kFastest});
+  taught.rate_hz = fields.OptionalNumber("rate", {kMinRate_hz, kMaxRate_hz});
   RETURN_IF_ERROR(fields.Finish());
   if (!up.empty()) taught.up = up == "z" ? UpAxis::kZ : UpAxis::kY;
   if (unit != nullptr) {
     ASSIGN_OR_RETURN(taught.metres_per_unit, ReadUnit(unit->scalar, unit->place));
   }
+  // Read the roles; they are optional if anything else is given.
   if (roles == nullptr && (unit != nullptr || taught.up || taught.rate_hz)) return taught;
   if (roles == nullptr || roles->kind != Node::Kind::kMapping || roles->entries.empty()) {
     return Fail(roles == nullptr ? document.place : roles->place,

@@ -12,22 +12,22 @@
 
 namespace etude {
 
-/// A joint as a joint-map file names it.
+/// A joint as named in a joint-map file.
 struct TaughtJoint {
-  std::string name;  ///< as the clip has it; "LeftHand_End" for BVH's End Sites
-  Place place;       ///< for complaints
+  std::string name;  ///< as in the clip; "LeftHand_End" for BVH's End Sites
+  Place place;       ///< for error messages
 };
 
-/// The contents of a joint-map file: which joint plays a role, and other facts about clips that they cannot tell
-/// themselves. What it leaves out is found as usual.
+/// The content of a joint-map file: the joints that play roles, and properties of clips that their files do not
+/// contain. Roles that it leaves out are found as usual.
 struct TaughtRoles {
   std::map<Role, TaughtJoint> joints;
   std::optional<double> metres_per_unit = {};
   std::optional<UpAxis> up = {};
-  std::optional<double> rate_hz = {};  ///< in the place of the file's own
+  std::optional<double> rate_hz = {};  ///< replaces the file's own
 };
 
-/// Reads a unit: m, cm, mm, in, ft, cmu (5.64 cm), or how many metres one has.
+/// Reads a unit: m, cm, mm, in, ft, cmu (5.64 cm), or its length in metres.
 Result<double> ReadUnit(std::string_view text, const Place& place);
 
 /// Reads a joint-map file (docs/clips.md):
@@ -37,14 +37,14 @@ Result<double> ReadUnit(std::string_view text, const Place& place);
 ///     unit: cm
 ///     up: z
 ///     rate: 120
-/// Refused, with line and column: unknown roles, values that are no names, nothing at all.
+/// Fails, with line and column, for unknown roles, values that are not names, and an empty file.
 Result<TaughtRoles> ReadJointMapFile(std::string_view yaml, const std::string& file);
 
-/// Puts a name in double quotes, as YAML reads it back.
+/// Returns a name in double quotes, escaped so that YAML reads it back unchanged.
 std::string QuotedInYaml(std::string_view name);
 
-/// Writes what was found as such a file, with the composed roles and unused joints as comments: a start for one's own.
-/// Read back, it gives the same map.
+/// Writes the map as such a file, with the composed roles and unused joints as comments, as a start for a user's own
+/// file. Reading it returns the same map.
 std::string WriteJointMapFile(const Skeleton& skeleton, const JointMap& map);
 
 }  // namespace etude

@@ -6,7 +6,7 @@
 namespace etude {
 namespace {
 
-/// Adds a rule for each side; '?' stands for the side, as `left` and `right` have it.
+/// Adds a rule for each side; '?' in a marker's name is replaced by `left` or `right`.
 void AddSides(std::vector<MarkerRule>& rules, Role left_role, const std::vector<std::string>& markers,
               std::string_view left, std::string_view right) {
   for (const bool is_left : {true, false}) {
@@ -29,6 +29,7 @@ MarkerSet MakeSet(std::string name, std::vector<MarkerRule> middle, const LimbMa
   return set;
 }
 
+// Joints and keypoints first, then bones, then markers on the skin.
 std::vector<MarkerSet> MakeSets() {
   std::vector<MarkerSet> sets;
   MarkerSet own{.name = "Etude's joints", .rules = {}};

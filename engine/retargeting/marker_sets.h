@@ -8,21 +8,21 @@
 
 namespace etude {
 
-/// A joint is the middle of some markers, all of them.
+/// A joint is the mean of some markers, all of which must be present.
 struct MarkerRule {
   Role role;
   std::vector<std::string> markers;
 };
 
-/// A convention of names, in small letters.
+/// A convention of marker names, in lower case.
 struct MarkerSet {
   std::string name;
   std::vector<MarkerRule> rules;
-  std::array<std::string, 4> pelvis = {};  ///< left and right, front and back; the hips follow from them
-  bool is_gait = false;                    ///< knees, ankles and shoulders have one marker, at the skin
+  std::array<std::string, 4> pelvis = {};  ///< left and right front, left and right back; the hips follow from them
+  bool is_gait = false;                    ///< knees, ankles and shoulders have one marker each, on the skin
 };
 
-/// The conventions that are known here.
+/// Lists the supported conventions.
 const std::vector<MarkerSet>& MarkerSets();
 
 }  // namespace etude

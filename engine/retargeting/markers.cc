@@ -17,10 +17,10 @@
 namespace etude {
 namespace {
 
-using MarkerPlace = std::optional<glm::dvec3>;
-using Places = std::array<MarkerPlace, kRoleCount>;
+using MarkerPosition = std::optional<glm::dvec3>;
+using JointPositions = std::array<MarkerPosition, kRoleCount>;
 
-constexpr double kLongestGap_s = 1;
+constexpr double kMaxGap_s = 1;
 
 /// The joints without which there is no body.
 constexpr std::array kNeeded = {Role::kLeftShoulder, Role::kLeftElbow,  Role::kLeftWrist, Role::kRightShoulder,
@@ -35,11 +35,11 @@ std::string LowerCase(std::string_view text) {
   return lower;
 }
 
-/// True if a place is all zeros, as some programs write a gap.
-bool IsZero(const MarkerPlace& place) { return place && *place == glm::dvec3(0); }
+/// Returns true if a position is all zeros, which some programs write for a gap.
+bool IsZero(const MarkerPosition& place) { return place && *place == glm::dvec3(0); }
 
-/// Takes places that are all zeros for gaps, of markers that are elsewhere in other frames (the root of poses about
-/// their root always is there); counts them.
+/// Removes positions that are all zeros, for markers that are elsewhere in other frames (the root of a root-relative
+/// pose is always at zero). Returns their count.
 int LeaveZerosOut(MarkerMotion& markers) {
   int zeros = 0;
   for (std::size_t marker = 0; marker < markers.names.size(); ++marker) {
@@ -55,7 +55,7 @@ int LeaveZerosOut(MarkerMotion& markers) {
   return zeros;
 }
 
-/// The columns of one person's markers, by their names without prefix in small letters.
+/// The columns of one person's markers, by their names in lower case without prefix.
 using Columns = std::map<std::string, std::size_t, std::less<>>;
 
 std::map<std::string, Columns> PeopleOf(const MarkerMotion& markers) {
@@ -77,33 +77,33 @@ bool HasPelvis(const MarkerSet& set, const Columns& columns) {
   return !set.pelvis.front().empty() && HasAll(columns, set.pelvis);
 }
 
-bool Tells(const MarkerSet& set, const Columns& columns, Role role) {
+bool Determines(const MarkerSet& set, const Columns& columns, Role role) {
   if ((role == Role::kLeftHip || role == Role::kRightHip) && HasPelvis(set, columns)) return true;
   return std::ranges::any_of(
       set.rules, [&](const MarkerRule& rule) { return rule.role == role && HasAll(columns, rule.markers); });
 }
 
-std::vector<std::string> LackedBy(const MarkerSet& set, const Columns& columns) {
+std::vector<std::string> MissingFrom(const MarkerSet& set, const Columns& columns) {
   std::vector<std::string> lacks;
   for (const Role role : kNeeded) {
-    if (!Tells(set, columns, role)) lacks.emplace_back(RoleName(role));
+    if (!Determines(set, columns, role)) lacks.emplace_back(RoleName(role));
   }
   return lacks;
 }
 
-/// Gives the point between two times that are seen.
-glm::dvec3 Mix(const glm::dvec3& a, const glm::dvec3& b, double part) { return a + part * (b - a); }
+/// Interpolates linearly between two points.
+glm::dvec3 Interpolate(const glm::dvec3& a, const glm::dvec3& b, double part) { return a + part * (b - a); }
 
-/// Bridges gaps between two frames that are at most so many frames apart; counts the frames filled.
-int BridgeGaps(std::vector<Places>& frames, std::size_t joint, std::size_t most) {
+/// Fills gaps of at most `most` frames linearly; returns the number of frames filled.
+int BridgeGaps(std::vector<JointPositions>& frames, std::size_t joint, std::size_t most) {
   int filled = 0;
   std::optional<std::size_t> last;
   for (std::size_t t = 0; t < frames.size(); ++t) {
     if (!frames[t][joint]) continue;
     if (last && t - *last > 1 && t - *last <= most + 1) {
       for (std::size_t k = *last + 1; k < t; ++k, ++filled) {
-        frames[k][joint] = Mix(*frames[*last][joint], *frames[t][joint],
-                               static_cast<double>(k - *last) / static_cast<double>(t - *last));
+        frames[k][joint] = Interpolate(*frames[*last][joint], *frames[t][joint],
+                                       static_cast<double>(k - *last) / static_cast<double>(t - *last));
       }
     }
     last = t;
@@ -111,9 +111,9 @@ int BridgeGaps(std::vector<Places>& frames, std::size_t joint, std::size_t most)
   return filled;
 }
 
-/// Hip joint centres by Harrington et al. (2007), "Prediction of the hip joint centre in adults, children, and patients
-/// with cerebral palsy", table 6: millimetres, from the middle between the front markers.
-void PlaceHips(const std::array<glm::dvec3, 4>& pelvis, Places& places) {
+/// Sets the hip joint centres by Harrington et al. (2007), "Prediction of the hip joint centre in adults, children, and
+/// patients with cerebral palsy", table 6: millimetres, relative to the midpoint of the front markers.
+void PlaceHips(const std::array<glm::dvec3, 4>& pelvis, JointPositions& places) {
   const glm::dvec3 front = 0.5 * (pelvis[0] + pelvis[1]), back = 0.5 * (pelvis[2] + pelvis[3]);
   const glm::dvec3 right = glm::normalize(pelvis[1] - pelvis[0]);
   glm::dvec3 forward = front - back;
@@ -126,45 +126,49 @@ void PlaceHips(const std::array<glm::dvec3, 4>& pelvis, Places& places) {
   places[Index(Role::kRightHip)] = front + 1e-3 * (middle + side);
 }
 
-/// The part of `across` that is square to the way from `from` to `to`, of length 1.
-glm::dvec3 SquareTo(const glm::dvec3& across, const glm::dvec3& from, const glm::dvec3& to) {
+/// Returns the component of `across` perpendicular to the line from `from` to `to`, normalised.
+glm::dvec3 PerpendicularTo(const glm::dvec3& across, const glm::dvec3& from, const glm::dvec3& to) {
   const glm::dvec3 along = glm::normalize(to - from);
   return glm::normalize(across - glm::dot(across, along) * along);
 }
 
-/// Moves Plug-in Gait's markers from the skin to the joints.
-void MoveIntoLimbs(Places& places) {
+/// Moves Plug-in Gait's markers from the skin to the joint centres.
+void MoveIntoLimbs(JointPositions& places) {
   constexpr double kHalfKnee = 0.05, kHalfAnkle = 0.035, kShoulderDepth = 0.045;
-  const auto at = [&](Role role) -> MarkerPlace& { return places[Index(role)]; };
+  // Knees and ankles: inward, perpendicular to the limb.
+  const auto at = [&](Role role) -> MarkerPosition& { return places[Index(role)]; };
   if (at(Role::kLeftHip) && at(Role::kRightHip)) {
     const glm::dvec3 to_right = *at(Role::kRightHip) - *at(Role::kLeftHip);
     for (const bool is_left : {true, false}) {
-      const auto of = [&](Role role) -> MarkerPlace& { return at(is_left ? role : Mirrored(role)); };
+      const auto of = [&](Role role) -> MarkerPosition& { return at(is_left ? role : Mirrored(role)); };
       const glm::dvec3 inward = is_left ? to_right : -to_right;
-      MarkerPlace &hip = of(Role::kLeftHip), &knee = of(Role::kLeftKnee), &ankle = of(Role::kLeftAnkle);
-      if (knee) *knee += kHalfKnee * SquareTo(inward, *hip, *knee);
-      if (knee && ankle) *ankle += kHalfAnkle * SquareTo(inward, *knee, *ankle);
+      MarkerPosition &hip = of(Role::kLeftHip), &knee = of(Role::kLeftKnee), &ankle = of(Role::kLeftAnkle);
+      if (knee) *knee += kHalfKnee * PerpendicularTo(inward, *hip, *knee);
+      if (knee && ankle) *ankle += kHalfAnkle * PerpendicularTo(inward, *knee, *ankle);
     }
   }
-  const MarkerPlace &neck = at(Role::kShoulderCentre), &spine = at(Role::kSpine);
+  // Shoulders: down along the trunk.
+  const MarkerPosition &neck = at(Role::kShoulderCentre), &spine = at(Role::kSpine);
   if (!neck || !spine) return;
   for (const Role shoulder : {Role::kLeftShoulder, Role::kRightShoulder}) {
     if (at(shoulder)) *at(shoulder) += kShoulderDepth * glm::normalize(*spine - *neck);
   }
 }
 
-/// `scale`: metres of what the file calls one.
-Places PlacesOf(const MarkerSet& set, const Columns& columns, const std::vector<MarkerPlace>& frame, double scale) {
-  Places places;
-  const auto middle = [&](std::span<const std::string> markers) -> MarkerPlace {
+/// Returns the joints' positions in one frame; `scale` is the length of the file's unit in metres.
+JointPositions PositionsOf(const MarkerSet& set, const Columns& columns, const std::vector<MarkerPosition>& frame,
+                           double scale) {
+  JointPositions places;
+  const auto middle = [&](std::span<const std::string> markers) -> MarkerPosition {
     glm::dvec3 sum(0);
     for (const std::string& marker : markers) {
-      const MarkerPlace& one = frame[columns.find(marker)->second];
+      const MarkerPosition& one = frame[columns.find(marker)->second];
       if (!one) return std::nullopt;
       sum += *one;
     }
     return scale * sum / static_cast<double>(markers.size());
   };
+  // Joints from markers, then hips from the pelvis.
   for (const MarkerRule& rule : set.rules) {
     if (HasAll(columns, rule.markers)) places[Index(rule.role)] = middle(rule.markers);
   }
@@ -172,25 +176,26 @@ Places PlacesOf(const MarkerSet& set, const Columns& columns, const std::vector<
     std::array<glm::dvec3, 4> pelvis;
     bool is_seen = true;
     for (std::size_t i = 0; i < pelvis.size(); ++i) {
-      const MarkerPlace one = middle({&set.pelvis[i], 1});
+      const MarkerPosition one = middle({&set.pelvis[i], 1});
       is_seen = is_seen && one;
       if (one) pelvis[i] = *one;
     }
     if (is_seen) PlaceHips(pelvis, places);
   }
   if (set.is_gait) MoveIntoLimbs(places);
-  for (MarkerPlace& place : places) {  // markers that lie on each other have no direction
+  for (MarkerPosition& place : places) {  // coinciding markers have no direction
     if (place && !std::isfinite(place->x + place->y + place->z)) place.reset();
   }
   return places;
 }
 
-/// Puts what no marker tells where a body has it. Y points up.
-BodyPose Complete(const Places& places) {
+/// Completes the joints without markers by rules of proportion. Y points up.
+BodyPose Complete(const JointPositions& places) {
   constexpr double kHeadAbove = 0.3, kHandBeyond = 0.7, kToesBefore = 0.16, kToesBelow = 0.04;
   BodyPose pose;
   for (std::size_t i = 0; i < kRoleCount; ++i) pose.joints[i] = places[i].value_or(glm::dvec3(0));
   const auto lacks = [&](Role role) { return !places[Index(role)]; };
+  // Centres, spine and head.
   if (lacks(Role::kHipCentre)) pose[Role::kHipCentre] = 0.5 * (pose[Role::kLeftHip] + pose[Role::kRightHip]);
   if (lacks(Role::kShoulderCentre)) {
     pose[Role::kShoulderCentre] = 0.5 * (pose[Role::kLeftShoulder] + pose[Role::kRightShoulder]);
@@ -198,6 +203,7 @@ BodyPose Complete(const Places& places) {
   const glm::dvec3 trunk = pose[Role::kShoulderCentre] - pose[Role::kHipCentre];
   if (lacks(Role::kSpine)) pose[Role::kSpine] = pose[Role::kHipCentre] + 0.5 * trunk;
   if (lacks(Role::kHead)) pose[Role::kHead] = pose[Role::kShoulderCentre] + kHeadAbove * trunk;
+  // Hands and toes.
   const glm::dvec3 facing = Facing(pose);
   for (const bool is_left : {true, false}) {
     const auto of = [&](Role role) { return is_left ? role : Mirrored(role); };
@@ -212,11 +218,11 @@ BodyPose Complete(const Places& places) {
   return pose;
 }
 
-/// The axis, and its sign, along which shoulders are furthest from ankles.
-glm::dvec3 FindUp(const std::vector<Places>& frames) {
+/// Returns the axis, with its sign, along which shoulders are farthest from ankles.
+glm::dvec3 FindUp(const std::vector<JointPositions>& frames) {
   glm::dvec3 sum(0);
-  for (const Places& places : frames) {
-    const MarkerPlace &shoulder = places[Index(Role::kLeftShoulder)], &ankle = places[Index(Role::kLeftAnkle)];
+  for (const JointPositions& places : frames) {
+    const MarkerPosition &shoulder = places[Index(Role::kLeftShoulder)], &ankle = places[Index(Role::kLeftAnkle)];
     if (shoulder && ankle) sum += *shoulder - *ankle;
   }
   glm::dvec3 up(0);
@@ -228,10 +234,10 @@ glm::dvec3 FindUp(const std::vector<Places>& frames) {
   return up;
 }
 
-/// Turns places so that `up` becomes Y.
-void TurnUpright(const glm::dvec3& up, std::vector<Places>& frames) {
-  for (Places& places : frames) {
-    for (MarkerPlace& place : places) {
+/// Rotates positions so that `up` becomes Y.
+void TurnUpright(const glm::dvec3& up, std::vector<JointPositions>& frames) {
+  for (JointPositions& places : frames) {
+    for (MarkerPosition& place : places) {
       if (!place) continue;
       const glm::dvec3 p = *place;
       if (up.z != 0) *place = {p.x, up.z * p.z, -up.z * p.y};
@@ -241,8 +247,9 @@ void TurnUpright(const glm::dvec3& up, std::vector<Places>& frames) {
   }
 }
 
-/// The longest stretch of frames in which every needed joint is known: its beginning, and the frame after it.
-std::pair<std::size_t, std::size_t> LongestStretch(const std::vector<Places>& frames) {
+/// Returns the longest range of frames in which every needed joint is known: its first frame and the frame after its
+/// last.
+std::pair<std::size_t, std::size_t> LongestStretch(const std::vector<JointPositions>& frames) {
   std::pair<std::size_t, std::size_t> best{0, 0};
   std::size_t begin = 0;
   for (std::size_t t = 0; t <= frames.size(); ++t) {
@@ -255,7 +262,7 @@ std::pair<std::size_t, std::size_t> LongestStretch(const std::vector<Places>& fr
   return best;
 }
 
-/// Puts the floor at 0: where the lowest joint is in the lowest twentieth of the frames.
+/// Shifts the poses so that the floor is at 0. The floor is the 5th percentile of the lowest joint's height.
 void StandOnFloor(std::vector<BodyPose>& poses) {
   std::vector<double> lowest;
   for (const BodyPose& pose : poses) {
@@ -268,28 +275,32 @@ void StandOnFloor(std::vector<BodyPose>& poses) {
   }
 }
 
+// Makes the body for one length of the file's unit; nullopt if no frame has all needed joints.
 std::optional<MarkerBody> BodyAt(double scale, const MarkerMotion& markers, const MarkerSet& set,
                                  const Columns& columns, char up) {
-  std::vector<Places> frames;
+  // Compute the joints, fill short gaps, and rotate upright.
+  std::vector<JointPositions> frames;
   frames.reserve(markers.frames.size());
-  for (const auto& frame : markers.frames) frames.push_back(PlacesOf(set, columns, frame, scale));
+  for (const auto& frame : markers.frames) frames.push_back(PositionsOf(set, columns, frame, scale));
   int filled = 0;
-  const auto longest_gap = static_cast<std::size_t>(kLongestGap_s * markers.rate_hz);
+  const auto longest_gap = static_cast<std::size_t>(kMaxGap_s * markers.rate_hz);
   for (std::size_t joint = 0; joint < kRoleCount; ++joint) filled += BridgeGaps(frames, joint, longest_gap);
   TurnUpright(up == 'Z' ? glm::dvec3(0, 0, 1) : up == 'Y' ? glm::dvec3(0, 1, 0) : FindUp(frames), frames);
+  // Keep the longest complete range.
   const auto [begin, end] = LongestStretch(frames);
   if (begin == end) return std::nullopt;
   MarkerBody body{.name = "", .motion = {.rate_hz = markers.rate_hz, .poses = {}}, .note = set.name};
   for (std::size_t t = begin; t < end; ++t) body.motion.poses.push_back(Complete(frames[t]));
   StandOnFloor(body.motion.poses);
+  // Describe the corrections.
   if (filled > 0) body.note += fmt::format(", {} places bridged over gaps", filled);
   if (end - begin < frames.size()) {
     body.note += fmt::format(", frames {} to {} of {} (elsewhere joints are lost for over {:g} s)", begin + 1, end,
-                             frames.size(), kLongestGap_s);
+                             frames.size(), kMaxGap_s);
   }
   std::vector<std::string> guessed;
   for (const Role role : AllRoles()) {
-    if (!Tells(set, columns, role)) guessed.emplace_back(RoleName(role));
+    if (!Determines(set, columns, role)) guessed.emplace_back(RoleName(role));
   }
   if (!guessed.empty()) body.note += ", placed by rule: " + Join(guessed);
   if (!markers.remark.empty()) body.note += "; " + markers.remark;
@@ -302,26 +313,26 @@ double MiddleStature(const BodyMotion& motion) {
   return LowerPercentile(std::move(statures), 0.5);
 }
 
-/// The body in the file's unit; where that is no body's size, in the one that makes a person of it, which is said.
-/// Fails where none does.
+/// Makes the body in the file's unit or, if its size is implausible, in the power of ten of it that gives a person,
+/// which the note states. Fails if none does.
 Result<std::optional<MarkerBody>> BodyOf(const MarkerMotion& markers, const MarkerSet& set, const Columns& columns,
                                          char up, const std::string& file) {
-  constexpr double kSmallest = 0.4, kLargest = 4, kSmallestPerson = 1.2, kLargestPerson = 2.3;
+  constexpr double kMinStature = 0.4, kMaxStature = 4, kMinPerson = 1.2, kMaxPerson = 2.3;
   auto body = BodyAt(1, markers, set, columns, up);
   if (!body) return body;
   const double told = MiddleStature(body->motion);
-  if (told >= kSmallest && told <= kLargest) return body;
+  if (told >= kMinStature && told <= kMaxStature) return body;
   for (const double scale : {1000.0, 100.0, 10.0, 0.1, 0.01, 0.001}) {
     auto scaled = BodyAt(scale, markers, set, columns, up);
     if (!scaled) continue;
     const double stature = MiddleStature(scaled->motion);
-    if (stature < kSmallestPerson || stature > kLargestPerson) continue;
+    if (stature < kMinPerson || stature > kMaxPerson) continue;
     scaled->note +=
         fmt::format("; in the file's unit the body is {:.3g} m tall: taken for {:g} times that", told, scale);
     return scaled;
   }
   return Fail({file}, "its markers show a body {:.3g} m tall; allowed: {:g} to {:g} m; is their unit another?", told,
-              kSmallest, kLargest);
+              kMinStature, kMaxStature);
 }
 
 }  // namespace
@@ -330,6 +341,7 @@ Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std
   if (const int zeros = LeaveZerosOut(markers); zeros > 0) {
     markers.remark += fmt::format("{}{} places at 0, 0, 0 taken for gaps", markers.remark.empty() ? "" : "; ", zeros);
   }
+  // For each person, choose the set that determines the most joints.
   std::vector<MarkerBody> bodies;
   std::string nearest = "";
   std::size_t fewest = kNeeded.size() + 1;
@@ -337,9 +349,9 @@ Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std
     const MarkerSet* best = nullptr;
     std::size_t most = 0;
     for (const MarkerSet& set : MarkerSets()) {
-      const auto lacks = LackedBy(set, columns);
-      const auto told = static_cast<std::size_t>(
-          std::ranges::count_if(AllRoles(), [&, &columns = columns](Role role) { return Tells(set, columns, role); }));
+      const auto lacks = MissingFrom(set, columns);
+      const auto told = static_cast<std::size_t>(std::ranges::count_if(
+          AllRoles(), [&, &columns = columns](Role role) { return Determines(set, columns, role); }));
       if (lacks.empty() && told > most) {
         best = &set;
         most = told;
@@ -355,6 +367,7 @@ Result<std::vector<MarkerBody>> FindMarkerBodies(MarkerMotion markers, const std
     body->name = prefix;
     bodies.push_back(std::move(*body));
   }
+  // Explain why there is no body.
   if (!bodies.empty()) return bodies;
   if (fewest == 0) return Fail({file}, "no frame shows all joints of a body at once");
   std::vector<std::string> names(markers.names.begin(),

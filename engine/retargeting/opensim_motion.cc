@@ -23,27 +23,27 @@ namespace {
 
 using enum Role;
 
-/// The place of an angle's range among those of `MakeBodyTree`, and whether it is counted the other way there.
+/// The index of an angle's range among those of `MakeBodyTree`; is_reversed if its sign is opposite there.
 struct TreeAngle {
   BodyTreeJoint joint;
   int axis = 0;
   bool is_reversed = false;
 };
 
-/// An angle of a part: its name without the side, and the range of the right side.
+/// An angle of a part: its name without the side, and the range on the right side.
 struct PartAngle {
   std::string_view name;
   std::optional<TreeAngle> range = {};
 };
 
-/// The turning part that ends at `end`: the right one of two, whose left one mirrors it.
+/// The part that ends at `end`. Of two sides only the right one is listed; the left one mirrors it.
 struct Part {
   Role end;
   std::array<PartAngle, 3> angles;  ///< about Z, X and Y
-  double z_sign = 1;                ///< −1 of knees, which bend backwards
+  double z_sign = 1;                ///< −1 for knees, which bend backwards
 };
 
-// Parents stand before children, as in AllRoles.
+// Parents come before children, as in AllRoles.
 const std::array<Part, 12> kParts = {{
     {kHipCentre, {{{"pelvis_tilt"}, {"pelvis_list"}, {"pelvis_rotation"}}}},
     {kSpine, {{{"abdomen_extension"}, {"abdomen_bending"}, {"abdomen_rotation"}}}},
@@ -74,12 +74,12 @@ const std::array<Part, 12> kParts = {{
        {"ankle_rotation"}}}},
 }};
 
-/// A part of either side, as it is written.
+/// A part of either side, as written to the file.
 struct WrittenPart {
   Role end;
   std::array<std::string, 3> names;
   std::array<std::optional<AngleRange>, 3> limits;  ///< radians
-  glm::dvec3 signs{1};                              ///< of the turns about Z, X and Y
+  glm::dvec3 signs{1};                              ///< of the rotations about Z, X and Y
 };
 
 std::optional<AngleRange> RangeOf(const PartAngle& angle, const KinematicTree& tree) {
@@ -106,24 +106,24 @@ std::vector<WrittenPart> WrittenParts() {
   return parts;
 }
 
-/// Etude's axes (X to the left, Y up, Z forward) as OpenSim's (X forward, Y up, Z to the right).
+/// Converts from Etude's axes (X to the left, Y up, Z forward) to OpenSim's (X forward, Y up, Z to the right).
 glm::dvec3 InOpenSim(const glm::dvec3& v) { return {v.z, v.y, -v.x}; }
 
 glm::dmat3 InOpenSim(const glm::dmat3& turn) {
-  // Column j: where the axis j goes, whose direction in our axes is the inverse of the above.
+  // Column j is the image of OpenSim's axis j, whose direction in our axes is given by the inverse conversion.
   return {InOpenSim(turn * glm::dvec3(0, 0, 1)), InOpenSim(turn * glm::dvec3(0, 1, 0)),
           InOpenSim(turn * glm::dvec3(-1, 0, 0))};
 }
 
 double Unwrapped(double angle, double near) { return angle - 2 * kPi * std::round((angle - near) / (2 * kPi)); }
 
-/// The turns a, b, c of R = Rz(a) Rx(b) Ry(c), of all triples that nearest to `before`.
+/// Returns the angles a, b, c of R = Rz(a) Rx(b) Ry(c): of all such triples, the nearest to `before`.
 glm::dvec3 TurnsOf(const glm::dmat3& R, const glm::dvec3& before) {
   const auto at = [&](int row, int column) { return R[column][row]; };
   constexpr double kLocked = 1e-9;
   const double b = std::asin(std::clamp(at(2, 1), -1.0, 1.0));
   double a = std::atan2(-at(0, 1), at(1, 1)), c = std::atan2(-at(2, 0), at(2, 2));
-  if (std::hypot(at(0, 1), at(1, 1)) < kLocked) {  // only the sum or the difference of the outer two shows
+  if (std::hypot(at(0, 1), at(1, 1)) < kLocked) {  // gimbal lock: only the sum or difference of a and c is determined
     c = before.z;
     a = std::atan2(at(1, 0), at(0, 0)) - (b > 0 ? c : -c);
   }
@@ -134,7 +134,7 @@ glm::dvec3 TurnsOf(const glm::dmat3& R, const glm::dvec3& before) {
   return glm::distance(one, before) <= glm::distance(other, before) ? one : other;
 }
 
-/// Each part's turn in the world since the rest pose, by the role at its end.
+/// Returns each part's rotation in the world relative to the rest pose, by the role at its end.
 std::array<glm::dmat3, kRoleCount> PartTurns(const BodyPose& pose, const BodyPose& rest, const Clip& rig,
                                              const LocalPose& frame) {
   std::vector<GlobalTransform> joints;
@@ -142,7 +142,7 @@ std::array<glm::dmat3, kRoleCount> PartTurns(const BodyPose& pose, const BodyPos
   std::array<glm::dmat3, kRoleCount> turns;
   turns[Index(kHipCentre)] = joints[Index(kHipCentre)].axes;
   for (const Bone& bone : AllBones()) {
-    // The rig's joint carries its limb, but for those that share one: they go on by the shortest way.
+    // The rig's joint carries its limb. Limbs that share a joint continue by the shortest rotation.
     const glm::dmat3& axes = joints[Index(bone.parent)].axes;
     const glm::dvec3 carried = axes * (rest[bone.child] - rest[bone.parent]);
     turns[Index(bone.child)] = glm::mat3_cast(ShortestTurn(carried, pose[bone.child] - pose[bone.parent])) * axes;
@@ -150,14 +150,15 @@ std::array<glm::dmat3, kRoleCount> PartTurns(const BodyPose& pose, const BodyPos
   return turns;
 }
 
-std::string HeadOf(const BodyMotion& motion, const std::vector<WrittenPart>& parts, const BodyPose& rest,
-                   std::string name) {
+std::string HeaderOf(const BodyMotion& motion, const std::vector<WrittenPart>& parts, const BodyPose& rest,
+                     std::string name) {
   std::ranges::replace_if(
       name, [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; }, '_');
   std::string text;
   const auto out = std::back_inserter(text);
   fmt::format_to(out, "Coordinates\nversion=1\nnRows={}\nnColumns={}\ninDegrees=yes\n\n", motion.poses.size(),
                  1 + 3 + 3 * parts.size());
+  // One line for each part, then one for each limited angle, then the names of the columns.
   fmt::format_to(out, "Motion {}, angles of the model below; metres, X forward, Y up, Z to the right\n", name);
   for (const WrittenPart& part : parts) {
     const auto parent = ParentOf(part.end);
@@ -182,19 +183,20 @@ std::string HeadOf(const BodyMotion& motion, const std::vector<WrittenPart>& par
   return text + "\n";
 }
 
-/// A part as it is read, with the columns of its angles.
+/// A part as read from the file, with the columns of its angles.
 struct ReadPart {
   Role end;
-  std::optional<Role> after;  ///< none: the ground
+  std::optional<Role> after;  ///< nullopt: the ground
   glm::dvec3 bone;            ///< in OpenSim's axes, metres
   std::array<std::string, 3> names;
   std::array<glm::dvec3, 3> axes;  ///< with their signs
   std::array<std::size_t, 3> columns = {};
 };
 
-/// Reads the rest of a line that begins with "part"; `read` stand above it.
+/// Reads the rest of a line that begins with "part"; `read` are the parts above it.
 Result<ReadPart> ReadPartLine(TextScanner& scanner, const std::vector<ReadPart>& read) {
   ReadPart part{};
+  // The names of the part and of its parent.
   const Token name = scanner.NextInLine(), after_word = scanner.NextInLine(), after = scanner.NextInLine();
   const auto end = FindRole(name.text);
   const auto ends_at = [&](Role role) { return std::ranges::find(read, role, &ReadPart::end) != read.end(); };
@@ -208,6 +210,7 @@ Result<ReadPart> ReadPartLine(TextScanner& scanner, const std::vector<ReadPart>&
     return Fail(scanner.At(after_word),
                 "after {}; allowed: 'after ground' of the first part, then one that stands above", Quote(after.text));
   }
+  // The bone, then three angles with their axes.
   const Token bone = scanner.NextInLine();
   if (bone.text != "bone") return Fail(scanner.At(bone), "{}; allowed: bone X Y Z", Quote(bone.text));
   for (int i = 0; i < 3; ++i) {
@@ -229,12 +232,12 @@ Result<ReadPart> ReadPartLine(TextScanner& scanner, const std::vector<ReadPart>&
   return part;
 }
 
-/// A .mot file's head and rows as numbers.
+/// The model and the rows of a .mot file.
 struct AngleTable {
   std::vector<ReadPart> parts;
-  double radians = Radians(1);            ///< per unit of angles
-  std::array<std::size_t, 3> place = {};  ///< columns of where the ground's part begins
-  std::vector<std::vector<double>> rows;  ///< the first column: seconds
+  double radians = Radians(1);            ///< radians per unit of angles
+  std::array<std::size_t, 3> place = {};  ///< columns of the pelvis' translation
+  std::vector<std::vector<double>> rows;  ///< the first column is the time, seconds
 };
 
 Result<void> FindColumns(TextScanner& scanner, AngleTable& table, std::size_t& count) {
@@ -259,6 +262,7 @@ Result<void> FindColumns(TextScanner& scanner, AngleTable& table, std::size_t& c
 
 Result<AngleTable> ReadAngleTable(std::string_view bytes, const std::string& file) {
   TextScanner scanner(bytes, file);
+  // Read the header, then the columns, then the rows.
   AngleTable table;
   while (true) {
     const Token first = scanner.Next();
@@ -290,27 +294,28 @@ Result<AngleTable> ReadAngleTable(std::string_view bytes, const std::string& fil
   return table;
 }
 
-/// The rate of times that stand evenly.
+/// Returns the rate of evenly spaced times.
 Result<double> RateOfRows(const std::vector<std::vector<double>>& rows, const std::string& file) {
   if (rows.size() < 2) return kJudgedRateHz;
   const double first = rows.front().front(), steps = static_cast<double>(rows.size() - 1);
   const double span = rows.back().front() - first;
-  constexpr double kSlowest = 0.1, kFastest = 10'000, kUneven = 0.05;
+  constexpr double kMinRate_hz = 0.1, kMaxRate_hz = 10'000, kUneven = 0.05;
   const double rate = span > 0 ? steps / span : 0;
-  if (!(rate >= kSlowest && rate <= kFastest)) {
-    return Fail({file}, "{} rows in {:g} s; allowed: {:g} to {:g} a second", rows.size(), span, kSlowest, kFastest);
+  if (!(rate >= kMinRate_hz && rate <= kMaxRate_hz)) {
+    return Fail({file}, "{} rows in {:g} s; allowed: {:g} to {:g} a second", rows.size(), span, kMinRate_hz,
+                kMaxRate_hz);
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (std::abs((rows[i].front() - first) * rate - static_cast<double>(i)) > kUneven) {
       return Fail({file}, "row {} at {:g} s; allowed: even steps, here of {:g} s", i + 1, rows[i].front(), 1 / rate);
     }
   }
-  // Times are told to so many digits: a whole number that they allow is meant.
+  // Times are rounded, so an integer rate within their precision is assumed to be exact.
   constexpr double kLastDigit = 1e-6;
   return std::abs(rate - std::round(rate)) <= rate * kLastDigit / span ? std::round(rate) : rate;
 }
 
-/// OpenSim's axes as Etude's: the inverse of InOpenSim.
+/// Converts from OpenSim's axes to Etude's; the inverse of InOpenSim.
 glm::dvec3 FromOpenSim(const glm::dvec3& v) { return {-v.z, v.y, v.x}; }
 
 }  // namespace
@@ -321,11 +326,12 @@ bool HasModelOfAngles(std::string_view bytes) {
 }
 
 Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& file) {
-  constexpr std::size_t kLargest = std::size_t{64} << 20;
-  if (bytes.size() > kLargest) return Fail({file}, "{} bytes; allowed: {}", bytes.size(), kLargest);
+  constexpr std::size_t kMaxBytes = std::size_t{64} << 20;
+  if (bytes.size() > kMaxBytes) return Fail({file}, "{} bytes; allowed: {}", bytes.size(), kMaxBytes);
   ASSIGN_OR_RETURN(const AngleTable table, ReadAngleTable(bytes, file));
   BodyMotion motion{.rate_hz = 0, .poses = std::vector<BodyPose>(table.rows.size())};
   ASSIGN_OR_RETURN(motion.rate_hz, RateOfRows(table.rows, file));
+  // Forward kinematics of every row.
   for (std::size_t f = 0; f < table.rows.size(); ++f) {
     const std::vector<double>& row = table.rows[f];
     const glm::dvec3 ground(row[table.place[0]], row[table.place[1]], row[table.place[2]]);
@@ -347,9 +353,10 @@ Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& 
 std::string WriteOpenSimMotion(const BodyMotion& motion, const BodyPose& rest, std::string name) {
   const std::vector<WrittenPart> parts = WrittenParts();
   const Clip rig = RigClip(motion, rest, name);
-  std::string text = HeadOf(motion, parts, rest, std::move(name));
+  std::string text = HeaderOf(motion, parts, rest, std::move(name));
   const auto out = std::back_inserter(text);
   std::array<glm::dvec3, kRoleCount> before{};
+  // Write the angles between each part and its parent.
   for (std::size_t f = 0; f < motion.poses.size(); ++f) {
     const BodyPose& pose = motion.poses[f];
     const auto turns = PartTurns(pose, rest, rig, rig.frames[f]);

@@ -8,29 +8,32 @@
 
 namespace etude {
 
-/// Writes a body's motion as joint angles in OpenSim's .mot: the header "Coordinates" … "endheader", a line of names, a
-/// line of degrees (translations: metres) a frame. OpenSim's axes: X forward, Y up, Z to the body's right.
+/// Writes a body's motion as joint angles in OpenSim's .mot format: the header "Coordinates" … "endheader", a line of
+/// names, and one line of degrees (translations: metres) for each frame. OpenSim's axes are X forward, Y up, Z to the
+/// body's right.
 ///
-/// The header also tells the model that the angles are of (*ours*; OpenSim passes these lines over), a part for each of
-/// the nineteen limbs and one for the pelvis:
+/// The header also contains the model of the angles (*ours*; OpenSim ignores these lines), one part for each of the
+/// nineteen limbs and one for the pelvis:
 ///     part right_knee after right_hip bone 0 -0.4165 0 turns +Z hip_flexion_r +X hip_adduction_r +Y hip_rotation_r
 ///     limit hip_flexion_r -30 120
-/// A part begins where the part `after` which it stands ends, turns against that one's axes by R = Rz Rx Ry, signs as
-/// told, and ends at R · bone. Flexion, adduction, inversion and inner rotation are positive on both sides, extension
-/// of the trunk and the neck too. Names are those of OpenSim's models where a part is theirs. Limits are those of
-/// LimitSet::kAdult; an angle without a line has none. Angles go on from frame to frame without jumps of whole turns.
+/// A part begins at the end of the part named after `after`, is rotated relative to that part by R = Rz Rx Ry with the
+/// given signs, and ends at R · bone. Flexion, adduction, inversion and internal rotation are positive on both sides,
+/// and so is extension of the trunk and the neck. Names are those of OpenSim's models where they have such an angle.
+/// Limits are those of LimitSet::kAdult; an angle without a limit line has none. Angles are continuous from frame to
+/// frame, without jumps of full turns.
 ///
-/// `rest` is the pose in which nothing turns; the limbs keep its lengths, those of the motion are lost: bones point
-/// where the motion's do. `name` is told in the header, control characters as '_'.
+/// All rotations are the identity in `rest`. The limbs keep its lengths, not those of the motion, and point where the
+/// motion's do. `name` is written to the header with control characters replaced by '_'.
 std::string WriteOpenSimMotion(const BodyMotion& motion, const BodyPose& rest, std::string name);
 
-/// Says whether these bytes are a .mot file that tells the model which its angles are of.
+/// Returns true if these bytes are a .mot file that contains the model of its angles.
 bool HasModelOfAngles(std::string_view bytes);
 
-/// Reads such a .mot through its own model: where the twenty parts end, metres, Y up. The rate is that of the times,
-/// which stand evenly; of a single row 30 Hz. Angles are degrees, or radians after "inDegrees=no". Refused, with the
-/// line: over 64 MB, parts that are not the twenty roles, each once and after the one that it follows, angles or places
-/// without a column, rows of another length, numbers beyond ±10⁹, no rows, uneven times.
+/// Reads such a .mot file by its own model: the ends of the twenty parts, metres, Y up. The rate follows from the
+/// times, which must be evenly spaced; for a single row it is 30 Hz. Angles are degrees, or radians after
+/// "inDegrees=no". Fails, with the line, for more than 64 MB, parts that are not the twenty roles (each once, after its
+/// parent), angles or translations without a column, rows of another length, numbers beyond ±10⁹, no rows, and uneven
+/// times.
 Result<BodyMotion> ReadOpenSimMotion(std::string_view bytes, const std::string& file);
 
 }  // namespace etude

@@ -15,12 +15,12 @@ namespace {
 
 using enum Role;
 
-/// The least length of a mean or resting body axis along an axis of the file that means standing.
+/// A mean or resting body axis counts as standing if its component along an axis of the file exceeds this.
 constexpr double kStanding = 0.9;
 /// Mostly upright: people bend, sit and fall.
 constexpr double kMostlyStanding = 0.5;
 
-/// Says whether the hips move about on a floor of X and Y, by half a body's length.
+/// Returns true if the hips travel over the plane of X and Y by half a body's length.
 bool TravelsOverXY(std::span<const BodyPose> poses) {
   glm::dvec3 low = poses.front()[kHipCentre];
   glm::dvec3 high = low;
@@ -75,7 +75,7 @@ glm::dvec3 Direction(const glm::dvec3& v) {
 
 glm::dvec3 Across(const BodyPose& pose, Role left, Role right) { return Direction(pose[left] - pose[right]); }
 
-/// Returns the direction in which chest and belly look.
+/// Returns the direction that chest and belly face.
 glm::dvec3 Forward(const BodyPose& pose) {
   return Direction(glm::cross(Across(pose, kLeftHip, kRightHip), Direction(pose[kShoulderCentre] - pose[kHipCentre])));
 }
@@ -86,31 +86,31 @@ double LimbLength(const BodyPose& pose, Role upper, Role middle, Role end) {
   return glm::distance(pose[upper], pose[middle]) + glm::distance(pose[middle], pose[end]);
 }
 
-/// Returns how far the middle joint of a limb stands out from the straight line, in lengths of the limb.
-glm::dvec3 StandsOut(const BodyPose& pose, Role upper, Role middle, Role end) {
+/// Returns the offset of a limb's middle joint from the straight line, in lengths of the limb.
+glm::dvec3 BendOffset(const BodyPose& pose, Role upper, Role middle, Role end) {
   const double length = LimbLength(pose, upper, middle, end);
   return length > 0 ? (pose[middle] - 0.5 * (pose[upper] + pose[end])) / length : glm::dvec3(0);
 }
 
-/// Returns where a limb ends, seen from where it begins, in lengths of the limb.
-glm::dvec3 EndsAt(const BodyPose& pose, Role upper, Role middle, Role end) {
+/// Returns the vector from a limb's beginning to its end, in lengths of the limb.
+glm::dvec3 Reach(const BodyPose& pose, Role upper, Role middle, Role end) {
   const double length = LimbLength(pose, upper, middle, end);
   return length > 0 ? (pose[end] - pose[upper]) / length : glm::dvec3(0);
 }
 
-/// Returns by how far a joint of a limb is bent, radians; below 0 towards the wrong side of `forward`.
+/// Returns the bending angle of a limb's middle joint, radians; negative if it bends away from `forward`.
 double Bend(const glm::dvec3& forward, const glm::dvec3& upper, const glm::dvec3& middle, const glm::dvec3& end) {
   const double angle = AngleBetween(middle - upper, end - middle);
   return glm::dot(forward, middle - 0.5 * (upper + end)) < 0 ? -angle : angle;
 }
 
-/// The signs by which a motion shows its sides, in the body's own frame, so that it may lie or turn over.
+/// Evidence about the sides of a body, in the body's own frame, so the body may lie or turn over.
 struct Sides {
-  double shoulders = 0, toes = 0, knees = 0, arms = 0;  ///< sums over frames (and limbs): above 0 as people are made
-  std::vector<double> knee_bends;                       ///< Bend of either knee by frame
+  double shoulders = 0, toes = 0, knees = 0, arms = 0;  ///< sums over frames (and limbs); positive for humans
+  std::vector<double> knee_bends;                       ///< Bend of both knees in each frame
 };
 
-Sides LookAtSides(std::span<const BodyPose> poses) {
+Sides MeasureSides(std::span<const BodyPose> poses) {
   Sides sides;
   for (const BodyPose& pose : poses) {
     const glm::dvec3 forward = Forward(pose);
@@ -118,13 +118,13 @@ Sides LookAtSides(std::span<const BodyPose> poses) {
     for (const auto& [hip, knee, ankle, toe] : {std::tuple(kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot),
                                                 std::tuple(kRightHip, kRightKnee, kRightAnkle, kRightFoot)}) {
       sides.toes += glm::dot(forward, Toe(pose, ankle, toe));
-      sides.knees += glm::dot(forward, StandsOut(pose, hip, knee, ankle));
+      sides.knees += glm::dot(forward, BendOffset(pose, hip, knee, ankle));
       sides.knee_bends.push_back(Bend(forward, pose[hip], pose[knee], pose[ankle]));
     }
     for (const auto& [shoulder, elbow, wrist] :
          {std::tuple(kLeftShoulder, kLeftElbow, kLeftWrist), std::tuple(kRightShoulder, kRightElbow, kRightWrist)}) {
-      // Hands are held before the body, and elbows bend so that they come there.
-      sides.arms += glm::dot(forward, EndsAt(pose, shoulder, elbow, wrist) - StandsOut(pose, shoulder, elbow, wrist));
+      // Hands are usually in front of the body, and elbows bend accordingly.
+      sides.arms += glm::dot(forward, Reach(pose, shoulder, elbow, wrist) - BendOffset(pose, shoulder, elbow, wrist));
     }
   }
   return sides;
@@ -133,11 +133,11 @@ Sides LookAtSides(std::span<const BodyPose> poses) {
 }  // namespace
 
 Result<double> CheckSides(std::span<const BodyPose> poses, const JointMap& map, const std::string& file) {
-  const Sides sides = LookAtSides(poses);
+  const Sides sides = MeasureSides(poses);
   if (sides.shoulders < 0) {
     return Fail({file}, "the left arm is on the side of the right leg; left and right are mixed up");
   }
-  // Per limb and frame. Feet that hang down from a lying body point backwards a little.
+  // Thresholds are per limb and frame. The feet of a lying body point slightly backwards.
   constexpr double kBackwards = 0.35;
   const auto count = static_cast<double>(2 * poses.size());
   const bool has_feet = std::ranges::find(map.composed, kLeftFoot) == map.composed.end();
@@ -148,15 +148,15 @@ Result<double> CheckSides(std::span<const BodyPose> poses, const JointMap& map, 
   if (!has_feet && sides.arms < -kArmsBackwards * count) {
     return Fail({file}, "the arms bend and reach backwards: left and right are swapped, or the axes are left-handed");
   }
-  constexpr double kStandsOut = 0.01, kMostOverstretched = Radians(35);
-  const bool are_backwards = LowerPercentile(sides.knee_bends, 0.25) < -kMostOverstretched || sides.arms < 0;
-  if (!has_feet && sides.knees < -kStandsOut * count && are_backwards) {
+  constexpr double kMinBendOffset = 0.01, kMaxOverextension = Radians(35);
+  const bool are_backwards = LowerPercentile(sides.knee_bends, 0.25) < -kMaxOverextension || sides.arms < 0;
+  if (!has_feet && sides.knees < -kMinBendOffset * count && are_backwards) {
     return Fail({file}, "the knees bend backwards: left and right are swapped, or the axes are left-handed");
   }
-  constexpr double kTold = Radians(3);
+  constexpr double kMinReported = Radians(3);
   double mean = 0;
   for (const double bend : sides.knee_bends) mean -= bend / count;
-  return mean >= kTold ? mean : 0;
+  return mean >= kMinReported ? mean : 0;
 }
 
 }  // namespace etude

@@ -22,12 +22,13 @@ bool IsTurned(const glm::dquat& a, const glm::dquat& b) {
   return half > std::sin(0.5 * kStill);
 }
 
-// A skeleton as the clip has it: what it never moves is where it always is.
+// A skeleton as used by a clip: the mean translations, the constant rotations, and which joints rotate.
 struct Measured {
   LocalPose rest;
   std::vector<bool> turns;
 };
 
+// Measures from frame `first` on.
 Measured Measure(const Clip& clip, std::size_t first) {
   const std::size_t count = clip.skeleton.joints.size();
   Measured measured{RestPose(clip.skeleton), std::vector<bool>(count)};
@@ -48,8 +49,8 @@ Measured Measure(const Clip& clip, std::size_t first) {
   return measured;
 }
 
-/// True if every role's joint is the hip centre's or below it.
-bool HangsOnPelvis(const RestBody& rest) {
+/// Returns true if every role's joint is the hip centre's or a descendant of it.
+bool DescendsFromPelvis(const RestBody& rest) {
   const int pelvis = rest.roles[Index(Role::kHipCentre)].joint;
   return std::ranges::all_of(rest.roles, [&](const RestBody::RolePlace& role) {
     int joint = role.joint;
@@ -68,8 +69,9 @@ RestBody MeasureBody(const Clip& clip, const JointMap& map, const BodyConversion
   const FloorMove ahead{.yaw = -Heading(pose)};
   const auto in_world = [&](const glm::dvec3& upright) { return body.metres_per_unit * ahead.Apply(upright); };
 
+  // Keep the joints that rotate; others are merged into their parents.
   RestBody rest;
-  std::vector<int> index(globals.size());  // of the body's joint that carries each of the skeleton's
+  std::vector<int> index(globals.size());  // of the body's joint that carries each joint of the skeleton
   for (std::size_t i = 0; i < globals.size(); ++i) {
     const Joint& joint = clip.skeleton.joints[i];
     if (joint.parent >= 0 && !measured.turns[i]) {
@@ -82,7 +84,7 @@ RestBody MeasureBody(const Clip& clip, const JointMap& map, const BodyConversion
                            .position = in_world(Upright(globals[i].position, body.up))});
   }
   for (const Role role : AllRoles()) rest.roles[Index(role)] = {index[map[role].joint], in_world(pose[role])};
-  return HangsOnPelvis(rest) ? rest : RestBodyOf(body.motion.poses);
+  return DescendsFromPelvis(rest) ? rest : RestBodyOf(body.motion.poses);
 }
 
 namespace {
@@ -102,14 +104,14 @@ double LegLength(const BodyPose& pose) {
   return sum / kLegs.size();
 }
 
-/// Returns the usual length of the legs, because measured limbs stretch.
+/// Returns the median length of the legs, because measured limbs change their lengths.
 double UsualLegLength(const BodyMotion& motion) {
   std::vector<double> lengths;
   for (const BodyPose& pose : motion.poses) lengths.push_back(LegLength(pose));
   return UpperMedian(std::move(lengths));
 }
 
-/// The limb from `role`'s parent to it: as long as the target's, pointing as the performer's.
+/// Returns the limb from `role`'s parent to it, with the target's length and the performer's direction.
 glm::dvec3 NewLimb(const BodyPose& performer, const BodyPose& body, Role role) {
   const Role parent = *ParentOf(role);
   const glm::dvec3 limb = performer[role] - performer[parent], own = body[role] - body[parent];
@@ -117,7 +119,7 @@ glm::dvec3 NewLimb(const BodyPose& performer, const BodyPose& body, Role role) {
   return length > 0 ? limb * (glm::length(own) / length) : own;
 }
 
-/// Every limb in its direction, the hip centre at its scaled place.
+/// Returns the pose with every limb in its direction and the hip centre at its scaled position.
 BodyPose WithNewLimbs(const BodyPose& performer, const BodyPose& body, double scale) {
   BodyPose pose;
   pose[kHipCentre] = scale * performer[kHipCentre];
@@ -127,9 +129,10 @@ BodyPose WithNewLimbs(const BodyPose& performer, const BodyPose& body, double sc
   return pose;
 }
 
-/// Returns how far the hips must sink for the leg to reach `ankle`, metres. A foot in the air pulls nobody down.
+/// Returns how far the hips must be lowered for the leg to reach `ankle`, metres. A foot in the air counts less or not
+/// at all.
 double NeededDrop(const BodyPose& pose, const Limb& leg, const glm::dvec3& ankle, double toe_height) {
-  constexpr double kStands = 0.05, kFlies = 0.15;  // metres of the toes above the floor
+  constexpr double kStands = 0.05, kFlies = 0.15;  // height of the toes above the floor, metres
   const double stands = 1 - Smoothstep(kStands, kFlies, toe_height);
   const double reach = LegLength(pose, leg);
   const glm::dvec3 hip = pose[leg.roles[0]];
@@ -138,10 +141,10 @@ double NeededDrop(const BodyPose& pose, const Limb& leg, const glm::dvec3& ankle
   return stands * std::max(0.0, hip.y - highest);
 }
 
-/// The unit direction across the line `along`, from hip to ankle, on whose side the knee lies: the `thigh`'s. A
-/// straight leg shows none and takes the one in front of the hips.
+/// Returns the unit direction perpendicular to `along`, the line from hip to ankle, on whose side the knee lies, given
+/// the `thigh`. For a straight leg it is the direction in front of the hips.
 glm::dvec3 KneeSide(const BodyPose& pose, const glm::dvec3& thigh, const glm::dvec3& along) {
-  constexpr double kStraight = 0.02, kBent = 0.08;  // the knee off the line, in thighs
+  constexpr double kStraight = 0.02, kBent = 0.08;  // offset of the knee from the line, in thigh lengths
   const double length = glm::length(thigh);
   const auto across = [&](const glm::dvec3& v) { return v - glm::dot(v, along) * along; };
   const auto unit = [](const glm::dvec3& v) { return glm::length(v) > 0 ? glm::normalize(v) : glm::dvec3(0); };
@@ -151,8 +154,8 @@ glm::dvec3 KneeSide(const BodyPose& pose, const glm::dvec3& thigh, const glm::dv
   return unit(glm::mix(unit(front), unit(seen), trust));
 }
 
-/// Two-bone inverse kinematics: brings the ankle to `wanted`, or as near as the leg reaches, the knee on the side where
-/// it was. The foot keeps its slope.
+/// Two-bone inverse kinematics: brings the ankle to `wanted`, or as near as the leg reaches, with the knee on its
+/// former side. The foot keeps its slope.
 void Reach(BodyPose& pose, const Limb& leg, const glm::dvec3& wanted) {
   constexpr double kThere = 1e-9;
   const auto [hip, knee, ankle] = leg.roles;
@@ -166,7 +169,7 @@ void Reach(BodyPose& pose, const Limb& leg, const glm::dvec3& wanted) {
   const glm::dvec3 along = glm::length(way) > 0 ? glm::normalize(way) : upper > 0 ? glm::normalize(thigh) : down;
   const glm::dvec3 side = KneeSide(pose, ShortestTurn(pose[ankle] - pose[hip], way) * thigh, along);
 
-  // The law of cosines.
+  // The law of cosines gives the angle at the hip.
   const double cosine =
       upper * distance > 0 ? (upper * upper + distance * distance - lower * lower) / (2 * upper * distance) : 0;
   const double c = std::clamp(cosine, -1.0, 1.0);
@@ -188,7 +191,7 @@ BodyMotion Retarget(const BodyMotion& motion, const BodyPose& body) {
   const double scale = usual > 0 ? LegLength(body) / usual : 1;
   for (const BodyPose& performer : motion.poses) {
     BodyPose pose = WithNewLimbs(performer, body, scale);
-    // Toes are what touches and what slides: they go to their scaled places, feet keep their slope.
+    // Toes touch the floor and may slide, so they go to their scaled positions; feet keep their slope.
     std::array<glm::dvec3, kLegs.size()> ankles;
     double drop = 0;
     for (std::size_t i = 0; i < kLegs.size(); ++i) {

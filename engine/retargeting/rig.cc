@@ -14,7 +14,7 @@
 namespace etude {
 namespace {
 
-/// Sines below this are rounding, not directions.
+/// Sines below this are rounding errors.
 constexpr double kDegenerate = 1e-9;
 
 }  // namespace
@@ -48,36 +48,37 @@ namespace {
 
 using enum Role;
 
-/// Holds for each limb, in the order of kLimbs, a direction of the upper bone in the middle of where it can point, in
-/// the axes of chest or hips. A straight limb has the twist of a hanging one that is swung there and on by the shortest
-/// ways. At one direction that twist jumps, the opposite one, which must lie where no limb goes: inward through the
-/// chest, backward through the hips.
-constexpr std::array<glm::dvec3, kLimbs.size()> kMiddles = {
+/// For each limb, in the order of kLimbs, a direction in the middle of the upper bone's range, in the axes of chest or
+/// hips. A straight limb has the twist of a hanging one that is rotated to this direction and from there to the pose,
+/// both by the shortest rotation. The twist is discontinuous at one direction, the opposite one, which must lie outside
+/// of the range: inward through the chest, backward through the hips.
+constexpr std::array<glm::dvec3, kLimbs.size()> kMidDirections = {
     {{0.71, 0, 0.71}, {-0.71, 0, 0.71}, {0, -0.87, 0.5}, {0, -0.87, 0.5}}};
 
-/// Bent less than the first, an elbow's or knee's plane is mostly noise; from the second on it alone gives the twist.
+/// Below kStraight, the plane of an elbow or knee is mostly noise; above kBent, it alone determines the twist.
 constexpr double kStraight = Radians(10);
 constexpr double kBent = Radians(60);
 
-glm::dvec3 Way(const BodyPose& pose, Role from, Role to) { return pose[to] - pose[from]; }
+glm::dvec3 VectorBetween(const BodyPose& pose, Role from, Role to) { return pose[to] - pose[from]; }
 
-/// The orientations in the world of the parts that more than one joint shows.
+/// The orientations, in the world, of the parts that several joints determine.
 struct BodyAxes {
-  glm::dquat hips, chest;                       ///< X to the left, Y upward, Z forward
-  std::array<glm::dquat, kLimbs.size()> upper;  ///< X along the upper bone, Y near the axis of elbow or knee
+  glm::dquat hips, chest;                       ///< X to the left, Y up, Z forward
+  std::array<glm::dquat, kLimbs.size()> upper;  ///< X along the upper bone, Y near the hinge axis of elbow or knee
 };
 
 glm::dquat HipsOf(const BodyPose& pose) {
-  return Orientation(Way(pose, kRightHip, kLeftHip), Way(pose, kHipCentre, kSpine));
+  return Orientation(VectorBetween(pose, kRightHip, kLeftHip), VectorBetween(pose, kHipCentre, kSpine));
 }
 
 glm::dquat ChestOf(const BodyPose& pose) {
-  // Upward exactly: shoulders rise with the arms, hips do not.
-  const glm::dquat up_first = Orientation(Way(pose, kSpine, kShoulderCentre), Way(pose, kLeftShoulder, kRightShoulder));
+  // The trunk's direction is exact and the shoulders' is not, because shoulders rise with the arms; hips do not.
+  const glm::dquat up_first =
+      Orientation(VectorBetween(pose, kSpine, kShoulderCentre), VectorBetween(pose, kLeftShoulder, kRightShoulder));
   return up_first * glm::angleAxis(-kPi / 2, glm::dvec3(0, 0, 1));
 }
 
-/// The way from `axis` to the normal of two bones, as far as it is `shown`.
+/// Blends from `axis` to the normal of two bones, by the weight `shown`.
 glm::dvec3 Towards(const glm::dvec3& axis, const glm::dvec3& normal, double shown) {
   const double length = glm::length(normal);
   return length > 0 && shown > 0 ? glm::mix(axis, normal / length, shown) : axis;
@@ -85,12 +86,13 @@ glm::dvec3 Towards(const glm::dvec3& axis, const glm::dvec3& normal, double show
 
 glm::dquat UpperOf(const Limb& limb, const glm::dvec3& middle, const glm::dquat& trunk, const BodyPose& pose) {
   const auto [root, hinge, end] = limb.roles;
-  const glm::dvec3 upper = Way(pose, root, hinge), lower = Way(pose, hinge, end), tip = Way(pose, end, limb.tip);
-  // Upper × lower points to the right when a hanging arm bends, to the left when a leg does.
+  const glm::dvec3 upper = VectorBetween(pose, root, hinge), lower = VectorBetween(pose, hinge, end),
+                   tip = VectorBetween(pose, end, limb.tip);
+  // Upper × lower points to the right if a hanging arm bends, and to the left if a leg does.
   const glm::dvec3 hanging_axis(limb.is_arm ? -1 : 1, 0, 0);
   const glm::dquat swing = ShortestTurn(trunk * middle, upper) * trunk * ShortestTurn(glm::dvec3(0, -1, 0), middle);
   glm::dvec3 axis = swing * hanging_axis;
-  // The toes show where the knee looks, unless they point along the leg. Hands turn without their elbows.
+  // The toes show the facing of the knee, unless they point along the leg. Hands rotate independently of their elbows.
   constexpr double kPointed = Radians(20), kAcross = Radians(50);
   if (!limb.is_arm) {
     axis = Towards(axis, glm::cross(tip, lower), Smoothstep(kPointed, kAcross, AngleBetween(lower, tip)));
@@ -99,26 +101,26 @@ glm::dquat UpperOf(const Limb& limb, const glm::dvec3& middle, const glm::dquat&
   return Orientation(upper, axis);
 }
 
-BodyAxes StandOf(const BodyPose& pose) {
+BodyAxes AxesOf(const BodyPose& pose) {
   BodyAxes stand{.hips = HipsOf(pose), .chest = ChestOf(pose), .upper = {}};
   for (std::size_t i = 0; i < kLimbs.size(); ++i) {
-    stand.upper[i] = UpperOf(kLimbs[i], kMiddles[i], kLimbs[i].is_arm ? stand.chest : stand.hips, pose);
+    stand.upper[i] = UpperOf(kLimbs[i], kMidDirections[i], kLimbs[i].is_arm ? stand.chest : stand.hips, pose);
   }
   return stand;
 }
 
-/// Returns each joint's turn in the world since the rest pose.
+/// Returns each joint's rotation in the world relative to the rest pose.
 std::array<glm::dquat, kRoleCount> Turns(const BodyPose& rest, const BodyPose& pose) {
-  const BodyAxes from = StandOf(rest), to = StandOf(pose);
+  const BodyAxes from = AxesOf(rest), to = AxesOf(pose);
   std::array<glm::dquat, kRoleCount> turns;
-  // Takes `above`'s turn, then goes by the shortest way to where the limb points.
+  // Applies the parent's rotation, then the shortest rotation to the limb's direction.
   const auto follow = [&](const glm::dquat& above, Role begin, Role end) {
-    return ShortestTurn(above * Way(rest, begin, end), Way(pose, begin, end)) * above;
+    return ShortestTurn(above * VectorBetween(rest, begin, end), VectorBetween(pose, begin, end)) * above;
   };
   turns[Index(kHipCentre)] = to.hips * glm::conjugate(from.hips);
   const glm::dquat chest = to.chest * glm::conjugate(from.chest);
   turns[Index(kSpine)] = turns[Index(kShoulderCentre)] = chest;
-  // Which way the head looks, no joint tells: it faces as the chest does.
+  // No joint shows the facing of the head: it faces as the chest does.
   turns[Index(kHead)] = follow(chest, kShoulderCentre, kHead);
   for (std::size_t i = 0; i < kLimbs.size(); ++i) {
     const auto [root, hinge, end] = kLimbs[i].roles;
@@ -132,7 +134,7 @@ std::array<glm::dquat, kRoleCount> Turns(const BodyPose& rest, const BodyPose& p
   return turns;
 }
 
-/// Quaternions of either sign are the same turn; programs that mix them number by number need neighbours on one side.
+/// Chooses the sign of each quaternion next to the frame before, because some programs interpolate their components.
 void KeepSign(const LocalPose& before, LocalPose& frame) {
   for (std::size_t i = 0; i < frame.size(); ++i) {
     if (glm::dot(before[i].rotation, frame[i].rotation) < 0) frame[i].rotation = -frame[i].rotation;
@@ -147,7 +149,7 @@ LocalPose PoseRig(const BodyPose& pose, const BodyPose& rest) {
   for (const Role role : AllRoles()) {
     const std::optional<Role> parent = ParentOf(role);
     const glm::dquat back = parent ? glm::conjugate(turns[Index(*parent)]) : glm::dquat(1, 0, 0, 0);
-    local[Index(role)] = {.translation = parent ? back * Way(pose, *parent, role) : pose[role],
+    local[Index(role)] = {.translation = parent ? back * VectorBetween(pose, *parent, role) : pose[role],
                           .rotation = glm::normalize(back * turns[Index(role)])};
   }
   return local;

@@ -9,22 +9,23 @@
 
 namespace etude {
 
-/// The shortest rotation that brings `from`'s direction into `to`'s. Where there is none to choose (opposite
-/// directions) it turns about an axis across `from`; no direction at all (a zero vector) turns nothing.
+/// Returns the shortest rotation from `from`'s direction to `to`'s. For opposite directions it rotates about an axis
+/// perpendicular to `from`; for a zero vector it is the identity.
 glm::dquat ShortestTurn(const glm::dvec3& from, const glm::dvec3& to);
 
-/// The orientation whose X axis points along `x` and whose Y axis lies in the plane of `x` and `y`, on `y`'s side.
-/// Where both are parallel or of no length, X is turned there by the shortest way.
+/// Returns the orientation whose X axis points along `x` and whose Y axis lies in the plane of `x` and `y`, on `y`'s
+/// side. If both are parallel, or one is zero, X is rotated to `x` by the shortest rotation.
 glm::dquat Orientation(const glm::dvec3& x, const glm::dvec3& y);
 
-/// The local transforms that bring BodySkeleton(rest) into `pose`: hips and chest as their joints show them, each limb
-/// by the shortest way from where the one before has carried it, elbows and knees about their hinge: that gives the
-/// upper limb's twist when they are bent; a straight leg looks where its toes do, a straight arm hangs on the chest.
-/// The head faces as the chest does. Joints are where `pose` has them: a limb of another length than at rest shows in
-/// the translations, nothing is scaled. Continuous where people move.
+/// Returns the local transforms that bring BodySkeleton(rest) into `pose`. The orientations of hips and chest follow
+/// from their joints. Each limb rotates by the shortest rotation from where its parent has carried it, except that bent
+/// elbows and knees rotate about their hinge, which determines the twist of the upper limb; a straight leg faces where
+/// its toes point, and a straight arm keeps the twist of a hanging one on the chest. The head faces as the chest does.
+/// Joints are at the positions of `pose`: a change of a limb's length appears in the translations, and nothing is
+/// scaled. The result is continuous over human poses.
 LocalPose PoseRig(const BodyPose& pose, const BodyPose& rest);
 
-/// A motion as a clip of BodySkeleton(rest) with turning joints: what other programs expect of BVH and glTF.
+/// Converts a motion to a clip of BodySkeleton(rest) with rotating joints, as other programs expect in BVH and glTF.
 Clip RigClip(const BodyMotion& motion, const BodyPose& rest, std::string name);
 
 }  // namespace etude

@@ -22,8 +22,8 @@
 namespace etude {
 namespace {
 
-/// Evaluates a clip's twenty joints at any time, in the file's unit and axes. Only the joints that carry a role are
-/// looked at, and nothing is allocated per frame. `clip` must outlive this.
+/// Evaluates a clip's twenty joints at any time, in the file's unit and axes. Only joints that carry a role are
+/// evaluated, and no memory is allocated for a frame. `clip` must outlive this object.
 class BodySampler {
  public:
   BodySampler(const Clip& clip, const JointMap& map);
@@ -36,8 +36,8 @@ class BodySampler {
   BodyPose Evaluated();
 
   const Clip& clip_;
-  std::vector<int> joints_;  ///< of the clip: those with a role and all above them
-  Skeleton skeleton_;        ///< of these joints alone
+  std::vector<int> joints_;  ///< indices in the clip: joints with a role and their ancestors
+  Skeleton skeleton_;        ///< of these joints only
   JointMap map_;             ///< on that skeleton
   LocalPose local_;
   std::vector<GlobalTransform> globals_;
@@ -83,45 +83,45 @@ BodyPose BodySampler::Evaluated() {
 
 using enum Role;
 
-constexpr double kSmallestStature = 1.45;
-constexpr double kLargestStature = 2.1;
-constexpr double kSmallestSensed = 1.2;  // depth sensors write millimetres, and place heads low
+constexpr double kMinStature = 1.45;
+constexpr double kMaxStature = 2.1;
+constexpr double kMinSensedStature = 1.2;  // depth sensors write millimetres, and estimate heads too low
 
 struct Unit {
   std::string_view name;
   double metres;
-  double smallest_stature = kSmallestStature;
+  double min_stature = kMinStature;
 };
 
-// Neighbours differ by more than 2.1 m / 1.45 m, so at most one fits.
+// Neighbouring units differ by more than 2.1 m / 1.45 m, so at most one fits.
 constexpr std::array<Unit, 6> kUnits = {{
     {"metre", 1.0},
     {"foot", 0.3048},
     {"CMU", 0.0254 / 0.45},  // mocap.cs.cmu.edu: inches times 0.45
     {"inch", 0.0254},
     {"centimetre", 0.01},
-    {"millimetre", 0.001, kSmallestSensed},
+    {"millimetre", 0.001, kMinSensedStature},
 }};
 constexpr double kDefaultStature = 1.70;
 
-constexpr double kLongestSeconds = 3600;
-constexpr double kMostPoses = 500'000;
-constexpr double kSmallestBody = 1e-6;  // in any unit: nothing to scale up
+constexpr double kMaxSeconds = 3600;
+constexpr double kMaxPoses = 500'000;
+constexpr double kMinBody = 1e-6;  // in any unit; smaller bodies have no size
 
-std::size_t GlimpseStep(const Clip& clip) {
-  constexpr std::size_t kGlimpses = 100;
-  return 1 + clip.frames.size() / kGlimpses;
+std::size_t SampleStep(const Clip& clip) {
+  constexpr std::size_t kSamples = 100;
+  return 1 + clip.frames.size() / kSamples;
 }
 
-/// The clip's joints at about a hundred times evenly over it, in the file's axes.
-std::vector<BodyPose> Glimpses(const Clip& clip, BodySampler& sampler) {
+/// Samples the clip's joints at about a hundred frames, evenly spaced, in the file's axes.
+std::vector<BodyPose> SampledPoses(const Clip& clip, BodySampler& sampler) {
   std::vector<BodyPose> poses;
-  for (std::size_t i = 0; i < clip.frames.size(); i += GlimpseStep(clip))
+  for (std::size_t i = 0; i < clip.frames.size(); i += SampleStep(clip))
     poses.push_back(sampler.At(static_cast<double>(i)));
   return poses;
 }
 
-/// Gives every frame the scales of the rest pose.
+/// Replaces the scales of every frame by those of the rest pose.
 void ResetScales(Clip& clip) {
   for (LocalPose& frame : clip.frames) {
     for (std::size_t i = 0; i < frame.size(); ++i) frame[i].scale = clip.skeleton.joints[i].rest.scale;
@@ -134,8 +134,8 @@ double WorstGap(const BodyPose& a, const BodyPose& b) {
   return worst;
 }
 
-/// Returns how many frames at the start are one T-pose that the motion does not begin with, but jumps away from: by far
-/// more than its next step, and by more than a hand's width.
+/// Returns the number of frames at the start that are one T-pose from which the motion jumps: by much more than its
+/// next step, and by more than 5 % of the stature. Returns 0 if there is none.
 std::size_t CountForeignTPose(const Clip& clip, BodySampler& sampler, UpAxis up) {
   constexpr double kStillPerStature = 1e-4;
   constexpr double kJumpPerStature = 0.05;
@@ -144,6 +144,7 @@ std::size_t CountForeignTPose(const Clip& clip, BodySampler& sampler, UpAxis up)
   const std::size_t count = clip.frames.size();
   const BodyPose first = pose_at(0);
   if (!IsTPose(first)) return 0;
+  // Find the end of the constant pose, then compare the jump with the step after it.
   std::size_t next = 1;
   while (next < count && WorstGap(first, pose_at(next)) < kStillPerStature * Stature(first)) ++next;
   if (next == count) return 0;
@@ -161,8 +162,8 @@ std::vector<double> OverFrames(const std::vector<BodyPose>& poses, Measure measu
   return values;
 }
 
-/// Returns the lowest height of all joints, because people lie and sit, but of finger tips, which rigs place
-/// carelessly.
+/// Returns the lowest height of all joints, because people lie and sit; finger tips are left out because rigs place
+/// them carelessly.
 double LowestPoint(const BodyPose& pose) {
   double lowest = pose[kHipCentre].y;
   for (const Role role : AllRoles()) {
@@ -181,13 +182,13 @@ Result<std::vector<BodyPose>> Resampled(const Clip& clip, BodySampler& sampler, 
                                         UpAxis up, const std::string& file) {
   const auto frames = static_cast<double>(clip.frames.size() - 1 - first);
   const double seconds = frames / clip.rate_hz;
-  if (seconds > kLongestSeconds) {
-    return Fail({file}, "the clip lasts {:.0f} s; allowed: {:.0f} s", seconds, kLongestSeconds);
+  if (seconds > kMaxSeconds) {
+    return Fail({file}, "the clip lasts {:.0f} s; allowed: {:.0f} s", seconds, kMaxSeconds);
   }
-  if (seconds * rate_hz > kMostPoses) {
-    return Fail({file}, "{:.0f} s at {:g} Hz are over {:.0f} poses", seconds, rate_hz, kMostPoses);
+  if (seconds * rate_hz > kMaxPoses) {
+    return Fail({file}, "{:.0f} s at {:g} Hz are over {:.0f} poses", seconds, rate_hz, kMaxPoses);
   }
-  constexpr double kRounding = 1e-6;  // of a frame: keeps the last one when the rates divide evenly
+  constexpr double kRounding = 1e-6;  // of a frame; keeps the last frame if the rates divide evenly
   const auto count = static_cast<std::size_t>(seconds * rate_hz + kRounding) + 1;
   std::vector<BodyPose> poses;
   poses.reserve(count);
@@ -201,25 +202,26 @@ Result<std::vector<BodyPose>> Resampled(const Clip& clip, BodySampler& sampler, 
 
 double MedianStature(const std::vector<BodyPose>& poses) { return LowerPercentile(OverFrames(poses, Stature), 0.5); }
 
-/// The unit under which a stature is that of a person, or null.
+/// Returns the unit in which a stature is human, or null.
 const Unit* UnitOf(double stature) {
   const auto is_human = [&](const Unit& unit) {
-    return stature * unit.metres >= unit.smallest_stature && stature * unit.metres <= kLargestStature;
+    return stature * unit.metres >= unit.min_stature && stature * unit.metres <= kMaxStature;
   };
   const auto* const found = std::ranges::find_if(kUnits, is_human);
   return found == kUnits.end() ? nullptr : found;
 }
 
-constexpr double kAlike = 1.25;
-bool AreAlike(double ratio) { return ratio > 1 / kAlike && ratio < kAlike; }
+constexpr double kMaxRatio = 1.25;
+bool AreAlike(double ratio) { return ratio > 1 / kMaxRatio && ratio < kMaxRatio; }
 
-/// Finds the unit by the stature. That of the rest pose counts, which all clips of a file share, unless the body that
-/// moves is made otherwise: some files leave all offsets to the frames, others scale the hips in them alone. `remark`
-/// says so. Refused, naming `file`: a given unit under which the body is no body, with the one that it is likely in.
+/// Finds the unit by the stature. The rest pose's stature, which all clips of a file share, is used unless the moving
+/// body differs: some files store all offsets in the frames only, others scale the hips in them. `remark` states it.
+/// Fails, naming `file`, if the given unit is implausible, and names the likely one.
 Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, const BodyOptions& options,
                       const std::string& file, BodyConversion& done, std::string& remark) {
   const std::optional<double>& given = options.metres_per_unit;
   const double at_rest = Stature(rest), own = MedianStature(poses), moving = options.stature.value_or(own);
+  // Compare the frames with the rest pose, with the file's other clips, and with each other.
   const double ratio = moving / at_rest;
   const bool is_alike = AreAlike(ratio);
   if (!AreAlike(own / moving)) {
@@ -231,29 +233,31 @@ Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, 
   if (!AreAlike(most / least))
     remark += fmt::format("; its size changes: {:.2g} times from frame to frame", most / least);
   const double stature = is_alike ? at_rest : moving;
-  if (stature < kSmallestBody) return Fail({file}, "the body's joints all lie in one point; it needs a size");
+  if (stature < kMinBody) return Fail({file}, "the body's joints all lie in one point; it needs a size");
   const Unit* const unit = UnitOf(stature);
+  // A given unit must be plausible.
   if (given) {
-    constexpr double kSmallest = 0.4, kLargest = 4;
+    constexpr double kMinGiven = 0.4, kMaxGiven = 4;
     const double told = stature * *given;
     const std::string likely =
         unit == nullptr ? "" : fmt::format("; its unit is likely the {}: {:.2f} m", unit->name, stature * unit->metres);
-    if (told < kSmallest || told > kLargest) {
+    if (told < kMinGiven || told > kMaxGiven) {
       return Fail({file}, "in the unit given (1 unit = {:.4g} cm) the body is {:.3g} m tall; allowed: {:g} to {:g} m{}",
-                  100 * *given, told, kSmallest, kLargest, likely);
+                  100 * *given, told, kMinGiven, kMaxGiven, likely);
     }
-    if ((told < kSmallestStature || told > kLargestStature) && unit != nullptr) {
+    if ((told < kMinStature || told > kMaxStature) && unit != nullptr) {
       remark += fmt::format("; {:.2f} m tall in the unit given{}", told, likely);
     }
     done.unit = "given";
     done.metres_per_unit = *given;
     return {};
   }
+  // Otherwise take the unit that gives a human stature, or scale to the default.
   done.unit = unit == nullptr ? "unknown" : unit->name;
   done.metres_per_unit = unit == nullptr ? kDefaultStature / stature : unit->metres;
   constexpr double kSame = 0.05;
-  // Whether the frames leave the rest pose's places out or scale them tells a rest pose of a size.
-  if (at_rest < kSmallestBody || std::abs(ratio - 1) <= kSame) return {};
+  // Only a rest pose with a size can be compared with the frames.
+  if (at_rest < kMinBody || std::abs(ratio - 1) <= kSame) return {};
   const Unit* const of_rest = UnitOf(at_rest);
   remark += fmt::format("; the frames show a body {:.3g} times as tall as the rest pose", ratio);
   if (is_alike || unit != nullptr || of_rest == nullptr) return {};
@@ -264,7 +268,7 @@ Result<void> FindUnit(const BodyPose& rest, const std::vector<BodyPose>& poses, 
 }
 
 double FindFloor(const std::vector<BodyPose>& poses) {
-  // Not the very lowest: a single frame in which a marker was lost must not lift the whole clip.
+  // A percentile, not the minimum: a single frame with a lost marker must not lift the whole clip.
   constexpr double kLow = 0.05;
   return LowerPercentile(OverFrames(poses, LowestPoint), kLow);
 }
@@ -273,20 +277,20 @@ double LeftLegLength(const BodyPose& pose) {
   return glm::distance(pose[kLeftHip], pose[kLeftKnee]) + glm::distance(pose[kLeftKnee], pose[kLeftAnkle]);
 }
 
-/// The floor told, unless the body stays out of its reach.
+/// Returns the given floor, unless the body stays out of its reach.
 double FloorOf(const std::vector<BodyPose>& poses, const std::optional<double>& told) {
   const double own = FindFloor(poses);
   return told && std::abs(own - *told) <= LeftLegLength(poses.front()) ? *told : own;
 }
 
-/// Puts the body on the floor, in metres.
-void SetDown(std::vector<BodyPose>& poses, const BodyConversion& done) {
+/// Converts to metres, with the floor at 0.
+void PlaceOnFloor(std::vector<BodyPose>& poses, const BodyConversion& done) {
   for (BodyPose& pose : poses) {
     for (glm::dvec3& joint : pose.joints) joint = (joint - glm::dvec3(0, done.floor, 0)) * done.metres_per_unit;
   }
 }
 
-/// Tells along which axis of the file, other than Y, a body lies in the mean of these poses; "" where along none.
+/// Returns the axis of the file, other than +Y, along which the mean body axis lies; "" if there is none.
 std::string LiesAlong(std::span<const BodyPose> poses) {
   constexpr double kLying = 0.9;
   const glm::dvec3 axis = MeanBodyAxis(poses);
@@ -330,16 +334,16 @@ glm::dmat4 WorldFromFile(const BodyConversion& body) {
 }
 
 std::optional<Ground> FindGround(std::span<const Clip> clips, const JointMap& map, const BodyOptions& options) {
-  std::vector<BodyPose> poses, glimpses;
+  std::vector<BodyPose> poses, samples;
   BodyPose rest;
   for (const Clip& clip : clips) {
     BodySampler sampler(clip, map);
     rest = sampler.Rest();
     for (std::size_t f = 0; f < clip.frames.size(); ++f) poses.push_back(sampler.At(static_cast<double>(f)));
-    for (const BodyPose& pose : Glimpses(clip, sampler)) glimpses.push_back(pose);
+    for (const BodyPose& pose : SampledPoses(clip, sampler)) samples.push_back(pose);
   }
   if (poses.empty() || !std::ranges::all_of(poses, IsFinite)) return std::nullopt;
-  Ground ground{.up = options.up.value_or(FindUpAxis(rest, glimpses))};
+  Ground ground{.up = options.up.value_or(FindUpAxis(rest, samples))};
   for (BodyPose& pose : poses) pose = Upright(pose, ground.up);
   ground.floor = options.floor.value_or(FindFloor(poses));
   ground.stature = options.stature.value_or(MedianStature(poses));
@@ -352,9 +356,10 @@ std::optional<double> UndoScales(std::span<Clip> clips, const JointMap& map) {
   for (const Clip& clip : clips) {
     BodySampler sampler(clip, map);
     at_rest = Stature(sampler.Rest());
+    // Compare the stature in sampled frames with and without the frames' scales.
     Clip still{.name = "", .skeleton = clip.skeleton, .rate_hz = clip.rate_hz, .frames = {}};
-    for (const BodyPose& pose : Glimpses(clip, sampler)) shown.push_back(Stature(pose));
-    for (std::size_t i = 0; i < clip.frames.size(); i += GlimpseStep(clip)) still.frames.push_back(clip.frames[i]);
+    for (const BodyPose& pose : SampledPoses(clip, sampler)) shown.push_back(Stature(pose));
+    for (std::size_t i = 0; i < clip.frames.size(); i += SampleStep(clip)) still.frames.push_back(clip.frames[i]);
     ResetScales(still);
     BodySampler without(still, map);
     for (std::size_t i = 0; i < still.frames.size(); ++i) {
@@ -383,13 +388,14 @@ bool IsTPose(const BodyPose& pose) {
 
 Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const std::string& file,
                                     const BodyOptions& options) {
+  // Determine the up axis, and describe a lying body.
   if (clip.frames.empty()) return Fail({file}, "no frames; at least one is needed");
   BodySampler sampler(clip, map);
   BodyConversion done;
   const BodyPose rest = sampler.Rest();
-  const std::vector<BodyPose> glimpses = Glimpses(clip, sampler);
-  done.up = options.up.value_or(FindUpAxis(rest, glimpses));
-  std::string lies = !options.up && done.up == UpAxis::kY ? LiesAlong(glimpses) : "";
+  const std::vector<BodyPose> samples = SampledPoses(clip, sampler);
+  done.up = options.up.value_or(FindUpAxis(rest, samples));
+  std::string lies = !options.up && done.up == UpAxis::kY ? LiesAlong(samples) : "";
   if (!lies.empty()) {
     const bool at_rest = LiesAlong(std::span(&rest, 1)) == lies;
     lies = fmt::format("; the body lies along {}{}: Y is taken for up", lies, at_rest ? ", at rest, too" : "");
@@ -397,6 +403,7 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
   }
   if (options.drop_t_pose) done.dropped_frames = CountForeignTPose(clip, sampler, done.up);
 
+  // Sample, check sides, find the unit and the floor, and convert.
   ASSIGN_OR_RETURN(auto poses, Resampled(clip, sampler, done.dropped_frames, options.rate_hz, done.up, file));
   ASSIGN_OR_RETURN(const double overstretch, CheckSides(poses, map, file));
   std::string remarks;
@@ -404,7 +411,7 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
   if (overstretch > 0)
     remarks += fmt::format("; the knees overstretch by {:.0f}° on the average", Degrees(overstretch));
   done.floor = FloorOf(poses, options.floor);
-  SetDown(poses, done);
+  PlaceOnFloor(poses, done);
   done.note = Note(done, map, lies, remarks);
   done.motion = {.rate_hz = options.rate_hz, .poses = std::move(poses)};
   return done;

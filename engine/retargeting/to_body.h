@@ -12,72 +12,73 @@
 
 namespace etude {
 
-/// Facts about a file that are found out unless they are given here.
+/// Properties of a file; those that are not given here are estimated.
 struct BodyOptions {
   double rate_hz = kJudgedRateHz;
   std::optional<double> metres_per_unit = std::nullopt;
   std::optional<UpAxis> up = std::nullopt;
-  std::optional<double> floor = std::nullopt;    ///< its height along that axis, in the file's unit
-  std::optional<double> stature = std::nullopt;  ///< of the body that moves, in the file's unit: Ground::stature
-  bool drop_t_pose = true;                       ///< a leading one that the motion jumps away from
+  std::optional<double> floor = std::nullopt;    ///< its height along the up axis, in the file's unit
+  std::optional<double> stature = std::nullopt;  ///< of the moving body, in the file's unit: Ground::stature
+  bool drop_t_pose = true;                       ///< drop a leading T-pose from which the motion jumps
 };
 
 /// A clip as the twenty joints: metres, Y up, feet on the floor.
 struct BodyConversion {
   double metres_per_unit = 0;
-  std::string unit;  ///< "centimetre", "CMU", …; "unknown" when none gave a human stature; "scaled", "given"
+  std::string unit;  ///< "centimetre", "CMU", …; "unknown" (scaled to a human), "scaled", "given"
   UpAxis up = UpAxis::kY;
   double floor = 0;                ///< height of the floor in the file's unit, along its up axis
-  std::size_t dropped_frames = 0;  ///< at the clip's beginning: a T-pose
-  /// The findings and repairs in plain words: "1 unit = 5.64 cm (CMU); dropped a leading T-pose".
+  std::size_t dropped_frames = 0;  ///< number of frames of a T-pose dropped at the beginning
+  /// The findings and corrections, for people: "1 unit = 5.64 cm (CMU); dropped a leading T-pose".
   std::string note;
   BodyMotion motion;
 };
 
-/// Turns a clip into a body's motion (ours where no source is named):
-/// - Z-up files are turned upright (FindUpAxis);
-/// - a leading T-pose is dropped when the body jumps away from it: CMU's converted files begin with one;
-/// - resampled to `rate_hz` by turning joints (SampleFrame), the first frame kept as it is;
-/// - unit: the one of metre, foot, CMU (1/0.45 inch), inch, cm, mm under which the body's stature lies
-///   within 1.45 (in millimetres, which depth sensors write, 1.2) and 2.1 m; none does (children, toys): scaled to a
-///   stature of 1.70 m. The stature is the way from ankle over knee, hip, spine and neck to the head, divided by 0.92,
-///   at rest; if the median over the frames is more than 1.25 times as much or little, that median (said), and where no
-///   unit fits that, the rest pose's unit, by which the frames' scale is undone (places and all; UndoScales knows
-///   better where it is one of joints). Over 1.05 times, or a size that changes over 1.25 times within the clip, is
-///   said. Clips of one file share a unit: tell them FindGround's stature; one whose own median is another is told;
-/// - floor: the lowest joint (finger tips aside), 5th percentile over the frames, comes to y = 0. Where it
-///   stands on the floor and where it faces stay as in the file. Clips of one file share a floor: tell them FindGround;
-///   one that stays farther from it than its legs are long has another root, and its own floor.
+/// Converts a clip to a body's motion (ours where no source is given):
+/// - Z-up files are rotated upright (FindUpAxis).
+/// - A leading T-pose is dropped if the body jumps away from it; CMU's converted files begin with one.
+/// - The motion is resampled to `rate_hz` by interpolating rotations (SampleFrame); the first frame is unchanged.
+/// - Unit: the one of metre, foot, CMU (1/0.45 inch), inch, cm and mm that gives a stature of 1.45 m (for millimetres,
+///   which depth sensors write, 1.2 m) to 2.1 m. If none does (children, toys), the body is scaled to a stature of 1.70
+///   m. The stature is the length from ankle over knee, hip, spine and neck to the head, divided by 0.92, at rest. If
+///   the median over the frames differs by a factor of more than 1.25, that median is used and the note states it; if
+///   no unit fits the median, the rest pose's unit is used and the frames are scaled back, positions included
+///   (UndoScales is better if the scale is that of joints). The note states a ratio above 1.05, and a size that changes
+///   by more than 1.25 times within the clip. Clips of one file share a unit: pass them FindGround's stature; the note
+///   states if a clip's own median differs.
+/// - Floor: the 5th percentile, over the frames, of the lowest joint's height (finger tips excluded) becomes y = 0.
+///   Horizontal position and heading stay as in the file. Clips of one file share a floor: pass them FindGround's; a
+///   clip that stays farther from it than its legs are long has another root, and gets its own floor.
 ///
-/// Refused, naming `file`: no frames, over an hour, over half a million poses, a body of no size, a given unit under
-/// which it is not 0.4 to 4 m tall, one whose left arm is on the side of its right leg, or whose feet point backwards
-/// (for composed feet: whose arms do, or whose knees do by over 35° or with the arms): left and right are swapped then,
-/// or the axes left-handed. Knees that overstretch less are told.
+/// Fails, naming `file`, for no frames, more than an hour, more than half a million poses, a body without size, a given
+/// unit in which it is not 0.4 to 4 m tall, a left arm on the side of the right leg, and feet that point backwards (if
+/// feet are composed: arms that do, or knees that bend backwards by more than 35° or together with the arms); left and
+/// right are then swapped, or the axes left-handed. The note states a smaller overextension of the knees.
 Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const std::string& file,
                                     const BodyOptions& options = {});
 
-/// A file's upward axis, the height of its floor and the stature of who stands there.
+/// A file's up axis, the height of its floor, and the stature of the body.
 struct Ground {
   UpAxis up = UpAxis::kY;
   double floor = 0;    ///< along that axis, in the file's unit
   double stature = 0;  ///< median over the frames, in the file's unit
 };
 
-/// The ground that clips of one skeleton in one file stand on, by the rules of ToBodyMotion over the frames of all of
-/// them: who sits on a chair in one and stands up from it in another has no floor of his own in each, and who is
-/// stretched in one no unit of his own. `options` may tell each. Nothing when no clip has a frame, or joints lie beyond
-/// all measure.
+/// Finds the ground of all clips of one skeleton in one file, by the rules of ToBodyMotion over all of their frames: a
+/// person who sits in one clip and stands up in another has the same floor in both, and clips share one unit. Values
+/// given in `options` are used. Returns nullopt if no clip has a frame, or if a position is not finite.
 std::optional<Ground> FindGround(std::span<const Clip> clips, const JointMap& map, const BodyOptions& options = {});
 
-/// Takes out of a file's frames the scales that its rest pose has not, such as one on the hips: where the body at rest
-/// is a person in some unit, the frames show it over 1.25 times as tall or small (median over the clips), and without
-/// their scales would not. Returns how many times as tall; nothing when the clips stay as they are.
+/// Removes from a file's frames the scales that its rest pose does not have, such as one on the hips. This is done if
+/// the body at rest is a person in some unit, the frames show it taller or smaller by a factor of more than 1.25
+/// (median over the clips), and would not without their scales. Returns that factor; nullopt if the clips are
+/// unchanged.
 std::optional<double> UndoScales(std::span<Clip> clips, const JointMap& map);
 
-/// Returns the transform from the file's unit and axes to where ToBodyMotion has put the body, for the clip's meshes.
+/// Returns the transform from the file's unit and axes to the world of ToBodyMotion's result, for the clip's meshes.
 glm::dmat4 WorldFromFile(const BodyConversion& body);
 
-/// Says whether the body stands with straight legs and both arms stretched out sideways.
+/// Returns true if the body stands with straight legs and both arms stretched out sideways.
 bool IsTPose(const BodyPose& pose);
 
 }  // namespace etude

@@ -31,16 +31,18 @@ class JointFit {
     return cost;
   }
 
-  // From `state` on; returns the cost.
+  // Minimises the cost from `state`, in place; returns the final cost.
   double Minimise(TreeState& state) {
-    constexpr int kMostSteps = 60;
-    constexpr double kEnough = 1e-9, kMostDamping = 1e8;
+    constexpr int kMaxSteps = 60;
+    constexpr double kEnough = 1e-9, kMaxDamping = 1e8;
     double cost = CostOf(state), damping = 1e-3;
-    for (int step = 0; step < kMostSteps && damping < kMostDamping; ++step) {
+    for (int step = 0; step < kMaxSteps && damping < kMaxDamping; ++step) {
+      // Compute a damped Gauss–Newton step from the linearisation.
       Linearise(state);
       const Eigen::VectorXd by = StepWith(state, damping);
       const TreeState trial = Moved(body_.tree, state, {by.data(), static_cast<std::size_t>(by.size())});
       const double trial_cost = CostOf(trial);
+      // Reject a step that does not lower the cost, and raise the damping.
       if (trial_cost >= cost) {
         damping *= 4;
         continue;
@@ -55,6 +57,7 @@ class JointFit {
   }
 
  private:
+  // Computes the gradient of half the cost and the Gauss–Newton Hessian.
   void Linearise(const TreeState& state) {
     const Eigen::Index size = kRootDofs + body_.tree.dof_count();
     gradient_ = Eigen::VectorXd::Zero(size);
@@ -75,7 +78,7 @@ class JointFit {
     }
   }
 
-  // Returns the Jacobian of a point by every coordinate: 3 rows.
+  // Returns the Jacobian of a point with respect to every coordinate: 3 rows.
   Eigen::MatrixXd MotionOf(const TreePoint& point, Eigen::Index size) const {
     Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(3, size);
     const glm::dvec3 p_WQ = PlaceOf(point, frames_);
@@ -83,12 +86,14 @@ class JointFit {
       const glm::dvec3 moves = glm::cross(axis, p_WQ - about);
       motion.col(coordinate) = Eigen::Vector3d(moves.x, moves.y, moves.z);
     };
+    // The root: three translations and three rotations.
     for (int axis = 0; axis < 3; ++axis) {
       motion(axis, axis) = 1;
       glm::dvec3 unit(0);
       unit[axis] = 1;
       turn(3 + axis, unit, frames_.joints[0].position);
     }
+    // The angles of the joints from the point's limb up to the root.
     for (int j = point.joint; j >= 0; j = body_.tree.joints[j].parent) {
       const TreeJoint& joint = body_.tree.joints[j];
       for (int dof = joint.first_dof; dof < joint.first_dof + joint.dof_count; ++dof) {
@@ -98,6 +103,7 @@ class JointFit {
     return motion;
   }
 
+  // Returns the damped step; angles at a limit that they would leave do not move.
   Eigen::VectorXd StepWith(const TreeState& state, double damping) const {
     Eigen::MatrixXd h = hessian_;
     Eigen::VectorXd g = gradient_;
@@ -123,7 +129,7 @@ class JointFit {
   Eigen::MatrixXd hessian_;
 };
 
-// The mean of all targets: about where the body is.
+// Returns the mean of all targets, an estimate of the body's position.
 glm::dvec3 MiddleOf(const JointTargets& targets) {
   glm::dvec3 sum(0);
   int count = 0;
@@ -144,6 +150,7 @@ TreeState FitJoints(const SilhouetteBody& body, const JointTargets& targets, con
     fit.Minimise(state);
     return state;
   }
+  // Without a start, minimise from every heading and posture, and keep the lowest cost.
   constexpr int kHeadings = 4;
   std::optional<TreeState> best;
   double least = 0;
@@ -167,7 +174,7 @@ JointTargets TargetsOf(const BodyPose& pose, double sigma_m) {
 }
 
 TreeState TurnedRound(const SilhouetteBody& body, const TreeState& state) {
-  constexpr double kExact = 0.05;  // metres
+  constexpr double kExact = 0.05;  // standard deviation of the exchanged joints, metres
   const BodyPose pose = ToBodyPose(body, state);
   BodyPose exchanged;
   for (const Role role : AllRoles()) exchanged[role] = pose[Mirrored(role)];

@@ -10,27 +10,27 @@
 
 namespace etude {
 
-/// The place where a joint of the body shall be, and its accuracy.
+/// The target position of a joint of the body, and its accuracy.
 struct JointTarget {
   glm::dvec3 p_WQ{0};
   double sigma_m = 0.01;  ///< standard deviation along each axis, metres
 };
 
-/// The targets by role; nothing for joints whose place is not known.
+/// The targets by role; nullopt for joints whose position is not known.
 using JointTargets = std::array<std::optional<JointTarget>, kRoleCount>;
 
-/// Finds the pose of the body that comes nearest to the targets, by Levenberg and Marquardt's method; angles that these
-/// leave open are as habit has them. From `start`, or, without one, from the postures and headings that a person is
-/// looked for with.
+/// Finds the pose of the body nearest to the targets by the method of Levenberg and Marquardt. The angle priors
+/// (`SilhouetteBody::Habit`) determine the angles that the targets leave open. The search starts from `start`, or,
+/// without one, from several headings and the `Postures`.
 TreeState FitJoints(const SilhouetteBody& body, const JointTargets& targets,
                     const std::optional<TreeState>& start = std::nullopt);
 
-/// Makes targets of all twenty joints of `pose`, equally exact.
+/// Makes targets of all twenty joints of `pose` with equal accuracy.
 JointTargets TargetsOf(const BodyPose& pose, double sigma_m = 0.01);
 
-/// Turns the body the other way round *(ours)*: its left limbs where the right ones are in `state` and these where the
-/// left ones are, as nearly as its joints allow; feet and head point where they then may. Its outlines are much the
-/// same.
+/// Turns the body front to back *(ours)*: its left limbs go where the right ones are in `state`, and the right ones
+/// where the left ones are, as nearly as its joints allow; feet and head are not constrained. The silhouettes of both
+/// poses are nearly the same.
 TreeState TurnedRound(const SilhouetteBody& body, const TreeState& state);
 
 }  // namespace etude

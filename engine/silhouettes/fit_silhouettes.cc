@@ -13,15 +13,15 @@
 namespace etude {
 namespace {
 
-// The derivatives of the two ends of one capsule in one picture, by coordinate: the columns of δ of SilhouetteResidual,
-// only for the coordinates that move its limb.
+// The derivatives of the two ends of one capsule in one picture: for each coordinate that moves its limb, a column of
+// the six numbers δ of SilhouetteResidual.
 struct CapsuleMotion {
   std::vector<int> coordinates;
   std::vector<std::array<double, 6>> columns;
 };
 
-// How far a joint is from where it was seen, what that costs (Geman and McClure), and the weight of its square in a
-// step; nothing of a joint behind the camera.
+// The offset of a joint from the pixel where it was seen, its loss (Geman and McClure), and the weight of its square in
+// a step. All are 0 for a joint behind the camera.
 struct JointError {
   glm::dvec2 off{0};
   double loss = 0, weight = 0;
@@ -29,7 +29,7 @@ struct JointError {
 
 JointError JointErrorOf(const SeenJoint& seen, const SilhouetteBody& body, const TreeFrames& frames,
                         const PixelScale& camera, const SilhouetteCostOptions& options) {
-  constexpr double kNearest = 0.05;  // metres before the camera
+  constexpr double kNearest = 0.05;  // metres in front of the camera
   const glm::dvec3 p_WQ = PlaceOf(body.roles[Index(seen.role)], frames);
   if (camera.DepthOf(p_WQ) < kNearest) return {};
   JointError error{.off = camera.PixelOf(p_WQ) - seen.pixel};
@@ -45,12 +45,13 @@ class Linearisation {
   Linearisation(const SilhouetteBody& body, int size)
       : body_(body), gradient_(Eigen::VectorXd::Zero(size)), hessian_(Eigen::MatrixXd::Zero(size, size)) {}
 
-  // Adds what one picture says: residuals gathered by capsule first, each capsule's six numbers turned into coordinates
-  // then, because there are far fewer capsules than residuals.
+  // Adds the residuals of one picture. They are summed by capsule first and then transformed to coordinates, because
+  // there are far fewer capsules than residuals.
   void Add(const std::vector<SilhouetteResidual>& residuals, const TreeFrames& frames, const ProjectionMatrix& matrix,
            const SilhouetteCostOptions& options) {
     using Six = Eigen::Matrix<double, 6, 1>;
     using SixBySix = Eigen::Matrix<double, 6, 6>;
+    // Sum gradient and Hessian by the six numbers of each capsule.
     std::vector<Six> gradients(body_.flesh.size(), Six::Zero());
     std::vector<SixBySix> hessians(body_.flesh.size(), SixBySix::Zero());
     for (const SilhouetteResidual& residual : residuals) {
@@ -59,6 +60,7 @@ class Linearisation {
       gradients[residual.capsule] += weight * residual.value * slopes;
       hessians[residual.capsule] += weight * slopes * slopes.transpose();
     }
+    // Transform them to the coordinates that move the capsule (chain rule).
     const PixelScale camera(matrix);
     for (std::size_t i = 0; i < body_.flesh.size(); ++i) {
       if (hessians[i].isZero(0)) continue;
@@ -79,7 +81,7 @@ class Linearisation {
     }
   }
 
-  // Adds what one picture's seen joints say.
+  // Adds the joints seen in one picture.
   void Add(std::span<const SeenJoint> joints, const TreeFrames& frames, const ProjectionMatrix& matrix,
            const SilhouetteCostOptions& options) {
     const PixelScale camera(matrix);
@@ -89,6 +91,7 @@ class Linearisation {
       const TreePoint& point = body_.roles[Index(seen.role)];
       const glm::dvec3 p_WQ = PlaceOf(point, frames);
       const PixelScale::Slopes at = camera.SlopesAt(p_WQ);
+      // Derivatives of the joint's pixel by every coordinate that moves it.
       slopes_.clear();
       ForEachMotion(point.joint, frames, [&](int coordinate, const glm::dvec3& axis, const glm::dvec3* about) {
         const glm::dvec3 moves = about == nullptr ? axis : glm::cross(axis, p_WQ - *about);
@@ -101,7 +104,7 @@ class Linearisation {
     }
   }
 
-  // (value / spread)² of one coordinate.
+  // Adds the squared term (value / spread)² of one coordinate.
   void AddSquare(int coordinate, double value, double spread) {
     gradient_[coordinate] += value / (spread * spread);
     hessian_(coordinate, coordinate) += 1 / (spread * spread);
@@ -129,8 +132,8 @@ class Linearisation {
     });
   }
 
-  // Calls take(coordinate, axis, about) for every coordinate that moves what hangs on `joint`: along the axis, or,
-  // where there is an `about`, round it there.
+  // Calls take(coordinate, axis, about) for every coordinate that moves the limb of `joint`: a translation along the
+  // axis if `about` is null, otherwise a rotation about the axis through that point.
   template <typename Take>
   void ForEachMotion(int joint, const TreeFrames& frames, const Take& take) const {
     for (int axis = 0; axis < 3; ++axis) {
@@ -154,7 +157,7 @@ class Linearisation {
   Eigen::MatrixXd hessian_;
 };
 
-// Every square that is not a picture's: value and spread of coordinate i.
+// Calls take(coordinate, value, spread) for every squared term (value / spread)² of the priors.
 template <typename Take>
 void ForEachPrior(const SilhouetteBody& body, const TreeState& state, const PosePrior* prior, Take take) {
   for (std::size_t i = 0; i < state.angles.size(); ++i) {
@@ -188,7 +191,7 @@ Linearisation LineariseAt(const SilhouetteBody& body, std::span<const Silhouette
   return linear;
 }
 
-// Angles at a limit that the step would push beyond it.
+// Returns which angles are at a limit and would leave it in the direction of descent.
 std::vector<bool> Held(const KinematicTree& tree, const TreeState& state, const Eigen::VectorXd& gradient) {
   std::vector<bool> held(gradient.size(), false);
   for (std::size_t i = 0; i < state.angles.size(); ++i) {
@@ -200,12 +203,13 @@ std::vector<bool> Held(const KinematicTree& tree, const TreeState& state, const 
   return held;
 }
 
+// Returns the damped Gauss–Newton step; held coordinates do not move.
 Eigen::VectorXd Step(const Linearisation& linear, const std::vector<bool>& held, double damping) {
   Eigen::MatrixXd h = linear.hessian();
   Eigen::VectorXd g = linear.gradient();
-  constexpr double kLeast = 1e-6;
+  constexpr double kMinDiagonal = 1e-6;
   for (Eigen::Index i = 0; i < g.size(); ++i) {
-    h(i, i) += damping * h(i, i) + kLeast;
+    h(i, i) += damping * h(i, i) + kMinDiagonal;
     if (!held[i]) continue;
     h.row(i).setZero();
     h.col(i).setZero();
@@ -247,14 +251,16 @@ NormalEquations NormalEquationsAt(const SilhouetteBody& body, std::span<const Si
 
 SilhouetteFit FitSilhouettes(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& start,
                              const PosePrior* prior, const FitOptions& options, FitWorkspace& workspace) {
-  constexpr double kFirstDamping = 1e-2, kGrows = 4, kShrinks = 0.3, kMostDamping = 1e6;
+  constexpr double kFirstDamping = 1e-2, kGrows = 4, kShrinks = 0.3, kMaxDamping = 1e6;
   SilhouetteFit fit = CostOf(body, views, start, prior, options.cost, workspace);
   double damping = kFirstDamping;
-  while (fit.iterations < options.max_iterations && damping < kMostDamping) {
+  while (fit.iterations < options.max_iterations && damping < kMaxDamping) {
+    // Linearise at the current pose; angles that their limits hold stay out of the step.
     const Linearisation linear = LineariseAt(body, views, fit.state, prior, options.cost, workspace);
     const std::vector<bool> held = Held(body.tree, fit.state, linear.gradient());
     bool is_better = false;
-    while (!is_better && fit.iterations < options.max_iterations && damping < kMostDamping) {
+    // Raise the damping until a step lowers the cost.
+    while (!is_better && fit.iterations < options.max_iterations && damping < kMaxDamping) {
       ++fit.iterations;
       const Eigen::VectorXd step = Step(linear, held, damping);
       SilhouetteFit trial =

@@ -9,12 +9,12 @@
 namespace etude {
 namespace {
 
-// `share` of the way through the range of a degree of freedom.
+// Returns the angle at `share` of the range of a degree of freedom.
 double InRange(const KinematicTree& tree, int dof, double share) {
   return std::lerp(tree.limits[dof].lower, tree.limits[dof].upper, share);
 }
 
-// Turns every upper arm (or leg) so far forward, and its elbow (or knee) so far.
+// Sets the first angle of every upper arm (or thigh) to `upper`, and its elbow (or knee) to `lower`.
 void Bend(const SilhouetteBody& body, bool arms, double upper, double lower, TreeState& state) {
   for (const SilhouetteBody::Limb& limb : body.limbs) {
     if (limb.is_arm != arms) continue;
@@ -23,20 +23,20 @@ void Bend(const SilhouetteBody& body, bool arms, double upper, double lower, Tre
   }
 }
 
-// Returns whether `joint` moves with `ancestor`.
-bool HangsFrom(const KinematicTree& tree, int joint, int ancestor) {
+// Returns true if `joint` is `ancestor` or moves with it.
+bool MovesWith(const KinematicTree& tree, int joint, int ancestor) {
   while (joint > ancestor) joint = tree.joints[joint].parent;
   return joint == ancestor;
 }
 
-// The cost of places of one limb, while the rest of the body stays where it is.
+// The cost of one limb's position while the rest of the body stays in place.
 class LimbCost {
  public:
   LimbCost(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& state, int upper,
            const SilhouetteCostOptions& options)
       : views_(views), options_(options), limb_(body) {
     SilhouetteBody rest = body;
-    const auto is_limb = [&](const FleshCapsule& flesh) { return HangsFrom(body.tree, flesh.a.joint, upper); };
+    const auto is_limb = [&](const FleshCapsule& flesh) { return MovesWith(body.tree, flesh.a.joint, upper); };
     std::erase_if(rest.flesh, is_limb);
     std::erase_if(limb_.flesh, [&](const FleshCapsule& flesh) { return !is_limb(flesh); });
     ComputeFrames(body.tree, state, frames_);
@@ -67,15 +67,15 @@ class LimbCost {
 
   const std::span<const SilhouetteView> views_;
   const SilhouetteCostOptions& options_;
-  SilhouetteBody limb_;                       // its flesh is the limb's alone
-  std::vector<std::vector<double>> to_rest_;  // [view][outline point]: to the nearest flesh that stays
+  SilhouetteBody limb_;                       // its flesh is only the limb's
+  std::vector<std::vector<double>> to_rest_;  // [view][outline point]: distance to the nearest flesh of the rest
   TreeFrames frames_;
   std::vector<ProjectedCapsule> flesh_;
   std::vector<SilhouetteResidual> residuals_;
   std::vector<double> distances_;
 };
 
-struct Place {
+struct Candidate {
   TreeState state;
   double cost = 0;
 };
@@ -98,8 +98,9 @@ std::vector<TreeState> LimbPlaces(const SilhouetteBody& body, std::span<const Si
   constexpr int kForward = 6, kSideways = 4, kTwist = 3, kBend = 3;
   const int upper = body.tree.joints[limb.upper].first_dof, lower = body.tree.joints[limb.lower].first_dof;
   LimbCost cost(body, views, state, limb.upper, options);
-  std::vector<Place> best;
+  std::vector<Candidate> best;
   TreeState trial = state;
+  // Try the middle of every cell of the grid and keep the best, sorted by cost.
   const auto share = [](int i, int count) { return (i + 0.5) / count; };
   for (int x = 0; x < kForward; ++x) {
     trial.angles[upper] = InRange(body.tree, upper, share(x, kForward));
@@ -110,14 +111,14 @@ std::vector<TreeState> LimbPlaces(const SilhouetteBody& body, std::span<const Si
         for (int b = 0; b < kBend; ++b) {
           trial.angles[lower] = InRange(body.tree, lower, share(b, kBend));
           best.push_back({trial, cost.Of(trial)});
-          std::ranges::inplace_merge(best, best.end() - 1, {}, &Place::cost);
+          std::ranges::inplace_merge(best, best.end() - 1, {}, &Candidate::cost);
           if (best.size() > kKept) best.pop_back();
         }
       }
     }
   }
   std::vector<TreeState> places;
-  for (Place& place : best) places.push_back(std::move(place.state));
+  for (Candidate& place : best) places.push_back(std::move(place.state));
   return places;
 }
 

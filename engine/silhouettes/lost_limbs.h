@@ -7,12 +7,12 @@
 
 namespace etude {
 
-/// Returns the postures that a person is searched with: standing with hanging arms, with raised arms, and on bent legs.
-/// The root is at the origin, facing +Z.
+/// Returns the start postures of a search for a person: standing with hanging arms, with raised arms, and on bent legs.
+/// The root is at the origin and faces +Z.
 std::vector<TreeState> Postures(const SilhouetteBody& body);
 
-/// Returns `state` with one arm or leg elsewhere: the few places that cost least, of a grid over the range of its
-/// joints.
+/// Returns `state` with one arm or leg in other positions: the two of lowest cost on a grid over the range of the
+/// limb's joints.
 std::vector<TreeState> LimbPlaces(const SilhouetteBody& body, std::span<const SilhouetteView> views,
                                   const TreeState& state, const SilhouetteBody::Limb& limb,
                                   const SilhouetteCostOptions& options);

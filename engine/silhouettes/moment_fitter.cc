@@ -11,13 +11,13 @@
 namespace etude {
 namespace {
 
-constexpr double kSpreadOfPeople = 0.15;  // of people about the average, standard deviation
-constexpr double kMostChange = 0.15;      // how much a part may change at a time
+constexpr double kSpreadOfPeople = 0.15;  // standard deviation of people's thickness about the average
+constexpr double kMaxChange = 0.15;       // largest relative change of a part in one pass
 
 }  // namespace
 
 ThicknessEstimate::ThicknessEstimate(const SilhouetteBody& body)
-    : body_(body), agrees_(body.part_count, 0.0), counts_(body.part_count, 0.0) {}
+    : body_(body), products_(body.part_count, 0.0), squares_(body.part_count, 0.0) {}
 
 void ThicknessEstimate::Add(std::span<const SilhouetteView> views, const TreeState& state,
                             const SilhouetteCostOptions& options, FitWorkspace& workspace) {
@@ -32,8 +32,8 @@ void ThicknessEstimate::Add(std::span<const SilhouetteView> views, const TreeSta
       const double radius = -residual.slopes[2] * capsule.radius_a - residual.slopes[5] * capsule.radius_b;
       const double weight = LossOf(residual, options).weight;
       const int part = body_.flesh[residual.capsule].part;
-      agrees_[part] += weight * radius * residual.value;
-      counts_[part] += weight * radius * radius;
+      products_[part] += weight * radius * residual.value;
+      squares_[part] += weight * radius * radius;
     }
   }
 }
@@ -41,8 +41,8 @@ void ThicknessEstimate::Add(std::span<const SilhouetteView> views, const TreeSta
 SilhouetteBody ThicknessEstimate::Apply() const {
   SilhouetteBody body = body_;
   for (FleshCapsule& capsule : body.flesh) {
-    const double share = agrees_[capsule.part] / (counts_[capsule.part] + 1 / (kSpreadOfPeople * kSpreadOfPeople));
-    const double scale = 1 + std::clamp(share, -kMostChange, kMostChange);
+    const double share = products_[capsule.part] / (squares_[capsule.part] + 1 / (kSpreadOfPeople * kSpreadOfPeople));
+    const double scale = 1 + std::clamp(share, -kMaxChange, kMaxChange);
     capsule.radius_a *= scale;
     capsule.radius_b *= scale;
   }
@@ -51,13 +51,12 @@ SilhouetteBody ThicknessEstimate::Apply() const {
 
 namespace {
 
-// Half-widths of the losses, pixels of a picture in which a person is four hundred high: far from the solution, near
-// it.
-constexpr double kWideReach = 3;  // times that of the options
+// A search widens the reaches of the losses and ends after fewer iterations than the final fit.
+constexpr double kWideReach = 3;  // times the reach of the options
 constexpr int kCoarseSteps = 8, kFineSteps = 12;
-constexpr double kSpeedKept = 0.6;  // of the last frame's change, what the next is foretold to have
+constexpr double kSpeedKept = 0.6;  // share of the last change that is extrapolated to the next frame
 
-// Triangulates the middles of the silhouettes; nothing when their lines of sight do not meet well enough.
+// Triangulates the silhouettes' centres; returns nullopt if that fails.
 std::optional<glm::dvec3> FindMiddle(const MomentViews& views) {
   std::vector<Sighting> sightings;
   for (const SilhouetteView& view : views) sightings.push_back({view.matrix, view.silhouette->centre});
@@ -99,7 +98,7 @@ SilhouetteFit MomentFitter::Follow(const MomentViews& views, const TreeState& be
   return Fit(views, still ? last : foretold, &prior, true);
 }
 
-// The body as it may stand there, from every side and in a few postures, the likeliest first.
+// Fits the body from every heading and posture at the triangulated centre; returns the fits by ascending cost.
 std::vector<SilhouetteFit> MomentFitter::Guesses(const MomentViews& views) {
   constexpr int kHeadings = 8;
   std::vector<SilhouetteFit> fits;
@@ -118,7 +117,7 @@ std::vector<SilhouetteFit> MomentFitter::Guesses(const MomentViews& views) {
 
 std::vector<SilhouetteFit> MomentFitter::Find(const MomentViews& views) {
   constexpr double kAnotherWay = Radians(100);
-  constexpr std::size_t kMostPoses = 3;
+  constexpr std::size_t kMaxPoses = 3;
   std::vector<SilhouetteFit> found;
   for (const SilhouetteFit& guess : Guesses(views)) {
     const bool is_new = std::ranges::all_of(found, [&](const SilhouetteFit& other) {
@@ -126,7 +125,7 @@ std::vector<SilhouetteFit> MomentFitter::Find(const MomentViews& views) {
     });
     if (!is_new) continue;
     found.push_back(WithLimbsFound(views, Fit(views, guess.state, nullptr, false), nullptr));
-    if (found.size() == kMostPoses) break;
+    if (found.size() == kMaxPoses) break;
   }
   return found;
 }

@@ -10,71 +10,72 @@
 
 namespace etude {
 
-/// Estimates how thick a person's parts are relative to the average's, by least squares over outline points of many
-/// frames: a limb that is seen on both sides is too thin by what its outline lies outside on either. Parts that are
-/// seldom seen free stay as they are.
+/// Estimates the thickness of a person's parts relative to the average body, by least squares over the outline points
+/// of many frames: if the outline lies outside a capsule on both sides, the capsule is too thin. Parts whose outline is
+/// rarely visible keep their thickness.
 class ThicknessEstimate {
  public:
   explicit ThicknessEstimate(const SilhouetteBody& body);
 
-  /// Adds what one frame shows in the pose `state`.
+  /// Adds the outline points of one frame, compared with the pose `state`.
   void Add(std::span<const SilhouetteView> views, const TreeState& state, const SilhouetteCostOptions& options,
            FitWorkspace& workspace);
 
-  /// Returns the body with its parts of the estimated thickness.
+  /// Returns the body with the estimated thickness.
   SilhouetteBody Apply() const;
 
  private:
   const SilhouetteBody& body_;
-  std::vector<double> agrees_, counts_;  // of each part: Σ w r e, Σ w r²
+  std::vector<double> products_, squares_;  // of each part: Σ w r e, Σ w r²
 };
 
-/// The options of finding and following a body, by `TrackSilhouettes` through a whole take and by `SilhouetteFollower`
-/// as it comes.
+/// The options of finding and following a body, for `TrackSilhouettes` (a whole take) and `SilhouetteFollower`
+/// (online).
 struct TrackOptions {
   SilhouetteCostOptions cost;
-  /// The accuracy of a known start: standard deviation of an angle and of the root's turn, radians, and of its place.
+  /// The accuracy of a known start: standard deviations of an angle and of the root's rotation (radians), and of the
+  /// root's position.
   double start_angle = Radians(10);
   double start_place_m = 0.1;
-  /// The number of moments, evenly over a whole take, at which the body is searched for when the start is not known.
+  /// The number of frames, evenly over the take, in which the body is searched for if the start is not known.
   int anchors = 5;
-  /// The number of frames that each of the likeliest poses is followed when the start is not known, to tell front from
-  /// back, which a single silhouette often cannot.
+  /// The number of frames for which each likely pose is followed if the start is not known. A single silhouette often
+  /// cannot tell front from back; several frames can.
   int trial_frames = 8;
-  /// The body's movement from one frame to the next beyond what its speed foretells: standard deviations of an angle,
-  /// radians, and of the place. Frames that are further apart than those of 30 Hz want more.
+  /// The change from one frame to the next beyond the extrapolated motion: standard deviations of an angle, radians,
+  /// and of the position. Use larger values for frame rates below 30 Hz.
   double angle_change = 0.15;
   double place_change_m = 0.05;
-  /// The cost of a frame, relative to the best fifth's, above which it has lost a limb or more and is searched anew.
+  /// A frame whose cost exceeds this multiple of the take's 20th percentile has lost a limb and is searched again.
   double lost = 1.8;
-  /// The number of passes over a whole take in which lost frames are searched anew and all are smoothed.
+  /// The number of passes over a whole take in which lost frames are searched again and all frames are smoothed.
   int repairs = 2;
-  /// The number of passes in which the thickness of trunk, head, arms and legs is estimated, each time nearer: a person
-  /// is no average. 0 keeps the average.
+  /// The number of passes that estimate the thickness of trunk, head, arms and legs, each from the pose of the one
+  /// before. 0 keeps the average body.
   int thickness_passes = 2;
 };
 
-/// The cameras' pictures of one moment, as far as they show somebody.
+/// The cameras' pictures of one moment that show somebody.
 using MomentViews = std::vector<SilhouetteView>;
 
-/// Fits a body to one moment: searched for, started from a known pose, or followed from the moments before.
+/// Fits a body to one moment: by a search, from a known pose, or from the moments before.
 class MomentFitter {
  public:
-  /// Both must outlive this; the body may grow thicker or thinner in between.
+  /// Both must outlive this object. The body's thickness may change in between.
   MomentFitter(const SilhouetteBody& body, const TrackOptions& options);
 
-  /// Fits one moment from `start`, with a wide reach first when `is_far`. `prior` may be null.
+  /// Fits one moment from `start`. If `is_far`, a fit with a wide reach of the loss comes first. `prior` may be null.
   SilhouetteFit Fit(const MomentViews& views, const TreeState& start, const PosePrior* prior, bool is_far);
-  /// Fits one moment from a start that is known as exactly as the options say.
+  /// Fits one moment from a known start, whose accuracy the options state.
   SilhouetteFit FitKnown(const MomentViews& views, const TreeState& start);
-  /// Fits the next moment of a body that was at `before_last` and then at `last`.
+  /// Fits the next moment of a body whose last two poses were `before_last` and `last`.
   SilhouetteFit Follow(const MomentViews& views, const TreeState& before_last, const TreeState& last);
-  /// Searches for the body: returns the likeliest pose and the likeliest ones that face other ways, at most three; none
-  /// where the lines of sight do not meet.
+  /// Searches for the body: returns the most likely pose and further ones that face other ways, at most three in all;
+  /// none if the silhouettes' centres cannot be triangulated.
   std::vector<SilhouetteFit> Find(const MomentViews& views);
-  /// Searches for every arm and leg elsewhere and returns the fit with those places that cost less.
+  /// Tries every arm and leg in other positions and returns the fit with those that lower the cost.
   SilhouetteFit WithLimbsFound(const MomentViews& views, const SilhouetteFit& fit, const PosePrior* prior);
-  /// Returns the prior that the next moment is near this one.
+  /// Returns the prior that the next pose is near `state`.
   PosePrior PriorNear(const TreeState& state) const;
 
   FitWorkspace& workspace() { return workspace_; }

@@ -9,13 +9,14 @@
 namespace etude {
 namespace {
 
-// The lower envelope of the parabolas (x − q)² + heights[q] (the paper's DT1D), with room for `size` of them.
+// The lower envelope of the parabolas (x − q)² + heights[q] (the paper's DT1D), for at most `size` of them.
 class Envelope {
  public:
   explicit Envelope(int size) : apex_(size), begins_(size + 1) {}
 
-  // out[x] = min over q of (x − q)² + heights[q]; heights of `kNone` count as infinite.
+  // Computes out[x] = min over q of (x − q)² + heights[q]; heights of at least `kNone` count as infinite.
   void Fill(const std::vector<double>& heights, int size, std::vector<double>& out) {
+    // Add the parabolas from left to right; each removes the last ones that it undercuts everywhere.
     int last = -1;
     for (int q = 0; q < size; ++q) {
       if (heights[q] >= kNone) continue;
@@ -36,6 +37,7 @@ class Envelope {
       std::fill_n(out.begin(), size, kNone);
       return;
     }
+    // Read the envelope from left to right.
     int at = 0;
     for (int x = 0; x < size; ++x) {
       while (begins_[at + 1] < x) ++at;
@@ -48,15 +50,15 @@ class Envelope {
 
  private:
   std::vector<int> apex_;
-  std::vector<double> begins_;  // where each parabola becomes the lowest
+  std::vector<double> begins_;  // the x from which each parabola is the lowest
 };
 
-// Computes every pixel's squared distance to the nearest one whose mask value is `value`.
+// Computes every pixel's squared distance to the nearest pixel whose mask value is `value`.
 std::vector<double> SquaredDistancesTo(const Mask& mask, std::uint8_t value) {
   const int width = mask.width, height = mask.height;
   const int longest = std::max(width, height);
   std::vector<double> squared(mask.pixels.size());
-  // Down the columns distances are counted; along the rows the envelope joins them.
+  // Along each column, count the steps to the nearest such pixel above and below.
   for (int x = 0; x < width; ++x) {
     double steps = Envelope::kNone;
     const auto walk = [&](int y) {
@@ -75,6 +77,7 @@ std::vector<double> SquaredDistancesTo(const Mask& mask, std::uint8_t value) {
       squared[i] = nearest >= Envelope::kNone ? Envelope::kNone : nearest * nearest;
     }
   }
+  // Along each row, combine the columns' squared distances by the lower envelope.
   Envelope envelope(longest);
   std::vector<double> row(longest), out(longest);
   for (int y = 0; y < height; ++y) {
@@ -102,14 +105,14 @@ Image<float> SignedDistances(const Mask& mask) {
 
 namespace {
 
-// Returns whether one of the four neighbours within the picture is unset: what the picture's edge cuts off is no
-// outline.
+// Returns true if one of the four neighbours within the picture is unset. The picture's edge is not an outline.
 bool IsOutline(const Mask& mask, int x, int y) {
   const auto unset = [&](int i, int j) { return mask.Contains(i, j) && mask.At(i, j) == 0; };
   return unset(x - 1, y) || unset(x + 1, y) || unset(x, y - 1) || unset(x, y + 1);
 }
 
-// Out of the mask: away from the middle of the set pixels in a window about the pixel.
+// Returns the unit normal that points out of the mask: away from the mean of the set pixels in a window around the
+// pixel.
 glm::dvec2 NormalAt(const Mask& mask, int x, int y) {
   constexpr int kReach = 3;
   glm::dvec2 inwards(0);
@@ -123,10 +126,10 @@ glm::dvec2 NormalAt(const Mask& mask, int x, int y) {
 }
 
 struct Box {
-  int left, top, right, bottom;  // the last two just outside
+  int left, top, right, bottom;  // right and bottom are exclusive
 };
 
-// About all set pixels, with a margin as far as the picture goes; empty when there are none.
+// Returns the box around all set pixels, with a margin, clipped to the picture; an empty box if no pixel is set.
 Box BoxOf(const Mask& mask) {
   constexpr int kMargin = 8;
   Box box{mask.width, mask.height, 0, 0};
@@ -148,7 +151,7 @@ Mask CutOut(const Mask& mask, const Box& box) {
   return part;
 }
 
-// The pixels whose signed distance is at most `distance`: grown by it, or shrunk where it is negative.
+// Returns the pixels whose signed distance is at most `distance`: a dilation, or an erosion if it is negative.
 Mask Grown(const Mask& mask, double distance) {
   const Image<float> distances = SignedDistances(mask);
   Mask grown(mask.width, mask.height);
@@ -156,12 +159,13 @@ Mask Grown(const Mask& mask, double distance) {
   return grown;
 }
 
-// Without what is thinner than the disc.
+// Removes what is thinner than a disc of this radius (morphological opening).
 Mask Opened(const Mask& mask, double radius) {
   if (radius <= 0) return mask;
   return Grown(Grown(mask, -radius), radius);
 }
 
+// Fills `made.outline`, `made.area` and `made.centre`.
 void SampleOutline(const Mask& mask, const SilhouetteOptions& options, Silhouette& made) {
   const int cells = mask.width / options.spacing + 1;
   std::vector<char> taken(static_cast<std::size_t>(cells) * (mask.height / options.spacing + 1), 0);
@@ -172,6 +176,7 @@ void SampleOutline(const Mask& mask, const SilhouetteOptions& options, Silhouett
       const glm::dvec2 pixel(made.left + x + 0.5, made.top + y + 0.5);
       sum += pixel;
       ++made.area;
+      // Keep the first outline pixel of each square of the grid.
       char& cell = taken[static_cast<std::size_t>(y / options.spacing) * cells + x / options.spacing];
       if (cell || !IsOutline(mask, x, y)) continue;
       cell = 1;
@@ -202,20 +207,24 @@ Silhouette MakeSilhouette(const Mask& mask, const SilhouetteOptions& options) {
 DistanceAt DistanceAtPixel(const Silhouette& silhouette, const glm::dvec2& pixel) {
   assert(silhouette.area > 0);
   const Image<float>& field = silhouette.distances;
+  // Clamp the pixel to the picture, then to the box that holds distances.
   const glm::dvec2 wanted = pixel / silhouette.mask_pixel - 0.5;
   const glm::dvec2 seen = glm::clamp(wanted, glm::dvec2(0), glm::dvec2(silhouette.width - 1, silhouette.height - 1));
   const glm::dvec2 in_box = seen - glm::dvec2(silhouette.left, silhouette.top);
   const glm::dvec2 at = glm::clamp(in_box, glm::dvec2(0), glm::dvec2(field.width - 1, field.height - 1));
+  // Interpolate the distance and its gradient between the four pixel centres.
   const int x = std::min(static_cast<int>(at.x), field.width - 2),
             y = std::min(static_cast<int>(at.y), field.height - 2);
   const double s = at.x - x, t = at.y - y;
   const double a = field.At(x, y), b = field.At(x + 1, y), c = field.At(x, y + 1), d = field.At(x + 1, y + 1);
   DistanceAt found{(1 - t) * ((1 - s) * a + s * b) + t * ((1 - s) * c + s * d),
                    {(1 - t) * (b - a) + t * (d - c), (1 - s) * (c - a) + s * (d - b)}};
+  // No gradient along an axis on which the point was clamped.
   const glm::dvec2 beyond = in_box - at;
   for (int axis = 0; axis < 2; ++axis) {
     if (beyond[axis] != 0 || seen[axis] != wanted[axis]) found.gradient[axis] = 0;
   }
+  // Outside the box, add the distance to the box.
   const double away = glm::length(beyond);
   if (away > 0) {
     found.distance += away;

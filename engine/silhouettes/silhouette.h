@@ -7,48 +7,49 @@
 
 namespace etude {
 
-/// Computes how far every pixel's centre lies from the border of the mask, in pixels of the mask: positive outside,
-/// negative inside. The border runs half a pixel beyond the centres of set pixels, so |distance| ≥ 0.5. Exact
-/// (Euclidean), in time linear in the pixels: P. Felzenszwalb and D. Huttenlocher, "Distance transforms of sampled
-/// functions", Theory of Computing 8 (2012), section 2. Where the mask has no set (no unset) pixel, the distance is
-/// ±(width + height).
+/// Computes the signed Euclidean distance from every pixel's centre to the border of the mask, in mask pixels: positive
+/// outside, negative inside. The border runs half a pixel beyond the centres of set pixels, so |distance| ≥ 0.5. The
+/// distances are exact, in time linear in the number of pixels: P. Felzenszwalb and D. Huttenlocher, "Distance
+/// transforms of sampled functions", Theory of Computing 8 (2012), section 2. If the mask has no set (or no unset)
+/// pixel, every distance is +(width + height) (or −(width + height)).
 Image<float> SignedDistances(const Mask& mask);
 
 struct SilhouetteOptions {
   /// The width of a mask pixel in pixels of the camera: 2 for a mask of half the picture's size.
   double mask_pixel = 1;
-  /// The side, in mask pixels, of the squares in each of which the outline is sampled once. Fewer samples are quicker;
-  /// 3 leaves about two hundred of a person who fills a picture of 320 × 240.
+  /// The side, in mask pixels, of the squares from each of which one outline point is sampled. Larger squares give
+  /// fewer points and a faster fit; 3 leaves about two hundred points of a person who fills a picture of 320 × 240.
   int spacing = 3;
-  /// The radius, in mask pixels, of the disc by which the mask is opened: what is thinner is no part of the person,
-  /// such as lines of furniture, ragged edges. A forearm four metres away is five pixels wide in a mask of 320 × 240. 0
-  /// takes the mask as it is.
+  /// The radius, in mask pixels, of the disc of the morphological opening. It removes what is thinner than the disc,
+  /// such as lines of furniture and ragged edges. A forearm four metres away is five pixels wide in a mask of 320 ×
+  /// 240. With 0 the mask is not opened.
   double thinnest = 1;
 };
 
 /// A point of a silhouette's outline, in the camera's pixels.
 struct OutlinePoint {
   glm::dvec2 pixel{0};
-  glm::dvec2 normal{0};  ///< unit, out of the silhouette
+  glm::dvec2 normal{0};  ///< unit vector, points out of the silhouette
 };
 
-/// One camera's picture of a person, prepared for the fit. Of the distances only the box about the person is kept.
+/// One camera's picture of a person, prepared for the fit. The distances cover only the box around the person.
 struct Silhouette {
-  Image<float> distances;  ///< `SignedDistances` of the mask, in pixels of the mask, from (left, top) on
+  Image<float> distances;  ///< `SignedDistances` of the mask, in mask pixels, from (left, top) on
   int left = 0, top = 0;
   int width = 0, height = 0;  ///< of the whole mask
   double mask_pixel = 1;
   std::vector<OutlinePoint> outline;
   glm::dvec2 centre{0};  ///< mean of the set pixels, in the camera's pixels
-  int area = 0;          ///< set pixels of the mask; 0 when the picture shows nobody, then it tells nothing
+  int area = 0;          ///< number of set pixels of the mask; 0 if the picture shows nobody and is not used
 };
 
 Silhouette MakeSilhouette(const Mask& mask, const SilhouetteOptions& options = {});
 
-/// Returns the signed distance at a pixel of the camera, in pixels of the camera, and its gradient: bilinear between
-/// pixel centres. Away from the person, where the box ends, the distance to the box is added to that on its edge: never
-/// less than the true one. Outside the picture it is that of the nearest pixel within, so that what leaves the picture
-/// is not pulled back. The silhouette shows somebody.
+/// Returns the signed distance at a pixel of the camera, in pixels of the camera, and its gradient, by bilinear
+/// interpolation between pixel centres. Outside the box around the person it is the distance at the box's edge plus the
+/// distance to the box, which is never less than the true one. Outside the picture it is the distance of the nearest
+/// pixel inside, with no gradient across the picture's edge, so flesh outside the picture is not pulled back.
+/// Precondition: `silhouette.area` > 0.
 struct DistanceAt {
   double distance = 0;
   glm::dvec2 gradient{0};

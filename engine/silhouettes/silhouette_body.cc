@@ -35,7 +35,7 @@ enum JointIndex {
 
 enum Part { kTrunk, kHeadAndNeck, kArms, kHands, kLegs, kFeet, kPartCount };
 
-// Axes of limbs in the world when the body stands at rest, facing +Z: columns X, Y, Z.
+// Axes of the limbs in the world when the body stands at rest and faces +Z: columns X, Y, Z.
 const glm::dvec3 kRight(-1, 0, 0), kUp(0, 1, 0), kForward(0, 0, 1);
 const glm::dmat3 kRising(kRight, kForward, kUp);
 const glm::dmat3 kHanging(kRight, -kForward, -kUp);
@@ -45,9 +45,9 @@ const glm::dmat3 kFootwards(kRight, -kUp, kForward);
 
 using AngleHabit = SilhouetteBody::Habit;
 
-// A joint of the tree: where it stands, which limb it turns. Limits in degrees, one for each degree of freedom.
-// X bends forward and back, Y leads sideways, Z turns about the limb. They are those of joint_limits.h, widened by what
-// living people reach beyond the tables, so that a pose is never forbidden that the pictures show.
+// A joint of the tree: its position and the limb that it turns. Limits are in degrees, one range for each degree of
+// freedom: X bends forward and back, Y leads sideways, Z turns about the limb. They are the limits of joint_limits.h,
+// widened to what people reach beyond the tables, so that no pose that a picture shows is forbidden.
 struct JointRow {
   JointIndex self;
   std::string_view name;
@@ -112,12 +112,12 @@ constexpr std::array<JointIndex, kRoleCount> kCarriers = {
     kLeftPalm, kRightUpperArm, kRightForearm, kRightPalm,  kRightPalm,    kLeftThigh,   kLeftShank,
     kLeftSole, kLeftSole,      kRightThigh,   kRightShank, kRightSole,    kRightSole};
 
-// A person of 1.70 m, whose thigh, shank and trunk have this length together.
+// Lengths and offsets of a person of 1.70 m; kStatureLengths is the sum of thigh, shank and trunk.
 constexpr double kStatureLengths = 1.32;  // metres
-constexpr double kShoulderFall = 0.025;   // of the shoulders below the base of the neck
-constexpr double kSkullHeight = 0.165;    // of its middle above the base of the neck
+constexpr double kShoulderFall = 0.025;   // the shoulders lie this far below the base of the neck
+constexpr double kSkullHeight = 0.165;    // the middle of the skull lies this far above the base of the neck
 
-// Standing at rest, the hip centre at the origin.
+// Returns the standing pose at rest with the hip centre at the origin.
 BodyPose RestPose(const LimbLengths& lengths, double scale) {
   BodyPose rest;
   const double fall = kShoulderFall * scale;
@@ -140,6 +140,7 @@ BodyPose RestPose(const LimbLengths& lengths, double scale) {
   return rest;
 }
 
+// Makes the tree of JointRows() with the offsets between joints of the pose at rest.
 KinematicTree MakeTree(const BodyPose& rest) {
   KinematicTree tree;
   tree.standing_root = kRising;
@@ -159,8 +160,8 @@ KinematicTree MakeTree(const BodyPose& rest) {
   return tree;
 }
 
-// A piece of flesh on the left half or in the middle of the body; the right half mirrors it. Its ends are a joint's
-// place and an offset from it in the standing body, centimetres to the left, up and forward, of a person of 1.70 m.
+// A capsule on the left half or in the middle of the body; the right half mirrors it. Each end is a joint's position
+// plus an offset in the standing body, in centimetres to the left, up and forward, of a person of 1.70 m.
 struct FleshRow {
   Part part;
   JointIndex limb;
@@ -173,7 +174,8 @@ struct FleshRow {
 
 const std::vector<FleshRow>& FleshRows() {
   static const std::vector<FleshRow> rows = {
-      // The pelvis and the chest are about 34 wide and 23 deep, the waist 29; the crotch lies 8 below the hip joints.
+      // Centimetres: the pelvis and the chest are about 34 wide and 23 deep, the waist 29 wide; the crotch lies 8 below
+      // the hip joints.
       {kTrunk, kPelvis, kHipCentre, {4, -1, 0}, kHipCentre, {5.5, 2, -1}, 7.5, 11.8},
       {kTrunk, kPelvis, kHipCentre, {5.5, 2, -1}, kHipCentre, {4.5, 9, 0}, 11.8, 11},
       {kTrunk, kLoins, kHipCentre, {4.2, 8, 0}, kSpine, {4.5, 0, 0}, 10.7, 10.7},

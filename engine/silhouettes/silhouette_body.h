@@ -10,29 +10,30 @@
 
 namespace etude {
 
-/// Flesh around a limb: every point within the radius of the segment a–b, where the radius changes evenly from one end
-/// to the other. Metres.
+/// A capsule of flesh around a limb: all points within the radius of the segment a–b. The radius changes linearly from
+/// one end to the other. Metres.
 struct FleshCapsule {
   TreePoint a, b;
   double radius_a = 0, radius_b = 0;
-  int part = 0;  ///< whose thickness it shares: both arms are as thick as each other
+  int part = 0;  ///< the part of the body whose thickness it shares; both arms are one part
 };
 
-/// A person's body for comparison with silhouettes: what moves, where the twenty joints lie in it, and the flesh. Any
-/// tree will do whose limits keep Y angles of joints with three degrees of freedom within ±90°.
+/// A person's body model for comparison with silhouettes: the kinematic tree, the positions of the twenty joints in it,
+/// and the flesh. Any tree may be used whose limits keep the Y angles of joints with three degrees of freedom within
+/// ±90°.
 struct SilhouetteBody {
   KinematicTree tree;
   std::array<TreePoint, kRoleCount> roles;
   std::vector<FleshCapsule> flesh;
   int part_count = 0;
-  /// The usual angle of a degree of freedom and people's standard deviation from it, both in radians. They decide where
-  /// pictures do not.
+  /// The prior of one degree of freedom: its usual angle and people's standard deviation from it, radians. It
+  /// determines the angles that the pictures leave open.
   struct Habit {
     double angle = 0;
     double spread = 1;
   };
   std::vector<Habit> habits;
-  /// The joints of an arm or leg, from the body outwards, which a search for a lost limb turns.
+  /// The two joints of an arm or leg, from the trunk outwards, that the search for a lost limb varies.
   struct Limb {
     int upper = 0;
     int lower = 0;
@@ -41,12 +42,13 @@ struct SilhouetteBody {
   std::vector<Limb> limbs;
 };
 
-/// Makes a generic adult of these limb lengths: rooted at the hip centre, which is free to move and turn; the back
-/// bends in two places, each shoulder is borne by a collar bone. The flesh is that of an average clothed adult (girths
-/// *ours*: round figures for a grown person, no table's, and a centimetre of clothes on the trunk), scaled by what the
-/// lengths say of the stature. Of the person in the pictures it knows nothing but `lengths`.
+/// Makes the body of a generic adult with these limb lengths. Its root is the hip centre, which moves and turns freely;
+/// the back bends at two joints; a collar bone carries each shoulder. The flesh is that of an average clothed adult
+/// (girths *ours*: round figures for a grown person, not from a table, with a centimetre of clothes on the trunk),
+/// scaled by the stature that the lengths imply. Only `lengths` are specific to the person in the pictures.
 SilhouetteBody MakeSilhouetteBody(const LimbLengths& lengths);
 
+/// Returns the position of a point of the tree in the world.
 glm::dvec3 PlaceOf(const TreePoint& point, const TreeFrames& frames);
 
 BodyPose ToBodyPose(const SilhouetteBody& body, const TreeFrames& frames);

@@ -7,22 +7,22 @@
 namespace etude {
 namespace {
 
-constexpr double kNearest = 0.05;  // metres before the camera, within which nothing is drawn
+constexpr double kNearest = 0.05;  // metres in front of the camera; a capsule with a nearer end is not projected
 
 struct ConePoint {
   double along = 0;     // 0 at a, 1 at b
-  double distance = 0;  // from the pixel to the axis there
+  double distance = 0;  // from the pixel to the point of the axis there
   double signed_distance = 0;
 };
 
-// A round cone in two dimensions, from the condition that along the axis the distance less the radius is
-// least: (x − along·length) / distance = −(radius_b − radius_a) / length.
+// Finds the nearest point of a round cone in two dimensions. Along the axis, the distance minus the radius is minimal
+// where (x − along·length) / distance = −(radius_b − radius_a) / length.
 ConePoint NearestOnCone(const ProjectedCapsule& capsule, const glm::dvec2& pixel) {
   const glm::dvec2 axis = capsule.b - capsule.a, from_a = pixel - capsule.a;
   const double length2 = glm::dot(axis, axis), widens = capsule.radius_b - capsule.radius_a;
   ConePoint found;
   if (length2 <= widens * widens) {
-    found.along = widens > 0 ? 1 : 0;  // one end's circle holds the other's
+    found.along = widens > 0 ? 1 : 0;  // one end's circle contains the other's
   } else {
     const double x = glm::dot(from_a, axis), y = std::abs(from_a.x * axis.y - from_a.y * axis.x);
     found.along = std::clamp((x + y * widens / std::sqrt(length2 - widens * widens)) / length2, 0.0, 1.0);
@@ -32,7 +32,7 @@ ConePoint NearestOnCone(const ProjectedCapsule& capsule, const glm::dvec2& pixel
   return found;
 }
 
-// A circle around a projected capsule: no point of its outline is nearer to a pixel than the circle is.
+// A circle around a projected capsule. No point of the capsule's outline is nearer to a pixel than the circle.
 struct Bound {
   glm::dvec2 centre{0};
   double radius = 0;
@@ -47,7 +47,8 @@ std::vector<Bound> BoundsOf(const std::vector<ProjectedCapsule>& flesh) {
   return bounds;
 }
 
-// The piece of flesh whose outline is nearest, −1 if none is drawn; `distance` falls to its signed distance.
+// Returns the capsule whose outline is nearest to the pixel and lowers `distance` to its signed distance; returns −1 if
+// no capsule is nearer than `distance`.
 int NearestCapsule(const std::vector<ProjectedCapsule>& flesh, const std::vector<Bound>& bounds,
                    const glm::dvec2& pixel, double& distance) {
   int nearest = -1;

@@ -12,8 +12,8 @@
 
 namespace etude {
 
-/// A camera's matrix, normalised so that depths are metres, with the scale of what it shows. Frames: W the world, Q any
-/// point.
+/// A camera's projection matrix, normalised so that depths are metres, with its scale in pixels. Frames: W the world, Q
+/// any point.
 class PixelScale {
  public:
   explicit PixelScale(const ProjectionMatrix& matrix) {
@@ -31,10 +31,11 @@ class PixelScale {
   glm::dvec2 PixelOf(const glm::dvec3& p_WQ) const {
     return glm::dvec2(glm::dot(rows_[0], p_WQ) + offsets_[0], glm::dot(rows_[1], p_WQ) + offsets_[1]) / DepthOf(p_WQ);
   }
-  /// Returns the size in pixels of one metre, one metre away: the geometric mean of both directions.
+  /// Returns the focal length in pixels, the geometric mean over both directions: the size of one metre at a depth of
+  /// one metre.
   double focal_px() const { return focal_px_; }
 
-  /// The gradients of u, v and of the pixels per metre, with respect to the place of the point.
+  /// The gradients of u, v and of the pixels per metre, with respect to the position of the point.
   struct Slopes {
     glm::dvec3 u, v, pixels_per_metre;
   };
@@ -51,14 +52,14 @@ class PixelScale {
   double focal_px_ = 0;
 };
 
-/// A joint of the body where a picture shows it, as an estimator of keypoints or somebody who marks says.
+/// The pixel at which a keypoint estimator or an annotator sees a joint.
 struct SeenJoint {
   Role role = Role::kHipCentre;
   glm::dvec2 pixel{0};
-  double sigma_px = 4;  ///< standard deviation along u and v; the surer, the less
+  double sigma_px = 4;  ///< standard deviation along u and v
 };
 
-/// One camera's matrix and silhouette in a frame, and the joints that are told beside it.
+/// One camera's matrix and silhouette in a frame, with the joints that were seen in it.
 struct SilhouetteView {
   ProjectionMatrix matrix;  ///< world (metres) to pixels
   const Silhouette* silhouette = nullptr;
@@ -67,65 +68,68 @@ struct SilhouetteView {
 
 /// The options of comparing a pose with silhouettes. All lengths are pixels of the camera.
 struct SilhouetteCostOptions {
-  /// The size of a residual that counts as one standard deviation, against the habits of the body's angles. It is
-  /// several times what an outline errs, because neighbouring points err alike: clothes, flesh of other shape.
+  /// The residual that counts as one standard deviation, relative to the priors of the body's angles. It is several
+  /// times the error of one outline point because the errors of neighbouring points are correlated: clothes, or flesh
+  /// of another shape.
   double sigma_px = 8;
-  /// The distance beyond which an outline point, or a piece of the body outside the silhouette, counts less and less
-  /// (Geman and McClure's loss): it shows somebody's shadow, a lost piece, or a limb that is elsewhere. Wide far from
-  /// the solution, narrow near it.
+  /// The reach of the loss (Geman and McClure): the weight of an outline point, or of flesh outside the silhouette,
+  /// falls beyond it. Such a residual comes from a shadow, a lost piece of the mask, or a limb in another position. Use
+  /// a wide reach far from the solution and a narrow one near it.
   double outline_reach_px = 14;
   double inside_reach_px = 60;
-  /// The share of the flesh that must lie inside; less than 1 because this person may be thinner.
+  /// The share of each flesh radius that must lie inside the silhouette. It is less than 1 because this person may be
+  /// thinner than the body.
   double inside_share = 0.8;
   /// The weight of one sample of the flesh relative to one point of the outline.
   double inside_weight = 2;
-  /// The standard deviations beyond which a seen joint counts less and less, by the same loss: it is another's, or the
-  /// other side's.
+  /// The reach of the same loss for seen joints, in their standard deviations. Beyond it the joint is probably another
+  /// person's, or of the other side.
   double joint_reach = 3;
 };
 
-/// The flesh of one pose in one picture: each piece's outline is that of a round cone, all points within a radius of a
-/// segment, where the radius changes evenly along it.
+/// One capsule of flesh, projected into one picture: a round cone, all points within a radius of the segment a–b. The
+/// radius changes linearly along the segment. Pixels.
 struct ProjectedCapsule {
-  bool is_valid = false;  ///< false: a part of it is behind the camera
+  bool is_valid = false;  ///< false if an end lies behind or too near the camera
   glm::dvec2 a{0}, b{0};
   double radius_a = 0, radius_b = 0;
 };
 
-/// A residual and how it moves with the six numbers of its capsule: e + Σ cᵢ δᵢ, δ = (a.u, a.v, radius_a, b.u, b.v,
-/// radius_b).
+/// A residual and its derivatives by the six numbers of its capsule: it is e + Σ slopesᵢ δᵢ with δ = changes of (a.u,
+/// a.v, radius_a, b.u, b.v, radius_b).
 struct SilhouetteResidual {
-  double value = 0;  ///< pixels
+  double value = 0;  ///< e, pixels
   int capsule = -1;  ///< -1: none
   std::array<double, 6> slopes{};
-  bool is_inside = false;  ///< of a sample of the flesh; else of a point of the outline
+  bool is_inside = false;  ///< true: a sample of the flesh (containment); false: a point of the outline (coverage)
 };
 
-/// The flesh in the pose of `frames`.
+/// Projects the flesh of the body in the pose of `frames` into one picture.
 void ProjectFlesh(const SilhouetteBody& body, const TreeFrames& frames, const ProjectionMatrix& matrix,
                   std::vector<ProjectedCapsule>& out);
 
-/// The signed distance from `pixel` to the outline of a projected capsule, negative inside, with its slopes.
+/// Returns the signed distance from `pixel` to the outline of a projected capsule, negative inside, with its
+/// derivatives.
 SilhouetteResidual DistanceTo(const ProjectedCapsule& capsule, const glm::dvec2& pixel);
 
 /// Appends the residuals of the flesh in one picture to `out`:
-/// - coverage: every point of the silhouette's outline lies on the outline of the flesh: its signed distance to the
-///   nearest piece is 0;
-/// - containment: every piece of flesh lies inside the silhouette: at samples along its axis, the silhouette's signed
-///   distance plus `inside_share` of the radius is not positive. Samples for which that holds leave no residual.
+/// - coverage: every point of the silhouette's outline lies on the outline of the flesh, so its signed distance to the
+///   nearest capsule is 0;
+/// - containment: every capsule lies inside the silhouette: at samples along its axis, the silhouette's signed distance
+///   plus `inside_share` of the radius is at most 0. Samples that satisfy this leave no residual.
 void AppendResiduals(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
                      const SilhouetteCostOptions& options, std::vector<SilhouetteResidual>& out);
 
-/// The two halves of AppendResiduals, for a search that tries many places of a few pieces. Containment alone, of these
-/// pieces; and of each outline point the least signed distance: `distances` fall to those of `flesh` where these are
-/// less.
+/// The two halves of AppendResiduals, for a search that tries many positions of a few capsules. AppendContainment
+/// appends the containment residuals of `flesh`. OutlineDistances lowers each of `distances`, one for each outline
+/// point, to the point's smallest signed distance to `flesh` if that is less.
 void AppendContainment(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
                        const SilhouetteCostOptions& options, std::vector<SilhouetteResidual>& out);
 void OutlineDistances(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
                       std::span<double> distances);
 
-/// The loss of a residual and the weight of its square in a step: Geman and McClure's e²/(1 + e²/reach²), in units of
-/// sigma².
+/// Geman and McClure's loss of a residual, e²/(1 + e²/reach²) in units of sigma², and the weight of its square in a
+/// Gauss–Newton step.
 struct Loss {
   double loss = 0;
   double weight = 0;

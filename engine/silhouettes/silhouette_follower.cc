@@ -7,9 +7,9 @@
 namespace etude {
 namespace {
 
-constexpr int kSearchEvery = 5;           // moments: a search for limbs costs as much as some dozens of them
-constexpr std::size_t kRemembered = 100;  // moments that tell what one costs that has lost nothing
-constexpr int kThicknessMoments = 20;     // of which a thickness is estimated
+constexpr int kSearchEvery = 5;           // moments; a search for limbs costs as much as dozens of moments
+constexpr std::size_t kRemembered = 100;  // moments from which the usual cost is estimated
+constexpr int kThicknessMoments = 20;     // moments for one thickness estimate
 
 }  // namespace
 
@@ -28,7 +28,7 @@ void SilhouetteFollower::Begin(const MomentViews& views) {
   for (const SilhouetteFit& fit : fitter_.Find(views)) paths_.push_back({fit, fit.state, fit.picture_cost});
 }
 
-// The best fifth of the last moments gives the cost of a moment in which no limb is lost.
+// The 20th percentile of the last moments is the usual cost of a moment in which no limb is lost.
 bool SilhouetteFollower::IsLost(const SilhouetteFit& fit) const {
   constexpr std::size_t kEnough = 10;
   if (costs_.size() < kEnough) return false;
@@ -67,6 +67,7 @@ std::optional<SilhouetteFit> SilhouetteFollower::Next(std::span<const Silhouette
     if (silhouettes[c].area > 0) views.push_back({cameras_[c], &silhouettes[c]});
   }
   if (views.size() < 2) return std::nullopt;
+  // Start paths in the first moment, or follow those that exist.
   ++since_search_;
   if (paths_.empty()) {
     Begin(views);
@@ -74,13 +75,14 @@ std::optional<SilhouetteFit> SilhouetteFollower::Next(std::span<const Silhouette
     for (Path& path : paths_) Follow(views, path);
   }
   if (paths_.empty()) return std::nullopt;
+  // After the trial only the path of lowest cost is kept.
   std::ranges::stable_sort(paths_, {}, &Path::cost);
   if (++moments_ >= options_.trial_frames) paths_.resize(1);
   costs_.push_back(paths_.front().fit.picture_cost);
   if (costs_.size() > kRemembered) costs_.erase(costs_.begin());
-  const SilhouetteFit told = paths_.front().fit;
+  const SilhouetteFit result = paths_.front().fit;
   if (paths_.size() == 1) Learn(views);
-  return told;
+  return result;
 }
 
 }  // namespace etude

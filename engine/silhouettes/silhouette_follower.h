@@ -11,33 +11,33 @@
 
 namespace etude {
 
-/// Follows a body by its silhouettes moment by moment, as it happens, each pose from the pictures up to it alone.
-/// Without a known start it is searched for in the first moment that shows somebody; the likeliest poses are followed
-/// beside each other for `trial_frames` and the one that explained most is kept. When a moment costs far more than most
-/// did, arms and legs are looked for elsewhere. The thickness is estimated from what was seen so far. A pose that was
-/// told is never taken back: nothing is smoothed.
+/// Follows a body by its silhouettes online: each pose depends only on the pictures up to its moment. Without a known
+/// start, the body is searched for in the first moment that shows somebody; the most likely poses are followed in
+/// parallel for `trial_frames`, and the one of lowest total cost is kept. If a moment costs far more than most before
+/// it, arms and legs are searched for in other positions. The thickness is estimated from the pictures so far. A pose
+/// that was returned is final: nothing is smoothed afterwards.
 class SilhouetteFollower {
  public:
-  /// @param cameras world (metres) to pixels, at least two
-  /// @param start about where the body is in the first moment, when that is known
+  /// @param cameras projections from the world (metres) to pixels, at least two
+  /// @param start the body's approximate pose in the first moment, if known
   SilhouetteFollower(const SilhouetteBody& body, std::span<const ProjectionMatrix> cameras,
                      const std::optional<TreeState>& start, const TrackOptions& options = {});
   SilhouetteFollower(const SilhouetteFollower&) = delete;
   SilhouetteFollower& operator=(const SilhouetteFollower&) = delete;
 
-  /// Fits the next moment's pictures, one per camera. Returns nothing when fewer than two show anybody, or nobody can
-  /// be found.
+  /// Fits the next moment's pictures, one for each camera. Returns nullopt if fewer than two show anybody, or if nobody
+  /// is found.
   std::optional<SilhouetteFit> Next(std::span<const Silhouette> silhouettes);
 
-  /// Returns the body with its thickness as estimated so far.
+  /// Returns the body with the thickness estimated so far.
   const SilhouetteBody& body() const { return body_; }
 
  private:
-  /// A pose that is followed.
+  /// A sequence of poses that is followed.
   struct Path {
     SilhouetteFit fit;
-    TreeState before;  ///< the pose before that
-    double cost = 0;   ///< of all its moments, by their pictures
+    TreeState before;  ///< the pose before the last
+    double cost = 0;   ///< sum of `picture_cost` over its moments
   };
 
   void Begin(const MomentViews& views);
@@ -50,10 +50,10 @@ class SilhouetteFollower {
   const std::vector<ProjectionMatrix> cameras_;
   const std::optional<TreeState> start_;
   MomentFitter fitter_{body_, options_};
-  std::vector<Path> paths_;    ///< the likeliest first; none before somebody was found
+  std::vector<Path> paths_;    ///< by ascending cost; empty until somebody was found
   int moments_ = 0;            ///< since the body was found
-  int since_search_ = 0;       ///< moments since limbs were looked for
-  std::vector<double> costs_;  ///< of the moments that were told, in their order
+  int since_search_ = 0;       ///< moments since the last search for limbs
+  std::vector<double> costs_;  ///< `picture_cost` of the last moments that were returned, in order
   std::optional<ThicknessEstimate> thickness_;
   int thickness_passes_ = 0, thickness_moments_ = 0;
 };

@@ -13,6 +13,8 @@ namespace etude {
 namespace {
 
 using Fits = std::vector<std::optional<SilhouetteFit>>;
+// The number of start poses that are followed through the take; the number of frames from which the reversed body is
+// searched; the cost ratio below which the reversed body is taken.
 
 constexpr std::size_t kFollowedAnchors = 2;
 constexpr int kTurnedMoments = 5;
@@ -20,7 +22,7 @@ constexpr double kClearlyBetter = 0.95;
 
 double Squared(double x) { return x * x; }
 
-// Returns the cost of going from one pose to the next: squared differences over the expected changes.
+// Returns the cost of going from one pose to the next: the sum of squared differences over the expected changes.
 double StepCost(const TreeState& a, const TreeState& b, const TrackOptions& options) {
   const glm::dvec3 moved = a.root_position - b.root_position;
   const glm::dvec3 turned = TurnOf(a.root_frame * glm::transpose(b.root_frame));
@@ -48,6 +50,7 @@ class Tracker {
   }
 
   SilhouetteTrack Run() {
+    // Follow the body from each start pose, in both directions of time, and keep the best path.
     Fits fits(frame_count_);
     bool is_first = true;
     for (const Anchor& anchor : ChooseAnchors()) {
@@ -57,11 +60,14 @@ class Tracker {
       is_first = false;
     }
     if (is_first) return {body_, std::move(fits)};
+    // Try the body turned front to back.
     fits = EitherWayRound(std::move(fits));
+    // Estimate the thickness and fit every frame again.
     for (int i = 0; i < options_.thickness_passes; ++i) {
       FitThickness(fits);
       Refit(fits);
     }
+    // Search for lost limbs, then smooth.
     for (int i = 0; i < options_.repairs; ++i) {
       Repair(fits);
       Smooth(fits);
@@ -86,7 +92,7 @@ class Tracker {
     return std::nullopt;
   }
 
-  // Mean cost of the frames about an anchor that its body can be followed through.
+  // Returns the mean cost of the frames around an anchor, through which its body is followed.
   double TrialCost(const Anchor& anchor) {
     const std::size_t reach = options_.trial_frames;
     const std::size_t first = anchor.frame < reach ? 0 : anchor.frame - reach;
@@ -105,8 +111,8 @@ class Tracker {
     return sum / count;
   }
 
-  // Chooses the poses that the take is followed from: the known start, or those found in the pictures, the likeliest
-  // first.
+  // Returns the poses from which the take is followed: the known start first, then the poses found in the pictures, the
+  // most likely first.
   std::vector<Anchor> ChooseAnchors() {
     std::vector<Anchor> anchors = FindAnchors();
     if (const std::optional<Anchor> known = KnownAnchor()) anchors.insert(anchors.begin(), *known);
@@ -114,7 +120,7 @@ class Tracker {
     return anchors;
   }
 
-  // At most so many frames, evenly over those that show somebody.
+  // Returns at most `most` frames, evenly spaced over those that show somebody.
   std::vector<std::size_t> MomentsOf(int most) const {
     std::vector<std::size_t> shown, frames;
     for (std::size_t k = 0; k < frame_count_; ++k) {
@@ -140,7 +146,7 @@ class Tracker {
     return anchors;
   }
 
-  // Fits the frames after `from` up to `to`, or before it down to `to`, each from the one before.
+  // Fits the frames from `from` (exclusive) to `to`, forwards or backwards in time, each from the frame before it.
   void Follow(std::size_t from, std::size_t to, Fits& fits) {
     const int step = to >= from ? 1 : -1;
     TreeState last = fits[from]->state, before_last = last;
@@ -161,11 +167,12 @@ class Tracker {
     return fits;
   }
 
-  // Outlines are much the same of a body that stands the other way round, its left limbs where the right ones are. Such
-  // a body is looked for at a few moments, from where the limbs of this one are, and followed through the take. It must
-  // explain the take clearly better, with the habits of its joints: neighbouring frames err alike, so that their sum
-  // says less than its size.
+  // The silhouettes of a body that is turned front to back, with left and right limbs exchanged, are nearly the same.
+  // Such a body is searched for in a few frames, from the positions of this one's limbs, and followed through the take.
+  // Its cost, with the angle priors, must be clearly lower: errors of neighbouring frames are correlated, so a sum over
+  // frames is less significant than its size suggests.
   Fits EitherWayRound(Fits fits) {
+    // Find the reversed pose of the lowest trial cost.
     std::optional<Anchor> likeliest;
     double least = 0;
     for (const std::size_t frame : MomentsOf(kTurnedMoments)) {
@@ -179,12 +186,13 @@ class Tracker {
       least = cost;
     }
     if (!likeliest) return fits;
+    // Follow it through the take and compare the costs.
     const Fits followed = FollowBothWays(*likeliest);
     const Fits turned = Better(followed, Retraced(followed));
     return OwnCost(turned) < kClearlyBetter * OwnCost(fits) ? Better(fits, turned) : fits;
   }
 
-  // Returns the sum of the frames' own costs, without those of going from one to the next.
+  // Returns the sum of the frames' own costs, without the costs of the steps between frames.
   double OwnCost(const Fits& fits) {
     double sum = 0;
     for (std::size_t k = 0; k < frame_count_; ++k) {
@@ -193,7 +201,7 @@ class Tracker {
     return sum;
   }
 
-  // Follows the take in the other direction of time, from each end to the other.
+  // Follows the take from each of its ends to the other, and returns the better path.
   Fits Retraced(const Fits& fits) {
     const auto first = std::ranges::find_if(fits, [](const auto& fit) { return fit.has_value(); });
     const auto last = std::find_if(fits.rbegin(), fits.rend(), [](const auto& fit) { return fit.has_value(); });
@@ -207,7 +215,7 @@ class Tracker {
     return Better(forwards, backwards);
   }
 
-  // Frame by frame the one or the other, such that costs and jumps together are least (Viterbi).
+  // Chooses `a` or `b` in each frame so that the sum of the costs and of the steps between frames is minimal (Viterbi).
   Fits Better(const Fits& a, const Fits& b) const {
     Fits kept(frame_count_);
     std::vector<std::size_t> shown;
@@ -216,6 +224,7 @@ class Tracker {
     }
     if (shown.empty()) return kept;
     const auto of = [&](std::size_t i, int which) -> const SilhouetteFit& { return *(which == 0 ? a : b)[shown[i]]; };
+    // Forward pass: the lowest cost to reach each of the two poses of every frame.
     std::vector<std::array<int, 2>> came_from(shown.size());
     std::array<double, 2> costs = {of(0, 0).picture_cost, of(0, 1).picture_cost};
     for (std::size_t i = 1; i < shown.size(); ++i) {
@@ -230,6 +239,7 @@ class Tracker {
       }
       costs = next;
     }
+    // Backward pass: read the path.
     int which = costs[1] < costs[0];
     for (std::size_t i = shown.size(); i-- > 0;) {
       kept[shown[i]] = of(i, which);
@@ -252,7 +262,7 @@ class Tracker {
     }
   }
 
-  // Predicts a frame from its neighbours on both sides, or from the only one there is.
+  // Predicts a frame from its neighbours: their mean, or the only one that is fitted.
   std::optional<TreeState> Between(const Fits& fits, std::size_t k) const {
     const bool before = k > 0 && fits[k - 1], after = k + 1 < frame_count_ && fits[k + 1];
     if (before && after) return MeanState(fits[k - 1]->state, fits[k + 1]->state);
@@ -261,7 +271,7 @@ class Tracker {
     return std::nullopt;
   }
 
-  // Returns the usual cost of a frame in which no limb is lost.
+  // Returns the usual cost of a frame in which no limb is lost: the 20th percentile.
   double UsualCost(const Fits& fits) const {
     std::vector<double> costs;
     for (const auto& fit : fits) {
@@ -273,8 +283,8 @@ class Tracker {
     return *usual;
   }
 
-  // Looks for the limbs of every few of the frames that cost far more than most, follows what was found through the
-  // others, in one direction of time and the other, and keeps what makes the better path.
+  // Searches for the limbs in every fifth of the frames with an excessive cost and follows the result through the
+  // others, forwards and backwards in time; keeps the better path.
   void Repair(Fits& fits) {
     constexpr int kFollowed = 4;
     const double too_much = options_.lost * UsualCost(fits);
@@ -299,6 +309,7 @@ class Tracker {
     }
   }
 
+  // Fits every frame once more near the mean of its neighbours: first the even frames, then the odd ones.
   void Smooth(Fits& fits) {
     for (const bool odd : {false, true}) {
       for (std::size_t k = odd; k < frame_count_; k += 2) {

@@ -13,28 +13,28 @@
 namespace etude {
 
 struct SilhouetteTake {
-  /// World (metres) to pixels. At least two.
+  /// Projections from the world (metres) to pixels, at least two.
   std::span<const ProjectionMatrix> cameras;
-  /// `silhouettes[camera][frame]`, taken at the same moments.
+  /// `silhouettes[camera][frame]`; all cameras' frames were taken at the same moments.
   std::span<const std::vector<Silhouette>> silhouettes;
-  /// The body's approximate state in the first frame, when it is known because people begin in an agreed pose. Without
-  /// one the start is found from the pictures ("cold").
+  /// The body's approximate pose in the first frame, if it is known because the person begins in an agreed pose.
+  /// Without it the start is found from the pictures (a "cold" start).
   std::optional<TreeState> start;
-  /// `joints[camera][frame]`: what is told of joints beside outlines; empty where nobody tells any.
+  /// `joints[camera][frame]`: joints seen in addition to the silhouettes; empty if there are no joints.
   std::span<const std::vector<std::vector<SeenJoint>>> joints = {};
 };
 
-/// The body's pose in every frame, and the body with its thickness as estimated.
+/// The body's pose in every frame, and the body with the estimated thickness.
 struct SilhouetteTrack {
   SilhouetteBody body;
-  std::vector<std::optional<SilhouetteFit>> frames;  ///< nothing where fewer than two pictures show anybody
+  std::vector<std::optional<SilhouetteFit>> frames;  ///< nullopt if fewer than two pictures show anybody
 };
 
-/// Follows a body through a take by its silhouettes, and by what is told of its joints: found in a few frames by trying
-/// headings and postures, or started from a known pose; fitted from frame to frame forwards, and backwards from the
-/// end; of both, the poses are kept that cost less and move less (Viterbi's shortest path); likewise the other way
-/// round (`TurnedRound`), where that costs clearly less. Then limbs that were lost are looked for, and every frame is
-/// fitted once more with its neighbours in sight.
+/// Follows a body through a take by its silhouettes and by the joints seen. The body is found in a few frames by trying
+/// headings and postures, or starts from a known pose. It is fitted from frame to frame forwards, and again backwards
+/// from the end; of both, the poses with the lowest cost and the smallest changes are kept (Viterbi's shortest path).
+/// The same is done for the body turned front to back (`TurnedRound`), which is taken if its cost is clearly lower.
+/// Then lost limbs are searched for, and every frame is fitted once more with its neighbours as a prior.
 SilhouetteTrack TrackSilhouettes(const SilhouetteBody& body, const SilhouetteTake& take,
                                  const TrackOptions& options = {});
 

@@ -8,7 +8,7 @@
 namespace etude {
 namespace {
 
-// Returns the state `share` of the way from `a` to `b`; more than 1 goes beyond.
+// Returns the state at `share` of the way from `a` to `b`; a share above 1 extrapolates.
 TreeState Between(const TreeState& a, const TreeState& b, double share) {
   TreeState state = a;
   state.root_position += share * (b.root_position - a.root_position);

@@ -7,8 +7,8 @@
 
 namespace etude {
 
-/// Reads a file of one format. Places are in the file's own unit; ReadStreamRecording checks what all formats have in
-/// common.
+/// Readers of one format each. Positions are in the file's own unit; ReadStreamRecording applies the checks that all
+/// formats share.
 Result<StreamRecording> ReadEtudeCsv(std::string_view text, const std::string& file, const StreamReading& reading);
 Result<StreamRecording> ReadTrcStream(std::string_view text, const std::string& file);
 Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string& file, StreamFormat format,
@@ -16,7 +16,7 @@ Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string&
 Result<StreamRecording> ReadNtuSkeleton(std::string_view text, const std::string& file, const StreamReading& reading);
 Result<StreamRecording> ReadAzureKinect(std::string_view text, const std::string& file, const StreamReading& reading);
 
-/// Reads one more row of a file that was read so far as `recording`; `index` counts its frames from 0.
+/// Reads one further row of the file whose rows so far are `recording`; `index` is its frame's index from 0.
 Result<RecordedFrame> ReadKinectRow(std::string_view row, const std::string& file, const StreamRecording& recording,
                                     std::size_t index);
 
@@ -24,10 +24,11 @@ Result<RecordedFrame> ReadKinectRow(std::string_view row, const std::string& fil
 Result<StreamRecording> ReadFormat(StreamFormat format, std::string_view text, const std::string& file,
                                    const StreamReading& reading);
 
-/// Finds the unit of places by the trunk, and makes it metres. Refuses trunks that no unit makes human.
+/// Determines the unit of the positions by the trunk's length and converts them to metres. Fails if no unit gives a
+/// human trunk.
 Result<void> ToMetres(StreamRecording& recording, const std::string& file);
 
-/// Says whether rows of so many numbers can be the format's.
+/// Returns true if rows with `columns` numbers can belong to the format.
 bool HasColumnsOf(StreamFormat format, std::size_t columns);
 
 }  // namespace etude

@@ -14,12 +14,12 @@ namespace {
 struct RowLayout {
   std::size_t columns;
   std::size_t joints;
-  std::size_t first;   ///< where the first joint begins
-  std::size_t stride;  ///< numbers a joint
+  std::size_t first;   ///< index of the first joint's first number
+  std::size_t stride;  ///< numbers for each joint
   bool has_fourth;     ///< the fourth number of a joint may be its state
 };
 
-constexpr double kLargestClock = 1e18;
+constexpr double kMaxClock = 1e18;
 constexpr std::size_t kV1Joints = kRoleCount, kV2Joints = kKinectV2JointCount;
 constexpr RowLayout kV1Layouts[] = {{3 * kV1Joints, kV1Joints, 0, 3, false},
                                     {3 * kV1Joints + 1, kV1Joints, 1, 3, false},
@@ -42,12 +42,12 @@ const RowLayout* FindLayout(StreamFormat format, std::size_t columns) {
   return nullptr;
 }
 
-/// Turns a point of the sensor's space (X to its left, Y up, Z away from it) into one in which a person who faces it
-/// looks along +Z.
+/// Converts a point of the sensor's space (X to its left, Y up, Z away from it) to a space in which a person who faces
+/// the sensor looks along +Z.
 glm::dvec3 FromSensor(const glm::dvec3& p) { return {-p.x, p.y, -p.z}; }
 
-/// Says whether the fourth numbers are states of the SDK (0 not tracked, 1 inferred, 2 tracked): they are when nothing
-/// else occurs and 2 does. MSRC-12 has a weight there, which is 1 throughout.
+/// Returns true if the fourth numbers are states of the SDK (0 not tracked, 1 inferred, 2 tracked): no other values
+/// occur, and 2 does. In MSRC-12 they are weights, which are always 1.
 bool FourthsAreStates(const NumberRows& table, const RowLayout& layout) {
   if (!layout.has_fourth) return false;
   bool some_tracked = false;
@@ -61,7 +61,7 @@ bool FourthsAreStates(const NumberRows& table, const RowLayout& layout) {
   return some_tracked;
 }
 
-/// Says whether the first column holds whole numbers alone.
+/// Returns true if the first column contains only integers.
 bool CountsWhole(const NumberRows& table) {
   for (std::size_t t = 0; t < table.RowCount(); ++t) {
     if (table.Row(t)[0] != std::floor(table.Row(t)[0])) return false;
@@ -69,11 +69,12 @@ bool CountsWhole(const NumberRows& table) {
   return true;
 }
 
-/// Returns how many seconds the first column counts by, from the middle step between rows: seconds, frames at 30 Hz,
-/// milliseconds or microseconds. Whole numbers with a step below 16 are frames of which some were left out: no sensor
-/// of skeletons is faster than 60 Hz. Remarks on frames left out. Nothing when the clock stands still or leaps.
+/// Returns the unit of the first column in seconds, from the median step between rows: seconds, frames at 30 Hz,
+/// milliseconds or microseconds. Integers with a step below 16 are frame numbers with gaps, because no skeleton sensor
+/// is faster than 60 Hz; a remark reports the gaps. Returns nullopt if the clock stands still or its steps are too
+/// large.
 std::optional<double> SecondsPerCount(const NumberRows& table, std::vector<std::string>& remarks) {
-  constexpr double kFastestMilliseconds = 16;
+  constexpr double kMinStepMs = 16;
   std::vector<double> steps;
   for (std::size_t t = 1; t < table.RowCount(); ++t) {
     const double step = table.Row(t)[0] - table.Row(t - 1)[0];
@@ -82,7 +83,7 @@ std::optional<double> SecondsPerCount(const NumberRows& table, std::vector<std::
   if (steps.empty()) return table.RowCount() == 1 ? std::optional(1 / kJudgedRateHz) : std::nullopt;
   const double step = UpperMedian(std::move(steps));
   if (step < 1) return 1.0;
-  if (step < (CountsWhole(table) ? kFastestMilliseconds : 5)) {
+  if (step < (CountsWhole(table) ? kMinStepMs : 5)) {
     if (step >= 2) remarks.push_back(fmt::format("the first column counts frames at 30 Hz, a row every {:g}", step));
     return 1 / kJudgedRateHz;
   }
@@ -91,6 +92,7 @@ std::optional<double> SecondsPerCount(const NumberRows& table, std::vector<std::
   return std::nullopt;
 }
 
+// Converts a row to a frame; joints without a position, and joints that are not tracked, are missing.
 RecordedFrame FrameOf(std::span<const double> row, const RowLayout& layout, bool has_states) {
   std::vector<std::optional<glm::dvec3>> places(layout.joints);
   std::vector<TrackingState> states(layout.joints, TrackingState::kTracked);
@@ -111,7 +113,7 @@ RecordedFrame FrameOf(std::span<const double> row, const RowLayout& layout, bool
   return frame;
 }
 
-/// The row as a frame of the recording, its `index`th.
+/// Converts a row to the frame with index `index` of the recording.
 Result<RecordedFrame> TimedFrame(std::span<const double> row, Place place, const RowLayout& layout,
                                  const StreamRecording& recording, std::size_t index) {
   RecordedFrame frame = FrameOf(row, layout, recording.tells_states);
@@ -134,7 +136,8 @@ bool HasColumnsOf(StreamFormat format, std::size_t columns) { return FindLayout(
 
 Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string& file, StreamFormat format,
                                        const StreamReading& reading) {
-  ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file, kLargestClock));
+  ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file, kMaxClock));
+  // Find the layout by the number of columns, then the meaning of its columns.
   const RowLayout* layout = FindLayout(format, table.columns);
   if (layout == nullptr) {
     return Fail({file, table.lines.front()}, "{} numbers in a row; allowed for {}: {}", table.columns,
@@ -148,6 +151,7 @@ Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string&
       recording.tells_times ? SecondsPerCount(table, recording.remarks) : std::optional(1 / recording.rate_hz);
   if (!unit) return Fail({file, table.lines.front(), 1}, "a first column that is no clock and counts no frames");
   recording.seconds_per_count = *unit;
+  // Convert every row.
   for (std::size_t t = 0; t < table.RowCount(); ++t) {
     ASSIGN_OR_RETURN(recording.frames.emplace_back(),
                      TimedFrame(table.Row(t), {file, table.lines[t], 1}, *layout, recording, t));
@@ -157,8 +161,8 @@ Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string&
 
 Result<RecordedFrame> ReadKinectRow(std::string_view row, const std::string& file, const StreamRecording& recording,
                                     std::size_t index) {
-  // After a heading, or a word in the row's place would be taken for one.
-  ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows("row\n" + std::string(row), file, kLargestClock));
+  // ReadNumberRows takes the first line for a heading if it contains words, so a heading is put before the row.
+  ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows("row\n" + std::string(row), file, kMaxClock));
   const RowLayout* layout = FindLayout(recording.format, table.columns);
   if (layout == nullptr || (layout->first == 0 && recording.tells_times)) {
     return Fail({file, 1}, "{} numbers in a row, other than in the rows before", table.columns);

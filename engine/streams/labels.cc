@@ -11,11 +11,11 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kLargestLabels = std::size_t{16} << 20;
-constexpr double kLongestRecording = 1e12;  // seconds: clocks may count from any time
-constexpr std::size_t kLongestName = 200;
+constexpr std::size_t kMaxBytes = std::size_t{16} << 20;
+constexpr double kMaxTime_s = 1e12;  // seconds; clocks may start at any time
+constexpr std::size_t kMaxNameBytes = 200;
 
-/// A word and where it begins in its line, from 1.
+/// A word and its column in the line, from 1.
 struct Cell {
   std::string_view text;
   int column = 1;
@@ -38,13 +38,13 @@ std::vector<Cell> CellsOf(std::string_view line, char separator) {
   return cells;
 }
 
-/// Walks a text line by line; empty lines and those that begin with '#' are passed over.
+/// Iterates over the lines of a text; empty lines and lines that begin with '#' are skipped.
 class Lines {
  public:
   explicit Lines(std::string_view text) : text_(text) {
     if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
   }
-  /// Returns the next line; nothing at the end.
+  /// Returns the next line; nullopt at the end.
   std::optional<std::string_view> Next() {
     while (!text_.empty()) {
       const std::size_t end = std::min(text_.find('\n'), text_.size());
@@ -74,17 +74,17 @@ Result<double> NumberIn(const Cell& cell, const std::string& file, int line, dou
 
 Result<std::string> NameIn(const Cell& cell, const std::string& file, int line, std::string_view what) {
   const bool is_name =
-      !cell.text.empty() && cell.text.size() <= kLongestName &&
+      !cell.text.empty() && cell.text.size() <= kMaxNameBytes &&
       std::ranges::none_of(cell.text, [](char c) { return (c >= 0 && c < ' ') || c == ',' || c == '"'; });
   if (is_name) return std::string(cell.text);
   return Fail({file, line, cell.column},
               "found {} as {}; allowed: a name of at most {} bytes, without quotes and commas", Quote(cell.text), what,
-              kLongestName);
+              kMaxNameBytes);
 }
 
 constexpr std::array<std::string_view, 6> kHeadings = {"clip", "from_s", "to_s", "move", "truth", "person"};
 
-/// Finds the cell that holds each heading's value.
+/// Finds the column of each heading.
 Result<std::array<std::optional<std::size_t>, kHeadings.size()>> FindHeadings(std::string_view line,
                                                                               const std::string& file, int number) {
   std::array<std::optional<std::size_t>, kHeadings.size()> found;
@@ -108,6 +108,7 @@ Result<std::vector<Label>> ReadCsv(Lines lines, const std::string& file) {
   const auto heading = lines.Next();
   if (!heading) return labels;
   ASSIGN_OR_RETURN(const auto columns, FindHeadings(*heading, file, lines.number()));
+  // Read one label from each row.
   while (const auto line = lines.Next()) {
     const int number = lines.number();
     const std::vector<Cell> cells = CellsOf(*line, ',');
@@ -117,6 +118,7 @@ Result<std::vector<Label>> ReadCsv(Lines lines, const std::string& file) {
     };
     Label label;
     label.line = number;
+    // Names and truth.
     ASSIGN_OR_RETURN(label.clip, NameIn(cell(0), file, number, "clip"));
     ASSIGN_OR_RETURN(label.move, NameIn(cell(3), file, number, "move"));
     ASSIGN_OR_RETURN(const std::string truth, NameIn(cell(4), file, number, "truth ('right' or the fault)"));
@@ -124,9 +126,10 @@ Result<std::vector<Label>> ReadCsv(Lines lines, const std::string& file) {
     if (!cell(5).text.empty()) {
       ASSIGN_OR_RETURN(label.person, NameIn(cell(5), file, number, "person"));
     }
+    // Times: both, only the first, or none.
     for (const std::size_t i : {1, 2}) {
       if (cell(i).text.empty()) continue;
-      ASSIGN_OR_RETURN((i == 1 ? label.from_s : label.to_s), NumberIn(cell(i), file, number, kLongestRecording));
+      ASSIGN_OR_RETURN((i == 1 ? label.from_s : label.to_s), NumberIn(cell(i), file, number, kMaxTime_s));
     }
     if (label.to_s && !label.from_s) return Fail({file, number, cell(2).column}, "an end without a beginning");
     if (label.to_s && *label.to_s <= *label.from_s) {
@@ -138,11 +141,11 @@ Result<std::vector<Label>> ReadCsv(Lines lines, const std::string& file) {
   return labels;
 }
 
-/// Reads ticks of a clock of 49.875 MHz, against the recording's microseconds.
+/// Reads ticks of a clock of 49.875 MHz; the recording's clock counts microseconds.
 Result<std::vector<Label>> ReadTags(Lines lines, const std::string& file, std::string_view clip) {
   constexpr double kTicksPerSecond = 49'875'000;
   std::vector<Label> labels;
-  lines.Next();  // XQPCTick;Tag
+  lines.Next();  // the heading: XQPCTick;Tag
   while (const auto line = lines.Next()) {
     const int number = lines.number();
     const std::vector<Cell> cells = CellsOf(*line, ';');
@@ -168,6 +171,7 @@ bool IsTakeName(std::string_view line) {
 Result<std::vector<Label>> ReadActionLabels(Lines lines, const std::string& file) {
   std::vector<Label> labels;
   std::string take;
+  // A line is a take's name, or an action with its first and last frame.
   while (const auto line = lines.Next()) {
     const int number = lines.number();
     if (IsTakeName(Trimmed(*line))) {
@@ -203,7 +207,7 @@ Result<std::vector<Label>> ReadActionLabels(Lines lines, const std::string& file
 }  // namespace
 
 Result<std::vector<Label>> ReadLabels(std::string_view text, const std::string& file, std::string_view clip) {
-  if (text.size() > kLargestLabels) return Fail({file}, "{} bytes; allowed: at most {}", text.size(), kLargestLabels);
+  if (text.size() > kMaxBytes) return Fail({file}, "{} bytes; allowed: at most {}", text.size(), kMaxBytes);
   Lines lines(text);
   const std::string_view first = Trimmed(Lines(text).Next().value_or(""));
   auto labels = first.starts_with("XQPCTick") ? ReadTags(lines, file, clip)

@@ -10,10 +10,10 @@
 namespace etude {
 namespace {
 
-constexpr int kLongestWait = 18000;  // rows: ten minutes at 30 Hz
-constexpr std::size_t kLongestLine = 1 << 16;
+constexpr int kMaxWaitRows = 18000;  // rows: ten minutes at 30 Hz
+constexpr std::size_t kMaxLineBytes = 1 << 16;
 
-bool HoldsNothing(std::string_view line) {
+bool IsEmptyOrComment(std::string_view line) {
   return line.find_first_not_of(" \t\r") == std::string_view::npos || line.starts_with('#') || line.starts_with("//");
 }
 
@@ -26,11 +26,12 @@ bool ShowsTrunk(const RecordedFrame& frame) {
 LiveStream::LiveStream(std::string name, const StreamReading& reading, const StreamOptions& options)
     : name_(std::move(name)), reading_(reading), options_(options) {}
 
+// Once started, convert each line to frames.
 Result<void> LiveStream::Take(std::string_view line, std::vector<SensedFrame>& stream) {
   ++line_;
-  if (line.size() > kLongestLine)
-    return Fail({name_, line_}, "{} bytes in a line; allowed: {}", line.size(), kLongestLine);
-  if (HoldsNothing(line)) {
+  if (line.size() > kMaxLineBytes)
+    return Fail({name_, line_}, "{} bytes in a line; allowed: {}", line.size(), kMaxLineBytes);
+  if (IsEmptyOrComment(line)) {
     if (!maker_) first_lines_ += '\n';
     return {};
   }
@@ -43,6 +44,7 @@ Result<void> LiveStream::Take(std::string_view line, std::vector<SensedFrame>& s
     frame->line = line_;
     return Add(*std::move(frame), stream);
   }
+  // Before that, collect lines until there are enough for the estimates.
   if (rows_++ == 0) heading_ = line;
   first_lines_ += line;
   first_lines_ += '\n';
@@ -57,6 +59,7 @@ Result<void> LiveStream::Finish(std::vector<SensedFrame>& stream) {
   return Start(true, stream);
 }
 
+// Estimates the stream's properties from the lines so far; does nothing if too few of them show a body.
 Result<void> LiveStream::Start(bool at_end, std::vector<SensedFrame>& stream) {
   const auto format = reading_.format ? reading_.format : DetectStreamFormat(first_lines_);
   const bool is_rows = format && (*format == StreamFormat::kEtudeCsv || *format == StreamFormat::kKinectV1 ||
@@ -70,10 +73,11 @@ Result<void> LiveStream::Start(bool at_end, std::vector<SensedFrame>& stream) {
   const auto wanted = static_cast<std::ptrdiff_t>(kJudgedRateHz);
   const auto shown = std::ranges::count_if(recording.frames, ShowsTrunk);
   if (!recording.is_level && shown < (at_end ? 1 : wanted / 2)) {
-    if (!at_end && rows_ < kLongestWait) return {};
+    if (!at_end && rows_ < kMaxWaitRows) return {};
     return Fail({name_, line_}, "nobody to be seen so far");
   }
   if (!recording.is_level) RETURN_IF_ERROR(ToMetres(recording, name_));
+  // Estimate the level, then convert the lines so far.
   StreamLevel level;
   if (options_.levels && !recording.is_level) level = EstimateLevel(recording.frames, recording.rate_hz);
   maker_.emplace(level, options_, name_);
@@ -85,7 +89,7 @@ Result<void> LiveStream::Start(bool at_end, std::vector<SensedFrame>& stream) {
   return {};
 }
 
-/// A frame under the time of the one before is left out.
+/// Adds a frame unless it has the same time as the one before.
 Result<void> LiveStream::Add(const RecordedFrame& frame, std::vector<SensedFrame>& stream) {
   const bool again = frames_ > 0 && frame.time_s == last_s_;
   ++frames_;
@@ -94,6 +98,7 @@ Result<void> LiveStream::Add(const RecordedFrame& frame, std::vector<SensedFrame
   return maker_->Add(frame, stream);
 }
 
+// Reads one line in the format detected at the start.
 Result<RecordedFrame> LiveStream::Read(std::string_view line) {
   if (meaning_->format != StreamFormat::kEtudeCsv) {
     ASSIGN_OR_RETURN(RecordedFrame frame, ReadKinectRow(line, name_, *meaning_, frames_));

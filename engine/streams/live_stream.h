@@ -11,23 +11,23 @@
 
 namespace etude {
 
-/// Reads skeletons line by line as a device sends them: Etude's CSV and the rows of both Kinects, told apart by the
-/// first lines. What a whole file is estimated from (unit, clock, gravity and floor; CSV needs none but the clock) is
-/// estimated from the first second in which a body is seen, which is then given out at once; from there on each line
-/// gives its frames.
+/// Reads skeletons line by line as a device sends them: Etude's CSV, and the rows of both Kinects; the format is
+/// recognised by the first lines. The properties that are estimated from a whole file (unit, clock, gravity and floor;
+/// for CSV only the clock) are estimated from the first second in which a body is visible. The frames of that second
+/// are returned together; afterwards each line returns its frames.
 class LiveStream {
  public:
-  /// Reads a stream that complaints call `name`.
+  /// Makes a reader whose error messages call the stream `name`.
   LiveStream(std::string name, const StreamReading& reading, const StreamOptions& options);
 
-  /// Takes the next line, without its end; appends the frames now known. Refused with the line: what
-  /// ReadStreamRecording and StreamMaker refuse, formats that are no rows, ten minutes without a body.
+  /// Takes the next line, without its line end, and appends the frames that are now known. Fails, with the line, for
+  /// what ReadStreamRecording and StreamMaker refuse, for formats that do not consist of rows, and after ten minutes
+  /// without a body.
   Result<void> Take(std::string_view line, std::vector<SensedFrame>& stream);
-  /// Ends the stream: appends what is left of one shorter than a second.
+  /// Ends the stream: appends the frames of a stream that is shorter than a second.
   Result<void> Finish(std::vector<SensedFrame>& stream);
 
-  /// Returns the format, units and clock that the stream was found to have; nothing before the first frames are given
-  /// out.
+  /// Returns the format, units and clock that were detected; nullopt before the first frames are returned.
   const std::optional<StreamRecording>& Meaning() const { return meaning_; }
 
  private:
@@ -45,7 +45,7 @@ class LiveStream {
   double last_s_ = 0;
   std::optional<StreamRecording> meaning_;  // without frames
   std::optional<StreamMaker> maker_;
-  std::optional<JointCsvColumns> columns_;  // of CSV, from its first live row on
+  std::optional<JointCsvColumns> columns_;  // of CSV, from its first row after the start
 };
 
 }  // namespace etude

@@ -36,7 +36,7 @@ bool IsWholeNumber(std::string_view line) {
   return !line.empty() && line.size() <= 9 && line.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-/// The numbers in the first row that has any; 0 when there is none.
+/// Returns the number of columns of the first row of numbers; 0 if there is none.
 std::size_t FirstRowColumns(std::string_view text) {
   while (!text.empty()) {
     const std::string_view line = TakeLine(text);
@@ -58,10 +58,10 @@ Result<void> CheckRoles(const StreamRecording& recording, const std::string& fil
   return {};
 }
 
-/// Refuses a TRC file that lacks a joint: tells which names it has that are no joint's.
+/// Refuses a TRC file that lacks a joint; the message lists the marker names that are not joints.
 Result<void> CheckMarkerNames(const std::vector<std::string>& names, const std::string& file) {
   constexpr int kNamesLine = 4;
-  constexpr std::size_t kMostTold = 8;
+  constexpr std::size_t kMaxListed = 8;
   std::vector<std::string> unknown, missing;
   for (const std::string& name : names) {
     if (!FindRole(name)) unknown.push_back(Quote(name));
@@ -69,8 +69,8 @@ Result<void> CheckMarkerNames(const std::vector<std::string>& names, const std::
   for (const Role role : AllRoles()) {
     if (std::ranges::find(names, RoleName(role)) == names.end()) missing.emplace_back(RoleName(role));
   }
-  if (missing.empty() || unknown.empty()) return {};  // without unknown names CheckRoles tells what is missing
-  const std::size_t more = unknown.size() - std::min(unknown.size(), kMostTold);
+  if (missing.empty() || unknown.empty()) return {};  // without unknown names, CheckRoles reports the missing joints
+  const std::size_t more = unknown.size() - std::min(unknown.size(), kMaxListed);
   unknown.resize(unknown.size() - more);
   const std::string rest = more > 0 ? fmt::format(" and {} more", more) : "";
   return Fail({file, kNamesLine},
@@ -78,7 +78,7 @@ Result<void> CheckMarkerNames(const std::vector<std::string>& names, const std::
               Join(unknown), rest, Join(missing));
 }
 
-/// The middle distance between two joints, over the frames that have both; 0 when none has.
+/// Returns the median distance of two joints over the frames that have both; 0 if there are none.
 double MiddleDistance(const StreamRecording& recording, Role a, Role b) {
   std::vector<double> lengths;
   for (const RecordedFrame& frame : recording.frames) {
@@ -89,21 +89,21 @@ double MiddleDistance(const StreamRecording& recording, Role a, Role b) {
   return UpperMedian(std::move(lengths));
 }
 
-/// Refuses joints farther from the sensor than any person is.
+/// Refuses joints that are farther from the sensor than a person can be.
 Result<void> CheckReach(const StreamRecording& recording, const std::string& file) {
-  constexpr double kFarthest = 100;
+  constexpr double kMaxDistance_m = 100;
   for (const RecordedFrame& frame : recording.frames) {
     for (const Role role : AllRoles()) {
       const auto& place = frame.places[Index(role)];
-      if (!place || glm::length(*place) <= kFarthest) continue;
+      if (!place || glm::length(*place) <= kMaxDistance_m) continue;
       return Fail({file, frame.line}, "{} is {:.3g} m away; allowed: {} m", RoleName(role), glm::length(*place),
-                  kFarthest);
+                  kMaxDistance_m);
     }
   }
   return {};
 }
 
-/// Puts frames in order of time. Frames of one time count once, as the last one tells them.
+/// Checks that times do not fall. Of frames with the same time only the last one is kept.
 Result<void> OrderTimes(StreamRecording& recording, const std::string& file) {
   std::vector<RecordedFrame> ordered;
   for (const RecordedFrame& frame : recording.frames) {
@@ -134,6 +134,7 @@ StreamFormat FindStreamFormat(std::string_view name) { return ValueNamed(kFormat
 
 std::optional<StreamFormat> DetectStreamFormat(std::string_view text) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  // Recognise formats with keywords by their first lines.
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   const std::size_t start = text.find_first_not_of(" \t\r\n");
   if (start == std::string_view::npos) return std::nullopt;
@@ -143,6 +144,7 @@ std::optional<StreamFormat> DetectStreamFormat(std::string_view text) {
   if (first.starts_with("PathFileType")) return StreamFormat::kTrc;
   if (first.find("_x_m") != std::string_view::npos) return StreamFormat::kEtudeCsv;
   if (IsWholeNumber(first) && IsWholeNumber(second)) return StreamFormat::kNtu;
+  // Recognise rows of numbers by their count.
   const std::size_t columns = FirstRowColumns(text);
   for (const StreamFormat format : {StreamFormat::kKinectV2, StreamFormat::kKinectV1}) {
     if (HasColumnsOf(format, columns)) return format;
@@ -169,14 +171,14 @@ Result<StreamRecording> ReadFormat(StreamFormat format, std::string_view text, c
 }
 
 Result<void> ToMetres(StreamRecording& recording, const std::string& file) {
-  constexpr double kShortestTrunk = 0.15, kLongestTrunk = 0.95;  // a toddler's, a tall adult's
+  constexpr double kMinTrunk_m = 0.15, kMaxTrunk_m = 0.95;  // a toddler's, a tall adult's
   const double trunk = MiddleDistance(recording, kHipCentre, kShoulderCentre);
   const struct {
     double metres;
     std::string_view name;
   } units[] = {{1, "metres"}, {0.01, "centimetres"}, {0.001, "millimetres"}};
   for (const auto& [metres, name] : units) {
-    if (!(trunk * metres >= kShortestTrunk && trunk * metres <= kLongestTrunk)) continue;
+    if (!(trunk * metres >= kMinTrunk_m && trunk * metres <= kMaxTrunk_m)) continue;
     if (metres == 1) return {};
     recording.remarks.push_back(fmt::format("places in {}", name));
     recording.metres_per_unit = metres;
@@ -188,7 +190,7 @@ Result<void> ToMetres(StreamRecording& recording, const std::string& file) {
     return {};
   }
   return Fail({file}, "a trunk of {:.3g} from hip centre to shoulder centre; allowed: {} to {} m, in m, cm or mm",
-              trunk, kShortestTrunk, kLongestTrunk);
+              trunk, kMinTrunk_m, kMaxTrunk_m);
 }
 
 Result<StreamRecording> ReadStreamRecording(std::string_view text, const std::string& file,
@@ -196,6 +198,7 @@ Result<StreamRecording> ReadStreamRecording(std::string_view text, const std::st
   if (text.size() > kLargestNumberText) {
     return Fail({file}, "{} bytes; allowed: at most {}", text.size(), kLargestNumberText);
   }
+  // Detect the format and read the file.
   const auto format = reading.format ? reading.format : DetectStreamFormat(text);
   if (!format) {
     const std::size_t columns = FirstRowColumns(text);
@@ -206,6 +209,7 @@ Result<StreamRecording> ReadStreamRecording(std::string_view text, const std::st
                 found, Join(StreamFormatNames()));
   }
   ASSIGN_OR_RETURN(StreamRecording recording, ReadFormat(*format, text, file, reading));
+  // Apply the checks that all formats share.
   RETURN_IF_ERROR(CheckRoles(recording, file));
   RETURN_IF_ERROR(OrderTimes(recording, file));
   if (!recording.is_level) RETURN_IF_ERROR(ToMetres(recording, file));

@@ -16,16 +16,16 @@
 namespace etude {
 namespace {
 
-/// Several people of one file, told apart by the names that the file gives them.
+/// The people of one file, distinguished by the identifiers in it.
 class Bodies {
  public:
-  /// Adds a frame of the body called `id`, at this index of the file's frames.
+  /// Adds a frame of the body called `id`, with its index among the file's frames.
   void Add(std::string_view id, std::size_t frame, const RolePlaces& places,
            const std::array<TrackingState, kRoleCount>& states);
 
-  /// Puts one body into the recording's frames: the one asked for, by first appearance, else the one in most frames,
-  /// of those the one that moves most. Files of crowded rooms hold furniture that was taken for a person for a while.
-  /// Before that, bodies that continue each other become one (JoinContinued).
+  /// Puts one body into the recording's frames: the requested one, counted by first appearance, otherwise the one in
+  /// most frames, and among those the one that moves most, because files of crowded rooms contain furniture that was
+  /// temporarily taken for a person. Bodies that continue each other are joined before (JoinContinued).
   Result<void> Choose(const StreamReading& reading, const std::string& file, StreamRecording& recording);
 
  private:
@@ -39,9 +39,10 @@ class Bodies {
     std::vector<Seen> frames;
   };
 
-  /// Joins bodies of which one begins where another ends: a tracker that loses a person for a moment gives them a new
-  /// name (ours). They are a second apart at most, and joints half a trunk in the mean; the nearest pair comes first,
-  /// and a body continues one other. Remarks on each.
+  /// Joins bodies that continue each other (ours): a tracker that loses a person for a moment gives the person a new
+  /// identifier. The second body begins at most a second after the first one ends, with a mean distance of the joints
+  /// of at most half a trunk. The nearest pair is joined first, and a body continues at most one other. A remark
+  /// reports each pair.
   void JoinContinued(StreamRecording& recording);
 
   static double PathOf(const Body& body);
@@ -57,7 +58,7 @@ void Bodies::Add(std::string_view id, std::size_t frame, const RolePlaces& place
   body->frames.push_back({frame, places, states});
 }
 
-/// Returns the length of all joints' paths, in the file's unit.
+/// Returns the total length of all joints' paths, in the file's unit.
 double Bodies::PathOf(const Body& body) {
   double path = 0;
   for (std::size_t t = 1; t < body.frames.size(); ++t) {
@@ -69,7 +70,7 @@ double Bodies::PathOf(const Body& body) {
   return path;
 }
 
-/// Returns how far joints are apart in the mean, of those that both frames have, in trunks; nothing without a trunk.
+/// Returns the mean distance, in trunk lengths, of the joints that both frames have; nullopt without a trunk.
 std::optional<double> Bodies::GapInTrunks(const Seen& before, const Seen& after) {
   const auto &hips = before.places[Index(Role::kHipCentre)], &neck = before.places[Index(Role::kShoulderCentre)];
   double sum = 0;
@@ -84,11 +85,12 @@ std::optional<double> Bodies::GapInTrunks(const Seen& before, const Seen& after)
 }
 
 void Bodies::JoinContinued(StreamRecording& recording) {
-  constexpr double kLongestBreak = 1, kFarthest = 0.5;
+  constexpr double kMaxBreak_s = 1, kMaxGap = 0.5;
   struct Pair {
     double gap;
     std::size_t before, after;
   };
+  // Collect the pairs of an end and a later beginning that are close enough.
   std::vector<Pair> pairs;
   const auto begin_of = [](const Body& body) { return body.frames.front().frame; };
   for (std::size_t a = 0; a < bodies_.size(); ++a) {
@@ -96,11 +98,12 @@ void Bodies::JoinContinued(StreamRecording& recording) {
     const auto first = std::ranges::upper_bound(bodies_, end.frame, {}, begin_of);  // by first appearance
     for (auto b = static_cast<std::size_t>(first - bodies_.begin()); b < bodies_.size(); ++b) {
       const Seen& begin = bodies_[b].frames.front();
-      if (recording.frames[begin.frame].time_s - recording.frames[end.frame].time_s > kLongestBreak) break;
+      if (recording.frames[begin.frame].time_s - recording.frames[end.frame].time_s > kMaxBreak_s) break;
       const auto gap = GapInTrunks(end, begin);
-      if (gap && *gap <= kFarthest) pairs.push_back({*gap, a, b});
+      if (gap && *gap <= kMaxGap) pairs.push_back({*gap, a, b});
     }
   }
+  // Accept the nearest pairs first.
   std::ranges::stable_sort(pairs, {}, &Pair::gap);
   std::vector<std::optional<std::size_t>> next(bodies_.size());
   std::vector<bool> continues(bodies_.size(), false);
@@ -109,6 +112,7 @@ void Bodies::JoinContinued(StreamRecording& recording) {
     next[pair.before] = pair.after;
     continues[pair.after] = true;
   }
+  // Join the chains of accepted pairs.
   std::vector<Body> joined;
   for (std::size_t a = 0; a < bodies_.size(); ++a) {
     if (continues[a]) continue;
@@ -128,6 +132,7 @@ void Bodies::JoinContinued(StreamRecording& recording) {
 Result<void> Bodies::Choose(const StreamReading& reading, const std::string& file, StreamRecording& recording) {
   if (bodies_.empty()) return {};
   JoinContinued(recording);
+  // Choose the requested body, or the most frequent one.
   std::size_t chosen = 0;
   if (reading.body) {
     chosen = static_cast<std::size_t>(*reading.body);
@@ -142,6 +147,7 @@ Result<void> Bodies::Choose(const StreamReading& reading, const std::string& fil
     recording.remarks.push_back(fmt::format("{} bodies, of which body {}{}", bodies_.size(), chosen,
                                             reading.body ? "" : ", in the most frames"));
   }
+  // Copy its joints to the recording.
   for (const Seen& seen : bodies_[chosen].frames) {
     recording.frames[seen.frame].places = seen.places;
     recording.frames[seen.frame].states = seen.states;
@@ -152,20 +158,20 @@ Result<void> Bodies::Choose(const StreamReading& reading, const std::string& fil
 using Json = nlohmann::json;
 
 constexpr std::size_t kAzureJoints = 32;
-/// The number of each role's joint in the Azure Kinect's k4abt_joint_id_t, in the order of the roles.
+/// The index of each role's joint in the Azure Kinect's k4abt_joint_id_t, in the order of the roles.
 constexpr std::array<std::size_t, kRoleCount> kJointOfRole = {0,  1,  3,  26,                  // trunk and head
                                                               5,  6,  7,  8,  12, 13, 14, 15,  // arms
                                                               18, 19, 20, 21, 22, 23, 24, 25};
 
-/// A number of a list, or nothing.
+/// Returns a number of a list; nullopt if there is none.
 std::optional<double> NumberAt(const Json& list, std::size_t i) {
   if (!list.is_array() || i >= list.size() || !list[i].is_number()) return std::nullopt;
   const double value = list[i].get<double>();
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// K4ABT_JOINT_CONFIDENCE_*: 0 none, 1 low, 2 medium, 3 high. The offline processor itself writes none; recorders made
-/// of it do, under one of these names.
+/// Returns a body's confidences, K4ABT_JOINT_CONFIDENCE_* (0 none, 1 low, 2 medium, 3 high); null if there are none.
+/// The offline processor itself writes none; recorders derived from it do, under one of these names.
 const Json* ConfidencesOf(const Json& body) {
   for (const char* key : {"confidence_level", "confidence_levels", "joint_confidence"}) {
     const auto found = body.find(key);
@@ -174,8 +180,8 @@ const Json* ConfidencesOf(const Json& body) {
   return nullptr;
 }
 
-/// Reads a place of the depth camera's space (X to its right, Y down, Z away from it, millimetres) into one with Y up
-/// in which a person who faces it looks along +Z.
+/// Converts a position from the depth camera's space (X to its right, Y down, Z away from it, millimetres) to a space
+/// with Y up in which a person who faces the camera looks along +Z. Returns nullopt for a missing or zero position.
 std::optional<glm::dvec3> PlaceAt(const Json& joint) {
   const auto x = NumberAt(joint, 0), y = NumberAt(joint, 1), z = NumberAt(joint, 2);
   if (!x || !y || !z || (*x == 0 && *y == 0 && *z == 0)) return std::nullopt;
@@ -257,21 +263,21 @@ Result<StreamRecording> ReadAzureKinect(std::string_view text, const std::string
 
 namespace {
 
-/// NTU RGB+D's text: the number of frames; of each frame the number of bodies; of each body its id and nine numbers,
-/// the number of joints (25, the Kinect v2's order), and of each joint x y z in metres, two pixels, a quaternion and
-/// the SDK's tracking state (Shahroudy et al. 2016, the data set's read_skeleton_file).
+/// Reads NTU RGB+D's text: the number of frames; for each frame the number of bodies; for each body its id, nine
+/// numbers, the number of joints (25, in the Kinect v2's order), and for each joint x y z in metres, two pixels, a
+/// quaternion and the SDK's tracking state (Shahroudy et al. 2016, the data set's read_skeleton_file).
 class NtuReader {
  public:
   NtuReader(std::string_view text, const std::string& file) : scanner_(text, file), file_(file) {}
 
   Result<StreamRecording> Read(const StreamReading& reading) {
-    constexpr int kMostFrames = 1'000'000, kMostBodies = 100;
+    constexpr int kMaxFrames = 1'000'000, kMaxBodies = 100;
     StreamRecording recording{.format = StreamFormat::kNtu, .tells_states = true};
     recording.rate_hz = reading.rate_hz.value_or(kJudgedRateHz);
-    ASSIGN_OR_RETURN(const int frames, Count("the number of frames", 1, kMostFrames));
+    ASSIGN_OR_RETURN(const int frames, Count("the number of frames", 1, kMaxFrames));
     for (int t = 0; t < frames; ++t) {
       recording.frames.push_back({.time_s = t / recording.rate_hz});
-      ASSIGN_OR_RETURN(const int bodies, Count("the number of bodies", 0, kMostBodies));
+      ASSIGN_OR_RETURN(const int bodies, Count("the number of bodies", 0, kMaxBodies));
       recording.frames.back().line = line_;
       for (int b = 0; b < bodies; ++b) RETURN_IF_ERROR(ReadBody(static_cast<std::size_t>(t)));
     }
@@ -315,7 +321,7 @@ class NtuReader {
     TrackingState state = TrackingState::kTracked;
   };
 
-  /// A place may be nan: a joint that was not reported.
+  /// Reads one joint. A nan means that the joint was not reported.
   Result<Joint> ReadJoint() {
     std::array<double, 12> values{};
     bool is_missing = false;
@@ -331,7 +337,7 @@ class NtuReader {
     const double state = values[11];
     Joint joint;
     if (is_missing || p == glm::dvec3(0) || state == 0) return joint;
-    joint.place = glm::dvec3(-p.x, p.y, -p.z);  // as ReadKinectRows
+    joint.place = glm::dvec3(-p.x, p.y, -p.z);  // as in ReadKinectRows
     if (state == 1) joint.state = TrackingState::kInferred;
     return joint;
   }

@@ -16,10 +16,10 @@ namespace {
 
 using enum Role;
 
-constexpr double kMostTilt = Radians(30), kMostApart = Radians(15);
+constexpr double kMaxTilt = Radians(30), kMaxDifference = Radians(15);
 const glm::dvec3 kFileUp(0, 1, 0);
 
-/// The middle of the trunk's directions, axis by axis.
+/// Returns the median of the trunk's directions, axis by axis.
 std::optional<glm::dvec3> UpOfTrunk(std::span<const RecordedFrame> frames) {
   std::vector<double> axes[3];
   for (const RecordedFrame& frame : frames) {
@@ -34,7 +34,7 @@ std::optional<glm::dvec3> UpOfTrunk(std::span<const RecordedFrame> frames) {
   return glm::normalize(middle);
 }
 
-/// Lists the places of standing feet: those that move less than 0.1 m/s.
+/// Lists the positions of standing feet: those slower than 0.1 m/s.
 std::vector<glm::dvec3> PlantedFeet(std::span<const RecordedFrame> frames, double rate_hz) {
   constexpr double kStill = 0.1;
   std::vector<glm::dvec3> points;
@@ -48,12 +48,13 @@ std::vector<glm::dvec3> PlantedFeet(std::span<const RecordedFrame> frames, doubl
   return points;
 }
 
-/// The normal of y = a x + b z + c in the sense of least squares, where the points spread enough to tell it.
+/// Returns the normal of the least-squares plane y = a x + b z + c; nullopt if the points do not determine it.
 std::optional<glm::dvec3> UpOfFeet(const std::vector<glm::dvec3>& points) {
-  constexpr std::size_t kFewest = 30;
+  constexpr std::size_t kMinPoints = 30;
   constexpr double kSpread = 0.10, kFlat = 0.03;
-  if (points.size() < kFewest) return std::nullopt;
+  if (points.size() < kMinPoints) return std::nullopt;
   const auto n = static_cast<double>(points.size());
+  // Compute mean and covariance.
   glm::dvec3 mean(0);
   for (const glm::dvec3& p : points) mean += p / n;
   double xx = 0, xz = 0, zz = 0, xy = 0, zy = 0;
@@ -65,8 +66,10 @@ std::optional<glm::dvec3> UpOfFeet(const std::vector<glm::dvec3>& points) {
     xy += d.x * d.y / n;
     zy += d.z * d.y / n;
   }
+  // The points must extend in both horizontal directions.
   const double smaller = 0.5 * (xx + zz) - std::sqrt(0.25 * (xx - zz) * (xx - zz) + xz * xz);
   if (smaller < kSpread * kSpread) return std::nullopt;
+  // Solve for the plane, and test the distance of the points from it.
   const double determinant = xx * zz - xz * xz;
   const double a = (xy * zz - zy * xz) / determinant, b = (zy * xx - xy * xz) / determinant;
   double off = 0;
@@ -78,7 +81,7 @@ std::optional<glm::dvec3> UpOfFeet(const std::vector<glm::dvec3>& points) {
   return glm::normalize(glm::dvec3(-a, 1, -b));
 }
 
-/// The rotation that takes one unit vector to another along the shortest way, for angles below 180°.
+/// Returns the smallest rotation from one unit vector to another, for angles below 180°.
 glm::dmat3 Swing(const glm::dvec3& from, const glm::dvec3& to) {
   const glm::dvec3 v = glm::cross(from, to);
   const glm::dmat3 cross(0, v.z, -v.y, -v.z, 0, v.x, v.y, -v.x, 0);
@@ -88,22 +91,25 @@ glm::dmat3 Swing(const glm::dvec3& from, const glm::dvec3& to) {
 }  // namespace
 
 StreamLevel EstimateLevel(std::span<const RecordedFrame> frames, double rate_hz) {
+  // Choose the evidence for the up direction: feet if they agree with the trunk, otherwise the trunk.
   StreamLevel level;
   const auto trunk = UpOfTrunk(frames), feet = UpOfFeet(PlantedFeet(frames, rate_hz));
   std::optional<glm::dvec3> up;
-  if (feet && trunk && AngleBetween(*feet, *trunk) <= kMostApart) {
+  if (feet && trunk && AngleBetween(*feet, *trunk) <= kMaxDifference) {
     up = feet;
     level.up_by = StreamLevel::By::kFeet;
   } else if (trunk) {
     up = trunk;
     level.up_by = StreamLevel::By::kTrunk;
   }
-  if (up && AngleBetween(*up, kFileUp) <= kMostTilt) {
+  // Rotate to it unless the tilt is implausible.
+  if (up && AngleBetween(*up, kFileUp) <= kMaxTilt) {
     level.R_WF = Swing(*up, kFileUp);
     level.tilt_deg = Degrees(AngleBetween(*up, kFileUp));
   } else {
     level.up_by = StreamLevel::By::kNothing;
   }
+  // Estimate the floor from the lower foot.
   std::vector<double> heights;
   for (const RecordedFrame& frame : frames) {
     const auto &left = frame.places[Index(kLeftFoot)], &right = frame.places[Index(kRightFoot)];
@@ -124,13 +130,13 @@ namespace {
 
 using enum Role;
 
-constexpr double kLongestGap = 0.2, kLongestLoss = 600, kSameTime = 5e-4;
+constexpr double kMaxGap_s = 0.2, kMaxLoss_s = 600, kSameTime = 5e-4;
 
 bool ShowsBody(const RecordedFrame& frame) {
   return std::ranges::any_of(frame.places, [](const auto& place) { return place.has_value(); });
 }
 
-/// The frame `part` of the way between two; a joint that one of them lacks is missing.
+/// Interpolates between two frames; a joint that one of them lacks is missing.
 RecordedFrame Between(const RecordedFrame& a, const RecordedFrame& b, double part) {
   RecordedFrame frame;
   for (std::size_t i = 0; i < kRoleCount; ++i) {
@@ -168,11 +174,12 @@ SensedFrame StreamMaker::Sensed(const RecordedFrame& frame) {
 Result<void> StreamMaker::Add(const RecordedFrame& frame, std::vector<SensedFrame>& stream) {
   if (!before_) {
     start_s_ = frame.time_s;
-  } else if (frame.time_s <= before_->time_s || frame.time_s - before_->time_s > kLongestLoss) {
+  } else if (frame.time_s <= before_->time_s || frame.time_s - before_->time_s > kMaxLoss_s) {
     return Fail({file_, frame.line},
                 "time {:.6g} s after {:.6g} s; allowed: a clock that goes on, at most {} s at once", frame.time_s,
-                before_->time_s, kLongestLoss);
+                before_->time_s, kMaxLoss_s);
   }
+  // Make every frame of the stream up to this one: the nearest recorded frame, an interpolation, or no body.
   for (;; ++next_) {
     const double time = start_s_ + static_cast<double>(next_) / options_.rate_hz;
     if (time > frame.time_s + kSameTime) break;
@@ -180,7 +187,7 @@ Result<void> StreamMaker::Add(const RecordedFrame& frame, std::vector<SensedFram
       stream.push_back(Sensed(frame));
     } else if (before_ && time <= before_->time_s + kSameTime) {
       stream.push_back(Sensed(*before_));
-    } else if (before_ && frame.time_s - before_->time_s <= kLongestGap + kSameTime) {
+    } else if (before_ && frame.time_s - before_->time_s <= kMaxGap_s + kSameTime) {
       const double part = (time - before_->time_s) / (frame.time_s - before_->time_s);
       stream.push_back(Sensed(Between(*before_, frame, part)));
     } else {

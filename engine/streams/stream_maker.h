@@ -12,45 +12,45 @@
 
 namespace etude {
 
-/// The transform from a recording's space to the world, in which Y points up and the floor is at 0; X and Z are not
+/// The transform from a recording's space to the world, in which Y points up and the floor is at 0. X and Z are not
 /// shifted.
 struct StreamLevel {
   enum class By { kNothing, kFeet, kTrunk };
 
   glm::dmat3 R_WF{1};       ///< rotates the file's directions into the world; about a horizontal axis only
   double floor_m = 0;       ///< height of the floor after that rotation
-  double tilt_deg = 0;      ///< of that rotation
-  By up_by = By::kNothing;  ///< what told where up is
+  double tilt_deg = 0;      ///< angle of that rotation
+  By up_by = By::kNothing;  ///< the evidence for the up direction
 
   glm::dvec3 Apply(const glm::dvec3& place) const { return R_WF * place - glm::dvec3(0, floor_m, 0); }
 };
 
-/// Finds gravity and floor from the body alone, because few files tell how their sensor was tilted (ours). Up is the
-/// normal of the plane under feet that stand, where they stood far enough apart to tell it (the deviation 10 cm both
-/// ways, 3 cm off the plane at most, and within 15° of the trunk's); else the trunk's middle direction, which takes a
-/// constant lean for a tilt. Neither: within 30° of the file's own up, or nothing is rotated. The floor is where the
-/// lower foot mostly is: its 10th percentile. `rate_hz` > 0, of the frames.
+/// Estimates gravity and floor from the body alone, because few files contain the tilt of their sensor (ours). Up is
+/// the normal of the plane under standing feet if they determine it (standard deviation of at least 10 cm in both
+/// directions, at most 3 cm off the plane, within 15° of the trunk); otherwise the trunk's median direction, which
+/// takes a constant lean for a tilt of the sensor. Nothing is rotated if the result is more than 30° from the file's
+/// own up. The floor is the 10th percentile of the lower foot's height. `rate_hz` > 0 is the frames' rate.
 StreamLevel EstimateLevel(std::span<const RecordedFrame> frames, double rate_hz);
 
-/// Describes a level as "level by trunk: turned by 6.3 degrees, floor 0.83 m below".
+/// Describes a level: "up by the trunk (6.3 degrees), floor 0.83 m below the sensor".
 std::string Describe(const StreamLevel& level);
 
 struct StreamOptions {
-  bool levels = true;     ///< estimate gravity and floor of files that do not say; else take the file's
-  bool reflects = false;  ///< negate X: of files whose X axis runs the other way, so that bodies are mirrored
+  bool levels = true;     ///< estimate gravity and floor if the file does not define them; otherwise use the file's
+  bool reflects = false;  ///< negate X, for files whose X axis points the other way, which mirrors bodies
   double rate_hz = kJudgedRateHz;
 };
 
-/// Makes an even stream of recorded frames as they come, causally: frame k is at k / rate_hz seconds after the first
-/// one. Between two recorded frames at most 0.2 s apart joints go straight; over a longer gap the body is lost. A joint
-/// that is not reported stays where it was last, not tracked, as a Kinect has it; before its first report it is at its
-/// parent's place. A frame within half a millisecond of a recorded one is that one, unchanged.
+/// Resamples recorded frames online to a constant rate: frame k is at k / rate_hz seconds after the first one. Between
+/// two recorded frames at most 0.2 s apart, joints are interpolated linearly; over a longer gap the body is lost. A
+/// joint that is not reported keeps its last position with the state "not tracked", as on a Kinect; before its first
+/// report it is at its parent's position. If a recorded frame is within half a millisecond, it is used unchanged.
 class StreamMaker {
  public:
   StreamMaker(const StreamLevel& level, const StreamOptions& options, std::string file);
 
-  /// Takes the next recorded frame; appends those of the stream that are known by it. Refused, naming its line: a clock
-  /// that runs backwards or stands still for over ten minutes.
+  /// Takes the next recorded frame and appends the frames of the stream that are now known. Fails, naming the line, if
+  /// the clock does not increase, or jumps by more than ten minutes.
   Result<void> Add(const RecordedFrame& frame, std::vector<SensedFrame>& stream);
 
  private:
@@ -61,7 +61,7 @@ class StreamMaker {
   std::string file_;
   std::optional<RecordedFrame> before_;
   double start_s_ = 0;
-  std::size_t next_ = 0;  // the frame of the stream that comes next
+  std::size_t next_ = 0;  // index of the stream's next frame
   std::array<std::optional<glm::dvec3>, kRoleCount> last_;
 };
 
@@ -69,16 +69,16 @@ class StreamMaker {
 struct MadeStream {
   SkeletonStream stream;
   StreamLevel level;
-  double start_s = 0;           ///< the first frame's time by the file's own clock
-  std::size_t lost_frames = 0;  ///< of the stream, in which nobody was seen
+  double start_s = 0;           ///< time of the first frame by the file's own clock
+  std::size_t lost_frames = 0;  ///< number of the stream's frames without a body
 };
 
-/// Makes the stream of a whole recording, levelled by all of it.
+/// Makes the stream of a whole recording, with the level estimated from all of it.
 Result<MadeStream> MakeStream(const StreamRecording& recording, const std::string& file,
                               const StreamOptions& options = {});
 
-/// Returns how far feet point where the body faces by its left and right, as a mean over the frames that show them: +1
-/// is straight ahead, −1 backwards as in a mirrored recording. Nothing when no foot was seen.
+/// Returns the mean cosine between the feet and the direction that the body faces by its left and right: +1 is straight
+/// ahead, −1 backwards as in a mirrored recording. Returns nullopt if no foot was tracked.
 std::optional<double> FeetForward(const SkeletonStream& stream);
 
 }  // namespace etude

@@ -9,8 +9,7 @@
 namespace etude {
 namespace {
 
-/// The share of set pixels in the square about every pixel, as much of it as lies in the picture: by sums over all
-/// rectangles from the corner.
+/// Returns the share of set pixels in the square around every pixel, clipped to the picture, by a summed-area table.
 Activity ShareAbout(const Mask& mask, int reach) {
   const auto stride = static_cast<std::size_t>(mask.width) + 1;
   std::vector<int> sums(stride * (static_cast<std::size_t>(mask.height) + 1));
@@ -55,17 +54,18 @@ ColourImage EstimateBackground(std::span<const ColourImage> pictures, std::span<
   assert(!pictures.empty() && activity.size() == pictures.size() && kept >= 1);
   kept = std::min(kept, pictures.size());
   ColourImage background(pictures[0].width, pictures[0].height);
-  std::vector<std::size_t> calmest(pictures.size());
+  std::vector<std::size_t> by_activity(pictures.size());
   std::vector<std::uint8_t> levels(kept);
+  // Select the pictures of lowest activity at this pixel, then take the median of each channel.
   for (std::size_t i = 0; i < background.pixels.size(); ++i) {
-    for (std::size_t k = 0; k < calmest.size(); ++k) calmest[k] = k;
-    const auto last = calmest.begin() + static_cast<std::ptrdiff_t>(kept) - 1;
-    std::nth_element(calmest.begin(), last, calmest.end(), [&](std::size_t a, std::size_t b) {
+    for (std::size_t k = 0; k < by_activity.size(); ++k) by_activity[k] = k;
+    const auto last = by_activity.begin() + static_cast<std::ptrdiff_t>(kept) - 1;
+    std::nth_element(by_activity.begin(), last, by_activity.end(), [&](std::size_t a, std::size_t b) {
       const float first = activity[a].pixels[i], second = activity[b].pixels[i];
       return first != second ? first < second : a < b;
     });
     const auto median = [&](std::uint8_t Rgb8::*colour) {
-      for (std::size_t k = 0; k < kept; ++k) levels[k] = pictures[calmest[k]].pixels[i].*colour;
+      for (std::size_t k = 0; k < kept; ++k) levels[k] = pictures[by_activity[k]].pixels[i].*colour;
       const auto middle = levels.begin() + static_cast<std::ptrdiff_t>(kept / 2);
       std::nth_element(levels.begin(), middle, levels.end());
       return *middle;

@@ -8,27 +8,27 @@
 
 namespace etude {
 
-/// The activity at every pixel of a picture, in any unit: the less, the likelier the pixel shows the room behind.
+/// The motion activity at every pixel of a picture, in any unit; pixels of lower activity are more likely background.
 using Activity = Image<float>;
 
 struct MotionOptions {
   std::size_t lag = 1;  ///< how many pictures before and after each is compared with
-  /// Half the side of the square about a pixel in which motion counts, pixels: a trunk moves at its rim only, and must
-  /// not pass for a room in its middle. A quarter of a trunk's width.
+  /// Half the side of the square around a pixel in which motion counts, pixels. A trunk shows motion only at its rim,
+  /// and its middle must not count as background: choose a quarter of a trunk's width.
   int reach = 12;
-  int change = 14;  ///< levels by which a colour must differ to have moved: several deviations of noise
+  int change = 14;  ///< colour difference, in levels, that counts as motion; several standard deviations of noise
 };
 
-/// Computes, for each picture and pixel, the share of the pixels about it that are another colour in the picture `lag`
-/// before or after.
+/// Computes, for each picture and pixel, the share of the pixels in the square around it whose colour differs from the
+/// picture `lag` before or after.
 std::vector<Activity> MotionActivity(std::span<const ColourImage> pictures, const MotionOptions& options = {});
 
-/// Estimates the background of a static scene: per pixel and channel the median of the `kept` pictures with the least
-/// motion there; ties go to the earliest. A pixel never uncovered keeps what hid it. (B. Laugraud, S. Piérard, M. Van
-/// Droogenbroeck, "LaBGen: a method based on motion detection for generating the background of a scene", Pattern
-/// Recognition Letters 96, 2017; theirs counts motion in patches.)
+/// Estimates the background of a static scene: for each pixel and channel, the median over the `kept` pictures with the
+/// lowest activity there; ties go to the earliest. A pixel that is never uncovered keeps the colour of what hides it.
+/// (B. Laugraud, S. Piérard, M. Van Droogenbroeck, "LaBGen: a method based on motion detection for generating the
+/// background of a scene", Pattern Recognition Letters 96, 2017; theirs counts motion in patches.)
 /// @param activity of each picture, of its size
-/// @param kept at least one; as many as there are pictures gives their median
+/// @param kept at least one; the number of pictures gives the plain median
 ColourImage EstimateBackground(std::span<const ColourImage> pictures, std::span<const Activity> activity,
                                std::size_t kept);
 

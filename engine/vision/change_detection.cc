@@ -45,7 +45,7 @@ class HueComparison {
   double cosine2_;
 };
 
-// The paper's formula leaves grey without a hue; as everywhere here it is then 0, that of pure red.
+// Grey has no hue in the paper's formula; here it has hue 0, that of pure red.
 Chroma ChromaOrRed(Rgb8 colour) {
   constexpr int kRed = Chroma(Rgb8{255, 0, 0}).x;
   Chroma chroma(colour);
@@ -53,7 +53,7 @@ Chroma ChromaOrRed(Rgb8 colour) {
   return chroma;
 }
 
-/// Returns whether a pixel is not its background's colour times a factor that light explains.
+/// Returns true if a pixel is not its background's colour times a factor that light explains.
 bool IsNoShade(Rgb8 background, Rgb8 pixel, const ChangeOptions& o) {
   const double br = background.r, bg = background.g, bb = background.b;
   const double dot = pixel.r * br + pixel.g * bg + pixel.b * bb;
@@ -72,7 +72,7 @@ class GatedComparison {
     const Tone b(background), p(pixel);
     const bool hue_b = HasHue(b), hue_p = HasHue(p);
     if (hue_b && hue_p && hues_.Differ(b.chroma, p.chroma)) return true;
-    // One of them near the gate must not flip on noise: the saturations have to differ clearly.
+    // If only one pixel has a hue, noise may decide that, so the saturations must differ clearly.
     if (hue_b != hue_p && std::abs(b.Saturation() - p.Saturation()) > o_.saturation_threshold) return true;
     return p.sum < o_.darkest_shadow * b.sum || p.sum > o_.brightest_light * b.sum;
   }

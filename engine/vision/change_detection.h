@@ -13,17 +13,17 @@ namespace etude {
 
 /// A colour as hue, saturation and intensity (Gonzalez & Woods; paper B, section 4.1.1).
 struct Hsi {
-  double hue = 0;         ///< radians, [0, 2π): red 0, green 2π/3, blue 4π/3; 0 for grey, which has none
+  double hue = 0;         ///< radians, [0, 2π): red 0, green 2π/3, blue 4π/3; 0 for grey, which has no hue
   double saturation = 0;  ///< 1 − 3·min / (R + G + B), in [0, 1]; 0 for black
   double intensity = 0;   ///< (R + G + B) / 3, in [0, 255]
 };
 
-/// Converts a colour by the paper's formulas as printed; θ is the hue when B ≤ G, else 2π − θ.
+/// Converts a colour by the paper's formulas as printed; the hue is θ if B ≤ G, else 2π − θ.
 Hsi ToHsi(Rgb8 colour);
 
-/// A colour's point in the plane of colours of equal intensity, whose polar angle is the hue; grey is the
-/// origin. The point is (x / 2, √3/2 · y), in grey levels, with x = 2R − G − B and y = G − B: whole
-/// numbers, so that hues can be compared exactly and without an arc cosine per pixel.
+/// A colour's point in the plane of equal intensity: its polar angle is the hue, and grey is the origin. The point is
+/// (x / 2, √3/2 · y), in grey levels, with x = 2R − G − B and y = G − B. x and y are integers, so hues can be compared
+/// exactly and without an arc cosine for each pixel.
 struct Chroma {
   int x = 0;
   int y = 0;
@@ -35,72 +35,73 @@ struct Chroma {
 /// Returns four times the dot product of two such points: 4·|a||b|·cos of the angle between the hues.
 inline int Dot4(Chroma a, Chroma b) { return a.x * b.x + 3 * a.y * b.y; }
 
-/// Returns by how many levels the most different of the three colours differs.
+/// Returns the largest difference of the three channels, levels.
 inline int MostDifference(Rgb8 a, Rgb8 b) {
   return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
 }
 
 enum class Segmenter {
-  /// "rgb": red, green and blue compared by themselves: what paper B, chapter 4, starts from, and leaves because it
+  /// "rgb": compares red, green and blue separately. Paper B, chapter 4, starts from it and abandons it because it
   /// takes shadows for a person.
   kRgb,
-  kHue,  ///< "hue": hues compared, nothing else (paper B, chapter 4)
-  /// "hue-gated" (ours): compares hues only where both colours are far enough from grey to have one, else
-  /// greyness; then the light, beyond what a shadow or the lamp explains.
+  kHue,  ///< "hue": compares hues only (paper B, chapter 4)
+  /// "hue-gated" (ours): compares hues only if both colours are far enough from grey, otherwise saturations; then the
+  /// intensity, allowing for shadows and drift of the lamp.
   kHueGated,
-  /// "ratio": is the pixel its background's colour times one factor, as in a shadow or under more light? (Horprasert et
-  /// al. 1999: brightness and chromaticity distortion, without their per-pixel deviations.)
+  /// "ratio": tests if the pixel is its background's colour times one factor, as in a shadow or under more light
+  /// (Horprasert et al. 1999: brightness and chromaticity distortion, without their per-pixel standard deviations).
   kRatio,
-  /// "running": no picture of the empty room. Each pixel's background is a mean and a deviation that follow the film
-  /// (Wren et al. 1997, Pfinder); who stands still becomes background, and where somebody stood at the beginning a
-  /// ghost stays for a while. Only `PersonFinder` has it: it needs all pictures before.
+  /// "running": needs no picture of the empty room. Each pixel's background is a mean and a variance that follow the
+  /// film (Wren et al. 1997, Pfinder). A person who stands still becomes background, and where somebody stood at the
+  /// beginning a ghost remains for a while. Only `PersonFinder` supports it because it depends on all earlier pictures.
   kRunning,
-  /// "likelihood" (ours): is the room likelier there, or a colour that the person wears, as learnt from the pictures
-  /// before? (`ColourLikelihood`.) Only `PersonFinder` has it.
+  /// "likelihood" (ours): compares the likelihood of the room with that of the colours that the person wears, learnt
+  /// from earlier pictures (`ColourLikelihood`). Only `PersonFinder` supports it.
   kLikelihood,
 };
 
 /// Returns the names used in scenarios: "rgb", "hue", "hue-gated", "ratio", "running", "likelihood".
 std::vector<std::string> SegmenterNames();
-/// Returns the segmenter of that name, which is one of SegmenterNames().
+/// Returns the segmenter of that name, which must be one of SegmenterNames().
 Segmenter SegmenterNamed(std::string_view name);
 
 struct ChangeOptions {
-  /// Hues further apart than this are a change. Pixel noise of 2 levels turns the hue of a moderately
-  /// coloured wall (30 levels of chroma) by 4° rms, so this is about four deviations.
+  /// Hues that differ by more than this are a change. Pixel noise of 2 levels rotates the hue of a moderately coloured
+  /// wall (30 levels of chroma) by 4° rms, so this is about four standard deviations.
   double hue_threshold = Radians(16);
-  /// hue-gated: a hue counts only when both pixels are more saturated than this …
+  /// hue-gated: a hue counts only if both pixels are more saturated than this …
   double min_saturation = 0.10;
-  /// … and this far from grey, in levels: in the dark, saturation is noise.
+  /// … and at least this far from grey, in levels: in the dark, saturation is noise.
   double min_chroma = 14;
-  /// hue-gated: saturations further apart than this are a change, when a hue is missing.
+  /// hue-gated: if a hue is missing, saturations that differ by more than this are a change.
   double saturation_threshold = 0.18;
-  /// hue-gated: light between these shares of the background's is shadow or lamp drift, and outside them
-  /// a change.
+  /// hue-gated and ratio: an intensity between these shares of the background's is a shadow or drift of the lamp;
+  /// outside them it is a change.
   double darkest_shadow = 0.45;
   double brightest_light = 1.30;
-  /// rgb: levels by which the most different of the three colours may differ. Ten deviations of pixel noise: light
-  /// changes slowly over a wall.
+  /// rgb: the largest allowed difference of the three channels, levels. Ten standard deviations of pixel noise, because
+  /// light varies slowly over a wall.
   int rgb_threshold = 24;
-  /// ratio: levels by which a pixel may be off the line from black through its background's colour.
+  /// ratio: the largest allowed distance of a pixel from the line from black through its background's colour, levels.
   double ratio_threshold = 14;
-  /// running: how fast mean and deviation follow what is background, per frame; of what is foreground a tenth.
+  /// running: learning rate of mean and variance for background pixels, per frame; a tenth of it for foreground pixels.
   double learning_rate = 0.05;
-  /// running: deviations from the mean that are a change, and the least deviation of a colour, levels.
+  /// running: the number of standard deviations from the mean that is a change, and the minimal standard deviation of a
+  /// channel, levels.
   double running_deviations = 4;
   double least_deviation = 4;
 };
 
-/// Finds the pixels in which `picture` shows something else than `background`. The two have the same size. A grey pixel
-/// has hue 0 for `kHue`, as in the paper's formula. Not for `kRunning` and `kLikelihood`.
+/// Finds the pixels in which `picture` differs from `background`. Both have the same size. For `kHue` a grey pixel has
+/// hue 0, as in the paper's formula. Not for `kRunning` and `kLikelihood`.
 Mask DetectChange(const ColourImage& background, const ColourImage& picture, Segmenter segmenter,
                   const ChangeOptions& options = {});
 
-/// The pieces of what changed that are taken for the person.
+/// The changed components that are taken for the person.
 enum class PersonPieces {
-  kLargest,  ///< the largest one alone (paper B)
-  /// *Ours*: the largest, and every one of some size beside it. Where a sleeve ends, or skin is of the wall's hue,
-  /// forearms and feet are pieces of their own, and the largest one has lost them; but so may be a shadow.
+  kLargest,  ///< only the largest one (paper B)
+  /// *Ours*: the largest one and all others near it above a minimal size. Where a sleeve ends, or skin has the wall's
+  /// hue, forearms and feet are components of their own, which kLargest would lose; but a shadow may be included, too.
   kLarge,
 };
 
@@ -108,18 +109,18 @@ struct PersonOptions {
   Segmenter segmenter = Segmenter::kHue;
   ChangeOptions change;
   PersonPieces pieces = PersonPieces::kLargest;
-  /// kLarge: pieces of fewer pixels are noise. 120 is a hand four metres away in a picture of 640 × 480.
+  /// kLarge: components of fewer pixels are noise. A hand four metres away has 120 in a picture of 640 × 480.
   int smallest_piece = 120;
-  /// kLarge: the largest distance of the box about a piece from that about the largest one, pixels: a forearm's length
-  /// there.
+  /// kLarge: the largest distance between the bounding box of a component and that of the largest one, pixels: the
+  /// length of a forearm at that distance.
   int piece_reach = 40;
   /// Holes of at most this many pixels are filled; the gap between an arm and the trunk is larger.
   int largest_hole = 60;
 };
 
-/// Finds the person in the picture (paper B, chapter 4): change detection, then the 8-connected component or components
-/// that `pieces` names, then their small holes filled. All zero when nothing changed. Takes go through `PersonFinder`,
-/// which tests compare with this plain form.
+/// Finds the person in the picture (paper B, chapter 4): change detection, then the 8-connected components that
+/// `pieces` selects, then their small holes filled. All pixels are 0 if nothing changed. Recorded takes use
+/// `PersonFinder`; tests compare it with this plain form.
 Mask ExtractPerson(const ColourImage& background, const ColourImage& picture, const PersonOptions& options);
 
 }  // namespace etude

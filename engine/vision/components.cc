@@ -17,7 +17,7 @@ struct RunsOfMask {
   std::vector<bool> set;  // of each run
 };
 
-// Most of a mask is long runs: eight equal pixels at a time are passed over.
+// Returns the end of the run that begins at x. Runs are long, so eight equal pixels are skipped at a time.
 int EndOfRun(const std::uint8_t* row, int x, int width) {
   constexpr int kBlock = sizeof(std::uint64_t);
   const std::uint8_t value = row[x];
@@ -52,8 +52,8 @@ void Paint(const Run& run, std::uint8_t value, Mask& mask) {
   std::fill_n(&mask.At(run.begin, run.row), run.end - run.begin, value);
 }
 
-// Union-find whose representative is always the smallest index, so that the numbering of the pieces
-// follows the scan order whatever the order of the joins.
+// Union-find whose representative is always the smallest index, so that the numbering of the components follows the
+// scan order, independently of the order of the joins.
 class Sets {
  public:
   explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
@@ -73,8 +73,8 @@ class Sets {
   std::vector<std::size_t> parent_;
 };
 
-// Joins every run with the equal runs that it touches in the row above. `above` and `below` walk the
-// two rows together, so each pair of neighbours is met once.
+// Joins every run with the equal runs that it touches in the row above. `above` and `below` advance through the two
+// rows together, so each pair of neighbours is visited once.
 void JoinRows(const RunsOfMask& found, Connectivity connectivity, Sets& sets) {
   const std::vector<Run>& runs = found.runs;
   std::size_t above = 0;
@@ -90,7 +90,7 @@ void JoinRows(const RunsOfMask& found, Connectivity connectivity, Sets& sets) {
   }
 }
 
-// The first in scan order among equals; the number of pieces when no pixel is set.
+// Returns the first in scan order among equals; the number of components if no pixel is set.
 std::size_t IndexOfLargest(const Components& components) {
   std::size_t largest = components.pieces.size();
   int size = 0;
@@ -102,7 +102,7 @@ std::size_t IndexOfLargest(const Components& components) {
   return largest;
 }
 
-// About the pixels of a piece; the last two just outside.
+// The bounding box of a component; right and bottom are exclusive.
 struct Box {
   int left, top, right, bottom;
 
@@ -136,7 +136,7 @@ Components LabelRuns(RunsOfMask found, int width, int height, Connectivity conne
   return components;
 }
 
-/// The runs of the mask that has that piece of 1s alone.
+/// Returns the runs of a mask that contains only that component of 1s.
 RunsOfMask RunsOfPiece(const Components& components, std::size_t piece) {
   RunsOfMask kept;
   kept.runs.reserve(components.runs.size());
@@ -200,7 +200,7 @@ void KeepPerson(Mask& mask, int largest_hole) {
   for (const Run& run : components.runs) {
     if (run.piece != largest && components.pieces[run.piece].set) Paint(run, 0, mask);
   }
-  // What is left is known run by run: the pixels need not be looked at again.
+  // Label the remaining mask from its runs; the pixels are not read again.
   const Components person = LabelRuns(RunsOfPiece(components, largest), mask.width, mask.height, Connectivity::kEight);
   for (const Run& run : person.runs) {
     const Components::Piece& piece = person.pieces[run.piece];

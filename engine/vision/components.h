@@ -7,10 +7,10 @@
 
 namespace etude {
 
-/// The neighbours that belong together: the four that share an edge, or also the four that share a corner.
+/// The neighbours that are connected: the four that share an edge, or also the four that share a corner.
 enum class Connectivity { kFour, kEight };
 
-/// The connected pieces of equal pixels of a mask, as the runs of pixels that they consist of.
+/// The connected components of a mask, as the runs of pixels that they consist of.
 struct Components {
   /// The pixels begin ≤ x < end of one row.
   struct Run {
@@ -20,7 +20,7 @@ struct Components {
     std::size_t piece = 0;  ///< index into `pieces`
   };
   struct Piece {
-    bool set = false;  ///< pixels of 1s, or of 0s
+    bool set = false;  ///< true for a component of 1s, false for one of 0s
     int size = 0;      ///< pixels
     bool touches_border = false;
   };
@@ -29,21 +29,22 @@ struct Components {
   std::vector<Piece> pieces;  ///< in order of their first pixel in scan order
 };
 
-/// Labels the pieces of 1s by `connectivity`; the 0s are pieces too, by the other connectivity (so that
-/// a closed 8-connected outline separates inside from outside).
+/// Labels the components of 1s by `connectivity`; the 0s are labelled by the other connectivity, so that a closed
+/// 8-connected outline separates inside from outside.
 Components LabelComponents(const Mask& mask, Connectivity connectivity = Connectivity::kEight);
 
-/// Returns the largest 8-connected piece of 1s alone; the first in scan order among equals; nothing from nothing.
+/// Returns only the largest 8-connected component of 1s; among equals the first in scan order; empty if no pixel is
+/// set.
 Mask LargestComponent(const Mask& mask);
 
-/// Returns the largest 8-connected piece of 1s, and all others of at least `smallest` pixels whose boxes come within
-/// `reach` pixels of its box.
+/// Returns the largest 8-connected component of 1s, and all others of at least `smallest` pixels whose bounding boxes
+/// are within `reach` pixels of its box.
 Mask LargeComponents(const Mask& mask, int smallest, int reach);
 
-/// Sets the holes (4-connected pieces of 0s that do not touch the border) of at most `largest_hole` pixels.
+/// Sets the holes (4-connected components of 0s that do not touch the border) of at most `largest_hole` pixels.
 Mask FillHoles(const Mask& mask, int largest_hole);
 
-/// Computes FillHoles(LargestComponent(mask), largest_hole) in place, reading the pixels once. Set pixels are 1.
+/// Computes FillHoles(LargestComponent(mask), largest_hole) in place, reading the pixels once. Set pixels must be 1.
 void KeepPerson(Mask& mask, int largest_hole);
 
 }  // namespace etude

@@ -1,12 +1,12 @@
-// Compiled once for every kind of vectors that x86-64 CPUs have; the best one is chosen when the program runs. Lane by
-// lane all of them give the same bits: never MulAdd.
+// Compiled once for every vector instruction set of x86-64 CPUs; the best one is chosen at run time. All of them give
+// identical bits in every lane because MulAdd is never used.
 #include "engine/vision/hue_block.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/vision/hue_block.cc"
 #include "hwy/foreach_target.h"  // before highway.h
 
-// Included after foreach_target.h, once per target.
+// Included after foreach_target.h, once for each target.
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -16,13 +16,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Wide = hn::ScalableTag<std::int16_t>;    ///< one vector of pixels
 using Half = hn::Half<Wide>;                   ///< half of them, …
-using Whole = hn::Rebind<std::int32_t, Half>;  ///< … as wide as a vector again
+using Whole = hn::Rebind<std::int32_t, Half>;  ///< … widened to a full vector
 using Real = hn::Rebind<float, Half>;
 using Byte = hn::Rebind<std::uint8_t, Wide>;
 
 HWY_INLINE hn::Vec<Real> ToReal(hn::Vec<Half> v) { return hn::ConvertTo(Real(), hn::PromoteTo(Whole(), v)); }
 
-/// 1 where the hues differ, of half a vector; what is too near to tell is added to `close`.
+/// Returns 1 where the hues of half a vector differ; comparisons that rounding may have decided are added to `close`.
 HWY_INLINE hn::Vec<Half> Compare(hn::Vec<Half> x16, hn::Vec<Half> y16, hn::Vec<Half> bx16, hn::Vec<Half> by16,
                                  float cosine2, hn::Vec<Real>& close) {
   const Real real;
@@ -32,6 +32,7 @@ HWY_INLINE hn::Vec<Half> Compare(hn::Vec<Half> x16, hn::Vec<Half> y16, hn::Vec<H
   const auto own = hn::Add(hn::Mul(x, x), hn::Mul(y3, y));
   const auto other = hn::Add(hn::Mul(bx, bx), hn::Mul(by3, by));
   const auto seen = hn::Mul(dot, dot), allowed = hn::Mul(hn::Mul(hn::Set(real, cosine2), other), own);
+  // Flag the lanes in which both sides agree up to rounding.
   constexpr float kRounding = 1e-6F;
   const auto near = hn::Le(hn::Abs(hn::Sub(seen, allowed)), hn::Mul(hn::Set(real, kRounding), allowed));
   close = hn::Or(close, hn::VecFromMask(real, near));
@@ -48,6 +49,7 @@ HueBlockResult CompareBlock(const HueBlock& block, float cosine2, std::uint8_t* 
   auto close = hn::Zero(Real());
   std::size_t i = 0;
   for (; i + lanes <= block.count; i += lanes) {
+    // Load the pixels and compute their chromas; grey becomes red.
     hn::Vec<Byte> r8, g8, b8;
     hn::LoadInterleaved3(Byte(), bytes + 3 * i, r8, g8, b8);
     const auto r = hn::PromoteTo(wide, r8), g = hn::PromoteTo(wide, g8), b = hn::PromoteTo(wide, b8);
@@ -55,6 +57,7 @@ HueBlockResult CompareBlock(const HueBlock& block, float cosine2, std::uint8_t* 
     auto x = hn::Add(hn::Sub(r, g), hn::Sub(r, b));
     x = hn::IfThenElse(hn::Eq(hn::Or(x, y), zero), red, x);
     const auto bx = hn::LoadU(wide, block.background_x + i), by = hn::LoadU(wide, block.background_y + i);
+    // Compare both halves and store the bytes.
     const Half half;
     const auto low = Compare(hn::LowerHalf(half, x), hn::LowerHalf(half, y), hn::LowerHalf(half, bx),
                              hn::LowerHalf(half, by), cosine2, close);

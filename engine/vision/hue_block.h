@@ -17,13 +17,12 @@ struct HueBlock {
 };
 
 struct HueBlockResult {
-  std::size_t compared = 0;  ///< how many were, from the first on: whole vectors
-  bool is_sure = true;       ///< false when rounding may have decided about one
+  std::size_t compared = 0;  ///< number of compared pixels, from the first on: whole vectors
+  bool is_sure = true;       ///< false if rounding may have decided about one of them
 };
 
-/// Writes 1 to `out` where the hues are further apart than an angle with the squared cosine `cosine2`, else 0, by
-/// vectors in single precision. Scalar products of chromas are whole numbers below 2²⁴, so only their squares are
-/// rounded.
+/// Writes 1 to `out` if the hues differ by more than the angle with the squared cosine `cosine2`, else 0, by SIMD in
+/// single precision. Dot products of chromas are integers below 2²⁴, so only their squares are rounded.
 HueBlockResult CompareHueBlock(const HueBlock& block, float cosine2, std::uint8_t* out);
 
 }  // namespace etude

@@ -11,14 +11,14 @@
 namespace etude {
 namespace {
 
-/// The label of each pixel: 0 for nothing of the suit, then the trunk, then the limb of each stroke.
+/// The label of each pixel: 0 for none, then the trunk, then the limb of each stroke.
 using LimbImage = Image<std::uint8_t>;
 constexpr std::uint8_t kTrunk = 1, kFirstLimb = 2;
 constexpr std::size_t kLabels = kFirstLimb + kStrokeCount;
 
 constexpr std::uint8_t LabelOf(std::size_t stroke) { return static_cast<std::uint8_t>(kFirstLimb + stroke); }
 
-/// The stroke that begins where two labels meet; none for most pairs.
+/// The stroke that begins at the border of two labels; kNoStroke for most pairs.
 constexpr std::uint8_t kNoStroke = 255;
 constexpr auto kStrokeBetween = [] {
   std::array<std::array<std::uint8_t, kLabels>, kLabels> table{};
@@ -30,7 +30,7 @@ constexpr auto kStrokeBetween = [] {
   return table;
 }();
 
-/// A box of pixels low ≤ (x, y) < high; empty where nothing is.
+/// A box of pixels low ≤ (x, y) < high; empty if no pixel was added.
 struct PixelBox {
   glm::ivec2 low{std::numeric_limits<int>::max()}, high{0};
 
@@ -52,7 +52,7 @@ PixelBox BoxOf(const Image<Pixel>& image) {
   return box;
 }
 
-/// `box`, so much larger on every side, within the image.
+/// Returns the box enlarged by `by` on every side, clipped to the image.
 template <typename Pixel>
 PixelBox Grown(PixelBox box, int by, const Image<Pixel>& image) {
   if (box.IsEmpty()) return box;
@@ -66,7 +66,7 @@ glm::dvec2 ChromaticityOf(Rgb8 colour) {
   return sum > 0 ? glm::dvec2(colour.r, colour.g) / sum : glm::dvec2(1.0 / 3);
 }
 
-/// Finds which of a suit's colours a pixel has.
+/// Classifies pixels by the suit's colours.
 class Palette {
  public:
   Palette(const LimbColours& suit, const LimbColourOptions& options) : options_(options) {
@@ -80,7 +80,7 @@ class Palette {
     double nearest = options_.reach * options_.reach;
     std::uint8_t label = 0;
     for (std::uint8_t i = kTrunk; i < kLabels; ++i) {
-      // In the plane of chromaticities, where blue's share is what red and green leave.
+      // The distance in the plane of chromaticities; the share of blue is 1 minus those of red and green.
       const glm::dvec2 off = seen - colours_[i];
       const double distance = glm::dot(off, off) + (off.x + off.y) * (off.x + off.y);
       if (distance >= nearest) continue;
@@ -111,9 +111,10 @@ LimbImage Classified(const ColourImage& picture, const Mask& person, const LimbC
   return limbs;
 }
 
-/// Replaces each pixel by the majority of the nine about it: noise goes, and so do lines of mixed colours along edges.
+/// Replaces each pixel by the majority of its 3 × 3 neighbourhood, which removes noise and lines of mixed colours along
+/// edges.
 LimbImage Voted(const LimbImage& limbs) {
-  constexpr int kMost = 5;
+  constexpr int kMajority = 5;
   LimbImage voted(limbs.width, limbs.height);
   const PixelBox box = Grown(BoxOf(limbs), 1, limbs);
   for (int y = box.low.y; y < box.high.y; ++y) {
@@ -123,13 +124,13 @@ LimbImage Voted(const LimbImage& limbs) {
         for (int u = std::max(0, x - 1); u <= std::min(limbs.width - 1, x + 1); ++u) ++votes[limbs.At(u, v)];
       }
       const auto most = std::ranges::max_element(votes);
-      if (*most >= kMost) voted.At(x, y) = static_cast<std::uint8_t>(most - votes.begin());
+      if (*most >= kMajority) voted.At(x, y) = static_cast<std::uint8_t>(most - votes.begin());
     }
   }
   return voted;
 }
 
-/// Returns for each piece whether it holds a square of `side` pixels a side.
+/// Returns for each component whether it contains a square with this side.
 std::vector<bool> HaveSquares(const Components& found, const Mask& mask, int side) {
   std::vector<bool> have(found.pieces.size());
   const auto is_square = [&](int left, int top) {
@@ -147,7 +148,7 @@ std::vector<bool> HaveSquares(const Components& found, const Mask& mask, int sid
   return have;
 }
 
-/// The pieces of one colour that are a limb, and not another one's edge.
+/// Returns the components of one colour that are large and thick enough to be a limb, not the edge of another one.
 Region RegionOf(const LimbImage& limbs, std::uint8_t label, const PixelBox& box, const LimbColourOptions& options) {
   Region region;
   if (box.IsEmpty()) return region;
@@ -155,12 +156,14 @@ Region RegionOf(const LimbImage& limbs, std::uint8_t label, const PixelBox& box,
   for (int y = 0; y < crop.height; ++y) {
     for (int x = 0; x < crop.width; ++x) crop.At(x, y) = limbs.At(box.low.x + x, box.low.y + y) == label;
   }
+  // Keep the components that contain a square and are not much smaller than the largest one.
   const Components found = LabelComponents(crop);
   const std::vector<bool> is_thick = HaveSquares(found, crop, options.least_side_px);
   int largest = 0;
   for (std::size_t i = 0; i < is_thick.size(); ++i)
     largest = is_thick[i] ? std::max(largest, found.pieces[i].size) : largest;
   const double smallest = std::max<double>(options.smallest_piece, options.piece_share * largest);
+  // Convert their runs to the picture's coordinates and sum up.
   for (const Components::Run& in_crop : found.runs) {
     if (!is_thick[in_crop.piece] || found.pieces[in_crop.piece].size < smallest) continue;
     const PixelRun run{in_crop.row + box.low.y, in_crop.begin + box.low.x, in_crop.end + box.low.x};
@@ -180,8 +183,8 @@ void Paint(const Region& region, std::uint8_t label, LimbImage& limbs) {
   }
 }
 
-/// Adds the borders where limbs meet: between the last pixel of one and the first of the next, to the right of it and
-/// below.
+/// Adds the borders between neighbouring limbs: the midpoints between the last pixel of one limb and the first of the
+/// next, to the right and below.
 void AddBorders(const LimbImage& limbs, int seam_px, LimbRegions& regions) {
   const auto look = [&](int x, int y, int step_x, int step_y) {
     const std::uint8_t label = limbs.At(x, y);

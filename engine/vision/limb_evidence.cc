@@ -11,16 +11,16 @@ namespace {
 
 /// The feature of the picture from which a limb's inner joint is found.
 enum class Landmark {
-  kBorder,     ///< the middle of its border with the part it hangs from
-  kBorderEnd,  ///< the end of that border that lies farthest along the limb: of a thigh, the crotch
-  kInnerEnd,   ///< where the limb is seen to begin
+  kBorder,     ///< the middle of its border with its parent part
+  kBorderEnd,  ///< the end of that border farthest along the limb: for a thigh, the crotch
+  kInnerEnd,   ///< the inner end of its visible part
 };
 
-/// The known proportions of each limb *(ours)*; shares are of half the limb's width.
+/// The typical proportions of each limb *(ours)*; shares are of half the limb's width.
 struct Anatomy {
-  double length;   ///< of its bone, when seen from aside
-  double joint;    ///< how far outwards from the landmark its inner joint lies
-  double tip = 1;  ///< how far its outer end's point lies before where the limb is seen to end
+  double length;   ///< of its bone, seen from the side
+  double joint;    ///< distance of its inner joint from the landmark, outwards
+  double tip = 1;  ///< distance of its outer end's point from the visible end, inwards
   Landmark landmark = Landmark::kBorder;
 };
 using Body = std::array<Anatomy, kStrokeCount>;
@@ -30,8 +30,8 @@ constexpr Body BodyOf(Anatomy thigh, Anatomy shank, Anatomy foot, Anatomy upper_
   return {thigh, shank, foot, thigh, shank, foot, upper_arm, forearm, hand, upper_arm, forearm, hand, head};
 }
 
-/// The body of capsules: only trunk joints are told by the limb that begins there, others by the round end of the one
-/// before.
+/// The body of capsules: only trunk joints follow from the limb that begins there, others from the round end of the
+/// limb before.
 constexpr Body kCapsules = BodyOf({6, -0.94}, {8, 0}, {6, 0}, {6.5, -1.04}, {7, 0}, {5.5, 0}, {1, -0.35});
 constexpr Body kDressed =
     BodyOf({6, -1.55, 1, Landmark::kBorderEnd}, {8, -0.5}, {6, 0, 0.62}, {6.5, 0.97, 1, Landmark::kInnerEnd},
@@ -39,20 +39,22 @@ constexpr Body kDressed =
 
 constexpr const Body& BodyOf(FigureKind kind) { return kind == FigureKind::kDressed ? kDressed : kCapsules; }
 constexpr std::size_t kHeadStroke = kStrokeCount - 1;
-constexpr std::size_t kFewestPixels = 6;     // less is a speck
-constexpr std::size_t kSmallestBorder = 3;   // pixel sides
-constexpr double kSmallestSeenShare = 0.25;  // of a limb whose ends are not both seen
+constexpr std::size_t kMinPixels = 6;   // fewer are noise
+constexpr std::size_t kMinBorder = 3;   // pixel sides
+constexpr double kMinSeenShare = 0.25;  // for a limb without both ends
 
-/// The common border of a limb and the part it hangs from.
+/// The common border of a limb and its parent part.
 struct Border {
   glm::dvec2 middle{0};
   double half_breadth = 0;
-  bool limb_covers = false;  ///< the limb stands before the part it hangs from
+  bool limb_covers = false;  ///< the limb is in front of its parent part
 };
 
+// Measures a border's middle and breadth, and which side covers the other: the border's ends bend towards that side.
 Border MeasureBorder(const std::vector<glm::dvec2>& points, const glm::dvec2& limb_middle) {
   Border border;
   for (const glm::dvec2& p : points) border.middle += p / static_cast<double>(points.size());
+  // Find the border's direction by its principal axis.
   double xx = 0, xy = 0, yy = 0;
   for (const glm::dvec2& p : points) {
     const glm::dvec2 d = p - border.middle;
@@ -66,6 +68,7 @@ Border MeasureBorder(const std::vector<glm::dvec2>& points, const glm::dvec2& li
   if (glm::dot(limb_middle - border.middle, to_limb) < 0) to_limb = -to_limb;
   const double mean_square =
       (0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy)) / static_cast<double>(points.size());  // along the border
+  // Sum the bend: how far points at the ends lie on the limb's side, relative to those in the middle.
   double bend = 0, low = 0, high = 0;
   for (const glm::dvec2& p : points) {
     const glm::dvec2 d = p - border.middle;
@@ -88,13 +91,13 @@ class EvidenceFinder {
 
   PictureEvidence Find() {
     for (std::size_t i = 0; i < kStrokeCount; ++i) {
-      if (limbs_[i]) PutInnerJoint(i);
+      if (limbs_[i]) SetInnerJoint(i);
     }
     for (std::size_t i = 0; i < kStrokeCount; ++i) {
-      if (limbs_[i]) PutTip(i);
+      if (limbs_[i]) SetTip(i);
     }
     for (std::size_t i = 0; i < kStrokeCount; ++i) {
-      if (limbs_[i]) evidence_.limbs[i] = LayLine(i);
+      if (limbs_[i]) evidence_.limbs[i] = LineOf(i);
     }
     return evidence_;
   }
@@ -102,16 +105,17 @@ class EvidenceFinder {
  private:
   struct Limb {
     const Region* region;
-    MiddleLine line;              ///< `along` leads outwards
-    std::optional<Border> inner;  ///< with the part it hangs from
-    std::optional<Border> outer;  ///< with the part that hangs from it
+    MiddleLine line;              ///< `along` points outwards
+    std::optional<Border> inner;  ///< with its parent part
+    std::optional<Border> outer;  ///< with its child part
   };
 
   static bool HasOuterLimb(std::size_t i) { return i != kHeadStroke && i % 3 != 2; }
 
+  // Measures a limb's line and borders, and stores it if its direction can be determined.
   void Look(std::size_t i) {
     const Region& region = regions_.limbs[i];
-    if (region.pixels < static_cast<int>(kFewestPixels)) return;
+    if (region.pixels < static_cast<int>(kMinPixels)) return;
     Limb limb{&region, FindMiddleLine(region), BorderOf(i), std::nullopt};
     if (HasOuterLimb(i)) limb.outer = BorderOf(i + 1);
     if (!TurnOutwards(i, limb)) return;
@@ -120,12 +124,13 @@ class EvidenceFinder {
 
   std::optional<Border> BorderOf(std::size_t i) const {
     const auto& points = regions_.borders[i];
-    if (points.size() < kSmallestBorder) return std::nullopt;
+    if (points.size() < kMinBorder) return std::nullopt;
     return MeasureBorder(points, regions_.limbs[i].middle);
   }
 
-  // Orients the limb outwards; returns false when nothing tells which end is the outer one.
+  // Orients the limb outwards; returns false if its outer end cannot be determined.
   bool TurnOutwards(std::size_t i, Limb& limb) const {
+    // Use the most reliable evidence that is available, in this order.
     glm::dvec2 outwards(0);
     const Region& inner_part = HangsFromTrunk(i) ? regions_.trunk : regions_.limbs[i - 1];
     const Region& trunk = regions_.trunk;
@@ -149,12 +154,13 @@ class EvidenceFinder {
       return false;
     }
     if (i == kHeadStroke && limb.inner && glm::length(outwards) > 1) {
-      // A skull is too round to have a direction of its own.
+      // A skull is too round for a principal axis; use the direction from the neck.
       const double half_width = limb.line.half_width;
       limb.line = AlongFrom(*limb.region, limb.inner->middle, outwards);
       limb.line.half_width = half_width;
       return true;
     }
+    // Reverse the line if it points inwards.
     if (glm::dot(outwards, limb.line.along) < 0) {
       limb.line.along = -limb.line.along;
       limb.line = {limb.line.origin, limb.line.along, -limb.line.high, -limb.line.low, limb.line.half_width};
@@ -174,7 +180,7 @@ class EvidenceFinder {
     return line;
   }
 
-  // Returns whether the picture's edge cuts off the limb's outer end.
+  // Returns true if the picture's edge cuts off the limb's outer end.
   bool IsCutOff(const Limb& limb) const {
     if (!limb.region->is_cut) return false;
     const glm::dvec2 end = limb.line.At(limb.line.high);
@@ -182,8 +188,9 @@ class EvidenceFinder {
     return end.x < reach || end.y < reach || end.x > regions_.width - reach || end.y > regions_.height - reach;
   }
 
-  // An upper arm's borders may run along it, where it hangs by the flank or the forearm is folded over it: of its ends,
-  // the shoulder is nearer to the neck.
+  // Returns the direction of an upper arm away from the neck; nullopt for other limbs or if both ends are equally far.
+  // An upper arm's borders may run along it, because it touches the flank or the folded forearm, but its shoulder is
+  // the end nearer to the neck.
   std::optional<glm::dvec2> AwayFromNeck(std::size_t i, const Limb& limb) const {
     const bool is_upper_arm =
         StrokeMarks()[i].from == Role::kLeftShoulder || StrokeMarks()[i].from == Role::kRightShoulder;
@@ -196,7 +203,7 @@ class EvidenceFinder {
     return to_low < to_high ? limb.line.along : -limb.line.along;
   }
 
-  // Returns whether the border lies across one end of the limb.
+  // Returns true if the border lies across one end of the limb.
   static bool EndsAt(const Limb& limb, const std::optional<Border>& border) {
     constexpr double kNearEnd = 0.3, kAcross = 1.5;
     const double middle = 0.5 * (limb.line.low + limb.line.high);
@@ -204,19 +211,19 @@ class EvidenceFinder {
            std::abs(limb.line.Where(border->middle) - middle) > kNearEnd * (limb.line.high - limb.line.low);
   }
 
-  // Returns whether the limb touches the part it hangs from with its side, as a hanging arm does the flank.
+  // Returns true if the limb touches its parent part with its side, as a hanging arm touches the flank.
   static bool RunsAlong(const Limb& limb) {
     constexpr double kSide = 1.5;
     return limb.line.IsLong() && limb.inner->half_breadth > kSide * limb.line.half_width;
   }
 
-  // The centre of the limb's round outer end, which begins `inset` before the limb ends.
+  // Returns the centre of the limb's round outer end, at the distance `inset` before the limb's end.
   static glm::dvec2 RoundEnd(const MiddleLine& line, double inset) {
     return line.At(std::max(0.5 * (line.low + line.high), line.high - inset));
   }
 
-  // Returns how far a limb's round end is seen to reach beyond its centre, where a thinner limb grows out of it at an
-  // angle in the picture: as far as the ball of radius R goes beside the other limb's strip of half width r.
+  // Returns the visible distance from the joint to the limb's round end if a thinner limb continues at an angle: the
+  // distance to which a disc of radius R is visible beside the other limb's strip of half width r.
   static double ReachBeyondJoint(const MiddleLine& limb, const MiddleLine& next) {
     if (!next.IsLong()) return limb.half_width;
     const double between = std::acos(std::clamp(glm::dot(limb.along, next.along), -1.0, 1.0));
@@ -224,7 +231,7 @@ class EvidenceFinder {
     return between >= strip ? limb.half_width : limb.half_width * std::cos(strip - between);
   }
 
-  void PutInnerJoint(std::size_t i) {
+  void SetInnerJoint(std::size_t i) {
     const Limb& limb = *limbs_[i];
     if (!limb.inner) return;
     std::optional<glm::dvec2>& joint = evidence_.joints[Index(StrokeMarks()[i].from)];
@@ -240,7 +247,7 @@ class EvidenceFinder {
   std::optional<glm::dvec2> CapsuleJoint(std::size_t i, const Limb& limb) const {
     const Border& border = *limb.inner;
     const double beyond = body_[i].joint * limb.line.half_width;
-    if (border.limb_covers && !limb.line.IsLong()) return MiddleOf(limb.line);  // seen end on
+    if (border.limb_covers && !limb.line.IsLong()) return MiddleOf(limb.line);  // seen end-on
     if (HangsFromTrunk(i)) {
       if (RunsAlong(limb)) return limb.line.At(limb.line.low + beyond);
       const glm::dvec2 outwards = limb.line.IsLong() ? limb.line.along : Unit(limb.region->middle - border.middle);
@@ -260,7 +267,7 @@ class EvidenceFinder {
       case Landmark::kInnerEnd:
         return limb.line.At(limb.line.low + beyond);
       case Landmark::kBorder:
-        // A limb that is folded over the one before it has a border along it, which tells of no end.
+        // A limb that is folded over the one before has a border along it, which does not show its end.
         return RunsAlong(limb) ? limb.line.At(limb.line.low) : limb.inner->middle + beyond * limb.line.along;
     }
     return limb.inner->middle;
@@ -274,7 +281,7 @@ class EvidenceFinder {
 
   static glm::dvec2 MiddleOf(const MiddleLine& line) { return line.At(0.5 * (line.low + line.high)); }
 
-  void PutTip(std::size_t i) {
+  void SetTip(std::size_t i) {
     if (HasOuterLimb(i)) return;
     const Limb& limb = *limbs_[i];
     if (IsCutOff(limb)) return;
@@ -283,7 +290,7 @@ class EvidenceFinder {
                            : RoundEnd(limb.line, body_[i].tip * limb.line.half_width);
   }
 
-  std::optional<LimbEvidence> LayLine(std::size_t i) const {
+  std::optional<LimbEvidence> LineOf(std::size_t i) const {
     const Limb& limb = *limbs_[i];
     const auto& inner = evidence_.joints[Index(StrokeMarks()[i].from)];
     const auto& outer = evidence_.joints[Index(StrokeMarks()[i].to)];
@@ -294,20 +301,21 @@ class EvidenceFinder {
     const double whole = half_width * half_width * (2 * body_[i].length + kPi);
     seen.seen_share = std::min(1.0, limb.region->pixels / whole);
     const bool is_long = limb.line.high - limb.line.low > 3 * half_width;
-    if (!(inner && outer) && (seen.seen_share < kSmallestSeenShare || !is_long)) return std::nullopt;
-    // Only a border that this limb has itself tells of its own end: the other limb of the joint may be seen alone.
+    if (!(inner && outer) && (seen.seen_share < kMinSeenShare || !is_long)) return std::nullopt;
+    // Use a joint only if this limb itself has a border there: the joint may come from the other limb.
     seen.line.a = inner && limb.inner ? *inner : limb.line.At(limb.line.low);
     seen.line.b = outer && (limb.outer || !HasOuterLimb(i)) ? *outer : limb.line.At(limb.line.high);
     return seen;
   }
 
-  // Half of a limb may be hidden along its whole length; its neighbours tell how wide it is at least.
+  // Returns the limb's probable half width: at least that of its neighbours, because half of it may be hidden along its
+  // whole length.
   double LikelyHalfWidth(std::size_t i) const {
-    constexpr double kThinner = 0.55;  // a foot against its shank, the largest step along a limb
+    constexpr double kMinWidthRatio = 0.55;  // ratio of a foot to its shank, the largest step along a limb
     double half_width = limbs_[i]->line.half_width;
     if (HasOuterLimb(i) && limbs_[i + 1]) half_width = std::max(half_width, limbs_[i + 1]->line.half_width);
     if (!HangsFromTrunk(i) && limbs_[i - 1])
-      half_width = std::max(half_width, kThinner * limbs_[i - 1]->line.half_width);
+      half_width = std::max(half_width, kMinWidthRatio * limbs_[i - 1]->line.half_width);
     return half_width;
   }
 

@@ -17,6 +17,7 @@ void ForEachPixel(const Region& region, Use use) {
   }
 }
 
+// Returns the principal axis of the region's pixels.
 glm::dvec2 ScatterAxis(const Region& region) {
   double xx = 0, xy = 0, yy = 0;
   ForEachPixel(region, [&](const glm::dvec2& p) {
@@ -29,15 +30,16 @@ glm::dvec2 ScatterAxis(const Region& region) {
   return {std::cos(angle), std::sin(angle)};
 }
 
-// The slice of a region between two lines across its axis, a pixel apart.
+// The slice of a region between two lines across its axis, one pixel apart.
 struct Section {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
   bool IsEmpty() const { return low > high; }
-  double Width() const { return high - low + 1; }  // pixels' centres are half a pixel inside
+  double Width() const { return high - low + 1; }  // pixel centres are half a pixel inside
   double Middle() const { return 0.5 * (low + high); }
 };
 
+// Cuts the region into slices across the line, and sets the line's ends.
 std::vector<Section> Slice(const Region& region, MiddleLine& line) {
   const glm::dvec2 across(-line.along.y, line.along.x);
   line.low = std::numeric_limits<double>::infinity();
@@ -59,6 +61,7 @@ std::vector<Section> Slice(const Region& region, MiddleLine& line) {
   return sections;
 }
 
+// Returns the 90th percentile of the slices' widths.
 double UsualWidth(const std::vector<Section>& sections) {
   std::vector<double> widths;
   for (const Section& section : sections) {
@@ -68,7 +71,7 @@ double UsualWidth(const std::vector<Section>& sections) {
   return LowerPercentile(std::move(widths), kShare);
 }
 
-// Lays the line through the middles of the sections that are about as wide as usual.
+// Fits the line to the middles of the sections that are at least 85 % of the usual width.
 void FitThroughMiddles(const std::vector<Section>& sections, MiddleLine& line) {
   constexpr double kWholeShare = 0.85;
   double n = 0, s1 = 0, m1 = 0, ss = 0, sm = 0;
@@ -98,7 +101,7 @@ bool MiddleLine::IsLong() const {
 
 MiddleLine FindMiddleLine(const Region& region) {
   MiddleLine line{.origin = region.middle, .along = ScatterAxis(region)};
-  constexpr int kPasses = 2;  // the second slices across the line found by the first
+  constexpr int kPasses = 2;  // the second pass slices across the line found by the first
   for (int pass = 0; pass <= kPasses; ++pass) {
     const std::vector<Section> sections = Slice(region, line);
     line.half_width = 0.5 * UsualWidth(sections);

@@ -11,28 +11,29 @@
 namespace etude {
 namespace {
 
-// Colours are counted in cells of 8 levels a side; likelihoods are logarithms of shares of a cell.
+// Colours are counted in cells with a side of 8 levels; likelihoods are logarithms of a cell's share.
 constexpr int kCells = 32, kLevels = 256 / kCells;
-constexpr double kAnyColour = 0.05;  // share of the person's pixels of no colour seen before
-constexpr float kForgets = 0.98f;    // a picture
-constexpr double kEnough = 400;      // pixels that tell what is worn
+constexpr double kAnyColour = 0.05;     // share of the person's pixels with a colour not seen before
+constexpr float kDecay = 0.98f;         // per picture
+constexpr double kMinWornPixels = 400;  // pixels needed to learn what is worn
 
-// The room: as it is, in another light, or changed.
+// Log-likelihoods of the room: unchanged, in another light, or changed.
 constexpr float kAsItIs = -1, kInOtherLight = -6, kChanged = -13;
-constexpr float kNoise = 4, kTint = 6;  // levels
-constexpr float kStrange = -10;         // less than that speaks for the room where it does not explain a pixel
-constexpr float kDarkest = 0.2f, kBrightest = 1.3f;  // shares of the background's light
-constexpr int kSameLight = 24;                       // levels by which the same surface differs when the lamp drifts
+constexpr float kNoise = 4, kTint = 6;               // levels
+constexpr float kUnexplained = -10;                  // below this, the room does not explain a pixel
+constexpr float kMinLight = 0.2f, kMaxLight = 1.3f;  // shares of the background's intensity
+constexpr int kSameLight = 24;                       // levels; largest change of a surface under drift of the lamp
 
-constexpr float kMostEvidence = 6;  // evidence of one pixel
-constexpr float kFarAway = 3;       // evidence against a person there
-constexpr int kReach = 20;          // pixels that a person moves in a picture
-constexpr int kRim = 2;             // pixels whose colours mix with the room's
+constexpr float kMaxEvidence = 6;  // limit of one pixel's evidence
+constexpr float kFarPenalty = 3;   // evidence against a person far from the last position
+constexpr int kReach = 20;         // pixels; a person's motion from picture to picture
+constexpr int kRim = 2;            // pixels whose colours mix with the room's
 
 int CellOf(Rgb8 colour) { return (colour.r / kLevels * kCells + colour.g / kLevels) * kCells + colour.b / kLevels; }
 
-/// How many pixels are set in the square of `reach` pixels each way about every pixel.
+/// Returns the number of set pixels in the square of `reach` pixels in each direction around every pixel.
 Image<int> CountsWithin(const Mask& mask, int reach) {
+  // Sliding sums along rows, then along columns.
   Image<int> rows(mask.width, mask.height), counts(mask.width, mask.height);
   for (int y = 0; y < mask.height; ++y) {
     int sum = 0;
@@ -53,7 +54,7 @@ Image<int> CountsWithin(const Mask& mask, int reach) {
   return counts;
 }
 
-/// The mean over neighbours, by binomial weights of five either way.
+/// Smooths by a binomial filter with five weights in each direction.
 Image<float> Smoothed(const Image<float>& image) {
   constexpr std::array kWeights = {1 / 16.0f, 4 / 16.0f, 6 / 16.0f, 4 / 16.0f, 1 / 16.0f};
   Image<float> rows(image.width, image.height), out(image.width, image.height);
@@ -74,15 +75,17 @@ Image<float> Smoothed(const Image<float>& image) {
   return out;
 }
 
-/// What speaks for the room at a pixel.
+/// Returns the log-likelihood of the room at a pixel.
 float RoomAt(Rgb8 room, Rgb8 pixel) {
+  // The room in unchanged light, limited to `kChanged`.
   const int r = pixel.r - room.r, g = pixel.g - room.g, b = pixel.b - room.b;
   float likelihood = std::max(kChanged, kAsItIs - static_cast<float>(r * r + g * g + b * b) / (2 * kNoise * kNoise));
+  // The room's colour times a factor, as in a shadow.
   const int length2 = std::max(1, room.r * room.r + room.g * room.g + room.b * room.b);
   const int dot = pixel.r * room.r + pixel.g * room.g + pixel.b * room.b;
   const int own2 = pixel.r * pixel.r + pixel.g * pixel.g + pixel.b * pixel.b;
   const float factor = static_cast<float>(dot) / static_cast<float>(length2);
-  if (factor > kDarkest && factor < kBrightest) {
+  if (factor > kMinLight && factor < kMaxLight) {
     const float tint2 = std::max(0.0f, static_cast<float>(own2) - factor * static_cast<float>(dot));
     likelihood = std::max(likelihood, kInOtherLight - tint2 / (2 * kTint * kTint));
   }
@@ -94,7 +97,8 @@ float RoomAt(Rgb8 room, Rgb8 pixel) {
 ColourLikelihood::ColourLikelihood(const ColourImage& background)
     : background_(background), room_(background), worn_(kCells * kCells * kCells, 0.0f) {}
 
-/// Each colour's gain, by least squares over the pixels that seem to show the same surface.
+/// Estimates the gain of each channel by least squares over the pixels that probably show the same surface, and applies
+/// it to the background.
 void ColourLikelihood::LightRoomAs(const ColourImage& picture) {
   std::array<double, 3> both{}, own{};
   for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
@@ -118,7 +122,7 @@ Image<float> ColourLikelihood::EvidenceOf(const ColourImage& picture, const Imag
   Image<float> evidence(picture.width, picture.height);
   for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
     const float likelier = likelihoods_[CellOf(picture.pixels[i])] - room.pixels[i];
-    evidence.pixels[i] = std::clamp(likelier, -kMostEvidence, kMostEvidence) - (near_.pixels[i] != 0 ? 0 : kFarAway);
+    evidence.pixels[i] = std::clamp(likelier, -kMaxEvidence, kMaxEvidence) - (near_.pixels[i] != 0 ? 0 : kFarPenalty);
   }
   return evidence;
 }
@@ -128,11 +132,13 @@ Mask ColourLikelihood::Detect(const ColourImage& picture) {
   LightRoomAs(picture);
   Mask mask = DetectChange(room_, picture, Segmenter::kHueGated);
   Image<float> room(picture.width, picture.height);
+  // Find the pixels that the room does not explain.
   strange_ = mask;
   for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
     room.pixels[i] = RoomAt(room_.pixels[i], picture.pixels[i]);
-    strange_.pixels[i] &= room.pixels[i] <= kStrange;
+    strange_.pixels[i] &= room.pixels[i] <= kUnexplained;
   }
+  // Before colours are learnt, use hues alone; afterwards the smoothed evidence.
   if (likelihoods_.empty()) return mask;
   const Image<float> evidence = Smoothed(EvidenceOf(picture, room));
   for (std::size_t i = 0; i < mask.pixels.size(); ++i) mask.pixels[i] = evidence.pixels[i] > 0;
@@ -141,25 +147,27 @@ Mask ColourLikelihood::Detect(const ColourImage& picture) {
 
 void ColourLikelihood::Learn(const ColourImage& picture, const Mask& person) {
   if (std::ranges::find(person.pixels, 1) == person.pixels.end()) return;
+  // Mark the positions that the person can reach until the next picture.
   near_ = Mask(person.width, person.height);
   const Image<int> about = CountsWithin(person, kReach);
   for (std::size_t i = 0; i < near_.pixels.size(); ++i) near_.pixels[i] = about.pixels[i] > 0;
 
+  // Count the colours of the unexplained pixels away from the rim.
   Mask sure = person;
   for (std::size_t i = 0; i < sure.pixels.size(); ++i) sure.pixels[i] &= strange_.pixels[i];
   const Image<int> inside = CountsWithin(sure, kRim);
   constexpr int kWhole = (2 * kRim + 1) * (2 * kRim + 1);
-  for (float& worn : worn_) worn *= kForgets;
-  worn_sum_ *= kForgets;
+  for (float& worn : worn_) worn *= kDecay;
+  worn_sum_ *= kDecay;
   for (std::size_t i = 0; i < sure.pixels.size(); ++i) {
     if (inside.pixels[i] < kWhole) continue;
     worn_[CellOf(picture.pixels[i])] += 1;
     worn_sum_ += 1;
   }
-  if (worn_sum_ >= kEnough) TellColours();
+  if (worn_sum_ >= kMinWornPixels) TellColours();
 }
 
-/// Cells lend a half of what they hold to both neighbours along each colour.
+/// Smooths the histogram by the weights 1/4, 1/2, 1/4 along each channel, and computes the log-likelihoods.
 void ColourLikelihood::TellColours() {
   std::vector<float> shares = worn_;
   for (const int step : {1, kCells, kCells * kCells}) {
@@ -233,7 +241,8 @@ Mask PersonFinder::Detect(const ColourImage& picture) {
   return DetectChange(background_, picture, options_.segmenter, options_.change);
 }
 
-// By vectors; what they leave over, and blocks in which rounding may have decided, in double precision.
+// Compares by SIMD; the remaining pixels, and blocks in which rounding may have decided, are compared in double
+// precision.
 void PersonFinder::CompareHues(const ColourImage& picture, Mask& mask) const {
   for (std::size_t first = 0; first < mask.pixels.size(); first += kPixelsAtOnce) {
     const HueBlock block{.pixels = &picture.pixels[first],
@@ -250,6 +259,7 @@ void PersonFinder::CompareHues(const ColourImage& picture, Mask& mask) const {
   }
 }
 
+// Compares with the running mean and variance, and updates them.
 void PersonFinder::Follow(const ColourImage& picture, Mask& mask) {
   const ChangeOptions& o = options_.change;
   const auto least = static_cast<float>(o.least_deviation * o.least_deviation);
@@ -265,11 +275,13 @@ void PersonFinder::Follow(const ColourImage& picture, Mask& mask) {
                                          static_cast<float>(pixel.b)};
     float *mean = &mean_[3 * i], *variance = &variance_[3 * i];
     bool is_change = false;
+    // A pixel changed if any channel is too far from its mean.
     for (std::size_t c = 0; c < 3; ++c) {
       if (is_first) mean[c] = colour[c];
       const float off = colour[c] - mean[c];
       is_change |= off * off > most * variance[c];
     }
+    // Update, ten times slower where it changed.
     const auto rate = static_cast<float>(is_change ? 0.1 * o.learning_rate : o.learning_rate);
     for (std::size_t c = 0; c < 3; ++c) {
       const float off = colour[c] - mean[c];

@@ -45,7 +45,7 @@ glm::dvec2 Mean(const Pixels& pixels) {
   return sum / static_cast<double>(pixels.size());
 }
 
-// The direction in which the pixels scatter most.
+// Returns the direction in which the pixels vary most.
 glm::dvec2 PrincipalAxis(const Pixels& pixels, const glm::dvec2& mean) {
   double xx = 0, xy = 0, yy = 0;
   for (const glm::dvec2& p : pixels) {
@@ -72,7 +72,7 @@ std::optional<PixelSegment> ReadStroke(const Pixels& first, const Pixels& second
     low = std::min(low, along);
     high = std::max(high, along);
   }
-  // The stroke is as much longer than its limb at each end as its round pen is wide.
+  // The round pen makes the stroke longer than its limb, by half the pen's width at each end.
   const double pen = std::min((kStrokeWidth - 1) / 2, (high - low) / 4);
   return PixelSegment{mean + (low + pen) * axis, mean + (high - pen) * axis};
 }
@@ -83,15 +83,15 @@ std::optional<glm::dvec2> ReadDisc(const Pixels& pixels) {
   constexpr double kWhole = 0.95;
   if (static_cast<double>(pixels.size()) >= kWhole * kPi * kDiscRadius * kDiscRadius) return mean;
 
-  // Partly covered: the mean would lean to the visible side.
-  constexpr double kStep = 0.25;
+  // The mean of a partly covered disc would be biased to the visible side; search for all possible centres instead.
+  constexpr double kGridStep = 0.25;
   constexpr double kRasterSlack = 0.25;
   const double radius = kDiscRadius + kRasterSlack;
   Pixels centres;
-  const int steps = static_cast<int>(2 * kDiscRadius / kStep);
+  const int steps = static_cast<int>(2 * kDiscRadius / kGridStep);
   for (int i = -steps; i <= steps; ++i) {
     for (int j = -steps; j <= steps; ++j) {
-      const glm::dvec2 centre = mean + kStep * glm::dvec2(j, i);
+      const glm::dvec2 centre = mean + kGridStep * glm::dvec2(j, i);
       const bool covers = std::all_of(pixels.begin(), pixels.end(), [&](const glm::dvec2& p) {
         return glm::dot(p - centre, p - centre) <= radius * radius;
       });
@@ -103,7 +103,7 @@ std::optional<glm::dvec2> ReadDisc(const Pixels& pixels) {
 
 constexpr std::size_t kColourCount = 2 * kStrokeCount + kEffectorCount;
 
-// Every palette colour in the order: first halves and second halves of the strokes, discs.
+// All colours of the palette: for each stroke its first and second half, then the discs.
 constexpr std::array<Rgb8, kColourCount> kPalette = [] {
   std::array<Rgb8, kColourCount> palette{};
   for (std::size_t i = 0; i < kStrokeCount; ++i) {
@@ -114,7 +114,7 @@ constexpr std::array<Rgb8, kColourCount> kPalette = [] {
   return palette;
 }();
 
-// Most of an annotation picture is black: eight pixels at a time are passed over.
+// Most of an annotation picture is black, so eight pixels are skipped at a time.
 constexpr int kBlock = 8;
 
 bool IsBlackBlock(const Rgb8* pixels) {

@@ -11,8 +11,8 @@
 
 namespace etude {
 
-/// The mark of one limb in an annotation picture (paper B, section 4.2: one colour per limb): a stroke from `from` to
-/// `to`, in two shades (ours), so that the picture tells which end is which.
+/// The mark of one limb in an annotation picture (paper B, section 4.2: one colour for each limb): a stroke from `from`
+/// to `to`, in two shades (ours) that distinguish its ends.
 struct StrokeMark {
   Role from;
   Role to;
@@ -20,7 +20,7 @@ struct StrokeMark {
   Rgb8 second_half;
 };
 
-/// The mark of the tip of a limb: a disc.
+/// The mark of an end effector: a disc.
 struct EffectorMark {
   Role role;
   Rgb8 colour;
@@ -30,26 +30,25 @@ constexpr std::size_t kStrokeCount = 13;
 constexpr std::size_t kEffectorCount = 5;
 
 /// Returns the strokes of the limbs that paper B needs (section 3.2): legs and arms from the trunk outwards, and the
-/// neck (the hip and shoulder lines follow from the joints). No two colours of the palette are equal, none is black.
+/// neck (the hip and shoulder lines follow from the joints). All colours of the palette differ, and none is black.
 std::span<const StrokeMark, kStrokeCount> StrokeMarks();
 /// Returns the discs: left foot (the root), right foot, left hand, right hand, head.
 std::span<const EffectorMark, kEffectorCount> EffectorMarks();
 
-/// The width of strokes and the radius of discs, pixels; marks are drawn on black with hard edges: strokes first, discs
-/// over them.
+/// The width of strokes and the radius of discs, pixels. Marks are drawn on black with hard edges, strokes first, discs
+/// on top.
 constexpr double kStrokeWidth = 3;
 constexpr double kDiscRadius = 4;
 
-/// The marks of an annotation picture; nothing where a mark is missing or cannot be read any more.
+/// The marks of an annotation picture; nullopt if a mark is missing or unreadable.
 struct Marks {
   std::array<std::optional<PixelSegment>, kStrokeCount> strokes;  ///< from `from` to `to`
   std::array<std::optional<glm::dvec2>, kEffectorCount> effectors;
 };
 
-/// Reads the marks of one picture back. A stroke gives the line through its visible pixels (their
-/// principal axis) and, from its shades, its sense; it is missing when one shade is wholly covered. A
-/// disc gives its centre, also when partly covered: the middle of all centres from which a disc of that
-/// radius covers every visible pixel.
+/// Reads the marks of one picture. A stroke is the principal axis of its visible pixels, and its shades determine its
+/// direction; it is missing if one shade is completely covered. A disc is its centre, even if partly covered: the mean
+/// of all centres from which a disc of that radius covers every visible pixel.
 Marks ReadMarks(const ColourImage& annotation);
 
 }  // namespace etude
