@@ -101,7 +101,7 @@ void PoseSequence::Open() {
 
 void PoseSequence::Update(std::span<const double> matches) {
   const int now = frame_++;
-  // A frame without a body changes nothing.
+  // A frame without a body only resets the spotted score.
   spotted_ = 0;
   if (matches.empty()) return;
   const std::size_t slot = seen_++ % hold_frames_;

@@ -112,11 +112,11 @@ DecisionTree GrowTree(Sample& sample, std::span<const Slope> slopes, const Boost
   DecisionTree tree;
   std::array<Split, DecisionTree::kNodes> splits;
   std::vector<std::vector<std::size_t>> row(1);
-  // Grow the tree row by row: find the best split of each node and divide its performances.
+  // The root holds all performances that this tree is fitted to.
   for (std::size_t i = 0; i < slopes.size(); ++i) {
     if (turn.SeesPerformance(i)) row[0].push_back(i);
   }
-  // Keep the nodes of one row in order.
+  // Grow the tree row by row: find the best split of each node and divide its performances.
   for (std::size_t depth = 0, node = 0; depth < kRows; ++depth) {
     std::vector<std::vector<std::size_t>> next;
     for (const auto& members : row) {

@@ -44,13 +44,13 @@ struct FootPlan {
   std::array<FootStep, 2> steps;
   int unborne = 0;  ///< number of frames in which a foot stands in one of the motions, but none by this plan
 };
+
 /// Plans a step for each foot within the window (ours). Long steps are preferred, because they need little
 /// acceleration, and steps one after the other, because one foot then supports the body while the other moves.
-/// that one foot stands while the other travels. Ours.
 FootPlan PlanSteps(const JoinWindow& window);
+
 /// Moves the feet of `played` (from PlayMinimumJerk) to their paths, and lowers the pelvis if a leg is too short. Limbs
 /// keep their lengths, and the first frame does not change. Returns FootPlan::unborne.
-/// Limbs keep their lengths; the first frame stays as it is. Returns FootPlan::unborne.
 int PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played);
 
 /// Joins by MinimumJerk with PlantFeet. The new motion is aligned by AlignOnPlantedFeet.

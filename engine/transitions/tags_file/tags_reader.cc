@@ -184,7 +184,7 @@ class TagsReader {
  public:
   explicit TagsReader(XmlReader& xml) : xml_(xml) {}
 
-  // Dispatch on the element's name.
+  /// Reads the current element into the tags. Returns the first complaint about it.
   Result<void> ReadElement() {
     const std::string element = xml_.Element();
     if (element == "fuzzy-system") {
