@@ -56,9 +56,9 @@ Result<std::vector<Feature>> ReadGroup(const Node::Entry& entry) {
 }
 
 Result<Universe> ReadUniverse(Fields& fields) {
-  constexpr double kLargest = 1e6;  // the limit of shapes, too
+  constexpr double kMaxNumber = 1e6;  // the limit of shapes, too
   const Node* node = fields.Raw("universe");
-  const std::vector<double> ends = fields.Numbers("universe", {-kLargest, kLargest});
+  const std::vector<double> ends = fields.Numbers("universe", {-kMaxNumber, kMaxNumber});
   if (node != nullptr && fields.ok() && ends.size() == 2 && ends[0] < ends[1]) return Universe{ends[0], ends[1]};
   fields.Complain(node == nullptr ? fields.node().place : node->place,
                   "'universe' must be two rising numbers, such as [0, 180]");

@@ -201,7 +201,7 @@ BoostedTrees FitBoostedTrees(std::span<const LabelledBag> bags, const BoostingOp
 namespace {
 
 constexpr std::size_t kNumbersPerTree = 2 * DecisionTree::kNodes + DecisionTree::kLeaves;
-constexpr double kLargest = 1e12;
+constexpr double kMaxNumber = 1e12;
 
 /// The distance to the example, as RMS over the limbs (1 is 60 degrees), beyond which no move is spotted. The trees
 /// cannot judge motions that are unlike all their training data; 19 of 20 right performances in that data were nearer
@@ -234,7 +234,7 @@ Result<DecisionTree> ReadTree(const Node& node) {
   std::array<double, kNumbersPerTree> numbers{};
   for (std::size_t i = 0; i < kNumbersPerTree; ++i) {
     ASSIGN_OR_RETURN(numbers[i], AsNumber(node.items[i]));
-    if (!(std::abs(numbers[i]) <= kLargest)) return Fail(node.items[i].place, "a number of a tree is {}", numbers[i]);
+    if (!(std::abs(numbers[i]) <= kMaxNumber)) return Fail(node.items[i].place, "a number of a tree is {}", numbers[i]);
   }
   // Assign them: a measure and a limit per node, then the leaves.
   DecisionTree tree;
@@ -255,7 +255,7 @@ Result<BoostedTrees> ReadTrees(Fields& file, const std::string& key) {
   if (node == nullptr) return Fail(file.node().place, "a model needs '{}'", key);
   Fields fields(*node, "'" + key + "'");
   BoostedTrees model;
-  model.bias = fields.Number("bias", 0, {-kLargest, kLargest});
+  model.bias = fields.Number("bias", 0, {-kMaxNumber, kMaxNumber});
   if (const Node* trees = fields.Raw("trees")) {
     if (trees->kind != Node::Kind::kSequence)
       return Fail(trees->place, "'trees' is a list, found {}", Describe(*trees));

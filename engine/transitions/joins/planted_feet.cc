@@ -184,8 +184,8 @@ int WaitsUntil(Frames stands, int frame, int last) {
 /// Returns the possible steps of a foot, which begin and end at tenths of the window. As variants, the foot may keep
 /// the position of its last stance before the step, take that of its next stance after the step, or both.
 std::vector<StepOption> OptionsOf(const FootTracks& foot) {
-  constexpr int kParts = 10, kShortest = 8;
-  const int frames = foot.frames, shortest = std::min(frames, kShortest);
+  constexpr int kParts = 10, kMinStepFrames = 8;
+  const int frames = foot.frames, shortest = std::min(frames, kMinStepFrames);
   std::vector<StepOption> options;
   for (int b = 0; b < kParts; ++b) {
     for (int e = b + 1; e <= kParts; ++e) {
