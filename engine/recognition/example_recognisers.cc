@@ -138,7 +138,7 @@ PoseVector Halved(const PoseVector& pose) {
 }
 
 /// Returns the root mean squared distance between the last steps of `seen` and `pattern`. Returns kFar if `seen` is
-/// shorter than the pattern, or if the distance exceeds `farthest`, which stops max_sum comparisons after a few steps.
+/// shorter than the pattern, or if the distance exceeds `farthest`, which stops most comparisons after a few steps.
 double Distance(std::span<const PoseVector> seen, const Pattern& pattern, double farthest = kFar) {
   if (seen.size() < pattern.size()) return kFar;
   const auto end = seen.last(pattern.size());

@@ -121,6 +121,7 @@ Result<SensedFrame> ReadFrame(std::string_view line, const Place& place) {
   // The first letter tells whether a body is seen.
   line.remove_prefix(letters.size());
   frame.body_seen = letters.front() != '-';
+  // Read the state and the position of each joint.
   for (std::size_t i = 0; i < kRoleCount; ++i) {
     SensedJoint& joint = frame.joints[i];
     joint.state = letters[i] == 't'   ? TrackingState::kTracked

@@ -293,6 +293,7 @@ class ClipReader {
         return file_.Refuse(where + ".target.path", "found {}; allowed: translation, rotation, scale, weights",
                             Quote(source.target_path));
       }
+      // Refuse a second channel for the same property, then read the curve.
       const int joint = nodes_.joint_of[source.target_node];
       if (joint < 0) continue;  // a node that only holds a skinned mesh is not a joint
       const bool is_double = std::ranges::any_of(

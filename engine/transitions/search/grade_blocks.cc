@@ -149,7 +149,7 @@ void SetBlockTarget(const std::string& target) {
 }
 
 double SquaredLimit(double distance) {
-  // The square root and the square are each rounded by at max half a unit in the last place, or by the smallest
+  // The square root and the square are each rounded by at most half a unit in the last place, or by the smallest
   // denormal near zero.
   constexpr double kSlack = 1 + 4 * std::numeric_limits<double>::epsilon();
   return distance * distance * kSlack + std::numeric_limits<double>::denorm_min();

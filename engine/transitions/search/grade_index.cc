@@ -47,7 +47,7 @@ class Splitter {
   }
 
  private:
-  /// Returns the term whose weighted grades vary largest, estimated from a sample of the frames.
+  /// Returns the term whose weighted grades vary most, estimated from a sample of the frames.
   std::size_t WidestAxis(std::span<const int> order) const {
     constexpr std::size_t kSample = 64;
     const std::size_t step = std::max<std::size_t>(1, order.size() / kSample);
