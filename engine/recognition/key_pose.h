@@ -23,8 +23,8 @@ class PoseSequence {
 
   /// Starts a new window: `Asked` counts only passages that begin after this call.
   void Open();
-  /// Takes this frame's match with each pose, in [0, 1]. An empty span means that no body is seen: the frame is ignored
-  /// for holding a pose.
+  /// Takes this frame's match with each pose, in [0, 1]. An empty span means that no body is seen; such a
+  /// frame neither holds nor interrupts a pose.
   void Update(std::span<const double> matches);
 
   /// Returns the score of the best passage since `Open`, of any length. It never decreases until the next `Open`.
@@ -86,8 +86,8 @@ struct FuzzyRulesOptions {
 /// Returns the membership grade of a frame in a key pose, in [0, 1], by a rule of paper A's fuzzy system: "RH is as
 /// taught AND LH is as taught AND …", where AND is the minimum. The grade of "as taught" is the overlap of the
 /// feature's grades in the frame and at the taught angle: Σ min(μ, μ′) / Σ max(μ, μ′) over its terms. With adaptive
-/// weights, a feature of weight w can lower the result to 1 − w at most: max(overlap, 1 − w) (Yager 1981). The result
-/// is 0 if no feature has a positive weight.
+/// weights, a feature of weight w can lower the result to 1 − w, but not further: max(overlap, 1 − w) (Yager 1981). The
+/// result is 0 if no feature has a positive weight.
 double RuleStrength(const FeatureFrame& frame, const TaughtPose& pose, const SightWeights& weights,
                     const Memberships& memberships);
 

@@ -30,7 +30,8 @@ const SettingTable<PlayedOptions>& PlayedSettings();
 /// - the wait and the length of the join;
 /// - the largest acceleration of any joint beyond what either clip has at that time, and beyond the usual acceleration
 ///   of the calmer clip, which is at least 9 m/s² (`excess_per_s`);
-/// - the deviation of the shown frames from both clips' own, as the root mean square over joints, integrated over time
+/// - the deviation of the shown frames from those of the nearer clip, as the root mean square over joints, integrated
+/// over time
 ///   (`invented_per_s`);
 /// - one second for each 10 cm that feet slide;
 /// - 0.1 s for each frame in which no foot bears weight by FootPlan;

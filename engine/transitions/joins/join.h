@@ -21,8 +21,8 @@ struct PosePair {
 
 /// The input of a join at a transition point. All poses are in the frame of the spliced motion.
 struct JoinInput {
-  PosePair shown;   ///< the new motion's frames at the same times
-  PosePair target;  ///< the new motion's frames that would stand in their place
+  PosePair shown;   ///< the last two frames shown
+  PosePair target;  ///< the new motion's frames at the same times
   /// Returns the old motion's next `count` frames, or fewer at its end. Call it only while the join begins.
   std::function<std::vector<BodyPose>(std::size_t count)> continuation;
   /// Returns the new motion's next `count` frames after the point, or fewer at its end. Call it only while the join
