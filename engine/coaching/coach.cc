@@ -9,7 +9,8 @@
 namespace etude {
 namespace {
 
-/// Distances of the hand tips, metres. Ours: a Kinect's hands are some 5 cm off while they move, and palms are thick.
+/// Distances of the hand tips in metres (ours): a Kinect's hands have errors of about 5 cm while moving, and palms are
+/// thick.
 constexpr double kTogether = 0.15, kApart = 0.4;
 constexpr int kTogetherFrames = 2, kSwingFrames = 15;
 
@@ -36,10 +37,11 @@ bool SeeClap(const SensedFrame& frame, ClapState& state) {
 
 namespace {
 
-/// A body at rest wanders by millimetres, a guessed limb by decimetres: what counts is the mean over the joints that
-/// are seen. Ours.
+/// The mean distance of the tracked joints from their rest positions at which the body counts as moving (ours). A
+/// resting body moves by millimetres, while an inferred limb can jump by decimetres, so only the mean over tracked
+/// joints counts.
 constexpr double kMovingMetres = 0.025;
-/// The share of the way to where the joint is now, per frame: a time constant of half a second.
+/// The smoothing factor per frame of the rest positions; it corresponds to a time constant of half a second.
 constexpr double kFollowing = 1.0 / 15;
 
 }  // namespace
@@ -115,23 +117,26 @@ void Coach::PlanAhead() const {
   const auto last_of = [&](int clip) { return static_cast<int>(library.library().motions[clip].poses.size()) - 1; };
   const double lag = options_.reaction_s * kJudgedRateHz;
   const int repetitions = static_cast<int>(dance().repetitions.size());
+  // Plan from every window's end into every corrective act.
   for (const char* act : {"head_shake", "wave", "puzzled"}) {
     const int whole = library.ClipOfAct(act);
     for (int repetition = 0; repetition < repetitions; ++repetition) {
       const double closes = static_cast<double>(dance().repetitions[repetition].end) + lag;
       const int clip = library.ClipLeaving(library.RepetitionAt(closes));
       const int frame = static_cast<int>(std::ceil(closes - static_cast<double>(library.DanceFrameOf(clip))));
-      // A dance that is hurried or slowed closes its windows a frame sooner or later.
+      // A dance that is sped up or slowed down closes its windows one frame earlier or later.
       for (int late = -1; late <= 1; ++late) {
         if (frame + late > last_of(clip)) continue;
         transitions_.Find(clip, frame + late, library.ClipEntering(whole));
       }
     }
+    // Plan from the act into every slow demonstration.
     for (int move = 0; move < static_cast<int>(dance().moves.size()); ++move) {
       transitions_.Find(whole, std::max(last_of(whole) - kBeforeEndFrames, 0),
                         library.ClipEntering(library.ClipOfSlow(move)));
     }
   }
+  // Plan from the demonstrations back into the dance, and from the song's end.
   for (int repetition = 0; repetition < repetitions; ++repetition) {
     const int slow = library.ClipOfSlow(dance().repetitions[repetition].move);
     transitions_.Find(slow, std::max(last_of(slow) - kBeforeEndFrames, 0), library.ClipReturning(repetition));

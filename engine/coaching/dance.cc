@@ -9,12 +9,12 @@
 namespace etude {
 namespace {
 
-/// A clip must have something to leave and something to enter.
-constexpr std::size_t kFewestFrames = 2;
+/// A clip needs one frame to leave and one to enter.
+constexpr std::size_t kMinFrames = 2;
 
 Result<void> CheckMotion(const std::string& title, std::string_view what, const BodyMotion& motion) {
-  if (motion.poses.size() < kFewestFrames) {
-    return Fail({}, "dance '{}': {} has {} frames; at least {}", title, what, motion.poses.size(), kFewestFrames);
+  if (motion.poses.size() < kMinFrames) {
+    return Fail({}, "dance '{}': {} has {} frames; at least {}", title, what, motion.poses.size(), kMinFrames);
   }
   if (motion.rate_hz != kJudgedRateHz) {
     return Fail({}, "dance '{}': {} runs at {} Hz; must be {}", title, what, motion.rate_hz, kJudgedRateHz);
@@ -30,7 +30,7 @@ Result<void> CheckRepetitions(const Dance& dance) {
     if (repetition.move < 0 || repetition.move >= static_cast<int>(dance.moves.size())) {
       return Fail({}, "dance '{}', repetition {}: move {} of {}", dance.title, i, repetition.move, dance.moves.size());
     }
-    if (repetition.first < free_from || repetition.end < repetition.first + kFewestFrames ||
+    if (repetition.first < free_from || repetition.end < repetition.first + kMinFrames ||
         repetition.end > dance.motion.poses.size()) {
       return Fail({}, "dance '{}', repetition {}: frames {} to {}; allowed: {} to {}, two at least", dance.title, i,
                   repetition.first, repetition.end, free_from, dance.motion.poses.size());
@@ -103,7 +103,7 @@ double RateToTag(const Dance& dance, int next, double frame, double music_s, dou
   const double target = next < static_cast<int>(dance.tags.size()) ? static_cast<double>(dance.tags[next].frame)
                                                                    : static_cast<double>(dance.motion.poses.size() - 1);
   const double frames = target - frame, music_frames = (MusicAt(dance, target) - music_s) * kJudgedRateHz;
-  // The music is there already: as fast as may be.
+  // The music is already there, so dance as fast as allowed.
   if (music_frames <= 0) return fastest;
   return std::clamp(frames / music_frames, slowest, fastest);
 }

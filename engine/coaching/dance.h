@@ -11,64 +11,65 @@
 
 namespace etude {
 
-/// A frame that belongs to a moment of the music (paper A, 3.4: the next move is slowed or sped up by it).
+/// A frame with the time of the music at which it should be shown (paper A, 3.4: the next move is slowed down or sped
+/// up).
 struct MusicTag {
   std::size_t frame = 0;
   double music_s = 0;
 };
 
-/// A move of the dance, as the coach knows it.
+/// A move of the dance.
 struct DanceMove {
-  std::string name;   ///< as the recogniser was taught it
-  std::string hint;   ///< the key pose in words: "both arms up"
-  BodyPose key_pose;  ///< its picture
-  BodyMotion slow;    ///< the slow demonstration, 30 Hz; two frames at least
+  std::string name;   ///< the name under which the recogniser was taught it
+  std::string hint;   ///< the key pose in words, for example "both arms up"
+  BodyPose key_pose;  ///< the same pose as a picture
+  BodyMotion slow;    ///< slow demonstration at 30 Hz, at least two frames
 };
 
-/// One performance that the player is to join in: the frames [first, end) of the dance.
+/// One performance in which the player should join, as the frames [first, end) of the dance.
 struct Repetition {
-  int move = 0;  ///< of Dance::moves
+  int move = 0;  ///< index in Dance::moves
   std::size_t first = 0;
   std::size_t end = 0;
 };
 
-/// A clip that the coach plays beside the dance.
+/// A clip that the coach plays outside the dance.
 struct CoachAct {
   std::string name;
-  BodyMotion motion;  ///< 30 Hz, two frames at least
+  BodyMotion motion;  ///< 30 Hz, at least two frames
   bool loops = false;
 };
 
-/// A dance to a song as data: all that a coach shows. Everything is danced by one body, which faces +Z.
+/// A dance to one song: all the data that a coach shows. One body performs everything and faces +Z.
 struct Dance {
   std::string title;
   double tempo_bpm = 120;
-  BodyMotion motion = {};                    ///< 30 Hz, the whole song
-  std::vector<DanceMove> moves = {};         ///< names all different
-  std::vector<Repetition> repetitions = {};  ///< in order, none overlaps the next
-  std::vector<MusicTag> tags = {};           ///< frames and moments ascend strictly; at most one per frame
-  std::vector<CoachAct> acts = {};           ///< those of RequiredActs() at least
-  std::vector<double> beats_s = {};  ///< of the music: when each beat sounds, ascending (click tracks, beat errors)
+  BodyMotion motion = {};                    ///< the whole song at 30 Hz
+  std::vector<DanceMove> moves = {};         ///< with unique names
+  std::vector<Repetition> repetitions = {};  ///< in order and without overlap
+  std::vector<MusicTag> tags = {};           ///< frames and times ascend strictly
+  std::vector<CoachAct> acts = {};           ///< at least those of RequiredActs()
+  std::vector<double> beats_s = {};  ///< times of the music's beats, ascending (for click tracks and beat errors)
 
   const CoachAct* FindAct(std::string_view name) const;
 };
 
-/// Lists "standby", "attract", "doze", "wake", "head_shake", "wave", "puzzled", "praise".
+/// Returns "standby", "attract", "doze", "wake", "head_shake", "wave", "puzzled", "praise".
 std::vector<std::string> RequiredActs();
 
-/// Refuses a dance that breaks what its fields promise, and says why.
+/// Returns an error if the dance violates a rule that its fields state.
 Result<void> CheckDance(const Dance& dance);
 
-/// The moment of the music that belongs to a frame of the dance, seconds: straight between two tags, and at 30 Hz
-/// before the first and after the last.
+/// Returns the music time of a frame of the dance, in seconds: interpolated linearly between two tags, and at 30 Hz
+/// before the first and after the last tag.
 double MusicAt(const Dance& dance, double frame);
 
-/// The first tag of the dance at `frame` or after it.
+/// Returns the index of the dance's first tag at `frame` or later.
 int NextTag(const Dance& dance, double frame);
 
-/// Paper A's music-time tags (3.4): how many frames of the dance to show per frame, from `frame` on, where `music_s` is
-/// heard, so that tag `next` (beyond the last one: the dance's end) is reached when its moment is. Below 1 the move is
-/// slowed, above it is hurried; within [slowest, fastest].
+/// Applies paper A's music-time tags (3.4). Returns the number of dance frames to show per frame, from `frame` on while
+/// the music is at `music_s`, so that tag `next` (after the last one: the dance's end) is reached at its time. Below 1
+/// the move is slowed down, above 1 sped up; the result is clamped to [slowest, fastest].
 double RateToTag(const Dance& dance, int next, double frame, double music_s, double slowest, double fastest);
 
 }  // namespace etude

@@ -11,13 +11,13 @@
 namespace etude {
 namespace {
 
-/// The frames beyond the next repetition's beginning: the wait for a window to close, the budget of a transition, and
-/// what the joins take to go on with.
+/// The number of frames after the beginning of the next repetition that a leaving clip contains: the wait for a window
+/// to close, the budget of a transition, and the frames that a join needs.
 constexpr std::size_t kLeavingFrames = 60;
-/// The frames in which an act may be entered: half a second and the longest join.
+/// The number of frames of an act that an entering clip contains: half a second and the longest join.
 constexpr std::size_t kEnteringFrames = 15 + 30 + 1;
-/// The frames around a repetition that is returned to: a lead, so that whoever follows is moving when it begins, and
-/// the longest join.
+/// The number of frames before and after the beginning of a repetition that a returning clip contains: a lead-in, so
+/// that a follower is moving when it begins, and the longest join.
 constexpr std::size_t kBeforeFrames = 45, kIntoFrames = 30;
 
 BodyMotion Excerpt(const BodyMotion& motion, std::size_t first, std::size_t end) {
@@ -27,7 +27,7 @@ BodyMotion Excerpt(const BodyMotion& motion, std::size_t first, std::size_t end)
   return cut;
 }
 
-/// Clips and what they are called, as MakeLibrary takes them.
+/// Clips and their names, as MakeLibrary takes them.
 struct Clips {
   std::vector<std::string> names;
   std::vector<BodyMotion> motions;
@@ -43,9 +43,11 @@ Result<DanceLibrary> DanceLibrary::Make(Dance dance) {
   RETURN_IF_ERROR(CheckDance(dance));
   DanceLibrary made;
   Clips clips;
+  // Add the whole acts and slow demonstrations.
   for (const CoachAct& act : dance.acts) clips.Add(act.name, act.motion);
   for (const DanceMove& move : dance.moves) clips.Add("slow_" + move.name, move.slow);
 
+  // Add the excerpts of the dance that are left, one per repetition and one for the song's beginning.
   const std::size_t frames = dance.motion.poses.size();
   const int count = static_cast<int>(dance.repetitions.size());
   const auto first_of = [&](int repetition) {
@@ -58,11 +60,13 @@ Result<DanceLibrary> DanceLibrary::Make(Dance dance) {
     clips.Add("dance from " + std::to_string(first), Excerpt(dance.motion, first, end));
     made.dance_frames_.push_back(first);
   }
+  // Add the beginnings of the acts and demonstrations, which are entered.
   const std::size_t wholes = dance.acts.size() + dance.moves.size();
   for (std::size_t whole = 0; whole < wholes; ++whole) {
     clips.Add(clips.names[whole],
               Excerpt(clips.motions[whole], 0, std::min(kEnteringFrames, clips.motions[whole].poses.size())));
   }
+  // Add the excerpts of the dance that are returned to.
   for (int repetition = -1; repetition < count; ++repetition) {
     const std::size_t begin = first_of(repetition);
     const std::size_t first = begin - std::min(begin, kBeforeFrames);
@@ -70,6 +74,7 @@ Result<DanceLibrary> DanceLibrary::Make(Dance dance) {
               Excerpt(dance.motion, first, std::min(begin + kIntoFrames + 1, frames)));
     made.dance_frames_.push_back(first);
   }
+  // Prepare all clips for transitions.
   const BodyPose& body = dance.motion.poses.front();
   made.library_ = MakeLibraryOfOneBody(std::move(clips.names), std::move(clips.motions),
                                        MakeBodyProportions(body, StandingHipHeight(body)));

@@ -10,43 +10,44 @@
 
 namespace etude {
 
-/// A dance made ready for transitions, once for all who dance it: a library of its acts, its slow demonstrations, and
-/// of what is danced around each repetition.
+/// A dance prepared for transitions, once for all sessions: a library of its acts, its slow demonstrations, and
+/// excerpts around each repetition.
 class DanceLibrary {
  public:
-  /// Refuses what CheckDance does.
+  /// Makes the library. Returns the errors of CheckDance.
   static Result<DanceLibrary> Make(Dance dance);
 
   const Dance& dance() const { return dance_; }
   const MotionLibrary& library() const { return library_; }
 
-  // Clips of the library. `repetition` -1 stands for the song's beginning.
-  /// The whole clip of an act of the dance, and that of a slow demonstration: clips to be left.
+  // The following functions return clips of the library. A `repetition` of −1 stands for the song's beginning.
+  /// ClipOfAct returns the whole clip of an act, ClipOfSlow that of a slow demonstration; these clips are left.
   int ClipOfAct(std::string_view act) const;
   int ClipOfSlow(int move) const;
-  /// The clip to be left at a frame between this repetition and a while into the next one; the last one's reaches to
-  /// the song's end.
+  /// Returns the clip from which the dance is left between this repetition's beginning and some time into the next one.
+  /// The last one extends to the song's end.
   int ClipLeaving(int repetition) const;
-  /// The clip of the beginning of a whole act or slow demonstration: transitions enter it, so that they cannot skip the
-  /// main part.
+  /// Returns the beginning of a whole act or slow demonstration. Transitions enter this clip, so that they cannot skip
+  /// the main part.
   int ClipEntering(int whole) const;
-  /// The clip of the dance that is entered to go (back) to a repetition: from a while before it to a while into it.
+  /// Returns the clip by which the dance is entered at a repetition: from some time before its beginning to some time
+  /// after it.
   int ClipReturning(int repetition) const;
 
-  /// The clip that is played on once this one was entered: the whole one of a beginning.
+  /// Returns the clip that continues after `clip` was entered: for a beginning the whole clip, else `clip` itself.
   int WholeOf(int clip) const;
-  /// The repetition that has begun last at a frame of the dance; −1 before the first.
+  /// Returns the last repetition that has begun at a frame of the dance; −1 before the first.
   int RepetitionAt(double dance_frame) const;
-  /// The frame of the dance that is the first of a clip that is left or returned to.
+  /// Returns the dance frame that is the first frame of a leaving or returning clip.
   std::size_t DanceFrameOf(int clip) const;
-  /// Says whether the dance is returned to through this clip.
+  /// Returns true if the dance is entered through this clip.
   bool IsReturning(int clip) const { return clip >= ClipReturning(-1); }
   bool IsLoop(int clip) const;
 
  private:
   Dance dance_;
   MotionLibrary library_;
-  std::vector<std::size_t> dance_frames_;  // of the clips that are left, then of those returned to
+  std::vector<std::size_t> dance_frames_;  // of the leaving clips, then of the returning clips
 };
 
 }  // namespace etude

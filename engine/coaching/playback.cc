@@ -12,8 +12,8 @@
 namespace etude {
 namespace {
 
-/// The record's segments with the playing clip as clip 0, begun `skipped` frames later, and the wanted one as clip 1;
-/// clips on the way are added to `clips`.
+/// Returns the record's segments with the playing clip as clip 0, shortened by its first `skipped` frames, and the
+/// wanted clip as clip 1. Other clips on the way are appended to `clips`.
 std::vector<Segment> Renumbered(const TransitionRecord& record, int skipped, const std::vector<BodyMotion>& motions,
                                 std::vector<BodyMotion>& clips) {
   std::vector<Segment> segments = record.segments;
@@ -70,22 +70,25 @@ std::shared_ptr<const ShownPath> DanceTransitions::FindHome(int from, int frame,
 std::shared_ptr<const ShownPath> DanceTransitions::Splice(int from, int frame, const FloorMove* home_from,
                                                           int to) const {
   const std::vector<BodyMotion>& motions = library_.library().motions;
-  // All that a join looks back on is the frame before the request's.
+  // A join looks back only at the frame before the request's frame.
   const int skipped = std::max(frame - 1, 0);
   std::vector<BodyMotion> clips(2);
   clips[0].rate_hz = motions[from].rate_hz;
   clips[0].poses.assign(motions[from].poses.begin() + skipped, motions[from].poses.end());
   clips[1] = motions[to];
+  // Show the playing clip at its place if the wanted one has a fixed place.
   if (home_from != nullptr) {
     for (BodyPose& pose : clips[0].poses) pose = home_from->Apply(pose);
   }
 
   auto path = std::make_shared<ShownPath>();
+  // Plan the transition; without one, cut.
   const auto record = Plan(from, frame, to);
   const bool arrives = !record->segments.empty() && record->segments.back().clip == to;
   if (!arrives) {
     *path = CutTo(clips[0].poses[frame - skipped], clips[1], home_from != nullptr);
   } else {
+    // Join the clips and keep the frames after the request.
     std::vector<Segment> segments = Renumbered(*record, skipped, motions, clips);
     segments.back().in_place = home_from != nullptr;
     const etude::Splice splice = SpliceSegments(clips, segments, *way_.join, way_.join_settings);
@@ -105,13 +108,13 @@ std::shared_ptr<const ShownPath> DanceTransitions::Splice(int from, int frame, c
 
 namespace {
 
-/// Returns the move that does first `inner`, then `outer`.
+/// Returns the move that applies `inner` first, then `outer`.
 FloorMove After(const FloorMove& outer, const FloorMove& inner) {
   const glm::dvec3 shift = outer.Apply(glm::dvec3(inner.x, 0, inner.z));
   return {.yaw = outer.yaw + inner.yaw, .x = shift.x, .z = shift.z};
 }
 
-/// The place of the path's clip in the world.
+/// Returns the floor move of the path's clip in the world.
 FloorMove ClipPlace(const Playback& playback) { return After(playback.place, playback.path->place); }
 
 BodyPose DancePose(const Dance& dance, double frame) {
@@ -122,7 +125,7 @@ BodyPose DancePose(const Dance& dance, double frame) {
   return PoseBetween(poses[before], poses[std::min(before + 1, poses.size() - 1)], at - std::floor(at));
 }
 
-/// A whole frame of a path, and of its clip after that: a loop goes on, another clip keeps its last pose.
+/// Returns a frame of a path, or after its end of its clip: a loop is repeated, another clip keeps its last pose.
 BodyPose PathPose(const Playback& playback, const DanceLibrary& library, std::size_t frame) {
   const ShownPath& path = *playback.path;
   if (frame < path.frames.size()) return playback.place.Apply(path.frames[frame]);
@@ -132,8 +135,8 @@ BodyPose PathPose(const Playback& playback, const DanceLibrary& library, std::si
   return ClipPlace(playback).Apply(clip[index]);
 }
 
-/// The place at which a clip is left: the clip of the library, its whole frame, the fraction shown beyond that, and
-/// where it is laid.
+/// The point at which a clip is left: the clip, its whole frame, the fraction of a frame shown beyond it, and the
+/// clip's floor move.
 struct Leaving {
   int clip = 0;
   int frame = 0;
@@ -191,7 +194,7 @@ BodyPose ShownPose(const Playback& playback, const DanceLibrary& library) {
 
 bool IsOver(const Playback& playback, const DanceLibrary& library, double before) {
   if (!playback.path) {
-    constexpr double kRounding = 1e-6;  // of rates summed up
+    constexpr double kRounding = 1e-6;  // accumulated rounding of the rates
     return playback.dance_frame + before + kRounding >= static_cast<double>(library.dance().motion.poses.size() - 1);
   }
   if (library.IsLoop(playback.path->clip)) return false;
@@ -201,9 +204,9 @@ bool IsOver(const Playback& playback, const DanceLibrary& library, double before
 }
 
 bool IsSettled(const Playback& playback) {
-  constexpr double kLongestJoin = 30;  // frames
+  constexpr double kMaxJoinFrames = 30;  // frames
   if (!playback.path || playback.path->frames.empty()) return true;
-  return playback.path_frame >= static_cast<double>(playback.path->entered) + kLongestJoin;
+  return playback.path_frame >= static_cast<double>(playback.path->entered) + kMaxJoinFrames;
 }
 
 void Advance(Playback& playback, const DanceLibrary& library, double rate) {
@@ -221,7 +224,7 @@ void Advance(Playback& playback, const DanceLibrary& library, double rate) {
 void LeaveFor(int clip, Playback& playback, const DanceTransitions& transitions) {
   const Leaving leaving = LeavingOf(playback, transitions.library());
   playback.path = transitions.Find(leaving.clip, leaving.frame, clip);
-  // The path's first frame comes after the whole frame that was left; Advance is still to come.
+  // The path's first frame follows the whole frame that was left; Advance will add 1 to it.
   playback.path_frame = leaving.beyond - 1;
   playback.place = leaving.place;
 }

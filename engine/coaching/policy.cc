@@ -9,7 +9,7 @@ namespace {
 
 using Values = std::span<const double>;
 
-/// Corrects after so many mistakes in a row of a move.
+/// Options of `after-n`: the number of consecutive mistakes in a move after which it is corrected.
 struct AfterOptions {
   int mistakes = 2;
 };

@@ -16,7 +16,7 @@ struct CoachSession::Perception {
   LiveSight sight;
   std::unique_ptr<MoveFollower> follower;
   LiveSight mirror_sight;
-  std::unique_ptr<MoveFollower> mirror_follower;  // null: nobody looks at the mirror image
+  std::unique_ptr<MoveFollower> mirror_follower;  // null if the mirror image is not followed
 
   void Ask(std::optional<std::size_t> move) {
     follower->Ask(move);

@@ -10,36 +10,37 @@
 
 namespace etude {
 
-/// The inputs of a session beside the sensor's frame.
+/// The inputs of a session in addition to the sensor's frame.
 struct SessionInput {
-  std::optional<double> music_s = {};   ///< CoachInput's
-  std::optional<bool> told_right = {};  ///< likewise
-  bool moment = false;                  ///< likewise
+  std::optional<double> music_s = {};   ///< as in CoachInput
+  std::optional<bool> told_right = {};  ///< as in CoachInput
+  bool moment = false;                  ///< as in CoachInput
 };
 
-/// A coach with a sensor: recogniser and Coach::Step, frame by frame. What is judged in the benchmark and what runs
-/// live is this.
+/// A coach with a sensor: it runs the recogniser and Coach::Step frame by frame. The benchmark and live sessions both
+/// use this class.
 class CoachSession {
  public:
   struct Parts {
     const Coach* coach = nullptr;
-    const Recogniser* recogniser = nullptr;  ///< taught the moves of the dance, in their order
+    const Recogniser* recogniser = nullptr;  ///< taught the moves of the dance, in the same order
     FilterOptions filter = {};
-    bool tells_wrong_side = true;  ///< a second follower looks at the mirror image: words only, and time
+    /// A second follower judges the mirror image; it affects only words and computing time.
+    bool tells_wrong_side = true;
   };
 
-  /// Starts in `begin`, which Coach::Begin() or BeginDancing() made. All that `parts` points to must outlive the
+  /// Starts in state `begin` from Coach::Begin() or BeginDancing(). The objects that `parts` points to must outlive the
   /// session.
   CoachSession(const Parts& parts, CoachState begin);
   ~CoachSession();
   CoachSession(CoachSession&&) noexcept;
   CoachSession& operator=(CoachSession&&) noexcept;
 
-  /// Takes the sensor's next frame, as it came.
+  /// Processes the sensor's next raw frame.
   CoachOutput Next(const SensedFrame& frame, const SessionInput& input = {});
 
   const CoachState& state() const { return state_; }
-  /// Replaces the state while no window is open; what was seen of the player so far is kept.
+  /// Replaces the state while no window is open; filters and followers keep theirs.
   void ReplaceState(CoachState state) { state_ = std::move(state); }
 
  private:
@@ -50,7 +51,7 @@ class CoachSession {
   std::unique_ptr<Perception> perception_;
 };
 
-/// Returns the frame as the sensor would have seen it in a mirror: left and right exchanged, x reversed.
+/// Returns the frame as the sensor would see it in a mirror: left and right exchanged, x negated.
 SensedFrame MirrorImage(const SensedFrame& frame);
 
 }  // namespace etude

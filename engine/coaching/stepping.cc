@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-/// A hint where to stand must be due for so long before it changes.
+/// The number of frames for which a new position hint must be due before it replaces the current one.
 constexpr int kHintFrames = 15;
 
 std::string_view WordsOf(CoachMode mode) {
@@ -56,11 +56,12 @@ void Stepping::Run() {
 void Stepping::Watch() {
   if (SeeClap(input_.seen.skeleton, state_.clap)) state_.clap_waits = true;
   const bool moves = SeeMotion(input_.seen.skeleton, state_.stillness);
-  // Who only watches takes part.
+  // A player who only watches takes part.
   const bool is_asked = state_.mode == CoachMode::kStandby || state_.mode == CoachMode::kDance;
   if (moves || !is_asked) state_.idle_since = state_.frame;
   if (input_.moment) state_.moment_waits = true;
 
+  // Change the position hint if another one has been due for some time.
   const PlayerHint hint = WhereToStand();
   state_.stand_frames = hint == state_.stand ? 0 : state_.stand_frames + 1;
   if (state_.stand_frames < kHintFrames) return;
@@ -211,7 +212,7 @@ void Stepping::Interrupt(int repetition, std::string why) {
   state_.correcting = repetition;
   ++state_.moves[MoveOf(repetition)].corrections;
   ++state_.song.corrections;
-  // A head shake first, then a wave: look here; whoever fails again and again sees no "no" any more.
+  // Shake the head first, then wave for attention; after many mistakes in a row act puzzled instead of saying no.
   const std::string_view act = is_puzzled ? "puzzled" : state_.corrections_here > 1 ? "wave" : "head_shake";
   if (is_puzzled) why += fmt::format("; {} in a row: puzzled", state_.song.mistakes_in_row);
   StopMusic();
@@ -243,7 +244,7 @@ void Stepping::Become(CoachMode mode) {
   state_.mode_since = state_.frame;
   state_.idle_since = state_.frame;
   state_.rate = 1;
-  // What was clapped in a dance was part of it.
+  // Claps during a dance belong to the dance.
   state_.clap_waits = false;
   if (mode != CoachMode::kDance) state_.open.reset();
 }
@@ -272,17 +273,19 @@ void Stepping::Say(std::string_view words, double seconds) {
 }
 
 void Stepping::FollowMusic(double dance_frame) {
+  // Start the music with the dance.
   if (!state_.music_plays) {
     out_.music = {.kind = MusicCommand::Kind::kPlayFrom, .music_s = MusicAt(dance_, dance_frame)};
     state_.music_plays = true;
     state_.next_tag = NextTag(dance_, dance_frame);
     return;
   }
-  // The last frame is kept until the music comes to it.
+  // The last frame is held until the music reaches it.
   if (!input_.music_s || IsOver(state_.playback, library_)) return;
   const double error_s = *input_.music_s - MusicAt(dance_, dance_frame);
   out_.beat_error_s = error_s;
   const int count = static_cast<int>(dance_.tags.size());
+  // At each tag that is reached, set the rate for the way to the next one.
   while (state_.next_tag < count && dance_frame >= static_cast<double>(dance_.tags[state_.next_tag].frame)) {
     const int tag = state_.next_tag++;
     if (options_.follows_tags) {

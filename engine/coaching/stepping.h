@@ -7,13 +7,14 @@
 
 namespace etude {
 
-/// An act is left so long before its end, while it is at rest in the ready stance: a join has something to go on with.
+/// The number of frames before its end at which an act is left. Then it rests in the ready stance, and a join has
+/// frames to continue with.
 constexpr int kBeforeEndFrames = 15;
 
-/// One frame of Coach::Step: takes the player in, goes on playing, shows that, and decides what comes next.
+/// One call of Coach::Step: takes the player's input, advances the playback, shows it, and decides what comes next.
 class Stepping {
  public:
-  /// Prepares a step. Everything must outlive this; `step.state` is changed, `step.output` filled.
+  /// Prepares a step. All arguments must outlive this object; `step.state` is changed and `step.output` is filled.
   Stepping(const DanceTransitions& transitions, const CoachOptions& options, const Coach::PolicyChoice& policy,
            const CoachInput& input, CoachStep& step);
 
@@ -25,17 +26,17 @@ class Stepping {
   PlayerHint WhereToStand() const;
   bool IsIdleFor(double seconds) const;
 
-  // What is shown.
+  // The output.
   void Show();
   void Picture();
 
-  // The machine, by mode.
+  // The state machine, by mode.
   void Decide();
   void Wait();
   void DanceOn();
   void Correct();
 
-  // The dance's music and windows (these in stepping_windows.cc).
+  // Music and windows of the dance (these functions are in stepping_windows.cc).
   void FollowMusic(double dance_frame);
   void OpenWindowAt(double dance_frame);
   void CloseWindow();
@@ -45,7 +46,7 @@ class Stepping {
   void AnswerMistake(Mistake mistake);
   void AnswerMoment(double dance_frame);
 
-  // Ways from mode to mode.
+  // Changes from mode to mode.
   void BeginSong();
   void EndSong();
   void Interrupt(int repetition, std::string why);

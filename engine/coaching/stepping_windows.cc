@@ -1,4 +1,4 @@
-// What becomes of the performances that a player is asked for: windows, verdicts, answers.
+// Windows, verdicts and answers to the performances that a player is asked for.
 #include <fmt/format.h>
 
 #include <utility>
@@ -30,7 +30,7 @@ void Stepping::OpenWindowAt(double dance_frame) {
   const double opens = static_cast<double>(repetition.first) + options_.reaction_s * kJudgedRateHz;
   if (dance_frame < opens) return;
   ++state_.next_window;
-  // One that the coach itself entered late was shown to nobody whole, and is asked of nobody.
+  // If the coach itself entered the repetition late, nobody saw it completely, so nobody is asked for it.
   constexpr double kLateFrames = 3;
   if (dance_frame > opens + kLateFrames) return;
   state_.open = {.repetition = index, .move = repetition.move};
@@ -63,6 +63,7 @@ void Stepping::JudgeEarly() {
 }
 
 void Stepping::Remember(WindowVerdict verdict) {
+  // Count the verdict for the move and for the song.
   const OpenWindow window = *state_.open;
   const bool was_wrong = state_.moves[window.move].mistakes_in_row > 0;
   if (verdict != WindowVerdict::kUnknown) {
@@ -73,6 +74,7 @@ void Stepping::Remember(WindowVerdict verdict) {
     }
   }
   state_.decided = true;
+  // Record it; praise a right performance after a mistake.
   const auto note = [&](CoachEvent event, std::string why) {
     CoachRecord& record = Note(event, std::move(why));
     record.repetition = window.repetition;
@@ -110,6 +112,7 @@ void Stepping::CloseWindow() {
 void Stepping::AnswerMistake(Mistake mistake) {
   const OpenWindow window = *state_.open;
   const double evidence = input_.evidence.asked;
+  // Record the mistake.
   CoachRecord& record =
       Note(CoachEvent::kWrong,
            fmt::format("{}: evidence {:.2f}, right from {:.2f} on; moved in {} of {} frames", MistakeName(mistake),
@@ -118,6 +121,7 @@ void Stepping::AnswerMistake(Mistake mistake) {
   record.move = window.move;
   record.mistake = mistake;
   record.evidence = evidence;
+  // Ask the policy; a repetition is corrected only a limited number of times.
   const PolicyInput asked{.verdict = WindowVerdict::kWrong,
                           .evidence = evidence,
                           .right_from = options_.right_from,

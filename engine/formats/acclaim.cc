@@ -11,15 +11,15 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kMostBones = 1000;
+constexpr std::size_t kMaxBones = 1000;
 constexpr double kCmuRateHz = 120;
 
-/// Walks the lines of a text that hold words; what follows a '#' is a remark.
+/// Walks the lines of a text that hold words; a '#' begins a comment.
 class Lines {
  public:
   Lines(std::string_view text, const std::string& file) : scanner_(text, file), text_(text) {}
 
-  /// Makes `words` those of the next line that has any; false at the end.
+  /// Sets `words` to those of the next line that has any; returns false at the end.
   bool Next() {
     while (!text_.empty()) {
       const std::size_t end = std::min(text_.find_first_of("\r\n"), text_.size());
@@ -69,7 +69,7 @@ glm::dquat TurnAbout(int axis, double angle) {
   return glm::angleAxis(angle, direction);
 }
 
-/// The turn of three angles, about the axes that `order` names ("XYZ"), the first one first.
+/// Returns the rotation by three angles about the axes that `order` names ("XYZ"); the first one is applied first.
 Result<glm::dquat> TurnInOrder(const glm::dvec3& angles, std::string_view order, const Place& place) {
   glm::dquat turn(1, 0, 0, 0);
   bool is_order = order.size() == 3;
@@ -91,10 +91,10 @@ std::optional<AcclaimSkeleton::Channel> ChannelNamed(std::string_view name) {
 
 struct AcclaimBone {
   std::string name;
-  glm::dvec3 end{0};  ///< from its beginning, in the rest pose
+  glm::dvec3 end{0};  ///< vector from the bone's beginning, in the rest pose
   glm::dquat axes{1, 0, 0, 0};
   std::vector<AcclaimSkeleton::Channel> channels = {};
-  glm::dvec3 begin{0};  ///< of the root: where it stands
+  glm::dvec3 begin{0};  ///< of the root: its position
 };
 
 class SkeletonReader {
@@ -102,8 +102,8 @@ class SkeletonReader {
   SkeletonReader(std::string_view text, const std::string& file) : file_(file), lines_(text, file) {}
 
   Result<AcclaimSkeleton> Read() {
-    bool goes_on = lines_.Next();
-    while (goes_on) {
+    bool has_line = lines_.Next();
+    while (has_line) {
       if (!lines_.IsSection()) return Fail(lines_.At(), "{}; allowed: a section such as :bonedata", Found());
       const std::string section(lines_.words.front().text.substr(1));
       Result<bool> read = section == "units"       ? ReadUnits()
@@ -112,7 +112,7 @@ class SkeletonReader {
                           : section == "hierarchy" ? ReadHierarchy()
                                                    : SkipSection();
       if (!read) return tl::unexpected(read.error());
-      goes_on = *read;
+      has_line = *read;
     }
     if (bones_.size() < 2) return Fail({file_}, "no bones; allowed: an Acclaim skeleton with :root and :bonedata");
     return Assemble();
@@ -154,11 +154,12 @@ class SkeletonReader {
 
   Result<bool> ReadRoot() {
     AcclaimBone& root = bones_.front();
+    // Read the root's channels, position and orientation, in any order.
     glm::dvec3 angles(0);
     std::string order = "XYZ";
     Place place = lines_.At();
-    bool goes_on = false;
-    while ((goes_on = lines_.Next()) && !lines_.IsSection()) {
+    bool has_line = false;
+    while ((has_line = lines_.Next()) && !lines_.IsSection()) {
       if (lines_.Is("order")) RETURN_IF_ERROR(ReadChannels(root));
       if (lines_.Is("axis") && lines_.words.size() > 1) {
         order = lines_.words[1].text;
@@ -173,10 +174,11 @@ class SkeletonReader {
     }
     for (int i = 0; i < 3; ++i) angles[i] = Radians(angles[i]);
     ASSIGN_OR_RETURN(root.axes, TurnInOrder(angles, order, place));
-    return goes_on;
+    return has_line;
   }
 
   Result<void> ReadBone() {
+    // Read the bone's properties up to 'end'.
     AcclaimBone bone;
     const Place place = lines_.At();
     glm::dvec3 direction(0);
@@ -198,9 +200,10 @@ class SkeletonReader {
         ASSIGN_OR_RETURN(bone.axes, TurnInOrder(angles, order, lines_.At(4)));
       }
     }
+    // Check and store the bone.
     if (bone.name.empty()) return Fail(place, "a bone without a name");
     if (FindBone(bone.name)) return Fail(place, "the bone {} stands here twice", Quote(bone.name));
-    if (bones_.size() > kMostBones) return Fail(place, "more than {} bones", kMostBones);
+    if (bones_.size() > kMaxBones) return Fail(place, "more than {} bones", kMaxBones);
     bone.end = direction * length;
     bones_.push_back(std::move(bone));
     return {};
@@ -237,10 +240,11 @@ class SkeletonReader {
     return false;
   }
 
-  /// Puts parents before their children.
+  /// Builds the skeleton, with parents before their children.
   Result<AcclaimSkeleton> Assemble() const {
     AcclaimSkeleton made;
     made.in_degrees = in_degrees_;
+    // Go down the hierarchy depth first; a bone without children gets an end site.
     std::map<std::size_t, int> joint_of;
     std::vector<std::size_t> waiting = {0};
     while (!waiting.empty()) {
@@ -267,6 +271,7 @@ class SkeletonReader {
       made.channels.emplace_back();
       made.axes.emplace_back(1, 0, 0, 0);
     }
+    // Every bone must have been reached.
     if (joint_of.size() == bones_.size()) return made;
     const auto lost =
         std::ranges::find_if(bones_, [&](const AcclaimBone& bone) { return !joint_of.contains(*FindBone(bone.name)); });
@@ -281,7 +286,7 @@ class SkeletonReader {
   std::map<std::size_t, std::size_t> parent_of_;
 };
 
-/// Reads what a line tells of a joint.
+/// Reads the line of one joint in a frame of a motion.
 Result<LocalTransform> ReadTransform(const Lines& lines, const AcclaimSkeleton& skeleton, std::size_t joint,
                                      bool in_degrees) {
   const auto& channels = skeleton.channels[joint];
@@ -316,6 +321,7 @@ Result<AcclaimSkeleton> ReadAcclaimSkeleton(std::string_view text, const std::st
 }
 
 Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& skeleton, const std::string& file) {
+  // Look up bones by their names.
   std::map<std::string_view, std::size_t> joint_of;
   for (std::size_t joint = 0; joint < skeleton.skeleton.joints.size(); ++joint) {
     if (!skeleton.skeleton.joints[joint].is_end_site) joint_of[skeleton.skeleton.joints[joint].name] = joint;
@@ -324,6 +330,7 @@ Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& ske
   bool in_degrees = skeleton.in_degrees;
   double last = 0;
   Lines lines(text, file);
+  // A line is a directive, the number of the next frame, or the values of one bone.
   while (lines.Next()) {
     if (lines.IsSection()) {
       if (lines.Is(":DEGREES")) in_degrees = true;

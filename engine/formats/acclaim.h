@@ -11,29 +11,30 @@
 
 namespace etude {
 
-/// A skeleton of Acclaim's ASF, as CMU's recordings have it. A bone is a joint where the bone begins; bones that
-/// nothing follows end in an end site. All joints of the rest pose have the world's axes.
+/// A skeleton from Acclaim's ASF format, which CMU's recordings use. Each bone becomes a joint at the bone's beginning;
+/// bones without children get an end site. In the rest pose all joints have the world's axes.
 struct AcclaimSkeleton {
-  /// A number that a motion tells of a bone: a move along or a turn about X, Y or Z.
+  /// A value of a bone in each frame of a motion: a translation along or a rotation about X, Y or Z.
   struct Channel {
     bool turns = true;
     int axis = 0;
   };
-  Skeleton skeleton;                           ///< "root" first; the file's unit
-  std::vector<std::vector<Channel>> channels;  ///< of each joint, in the order in which a motion tells them
-  std::vector<glm::dquat> axes;                ///< of each joint: in which its turns are told
+  Skeleton skeleton;                           ///< "root" comes first; lengths are in the file's unit
+  std::vector<std::vector<Channel>> channels;  ///< per joint, in the order of the values in a motion
+  std::vector<glm::dquat> axes;                ///< per joint: the axes of its rotations
   bool in_degrees = true;
 };
 
-/// Tells whether a text begins like a motion (AMC): after remarks, a line ":FULLY-SPECIFIED" or ":DEGREES".
+/// Returns true if a text begins like a motion (AMC): after comments, with a line ":FULLY-SPECIFIED" or ":DEGREES".
 bool IsAcclaimMotion(std::string_view text);
 
-/// Reads an ASF. Refused, with file:line:column: what is not Acclaim's, lengths of bones as channels, bones that are
-/// told twice or hang on none, numbers beyond ±10⁹, more than 1,000 bones.
+/// Reads an ASF file. Returns an error with file:line:column if the text is not Acclaim's, has bone lengths as
+/// channels, bones that are defined twice or not connected, numbers beyond ±10⁹, or more than 1,000 bones.
 Result<AcclaimSkeleton> ReadAcclaimSkeleton(std::string_view text, const std::string& file);
 
-/// Reads an AMC on such a skeleton. The file tells no rate: CMU's have 120 Hz. Refused: bones that the skeleton lacks,
-/// another count of numbers than its channels, frames that are not numbered one after the other, no frames.
+/// Reads an AMC file for such a skeleton. The file has no frame rate; 120 Hz is assumed, as in CMU's. Returns an error
+/// for bones that the skeleton lacks, a number of values other than that of the channels, frames that are not numbered
+/// consecutively, or no frames.
 Result<Clip> ReadAcclaimMotion(std::string_view text, const AcclaimSkeleton& skeleton, const std::string& file);
 
 }  // namespace etude

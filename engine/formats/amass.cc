@@ -10,8 +10,8 @@
 namespace etude {
 namespace {
 
-/// SMPL's joints in their order, and our own T-pose: metres from the joint above; X to the left, Y up, facing +Z.
-/// Segment lengths after Drillis and Contini (1966) for 1.70 m.
+/// A joint of SMPL with its offset in our own T-pose: metres from the parent; X to the left, Y up, facing +Z. Segment
+/// lengths follow Drillis and Contini (1966) for a height of 1.70 m.
 struct SmplJoint {
   const char* name;
   int parent;
@@ -56,7 +56,7 @@ Skeleton SmplSkeleton() {
                                .rest = {.translation = joint.offset},
                                .is_end_site = joint.is_end_site});
   }
-  // The recordings have Z up, and turn the pelvis there: so does who rests.
+  // The recordings have Z up and rotate the pelvis accordingly; the rest pose must do so, too.
   skeleton.joints.front().rest.rotation = glm::angleAxis(kPi / 2, glm::dvec3(1, 0, 0));
   return skeleton;
 }
@@ -72,7 +72,7 @@ glm::dquat TurnOf(const double* axis_times_angle) {
   return angle > 0 ? glm::angleAxis(angle, turn / angle) : glm::dquat(1, 0, 0, 0);
 }
 
-/// The number of columns of an array of rows; 0 when it is none.
+/// Returns the number of columns of a two-dimensional array; 0 for any other array.
 std::size_t WidthOf(const NumberArray* array) {
   return array != nullptr && array->shape.size() == 2 ? array->shape[1] : 0;
 }
@@ -80,6 +80,7 @@ std::size_t WidthOf(const NumberArray* array) {
 }  // namespace
 
 Result<Clip> ReadAmass(const Npz& npz, const std::string& file) {
+  // Find the arrays and check their shapes.
   const NumberArray *poses = Find(npz, "poses"), *places = Find(npz, "trans"), *rate = Find(npz, "mocap_framerate");
   if (rate == nullptr) rate = Find(npz, "mocap_frame_rate");
   const std::size_t width = WidthOf(poses);
@@ -93,23 +94,25 @@ Result<Clip> ReadAmass(const Npz& npz, const std::string& file) {
                 "mocap_framerate or mocap_frame_rate; places of joints stand in a .npy",
                 names.empty() ? "none" : Join(names));
   }
+  // Check frames, rate and values.
   const std::size_t frames = poses->shape[0];
   if (frames == 0) return Fail({file}, "no frames");
   if (places->shape[0] != frames) {
     return Fail({file}, "trans has {} frames; poses has {}", places->shape[0], frames);
   }
-  constexpr double kSlowest_hz = 1, kFastest_hz = 10'000, kLargestValue = 1e6;
+  constexpr double kMinRate_hz = 1, kMaxRate_hz = 10'000, kMaxValue = 1e6;
   const double rate_hz = rate->values.front();
-  if (!(rate_hz >= kSlowest_hz && rate_hz <= kFastest_hz)) {
-    return Fail({file}, "a rate of {} Hz; allowed: {} to {}", rate_hz, kSlowest_hz, kFastest_hz);
+  if (!(rate_hz >= kMinRate_hz && rate_hz <= kMaxRate_hz)) {
+    return Fail({file}, "a rate of {} Hz; allowed: {} to {}", rate_hz, kMinRate_hz, kMaxRate_hz);
   }
   for (const NumberArray* array : {poses, places}) {
     for (std::size_t i = 0; i < array->values.size(); ++i) {
-      if (std::abs(array->values[i]) <= kLargestValue) continue;
+      if (std::abs(array->values[i]) <= kMaxValue) continue;
       return Fail({file}, "{} of frame {} is {}; allowed: numbers within ±10⁶", array == poses ? "poses" : "trans",
                   i / array->shape[1], array->values[i]);
     }
   }
+  // Make the clip; rotations beyond the 22 body joints are left out.
   Clip clip{.name = "amass", .skeleton = SmplSkeleton(), .rate_hz = rate_hz, .frames = {}};
   const LocalPose rest = RestPose(clip.skeleton);
   for (std::size_t t = 0; t < frames; ++t) {

@@ -8,12 +8,12 @@
 
 namespace etude {
 
-/// Reads a motion of AMASS (Mahmood et al. 2019) out of its arrays: `poses` of 72 numbers a frame (SMPL), 156 (SMPL-H) or
-/// 165 (SMPL-X), turns of joints as axis times angle; `trans`, metres, Z up; `mocap_framerate` or `mocap_frame_rate`. The
-/// clip has SMPL's 22 joints of the body; fingers, jaw and eyes are left out. The model and its shapes may not be
-/// shipped: limbs have our own lengths, of somebody of 1.70 m, so that turns are the recorded person's and places are
-/// not to the centimetre. Refused: arrays that lack, or are of another shape, numbers that are not finite, rates that
-/// are no rate.
+/// Reads a motion of AMASS (Mahmood et al. 2019) from its arrays: `poses` with 72 (SMPL), 156 (SMPL-H) or 165 (SMPL-X)
+/// numbers per frame, which are joint rotations as rotation vectors; `trans` in metres, Z up; `mocap_framerate` or
+/// `mocap_frame_rate`. The clip has SMPL's 22 body joints; fingers, jaw and eyes are left out. The body model and its
+/// shapes may not be distributed, so limbs have our own lengths, for a height of 1.70 m: rotations are the recorded
+/// person's, but positions are not accurate to the centimetre. Returns an error if arrays are missing or have another
+/// shape, if numbers are not finite, or if the rate is out of range.
 Result<Clip> ReadAmass(const Npz& arrays, const std::string& file);
 
 }  // namespace etude

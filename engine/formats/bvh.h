@@ -8,33 +8,34 @@
 
 namespace etude {
 
-/// Reads a Biovision Hierarchy file: the skeleton and its frames, in the file's own unit and axes.
-/// `file` names it in complaints; the clip takes its name from it (without folder and extension).
+/// Reads a Biovision Hierarchy file: the skeleton and its frames, in the file's own unit and axes. Error messages name
+/// it `file`, and the clip's name is `file` without folder and extension.
 ///
-/// Read: any order and mix of channels per joint, rotations multiplied in the order written
-/// (R = R₁R₂R₃); position channels of any joint, which replace that joint's offset; joints without
-/// channels; "End Site"s, which become joints named "<parent>_End" (a name of their own, which some
-/// exporters write, is not kept); names with blanks and colons; any case of keywords, tabs, empty
-/// lines, lines that end with LF, CR LF or CR, a missing last one, a byte order mark. A name that
-/// stands a second time becomes "<name>#2", so that every joint can be told. A rate within 0.01 % of a
-/// whole number is taken as that number: files print few digits of it (.0083333 means 120 Hz). One
-/// frame more than announced is dropped: some exporters announce the number of their last frame
-/// (Boxing_Toes of assimp's models). Where all OFFSETs are 0 and joints have positions, the first frame's places
-/// are the rest pose. `remarks` is told of both, in plain words.
+/// Accepted:
+/// - any order and mix of channels per joint, with rotations multiplied in the order written (R = R₁R₂R₃); position
+///   channels of any joint, which replace that joint's offset; joints without channels;
+/// - "End Site"s, which become joints named "<parent>_End" (names that some exporters give them are ignored);
+/// - names with spaces and colons, keywords in any case, tabs, empty lines, line ends LF, CR LF or CR, a missing last
+///   line end, a byte order mark.
+/// A name that occurs again becomes "<name>#2", so that joints can be told apart. A rate within 0.01 % of a whole
+/// number is rounded to it, because files print few digits (.0083333 means 120 Hz). One frame more than announced is
+/// dropped, because some exporters announce the number of their last frame (Boxing_Toes of assimp's models). If all
+/// OFFSETs are 0 and joints have positions, the first frame's positions become the rest pose. `remarks` receives a
+/// sentence about each of the last two cases.
 ///
-/// Refused, with line and column: whatever is not in the grammar, a second ROOT, a frame that is not
-/// one line with a number for every channel, another number of frames than announced, no frames, frame
-/// times outside 0.1 ms…10 s, nesting over 128, over 1,024 joints, names over 500 bytes, frames that would take over 1
-/// GB (an hour of 25 joints at 120 Hz), told before any of them is read.
+/// Returns an error with line and column for anything outside the grammar, a second ROOT, a frame that is not one line
+/// with one number per channel, a wrong number of frames, no frames, frame times outside 0.1 ms…10 s, nesting deeper
+/// than 128 levels, more than 1,024 joints, names longer than 500 bytes, and, before any frame is read, frames that
+/// would take more than 1 GB (an hour of 25 joints at 120 Hz).
 Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vector<std::string>* remarks = nullptr);
 
-/// Writes a clip as BVH: the root and every joint that leaves its offset in some frame with three positions, every
-/// joint with Z, X, Y rotations in degrees; six decimals. Every joint is where it is in the clip, in all frames and
-/// at rest. What BVH cannot say is told in another way: WithoutScales, WithOneRoot, WithWorldAxesAtRest. A clip read
-/// from BVH needs none of them and comes back to the printed precision. Joints are written depth first, whatever
-/// their order in the clip; end sites that have children or move become joints; braces and control characters in
-/// names become '_', doubled names are numbered as in reading. Needs at least one joint, and numbers within ±10⁹ (what
-/// ReadBvh takes).
+/// Writes a clip as BVH. The root and every joint that leaves its offset in some frame get three positions; every joint
+/// gets Z, X, Y rotations in degrees; numbers have six decimals. Every joint has the same position as in the clip, in
+/// all frames and at rest. What BVH cannot express is converted by WithoutScales, WithOneRoot and WithWorldAxesAtRest.
+/// A clip read from BVH needs no conversion and is reproduced to the printed precision. Joints are written depth first,
+/// regardless of their order in the clip; end sites that have children or move become joints; braces and control
+/// characters in names become '_', and duplicate names are numbered as in reading. The clip must have at least one
+/// joint and numbers within ±10⁹ (the limit of ReadBvh).
 std::string WriteBvh(Clip clip);
 
 }  // namespace etude

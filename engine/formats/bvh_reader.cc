@@ -20,30 +20,30 @@
 namespace etude {
 namespace {
 
-/// The property of a joint that one number of a BVH frame drives.
+/// The property of a joint that one number of a BVH frame sets.
 struct BvhChannel {
   int joint = 0;
   bool is_rotation = false;
   int axis = 0;  ///< 0, 1, 2 = X, Y, Z
 };
 
-/// The upper half of a BVH file.
+/// The HIERARCHY section of a BVH file.
 struct BvhHierarchy {
   Skeleton skeleton;
-  std::vector<BvhChannel> channels;  ///< in the order of a frame's numbers
+  std::vector<BvhChannel> channels;  ///< in the order of the numbers in a frame
 };
 
-constexpr int kDeepestNesting = 128;
-constexpr std::size_t kMostJoints = 1024;
-constexpr std::size_t kLongestName = 500;
-constexpr int kMostChannels = 6;
+constexpr int kMaxNesting = 128;
+constexpr std::size_t kMaxJoints = 1024;
+constexpr std::size_t kMaxNameBytes = 500;
+constexpr int kMaxChannels = 6;
 
-constexpr std::array<std::string_view, kMostChannels> kChannelNames = {"Xposition", "Yposition", "Zposition",
-                                                                       "Xrotation", "Yrotation", "Zrotation"};
+constexpr std::array<std::string_view, kMaxChannels> kChannelNames = {"Xposition", "Yposition", "Zposition",
+                                                                      "Xrotation", "Yrotation", "Zrotation"};
 
 char Lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-/// Says whether two words are the same but for upper and lower case (ASCII).
+/// Returns true if two words are equal except for upper and lower case (ASCII).
 bool SameWord(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, [](char x, char y) { return Lower(x) == Lower(y); });
 }
@@ -78,16 +78,18 @@ class HierarchyReader {
     return {};
   }
 
-  /// A joint's name and its block; `parent` is −1 for the root.
+  /// Reads a joint's name and its block; `parent` is −1 for the root.
   Result<void> ReadJoint(int parent, int depth) {
+    // Read the name.
     const Token name = scanner_.NameInLine();
     if (name.text.empty()) return Unexpected(name, "a joint's name");
-    if (name.text.size() > kLongestName) {
-      return Fail(scanner_.At(name), "a joint's name of {} bytes; allowed: {}", name.text.size(), kLongestName);
+    if (name.text.size() > kMaxNameBytes) {
+      return Fail(scanner_.At(name), "a joint's name of {} bytes; allowed: {}", name.text.size(), kMaxNameBytes);
     }
     ASSIGN_OR_RETURN(auto index, AddJoint(std::string(name.text), parent, name, depth));
     RETURN_IF_ERROR(Expect("{"));
 
+    // Read the block's entries up to the closing brace.
     bool has_offset = false;
     bool has_channels = false;
     bool has_children = false;
@@ -118,7 +120,7 @@ class HierarchyReader {
 
   Result<void> ReadEndSite(int parent, const Token& start, int depth) {
     RETURN_IF_ERROR(Expect("Site"));
-    scanner_.NameInLine();  // some exporters name the site; nobody reads it
+    scanner_.NameInLine();  // some exporters name the site; the name is ignored
     ASSIGN_OR_RETURN(auto index, AddJoint(hierarchy_.skeleton.joints[parent].name + "_End", parent, start, depth));
     hierarchy_.skeleton.joints[index].is_end_site = true;
     RETURN_IF_ERROR(Expect("{"));
@@ -129,11 +131,11 @@ class HierarchyReader {
 
   Result<int> AddJoint(const std::string& name, int parent, const Token& place, int depth) {
     auto& joints = hierarchy_.skeleton.joints;
-    if (depth > kDeepestNesting) {
-      return Fail(scanner_.At(place), "joints nested deeper than {} levels", kDeepestNesting);
+    if (depth > kMaxNesting) {
+      return Fail(scanner_.At(place), "joints nested deeper than {} levels", kMaxNesting);
     }
-    if (joints.size() >= kMostJoints) {
-      return Fail(scanner_.At(place), "more than {} joints and end sites", kMostJoints);
+    if (joints.size() >= kMaxJoints) {
+      return Fail(scanner_.At(place), "more than {} joints and end sites", kMaxJoints);
     }
     joints.push_back({.name = names_.Add(name), .parent = parent, .rest = {}});
     return static_cast<int>(joints.size()) - 1;
@@ -150,11 +152,11 @@ class HierarchyReader {
   Result<void> ReadChannels(int joint) {
     const Token count_token = scanner_.Next();
     ASSIGN_OR_RETURN(auto count, scanner_.Number(count_token, "the number of channels"));
-    if (count < 0 || count > kMostChannels || count != static_cast<int>(count)) {
+    if (count < 0 || count > kMaxChannels || count != static_cast<int>(count)) {
       return Fail(scanner_.At(count_token), "found {} channels; allowed: a whole number from 0 to {}",
-                  Quote(count_token.text), kMostChannels);
+                  Quote(count_token.text), kMaxChannels);
     }
-    std::array<bool, kMostChannels> seen{};
+    std::array<bool, kMaxChannels> seen{};
     for (int i = 0; i < count; ++i) {
       const Token token = scanner_.Next();
       const auto known =
@@ -175,20 +177,20 @@ class HierarchyReader {
   UniqueNames names_;
 };
 
-/// Reads from the start of the file up to and including the word MOTION.
+/// Reads from the start of the file up to the word MOTION, inclusive.
 Result<BvhHierarchy> ReadBvhHierarchy(TextScanner& scanner) { return HierarchyReader(scanner).Read(); }
 
-constexpr double kShortestFrameSeconds = 1e-4;
-constexpr double kLongestFrameSeconds = 10;
-constexpr double kMostFrameBytes = 1e9;
+constexpr double kMinFrameSeconds = 1e-4;
+constexpr double kMaxFrameSeconds = 10;
+constexpr double kMaxFrameBytes = 1e9;
 
 struct MotionHeader {
   int frame_count = 0;
   double rate_hz = 0;
-  Token frames_place;  ///< where the number of frames stands
+  Token frames_place;  ///< position of the number of frames, for error messages
 };
 
-/// Returns the rate that a frame time means: files print few digits, and it is a whole number nearly always.
+/// Returns the rate for a frame time, rounded to a nearby whole number, because files print few digits.
 double RateOf(double frame_seconds) {
   constexpr double kPrintedPrecision = 1e-4;
   const double rate = 1.0 / frame_seconds;
@@ -214,19 +216,19 @@ Result<MotionHeader> ReadMotionHeader(TextScanner& scanner, std::size_t joints) 
   if (count < 1 || count != std::floor(count)) {
     return Fail(scanner.At(count_token), "found {} frames; allowed: a whole number from 1", Quote(count_token.text));
   }
-  // Before any frame is stored: the announced size, not the file's, is what memory would be taken for.
+  // Check the announced size before any frame is stored, so that no memory is allocated for it.
   const double bytes = count * static_cast<double>(joints * sizeof(LocalTransform));
-  if (bytes > kMostFrameBytes) {
+  if (bytes > kMaxFrameBytes) {
     return Fail(scanner.At(count_token), "{} frames of {} joints take {:.0f} MB; allowed: {:.0f} MB", count_token.text,
-                joints, bytes / 1e6, kMostFrameBytes / 1e6);
+                joints, bytes / 1e6, kMaxFrameBytes / 1e6);
   }
 
   RETURN_IF_ERROR(ExpectWords(scanner, {"Frame", "Time", ":"}));
   const Token time_token = scanner.Next();
   ASSIGN_OR_RETURN(auto seconds, scanner.Number(time_token, "the frame time"));
-  if (seconds < kShortestFrameSeconds || seconds > kLongestFrameSeconds) {
+  if (seconds < kMinFrameSeconds || seconds > kMaxFrameSeconds) {
     return Fail(scanner.At(time_token), "found a frame time of {} s; allowed: {:g} to {:g} s", time_token.text,
-                kShortestFrameSeconds, kLongestFrameSeconds);
+                kMinFrameSeconds, kMaxFrameSeconds);
   }
   if (const Token extra = scanner.NextInLine(); !extra.text.empty()) {
     return Fail(scanner.At(extra), "found {} after the frame time; expected the first frame on a line of its own",
@@ -235,8 +237,8 @@ Result<MotionHeader> ReadMotionHeader(TextScanner& scanner, std::size_t joints) 
   return MotionHeader{static_cast<int>(count), RateOf(seconds), count_token};
 }
 
-/// Turns a rotation about one of its own axes: the product of quaternions without all that is multiplied by zero. The
-/// axis is known to the compiler so that the four numbers stay in registers; reading spends most of its time here.
+/// Multiplies a rotation by one about its own axis, without the products with zero. The axis is a template parameter so
+/// that the four numbers stay in registers; most of the reading time is spent here.
 template <int kAxis>
 void Turn(glm::dquat& rotation, double degrees) {
   constexpr int kNext = (kAxis + 1) % 3, kLast = (kAxis + 2) % 3;
@@ -261,7 +263,7 @@ void Apply(const BvhChannel& channel, double value, LocalTransform& local) {
   }
 }
 
-/// One line of numbers. `pose` comes in at rest.
+/// Reads one line of numbers. `pose` is initially the rest pose.
 Result<void> ReadFrame(TextScanner& scanner, const std::vector<BvhChannel>& channels, std::size_t number,
                        LocalPose& pose) {
   for (std::size_t i = 0; i < channels.size(); ++i) {
@@ -269,7 +271,7 @@ Result<void> ReadFrame(TextScanner& scanner, const std::vector<BvhChannel>& chan
       Apply(channels[i], *value, pose[channels[i].joint]);
       continue;
     }
-    // Rarely taken: a number written in another way, or a complaint.
+    // This is rare: the number has another notation, or it is wrong.
     const Token token = scanner.NextInLine();
     if (token.text.empty()) {
       return Fail(scanner.At(token), "frame {} has {} numbers; its {} channels need {}", number, i, channels.size(),
@@ -290,8 +292,8 @@ std::string NameWithoutFolderAndExtension(std::string_view file) {
   return std::string(base.substr(0, base.find_last_of('.')));
 }
 
-/// Says whether no joint below the root has a place at rest, but one in the frames.
-bool LeavesPlacesToFrames(const Skeleton& skeleton, const LocalPose& frame) {
+/// Returns true if all joints below the root have offset 0, and one of them has a position in the frame.
+bool LeavesOffsetsToFrames(const Skeleton& skeleton, const LocalPose& frame) {
   bool is_placed = false;
   for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
     if (skeleton.joints[i].parent < 0) continue;
@@ -307,10 +309,12 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
   const auto remark = [&](std::string text) {
     if (remarks != nullptr) remarks->push_back(std::move(text));
   };
+  // Read the hierarchy and the header.
   TextScanner scanner(bytes, file);
   ASSIGN_OR_RETURN(auto hierarchy, ReadBvhHierarchy(scanner));
   ASSIGN_OR_RETURN(auto header, ReadMotionHeader(scanner, hierarchy.skeleton.joints.size()));
 
+  // Read the frames; one more than announced is allowed.
   Clip clip;
   clip.name = NameWithoutFolderAndExtension(file);
   clip.skeleton = std::move(hierarchy.skeleton);
@@ -325,7 +329,7 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
     clip.frames.push_back(rest);
     RETURN_IF_ERROR(ReadFrame(scanner, hierarchy.channels, clip.frames.size(), clip.frames.back()));
   }
-  // Exporters that announce their last frame's number write one frame more: read like everybody does.
+  // Exporters that announce the number of their last frame write one frame more; drop it, as other readers do.
   if (clip.frames.size() == announced + 1) {
     clip.frames.pop_back();
     remark(fmt::format("{} rows where {} frames are announced: the last row was dropped", announced + 1, announced));
@@ -334,7 +338,8 @@ Result<Clip> ReadBvh(std::string_view bytes, const std::string& file, std::vecto
     return Fail(scanner.At(header.frames_place), "{} frames announced; the file holds {}", announced,
                 clip.frames.size());
   }
-  if (LeavesPlacesToFrames(clip.skeleton, clip.frames.front())) {
+  // If all offsets are 0, take the rest pose from the first frame.
+  if (LeavesOffsetsToFrames(clip.skeleton, clip.frames.front())) {
     for (std::size_t i = 0; i < clip.skeleton.joints.size(); ++i) {
       if (clip.skeleton.joints[i].parent < 0) continue;
       clip.skeleton.joints[i].rest.translation = clip.frames.front()[i].translation;

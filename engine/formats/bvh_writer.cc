@@ -14,7 +14,7 @@
 namespace etude {
 namespace {
 
-/// Angles in radians with R = Rz(z) Rx(x) Ry(y).
+/// Euler angles in radians with R = Rz(z) Rx(x) Ry(y).
 struct EulerZxy {
   double z, x, y;
 };
@@ -24,24 +24,24 @@ EulerZxy ToEulerZxy(const glm::dquat& rotation) {
   const auto r = [&](int row, int column) { return columns[column][row]; };
   const double cos_x = std::hypot(r(2, 0), r(2, 2));
   const double x = std::atan2(r(2, 1), cos_x);
-  // At x = ±90° only z ± y is determined: give all of it to z.
+  // At x = ±90° only z ± y is determined, so y is set to 0.
   constexpr double kLocked = 1e-9;
   if (cos_x < kLocked) return {std::atan2(r(1, 0), r(0, 0)), x, 0};
   return {std::atan2(-r(0, 1), r(1, 1)), x, std::atan2(-r(2, 0), r(2, 2))};
 }
 
-/// Rounds to the six decimals of the file, in millionths; never a minus zero.
+/// Rounds to the file's six decimals and returns millionths; never returns minus zero.
 double Millionths(double value) { return std::round(value * 1e6) + 0.0; }
 glm::dvec3 Millionths(const glm::dvec3& v) { return {Millionths(v.x), Millionths(v.y), Millionths(v.z)}; }
 
-/// A joint's name in one line, without what begins and ends blocks.
+/// Returns a joint's name in one line, without the characters that begin and end blocks.
 std::string Printable(std::string_view name) {
   std::string printable(name);
   for (char& c : printable) {
     const bool is_control = static_cast<unsigned char>(c) < ' ' || c == '\x7F';
     if (is_control || c == '{' || c == '}') c = '_';
   }
-  // Blanks around a name are nobody's.
+  // Spaces around a name are not part of it.
   const std::size_t first = printable.find_first_not_of(' ');
   if (first == std::string::npos) return "unnamed";
   return printable.substr(first, printable.find_last_not_of(' ') - first + 1);
@@ -81,7 +81,7 @@ class Writer {
 
   const etude::Joint& Joint(std::size_t index) const { return clip_.skeleton.joints[index]; }
 
-  /// Says whether a joint leaves its offset in any frame, by as much as shows in the file.
+  /// Returns true if a joint differs visibly from its offset in any frame.
   bool LeavesItsOffset(int joint) const {
     const glm::dvec3 offset = Millionths(Joint(joint).rest.translation);
     return std::ranges::any_of(clip_.frames,
@@ -111,18 +111,18 @@ class Writer {
     Print("{}}}\n", indent);
   }
 
-  /// Prints three numbers with a blank behind each.
+  /// Prints three numbers, each followed by a space.
   void PrintNumbers(const glm::dvec3& numbers) {
     for (int i = 0; i < 3; ++i) PrintNumber(Millionths(numbers[i]));
   }
 
-  /// Prints a number of millionths; by hand, because it is most of what writing a file takes.
+  /// Prints a number of millionths. This is written by hand because it takes most of the writing time.
   void PrintNumber(double millionths) {
     constexpr std::uint64_t kWhole = 1'000'000;
     if (millionths < 0) text_ += '-';
     const auto size = static_cast<std::uint64_t>(std::abs(millionths));
     const fmt::format_int whole(size / kWhole);
-    // The leading one keeps the zeros behind it.
+    // The added 1 in front keeps leading zeros; it is not printed.
     const fmt::format_int fraction(kWhole + size % kWhole);
     text_.append(whole.data(), whole.size()).append(1, '.').append(fraction.data() + 1, fraction.size() - 1);
     text_ += ' ';
@@ -141,7 +141,7 @@ class Writer {
   const Clip& clip_;
   std::vector<std::vector<int>> children_;
   int root_ = -1;
-  std::vector<Column> columns_;  ///< in the order written
+  std::vector<Column> columns_;  ///< in the order in which they are written
   UniqueNames names_;
   std::string text_;
 };

@@ -16,13 +16,13 @@ namespace {
 
 constexpr std::size_t kC3dBlock = 512;
 constexpr unsigned char kC3dKey = 0x50;
-constexpr std::size_t kMostPoints = 10'000;
-constexpr double kMostC3dFrames = 1e7;
-constexpr double kLargestValue = 1e9;
+constexpr std::size_t kMaxPoints = 10'000;
+constexpr double kMaxC3dFrames = 1e7;
+constexpr double kMaxValue = 1e9;
 
 enum class Machine { kIntel = 84, kDec = 85, kMips = 86 };
 
-/// Reads numbers as one kind of machine wrote them; beyond the end there are zeros.
+/// Reads numbers in the representation of one kind of machine; bytes beyond the end count as zero.
 class Bytes {
  public:
   Bytes(std::string_view bytes, Machine machine) : bytes_(bytes), machine_(machine) {}
@@ -36,7 +36,7 @@ class Bytes {
   double Float(std::size_t at) const {
     std::uint32_t bits = Word(at + 2) << 16 | Word(at);
     if (machine_ != Machine::kIntel) bits = Word(at) << 16 | Word(at + 2);
-    // A VAX's exponent counts from one half, and one power of two further.
+    // The exponent of a DEC float has a bias larger by one, and its mantissa lies in [½, 1): together a factor of 4.
     return machine_ == Machine::kDec ? std::bit_cast<float>(bits) / 4 : std::bit_cast<float>(bits);
   }
   std::string Text(std::size_t at, std::size_t length) const {
@@ -55,7 +55,7 @@ class Bytes {
 struct Parameter {
   int type = 0;  ///< −1 text, 1 bytes, 2 whole numbers, 4 floats
   std::vector<std::size_t> sizes;
-  std::size_t at = 0;  ///< of the first value
+  std::size_t at = 0;  ///< position of the first value
 
   std::size_t Count() const {
     std::size_t count = 1;
@@ -64,15 +64,16 @@ struct Parameter {
   }
 };
 
-/// The parameters of a file, called "POINT:USED".
+/// The parameters of a file, with names such as "POINT:USED".
 class Parameters {
  public:
   static Parameters Read(const Bytes& bytes, std::size_t at) {
+    // Follow the chain of records, which are groups and parameters.
     Parameters read(bytes);
     std::map<int, std::string> group_names;
     std::vector<std::pair<int, std::pair<std::string, Parameter>>> found;
     const std::size_t end = std::min(bytes.size(), at + kC3dBlock * std::max(1u, bytes.Byte(at + 2)));
-    // The count of blocks is wrong in some files: the chain's own end counts, as long as there are bytes.
+    // The number of blocks is wrong in some files, so follow the chain to its own end, as long as there are bytes.
     for (std::size_t record = at + 4; record + 4 < std::max(end, bytes.size());) {
       const auto length = static_cast<std::int8_t>(bytes.Byte(record));
       const auto id = static_cast<std::int8_t>(bytes.Byte(record + 1));
@@ -94,6 +95,7 @@ class Parameters {
       if (offset == 0) break;
       record = offset_at + offset;
     }
+    // A group may follow its parameters, so join the names at the end.
     for (auto& [group, named] : found) read.all_[group_names[group] + ":" + named.first] = named.second;
     return read;
   }
@@ -106,12 +108,13 @@ class Parameters {
     const Parameter* one = Find(name);
     if (one == nullptr || index >= one->Count()) return std::nullopt;
     if (one->type == 4) return bytes_.Float(one->at + 4 * index);
-    if (one->type == 2) return bytes_.Word(one->at + 2 * index);  // counts beyond 32,767 stand here, too
+    // Unsigned, because some files hold counts above 32,767.
+    if (one->type == 2) return bytes_.Word(one->at + 2 * index);
     if (one->type == 1) return bytes_.Byte(one->at + index);
     return std::nullopt;
   }
-  /// The first texts of a list, at most so many and none that would begin beyond the file's end; of one text a list of
-  /// one.
+  /// Returns the first texts of a list, at most `most`, and none that begins beyond the file's end. A single text
+  /// counts as a list of one.
   std::vector<std::string> Texts(const std::string& name, std::size_t most = 1) const {
     const Parameter* one = Find(name);
     std::vector<std::string> texts;
@@ -141,7 +144,7 @@ std::optional<double> MetresOf(std::string unit) {
   return std::nullopt;
 }
 
-/// The names of all points: LABELS, LABELS2 and so on.
+/// Returns the names of all points, from LABELS, LABELS2 and so on.
 std::vector<std::string> PointNames(const Parameters& parameters, std::size_t points) {
   std::vector<std::string> names;
   for (int part = 1; names.size() < points; ++part) {
@@ -165,16 +168,16 @@ std::size_t CountFrames(const Bytes& bytes, const Parameters& parameters) {
   };
   const auto begin = field("TRIAL:ACTUAL_START_FIELD"), end = field("TRIAL:ACTUAL_END_FIELD");
   if (begin && end && *end >= *begin) frames = *end - *begin + 1;
-  // Where the header's words are too small, POINT:FRAMES may be a float.
+  // If the number exceeds the header's words, POINT:FRAMES may hold it as a float.
   if (const auto told = parameters.Number("POINT:FRAMES"); told && last >= 65535 && *told > frames) frames = *told;
-  return frames >= 1 && frames <= kMostC3dFrames ? static_cast<std::size_t>(frames) : 0;
+  return frames >= 1 && frames <= kMaxC3dFrames ? static_cast<std::size_t>(frames) : 0;
 }
 
-/// The layout of a frame's points in the file.
+/// The layout of the points in a frame of the file.
 struct Layout {
   std::size_t points = 0, begin = 0, frame_bytes = 0;
   bool has_floats = false;
-  double metres = 0;  ///< of a float, or of a whole number
+  double metres = 0;  ///< metres per unit of a stored number
 };
 
 std::optional<glm::dvec3> PointAt(const Bytes& bytes, std::size_t at, const Layout& layout) {
@@ -183,7 +186,7 @@ std::optional<glm::dvec3> PointAt(const Bytes& bytes, std::size_t at, const Layo
   for (int axis = 0; axis < 3; ++axis) {
     const std::size_t value = at + step * static_cast<std::size_t>(axis);
     point[axis] = (layout.has_floats ? bytes.Float(value) : bytes.Integer(value)) * layout.metres;
-    if (!(std::abs(point[axis]) < kLargestValue)) return std::nullopt;
+    if (!(std::abs(point[axis]) < kMaxValue)) return std::nullopt;
   }
   const double residual = layout.has_floats ? bytes.Float(at + 3 * step) : bytes.Integer(at + 3 * step);
   return residual >= 0 ? std::optional(point) : std::nullopt;
@@ -196,6 +199,7 @@ bool IsC3d(std::string_view bytes) {
 }
 
 Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
+  // Find the kind of machine and read the parameters.
   if (!IsC3d(bytes)) return Fail({file}, "no C3D file");
   const std::size_t parameters_at = (static_cast<unsigned char>(bytes[0]) - std::size_t{1}) * kC3dBlock;
   const unsigned machine = Bytes(bytes, Machine::kIntel).Byte(parameters_at + 3);
@@ -205,18 +209,20 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   const Bytes all(bytes, static_cast<Machine>(machine));
   const Parameters parameters = Parameters::Read(all, parameters_at);
 
+  // Read and check the number of points, scale, rate and unit.
   Layout layout{.points = static_cast<std::size_t>(parameters.Number("POINT:USED").value_or(all.Word(2)))};
   const double scale = parameters.Number("POINT:SCALE").value_or(all.Float(12));
   const double rate = parameters.Number("POINT:RATE").value_or(all.Float(20));
   if (layout.points == 0) return Fail({file}, "holds no points (rotations and analogue channels are not read)");
-  if (layout.points > kMostPoints) return Fail({file}, "{} points; allowed: {}", layout.points, kMostPoints);
-  if (!(rate > 0 && rate < kLargestValue)) return Fail({file}, "a rate of {} Hz; allowed: above 0", rate);
-  if (!(std::abs(scale) < kLargestValue) || scale == 0) return Fail({file}, "POINT:SCALE is {}; allowed: not 0", scale);
+  if (layout.points > kMaxPoints) return Fail({file}, "{} points; allowed: {}", layout.points, kMaxPoints);
+  if (!(rate > 0 && rate < kMaxValue)) return Fail({file}, "a rate of {} Hz; allowed: above 0", rate);
+  if (!(std::abs(scale) < kMaxValue) || scale == 0) return Fail({file}, "POINT:SCALE is {}; allowed: not 0", scale);
   const auto units = parameters.Texts("POINT:UNITS");
   C3d read{.markers = {.rate_hz = rate, .names = PointNames(parameters, layout.points), .frames = {}},
            .unit = units.empty() ? "" : units.front()};
   const auto metres = MetresOf(read.unit);
   if (!metres) return Fail({file}, "units {}; allowed: m, cm, mm, in, ft", Quote(read.unit));
+  // A negative scale means that points are stored as floats.
   layout.has_floats = scale < 0;
   layout.metres = layout.has_floats ? *metres : *metres * scale;
   read.step_m = layout.has_floats ? 0 : layout.metres;
@@ -225,6 +231,7 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
     if (axis == 'Y' || axis == 'Z') read.up = axis;
   }
 
+  // Locate the frames and check that they are all there.
   const auto data_block = static_cast<std::size_t>(parameters.Number("POINT:DATA_START").value_or(all.Word(16)));
   layout.begin = (std::max<std::size_t>(data_block, 1) - 1) * kC3dBlock;
   layout.frame_bytes = (4 * layout.points + all.Word(4)) * (layout.has_floats ? 4 : 2);
@@ -232,6 +239,7 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
   if (frames == 0) return Fail({file}, "its header tells of no frames, or of more than 10⁷");
   const std::size_t there = bytes.size() > layout.begin ? (bytes.size() - layout.begin) / layout.frame_bytes : 0;
   if (there < frames) return Fail({file}, "is cut short: {} of {} frames are there", there, frames);
+  // Read the points.
   read.markers.frames.reserve(frames);
   for (std::size_t frame = 0; frame < frames; ++frame) {
     auto& places = read.markers.frames.emplace_back(layout.points);
@@ -246,7 +254,7 @@ Result<C3d> ReadC3d(std::string_view bytes, const std::string& file) {
 namespace {
 
 constexpr std::size_t kBlock = 512;
-constexpr std::size_t kMostNamesAtOnce = 255;
+constexpr std::size_t kMaxNamesPerParameter = 255;
 
 void PutWord(std::string& bytes, std::size_t value) {
   bytes += static_cast<char>(value & 0xffU);
@@ -273,18 +281,19 @@ std::string Float(double value) {
 
 void PadToBlock(std::string& bytes) { bytes.resize((bytes.size() + kBlock - 1) / kBlock * kBlock, '\0'); }
 
-/// Writes a parameter section: groups, and what is in them.
+/// Writes a parameter section, which holds groups and their parameters.
 class ParameterWriter {
  public:
   void Group(int id, std::string_view name) {
     bytes_ += static_cast<char>(name.size());
     bytes_ += static_cast<char>(-id);
     bytes_ += name;
-    PutWord(bytes_, 3);  // to the next one, from here: this word and no description
+    PutWord(bytes_, 3);  // offset from here to the next record: this word and an empty description
     bytes_ += '\0';
   }
 
-  /// `type`: −1 letters, 2 words, 4 floats. `sizes` are of its dimensions, at most 255 each.
+  /// Adds a parameter. `type` is −1 for letters, 2 for words, 4 for floats. `sizes` are its dimensions, at most 255
+  /// each.
   void Add(int id, std::string_view name, int type, const std::vector<std::size_t>& sizes, std::string_view data) {
     bytes_ += static_cast<char>(name.size());
     bytes_ += static_cast<char>(id);
@@ -308,8 +317,8 @@ class ParameterWriter {
 void AddLabels(const std::vector<std::string>& names, ParameterWriter& parameters) {
   std::size_t width = 1;
   for (const std::string& name : names) width = std::max(width, std::min<std::size_t>(name.size(), 127));
-  for (std::size_t first = 0, part = 1; first < names.size(); first += kMostNamesAtOnce, ++part) {
-    const std::size_t count = std::min(kMostNamesAtOnce, names.size() - first);
+  for (std::size_t first = 0, part = 1; first < names.size(); first += kMaxNamesPerParameter, ++part) {
+    const std::size_t count = std::min(kMaxNamesPerParameter, names.size() - first);
     std::string text;
     for (std::size_t i = first; i < first + count; ++i) {
       std::string label = names[i].substr(0, width);
@@ -320,9 +329,9 @@ void AddLabels(const std::vector<std::string>& names, ParameterWriter& parameter
   }
 }
 
-/// The section of parameters, given the block that the places begin in.
+/// Returns the parameter section; `data_block` is the number of the block at which the points begin.
 std::string ParameterSection(const MarkerMotion& motion, std::size_t data_block) {
-  constexpr std::size_t kMostFrames = 65535;
+  constexpr std::size_t kMaxWord = 65535;
   constexpr int kPoint = 1, kTrial = 2;
   ParameterWriter parameters;
   parameters.Group(kPoint, "POINT");
@@ -330,7 +339,7 @@ std::string ParameterSection(const MarkerMotion& motion, std::size_t data_block)
   parameters.Add(kPoint, "SCALE", 4, {}, Float(-1));
   parameters.Add(kPoint, "RATE", 4, {}, Float(motion.rate_hz));
   parameters.Add(kPoint, "DATA_START", 2, {}, Word(data_block));
-  parameters.Add(kPoint, "FRAMES", 2, {}, Word(std::min(motion.frames.size(), kMostFrames)));
+  parameters.Add(kPoint, "FRAMES", 2, {}, Word(std::min(motion.frames.size(), kMaxWord)));
   parameters.AddText(kPoint, "UNITS", "mm");
   parameters.AddText(kPoint, "X_SCREEN", "+X");
   parameters.AddText(kPoint, "Y_SCREEN", "+Y");
@@ -341,7 +350,7 @@ std::string ParameterSection(const MarkerMotion& motion, std::size_t data_block)
   parameters.Add(kTrial, "ACTUAL_END_FIELD", 2, {2}, field(motion.frames.size()));
   std::string section("\x01\x50\x00\x54", 4);
   section += parameters.bytes();
-  section += '\0';  // no further parameter
+  section += '\0';  // end of the parameters
   PadToBlock(section);
   section[2] = static_cast<char>(section.size() / kBlock);
   return section;
@@ -350,21 +359,23 @@ std::string ParameterSection(const MarkerMotion& motion, std::size_t data_block)
 }  // namespace
 
 std::string WriteC3d(const MarkerMotion& motion) {
-  constexpr std::size_t kMostFrames = 65535;
+  constexpr std::size_t kMaxWord = 65535;
   constexpr double kMillimetres = 1000;
+  // Write the header block.
   const std::size_t blocks = ParameterSection(motion, 0).size() / kBlock;
   const std::size_t data_block = 2 + blocks;
   std::string bytes("\x02\x50", 2);
   PutWord(bytes, motion.names.size());
-  PutWord(bytes, 0);  // analogue values
+  PutWord(bytes, 0);  // number of analogue values
   PutWord(bytes, 1);
-  PutWord(bytes, std::min(motion.frames.size(), kMostFrames));
-  PutWord(bytes, 0);  // no gaps are bridged
+  PutWord(bytes, std::min(motion.frames.size(), kMaxWord));
+  PutWord(bytes, 0);  // maximal interpolation gap
   PutFloat(bytes, -1);
   PutWord(bytes, data_block);
   PutWord(bytes, 0);
   PutFloat(bytes, motion.rate_hz);
   PadToBlock(bytes);
+  // Write the parameters and the points.
   bytes += ParameterSection(motion, data_block);
   for (const auto& frame : motion.frames) {
     for (const std::optional<glm::dvec3>& place : frame) {

@@ -11,26 +11,26 @@ namespace etude {
 
 /// The points of a C3D file.
 struct C3d {
-  MarkerMotion markers;  ///< metres; names as the file's labels have them, those without one "point 7"
-  std::string unit;      ///< that the file names, such as "mm"; "" = none, taken for millimetres
-  char up = 0;           ///< 'Y' or 'Z', where POINT:Y_SCREEN tells it; else 0
-  double step_m = 0;     ///< of a file of whole numbers: between two that follow each other; 0 of floats
+  MarkerMotion markers;  ///< metres; names are the file's labels, or for example "point 7" without one
+  std::string unit;      ///< the file's unit, for example "mm"; "" if there is none, which means millimetres
+  char up = 0;           ///< 'Y' or 'Z' if POINT:Y_SCREEN tells it, else 0
+  double step_m = 0;     ///< resolution of a file with whole numbers; 0 for floats
 };
 
-/// Tells whether bytes begin as a C3D file does: a block number and the key 0x50.
+/// Returns true if bytes begin like a C3D file: a block number and the key 0x50.
 bool IsC3d(std::string_view bytes);
 
-/// Reads the points of a C3D file (c3d.org's format): of Intel, DEC and MIPS machines, of whole numbers or floats, with
-/// parameters wherever the header says, more than 255 points (LABELS2 …), more than 65,535 frames (TRIAL's fields). A
-/// point whose residual is below zero, or that is no finite number, was not seen. Analogue channels, rotations and
-/// events are passed over. Refused: what is not C3D, a file cut short, no points, no rate, units other than m, cm, mm,
-/// in, ft, more than 10,000 points or 10⁷ frames.
+/// Reads the points of a C3D file (c3d.org's format). It accepts files of Intel, DEC and MIPS machines, whole numbers
+/// and floats, parameters at any block, more than 255 points (LABELS2 …) and more than 65,535 frames (TRIAL's fields).
+/// A point with a negative residual or without finite coordinates counts as not seen. Analogue channels, rotations and
+/// events are ignored. Returns an error if the file is not C3D or is truncated, has no points or no rate, has a unit
+/// other than m, cm, mm, in, ft, or more than 10,000 points or 10⁷ frames.
 Result<C3d> ReadC3d(std::string_view bytes, const std::string& file);
 
-/// Writes trajectories as a C3D file of an Intel machine: floats, millimetres, Y up on the screen; what was not seen
-/// has a residual of −1. Names longer than 127 bytes are cut. At most 65,535 markers.
+/// Writes trajectories as a C3D file of an Intel machine, as floats in millimetres with Y up on the screen. A marker
+/// that was not seen has the residual −1. Names longer than 127 bytes are cut. There may be at most 65,535 markers.
 std::string WriteC3d(const MarkerMotion& motion);
-/// Writes a body's joints as such a file, one marker per role.
+/// Writes a body's joints as a C3D file with one marker per role.
 std::string WriteC3d(const BodyMotion& motion);
 
 }  // namespace etude

@@ -19,13 +19,13 @@ enum class Rotation { kFixed, kAboutZ, kFree };
 struct HumanoidJoint {
   const char* name;
   int parent;
-  glm::dvec3 offset;  // metres, in the parent's axes; who stands faces +X, and has the right side at +Z
+  glm::dvec3 offset;  // metres, in the parent's axes; a standing body faces +X, and its right side is at +Z
   Rotation rotation;
   bool is_end_site = false;
 };
 
-// In the order in which frames tell them, end sites apart. Head and toes are no joints: the middle of the head's ball,
-// and the middle of the foot's front edge.
+// The joints are in the order of the numbers in a frame; end sites follow. Head and toes are not joints in the file;
+// they are the centre of the head's sphere and the middle of the foot's front edge.
 const std::array<HumanoidJoint, 18> kHumanoid = {{
     {"root", -1, {0, 0, 0}, Rotation::kFree},
     {"chest", 0, {0, 0.236151, 0}, Rotation::kFree},
@@ -48,7 +48,7 @@ const std::array<HumanoidJoint, 18> kHumanoid = {{
 }};
 
 constexpr std::size_t kNumbers = 44;
-constexpr std::size_t kLargestText = 64u << 20;
+constexpr std::size_t kMaxTextBytes = 64u << 20;
 
 Skeleton HumanoidSkeleton() {
   Skeleton skeleton;
@@ -64,7 +64,7 @@ Skeleton HumanoidSkeleton() {
 using Numbers = std::array<double, kNumbers>;
 
 Result<Numbers> ReadNumbers(const Json& frame, std::size_t index, const std::string& file) {
-  constexpr double kLargest = 1e9;
+  constexpr double kMaxNumber = 1e9;
   const Place place{file, 0, 0};
   if (!frame.is_array() || frame.size() != kNumbers) {
     return Fail(place, "Frames[{}]: {} numbers; allowed: {}, those of humanoid3d", index,
@@ -72,7 +72,7 @@ Result<Numbers> ReadNumbers(const Json& frame, std::size_t index, const std::str
   }
   Numbers numbers{};
   for (std::size_t i = 0; i < kNumbers; ++i) {
-    const bool is_good = frame[i].is_number() && std::abs(frame[i].get<double>()) <= kLargest;
+    const bool is_good = frame[i].is_number() && std::abs(frame[i].get<double>()) <= kMaxNumber;
     if (!is_good) {
       return Fail(place, "Frames[{}][{}]: {}; allowed: numbers within ±10⁹", index, i,
                   frame[i].dump(-1, ' ', false, Json::error_handler_t::replace).substr(0, 40));
@@ -82,10 +82,10 @@ Result<Numbers> ReadNumbers(const Json& frame, std::size_t index, const std::str
   return numbers;
 }
 
-/// Makes a pose of a frame's numbers; nothing when a quaternion has no length.
+/// Makes a pose from a frame's numbers; returns nothing if a quaternion has length 0.
 std::optional<LocalPose> PoseOf(const Numbers& numbers) {
   LocalPose pose;
-  std::size_t next = 1;  // after the duration
+  std::size_t next = 1;  // skips the duration
   const glm::dvec3 root(numbers[1], numbers[2], numbers[3]);
   next += 3;
   for (const HumanoidJoint& joint : kHumanoid) {
@@ -95,8 +95,8 @@ std::optional<LocalPose> PoseOf(const Numbers& numbers) {
       local.rotation = {std::cos(half), 0, 0, std::sin(half)};
     } else if (joint.rotation == Rotation::kFree) {
       const glm::dquat turn(numbers[next], numbers[next + 1], numbers[next + 2], numbers[next + 3]);
-      constexpr double kShortest = 1e-6;
-      if (glm::length(turn) < kShortest) return std::nullopt;
+      constexpr double kMinLength = 1e-6;
+      if (glm::length(turn) < kMinLength) return std::nullopt;
       local.rotation = glm::normalize(turn);
       next += 4;
     }
@@ -111,11 +111,12 @@ Result<Clip> ReadFrames(const Json& frames, const std::string& file) {
   double duration = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     ASSIGN_OR_RETURN(const Numbers numbers, ReadNumbers(frames[i], i, file));
-    constexpr double kShortest = 1e-4, kLongest = 1, kRounding = 1e-3;
+    constexpr double kMinDuration_s = 1e-4, kMaxDuration_s = 1, kRounding = 1e-3;
     if (i == 0) {
       duration = numbers[0];
-      if (duration < kShortest || duration > kLongest) {
-        return Fail(place, "Frames[0][0]: a frame of {} s; allowed: {} to {} s", duration, kShortest, kLongest);
+      if (duration < kMinDuration_s || duration > kMaxDuration_s) {
+        return Fail(place, "Frames[0][0]: a frame of {} s; allowed: {} to {} s", duration, kMinDuration_s,
+                    kMaxDuration_s);
       }
     } else if (i + 1 < frames.size() && std::abs(numbers[0] - duration) > kRounding * duration) {
       return Fail(place, "Frames[{}][0]: a frame of {} s; allowed: that of the first, {} s", i, numbers[0], duration);
@@ -136,8 +137,8 @@ bool IsDeepMimicMotion(std::string_view text) {
 }
 
 Result<Clip> ReadDeepMimicMotion(std::string_view text, const std::string& file) {
-  if (text.size() > kLargestText) {
-    return Fail({file, 0, 0}, "{} MiB; allowed: {} MiB", text.size() >> 20, kLargestText >> 20);
+  if (text.size() > kMaxTextBytes) {
+    return Fail({file, 0, 0}, "{} MiB; allowed: {} MiB", text.size() >> 20, kMaxTextBytes >> 20);
   }
   ASSIGN_OR_RETURN(const Json motion, ParseJsonText(text, file));
   const auto frames = motion.find("Frames");

@@ -8,17 +8,18 @@
 
 namespace etude {
 
-/// Says whether a text begins like a motion of DeepMimic: JSON with "Frames" among its first keys.
+/// Returns true if a text begins like a motion of DeepMimic: JSON with "Frames" among its first keys.
 bool IsDeepMimicMotion(std::string_view text);
 
-/// Reads a motion of DeepMimic's humanoid3d (Peng et al. 2018, data/motions/humanoid3d_*.txt): metres, Y up, facing +X.
-/// Every frame has 44 numbers: its duration in seconds, the root's place, and rotations in their parents' axes,
-/// quaternions w x y z of root, chest, neck, hips, ankles and shoulders, angles about Z of knees and elbows, the right
-/// side first. The files leave the skeleton to a file of its own; it is always the same one, and known here: limbs,
-/// head and toes from data/characters/humanoid3d.txt.
+/// Reads a motion of DeepMimic's humanoid3d (Peng et al. 2018, data/motions/humanoid3d_*.txt) in metres, Y up, facing
+/// +X. Every frame has 44 numbers: its duration in seconds, the root's position, and rotations in the parent's axes,
+/// the right side first: quaternions w x y z for root, chest, neck, hips, ankles and shoulders, angles about Z for
+/// knees and elbows. The files do not hold the skeleton. It is always the same and built in here: limbs, head and toes
+/// come from data/characters/humanoid3d.txt.
 ///
-/// Refused, naming the place: text over 64 MiB or no JSON, no frames, another count of numbers (as other characters
-/// have), numbers beyond ±10⁹, quaternions of no length, frames of several durations (the last one's does not count).
+/// Returns an error with the position for text over 64 MiB or without valid JSON, no frames, a wrong count of numbers
+/// (as other characters have), numbers beyond ±10⁹, quaternions of length 0, and frames of different durations (that of
+/// the last frame is ignored).
 Result<Clip> ReadDeepMimicMotion(std::string_view text, const std::string& file);
 
 }  // namespace etude

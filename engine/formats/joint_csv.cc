@@ -28,7 +28,7 @@ std::vector<std::string> SplitHeadings(std::string_view line) {
   return parts;
 }
 
-/// The middle one of the steps between times.
+/// Returns the rate from the median time step.
 std::optional<double> RateOf(const NumberRows& table, std::size_t time_column) {
   std::vector<double> steps;
   for (std::size_t t = 1; t < table.RowCount(); ++t) {
@@ -40,7 +40,7 @@ std::optional<double> RateOf(const NumberRows& table, std::size_t time_column) {
   return middle > 0 ? std::optional(1 / middle) : std::nullopt;
 }
 
-/// Refuses a clock that runs backwards; one that stands still is none.
+/// Refuses times that decrease; equal times are allowed.
 Result<void> CheckTimes(const NumberRows& table, std::size_t time_column, const std::string& file) {
   double last = -std::numeric_limits<double>::infinity();
   for (std::size_t t = 0; t < table.RowCount(); ++t) {
@@ -60,12 +60,14 @@ Result<void> CheckColumns(std::size_t headings, std::size_t columns, const std::
 }
 
 Result<JointCsvColumns> FindColumns(const NumberRows& table, const std::string& file) {
+  // Check the number of headings, and list the known ones.
   const std::vector<std::string> headings = SplitHeadings(table.heading);
   RETURN_IF_ERROR(CheckColumns(table.heading.empty() ? 0 : headings.size(), table.columns, file));
   std::vector<std::string> known = {"frame", "time_s"};
   for (const Role role : AllRoles()) {
     for (int axis = 0; axis < 3; ++axis) known.push_back(HeadingOf(role, axis));
   }
+  // Assign each column.
   JointCsvColumns columns{.count = headings.size()};
   for (std::size_t i = 0; i < headings.size(); ++i) {
     const auto found = std::ranges::find(known, headings[i]);
@@ -74,6 +76,7 @@ Result<JointCsvColumns> FindColumns(const NumberRows& table, const std::string& 
     if (number == 1) columns.time = i;
     if (number >= 2) columns.joints[(number - 2) / 3][(number - 2) % 3] = i;
   }
+  // A joint needs all three coordinates or none.
   for (const Role role : AllRoles()) {
     const auto& [x, y, z] = columns.joints[Index(role)];
     if (x.has_value() == y.has_value() && y.has_value() == z.has_value()) continue;
@@ -128,7 +131,7 @@ Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file) {
 }
 
 Result<JointCsvRow> ReadJointCsvRow(std::string_view row, const JointCsvColumns& columns, const std::string& file) {
-  // Below a heading, or a word in the row's first column would make the row one.
+  // The line is put below a heading, because a word in its first column would otherwise make it a heading.
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows("row\n" + std::string(row), file));
   RETURN_IF_ERROR(CheckColumns(columns.count, table.columns, file));
   return RowOf(table.Row(0), columns);

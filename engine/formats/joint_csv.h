@@ -13,36 +13,38 @@
 
 namespace etude {
 
-/// Writes a motion as comma-separated values with one line of headings: `frame` (from 0), `time_s`, then
-/// `hip_centre_x_m`, `hip_centre_y_m`, … of every role. Metres, Y up, every digit kept.
+/// Writes a motion as comma-separated values below one line of headings: `frame` (from 0), `time_s`, then
+/// `hip_centre_x_m`, `hip_centre_y_m`, … for every role. Values are in metres, Y up, with all digits.
 std::string WriteJointCsv(const BodyMotion& motion);
 
-/// The columns of such a file, as its headings name them.
+/// The columns of a joint CSV file, as its headings name them.
 struct JointCsvColumns {
   std::size_t count = 0;
   std::optional<std::size_t> time = {};
-  std::array<std::array<std::optional<std::size_t>, 3>, kRoleCount> joints = {};  ///< x, y, z; none: not in the file
+  /// X, y, z; empty if the file lacks the joint.
+  std::array<std::array<std::optional<std::size_t>, 3>, kRoleCount> joints = {};
 };
 
-/// The contents of such a file: it may have fewer joints, and a joint may be missing in some frames.
+/// The contents of a joint CSV file. It may lack joints, and a joint may be missing in some frames.
 struct JointCsv {
   JointCsvColumns columns;
-  std::optional<double> rate_hz;  ///< by the middle step of `time_s`, where that is there and grows
-  std::vector<double> times_s;    ///< of each frame; NaN where the file does not tell it
-  std::vector<int> lines;         ///< where each frame stands in the text, from 1
+  std::optional<double> rate_hz;  ///< from the median step of `time_s`; empty without this column or if the step is 0
+  std::vector<double> times_s;    ///< per frame; NaN if unknown
+  std::vector<int> lines;         ///< per frame: its line in the text, from 1
   std::vector<std::array<std::optional<glm::dvec3>, kRoleCount>> frames;
 };
-/// Reads what `WriteJointCsv` wrote, or any file with some of its columns, in any order. Refused, with the line: what
-/// `ReadNumberRows` refuses, unknown headings, a joint without all three coordinates.
+/// Reads what `WriteJointCsv` writes, or any file with some of its columns in any order. Returns an error with the line
+/// for anything that `ReadNumberRows` refuses, unknown headings, a joint without all three coordinates, and decreasing
+/// times.
 Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file);
 
-/// One row of such a file.
+/// One row of a joint CSV file.
 struct JointCsvRow {
-  double time_s = 0;  ///< NaN where the row does not tell it
+  double time_s = 0;  ///< NaN if unknown
   std::array<std::optional<glm::dvec3>, kRoleCount> places = {};
 };
-/// Reads one more row of a file whose columns are known. Refused: what `ReadNumberRows` refuses, another number of
-/// values than of columns.
+/// Reads one more row of a file with known columns. Returns an error for anything that `ReadNumberRows` refuses, or if
+/// the number of values differs from that of the columns.
 Result<JointCsvRow> ReadJointCsvRow(std::string_view row, const JointCsvColumns& columns, const std::string& file);
 
 }  // namespace etude

@@ -6,10 +6,10 @@
 namespace etude {
 namespace {
 
-/// `index` may be the text's length: its end.
+/// Returns the position of byte `index`, which may be the end of the text.
 Place PlaceOf(std::string_view text, std::size_t index, const std::string& file) {
   const std::string_view before = text.substr(0, index);
-  const std::size_t start = before.rfind('\n') + 1;  // 0 when there is none
+  const std::size_t start = before.rfind('\n') + 1;  // 0 if there is none
   return {file, static_cast<int>(1 + std::ranges::count(before, '\n')), static_cast<int>(before.size() - start + 1)};
 }
 

@@ -8,8 +8,8 @@
 
 namespace etude {
 
-/// Parses JSON that others wrote. Refused with the place of the first byte that is no JSON; a zero byte too, which the
-/// parser would take for the end of the text.
+/// Parses JSON of unknown origin. Returns an error with the position of the first byte that is not valid JSON. A zero
+/// byte is refused, too, because the parser would take it for the end of the text.
 Result<nlohmann::json> ParseJsonText(std::string_view text, const std::string& file);
 
 }  // namespace etude

@@ -7,13 +7,13 @@
 namespace etude {
 namespace {
 
-/// The number of each role's joint in the SDK's JointType, in the order of the roles.
+/// The index of each role's joint in the SDK's JointType, in the order of the roles.
 constexpr std::array<std::size_t, kRoleCount> kJointOfRole = {0,  1,  20, 3,                   // trunk and head
                                                               4,  5,  6,  7,  8,  9,  10, 11,  // arms
                                                               12, 13, 14, 15, 16, 17, 18, 19};
 constexpr std::size_t kPlaceColumns = 3 * kKinectV2JointCount;
 constexpr std::size_t kPoseColumns = 7 * kKinectV2JointCount;
-constexpr double kFarthest = 20;  // metres: a Kinect sees 4.5
+constexpr double kMaxDistance = 20;  // metres; a Kinect's range is 4.5
 
 }  // namespace
 
@@ -30,10 +30,10 @@ Result<std::vector<KinectV2Frame>> ReadKinectV2Text(std::string_view text, const
     for (std::size_t j = 0; j < kKinectV2JointCount; ++j) {
       const glm::dvec3 place(row[stride * j], row[stride * j + 1], row[stride * j + 2]);
       if (std::isnan(place.x + place.y + place.z) || place == glm::dvec3(0)) continue;
-      if (glm::length(place) > kFarthest) {
+      if (glm::length(place) > kMaxDistance) {
         return Fail({file, table.lines[t]},
                     "joint {} is {:.1f} away; allowed: places in metres, at most {} m from the sensor", j,
-                    glm::length(place), kFarthest);
+                    glm::length(place), kMaxDistance);
       }
       frames[t][j] = place;
     }

@@ -10,8 +10,8 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kLargestTake = std::size_t{64} << 20;
-constexpr std::size_t kMostColumns = 20'000;
+constexpr std::size_t kMaxFileBytes = std::size_t{64} << 20;
+constexpr std::size_t kMaxColumns = 20'000;
 
 std::string_view NextLine(std::string_view& text, int& line) {
   const std::size_t end = std::min(text.find('\n'), text.size());
@@ -24,7 +24,7 @@ std::string_view NextLine(std::string_view& text, int& line) {
 
 std::vector<std::string_view> CommaCells(std::string_view line) {
   std::vector<std::string_view> cells;
-  while (cells.size() <= kMostColumns) {
+  while (cells.size() <= kMaxColumns) {
     const std::size_t comma = line.find(',');
     std::string_view cell = line.substr(0, comma);
     if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
@@ -39,7 +39,7 @@ std::string_view CellAt(const std::vector<std::string_view>& cells, std::size_t 
   return i < cells.size() ? cells[i] : std::string_view{};
 }
 
-/// The value behind a key of the first line.
+/// Returns the value that follows a key in the first line.
 std::string_view ValueBehind(const std::vector<std::string_view>& cells, std::string_view key) {
   const auto at = static_cast<std::size_t>(std::ranges::find(cells, key) - cells.begin());
   return CellAt(cells, at + 1);
@@ -52,13 +52,13 @@ std::optional<double> MotiveNumber(std::string_view cell) {
   return value;
 }
 
-/// The columns of a place: X, Y, Z.
+/// The columns X, Y, Z of one position.
 struct PlaceColumns {
   std::string name;
   std::array<std::size_t, 3> at{};
 };
 
-/// Finds the places of everything of that type in the table's headings.
+/// Finds the position columns of all objects of type `type` in the table's headings.
 std::vector<PlaceColumns> PlaceColumnsOf(std::string_view type, const std::vector<std::string_view>& types,
                                          const std::vector<std::string_view>& names,
                                          const std::vector<std::string_view>& kinds,
@@ -81,7 +81,8 @@ bool IsMotiveCsv(std::string_view text) {
 }
 
 Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& file) {
-  if (text.size() > kLargestTake) return Fail({file}, "{} bytes; allowed: {}", text.size(), kLargestTake);
+  if (text.size() > kMaxFileBytes) return Fail({file}, "{} bytes; allowed: {}", text.size(), kMaxFileBytes);
+  // Read the properties in the first line.
   int line = 0;
   const auto facts = CommaCells(NextLine(text, line));
   const Place first{file, line, 0};
@@ -91,9 +92,10 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
   if (!space.empty() && space != "Global") return Fail(first, "Coordinate Space {}; allowed: Global", Quote(space));
   auto rate = MotiveNumber(ValueBehind(facts, "Export Frame Rate"));
   if (!rate) rate = MotiveNumber(ValueBehind(facts, "Capture Frame Rate"));
-  constexpr double kFastest = 10'000;
-  if (!rate || *rate <= 0 || *rate > kFastest) return Fail(first, "no Export Frame Rate from 0 to {:g}", kFastest);
+  constexpr double kMaxRateHz = 10'000;
+  if (!rate || *rate <= 0 || *rate > kMaxRateHz) return Fail(first, "no Export Frame Rate from 0 to {:g}", kMaxRateHz);
 
+  // Read the headings, which end with the line of axes.
   std::vector<std::string_view> types, names, kinds, axes;
   while (!text.empty() && CellAt(axes, 0) != "Frame") {
     kinds = axes;
@@ -101,13 +103,15 @@ Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& fil
     if (CellAt(axes, 1) == "Type") types = axes;
     if (CellAt(axes, 1) == "Name") names = axes;
   }
-  if (axes.size() > kMostColumns) return Fail({file, line, 0}, "more than {} columns", kMostColumns);
+  if (axes.size() > kMaxColumns) return Fail({file, line, 0}, "more than {} columns", kMaxColumns);
+  // Use bones, or markers if there are no bones.
   std::vector<PlaceColumns> places = PlaceColumnsOf("Bone", types, names, kinds, axes);
   if (places.empty()) places = PlaceColumnsOf("Marker", types, names, kinds, axes);
   if (places.empty() || places.size() > 1000) {
     return Fail({file, line, 0}, "{} bones or markers with a Position; allowed: 1 to 1000", places.size());
   }
 
+  // Read the frames; a position with an empty cell was not seen.
   MarkerMotion motion{.rate_hz = *rate, .names = {}, .frames = {}};
   for (const PlaceColumns& place : places) motion.names.push_back(place.name);
   while (!text.empty()) {

@@ -8,13 +8,13 @@
 
 namespace etude {
 
-/// Tells whether a text begins as a take does that OptiTrack's Motive exported: with "Format Version,".
+/// Returns true if a text begins like a take exported by OptiTrack's Motive: with "Format Version,".
 bool IsMotiveCsv(std::string_view text);
 
-/// Reads such a take (versions 1.2x): the places of its bones, called as there ("Ann:LUArm"), or of its markers where
-/// it has no bones. Metres, Y up; what was not seen stays empty. Refused, with the line: places that are not global,
-/// other units than metres, centimetres, millimetres, no table, words for numbers, over 1,000 columns of either or 64
-/// MiB.
+/// Reads a take exported by Motive (versions 1.2x): the positions of its bones with their names there ("Ann:LUArm"), or
+/// of its markers if it has no bones. Positions are in metres, Y up; a position that was not seen is empty. Returns an
+/// error with the line if coordinates are not global, the unit is not metres, centimetres or millimetres, there is no
+/// table, a cell is not a number, there are more than 1,000 bones or markers, or the text exceeds 64 MiB.
 Result<MarkerMotion> ReadMotiveCsv(std::string_view text, const std::string& file);
 
 }  // namespace etude

@@ -10,28 +10,28 @@
 
 namespace etude {
 
-/// An array of numbers, in C's order.
+/// An array of numbers in C order (the last index varies fastest).
 struct NumberArray {
-  std::vector<std::size_t> shape;  ///< empty = one number
+  std::vector<std::size_t> shape;  ///< empty for a single number
   std::vector<double> values;
 };
 
 /// The arrays of an .npz file (NumPy's format: a ZIP of .npy files), by name.
 struct Npz {
   std::map<std::string, NumberArray> arrays;
-  std::vector<std::string> skipped;  ///< members that hold no plain numbers: texts, pickled objects
+  std::vector<std::string> skipped;  ///< names of members without plain numbers: texts, pickled objects
 };
 
-/// Tells whether bytes begin as a ZIP file does.
+/// Returns true if bytes begin like a ZIP file.
 bool IsZip(std::string_view bytes);
 
-/// Reads an .npz file, stored or deflated, ZIP64, too: floats and whole numbers of any size, little-endian. Refused: a
-/// damaged file, more than 1,000 members, members of more than 512 MiB together once unpacked.
+/// Reads an .npz file, stored or deflated, also ZIP64, with floats and whole numbers of any size, little-endian.
+/// Returns an error if the file is damaged, has more than 1,000 members, or unpacks to more than 512 MiB in total.
 Result<Npz> ReadNpz(std::string_view bytes, const std::string& file);
 
-/// Tells whether bytes begin as an .npy file does.
+/// Returns true if bytes begin like an .npy file.
 bool IsNpy(std::string_view bytes);
-/// Reads an .npy file of plain numbers. Refused: others, and what ReadNpz refuses.
+/// Reads an .npy file of plain numbers. Returns an error for other types, and for anything that ReadNpz refuses.
 Result<NumberArray> ReadNpy(std::string_view bytes, const std::string& file);
 
 /// Writes an .npz file, stored: numbers as 8-byte floats, and lists of texts in ASCII. Up to 4 GiB; the same bytes for

@@ -22,7 +22,7 @@ std::string_view Trimmed(std::string_view text) {
   return text;
 }
 
-/// The words of one line; commas may leave some empty, blanks never do.
+/// Returns the words of one line; between commas they may be empty.
 std::vector<std::string_view> WordsOf(std::string_view line) {
   std::vector<std::string_view> words;
   const bool by_comma = line.find_first_of(",;") != std::string_view::npos;
@@ -61,6 +61,7 @@ Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file
   if (text.size() > kLargestNumberText) {
     return Fail({file}, "{} bytes; allowed: at most {}", text.size(), kLargestNumberText);
   }
+  // Skip a byte order mark, then read line by line.
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   NumberRows table;
   for (int line_number = 1; !text.empty(); ++line_number) {
@@ -70,10 +71,12 @@ Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file
     text.remove_prefix(std::min(end + 1, text.size()));
     if (IsRemark(line)) continue;
     const std::vector<std::string_view> words = WordsOf(line);
+    // The first line may be a heading.
     if (table.columns == 0 && table.heading.empty() && !NumberOf(words.front())) {
       table.heading = line;
       continue;
     }
+    // Every row must have as many numbers as the first.
     if (table.columns == 0) table.columns = words.size();
     if (words.size() != table.columns) {
       return Fail({file, line_number}, "{} values; the rows before have {}", words.size(), table.columns);

@@ -9,16 +9,16 @@ namespace etude {
 namespace {
 
 constexpr std::size_t kPerTarget = 7;
-constexpr double kFarthestInMetres = 20;
+constexpr double kMaxMetres = 20;
 
-/// Returns the metres per unit of the file.
+/// Returns the metres per unit of the file, guessed from its largest coordinate.
 double UnitOf(const NumberRows& table) {
   double farthest = 0;
   for (std::size_t i = 0; i < table.values.size(); ++i) {
     const double value = table.values[i];
     if (i % kPerTarget < 3 && !std::isnan(value)) farthest = std::max(farthest, std::abs(value));
   }
-  return farthest > kFarthestInMetres ? 0.001 : 1.0;
+  return farthest > kMaxMetres ? 0.001 : 1.0;
 }
 
 }  // namespace

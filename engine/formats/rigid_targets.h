@@ -12,7 +12,7 @@
 
 namespace etude {
 
-/// Rigid targets on a body, in the order of their files.
+/// Rigid targets on a body, in the order of the files.
 enum class BodyTarget {
   kRightForearm,
   kLeftForearm,
@@ -34,18 +34,18 @@ enum class BodyTarget {
 };
 constexpr std::size_t kBodyTargetCount = 17;
 
-/// The pose of a target in the optical system's own space, metres.
+/// The pose of a target in the optical system's frame, in metres.
 struct TargetPose {
   glm::dvec3 position{0};
   glm::dquat rotation{1, 0, 0, 0};
 };
-/// Absent where the cameras did not see the target.
+/// One frame; a target that the cameras did not see is empty.
 using TargetFrame = std::array<std::optional<TargetPose>, kBodyTargetCount>;
 
-/// Reads optical tracking of 17 rigid targets as text: a line per frame, 17 × (x, y, z, qx, qy, qz, qw). Millimetres;
-/// metres when no place is farther than 20 from the origin. A target with nan, or a quaternion of length 0, is
-/// missing. Refused, with the line: what `ReadNumberRows` refuses, another count of values, a quaternion whose length
-/// is not 1 to within a tenth.
+/// Reads optical tracking of 17 rigid targets as text with one line per frame: 17 × (x, y, z, qx, qy, qz, qw). The unit
+/// is millimetres, or metres if no coordinate exceeds 20. A target with nan or a quaternion of length 0 is missing.
+/// Returns an error with the line for anything that `ReadNumberRows` refuses, another number of values, or a quaternion
+/// whose length differs from 1 by more than 0.1.
 Result<std::vector<TargetFrame>> ReadRigidTargets(std::string_view text, const std::string& file);
 
 }  // namespace etude

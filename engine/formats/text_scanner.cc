@@ -8,9 +8,9 @@
 namespace etude {
 namespace {
 
-constexpr double kLargestNumber = 1e9;
+constexpr double kMaxNumber = 1e9;
 
-bool IsAllowed(double value) { return std::isfinite(value) && std::abs(value) <= kLargestNumber; }
+bool IsAllowed(double value) { return std::isfinite(value) && std::abs(value) <= kMaxNumber; }
 
 bool IsBlank(char c) { return c == ' ' || c == '\t'; }
 bool IsLineEnd(char c) { return c == '\n' || c == '\r'; }
@@ -77,13 +77,13 @@ std::optional<double> TextScanner::TakeNumberInLine() {
 }
 
 Result<double> TextScanner::Number(const Token& token, std::string_view what) const {
-  // A leading plus is common in hand-written files, but unknown to from_chars.
+  // Hand-written files often have a leading plus, which from_chars does not accept.
   const std::string_view digits = token.text.starts_with('+') ? token.text.substr(1) : token.text;
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   const bool is_number = error == std::errc() && end == digits.data() + digits.size();
   if (!is_number || !IsAllowed(value)) {
-    return Fail(At(token), "found {} as {}; allowed: a number within ±{:g}", Quote(token.text), what, kLargestNumber);
+    return Fail(At(token), "found {} as {}; allowed: a number within ±{:g}", Quote(token.text), what, kMaxNumber);
   }
   return value;
 }

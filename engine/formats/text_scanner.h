@@ -8,34 +8,35 @@
 
 namespace etude {
 
-/// A word of a text and where it stands, both counted from 1 (columns in bytes). Empty at the end.
+/// A word of a text with its line and column, both counted from 1 (columns in bytes). It is empty at the end.
 struct Token {
   std::string_view text;
   int line = 1;
   int column = 1;
 };
 
-/// Walks a text word by word and knows the line and column of each, for readers of plain-text
-/// formats whose complaints must point at what was found. Blanks are spaces and tabs; lines end with LF, CR LF or
-/// CR; a leading UTF-8 byte order mark is skipped. `text` must outlive the scanner and its tokens.
+/// Reads a text word by word and keeps the line and column of each, for readers of text formats with precise error
+/// messages. Blanks are spaces and tabs; lines end with LF, CR LF or CR; a leading UTF-8 byte order mark is skipped.
+/// `text` must outlive the scanner and its tokens.
 class TextScanner {
  public:
   TextScanner(std::string_view text, std::string file);
 
-  /// The next word on this line or a later one. `{`, `}` and `:` are words of their own.
+  /// Returns the next word on this line or a later one. `{`, `}` and `:` are separate words.
   Token Next();
-  /// The next word of this line, split at blanks only; empty at the end of the line.
+  /// Returns the next word on this line, split at blanks only; empty at the end of the line.
   Token NextInLine();
-  /// Returns the rest of this line before any `{`, without blanks around it: a name may contain blanks.
+  /// Returns the rest of this line before any `{`, without blanks around it, because a name may contain blanks.
   Token NameInLine();
-  /// The next word of this line if it is a number that `Number` takes; else none, and the word is still to come.
+  /// Returns the next word on this line if it is a number that `Number` accepts; else returns nothing and keeps the
+  /// word.
   std::optional<double> TakeNumberInLine();
-  /// Passes over blanks and line ends; false when nothing follows.
+  /// Skips blanks and line ends; returns false at the end of the text.
   bool SkipToText();
 
   Place At(const Token& token) const { return {file_, token.line, token.column}; }
-  /// Reads a word as a number. Refused: anything but a number, NaN, infinity, more than ±10⁹ (so that
-  /// sums and products of what was read stay finite). `what` names the number in the complaint.
+  /// Reads a word as a number. Returns an error for anything else, NaN, infinity, and numbers beyond ±10⁹ (so that sums
+  /// and products of input numbers stay finite). `what` names the number in the message.
   Result<double> Number(const Token& token, std::string_view what) const;
 
  private:

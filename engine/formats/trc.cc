@@ -15,7 +15,7 @@ namespace {
 constexpr double kMillimetres = 1000;
 
 std::string Head(double rate_hz, std::size_t frames, std::span<const std::string> markers, std::string name) {
-  // It stands in a table of lines and tabs.
+  // The name is in a table, so it must not contain line ends or tabs.
   std::ranges::replace_if(
       name, [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; }, '_');
   std::string text;
@@ -25,7 +25,7 @@ std::string Head(double rate_hz, std::size_t frames, std::span<const std::string
                  "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\t"
                  "OrigNumFrames\n");
   fmt::format_to(out, "{0}\t{0}\t{1}\t{2}\tmm\t{0}\t1\t{1}\n", rate_hz, frames, markers.size());
-  // A marker's name stands over the first of its three columns.
+  // A marker's name is above the first of its three columns.
   text += "Frame#\tTime";
   for (const std::string& marker : markers) fmt::format_to(out, "\t{}\t\t", marker);
   text += "\n\t";
@@ -50,7 +50,7 @@ std::string_view TakeLine(std::string_view& text, int& line) {
   return here;
 }
 
-/// Splits a line at its tabs; of a line that ends in tabs the last cells are empty.
+/// Splits a line at its tabs; a tab at the end gives an empty last cell.
 std::vector<std::string_view> Cells(std::string_view line) {
   std::vector<std::string_view> cells;
   while (true) {
@@ -72,7 +72,7 @@ std::optional<double> NumberIn(std::string_view cell) {
   return value;
 }
 
-/// The header's third line, as numbers and a unit.
+/// The values in the header's third line.
 struct TrcHeader {
   double rate_hz = 0;
   std::size_t frames = 0, markers = 0;
@@ -87,9 +87,9 @@ Result<TrcHeader> ReadHeader(std::string_view names, std::string_view values, co
     return at < cells.size() ? cells[at] : std::string_view{};
   };
   const auto rate = NumberIn(of("DataRate")), frames = NumberIn(of("NumFrames")), markers = NumberIn(of("NumMarkers"));
-  constexpr double kMostFrames = 1e7, kMostMarkers = 1000;
-  if (!rate || !frames || !markers || !(*rate > 0) || !(*frames >= 0 && *frames <= kMostFrames) ||
-      !(*markers >= 1 && *markers <= kMostMarkers)) {
+  constexpr double kMaxFrames = 1e7, kMaxMarkers = 1000;
+  if (!rate || !frames || !markers || !(*rate > 0) || !(*frames >= 0 && *frames <= kMaxFrames) ||
+      !(*markers >= 1 && *markers <= kMaxMarkers)) {
     return Fail(place,
                 "no header of a TRC file; allowed: DataRate, NumFrames, NumMarkers (to 1000) and Units with "
                 "their values in the next line, between tabs");
@@ -108,28 +108,29 @@ Result<std::vector<std::optional<glm::dvec3>>> ReadFrame(std::string_view line, 
   }
   std::vector<std::optional<glm::dvec3>> frame(header.markers);
   for (std::size_t marker = 0; marker < header.markers; ++marker) {
-    glm::dvec3 place_of(0);
+    glm::dvec3 position(0);
     bool is_seen = true;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::size_t at = 2 + 3 * marker + axis;
       const std::string_view cell = at < cells.size() ? cells[at] : std::string_view{};
       const auto value = NumberIn(cell);
       if (!cell.empty() && !value) return Fail(place, "'{}' is no number", cell);
-      constexpr double kMost = 1e9;  // millimetres, in which they are written
-      is_seen = is_seen && value && std::abs(*value) * (kMillimetres * header.metres) <= kMost;  // not "nan"
-      if (is_seen) place_of[static_cast<int>(axis)] = header.metres * *value;
+      constexpr double kMaxCoordinate = 1e9;  // in millimetres, the unit of written files
+      is_seen =
+          is_seen && value && std::abs(*value) * (kMillimetres * header.metres) <= kMaxCoordinate;  // false for "nan"
+      if (is_seen) position[static_cast<int>(axis)] = header.metres * *value;
     }
-    if (is_seen) frame[marker] = place_of;
+    if (is_seen) frame[marker] = position;
   }
   return frame;
 }
 
-/// Takes the rate of the times of the first and the last frame where DataRate is another.
-void FollowTimes(std::optional<double> first, std::optional<double> last, MarkerMotion& motion) {
-  constexpr double kShortest_s = 0.5, kAlike = 0.05, kPrintedPrecision = 1e-3;
-  if (!first || !last || !(*last - *first >= kShortest_s)) return;
+/// Replaces the rate by that of the time column, if DataRate differs from it.
+void UseTimeColumn(std::optional<double> first, std::optional<double> last, MarkerMotion& motion) {
+  constexpr double kMinDuration_s = 0.5, kTolerance = 0.05, kPrintedPrecision = 1e-3;
+  if (!first || !last || !(*last - *first >= kMinDuration_s)) return;
   double rate = static_cast<double>(motion.frames.size() - 1) / (*last - *first);
-  if (!(rate > 0) || std::abs(rate / motion.rate_hz - 1) <= kAlike) return;
+  if (!(rate > 0) || std::abs(rate / motion.rate_hz - 1) <= kTolerance) return;
   if (std::abs(rate - std::round(rate)) < kPrintedPrecision * rate) rate = std::round(rate);
   motion.remark =
       fmt::format("DataRate says {:g} Hz, but the column Time runs at {:g} Hz, which counts", motion.rate_hz, rate);
@@ -161,8 +162,9 @@ std::string WriteTrc(const MarkerMotion& motion, std::string name) {
 }
 
 Result<MarkerMotion> ReadTrc(std::string_view text, const std::string& file) {
-  constexpr std::size_t kLargestTrc = std::size_t{64} << 20;
-  if (text.size() > kLargestTrc) return Fail({file}, "{} bytes; allowed: {}", text.size(), kLargestTrc);
+  constexpr std::size_t kMaxFileBytes = std::size_t{64} << 20;
+  if (text.size() > kMaxFileBytes) return Fail({file}, "{} bytes; allowed: {}", text.size(), kMaxFileBytes);
+  // Read the header and the markers' names.
   int line = 0;
   TakeLine(text, line);  // PathFileType
   const std::string_view keys = TakeLine(text, line), values = TakeLine(text, line);
@@ -176,6 +178,7 @@ Result<MarkerMotion> ReadTrc(std::string_view text, const std::string& file) {
     motion.names.emplace_back(names[at]);
   }
   TakeLine(text, line);  // X1 Y1 Z1 …
+  // Read the frames and their times.
   std::optional<double> first_time, last_time;
   while (!text.empty()) {
     const std::string_view here = TakeLine(text, line);
@@ -188,7 +191,7 @@ Result<MarkerMotion> ReadTrc(std::string_view text, const std::string& file) {
   if (motion.frames.size() != header.frames) {
     return Fail({file}, "{} frames, {} announced", motion.frames.size(), header.frames);
   }
-  FollowTimes(first_time, last_time, motion);
+  UseTimeColumn(first_time, last_time, motion);
   return motion;
 }
 

@@ -12,26 +12,27 @@
 namespace etude {
 
 /// Writes a motion as a TRC file (Track Row Column, Motion Analysis), which OpenSim and others read as marker
-/// trajectories: one marker per role, millimetres, Y up, five decimals; frames count from 1, time from 0 s. `name` is
-/// told in the file's first line, with '_' for tabs and line ends.
+/// trajectories: one marker per role, millimetres, Y up, five decimals. Frames count from 1, times from 0 s. `name` is
+/// written to the file's first line, with '_' for tabs and line ends.
 std::string WriteTrc(const BodyMotion& motion, std::string name);
 
 /// Trajectories of any markers.
 struct MarkerMotion {
   double rate_hz = 30;
   std::vector<std::string> names;
-  /// The places of markers in each frame, metres; nothing where one was not seen.
+  /// The markers' positions in each frame, in metres; empty if a marker was not seen.
   std::vector<std::vector<std::optional<glm::dvec3>>> frames;
-  std::string remark = "";  ///< what the reader found to say, in plain words
+  std::string remark = "";  ///< a message of the reader for the user
 };
 
-/// Writes such a file of markers; what was not seen stays empty between its tabs, as OpenSim reads it.
+/// Writes markers as a TRC file. The cells of a marker that was not seen are empty, as OpenSim expects.
 std::string WriteTrc(const MarkerMotion& motion, std::string name);
 
-/// Reads a TRC file in metres or millimetres (`Units`; also cm), its axes as they are. An empty place, "nan", or one
-/// beyond ±10⁶ m is a marker not seen. Where its column Time runs at another rate than DataRate (by over 5 %, over at
-/// least half a second), Time counts, as for OpenSim, and the remark says so. Fails with the line: no header, another
-/// number of frames or columns than announced, words for numbers, over 1,000 markers or 64 MiB.
+/// Reads a TRC file in metres, millimetres or centimetres (`Units`), without changing its axes. A marker counts as not
+/// seen if a cell is empty, "nan" or beyond ±10⁶ m. If the rate of the time column differs from DataRate by more than 5
+/// % over at least half a second, the time column is used, as in OpenSim, and the remark says so. Returns an error with
+/// the line if there is no header, the number of frames or columns is wrong, a cell is not a number, or there are more
+/// than 1,000 markers or 64 MiB.
 Result<MarkerMotion> ReadTrc(std::string_view text, const std::string& file);
 
 }  // namespace etude

@@ -7,10 +7,10 @@
 
 namespace etude {
 
-/// Gives every joint a name of its own: programs, and our own joint maps, tell joints by their names.
+/// Gives every joint a unique name, because other programs and our joint maps identify joints by their names.
 class UniqueNames {
  public:
-  /// The name itself if it has not been given before, else the first free one of "<name>#2", "<name>#3", ….
+  /// Returns `name` if it has not been used yet, else the first unused one of "<name>#2", "<name>#3", ….
   std::string Add(const std::string& name) {
     std::string unique = name;
     for (int number = 2; !given_.insert(unique).second; ++number) unique = fmt::format("{}#{}", name, number);

@@ -17,6 +17,7 @@ std::string WriteWav(std::span<const double> samples, int rate_hz) {
   constexpr int kBytes = 2, kPcm = 1, kChannels = 1;
   const auto rate = static_cast<std::uint32_t>(rate_hz);
   const auto data = static_cast<std::uint32_t>(samples.size() * kBytes);
+  // Write the RIFF header with the format.
   std::string out = "RIFF";
   Append(36 + data, 4, out);
   out += "WAVEfmt ";
@@ -27,6 +28,7 @@ std::string WriteWav(std::span<const double> samples, int rate_hz) {
   Append(rate * kBytes * kChannels, 4, out);
   Append(kBytes * kChannels, 2, out);
   Append(8 * kBytes, 2, out);
+  // Write the samples.
   out += "data";
   Append(data, 4, out);
   for (double sample : samples) {

@@ -10,7 +10,7 @@ using enum Defuzzification;
 constexpr std::array<Defuzzification, 4> kMethods = {kMaximum, kCentroid, kHeight, kArea};
 constexpr std::array<std::string_view, 4> kNames = {"maximum", "centroid", "height", "area"};
 
-/// The sums of a weighted mean.
+/// The sums for a weighted mean.
 struct Moment {
   double weight = 0, sum = 0;
 
@@ -23,12 +23,12 @@ struct Moment {
 
 double ClippedAt(const ActivatedTerm& term, double x) { return std::min(term.grade, GradeOf(term.shape, x)); }
 
-/// A cut, as far as it lies in the universe; low > high when it does not.
+/// Returns the part of a cut that lies in the universe; low > high if it is empty.
 Cut Within(const Universe& universe, const Cut& cut) {
   return {std::max(cut.low, universe.low), std::min(cut.high, universe.high)};
 }
 
-/// Returns the input at which a term alone has its largest grade.
+/// Returns the input at which the term's own grade is largest (the middle of its top).
 double PeakOf(const Shape& shape, const Universe& universe) {
   const Cut top = Within(universe, CutOf(shape, 1));
   return 0.5 * (top.low + top.high);
@@ -46,7 +46,7 @@ std::optional<double> MeanOfMaxima(std::span<const ActivatedTerm> terms, const U
   Moment lengths, points;
   double covered = universe.low;
   for (const Cut& cut : maxima) {
-    const double low = std::max(cut.low, covered);  // what two terms share counts once
+    const double low = std::max(cut.low, covered);  // an overlap of two terms counts once
     if (cut.high > low) lengths.Add(cut.high - low, 0.5 * (low + cut.high));
     points.Add(1, 0.5 * (cut.low + cut.high));
     covered = std::max(covered, cut.high);
@@ -54,34 +54,35 @@ std::optional<double> MeanOfMaxima(std::span<const ActivatedTerm> terms, const U
   return lengths.weight > 0 ? lengths.Mean() : points.Mean();
 }
 
-/// Adds the inputs at which a straight-sided term bends, or small steps for a term that is not.
-void AddBends(const ActivatedTerm& term, const Universe& universe, std::vector<double>& bends) {
+/// Adds the inputs at which a straight-sided term has a corner; for a Gaussian, small steps.
+void AddCorners(const ActivatedTerm& term, const Universe& universe, std::vector<double>& corners) {
   for (double grade : {1.0, term.grade}) {
     const Cut cut = CutOf(term.shape, grade);
-    bends.insert(bends.end(), {cut.low, cut.high});
+    corners.insert(corners.end(), {cut.low, cut.high});
   }
   if (const auto* gaussian = std::get_if<Gaussian>(&term.shape)) {
     constexpr int kSteps = 128;
-    constexpr double kReach = 8;  // sigmas; beyond, the grade is below 1e-13
+    constexpr double kReach = 8;  // standard deviations; beyond, the grade is below 1e-13
     for (int i = 0; i <= kSteps; ++i) {
-      bends.push_back(gaussian->mean + gaussian->sigma * kReach * (2.0 * i / kSteps - 1));
+      corners.push_back(gaussian->mean + gaussian->sigma * kReach * (2.0 * i / kSteps - 1));
     }
   } else if (!std::holds_alternative<Singleton>(term.shape)) {
     const Cut support = CutOf(term.shape, 0);
-    bends.insert(bends.end(), {support.low, support.high});
+    corners.insert(corners.end(), {support.low, support.high});
   }
-  std::erase_if(bends, [&](double x) { return x <= universe.low || x >= universe.high; });
+  std::erase_if(corners, [&](double x) { return x <= universe.low || x >= universe.high; });
 }
 
-/// Lists the inputs at which the union of the terms may bend: where one does, and where two cross.
-std::vector<double> BendsOf(std::span<const ActivatedTerm> terms, const Universe& universe) {
-  std::vector<double> bends;
-  for (const ActivatedTerm& term : terms) AddBends(term, universe, bends);
-  bends.insert(bends.end(), {universe.low, universe.high});
-  std::ranges::sort(bends);
-  std::vector<double> all = bends;
-  for (std::size_t i = 0; i + 1 < bends.size(); ++i) {
-    const double low = bends[i], high = bends[i + 1];
+/// Returns the inputs at which the union of the terms may have a corner: corners of terms and crossings of two terms.
+std::vector<double> CornersOf(std::span<const ActivatedTerm> terms, const Universe& universe) {
+  std::vector<double> corners;
+  for (const ActivatedTerm& term : terms) AddCorners(term, universe, corners);
+  corners.insert(corners.end(), {universe.low, universe.high});
+  std::ranges::sort(corners);
+  std::vector<double> all = corners;
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+    // Between two neighbouring corners every term is straight, so each pair of terms crosses at most once.
+    const double low = corners[i], high = corners[i + 1];
     if (high <= low) continue;
     for (std::size_t a = 0; a < terms.size(); ++a) {
       for (std::size_t b = 0; b < a; ++b) {
@@ -95,21 +96,21 @@ std::vector<double> BendsOf(std::span<const ActivatedTerm> terms, const Universe
   return all;
 }
 
-/// Returns area and first moment of the union of the terms: Simpson's rule between bends, where it is exact for
-/// straight lines.
+/// Returns the area and the first moment of the union of the terms, by Simpson's rule between corners, which is exact
+/// for straight lines.
 Moment AreaUnder(std::span<const ActivatedTerm> terms, const Universe& universe) {
   const auto height = [&](double x) {
     double highest = 0;
     for (const ActivatedTerm& term : terms) highest = std::max(highest, ClippedAt(term, x));
     return highest;
   };
-  const std::vector<double> bends = BendsOf(terms, universe);
+  const std::vector<double> corners = CornersOf(terms, universe);
   Moment area;
-  for (std::size_t i = 0; i + 1 < bends.size(); ++i) {
-    const double low = bends[i], high = bends[i + 1], middle = 0.5 * (low + high);
-    // At a vertical side the curve has two values; sample just inside the piece to get the piece's own.
-    const double hair = (high - low) * 1e-9;
-    const double at_low = height(low + hair), at_middle = height(middle), at_high = height(high - hair);
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+    const double low = corners[i], high = corners[i + 1], middle = 0.5 * (low + high);
+    // At a vertical side the curve has two values, so sample slightly inside the piece.
+    const double inset = (high - low) * 1e-9;
+    const double at_low = height(low + inset), at_middle = height(middle), at_high = height(high - inset);
     area.weight += (high - low) / 6 * (at_low + 4 * at_middle + at_high);
     area.sum += (high - low) / 6 * (at_low * low + 4 * at_middle * middle + at_high * high);
   }
@@ -131,7 +132,7 @@ std::string_view DefuzzificationName(Defuzzification method) { return kNames[sta
 std::optional<double> Defuzzify(std::span<const ActivatedTerm> terms, const Universe& universe,
                                 Defuzzification method) {
   std::vector<ActivatedTerm> active;
-  std::vector<ActivatedTerm> wide;  // those with an area
+  std::vector<ActivatedTerm> wide;  // terms with an area
   for (const ActivatedTerm& term : terms) {
     const Cut top = Within(universe, CutOf(term.shape, 1));
     if (term.grade <= 0 || top.low > top.high) continue;

@@ -36,8 +36,8 @@ FuzzyDistance ComputeDistance(const Grades& a, const Grades& b, const FeatureWei
 }
 
 bool IsCloser(const Grades& a, const Grades& b, const FeatureWeights& weights, double threshold) {
-  // Rounding keeps order: a sum above the rounded square has no root below the threshold. At the square itself only
-  // the root can tell.
+  // Rounding is monotonic, so a sum above the rounded square has no root below the threshold. If it equals the square,
+  // only the root can tell.
   const double square = threshold * threshold;
   double sum = 0;
   for (std::size_t k = 0; k < kFeatureCount; ++k) {

@@ -16,7 +16,7 @@ struct FeatureFacts {
   std::span<const Role> joints;
 };
 
-// Every limb angle is measured against the trunk, so hips and shoulders enter all but elbows and knees.
+// Limb angles are measured against the trunk, so all features except elbows and knees depend on hips and shoulders.
 constexpr std::array kRightArmRaise = {kRightShoulder, kRightElbow, kLeftShoulder, kLeftHip, kRightHip};
 constexpr std::array kLeftArmRaise = {kLeftShoulder, kLeftElbow, kRightShoulder, kLeftHip, kRightHip};
 constexpr std::array kRightElbowBend = {kRightShoulder, kRightElbow, kRightWrist};
@@ -47,7 +47,7 @@ constexpr std::array<Feature, kFeatureCount> kFeatures = [] {
   return features;
 }();
 
-/// The inner angle at the knee; a limb without length counts as straight.
+/// Returns the inner angle at the knee; a limb of zero length counts as straight.
 double KneeDegrees(const glm::dvec3& hip, const glm::dvec3& knee, const glm::dvec3& ankle) {
   return 180.0 - Degrees(AngleBetween(knee - hip, ankle - knee));
 }
@@ -78,7 +78,7 @@ PoseFeatures ComputeFeatures(const BodyPose& pose, double standing_hip_height) {
   features[kLH] = degrees(limb(kLeftShoulder, kLeftElbow), down);
   features[kRHE] = degrees(limb(kRightShoulder, kRightElbow), limb(kRightElbow, kRightWrist));
   features[kLHE] = degrees(limb(kLeftShoulder, kLeftElbow), limb(kLeftElbow, kLeftWrist));
-  constexpr double kStandingScale = 80;  // equations 7-10 put "stand" at 80
+  constexpr double kStandingScale = 80;  // in equations 7–10, "stand" is at 80
   features[kPosture] = kStandingScale * pose[kHipCentre].y / standing_hip_height;
   features[kTrunk] = 180.0 - degrees(trunk, {0, 1, 0});
   features[kRF] = degrees(limb(kRightHip, kRightKnee), down);
@@ -92,8 +92,8 @@ double StandingHipHeight(const BodyPose& pose) {
   const auto length = [&](Role from, Role to) { return glm::distance(pose[from], pose[to]); };
   const double thigh = 0.5 * (length(kLeftHip, kLeftKnee) + length(kRightHip, kRightKnee));
   const double shank = 0.5 * (length(kLeftKnee, kLeftAnkle) + length(kRightKnee, kRightAnkle));
-  // The ankle stands 0.039 of the body's height above the sole, a shank is 0.246 of it (Drillis and
-  // Contini 1966). The foot's own bone is no measure: files end it at the toe's base or at its tip.
+  // The ankle is 0.039 of the body's height above the sole, and a shank is 0.246 of it (Drillis and Contini 1966). The
+  // foot bone cannot be used, because in some files it ends at the base of the toe, in others at its tip.
   constexpr double kAnkleHeightPerShank = 0.039 / 0.246;
   return thigh + shank * (1.0 + kAnkleHeightPerShank);
 }

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
-/// Returns √S · μ of every frame: the points whose Euclidean distance equation 1 is.
+/// Returns √S · μ of every frame. The Euclidean distance of two such points is that of equation 1.
 std::vector<Grades> Scaled(std::span<const Grades> motion, const FeatureWeights& weights) {
   Grades roots{};
   for (std::size_t i = 0; i < kTermCount; ++i) {
@@ -42,7 +42,8 @@ double Euclidean(const Grades& a, const Grades& b) {
   return std::sqrt(sum);
 }
 
-/// The columns of a row that the band allows. Symmetric in rows and columns; neighbouring rows always share one.
+/// The range of columns that the Sakoe–Chiba band allows in each row. It is symmetric in rows and columns, and
+/// neighbouring rows always share a column.
 class Band {
  public:
   Band(std::size_t rows, std::size_t columns, double share)
@@ -60,8 +61,8 @@ class Band {
   }
 
  private:
-  double rows_, columns_;  ///< counts less one
-  double slack_;           ///< |row · columns_ − column · rows_| is at most this
+  double rows_, columns_;  ///< number of rows and columns minus one
+  double slack_;           ///< upper limit of |row · columns_ − column · rows_|
 };
 
 }  // namespace
@@ -72,10 +73,11 @@ std::optional<double> ComputeMotionSimilarity(std::span<const Grades> a, std::sp
   const std::vector<Grades> rows = Scaled(a, options.weights), columns = Scaled(b, options.weights);
   const Band band(rows.size(), columns.size(), options.band);
   const double steps = static_cast<double>(rows.size() + columns.size());
-  // D above this makes the similarity fall below `at_least`; a hair is left for rounding.
-  const double most =
+  // If D exceeds this, the similarity is below `at_least`; the margin covers rounding.
+  const double max_cost =
       options.at_least > 0 ? steps * options.half_at * (1 / options.at_least - 1) * (1 + 1e-12) + 1e-12 : kUnreached;
 
+  // Warp row by row within the band; a diagonal step counts twice.
   std::vector<double> above(columns.size(), kUnreached), row(columns.size(), kUnreached);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     std::ranges::fill(row, kUnreached);
@@ -90,7 +92,8 @@ std::optional<double> ComputeMotionSimilarity(std::span<const Grades> a, std::sp
       row[j] = best;
       least = std::min(least, best);
     }
-    if (least > most) return std::nullopt;
+    // Give up when every path in this row costs too much.
+    if (least > max_cost) return std::nullopt;
     std::swap(above, row);
   }
   const double similarity = 1 / (1 + above.back() / steps / options.half_at);

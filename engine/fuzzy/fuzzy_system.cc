@@ -16,7 +16,7 @@
 namespace etude {
 namespace {
 
-/// The part of a file about table 1's features.
+/// The settings in a file that concern table 1's features.
 struct FeatureSettings {
   Memberships memberships;
   FeatureWeights weights{};  ///< scaled to sum to 8
@@ -34,7 +34,7 @@ std::vector<std::string> TermNames(Feature feature) {
   return names;
 }
 
-/// The features that "RH, LH" names: they share what stands under it.
+/// Returns the features that a key such as "RH, LH" names; they share the settings under it.
 Result<std::vector<Feature>> ReadGroup(const Node::Entry& entry) {
   std::vector<Feature> group;
   std::string_view rest = entry.key;
@@ -56,25 +56,27 @@ Result<std::vector<Feature>> ReadGroup(const Node::Entry& entry) {
 }
 
 Result<Universe> ReadUniverse(Fields& fields) {
-  constexpr double kLargest = 1e6;  // as of shapes
+  constexpr double kMaxNumber = 1e6;  // the limit of shapes, too
   const Node* node = fields.Raw("universe");
-  const std::vector<double> ends = fields.Numbers("universe", {-kLargest, kLargest});
+  const std::vector<double> ends = fields.Numbers("universe", {-kMaxNumber, kMaxNumber});
   if (node != nullptr && fields.ok() && ends.size() == 2 && ends[0] < ends[1]) return Universe{ends[0], ends[1]};
   fields.Complain(node == nullptr ? fields.node().place : node->place,
                   "'universe' must be two rising numbers, such as [0, 180]");
   return tl::unexpected(fields.Finish().error());
 }
 
-/// The file's features, put together.
+/// Collects the settings of a file's features.
 class FeaturesReader {
  public:
   Result<void> ReadFeature(const Node::Entry& entry) {
+    // Read the features' names, which may occur only once.
     ASSIGN_OR_RETURN(const auto group, ReadGroup(entry));
     for (Feature feature : group) {
       bool& seen = seen_[static_cast<std::size_t>(feature)];
       if (seen) return Fail(entry.place, "the feature {} stands here twice", FeatureName(feature));
       seen = true;
     }
+    // Read the settings under them.
     Fields fields(entry.value, "the feature " + entry.key);
     ASSIGN_OR_RETURN(const auto universe, ReadUniverse(fields));
     const std::optional<double> weight = fields.OptionalNumber("weight", {0, 1e6});
@@ -83,6 +85,7 @@ class FeaturesReader {
     if (terms == nullptr) fields.Complain(entry.place, fmt::format("{} needs 'terms'", entry.key));
     RETURN_IF_ERROR(fields.Finish());
     ASSIGN_OR_RETURN(const auto shapes, ReadTerms(entry.key, group.front(), *terms, universe));
+    // Assign them to every feature of the group.
     for (Feature feature : group) {
       const std::size_t k = static_cast<std::size_t>(feature);
       memberships_.universes[k] = universe;
@@ -92,7 +95,7 @@ class FeaturesReader {
     return {};
   }
 
-  /// Refuses what is still missing, and scales the weights.
+  /// Refuses missing features, and scales the weights.
   Result<void> Finish(const Place& place) {
     std::vector<std::string> missing;
     for (std::size_t k = 0; k < kFeatureCount; ++k) {
@@ -102,7 +105,7 @@ class FeaturesReader {
     double sum = 0;
     for (double weight : weights_) sum += weight;
     if (sum == 0) return Fail(place, "all weights are 0; at least one must be positive");
-    constexpr double kRounding = 1e-12;  // what is written is read back as it was
+    constexpr double kRounding = 1e-12;  // weights that were written by WriteFuzzySystem must not change
     if (std::abs(sum - kWeightSum) > kRounding) {
       for (double& weight : weights_) weight *= kWeightSum / sum;
     }
@@ -118,7 +121,7 @@ class FeaturesReader {
     std::vector<Shape> shapes;
     for (const std::string& term : TermNames(feature)) {
       const Node* shape_node = fields.Raw(term);
-      if (shape_node == nullptr) continue;  // an unknown key is the likelier cause: told first
+      if (shape_node == nullptr) continue;  // an unknown key is the more likely cause and is reported first
       ASSIGN_OR_RETURN(const auto shape, ReadShape(*shape_node, universe));
       shapes.push_back(shape);
     }
@@ -134,7 +137,7 @@ class FeaturesReader {
   std::array<bool, kFeatureCount> seen_{};
 };
 
-/// Writes the lines that stand under a feature's name.
+/// Returns the lines below a feature's name.
 std::string Written(Feature feature, const FeatureSettings& settings) {
   const std::size_t k = static_cast<std::size_t>(feature);
   const Universe& universe = settings.memberships.universes[k];
@@ -147,7 +150,8 @@ std::string Written(Feature feature, const FeatureSettings& settings) {
   return text;
 }
 
-/// Reads the mapping under `features`: all ten of table 1 with all their terms, no other; "RH, LH" stand together.
+/// Reads the mapping under `features`: all ten features of table 1 with all their terms and no others; "RH, LH" may be
+/// one key.
 Result<FeatureSettings> ReadFeatures(const Node& node) {
   if (node.kind != Node::Kind::kMapping) {
     return Fail(node.place, "'features' must map features to their terms (RH, LH: …), found {}", Describe(node));
@@ -160,9 +164,9 @@ Result<FeatureSettings> ReadFeatures(const Node& node) {
   return reader.settings();
 }
 
-/// Writes the lines that stand indented under `features`; features that are alike stand together.
+/// Returns the lines below `features`; features with equal settings share a key.
 std::string WriteFeatures(const FeatureSettings& settings) {
-  std::vector<std::pair<std::string, std::string>> groups;  // the names, and what stands under them
+  std::vector<std::pair<std::string, std::string>> groups;  // the names, and the lines below them
   for (Feature feature : AllFeatures()) {
     const std::string text = Written(feature, settings);
     const auto alike = std::ranges::find(groups, text, &std::pair<std::string, std::string>::second);
@@ -177,20 +181,20 @@ std::string WriteFeatures(const FeatureSettings& settings) {
   return text;
 }
 
-constexpr std::size_t kMostRules = 100;
-constexpr std::size_t kLongestPose = 40;
+constexpr std::size_t kMaxRules = 100;
+constexpr std::size_t kMaxPoseNameBytes = 40;
 
-/// Says whether a name is plain enough to be written back, and shown, without quotes.
+/// Returns true if a name needs no quotes in a file or in tables.
 bool IsPoseName(const std::string& name) {
   const auto is_plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == ' ' || c == '-';
   };
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
-  return !name.empty() && name.size() <= kLongestPose && std::ranges::all_of(name, is_plain) &&
+  return !name.empty() && name.size() <= kMaxPoseNameBytes && std::ranges::all_of(name, is_plain) &&
          is_letter(name.front()) && name.back() != ' ';
 }
 
-/// The place in `AllTerms` of what "RH: up" names.
+/// Returns the index in `AllTerms` of an entry such as "RH: up".
 Result<std::size_t> ReadTerm(const Node::Entry& entry) {
   const Feature* feature = FindFeature(entry.key);
   if (feature == nullptr) {
@@ -211,6 +215,7 @@ Result<void> ReadRule(const Node& node, RuleBase& base) {
   const Node* premise = fields.Raw("if");
   const std::string pose = fields.RequiredText("then");
   RETURN_IF_ERROR(fields.Finish());
+  // Check the premise and the conclusion.
   if (premise == nullptr || premise->kind != Node::Kind::kMapping || premise->entries.empty()) {
     return Fail(premise == nullptr ? node.place : premise->place, "'if' must name terms ({{RH: up, LH: up}}), found {}",
                 premise == nullptr ? "nothing" : Describe(*premise));
@@ -218,8 +223,9 @@ Result<void> ReadRule(const Node& node, RuleBase& base) {
   if (!IsPoseName(pose)) {
     return Fail(fields.Raw("then")->place,
                 "{} is no pose's name: at most {} letters, digits, spaces, '-', a letter first", Quote(pose),
-                kLongestPose);
+                kMaxPoseNameBytes);
   }
+  // Translate the names to indices.
   Rule rule;
   for (const Node::Entry& entry : premise->entries) {
     ASSIGN_OR_RETURN(const auto term, ReadTerm(entry));
@@ -232,10 +238,10 @@ Result<void> ReadRule(const Node& node, RuleBase& base) {
   return {};
 }
 
-/// Reads the list under `rules`: `- {if: {RH: up, LH: up}, then: arms up}`. At most 100 rules.
+/// Reads the list under `rules`, for example `- {if: {RH: up, LH: up}, then: arms up}`. It may hold 100 rules.
 Result<RuleBase> ReadRules(const Node& node) {
-  if (node.kind != Node::Kind::kSequence || node.items.size() > kMostRules) {
-    return Fail(node.place, "'rules' must be a list of at most {} rules, found {}", kMostRules,
+  if (node.kind != Node::Kind::kSequence || node.items.size() > kMaxRules) {
+    return Fail(node.place, "'rules' must be a list of at most {} rules, found {}", kMaxRules,
                 node.kind == Node::Kind::kSequence ? fmt::format("{}", node.items.size()) : Describe(node));
   }
   RuleBase base;
@@ -245,7 +251,7 @@ Result<RuleBase> ReadRules(const Node& node) {
   return base;
 }
 
-/// Writes the lines that stand indented under `rules`.
+/// Returns the lines below `rules`.
 std::string WriteRules(const RuleBase& base) {
   std::string text;
   for (const Rule& rule : base.rules) {
@@ -259,17 +265,17 @@ std::string WriteRules(const RuleBase& base) {
   return text;
 }
 
-constexpr std::size_t kLongestName = 80;
+constexpr std::size_t kMaxNameBytes = 80;
 
 bool IsPlainName(const std::string& name) {
   const auto is_plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
            c == '.';
   };
-  return name.size() <= kLongestName && std::ranges::all_of(name, is_plain);
+  return name.size() <= kMaxNameBytes && std::ranges::all_of(name, is_plain);
 }
 
-/// Paper A's own. That its file reads is proven by a test.
+/// Returns paper A's system. A test proves that its file can be read.
 const FuzzySystem& PaperSystem() {
   static const FuzzySystem paper = LoadBuiltinFuzzySystem("paper", {}).value();
   return paper;
@@ -286,8 +292,8 @@ Result<FuzzySystem> ReadFuzzySystem(std::string_view text, const std::string& fi
   Fields fields(document, "a fuzzy system");
   const std::string name = fields.RequiredText("system");
   if (fields.ok() && !IsPlainName(name)) {
-    fields.Complain(fields.Raw("system")->place,
-                    fmt::format("{} is no name: at most {} letters, digits, '-', '_', '.'", Quote(name), kLongestName));
+    fields.Complain(fields.Raw("system")->place, fmt::format("{} is no name: at most {} letters, digits, '-', '_', '.'",
+                                                             Quote(name), kMaxNameBytes));
   }
   const Node* features_node = fields.Raw("features");
   if (features_node == nullptr) fields.Complain(document.place, "a fuzzy system needs 'features'");
@@ -295,7 +301,7 @@ Result<FuzzySystem> ReadFuzzySystem(std::string_view text, const std::string& fi
   RETURN_IF_ERROR(fields.Finish());
   ASSIGN_OR_RETURN(const auto features, ReadFeatures(*features_node));
   ASSIGN_OR_RETURN(const auto rules, rules_node != nullptr ? ReadRules(*rules_node) : RuleBase{});
-  // Every member is given, so that no default asks for the paper's system: it is read here itself.
+  // Every member is set, so that no default asks for the paper's system, which may be the one that is being read.
   return FuzzySystem{.name = name, .memberships = features.memberships, .weights = features.weights, .rules = rules};
 }
 

@@ -13,46 +13,47 @@ namespace etude {
 
 /// A rule such as "if RH is up and LH is up, the pose is 'arms up'".
 struct Rule {
-  std::vector<std::size_t> terms;  ///< of the premise, as places in `AllTerms`; at least one
-  std::size_t pose = 0;            ///< of the conclusion, as a place in RuleBase::poses
+  std::vector<std::size_t> terms;  ///< terms of the premise, as indices in `AllTerms`; at least one
+  std::size_t pose = 0;            ///< the conclusion, as an index in RuleBase::poses
 };
 
-/// A fuzzy system's rules. Several may conclude the same pose.
+/// The rules of a fuzzy system. Several rules may conclude the same pose.
 struct RuleBase {
-  std::vector<std::string> poses;  ///< unique, in the order in which rules first name them
+  std::vector<std::string> poses;  ///< unique, in the order of their first use by a rule
   std::vector<Rule> rules;
 };
 
-/// The rules of scenarios/fuzzy/paper.yaml.
+/// Returns the rules of scenarios/fuzzy/paper.yaml.
 const RuleBase& PaperRules();
 
-/// Infers poses as Mamdani does: a rule holds as far as the weakest term of its premise does, a pose as far as the
-/// strongest rule that concludes it. One activation in [0, 1] per pose.
+/// Infers poses by Mamdani's method: the activation of a rule is the smallest grade in its premise, and the activation
+/// of a pose is the largest of the rules that conclude it. Returns one activation in [0, 1] per pose.
 std::vector<double> InferPoses(const RuleBase& base, const Grades& grades);
 
-/// The pose of largest activation, the earlier one on a tie; null when no rule holds at all.
+/// Returns the pose of largest activation, the earlier one on a tie; null if every activation is 0.
 const std::string* ChoosePose(const RuleBase& base, const Grades& grades);
 
-/// The parts of paper A's fuzzy system that a file (docs/fuzzy-system.md) can replace; paper A's own by default.
+/// The parts of paper A's fuzzy system that a file (docs/fuzzy-system.md) can replace. The defaults are paper A's.
 struct FuzzySystem {
   std::string name = "paper";
   Memberships memberships = PaperMemberships();
-  FeatureWeights weights = PaperWeights();  ///< S of equation 1, the `fixed` ones; they sum to 8
+  FeatureWeights weights = PaperWeights();  ///< S of equation 1, the `fixed` weights; they sum to 8
   RuleBase rules = PaperRules();
 };
 
-/// Reads a system from the text of a YAML file; `file` is what complaints call it. All features and terms of table 1
-/// must be there, and no other. Weights are relative: they are scaled to sum to 8, so that thresholds keep their
+/// Reads a system from the text of a YAML file; error messages name it `file`. The file must hold all features and
+/// terms of table 1 and no others. Weights are relative: they are scaled to sum to 8, so that thresholds keep their
 /// meaning.
 Result<FuzzySystem> ReadFuzzySystem(std::string_view text, const std::string& file);
-/// The text that ReadFuzzySystem reads back to the same system, to the last bit.
+/// Returns the text from which ReadFuzzySystem reads the same system, bit for bit.
 std::string WriteFuzzySystem(const FuzzySystem& system);
 
-/// Returns the files scenarios/fuzzy/*.yaml, sorted by name (written by the build).
+/// Returns the files scenarios/fuzzy/*.yaml, sorted by name (embedded by the build).
 std::span<const EmbeddedText> BuiltinFuzzySystemFiles();
-/// Lists "gaussian", "paper": what `builtin:NAME` may name.
+/// Returns "gaussian" and "paper", the names allowed after `builtin:`.
 std::vector<std::string> BuiltinFuzzySystemNames();
-/// One of them, by its name without "builtin:"; `place` is where it is asked for.
+/// Loads the built-in system called `name`, without "builtin:"; `place` is the position of the name, for error
+/// messages.
 Result<FuzzySystem> LoadBuiltinFuzzySystem(const std::string& name, const Place& place);
 
 }  // namespace etude

@@ -37,7 +37,7 @@ struct CutAt {
   }
   Cut operator()(const Singleton& s) const { return {s.at, s.at}; }
   Cut Sides(double left, double left_top, double right_top, double right) const {
-    // From the top, so that grade 1 gives the top itself.
+    // Computed from the top, so that grade 1 gives exactly the top.
     return {left_top - (1 - grade) * (left_top - left), right_top + (1 - grade) * (right - right_top)};
   }
 };
@@ -59,7 +59,7 @@ constexpr std::array<Term, kTermCount> kTerms = {{
     {kLF, "inward"},     {kLF, "outward"},   {kRFK, "false"},   {kRFK, "true"},   {kLFK, "false"},   {kLFK, "true"},
 }};
 
-/// kFirstTerm[k] … kFirstTerm[k + 1] are the terms of feature k.
+/// The terms of feature k are kFirstTerm[k] … kFirstTerm[k + 1] − 1.
 constexpr std::array<std::size_t, kFeatureCount + 1> kFirstTerm = [] {
   std::array<std::size_t, kFeatureCount + 1> first{};
   for (const Term& term : kTerms) ++first[static_cast<std::size_t>(term.feature) + 1];
@@ -104,7 +104,7 @@ std::string_view TagName(const Tags& tags, Feature feature) {
 
 namespace {
 
-/// A kind of shape: its name in files, and the numbers that make it.
+/// A kind of shape, with its name in files and the numbers that define it.
 struct ShapeKind {
   const char* name;
   const char* numbers;
@@ -128,8 +128,8 @@ constexpr ShapeKind kKinds[] = {
     {"singleton", "a number", 1, [](const auto& v) -> Shape { return Singleton{v[0]}; }},
 };
 
-constexpr double kLargest = 1e6;         // far beyond any angle or height; keeps every sum finite
-constexpr double kSmallestSigma = 1e-3;  // narrower is a singleton
+constexpr double kMaxNumber = 1e6;  // far above any angle or height; keeps all sums finite
+constexpr double kMinSigma = 1e-3;  // a narrower shape should be a singleton
 
 std::vector<double> NumbersOf(const Shape& shape) {
   struct Visitor {
@@ -151,7 +151,7 @@ Result<std::vector<double>> ReadNumbers(const Node& node, const ShapeKind& kind)
   std::vector<double> numbers;
   for (const Node& item : is_list ? std::span(node.items) : std::span(&node, 1)) {
     ASSIGN_OR_RETURN(const auto number, AsNumber(item));
-    if (std::abs(number) > kLargest) return Fail(item.place, "{} is out of range; allowed: ±{}", number, kLargest);
+    if (std::abs(number) > kMaxNumber) return Fail(item.place, "{} is out of range; allowed: ±{}", number, kMaxNumber);
     numbers.push_back(number);
   }
   return numbers;
@@ -160,6 +160,7 @@ Result<std::vector<double>> ReadNumbers(const Node& node, const ShapeKind& kind)
 }  // namespace
 
 Result<Shape> ReadShape(const Node& node, const Universe& universe) {
+  // Read the kind and its numbers.
   std::vector<std::string> names;
   for (const ShapeKind& kind : kKinds) names.emplace_back(kind.name);
   if (node.kind != Node::Kind::kMapping || node.entries.size() != 1) {
@@ -171,11 +172,12 @@ Result<Shape> ReadShape(const Node& node, const Universe& universe) {
   const auto kind = std::ranges::find(kKinds, entry.key, [](const ShapeKind& k) { return std::string(k.name); });
   if (kind == std::end(kKinds)) return Fail(entry.place, "{}", UnknownName("shape", entry.key, names));
   ASSIGN_OR_RETURN(const auto numbers, ReadNumbers(entry.value, *kind));
+  // Check the numbers, and that the universe contains an input of grade 1.
   const Shape shape = kind->make(numbers);
   if (std::holds_alternative<Gaussian>(shape)) {
     const double sigma = numbers.back();
-    if (sigma < kSmallestSigma) {
-      return Fail(entry.value.items.back().place, "sigma must be at least {}, found {}", kSmallestSigma, sigma);
+    if (sigma < kMinSigma) {
+      return Fail(entry.value.items.back().place, "sigma must be at least {}, found {}", kMinSigma, sigma);
     }
   } else if (const auto fall = std::ranges::is_sorted_until(numbers); fall != numbers.end()) {
     return Fail(entry.value.items[static_cast<std::size_t>(fall - numbers.begin())].place,

@@ -14,33 +14,34 @@ namespace etude {
 
 struct Node;
 
-/// The shapes of membership functions that paper A names (section 2.4, figure 1). Inputs in the feature's unit.
+/// The shapes of membership functions that paper A names (section 2.4, figure 1). Inputs have the feature's unit.
 struct Triangular {
-  double left, peak, right;  ///< 0 up to `left`, 1 at `peak`, 0 from `right`; rising, equal where a side is upright
+  /// 0 up to `left`, 1 at `peak`, 0 from `right`; left ≤ peak ≤ right, equal for a vertical side.
+  double left, peak, right;
 };
 struct Trapezoidal {
-  double left, left_top, right_top, right;  ///< 0 up to `left`, 1 between the tops, 0 from `right`; rising
+  double left, left_top, right_top, right;  ///< 0 up to `left`, 1 between the tops, 0 from `right`; in ascending order
 };
 struct Gaussian {
   double mean, sigma;  ///< exp(−(x − mean)² / 2 sigma²), sigma > 0
 };
 struct Singleton {
-  double at;  ///< 1 there, 0 elsewhere
+  double at;  ///< 1 at this input, 0 elsewhere
 };
 using Shape = std::variant<Triangular, Trapezoidal, Gaussian, Singleton>;
 
-/// The grade of membership of an input, in [0, 1].
+/// Returns the membership grade of an input, in [0, 1].
 double GradeOf(const Shape& shape, double input);
 
 struct Cut {
-  double low = 0, high = 0;  ///< closed
+  double low = 0, high = 0;  ///< closed interval
 };
 
-/// The α-cut: the inputs of at least this grade, in (0, 1]. One interval, since every shape is convex. Grade 0 gives
-/// the support of a shape with straight sides.
+/// Returns the α-cut, which is the set of inputs with at least this grade, in (0, 1]. It is one interval, because every
+/// shape is convex. Grade 0 gives the support of a straight-sided shape.
 Cut CutOf(const Shape& shape, double grade);
 
-/// A linguistic term of a feature (table 1 of paper A): "down", "true", "stand", …
+/// A linguistic term of a feature (table 1 of paper A), for example "down", "true" or "stand".
 struct Term {
   Feature feature;
   std::string_view name;
@@ -48,42 +49,43 @@ struct Term {
 
 constexpr std::size_t kTermCount = 24;
 
-/// Paper A's terms, grouped by feature in the order of `AllFeatures`.
+/// Returns paper A's terms, grouped by feature in the order of `AllFeatures`.
 std::span<const Term, kTermCount> AllTerms();
-/// The terms of one feature, in the paper's order, and where they start in `AllTerms`.
+/// TermsOf returns the terms of one feature in the paper's order; FirstTermOf returns the index of the first in
+/// `AllTerms`.
 std::span<const Term> TermsOf(Feature feature);
 std::size_t FirstTermOf(Feature feature);
 
-/// The inputs that a feature can have; others are clamped to them.
+/// The range of a feature's inputs; inputs outside are clamped to it.
 struct Universe {
   double low = 0, high = 180;
 };
 
-/// The membership function of every term.
+/// The membership functions of all terms.
 struct Memberships {
   std::array<Universe, kFeatureCount> universes{};
   std::array<Shape, kTermCount> shapes{};  ///< in the order of `AllTerms`
 };
 
-/// Returns equations 2–16, as scenarios/fuzzy/paper.yaml holds them. Elbow, trunk and knee grades do not sum to 1: so
-/// printed, so kept.
+/// Returns equations 2–16, as in scenarios/fuzzy/paper.yaml. The grades of elbows, trunk and knees do not sum to 1, as
+/// printed in the paper.
 const Memberships& PaperMemberships();
 
-/// The grades to which a pose belongs to each of the 24 terms, in the order of `AllTerms`.
+/// The membership grades of a pose in the 24 terms, in the order of `AllTerms`.
 using Grades = std::array<double, kTermCount>;
 Grades Fuzzify(const PoseFeatures& features, const Memberships& memberships = PaperMemberships());
 
-/// One term per feature, as its place in `TermsOf`.
+/// One term per feature, as an index in `TermsOf`.
 using Tags = std::array<std::uint8_t, kFeatureCount>;
-/// The term of maximum membership of each feature; the earlier one on a tie.
+/// Returns each feature's term of maximum membership, the earlier one on a tie.
 Tags ChooseTags(const Grades& grades);
 std::string_view TagName(const Tags& tags, Feature feature);
 
 /// Reads `{triangular: [20, 90, 180]}`, `{trapezoidal: [0, 0, 20, 90]}`, `{gaussian: [90, 25]}` or `{singleton: 90}`.
-/// Refused: breakpoints out of order, sigma that is not positive, and a shape whose top no input of `universe` reaches.
+/// Returns an error if breakpoints are out of order, if sigma is not positive, or if the top lies outside `universe`.
 Result<Shape> ReadShape(const Node& node, const Universe& universe);
 
-/// Writes a shape as ReadShape reads it back, to the last bit.
+/// Returns the text from which ReadShape reads the same shape, bit for bit.
 std::string WriteShape(const Shape& shape);
 
 }  // namespace etude

@@ -6,28 +6,28 @@
 
 namespace etude {
 
-/// One training example: two frames of different clips, and whether a person could not tell them apart.
+/// One training example: two frames of different clips, and whether their poses are practically the same.
 struct LabelledPair {
   PerFeature squared_gaps{};  ///< Δ_k² of the two frames
-  bool close = false;         ///< the worst joint is less than the chosen pose gap apart
+  bool close = false;         ///< the distance of the worst joint is less than the chosen pose gap
 };
 
 struct WeightFitOptions {
-  /// Pull towards zero, relative to one pair: keeps the fit finite when the pairs are separable.
+  /// The L2 penalty, in units of one pair; it keeps the fit finite if the pairs are separable.
   double ridge = 1e-2;
   int max_iterations = 40;
-  /// Newton's method has converged when no coefficient moves by more than this.
+  /// Newton's method has converged if no coefficient changes by more than this, relative to the largest.
   double tolerance = 1e-8;
 };
 
 enum class WeightFitStatus {
   kFitted,
-  kOneClassOnly,   ///< no close pair, or no far one: nothing to learn from
-  kNothingCounts,  ///< every weight came out negative
+  kOneClassOnly,   ///< all pairs are close, or all are far, so nothing can be learnt
+  kNothingCounts,  ///< no coefficient is positive
   kNotConverged,
 };
 
-/// The result of a fit. Unless `status` is kFitted, `weights` are paper A's.
+/// The result of a fit. If `status` is not kFitted, `weights` are paper A's.
 struct WeightFit {
   WeightFitStatus status = WeightFitStatus::kOneClassOnly;
   FeatureWeights weights = PaperWeights();
@@ -36,8 +36,8 @@ struct WeightFit {
   int iterations = 0;
 };
 
-/// The `adaptive` weights (algorithms A5, ours): logistic regression, P(close) = σ(b − Σ w_k Δ_k²), by
-/// Newton's method; then w clipped at 0 and rescaled to sum to 8, so that 0.4 keeps its meaning.
+/// Fits the `adaptive` weights (algorithms A5, ours) by logistic regression, P(close) = σ(b − Σ w_k Δ_k²), with
+/// Newton's method. Then w is clipped at 0 and rescaled to sum to 8, so that the threshold 0.4 keeps its meaning.
 WeightFit FitWeights(std::span<const LabelledPair> pairs, const WeightFitOptions& options = {});
 
 }  // namespace etude

@@ -7,8 +7,8 @@
 namespace etude {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr std::uint8_t kBegins = 3;  // instead of an advance: a path begins here
+constexpr double kUnreachable = std::numeric_limits<double>::infinity();
+constexpr std::uint8_t kBegins = 3;  // marks a path's first step, in the place of an advance
 
 }  // namespace
 
@@ -24,37 +24,43 @@ SubsequenceAligner::SubsequenceAligner(std::span<const PoseVector> pattern, int 
 
 void SubsequenceAligner::Reset() {
   count_ = 0;
-  costs_.assign(pattern_.size(), kNever);
+  costs_.assign(pattern_.size(), kUnreachable);
 }
 
 void SubsequenceAligner::Update(const PoseVector& seen) {
   const int now = count_++;
   const std::size_t size = pattern_.size();
   std::uint8_t* advances = advances_.data() + static_cast<std::size_t>(now % longest_) * size;
+  // Compute the local distances of this step to every step of the pattern.
   for (std::size_t j = 0; j < size; ++j) distances_[j] = SquaredDistance(seen, pattern_[j]);
 
-  // From the pattern's end to its start, so that costs below j are still those of the step before.
+  // Extend the best paths by this step. Going from the pattern's end to its start leaves costs_[j - 1] and costs_[j -
+  // 2] as they were in the previous step.
   for (std::size_t j = size; j-- > 0;) {
+    // Either the path stays at pattern step j, …
     double best = costs_[j];
     std::uint8_t advance = 0;
     int start = starts_[j];
+    // … or it advances by one step, …
     if (j >= 1 && costs_[j - 1] < best) {
       best = costs_[j - 1];
       advance = 1;
       start = starts_[j - 1];
     }
+    // … or by two, which also costs the distance to the step that it skips.
     if (j >= 2 && costs_[j - 2] + distances_[j - 1] < best) {
       best = costs_[j - 2] + distances_[j - 1];
       advance = 2;
       start = starts_[j - 2];
     }
-    if (j == 0) {  // beginning now is never dearer than having begun before
+    if (j == 0) {  // a new path costs nothing, so it replaces every older one
       best = 0;
       advance = kBegins;
       start = now;
     }
+    // Drop a path that has become too long, and store the result.
     const bool is_too_long = now - start >= longest_;
-    costs_[j] = is_too_long ? kNever : best + distances_[j];
+    costs_[j] = is_too_long ? kUnreachable : best + distances_[j];
     starts_[j] = start;
     advances[j] = advance;
   }
@@ -62,7 +68,7 @@ void SubsequenceAligner::Update(const PoseVector& seen) {
 
 std::vector<StepPair> SubsequenceAligner::Path() const {
   std::vector<StepPair> path;
-  if (count_ == 0 || costs_.back() == kNever) return path;
+  if (count_ == 0 || costs_.back() == kUnreachable) return path;
   const std::size_t size = pattern_.size();
   int seen = count_ - 1, taught = static_cast<int>(size) - 1;
   for (;; --seen) {

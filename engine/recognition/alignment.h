@@ -8,37 +8,37 @@
 
 namespace etude {
 
-/// A step seen and the step taught that it goes with.
+/// A pair of time steps that the alignment matches.
 struct StepPair {
-  int seen = 0;    ///< counted from the first that the aligner saw since its reset
-  int taught = 0;  ///< index in the pattern
+  int seen = 0;    ///< index of the seen step since the aligner's last Reset
+  int taught = 0;  ///< index of the taught step in the pattern
 };
 
-/// Runs subsequence dynamic time warping step by step (Müller 2007, section 4.4, with his slope condition of at most
-/// 2): the path through all of a pattern that ends in the step seen last, wherever it began. Every step seen costs its
-/// distance, every step of the pattern that was passed over, too.
+/// Runs subsequence dynamic time warping online, one step per Update (Müller 2007, section 4.4, with his slope
+/// condition of at most 2). A path matches the whole pattern, may begin at any seen step, and ends at the step seen
+/// last. Its cost is the sum of the distances of its seen steps and of the pattern steps that it skips.
 class SubsequenceAligner {
  public:
-  /// Aligns with `pattern`, which has at least one step and must outlive this. A path of more than `longest` ≥ 1 steps
-  /// seen is dropped, with those that it was better than.
+  /// Aligns with `pattern`, which must have at least one step and outlive this object. A path longer than `longest` ≥ 1
+  /// seen steps is dropped; worse paths that it replaced do not come back.
   SubsequenceAligner(std::span<const PoseVector> pattern, int longest);
 
   void Reset();
   void Update(const PoseVector& seen);
 
-  /// The cost of the best path that ends now, per step of the pattern: a mean squared distance. Infinite where no path
-  /// reaches the pattern's end yet.
+  /// Returns the cost of the best path that ends at the step seen last, divided by the number of pattern steps: a mean
+  /// squared distance. It is infinite while no path reaches the pattern's end.
   double Cost() const { return costs_.back() / static_cast<double>(pattern_.size()); }
-  /// The best path that ends now, in order of time; none where Cost is infinite.
+  /// Returns the best path that ends at the step seen last, in order of time; empty if Cost is infinite.
   std::vector<StepPair> Path() const;
 
  private:
   std::span<const PoseVector> pattern_;
   int longest_;
-  int count_ = 0;  // steps seen
+  int count_ = 0;  // number of seen steps
   std::vector<double> costs_, distances_;
-  std::vector<int> starts_;             // per step of the pattern: where the best path to it began
-  std::vector<std::uint8_t> advances_;  // per step seen (a ring of `longest_`) and step of the pattern: 0, 1 or 2
+  std::vector<int> starts_;             // per pattern step: the seen step at which the best path to it began
+  std::vector<std::uint8_t> advances_;  // per seen step (a ring of `longest_`) and pattern step: 0, 1, 2 or kBegins
 };
 
 }  // namespace etude

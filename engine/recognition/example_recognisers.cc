@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// One move's examples, and how many steps a performance of it may last.
+/// One move's examples, and the largest number of steps that a performance of it may last.
 struct Examples {
   std::vector<std::vector<PoseVector>> patterns;
   int longest = 0;
@@ -92,19 +92,20 @@ namespace {
 using Pattern = std::vector<PoseVector>;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// The largest distance at which an unknown other motion is assumed, metres: nineteen of twenty performances of a move
-/// by another person are nearer to it (tests/sim/performer; the middle one of two recorded sets is at 10 and 16–28 cm).
-constexpr double kSomethingElse = 0.21;
+/// The largest distance, in metres, at which an unknown other motion is assumed. In 19 of 20 cases, another person's
+/// performance of a move is nearer to it than this (tests/sim/performer; the median of two recorded sets is 10 and
+/// 16–28 cm).
+constexpr double kUnknownMotionDistance = 0.21;
 
-/// An example, and what it is compared with because it is not the move. All last alike.
+/// An example of a move and the wrong patterns that it is compared with. All have the same number of steps.
 struct Example {
   std::size_t move;
   Pattern right;
-  std::vector<Pattern> wrong;  ///< mirrored, at half its amplitude
-  PoseVector middle;           ///< its mean pose: somebody holds still in it
+  std::vector<Pattern> wrong;  ///< the mirrored example and the example at half its amplitude
+  PoseVector middle;           ///< the example's mean pose; it stands for a person who holds still
 };
 
-/// A body of paper B's proportions, the trunk 50 cm, that stands with its arms hanging.
+/// Returns a standing body with paper B's proportions, a trunk of 50 cm and hanging arms.
 PoseVector Standing() {
   PoseVector pose;
   pose.parts = {{{0, 0.75, 0},
@@ -136,24 +137,24 @@ PoseVector Halved(const PoseVector& pose) {
   return halved;
 }
 
-/// Returns the distance of the end of `seen` from the pattern, root mean square over its steps; kFar when too little
-/// was seen, or when it is farther than `farthest`, so that most patterns are given up after a few steps.
+/// Returns the root mean squared distance between the last steps of `seen` and `pattern`. Returns kFar if `seen` is
+/// shorter than the pattern, or if the distance exceeds `farthest`, which stops most comparisons after a few steps.
 double Distance(std::span<const PoseVector> seen, const Pattern& pattern, double farthest = kFar) {
   if (seen.size() < pattern.size()) return kFar;
   const auto end = seen.last(pattern.size());
   const auto steps = static_cast<double>(pattern.size());
-  constexpr double kRounding = 1 + 1e-9;  // what is as far is not given up
-  const double most = kRounding * farthest * farthest * steps;
+  constexpr double kRounding = 1 + 1e-9;  // so that rounding does not reject a pattern at exactly `farthest`
+  const double max_sum = kRounding * farthest * farthest * steps;
   double sum = 0;
   for (std::size_t i = 0; i < pattern.size(); ++i) {
     sum += SquaredDistance(end[i], pattern[i]);
-    if (sum > most) return kFar;
+    if (sum > max_sum) return kFar;
   }
   return std::sqrt(sum / steps);
 }
 
 Example ExampleOf(std::size_t move, Pattern right) {
-  constexpr double kOwnImage = 0.03;  // metres: a move that is its own mirror image cannot be done on the wrong side
+  constexpr double kOwnImage = 0.03;  // metres; a move this close to its mirror image has no wrong side
   Example example{.move = move, .right = std::move(right), .wrong = {}, .middle = {}};
   example.middle = MeanOf(example.right);
   Pattern mirrored = Changed(example.right, [](const PoseVector& pose) { return Mirrored(pose, PoseParts::kJoints); });
@@ -162,13 +163,13 @@ Example ExampleOf(std::size_t move, Pattern right) {
   return example;
 }
 
-/// Compares the steps seen last with a pose that is held.
+/// Compares the last steps with one pose that is held still.
 class Stillness {
  public:
   Stillness(const PoseVector& pose, std::size_t longest) : pose_(pose), gaps_(longest) {}
 
   void Update(const PoseVector& step) { gaps_[count_++ % gaps_.size()] = SquaredDistance(step, pose_); }
-  /// Returns the root mean square over so many steps; kFar when too little was seen.
+  /// Returns the root mean squared distance over the last `steps` steps; kFar if fewer were seen.
   double Distance(std::size_t steps) const {
     if (count_ < steps) return kFar;
     double sum = 0;
@@ -179,7 +180,7 @@ class Stillness {
  private:
   PoseVector pose_;
   std::size_t count_ = 0;
-  std::vector<double> gaps_;  // a ring
+  std::vector<double> gaps_;  // squared distances to the pose, a ring
 };
 
 class NearestFollower final : public StepFollower {
@@ -205,13 +206,15 @@ class NearestFollower final : public StepFollower {
   void Open(std::optional<std::size_t>) override { since_open_ = 0; }
 
   double Take(const PoseVector& step, std::span<double> spotted) override {
+    // Add the step to the window of the last `longest_` steps and reset the per-move distances.
     if (seen_.size() == longest_) seen_.erase(seen_.begin());
     seen_.push_back(step);
     ++since_open_;
     std::ranges::fill(right_, kFar);
     std::ranges::fill(wrong_, kFar);
     std::ranges::fill(held_still_, kFar);
-    bool fits_into_window = false;
+    bool fits_in_window = false;
+    // Per move, find the distance to the nearest right example and to the nearest wrong pattern or held pose.
     standing_.Update(step);
     for (std::size_t i = 0; i < examples_.size(); ++i) {
       const Example& example = examples_[i];
@@ -222,15 +225,18 @@ class NearestFollower final : public StepFollower {
       still = std::min(still, held_[i].Distance(steps));
       right = std::min(right, Distance(seen_, example.right, right));
       for (const Pattern& pattern : example.wrong) wrong = std::min(wrong, Distance(seen_, pattern, wrong));
-      fits_into_window |= asked() == example.move && example.right.size() <= since_open_;
+      fits_in_window |= asked() == example.move && example.right.size() <= since_open_;
     }
+    // Unasked, an unknown motion or a person who holds still also competes with the move.
     for (std::size_t move = 0; move < spotted.size(); ++move) {
-      spotted[move] = EvidenceAgainst(std::min(held_still_[move], kSomethingElse), move);
+      spotted[move] = EvidenceAgainst(std::min(held_still_[move], kUnknownMotionDistance), move);
     }
-    return fits_into_window ? EvidenceAgainst(kFar, *asked()) : 0.0;
+    // The asked move counts once the window is long enough for one of its examples.
+    return fits_in_window ? EvidenceAgainst(kFar, *asked()) : 0.0;
   }
 
-  /// `other`: the distance of something besides all that is known not to be the move.
+  /// Returns n / (r + n) of the move: r is its distance to a right example, n the smallest of `other`, the move's wrong
+  /// patterns and the right examples of the other moves.
   double EvidenceAgainst(double other, std::size_t move) const {
     if (right_[move] == kFar) return 0;
     other = std::min(other, wrong_[move]);

@@ -9,22 +9,23 @@
 namespace etude {
 
 struct DtwOptions {
-  /// The distance to the nearest example, RMS per joint with the trunk scaled to 50 cm, at which the evidence is ½.
-  /// Ours: between that of the same move by another person and that of the nearest other move (algorithms A7).
+  /// The distance to the nearest example at which the evidence is ½, as RMS per joint with the trunk scaled to 50 cm.
+  /// The default (ours) lies between the same move by another person and the nearest other move (algorithms A7).
   double half_at_cm = 11;
 };
 
-/// The outside rival: subsequence dynamic time warping to the taught examples on joints, nothing trained and nothing
-/// tuned. Evidence is 1 / (1 + (distance / half_at_cm)²) of the nearest example.
+/// Makes the external baseline `dtw`: subsequence dynamic time warping of joints to the taught examples, without
+/// training or tuning. The evidence is 1 / (1 + (distance / half_at_cm)²) of the nearest example.
 std::unique_ptr<Recogniser> MakeDtwRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
                                               const DtwOptions& options);
 
-/// The outside rival: nearest neighbour, nothing trained and nothing tuned, no warping of time. What was seen last is
-/// compared with the move's examples and with what it is not: the examples mirrored and at half their amplitude, all
-/// other moves, standing still. Evidence is n / (r + n), with r the distance to the nearest right one and n to the
-/// nearest other: ½ where both are alike. Where nobody asked for the move, anything at all may be going on: there n is
-/// also the distance to the example's mean pose, so that who holds still never comes nearer to the move, and at most
-/// 21 cm, beyond which hardly a performance by another person lies.
+/// Makes the external baseline `nearest`: a nearest neighbour classifier without training, tuning or time warping. It
+/// compares the last steps with the move's examples and with negatives: the mirrored examples, the examples at half
+/// their amplitude, all other moves, and standing still. The evidence is n / (r + n), where r is the distance to the
+/// nearest example of the move and n the distance to the nearest negative; it is ½ if both are equal. If the move was
+/// not asked for, any motion is possible. Then n also includes the distance to the example's mean pose, so that a
+/// person who holds still does not count as performing the move, and n is at most 21 cm, because other people's
+/// performances are rarely farther away.
 std::unique_ptr<Recogniser> MakeNearestRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights);
 
 }  // namespace etude

@@ -11,7 +11,7 @@ namespace {
 constexpr Named<FilterKind> kFilters[] = {
     {"none", FilterKind::kNone}, {"holt", FilterKind::kHolt}, {"one-euro", FilterKind::kOneEuro}};
 
-/// The weight of a new sample in a first-order low-pass (Casiez 2012, equation 5).
+/// Returns the weight of a new sample in a first-order low-pass filter (Casiez 2012, equation 5).
 double LowPassWeight(double cutoff_hz, double rate_hz) {
   const double time_constant = 1.0 / (2.0 * kPi * cutoff_hz);
   return 1.0 / (1.0 + time_constant * rate_hz);
@@ -20,10 +20,12 @@ double LowPassWeight(double cutoff_hz, double rate_hz) {
 }  // namespace
 
 glm::dvec3 HoltFilter::Update(const glm::dvec3& raw, bool inferred) {
+  // An inferred joint gets larger radii.
   const double widening = inferred ? 2.0 : 1.0;
   const double jitter_radius = options_.jitter_radius_m * widening;
   const double max_deviation = options_.max_deviation_radius_m * widening;
 
+  // Smooth position and trend; the first two frames initialise both.
   const glm::dvec3 previous = smoothed_;
   if (count_ == 0) {
     smoothed_ = raw;
@@ -32,6 +34,7 @@ glm::dvec3 HoltFilter::Update(const glm::dvec3& raw, bool inferred) {
     smoothed_ = 0.5 * (raw + raw_);
     trend_ = options_.correction * (smoothed_ - previous) + (1.0 - options_.correction) * trend_;
   } else {
+    // Damp a step inside the jitter radius, then apply Holt's double exponential smoothing.
     const double step = glm::distance(raw, previous);
     const glm::dvec3 calmed =
         step <= jitter_radius && jitter_radius > 0 ? glm::mix(previous, raw, step / jitter_radius) : raw;
@@ -41,6 +44,7 @@ glm::dvec3 HoltFilter::Update(const glm::dvec3& raw, bool inferred) {
   raw_ = raw;
   count_ = std::min(count_ + 1, 2);
 
+  // Predict ahead, and limit the result to the allowed deviation from the raw position.
   const glm::dvec3 predicted = smoothed_ + options_.prediction_frames * trend_;
   const double deviation = glm::distance(predicted, raw);
   if (deviation <= max_deviation) return predicted;

@@ -15,10 +15,10 @@
 namespace etude {
 namespace {
 
-/// Returns how well a frame in which a body is seen matches a key pose, in [0, 1].
+/// Returns how well a frame matches a key pose, in [0, 1]. The frame must show a body.
 using PoseMatcher = std::function<double(const FeatureFrame& frame, const TaughtPose& pose)>;
 
-/// The key poses of one move, and how long it may take.
+/// The key poses of one move, and the longest duration of a performance, in seconds.
 struct Sequence {
   std::vector<TaughtPose> poses;
   double span_s;
@@ -75,7 +75,8 @@ class PoseSequenceRecogniser final : public Recogniser {
   Taught taught_;
 };
 
-/// Recognises a move by passing its key poses in order (PoseSequence), however a frame is matched with one.
+/// Makes a recogniser that detects a move when its key poses are reached in order (PoseSequence); `match` compares one
+/// frame with one key pose.
 std::unique_ptr<Recogniser> MakePoseSequenceRecogniser(std::span<const TaughtMove> taught, int hold_frames,
                                                        PoseMatcher match) {
   Taught sequences{.moves = {}, .hold_frames = hold_frames, .match = std::move(match)};
@@ -100,20 +101,24 @@ void PoseSequence::Open() {
 
 void PoseSequence::Update(std::span<const double> matches) {
   const int now = frame_++;
+  // A frame without a body only resets the spotted score.
   spotted_ = 0;
   if (matches.empty()) return;
   const std::size_t slot = seen_++ % hold_frames_;
   ++seen_since_open_;
 
   std::vector<double> held;
+  // Score each pose by its worst match in the last `hold_frames_` frames.
   for (std::size_t k = 0; k < recent_.size(); ++k) {
     recent_[k][slot] = matches[k];
     held.push_back(*std::ranges::min_element(recent_[k]));
   }
-  // From the last pose to the first: each reads its predecessor's state of the previous frame, not of this one.
+  // Extend the asked passage from the last pose to the first, so that each pose reads its predecessor's score of the
+  // previous frame.
   for (std::size_t k = held.size(); k-- > 0 && seen_since_open_ >= hold_frames_;) {
     asked_[k] = std::max(asked_[k], std::min(held[k], k == 0 ? 1.0 : asked_[k - 1]));
   }
+  // Score the best passage that ends now and lasts at most `span_frames_`.
   while (!within_span_.empty() && within_span_.front().frame < now - span_frames_) within_span_.pop_front();
   spotted_ = BestPassageEndingIn(held);
   if (held.size() > 1) within_span_.push_back({now, std::move(held)});
@@ -133,13 +138,14 @@ double PoseSequence::BestPassageEndingIn(std::span<const double> held) const {
 double MatchOf(const FeatureFrame& frame, const TaughtPose& pose, const SightWeights& weights,
                const KeyPoseOptions& options) {
   struct Angle {
-    double error;  // of its tolerance
+    double error;  // in units of its tolerance
     double weight;
   };
   std::array<Angle, kFeatureCount> angles;
   assert(pose.targets.size() <= angles.size());
   double total = 0;
   std::size_t count = 0;
+  // Collect each angle's error and weight.
   for (const PoseTarget& target : pose.targets) {
     const double tolerance = target.tolerance_deg * options.tolerance_scale;
     const double weight = weights.Of(frame.StateOf(target.feature));
@@ -147,9 +153,10 @@ double MatchOf(const FeatureFrame& frame, const TaughtPose& pose, const SightWei
     total += weight;
   }
   if (!(total > 0)) return 0.0;
+  // Sort by error, and find the smallest error below which the wanted share of the weights lies.
   std::sort(angles.begin(), angles.begin() + static_cast<std::ptrdiff_t>(count),
             [](const Angle& a, const Angle& b) { return a.error < b.error; });
-  constexpr double kRounding = 1e-9;  // a share of exactly the one wanted counts, whatever the weights
+  constexpr double kRounding = 1e-9;  // so that a share of exactly `pose_share` counts in spite of rounding
   double within = 0, factor = 0;
   for (std::size_t i = 0; i < count && within < (options.pose_share - kRounding) * total; ++i) {
     within += angles[i].weight;
@@ -168,7 +175,7 @@ std::unique_ptr<Recogniser> MakeKeyPoseRecogniser(std::span<const TaughtMove> ta
 
 namespace {
 
-/// Returns the overlap of a feature's grades at two inputs, in [0, 1].
+/// Returns the overlap of a feature's membership grades at two inputs, in [0, 1].
 double Overlap(Feature feature, double seen, double taught, const Memberships& memberships) {
   const Universe& universe = memberships.universes[static_cast<std::size_t>(feature)];
   const std::size_t first = FirstTermOf(feature), last = first + TermsOf(feature).size();
@@ -207,7 +214,7 @@ std::unique_ptr<Recogniser> MakeFuzzyRulesRecogniser(std::span<const TaughtMove>
 
 std::vector<std::optional<int>> WhenReached(std::span<const TaughtPose> poses, std::span<const FeatureFrame> frames,
                                             const SightWeights& weights, const KeyPoseOptions& options) {
-  constexpr double kMet = 0.5;
+  constexpr double kReached = 0.5;
   std::vector<std::optional<int>> reached;
   for (std::size_t count = 1; count <= poses.size(); ++count) {
     PoseSequence sequence(count, options.hold_frames, 0);
@@ -219,7 +226,7 @@ std::vector<std::optional<int>> WhenReached(std::span<const TaughtPose> poses, s
         matches.push_back(MatchOf(frames[frame], poses[k], weights, options));
       }
       sequence.Update(matches);
-      if (sequence.Asked() >= kMet) when = static_cast<int>(frame);
+      if (sequence.Asked() >= kReached) when = static_cast<int>(frame);
     }
   }
   return reached;

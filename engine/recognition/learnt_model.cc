@@ -16,12 +16,12 @@ namespace {
 double Sigmoid(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); }
 
 constexpr std::size_t kBins = 64;
-constexpr std::size_t kRows = 3;  // of questions
+constexpr std::size_t kRows = 3;  // depth of a tree: questions from the root to a leaf
 
-/// The performances of one round, their measures as bins.
+/// The performances of one boosting round, with their measures as histogram bins.
 struct Sample {
   std::vector<std::array<std::uint8_t, kMeasureCount>> bins;
-  std::vector<std::array<double, kBins - 1>> cuts;  // per measure: bin b holds what is ≤ cuts[b] and > cuts[b − 1]
+  std::vector<std::array<double, kBins - 1>> cuts;  // per measure: bin b holds values in (cuts[b − 1], cuts[b]]
   std::vector<double> labels, weights, log_odds;
 };
 
@@ -36,6 +36,7 @@ Sample MakeSample(std::span<const PerformanceMeasures> performances, std::span<c
   Sample sample;
   const auto right = static_cast<double>(std::ranges::count_if(bags, &LabelledBag::is_right));
   const double wrong = static_cast<double>(bags.size()) - right;
+  // Cut each measure at its quantiles and replace the values by their bins.
   sample.bins.resize(performances.size());
   for (std::size_t m = 0; m < kMeasureCount; ++m) {
     std::vector<double> values;
@@ -46,6 +47,7 @@ Sample MakeSample(std::span<const PerformanceMeasures> performances, std::span<c
       sample.bins[i][m] = static_cast<std::uint8_t>(cut - sample.cuts[m].begin());
     }
   }
+  // Weigh the bags so that right and wrong ones have the same total weight.
   for (const LabelledBag& bag : bags) {
     sample.labels.push_back(bag.is_right ? 1.0 : 0.0);
     sample.weights.push_back(0.5 * static_cast<double>(bags.size()) / (bag.is_right ? right : wrong));
@@ -54,7 +56,7 @@ Sample MakeSample(std::span<const PerformanceMeasures> performances, std::span<c
   return sample;
 }
 
-/// The first and second derivatives of the loss, and how many performances they are of.
+/// The sums of the loss's first and second derivatives over some performances, and the number of these.
 struct Slope {
   double gradient = 0, curvature = 0;
   int count = 0;
@@ -68,11 +70,11 @@ struct Slope {
 };
 
 struct Split {
-  std::size_t measure = 0, bin = kBins - 1;  // as it stands: everything to the left
+  std::size_t measure = 0, bin = kBins - 1;  // the default puts everything to the left
   double gain = 0;
 };
 
-/// What the tree of this number sees.
+/// Selects the performances and measures that tree number `tree` is fitted to.
 struct Turn {
   std::size_t tree;
   bool is_taken;
@@ -83,6 +85,7 @@ struct Turn {
 
 Split BestSplit(const Sample& sample, std::span<const Slope> slopes, std::span<const std::size_t> members,
                 const BoostingOptions& options, const Turn& turn) {
+  // For each measure, build a histogram of the slopes and try every bin boundary as the split.
   Split best;
   for (std::size_t m = 0; m < kMeasureCount; ++m) {
     if (!turn.SeesMeasure(m)) continue;
@@ -104,20 +107,22 @@ Split BestSplit(const Sample& sample, std::span<const Slope> slopes, std::span<c
   return best;
 }
 
-/// Fits one tree to the slopes of the loss, and adds it to the sample's log-odds.
+/// Fits one tree to the gradients of the loss, and adds its values to the sample's log-odds.
 DecisionTree GrowTree(Sample& sample, std::span<const Slope> slopes, const BoostingOptions& options, const Turn& turn) {
   DecisionTree tree;
   std::array<Split, DecisionTree::kNodes> splits;
   std::vector<std::vector<std::size_t>> row(1);
+  // The root holds all performances that this tree is fitted to.
   for (std::size_t i = 0; i < slopes.size(); ++i) {
     if (turn.SeesPerformance(i)) row[0].push_back(i);
   }
+  // Grow the tree row by row: find the best split of each node and divide its performances.
   for (std::size_t depth = 0, node = 0; depth < kRows; ++depth) {
     std::vector<std::vector<std::size_t>> next;
     for (const auto& members : row) {
       const Split split = splits[node] = BestSplit(sample, slopes, members, options, turn);
       tree.measures[node] = static_cast<int>(split.measure);
-      constexpr double kAll = 1e9;  // where nothing is gained by a question, everything is at most that
+      constexpr double kAll = 1e9;  // without a gain the limit is so high that every value is below it
       tree.limits[node] = split.gain > 0 ? sample.cuts[split.measure][split.bin] : kAll;
       ++node;
       next.resize(next.size() + 2);
@@ -128,11 +133,13 @@ DecisionTree GrowTree(Sample& sample, std::span<const Slope> slopes, const Boost
     }
     row = std::move(next);
   }
+  // A leaf's value is a Newton step on its performances, shrunk by the rate.
   for (std::size_t leaf = 0; leaf < row.size(); ++leaf) {
     Slope all;
     for (std::size_t i : row[leaf]) all.Add(slopes[i]);
     tree.leaves[leaf] = -options.rate * all.gradient / (all.curvature + options.ridge);
   }
+  // Add the tree's values to the log-odds of all performances, also those it was not fitted to.
   for (std::size_t i = 0; i < slopes.size(); ++i) {
     std::size_t node = 0;
     while (node < DecisionTree::kNodes)
@@ -194,13 +201,14 @@ BoostedTrees FitBoostedTrees(std::span<const LabelledBag> bags, const BoostingOp
 namespace {
 
 constexpr std::size_t kNumbersPerTree = 2 * DecisionTree::kNodes + DecisionTree::kLeaves;
-constexpr double kLargest = 1e12;
+constexpr double kMaxNumber = 1e12;
 
-/// Trees know nothing of what is unlike all that they were taught. Of the right performances that taught them nineteen
-/// in twenty were nearer to the example than this (1 is 60 degrees, RMS of the limbs); beyond it no move is spotted.
-constexpr double kUnlike = 0.52;
+/// The distance to the example, as RMS over the limbs (1 is 60 degrees), beyond which no move is spotted. The trees
+/// cannot judge motions that are unlike all their training data; 19 of 20 right performances in that data were nearer
+/// than this.
+constexpr double kMaxSpottedDistance = 0.52;
 
-/// A tree's line: measure and limit of each node, then the leaves.
+/// Writes a tree as one line: measure and limit of each node, then the leaves.
 std::string WriteTree(const DecisionTree& tree) {
   std::string line = "    - [";
   for (std::size_t n = 0; n < DecisionTree::kNodes; ++n) {
@@ -222,11 +230,13 @@ Result<DecisionTree> ReadTree(const Node& node) {
     return Fail(node.place, "a tree is a list of {} numbers, found {} of {}", kNumbersPerTree, Describe(node),
                 node.items.size());
   }
+  // Read all numbers of the list.
   std::array<double, kNumbersPerTree> numbers{};
   for (std::size_t i = 0; i < kNumbersPerTree; ++i) {
     ASSIGN_OR_RETURN(numbers[i], AsNumber(node.items[i]));
-    if (!(std::abs(numbers[i]) <= kLargest)) return Fail(node.items[i].place, "a number of a tree is {}", numbers[i]);
+    if (!(std::abs(numbers[i]) <= kMaxNumber)) return Fail(node.items[i].place, "a number of a tree is {}", numbers[i]);
   }
+  // Assign them: a measure and a limit per node, then the leaves.
   DecisionTree tree;
   for (std::size_t n = 0; n < DecisionTree::kNodes; ++n) {
     const double measure = numbers[2 * n];
@@ -245,7 +255,7 @@ Result<BoostedTrees> ReadTrees(Fields& file, const std::string& key) {
   if (node == nullptr) return Fail(file.node().place, "a model needs '{}'", key);
   Fields fields(*node, "'" + key + "'");
   BoostedTrees model;
-  model.bias = fields.Number("bias", 0, {-kLargest, kLargest});
+  model.bias = fields.Number("bias", 0, {-kMaxNumber, kMaxNumber});
   if (const Node* trees = fields.Raw("trees")) {
     if (trees->kind != Node::Kind::kSequence)
       return Fail(trees->place, "'trees' is a list, found {}", Describe(*trees));
@@ -303,9 +313,9 @@ const LearntModel& BuiltinCoachedModel() {
 std::unique_ptr<Recogniser> MakeLearntRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
                                                  const LearntModel& model) {
   return MakeMeasuringRecogniser(
-      taught, weights, [&model](Occasion occasion, std::size_t, const PerformanceMeasures& measures) {
-        if (occasion == Occasion::kAsked) return model.asked.Probability(measures);
-        return measures[kDistanceMeasure] > kUnlike ? 0.0 : model.spotted.Probability(measures);
+      taught, weights, [&model](Occasion origin, std::size_t, const PerformanceMeasures& measures) {
+        if (origin == Occasion::kAsked) return model.asked.Probability(measures);
+        return measures[kDistanceMeasure] > kMaxSpottedDistance ? 0.0 : model.spotted.Probability(measures);
       });
 }
 

@@ -16,8 +16,9 @@
 
 namespace etude {
 
-/// Three questions "is this measure at most that?", and what the answers add to the log-odds. Node n's children are
-/// 2n + 1 (yes) and 2n + 2 (no); the last row's are leaves.
+/// A decision tree of depth three. Each node asks "is this measure at most that limit?"; the leaf that is reached adds
+/// its value to the log-odds. The children of node n are 2n + 1 (yes) and 2n + 2 (no); the children of the last row are
+/// leaves.
 struct DecisionTree {
   static constexpr std::size_t kNodes = 7, kLeaves = 8;
   std::array<int, kNodes> measures{};  ///< indices below kMeasureCount
@@ -27,7 +28,7 @@ struct DecisionTree {
   double Value(const PerformanceMeasures& of) const;
 };
 
-/// Gradient-boosted decision trees (Friedman 2001): how right a performance looks by its measures.
+/// Gradient-boosted decision trees (Friedman 2001), which judge by its measures whether a performance is right.
 struct BoostedTrees {
   double bias = 0;  ///< log-odds
   std::vector<DecisionTree> trees;
@@ -36,50 +37,52 @@ struct BoostedTrees {
   double Probability(const PerformanceMeasures& of) const;
 };
 
-/// Performances of one window: right if one of them is, wrong if none is.
+/// The candidate performances of one window. The window is right if at least one of them is right.
 struct LabelledBag {
   bool is_right = false;
-  std::vector<PerformanceMeasures> performances;  ///< at least one; the likeliest first
+  std::vector<PerformanceMeasures> performances;  ///< at least one, the most likely one first
 };
 
 struct BoostingOptions {
   int trees = 100;
-  double rate = 0.12;       ///< how much of its fit a tree adds
-  double ridge = 3;         ///< pulls leaves towards 0, in performances of even odds × 4
-  int least_per_leaf = 12;  ///< performances
-  /// Trees take turns: each sees three fifths of the performances and a third of the measures, so that many of them
-  /// differ (Friedman 2002, by turns in the place of dice).
+  double rate = 0.12;  ///< shrinkage: the share of its fit that a tree adds
+  double ridge = 3;    ///< regularisation that shrinks leaves towards 0, in units of four performances at even odds
+  int least_per_leaf = 12;  ///< minimum number of performances
+  /// If true, trees take turns: each is fitted to three fifths of the performances and a third of the measures, so that
+  /// they differ (stochastic boosting, Friedman 2002, but with a fixed rotation instead of random numbers).
   bool takes_turns = false;
-  /// Each begins with the performance of every bag that the round before thought likeliest, since that one decides; the
-  /// first with the first.
+  /// The number of multiple-instance rounds. Each round trains on one performance per bag: the first round on the first
+  /// one, later rounds on the one that the previous round's model found most likely, because that one decides.
   int rounds = 3;
 };
 
-/// Fits trees by Newton's boosting of the logistic loss, measures cut at 63 quantiles; right and wrong bags weigh alike
-/// in all. No dice. Without a right or without a wrong bag: no trees, even odds.
+/// Fits trees by Newton boosting of the logistic loss, with measures cut at 63 quantiles. The right and the wrong bags
+/// have the same total weight. It uses no random numbers. Returns no trees, which means even odds, if there is no right
+/// or no wrong bag.
 BoostedTrees FitBoostedTrees(std::span<const LabelledBag> bags, const BoostingOptions& options = {});
 
-/// A model learnt from right and faulty performances of any move, kept in a file so that nobody need train.
+/// A model trained on right and faulty performances of any moves. It is stored in a file, so that users need not train
+/// one.
 struct LearntModel {
   BoostedTrees asked, spotted;
 };
 
-/// Reads the text of a model file (`etude train --recogniser`); `file` is what complaints call it.
+/// Reads the text of a model file (`etude train --recogniser`); error messages name it `file`.
 Result<LearntModel> ReadLearntModel(std::string_view text, const std::string& file);
-/// The text that ReadLearntModel reads back to the same model, to the last bit.
+/// Returns the text from which ReadLearntModel reads the same model, bit for bit.
 std::string WriteLearntModel(const LearntModel& model);
 
 /// Returns the files scenarios/recognisers/*.yaml (written by the build).
 std::span<const EmbeddedText> BuiltinLearntModelFiles();
 /// Returns the model of recogniser `learnt`: scenarios/recognisers/learnt.yaml.
 const LearntModel& BuiltinLearntModel();
-/// Returns the model of recogniser `coached`: scenarios/recognisers/coached.yaml of performances asked for, learnt.yaml
-/// of others.
+/// Returns the model of recogniser `coached`: scenarios/recognisers/coached.yaml for performances that were asked for,
+/// learnt.yaml for spotted ones.
 const LearntModel& BuiltinCoachedModel();
 
-/// Makes our learnt recogniser: performances are aligned with the taught examples, measured, and judged by what
-/// simulated people taught the model; what is farther from every example than nearly all that taught it is no move at
-/// all. The moves are those taught: the model knows none.
+/// Makes our learnt recogniser. It aligns performances with the taught examples, measures them, and judges the measures
+/// by a model trained on simulated people. A motion that is farther from every example than nearly all of the training
+/// data is not spotted as a move. The moves are the taught ones; the model itself knows no moves.
 std::unique_ptr<Recogniser> MakeLearntRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
                                                  const LearntModel& model);
 

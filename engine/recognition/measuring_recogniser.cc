@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kUnaligned = std::numeric_limits<double>::infinity();
 
-/// An example of a move, and how many steps a performance of it may last.
+/// An example of a move, and the largest number of steps that a performance of it may last.
 struct TaughtExample {
   std::size_t move;
   std::vector<PoseVector> pattern;
@@ -20,7 +20,7 @@ struct TaughtExample {
   PoseVector middle;  ///< the mean of the pattern
 };
 
-/// The steps seen last, by their number.
+/// A ring buffer of the steps seen last, indexed by step number.
 class RecentSteps {
  public:
   explicit RecentSteps(std::size_t kept) : steps_(kept) {}
@@ -34,7 +34,7 @@ class RecentSteps {
   int count_ = 0;
 };
 
-/// Keeps each move's lowest cost of late.
+/// Keeps each move's lowest alignment cost of the last second.
 class RecentCosts {
  public:
   explicit RecentCosts(std::size_t moves) : moves_(moves), costs_(moves * kKept, kUnaligned) {}
@@ -56,7 +56,7 @@ class RecentCosts {
   }
 
  private:
-  static constexpr std::size_t kKept = 15;  // steps: a second
+  static constexpr std::size_t kKept = 15;  // steps: one second
   std::size_t moves_, step_ = 0;
   std::vector<double> costs_;
 };
@@ -97,6 +97,7 @@ class MeasuringFollower final : public StepFollower {
   }
 
   double Take(const PoseVector& step, std::span<double> spotted) override {
+    // Update every example's aligner and find the example of the lowest cost.
     steps_.Add(step);
     costs_.Next();
     std::size_t nearest = 0;
@@ -110,11 +111,13 @@ class MeasuringFollower final : public StepFollower {
         nearest = i;
       }
     }
+    // Judge the nearest move as spotted.
     if (lowest < kUnaligned) {
       const TaughtExample& example = examples_[nearest];
       spotted[example.move] =
           judge_(Occasion::kSpotted, example.move, MeasureNow(example, always_[nearest], 0, nullptr));
     }
+    // Judge every example of the asked move, and remember the measures of the best alignment in this window.
     double evidence = 0;
     for (InWindow& window : in_window_) {
       auto& [example, aligner, clock, rigid] = window;
@@ -139,11 +142,13 @@ class MeasuringFollower final : public StepFollower {
     RigidComparison rigid;
   };
 
-  /// `first`: the number of the step that the aligner calls its first. `window`: null = nobody asked.
+  /// Measures the best alignment that ends now. `first` is the number of the aligner's first step. `window` is null for
+  /// a spotted performance, whose clock measures are 0.
   PerformanceMeasures MeasureNow(const TaughtExample& example, const SubsequenceAligner& aligner, int first,
                                  const InWindow* window) const {
     const std::vector<StepPair> path = aligner.Path();
     const auto seen = [&](int number) -> const PoseVector& { return steps_[first + number]; };
+    // If only one move was taught, holding still stands in for the other moves.
     double other = costs_.LowestOther(example.move);
     if (is_alone_) other = CostOfHolding(example, path, seen);
     PerformanceMeasures measures =
@@ -152,13 +157,14 @@ class MeasuringFollower final : public StepFollower {
       std::ranges::copy(window->clock.Measure(usual_.Shift()).All(), measures.begin() + kFirstClockMeasure);
       std::ranges::copy(window->rigid.Measure(usual_.Shift()), measures.begin() + kFirstRigidMeasure);
     }
+    // Add each measure's difference from what is usual of this person.
     usual_.Relate(measures);
     if (window == nullptr) std::fill(measures.begin() + kFirstClockMeasure, measures.end(), 0.0);
     return measures;
   }
 
-  /// Returns the cost of holding still in the mean pose on the same path, which stands in for other moves where only
-  /// one was taught.
+  /// Returns the cost of holding still in the example's mean pose along the same path. It replaces the cost of other
+  /// moves if only one move was taught.
   static double CostOfHolding(const TaughtExample& example, std::span<const StepPair> path,
                               const std::function<const PoseVector&(int)>& seen) {
     double cost = 0;

@@ -10,21 +10,19 @@
 
 namespace etude {
 
-/// The purpose for which a performance is measured.
+/// Tells whether a measured performance was asked for.
 enum class Occasion {
-  kAsked,    ///< it may be the one asked for, which began when its window opened
-  kSpotted,  ///< it may have begun at any time
+  kAsked,    ///< it may be the performance asked for, and began when the window opened
+  kSpotted,  ///< nobody asked for it, and it may have begun at any time
 };
 
-/// Says of measures how right the performance looks that ends now, in [0, 1].
-using PerformanceJudge =
-    std::function<double(Occasion occasion, std::size_t move, const PerformanceMeasures& measures)>;
+/// Returns from its measures how right the performance that ends now looks, in [0, 1].
+using PerformanceJudge = std::function<double(Occasion origin, std::size_t move, const PerformanceMeasures& measures)>;
 
-/// Aligns what is seen with every example (limb directions, SubsequenceAligner) and has performances judged by their
-/// measures: in every step the one asked for, by the clock of who asks (ClockComparison), too, and the one that any
-/// time's nearest move may be. What is usual of the person is learnt from the performances asked for, each by its
-/// nearest passage. Examples it cannot describe are left
-/// out.
+/// Makes a recogniser that aligns the stream with every example (limb directions, SubsequenceAligner) and lets `judge`
+/// score the measures of the alignments. In every step it judges the asked move, also by the asker's clock
+/// (ClockComparison), and the nearest move as a spotted one. It learns the person's usual measures from the best
+/// alignments of the performances asked for. It ignores examples that show no body.
 std::unique_ptr<Recogniser> MakeMeasuringRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
                                                     PerformanceJudge judge);
 

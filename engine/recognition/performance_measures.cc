@@ -29,15 +29,16 @@ ClockComparison::ShiftSum ClockComparison::SumOf(Part part, int shift) const {
 }
 
 ClockComparison::Fit ClockComparison::FitOf(Part part, double usual_s) const {
-  constexpr double kLeastShare = 0.6;   // of the part: what is seen of less tells nothing
-  constexpr double kPerSecond2 = 0.02;  // of two shifts that fit alike the nearer to the usual one
+  constexpr double kMinShare = 0.6;     // of the part; with fewer steps in common there is no fit
+  constexpr double kPerSecond2 = 0.02;  // if two shifts fit equally well, take the one nearer to the usual shift
   const double usual = std::clamp(usual_s * kStepsPerSecond, -1.0 * kMostSteps, 1.0 * kMostSteps);
   const double length = static_cast<double>(pattern_.size()) * (part == Part::kWhole ? 1 : 0.5);
   Fit fit{.shift_s = usual / kStepsPerSecond};
+  // Find the best shift, and the mean squared distance at the usual shift.
   double best = -1, best_cost = 0, at_usual = -1;
   for (int shift = -kMostSteps; shift <= kMostSteps; ++shift) {
     const ShiftSum sum = SumOf(part, shift);
-    if (sum.count < kLeastShare * length) continue;
+    if (sum.count < kMinShare * length) continue;
     const double mean = sum.distance / sum.count, away_s = (shift - usual) / kStepsPerSecond;
     if (std::abs(shift - usual) <= 0.5 && at_usual < 0) at_usual = mean;
     const double cost = mean + kPerSecond2 * away_s * away_s;
@@ -46,7 +47,7 @@ ClockComparison::Fit ClockComparison::FitOf(Part part, double usual_s) const {
     best_cost = cost;
     fit.shift_s = shift / kStepsPerSecond;
   }
-  if (at_usual < 0) return fit;  // too little was seen
+  if (at_usual < 0) return fit;  // too few steps were seen
   fit.off = std::sqrt(at_usual);
   fit.gain = fit.off - std::sqrt(std::min(best, at_usual));
   return fit;
@@ -67,7 +68,7 @@ ClockMeasures ClockComparison::Measure(double usual_s) const {
 
 namespace {
 
-/// One limb along a path: weighted sums over its pairs.
+/// Weighted sums over one limb's pairs along a path.
 struct LimbSums {
   double weight = 0, gaps = 0, products = 0, seen_squares = 0, taught_squares = 0;
   glm::dvec3 seen{0}, taught{0};
@@ -95,11 +96,11 @@ struct Mean {
   double Root() const { return count > 0 ? std::sqrt(sum / count) : 0.0; }
 };
 
-/// Lengths of differences of unit vectors: 1 is 60 degrees.
+/// Measures of one limb, as lengths of differences of unit vectors: 1 corresponds to 60 degrees.
 struct LimbMeasures {
   double error = 0;    ///< root mean square
-  double centred = 0;  ///< likewise, both about their means
-  double missing = 0;  ///< share of the taught amplitude; below 0: too large
+  double centred = 0;  ///< root mean square after both means are subtracted
+  double missing = 0;  ///< missing share of the taught amplitude; negative if the amplitude is too large
 };
 
 LimbMeasures MeasureLimb(const LimbSums& sums) {
@@ -109,7 +110,7 @@ LimbMeasures MeasureLimb(const LimbSums& sums) {
   const double covariance = sums.products / w - glm::dot(seen, taught);
   const double seen_variance = std::max(0.0, sums.seen_squares / w - glm::dot(seen, seen));
   const double taught_variance = std::max(0.0, sums.taught_squares / w - glm::dot(taught, taught));
-  constexpr double kStill = 0.02;  // a limb that is to move by less has hardly an amplitude
+  constexpr double kStill = 0.02;  // regularises the ratio for a limb that hardly moves in the example
   return {.error = std::sqrt(sums.gaps / w),
           .centred = std::sqrt(std::max(0.0, seen_variance + taught_variance - 2 * covariance)),
           .missing = 1.0 - (covariance + kStill) / (taught_variance + kStill)};
@@ -132,16 +133,17 @@ std::size_t PutLimbs(const std::array<LimbMeasures, kPosePartCount>& limbs, std:
   return next;
 }
 
-/// The clock of a performance against the example's, seconds.
+/// The timing of a performance relative to the example, in seconds.
 struct PathClock {
-  double lag = 0;       ///< mean, from the first step seen
+  double lag = 0;       ///< mean delay, counted from the first seen step
   double stretch = 0;   ///< 0 at the taught tempo, 1 at half of it
-  double unsteady = 0;  ///< root mean square about a steady tempo
-  double worst = 0;     ///< likewise, at most
+  double unsteady = 0;  ///< root mean squared deviation from a steady tempo
+  double worst = 0;     ///< largest deviation from a steady tempo
 };
 
 PathClock MeasureClock(std::span<const StepPair> path) {
   const double count = static_cast<double>(path.size());
+  // Compute means and second moments of seen and taught time along the path.
   double seen = 0, taught = 0, seen_squares = 0, taught_squares = 0, products = 0;
   for (const StepPair& pair : path) {
     const double s = pair.seen / kStepsPerSecond, t = pair.taught / kStepsPerSecond;
@@ -151,10 +153,12 @@ PathClock MeasureClock(std::span<const StepPair> path) {
     taught_squares += t * t / count;
     products += s * t / count;
   }
+  // Fit a straight line, seen time over taught time; its slope is the tempo.
   const double covariance = products - seen * taught;
   const double taught_variance = taught_squares - taught * taught;
   const double seen_variance = seen_squares - seen * seen;
   const double tempo = taught_variance > 0 ? covariance / taught_variance : 1.0;
+  // Find the largest deviation from the line.
   double worst = 0;
   for (const StepPair& pair : path) {
     const double beyond = (pair.seen / kStepsPerSecond - seen) - tempo * (pair.taught / kStepsPerSecond - taught);
@@ -200,7 +204,7 @@ PerformanceMeasures Measure(const AlignedPerformance& performance) {
 
 namespace {
 
-/// Calls `relate(own, beyond)` with the indices of every measure and of what it is beyond the usual.
+/// Calls `relate(own, beyond)` with the index of every measure and the index of its difference from the usual.
 template <typename Relate>
 void ForEachOwn(const Relate& relate) {
   for (std::size_t m = 0; m < kOwnMeasures; ++m) relate(m, kOwnMeasures + m);
@@ -216,7 +220,8 @@ int RigidComparison::TaughtAt(int seen, std::size_t pace, int lag) {
 
 void RigidComparison::Update(const PoseVector& seen) {
   const int now = static_cast<int>(seen_.size()), size = static_cast<int>(pattern_.size());
-  if (TaughtAt(now, kPaces.size() - 1, kLatest) >= size) return;  // too late for the slowest and latest
+  // Past the end even at the slowest pace and largest lag.
+  if (TaughtAt(now, kPaces.size() - 1, kLatest) >= size) return;
   seen_.push_back(seen);
   for (std::size_t j = 0; j < pattern_.size(); ++j) distances_[j] = SquaredDistance(seen, pattern_[j]);
   for (std::size_t pace = 0; pace < kPaces.size(); ++pace) {
@@ -231,18 +236,20 @@ void RigidComparison::Update(const PoseVector& seen) {
 }
 
 std::array<double, kRigidMeasures> RigidComparison::Measure(double usual_s) const {
-  constexpr double kLeastShare = 0.6;                   // of the example: what is seen of less tells nothing
-  constexpr double kPerSecond2 = 0.01, kPerLog2 = 0.1;  // of fits alike the likelier one
+  constexpr double kMinShare = 0.6;  // of the example; with fewer steps in common there is no fit
+  // If two fits are equally good, prefer the usual lag and the taught pace.
+  constexpr double kPerSecond2 = 0.01, kPerLog2 = 0.1;
   constexpr double kNone = std::numeric_limits<double>::infinity();
   const int size = static_cast<int>(pattern_.size());
   std::size_t best_pace = kTaughtPace;
   int best_lag = 0;
   double best = kNone, at_taught_pace = kNone;
+  // Find the lag and pace of the lowest cost.
   for (std::size_t pace = 0; pace < kPaces.size(); ++pace) {
     const double log_pace = std::log(kPaces[pace]);
     for (int lag = kEarliest; lag <= kLatest; ++lag) {
       const Sum& sum = sums_[pace][static_cast<std::size_t>(lag - kEarliest)];
-      if (sum.count < kLeastShare * size * kPaces[pace]) continue;
+      if (sum.count < kMinShare * size * kPaces[pace]) continue;
       const double away_s = lag / kStepsPerSecond - usual_s;
       const double cost = sum.distance / sum.count + kPerSecond2 * away_s * away_s + kPerLog2 * log_pace * log_pace;
       if (pace == kTaughtPace) at_taught_pace = std::min(at_taught_pace, cost);
@@ -252,6 +259,7 @@ std::array<double, kRigidMeasures> RigidComparison::Measure(double usual_s) cons
       best_lag = lag;
     }
   }
+  // Measure the limbs at that lag and pace.
   std::array<LimbSums, kPosePartCount> sums;
   const bool fits = best < kNone;
   for (int k = 0; fits && k < static_cast<int>(seen_.size()); ++k) {
@@ -291,7 +299,7 @@ void PersonBaseline::Relate(PerformanceMeasures& performance) const {
 }
 
 double PersonBaseline::Shift() const {
-  // A window opens a reaction time after the coach begins, and people follow a little later than that: ours.
+  // A window opens one reaction time after the coach begins, and people follow slightly later than that (ours).
   constexpr double kUnknown = -0.1;
   return latest_.empty() ? kUnknown : usual_[kFirstClockMeasure];
 }

@@ -10,7 +10,7 @@ namespace {
 
 using enum Role;
 
-/// A part: the way from one joint to another, or, of the joints, from the hip centre to `to`.
+/// A part as the vector between two joints; for PoseParts::kJoints it starts at the hip centre.
 struct Part {
   Role from, to;
 };
@@ -42,10 +42,10 @@ const std::array<Part, kWays>& WaysOf(PoseParts parts) {
   return parts == PoseParts::kJoints ? kJointParts : kLimbParts;
 }
 
-constexpr double kTrunk = 0.5;    // metres to which bodies are scaled
-constexpr double kHips = 0.9;     // their standing hip height then
-constexpr double kStanding = 80;  // of the feature Posture
-constexpr double kSmoothing = 1;  // seconds
+constexpr double kTrunk = 0.5;    // metres; the trunk length to which bodies are scaled
+constexpr double kHips = 0.9;     // metres; the standing hip height of such a body
+constexpr double kStanding = 80;  // the value of the feature Posture when standing
+constexpr double kSmoothing = 1;  // seconds; the time constant of heading and trunk length
 
 double TrunkLength(const SensedFrame& skeleton) {
   return glm::distance(skeleton[kHipCentre].position, skeleton[kShoulderCentre].position);
@@ -72,6 +72,7 @@ PoseVector MeanOf(std::span<const PoseVector> poses) {
 }
 
 PoseVector Mirrored(const PoseVector& pose, PoseParts parts) {
+  // A part's mirror image is the part between the mirrored joints, possibly in the opposite direction.
   const auto& ways = WaysOf(parts);
   const glm::dvec3 flip(-1, 1, 1);
   PoseVector mirrored = pose;
@@ -93,12 +94,13 @@ StepDescriber::StepDescriber(PoseParts parts, const SightWeights& weights, doubl
 void StepDescriber::Follow(const SensedFrame& skeleton) {
   const double share = follows_ ? 1.0 - std::exp(-1.0 / (kSmoothing * rate_hz_)) : 1.0;
   const glm::dvec3 facing = facing_ + share * (Facing(PoseOf(skeleton)) - facing_);
-  if (glm::length(facing) > 1e-6) facing_ = facing;  // half a turn at once has no middle
+  if (glm::length(facing) > 1e-6) facing_ = facing;  // a sudden half turn has no mean direction
   trunk_m_ += share * (TrunkLength(skeleton) - trunk_m_);
   follows_ = true;
 }
 
 PoseVector StepDescriber::Describe(const SeenFrame& frame) {
+  // Express each part in the body's frame (left, up, ahead), scaled or normalised.
   Follow(frame.skeleton);
   const glm::dvec3 ahead = glm::normalize(facing_), left(ahead.z, 0, -ahead.x);
   const double scale = trunk_m_ > 0 ? kTrunk / trunk_m_ : 1.0;
@@ -112,12 +114,14 @@ PoseVector StepDescriber::Describe(const SeenFrame& frame) {
     pose.parts[i] = factor * glm::dvec3(glm::dot(way, left), way.y, glm::dot(way, ahead));
     pose.weights[i] = weights_.Of(std::max(from.state, to.state));
   }
+  // The last part is the height of the hips relative to standing.
   pose.parts.back().y = kHips * (frame.features.features[Feature::kPosture] / kStanding - 1.0);
   pose.weights.back() = weights_.Of(frame.features.StateOf(Feature::kPosture));
   return pose;
 }
 
 int StepDescriber::Update(const SeenFrame& frame) {
+  // Sum up the frames of this step.
   if (frame.features.body_seen) {
     const PoseVector pose = Describe(frame);
     for (std::size_t i = 0; i < kPosePartCount; ++i) {
@@ -126,6 +130,7 @@ int StepDescriber::Update(const SeenFrame& frame) {
     }
     ++summed_;
   }
+  // Count the steps that end with this frame.
   const auto steps_until = [&](long frames) {
     return static_cast<long>(std::floor(static_cast<double>(frames) * kStepsPerSecond / rate_hz_));
   };
@@ -133,6 +138,7 @@ int StepDescriber::Update(const SeenFrame& frame) {
   ++frame_;
   if (completed == 0) return 0;
 
+  // Finish the step as the mean of its frames; it is empty if no frame showed a body.
   step_.reset();
   if (summed_ > 0) {
     step_ = sum_;

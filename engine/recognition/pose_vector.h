@@ -9,44 +9,45 @@
 
 namespace etude {
 
-/// The parts that describe a pose, each a vector seen from a body that faces +Z.
+/// The parts that describe a pose. Each is a vector in the frame of a body that faces +Z.
 enum class PoseParts {
-  kJoints,  ///< where joints are from the hip centre, metres, the trunk scaled to 50 cm
-  kLimbs,   ///< which way limbs point, unit vectors
+  kJoints,  ///< positions of joints relative to the hip centre, metres, with the trunk scaled to 50 cm
+  kLimbs,   ///< directions of limbs, unit vectors
 };
-/// The number of parts: eleven joints or limbs, and the lift of the hips.
+/// The number of parts: eleven joints or limbs, and the height of the hips.
 constexpr std::size_t kPosePartCount = 12;
 
-/// One pose, comparable between bodies, places and headings.
+/// One pose, independent of body size, position and heading.
 struct PoseVector {
   std::array<glm::dvec3, kPosePartCount> parts{};
-  std::array<double, kPosePartCount> weights{};  ///< how much each counts, in [0, 1]
+  std::array<double, kPosePartCount> weights{};  ///< weight of each part, in [0, 1]
 };
 
-/// Returns the mean squared distance of two poses' parts, weighed by how `seen` was seen; the parts' own unit, squared.
-/// 0 weight in all: nothing is known, and nothing differs.
+/// Returns the mean squared distance of the poses' parts, weighted by `seen.weights`, in the parts' unit squared.
+/// Returns 0 if all weights are 0.
 double SquaredDistance(const PoseVector& seen, const PoseVector& taught);
 
-/// The mean of what at least one pose is described by; of weight 1 or 0 as the first.
+/// Returns the mean of at least one pose, with the weights of the first.
 PoseVector MeanOf(std::span<const PoseVector> poses);
 
 /// Returns the pose with left and right exchanged.
 PoseVector Mirrored(const PoseVector& pose, PoseParts parts);
 
-/// The steps a second in which motions are compared: fast enough for a dance, half of what sensors deliver.
+/// The number of steps per second in which motions are compared. It is fast enough for dances and half the rate of
+/// usual sensors.
 constexpr double kStepsPerSecond = 15;
 
-/// Describes a stream frame by frame, causally, and gathers frames into steps of equal length, each their mean. Heading
-/// and trunk length are smoothed over a second: people turn slowly, and sensors jitter.
+/// Describes a stream frame by frame, causally, and averages the frames in steps of equal length. Heading and trunk
+/// length are smoothed over a second, because people turn slowly and sensors jitter.
 class StepDescriber {
  public:
-  /// `rate_hz` > 0.
+  /// Creates a describer for frames at `rate_hz` > 0.
   StepDescriber(PoseParts parts, const SightWeights& weights, double rate_hz);
 
-  /// Takes a frame, and returns how many steps it completes: mostly none or one, several where frames are fewer than
-  /// steps. They all show `Step`.
+  /// Takes a frame and returns the number of steps that it completes: usually 0 or 1, more if the frame rate is below
+  /// the step rate. `Step` holds for all of them.
   int Update(const SeenFrame& frame);
-  /// Returns the step completed last; nothing when no body was seen in it.
+  /// Returns the step completed last; empty if no body was seen in it.
   const std::optional<PoseVector>& Step() const { return step_; }
 
  private:
@@ -57,21 +58,21 @@ class StepDescriber {
   SightWeights weights_;
   double rate_hz_;
   long frame_ = 0;
-  bool follows_ = false;  // whether a body was seen yet
+  bool follows_ = false;  // true once a body was seen
   glm::dvec3 facing_{0, 0, 1};
   double trunk_m_ = 0;
-  PoseVector sum_;  // of the frames of this step
+  PoseVector sum_;  // of this step's frames
   int summed_ = 0;
   std::optional<PoseVector> step_;
 };
 
-/// Lists the steps of a recorded stream, those without a body left out.
+/// Returns the steps of a recorded stream; steps without a body are left out.
 std::vector<PoseVector> DescribeStream(const SkeletonStream& stream, PoseParts parts);
 
-/// A follower that compares motions in steps: what it answers changes with every step, and stays between them.
+/// A follower that compares motions in steps. Its evidence changes only when a step is completed.
 class StepFollower : public MoveFollower {
  public:
-  /// `rate_hz` > 0.
+  /// Creates a follower for frames at `rate_hz` > 0.
   StepFollower(PoseParts parts, const SightWeights& weights, std::size_t moves, double rate_hz);
 
   void Ask(std::optional<std::size_t> move) final;
@@ -81,15 +82,15 @@ class StepFollower : public MoveFollower {
   std::optional<std::size_t> asked() const { return asked_; }
 
  private:
-  /// A window opens, or none is open any more.
+  /// Is called when a window opens for `move`, or when the window closes (no move).
   virtual void Open(std::optional<std::size_t> move) = 0;
-  /// The next step. Gives the evidence that the performance asked for ends now (0 when none is), and fills in that of
-  /// every move in `spotted`.
+  /// Takes the next step. Returns the evidence that the performance asked for ends now (0 if none is asked for), and
+  /// writes the evidence of every move to `spotted`.
   virtual double Take(const PoseVector& step, std::span<double> spotted) = 0;
 
   StepDescriber describer_;
   std::optional<std::size_t> asked_;
-  double best_ = 0;  // of the performance asked for
+  double best_ = 0;  // largest evidence in this window
   std::vector<double> spotted_;
 };
 

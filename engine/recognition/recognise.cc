@@ -40,6 +40,7 @@ Result<EvidenceTrace> FollowStream(const Recogniser& recogniser, std::size_t mov
   const auto follower = recogniser.Follow(seen.filtered.rate_hz);
   const AskedMove* next = asked.data();
   const AskedMove* const end = next + asked.size();
+  // Open and close the windows at their frames, and record the evidence of every frame.
   for (std::size_t t = 0; t < seen.frames.size(); ++t) {
     const int now = static_cast<int>(t);
     if (next != asked.data() && (next - 1)->window.end == now) follower->Ask(std::nullopt);

@@ -11,17 +11,17 @@
 
 namespace etude {
 
-/// The frames [begin, end) of a stream.
+/// A half-open interval [begin, end) of a stream's frames.
 struct FrameInterval {
   int begin = 0;
   int end = 0;  ///< ≥ begin
 };
 
-/// The frames of `stream` that touch the interval from `start_s` to `end_s`, seconds from the stream's first frame;
-/// what lies outside the stream is cut off.
+/// Returns the frames of `stream` that overlap the interval from `start_s` to `end_s`, in seconds from the stream's
+/// first frame, clamped to the stream.
 FrameInterval FramesBetween(double start_s, double end_s, const SkeletonStream& stream);
 
-/// A performance that was asked for: which move is to be recognised, and when.
+/// A performance that is asked for: the move, and the window in which it is expected.
 struct AskedMove {
   std::size_t move = 0;  ///< the taught move's index
   FrameInterval window;
@@ -31,45 +31,47 @@ struct AskedMove {
 struct EvidenceTrace {
   std::size_t moves = 0;
   std::vector<double> asked;    ///< per frame
-  std::vector<double> spotted;  ///< per frame and move, frame by frame
+  std::vector<double> spotted;  ///< per frame and move, frame-major
 
   std::span<const double> SpottedAt(std::size_t frame) const {
     return std::span(spotted).subspan(frame * moves, moves);
   }
 };
 
-/// Follows the whole stream, as live: asks for each move when its window opens. `asked`: in order of time, within the
-/// stream, none overlapping another; `moves`: how many the recogniser was taught.
+/// Follows the whole stream as if it were live, and asks for each move when its window opens. `asked` must be in order
+/// of time, within the stream and without overlap; an error names the first entry that is not. `moves` is the number of
+/// taught moves.
 Result<EvidenceTrace> FollowStream(const Recogniser& recogniser, std::size_t moves, const SeenStream& seen,
                                    std::span<const AskedMove> asked);
 
 /// The options by which evidence becomes decisions.
 struct DecisionOptions {
-  /// The evidence from which on a move counts as performed, in (0, 1]. Set it on people who are not judged, to the
-  /// false alarms that one can bear.
+  /// The evidence at which a move counts as performed, in (0, 1]. Set it on people who are not judged, so that false
+  /// alarms are acceptably rare.
   double threshold = 0.5;
-  /// A move that was spotted is not spotted again for so long, seconds, ≥ 0: a performance is one detection, however
-  /// its evidence flickers.
+  /// The time after a detection in which the same move is not detected again, in seconds, ≥ 0. It makes one performance
+  /// one detection if the evidence flickers.
   double refractory_s = 1.0;
 };
 
-/// The coach's conclusion about one performance that it asked for.
+/// The result for one performance that was asked for.
 struct Judgement {
-  std::optional<int> recognised_at;   ///< frame within the window; empty: the move was not recognised
+  std::optional<int> recognised_at;   ///< frame within the window; empty if the move was not recognised
   double score = 0;                   ///< in [0, 1], for ROC curves
   std::vector<double> running_score;  ///< per frame of the window
 };
 
-/// Judges one window of the trace, in which its move was asked for.
+/// Judges one window of the trace. Its move must have been asked for in this window.
 Judgement JudgeWindow(const EvidenceTrace& trace, const FrameInterval& window, double threshold);
 
-/// Turns evidence into detections, frame by frame, each move for itself: it is spotted when its evidence rises to the
-/// threshold, and not again before it fell below and the refractory time is over.
+/// Turns evidence into detections frame by frame, separately for each move. A move is detected when its evidence rises
+/// to the threshold. It can be detected again after the evidence fell below the threshold and the refractory time has
+/// passed.
 class MoveSpotter {
  public:
   MoveSpotter(std::size_t moves, const DecisionOptions& options, double rate_hz);
 
-  /// The moves spotted in this frame, in their order. Valid until the next call.
+  /// Returns the moves detected in this frame, in index order. The span is valid until the next call.
   std::span<const std::size_t> Update(std::span<const double> spotted);
 
  private:
@@ -84,14 +86,14 @@ class MoveSpotter {
   std::vector<std::size_t> fired_;
 };
 
-/// A recogniser took a move for performed.
+/// The detection of one move.
 struct Detection {
-  std::size_t move = 0;  ///< its index
+  std::size_t move = 0;  ///< index of the move
   int frame = 0;
 };
 
-/// Every time that a move was spotted in the stream, asked for or not: by move, then by time. Those in no performance
-/// of their move are false alarms, which only someone who knows what was performed can tell.
+/// Returns all detections in the stream, asked for or not, sorted by move and then by time. Detections outside
+/// performances of their move are false alarms; only the ground truth tells them apart.
 std::vector<Detection> FindMoves(const EvidenceTrace& trace, double rate_hz, const DecisionOptions& options);
 
 }  // namespace etude

@@ -8,22 +8,22 @@
 
 namespace etude {
 
-/// The weighting of angles by how well they were seen.
+/// The rule that weights an angle by the tracking state of its joints.
 enum class Weighting {
-  kFixed,     ///< everything 1: A's
-  kAdaptive,  ///< by how well its joints are seen (ours)
+  kFixed,     ///< every angle has weight 1, as in paper A
+  kAdaptive,  ///< the weight depends on the worst tracking state of its joints (ours)
 };
 
 struct SightWeights {
-  /// The default is fixed, because it is A's. Adaptive where a miss costs more than praise for a mistake, most of all
-  /// where the body hides its own far side: what is not seen is not counted, mistakes included.
+  /// The default is fixed, as in paper A. Use adaptive if a miss costs more than praise for a mistake, especially if
+  /// the body occludes its own far side. Adaptive weights also ignore mistakes in joints that are not seen.
   Weighting weighting = Weighting::kFixed;
-  /// The weight of an angle with an inferred joint (adaptive weights), in [0, 1]; a tracked one counts 1. At 0.3 (ours)
-  /// three guessed angles cannot outvote one that is seen. Raise it for a sensor whose guesses are good; at 1 adaptive
-  /// weights are fixed ones for whatever is tracked or inferred.
+  /// The adaptive weight of an angle with an inferred joint, in [0, 1]; a tracked one has weight 1. At 0.3 (ours) three
+  /// inferred angles cannot outvote a tracked one. Raise it for a sensor whose inferred joints are accurate; at 1,
+  /// inferred joints count like tracked ones.
   double inferred_weight = 0.3;
-  /// The weight of an angle with a joint that is not tracked (adaptive weights), in [0, 1]. It is 0 because such a
-  /// joint repeats where it was last. Raise it only for a sensor that goes on reporting joints it calls not tracked.
+  /// The adaptive weight of an angle with a joint that is not tracked, in [0, 1]. It is 0 because such a joint repeats
+  /// its last position. Raise it only for a sensor that still measures joints it reports as not tracked.
   double not_tracked_weight = 0.0;
 
   double Of(TrackingState state) const {
@@ -32,40 +32,40 @@ struct SightWeights {
   }
 };
 
-/// One frame as recognisers see it: the filtered skeleton and the features read off it.
+/// One frame as recognisers see it: the filtered skeleton and its features.
 struct SeenFrame {
   const SensedFrame& skeleton;
   const FeatureFrame& features;
 };
 
-/// A recogniser's evidence in one frame, from this frame and those before it.
+/// A recogniser's evidence in one frame, computed from this frame and the frames before it.
 struct Evidence {
-  /// The evidence that the performance asked for is right, so far in its window, in [0, 1]. It never falls while the
-  /// same one is asked for, and is 0 when none is.
+  /// The evidence so far in this window that the performance asked for is right, in [0, 1]. It never decreases within a
+  /// window, and is 0 if no move is asked for.
   double asked = 0;
-  /// Tells for each taught move, in [0, 1], how much this frame looks like the end of a right performance of it, asked
-  /// for or not. Valid until the next call.
+  /// Per taught move, the evidence that a right performance of it ends in this frame, in [0, 1], asked for or not.
+  /// Valid until the next call.
   std::span<const double> spotted;
 };
 
-/// Follows one stream, frame by frame, for all taught moves at once.
+/// Follows one stream frame by frame for all taught moves at once.
 class MoveFollower {
  public:
   virtual ~MoveFollower() = default;
-  /// Opens the window of a taught move (its index), which the person is asked for from the next frame on; what was seen
-  /// before does not count. Without a move, closes the window.
+  /// Opens a window for the taught move of this index from the next frame on; earlier frames do not count. Closes the
+  /// window if `move` is empty.
   virtual void Ask(std::optional<std::size_t> move) = 0;
   virtual Evidence Update(const SeenFrame& frame) = 0;
-  /// Returns the taught move that all of what was seen so far looks most like as one performance, for who is told where
-  /// performances begin and end; nothing: this follower knows the ends of passages only.
+  /// Returns the taught move that is most similar to the whole stream so far, seen as one performance. It is meant for
+  /// callers who know where performances begin and end. Empty if this follower can only judge passages.
   virtual std::optional<std::size_t> Whole() const { return std::nullopt; }
 };
 
-/// A recogniser that was taught its moves: constant from then on, and shared by all streams it follows.
+/// A recogniser with its taught moves. It is immutable and can follow any number of streams.
 class Recogniser {
  public:
   virtual ~Recogniser() = default;
-  /// The recogniser must outlive the follower. `rate_hz` > 0.
+  /// Creates a follower for a stream at `rate_hz` > 0. The recogniser must outlive the follower.
   virtual std::unique_ptr<MoveFollower> Follow(double rate_hz) const = 0;
 };
 

@@ -14,7 +14,7 @@ namespace {
 template <typename Own>
 using TeachWithOwn = std::unique_ptr<Recogniser> (*)(std::span<const TaughtMove>, const SightWeights&, const Own&);
 
-// A recogniser with options of its own: `table` tells which of them can be set, by which key, in which range.
+// Adds a recogniser's own options to its kind; `table` tells which of them can be set, by which key and in which range.
 template <typename Own>
 RecogniserKind WithSettings(RecogniserKind kind, TeachWithOwn<Own> teach, const SettingTable<Own>& table) {
   kind.settings = table.Describe();
@@ -68,7 +68,7 @@ Result<void> Check(const RecogniserKind& kind, std::span<const TaughtMove> taugh
 
 }  // namespace
 
-// A new recogniser is one row here. Its options, if it has any, are a struct in its own header.
+// To add a recogniser, add a row here. Its options, if any, are a struct in its own header.
 std::span<const RecogniserKind> AllRecognisers() {
   static const std::vector<RecogniserKind> recognisers = {
       WithSettings<KeyPoseOptions>(

@@ -16,15 +16,15 @@ namespace etude {
 
 struct RecogniserOptions;
 
-/// A way to recognise moves, by the name scenario files call it.
+/// A kind of recogniser, with the name that scenario files use.
 struct RecogniserKind {
   std::string name;
-  std::string description;       ///< one line, for people
-  bool needs_key_poses = false;  ///< of every taught move
-  bool needs_examples = false;   ///< at least one of every taught move
-  /// The evidence from which on it calls a move right unless told otherwise, in (0, 1).
+  std::string description;       ///< one line for users
+  bool needs_key_poses = false;  ///< true if every taught move must have key poses
+  bool needs_examples = false;   ///< true if every taught move must have at least one example
+  /// The default evidence at which it calls a move right, in (0, 1).
   double threshold = 0.5;
-  /// The settings that `RecogniserOptions::settings` holds values for, in this order.
+  /// The settings whose values `RecogniserOptions::settings` holds, in this order.
   std::vector<NumberSetting> settings = {};
   std::function<std::unique_ptr<Recogniser>(std::span<const TaughtMove> taught, const RecogniserOptions& options)>
       teach = {};
@@ -32,17 +32,17 @@ struct RecogniserKind {
 
 std::span<const RecogniserKind> AllRecognisers();
 std::vector<std::string> RecogniserNames();
-/// Returns the recogniser of that name, null when there is none.
+/// Returns the recogniser called `name`, or null if there is none.
 const RecogniserKind* FindRecogniser(std::string_view name);
 
 struct RecogniserOptions {
-  const RecogniserKind* kind = &AllRecognisers().front();  ///< key-pose, paper A's
+  const RecogniserKind* kind = &AllRecognisers().front();  ///< default: key-pose, paper A's recogniser
   SightWeights weights = {};
-  std::vector<double> settings = {};  ///< one per setting of the kind, in their order; none at all: the defaults
+  std::vector<double> settings = {};  ///< one value per setting of the kind, in order; empty means the defaults
 };
 
-/// A recogniser that was taught these moves; indices of moves are theirs. Refuses moves that lack what this kind needs,
-/// two moves of one name, and key poses or spans out of their ranges.
+/// Makes a recogniser for these moves, which it identifies by their index. Returns an error if a move lacks what this
+/// kind needs, if two moves have the same name, or if a key pose or span is out of range.
 ///
 ///     ASSIGN_OR_RETURN(const auto recogniser, MakeRecogniser({.kind = FindRecogniser("dtw")}, taught));
 ///     const auto follower = recogniser->Follow(stream.rate_hz);

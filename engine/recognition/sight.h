@@ -8,32 +8,32 @@
 
 namespace etude {
 
-/// The hip height that this performer has when standing, causally: the median, over the first second in which the body
-/// was seen, of what the limb lengths say (single frames vary by 4–12 %).
+/// Estimates the performer's standing hip height causally: the median over the first second with a body of the height
+/// that the limb lengths imply (limb lengths of single frames vary by 4–12 %).
 class StandingHeight {
  public:
-  /// `rate_hz` > 0.
+  /// Creates an estimator for frames at `rate_hz` > 0.
   explicit StandingHeight(double rate_hz);
 
-  /// Takes one frame in; later frames than those of the first second change nothing.
+  /// Takes one frame; frames after the first second have no effect.
   void Update(const SensedFrame& frame);
-  /// Returns the hip height, metres, > 0; 0.9 before a body was seen.
+  /// Returns the hip height in metres, > 0; 0.9 before a body was seen.
   double Value() const { return value_; }
 
  private:
   std::size_t wanted_;
-  std::vector<double> heights_;  // of the frames so far, sorted
+  std::vector<double> heights_;  // of the frames so far, in ascending order
   double value_;
 };
 
-/// Turns a live stream into what recognisers see: frame by frame through the filter, then the features. A stream that
-/// was recorded is seen by the same (SeeStream), so both answer the same to the last bit.
+/// Filters a live stream frame by frame and computes the features that recognisers use. SeeStream uses this class for
+/// recorded streams, so live and recorded streams give bit-identical results.
 class LiveSight {
  public:
-  /// `rate_hz` > 0.
+  /// Creates the filter for frames at `rate_hz` > 0.
   LiveSight(const FilterOptions& filter, double rate_hz);
 
-  /// Takes the next frame. The result's pointers are valid until the next call.
+  /// Takes the next frame. The references in the result are valid until the next call.
   SeenFrame Update(const SensedFrame& raw);
 
  private:
@@ -43,7 +43,7 @@ class LiveSight {
   FeatureFrame features_;
 };
 
-/// A stream as recognisers behind the same filter see it: computed once for all of them.
+/// A whole stream as recognisers with the same filter see it, computed once for all of them.
 struct SeenStream {
   SkeletonStream filtered;
   std::vector<FeatureFrame> frames;  ///< one per frame of the stream
@@ -51,7 +51,7 @@ struct SeenStream {
   SeenFrame operator[](std::size_t frame) const { return {filtered.frames[frame], frames[frame]}; }
 };
 
-/// The whole stream through a LiveSight.
+/// Passes a whole stream through a LiveSight.
 SeenStream SeeStream(const SkeletonStream& stream, const FilterOptions& filter);
 
 }  // namespace etude

@@ -29,7 +29,7 @@ SkeletonStream StreamOf(const BodyMotion& motion) {
 
 namespace {
 
-/// Returns the worst state: tracked < inferred < not tracked, as the enum is ordered.
+/// Returns the worst state among the joints; the enum is ordered tracked < inferred < not tracked.
 TrackingState WorstOf(const SensedFrame& frame, std::span<const Role> joints) {
   TrackingState worst = TrackingState::kTracked;
   for (Role role : joints) worst = std::max(worst, frame[role].state);

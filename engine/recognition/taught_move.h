@@ -15,22 +15,22 @@ struct PoseTarget {
   double tolerance_deg = 0;  ///< > 0
 };
 
-/// A pose that must be reached for the move to count.
+/// A pose that must be reached for the move to be recognised.
 struct TaughtPose {
   std::vector<PoseTarget> targets;  ///< at least one
 };
 
 constexpr double kLongestSpan = 60;  ///< seconds
 
-/// A move as recognisers are taught it. Each takes what it needs and refuses a move that lacks it.
+/// A move as it is taught to recognisers. Each recogniser uses the fields it needs and rejects a move that lacks them.
 struct TaughtMove {
   std::string name;
-  std::vector<TaughtPose> poses = {};  ///< to be reached in this order
-  /// The longest that one performance lasts, seconds, above 0 and at most kLongestSpan: the move's length at its
-  /// slowest. It bounds what is taken for one performance where nobody says when the move is due.
+  std::vector<TaughtPose> poses = {};  ///< must be reached in this order
+  /// The longest duration of one performance in seconds, above 0 and at most kMaxSpan: the move's length at its slowest
+  /// tempo. It limits how far back a performance may begin if the move was not asked for.
   double span_s = 10;
-  std::vector<SkeletonStream> examples = {};          ///< right performances, from the first beat to the last
-  std::vector<SkeletonStream> counter_examples = {};  ///< wrong ones, which look alike
+  std::vector<SkeletonStream> examples = {};          ///< right performances from the first beat to the last
+  std::vector<SkeletonStream> counter_examples = {};  ///< wrong performances that look similar
 };
 
 }  // namespace etude

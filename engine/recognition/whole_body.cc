@@ -12,15 +12,15 @@
 namespace etude {
 namespace {
 
-constexpr double kApart = std::numeric_limits<double>::infinity();
-/// The distances at which two people who do the same are apart in the middle: joints in metres, limbs in unit vectors
-/// (of six people before an OpenNI sensor, each performance and the nearest by somebody else). Distances are squares in
-/// these units.
-constexpr double kJointsApart = 0.08, kLimbsApart = 0.15;
-/// So many of a move's examples say how far it is, as one may be odd.
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// The units of distance: the median distance between two people who do the same move, joints in metres and limbs as
+/// differences of unit vectors (six people before an OpenNI sensor, each performance against the nearest one by
+/// somebody else). Distances in this file are squared and in these units.
+constexpr double kJointUnit = 0.08, kLimbUnit = 0.15;
+/// The number of nearest examples whose distances are averaged, because a single example may be unusual.
 constexpr std::size_t kNearestExamples = 3;
 
-/// A body in one step: places of joints and directions of limbs, one after the other, and how much each number counts.
+/// A body in one step: joint positions and limb directions in one array, with a weight per number.
 struct WholePose {
   static constexpr std::size_t kNumbers = 2 * 3 * kPosePartCount;
   std::array<float, kNumbers> numbers{}, weights{};
@@ -30,10 +30,10 @@ using WholePattern = std::vector<WholePose>;
 WholePose WholePoseOf(const PoseVector& joints, const PoseVector& limbs) {
   WholePose whole;
   std::size_t next = 0;
-  const auto add = [&](const PoseVector& pose, double apart) {
+  const auto add = [&](const PoseVector& pose, double unit) {
     double total = 0;
     for (const double weight : pose.weights) total += weight;
-    const double scale = total > 0 ? 0.5 / (total * apart * apart) : 0;
+    const double scale = total > 0 ? 0.5 / (total * unit * unit) : 0;
     for (std::size_t i = 0; i < kPosePartCount; ++i) {
       for (int axis = 0; axis < 3; ++axis, ++next) {
         whole.numbers[next] = static_cast<float>(pose.parts[i][axis]);
@@ -41,12 +41,12 @@ WholePose WholePoseOf(const PoseVector& joints, const PoseVector& limbs) {
       }
     }
   };
-  add(joints, kJointsApart);
-  add(limbs, kLimbsApart);
+  add(joints, kJointUnit);
+  add(limbs, kLimbUnit);
   return whole;
 }
 
-/// Returns the squared distance, weighed as `seen` was seen. Eight sums beside each other keep one order of adding.
+/// Returns the squared distance with the weights of `seen`. Eight partial sums keep the order of additions fixed.
 double SquaredDistanceOf(const WholePose& seen, const WholePose& taught) {
   constexpr std::size_t kLanes = 8;
   static_assert(WholePose::kNumbers % kLanes == 0);
@@ -62,43 +62,45 @@ double SquaredDistanceOf(const WholePose& seen, const WholePose& taught) {
   return sum;
 }
 
-/// Follows one example through a stream: as SubsequenceAligner does (without the path), and as one performance that
-/// began with the first step.
+/// Compares a stream with one example in two ways: by its best passage, as SubsequenceAligner does (without the path),
+/// and as one whole performance that began with the first step.
 class ExampleDistance {
  public:
   ExampleDistance(const WholePattern& pattern, int longest)
-      : pattern_(&pattern), longest_(longest), passage_(pattern.size(), kApart), whole_(pattern.size(), kApart) {
+      : pattern_(&pattern), longest_(longest), passage_(pattern.size(), kInfinity), whole_(pattern.size(), kInfinity) {
     starts_.resize(pattern.size());
   }
 
   void Update(const WholePose& seen);
-  /// Returns the distance of the best passage that ends now.
+  /// Returns the distance of the best passage that ends at the step seen last.
   double Passage() const { return passage_.back() / static_cast<double>(pattern_->size()); }
-  /// Returns that of all that was seen (symmetric dynamic time warping).
+  /// Returns the distance of the whole stream so far (symmetric dynamic time warping).
   double Whole() const { return whole_.back() / static_cast<double>(pattern_->size() + count_); }
-  /// Returns how many steps were seen, in lengths of the example.
+  /// Returns the number of seen steps divided by the number of the example's steps.
   double SharePassed() const { return static_cast<double>(count_) / static_cast<double>(pattern_->size()); }
 
  private:
   const WholePattern* pattern_;
   int longest_;
-  std::size_t count_ = 0;  // steps seen
+  std::size_t count_ = 0;  // number of seen steps
   std::vector<double> passage_, whole_;
   std::vector<int> starts_;
 };
 
 void ExampleDistance::Update(const WholePose& seen) {
   const int now = static_cast<int>(count_++);
-  double diagonal = now == 0 ? 0 : kApart, left = kApart;
-  // Distances of the steps before, of which a passage may leave out one.
+  double diagonal = now == 0 ? 0 : kInfinity, left = kInfinity;
+  // The costs at pattern steps j - 1 and j - 2 before this update; a passage may skip one pattern step.
   double passage_before = 0, passage_before_that = 0, gap_before = 0;
   int start_before = 0, start_before_that = 0;
   for (std::size_t j = 0; j < pattern_->size(); ++j) {
+    // Whole performance: extend the symmetric warping path; a diagonal step counts twice.
     const double gap = SquaredDistanceOf(seen, (*pattern_)[j]);
     left = std::min({diagonal + 2 * gap, whole_[j] + gap, left + gap});
     diagonal = whole_[j];
     whole_[j] = left;
 
+    // Passage: stay at j, advance by one step or by two, or begin here.
     const double stayed = passage_[j];
     const int stayed_start = starts_[j];
     double best = stayed;
@@ -115,7 +117,8 @@ void ExampleDistance::Update(const WholePose& seen) {
       best = 0;
       start = now;
     }
-    passage_[j] = now - start >= longest_ ? kApart : best + gap;
+    // Drop a passage that is too long, and keep the old costs for the next pattern steps.
+    passage_[j] = now - start >= longest_ ? kInfinity : best + gap;
     starts_[j] = start;
     passage_before_that = passage_before;
     start_before_that = start_before;
@@ -129,7 +132,7 @@ void ExampleDistance::Update(const WholePose& seen) {
 struct WholeMove {
   std::vector<WholePattern> examples, images;
   int longest = 1;
-  bool has_sides = false;  ///< it is not its own image
+  bool has_sides = false;  ///< false if the move is its own mirror image
 
   static std::vector<ExampleDistance> Follow(const std::vector<WholePattern>& patterns, int longest) {
     std::vector<ExampleDistance> distances;
@@ -138,13 +141,13 @@ struct WholeMove {
   }
 };
 
-/// Says whether examples differ from their own images by more than people differ, in the middle.
+/// Returns true if, in the median, examples differ from their own mirror images by more than people differ.
 bool HasSides(const WholeMove& move) {
   constexpr double kOwnImage = 2;
   std::vector<double> nearest;
   for (std::size_t i = 0; i < move.examples.size(); ++i) {
     ExampleDistance distance(move.examples[i], move.longest);
-    nearest.push_back(kApart);
+    nearest.push_back(kInfinity);
     for (const WholePose& pose : move.images[i]) {
       distance.Update(pose);
       nearest.back() = std::min(nearest.back(), distance.Passage());
@@ -169,11 +172,11 @@ WholeMove WholeMoveOf(const TaughtMove& taught) {
   return move;
 }
 
-/// Returns the mean of the nearest examples' distances.
+/// Returns the mean distance of the nearest examples.
 template <typename Measure>
 double NearestMean(const std::vector<ExampleDistance>& examples, Measure measure) {
   std::array<double, kNearestExamples> nearest;
-  nearest.fill(kApart);
+  nearest.fill(kInfinity);
   for (const ExampleDistance& example : examples) {
     double distance = measure(example);
     for (double& kept : nearest) {
@@ -183,16 +186,16 @@ double NearestMean(const std::vector<ExampleDistance>& examples, Measure measure
   const std::size_t count = std::min(kNearestExamples, examples.size());
   double sum = 0;
   for (std::size_t i = 0; i < count; ++i) sum += nearest[i];
-  return count > 0 ? sum / static_cast<double>(count) : kApart;
+  return count > 0 ? sum / static_cast<double>(count) : kInfinity;
 }
 
 double PassageOf(const ExampleDistance& example) { return example.Passage(); }
 double WholeOf(const ExampleDistance& example) { return example.Whole(); }
 
-/// Keeps the lowest of a move's distances within a second.
+/// Keeps the lowest distance of a move within the last second.
 class LatelyLowest {
  public:
-  LatelyLowest() { kept_.fill(kApart); }
+  LatelyLowest() { kept_.fill(kInfinity); }
   void Add(double distance) { kept_[next_++ % kept_.size()] = distance; }
   double Value() const { return *std::ranges::min_element(kept_); }
 
@@ -218,7 +221,7 @@ class WholeBodyFollower final : public MoveFollower {
   void Ask(std::optional<std::size_t> move) override {
     judge_->Ask(move);
     best_ = 0;
-    right_ = image_ = kApart;
+    right_ = image_ = kInfinity;
     in_window_.clear();
     images_.clear();
     if (!move || !moves_[*move].has_sides) return;
@@ -238,7 +241,7 @@ class WholeBodyFollower final : public MoveFollower {
 
   std::optional<std::size_t> Whole() const override {
     std::optional<std::size_t> nearest;
-    double lowest = kApart;
+    double lowest = kInfinity;
     for (std::size_t move = 0; move < always_.size(); ++move) {
       const double distance = NearestMean(always_[move], WholeOf);
       if (distance >= lowest) continue;
@@ -262,10 +265,10 @@ class WholeBodyFollower final : public MoveFollower {
   }
 
   void Spot() {
-    // One of twenty performances by another person lies beyond 3.4 (six people before an OpenNI sensor).
-    constexpr double kFarthest = 4;
+    // 1 of 20 performances by another person is farther than 3.4 (six people before an OpenNI sensor).
+    constexpr double kMaxOtherDistance = 4;
     for (std::size_t move = 0; move < always_.size(); ++move) {
-      double other = kFarthest;
+      double other = kMaxOtherDistance;
       for (std::size_t i = 0; i < lately_.size(); ++i) {
         if (i != move) other = std::min(other, lately_[i].Value());
       }
@@ -274,8 +277,8 @@ class WholeBodyFollower final : public MoveFollower {
     }
   }
 
-  /// Says whether three quarters of the shortest example have passed since the window opened: before, a move and its
-  /// image look alike, and what the judge gives waits.
+  /// Returns true if three quarters of the shortest example have passed since the window opened. Earlier, a move and
+  /// its mirror image look alike, so the judge's evidence is held back.
   bool MayShowItsSide() const {
     constexpr double kShowsItsSide = 0.75;
     return in_window_.empty() || std::ranges::any_of(in_window_, [](const ExampleDistance& example) {
@@ -283,7 +286,8 @@ class WholeBodyFollower final : public MoveFollower {
            });
   }
 
-  /// Returns 1 where the examples were nearer than their images so far, else the squared ratio of both.
+  /// Returns 1 if the examples were nearer than their mirror images so far, else the squared ratio of the two
+  /// distances.
   double RightSide() const {
     if (!(image_ < right_)) return 1;
     return image_ / right_ * (image_ / right_);
@@ -295,9 +299,9 @@ class WholeBodyFollower final : public MoveFollower {
   StepDescriber joints_, limbs_;
   std::vector<std::vector<ExampleDistance>> always_;  // per move
   std::vector<LatelyLowest> lately_;                  // per move
-  std::vector<ExampleDistance> in_window_, images_;   // of the move asked for, where it has sides
-  double right_ = kApart, image_ = kApart;            // the nearest passages in the window
-  double best_ = 0;                                   // of the performance asked for
+  std::vector<ExampleDistance> in_window_, images_;   // of the move asked for, if it has sides
+  double right_ = kInfinity, image_ = kInfinity;      // distances of the nearest passages in the window
+  double best_ = 0;                                   // evidence of the performance asked for
   std::vector<double> spotted_;
 };
 

@@ -8,18 +8,17 @@
 
 namespace etude {
 
-/// Ours, for recordings of people: whole bodies (joints and limbs, both as far apart as two people who do the same
-/// are) warped in time to every example and to its mirror image, beside a `judge` of single performances. A move is as
-/// far as its three nearest examples are in the mean.
-/// - Who is told where a performance begins and ends gets the nearest move (MoveFollower::Whole).
-/// - Of the move asked for the judge's evidence counts, times the squared ratio of the distances to the mirror images
-///   and to the examples where the images are nearer: somebody does it on the wrong side. A move that is its own image
-///   has no sides.
-/// - Unasked, a move is spotted by n / (r + n), with r its distance and n that of the nearest other move within a
-///   second, at most so far as hardly a performance by another person lies. Where a move has fewer than three examples,
-///   nobody knows how people differ, and the judge spots.
-///
-/// `judge` was taught the same moves.
+/// Makes a recogniser for recordings of people (ours). It aligns whole bodies (joints and limbs, each scaled by how
+/// much two people differ who do the same) with every example and its mirror image by dynamic time warping, and
+/// combines this with the evidence of `judge`, which must have been taught the same moves. The distance of a move is
+/// the mean distance of its three nearest examples.
+/// - If the caller knows where a performance begins and ends, the nearest move is returned (MoveFollower::Whole).
+/// - For the move asked for, the evidence is the judge's. If the mirror images are nearer than the examples, the move
+///   was done on the wrong side, and the evidence is multiplied by the squared ratio of the two distances. A move that
+///   is its own mirror image has no sides.
+/// - A move that was not asked for is spotted with evidence n / (r + n), where r is its distance and n the smallest
+///   distance of another move within a second, limited to a distance that other people's performances rarely exceed. If
+///   a move has fewer than three examples, the spread between people is unknown, and the judge's evidence is used.
 std::unique_ptr<Recogniser> MakeWholeBodyRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
                                                     std::unique_ptr<Recogniser> judge);
 

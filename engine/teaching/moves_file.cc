@@ -13,9 +13,9 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kLargestMoves = std::size_t{64} << 20;
-constexpr std::size_t kMostMoves = 200, kLongestName = 200;
-constexpr double kFarthestMm = 100'000, kFastestHz = 1000;
+constexpr std::size_t kMaxFileBytes = std::size_t{64} << 20;
+constexpr std::size_t kMaxMoves = 200, kMaxNameBytes = 200;
+constexpr double kMaxCoordinateMm = 100'000, kMaxRateHz = 1000;
 constexpr Range kTolerances{0.1, 360}, kDegrees{-360, 360};
 constexpr double kMillimetres = 1000;
 
@@ -34,7 +34,7 @@ void WriteStream(const SkeletonStream& stream, std::string& text) {
     for (const Role role : AllRoles()) text += LetterOf(frame, role);
     for (const SensedJoint& joint : frame.joints) {
       for (int axis = 0; axis < 3; ++axis) {
-        // Whole tenths, so that the digits are those that read back the same; no minus before a zero.
+        // Rounded to whole tenths, so that the shortest digits are read back exactly; zero has no minus sign.
         const double tenths = std::round(10 * kMillimetres * joint.position[axis]);
         text += fmt::format(" {}", tenths == 0 ? 0.0 : tenths / 10);
       }
@@ -110,7 +110,7 @@ Result<TaughtPose> ReadPose(const Node& node) {
   return pose;
 }
 
-/// One line: a letter a joint, then sixty numbers.
+/// Reads one line: one letter per joint, then sixty numbers.
 Result<SensedFrame> ReadFrame(std::string_view line, const Place& place) {
   SensedFrame frame;
   const std::string_view letters = line.substr(0, line.find(' '));
@@ -118,8 +118,10 @@ Result<SensedFrame> ReadFrame(std::string_view line, const Place& place) {
     return Fail(place, "found {}; allowed: {} letters t, i, n or -, then {} numbers", Quote(letters), kRoleCount,
                 3 * kRoleCount);
   }
+  // The first letter tells whether a body is seen.
   line.remove_prefix(letters.size());
   frame.body_seen = letters.front() != '-';
+  // Read the state and the position of each joint.
   for (std::size_t i = 0; i < kRoleCount; ++i) {
     SensedJoint& joint = frame.joints[i];
     joint.state = letters[i] == 't'   ? TrackingState::kTracked
@@ -129,9 +131,9 @@ Result<SensedFrame> ReadFrame(std::string_view line, const Place& place) {
       while (line.starts_with(' ')) line.remove_prefix(1);
       double value = 0;
       const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), value);
-      if (error != std::errc() || !(std::abs(value) <= kFarthestMm)) {
+      if (error != std::errc() || !(std::abs(value) <= kMaxCoordinateMm)) {
         return Fail(place, "found {} as number {} of {}; allowed: millimetres within ±{:g}", Quote(line.substr(0, 12)),
-                    3 * i + static_cast<std::size_t>(axis) + 1, 3 * kRoleCount, kFarthestMm);
+                    3 * i + static_cast<std::size_t>(axis) + 1, 3 * kRoleCount, kMaxCoordinateMm);
       }
       joint.position[axis] = value / kMillimetres;
       line.remove_prefix(static_cast<std::size_t>(end - line.data()));
@@ -144,14 +146,14 @@ Result<SensedFrame> ReadFrame(std::string_view line, const Place& place) {
 Result<SkeletonStream> ReadStream(const Node& node) {
   Fields fields(node, "a performance");
   SkeletonStream stream;
-  stream.rate_hz = fields.Number("rate_hz", kJudgedRateHz, {1, kFastestHz});
+  stream.rate_hz = fields.Number("rate_hz", kJudgedRateHz, {1, kMaxRateHz});
   const std::string frames = fields.RequiredText("frames");
   RETURN_IF_ERROR(fields.Finish());
   Place place = fields.Raw("frames")->place;
   std::string_view rest = frames;
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
-    ++place.line;  // the block begins below its key
+    ++place.line;  // the block begins in the line after its key
     ASSIGN_OR_RETURN(stream.frames.emplace_back(), ReadFrame(rest.substr(0, end), {place.file, place.line, 0}));
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
@@ -176,8 +178,8 @@ Result<TaughtMove> ReadMove(const Node& node) {
   move.span_s = fields.Number("span_s", move.span_s, {0.1, kLongestSpan});
   const Node *poses = fields.Raw("key_poses"), *right = fields.Raw("right"), *wrong = fields.Raw("wrong");
   RETURN_IF_ERROR(fields.Finish());
-  if (move.name.empty() || move.name.size() > kLongestName) {
-    return Fail(node.place, "a name of {} bytes; allowed: 1 to {}", move.name.size(), kLongestName);
+  if (move.name.empty() || move.name.size() > kMaxNameBytes) {
+    return Fail(node.place, "a name of {} bytes; allowed: 1 to {}", move.name.size(), kMaxNameBytes);
   }
   if (std::ranges::any_of(move.name, [](unsigned char c) { return c < ' ' || c == 0x7f; })) {
     return Fail(node.place, "a name with a line break or another control character");
@@ -203,15 +205,14 @@ std::string WriteMoves(const std::vector<TaughtMove>& moves) {
 }
 
 Result<std::vector<TaughtMove>> ReadMoves(std::string_view text, const std::string& file) {
-  ASSIGN_OR_RETURN(const Node root, ParseYaml(text, file, kLargestMoves));
+  ASSIGN_OR_RETURN(const Node root, ParseYaml(text, file, kMaxFileBytes));
   Fields fields(root, "a moves file");
   const Node* list = fields.Raw("moves");
   RETURN_IF_ERROR(fields.Finish());
   if (list == nullptr || list->kind != Node::Kind::kSequence || list->items.empty()) {
     return Fail(list == nullptr ? root.place : list->place, "no list 'moves' with at least one move");
   }
-  if (list->items.size() > kMostMoves)
-    return Fail(list->place, "{} moves; allowed: {}", list->items.size(), kMostMoves);
+  if (list->items.size() > kMaxMoves) return Fail(list->place, "{} moves; allowed: {}", list->items.size(), kMaxMoves);
   std::vector<TaughtMove> moves;
   for (const Node& item : list->items) {
     ASSIGN_OR_RETURN(TaughtMove move, ReadMove(item));

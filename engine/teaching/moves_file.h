@@ -9,8 +9,8 @@
 
 namespace etude {
 
-/// Writes taught moves as YAML (docs/streams.md, "A moves file"), for every recogniser: key poses as choreography files
-/// have them, performances as lines of millimetres with a letter a joint.
+/// Writes taught moves as YAML (docs/streams.md, "A moves file") for every recogniser: key poses as in choreography
+/// files, performances as lines with one letter per joint and coordinates in millimetres.
 ///
 ///     moves:
 ///       - name: arms-open
@@ -24,9 +24,9 @@ namespace etude {
 ///         wrong: []
 std::string WriteMoves(const std::vector<TaughtMove>& moves);
 
-/// Reads them back: positions to a tenth of a millimetre, everything else as it was written. Refused with file, line
-/// and column: unknown keys and features, tolerances of 0, frames of another number of values, two moves of one name,
-/// more than 64 MiB.
+/// Reads what WriteMoves writes: positions to 0.1 mm, everything else exactly. Returns an error with file, line and
+/// column for unknown keys and features, tolerances of 0, frames with a wrong number of values, two moves of the same
+/// name, or more than 64 MiB.
 Result<std::vector<TaughtMove>> ReadMoves(std::string_view text, const std::string& file);
 
 }  // namespace etude

@@ -15,8 +15,8 @@ namespace {
 using Angles = std::array<double, kFeatureCount>;
 using Track = std::vector<Angles>;
 
-/// The ten angles of every frame that shows a body, each the mean over a sixth of a second, which noise does not
-/// survive and key poses do.
+/// Returns the ten angles of every frame that shows a body, as a moving average over a sixth of a second, which removes
+/// noise but keeps key poses.
 Track TrackOf(const SkeletonStream& stream) {
   const SeenStream seen = SeeStream(stream, {});
   Track raw;
@@ -35,27 +35,29 @@ Track TrackOf(const SkeletonStream& stream) {
   return smooth;
 }
 
-/// Returns the range of an angle without its outermost twentieths.
+/// Returns the range of an angle between its 5th and 95th percentile.
 double RangeOf(const Track& track, std::size_t feature) {
   std::vector<double> values;
   for (const Angles& angles : track) values.push_back(angles[feature]);
   return LowerPercentile(values, 0.95) - LowerPercentile(values, 0.05);
 }
 
-/// Angles that go together in a key pose.
+/// Groups of angles that always appear in a key pose together.
 constexpr Feature kTogether[][4] = {{Feature::kRH, Feature::kLH, Feature::kRHE, Feature::kLHE},
                                     {Feature::kRF, Feature::kRFK, Feature::kRF, Feature::kRFK},
                                     {Feature::kLF, Feature::kLFK, Feature::kLF, Feature::kLFK}};
 
-/// The angles that make the move: those that change, in the middle example, and what goes with them. Of a move that
-/// hardly moves, the arms'.
+/// Returns the angles that define the move: those that change in the median example, and the rest of their groups. For
+/// a move that hardly moves, they are the arms' angles.
 std::vector<std::size_t> AnglesThatMatter(std::span<const Track> tracks, const TeachOptions& options) {
+  // Find the median range of each angle over the examples.
   std::array<double, kFeatureCount> ranges{};
   for (std::size_t f = 0; f < kFeatureCount; ++f) {
     std::vector<double> of_examples;
     for (const Track& track : tracks) of_examples.push_back(RangeOf(track, f));
     ranges[f] = LowerPercentile(of_examples, 0.5);
   }
+  // Choose the angles with large ranges, then complete their groups.
   const double least = std::max(options.least_range_deg, 0.5 * *std::ranges::max_element(ranges));
   std::array<bool, kFeatureCount> matters{};
   for (std::size_t f = 0; f < kFeatureCount; ++f) matters[f] = ranges[f] >= least;
@@ -63,8 +65,8 @@ std::vector<std::size_t> AnglesThatMatter(std::span<const Track> tracks, const T
   const auto at = [](Feature feature) { return static_cast<std::size_t>(feature); };
   for (const auto& together : kTogether) {
     const bool moves = std::ranges::any_of(together, [&](Feature feature) { return matters[at(feature)]; });
-    const bool stands_in = is_still && &together == &kTogether[0];
-    for (const Feature feature : together) matters[at(feature)] = matters[at(feature)] || moves || stands_in;
+    const bool is_default = is_still && &together == &kTogether[0];
+    for (const Feature feature : together) matters[at(feature)] = matters[at(feature)] || moves || is_default;
   }
   std::vector<std::size_t> chosen;
   for (std::size_t f = 0; f < kFeatureCount; ++f) {
@@ -79,9 +81,9 @@ double Distance(const Angles& a, const Angles& b, std::span<const std::size_t> f
   return std::sqrt(sum);
 }
 
-/// Finds the poses that are held: no angle strays from them in a tenth of a second to either side by as much as a
-/// tolerance, so that a recogniser can meet them for some frames. Where none is, all: of a move that never comes to
-/// rest any will do.
+/// Marks the poses that are held: within a tenth of a second before and after, no angle differs by the minimum
+/// tolerance, so a recogniser can match the pose in several frames. If there is none, all poses are marked, because any
+/// pose is as good as another if the move never rests.
 std::vector<bool> HeldPoses(const Track& track, std::span<const std::size_t> features, double rate_hz,
                             const TeachOptions& options) {
   const auto count = static_cast<int>(track.size());
@@ -100,19 +102,20 @@ std::vector<bool> HeldPoses(const Track& track, std::span<const std::size_t> fea
   return held;
 }
 
-/// The top of the first hill that is nearly as high as the highest.
+/// Returns the top of the first peak that is nearly as high as the highest one.
 std::size_t FirstOfFarthest(const std::vector<double>& distances) {
-  constexpr double kNearlyAsFar = 0.95;
+  constexpr double kNearPeak = 0.95;
   const double farthest = *std::ranges::max_element(distances);
-  const auto first = std::ranges::find_if(distances, [&](double d) { return d >= kNearlyAsFar * farthest; });
+  const auto first = std::ranges::find_if(distances, [&](double d) { return d >= kNearPeak * farthest; });
   auto t = static_cast<std::size_t>(first - distances.begin());
   while (t + 1 < distances.size() && distances[t + 1] > distances[t]) ++t;
   return t;
 }
 
-/// The frames of key poses, in order of time.
+/// Returns the frames of key poses, in order of time.
 std::vector<std::size_t> KeyFrames(const Track& track, std::span<const std::size_t> features, double rate_hz,
                                    const TeachOptions& options) {
+  // The first key pose is the held pose farthest from the mean.
   const std::vector<bool> held = HeldPoses(track, features, rate_hz, options);
   Angles mean{};
   for (const Angles& angles : track) {
@@ -123,6 +126,7 @@ std::vector<std::size_t> KeyFrames(const Track& track, std::span<const std::size
     distances.push_back(held[t] ? Distance(track[t], mean, features) : 0.0);
   }
   std::vector<std::size_t> frames = {FirstOfFarthest(distances)};
+  // Add the held pose farthest from the key poses so far, while it is far enough away.
   double first_gap = 0;
   while (frames.size() < static_cast<std::size_t>(options.most_poses)) {
     for (std::size_t t = 0; t < track.size(); ++t) {
@@ -139,9 +143,10 @@ std::vector<std::size_t> KeyFrames(const Track& track, std::span<const std::size
   return frames;
 }
 
-/// Aligns a track with another by dynamic time warping: each frame becomes the mean of the frames that go with the
-/// other's.
+/// Aligns a track with another by dynamic time warping. Each frame of the result is the mean of the frames that are
+/// matched with that frame of the other track.
 Track Aligned(const Track& track, const Track& to, std::span<const std::size_t> features) {
+  // Compute the cost of the best path to every pair of frames.
   const std::size_t rows = to.size(), columns = track.size();
   std::vector<double> cost(rows * columns);
   for (std::size_t i = 0; i < rows; ++i) {
@@ -153,6 +158,7 @@ Track Aligned(const Track& track, const Track& to, std::span<const std::size_t> 
       cost[i * columns + j] = before + Distance(to[i], track[j], features);
     }
   }
+  // Go back along the best path and average the matched frames.
   Track aligned(rows);
   std::vector<int> counts(rows, 0);
   for (std::size_t i = rows - 1, j = columns - 1;;) {
@@ -176,7 +182,7 @@ Track Aligned(const Track& track, const Track& to, std::span<const std::size_t> 
   return aligned;
 }
 
-/// The example of middle length.
+/// Returns the example of median length.
 std::size_t MiddleExample(std::span<const Track> tracks) {
   std::vector<std::size_t> order(tracks.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -218,15 +224,16 @@ double SecondsOf(const SkeletonStream& stream) { return static_cast<double>(stre
 
 Result<TaughtMove> TeachMove(const std::string& name, std::vector<SkeletonStream> right,
                              std::vector<SkeletonStream> wrong, const TeachOptions& options) {
-  constexpr double kShortest = 0.5, kSlower = 1.3;
+  constexpr double kMinSeconds = 0.5, kSlowestFactor = 1.3;
   if (right.empty()) return Fail({}, "move '{}' has no right performance to learn from", name);
+  // Check the performances and compute their angles.
   std::vector<Track> tracks;
   double longest = 0;
   for (const SkeletonStream& stream : right) {
     tracks.push_back(TrackOf(stream));
     const double seen = static_cast<double>(tracks.back().size()) / stream.rate_hz;
-    if (seen < kShortest) {
-      return Fail({}, "a performance of '{}' shows a body for {:.2f} s; needed: {} s", name, seen, kShortest);
+    if (seen < kMinSeconds) {
+      return Fail({}, "a performance of '{}' shows a body for {:.2f} s; needed: {} s", name, seen, kMinSeconds);
     }
     if (SecondsOf(stream) > kLongestSpan) {
       return Fail({}, "a performance of '{}' lasts {:.1f} s; allowed: {} s; labels tell where each begins and ends",
@@ -234,10 +241,11 @@ Result<TaughtMove> TeachMove(const std::string& name, std::vector<SkeletonStream
     }
     longest = std::max(longest, SecondsOf(stream));
   }
+  // Find the key poses; the span allows a slower performance than the longest example.
   std::vector<TaughtPose> poses = FindKeyPoses(tracks, right.front().rate_hz, options);
   return TaughtMove{.name = name,
                     .poses = std::move(poses),
-                    .span_s = std::min(kLongestSpan, kSlower * longest),
+                    .span_s = std::min(kLongestSpan, kSlowestFactor * longest),
                     .examples = std::move(right),
                     .counter_examples = std::move(wrong)};
 }

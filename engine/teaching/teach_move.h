@@ -9,26 +9,27 @@
 
 namespace etude {
 
-/// The options by which key poses and tolerances are found.
+/// The options for finding key poses and tolerances.
 struct TeachOptions {
-  /// An angle makes key poses when it changes by so much in the course of the move, degrees (Posture: its scale), and
-  /// by half as much as the one that changes most. Below it, sensors' noise would. With one angle of an arm all four of
-  /// the arms are told, as A's poses do, because one arm that rises alone is another move than both; with one angle of
-  /// a leg both of that leg.
+  /// The range in degrees (Posture: in its own scale) that an angle must cover in the move to be used in key poses; it
+  /// must also cover half the range of the angle that changes most. Below the default, sensor noise would count. If one
+  /// angle of an arm is used, all four angles of both arms are used, as in A's poses, because raising one arm is a
+  /// different move from raising both. If one angle of a leg is used, both angles of that leg are.
   double least_range_deg = 25;
-  /// The largest number of key poses: the pose farthest from the move's mean, then those farthest from the ones there
-  /// are, as long as they are half as far apart as the first two.
+  /// The maximum number of key poses. The first is the pose farthest from the move's mean; the next ones are farthest
+  /// from the chosen ones, as long as their distance is at least half that of the first two.
   int most_poses = 3;
-  /// A tolerance is so many deviations of the examples about their mean, within the limits below.
+  /// The tolerance, in standard deviations of the examples about their mean; it is limited by the two values below.
   double spread = 2.5;
-  /// The limits of a tolerance, degrees. One example shows no spread: its tolerances are the least ones.
+  /// The limits of a tolerance, in degrees. One example has no spread, so its tolerances are the minimum.
   double least_tolerance_deg = 20;
   double most_tolerance_deg = 40;
 };
 
-/// Teaches a move from performances of it, each a stream from its beginning to its end: key poses with tolerances for
-/// recognisers that go by those, the examples for those that compare. Wrong performances are kept as counter-examples.
-/// Refused: no right performance, one without half a second of a body, names that are no names, over a minute.
+/// Teaches a move from performances, each a stream from its beginning to its end. It finds key poses with tolerances
+/// for recognisers that use them, and keeps the examples for recognisers that compare. Wrong performances are kept as
+/// counter-examples. Returns an error if there is no right performance, or if one shows a body for less than half a
+/// second or lasts more than a minute.
 Result<TaughtMove> TeachMove(const std::string& name, std::vector<SkeletonStream> right,
                              std::vector<SkeletonStream> wrong = {}, const TeachOptions& options = {});
 

@@ -11,98 +11,100 @@
 
 namespace etude {
 
-/// The pair that is taken of several matching pairs of frames.
+/// The rule that decides which of several matching pairs of frames is taken.
 enum class Pick {
-  kFirst,     ///< paper A: the first one found
-  kSmallest,  ///< A's other wording ("the smallest difference"): the smallest distance in the window
+  kFirst,     ///< the first one found, as in paper A
+  kSmallest,  ///< the smallest distance in the window, from paper A's other wording ("the smallest difference")
 };
 
-/// The rules by which two frames match, for everything that goes by the fuzzy distance (equation 1).
+/// The rules that decide whether two frames match by the fuzzy distance (equation 1).
 struct MatchRules {
   FeatureWeights weights = PaperWeights();
-  /// The threshold of a match: frames match when their distance is below it. Paper A's: 0.4. A larger one finds more
-  /// direct transitions, and worse ones (docs/transitions.md).
+  /// Frames match if their distance is below this threshold; paper A's value is 0.4. A larger value finds more direct
+  /// transitions, but also worse ones (docs/transitions.md).
   double threshold = kPaperThreshold;
   Pick pick = Pick::kFirst;
-  bool within_class = false;  ///< ours: only frames with the same ten tags match
+  bool within_class = false;  ///< if true, only frames with the same ten tags match; ours
 };
 
-/// A request: clip `from` shows its frame `request_frame` when clip `to` is wanted.
+/// A request for a transition: clip `from` shows its frame `request_frame` when clip `to` is requested.
 struct TransitionRequest {
   int from = 0;
   int request_frame = 0;
   int to = 0;
-  double budget_s = 1;  ///< how long the wanted clip may be waited for, seconds; ours
+  double budget_s = 1;  ///< maximal wait before the transition, seconds; ours
 };
 
-/// The kind of way that a transition took.
+/// The kind of transition that was found.
 enum class Branch { kNone, kNow, kEnd, kStandingPose, kFrontHalf, kRearHalf, kInBetween, kForced, kUnbroken };
 /// Returns "none", "now", "end", "standing pose", "front half", "rear half", "in-between", "forced", "unbroken".
 std::string_view BranchName(Branch branch);
 
-/// The ways in which the joins `minimum-jerk` and `planted-feet` get from the old motion to the new one.
+/// The ways in which the joins `minimum-jerk` and `planted-feet` lead from the old motion to the new one.
 enum class JoinWay {
-  kDecays,  ///< the new motion plays, and what the old one was off from it dies away
-  kFades,   ///< both motions play on, and the new one takes over
-  kDirect,  ///< each limb moves from where the old motion left it to where the new one has it at the end
+  kDecays,  ///< the new motion plays, and the old motion's offset from it decays
+  kFades,   ///< both motions play, and the new one takes over
+  kDirect,  ///< each limb moves from its old pose to the new motion's pose at the end of the join
 };
 
-/// The join that a choice of frames prefers; set by `played`, which tries several, and by answers of methods outside.
+/// The join that a choice of frames prefers. It is set by `played`, which tries several, and by the answers of external
+/// methods.
 struct PreferredJoin {
-  double blend_s = 0;  ///< seconds until the new motion is shown alone
+  double blend_s = 0;  ///< time until only the new motion is shown, seconds
   JoinWay way = JoinWay::kDecays;
 };
 
-/// A run of frames that is shown: of a clip, or made by the method itself.
+/// A run of frames to show, of a clip or made by the method itself.
 ///
-/// The first segment's `first` is the frame shown at the request. Of every later one, frame `first` counts as one with
-/// the last frame shown: it is laid on it (yaw, x, z) and the next is shown after it.
+/// In the first segment, `first` is the frame shown at the request. In every later segment, frame `first` is aligned
+/// (yaw, x, z) with the last frame shown and replaces it; the next frame is shown after it.
 struct Segment {
   static constexpr int kOwnFrames = -1;
-  int clip = kOwnFrames;                        ///< of the library
-  int first = 0;                                ///< index into the clip, or into `own`
+  int clip = kOwnFrames;                        ///< index in the library, or kOwnFrames
+  int first = 0;                                ///< index in the clip or in `own`
   int last = 0;                                 ///< the last frame shown
-  std::vector<BodyPose> own;                    ///< only of kOwnFrames
-  std::optional<PreferredJoin> preferred = {};  ///< of the join into it
-  bool in_place = false;                        ///< `own` stands where it is to be shown: it is not laid on anything
+  std::vector<BodyPose> own;                    ///< frames made by the method; only with kOwnFrames
+  std::optional<PreferredJoin> preferred = {};  ///< the preferred join into this segment
+  bool in_place = false;                        ///< true if `own` is already aligned
 };
 
-/// The outcome of a pair of frames that a choice looked at.
+/// The outcome for a pair of frames that a choice considered.
 enum class CandidateOutcome {
   kTaken,
   kTooFar,  ///< its distance is not below the threshold
-  kLater,   ///< it matches, but the first match is taken
-  kWorse,   ///< it matches, but another ranks before it
+  kLater,   ///< it matches, but an earlier match is taken
+  kWorse,   ///< it matches, but another pair ranks higher
 };
 /// Returns "taken", "too far", "later" or "worse".
 std::string_view OutcomeName(CandidateOutcome outcome);
 
-/// A pair of frames that a choice looked at.
+/// A pair of frames that a choice considered.
 struct Candidate {
-  int from_frame = 0;  ///< of the clip that was left, or (through an in-between) of the in-between
-  int to_frame = 0;    ///< of the clip entered, or of the in-between
+  int from_frame = 0;  ///< in the clip that is left, or in the in-between
+  int to_frame = 0;    ///< in the clip that is entered, or in the in-between
   FuzzyDistance distance;
-  std::optional<double> cost;  ///< what the choice ranks by, where that is not the distance
+  std::optional<double> cost;  ///< the cost by which the choice ranks, if it is not the distance
   CandidateOutcome outcome = CandidateOutcome::kTooFar;
-  int point = 0;  ///< for which transition point of the record it was looked at, from 0
+  int point = 0;  ///< index of the record's transition point for which it was considered
 };
 
-/// The record that explains a transition: how to get from one clip into another, and how that was found.
+/// The record of a transition: how it gets from one clip into another, and how it was found.
 struct TransitionRecord {
   Branch branch = Branch::kNone;
   int request_frame = 0;
-  std::vector<Segment> segments;         ///< none when there is no way; two when it is direct, three with an in-between
-  std::vector<FuzzyDistance> distances;  ///< of the two frames of each transition point: segments.size() − 1
-  std::vector<Candidate> candidates;     ///< taken, and the best of the others: at most kMostCandidates, by frames
-  std::int64_t pairs_seen = 0;           ///< pairs of frames that the budget allowed, those after a first match too
-  std::int64_t pairs_matched = 0;        ///< those of them that match
-  double wait_s = 0;                     ///< from the request until the wanted clip plays
-  std::string cost_unit;                 ///< of the candidates' `cost`: "cm", … ; empty when there is none
-  std::string why;                       ///< one sentence: why this way won, or why there is none
+  std::vector<Segment> segments;         ///< none if there is no way; two if it is direct, three with an in-between
+  std::vector<FuzzyDistance> distances;  ///< of the two frames of each transition point: segments.size() − 1 entries
+  /// The taken pair and the best others, at most kMaxCandidates, in order of frames.
+  std::vector<Candidate> candidates;
+  std::int64_t pairs_seen = 0;     ///< number of pairs of frames within the budget, including those after a first match
+  std::int64_t pairs_matched = 0;  ///< number of these pairs that match
+  double wait_s = 0;               ///< time from the request until the wanted clip plays
+  std::string cost_unit;           ///< unit of the candidates' `cost`, for example "cm"; empty if they have none
+  std::string why;                 ///< one sentence: why this way was taken, or why there is none
 };
 constexpr std::size_t kMostCandidates = 12;
 
-/// Returns the time that the segments take from the request until the last one begins, seconds.
+/// Returns the time from the request until the last segment begins, in seconds.
 double WaitOf(const std::vector<Segment>& segments, double rate_hz);
 
 }  // namespace etude

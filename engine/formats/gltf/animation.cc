@@ -18,23 +18,24 @@
 namespace etude {
 namespace {
 
-/// The interpolation of an animation sampler between its keys (glTF 2.0, appendix C).
+/// The interpolation between an animation sampler's keys (glTF 2.0, appendix C).
 enum class GltfInterpolation { kLinear, kStep, kCubicSpline };
 
-/// One animated property over time: three numbers of a translation or scale, or a rotation's x, y, z, w.
+/// One animated property over time: a translation or scale (three numbers), or a rotation (x, y, z, w).
 class GltfCurve {
  public:
   using Value = std::array<double, 4>;
 
-  /// Reads a sampler; `width` is 3, or 4 for rotations. Refused, besides what accessors can have wrong: an unknown
-  /// interpolation, times that do not ascend, as many values as do not fit the times, rotations of length 0.
+  /// Reads a sampler; `width` is 3, or 4 for rotations. Returns the errors of accessors, and an error for an unknown
+  /// interpolation, times that do not ascend, a number of values that does not fit the times, or a rotation of length
+  /// 0.
   static Result<GltfCurve> Read(GltfFile& file, int animation, int sampler, std::size_t width);
 
   const std::vector<double>& times() const { return times_; }
   GltfInterpolation interpolation() const { return interpolation_; }
-  /// Says whether any key differs from the first by more than files' floats do.
+  /// Returns true if any key differs from the first by more than the rounding of floats.
   bool Moves() const;
-  /// The value at a time, held before the first key and after the last. Rotations are unit.
+  /// Returns the value at a time, constant before the first key and after the last. Rotations have length 1.
   Value At(double time) const;
 
  private:
@@ -48,11 +49,11 @@ class GltfCurve {
   GltfNumbers values_;
 };
 
-constexpr double kShortestRotation = 1e-9;
+constexpr double kMinRotationLength = 1e-9;
 
 glm::dquat Quaternion(const double* xyzw) { return {xyzw[3], xyzw[0], xyzw[1], xyzw[2]}; }
 
-/// Times in files are floats: what is nearer than this is the same moment.
+/// Returns the tolerance of a time, because times in files are floats.
 double GltfTimeRounding(double time) { return 2e-7 * std::max(1.0, std::abs(time)); }
 
 Result<GltfCurve> GltfCurve::Read(GltfFile& file, int animation, int sampler, std::size_t width) {
@@ -60,6 +61,7 @@ Result<GltfCurve> GltfCurve::Read(GltfFile& file, int animation, int sampler, st
   const tinygltf::AnimationSampler& source = from.samplers[static_cast<std::size_t>(sampler)];
   const std::string where = fmt::format("animations[{}].samplers[{}]", animation, sampler);
 
+  // Read the interpolation.
   GltfCurve curve;
   if (source.interpolation == "STEP") {
     curve.interpolation_ = GltfInterpolation::kStep;
@@ -69,6 +71,7 @@ Result<GltfCurve> GltfCurve::Read(GltfFile& file, int animation, int sampler, st
     return file.Refuse(where + ".interpolation", "found {}; allowed: LINEAR, STEP, CUBICSPLINE",
                        Quote(source.interpolation));
   }
+  // Read the times and check that they ascend.
   ASSIGN_OR_RETURN(auto times, file.Read(source.input, 1, GltfComponents::kFloat, where + ".input"));
   curve.times_ = std::move(times.values);
   for (std::size_t i = 1; i < curve.times_.size(); ++i) {
@@ -77,6 +80,7 @@ Result<GltfCurve> GltfCurve::Read(GltfFile& file, int animation, int sampler, st
                          curve.times_[i - 1]);
     }
   }
+  // Read the values; a spline has two tangents per key.
   const bool is_rotation = width == 4;
   ASSIGN_OR_RETURN(auto values, file.Read(source.output, width,
                                           is_rotation ? GltfComponents::kFloatOrNormalized : GltfComponents::kFloat,
@@ -87,9 +91,10 @@ Result<GltfCurve> GltfCurve::Read(GltfFile& file, int animation, int sampler, st
     return file.Refuse(where + ".output", "found {} values; {} times need {}", curve.values_.Count(),
                        curve.times_.size(), per_key * curve.times_.size());
   }
+  // Check the rotations.
   for (std::size_t i = 0; is_rotation && i < curve.times_.size(); ++i) {
     const glm::dquat key = Quaternion(curve.Key(i));
-    if (glm::dot(key, key) < kShortestRotation * kShortestRotation) {
+    if (glm::dot(key, key) < kMinRotationLength * kMinRotationLength) {
       return file.Refuse(where + ".output", "found a rotation of length 0 at {} s; allowed: unit quaternions",
                          curve.times_[i]);
     }
@@ -131,9 +136,9 @@ GltfCurve::Value GltfCurve::At(double time) const {
 
 GltfCurve::Value GltfCurve::Finished(Value value, std::size_t fallback_key) const {
   if (values_.width != 4) return value;
-  // A spline between opposite quaternions may pass through zero.
+  // A spline between opposite quaternions may pass through zero; then use the key's value.
   const glm::dquat found = Quaternion(value.data());
-  if (glm::dot(found, found) < kShortestRotation * kShortestRotation) {
+  if (glm::dot(found, found) < kMinRotationLength * kMinRotationLength) {
     std::copy_n(Key(fallback_key), values_.width, value.begin());
   }
   const glm::dquat unit = RotationFrom(value.data());
@@ -161,11 +166,11 @@ GltfCurve::Value GltfCurve::Spline(std::size_t key, double t, double seconds) co
   return value;
 }
 
-constexpr double kMostFrameBytes = 200e6;  // of all clips together
-constexpr double kLowestRateHz = 0.1;
-constexpr double kHighestRateHz = 10'000;
+constexpr double kMaxFrameBytes = 200e6;  // of all clips together
+constexpr double kMinRateHz = 0.1;
+constexpr double kMaxRateHz = 10'000;
 constexpr double kDefaultRateHz = 60;
-constexpr std::size_t kMostAnimations = 1000;
+constexpr std::size_t kMaxAnimations = 1000;
 
 enum class Property { kTranslation, kRotation, kScale };
 
@@ -175,11 +180,11 @@ struct Channel {
   GltfCurve curve;
 };
 
-/// The times at which an animation is sampled.
+/// The sampling times of an animation.
 struct Timing {
   double start = 0;
   double rate_hz = kDefaultRateHz;
-  double frames = 1;  ///< a whole number, which may be far too large
+  double frames = 1;  ///< a whole number, but possibly far too large
 };
 
 void Apply(const Channel& channel, double time, LocalPose& pose) {
@@ -198,7 +203,7 @@ void Apply(const Channel& channel, double time, LocalPose& pose) {
   }
 }
 
-/// A whole number when it is nearly one, else in thousandths: times are floats, which leave no more digits.
+/// Rounds a rate to a nearby whole number, else to thousandths, because times are floats with few digits.
 double RoundedRate(double rate) {
   constexpr double kPrintedPrecision = 1e-4;
   const double whole = std::round(rate);
@@ -213,9 +218,10 @@ bool LiesOnGrid(const std::vector<double>& times, double start, double rate_hz) 
   });
 }
 
-/// The rate at which frames keep all that the curves say: that of evenly spaced keys with straight lines between.
+/// Returns the rate at which sampling loses no information: that of evenly spaced keys with linear interpolation; else
+/// the default rate.
 double RateOf(const std::vector<Channel>& channels, double start) {
-  // Exporters give joints that stand still two keys at the ends, which say nothing about the rate.
+  // Exporters give resting joints two keys at the ends, which tell nothing about the rate.
   const bool any_moves = std::ranges::any_of(channels, [](const Channel& channel) { return channel.curve.Moves(); });
   const auto counts = [&](const Channel& channel) { return !any_moves || channel.curve.Moves(); };
   const GltfCurve* densest = nullptr;
@@ -227,7 +233,7 @@ double RateOf(const std::vector<Channel>& channels, double start) {
   const std::vector<double>& times = densest->times();
   if (times.size() < 2) return kDefaultRateHz;
   const double rate = RoundedRate(static_cast<double>(times.size() - 1) / (times.back() - times.front()));
-  if (rate < kLowestRateHz || rate > kHighestRateHz) return kDefaultRateHz;
+  if (rate < kMinRateHz || rate > kMaxRateHz) return kDefaultRateHz;
   for (const Channel& channel : channels) {
     if (counts(channel) && !LiesOnGrid(channel.curve.times(), start, rate)) return kDefaultRateHz;
   }
@@ -242,7 +248,7 @@ Timing TimingOf(const std::vector<Channel>& channels) {
     end = std::max(end, channel.curve.times().back());
   }
   const double rate = RateOf(channels, start);
-  constexpr double kSlack = 0.02;  // of a frame, as above
+  constexpr double kSlack = 0.02;  // of a frame, as in LiesOnGrid
   return {start, rate, std::floor((end - start) * rate + kSlack) + 1};
 }
 
@@ -252,8 +258,8 @@ class ClipReader {
 
   Result<std::vector<Clip>> Read() {
     const std::size_t count = file_.model().animations.size();
-    if (count > kMostAnimations) {
-      return file_.Refuse("animations", "found {}; allowed: {}", count, kMostAnimations);
+    if (count > kMaxAnimations) {
+      return file_.Refuse("animations", "found {}; allowed: {}", count, kMaxAnimations);
     }
     for (int i = 0; i < static_cast<int>(count); ++i) {
       ASSIGN_OR_RETURN(auto channels, ReadChannels(i));
@@ -269,6 +275,7 @@ class ClipReader {
   Result<std::vector<Channel>> ReadChannels(int index) {
     const tinygltf::Animation& animation = At(index);
     std::vector<Channel> channels;
+    // Read each channel's target and curve.
     for (std::size_t i = 0; i < animation.channels.size(); ++i) {
       const tinygltf::AnimationChannel& source = animation.channels[i];
       const std::string where = fmt::format("animations[{}].channels[{}]", index, i);
@@ -286,8 +293,9 @@ class ClipReader {
         return file_.Refuse(where + ".target.path", "found {}; allowed: translation, rotation, scale, weights",
                             Quote(source.target_path));
       }
+      // Refuse a second channel for the same property, then read the curve.
       const int joint = nodes_.joint_of[source.target_node];
-      if (joint < 0) continue;  // a node that only holds a skinned mesh moves nothing
+      if (joint < 0) continue;  // a node that only holds a skinned mesh is not a joint
       const bool is_double = std::ranges::any_of(
           channels, [&](const Channel& other) { return other.joint == joint && other.property == property; });
       if (is_double) {
@@ -306,9 +314,9 @@ class ClipReader {
     const Timing timing = TimingOf(channels);
     const std::size_t joints = nodes_.skeleton.joints.size();
     frame_bytes_ += timing.frames * static_cast<double>(joints * sizeof(LocalTransform));
-    if (frame_bytes_ > kMostFrameBytes) {
+    if (frame_bytes_ > kMaxFrameBytes) {
       return file_.Refuse(where, "with its {} frames of {} joints all clips take {:.0f} MB; allowed: {:.0f} MB",
-                          timing.frames, joints, frame_bytes_ / 1e6, kMostFrameBytes / 1e6);
+                          timing.frames, joints, frame_bytes_ / 1e6, kMaxFrameBytes / 1e6);
     }
     Clip clip{.name = UniqueName(index), .skeleton = nodes_.skeleton, .rate_hz = timing.rate_hz, .frames = {}};
     clip.frames.assign(static_cast<std::size_t>(timing.frames), RestPose(clip.skeleton));
@@ -323,7 +331,7 @@ class ClipReader {
     return {};
   }
 
-  /// Returns the animation's name as in the file; unnamed ones are called by their place, doubled ones get a number.
+  /// Returns the animation's name as in the file; an unnamed one is named by its index, and duplicates get a number.
   std::string UniqueName(int index) {
     const std::string& given = At(index).name;
     const std::string base = given.empty() ? fmt::format("animation_{}", index) : given;

@@ -9,8 +9,8 @@
 
 namespace etude {
 
-/// One clip per animation that turns, moves or scales a node, as gltf.h says. Animations of morph targets alone are
-/// left out.
+/// Reads one clip per animation that rotates, moves or scales a node, as gltf.h describes. Animations that only move
+/// morph targets are left out.
 Result<std::vector<Clip>> ReadGltfClips(GltfFile& file, const GltfNodes& nodes);
 
 }  // namespace etude

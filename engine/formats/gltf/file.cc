@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-/// Places of elements within a buffer, already checked.
+/// The elements of an accessor in a buffer, with checked bounds.
 struct Elements {
   std::span<const unsigned char> bytes;  ///< from the first element on
   std::size_t stride = 0;
@@ -63,7 +63,7 @@ const char* Name(GltfComponents allowed) {
   return "";
 }
 
-/// Returns the numbers per element; 0 for kinds that are not read here.
+/// Returns the numbers per element; 0 for types that are not read here.
 std::size_t Width(int type) {
   switch (type) {
     case TINYGLTF_TYPE_SCALAR:
@@ -122,7 +122,7 @@ Result<std::span<const unsigned char>> ViewBytes(const GltfFile& file, int view_
   return std::span(data).subspan(view.byteOffset, view.byteLength);
 }
 
-/// Locates `count` elements of `size` bytes each, at `offset` of a buffer view. `stride` 0 means: the view's own.
+/// Locates `count` elements of `size` bytes each at `offset` of a buffer view, and checks their bounds.
 Result<Elements> Locate(const GltfFile& file, int view_index, std::size_t offset, std::size_t count, std::size_t size,
                         const std::string& where) {
   ASSIGN_OR_RETURN(const auto bytes, ViewBytes(file, view_index, where + ".bufferView"));
@@ -132,7 +132,7 @@ Result<Elements> Locate(const GltfFile& file, int view_index, std::size_t offset
   if (stride < size) {
     return file.Refuse(view_name + ".byteStride", "found {}; allowed here: at least {}", stride, size);
   }
-  // No product or sum before it is known to fit.
+  // The comparisons are arranged so that no product or sum can overflow.
   const bool fits = offset <= view.byteLength && size <= view.byteLength - offset &&
                     count - 1 <= (view.byteLength - offset - size) / stride;
   if (!fits) {
@@ -144,6 +144,7 @@ Result<Elements> Locate(const GltfFile& file, int view_index, std::size_t offset
 
 Result<void> ReadSparse(const GltfFile& file, const tinygltf::Accessor& accessor, GltfNumbers& numbers,
                         const std::string& where) {
+  // Check counts and types.
   const auto& sparse = accessor.sparse;
   const std::size_t total = numbers.Count();
   if (sparse.count < 1 || static_cast<std::size_t>(sparse.count) > total) {
@@ -153,11 +154,12 @@ Result<void> ReadSparse(const GltfFile& file, const tinygltf::Accessor& accessor
     return file.Refuse(where + ".indices.componentType", "found {}; allowed: 5121, 5123, 5125",
                        sparse.indices.componentType);
   }
-  // Of type int, or unsigned since tinygltf 2.9.
+  // The offsets are of type int, or unsigned since tinygltf 2.9.
   if (static_cast<std::int64_t>(sparse.indices.byteOffset) < 0 ||
       static_cast<std::int64_t>(sparse.values.byteOffset) < 0) {
     return file.Refuse(where, "found a negative byteOffset");
   }
+  // Locate indices and values, and replace the elements.
   const std::size_t count = static_cast<std::size_t>(sparse.count);
   const std::size_t component_bytes = ComponentBytes(accessor.componentType);
   ASSIGN_OR_RETURN(auto indices,
@@ -193,6 +195,7 @@ Result<void> GltfFile::CheckIndex(int index, std::size_t count, const std::strin
 }
 
 Result<GltfNumbers> GltfFile::Read(int index, std::size_t width, GltfComponents allowed, const std::string& where) {
+  // Check shape, component type and count.
   RETURN_IF_ERROR(CheckIndex(index, model_.accessors.size(), where));
   const tinygltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
   const std::string name = fmt::format("{} (accessors[{}])", where, index);
@@ -208,6 +211,7 @@ Result<GltfNumbers> GltfFile::Read(int index, std::size_t width, GltfComponents 
   }
   numbers_left_ -= accessor.count * width;
 
+  // Read the elements; an accessor without a buffer view is all zeros.
   GltfNumbers numbers{.width = width, .values = {}};
   const std::size_t component_bytes = ComponentBytes(accessor.componentType);
   if (accessor.bufferView < 0) {
@@ -227,7 +231,7 @@ Result<GltfNumbers> GltfFile::Read(int index, std::size_t width, GltfComponents 
   if (accessor.sparse.isSparse) {
     RETURN_IF_ERROR(ReadSparse(*this, accessor, numbers, name + ".sparse"));
   }
-  const bool is_index = allowed == GltfComponents::kUnsigned;  // has its own limits
+  const bool is_index = allowed == GltfComponents::kUnsigned;  // indices have their own limits
   for (std::size_t i = 0; !is_index && i < numbers.values.size(); ++i) {
     if (!(std::abs(numbers.values[i]) <= kLargestGltfNumber)) {
       return Refuse(name, "found {} in element {}; allowed: numbers within ±{:g}", numbers.values[i], i / width,
@@ -239,8 +243,8 @@ Result<GltfNumbers> GltfFile::Read(int index, std::size_t width, GltfComponents 
 
 namespace {
 
-/// Returns how many bytes the UTF-8 character at the start of `text` has; 0 when there is none (RFC 3629), or one that
-/// would break a line or command a terminal.
+/// Returns the number of bytes of the UTF-8 character at the start of `text`; 0 if it is invalid (RFC 3629) or a
+/// control character, which could break a line or control a terminal.
 std::size_t CharacterBytes(std::string_view text) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const unsigned first = byte(0);

@@ -19,11 +19,11 @@ namespace {
 /// The base colour textures of a file's materials; each picture is decoded once.
 class GltfTextures {
  public:
-  /// Decodes pictures of `file`; both arguments must outlive it.
+  /// Decodes pictures of `file`; both arguments must outlive this object.
   GltfTextures(const GltfFile& file, const DecodePicture& decode) : file_(file), decode_(decode) {}
 
-  /// The material's texture times its colour (linear RGB); null where it has none, or none in PNG or JPEG. Refused:
-  /// indices that name nothing, damaged pictures, more than 64 million pixels in one file.
+  /// Returns the material's texture multiplied by its colour (linear RGB); null if it has no texture in PNG or JPEG.
+  /// Returns an error for invalid indices, damaged pictures, or more than 64 million pixels in one file.
   Result<SharedTexture> Read(const tinygltf::Material& material, const glm::dvec3& colour, const std::string& where);
 
  private:
@@ -33,7 +33,7 @@ class GltfTextures {
 
   const GltfFile& file_;
   const DecodePicture& decode_;
-  std::map<int, SharedTexture> plain_;  ///< by index; as the file has them
+  std::map<int, SharedTexture> plain_;  ///< by index, before multiplication by a colour
   std::size_t pixels_left_ = 64'000'000;
 };
 
@@ -70,18 +70,20 @@ Result<SharedTexture> GltfTextures::Read(const tinygltf::Material& material, con
 }
 
 Result<SharedTexture> GltfTextures::ReadPlain(int index, const std::string& where) {
+  // A texture that was decoded before is shared.
   const tinygltf::Model& model = file_.model();
   RETURN_IF_ERROR(file_.CheckIndex(index, model.textures.size(), where));
   if (const auto known = plain_.find(index); known != plain_.end()) return known->second;
   const tinygltf::Texture& source = model.textures[static_cast<std::size_t>(index)];
   SharedTexture& kept = plain_[index];
   const std::string name = fmt::format("textures[{}]", index);
-  if (source.source == kNoIndex) return kept;  // in a format of some extension
+  if (source.source == kNoIndex) return kept;  // the picture has the format of an extension
   RETURN_IF_ERROR(file_.CheckIndex(source.source, model.images.size(), name + ".source"));
   const std::string image_name = fmt::format("images[{}]", source.source);
   ASSIGN_OR_RETURN(const auto bytes, BytesOf(model.images[static_cast<std::size_t>(source.source)], image_name));
   if (!IsUnderstood(bytes)) return kept;
 
+  // Decode the picture and set its wrapping.
   auto picture = decode_(bytes, pixels_left_);
   if (!picture) return file_.Refuse(image_name, "{}", picture.error().message);
   RETURN_IF_ERROR(Take(picture->pixels.size(), image_name));
@@ -110,13 +112,13 @@ Result<void> GltfTextures::Take(std::size_t pixels, const std::string& where) {
   return {};
 }
 
-constexpr std::size_t kMostTriangles = 2'000'000;
-constexpr std::size_t kMostVertices = 2'000'000;
-constexpr std::size_t kMostBindings = 500'000;
+constexpr std::size_t kMaxTriangles = 2'000'000;
+constexpr std::size_t kMaxVertices = 2'000'000;
+constexpr std::size_t kMaxBindings = 500'000;
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-/// A material of the file, or the default one: white.
+/// Reads a material of the file; the default one is white.
 Material ReadMaterial(const tinygltf::Material& source) {
   Material material{.name = source.name};
   const std::vector<double>& factor = source.pbrMetallicRoughness.baseColorFactor;
@@ -143,7 +145,7 @@ Triangles Assemble(const std::vector<std::uint32_t>& corners, int mode) {
   return triangles;
 }
 
-/// Gives every triangle vertices of its own.
+/// Gives every triangle its own vertices.
 void Unweld(SkinnedMesh& mesh) {
   std::vector<SkinnedMesh::Vertex> vertices;
   vertices.reserve(3 * mesh.triangles.size());
@@ -156,7 +158,7 @@ void Unweld(SkinnedMesh& mesh) {
   mesh.vertices = std::move(vertices);
 }
 
-/// Makes normals unit; those of length 0 become the mean of their triangles', by area.
+/// Normalises the normals; one of length 0 becomes the area-weighted mean of its triangles' normals.
 void FinishNormals(SkinnedMesh& mesh) {
   std::vector<glm::dvec3> sums(mesh.vertices.size(), glm::dvec3(0));
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -186,7 +188,7 @@ class MeshReader {
                        textures.Read(model_.materials[i], material.colour, fmt::format("materials[{}]", i)));
       character_.materials.push_back(std::move(material));
     }
-    // In the order of the file's meshes, not of the nodes that they happen to hang on.
+    // Read in the order of the file's meshes, regardless of the nodes' order.
     std::vector<int> nodes = nodes_.mesh_nodes;
     std::ranges::stable_sort(nodes, {}, [&](int node) { return Node(node).mesh; });
     for (const int node : nodes) {
@@ -199,6 +201,7 @@ class MeshReader {
   const tinygltf::Node& Node(int node) const { return model_.nodes[static_cast<std::size_t>(node)]; }
 
   Result<void> ReadNode(int node) {
+    // Find the mesh and its joints.
     const std::string where = fmt::format("nodes[{}]", node);
     const int index = Node(node).mesh;
     RETURN_IF_ERROR(file_.CheckIndex(index, model_.meshes.size(), where + ".mesh"));
@@ -209,9 +212,10 @@ class MeshReader {
       return file_.Refuse(fmt::format("meshes[{}].primitives", index), "found none; at least one is needed");
     }
     bindings_ += bindings.size() * mesh.primitives.size();  // every surface gets a copy
-    if (bindings_ > kMostBindings) {
-      return file_.Refuse(where, "with it surfaces hang on {} joints; allowed: {}", bindings_, kMostBindings);
+    if (bindings_ > kMaxBindings) {
+      return file_.Refuse(where, "with it surfaces hang on {} joints; allowed: {}", bindings_, kMaxBindings);
     }
+    // Read each primitive as a mesh.
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
       const std::string place = fmt::format("meshes[{}].primitives[{}]", index, i);
       SkinnedMesh read;
@@ -237,7 +241,7 @@ class MeshReader {
     }
     if (primitive.mode < TINYGLTF_MODE_TRIANGLES || !primitive.attributes.contains("POSITION")) return {};
     RETURN_IF_ERROR(ReadVertices(primitive, where, mesh));
-    RETURN_IF_ERROR(ReadPlacesOnTexture(primitive, where, mesh));
+    RETURN_IF_ERROR(ReadTextureCoordinates(primitive, where, mesh));
     RETURN_IF_ERROR(ReadTriangles(primitive, where, mesh));
     if (has_skin) {
       RETURN_IF_ERROR(ReadGltfWeights(file_, primitive, where, mesh));
@@ -245,9 +249,9 @@ class MeshReader {
     const bool is_flat = !primitive.attributes.contains("NORMAL");
     triangles_ += mesh.triangles.size();
     vertices_ += is_flat ? 3 * mesh.triangles.size() : mesh.vertices.size();
-    if (vertices_ > kMostVertices || triangles_ > kMostTriangles) {
+    if (vertices_ > kMaxVertices || triangles_ > kMaxTriangles) {
       return file_.Refuse(where, "with it there are {} vertices and {} triangles; allowed: {} and {}", vertices_,
-                          triangles_, kMostVertices, kMostTriangles);
+                          triangles_, kMaxVertices, kMaxTriangles);
     }
     if (is_flat) Unweld(mesh);
     FinishNormals(mesh);
@@ -269,8 +273,8 @@ class MeshReader {
   Result<void> ReadVertices(const tinygltf::Primitive& primitive, const std::string& where, SkinnedMesh& mesh) {
     ASSIGN_OR_RETURN(auto positions,
                      file_.Read(primitive.attributes.at("POSITION"), 3, GltfComponents::kAny, where + ".POSITION"));
-    if (positions.Count() > kMostVertices) {
-      return file_.Refuse(where, "found {} vertices; allowed: {}", positions.Count(), kMostVertices);
+    if (positions.Count() > kMaxVertices) {
+      return file_.Refuse(where, "found {} vertices; allowed: {}", positions.Count(), kMaxVertices);
     }
     mesh.vertices.resize(positions.Count());
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
@@ -289,8 +293,10 @@ class MeshReader {
     return {};
   }
 
-  /// Reads the set of texture coordinates that the material asks for; without it all places are the picture's corner.
-  Result<void> ReadPlacesOnTexture(const tinygltf::Primitive& primitive, const std::string& where, SkinnedMesh& mesh) {
+  /// Reads the texture coordinates that the material refers to. Without them all vertices have the coordinates of the
+  /// picture's corner.
+  Result<void> ReadTextureCoordinates(const tinygltf::Primitive& primitive, const std::string& where,
+                                      SkinnedMesh& mesh) {
     const auto material = static_cast<std::size_t>(primitive.material);
     if (primitive.material < 0 || material >= model_.materials.size() || !character_.materials[material].texture) {
       return {};
@@ -306,6 +312,7 @@ class MeshReader {
   }
 
   Result<void> ReadTriangles(const tinygltf::Primitive& primitive, const std::string& where, SkinnedMesh& mesh) {
+    // Read the vertex indices; without them the vertices are used in order.
     std::vector<std::uint32_t> corners;
     if (primitive.indices == kNoIndex) {
       corners.resize(mesh.vertices.size());
@@ -321,6 +328,7 @@ class MeshReader {
         corners.push_back(static_cast<std::uint32_t>(index));
       }
     }
+    // Assemble the triangles.
     const bool is_list = primitive.mode == TINYGLTF_MODE_TRIANGLES;
     if (corners.size() < 3 || (is_list && corners.size() % 3 != 0)) {
       return file_.Refuse(where, "found {} corners; allowed: {}", corners.size(),

@@ -8,20 +8,20 @@
 
 namespace etude {
 
-/// Reads the scene's surfaces and their colours into `character`, whose skeleton is the nodes'. One mesh per primitive
-/// that has triangles (lists, strips, fans; points and lines are passed over):
-/// - with a skin, one binding per joint of the skin; of several sets of joints the four greatest weights of a vertex
-///   are kept and made to sum to 1; a vertex without weight hangs on the skin's first joint;
-/// - without, one binding to its node;
-/// - without normals, faces get their own, as the specification demands.
+/// Reads the scene's surfaces and their colours into `character`, whose skeleton is that of the nodes. Each primitive
+/// with triangles (lists, strips, fans) becomes one mesh; points and lines are ignored.
+/// - A mesh with a skin has one binding per joint of the skin. The four largest weights of a vertex over all sets of
+///   joints are kept and normalised to the sum 1; a vertex without weight is bound to the skin's first joint.
+/// - A mesh without a skin has one binding to its node.
+/// - A mesh without normals gets face normals, as the specification demands.
 /// Colours are the materials' base colour factors and textures; KHR_texture_transform, vertex colours and morph targets
 /// are not read.
 Result<void> ReadGltfMeshes(GltfFile& file, const GltfNodes& nodes, const DecodePicture& decode, Character& character);
 
-/// Says whether a joint's axes at rest are a mirror image, under which triangles turn over.
+/// Returns true if a joint's axes at rest are a mirror image, which reverses the orientation of triangles.
 bool IsMirrored(const Skeleton& skeleton, int joint);
 
-/// Changes which side of the triangles is the outside.
+/// Reverses the orientation of all triangles, so that the other side is the outside.
 void TurnOver(SkinnedMesh& mesh);
 
 }  // namespace etude

@@ -12,10 +12,10 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kMostJoints = 1024;
-constexpr int kMostLevels = 128;
+constexpr std::size_t kMaxJoints = 1024;
+constexpr int kMaxLevels = 128;
 
-/// The error by which a matrix may miss a right angle, and a last row 0, 0, 0, 1: files hold floats.
+/// The allowed error of a matrix in its right angles and in its last row 0, 0, 0, 1, because files hold floats.
 constexpr double kMatrixRounding = 1e-3;
 
 std::string NodeName(int node) { return fmt::format("nodes[{}]", node); }
@@ -59,22 +59,24 @@ class NodeReader {
       int depth = 1;
       for (int above = parents_[node]; above != kNoIndex; above = parents_[above]) {
         if (above == node) return file_.Refuse(NodeName(node), "is its own ancestor; allowed: a tree");
-        if (++depth > kMostLevels) return TooDeep(node);
+        if (++depth > kMaxLevels) return TooDeep(node);
       }
     }
     return {};
   }
 
-  /// Refuses a node that is nested too deep or below a cycle: with more steps than nodes there is one.
+  /// Returns the error for a node that is nested too deep or lies below a cycle; a path longer than the number of nodes
+  /// proves a cycle.
   Result<void> TooDeep(int node) const {
     std::size_t steps = 0;
     for (int above = parents_[node]; above != kNoIndex; above = parents_[above]) {
       if (++steps > count_) return file_.Refuse(NodeName(node), "hangs below its own descendants; allowed: a tree");
     }
-    return file_.Refuse(NodeName(node), "nested deeper than {} levels", kMostLevels);
+    return file_.Refuse(NodeName(node), "nested deeper than {} levels", kMaxLevels);
   }
 
   Result<void> MarkScene() {
+    // Find the roots of the scene, or of all nodes if there is no scene.
     is_joint_.assign(count_, false);
     in_scene_.assign(count_, false);
     std::vector<int> open;
@@ -94,10 +96,11 @@ class NodeReader {
         }
       }
     }
+    // Mark all nodes below the roots.
     while (!open.empty()) {
       const int node = open.back();
       open.pop_back();
-      if (in_scene_[node]) continue;  // a root named twice
+      if (in_scene_[node]) continue;  // a root may be listed twice
       in_scene_[node] = true;
       is_joint_[node] = true;
       open.insert(open.end(), At(node).children.begin(), At(node).children.end());
@@ -106,6 +109,7 @@ class NodeReader {
   }
 
   Result<void> MarkOutsiders() {
+    // Mark bones of skins and animated nodes, with their ancestors.
     std::vector<bool> is_bone(count_, false);
     for (std::size_t i = 0; i < model_.skins.size(); ++i) {
       const std::vector<int>& joints = model_.skins[i].joints;
@@ -124,6 +128,7 @@ class NodeReader {
         MarkWithAncestors(target);
       }
     }
+    // Collect the nodes with meshes; a leaf that only holds a skinned mesh is not a joint.
     for (int node = 0; node < static_cast<int>(count_); ++node) {
       if (!in_scene_[node] || At(node).mesh == kNoIndex) continue;
       nodes_.mesh_nodes.push_back(node);
@@ -139,11 +144,11 @@ class NodeReader {
   Result<void> MakeJoints() {
     const auto joints = static_cast<std::size_t>(std::ranges::count(is_joint_, true));
     if (joints == 0) return file_.Refuse("scenes", "found no nodes in the default one; at least one is needed");
-    if (joints > kMostJoints) return file_.Refuse("nodes", "found {} joints; allowed: {}", joints, kMostJoints);
+    if (joints > kMaxJoints) return file_.Refuse("nodes", "found {} joints; allowed: {}", joints, kMaxJoints);
     nodes_.joint_of.assign(count_, kNoIndex);
     for (int node = 0; node < static_cast<int>(count_); ++node) {
       if (!is_joint_[node]) continue;
-      // Its ancestors first, from the top down, where the file has them behind it.
+      // Make its ancestors first, from the root down, if the file lists them later.
       std::vector<int> chain;
       for (int above = node; above != kNoIndex && nodes_.joint_of[above] == kNoIndex; above = parents_[above]) {
         chain.push_back(above);
@@ -209,7 +214,7 @@ class NodeReader {
       if (local.scale[k] < 1e-9) return file_.Refuse(where, "flattens an axis; allowed: translation, rotation, scale");
       axes[k] /= local.scale[k];
     }
-    if (glm::determinant(axes) < 0) {  // a mirror image: of the three ways to write it, the first
+    if (glm::determinant(axes) < 0) {  // a mirror image: of the three possible signs, choose that of x
       local.scale.x = -local.scale.x;
       axes[0] = -axes[0];
     }

@@ -12,29 +12,30 @@ namespace etude {
 /// The nodes of a file as a skeleton.
 struct GltfNodes {
   Skeleton skeleton;
-  std::vector<int> joint_of;    ///< per node, −1 for nodes that are no joints
-  std::vector<int> mesh_nodes;  ///< nodes of the scene that hold a mesh, ascending
+  std::vector<int> joint_of;    ///< per node; −1 for nodes that are not joints
+  std::vector<int> mesh_nodes;  ///< nodes of the scene with a mesh, ascending
 };
 
-/// The nodes of the default scene (else of the first, else all nodes), and from outside the scene those that are
-/// animated or joints of a skin, with all that is above them. In the file's order, but parents first. A node that does
-/// nothing but hold a skinned mesh is no joint: such a mesh follows its skin's joints alone. Matrices become
-/// translation, rotation and scale; unnamed nodes are called
-/// "node_<index>", doubled names are numbered (UniqueNames).
+/// Reads the nodes of the default scene (without one, of the first scene; without scenes, all nodes), and others if
+/// they are animated or joints of a skin, with all their ancestors. Joints are in the file's order, but parents come
+/// first. A node that only holds a skinned mesh is not a joint, because such a mesh follows only its skin's joints.
+/// Matrices become translation, rotation and scale; unnamed nodes are called "node_<index>", and duplicate names are
+/// numbered (UniqueNames).
 ///
-/// Refused: indices out of range, cycles, two parents, over 1,024 joints, nesting over 128, matrices that shear,
-/// flatten or project, rotations of length 0.
+/// Returns an error for indices out of range, cycles, a second parent, more than 1,024 joints, nesting deeper than 128
+/// levels, matrices that shear, flatten or project, and rotations of length 0.
 Result<GltfNodes> ReadGltfNodes(const GltfFile& file);
 
-/// Refuses a pose in which a joint's place or axes in the world pass ±10⁹: small numbers multiply on the way down.
+/// Returns an error if a joint's global position or axes exceed ±10⁹ in this pose, because small numbers can multiply
+/// along the hierarchy.
 Result<void> CheckGltfPose(const GltfFile& file, const Skeleton& skeleton, const LocalPose& pose,
                            const std::string& where);
 
-/// Says whether a vector's or quaternion's square of length is 1 as far as floats can tell. Such ones are taken as they
-/// stand in the file, so that writing and reading change nothing; others are made unit.
+/// Returns true if the squared length of a vector or quaternion is 1 within the precision of floats. Such vectors are
+/// not normalised, so that writing and reading change nothing.
 bool IsUnit(double square_length);
 
-/// The rotation of a quaternion in glTF's order x, y, z, w, of any length but 0.
+/// Returns the rotation of a quaternion in glTF's order x, y, z, w, of any length above 0.
 glm::dquat RotationFrom(const double* xyzw);
 
 }  // namespace etude

@@ -28,19 +28,20 @@ namespace {
 struct GltfContainer {
   bool is_binary = false;
   std::string_view json;
-  std::string_view binary;  ///< of a GLB; may be empty
+  std::string_view binary;  ///< of a GLB file; may be empty
 };
 
-/// The most bytes taken from a file, from its binary part times the buffers that copy it, and from the files it names.
-constexpr double kMostGltfBytes = 256e6;
+/// The maximal number of bytes of a file, of its binary part times the number of buffers that copy it, and of all files
+/// it refers to.
+constexpr double kMaxGltfBytes = 256e6;
 constexpr std::size_t kHeaderBytes = 12;
 constexpr std::size_t kChunkHeaderBytes = 8;
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;    // "JSON"
 constexpr std::uint32_t kBinaryChunk = 0x004E4942;  // "BIN\0"
-constexpr int kDeepestNesting = 64;
-constexpr std::size_t kMostValues = 1'000'000;
+constexpr int kMaxNesting = 64;
+constexpr std::size_t kMaxValues = 1'000'000;
 
-/// Reads a number, little-endian as the format is on every machine.
+/// Reads a little-endian number, on any machine.
 std::uint32_t Number(std::string_view bytes, std::size_t at) {
   std::uint32_t number = 0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -49,7 +50,7 @@ std::uint32_t Number(std::string_view bytes, std::size_t at) {
   return number;
 }
 
-/// The chunk that begins at `at`, behind which `at` is left.
+/// Returns the chunk that begins at `at`, and sets `at` to its end.
 Result<std::string_view> TakeChunk(std::string_view bytes, std::size_t& at, std::uint32_t kind, const Place& place) {
   const std::size_t left = bytes.size() - at;
   if (left < kChunkHeaderBytes) {
@@ -88,9 +89,10 @@ Result<GltfContainer> OpenGlb(std::string_view bytes, const Place& place) {
   return container;
 }
 
-/// Walks JSON without understanding it: nesting, number of values, and how many buffers there are.
+/// Scans JSON without parsing it, and limits its nesting and number of values.
 class JsonShape {
  public:
+  /// Returns the number of buffers.
   Result<std::size_t> CountBuffers(std::string_view json, const Place& place) {
     for (std::size_t i = 0; i < json.size(); ++i) {
       switch (json[i]) {
@@ -99,7 +101,7 @@ class JsonShape {
           while (i < json.size() && json[i] != '"') i += json[i] == '\\' ? 2 : 1;
           if (i >= json.size()) return Fail(place, "a string of the JSON has no end");
           if (depth_ == 1) key_ = json.substr(start, i - start);
-          // An escaped name could hide from the comparison below.
+          // An escaped name could be "buffers" without being recognised below.
           if (depth_ == 1 && key_.find('\\') != std::string_view::npos) {
             return Fail(place, "found {} at the top of the JSON; allowed: names without '\\'", Quote(key_));
           }
@@ -109,7 +111,7 @@ class JsonShape {
         case '[':
           if (depth_ == 2 && json[i] == '{' && key_ == "buffers") ++buffers_;
           ++values_;
-          if (++depth_ > kDeepestNesting) return Fail(place, "JSON nested deeper than {} levels", kDeepestNesting);
+          if (++depth_ > kMaxNesting) return Fail(place, "JSON nested deeper than {} levels", kMaxNesting);
           break;
         case '}':
         case ']':
@@ -121,7 +123,7 @@ class JsonShape {
         default:
           break;
       }
-      if (values_ > kMostValues) return Fail(place, "JSON of more than {} values", kMostValues);
+      if (values_ > kMaxValues) return Fail(place, "JSON of more than {} values", kMaxValues);
     }
     return buffers_;
   }
@@ -133,13 +135,13 @@ class JsonShape {
   std::string_view key_;  ///< the last string at the top level
 };
 
-/// Finds the parts of a .gltf or .glb, and refuses what would make a parser of JSON take memory out of proportion:
-/// sizes that disagree, over 256 MB, JSON nested deeper than 64 levels or of over a million values, many buffers that
-/// each copy the binary part. Whether the JSON is JSON is the parser's matter.
+/// Finds the parts of a .gltf or .glb file. Refuses files that would make a JSON parser use excessive memory:
+/// inconsistent sizes, more than 256 MB, JSON nested deeper than 64 levels or with more than a million values, and many
+/// buffers that each copy the binary part. The syntax of the JSON is checked by the parser.
 Result<GltfContainer> OpenGltfContainer(std::string_view bytes, const std::string& file) {
   const Place place{file};
-  if (static_cast<double>(bytes.size()) > kMostGltfBytes) {
-    return Fail(place, "a glTF file of {} bytes; allowed: {:.0f} MB", bytes.size(), kMostGltfBytes / 1e6);
+  if (static_cast<double>(bytes.size()) > kMaxGltfBytes) {
+    return Fail(place, "a glTF file of {} bytes; allowed: {:.0f} MB", bytes.size(), kMaxGltfBytes / 1e6);
   }
   GltfContainer container{.is_binary = false, .json = bytes, .binary = {}};
   if (bytes.starts_with("glTF")) {
@@ -148,10 +150,10 @@ Result<GltfContainer> OpenGltfContainer(std::string_view bytes, const std::strin
     container = *glb;
   }
   ASSIGN_OR_RETURN(const auto buffers, JsonShape().CountBuffers(container.json, place));
-  // Every buffer without a URI gets its own copy of the binary part.
-  if (static_cast<double>(buffers) * static_cast<double>(container.binary.size()) > kMostGltfBytes) {
+  // Every buffer without a URI gets a copy of the binary part.
+  if (static_cast<double>(buffers) * static_cast<double>(container.binary.size()) > kMaxGltfBytes) {
     return Fail(place, "{} buffers beside {} bytes of binary data; allowed: {:.0f} MB together", buffers,
-                container.binary.size(), kMostGltfBytes / 1e6);
+                container.binary.size(), kMaxGltfBytes / 1e6);
   }
   return container;
 }
@@ -161,8 +163,8 @@ struct Fetcher {
   const FetchFile* fetch = nullptr;
   std::string file;
   bool wants_pictures = false;
-  double bytes_left = kMostGltfBytes;
-  std::optional<Error> complaint;  ///< the first
+  double bytes_left = kMaxGltfBytes;
+  std::optional<Error> complaint;  ///< the first one
 
   bool Complain(Error error) {
     if (!complaint) complaint = std::move(error);
@@ -170,7 +172,7 @@ struct Fetcher {
   }
 };
 
-/// Says whether a file is a picture, since pictures are asked for in the same way as buffers.
+/// Returns true if a file is a picture, because the parser requests pictures in the same way as buffers.
 bool IsPicture(const std::string& uri) {
   constexpr std::array<std::string_view, 7> kEndings = {".png", ".jpg", ".jpeg", ".webp", ".ktx2", ".dds", ".gif"};
   std::string lower = uri;
@@ -178,7 +180,7 @@ bool IsPicture(const std::string& uri) {
   return std::ranges::any_of(kEndings, [&](std::string_view ending) { return lower.ends_with(ending); });
 }
 
-/// Says whether a percent-decoded URI names something in the file's folder or below it.
+/// Returns true if a percent-decoded URI names something in the file's folder or below it.
 bool StaysInFolder(std::string_view uri) {
   const auto is_bad = [](char c) { return c == ':' || c == '\\' || (c >= 0 && c < ' ') || c == 0x7f; };
   if (uri.empty() || uri.starts_with('/') || uri.starts_with('~') || std::ranges::any_of(uri, is_bad)) return false;
@@ -210,7 +212,7 @@ bool ReadWholeFile(std::vector<unsigned char>* out, std::string*, const std::str
   fetcher.bytes_left -= static_cast<double>(bytes->size());
   if (fetcher.bytes_left < 0) {
     return fetcher.Complain(
-        Fail(place, "names files of over {:.0f} MB; {} is one too many", kMostGltfBytes / 1e6, Quote(uri)).value());
+        Fail(place, "names files of over {:.0f} MB; {} is one too many", kMaxGltfBytes / 1e6, Quote(uri)).value());
   }
   out->assign(bytes->begin(), bytes->end());
   return true;
@@ -218,8 +220,9 @@ bool ReadWholeFile(std::vector<unsigned char>* out, std::string*, const std::str
 
 bool WriteWholeFile(std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }
 
-/// Makes `parser` read files through `fetcher` alone. Templates, because tinygltf's versions differ: since 2.9 it also
-/// asks for a file's size, and where one callback is missing it keeps its own, which read any file, and says so.
+/// Makes `parser` read files only through `fetcher`. It is a template because tinygltf's versions differ: since 2.9 it
+/// also asks for a file's size, and if a callback is missing it keeps its own callbacks, which read any file, and
+/// returns an error.
 template <typename Callbacks, typename Parser>
 Result<void> ReadOnlyThrough(Fetcher& fetcher, Parser& parser) {
   Callbacks callbacks{};
@@ -228,7 +231,7 @@ Result<void> ReadOnlyThrough(Fetcher& fetcher, Parser& parser) {
   callbacks.ReadWholeFile = ReadWholeFile;
   callbacks.WriteWholeFile = WriteWholeFile;
   if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
-    // Nothing is said against any size: ReadWholeFile counts the bytes of all files together.
+    // Any size is accepted here, because ReadWholeFile limits the bytes of all files together.
     callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string&, void*) {
       *size = 0;
       return true;
@@ -243,15 +246,16 @@ Result<void> ReadOnlyThrough(Fetcher& fetcher, Parser& parser) {
   return {};
 }
 
-/// Keeps a picture as it stands in its own file or URI. Of those within a buffer tinygltf has not checked the place.
+/// Keeps the encoded bytes of a picture from a file or URI. Pictures in a buffer are read later, because tinygltf has
+/// not checked their bounds.
 bool KeepEncoded(tinygltf::Image* image, const int, std::string*, std::string*, int, int, const unsigned char* bytes,
                  int size, void*) {
   if (image->bufferView == kNoIndex && size > 0) image->image.assign(bytes, bytes + size);
   return true;
 }
 
-/// tinygltf puts what it dislikes into one text, a line each, and goes on where it can. What it only wishes were there
-/// is no reason to refuse.
+/// Returns the first real error of tinygltf, which reports its errors as lines of one text and continues if possible.
+/// Warnings about optional properties are ignored.
 std::string Complaint(std::string_view text) {
   constexpr std::array<std::string_view, 3> kHarmless = {
       "'inverseBindMatrices' property is missing in Skin.",  // optional since 2.0
@@ -267,7 +271,7 @@ std::string Complaint(std::string_view text) {
   return "";
 }
 
-/// JSON's own errors say where they are.
+/// Makes an error from the parser's message; messages of the JSON parser contain a position.
 Error NotGltf(const std::string& file, const std::string& complaint) {
   Place place{file};
   std::string what = complaint;
@@ -276,14 +280,14 @@ Error NotGltf(const std::string& file, const std::string& complaint) {
     constexpr std::string_view kSeparator = ": ";
     what = complaint.substr(complaint.find(kSeparator, at) + kSeparator.size());
   }
-  constexpr std::size_t kLongest = 200;
-  return Fail(std::move(place), "not glTF 2.0: {}", what.substr(0, kLongest)).value();
+  constexpr std::size_t kMaxMessageBytes = 200;
+  return Fail(std::move(place), "not glTF 2.0: {}", what.substr(0, kMaxMessageBytes)).value();
 }
 
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
 
-/// Says whether an extension may be required: those of lights and looks change nothing that is read here, quantised
-/// meshes are understood, and files that compress theirs are read without them.
+/// Returns true if an extension may be required: those for lights and materials do not affect what is read, quantised
+/// meshes are supported, and compressed meshes are left out.
 bool IsHarmless(const std::string& extension) {
   return extension.starts_with("KHR_materials_") || extension.starts_with("KHR_texture_") ||
          extension.starts_with("EXT_texture_") || extension == "KHR_lights_punctual" ||
@@ -301,7 +305,7 @@ Result<void> CheckExtensions(const tinygltf::Model& model, const std::string& fi
   return {};
 }
 
-/// Refuses an optional index or count that is negative or no number, which tinygltf takes for one that is not there.
+/// Refuses an optional index or count that is negative or not a number, because tinygltf would treat it as missing.
 Result<void> CheckCounts(const nlohmann::json& json, const std::string& where, const std::string& file) {
   constexpr std::array<std::string_view, 10> kCounts = {
       "bufferView", "byteOffset", "byteStride", "indices", "material", "mesh", "mode", "scene", "skeleton", "skin"};
@@ -322,7 +326,8 @@ Result<void> CheckCounts(const nlohmann::json& json, const std::string& where, c
   return {};
 }
 
-/// Refuses file names with a NUL, plain or escaped: tinygltf 2.9 cuts a name there and asks for what is left of it.
+/// Refuses file names with a NUL character, plain or escaped, because tinygltf 2.9 would cut the name there and request
+/// the rest.
 Result<void> CheckFileNames(const nlohmann::json& json, const std::string& file) {
   for (const char* list : {"buffers", "images"}) {
     if (!json.is_object() || !json.contains(list) || !json[list].is_array()) continue;
@@ -342,20 +347,24 @@ void PutNumber(std::string& bytes, std::size_t number) {
   for (int i = 0; i < 4; ++i) bytes += static_cast<char>((number >> (8 * i)) & 0xffU);
 }
 
-/// The file without its meshes, where they are compressed by Draco: the parser stops at those. Nothing for other files.
+/// Returns the file without its meshes if they are compressed by Draco, because the parser would fail on them; nothing
+/// for other files.
 std::optional<std::string> WithoutDracoMeshes(const GltfContainer& container) {
   if (container.json.find(kDraco) == std::string_view::npos) return std::nullopt;
+  // Check that Draco is required.
   auto json = nlohmann::json::parse(container.json, nullptr, /*allow_exceptions=*/false);
   const bool is_file = json.is_object() && json.contains("extensionsRequired") && json["extensionsRequired"].is_array();
   if (!is_file || std::ranges::find(json["extensionsRequired"], kDraco) == json["extensionsRequired"].end()) {
     return std::nullopt;
   }
+  // Remove the meshes from the JSON.
   json.erase("meshes");
   if (json.contains("nodes") && json["nodes"].is_array()) {
     for (auto& node : json["nodes"]) {
       if (node.is_object()) node.erase("mesh");
     }
   }
+  // Write the file again, as text or binary.
   std::string text = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   if (!container.is_binary) return text;
   text.resize((text.size() + 3) / 4 * 4, ' ');
@@ -372,14 +381,14 @@ std::optional<std::string> WithoutDracoMeshes(const GltfContainer& container) {
   return bytes += container.binary;
 }
 
-/// Every clip copies the names of its joints: long ones would multiply.
-constexpr std::size_t kLongestName = 500;
+/// The maximal length of a name; every clip copies the names of its joints, so long ones would multiply.
+constexpr std::size_t kMaxNameBytes = 500;
 
 template <typename Named>
 Result<void> TidyNames(std::vector<Named>& all, std::string_view kind, const std::string& file) {
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].name.size() > kLongestName) {
-      return Fail({file}, "{}[{}].name: found {} bytes; allowed: {}", kind, i, all[i].name.size(), kLongestName);
+    if (all[i].name.size() > kMaxNameBytes) {
+      return Fail({file}, "{}[{}].name: found {} bytes; allowed: {}", kind, i, all[i].name.size(), kMaxNameBytes);
     }
     all[i].name = GltfText(all[i].name);
   }
@@ -393,16 +402,17 @@ Result<void> TidyAllNames(tinygltf::Model& model, const std::string& file) {
   return TidyNames(model.materials, "materials", file);
 }
 
-/// tinygltf's model of a file, as found: nothing in it can be trusted but the JSON types. Its buffers are loaded, its
-/// images left encoded, and fetched from files of their own only where pictures are wanted. Refused: what
-/// OpenGltfContainer or tinygltf refuses, another version than 2.x, extensions that are required and change what is
-/// read here, URIs that leave the file's folder.
+/// Returns tinygltf's model of a file, in which only the JSON types can be trusted. Buffers are loaded; images stay
+/// encoded, and those in separate files are only fetched if pictures are wanted. Returns an error for anything that
+/// OpenGltfContainer or tinygltf refuses, a version other than 2.x, required extensions that would change what is read
+/// here, and URIs that leave the file's folder.
 Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const std::string& file,
                                                    const FetchFile& fetch, bool wants_pictures) {
   ASSIGN_OR_RETURN(auto container, OpenGltfContainer(bytes, file));
   const auto json = nlohmann::json::parse(container.json, nullptr, /*allow_exceptions=*/false);
   RETURN_IF_ERROR(CheckFileNames(json, file));
 
+  // Parse the file with our own callbacks.
   const std::optional<std::string> without_meshes = WithoutDracoMeshes(container);
   if (without_meshes) bytes = *without_meshes;
   Fetcher fetcher{.fetch = &fetch, .file = file, .wants_pictures = wants_pictures, .complaint = {}};
@@ -421,23 +431,24 @@ Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const
   } catch (const std::exception& exception) {
     errors = exception.what();
   }
-  // Filled even where reading failed, and then most likely the reason.
+  // The model is filled even if reading failed, and a required extension is then the most likely reason.
   RETURN_IF_ERROR(CheckExtensions(*model, file));
   const std::string complaint = Complaint(errors);
   if (!is_read || !complaint.empty()) {
-    // Files asked for in vain count only when they were needed.
+    // A file that could not be fetched matters only if it was needed.
     if (fetcher.complaint) return tl::unexpected(*fetcher.complaint);
     return tl::unexpected(NotGltf(file, complaint.empty() ? "the parser gave up" : complaint));
   }
   if (!model->asset.version.starts_with("2.")) {
     return Fail({file}, "asset.version: found {}; allowed: 2.0", Quote(model->asset.version));
   }
+  // Check what tinygltf does not check.
   RETURN_IF_ERROR(CheckCounts(json, "", file));
   RETURN_IF_ERROR(TidyAllNames(*model, file));
   return model;
 }
 
-/// The nodes that a VRM file's own table names; what is no such table is passed over.
+/// Returns the nodes that a VRM file's own table of bones names; malformed entries are ignored.
 std::map<std::string, int> BoneTable(const tinygltf::Model& model) {
   std::map<std::string, int> nodes;
   const auto add = [&](const std::string& bone, const tinygltf::Value& value) {
@@ -458,7 +469,7 @@ std::map<std::string, int> BoneTable(const tinygltf::Model& model) {
   return nodes;
 }
 
-/// Returns a file's name without folder and ending: "dances/robot.glb" → "robot".
+/// Returns a file's name without folder and extension: "dances/robot.glb" → "robot".
 std::string Stem(const std::string& file) {
   const std::string name = file.substr(file.find_last_of('/') + 1);
   return name.substr(0, name.find_last_of('.'));

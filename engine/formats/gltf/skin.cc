@@ -11,7 +11,8 @@ namespace {
 
 using Bindings = std::vector<SkinnedMesh::Binding>;
 
-/// The four greatest of a vertex's weights, in the order given where there are no more; sum 1.
+/// The four largest weights of a vertex with their bindings; the weights have the sum 1. Four or fewer keep their
+/// order.
 struct Influences {
   std::array<int, 4> bindings{};
   std::array<double, 4> weights{1, 0, 0, 0};
@@ -26,7 +27,7 @@ Influences Strongest(std::vector<std::pair<int, double>> all) {
   for (const auto& [binding, weight] : all) sum += weight;
   Influences influences;
   if (sum <= 0) return influences;
-  // Sums of floats are left alone, so that writing and reading change nothing.
+  // A sum within float rounding of 1 is not changed, so that writing and reading change nothing.
   constexpr double kRounding = 1e-6;
   const double divisor = std::abs(sum - 1) < kRounding ? 1.0 : sum;
   influences.weights = {};
@@ -40,6 +41,7 @@ Influences Strongest(std::vector<std::pair<int, double>> all) {
 }  // namespace
 
 Result<Bindings> ReadGltfBindings(GltfFile& file, const GltfNodes& nodes, int node) {
+  // A node without a skin is bound to itself.
   const tinygltf::Model& model = file.model();
   const int index = model.nodes[static_cast<std::size_t>(node)].skin;
   if (index == kNoIndex) {
@@ -47,12 +49,14 @@ Result<Bindings> ReadGltfBindings(GltfFile& file, const GltfNodes& nodes, int no
     rigid.joint = nodes.joint_of[node];
     return Bindings{rigid};
   }
+  // A skin binds to its joints.
   RETURN_IF_ERROR(file.CheckIndex(index, model.skins.size(), fmt::format("nodes[{}].skin", node)));
   const tinygltf::Skin& skin = model.skins[static_cast<std::size_t>(index)];
   const std::string name = fmt::format("skins[{}]", index);
   if (skin.joints.empty()) return file.Refuse(name + ".joints", "found none; at least one is needed");
   Bindings bindings;
   for (const int joint : skin.joints) bindings.push_back({nodes.joint_of[joint]});
+  // Read the inverse bind matrices, which are optional.
   if (skin.inverseBindMatrices == kNoIndex) return bindings;
   const std::string matrices_name = name + ".inverseBindMatrices";
   ASSIGN_OR_RETURN(auto matrices, file.Read(skin.inverseBindMatrices, 16, GltfComponents::kFloat, matrices_name));
@@ -77,6 +81,7 @@ Result<Bindings> ReadGltfBindings(GltfFile& file, const GltfNodes& nodes, int no
 
 Result<void> ReadGltfWeights(GltfFile& file, const tinygltf::Primitive& primitive, const std::string& where,
                              SkinnedMesh& mesh) {
+  // Read all sets of joints and weights.
   std::vector<GltfNumbers> joints, weights;
   for (int set = 0;; ++set) {
     const auto joint = primitive.attributes.find(fmt::format("JOINTS_{}", set));
@@ -95,6 +100,7 @@ Result<void> ReadGltfWeights(GltfFile& file, const tinygltf::Primitive& primitiv
     weights.push_back(std::move(*weight_numbers));
   }
   if (joints.empty()) return file.Refuse(where, "found no JOINTS_0; its skin needs them");
+  // Keep the largest four weights of every vertex.
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     std::vector<std::pair<int, double>> all;
     for (std::size_t set = 0; set < joints.size(); ++set) {

@@ -14,15 +14,15 @@ struct Primitive;
 
 namespace etude {
 
-/// The joints that a node's mesh hangs on: those of its skin, else the node itself.
+/// Returns the joints to which a node's mesh is bound: those of its skin, or the node itself.
 Result<std::vector<SkinnedMesh::Binding>> ReadGltfBindings(GltfFile& file, const GltfNodes& nodes, int node);
 
-/// Reads the joints and weights of a mesh that has its bindings and vertices: of all sets the four greatest weights of
-/// a vertex, with a sum of 1. A vertex without weight hangs on the first binding.
+/// Reads the joints and weights of a mesh whose bindings and vertices are known. It keeps the four largest weights of a
+/// vertex over all sets, normalised to the sum 1. A vertex without weight is bound to the first binding.
 Result<void> ReadGltfWeights(GltfFile& file, const tinygltf::Primitive& primitive, const std::string& where,
                              SkinnedMesh& mesh);
 
-/// An accessor of as many elements as the mesh has vertices.
+/// Reads an accessor, which must have as many elements as the mesh has vertices.
 Result<GltfNumbers> ReadGltfAttribute(GltfFile& file, int accessor, std::size_t width, GltfComponents allowed,
                                       const std::string& where, const SkinnedMesh& mesh);
 

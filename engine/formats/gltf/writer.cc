@@ -19,7 +19,7 @@
 namespace etude {
 namespace {
 
-/// The bytes of a buffer view that is being made.
+/// The bytes of a buffer view under construction.
 class GltfBytes {
  public:
   void Float(double value);  ///< rounded to a float
@@ -37,10 +37,10 @@ class GltfBytes {
   std::vector<unsigned char> bytes_;
 };
 
-/// The use of a view's bytes.
+/// The use of a buffer view.
 enum class GltfTarget { kOther, kVertices, kIndices };
 
-/// The elements of an accessor: where they begin, and what they are.
+/// The elements of an accessor: their location and type.
 struct GltfSlice {
   int view = 0;
   std::size_t offset = 0;
@@ -66,8 +66,8 @@ void GltfBytes::Short(std::uint32_t value) { Append(static_cast<std::uint16_t>(v
 
 void GltfBytes::Integer(std::uint32_t value) { Append(value); }
 
-/// Puts bytes behind all others of the model's one buffer, 4-aligned, as a new view; returns its index. `stride` 0:
-/// elements stand side by side.
+/// Appends bytes to the model's only buffer as a new view, aligned to 4 bytes, and returns the view's index. With
+/// `stride` 0 the elements are contiguous.
 int AddGltfView(tinygltf::Model& model, const GltfBytes& bytes, std::size_t stride, GltfTarget target) {
   if (model.buffers.empty()) model.buffers.emplace_back();
   std::vector<unsigned char>& data = model.buffers.front().data;
@@ -84,8 +84,8 @@ int AddGltfView(tinygltf::Model& model, const GltfBytes& bytes, std::size_t stri
   return static_cast<int>(model.bufferViews.size()) - 1;
 }
 
-/// Adds an accessor; returns its index. With `values`, the numbers it holds element by element, it tells their least
-/// and greatest, as positions and times of keys must.
+/// Adds an accessor and returns its index. If `values` holds its numbers element by element, their minimum and maximum
+/// are stored, too, which positions and key times need.
 int AddGltfAccessor(tinygltf::Model& model, const GltfSlice& slice, std::span<const double> values = {}) {
   tinygltf::Accessor accessor;
   accessor.bufferView = slice.view;
@@ -114,12 +114,12 @@ struct Track {
   int joint = 0;
   const char* path = "";
   std::ptrdiff_t width = 3;
-  std::vector<float> values;  ///< at rest, then frame by frame
+  std::vector<float> values;  ///< the value at rest, then frame by frame
 
   void Add(const glm::vec3& value) { values.insert(values.end(), {value.x, value.y, value.z}); }
   void Add(const glm::vec4& value) { values.insert(values.end(), {value.x, value.y, value.z, value.w}); }
 
-  /// Says whether all frames are alike, and so worth one key.
+  /// Returns true if all frames are equal, so that one key is enough.
   bool IsStill() const { return std::equal(values.begin() + 2 * width, values.end(), values.begin() + width); }
   bool IsAtRest() const { return std::equal(values.begin() + width, values.end(), values.begin()); }
 };
@@ -150,7 +150,7 @@ std::array<Track, 3> TracksOf(const Skeleton& skeleton, const Clip& clip, std::s
   return tracks;
 }
 
-/// Adds a channel with one key or a key per frame, as many as `input` has.
+/// Adds a channel whose number of keys is that of the accessor `input`: one, or one per frame.
 void AddTrack(tinygltf::Model& model, tinygltf::Animation& animation, const Track& track, int input) {
   const std::size_t count = model.accessors[static_cast<std::size_t>(input)].count;
   const auto width = static_cast<std::size_t>(track.width);
@@ -169,19 +169,19 @@ void AddTrack(tinygltf::Model& model, tinygltf::Animation& animation, const Trac
   animation.channels.push_back(std::move(channel));
 }
 
-/// Adds a clip as a LINEAR animation of the model's first nodes, which are the joints of `skeleton`. What stays at rest
-/// gets no channel, what stays still one key; a clip in which nothing moves keeps its length in one channel. A clip
-/// without frames is left out.
+/// Adds a clip as a LINEAR animation of the model's first nodes, which are the joints of `skeleton`. A property at rest
+/// gets no channel, a constant one gets one key. If nothing moves, one channel keeps all keys, so that the clip keeps
+/// its length. A clip without frames is left out.
 void AddGltfClip(tinygltf::Model& model, const Skeleton& skeleton, const Clip& clip) {
   if (clip.frames.empty()) return;
   std::vector<Track> tracks;
   for (std::size_t joint = 0; joint < skeleton.joints.size(); ++joint) {
     for (Track& track : TracksOf(skeleton, clip, joint)) tracks.push_back(std::move(track));
   }
-  // An animation needs a channel, and one of full length, also when nothing moves.
+  // An animation needs at least one channel, and one of full length even if nothing moves.
   const bool all_still = std::ranges::all_of(tracks, &Track::IsStill);
   const int times = AddTimes(model, clip.frames.size(), clip.rate_hz);
-  int first_time = -1;  // made when asked for
+  int first_time = -1;  // created on first use
 
   tinygltf::Animation animation;
   animation.name = GltfText(clip.name);
@@ -195,7 +195,7 @@ void AddGltfClip(tinygltf::Model& model, const Skeleton& skeleton, const Clip& c
   model.animations.push_back(std::move(animation));
 }
 
-/// Meshes that are written as the primitives of one: neighbours of one name on the same joints.
+/// Neighbouring meshes with the same name and joints, which are written as the primitives of one mesh.
 using Group = std::span<const SkinnedMesh>;
 
 bool SameBindings(const SkinnedMesh& a, const SkinnedMesh& b) {
@@ -251,12 +251,13 @@ class GlbWriter {
     material.name = GltfText(source.name);
     const glm::dvec3& colour = source.colour;
     material.pbrMetallicRoughness.baseColorFactor = {colour.r, colour.g, colour.b, 1.0};
-    material.pbrMetallicRoughness.metallicFactor = 0;  // the format's default is bare metal
+    material.pbrMetallicRoughness.metallicFactor = 0;  // the format's default is metal
     model_.materials.push_back(std::move(material));
   }
 
-  /// A rigid surface hangs on its joint's node; any other gets a node of its own beside a skin.
+  /// Adds a mesh. A rigid one is attached to its joint's node; any other gets its own node with a skin.
   void AddGroup(Group group) {
+    // Write the primitives.
     const SkinnedMesh& first = group.front();
     const bool is_rigid = first.bindings.size() == 1 && first.bindings[0].inverse_bind == glm::dmat4(1) &&
                           model_.nodes[static_cast<std::size_t>(first.bindings[0].joint)].mesh < 0;
@@ -264,13 +265,14 @@ class GlbWriter {
     mesh.name = GltfText(first.name);
     for (const SkinnedMesh& part : group) {
       if (is_rigid && IsMirrored(character_.skeleton, first.bindings[0].joint)) {
-        SkinnedMesh turned = part;  // as it will be on reading
+        SkinnedMesh turned = part;  // because reading will flip it again
         TurnOver(turned);
         mesh.primitives.push_back(MakePrimitive(turned, false));
       } else {
         mesh.primitives.push_back(MakePrimitive(part, !is_rigid));
       }
     }
+    // Attach the mesh to a node.
     const int index = static_cast<int>(model_.meshes.size());
     model_.meshes.push_back(std::move(mesh));
     if (is_rigid) {
@@ -290,6 +292,7 @@ class GlbWriter {
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.material = mesh.material;
 
+    // Interleave the vertices' attributes.
     const bool short_joints = mesh.bindings.size() > 256;
     GltfBytes bytes;
     std::vector<double> positions;
@@ -300,7 +303,7 @@ class GlbWriter {
       if (!has_skin) continue;
       for (const double weight : vertex.weights) bytes.Float(weight);
       for (std::size_t k = 0; k < 4; ++k) {
-        // Joints of no weight are written as 0, as the specification demands.
+        // Joints with weight 0 are written as 0, as the specification demands.
         const auto binding = static_cast<std::uint32_t>(vertex.weights[k] != 0 ? vertex.bindings[k] : 0);
         if (short_joints) {
           bytes.Short(binding);
@@ -309,6 +312,7 @@ class GlbWriter {
         }
       }
     }
+    // Describe the attributes by accessors.
     const std::size_t count = mesh.vertices.size();
     const int view = AddGltfView(model_, bytes, bytes.size() / count, GltfTarget::kVertices);
     const auto attribute = [&](std::size_t offset, int component, int type) {
@@ -328,7 +332,7 @@ class GlbWriter {
   }
 
   int AddIndices(const SkinnedMesh& mesh) {
-    const bool is_short = mesh.vertices.size() <= 65535;  // 65535 itself means a restart
+    const bool is_short = mesh.vertices.size() <= 65535;  // the index 65535 would mean a restart
     GltfBytes bytes;
     for (const auto& triangle : mesh.triangles) {
       for (const std::uint32_t corner : triangle) {
@@ -345,7 +349,7 @@ class GlbWriter {
                  TINYGLTF_TYPE_SCALAR, 3 * mesh.triangles.size()});
   }
 
-  /// The skin of these bindings, made where there is none yet.
+  /// Returns the skin for these bindings, and adds it if there is none yet.
   int SkinOf(const SkinnedMesh& mesh) {
     for (std::size_t i = 0; i < skinned_.size(); ++i) {
       if (SameBindings(*skinned_[i], mesh)) return static_cast<int>(i);
@@ -368,7 +372,7 @@ class GlbWriter {
 
   const Character& character_;
   tinygltf::Model model_;
-  std::vector<const SkinnedMesh*> skinned_;  ///< per skin, a mesh that it was made for
+  std::vector<const SkinnedMesh*> skinned_;  ///< per skin, a mesh that uses it
 };
 
 }  // namespace

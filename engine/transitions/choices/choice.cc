@@ -17,12 +17,13 @@
 namespace etude {
 namespace {
 
-/// Every pair of bridge frames that the budget allows: those behind the first match, too, which the search never saw.
+/// Statistics of all pairs of bridge frames within the budget, including those after the first match, which the search
+/// skips.
 struct PairSurvey {
   AllowedFrames allowed;
   std::int64_t matching = 0;
-  std::int64_t nearer = 0;          ///< matching ones that are nearer than the taken pair
-  std::vector<RankedPair> nearest;  ///< for each bridge frame that may be left: its nearest but the taken pair
+  std::int64_t nearer = 0;          ///< matching pairs with a smaller distance than the taken pair
+  std::vector<RankedPair> nearest;  ///< for each frame that may be left, its nearest pair other than the taken one
 };
 
 PairSurvey SurveyPairs(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
@@ -62,8 +63,9 @@ std::string WhyNone(const MotionLibrary& library, const TransitionRequest& reque
   return DescribeNoMatch(survey.nearest, survey.allowed.Pairs(), "bridge frames", rules);
 }
 
-/// Paper A's transition (section 3.5): at each bridge frame of the playing clip within the budget, the first (or, by
-/// `rules.pick`, the nearest) bridge frame of the wanted clip, front half before rear half; else through an in-between.
+/// Plans paper A's transition (section 3.5). For each bridge frame of the playing clip within the budget it takes the
+/// first (or, by `rules.pick`, the nearest) matching bridge frame of the wanted clip, in the front half before the rear
+/// half. Without a match it goes through an in-between.
 TransitionRecord PlanFuzzyBridge(const MotionLibrary& library, const TransitionRequest& request,
                                  const MatchRules& rules) {
   const TaggedClip &playing = library.tagged[request.from], &next = library.tagged[request.to];
@@ -84,7 +86,7 @@ TransitionRecord PlanFuzzyBridge(const MotionLibrary& library, const TransitionR
   return record;
 }
 
-/// Plans a transition at once into the wanted clip's first frame, whatever the poses.
+/// Plans a transition at once into the wanted clip's first frame, regardless of the poses.
 TransitionRecord PlanNow(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules) {
   TransitionRecord record = DirectTransition(library, request, request.request_frame, 0, rules);
   record.branch = Branch::kNow;
@@ -92,8 +94,8 @@ TransitionRecord PlanNow(const MotionLibrary& library, const TransitionRequest& 
   return record;
 }
 
-/// Plans a transition from the playing clip's last frame into the wanted clip's first, whatever the budget, as a player
-/// without bridging does (paper A, section 1).
+/// Plans a transition from the playing clip's last frame into the wanted clip's first frame, regardless of the budget,
+/// like a player without bridging (paper A, section 1).
 TransitionRecord PlanWaitForEnd(const MotionLibrary& library, const TransitionRequest& request,
                                 const MatchRules& rules) {
   const int end = library.tagged[request.from].FrameCount() - 1;
@@ -104,12 +106,11 @@ TransitionRecord PlanWaitForEnd(const MotionLibrary& library, const TransitionRe
   return record;
 }
 
-/// Plans nature's yardstick, which does not answer the request: the playing clip goes on as if nothing had been asked.
-/// The record has one transition point all the same, of the request's frame with itself: every measure then tells what
-/// it makes of motion that was never cut, on the very frames where the others change clips. Any join leaves the clip as
-/// it is.
+/// Plans the reference for unbroken motion, which does not answer the request: the playing clip simply continues. The
+/// record still has one transition point, from the request's frame to the same frame. So every measure evaluates
+/// unbroken motion on the very frames at which the other choices change clips. Every join leaves the clip unchanged.
 ///
-/// No segments when the request comes at the clip's last frame, after which there is nothing to go on with.
+/// The record has no segments if the request comes at the clip's last frame, because the clip cannot continue.
 TransitionRecord PlanUnbroken(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules) {
   const TaggedClip& playing = library.tagged[request.from];
   const int frame = request.request_frame, last = playing.FrameCount() - 1;
@@ -127,19 +128,21 @@ TransitionRecord PlanUnbroken(const MotionLibrary& library, const TransitionRequ
   return record;
 }
 
-/// Plans what paper A says games do (section 1: all their clips begin and end standing): leave at once, tween into a
-/// standing pose, and tween from there into the wanted clip's first frame. It ignores the budget: the tweens take as
-/// long as their rules say.
+/// Plans what games do according to paper A (section 1: all their clips begin and end standing): leave at once, tween
+/// into a standing pose, and tween from there into the wanted clip's first frame. It ignores the budget; the tweens'
+/// duration follows from their rules.
 TransitionRecord PlanThroughStanding(const MotionLibrary& library, const TransitionRequest& request,
                                      const MatchRules& rules) {
   const TaggedClip &playing = library.tagged[request.from], &next = library.tagged[request.to];
   const TweenRules& tween = library.in_betweens.tween;
   const BodyPose& leaving = library.motions[request.from].poses[request.request_frame];
   const BodyPose& entered = library.motions[request.to].poses.front();
+  // Compute the frames of both tweens: into the standing pose, and on into the wanted clip.
   std::vector<BodyPose> own = SampleTween(Tween(leaving, StandingPose(library.proportions)), playing.rate_hz, tween);
   const int standing = static_cast<int>(own.size()) - 1;
   AppendTween(entered, playing.rate_hz, tween, own);
 
+  // The record has three segments: the frame that is left, the tweens, and the wanted clip.
   TransitionRecord record;
   record.branch = Branch::kStandingPose;
   record.request_frame = request.request_frame;
@@ -147,7 +150,7 @@ TransitionRecord PlanThroughStanding(const MotionLibrary& library, const Transit
   record.segments = {{.clip = request.from, .first = request.request_frame, .last = request.request_frame, .own = {}},
                      {.clip = Segment::kOwnFrames, .first = 0, .last = last, .own = std::move(own)},
                      {.clip = request.to, .first = 0, .last = next.FrameCount() - 1, .own = {}}};
-  // The tweens begin and end in the clips' own frames.
+  // The tweens begin and end at the clips' own frames, so the distances are those of a frame to itself.
   const auto to_itself = [&](const Grades& grades) { return ComputeDistance(grades, grades, rules.weights); };
   record.distances = {to_itself(playing.grades[request.request_frame]), to_itself(next.grades.front())};
   record.wait_s = WaitOf(record.segments, playing.rate_hz);
@@ -161,13 +164,13 @@ using Request = const TransitionRequest&;
 using Rules = const MatchRules&;
 using Values = std::span<const double>;
 
-/// A row's `plan`, of a choice without options of its own.
+/// Adapts the plan function of a choice without settings to a table row.
 template <auto Plan>
 TransitionRecord PlanBy(Library library, Request request, Rules rules, Values /*values*/) {
   return Plan(library, request, rules);
 }
 
-/// Plans by a choice that has options, which are made of the values.
+/// Adapts the plan function of a choice with settings, which are read from `values`.
 template <auto Plan, auto Settings>
 TransitionRecord PlanWith(Library library, Request request, Rules rules, Values values) {
   return Plan(library, request, rules, Settings().Apply(values));
@@ -182,7 +185,7 @@ AllowedFrames BridgeFrames(Library library, Request request, Values /*values*/) 
   return AllowedBridgeFrames(library, request);
 }
 
-/// A choice that ranks every pair of frames.
+/// Makes the table row of a choice that ranks all pairs of frames.
 template <auto Plan, auto Settings>
 Choice Ranked(const char* name, const char* description, bool uses_fuzzy) {
   return {.name = name,
@@ -194,7 +197,7 @@ Choice Ranked(const char* name, const char* description, bool uses_fuzzy) {
           .plan = PlanWith<Plan, Settings>};
 }
 
-// A function, so that the table is made after every string it is made of.
+// This is a function so that the table is initialised after the strings it uses.
 std::span<const Choice> Table() {
   static const std::array kChoices = {
       Choice{.name = "fuzzy-bridge",

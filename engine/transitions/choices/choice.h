@@ -13,46 +13,47 @@
 
 namespace etude {
 
-/// A way to choose when and where one clip is left and the other entered, by the name scenario files call it. `values`
-/// of its settings: one per setting, in their order; none at all: the defaults.
+/// A rule that decides when one clip is left and where the other is entered, with the name that scenario files use.
+/// `values` holds one value per setting, in order; empty means the defaults.
 struct Choice {
   std::string name;
-  std::string description;     ///< one line, for people
-  bool matches_poses = false;  ///< it takes frames because they are alike, so that `false_smooth` can be asked
-  bool uses_fuzzy = false;     ///< the rules' weights and threshold apply
-  std::vector<NumberSetting> settings = {};  ///< its own numbers, beside the rules of all fuzzy choices
-  /// Returns the frames that it may take; null for choices that match no poses.
+  std::string description;     ///< one line for users
+  bool matches_poses = false;  ///< true if it takes frames because they are similar; `false_smooth` applies only then
+  bool uses_fuzzy = false;     ///< true if the rules' weights and threshold apply
+  std::vector<NumberSetting> settings = {};  ///< its own settings, in addition to the rules of all fuzzy choices
+  /// Returns the frames that it may take; null for choices that do not compare poses.
   AllowedFrames (*allowed)(const MotionLibrary& library, const TransitionRequest& request,
                            std::span<const double> values) = nullptr;
-  /// Plans a transition. The record has segments whenever there is a way; one without any says why. `request.to` must
-  /// have two frames.
+  /// Plans a transition. If there is no way, the record has no segments and its `why` tells the reason. The clip
+  /// `request.to` must have at least two frames.
   TransitionRecord (*plan)(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
                            std::span<const double> values) = nullptr;
 };
 
-/// Lists all choices, paper A's first.
+/// Returns all choices, paper A's first.
 std::span<const Choice> AllChoices();
 std::vector<std::string> ChoiceNames();
-/// Returns the choice of that name, null when there is none.
+/// Returns the choice called `name`, or null if there is none.
 const Choice* FindChoice(std::string_view name);
 
-/// A way to get from clip to clip: a choice of frames × a join, with what they can be set by.
+/// A method of getting from clip to clip: a choice of frames and a join, with their settings.
 struct TransitionWay {
   const Choice* choice = nullptr;
   const JoinKind* join = nullptr;
   MatchRules rules = {};
   std::vector<double> choice_settings = {},
-                      join_settings = {};  ///< one per setting of the choice, of the join; none: defaults
+                      /// One value per setting of the choice and of the join; empty means the defaults.
+      join_settings = {};
 };
 
-/// The transition that a way made for a request.
+/// The transition that a method made for a request.
 struct Transition {
   TransitionRecord record;
-  Splice splice;  ///< empty when the record has no segments
+  Splice splice;  ///< empty if the record has no segments
 };
 
-/// Makes a transition from a frame of a clip into another clip, within a budget of time. The request's clips and frame
-/// must be in the library, and the wanted clip must have two frames.
+/// Makes a transition from a frame of one clip into another clip, within a time budget. The library must hold the
+/// request's clips and frame, and the wanted clip must have at least two frames.
 Transition MakeTransition(const MotionLibrary& library, const TransitionRequest& request, const TransitionWay& way);
 
 }  // namespace etude

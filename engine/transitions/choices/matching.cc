@@ -17,31 +17,33 @@
 namespace etude {
 namespace {
 
-/// The pairs that are ranked, and the cost that ranks them.
+/// The pairs to rank, and the names of the cost that ranks them.
 struct Ranking {
   AllowedFrames allowed;
-  std::string name;    ///< "point-cloud distance"
-  std::string unit;    ///< "cm"
-  bool gated = false;  ///< only pairs that match by the rules; where none does, through an in-between
+  std::string name;  ///< for example "point-cloud distance"
+  std::string unit;  ///< for example "cm"
+  /// If true, only pairs that match by the rules are ranked; without one, the plan goes through an in-between.
+  bool gated = false;
 };
 
 bool IsBetter(const RankedPair& a, const RankedPair& b) {
   return std::tuple(!a.matches, a.rank) < std::tuple(!b.matches, b.rank);
 }
 
-/// The best pair of each row, and how many matched on the way.
+/// The best pair of each frame that may be left, and the number of matching pairs.
 struct RankedPairs {
   std::vector<RankedPair> best;
   std::int64_t matching = 0;
 };
 
-/// Ranks all allowed pairs by their cost. Without a gate every pair matches.
+/// Ranks all allowed pairs by their cost. If `gate` is null, every pair matches.
 RankedPairs RankPairs(const AllowedFrames& allowed, FuzzyGate* gate, PairRows& costs) {
   RankedPairs survey;
   std::vector<double> row;
   std::vector<int> passing = allowed.enter;
   for (int from : allowed.leave) {
     std::optional<RankedPair> best;
+    // Let the gate select the frames to enter; the nearest rejected one is kept to report it.
     if (gate != nullptr) {
       passing.clear();
       for (const auto& [to, distance, matches] : gate->Compare(from)) {
@@ -52,6 +54,7 @@ RankedPairs RankPairs(const AllowedFrames& allowed, FuzzyGate* gate, PairRows& c
         }
       }
     }
+    // Rank the remaining frames by their cost.
     row.resize(passing.size());
     if (!passing.empty()) costs.Compute(from, passing, row);
     for (std::size_t i = 0; i < passing.size(); ++i) {
@@ -63,7 +66,7 @@ RankedPairs RankPairs(const AllowedFrames& allowed, FuzzyGate* gate, PairRows& c
   return survey;
 }
 
-/// Takes, of all allowed pairs, the one of least cost, the earlier one on a tie.
+/// Takes the allowed pair of lowest cost, on a tie the earlier one.
 TransitionRecord PlanRanked(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
                             const Ranking& ranking, PairRows& costs) {
   const std::int64_t pairs = ranking.allowed.Pairs();
@@ -79,6 +82,7 @@ TransitionRecord PlanRanked(const MotionLibrary& library, const TransitionReques
   const RankedPair taken = *best;
   survey.best.erase(best);
 
+  // Record the taken pair and the best of the others.
   TransitionRecord record = DirectTransition(library, request, taken.from, taken.to, rules);
   record.pairs_seen = pairs;
   record.pairs_matched = survey.matching;
@@ -126,7 +130,7 @@ TransitionRecord PlanByPointCloud(const MotionLibrary& library, const Transition
   return PlanRanked(library, request, rules, ranking, costs);
 }
 
-/// The setting that all of these choices have.
+/// Returns the setting that all of these choices share.
 template <typename Options>
 typename SettingTable<Options>::Row LeastPlay() {
   return {"least_play_s", &Options::least_play_s, 0, 60,

@@ -47,8 +47,8 @@ void FuzzyWindowRows::Compute(int leave_frame, std::span<const int> enter_frames
 
 namespace {
 
-/// Returns the point that becomes a clip's origin, near which sums of squares keep their digits. Heights stay, as they
-/// are compared.
+/// Returns the floor point below the hips, which becomes a clip's origin so that sums of squares keep their precision.
+/// Heights are not shifted, because they are compared.
 glm::dvec3 OnFloor(const BodyPose& pose) { return {pose[Role::kHipCentre].x, 0, pose[Role::kHipCentre].z}; }
 
 int HalfWindow(double window_s, double rate_hz) { return static_cast<int>(std::lround(0.5 * window_s * rate_hz)); }
@@ -91,6 +91,7 @@ void PointCloudRows::AddFrame(int frame) {
   for (glm::dvec3& joint : pose.joints) joint -= playing_origin_;
   playing_sums_.push_back(Plus(playing_sums_.back(), pose));
   const std::span<glm::dvec3> row = products_.OpenRow();
+  // Multiply the frame's joints with those of eight frames of the wanted clip at a time.
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     std::array<double, kLanes> along{}, across{}, up{};
     for (std::size_t j = 0; j < kRoleCount; ++j) {
@@ -114,6 +115,7 @@ void PointCloudRows::Compute(int leave_frame, std::span<const int> enter_frames,
   for (std::size_t i = 0; i < enter_frames.size(); ++i) {
     const int enter = enter_frames[i];
     const Reach reach = ReachAround(leave_frame, playing_frames, enter, next_frames_, half_);
+    // Get the sums of both clouds' coordinates and of the products of their points.
     const int row = leave_frame + reach.after, column = enter + reach.after;
     while (products_.NextRow() <= row) AddFrame(products_.NextRow());
     const glm::dvec3 of_pair = products_.SumEndingAt(row, column, reach.Count());
@@ -122,8 +124,8 @@ void PointCloudRows::Compute(int leave_frame, std::span<const int> enter_frames,
       return CloudSum{end.x - begin.x, end.z - begin.z, end.square - begin.square};
     };
     const CloudSum p = of_cloud(playing_sums_, row - first_frame_), q = of_cloud(next_sums_, column);
-    const double share = 1.0 / (static_cast<double>(kRoleCount) * reach.Count());  // of one point
-    // Closed form (Kovar): the best shift aligns the clouds' centroids, the best turn maximises the remaining
+    const double share = 1.0 / (static_cast<double>(kRoleCount) * reach.Count());  // weight of one point
+    // Closed form (Kovar): the best shift aligns the clouds' centroids, the best rotation maximises the remaining
     // correlation.
     const double along = of_pair[0] - (p.x * q.x + p.z * q.z) * share;
     const double across = of_pair[1] - (p.x * q.z - p.z * q.x) * share;

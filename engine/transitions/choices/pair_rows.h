@@ -14,22 +14,22 @@
 
 namespace etude {
 
-/// Computes one kind of cost for the pairs of a row: those of one frame that may be left. Rows are asked for in rising
-/// order.
+/// Computes one kind of cost for all pairs of a row, which belongs to one frame that may be left. Rows must be
+/// requested in rising order.
 class PairRows {
  public:
   virtual ~PairRows() = default;
-  /// Computes the costs of leaving at `leave_frame` and entering at each of `enter_frames`; `costs` has as many places.
+  /// Computes the costs of leaving at `leave_frame` and entering at each of `enter_frames`; `costs` has the same size.
   virtual void Compute(int leave_frame, std::span<const int> enter_frames, std::span<double> costs) = 0;
 };
 
-/// Keeps sums along the diagonals of a table of two clips' frames, whose rows come one after the other: what two
-/// stretches of motion that run side by side have in common. Each sum takes two look-ups, however long the stretch.
-/// `Value` is a number or a vector of numbers.
+/// Keeps running sums along the diagonals of a table of two clips' frames, whose rows arrive one by one. A diagonal
+/// corresponds to two stretches of motion that run side by side; the sum over any stretch takes two look-ups. `Value`
+/// is a number or a vector of numbers.
 template <class Value>
 class DiagonalSums {
  public:
-  /// Keeps the last `depth` rows (up to the next power of two), which bounds the memory; the first row will be
+  /// Keeps the last `depth` rows (rounded up to a power of two), which limits the memory. The first row is number
   /// `first_row`.
   DiagonalSums(int first_row, int columns, int depth)
       : first_row_(first_row),
@@ -38,7 +38,7 @@ class DiagonalSums {
         depth_(static_cast<int>(std::bit_ceil(static_cast<unsigned>(depth)))),
         sums_(static_cast<std::size_t>(columns) * static_cast<std::size_t>(depth_)) {}
 
-  /// Returns room for the next row's values; CloseRow counts them in.
+  /// Returns the memory for the next row's values; CloseRow then adds them to the sums.
   std::span<Value> OpenRow() { return Row(next_row_); }
   void CloseRow() {
     if (next_row_ > first_row_) {
@@ -49,8 +49,8 @@ class DiagonalSums {
   }
   int NextRow() const { return next_row_; }
 
-  /// Returns the sum of `count` values that end at (row, column) and go up along the diagonal, which must stay in the
-  /// table. Row − `count` must be among the kept rows, or before the first.
+  /// Returns the sum of the `count` values that end at (row, column) along the diagonal, which must lie in the table.
+  /// Row − `count` must be a kept row or lie before the first.
   Value SumEndingAt(int row, int column, int count) const { return At(row, column) - At(row - count, column - count); }
 
  private:
@@ -58,7 +58,7 @@ class DiagonalSums {
     return static_cast<std::size_t>((row - first_row_) & (depth_ - 1)) * static_cast<std::size_t>(columns_);
   }
   std::span<Value> Row(int row) { return std::span(sums_).subspan(Start(row), static_cast<std::size_t>(columns_)); }
-  /// Returns the sum of the diagonal down to here; 0 outside.
+  /// Returns the sum of the diagonal up to this cell; 0 outside the table.
   Value At(int row, int column) const {
     if (row < first_row_ || column < 0) return Value(0);
     assert(row < next_row_ && row >= next_row_ - depth_ && column < columns_);
@@ -66,11 +66,11 @@ class DiagonalSums {
   }
 
   int first_row_, next_row_, columns_;
-  int depth_;                ///< a power of two: places in the ring are found without dividing
+  int depth_;                ///< a power of two, so that ring indices need no division
   std::vector<Value> sums_;  ///< a ring of rows
 };
 
-/// The extent of a stretch around a pair of frames, the same in both clips, as far as both clips go.
+/// The number of frames before and after a pair of frames that exist in both clips, limited to half a window.
 struct Reach {
   int before = 0, after = 0;
 
@@ -81,12 +81,12 @@ inline Reach ReachAround(int frame_a, int frames_a, int frame_b, int frames_b, i
           .after = std::min({half, frames_a - 1 - frame_a, frames_b - 1 - frame_b})};
 }
 
-/// Computes equation 1 from one frame to many, side by side, to the last bit as ComputeDistance does.
+/// Computes equation 1 from one frame to many in parallel, bit-identical to ComputeDistance.
 class FuzzyRows {
  public:
   FuzzyRows(std::span<const Grades> frames, const FeatureWeights& weights);
 
-  /// The distances from `grades` to the first frames, as many as `distances` has room for.
+  /// Computes the distances from `grades` to the first `distances.size()` frames.
   void Compute(const Grades& grades, std::span<double> distances) const;
 
  private:
@@ -94,11 +94,11 @@ class FuzzyRows {
   std::vector<FrameBlock> blocks_;
 };
 
-/// The mean of equation 1's distance over the frames around each pair of a row, `reach` to each side as far as both
-/// motions go: two frames are compared once, not once per window.
+/// Computes, for each pair of a row, the mean of equation 1's distance over the frames around it, `reach` to each side
+/// as far as both motions go. Each pair of frames is compared only once for all windows.
 class FuzzyWindowRows : public PairRows {
  public:
-  /// Rows begin at `first_leave_frame`; the playing clip's grades must outlive this.
+  /// The rows begin at `first_leave_frame`. The playing clip's grades must outlive this object.
   FuzzyWindowRows(std::span<const Grades> playing, std::span<const Grades> next, int first_leave_frame, int reach,
                   const FeatureWeights& weights);
   void Compute(int leave_frame, std::span<const int> enter_frames, std::span<double> costs) override;
@@ -110,22 +110,21 @@ class FuzzyWindowRows : public PairRows {
   DiagonalSums<double> distances_;
 };
 
-/// Computes Kovar, Gleicher and Pighin's distance of two frames ("Motion graphs", 2002, section 3.1): the twenty joints
-/// of all frames around the one, as a cloud of points, against those around the other, after the turn about the
-/// vertical and the shift on the floor that lay the one cloud best onto the other (in closed form). All points weigh
-/// the same, and the cost is the root mean square of their distances, centimetres; so clouds cut short by a clip's end
-/// compare, too.
+/// Computes the distance of two frames by Kovar, Gleicher and Pighin ("Motion graphs", 2002, section 3.1). The twenty
+/// joints of all frames around a frame form a point cloud. One cloud is rotated about the vertical and shifted on the
+/// floor so that it fits the other best (in closed form). All points have the same weight, and the cost is the root
+/// mean square of their distances in centimetres, so clouds that a clip's end cuts short are comparable.
 ///
-/// In the paper the one cloud begins and the other ends at the frame, since they are crossfaded there; here the pair is
-/// in the middle, since a cut is.
+/// In the paper one cloud begins and the other ends at the frame, because the clips are crossfaded there. Here the pair
+/// is in the middle of the clouds, because the clips are cut there.
 class PointCloudRows : public PairRows {
  public:
-  /// Rows begin at `first_leave_frame`; `playing` must outlive this.
+  /// The rows begin at `first_leave_frame`. `playing` must outlive this object.
   PointCloudRows(const BodyMotion& playing, const BodyMotion& next, int first_leave_frame, double window_s);
   void Compute(int leave_frame, std::span<const int> enter_frames, std::span<double> costs) override;
 
  private:
-  /// The sums of a cloud's own coordinates over all frames before one.
+  /// Sums of a cloud's coordinates over all frames before a given one.
   struct CloudSum {
     double x = 0, z = 0, square = 0;
   };

@@ -50,10 +50,12 @@ TransitionRecord DirectTransition(const MotionLibrary& library, const Transition
 std::vector<Candidate> ListCandidates(const MotionLibrary& library, const TransitionRequest& request,
                                       const MatchRules& rules, const RankedPair& taken, std::vector<RankedPair> others,
                                       CandidateOutcome passed_over) {
+  // Keep the best of the other pairs.
   std::sort(others.begin(), others.end(), [](const RankedPair& a, const RankedPair& b) {
     return std::tuple(!a.matches, a.rank, a.from, a.to) < std::tuple(!b.matches, b.rank, b.from, b.to);
   });
   others.resize(std::min(others.size(), kMostCandidates - 1));
+  // Describe the taken pair and the others, in order of their frames.
   std::vector<Candidate> candidates;
   const auto add = [&](const RankedPair& pair, CandidateOutcome outcome) {
     const Grades &from = library.tagged[request.from].grades[pair.from],

@@ -16,18 +16,18 @@
 namespace etude {
 namespace {
 
-/// A clip that stands up, or lies down: it can be entered from what is left, and later be left for what is wanted.
+/// A clip that stands up or lies down. It can be entered from the playing clip, and later be left for the wanted clip.
 struct ThroughClip {
-  int clip = 0;            ///< of the library
-  std::vector<int> enter;  ///< its frames that may be entered, in rising order, before those of `leave`
+  int clip = 0;            ///< index in the library
+  std::vector<int> enter;  ///< its frames that may be entered, in rising order; all lie before those of `leave`
   std::vector<int> leave;  ///< its frames from which the wanted clip may be entered, in rising order
 };
 
-constexpr double kRunUp_s = 2.5;   // so long before it changes its stance a clip may be entered
-constexpr double kRunOut_s = 2.5;  // and so long after it be left
-constexpr double kLeast_s = 0.3;   // of it is shown: the shortest join
+constexpr double kRunUp_s = 2.5;     // a clip may be entered at most this long before it changes its stance
+constexpr double kRunOut_s = 2.5;    // it may be left at most this long after the change
+constexpr double kMinShown_s = 0.3;  // minimum time that it is shown: the shortest join
 
-/// The frames of one clip that a request may use, seen from both of its ends.
+/// Answers which frames of a library clip can be joined to a request's allowed frames at either end.
 class Ends {
  public:
   Ends(const MotionLibrary& library, const TransitionRequest& request, const AllowedFrames& allowed)
@@ -64,12 +64,12 @@ class Ends {
   const AllowedFrames& allowed_;
 };
 
-/// The way of a clip whose frame `before` may be entered, and whose later frame `after` may be left: the frames up to
-/// the one and on from the other, as far as they, too, may be.
+/// Collects the frames of a clip around a change of stance: the frames up to `before` that may be entered, and those
+/// from `after` on that may be left, without gaps. At most `most_s` seconds of the clip are shown.
 ThroughClip WayAround(const MotionLibrary& library, const Ends& ends, int clip, int before, int after, double most_s) {
   const TaggedClip& tagged = library.tagged[clip];
   const auto frames = [&](double seconds) { return static_cast<int>(std::lround(seconds * tagged.rate_hz)); };
-  const int least = frames(kLeast_s), most = frames(most_s);
+  const int least = frames(kMinShown_s), most = frames(most_s);
   ThroughClip way{.clip = clip, .enter = {}, .leave = {}};
   if (most < least) return way;
   const int last_leave = std::min(after + frames(kRunOut_s), tagged.FrameCount() - 1);
@@ -82,16 +82,16 @@ ThroughClip WayAround(const MotionLibrary& library, const Ends& ends, int clip, 
   return way;
 }
 
-/// Finds the clip whose way from one stance to the other begins and ends most like the frames that are allowed, by
-/// MotionFeatures at both ends. NeedsClip must be true of all pairs of `allowed`. The playing clip, too, may be the one
-/// that stands up. None when no clip of the library does, or none within `most_s` seconds.
+/// Finds the clip that changes the stance and whose ends are most similar to the allowed frames, by MotionFeatures.
+/// NeedsClip must be true of all pairs of `allowed`. The playing clip is searched, too. Returns nothing if no clip of
+/// the library changes the stance within `most_s` seconds.
 std::optional<ThroughClip> FindThroughClip(const MotionLibrary& library, const TransitionRequest& request,
                                            const AllowedFrames& allowed, double most_s) {
   const Ends ends(library, request, allowed);
   std::optional<ThroughClip> nearest;
   double least = std::numeric_limits<double>::infinity();
   for (int clip = 0; clip < static_cast<int>(library.motions.size()); ++clip) {
-    int before = -1;  // the last frame that may be entered, none since one could be left
+    int before = -1;  // the last frame that may be entered, or −1 if a frame that may be left followed
     for (int f = 0; f < library.tagged[clip].FrameCount(); ++f) {
       if (before >= 0 && ends.MayLeave(clip, f)) {
         ThroughClip way = WayAround(library, ends, clip, std::exchange(before, -1), f, most_s);
@@ -107,29 +107,31 @@ std::optional<ThroughClip> FindThroughClip(const MotionLibrary& library, const T
   return nearest;
 }
 
-constexpr int kPairs = 16;                     // of a round, one for each part of the wait
-constexpr int kRounds = 4;                     // as long as the best way floats
-constexpr int kFloats = 4;                     // frames in a row that nothing holds up
-constexpr int kApart = 4;                      // frames of the wanted clip between the pairs of one part
-constexpr std::size_t kMostCompared = 20'000;  // pairs of frames whose features are compared
+constexpr int kPairs = 16;          // per round, one for each part of the wait
+constexpr int kRounds = 4;          // maximal number of rounds; another round begins while the best join floats
+constexpr int kFloatingFrames = 4;  // number of consecutive unsupported frames at which a join floats
+constexpr int kMinSpacing = 4;      // minimum distance, in frames of the wanted clip, between the pairs of one part
+constexpr std::size_t kMaxCompared = 20'000;  // maximal number of pairs of frames whose features are compared
 
-/// Finds, for each part of the wait, the pair that is nearest, if any can be joined (NeedsClip); every few frames of
-/// the wanted clip are enough where it is long. Pairs near those that were `tried` are left out.
+/// Finds, for each part of the wait, the nearest pair that can be joined (NeedsClip), if there is one. In a long clip
+/// only every `stride`-th frame is compared. Pairs close to those in `tried` are skipped.
 std::vector<FramePair> NearestPairs(const MotionLibrary& library, const TransitionRequest& request,
                                     const AllowedFrames& allowed, std::span<const FramePair> tried = {}) {
   const auto &playing = library.features[request.from], &next = library.features[request.to];
   const auto &left = library.stances[request.from], &entered = library.stances[request.to];
-  const std::size_t stride = allowed.leave.size() * allowed.enter.size() / kMostCompared + 1;
+  const std::size_t stride = allowed.leave.size() * allowed.enter.size() / kMaxCompared + 1;
   const std::size_t parts = std::min<std::size_t>(kPairs, allowed.leave.size());
   std::vector<FramePair> pairs;
+  // Divide the frames that may be left into parts, and find the nearest pair of each part.
   for (std::size_t part = 0; part < parts; ++part) {
     const std::size_t begin = part * allowed.leave.size() / parts, end = (part + 1) * allowed.leave.size() / parts;
     std::optional<FramePair> best;
     double least = std::numeric_limits<double>::infinity();
+    // A pair near one that was tried in this part is skipped.
     const auto is_tried = [&](int enter) {
       return std::ranges::any_of(tried, [&](const FramePair& pair) {
         return pair.leave >= allowed.leave[begin] && pair.leave <= allowed.leave[end - 1] &&
-               std::abs(pair.enter - enter) < kApart;
+               std::abs(pair.enter - enter) < kMinSpacing;
       });
     };
     for (std::size_t i = begin; i < end; ++i) {
@@ -149,13 +151,13 @@ std::vector<FramePair> NearestPairs(const MotionLibrary& library, const Transiti
   return pairs;
 }
 
-/// Plays transitions from the nearest pairs on, the best way first; from further pairs as long as that floats. There is
-/// none where no pair can be joined.
+/// Plays transitions from the nearest pairs, and from further pairs while the best result floats. Returns the played
+/// joins, the best first; empty if no pair can be joined.
 std::vector<PlayedWay> PlayNearestPairs(const MotionLibrary& library, const TransitionRequest& request,
                                         const PlayedRates& rates, const AllowedFrames& allowed, int last) {
   std::vector<PlayedWay> ways;
   std::vector<FramePair> tried;
-  for (int round = 0; round < kRounds && (ways.empty() || ways.front().unsupported >= kFloats); ++round) {
+  for (int round = 0; round < kRounds && (ways.empty() || ways.front().unsupported >= kFloatingFrames); ++round) {
     const std::vector<FramePair> pairs = NearestPairs(library, request, allowed, tried);
     if (pairs.empty()) break;
     const std::vector<PlayedWay> played = PlayWays(library, request, rates, pairs, last);
@@ -176,8 +178,7 @@ PreferredJoin PreferredOf(const PlayedWay& way, double rate_hz) {
 
 int LastFrameOf(const MotionLibrary& library, int clip) { return library.tagged[clip].FrameCount() - 1; }
 
-/// Plans a way through a clip that stands up or lies down, where the wait and the wanted clip's beginning hold no pair
-/// of frames that can be joined.
+/// Plans a way through a clip that stands up or lies down. It is used if no pair of allowed frames can be joined.
 TransitionRecord PlanThroughClip(const MotionLibrary& library, const TransitionRequest& request,
                                  const MatchRules& rules, const PlayedOptions& options, const AllowedFrames& allowed) {
   TransitionRecord record;
@@ -185,25 +186,29 @@ TransitionRecord PlanThroughClip(const MotionLibrary& library, const TransitionR
   record.pairs_seen = allowed.Pairs();
   record.cost_unit = "s";
   const Stance &left = library.stances[request.from][allowed.leave.front()],
-               &met = library.stances[request.to][allowed.enter.front()];
-  const auto told = [&](int clip, const Stance& stance) {
+               &wanted = library.stances[request.to][allowed.enter.front()];
+  // Explain why the two clips cannot be joined.
+  const auto describe = [&](int clip, const Stance& stance) {
     return fmt::format("{} {} with its hips at {:.2f} m", library.names[clip],
                        stance.is_down ? "lies, sits or kneels" : "stands", stance.hips);
   };
-  const std::string why =
-      fmt::format("{} all the while that it may be left, {} where it may be entered: no join can {} a body on nothing",
-                  told(request.from, left), told(request.to, met), met.hips > left.hips ? "raise" : "lower");
+  const std::string why = fmt::format(
+      "{} all the while that it may be left, {} where it may be entered: no join can {} a body on nothing",
+      describe(request.from, left), describe(request.to, wanted), wanted.hips > left.hips ? "raise" : "lower");
+  // Find a clip that changes the stance.
   const auto through = FindThroughClip(library, request, allowed, options.most_through_s);
   if (!through) {
     record.why = fmt::format("{}; and no clip shows within {:g} s how it is done", why, options.most_through_s);
     return record;
   }
+  // Choose the join into that clip.
   const TransitionRequest entering{request.from, request.request_frame, through->clip, request.budget_s};
   const PlayedRates rates = RatesOf(options);
   const PlayedWay in =
       PlayNearestPairs(library, entering, rates, {allowed.leave, through->enter}, through->leave.back()).front();
   const int entered = in.pair.enter, shown = entered + in.frames;
   const double rate_hz = library.motions[through->clip].rate_hz;
+  // Choose the join out of it, after the first join is complete and before the clip has been shown too long.
   std::vector<int> leave;
   for (int frame : through->leave) {
     const bool is_soon = frame - entered <= options.most_through_s * rate_hz;
@@ -213,6 +218,7 @@ TransitionRecord PlanThroughClip(const MotionLibrary& library, const TransitionR
   const PlayedWay out =
       PlayNearestPairs(library, leaving, rates, {std::move(leave), allowed.enter}, LastFrameOf(library, request.to))
           .front();
+  // Record the three segments and their two joins.
   record.branch = Branch::kInBetween;
   const FramePair &first = in.pair, &second = out.pair;
   record.segments = {
@@ -251,10 +257,12 @@ const SettingTable<PlayedOptions>& PlayedSettings() {
 
 TransitionRecord PlanPlayed(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
                             const PlayedOptions& options) {
+  // Play the joins; if no pair can be joined, go through another clip.
   const AllowedFrames allowed = AllowedEarlyFrames(library, request, options.most_skipped_s);
   const std::vector<PlayedWay> ways =
       PlayNearestPairs(library, request, RatesOf(options), allowed, LastFrameOf(library, request.to));
   if (ways.empty()) return PlanThroughClip(library, request, rules, options, allowed);
+  // Record the best join, and the best join of each other pair as a candidate.
   const PlayedWay& best = ways.front();
   TransitionRecord record = DirectTransition(library, request, best.pair.leave, best.pair.enter, rules);
   const PreferredJoin preferred = PreferredOf(best, library.motions[request.from].rate_hz);

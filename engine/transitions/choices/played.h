@@ -7,33 +7,43 @@
 namespace etude {
 
 struct PlayedOptions {
-  /// The exchange rate of the cost: one second of waiting or blending equals this much acceleration beyond the clips'
-  /// own, cm/frame². Smaller: smoother, later, longer transitions.
+  /// The acceleration beyond the clips' own, in cm/frame², that costs as much as one second of waiting or blending. A
+  /// smaller value gives smoother, later and longer transitions.
   double excess_per_s = 0.2;
-  /// The exchange rate for poses of neither clip: one second equals so many cm off the nearer clip, integrated over
-  /// seconds.
+  /// The deviation from the nearer clip's pose, in cm integrated over seconds, that costs as much as one second.
   double invented_per_s = 5;
-  double most_skipped_s = 1.5;  ///< how much of the wanted clip may be skipped; never more than its first third
-  double most_through_s = 4;    ///< how much of a clip that stands up or lies down may be shown on the way
+  /// Maximal part of the wanted clip that may be skipped, seconds; never more than its first third.
+  double most_skipped_s = 1.5;
+  /// Maximal time that a clip which stands up or lies down may be shown on the way, seconds.
+  double most_through_s = 4;
 };
 const SettingTable<PlayedOptions>& PlayedSettings();
 
-/// Plays transitions before it takes one. Of the pairs of frames that the budget and `most_skipped_s` allow, sixteen,
-/// each the nearest by MotionFeatures for its part of the wait, are joined at several lengths from 0.3 to 1.2 s, as far
-/// as the wanted clip goes, both direct and by a fade (PlayMinimumJerk), with their feet (PlantFeet), and the one of
-/// least cost is taken: wait + length + the largest acceleration of any joint beyond what either clip has of its own
-/// there, and beyond what is usual in the calmer one, 9 m/s² at least (`excess_per_s`) + how far the frames shown are
-/// from both clips' own, the root of the mean over joints, summed over time (`invented_per_s`) + a second for each 10 cm
-/// that feet slide + 0.1 s for each frame in which no foot bears by FootPlan + 6 s for each frame, beyond two, of the
-/// most in a row that FindSupport finds nothing to hold up. Ways are played the cheapest first, as far as they may be
-/// the best (PlayWays). The record's last segment holds how it should be joined (PreferredJoin).
+/// Plays candidate transitions and takes the one of lowest cost.
 ///
-/// Pairs are left out whose join would raise or lower the body on nothing (NeedsClip). Where no other is allowed, the
-/// way leads through the clip that stands up or lies down (FindThroughClip), after the wait; the record has no segments
-/// where the library has none.
+/// Candidates: the wait is divided into sixteen parts, and the nearest pair of each part by MotionFeatures is taken
+/// from the pairs that the budget and `most_skipped_s` allow. Each pair is joined at several lengths from 0.3 to 1.2 s,
+/// as far as the wanted clip goes, both direct and by a fade (PlayMinimumJerk), with planted feet (PlantFeet). The
+/// cheapest candidates are played first, and only as long as they may be the best (PlayWays).
 ///
-/// Ours; searching what is shown instead of what is alike after Kovar, Gleicher and Pighin 2002 and Bollo 2018. It asks
-/// what holds the body up as transitions are judged, and does not know their limits.
+/// The cost in seconds is the sum of
+/// - the wait and the length of the join;
+/// - the largest acceleration of any joint beyond what either clip has at that time, and beyond the usual acceleration
+///   of the calmer clip, which is at least 9 m/s² (`excess_per_s`);
+/// - the deviation of the shown frames from those of the nearer clip, as the root mean square over joints, integrated
+/// over time
+///   (`invented_per_s`);
+/// - one second for each 10 cm that feet slide;
+/// - 0.1 s for each frame in which no foot bears weight by FootPlan;
+/// - 6 s for each frame beyond two in the longest run of frames in which FindSupport finds no support.
+///
+/// Pairs are left out if their join would raise or lower the body without support (NeedsClip). If no other pair is
+/// allowed, the way leads, after the wait, through a clip that stands up or lies down (FindThroughClip); without such a
+/// clip in the library the record has no segments. The last segment of the record holds the preferred join
+/// (PreferredJoin).
+///
+/// Ours; it searches by the result that is shown instead of by similarity, after Kovar, Gleicher and Pighin 2002 and
+/// Bollo 2018. Support is computed as in the evaluation of transitions, but the evaluation's limits are not known here.
 TransitionRecord PlanPlayed(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
                             const PlayedOptions& options = {});
 

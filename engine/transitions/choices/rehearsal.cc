@@ -19,15 +19,15 @@ namespace {
 
 constexpr std::array kWays = {JoinWay::kDirect, JoinWay::kFades};
 constexpr std::array kLengths_s = {0.3, 0.4, 0.5, 0.65, 0.8, 1.0, 1.2};
-constexpr double kAlwaysUsual = 0.01;  // metres per frame²: 9 m/s², as of what falls
-constexpr double kLimbsShare = 0.6;    // of the cost of limbs, before a way is played with its feet
-constexpr double kPlanned_s = 0.1;     // what a frame costs in which no foot bears by FootPlan
-constexpr double kFloating_s = 6;      // what each frame costs, beyond kHop of the most in a row that nothing holds up
+constexpr double kAlwaysUsual = 0.01;  // metres per frame²: 9 m/s², about the acceleration of free fall
+constexpr double kLimbShare = 0.6;     // the share of the limbs' cost that counts before the feet are planted
+constexpr double kUnplanted_s = 0.1;   // cost of a frame in which no foot bears weight by FootPlan
+constexpr double kFloating_s = 6;      // cost of each frame beyond kHop in the longest run without support
 constexpr int kHop = 2;
-constexpr double kSlid_cm = 10;    // so far feet may slide for a second
-constexpr int kMostWithFeet = 60;  // ways that are played with their feet
+constexpr double kSlid_cm = 10;   // foot slide that costs one second
+constexpr int kMaxWithFeet = 60;  // maximal number of joins that are played with planted feet
 
-/// Returns frames of a clip from one on, that one included: `count` more, the last repeated where the clip ends.
+/// Returns `count` + 1 frames of a clip from frame `first` on; the last frame is repeated after the clip's end.
 std::vector<BodyPose> FramesFrom(const BodyMotion& clip, int first, int count) {
   std::vector<BodyPose> frames;
   const int last = static_cast<int>(clip.poses.size()) - 1;
@@ -40,8 +40,8 @@ BodyPose FrameBeforeIn(const BodyMotion& clip, int frame) {
   return clip.poses.size() > 1 ? FrameBefore(clip.poses[0], clip.poses[1]) : clip.poses[0];
 }
 
-/// Returns where the join planted-feet lays the wanted clip at a pair.
-FloorMove PlaceOf(const BodyMotion& playing, const BodyMotion& wanted, const FramePair& pair) {
+/// Returns the floor move with which the join planted-feet aligns the wanted clip at a pair.
+FloorMove FloorMoveOf(const BodyMotion& playing, const BodyMotion& wanted, const FramePair& pair) {
   const std::size_t aligned = static_cast<std::size_t>(kAlignedSeconds * playing.rate_hz) + 1;
   const auto head = [&](const BodyMotion& clip, int first) {
     return std::span(clip.poses).subspan(first).first(std::min(aligned, clip.poses.size() - first));
@@ -49,9 +49,10 @@ FloorMove PlaceOf(const BodyMotion& playing, const BodyMotion& wanted, const Fra
   return AlignOnPlantedFeet(head(playing, pair.leave), head(wanted, pair.enter), playing.rate_hz);
 }
 
-/// The window of a pair as the join planted-feet would have it; of the wanted clip the frames up to `last` are real.
+/// Returns the window of a pair as the join planted-feet would use it; `last` is the last frame of the wanted clip that
+/// counts as real.
 JoinWindow WindowOfPair(const BodyMotion& playing, const BodyMotion& wanted, const FramePair& pair,
-                        const FloorMove& place, int last, int frames) {
+                        const FloorMove& floor_move, int last, int frames) {
   JoinWindow window{.shown = {FrameBeforeIn(playing, pair.leave), playing.poses[pair.leave]},
                     .target_before = FrameBeforeIn(wanted, pair.enter),
                     .old = FramesFrom(playing, pair.leave, frames),
@@ -59,8 +60,8 @@ JoinWindow WindowOfPair(const BodyMotion& playing, const BodyMotion& wanted, con
                     .old_frames = std::min(static_cast<int>(playing.poses.size()) - 1 - pair.leave, frames),
                     .next_frames = std::min(last - pair.enter, frames),
                     .rate_hz = playing.rate_hz};
-  window.target_before = place.Apply(window.target_before);
-  for (BodyPose& pose : window.next) pose = place.Apply(pose);
+  window.target_before = floor_move.Apply(window.target_before);
+  for (BodyPose& pose : window.next) pose = floor_move.Apply(pose);
   return window;
 }
 
@@ -77,7 +78,7 @@ glm::dvec3 SecondDifferenceOf(const BodyPose& before, const BodyPose& here, cons
   return after.joints[joint] - 2.0 * here.joints[joint] + before.joints[joint];
 }
 
-/// The larger of both motions' own second differences, metres, by frame from the point on and by joint; a motion that
+/// The larger of both motions' own second differences, in metres, per frame of the window and per joint. A motion that
 /// has ended has none.
 using OwnAccelerations = std::vector<std::array<double, kRoleCount>>;
 
@@ -106,8 +107,8 @@ double SquaredOff(const BodyPose& a, const BodyPose& b) {
   return sum / kRoleCount;
 }
 
-/// Returns how far both feet slide along the floor from one frame to the next, metres: less the higher they are, and a
-/// foot 2.5 cm up does so no more (Zhang, Starke, Komura and Saito 2018).
+/// Returns the distance by which both feet slide along the floor from one frame to the next, in metres. The weight of a
+/// foot decreases with its height and is 0 from 2.5 cm on (Zhang, Starke, Komura and Saito 2018).
 double SlideOf(const BodyPose& here, const BodyPose& after) {
   constexpr double kHeight = 0.025;
   double slid = 0;
@@ -118,7 +119,7 @@ double SlideOf(const BodyPose& here, const BodyPose& after) {
   return slid;
 }
 
-/// Adds up what the frames of a join cost, in their order, the one at the point first.
+/// Sums up the cost of a join's frames, which are added in order from the transition point on.
 class CostMeter {
  public:
   CostMeter(const JoinWindow& window, const OwnAccelerations& own, double usual, const PlayedRates& rates)
@@ -126,7 +127,7 @@ class CostMeter {
 
   void Add(const BodyPose& shown) {
     if (count_ > 0) {
-      const std::size_t f = count_ - 1;  // of `here_`, whose neighbours are known now
+      const std::size_t f = count_ - 1;  // index of `here_`, whose two neighbours are known now
       for (std::size_t j = 0; j < kRoleCount; ++j) {
         const double jump = glm::length(SecondDifferenceOf(before_, here_, shown, j));
         worst_excess_ = std::max(worst_excess_, jump - std::max(own_[f][j], usual_));
@@ -139,7 +140,7 @@ class CostMeter {
     ++count_;
   }
 
-  /// Returns the cost of the frames added so far but for their feet, seconds; it never becomes less.
+  /// Returns the cost in seconds of the frames added so far, without foot slide; it never decreases.
   double Seconds() const {
     return kCm * (worst_excess_ / rates_.excess_per_s + off_ / window_.rate_hz / rates_.invented_per_s);
   }
@@ -154,21 +155,21 @@ class CostMeter {
   BodyPose before_, here_;
   std::size_t count_ = 0;
   double worst_excess_ = 0;  // the largest second difference of any joint beyond the motions' own, metres
-  double off_ = 0;           // metres, summed over the frames
-  double slid_ = 0;          // likewise
+  double off_ = 0;           // deviation from the nearer clip, metres, summed over the frames
+  double slid_ = 0;          // foot slide, metres
 };
 
-/// The clips are asked what the body may rest on for so many frames before and after a join, as FindSupport looks.
+/// The number of frames before and after a join in which support contacts are searched, as in FindSupport.
 constexpr int kAround = 30;
 
-/// Holds what the ways of one pair have in common.
+/// Holds the data that all joins of one pair share.
 class PairStage {
  public:
   PairStage(const BodyMotion& playing, const BodyMotion& wanted, const FramePair& pair, int last, int frames)
-      : PairStage(playing, wanted, pair, PlaceOf(playing, wanted, pair), last, frames) {}
-  PairStage(const BodyMotion& playing, const BodyMotion& wanted, const FramePair& pair, const FloorMove& place,
+      : PairStage(playing, wanted, pair, FloorMoveOf(playing, wanted, pair), last, frames) {}
+  PairStage(const BodyMotion& playing, const BodyMotion& wanted, const FramePair& pair, const FloorMove& floor_move,
             int last, int frames)
-      : window(WindowOfPair(playing, wanted, pair, place, last, frames)),
+      : window(WindowOfPair(playing, wanted, pair, floor_move, last, frames)),
         own(OwnOf(window)),
         turns(window),
         before_(std::min(pair.leave, kAround)) {
@@ -176,23 +177,24 @@ class PairStage {
       const std::size_t begin = static_cast<std::size_t>(first), most = clip.poses.size() - begin;
       return std::span(clip.poses).subspan(begin, std::min(static_cast<std::size_t>(count), most));
     };
+    // Prepare the search for support on both clips around the join.
     playing_ = around(playing, pair.leave - before_, before_ + frames + kAround);
-    for (const BodyPose& pose : around(wanted, pair.enter, frames + kAround)) wanted_.push_back(place.Apply(pose));
+    for (const BodyPose& pose : around(wanted, pair.enter, frames + kAround)) wanted_.push_back(floor_move.Apply(pose));
     const std::array clips = {SupportingClip{.poses = playing_, .begin = 0, .left_at = before_},
                               SupportingClip{.poses = wanted_, .begin = before_}};
-    holds_.emplace(clips, playing.rate_hz);
+    support_finder_.emplace(clips, playing.rate_hz);
   }
   PairStage(const PairStage&) = delete;
   PairStage& operator=(const PairStage&) = delete;
 
-  /// Returns of how many frames in a row, at most, nothing holds up a join that shows these.
+  /// Returns the length of the longest run of frames without support if the join shows `played`.
   int Unsupported(std::span<const BodyPose> played) const {
     std::vector<BodyPose> shown(playing_.begin(), playing_.begin() + before_);
     shown.insert(shown.end(), played.begin(), played.end());
     for (std::size_t f = played.size(); f < wanted_.size(); ++f) shown.push_back(wanted_[f]);
     const int last = std::min(before_ + window.Frames(), static_cast<int>(shown.size()) - 1);
     int run = 0, longest = 0;
-    for (const Support& support : holds_->Find(shown, before_, last)) {
+    for (const Support& support : support_finder_->Find(shown, before_, last)) {
       run = support.Holds() ? 0 : run + 1;
       longest = std::max(longest, run);
     }
@@ -204,30 +206,30 @@ class PairStage {
   WindowTurns turns;
 
  private:
-  const int before_;                    // frames of `playing_` before the pair's
-  std::span<const BodyPose> playing_;   // the playing clip about the join
-  std::vector<BodyPose> wanted_;        // the wanted clip from the pair's frame on, in its place
-  std::optional<SupportFinder> holds_;  // by both
+  const int before_;                             // number of frames of `playing_` before the pair's frame
+  std::span<const BodyPose> playing_;            // the playing clip around the join
+  std::vector<BodyPose> wanted_;                 // the wanted clip from the pair's frame on, aligned on the floor
+  std::optional<SupportFinder> support_finder_;  // in both clips
 };
 
 bool IsBetterWay(const PlayedWay& a, const PlayedWay& b) {
   return std::tuple(a.cost_s, a.number, a.frames, a.way) < std::tuple(b.cost_s, b.number, b.frames, b.way);
 }
 
-/// A way that is played as far as it is worth it.
+/// A join that has been played partly or completely.
 struct OpenWay {
   struct Limbs {
     MinimumJerkPlay play;
     CostMeter meter;
-    int shown = 0;  // frames
+    int shown = 0;  // number of frames played
   };
 
-  PlayedWay way;  // its cost is that of what was played
+  PlayedWay way;  // its cost is that of the frames played so far
   std::unique_ptr<Limbs> limbs = {};
   bool has_feet = false;
 };
 
-/// Plays the ways of a request, the cheapest first.
+/// Plays the joins of a request by best-first search.
 class Rehearsal {
  public:
   Rehearsal(const MotionLibrary& library, const TransitionRequest& request, const PlayedRates& rates,
@@ -240,10 +242,11 @@ class Rehearsal {
         usual_(std::max(std::min(library.usual_accelerations[request.from], library.usual_accelerations[request.to]),
                         kAlwaysUsual)),
         stages_(pairs.size()) {
+    // List all joins of all pairs, with their time as a lower bound of the cost.
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       for (double length : kLengths_s) {
         const int frames = FramesOf(length);
-        // The wanted clip should be there before it ends.
+        // A join should end before the wanted clip does.
         if (frames > last - pairs[i].enter && length > kLengths_s.front()) break;
         for (JoinWay kind : kWays) {
           PlayedWay& way = open_.emplace_back().way;
@@ -257,10 +260,11 @@ class Rehearsal {
 
   std::vector<PlayedWay> Play() {
     std::vector<PlayedWay> ways;
+    // Expand the cheapest open join until the cheapest one is complete.
     while (true) {
       std::ranges::pop_heap(open_, IsLater);
       OpenWay& open = open_.back();
-      if (open.has_feet || with_feet_ >= kMostWithFeet) break;
+      if (open.has_feet || with_feet_ >= kMaxWithFeet) break;
       if (!open.limbs || open.limbs->shown <= open.way.frames) {
         PlayLimbs(open, open_.size() > 1 ? open_.front().way.cost_s : std::numeric_limits<double>::infinity());
       } else {
@@ -288,7 +292,7 @@ class Rehearsal {
     return *stage;
   }
 
-  /// Plays a way on without its feet until it costs more than the next one.
+  /// Plays more frames of a join without planted feet until it costs more than the next one.
   void PlayLimbs(OpenWay& open, double next_s) {
     PlayedWay& way = open.way;
     if (!open.limbs) {
@@ -299,11 +303,12 @@ class Rehearsal {
     OpenWay::Limbs& limbs = *open.limbs;
     while (limbs.shown <= way.frames && way.cost_s <= next_s) {
       limbs.meter.Add(limbs.play.At(limbs.shown++));
-      way.cost_s = Time(way) + kLimbsShare * limbs.meter.Seconds();
+      way.cost_s = Time(way) + kLimbShare * limbs.meter.Seconds();
     }
   }
 
-  /// Plays a way with its feet, and adds it to `ways`; what holds it up is not asked once it costs more than another.
+  /// Plays a join with planted feet and adds it to `ways`. Its support is not computed if it already costs more than
+  /// the best.
   void PlayFeet(OpenWay& open, std::vector<PlayedWay>& ways) {
     PlayedWay& way = open.way;
     const PairStage& stage = StageOf(way);
@@ -313,7 +318,7 @@ class Rehearsal {
     const int planned = PlantFeet(window, played);
     CostMeter meter(window, stage.own, usual_, rates_);
     for (const BodyPose& pose : played) meter.Add(pose);
-    way.cost_s = Time(way) + meter.SecondsWithFeet() + kPlanned_s * planned;
+    way.cost_s = Time(way) + meter.SecondsWithFeet() + kUnplanted_s * planned;
     open.limbs.reset();
     open.has_feet = true;
     ++with_feet_;
@@ -329,10 +334,10 @@ class Rehearsal {
   const PlayedRates& rates_;
   const int last_;
   const double usual_;                                        // MotionLibrary::usual_accelerations of the calmer clip
-  std::vector<std::unique_ptr<PairStage>> stages_;            // of the pairs, made when first asked for
+  std::vector<std::unique_ptr<PairStage>> stages_;            // one per pair, created on first use
   std::vector<OpenWay> open_;                                 // a heap, the cheapest first
-  int with_feet_ = 0;                                         // ways
-  double least_s_ = std::numeric_limits<double>::infinity();  // of the ways with feet
+  int with_feet_ = 0;                                         // number of joins played with planted feet
+  double least_s_ = std::numeric_limits<double>::infinity();  // lowest cost of the joins with planted feet
 };
 
 }  // namespace

@@ -8,33 +8,34 @@
 
 namespace etude {
 
-/// A frame of the playing clip and one of the wanted clip, which count as one.
+/// A frame of the playing clip and the frame of the wanted clip that takes its place.
 struct FramePair {
   int leave = 0, enter = 0;
 };
 
-/// A transition that was played, and what it cost.
+/// A join that was played, and its cost.
 struct PlayedWay {
   FramePair pair;
-  std::size_t number = 0;  ///< of the pair
-  int frames = 0;          ///< of the join
+  std::size_t number = 0;  ///< index of the pair
+  int frames = 0;          ///< length of the join
   JoinWay way = JoinWay::kDirect;
   double cost_s = 0;
-  int unsupported = 0;  ///< frames, the most in a row that nothing holds up
+  int unsupported = 0;  ///< the longest run of frames without support
 };
 
-/// The worth of a second (PlayedOptions).
+/// The amounts that cost as much as one second (PlayedOptions).
 struct PlayedRates {
   double excess_per_s = 0, invented_per_s = 0;
 };
 
-/// Plays the ways to join the clips of a request at any of these pairs, of which there must be one, at every length and
-/// both direct and by a fade (PlayMinimumJerk), and returns those that were played with their feet (PlantFeet), the
-/// best first. The joins end by frame `last` of the wanted clip, as far as the shortest one can.
+/// Plays the joins of a request's clips at the given pairs (at least one), at every length and both direct and by a
+/// fade (PlayMinimumJerk). Returns the joins that were played with planted feet (PlantFeet), the best first. Joins end
+/// by frame `last` of the wanted clip; only the shortest length may exceed it.
 ///
-/// Best first (Hart, Nilsson and Raphael 1968): what is played on is always the way that has cost least so far, first
-/// its time alone, then its limbs frame by frame, then its feet, and what FindSupport says of the frames shown. So most
-/// ways are never played to their end. Feet can make a way dearer or cheaper: limbs count for three fifths until then.
+/// It uses best-first search (Hart, Nilsson and Raphael 1968): it always continues the join with the lowest cost so
+/// far. That cost first holds only the time, then the limbs frame by frame, then the feet and the support that
+/// FindSupport reports. So most joins are never played to their end. Since planting the feet can raise or lower a cost,
+/// the limbs' cost counts only three fifths before.
 std::vector<PlayedWay> PlayWays(const MotionLibrary& library, const TransitionRequest& request,
                                 const PlayedRates& rates, const std::vector<FramePair>& pairs, int last);
 

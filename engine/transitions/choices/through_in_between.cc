@@ -13,24 +13,25 @@ namespace {
 
 using Key = InBetweenNet::Key;
 
-/// The transition point between a clip and the in-between.
+/// A transition point between a clip and a key pose of the in-between.
 struct KeyPoint {
-  int frame = 0;  ///< of the clip
-  int key = -1;   ///< of the net
+  int frame = 0;  ///< index in the clip
+  int key = -1;   ///< index in the net; −1 if there is none
   FuzzyDistance distance;
   bool matches = false;
 };
 
-/// One clip of the library against the keys, counting the pairs that it compares.
+/// Compares one clip of the library with all key poses, and counts the compared pairs in the record.
 class KeySearch {
  public:
   KeySearch(const MotionLibrary& library, int clip, const MatchRules& rules, TransitionRecord& record)
       : library_(library), clip_(library.tagged[clip]), rules_(rules), record_(record) {}
 
-  /// The first of `frames` that a key matches, with the nearest such key; else the nearest pair of `all` and any key.
+  /// Returns the first of `frames` that matches a key, with the nearest such key; without a match, the nearest pair of
+  /// a frame in `all` and any key.
   KeyPoint Find(std::span<const int> frames, std::span<const int> all) const {
     for (int frame : frames) {
-      if (const KeyPoint junction = MatchKeys(frame); junction.matches) return junction;
+      if (const KeyPoint key_point = MatchKeys(frame); key_point.matches) return key_point;
     }
     KeyPoint nearest;
     for (int frame : all) {
@@ -45,21 +46,23 @@ class KeySearch {
     return nearest;
   }
 
-  /// The junction, and beside it those of `frames` that come nearest to the same key: half of the record's room.
-  /// Their `from_frame` is the clip's.
-  std::vector<Candidate> ListCandidates(const KeyPoint& junction, std::span<const int> frames) const {
+  /// Returns the taken point, and the `frames` that are nearest to the same key, at most half of kMaxCandidates.
+  /// `from_frame` is the clip's frame.
+  std::vector<Candidate> ListCandidates(const KeyPoint& key_point, std::span<const int> frames) const {
     std::vector<Candidate> listed;
     for (int frame : frames) {
-      if (frame == junction.frame) continue;
+      if (frame == key_point.frame) continue;
       const CandidateOutcome outcome =
-          MatchesKey(frame, junction.key) ? CandidateOutcome::kLater : CandidateOutcome::kTooFar;
+          MatchesKey(frame, key_point.key) ? CandidateOutcome::kLater : CandidateOutcome::kTooFar;
       listed.push_back(
-          {.from_frame = frame, .distance = DistanceTo(junction.key, frame), .cost = {}, .outcome = outcome});
+          {.from_frame = frame, .distance = DistanceTo(key_point.key, frame), .cost = {}, .outcome = outcome});
     }
     std::ranges::stable_sort(listed, {}, [](const Candidate& candidate) { return candidate.distance.value; });
     listed.resize(std::min(listed.size(), kMostCandidates / 2 - 1));
-    listed.push_back(
-        {.from_frame = junction.frame, .distance = junction.distance, .cost = {}, .outcome = CandidateOutcome::kTaken});
+    listed.push_back({.from_frame = key_point.frame,
+                      .distance = key_point.distance,
+                      .cost = {},
+                      .outcome = CandidateOutcome::kTaken});
     std::ranges::stable_sort(listed, {}, &Candidate::from_frame);
     return listed;
   }
@@ -67,16 +70,16 @@ class KeySearch {
  private:
   int KeyCount() const { return static_cast<int>(library_.in_betweens.keys.size()); }
   const Grades& GradesOf(int key) const {
-    const Key& place = library_.in_betweens.keys[key];
-    return library_.tagged[place.clip].grades[place.frame];
+    const Key& key_frame = library_.in_betweens.keys[key];
+    return library_.tagged[key_frame.clip].grades[key_frame.frame];
   }
 
   FuzzyDistance DistanceTo(int key, int frame) const {
     return ComputeDistance(clip_.grades[frame], GradesOf(key), rules_.weights);
   }
   bool MatchesKey(int frame, int key) const {
-    const Key& place = library_.in_betweens.keys[key];
-    return Matches(clip_, frame, library_.tagged[place.clip], place.frame, rules_);
+    const Key& key_frame = library_.in_betweens.keys[key];
+    return Matches(clip_, frame, library_.tagged[key_frame.clip], key_frame.frame, rules_);
   }
 
   KeyPoint MatchKeys(int frame) const {
@@ -97,7 +100,7 @@ class KeySearch {
   TransitionRecord& record_;
 };
 
-/// The frames from one key to another, directly unless a limb would have to turn too far.
+/// Returns the frames from one key to another. If a limb would have to turn too far, they go through the first key.
 std::vector<BodyPose> MakeInBetween(const MotionLibrary& library, int from, int to, double rate_hz) {
   const InBetweenNet& net = library.in_betweens;
   const auto pose = [&](int key) { return library.motions[net.keys[key].clip].poses[net.keys[key].frame]; };
@@ -113,16 +116,16 @@ std::vector<BodyPose> MakeInBetween(const MotionLibrary& library, int from, int 
 
 std::string Explain(const MotionLibrary& library, const TransitionRequest& request, const KeyPoint& exit,
                     const KeyPoint& entrance, double threshold) {
-  const auto name = [&](const KeyPoint& junction) {
-    const Key& key = library.in_betweens.keys[junction.key];
+  const auto name = [&](const KeyPoint& key_point) {
+    const Key& key = library.in_betweens.keys[key_point.key];
     return fmt::format("{} {}", library.names[key.clip], key.frame);
   };
-  const auto judge = [&](const KeyPoint& junction) {
-    const bool is_near = junction.distance.value < threshold;
-    return fmt::format("{} (d = {:.2f}{})", junction.frame, junction.distance.value,
-                       junction.matches ? ""
-                       : is_near        ? ", but no bridge frame that may be taken"
-                                        : fmt::format(", not below {}", threshold));
+  const auto judge = [&](const KeyPoint& key_point) {
+    const bool is_near = key_point.distance.value < threshold;
+    return fmt::format("{} (d = {:.2f}{})", key_point.frame, key_point.distance.value,
+                       key_point.matches ? ""
+                       : is_near         ? ", but no bridge frame that may be taken"
+                                         : fmt::format(", not below {}", threshold));
   };
   return fmt::format("left at {} {} for the key pose {}, entered from the key pose {} at {} {}",
                      library.names[request.from], judge(exit), name(exit), name(entrance), library.names[request.to],
@@ -141,15 +144,17 @@ TransitionRecord ThroughInBetween(const MotionLibrary& library, const Transition
     return record;
   }
   const TaggedClip &playing = library.tagged[request.from], &next = library.tagged[request.to];
+  // Find the frames at which the playing clip is left and the wanted clip is entered.
   const KeySearch exits(library, request.from, rules, record), entrances(library, request.to, rules, record);
   const FrameWindow window = WaitWindow(playing, request.request_frame, request.budget_s);
   const std::vector<int> exit_frames = BridgeFramesWithin(playing, window);
   const KeyPoint exit = exits.Find(exit_frames, FramesWithin(window));
-  // Frames are in rising order, so those of the front half come first.
+  // The frames are in rising order, so those of the front half come first.
   const std::vector<int> entrance_frames = BridgeFramesWithin(next, EntryWindow(next));
   const KeyPoint entrance = entrances.Find(entrance_frames, FramesWithin({0, std::max(next.FrameCount() / 2, 1) - 1}));
 
   record.branch = exit.matches && entrance.matches ? Branch::kInBetween : Branch::kForced;
+  // Make the in-between, and record the three segments and the candidates at both points.
   std::vector<BodyPose> own = MakeInBetween(library, exit.key, entrance.key, playing.rate_hz);
   const int last = static_cast<int>(own.size()) - 1;
   record.segments = {{.clip = request.from, .first = request.request_frame, .last = exit.frame, .own = {}},

@@ -8,15 +8,15 @@
 
 namespace etude {
 
-/// Plans a transition through an in-between, for when no pair of frames matches (paper A, section 3.5): out of the
-/// playing clip at the first bridge frame within the budget that a key of an in-between matches, and into the wanted
-/// clip at the first bridge frame that a key matches, front half first; of several keys the nearest. Where none matches
-/// at either end, the frame that is nearest to a key is taken there: that way is forced, and its distance may not be
-/// below the threshold.
+/// Plans a transition through an in-between, for requests without a matching pair of frames (paper A, section 3.5). The
+/// playing clip is left at the first bridge frame within the budget that matches a key pose of the in-betweens. The
+/// wanted clip is entered at the first bridge frame that matches a key pose, in the front half first. If a frame
+/// matches several keys, the nearest is taken. If no frame matches at one end, the frame nearest to a key is taken
+/// there; the transition is then forced, and its distance may exceed the threshold.
 ///
-/// There always is a way, of at most the budget and LongestInBetween; no segments only when the library has no keys.
-/// `request.to` must have two frames. `why_not` says why there is no direct way; `pairs_seen` were compared to know
-/// that.
+/// A way always exists and takes at most the budget plus LongestInBetween. The record has no segments only if the
+/// library has no keys. The clip `request.to` must have at least two frames. `why_not` tells why there is no direct
+/// way, and `pairs_seen` is the number of pairs that were compared to find that out.
 TransitionRecord ThroughInBetween(const MotionLibrary& library, const TransitionRequest& request,
                                   const MatchRules& rules, const std::string& why_not, std::int64_t pairs_seen);
 

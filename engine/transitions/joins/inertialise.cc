@@ -32,7 +32,7 @@ Inertialiser::Inertialiser(const JoinInput& input, DecayLaw law) : law_(std::mov
   for (const Bone& bone : AllBones()) {
     const LimbTurn before = TurnBetween(Limb(target.before, bone), Limb(shown.before, bone));
     const LimbTurn now = TurnBetween(Limb(target.now, bone), Limb(shown.now, bone));
-    // Near half a turn the rotation vector may flip sign between two frames; a velocity from that would be an artefact.
+    // Near half a turn the rotation vector may flip its sign between two frames, which would give a wrong velocity.
     const bool flipped = glm::dot(before, now) < 0 && glm::length(now) > 0.5 * kPi;
     limbs_[Index(bone.child)] = measure(flipped ? now : before, now);
   }
@@ -69,11 +69,11 @@ glm::dvec3 QuinticDecay(const Offset& offset, double seconds, const QuinticOptio
   if (x0 == 0) return glm::dvec3(0);
   const glm::dvec3 axis = offset.value / x0;
   const double v0 = std::min(glm::dot(offset.velocity, axis), 0.0);
-  // The parabola from x0 with slope v0 to rest would be there at −2 x0/v0; Bollo lets the quintic take 5/2 of that.
+  // The parabola from x0 with slope v0 would come to rest at −2 x0/v0; Bollo allows the quintic 5/2 of that time.
   const double t1 = v0 < 0 ? std::min(options.blend_s, -5 * x0 / v0) : options.blend_s;
   if (seconds >= t1) return glm::dvec3(0);
   const double a0 = std::max(0.0, (-8 * v0 * t1 - 20 * x0) / (t1 * t1));
-  // x(s), s = t/t1, with x(0) = x0, x'(0) = v0, x''(0) = a0 and all three zero at s = 1.
+  // x(s) with s = t/t1 satisfies x(0) = x0, x'(0) = v0, x''(0) = a0, and x, x' and x'' are zero at s = 1.
   const double s = seconds / t1, v = v0 * t1, a = a0 * t1 * t1;
   const double c3 = -0.5 * (3 * a + 12 * v + 20 * x0);
   const double c4 = 0.5 * (3 * a + 16 * v + 30 * x0);

@@ -17,36 +17,36 @@ Blend CutOver(const JoinInput& /*input*/, std::span<const double> /*values*/) {
 
 Blend SpringDefaults(const JoinInput& input, std::span<const double> /*values*/) { return InertialiseSpring(input); }
 
-/// A row's `begin`: makes the join's own options of the values.
+/// The `begin` function of a table row: makes the join's own options from the values.
 template <auto Begin, auto Settings>
 Blend BeginWith(const JoinInput& input, std::span<const double> values) {
   return Begin(input, Settings().Apply(values));
 }
 
-// A function, so that the table is made after every string it is made of.
+// This is a function so that the table is initialised after the strings it uses.
 std::span<const JoinKind> Table() {
   static const std::array kJoins = {
       JoinKind{.name = "cut", .description = "paper A's: the next frame shown is the new clip's", .begin = CutOver},
       JoinKind{.name = "crossfade",
-           .description = "the old motion fades into the new one (Kovar 2002)",
-           .settings = CrossfadeSettings().Describe(),
-           .begin = BeginWith<Crossfade, CrossfadeSettings>},
+               .description = "the old motion fades into the new one (Kovar 2002)",
+               .settings = CrossfadeSettings().Describe(),
+               .begin = BeginWith<Crossfade, CrossfadeSettings>},
       JoinKind{.name = "inertialised-quintic",
-           .description = "what was off dies away along a quintic that does not overshoot (Bollo 2018)",
-           .settings = QuinticSettings().Describe(),
-           .begin = BeginWith<InertialiseQuintic, QuinticSettings>},
+               .description = "what was off dies away along a quintic that does not overshoot (Bollo 2018)",
+               .settings = QuinticSettings().Describe(),
+               .begin = BeginWith<InertialiseQuintic, QuinticSettings>},
       JoinKind{.name = "inertialised-spring",
-           .description = "what was off dies away like a critically damped spring (Holden 2020)",
-           .begin = SpringDefaults},
+               .description = "what was off dies away like a critically damped spring (Holden 2020)",
+               .begin = SpringDefaults},
       JoinKind{.name = "minimum-jerk",
-           .description = "what was off dies away along the quintic of least jerk, whatever its velocity",
-           .settings = MinimumJerkSettings().Describe(),
-           .begin = BeginWith<MinimumJerk, MinimumJerkSettings>},
+               .description = "what was off dies away along the quintic of least jerk, whatever its velocity",
+               .settings = MinimumJerkSettings().Describe(),
+               .begin = BeginWith<MinimumJerk, MinimumJerkSettings>},
       JoinKind{.name = "planted-feet",
-           .description = "the same, and each foot goes from the old motion's path to the new one's in a step",
-           .settings = MinimumJerkSettings().Describe(),
-           .begin = BeginWith<PlantedFeet, MinimumJerkSettings>,
-           .align = AlignOnPlantedFeet},
+               .description = "the same, and each foot goes from the old motion's path to the new one's in a step",
+               .settings = MinimumJerkSettings().Describe(),
+               .begin = BeginWith<PlantedFeet, MinimumJerkSettings>,
+               .align = AlignOnPlantedFeet},
   };
   return kJoins;
 }

@@ -57,7 +57,7 @@ Leg SolveLeg(const glm::dvec3& hip, const glm::dvec3& ankle, double thigh, doubl
   const double across = std::sqrt(std::max(thigh * thigh - along * along, 0.0));
   Leg leg;
   leg.knee = hip + along * axis + across * DirectionOr(AcrossOf(pole, axis), AnyAcross(axis));
-  // By direction, so that rounding near a straight leg cannot change the shin.
+  // The shin is rebuilt from its direction, so that rounding near a straight leg cannot change its length.
   leg.ankle = leg.knee + shin * DirectionOr(hip + reach * axis - leg.knee, axis);
   return leg;
 }

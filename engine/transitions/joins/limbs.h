@@ -4,32 +4,33 @@
 
 namespace etude {
 
-/// A turn as axis × angle, radians: its length is the angle. Bodies are joints without frames of their own, so the turn
-/// of a limb is the smallest one between two directions.
+/// A rotation vector: axis × angle, in radians. Bodies are joint positions without local frames, so a limb's rotation
+/// is the smallest one between two directions.
 using LimbTurn = glm::dvec3;
 
-/// Returns the smallest turn from one direction to another, any lengths; none when either vector is zero. Opposite
-/// directions turn about an axis across `from` that is always the same one.
+/// Returns the smallest rotation from one direction to another, for vectors of any lengths; zero if either is zero. For
+/// opposite directions the axis is a fixed one that is perpendicular to `from`.
 LimbTurn TurnBetween(const glm::dvec3& from, const glm::dvec3& to);
 
-/// Returns `v` after a turn; its length stays.
+/// Returns the rotated vector `v`, which keeps its length.
 glm::dvec3 Turned(const glm::dvec3& v, const LimbTurn& turn);
 
-/// A knee's place in a leg: across the line from hip to ankle, metres. Its direction is where the knee points, its
-/// length how far it is bent out of that line.
+/// Returns the vector from the hip–ankle line to the knee, perpendicular to that line, in metres. Its direction tells
+/// where the knee points, its length how far the leg is bent.
 glm::dvec3 KneeOffset(const glm::dvec3& hip, const glm::dvec3& knee, const glm::dvec3& ankle);
 
-/// Returns `offset`, a KneeOffset of a leg along `from`, carried to a leg along `to` by the smallest turn between the
-/// two.
+/// Returns `offset`, a KneeOffset of a leg along `from`, rotated for a leg along `to` by the smallest rotation between
+/// the two.
 glm::dvec3 CarriedOffset(const glm::dvec3& offset, const glm::dvec3& from, const glm::dvec3& to);
 
-/// A leg of two limbs whose lengths stay exact.
+/// The solution for a leg of two limbs with fixed lengths.
 struct Leg {
   glm::dvec3 knee{0}, ankle{0};
 };
 
-/// The leg from `hip` to `ankle`, or as near to it along that line as limbs of lengths `thigh` and `shin` reach, the
-/// knee on the side of `pole` (any length; only its part across the leg counts).
+/// Solves two-bone inverse kinematics for a leg from `hip` to `ankle` with limbs of lengths `thigh` and `shin`. If they
+/// cannot reach, the ankle is placed as near as possible on the line. The knee points towards `pole` (of any length;
+/// only its component perpendicular to the leg counts).
 Leg SolveLeg(const glm::dvec3& hip, const glm::dvec3& ankle, double thigh, double shin, const glm::dvec3& pole);
 
 }  // namespace etude

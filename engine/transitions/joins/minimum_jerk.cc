@@ -26,7 +26,8 @@ const SettingTable<MinimumJerkOptions>& MinimumJerkSettings() {
 glm::dvec3 MinimumJerkAt(const Movement& movement, double seconds, double blend_s) {
   if (seconds >= blend_s) return glm::dvec3(0);
   const double s = seconds / blend_s, rest = 1 - s;
-  // 1 − 10s³ + 15s⁴ − 6s⁵ and s − 6s³ + 8s⁴ − 3s⁵, by their triple root at s = 1; and the latter from the end.
+  // The basis functions 1 − 10s³ + 15s⁴ − 6s⁵ and s − 6s³ + 8s⁴ − 3s⁵, factored by their triple root at s = 1; the
+  // second one is mirrored for the end velocity.
   const double s3 = s * s * s, rest3 = rest * rest * rest;
   return rest3 * ((1 + 3 * s + 6 * s * s) * movement.start + s * (1 + 3 * s) * blend_s * movement.start_velocity) -
          s3 * rest * (1 + 3 * rest) * blend_s * movement.end_velocity;
@@ -50,7 +51,7 @@ JoinWindow WindowOf(const JoinInput& input, int frames) {
 
 namespace {
 
-/// The new motion goes on, and what the old one was off from it dies away.
+/// Makes the decay: the new motion plays, and the old motion's offset from it decays.
 Inertialiser DecayOf(const JoinWindow& window, int frames) {
   JoinInput input{.shown = window.shown,
                   .target = {window.target_before, window.next[0]},
@@ -59,7 +60,8 @@ Inertialiser DecayOf(const JoinWindow& window, int frames) {
                   .preferred = {},
                   .rate_hz = window.rate_hz};
   double direction = 1;
-  if (window.old_frames > 0) {  // an Inertialiser told the frames after for those before measures velocities backwards
+  // Forward differences: frames after the point stand in for those before, so velocities change their sign.
+  if (window.old_frames > 0) {
     input.shown.before = window.old[1];
     input.target.before = window.next[1];
     direction = -1;
@@ -71,7 +73,7 @@ Inertialiser DecayOf(const JoinWindow& window, int frames) {
 
 glm::dvec3 LimbOf(const BodyPose& pose, const Bone& bone) { return pose[bone.child] - pose[bone.parent]; }
 
-/// Returns how each limb, and the hips' centre, goes from the old motion to where the new one has it after so many
+/// Returns the movement of each limb and of the hip centre, from the old motion to the new motion's pose after `frames`
 /// frames.
 std::array<Movement, kRoleCount> MovementsOf(const JoinWindow& window, int frames) {
   const BodyPose& end = window.next[frames];
@@ -89,8 +91,7 @@ std::array<Movement, kRoleCount> MovementsOf(const JoinWindow& window, int frame
     const LimbTurn now = TurnBetween(limb, LimbOf(window.shown.now, bone));
     movements[Index(bone.child)] = movement([&](const BodyPose& pose) {
       const LimbTurn turn = TurnBetween(limb, LimbOf(pose, bone));
-      // Near half a turn the rotation vector may flip sign between two frames; a velocity from that would be an
-      // artefact.
+      // Near half a turn the rotation vector may flip its sign between two frames, which would give a wrong velocity.
       return glm::dot(turn, now) < 0 && glm::length(turn) > 0.5 * kPi ? now : turn;
     });
   }
@@ -127,7 +128,7 @@ BodyPose MinimumJerkPlay::At(int frame) const {
     }
     return pose;
   }
-  // Both motions go on, and limb by limb the new one takes over.
+  // A fade: both motions continue, and the new one takes over limb by limb.
   const double share = Smootherstep(static_cast<double>(frame) / frames_);
   return PoseBetween(window_.old[frame], window_.next[frame], turns_.At(frame), share);
 }

@@ -12,38 +12,39 @@
 namespace etude {
 
 struct MinimumJerkOptions {
-  /// Seconds until the new motion is shown alone, where the choice of frames does not say. Ours. Longer ones accelerate
-  /// less, with its square, and show poses of neither clip for longer.
+  /// The time until only the new motion is shown, in seconds, unless the choice of frames sets it (default ours). A
+  /// longer time reduces accelerations quadratically, but shows poses of neither clip for longer.
   double blend_s = 0.5;
-  int fades = 0;   ///< 1: JoinWay::kFades, where the choice does not say
-  int direct = 0;  ///< 1: JoinWay::kDirect, likewise
+  int fades = 0;   ///< 1: use JoinWay::kFades, unless the choice of frames decides
+  int direct = 0;  ///< 1: use JoinWay::kDirect, unless the choice of frames decides
 };
 const SettingTable<MinimumJerkOptions>& MinimumJerkSettings();
 
-/// A movement as seen from its end: metres, or the turn of a limb in radians; velocities per second.
+/// A movement relative to its end: a translation in metres, or a limb's rotation vector in radians; velocities are per
+/// second.
 struct Movement {
   glm::dvec3 start{0}, start_velocity{0}, end_velocity{0};
 };
-/// Computes where a movement is `seconds` after it began: the quintic of least jerk (Flash and Hogan 1985) with these
-/// velocities, and without acceleration, at both ends; zero from its end on, `blend_s` after it began.
+/// Returns the position in a movement, relative to its end, `seconds` after its start: the quintic of minimum jerk
+/// (Flash and Hogan 1985) with the given velocities and zero accelerations at both ends. It is zero from `blend_s` on.
 glm::dvec3 MinimumJerkAt(const Movement& movement, double seconds, double blend_s);
 
-/// A join's window, in the place where it is shown.
+/// The frames of a join, in the frame of the spliced motion.
 struct JoinWindow {
   PosePair shown;                       ///< the last two frames shown
   BodyPose target_before;               ///< the new motion's frame before the point
-  std::vector<BodyPose> old, next;      ///< both motions' own frames from the point on; as many each, one at least
-  int old_frames = 0, next_frames = 0;  ///< how many after the point are real, not their last one held
+  std::vector<BodyPose> old, next;      ///< both motions' own frames from the point on; same size, at least one
+  int old_frames = 0, next_frames = 0;  ///< number of frames after the point that exist; further ones repeat the last
   double rate_hz = kJudgedRateHz;
 
   int Frames() const { return static_cast<int>(next.size()) - 1; }
 };
 
-/// The window of `frames` frames after the point; where a motion ends earlier, it holds its last frame.
+/// Returns the window of `frames` frames after the point; a motion that ends earlier holds its last frame.
 JoinWindow WindowOf(const JoinInput& input, int frames);
 
-/// The turns from the new motion's limbs to the old one's in a window, which no length of a fade changes: each frame's
-/// are computed when they are first asked for.
+/// Caches the rotations from the new motion's limbs to the old one's, which all fades of a window share. Each frame is
+/// computed on first use.
 class WindowTurns {
  public:
   explicit WindowTurns(const JoinWindow& window) : window_(window) {}
@@ -54,22 +55,23 @@ class WindowTurns {
   std::vector<LimbTurns> turns_;
 };
 
-/// Computes what is shown of a window, frame by frame.
-///
-/// When it decays, the new motion plays, and limb by limb what the old one was off from it dies away with least jerk.
-/// Velocities are those from the point to the next frame: so the first frame shown is the old motion's next one, and
-/// how the new motion jumps at the point itself does not matter. Where the old motion has ended they are those up to
-/// the point. When it fades, both motions play on, and limb by limb the new one takes over by the share of the way
-/// that a movement of least jerk has made: less of what either accelerates is shown, more of how they differ. When it
-/// is direct, every limb, and the hips' centre, goes with least jerk from where the old motion left it to where the new
-/// one has it at the join's end, with its velocities at both: of what either accelerates in between nothing is shown.
+/// Computes the shown poses of a window, frame by frame. There are three kinds of join:
+/// - kDecays: the new motion plays, and limb by limb the old motion's offset from it decays with minimum jerk.
+///   Velocities are measured from the point to the next frame, so the first shown frame is the old motion's next one,
+///   and a jump of the new motion at the point has no effect. If the old motion has ended, velocities are measured up
+///   to the point.
+/// - kFades: both motions play, and limb by limb the new one takes over, weighted by a minimum-jerk movement. This
+///   shows less of either motion's accelerations and more of the difference between them.
+/// - kDirect: every limb and the hip centre move with minimum jerk from the old motion's pose to the new motion's pose
+///   at the end of the join, with the motions' velocities at both ends. The motions' accelerations in between are not
+///   shown.
 class MinimumJerkPlay {
  public:
-  /// A join of `frames` ≥ 1 frames, at most the window's, which must outlive this, as must its `turns`: who plays
-  /// several fades of one window keeps them.
+  /// Plays a join of `frames` frames, from 1 to the window's number. `window` and `turns` must outlive this object;
+  /// several fades of a window share its `turns`.
   MinimumJerkPlay(const JoinWindow& window, WindowTurns& turns, int frames, JoinWay way);
 
-  /// Returns the pose of a frame from 0, which is the last one shown, to `frames`.
+  /// Returns the pose of a frame from 0 (the last one shown) to `frames`.
   BodyPose At(int frame) const;
 
  private:
@@ -77,18 +79,19 @@ class MinimumJerkPlay {
   WindowTurns& turns_;
   const int frames_;
   std::optional<Inertialiser> decay_;
-  /// The movements by limb, of its child joint, as a turn from where it ends; of the root its place.
-  std::optional<std::array<Movement, kRoleCount>> movements_;  ///< with neither the motions fade
+  /// Movements relative to their ends: of a limb, its rotation vector, indexed by its child joint; of the root, its
+  /// position.
+  std::optional<std::array<Movement, kRoleCount>> movements_;  ///< empty for a fade and a decay
 };
 
-/// Returns every frame of the window by MinimumJerkPlay.
+/// Returns all frames of the window as MinimumJerkPlay computes them.
 std::vector<BodyPose> PlayMinimumJerk(const JoinWindow& window, JoinWay way);
 
 Blend MinimumJerk(const JoinInput& input, const MinimumJerkOptions& options);
-/// Returns what the choice of frames prefers, or else the options; and the window of that.
+/// Returns the choice's preferred join, or else the one that the options describe. WindowOfJoin returns its window.
 PreferredJoin PreferredJoinOf(const JoinInput& input, const MinimumJerkOptions& options);
 JoinWindow WindowOfJoin(const JoinInput& input, const PreferredJoin& preferred);
-/// Shows `played` (a window's frames), then the new motion.
+/// Shows the frames `played` of a window, then the new motion.
 Blend ShowPlayed(std::vector<BodyPose> played);
 
 }  // namespace etude

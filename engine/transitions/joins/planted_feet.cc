@@ -14,8 +14,8 @@
 namespace etude {
 namespace {
 
-/// Sums up pairs of points of the floor for the turn and shift that lay the second onto the first with the least sum of
-/// squares.
+/// Fits a rotation and a shift on the floor by weighted least squares, which align the second point of each pair with
+/// the first.
 class FloorFit {
  public:
   void Add(const glm::dvec3& onto, const glm::dvec3& point, double weight) {
@@ -25,7 +25,7 @@ class FloorFit {
     point_ += weight * pairs_.back().point;
   }
 
-  /// Returns the turn that fits best.
+  /// Returns the best rotation about the vertical.
   double Yaw() const {
     const glm::dvec2 onto = onto_ / weight_, point = point_ / weight_;
     double along = 0, across = 0;
@@ -37,7 +37,7 @@ class FloorFit {
     return std::atan2(across, along);
   }
 
-  /// Returns this turn and the shift that fits best after it.
+  /// Returns the move with rotation `yaw` and the shift that fits best after it.
   FloorMove Turned(double yaw) const {
     const glm::dvec2 onto = onto_ / weight_, point = point_ / weight_;
     const glm::dvec3 moved = FloorMove{.yaw = yaw}.Apply(glm::dvec3(point.x, 0, point.y));
@@ -56,28 +56,28 @@ class FloorFit {
 
 double FloorDistance(const glm::dvec3& a, const glm::dvec3& b) { return std::hypot(a.x - b.x, a.z - b.z); }
 
-constexpr double kStill = 0.005;       // metres: a foot that travels no farther need not be lifted
-constexpr double kMostLift = 0.05;     // metres
+constexpr double kStill = 0.005;       // metres; a foot that travels no farther is not lifted
+constexpr double kMaxLift_m = 0.05;    // metres
 constexpr double kLiftPerMetre = 0.2;  // of travel
 
 double LiftFor(double travel) {
-  return travel <= kStill ? 0 : std::min(kMostLift, kLiftPerMetre * (travel - kStill) + 0.02);
+  return travel <= kStill ? 0 : std::min(kMaxLift_m, kLiftPerMetre * (travel - kStill) + 0.02);
 }
 
-/// Frames of a window, a bit each.
+/// A set of frames of a window, one bit per frame.
 using Frames = std::uint64_t;
-constexpr int kMostFrames = 63;  // that steps are planned for; longer joins keep to their first ones
+constexpr int kMaxFrames = 63;  // steps are planned within these; a longer join uses only its first frames
 
 constexpr Frames Bit(int frame) { return Frames{1} << frame; }
-/// The frames from `first` up to `last`, both included; none where last < first.
+/// Returns the frames from `first` to `last`, both included; empty if last < first.
 constexpr Frames Range(int first, int last) {
   return last < first ? 0 : (Bit(last) | (Bit(last) - 1)) & ~(Bit(std::max(first, 0)) - 1);
 }
 
-/// A foot in both motions of a window.
+/// The contacts and slides of one foot in both motions of a window.
 struct FootTracks {
   FootTracks(const JoinWindow& w, const LegRoles& l, const std::vector<bool>& old, const std::vector<bool>& next)
-      : window(w), leg(l), frames(std::min(w.Frames(), kMostFrames)) {
+      : window(w), leg(l), frames(std::min(w.Frames(), kMaxFrames)) {
     for (int f = 0; f <= frames; ++f) {
       old_stands |= old[f] ? Bit(f) : 0;
       next_stands |= next[f] ? Bit(f) : 0;
@@ -92,18 +92,19 @@ struct FootTracks {
 
   const JoinWindow& window;
   const LegRoles& leg;
-  int frames = 0;  ///< of the window, as far as steps are planned
+  int frames = 0;  ///< number of frames in which steps are planned
   Frames old_stands = 0, next_stands = 0;
-  std::array<double, kMostFrames + 2> old_slid{}, next_slid{};  ///< metres before a frame, while the foot stood
+  /// Metres that the foot slid while it stood, before each frame.
+  std::array<double, kMaxFrames + 2> old_slid{}, next_slid{};
 };
 
 struct StepOption {
   FootStep step;
   double cost = 0;    // centimetres per frame²
-  Frames stands = 0;  // the frames in which the foot bears the body
+  Frames stands = 0;  // the frames in which the foot bears weight
 };
 
-/// Returns how what the old motion's toes are off from the new one's goes to nothing in a step.
+/// Returns the minimum-jerk movement that takes the toe's offset between the motions to zero in a step.
 Movement MovementOf(const JoinWindow& window, const LegRoles& leg, const FootStep& step) {
   const int from = std::min(step.begin, step.stays_from), to = std::max(step.begin, step.waits_until);
   const auto change = [&](const BodyPose& before, const BodyPose& after) {
@@ -111,7 +112,7 @@ Movement MovementOf(const JoinWindow& window, const LegRoles& leg, const FootSte
   };
   Movement movement{.start = window.old[from][leg.foot] - window.next[to][leg.foot]};
   if (from == step.begin) {
-    // Where the old motion has ended, as it came there.
+    // If the old motion has ended, use its last velocity.
     movement.start_velocity = from < window.old_frames ? change(window.old[from], window.old[from + 1])
                               : from > 0               ? change(window.old[from - 1], window.old[from])
                                                        : change(window.shown.before, window.shown.now);
@@ -120,10 +121,10 @@ Movement MovementOf(const JoinWindow& window, const LegRoles& leg, const FootSte
   return movement;
 }
 
-/// The price of what a foot does beside its step, centimetres per frame²: where it stays or waits it stops, or starts,
-/// dead; where it is shown as its clip has it, it slides as that does while it stands.
+/// Returns the cost of a foot's behaviour outside its step, in centimetres per frame². A foot that stays or waits stops
+/// or starts abruptly; a foot that follows its clip slides as the clip's foot does while it stands.
 double StandingPrice(const FootTracks& foot, const FootStep& step) {
-  constexpr double kSliding = 0.3;  // of a centimetre
+  constexpr double kSliding = 0.3;  // weight of a slid centimetre
   const auto &old = foot.window.old, &next = foot.window.next;
   const Role toe = foot.leg.foot;
   double price = 0;
@@ -140,14 +141,14 @@ double StandingPrice(const FootTracks& foot, const FootStep& step) {
   return price;
 }
 
-/// The step with its lift, price and stands. The price is the largest acceleration that movements of least jerk have
-/// from an offset, from a velocity and by the lift, and StandingPrice.
+/// Returns the step with its lift, cost and supporting frames. The cost is the sum of the peak accelerations of
+/// minimum-jerk movements for the offset, the velocity and the lift, and of StandingPrice.
 StepOption Priced(const FootTracks& foot, const FootStep& step) {
   constexpr double kCm = 100;
   StepOption option{.step = step};
   const Movement movement = MovementOf(foot.window, foot.leg, step);
   const double travel = std::hypot(movement.start.x, movement.start.z), length = step.end - step.begin;
-  // A foot that is in the air all the while is lifted by the motions themselves.
+  // A foot that is in the air during the whole step is already lifted by the motions themselves.
   const bool stands = ((foot.old_stands | foot.next_stands) & Range(step.begin, step.end)) != 0;
   option.step.lift = stands ? LiftFor(travel) : 0;
   const double peak = (5.8 * glm::length(movement.start) + 12 * option.step.lift) / (length * length) +
@@ -159,32 +160,32 @@ StepOption Priced(const FootTracks& foot, const FootStep& step) {
   return option;
 }
 
-/// Returns the last of `frames` up to one; −1 when there is none.
+/// Returns the last of `frames` that is at most `frame`; −1 if there is none.
 int LastUpTo(Frames frames, int frame) { return std::bit_width(frames & Range(0, frame)) - 1; }
-/// Returns the first of `frames` from one on; kNoFrame when there is none.
+/// Returns the first of `frames` that is at least `frame`; kNoFrame if there is none.
 int FirstFrom(Frames frames, int frame) {
   const Frames later = frames & ~Range(0, frame - 1);
   return later == 0 ? FootStep::kNoFrame : std::countr_zero(later);
 }
 
-/// Returns the frame in whose place a foot may stay until `frame`: the first of the stand that it is in then, else the
-/// last of the one before; −1 when there is none.
+/// Returns the frame whose position a foot may keep until `frame`: the first frame of its current stance, else the last
+/// frame of the stance before; −1 if there is none.
 int StaysFrom(Frames stands, int frame) {
   const int stood = LastUpTo(stands, frame);
   return stood == frame ? LastUpTo(~stands, frame) + 1 : stood;
 }
-/// Likewise from `frame` on, up to `last`: the last frame of its stand, else the first of the next; kNoFrame when there
-/// is none.
+/// Returns the frame whose position a foot may take from `frame` on: the last frame of its current stance (at most
+/// `last`), else the first frame of the next one; kNoFrame if there is none.
 int WaitsUntil(Frames stands, int frame, int last) {
   const int lands = FirstFrom(stands, frame);
   return lands == frame ? std::min(FirstFrom(~stands, frame) - 1, last) : lands;
 }
 
-/// Lists the steps that a foot may make, by tenths of the window. Each may also begin where the foot stands still since
-/// its stand began, or since it last stood, and likewise end where it will stand.
+/// Returns the possible steps of a foot, which begin and end at tenths of the window. As variants, the foot may keep
+/// the position of its last stance before the step, take that of its next stance after the step, or both.
 std::vector<StepOption> OptionsOf(const FootTracks& foot) {
-  constexpr int kParts = 10, kShortest = 8;
-  const int frames = foot.frames, shortest = std::min(frames, kShortest);
+  constexpr int kParts = 10, kMinStepFrames = 8;
+  const int frames = foot.frames, shortest = std::min(frames, kMinStepFrames);
   std::vector<StepOption> options;
   for (int b = 0; b < kParts; ++b) {
     for (int e = b + 1; e <= kParts; ++e) {
@@ -209,28 +210,30 @@ std::vector<StepOption> OptionsOf(const FootTracks& foot) {
   return options;
 }
 
-/// A leg's frame on the way from one motion's leg to the other's.
+/// The position of a leg's ankle and the vector from ankle to toe, in one frame of a step.
 struct LegPath {
   glm::dvec3 ankle{0}, foot_limb{0};
 };
 
 LegPath PathAt(const JoinWindow& window, const LegRoles& leg, const FootStep& step, int frame) {
   const BodyPose& old = window.old[std::min({frame, step.begin, step.stays_from})];
+  // Before the step the old motion's leg is shown, or its stance is kept; after it, the new motion's.
   const BodyPose& next = window.next[std::max(frame, step.waits_until)];
   const glm::dvec3 from = old[leg.foot] - old[leg.ankle], to = next[leg.foot] - next[leg.ankle];
   if (frame <= step.begin) return {old[leg.ankle], from};
   if (frame >= step.end) return {next[leg.ankle], to};
+  // Move the toe with minimum jerk and lift it.
   const double s = static_cast<double>(frame - step.begin) / (step.end - step.begin), rest = s * (1 - s);
   glm::dvec3 toe = next[leg.foot] + MinimumJerkAt(MovementOf(window, leg, step), (frame - step.begin) / window.rate_hz,
                                                   (step.end - step.begin) / window.rate_hz);
   toe.y += step.lift * 64 * rest * rest * rest;
-  // Turned backwards from the new limb, whose length it keeps.
+  // Rotate the foot backwards from its new direction, so that it keeps the new length.
   const glm::dvec3 limb = Turned(to, (1 - Smootherstep(s)) * TurnBetween(to, from));
   return {toe - limb, limb};
 }
 
-/// Returns how far a leg may reach: as far as both motions' own legs do, and a little less in the join's middle, where
-/// a leg that is all but straight would throw its knee about.
+/// Returns how far a leg may reach: as far as the motions' own legs do, slightly less in the middle of the join,
+/// because the knee of an almost straight leg moves abruptly.
 double ReachAt(const JoinWindow& window, const LegRoles& leg, int frame) {
   const double s = static_cast<double>(frame) / window.Frames();
   const auto reach = [&](const BodyPose& pose) { return glm::distance(pose[leg.hip], pose[leg.ankle]); };
@@ -242,23 +245,25 @@ double ReachAt(const JoinWindow& window, const LegRoles& leg, int frame) {
   return std::min(std::max(own, kEasy * whole), whole) - kGiven * 64 * rest * rest * rest;
 }
 
-/// Returns how much lower a hip must be for its leg to reach, metres; at most a hand's breadth.
+/// Returns how far a hip must be lowered for its leg to reach the ankle, in metres; at most 10 cm.
 double DropFor(const glm::dvec3& hip, const glm::dvec3& ankle, double reach) {
-  constexpr double kMostDrop = 0.10;
+  constexpr double kMaxDrop = 0.10;
   const double floor = FloorDistance(hip, ankle);
-  if (floor >= reach) return kMostDrop;
-  return std::clamp(hip.y - ankle.y - std::sqrt(reach * reach - floor * floor), 0.0, kMostDrop);
+  if (floor >= reach) return kMaxDrop;
+  return std::clamp(hip.y - ankle.y - std::sqrt(reach * reach - floor * floor), 0.0, kMaxDrop);
 }
 
-/// The smallest smooth curve over `needed`, as far as the ends, where it must be 0, allow.
+/// Returns a smooth curve above `needed`. Near both ends it goes down to 0, so it may be below `needed` there.
 std::vector<double> Smoothed(const std::vector<double>& needed) {
   const int count = static_cast<int>(needed.size());
   constexpr int kBlur = 2, kPasses = 2;
   const auto at = [&](const std::vector<double>& v, int i) { return v[std::clamp(i, 0, count - 1)]; };
+  // Take the running maximum, so that the blurred curve stays above `needed`.
   std::vector<double> curve(needed.size());
   for (int i = 0; i < count; ++i) {
     for (int k = -kBlur * kPasses; k <= kBlur * kPasses; ++k) curve[i] = std::max(curve[i], at(needed, i + k));
   }
+  // Blur it.
   for (int pass = 0; pass < kPasses; ++pass) {
     const std::vector<double> sharp = curve;
     for (int i = 0; i < count; ++i) {
@@ -266,6 +271,7 @@ std::vector<double> Smoothed(const std::vector<double>& needed) {
       for (int k = -kBlur; k <= kBlur; ++k) curve[i] += at(sharp, i + k) / (2 * kBlur + 1);
     }
   }
+  // Ramp it to 0 at both ends.
   const double ramp = std::max(std::min(8.0, (count - 1) / 2.0), 1.0);
   for (int i = 0; i < count; ++i) {
     curve[i] *= Smootherstep(i / ramp) * Smootherstep((count - 1 - i) / ramp);
@@ -282,7 +288,7 @@ void PutLeg(const JoinWindow& window, const LegRoles& leg, const LegPath& path, 
   const auto carried = [&](const BodyPose& own) {
     return CarriedOffset(KneeOffset(own[leg.hip], own[leg.knee], own[leg.ankle]), own[leg.ankle] - own[leg.hip], line);
   };
-  // Straight legs do not say where their knees point: forwards, if nothing else does.
+  // A straight leg does not tell where its knee points; then it points forwards.
   constexpr double kForwards = 1e-3;
   const glm::dvec3 pole = glm::mix(carried(old), carried(next), share) + kForwards * Facing(pose);
   const Leg solved = SolveLeg(pose[leg.hip], path.ankle, thigh, shin, pole);
@@ -294,12 +300,14 @@ void PutLeg(const JoinWindow& window, const LegRoles& leg, const LegPath& path, 
 }  // namespace
 
 FloorMove AlignOnPlantedFeet(std::span<const BodyPose> old, std::span<const BodyPose> next, double rate_hz) {
+  // Fit hips and shoulders first; their rotation is the reference.
   FloorFit fit;
-  constexpr double kTrunk = 0.05, kFeet = 0.1, kMostTurn = Radians(30);
+  constexpr double kTrunk = 0.05, kFeet = 0.1, kMaxTurn = Radians(30);
   for (Role role : {Role::kLeftHip, Role::kRightHip, Role::kLeftShoulder, Role::kRightShoulder}) {
     fit.Add(old[0][role], next[0][role], kTrunk);
   }
   const double facing = fit.Yaw();
+  // Add the feet that stand in both motions at the same frame.
   const FootContacts stands_old = FindFootContacts(old, rate_hz), stands_next = FindFootContacts(next, rate_hz);
   for (std::size_t side = 0; side < kLegs.size(); ++side) {
     for (std::size_t f = 0; f < std::min(old.size(), next.size()); ++f) {
@@ -307,10 +315,12 @@ FloorMove AlignOnPlantedFeet(std::span<const BodyPose> old, std::span<const Body
       for (Role role : {kLegs[side].foot, kLegs[side].ankle}) fit.Add(old[f][role], next[f][role], kFeet);
     }
   }
-  return fit.Turned(facing + std::clamp(std::remainder(fit.Yaw() - facing, 2 * kPi), -kMostTurn, kMostTurn));
+  // Limit how far the feet may rotate the body.
+  return fit.Turned(facing + std::clamp(std::remainder(fit.Yaw() - facing, 2 * kPi), -kMaxTurn, kMaxTurn));
 }
 
 FootPlan PlanSteps(const JoinWindow& window) {
+  // List the possible steps of both feet, cheapest first.
   const FootContacts old = FindFootContacts(window.old, window.rate_hz);
   const FootContacts next = FindFootContacts(window.next, window.rate_hz);
   std::array<std::vector<StepOption>, 2> options;
@@ -323,19 +333,21 @@ FootPlan PlanSteps(const JoinWindow& window) {
     borne |= foot.old_stands | foot.next_stands;
     std::ranges::stable_sort(options[side], {}, &StepOption::cost);
   }
-  constexpr double kUnborne = 2;  // centimetres per frame²: the price of a frame in which nothing stands
+  constexpr double kUnsupportedPrice = 2;  // centimetres per frame²; cost of a frame without a supporting foot
+  // Find the cheapest pair of steps; both lists are sorted, so the search can stop early.
   FootPlan plan;
   double least = std::numeric_limits<double>::infinity();
   for (const StepOption& left : options[0]) {
     for (const StepOption& right : options[1]) {
       if (left.cost + right.cost >= least) break;
       const int unborne = std::popcount(borne & ~(left.stands | right.stands));
-      const double cost = left.cost + right.cost + kUnborne * unborne;
+      const double cost = left.cost + right.cost + kUnsupportedPrice * unborne;
       if (cost >= least) continue;
       least = cost;
       plan = {.steps = {left.step, right.step}, .unborne = unborne};
     }
   }
+  // A foot that stands in neither motion keeps its path.
   for (std::size_t side = 0; side < kLegs.size(); ++side) plan.steps[side].keeps = !stands[side];
   return plan;
 }
@@ -343,8 +355,9 @@ FootPlan PlanSteps(const JoinWindow& window) {
 int PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played) {
   if (window.Frames() < 2) return 0;
   const auto [plan, unborne] = PlanSteps(window);
+  // Find how far the hips must be lowered in each frame.
   std::vector<double> drop(played.size());
-  double farthest = 0;  // that any foot is off its path
+  double farthest = 0;  // largest distance of an ankle from its path
   for (int frame = 1; frame < static_cast<int>(played.size()); ++frame) {
     for (std::size_t side = 0; side < kLegs.size(); ++side) {
       if (plan[side].keeps) continue;
@@ -355,7 +368,8 @@ int PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played) {
     }
   }
   constexpr double kRounding = 1e-9;
-  if (farthest < kRounding) return unborne;  // a motion that goes on as it was
+  if (farthest < kRounding) return unborne;  // the join changes nothing
+  // Lower the body and solve each leg for its path.
   drop = Smoothed(drop);
   for (int frame = 1; frame < static_cast<int>(played.size()); ++frame) {
     BodyPose& pose = played[frame];

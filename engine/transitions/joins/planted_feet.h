@@ -10,48 +10,50 @@
 
 namespace etude {
 
-/// The joints of a leg, from the hip down.
+/// The joints of a leg, from the hip to the foot.
 struct LegRoles {
   Role hip, knee, ankle, foot;
 };
-/// The legs by side.
+/// The legs, indexed by side.
 constexpr std::array<LegRoles, 2> kLegs = {
     LegRoles{Role::kLeftHip, Role::kLeftKnee, Role::kLeftAnkle, Role::kLeftFoot},
     LegRoles{Role::kRightHip, Role::kRightKnee, Role::kRightAnkle, Role::kRightFoot}};
 
-/// The move on the floor that lays the new motion so that feet which stand in both motions, at the same frames after
-/// the point, stand in the same places: least squares over toe tips and ankles, and, weaker, over hips and shoulders at
-/// the point, which decide alone where no foot stands, and from which feet turn the body by 30° at most: in the
-/// shortest join that is 190° a second. `old` and `next`: frames from the point on, one at least each.
+/// Returns the floor move that aligns the new motion with the old one so that feet which stand in both motions at the
+/// same time stand at the same positions. It is a least-squares fit of toe tips and ankles and, with a lower weight, of
+/// the hips and shoulders at the point. If no foot stands in both, hips and shoulders alone decide. The feet may rotate
+/// the body by at most 30°, which is 190° per second in the shortest join. `old` and `next` hold at least one frame
+/// each, from the point on.
 FloorMove AlignOnPlantedFeet(std::span<const BodyPose> old, std::span<const BodyPose> next, double rate_hz);
 
-/// A foot's change from the old motion's path to the new one's. Until it begins the foot follows the old motion, or
-/// stays where that last stood; from its end on it follows the new one, or waits where that will stand.
+/// The step that takes a foot from the old motion's path to the new one's. Before the step the foot follows the old
+/// motion or keeps the position of its last stance there; after the step it follows the new motion or takes the
+/// position of its next stance there.
 struct FootStep {
-  bool keeps = false;  ///< the foot is left where the limbs put it: it stands in neither motion
+  bool keeps = false;  ///< true if the foot stands in neither motion; its path is not changed
   int begin = 0;       ///< frames after the point
   int end = 1;
-  double lift = 0;            ///< metres at the middle of the step
-  int stays_from = kNoFrame;  ///< the foot stays where the old motion has it at this frame
-  int waits_until = -1;       ///< the foot waits where the new motion has it at this frame
+  double lift = 0;            ///< height in the middle of the step, metres
+  int stays_from = kNoFrame;  ///< the foot keeps its position in the old motion from this frame until the step begins
+  int waits_until = -1;       ///< the foot takes its position in the new motion at this frame from the step's end on
 
   static constexpr int kNoFrame = 1 << 30;
 };
-/// The changes of both feet, by side, and what they cost the body.
+/// The steps of both feet, indexed by side.
 struct FootPlan {
   std::array<FootStep, 2> steps;
-  int unborne = 0;  ///< frames in which a foot stands in one of the motions, and none stands by this plan
+  int unborne = 0;  ///< number of frames in which a foot stands in one of the motions, but none by this plan
 };
 
-/// Plans a step for each foot within the window: long ones, so that they accelerate little, and one after the other, so
-/// that one foot stands while the other travels. Ours.
+/// Plans a step for each foot within the window (ours). Long steps are preferred, because they need little
+/// acceleration, and steps one after the other, because one foot then supports the body while the other moves.
 FootPlan PlanSteps(const JoinWindow& window);
 
-/// Puts the feet of `played` (PlayMinimumJerk's) onto their paths, and lowers the pelvis where a leg is too short.
-/// Limbs keep their lengths; the first frame stays as it is. Returns FootPlan::unborne.
+/// Moves the feet of `played` (from PlayMinimumJerk) to their paths, and lowers the pelvis if a leg is too short. Limbs
+/// keep their lengths, and the first frame does not change. Returns FootPlan::unborne.
 int PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played);
 
-/// Joins by MinimumJerk with PlantFeet, the new motion laid by AlignOnPlantedFeet.
+/// Joins by MinimumJerk with PlantFeet. The new motion is aligned by AlignOnPlantedFeet.
 Blend PlantedFeet(const JoinInput& input, const MinimumJerkOptions& options);
 
 }  // namespace etude

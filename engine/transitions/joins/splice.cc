@@ -13,22 +13,22 @@ std::span<const BodyPose> FramesOf(const Segment& segment, std::span<const BodyM
   return segment.clip == Segment::kOwnFrames ? std::span(segment.own) : std::span(clips[segment.clip].poses);
 }
 
-/// A segment in the place where it is shown.
+/// A segment with the floor move that aligns it with the spliced motion.
 struct PlacedSegment {
   std::span<const BodyPose> frames;
   int first = 0;
-  bool is_own = false;  // made by the choice
-  FloorMove place;
+  bool is_own = false;  // true if the choice made its frames
+  FloorMove floor_move;
   Blend blend;
 
-  BodyPose At(int frame) const { return place.Apply(frames[frame]); }
+  BodyPose At(int frame) const { return floor_move.Apply(frames[frame]); }
   BodyPose Shown(int frame) const { return blend(At(frame), frame - first); }
-  /// The frame before `frame`; a clip is taken to have begun at a steady speed.
+  /// Returns the frame before `frame`; before a clip's first frame the speed is assumed constant.
   BodyPose Before(int frame) const {
     if (frame > 0) return At(frame - 1);
     return frames.size() > 1 ? FrameBefore(At(0), At(1)) : At(0);
   }
-  /// Returns at most `count` frames that would be shown after `frame` if the old motion went on.
+  /// Returns at most `count` frames that would be shown after `frame` if the old motion continued.
   std::vector<BodyPose> After(int frame, std::size_t count) const {
     std::vector<BodyPose> next;
     for (std::size_t f = frame + 1; f < frames.size() && next.size() < count; ++f) {
@@ -36,7 +36,7 @@ struct PlacedSegment {
     }
     return next;
   }
-  /// The motion's own frames after `frame`, at most `count`.
+  /// Returns at most `count` of the motion's own frames after `frame`.
   std::vector<BodyPose> Own(int frame, std::size_t count) const {
     std::vector<BodyPose> next;
     for (std::size_t f = frame + 1; f < frames.size() && next.size() < count; ++f) {
@@ -46,8 +46,8 @@ struct PlacedSegment {
   }
 };
 
-/// Returns where a segment is laid that follows `old` at its frame `left`. Frames that a choice made itself begin
-/// there.
+/// Returns the floor move for the segment `next`, which follows `old` at its frame `left`. Frames that a choice made
+/// are aligned at the first one.
 FloorMove Lay(const JoinKind& join, const PlacedSegment& old, int left, const PlacedSegment& next, double rate_hz) {
   if (join.align == nullptr || next.is_own) return AlignOnFloor(next.frames[next.first], old.At(left));
   const std::size_t count = static_cast<std::size_t>(rate_hz * kAlignedSeconds);
@@ -68,14 +68,16 @@ BodyPose FrameBefore(const BodyPose& first, const BodyPose& second) {
 Splice SpliceSegments(std::span<const BodyMotion> clips, std::span<const Segment> segments, const JoinKind& join,
                       std::span<const double> join_settings) {
   assert(segments.size() >= 2);
+  // Show the first segment from its clip's start.
   Splice splice;
   const BodyMotion& start = clips[segments.front().clip];
   const double rate_hz = splice.motion.rate_hz = start.rate_hz;
   std::vector<BodyPose>& shown = splice.motion.poses;
   shown.assign(start.poses.begin(), start.poses.begin() + segments.front().last + 1);
 
+  // Append the other segments, each aligned with the one before.
   const Blend as_it_is = [](const BodyPose& target, int /*frames*/) { return target; };
-  PlacedSegment old{.frames = FramesOf(segments.front(), clips), .place = {}, .blend = as_it_is};
+  PlacedSegment old{.frames = FramesOf(segments.front(), clips), .floor_move = {}, .blend = as_it_is};
   for (std::size_t i = 1; i < segments.size(); ++i) {
     const int left = segments[i - 1].last, entered = segments[i].first;
     assert(entered < segments[i].last);
@@ -83,16 +85,18 @@ Splice SpliceSegments(std::span<const BodyMotion> clips, std::span<const Segment
     PlacedSegment next{.frames = frames,
                        .first = entered,
                        .is_own = segments[i].clip == Segment::kOwnFrames,
-                       .place = {},
+                       .floor_move = {},
                        .blend = {}};
-    if (!segments[i].in_place) next.place = Lay(join, old, left, next, rate_hz);
-    // Of the clips themselves, not of the joined motion: the gap at the point measures the choice of frames alone.
+    if (!segments[i].in_place) next.floor_move = Lay(join, old, left, next, rate_hz);
+    // The gap at the point is that of the clips, not of the joined motion, so that it measures only the choice of
+    // frames.
     const PlacedPoint point{.frame = static_cast<int>(shown.size()) - 1,
                             .leaving_before = old.Before(left),
                             .leaving = old.At(left),
                             .arriving = next.At(entered),
                             .arriving_after = next.At(entered + 1)};
 
+    // Begin the join, and show the segment's frames through it.
     const JoinInput input{
         .shown = {point.frame > 0 ? shown[point.frame - 1] : point.leaving_before, shown[point.frame]},
         .target = {next.Before(entered), point.arriving},
@@ -103,12 +107,14 @@ Splice SpliceSegments(std::span<const BodyMotion> clips, std::span<const Segment
     next.blend = join.begin(input, join_settings);
     for (int frame = entered + 1; frame <= segments[i].last; ++frame) shown.push_back(next.Shown(frame));
     splice.points.push_back(point);
+    // Keep the own frames of a clip between the first and the last, for the measures.
     if (i + 1 < segments.size()) {
       std::vector<BodyPose>& between = splice.between.emplace_back();
       if (!next.is_own) between = next.Own(entered - 1, frames.size());
     }
     old = std::move(next);
   }
+  // Keep the own frames of the last segment, for the measures.
   for (int frame = segments.back().first; frame <= segments.back().last; ++frame)
     splice.wanted.push_back(old.At(frame));
   return splice;

@@ -31,7 +31,7 @@ BodyPose Rebuild(const BodyProportions& proportions, const BodyPose& source, dou
   return pose;
 }
 
-/// Thigh and shin of both sides.
+/// The lengths of thigh and shin of both legs.
 using LegLengths = std::array<double, 4>;
 
 LegLengths LegsOf(const BodyPose& pose) {
@@ -55,14 +55,15 @@ std::vector<double> FootHeights(const BodyMotion& motion) {
   return heights;
 }
 
-/// Returns the floor's height: not the lowest of all, which one bad frame would decide. Needs at least one height.
+/// Returns the floor's height. It is the 5th percentile, because a single bad frame would determine the minimum. There
+/// must be at least one height.
 double FloorHeight(std::vector<double> heights) {
-  const auto fifth_percent = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 20);
-  std::nth_element(heights.begin(), fifth_percent, heights.end());
-  return *fifth_percent;
+  const auto fifth_percentile = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 20);
+  std::nth_element(heights.begin(), fifth_percentile, heights.end());
+  return *fifth_percentile;
 }
 
-BodyMotion PerformedInTheAir(const BodyProportions& proportions, const BodyMotion& motion) {
+BodyMotion PerformedAboveFloor(const BodyProportions& proportions, const BodyMotion& motion) {
   BodyMotion performed{.rate_hz = motion.rate_hz, .poses = {}};
   if (motion.poses.empty()) return performed;
   const double own_height = StandingHipHeight(motion.poses.front());
@@ -72,7 +73,7 @@ BodyMotion PerformedInTheAir(const BodyProportions& proportions, const BodyMotio
   return performed;
 }
 
-/// The clips of one person each, by their indices.
+/// Groups the indices of the clips by person.
 std::vector<std::vector<std::size_t>> ByPerson(std::span<const BodyMotion> motions) {
   std::vector<std::vector<std::size_t>> people;
   for (std::size_t i = 0; i < motions.size(); ++i) {
@@ -105,7 +106,7 @@ BodyPose StandingPose(const BodyProportions& proportions) {
   for (const Bone& bone : AllBones()) {
     const double length = proportions.limb_lengths[Index(bone.child)];
     glm::dvec3 limb = length * DirectionAtRest(bone.child);
-    // Feet fall to the floor.
+    // The feet point down to the floor.
     if (bone.child == kLeftFoot || bone.child == kRightFoot) {
       const double drop = std::clamp(pose[bone.parent].y, 0.0, length);
       limb = {0, -drop, std::sqrt(length * length - drop * drop)};
@@ -118,7 +119,8 @@ BodyPose StandingPose(const BodyProportions& proportions) {
 std::vector<BodyMotion> PerformedBy(const BodyProportions& proportions, std::span<const BodyMotion> motions) {
   std::vector<BodyMotion> performed;
   performed.reserve(motions.size());
-  for (const BodyMotion& motion : motions) performed.push_back(PerformedInTheAir(proportions, motion));
+  for (const BodyMotion& motion : motions) performed.push_back(PerformedAboveFloor(proportions, motion));
+  // Put each person's clips on the floor together.
   for (const std::vector<std::size_t>& clips : ByPerson(motions)) {
     std::vector<double> heights;
     for (std::size_t clip : clips) std::ranges::copy(FootHeights(performed[clip]), std::back_inserter(heights));

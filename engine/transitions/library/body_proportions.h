@@ -8,29 +8,29 @@
 
 namespace etude {
 
-/// The body that performs all clips of a library: how long its limbs are, and how high its hips stand.
+/// The body that performs all clips of a library: its limb lengths and its standing hip height.
 struct BodyProportions {
-  /// The limbs' lengths, metres, by the limb's child joint; the hip centre's entry is 0.
+  /// The limb lengths in metres, indexed by the limb's child joint; the entry of the hip centre is 0.
   std::array<double, kRoleCount> limb_lengths{};
-  double standing_hip_height = 0;  ///< metres, as `StandingHipHeight` reads it
+  double standing_hip_height = 0;  ///< metres, as computed by `StandingHipHeight`
 };
 
-/// Returns the proportions of `pose`, scaled so that the hips stand `standing_hip_height` metres high. `pose` must have
-/// legs.
+/// Returns the proportions of `pose`, scaled to a standing hip height of `standing_hip_height` metres. The legs of
+/// `pose` must have a length above 0.
 BodyProportions MakeBodyProportions(const BodyPose& pose, double standing_hip_height);
 
-/// Returns the body at rest over the origin, facing +Z: limbs straight, arms hanging, soles on the floor.
+/// Returns the body at rest above the origin, facing +Z, with straight limbs, hanging arms and soles on the floor.
 BodyPose StandingPose(const BodyProportions& proportions);
 
-/// Returns the same motions, performed by a body of these proportions. Paper A's clips all belong to one character;
-/// real clips come from many people, and a transition between two bodies would be seen whatever the pose.
+/// Returns the same motions, performed by a body of these proportions. Paper A's clips all show one character; recorded
+/// clips come from many people, and a transition between two bodies would be visible at any pose.
 ///
-/// Every limb keeps its direction and gets its new length; travel and hip height scale with the legs; then the clips
-/// are set down, so that the lower foot is on or below the floor in 5 % of the frames. Clips whose legs are equally
-/// long (to a tenth of a millimetre, in their first frame) are one person's and set down together: who only sits in one
-/// clip sits as high there as after sitting down in another. None of them goes below the floor for that: limbs of other
-/// lengths may take it there, and it is set down by itself then. A limb of zero length in the source follows its parent
-/// limb's direction.
+/// Every limb keeps its direction and gets its new length. Travel and hip height scale with the legs. Then the clips
+/// are shifted vertically so that the lower foot is on or below the floor in 5 % of the frames. Clips with equal leg
+/// lengths (to 0.1 mm, in the first frame) belong to one person and are shifted together, so that a person who only
+/// sits in one clip sits as high there as after sitting down in another. A clip whose feet would then be below the
+/// floor, which can happen with the new limb lengths, is shifted separately. A limb of zero length in the source takes
+/// its parent limb's direction.
 std::vector<BodyMotion> PerformedBy(const BodyProportions& proportions, std::span<const BodyMotion> motions);
 
 }  // namespace etude

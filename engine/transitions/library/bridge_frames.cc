@@ -11,8 +11,8 @@ namespace {
 
 using enum Role;
 
-/// The unit direction of the neck in the trunk's own frame (left, up, front), so that a body that
-/// turns as a whole keeps its head still.
+/// Returns the neck's unit direction in the trunk's frame (left, up, front), so that the head counts as still if the
+/// whole body turns.
 glm::dvec3 NeckInTrunk(const BodyPose& pose) {
   const glm::dvec3 none(0);
   const glm::dvec3 up = UnitOr(pose[kShoulderCentre] - pose[kHipCentre], none);
@@ -22,7 +22,7 @@ glm::dvec3 NeckInTrunk(const BodyPose& pose) {
   return {glm::dot(neck, left), glm::dot(neck, up), glm::dot(neck, glm::cross(left, up))};
 }
 
-/// Keeps of each class the frames of smallest difference, the earlier one on a tie.
+/// Keeps in each class the frames of smallest difference, on a tie the earlier one.
 std::vector<int> KeepMostAlike(const std::vector<int>& frames, const TaggedClip& clip,
                                const std::vector<FrameRating>& ratings, int most_per_class) {
   std::map<Tags, std::vector<int>> classes;
@@ -81,7 +81,8 @@ std::vector<TaggedClip> TagClips(std::span<const BodyMotion> clips, double stand
 
 namespace {
 
-/// The sums over frames of one class, from which the mean squared distance of any frame to them follows at once.
+/// Sums over the frames of one class, from which the mean squared distance of any frame to them is computed in constant
+/// time.
 struct Sums {
   int frames = 0;
   Grades grades{}, squares{};
@@ -95,13 +96,13 @@ struct Sums {
   }
 };
 
-/// The frames of the same ten tags.
+/// The frames with the same ten tags.
 struct PoseClass {
   Sums all;
   std::map<int, Sums> by_clip;
 };
 
-/// Returns the sum over the class's frames outside `own` of d², divided by their number: Σ w (a² − 2 a E[x] + E[x²]).
+/// Returns the mean of d² over the class's frames outside `own`: Σ w (a² − 2 a E[x] + E[x²]).
 double MeanSquareDistance(const Grades& frame, const Sums& all, const Sums& own, const FeatureWeights& weights) {
   const double others = all.frames - own.frames;
   double sum = 0;
@@ -121,6 +122,7 @@ double MeanSquareDistance(const Grades& frame, const Sums& all, const Sums& own,
 }  // namespace
 
 std::vector<std::vector<FrameRating>> RateFrames(std::span<const TaggedClip> clips, const FeatureWeights& weights) {
+  // Sum up the grades of each class, in total and by clip.
   std::map<Tags, PoseClass> classes;
   for (std::size_t c = 0; c < clips.size(); ++c) {
     for (int f = 0; f < clips[c].FrameCount(); ++f) {
@@ -129,6 +131,7 @@ std::vector<std::vector<FrameRating>> RateFrames(std::span<const TaggedClip> cli
       pose_class.by_clip[static_cast<int>(c)].Add(clips[c].grades[f]);
     }
   }
+  // Compare each frame with the frames of its class in the other clips.
   std::vector<std::vector<FrameRating>> ratings(clips.size());
   for (std::size_t c = 0; c < clips.size(); ++c) {
     for (int f = 0; f < clips[c].FrameCount(); ++f) {

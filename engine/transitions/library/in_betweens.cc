@@ -14,10 +14,10 @@ namespace {
 
 using enum Role;
 
-/// The greatest slope of Smootherstep, at its middle.
+/// The largest slope of Smootherstep, which is in its middle.
 constexpr double kPeakSlope = 1.875;
 
-/// Returns the frame of the upper body: left, up and front.
+/// Returns the frame of the upper body, with the axes left, up and front.
 glm::dquat TrunkFrame(const BodyPose& pose) {
   const glm::dvec3 up = UnitOr(pose[kShoulderCentre] - pose[kHipCentre], {0, 1, 0});
   const glm::dvec3 across = pose[kLeftShoulder] - pose[kRightShoulder];
@@ -26,8 +26,8 @@ glm::dquat TrunkFrame(const BodyPose& pose) {
   return glm::quat_cast(glm::dmat3(left, up, glm::cross(left, up)));
 }
 
-/// Says whether a limb goes with the trunk: arms and head do; hips and legs do not, or feet would slide whenever the
-/// body bows.
+/// Returns true if a limb's direction is interpolated in the trunk's frame: that of arms and head is; that of hips and
+/// legs is not, because feet would slide whenever the body bends.
 bool GoesWithTrunk(Role child) {
   return child == kHead || (Index(child) >= Index(kLeftShoulder) && Index(child) <= Index(kRightHand));
 }
@@ -47,9 +47,9 @@ double LongestTween(const TweenRules& rules) { return std::max(rules.shortest_s,
 glm::dvec3 Tween::Turn::At(double part) const { return angle > 0 ? glm::angleAxis(part * angle, axis) * start : start; }
 
 Tween::Turn Tween::MakeTurn(const glm::dvec3& from, const glm::dvec3& to) {
-  // Opposite directions leave the axis undefined: then limbs swing sideways, about the body's forward axis.
-  const glm::dvec3 aside = UnitOr(glm::dvec3(0, 0, 1) - from.z * from, {0, 1, 0});
-  return {.start = from, .axis = UnitOr(glm::cross(from, to), aside), .angle = AngleBetween(from, to)};
+  // For opposite directions the axis is undefined; then limbs swing sideways, about the body's forward axis.
+  const glm::dvec3 fallback = UnitOr(glm::dvec3(0, 0, 1) - from.z * from, {0, 1, 0});
+  return {.start = from, .axis = UnitOr(glm::cross(from, to), fallback), .angle = AngleBetween(from, to)};
 }
 
 Tween::Tween(const BodyPose& from, const BodyPose& to) : from_(from) {
@@ -91,6 +91,7 @@ BodyPose Tween::At(double part) const {
     pose[bone.child] = pose[bone.parent] + Mix(lengths_from_[i], lengths_to_[i], part) *
                                                (GoesWithTrunk(bone.child) ? trunk * direction : direction);
   }
+  // Keep the planted ankle in place, and interpolate the height of the lowest joint.
   glm::dvec3 shift = from_[planted_] - pose[planted_];
   shift.y = Mix(low_from_, low_to_, part) - LowestHeight(pose);
   for (glm::dvec3& joint : pose.joints) joint += shift;
@@ -115,12 +116,13 @@ namespace {
 
 using Key = InBetweenNet::Key;
 
-/// Lists the frames that keys may be made of, the most typical of the most frequent pose first.
+/// Returns the frames that may become keys, the most typical frame of the most frequent pose first.
 std::vector<Key> RankForKeys(std::span<const TaggedClip> tagged, const FeatureWeights& weights) {
   const bool has_bridge_frames =
       std::any_of(tagged.begin(), tagged.end(), [](const TaggedClip& clip) { return !clip.bridge_frames.empty(); });
   const std::vector<std::vector<FrameRating>> ratings = RateFrames(tagged, weights);
   std::vector<Key> ranked;
+  // Collect the bridge frames, or all frames of a library without bridge frames.
   for (int c = 0; c < static_cast<int>(tagged.size()); ++c) {
     if (has_bridge_frames) {
       for (int frame : tagged[c].bridge_frames) ranked.push_back({c, frame});
@@ -128,6 +130,7 @@ std::vector<Key> RankForKeys(std::span<const TaggedClip> tagged, const FeatureWe
       for (int frame = 0; frame < tagged[c].FrameCount(); ++frame) ranked.push_back({c, frame});
     }
   }
+  // Sort by the frequency of the pose, then by how typical the frame is.
   const auto rank = [&](const Key& key) {
     const FrameRating& rating = ratings[key.clip][key.frame];
     return std::tuple(-rating.clips, -rating.frames, tagged[key.clip].tags[key.frame], rating.difference);
@@ -140,7 +143,7 @@ std::vector<Key> RankForKeys(std::span<const TaggedClip> tagged, const FeatureWe
 
 InBetweenNet BuildInBetweens(std::span<const TaggedClip> tagged, const InBetweenRules& rules) {
   InBetweenNet net{.keys = {}, .tween = rules.tween};
-  std::vector<Grades> taken;  // the keys' own, side by side
+  std::vector<Grades> taken;  // the grades of the keys
   for (const Key& key : RankForKeys(tagged, rules.weights)) {
     const Grades& grades = tagged[key.clip].grades[key.frame];
     const bool is_covered = std::any_of(taken.begin(), taken.end(), [&](const Grades& other) {

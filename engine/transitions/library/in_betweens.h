@@ -11,31 +11,33 @@
 
 namespace etude {
 
-/// The speed limits of a tween. Ours: paper A draws its in-between and says nothing of its speed.
+/// The speed limits of a tween. They are ours, because paper A does not specify the speed of its in-between.
 struct TweenRules {
-  double turn_speed = Radians(360);   ///< radians per second, > 0: the fastest that any limb turns, at mid-way
-  double shortest_s = 0.3;            ///< a tween takes at least this, however little there is to do
-  double widest_turn = Radians(120);  ///< radians: a pair of keys with a wider turn is joined by way of the hub
+  /// Maximal angular velocity of any limb (reached half-way), radians per second, > 0.
+  double turn_speed = Radians(360);
+  double shortest_s = 0.3;  ///< minimum duration of a tween, seconds
+  /// Radians; two keys with a larger rotation of a limb are connected through the hub.
+  double widest_turn = Radians(120);
 };
 
-/// The most that one tween can take: its limbs turn by half a turn at most.
+/// Returns the longest duration of a tween in seconds; a limb rotates by at most half a turn.
 double LongestTween(const TweenRules& rules);
 
-/// The motion between two poses of one body. Limbs turn and keep their lengths, arms and head in the frame of the
-/// trunk; the foot that bears the weight stays where it is, and the lowest joint is as far above the floor as the two
-/// poses', in proportion. It begins where `from` stands; `to` is turned and moved on the floor to fit.
+/// The motion between two poses of one body. Limbs rotate and keep their lengths; the directions of arms and head are
+/// interpolated in the trunk's frame. The foot that bears the weight stays in place, and the height of the lowest joint
+/// is interpolated. The motion begins at `from`; `to` is rotated and moved on the floor to fit.
 class Tween {
  public:
   Tween(const BodyPose& from, const BodyPose& to);
 
-  /// The largest angle by which a limb turns, radians, at most π.
+  /// Returns the largest angle by which a limb rotates, in radians, at most π.
   double WidestTurn() const;
-  /// Returns the pose at `part` of the way, 0 … 1: at 0 `from`, at 1 `to` on its new place.
+  /// Returns the pose at the fraction `part` of the way, in [0, 1]: `from` at 0, the aligned `to` at 1.
   BodyPose At(double part) const;
 
  private:
   struct Turn {
-    glm::dvec3 start{0}, axis{0};  ///< unit, in the trunk's frame for arms and head, else in the world
+    glm::dvec3 start{0}, axis{0};  ///< unit vectors, in the trunk's frame for arms and head, else in the world frame
     double angle = 0;
     glm::dvec3 At(double part) const;
   };
@@ -45,29 +47,29 @@ class Tween {
   double low_from_ = 0, low_to_ = 0;  ///< heights of the lowest joints
   Role planted_ = Role::kLeftAnkle;
   glm::dquat trunk_from_{1, 0, 0, 0}, trunk_to_{1, 0, 0, 0};
-  std::array<Turn, kRoleCount> turns_;  ///< of the limb to this joint
+  std::array<Turn, kRoleCount> turns_;  ///< indexed by the limb's child joint
   std::array<double, kRoleCount> lengths_from_{}, lengths_to_{};
 };
 
-/// Samples a tween: the first is `from`, the last is `to` on its new place, and speed and acceleration are zero at
-/// both. As many as the rules' speed asks for.
+/// Returns samples of a tween, from `from` to the aligned `to`, with zero velocity and acceleration at both ends. Their
+/// number follows from the rules' speed.
 std::vector<BodyPose> SampleTween(const Tween& tween, double rate_hz, const TweenRules& rules);
 
-/// Appends a tween from the last of `frames`, of which there must be one, to `to` on its new place.
+/// Appends a tween from the last of `frames` (at least one) to the aligned `to`.
 void AppendTween(const BodyPose& to, double rate_hz, const TweenRules& rules, std::vector<BodyPose>& frames);
 
-/// The rules by which the keys of in-betweens are chosen. Ours, as paper A draws its in-between by hand.
+/// The rules that choose the keys of in-betweens. They are ours, because paper A draws its in-between by hand.
 struct InBetweenRules {
   FeatureWeights weights = PaperWeights();
-  double threshold = kPaperThreshold;  ///< every bridge frame has a key nearer than this
+  double threshold = kPaperThreshold;  ///< every bridge frame is nearer than this to some key
   TweenRules tween;
 };
 
-/// Paper A's in-between motion (補間動作, section 3.5, figures 13 and 14): made of bridge frames, so that it can be
-/// joined to any two clips. Ours is a star: key poses all over the library, and the tweening from any of them to any
-/// other, directly or by way of the hub.
+/// Paper A's in-between motion (補間動作, section 3.5, figures 13 and 14). It is built of bridge frames, so that it can
+/// be joined to any two clips. Ours is a star: key poses from all over the library, with tweens from any of them to any
+/// other, directly or through a hub.
 struct InBetweenNet {
-  /// A bridge frame that in-betweens are built of.
+  /// A bridge frame from which in-betweens are built.
   struct Key {
     int clip = 0;
     int frame = 0;
@@ -76,12 +78,12 @@ struct InBetweenNet {
   TweenRules tween;
 };
 
-/// Chooses the keys of a library's in-betweens: going from the most frequent poses to the rarest, and in each from the
-/// most typical frame on, every bridge frame becomes a key that has none within the threshold. A library without bridge
-/// frames gets its keys of all frames. Needs a frame.
+/// Chooses the keys of a library's in-betweens. It goes through the bridge frames from the most frequent pose to the
+/// rarest, within each pose from the most typical frame on, and makes a frame a key if no key is within the threshold.
+/// In a library without bridge frames all frames are candidates. The library must have at least one frame.
 InBetweenNet BuildInBetweens(std::span<const TaggedClip> tagged, const InBetweenRules& rules = {});
 
-/// The longest that any in-between takes, seconds: two tweens, in whole frames.
+/// Returns the longest duration of an in-between in seconds: two tweens, each rounded up to whole frames.
 double LongestInBetween(const TweenRules& rules, double rate_hz);
 
 }  // namespace etude

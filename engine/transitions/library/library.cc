@@ -23,6 +23,7 @@ MotionFeatures FeaturesAt(const BodyMotion& motion, int frame) {
     return turn.Apply((motion.poses[after][role] - motion.poses[before][role]) / seconds);
   };
 
+  // Append positions and velocities of feet and hands, then the velocity of the hips.
   MotionFeatures features{};
   auto next = features.begin();
   const auto append = [&](const glm::dvec3& v) {
@@ -34,7 +35,7 @@ MotionFeatures FeaturesAt(const BodyMotion& motion, int frame) {
   return features;
 }
 
-/// The standard deviation of each vector over all frames: the root of its three variances' mean.
+/// Returns the standard deviation of each vector over all frames: the square root of the mean of its three variances.
 std::array<double, kVectorCount> Spreads(const std::vector<std::vector<MotionFeatures>>& clips) {
   MotionFeatures means{};
   double count = 0;
@@ -75,7 +76,7 @@ std::vector<std::vector<MotionFeatures>> ComputeMotionFeatures(std::span<const B
     for (int f = 0; f < static_cast<int>(motion.poses.size()); ++f) frames.push_back(FeaturesAt(motion, f));
   }
   const std::array<double, kVectorCount> spreads = Spreads(computed);
-  constexpr double kNoSpread = 1e-9;  // rounding is no movement
+  constexpr double kNoSpread = 1e-9;  // smaller than this is rounding, not movement
   for (auto& frames : computed) {
     for (MotionFeatures& features : frames) {
       for (std::size_t i = 0; i < kMotionFeatureCount; ++i) {
@@ -116,8 +117,8 @@ Stance StanceOf(const BodyPose& pose, double standing_hip_height) {
 }
 
 bool NeedsClip(const Stance& a, const Stance& b) {
-  constexpr double kMostRise = 0.2;
-  return (a.is_down || b.is_down) && std::abs(a.hips - b.hips) > kMostRise;
+  constexpr double kMaxRise = 0.2;
+  return (a.is_down || b.is_down) && std::abs(a.hips - b.hips) > kMaxRise;
 }
 
 MotionLibrary MakeLibraryOfOneBody(std::vector<std::string> names, std::vector<BodyMotion> motions,

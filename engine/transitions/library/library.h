@@ -12,54 +12,55 @@
 
 namespace etude {
 
-/// The numbers of nine vectors: where feet and hands are, how fast they move, and how fast the hips move.
+/// The number of coordinates of nine vectors: positions and velocities of feet and hands, and the velocity of the hips.
 constexpr std::size_t kMotionFeatureCount = 27;
-/// The features that motion matching compares (Clavet 2016; Holden et al. 2020): hands and feet as seen from the
-/// character, who is at the origin of the floor and faces +Z, and the velocities of hands, feet and hips in the same
+/// The features that motion matching compares (Clavet 2016; Holden et al. 2020): positions of hands and feet relative
+/// to the character, who is at the origin of the floor and faces +Z, and velocities of hands, feet and hips in the same
 /// axes.
 using MotionFeatures = std::array<double, kMotionFeatureCount>;
 double SquaredDistance(const MotionFeatures& a, const MotionFeatures& b);
 
-/// The features of every frame of every clip. Each of the nine vectors is divided by its own standard deviation over
-/// all frames of the library, so that metres and metres per second count alike; one that never varies counts nothing.
+/// Computes the features of every frame of every clip. Each of the nine vectors is divided by its standard deviation
+/// over all frames of the library, so that metres and metres per second have equal weight. A vector that never varies
+/// is set to 0.
 std::vector<std::vector<MotionFeatures>> ComputeMotionFeatures(std::span<const BodyMotion> clips);
 
-/// Returns the largest second difference of any joint that nine of ten frames of a motion keep to, metres per frame²; 0
-/// of fewer than three frames.
+/// Returns the 90th percentile, over the frames of a motion, of the largest second difference of any joint, in metres
+/// per frame²; 0 for fewer than three frames.
 double UsualAcceleration(const BodyMotion& motion);
 
-/// The stance of a body, as far as a join must know it.
+/// The properties of a body's stance that a join must know.
 struct Stance {
-  /// It lies, sits or kneels: its mass centre is more than a quarter of a metre beside its feet, seen from above, and
-  /// its hips are no more than 0.6 of a standing body's height above its lowest joint.
+  /// True if the body lies, sits or kneels: its centre of mass is horizontally more than 0.25 m away from its feet, and
+  /// its hips are at most 0.6 of a standing body's hip height above its lowest joint.
   bool is_down = false;
-  double hips = 0;  ///< the height of the hips above the lowest joint, metres
+  double hips = 0;  ///< height of the hips above the lowest joint, metres
 };
 Stance StanceOf(const BodyPose& pose, double standing_hip_height);
 
-/// Tells whether a join would have to raise or lower a body on nothing: in one stance at least it is down, and its hips
-/// differ by more than 0.2 m. Only a clip can show how that is done.
+/// Returns true if a join would have to raise or lower a body without support: at least one stance is down, and the hip
+/// heights differ by more than 0.2 m. Only a clip can show such a motion.
 bool NeedsClip(const Stance& a, const Stance& b);
 
-/// Clips made ready for transitions: all performed by one body, at 30 Hz, tagged, and joined by in-betweens.
+/// Clips that are prepared for transitions: performed by one body, at 30 Hz, tagged, and with in-betweens.
 struct MotionLibrary {
   BodyProportions proportions;
   std::vector<std::string> names;
   std::vector<BodyMotion> motions;
-  std::vector<TaggedClip> tagged;                     ///< as `motions`, frame by frame
-  std::vector<std::vector<MotionFeatures>> features;  ///< as `motions`, frame by frame
-  std::vector<double> usual_accelerations;            ///< as `motions`: UsualAcceleration
-  std::vector<std::vector<Stance>> stances;           ///< as `motions`, frame by frame
+  std::vector<TaggedClip> tagged;                     ///< per clip and frame, as `motions`
+  std::vector<std::vector<MotionFeatures>> features;  ///< per clip and frame, as `motions`
+  std::vector<double> usual_accelerations;            ///< UsualAcceleration per clip
+  std::vector<std::vector<Stance>> stances;           ///< per clip and frame, as `motions`
   InBetweenNet in_betweens;
 };
 
-/// Makes a library of motions that one body performs already, at 30 Hz: tags them by `rules`, and builds in-betweens
-/// that move by `tween`.
+/// Makes a library from motions of one body at 30 Hz. `rules` tag the frames, and `tween` sets the speed of the
+/// in-betweens.
 MotionLibrary MakeLibraryOfOneBody(std::vector<std::string> names, std::vector<BodyMotion> motions,
                                    const BodyProportions& proportions, const TagRules& rules = {},
                                    const TweenRules& tween = {});
 
-/// Makes a library of clips as they came: has them performed by one body, and goes on as MakeLibraryOfOneBody.
+/// Makes a library from clips of any bodies: lets one body perform them, then works like MakeLibraryOfOneBody.
 MotionLibrary MakeLibrary(std::vector<std::string> names, std::span<const BodyMotion> clips,
                           const BodyProportions& proportions, const TagRules& rules = {}, const TweenRules& tween = {});
 

@@ -11,7 +11,7 @@
 namespace etude {
 
 FrameWindow WaitWindow(const TaggedClip& playing, int request, double budget_s) {
-  constexpr double kRounding = 1e-9;  // 4.1 s are 123 frames, although 4.1 · 30 comes out below
+  constexpr double kRounding = 1e-9;  // so that 4.1 s are 123 frames, although 4.1 · 30 is rounded below 123
   const int wait = static_cast<int>(std::floor(budget_s * playing.rate_hz + kRounding));
   return {request, std::min(request + wait, playing.FrameCount() - 1)};
 }
@@ -37,7 +37,7 @@ bool Matches(const TaggedClip& a, int frame_a, const TaggedClip& b, int frame_b,
 
 std::optional<TransitionPoint> FindTransitionPoint(const TaggedClip& playing, FrameWindow window,
                                                    const TaggedClip& next, const MatchRules& rules) {
-  // Frames are in rising order, so those of the front half come first.
+  // The frames are in rising order, so those of the front half come first.
   const std::vector<int> entering = BridgeFramesWithin(next, EntryWindow(next));
   const auto rank = [&](const TransitionPoint& point) {
     return std::tuple(!next.InFrontHalf(point.to), point.distance.value);
@@ -56,7 +56,7 @@ std::optional<TransitionPoint> FindTransitionPoint(const TaggedClip& playing, Fr
 
 namespace {
 
-/// The worst wait for the next of `frames`, which rise, when the clip starts over at its end.
+/// Returns the longest wait for the next of `frames` (in rising order), in seconds, if the clip is repeated at its end.
 std::optional<double> WorstWait(std::span<const FrameMatches> frames, const TaggedClip& clip) {
   if (frames.empty()) return std::nullopt;
   int worst = frames.front().frame + clip.FrameCount() - frames.back().frame;
@@ -64,7 +64,7 @@ std::optional<double> WorstWait(std::span<const FrameMatches> frames, const Tagg
   return (worst - 1) / clip.rate_hz;
 }
 
-/// Counts the frames after which none of `frames` comes within the budget.
+/// Returns the number of frames from which none of `frames` is reached within the budget.
 int CountLate(std::span<const FrameMatches> frames, const TaggedClip& clip, double budget_s) {
   int late = 0;
   auto next = frames.begin();
@@ -80,20 +80,22 @@ int CountLate(std::span<const FrameMatches> frames, const TaggedClip& clip, doub
 Coverage::Coverage(std::span<const TaggedClip> clips, const MatchRules& rules, double budget_s,
                    const OnProgress& on_progress)
     : clip_count_(static_cast<int>(clips.size())), pairs_(clips.size() * clips.size()) {
+  // Find the matches of all frames and of the bridge frames.
   std::vector<MatchClip> all_frames, bridge_frames;
   for (const TaggedClip& clip : clips) {
     all_frames.push_back({.grades = clip.grades, .frames = std::nullopt, .tags = clip.tags});
     bridge_frames.push_back({.grades = clip.grades, .frames = clip.bridge_frames, .tags = clip.tags});
   }
-  const MatchRules partner_rules{
+  const MatchRules match_rules{
       .weights = rules.weights, .threshold = rules.threshold, .within_class = rules.within_class};
-  const auto tell_from = [&](std::size_t first) {
+  const auto progress_from = [&](std::size_t first) {
     return [&, first](std::size_t done, std::size_t all) {
       if (on_progress) on_progress(first + done, 2 * all);
     };
   };
-  const MatchTable of_all = FindMatches(all_frames, partner_rules, nullptr, tell_from(0));
-  const MatchTable of_bridges = FindMatches(bridge_frames, partner_rules, nullptr, tell_from(clips.size()));
+  const MatchTable of_all = FindMatches(all_frames, match_rules, nullptr, progress_from(0));
+  const MatchTable of_bridges = FindMatches(bridge_frames, match_rules, nullptr, progress_from(clips.size()));
+  // Summarise them for every pair of clips.
   for (int from = 0; from < clip_count_; ++from) {
     for (int to = 0; to < clip_count_; ++to) {
       if (from == to || clips[from].FrameCount() == 0) continue;

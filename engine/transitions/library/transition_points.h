@@ -10,14 +10,14 @@
 
 namespace etude {
 
-/// A transition point: frame `from` of the playing clip and frame `to` of the next one, which count as one.
+/// A transition point: frame `from` of the playing clip, which frame `to` of the next clip replaces.
 struct TransitionPoint {
   int from = 0;
   int to = 0;
   FuzzyDistance distance;
 };
 
-/// The frames `first` … `last` of a clip, both included; none when `last` < `first`.
+/// The frames from `first` to `last` of a clip, both included; empty if `last` < `first`.
 struct FrameWindow {
   int first = 0;
   int last = 0;
@@ -25,37 +25,38 @@ struct FrameWindow {
   bool Contains(int frame) const { return first <= frame && frame <= last; }
 };
 
-/// The frames that a budget of waiting allows: from `request` to `request` + `budget_s` seconds, inside the clip.
+/// Returns the frames within the waiting budget: from `request` to `request` + `budget_s` seconds, limited to the clip.
 FrameWindow WaitWindow(const TaggedClip& playing, int request, double budget_s);
-/// The frames that may be entered: all but the last, after which nothing would follow.
+/// Returns the frames that may be entered: all except the last, which has no next frame.
 FrameWindow EntryWindow(const TaggedClip& next);
 
-/// Lists the frames of a window in rising order.
+/// Returns the frames of a window in rising order.
 std::vector<int> FramesWithin(FrameWindow window);
 std::vector<int> BridgeFramesWithin(const TaggedClip& clip, FrameWindow window);
 
-/// Says whether two frames match under the rules.
+/// Returns true if two frames match under the rules.
 bool Matches(const TaggedClip& a, int frame_a, const TaggedClip& b, int frame_b, const MatchRules& rules);
 
-/// Paper A's search (algorithms A5): at each bridge frame of `playing` in the window, look at the bridge frames of
-/// `next` that may be entered, front half first, because entering near the end looks unnatural, then rear half.
+/// Searches as paper A does (algorithms A5): each bridge frame of `playing` in the window is compared with the bridge
+/// frames of `next` that may be entered, those of the front half first, because entering a clip near its end looks
+/// unnatural. Returns nothing if no pair matches.
 std::optional<TransitionPoint> FindTransitionPoint(const TaggedClip& playing, FrameWindow window,
                                                    const TaggedClip& next, const MatchRules& rules);
 
-/// The ways from one clip of a library into another.
+/// Statistics of the transitions from one clip of a library into another.
 struct PairCoverage {
-  double frame_share = 0;   ///< of all frames: those that match some frame of the other clip
-  double bridge_share = 0;  ///< of the bridge frames: those that match one of the other's
-  /// The wait from the worst frame to the next bridge frame that matches one, seconds. The clip starts over at its end,
-  /// as moves do; none without such a bridge frame.
+  double frame_share = 0;   ///< share of all frames that match some frame of the other clip
+  double bridge_share = 0;  ///< share of the bridge frames that match some bridge frame of the other clip
+  /// The longest wait from any frame to the next matching bridge frame, in seconds, if the clip is repeated at its end;
+  /// empty if there is no such bridge frame.
   std::optional<double> worst_wait_s;
-  /// The share of frames after which no such bridge frame comes within the budget before the clip ends, so that the way
-  /// leads through an in-between.
+  /// The share of frames from which no matching bridge frame is reached within the budget and before the clip's end, so
+  /// that a transition goes through an in-between.
   double in_between_share = 0;
 };
 
-/// The coverage of every pair of clips of a library. `on_progress` is told of the clips whose frames are compared, each
-/// counted twice: with all frames, and with the bridge frames.
+/// The coverage of every pair of clips of a library. `on_progress` receives the number of compared clips; each clip
+/// counts twice, once with all frames and once with the bridge frames.
 class Coverage {
  public:
   Coverage(std::span<const TaggedClip> clips, const MatchRules& rules, double budget_s,
@@ -65,7 +66,8 @@ class Coverage {
   /// Returns the coverage from one clip into another one.
   const PairCoverage& Of(int from, int to) const { return pairs_[Index(from, to)]; }
 
-  /// Paper A, section 3.5: every move needs a bridge frame into the corrective clip. The clips without one.
+  /// Returns the clips without a bridge frame that matches one of clip `wanted`. Paper A (section 3.5) demands that
+  /// every move has one into the corrective clip.
   std::vector<int> WithoutWayInto(int wanted) const;
 
  private:

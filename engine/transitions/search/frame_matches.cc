@@ -9,17 +9,18 @@
 namespace etude {
 namespace {
 
-/// A clip made ready: those of its frames that take part, as what asks and as what is searched.
+/// A clip prepared for the search: its participating frames, both as queries and as targets.
 struct ReadyClip {
-  std::vector<int> frames;      // that take part
-  std::vector<Grades> grades;   // of `frames`
-  std::vector<Tags> tags;       // of `frames`; empty when classes do not matter
-  std::vector<double> steps;    // the distance of each of `frames` from the one before
-  std::vector<GradeBox> boxes;  // of every sixteen of `frames`
+  std::vector<int> frames;      // the participating frames
+  std::vector<Grades> grades;   // per frame of `frames`
+  std::vector<Tags> tags;       // per frame of `frames`; empty if classes do not matter
+  std::vector<double> steps;    // distance of each of `frames` to the one before
+  std::vector<GradeBox> boxes;  // one per sixteen of `frames`
   TimeBlocks targets;           // of `frames`, without the clip's last frame
 };
 
 ReadyClip MakeReady(const MatchClip& clip, const MatchRules& rules) {
+  // Collect the participating frames with their grades and tags.
   ReadyClip ready;
   if (clip.frames) {
     ready.frames.assign(clip.frames->begin(), clip.frames->end());
@@ -31,6 +32,7 @@ ReadyClip MakeReady(const MatchClip& clip, const MatchRules& rules) {
     ready.grades.push_back(clip.grades[frame]);
     if (rules.within_class) ready.tags.push_back(clip.tags[frame]);
   }
+  // Compute steps and boxes for the queries, and blocks for the targets.
   const std::span<const Grades> grades = ready.grades;
   for (std::size_t i = 0; i < grades.size(); ++i) {
     ready.steps.push_back(ComputeDistance(grades[i], grades[i > 0 ? i - 1 : 0], rules.weights).value);
@@ -43,11 +45,11 @@ ReadyClip MakeReady(const MatchClip& clip, const MatchRules& rules) {
   return ready;
 }
 
-/// Finds the frames of another clip that match those of one clip.
+/// Finds the frames of another clip that match the frames of one clip.
 ///
-/// Frames ask in time order, and motion is smooth: by the triangle inequality a block of targets that was so and so far
-/// from one frame can be nearer to a later one only by the way between the two. So a block is looked at again only
-/// when that way has grown long enough to matter.
+/// The query frames are processed in time order, and motion is smooth. By the triangle inequality, the distance to a
+/// block of targets can shrink from one query to a later one by at most the summed distance between the queries. So a
+/// block is compared again only when that sum has become large enough.
 class PairSearch {
  public:
   PairSearch(const GradeMetric& metric, const MatchRules& rules, const ReadyClip& from, const ReadyClip& to)
@@ -60,9 +62,9 @@ class PairSearch {
       if (near_.empty()) continue;
       const std::size_t start = block * kBlockLanes;
       const std::size_t end = std::min(start + kBlockLanes, from_.frames.size());
-      way_ = 0;
+      travelled_ = 0;
       for (std::size_t i = start; i < end; ++i) {
-        if (i > start) way_ += from_.steps[i];
+        if (i > start) travelled_ += from_.steps[i];
         if (const auto matches = FindFor(i, work)) found.push_back(*matches);
       }
     }
@@ -70,18 +72,18 @@ class PairSearch {
   }
 
  private:
-  /// A target, as its place in to_.frames.
+  /// A target, as an index into to_.frames.
   struct Best {
-    int place;
+    int index;
     double distance;
   };
   struct NearBlock {
     int block;
-    double bound;  // the least distance of any of the sixteen frames that ask
-    double reach;  // how far it was at the last look, plus the way until then
+    double bound;  // lower bound for the distance from all sixteen query frames
+    double reach;  // distance at the last comparison plus `travelled_` at that time
   };
 
-  /// The target blocks, in time order, that any frame of `asking` may match a frame of.
+  /// Collects the target blocks, in time order, that may hold a match of a frame in `asking`.
   void FindNearBlocks(const GradeBox& asking, SearchWork& work) {
     near_.clear();
     const double limit = SquaredLimit(rules_.threshold);
@@ -95,39 +97,43 @@ class PairSearch {
     }
   }
 
-  /// A lower bound of the distance from the frame that asks to any frame of the block.
+  /// Returns a lower bound of the distance from the current query frame to any frame of the block.
   double LeastDistance(const NearBlock& near) const {
-    // Larger than the rounding errors of distances and their sums, too small to cause needless block evaluations.
+    // The margin is larger than the rounding errors of distances and their sums, and too small to cause needless
+    // comparisons.
     constexpr double kRounding = 1e-9, kTiniest = 1e-150;
-    const double rest = near.reach - way_ - kRounding * (near.reach + way_) - kTiniest;
+    const double rest = near.reach - travelled_ - kRounding * (near.reach + travelled_) - kTiniest;
     return std::max(near.bound, rest);
   }
 
   std::optional<FrameMatches> FindFor(std::size_t asking, SearchWork& work) {
+    // Visit the blocks in time order until the first match is found.
     std::optional<int> first;
     Best nearest{0, rules_.threshold};
     std::size_t next = 0;
     for (; next < near_.size() && !first; ++next) {
-      if (LeastDistance(near_[next]) < rules_.threshold) first = Look(asking, near_[next], nearest, work);
+      if (LeastDistance(near_[next]) < rules_.threshold) first = CompareBlock(asking, near_[next], nearest, work);
     }
     if (!first) return std::nullopt;
-    // Try the block that held the previous frame's nearest match first: a small distance early excludes most others.
+    // Then try the block that held the previous frame's nearest match, because a small distance excludes most other
+    // blocks.
     const auto hint = std::ranges::lower_bound(near_, hint_, {}, &NearBlock::block);
     if (hint != near_.end() && hint - near_.begin() >= static_cast<std::ptrdiff_t>(next)) {
-      Look(asking, *hint, nearest, work);
+      CompareBlock(asking, *hint, nearest, work);
     }
+    // Visit the remaining blocks that may hold a nearer match.
     for (; next < near_.size(); ++next) {
-      if (LeastDistance(near_[next]) <= nearest.distance) Look(asking, near_[next], nearest, work);
+      if (LeastDistance(near_[next]) <= nearest.distance) CompareBlock(asking, near_[next], nearest, work);
     }
-    hint_ = nearest.place / kBlockLanes;
-    return FrameMatches{from_.frames[asking], to_.frames[*first], to_.frames[nearest.place], nearest.distance};
+    hint_ = nearest.index / kBlockLanes;
+    return FrameMatches{from_.frames[asking], to_.frames[*first], to_.frames[nearest.index], nearest.distance};
   }
 
-  /// Looks at one block: improves `nearest`, and says which is the first frame that did.
+  /// Compares the query with one block. Improves `nearest`, and returns the first frame that improved it.
   ///
-  /// While nothing is found, `nearest` is at the threshold, and the first frame that improves it is the first match.
-  std::optional<int> Look(std::size_t asking, NearBlock& near, Best& nearest, SearchWork& work) const {
-    // Distances up to twice the threshold are computed: they bound for how many frames the block can be skipped.
+  /// Before the first match, `nearest` is at the threshold, so the first frame that improves it is the first match.
+  std::optional<int> CompareBlock(std::size_t asking, NearBlock& near, Best& nearest, SearchWork& work) const {
+    // Distances up to twice the threshold are computed; they tell for how many queries the block can be skipped.
     const double farthest = 2 * rules_.threshold;
     const int start = near.block * kBlockLanes;
     const int count = std::min(kBlockLanes, to_.targets.frame_count - start);
@@ -135,20 +141,20 @@ class PairSearch {
     const BlockResult result =
         SquaredDistances(metric_, from_.grades[asking], to_.targets.frames[near.block], SquaredLimit(farthest));
     const double least = std::sqrt(result.least);
-    near.reach = least + way_;
+    near.reach = least + travelled_;
     std::optional<int> first;
     if (least > nearest.distance) return first;
     const double limit = SquaredLimit(nearest.distance);
     ForEachLane(result.kept & LanesOf(count), [&](int lane) {
       if (result.squared[lane] > limit) return;
       const double distance = std::sqrt(result.squared[lane]);
-      const int place = start + lane;
-      // Blocks are not visited in frame order; ties go to the earlier frame.
+      const int index = start + lane;
+      // Blocks are not visited in the order of frames, so ties are resolved in favour of the earlier frame.
       const bool is_nearer = distance < nearest.distance ||
-                             (distance == nearest.distance && distance < rules_.threshold && place < nearest.place);
-      if (!is_nearer || (rules_.within_class && from_.tags[asking] != to_.tags[place])) return;
-      if (!first) first = place;
-      nearest = {place, distance};
+                             (distance == nearest.distance && distance < rules_.threshold && index < nearest.index);
+      if (!is_nearer || (rules_.within_class && from_.tags[asking] != to_.tags[index])) return;
+      if (!first) first = index;
+      nearest = {index, distance};
     });
     return first;
   }
@@ -158,8 +164,8 @@ class PairSearch {
   const ReadyClip& from_;
   const ReadyClip& to_;
   std::vector<NearBlock> near_;
-  double way_ = 0;  // from the first of the sixteen frames to the one that asks
-  int hint_ = 0;    // the block of the nearest match that was found last
+  double travelled_ = 0;  // sum of the distances between queries since the first of the sixteen
+  int hint_ = 0;          // the block of the last nearest match
 };
 
 }  // namespace
@@ -172,6 +178,7 @@ double MatchTable::Share(int from, int to) const {
 MatchTable FindMatches(std::span<const MatchClip> clips, const MatchRules& rules, SearchWork* work,
                        const OnProgress& on_progress) {
   MatchTable table;
+  // Prepare every clip once, then search every pair of clips.
   std::vector<ReadyClip> ready;
   for (const MatchClip& clip : clips) {
     ready.push_back(MakeReady(clip, rules));

@@ -1,5 +1,5 @@
-// Compiled once for every kind of vectors that x86-64 CPUs have; the best one is chosen when the program runs
-// (engine/kinematics/solvers/README.md says why by Highway).
+// This file is compiled once for every vector instruction set of x86-64 CPUs; the best one is chosen at run time
+// (engine/kinematics/solvers/README.md explains why Highway is used).
 #include "engine/transitions/search/grade_blocks.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 #define HWY_TARGET_INCLUDE "engine/transitions/search/grade_blocks.cc"
 #include "hwy/foreach_target.h"  // before highway.h
 
-// Included after foreach_target.h, once per target.
+// This is included after foreach_target.h, once per target.
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -22,40 +22,42 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<double, kBlockLanes / 2>;
 using Vec = hn::Vec<Tag>;
 
-/// Sums up the weighted squares of the gaps that `gap(term, lane)` gives for the lanes from `lane` on, as
-/// `ComputeDistance` does: never MulAdd, which rounds once where CPUs without it round twice. Gives up when all lanes
-/// are beyond the limit, since sums only grow.
+/// Sums up the weighted squares of the differences `gap(term, lane)`, for the vector of lanes that begins at `lane`, in
+/// the same order as `ComputeDistance`. It does not use MulAdd, which rounds once where CPUs without it round twice. It
+/// stops when all lanes exceed the limit, because the sums never decrease.
 template <class Gap>
 HWY_INLINE BlockResult SumSquares(const GradeMetric& metric, double limit, const Gap& gap) {
   const Tag tag;
   const std::size_t lanes = hn::Lanes(tag);
-  const Vec most = hn::Set(tag, limit);
-  Vec least = most;
+  const Vec max = hn::Set(tag, limit);
+  Vec least = max;
   BlockResult result;
-  // Two vectors at a time: two independent sums hide the latency of addition.
+  // Process two vectors at a time: two independent sums hide the latency of the additions.
   for (std::size_t lane = 0; lane < kBlockLanes; lane += 2 * lanes) {
     Vec sum_a = hn::Zero(tag), sum_b = hn::Zero(tag);
-    bool goes_on = true;
-    for (std::size_t k = 0; k < kFeatureCount && goes_on; ++k) {
+    bool is_open = true;
+    for (std::size_t k = 0; k < kFeatureCount && is_open; ++k) {
       Vec feature_a = hn::Zero(tag), feature_b = hn::Zero(tag);
       for (std::size_t t = metric.first_term[k]; t < metric.first_term[k + 1]; ++t) {
         const Vec gap_a = gap(t, lane), gap_b = gap(t, lane + lanes);
         feature_a = hn::Add(feature_a, hn::Mul(gap_a, gap_a));
         feature_b = hn::Add(feature_b, hn::Mul(gap_b, gap_b));
       }
+      // Stop early if all lanes exceed the limit; check after every second feature.
       const Vec weight = hn::Set(tag, metric.weights[k]);
       sum_a = hn::Add(sum_a, hn::Mul(weight, feature_a));
       sum_b = hn::Add(sum_b, hn::Mul(weight, feature_b));
-      if (k % 2 == 1) goes_on = !hn::AllFalse(tag, hn::Or(hn::Le(sum_a, most), hn::Le(sum_b, most)));
+      if (k % 2 == 1) is_open = !hn::AllFalse(tag, hn::Or(hn::Le(sum_a, max), hn::Le(sum_b, max)));
     }
-    if (!goes_on) continue;
+    if (!is_open) continue;
+    // Store the sums and the mask of the lanes within the limit.
     least = hn::Min(least, hn::Min(sum_a, sum_b));
     hn::Store(sum_a, tag, &result.squared[lane]);
     hn::Store(sum_b, tag, &result.squared[lane + lanes]);
     std::array<std::uint8_t, 8> bits{};
-    hn::StoreMaskBits(tag, hn::Le(sum_a, most), bits.data());
+    hn::StoreMaskBits(tag, hn::Le(sum_a, max), bits.data());
     result.kept |= static_cast<std::uint32_t>(bits[0]) << lane;
-    hn::StoreMaskBits(tag, hn::Le(sum_b, most), bits.data());
+    hn::StoreMaskBits(tag, hn::Le(sum_b, max), bits.data());
     result.kept |= static_cast<std::uint32_t>(bits[0]) << (lane + lanes);
   }
   result.least = hn::GetLane(hn::MinOfLanes(tag, least));
@@ -91,7 +93,7 @@ HWY_EXPORT(Distances);
 HWY_EXPORT(Bounds);
 
 GradeMetric::GradeMetric(const FeatureWeights& feature_weights) : weights(feature_weights) {
-  // SumSquares stops early because partial sums never decrease; negative weights would break that.
+  // SumSquares may stop early only because partial sums never decrease, which negative weights would break.
   for ([[maybe_unused]] double weight : weights) assert(weight >= 0);
   for (std::size_t k = 0; k < kFeatureCount; ++k) first_term[k] = FirstTermOf(AllFeatures()[k]);
   first_term[kFeatureCount] = kTermCount;
@@ -147,7 +149,8 @@ void SetBlockTarget(const std::string& target) {
 }
 
 double SquaredLimit(double distance) {
-  // Root and square are each rounded by at most half a unit in the last place, or by the smallest denormal near zero.
+  // The square root and the square are each rounded by at most half a unit in the last place, or by the smallest
+  // denormal near zero.
   constexpr double kSlack = 1 + 4 * std::numeric_limits<double>::epsilon();
   return distance * distance * kSlack + std::numeric_limits<double>::denorm_min();
 }

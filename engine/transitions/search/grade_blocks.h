@@ -11,27 +11,28 @@
 
 namespace etude {
 
-/// The number of frames, or boxes of frames, that are compared at once.
+/// The number of frames, or boxes of frames, that are compared together.
 constexpr int kBlockLanes = 16;
 using BlockLanes = std::array<double, kBlockLanes>;
 
-/// The grades of sixteen frames, term by term, so that one operation serves many of them.
+/// The grades of sixteen frames, stored term by term for vector instructions.
 struct alignas(64) FrameBlock {
   std::array<BlockLanes, kTermCount> grades{};
 
   void Set(int lane, const Grades& frame);
 };
 
-/// The least and the greatest grades of frames.
+/// The smallest and largest grades of some frames, term by term.
 struct GradeBox {
   Grades low{}, high{};
 
   void Include(const GradeBox& other);
 };
-/// The box of at least one frame.
+/// Returns the box of at least one frame.
 GradeBox BoxOf(std::span<const Grades> frames);
 
-/// Sixteen boxes, term by term; rounded outwards to single precision, since reading them is what a search costs.
+/// Sixteen boxes, stored term by term. They are rounded outwards to single precision, because reading them dominates
+/// the cost of a search.
 struct alignas(64) BoxBlock {
   using Lanes = std::array<float, kBlockLanes>;
   std::array<Lanes, kTermCount> low{}, high{};
@@ -39,47 +40,48 @@ struct alignas(64) BoxBlock {
   void Set(int lane, const GradeBox& box);
 };
 
-/// Returns how many blocks `count` frames take.
+/// Returns the number of blocks for `count` frames.
 constexpr int BlocksFor(std::size_t count) { return static_cast<int>((count + kBlockLanes - 1) / kBlockLanes); }
-/// The bits of the lanes that a block has when `count` are left from its first one on.
+/// Returns the bits of a block's used lanes if `count` frames are left from its first lane on.
 constexpr std::uint32_t LanesOf(int count) { return count >= kBlockLanes ? 0xffff : (1u << count) - 1; }
 
-/// Equation 1 ready to be computed: whose terms are which, and what each feature weighs.
+/// The constants of equation 1: the terms and the weight of each feature.
 struct GradeMetric {
-  /// Makes the metric of weights, none of which may be negative.
+  /// Makes the metric from weights ≥ 0.
   explicit GradeMetric(const FeatureWeights& feature_weights);
 
   FeatureWeights weights;
-  std::array<std::size_t, kFeatureCount + 1> first_term{};  ///< terms first_term[k] … first_term[k + 1] are feature k's
+  /// Feature k has the terms first_term[k] … first_term[k + 1] − 1.
+  std::array<std::size_t, kFeatureCount + 1> first_term{};
 };
 
-/// The squares of sixteen distances, and which of them count.
+/// The squares of sixteen distances, and which of them are within the limit.
 struct BlockResult {
-  alignas(64) BlockLanes squared;  ///< of the lanes in `kept`; others are not finished
-  std::uint32_t kept = 0;          ///< bit i: lane i is at most the limit
-  double least = 0;                ///< no lane is less, be it kept or not; at most the limit
+  alignas(64) BlockLanes squared;  ///< valid for the lanes in `kept`; the other sums may be incomplete
+  std::uint32_t kept = 0;          ///< bit i is set if lane i is at most the limit
+  double least = 0;                ///< lower bound of all lanes, kept or not; at most the limit
 };
 
-/// Calls `visit` with each lane of the bits, the lowest first.
+/// Calls `visit` with the index of each set bit, the lowest first.
 template <class Visit>
 void ForEachLane(std::uint32_t bits, const Visit& visit) {
   for (; bits != 0; bits &= bits - 1) visit(std::countr_zero(bits));
 }
 
-/// Returns d² of `query` and every frame of the block: the very bits that `ComputeDistance` takes the root of, on every
-/// CPU.
+/// Returns d² of `query` and every frame of the block. The values are bit-identical to those whose square root
+/// `ComputeDistance` returns, on every CPU.
 BlockResult SquaredDistances(const GradeMetric& metric, const Grades& query, const FrameBlock& block, double limit);
 
-/// The least d² that any frame of `query` can have from any frame of each box (rounded outwards). It is never greater
-/// than the d² of such a pair as `ComputeDistance` rounds it: both are made by the same operations in the same order,
-/// and rounding keeps order.
+/// Returns a lower bound of d² between any frame in `query` and any frame in each box (rounded outwards). It never
+/// exceeds the d² of such a pair as `ComputeDistance` rounds it, because both use the same operations in the same
+/// order, and rounding is monotonic.
 BlockResult SquaredBounds(const GradeMetric& metric, const GradeBox& query, const BoxBlock& block, double limit);
 
-/// A limit on d² that no frame exceeds whose rounded distance is at most `distance`.
+/// Returns a limit on d² that is not exceeded by any frame whose rounded distance is at most `distance`.
 double SquaredLimit(double distance);
 
-/// Every kind of vectors that this CPU has, the best first, and the choice of one of them (any other name: of the
-/// best): for tests and benchmarks.
+/// BlockTargets returns the vector instruction sets of this CPU, the best first. SetBlockTarget chooses one of them, or
+/// the best if the name is unknown. Both are for tests and benchmarks.
 std::vector<std::string> BlockTargets();
 void SetBlockTarget(const std::string& target);
 

@@ -14,7 +14,7 @@
 namespace etude {
 namespace {
 
-/// A frame and its place along the axis of a split.
+/// A frame and its coordinate along the axis of a split.
 struct Placed {
   double at;
   int frame;
@@ -36,7 +36,7 @@ class Splitter {
     const std::size_t axis = WidestAxis(order);
     const std::span<Placed> placed(placed_.data(), order.size());
     for (std::size_t i = 0; i < order.size(); ++i) placed[i] = {frames_[order[i]][axis], order[i]};
-    // The left side gets a power of two of blocks, so that each block, and each group of sixteen, is a subtree.
+    // The left side gets a power of two of blocks, so that each block, and each group of sixteen blocks, is a subtree.
     const std::size_t blocks = (order.size() + kBlockLanes - 1) / kBlockLanes;
     const std::size_t left = std::bit_ceil(blocks) / 2 * kBlockLanes;
     std::ranges::nth_element(placed, placed.begin() + static_cast<std::ptrdiff_t>(left), {},
@@ -47,7 +47,7 @@ class Splitter {
   }
 
  private:
-  /// The term whose weighted grades vary most, judged by some of the frames.
+  /// Returns the term whose weighted grades vary most, estimated from a sample of the frames.
   std::size_t WidestAxis(std::span<const int> order) const {
     constexpr std::size_t kSample = 64;
     const std::size_t step = std::max<std::size_t>(1, order.size() / kSample);
@@ -61,11 +61,11 @@ class Splitter {
       }
     }
     std::size_t widest = 0;
-    double most = -1;
+    double largest = -1;
     for (std::size_t t = 0; t < kTermCount; ++t) {
       const double variance = weights_[t] * (squares[t] - sum[t] * sum[t] / count);
-      if (variance > most) {
-        most = variance;
+      if (variance > largest) {
+        largest = variance;
         widest = t;
       }
     }
@@ -77,8 +77,8 @@ class Splitter {
   std::vector<Placed> placed_;
 };
 
-/// The numbers of all frames, so ordered that every `kBlockLanes` in a row are close to each other, and likewise every
-/// sixteen such blocks, and so on: a k-d tree whose leaves are the blocks. Within a block in time order.
+/// Returns the indices of all frames in the order of a k-d tree: each `kBlockLanes` consecutive frames form a block of
+/// near frames, each sixteen blocks form a node, and so on. Within a block the frames are in time order.
 std::vector<int> OrderForBlocks(std::span<const Grades> frames, const GradeMetric& metric) {
   std::vector<int> order(frames.size());
   std::iota(order.begin(), order.end(), 0);
@@ -86,7 +86,7 @@ std::vector<int> OrderForBlocks(std::span<const Grades> frames, const GradeMetri
   return order;
 }
 
-/// Most first matches of a large library lie among so many frames; scanning their boxes takes a microsecond.
+/// Most first matches of a large library are among this many frames; scanning their boxes takes a microsecond.
 constexpr std::size_t kHeadFrames = 4096;
 constexpr int kNoFrame = std::numeric_limits<int>::max();
 constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -101,7 +101,8 @@ void AddWork(const SearchWork& of_search, SearchWork* work) {
   work->distances += of_search.distances;
 }
 
-/// Sorts matches by frame. Many are sorted by their digits: standing still, a frame can have a hundred thousand.
+/// Sorts matches by frame. Large results are sorted by radix sort: a frame of a person who stands still can have
+/// 100,000 matches.
 void SortByFrame(std::vector<Neighbour>& found, int frame_count) {
   constexpr int kDigitBits = 11;
   constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
@@ -112,17 +113,17 @@ void SortByFrame(std::vector<Neighbour>& found, int frame_count) {
   std::vector<Neighbour> sorted(found.size());
   for (int shift = 0; (std::int64_t{frame_count} >> shift) > 0; shift += kDigitBits) {
     const auto digit_of = [&](const Neighbour& n) { return static_cast<std::size_t>(n.frame >> shift) % kDigits; };
-    std::array<std::size_t, kDigits + 1> places{};
-    for (const Neighbour& neighbour : found) ++places[digit_of(neighbour) + 1];
-    for (std::size_t d = 0; d < kDigits; ++d) places[d + 1] += places[d];
-    for (const Neighbour& neighbour : found) sorted[places[digit_of(neighbour)]++] = neighbour;
+    std::array<std::size_t, kDigits + 1> offsets{};
+    for (const Neighbour& neighbour : found) ++offsets[digit_of(neighbour) + 1];
+    for (std::size_t d = 0; d < kDigits; ++d) offsets[d + 1] += offsets[d];
+    for (const Neighbour& neighbour : found) sorted[offsets[digit_of(neighbour)]++] = neighbour;
     found.swap(sorted);
   }
 }
 
 }  // namespace
 
-/// The bounds of the frames below a node.
+/// The bounding box of the frames below a node, and the first of these frames.
 struct GradeIndex::Node {
   GradeBox box;
   int first_frame;
@@ -139,7 +140,7 @@ struct GradeIndex::Children {
 struct GradeIndex::NearestSearch {
   GradeBox query;
   std::size_t k;
-  std::vector<Neighbour> best;  // a heap, the worst in front
+  std::vector<Neighbour> best;  // a heap with the worst one in front
   SearchWork work{};
 
   Neighbour Worst() const { return best.size() < k ? Neighbour{kNoFrame, kFar} : best.front(); }
@@ -181,7 +182,7 @@ GradeIndex::GradeIndex(std::span<const Grades> frames, const FeatureWeights& wei
 }
 
 void GradeIndex::BuildLevels(std::span<const Grades> frames) {
-  // The nodes below the level in work: at first the frame blocks.
+  // The nodes one level below the current one; the first are the frame blocks.
   std::vector<Node> nodes;
   for (std::size_t i = 0; i < order_.size(); ++i) {
     const Grades& grades = frames[order_[i]];
@@ -205,7 +206,7 @@ void GradeIndex::AddLevel(std::span<const Node> nodes) {
   }
 }
 
-/// Puts the next child, the one with that number, into the last node, or into a new one when that is full.
+/// Adds child `number` to the last node, or to a new node if the last one is full.
 void GradeIndex::AddChild(std::vector<Node>& nodes, std::size_t number, const Node& child) {
   if (number % kBlockLanes == 0) {
     nodes.push_back(child);
@@ -266,6 +267,7 @@ void GradeIndex::FindNearest(int level, int node, NearestSearch& search) const {
     });
     return;
   }
+  // Visit the nearest children first, until the rest cannot improve the result.
   Children children = ChildrenWithin(level, node, search.query, search.Worst().distance, search.work);
   std::ranges::sort(children, {}, [](const Child& c) { return std::tuple(c.bound, c.first_frame); });
   for (const Child& child : children) {

@@ -10,57 +10,59 @@
 
 namespace etude {
 
-/// Frames in time order, sixteen to a block, and the box of every block: frames in a row are close to each other, so
-/// most blocks are seen to be far as a whole.
+/// Frames in time order in blocks of sixteen, with a box per block. Consecutive frames are near each other, so most
+/// blocks can be rejected by their box.
 struct TimeBlocks {
   TimeBlocks() = default;
   explicit TimeBlocks(std::span<const Grades> frames);
 
   int frame_count = 0;
   std::vector<FrameBlock> frames;
-  std::vector<BoxBlock> boxes;  ///< boxes[i] are those of frames[16 i] …
+  std::vector<BoxBlock> boxes;  ///< boxes[i] holds the boxes of frames[16 i] …
 
   int BlockCount() const { return static_cast<int>(frames.size()); }
 };
 
-/// A frame of the index, and how far it is from the one that was asked about.
+/// A frame of the index and its distance from the query.
 struct Neighbour {
   int frame = 0;
-  double distance = 0;  ///< `ComputeDistance`'s value
+  double distance = 0;  ///< identical to `ComputeDistance`
 };
 
-/// The cost of searches as counts, which are the same on every machine.
+/// The cost of searches, as counts that are the same on every machine.
 struct SearchWork {
-  std::int64_t distances = 0;  ///< frames whose distance was computed, or found to be too far on the way
-  std::int64_t boxes = 0;      ///< likewise, boxes of frames and their least possible distance
+  std::int64_t distances = 0;  ///< frames whose distance was computed, completely or until it was too large
+  std::int64_t boxes = 0;      ///< boxes whose lower bound was computed, completely or until it was too large
 };
 
-/// An exact index over the fuzzy grades of frames: every answer is, to the last bit, that of a loop over
+/// An exact index over the fuzzy grades of frames: every result is bit-identical to that of a loop over
 /// `ComputeDistance`.
 class GradeIndex {
  public:
-  /// Indexes `frames` in time order, up to 2³¹ − 1; none of `weights` is negative. Copies what it needs.
+  /// Indexes at most 2³¹ − 1 `frames`, given in time order, with `weights` ≥ 0. It copies the frames.
   GradeIndex(std::span<const Grades> frames, const FeatureWeights& weights);
 
   int FrameCount() const { return frame_count_; }
-  /// Returns the memory held, bytes.
+  /// Returns the memory in use, in bytes.
   std::int64_t Bytes() const;
 
-  /// The first frame in time order with a distance < `threshold`.
+  /// Returns the first frame in time order with a distance < `threshold`; nothing if there is none.
   std::optional<Neighbour> First(const Grades& query, double threshold, SearchWork* work = nullptr) const;
   /// Returns all frames with a distance < `threshold`, in time order.
   std::vector<Neighbour> Within(const Grades& query, double threshold, SearchWork* work = nullptr) const;
-  /// The `k` frames of smallest distance, by distance, then in time order; all frames when there are fewer than `k`.
+  /// Returns the `k` frames of smallest distance, sorted by distance, then by time; all frames if there are fewer than
+  /// `k`.
   std::vector<Neighbour> Nearest(const Grades& query, int k, SearchWork* work = nullptr) const;
 
  private:
-  /// A level of the tree: one node per sixteen nodes (on the lowest level: frame blocks) of the level below.
+  /// A level of the tree, with one node per sixteen nodes of the level below (on the lowest level: per sixteen frame
+  /// blocks).
   struct Level {
-    std::vector<BoxBlock> boxes;    ///< of each node's children
-    std::vector<int> first_frames;  ///< of each child
+    std::vector<BoxBlock> boxes;    ///< boxes of each node's children
+    std::vector<int> first_frames;  ///< first frame of each child
   };
   struct Child {
-    double bound;  ///< the least distance that a frame below it can have
+    double bound;  ///< lower bound of the distance of the frames below it
     int first_frame;
     int index;
   };
@@ -83,10 +85,10 @@ class GradeIndex {
 
   int frame_count_ = 0;
   GradeMetric metric_;
-  TimeBlocks head_;         ///< the first frames once more, in time order: most first matches are among them
-  std::vector<int> order_;  ///< the frames of all blocks, one block after the other
+  TimeBlocks head_;         ///< a copy of the first frames in time order, which hold most first matches
+  std::vector<int> order_;  ///< frame indices, block by block
   std::vector<FrameBlock> blocks_;
-  std::vector<Level> levels_;  ///< the lowest first; the last has one node; none when there are no frames
+  std::vector<Level> levels_;  ///< the lowest level first; the last has one node; empty without frames
 };
 
 }  // namespace etude

@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-/// Returns degrees as they were meant: 30, not 29.999999999999996.
+/// Returns degrees without conversion error: 30, not 29.999999999999996.
 double RoundedDegrees(double radians) {
   constexpr double kSteps = 1e9;
   return std::round(Degrees(radians) * kSteps) / kSteps;
@@ -28,6 +28,7 @@ std::string MembershipsDigest(const FuzzySystem& system) {
 
 BridgeTags CollectTags(const MotionLibrary& library, std::span<const std::string> sources, const FuzzySystem& system,
                        const TagRules& tag_rules, const MatchRules& match_rules) {
+  // Store the rules.
   BridgeTags tags{.system = system.name,
                   .memberships_digest = MembershipsDigest(system),
                   .weights = match_rules.weights,
@@ -40,6 +41,7 @@ BridgeTags CollectTags(const MotionLibrary& library, std::span<const std::string
                   .standing_hip_height_m = library.proportions.standing_hip_height,
                   .clips = {},
                   .keys = {}};
+  // Store each clip's bridge frames, then the keys of the in-betweens.
   const std::vector<std::vector<FrameRating>> ratings = RateFrames(library.tagged, match_rules.weights);
   for (std::size_t c = 0; c < library.tagged.size(); ++c) {
     const TaggedClip& clip = library.tagged[c];
@@ -80,6 +82,7 @@ void CompareClips(const ClipTags& file, const ClipTags& now, TagsComparison& com
                                                  file.frames, file.rate_hz, now.frames, now.rate_hz));
     return;
   }
+  // Compare the bridge frames that are in both, and report the others.
   std::map<int, const TaggedFrame*> frames_now;
   for (const TaggedFrame& frame : now.bridge_frames) frames_now[frame.frame] = &frame;
   for (const TaggedFrame& frame : file.bridge_frames) {
@@ -104,6 +107,7 @@ void CompareClips(const ClipTags& file, const ClipTags& now, TagsComparison& com
 
 TagsComparison CompareTags(const BridgeTags& file, const BridgeTags& now) {
   TagsComparison comparison;
+  // Compare the rules.
   const auto compare = [&](const char* what, const auto& in_file, const auto& found) {
     if (in_file != found) comparison.differences.push_back(fmt::format("{} is another one now", what));
   };
@@ -112,7 +116,7 @@ TagsComparison CompareTags(const BridgeTags& file, const BridgeTags& now) {
   compare("the set of weights", file.weights, now.weights);
   compare("the body's height", file.standing_hip_height_m, now.standing_hip_height_m);
 
-  // Missing clips are reported first: they are the cause of differing bridge frames (other poses become frequent).
+  // Report missing clips first: they cause different bridge frames, because other poses become frequent.
   std::map<std::string, const ClipTags*> clips_now;
   for (const ClipTags& clip : now.clips) clips_now[clip.name] = &clip;
   std::vector<std::pair<const ClipTags*, const ClipTags*>> in_both;
@@ -129,6 +133,7 @@ TagsComparison CompareTags(const BridgeTags& file, const BridgeTags& now) {
     comparison.differences.push_back(fmt::format("clip {} is not in the file", Quote(name)));
   }
   comparison.clips = static_cast<int>(in_both.size());
+  // Compare the clips that are in both, and the keys.
   for (const auto& [clip, clip_now] : in_both) CompareClips(*clip, *clip_now, comparison);
   compare("the choice of keys", file.keys, now.keys);
   return comparison;

@@ -13,31 +13,31 @@
 
 namespace etude {
 
-/// Returns docs/schemas/bridge-tags.xsd, the only schema (written by the build).
+/// Returns the only schema, docs/schemas/bridge-tags.xsd (embedded by the build).
 std::span<const EmbeddedText> TagsFileSchemas();
 
 /// A bridge frame with its tags (paper A, section 3.4).
 struct TaggedFrame {
-  int frame = 0;  ///< of its clip, counted from 0
+  int frame = 0;  ///< index in its clip, from 0
   Tags tags{};
   Grades grades{};
-  int clips = 1;          ///< in how many clips of the library its ten tags occur together
-  double difference = 0;  ///< to the frames of the same tags in other clips (FrameRating)
+  int clips = 1;          ///< number of the library's clips in which its ten tags occur together
+  double difference = 0;  ///< to the frames with the same tags in other clips (FrameRating)
 
   friend bool operator==(const TaggedFrame&, const TaggedFrame&) = default;
 };
 
-/// A clip's part of a tags file.
+/// The entry of one clip in a tags file.
 struct ClipTags {
-  std::string name, source;  ///< what tables call it, and what opens it
+  std::string name, source;  ///< the clip's name in tables, and the source it is loaded from
   int frames = 0;
   double rate_hz = kJudgedRateHz;
-  std::vector<TaggedFrame> bridge_frames;  ///< rising
+  std::vector<TaggedFrame> bridge_frames;  ///< in rising order
 
   friend bool operator==(const ClipTags&, const ClipTags&) = default;
 };
 
-/// A bridge frame that in-betweens are built of, by the name of its clip.
+/// A bridge frame from which in-betweens are built, with the name of its clip.
 struct KeyTag {
   std::string clip;
   int frame = 0;
@@ -45,51 +45,52 @@ struct KeyTag {
   friend bool operator==(const KeyTag&, const KeyTag&) = default;
 };
 
-/// The contents of a tags file: the bridge frames of a library, and what they were found by.
+/// The contents of a tags file: the bridge frames of a library, and the rules that found them.
 struct BridgeTags {
   std::string system;              ///< the fuzzy system's name
-  std::string memberships_digest;  ///< sixteen hexadecimal digits: of its membership functions
+  std::string memberships_digest;  ///< sixteen hexadecimal digits, of its membership functions
   FeatureWeights weights{};        ///< S of equation 1
   double threshold = kPaperThreshold;
   bool within_class = false;
   int min_clips = 2, most_per_class = 0;                      ///< TagRules
   double max_neck_bend_deg = 0, max_neck_turn_deg_per_s = 0;  ///< HeadRule
   double standing_hip_height_m = 0;                           ///< of the body that performs all clips
-  std::vector<ClipTags> clips;                                ///< by names that are unique
+  std::vector<ClipTags> clips;                                ///< with unique names
   std::vector<KeyTag> keys;                                   ///< the first is the hub
 
   friend bool operator==(const BridgeTags&, const BridgeTags&) = default;
 };
 
-/// Tells one set of membership functions from another.
+/// Returns a digest that identifies a set of membership functions.
 std::string MembershipsDigest(const FuzzySystem& system);
 
-/// Collects the tags of a library that was made by `tag_rules` and `system`. `sources` as the library's clips.
+/// Collects the tags of a library that was made with `tag_rules` and `system`. `sources` holds one entry per clip.
 BridgeTags CollectTags(const MotionLibrary& library, std::span<const std::string> sources, const FuzzySystem& system,
                        const TagRules& tag_rules, const MatchRules& match_rules);
 
-/// The largest tags file, bytes: larger ones are refused before memory is taken.
+/// The maximal size of a tags file in bytes; a larger file is refused before memory is allocated.
 constexpr std::size_t kLargestTagsFile = 512'000'000;
 
-/// Writes the tags as XML of docs/schemas/bridge-tags.xsd: the same bytes for the same tags, numbers with the fewest
-/// digits that read back the same. Refused: names that XML cannot hold (bytes that are no UTF-8, control characters).
+/// Writes the tags as XML of docs/schemas/bridge-tags.xsd. The same tags give the same bytes, and numbers have the
+/// fewest digits that are read back exactly. Returns an error for names that XML cannot hold (invalid UTF-8, control
+/// characters).
 Result<std::string> WriteTagsFile(const BridgeTags& tags);
 
-/// Reads what WriteTagsFile writes, to the last bit; `file` is what complaints call it. Everything is held against the
-/// schema, and against itself: frames lie within their clips and rise, times and tags follow from frames and grades,
-/// clips have names of their own, keys are bridge frames. A document type declaration is refused: nothing is loaded
-/// or expanded.
+/// Reads what WriteTagsFile writes, bit for bit; error messages name it `file`. It validates the text against the
+/// schema and checks its consistency: frames lie within their clips and rise, times and tags follow from frames and
+/// grades, clip names are unique, keys are bridge frames. A document type declaration is refused, and no entity is
+/// loaded or expanded.
 Result<BridgeTags> ReadTagsFile(std::string_view text, const std::string& file);
 
-/// The differences and matches of two sets of tags.
+/// The result of comparing two sets of tags.
 struct TagsComparison {
   std::vector<std::string> differences;  ///< one line each
-  int clips = 0;                         ///< in both
-  int bridge_frames = 0;                 ///< in both
+  int clips = 0;                         ///< number of clips in both
+  int bridge_frames = 0;                 ///< number of bridge frames in both
 };
 
-/// Compares the tags of a file with those that its clips have now: rules, clips, frames and keys must be the same,
-/// grades and differences to 10⁻⁹.
+/// Compares the tags of a file with the tags that its clips have now. Rules, clips, frames and keys must be equal;
+/// grades and differences must agree to 10⁻⁹.
 TagsComparison CompareTags(const BridgeTags& file, const BridgeTags& now);
 
 }  // namespace etude

@@ -20,8 +20,8 @@
 namespace etude {
 namespace {
 
-/// Reads an XML document element by element, each held against a schema before it is given. Nothing outside the text
-/// is loaded, no entities are expanded, and a document type declaration is refused.
+/// Reads an XML document element by element and validates each element against a schema first. It loads nothing outside
+/// the text, expands no entities, and refuses a document type declaration.
 class XmlReader {
  public:
   static Result<XmlReader> Open(std::string_view text, std::string_view schema, const std::string& file);
@@ -29,12 +29,12 @@ class XmlReader {
   XmlReader& operator=(XmlReader&&) noexcept;
   ~XmlReader();
 
-  /// Goes to the next start of an element; false at the end of a document that is valid throughout.
+  /// Goes to the next start of an element; returns false at the end of a valid document.
   Result<bool> Next();
-  /// The name of the element, and the value of one of its attributes; "" when there is none.
+  /// Element returns the element's name; Attribute returns the value of one of its attributes, or "" if it is missing.
   std::string Element() const;
   std::string Attribute(std::string_view name) const;
-  /// Returns where the element starts: file and line.
+  /// Returns the position (file and line) at which the element starts.
   Place Where() const;
 
  private:
@@ -44,17 +44,17 @@ class XmlReader {
 };
 
 template <typename T, void (*Free)(T*)>
-struct Freer {
+struct XmlDeleter {
   void operator()(T* held) const { Free(held); }
 };
 
 template <typename T, void (*Free)(T*)>
-using Held = std::unique_ptr<T, Freer<T, Free>>;
+using XmlPtr = std::unique_ptr<T, XmlDeleter<T, Free>>;
 
-Held<xmlSchema, xmlSchemaFree> Compile(std::string_view schema) {
-  const Held<xmlSchemaParserCtxt, xmlSchemaFreeParserCtxt> context(
+XmlPtr<xmlSchema, xmlSchemaFree> Compile(std::string_view schema) {
+  const XmlPtr<xmlSchemaParserCtxt, xmlSchemaFreeParserCtxt> context(
       xmlSchemaNewMemParserCtxt(schema.data(), static_cast<int>(schema.size())));
-  Held<xmlSchema, xmlSchemaFree> compiled(xmlSchemaParse(context.get()));
+  XmlPtr<xmlSchema, xmlSchemaFree> compiled(xmlSchemaParse(context.get()));
   assert(compiled && "the schema is ours");
   return compiled;
 }
@@ -63,7 +63,7 @@ int LineOf(std::string_view text, std::size_t at) {
   return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
 }
 
-/// Refuses what libxml2 would expand, or take minutes for.
+/// Refuses documents that libxml2 would expand or parse in quadratic time.
 Result<void> CheckBeforeParsing(std::string_view text, const std::string& file) {
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
     return Fail({file, 0, 0}, "is empty; etude bridge writes tags files");
@@ -72,14 +72,14 @@ Result<void> CheckBeforeParsing(std::string_view text, const std::string& file) 
     return Fail({file, LineOf(text, at), 0},
                 "a document type declaration; a tags file has none (entities are not expanded)");
   }
-  // Long enough for two names of 4096 bytes written as &quot; entities. A limit, because libxml2 takes quadratic time
-  // in the number of a tag's attributes.
-  constexpr std::size_t kLongestTag = 65536;
+  // The limit allows two names of 4096 bytes written as &quot; entities. It is needed because libxml2 takes quadratic
+  // time in the number of a tag's attributes.
+  constexpr std::size_t kMaxTagBytes = 65536;
   for (std::size_t start = 0; start < text.size();) {
     const std::size_t next = std::min(text.find('<', start + 1), text.size());
-    if (next - start > kLongestTag) {
+    if (next - start > kMaxTagBytes) {
       return Fail({file, LineOf(text, start), 0}, "{} bytes without a new tag; a tags file has up to {}", next - start,
-                  kLongestTag);
+                  kMaxTagBytes);
     }
     start = next;
   }
@@ -89,21 +89,21 @@ Result<void> CheckBeforeParsing(std::string_view text, const std::string& file) 
 std::string OneLine(const char* message) {
   std::string line = message ? message : "no reason given";
   while (!line.empty() && (line.back() == '\n' || line.back() == '.' || line.back() == ' ')) line.pop_back();
-  constexpr std::size_t kLongest = 500;
-  if (line.size() > kLongest) line = line.substr(0, kLongest) + "…";
+  constexpr std::size_t kMaxBytes = 500;
+  if (line.size() > kMaxBytes) line = line.substr(0, kMaxBytes) + "…";
   return line;
 }
 
 struct XmlReader::State {
   std::string file;
-  std::string text;  // what the reader reads
+  std::string text;  // the text that the reader reads
   std::optional<Error> complaint;
-  Held<xmlSchema, xmlSchemaFree> schema;
-  Held<xmlTextReader, xmlFreeTextReader> reader;  // gone before its schema
+  XmlPtr<xmlSchema, xmlSchemaFree> schema;
+  XmlPtr<xmlTextReader, xmlFreeTextReader> reader;  // declared after the schema, so that it is destroyed before it
 
-  /// libxml2's way to complain. The first complaint counts: later ones may follow from it. Warnings count, too: no
-  /// tags file gives cause for one. A template because libxml2's own type of handler differs: the error is const from
-  /// 2.12 on.
+  /// The error handler of libxml2. Only the first error is kept, because later ones may follow from it. Warnings count
+  /// as errors, because no tags file causes one. It is a template because the handler's type changed: the error is
+  /// const since libxml2 2.12.
   template <typename ErrorPointer>
   static void Complain(void* self, ErrorPointer error) {
     State& state = *static_cast<State*>(self);
@@ -111,7 +111,8 @@ struct XmlReader::State {
     const int line = error->line > 0 ? error->line : state.Line();
     state.complaint = Error{{state.file, line, 0}, OneLine(error->message)};
   }
-  /// Begins the text anew. The encoding is told, so that no other can hide a declaration from us.
+  /// Starts to read the text from its beginning. The encoding is fixed, so that a document type declaration cannot be
+  /// hidden by another encoding.
   void Start() {
     reader.reset(xmlReaderForMemory(text.data(), static_cast<int>(text.size()), nullptr, "UTF-8", XML_PARSE_NONET));
     if (reader) Listen();
@@ -134,13 +135,14 @@ Result<XmlReader> XmlReader::Open(std::string_view text, std::string_view schema
   state->text = text;
   state->schema = Compile(schema);
   RETURN_IF_ERROR(CheckBeforeParsing(text, file));
-  // Parsed twice, first without the schema: libxml2 2.9 crashes when a syntax error or a warning occurs while it
-  // validates.
+  // The text is parsed twice, first without the schema, because libxml2 2.9 crashes if a syntax error or a warning
+  // occurs during validation.
   state->Start();
   int read = 1;
   while (state->reader && read == 1 && !state->complaint) read = xmlTextReaderRead(state->reader.get());
   if (state->complaint) return tl::unexpected(*state->complaint);
   if (!state->reader || read != 0) return Fail({file, 0, 0}, "cannot be read as XML");
+  // Start again with validation.
   state->Start();
   xmlTextReaderSetSchema(state->reader.get(), state->schema.get());
   state->Listen();
@@ -176,11 +178,13 @@ Place XmlReader::Where() const {
   return {state_->file, static_cast<int>(xmlGetLineNo(node)), 0};
 }
 
-/// Fills BridgeTags element by element. The schema has seen to it that all are there, in order and of the right kind.
+/// Fills BridgeTags element by element. The schema guarantees that all elements are there, in order and of the right
+/// kind.
 class TagsReader {
  public:
   explicit TagsReader(XmlReader& xml) : xml_(xml) {}
 
+  /// Reads the current element into the tags. Returns the first complaint about it.
   Result<void> ReadElement() {
     const std::string element = xml_.Element();
     if (element == "fuzzy-system") {
@@ -211,7 +215,7 @@ class TagsReader {
   BridgeTags Take() { return std::move(tags_); }
 
  private:
-  /// The first complaint of the element counts.
+  /// Records a complaint unless the element already has one.
   template <typename... Args>
   void Complain(fmt::format_string<Args...> format, Args&&... args) {
     if (!complaint_) complaint_ = Error{xml_.Where(), fmt::format(format, std::forward<Args>(args)...)};
@@ -251,12 +255,14 @@ class TagsReader {
 
   void ReadFrame() {
     ClipTags& clip = tags_.clips.back();
+    // Read the numbers and the grades.
     TaggedFrame frame;
     frame.frame = Whole("frame");
     frame.clips = Whole("clips");
     frame.difference = Number("difference");
     ReadGrades(frame.grades);
     if (complaint_) return;
+    // The tags must follow from the grades.
     frame.tags = ChooseTags(frame.grades);
     for (Feature feature : AllFeatures()) {
       const std::string tag = xml_.Attribute(FeatureName(feature));
@@ -265,6 +271,7 @@ class TagsReader {
                         TagName(frame.tags, feature));
       }
     }
+    // The frame must lie in the clip and after the previous one, and its time must follow from its index.
     if (frame.frame >= clip.frames) {
       return Complain("frame {} of a clip that has {}; they count from 0", frame.frame, clip.frames);
     }
@@ -298,7 +305,7 @@ class TagsReader {
     const ClipTags& of_clip = tags_.clips[clip->second];
     const auto is_it = [&](const TaggedFrame& frame) { return frame.frame == key.frame; };
     const bool is_bridge_frame = std::any_of(of_clip.bridge_frames.begin(), of_clip.bridge_frames.end(), is_it);
-    // In a library without any bridge frame, keys may be any frames.
+    // In a library without bridge frames, any frame may be a key.
     if (has_bridge_frames ? !is_bridge_frame : key.frame >= of_clip.frames) {
       return Complain("a key at frame {} of clip {}, which is no bridge frame", key.frame, Quote(key.clip));
     }

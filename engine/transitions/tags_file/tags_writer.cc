@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// Writes elements and attributes, indented by two blanks.
+/// Writes XML elements and attributes with an indentation of two spaces.
 class XmlWriter {
  public:
   XmlWriter() : buffer_(xmlBufferCreate(), xmlBufferFree), writer_(xmlNewTextWriterMemory(buffer_.get(), 0), Free) {
@@ -36,7 +36,8 @@ class XmlWriter {
   static void Free(xmlTextWriter* writer) { xmlFreeTextWriter(writer); }
 
   std::unique_ptr<xmlBuffer, void (*)(xmlBuffer*)> buffer_;
-  std::unique_ptr<xmlTextWriter, void (*)(xmlTextWriter*)> writer_;  // gone before its buffer
+  // Declared after the buffer, so that it is destroyed before it.
+  std::unique_ptr<xmlTextWriter, void (*)(xmlTextWriter*)> writer_;
 };
 
 Result<void> CheckName(const std::string& name) {
@@ -68,6 +69,7 @@ Result<std::string> WriteTagsFile(const BridgeTags& tags) {
     }
   }
   XmlWriter xml;
+  // Write the fuzzy system with its weights, the rules and the body.
   xml.Start("bridge-tags");
   xml.Attribute("version", 1);
   xml.Start("fuzzy-system");
@@ -91,6 +93,7 @@ Result<std::string> WriteTagsFile(const BridgeTags& tags) {
   xml.Start("body");
   xml.Attribute("standing-hip-height-m", tags.standing_hip_height_m);
   xml.End();
+  // Write the clips with their bridge frames, then the keys of the in-betweens.
   for (const ClipTags& clip : tags.clips) {
     xml.Start("clip");
     xml.Attribute("name", clip.name);
