@@ -265,6 +265,28 @@ std::function<std::string(const std::string&)> NumberWithin(double low, double h
   };
 }
 
+namespace {
+
+/// Puts the commands that `etude --help` lists into groups. Groups are listed in the order of their first commands.
+void GroupCommands(CLI::App& app) {
+  struct CommandGroup {
+    const char* name;
+    std::vector<std::string> commands;
+  };
+  const CommandGroup groups[] = {
+      {"Run and judge",
+       {"run", "scenario", "list", "report", "rows", "compare", "gate", "replay", "verify", "merge", "check-method"}},
+      {"Your motions", {"clip", "bridge", "train", "crowd"}},
+      {"Your recordings of people", {"teach", "recognise", "coach", "sensor"}},
+      {"Your cameras", {"calibrate", "capture"}},
+      {"Share", {"cite", "export", "score", "completion"}}};
+  for (const CommandGroup& group : groups) {
+    for (const std::string& command : group.commands) app.get_subcommand(command)->group(group.name);
+  }
+}
+
+}  // namespace
+
 void DefineCommands(CLI::App& app, const std::string& command_line, Action& action) {
   app.require_subcommand(1);
   DefineRun(app, command_line, action);
@@ -273,28 +295,29 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineReport(app, action);
   DefineRows(app, action);
   DefineReplay(app, action);
-  DefineCite(app, action);
   DefineVerify(app, action);
   DefineGate(app, action);
   DefineCompare(app, action);
-  DefineExport(app, action);
-  DefineScore(app, command_line, action);
   DefineCheckMethod(app, action);
   DefineList(app, action);
   DefineClip(app, action);
   DefineBridge(app, action);
+  DefineCrowd(app, action);
   DefineTrain(app, action);
   DefineTeach(app, action);
   DefineRecognise(app, action);
+  DefineCoach(app, action);
   DefineSensor(app, action);
   DefineCalibrate(app, action);
   DefineCapture(app, command_line, action);
-  DefineCoach(app, action);
-  DefineCrowd(app, action);
+  DefineCite(app, action);
+  DefineExport(app, action);
+  DefineScore(app, command_line, action);
   DefineOptionTree(app, action);
   CLI::App* worker = app.add_subcommand("worker", "What the program starts for itself");
   worker->group("");  // hidden
   worker->callback([&action] { action = [] { return RunWorker(std::cin, std::cout); }; });
+  GroupCommands(app);
   RefuseEmptyValues(app);
   AddExamples(app);
 }

@@ -34,10 +34,8 @@ namespace etude {
 namespace {
 
 constexpr const char* kAbout =
-    "Etude: a deterministic benchmark for interactive human motion.\n\n"
-    "Synthesizes what sensors would have seen of a motion, replays it through two complete pipelines\n"
-    "(a Kinect-like dance coach; a two-camera markerless capture) and measures transition smoothness,\n"
-    "detection accuracy and IK convergence, fixed against adaptive weights.\n";
+    "Etude is a simulator and benchmark for interactive human motion: it makes worlds whose truth is known,\n"
+    "lets methods solve them, and says which method is better, by how much, and how sure that is.\n";
 
 constexpr const char* kExamples =
     "\nTry:\n"

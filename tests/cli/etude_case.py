@@ -1,6 +1,7 @@
 """What the tests of the program share: a scratch folder, and a way to call `etude`."""
 import json
 import os
+import re
 import pathlib
 import struct
 import subprocess
@@ -17,6 +18,16 @@ ETUDE = os.environ["ETUDE"]
 HEAVY = bool(os.environ.get("ETUDE_HEAVY"))  # scripts/test --full
 heavy = unittest.skipUnless(HEAVY, "heavy")  # costs more than it tells at every change
 os.environ["PATH"] = "/usr/bin:" + os.environ["PATH"]  # a fence shows no Python of a home
+
+
+COMMAND_GROUPS = ["Run and judge", "Your motions", "Your recordings of people", "Your cameras", "Share"]
+
+
+def commands_in(help_text):
+    """The names of all subcommands that a help text lists, whatever their group."""
+    headings = "|".join(["Subcommands", *COMMAND_GROUPS])
+    listed = re.findall(rf"^(?:{headings}):\n((?:  .*\n)+)", help_text, re.M)
+    return [name for block in listed for name in re.findall(r"^  (\S+)", block, re.M)]
 
 
 def ik_scenario(trials, question="Does it run?", weights="fixed"):

@@ -4,7 +4,7 @@ import pathlib
 import re
 import unittest
 
-from etude_case import IK, EtudeCase, load_schema
+from etude_case import IK, EtudeCase, commands_in, load_schema
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 OUTSIDE = ROOT / "examples" / "outside-methods" / "ik_dls.py"
@@ -55,8 +55,7 @@ class Facts(EtudeCase):
         while waiting:
             words = waiting.pop()
             pages[words] = text = self.etude(*words, "--help").stdout
-            listed = re.search(r"^Subcommands:\n((?:  .*\n)+)", text, re.M)
-            waiting += [(*words, name) for name in re.findall(r"^  (\S+)", listed[1], re.M)] if listed else []
+            waiting += [(*words, name) for name in commands_in(text)]
         own = {"bridge": "bridge-summary", "clip info": "clip-info", "list metrics": "metrics"}
         schemas = own | {name.removesuffix(" --dry-run"): "facts" for name in COMMANDS}
         named = {" ".join(words): re.search(r"--json.*\n?.*?docs/schemas/([\w-]+)\.schema\.json", text)

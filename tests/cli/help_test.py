@@ -6,19 +6,13 @@ import shutil
 import subprocess
 import unittest
 
-from etude_case import ETUDE, EtudeCase
+from etude_case import COMMAND_GROUPS, ETUDE, EtudeCase, commands_in
 
 
 # What is typed, and the one word that it can be made of.
 ASKED = ["ga", "gate --basel", "clip in", "clip info --js", "run full/ik_we", "scenario copy full/ik_we", "help clip rend", "hel",
          "completion z"]
 COMPLETED = ["gate", "--baseline", "info", "--json", "full/ik_weights", "full/ik_weights", "render", "help", "zsh"]
-
-
-def commands_in(help_text):
-    """The names below "Subcommands:"."""
-    listed = re.search(r"^Subcommands:\n((?:  .*\n)+)", help_text, re.M)
-    return re.findall(r"^  (\S+)", listed[1], re.M) if listed else []
 
 
 class Help(EtudeCase):
@@ -46,6 +40,12 @@ class Help(EtudeCase):
                     for word in call[:call.index("--")] if "--" in call else call:
                         if word.startswith("-") and word != "-":
                             self.assertRegex(seen[path], rf"(?m)^  (-\w,)?{re.escape(word)}\b|^  {re.escape(word)}[ ,]", line)
+
+    def test_lists_every_command_in_a_group(self):
+        text = self.etude("--help").stdout
+        self.assertNotIn("Subcommands:", text)
+        self.assertEqual([group for group in COMMAND_GROUPS if f"\n{group}:\n" in text], COMMAND_GROUPS)
+        self.assertIn(" ".join(text.split("\nUsage")[0].split())[:60], " ".join(open("README.md").read().replace("**", "").split()))
 
     def test_of_no_command_names_the_nearest(self):
         for words in (["help", "repotr"], ["repotr", "--help"], ["help", "clip", "inof"]):
