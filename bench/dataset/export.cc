@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "bench/dataset/layout.h"
+#include "bench/dataset/take_films.h"
 #include "bench/run/manifest.h"
 #include "bench/run/plan.h"
 #include "bench/run/suite.h"
@@ -20,7 +21,6 @@
 #include "engine/base/machine.h"
 #include "io/files/files.h"
 #include "io/files/json.h"
-#include "io/films/encoder.h"
 
 namespace etude {
 namespace {

@@ -9,6 +9,7 @@
 #include "bench/scenario/scenario.h"
 #include "bench/tasks/base/task.h"
 #include "engine/teaching/labelled_streams.h"
+#include "io/clips/clip_library.h"
 #include "io/files/json.h"
 #include "sim/random/seed.h"
 

@@ -144,8 +144,8 @@ Result<std::vector<NamedCamera>> ReadQualisysCalibration(std::string_view text) 
 
 namespace {
 
-constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
-constexpr std::size_t kMaxCameras = 64;
+constexpr std::size_t kMaxRigBytes = std::size_t{1} << 20;
+constexpr std::size_t kMaxRigCameras = 64;
 constexpr std::string_view kYamlDirective = "%YAML:1.0\n---\n";
 
 /// Returns the text of a camera's own file without its first two lines, indented.
@@ -200,8 +200,8 @@ Result<Camera> ReadCamera(const Node& node) {
 Result<std::vector<NamedCamera>> ReadOwnRig(const Node& root) {
   const Node* names = root.Find("cameras");
   ASSIGN_OR_RETURN(const auto cameras, AsTexts(*names));
-  if (cameras.empty() || cameras.size() > kMaxCameras) {
-    return Fail(names->place, "{} cameras; allowed: 1 to {}", cameras.size(), kMaxCameras);
+  if (cameras.empty() || cameras.size() > kMaxRigCameras) {
+    return Fail(names->place, "{} cameras; allowed: 1 to {}", cameras.size(), kMaxRigCameras);
   }
   std::vector<NamedCamera> rig;
   for (const std::string& name : cameras) {
@@ -269,7 +269,7 @@ Result<RigFile> Checked(Result<RigFile> rig, const std::string& file) {
     return tl::unexpected(std::move(error));
   }
   const std::vector<NamedCamera>& cameras = rig->cameras;
-  if (cameras.size() > kMaxCameras) return Fail({file}, "{} cameras; allowed: {}", cameras.size(), kMaxCameras);
+  if (cameras.size() > kMaxRigCameras) return Fail({file}, "{} cameras; allowed: {}", cameras.size(), kMaxRigCameras);
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (cameras[i].name == cameras[j].name) return Fail({file}, "two cameras of the name {}", cameras[i].name);
@@ -291,12 +291,12 @@ std::string WriteRig(std::span<const NamedCamera> cameras) {
 }
 
 Result<RigFile> ReadRigFile(std::string_view text, const std::string& file) {
-  if (text.size() > kMaxBytes) return Fail({file}, "{} bytes; allowed: {}", text.size(), kMaxBytes);
+  if (text.size() > kMaxRigBytes) return Fail({file}, "{} bytes; allowed: {}", text.size(), kMaxRigBytes);
   return Checked(Read(text, file), file);
 }
 
 Result<RigFile> ReadRigPair(std::string_view inside, std::string_view outside, const std::string& file) {
-  constexpr std::size_t kMaxPairBytes = 64 * kMaxBytes;  // COLMAP's files list points, too
+  constexpr std::size_t kMaxPairBytes = 64 * kMaxRigBytes;  // COLMAP's files list points, too
   if (inside.size() + outside.size() > kMaxPairBytes) {
     return Fail({file}, "{} bytes; allowed: {}", inside.size() + outside.size(), kMaxPairBytes);
   }

@@ -11,7 +11,7 @@ namespace etude {
 namespace {
 
 constexpr double kLogarithmicFrom = 100;
-constexpr double kMargin = 0.04;  // of the axis, so that no mark is cut in half
+constexpr double kAxisMargin = 0.04;  // of the axis, so that no mark is cut in half
 constexpr double kMostTicks = 6;
 
 double RoundStep(double range) {
@@ -25,7 +25,7 @@ double RoundStep(double range) {
 Axis WithMargin(double low, double high) {
   // A single value needs an axis of some width.
   const double width = high > low ? high - low : std::max(std::abs(high), 1.0);
-  return {.low = low - kMargin * width, .high = high + kMargin * width};
+  return {.low = low - kAxisMargin * width, .high = high + kAxisMargin * width};
 }
 
 /// Cuts a text to at most so many characters, an ellipsis counting as one; never within a character.

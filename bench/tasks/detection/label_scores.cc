@@ -69,10 +69,10 @@ std::vector<Classified> ByNearest(const std::vector<NamedStream>& streams, const
 }
 
 /// Classifies, or spots action points of, everything that one person did.
-class Fold {
+class PersonLeftOut {
  public:
-  Fold(const std::vector<NamedStream>& streams, const std::vector<LabelledPart>& parts, const WatchOptions& options,
-       LeaveOneOut& out)
+  PersonLeftOut(const std::vector<NamedStream>& streams, const std::vector<LabelledPart>& parts,
+                const WatchOptions& options, LeaveOneOut& out)
       : streams_(streams), parts_(parts), options_(options), out_(out) {}
 
   Result<void> Run(const std::string& person) {
@@ -158,8 +158,8 @@ Result<LeaveOneOut> LeaveOnePersonOut(const std::vector<NamedStream>& streams, c
   }
   out.people.assign(people.begin(), people.end());
   if (people.size() < 2) return Fail({file}, "{} person; leaving one out needs two", people.size());
-  Fold fold(streams, parts, options, out);
-  for (const std::string& person : out.people) RETURN_IF_ERROR(fold.Run(person));
+  PersonLeftOut left_out(streams, parts, options, out);
+  for (const std::string& person : out.people) RETURN_IF_ERROR(left_out.Run(person));
   out.nearest = ByNearest(streams, parts);
   return out;
 }

@@ -12,6 +12,7 @@
 #include "bench/tasks/detection/options.h"
 #include "bench/tasks/detection/world.h"
 #include "engine/teaching/labelled_streams.h"
+#include "io/clips/clip_library.h"
 #include "sim/performer/fault.h"
 
 namespace etude {
