@@ -179,7 +179,7 @@ GaussNewtonCourse::GaussNewtonCourse(const IkOptions& options, const GaussNewton
       first_sweeps_(own.first_sweeps),
       patience_(std::clamp(options.max_iterations / kShareOfPatience, 1, kPatience)),
       stall_change_(options.stall_change),
-      most_restarts_(own.restarts) {
+      max_restarts_(own.restarts) {
   static_assert(GaussNewtonOptions{}.restarts == kRestarts);
   Begin(Phase::kToStart, kProgress, patience_);
 }
