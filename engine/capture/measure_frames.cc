@@ -8,7 +8,8 @@
 namespace etude {
 namespace {
 
-/// Takes one mark of one frame out of the pictures that disagree about it. `mark_of(camera)`: where it is kept.
+/// Removes one mark of one frame from the pictures that disagree about it. `mark_of(camera)` returns a reference to the
+/// mark.
 template <typename View, typename MarkOf>
 void KeepAgreeing(std::span<const ProjectionMatrix> cameras, double tolerance_px, const MarkOf& mark_of) {
   std::vector<View> views;
@@ -44,7 +45,7 @@ std::vector<std::vector<Marks>> AgreeingMarks(std::span<const ProjectionMatrix> 
 
 namespace {
 
-/// One frame's pictures, and how they are measured.
+/// Measures the marks of one frame.
 class FrameMeter {
  public:
   FrameMeter(const MeasureInputs& inputs, std::size_t frame, const MeasureOptions& options)
