@@ -75,6 +75,7 @@ std::optional<glm::dvec2> Refine(const GreyImage& picture, const glm::dvec2& fou
     glm::dvec2 right(0);
     const int x0 = static_cast<int>(std::floor(pixel.x)), y0 = static_cast<int>(std::floor(pixel.y));
     if (x0 < kBorder || y0 < kBorder || x0 >= picture.width - kBorder || y0 >= picture.height - kBorder) return {};
+    // Sum the demands of all gradients nearby, weighted by their distance.
     for (int y = y0 - kRefineReachPx; y <= y0 + kRefineReachPx; ++y) {
       for (int x = x0 - kRefineReachPx; x <= x0 + kRefineReachPx; ++x) {
         const glm::dvec2 q(x + 0.5, y + 0.5);

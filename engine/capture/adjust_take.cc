@@ -174,6 +174,7 @@ LimbLengths MedianLengths(std::span<const SomeJoints> frames) {
   const auto set = [&](double LimbLengths::*length, std::vector<double> found) {
     if (const auto median = MedianOf(std::move(found)); median && *median > 0) lengths.*length = *median;
   };
+  // Lengths between two joints.
   for (const auto& [length, a, b] : kBetween) {
     std::vector<double> found;
     for (const SomeJoints& joints : frames) {

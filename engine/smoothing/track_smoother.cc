@@ -145,13 +145,13 @@ SmoothedTrack SmoothTrack(std::span<const PointMeasurement> measurements, const 
 }
 
 double LikeliestAccelerationDensity(std::span<const PointMeasurement> measurements, const PointMotion& motion) {
-  constexpr double kSmallest = 0.01, kFactor = 4;
+  constexpr double kMinDensity = 0.01, kFactor = 4;
   constexpr int kCount = 10;
   // Try every density of the grid.
   const std::vector<WhiteMeasurement> white = Whiten(measurements);
-  double best = kSmallest, best_likelihood = 0;
+  double best = kMinDensity, best_likelihood = 0;
   PointMotion tried = motion;
-  tried.acceleration_density = kSmallest;
+  tried.acceleration_density = kMinDensity;
   for (int k = 0; k < kCount; ++k, tried.acceleration_density *= kFactor) {
     const double likelihood = Filter(white, tried, Transition(tried)).log_likelihood;
     if (k > 0 && !(likelihood > best_likelihood)) continue;

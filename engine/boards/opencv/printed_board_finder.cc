@@ -276,6 +276,7 @@ std::unique_ptr<PrintedBoardFinder> MakeOpenCvFinder(const PrintedBoard& board) 
 
 Result<OpenCvCalibration> CalibrateCamera(std::span<const TargetView> views, const PictureSize& size, LensModel lens) {
   constexpr double kOurPixelCentre = 0.5;
+  // The lens model as flags.
   int flags = 0;
   switch (lens) {
     case LensModel::kPinhole:
@@ -305,6 +306,7 @@ Result<OpenCvCalibration> CalibrateCamera(std::span<const TargetView> views, con
     cv::setNumThreads(1);
     cv::Mat K, d;
     std::vector<cv::Mat> turns, shifts;
+    // Calibrate, and convert the result to our pixel coordinates.
     OpenCvCalibration found;
     constexpr int kSteps = 100;
     constexpr double kSettled = 1e-12;
