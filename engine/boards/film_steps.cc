@@ -47,7 +47,7 @@ std::vector<PointPair> CornersBetween(const SightingMap& map, const SightingKey&
 
 /// Reduces the sightings to about kMaxMoments moments, if several films share any, in evenly spaced blocks of
 /// consecutive looks.
-std::vector<BoardSighting> Thinned(std::span<const BoardSighting> sightings) {
+std::vector<BoardSighting> Subsampled(std::span<const BoardSighting> sightings) {
   constexpr std::size_t kMaxMoments = 60;
   std::map<std::size_t, std::size_t> cameras;  // number of cameras that see each target
   for (const BoardSighting& s : sightings) ++cameras[s.view.target];
@@ -98,10 +98,10 @@ std::vector<TargetView> ViewsInStep(std::span<const BoardSighting> sightings, st
 }
 
 Result<FilmSteps> FindFilmSteps(std::span<const PictureSize> sizes, std::span<const BoardSighting> sightings,
-                                std::span<const double> period_s, double most_s, const RefineOptions& options,
+                                std::span<const double> period_s, double max_delay_s, const RefineOptions& options,
                                 const OnProgress& on_progress) {
   FilmSteps steps{.late_s = std::vector<double>(sizes.size())};
-  const std::vector<BoardSighting> tried = Thinned(sightings);
+  const std::vector<BoardSighting> tried = Subsampled(sightings);
   RefineOptions quick = options;
   constexpr int kQuick = 25;
   quick.most_iterations = kQuick;
@@ -114,9 +114,9 @@ Result<FilmSteps> FindFilmSteps(std::span<const PictureSize> sizes, std::span<co
   const auto in_step = residual(steps.late_s);
   steps.before_px = steps.after_px = in_step ? *in_step : kNever;
   const std::size_t rounds = sizes.size() > 2 ? 2 : 1;
-  // A grid over ±most_s in steps of half a look; two rounds if there are more than two films.
+  // A grid over ±max_delay_s in steps of half a look; two rounds if there are more than two films.
   const double step_s = 0.5 * period_s[0];
-  const int wide = std::max(1, static_cast<int>(std::floor(most_s / step_s)));
+  const int wide = std::max(1, static_cast<int>(std::floor(max_delay_s / step_s)));
   constexpr int kHalvings = 5;
   const std::size_t all = rounds * (sizes.size() - 1) * static_cast<std::size_t>(2 * wide + 1 + 2 * kHalvings);
   std::size_t done = 0;

@@ -31,9 +31,9 @@ struct FilmSteps {
 /// one film after the other, first on a grid of half looks, then by halving the step to a 64th of a look. *(Ours.)* A
 /// delay is accepted only if it lowers the residual by a tenth, because boards at rest do not determine time. At most
 /// about 60 moments are used, evenly spaced. Fails as `CalibrateFromPlanes` does.
-/// @param most_s maximum delay of a film, seconds, either way
+/// @param max_delay_s maximum delay of a film, seconds, either way
 Result<FilmSteps> FindFilmSteps(std::span<const PictureSize> sizes, std::span<const BoardSighting> sightings,
-                                std::span<const double> period_s, double most_s, const RefineOptions& options = {},
+                                std::span<const double> period_s, double max_delay_s, const RefineOptions& options = {},
                                 const OnProgress& on_progress = {});
 
 }  // namespace etude

@@ -129,7 +129,7 @@ Darkness Measure(const GreyImage& picture, const std::vector<glm::ivec2>& piece)
 }  // namespace
 
 std::optional<glm::dvec2> FindDisc(const GreyImage& picture, const glm::dvec2& pointer, double reach_px,
-                                   double widest_px) {
+                                   double max_width_px) {
   const glm::dvec2 size(picture.width, picture.height);
   const bool is_near =
       glm::all(glm::greaterThan(pointer, glm::dvec2(-reach_px))) && glm::all(glm::lessThan(pointer, size + reach_px));
@@ -137,7 +137,7 @@ std::optional<glm::dvec2> FindDisc(const GreyImage& picture, const glm::dvec2& p
   // The region around the darkest pixel, at half contrast.
   const auto darkest = FindDarkest(picture, pointer, reach_px);
   if (!darkest) return std::nullopt;
-  const Window window(picture, MiddleOf(darkest->x, darkest->y), widest_px);
+  const Window window(picture, MiddleOf(darkest->x, darkest->y), max_width_px);
   const float dark = picture.At(darkest->x, darkest->y), bright = BrightestOf(picture, window);
   if (bright - dark < kMinContrast) return std::nullopt;
   const std::vector<glm::ivec2> piece = DarkPiece(picture, *darkest, window, 0.5f * (dark + bright));

@@ -211,9 +211,12 @@ constexpr std::array<double, 3> kSecondDifference = {1, -2, 1};
 /// of each frame, and the lengths if they are adjusted.
 class PointAcceleration final : public ceres::CostFunction {
  public:
-  PointAcceleration(const FrameVariables* first, std::span<const int> points, std::span<const double> usual,
+  PointAcceleration(const FrameVariables* first, std::span<const int> points, std::span<const double> deviation,
                     int lengths)
-      : frames_{first, first + 1, first + 2}, points_(points), usual_(usual), length_block_(lengths > 0 ? 9 : -1) {
+      : frames_{first, first + 1, first + 2},
+        points_(points),
+        deviations_(deviation),
+        length_block_(lengths > 0 ? 9 : -1) {
     set_num_residuals(3 * static_cast<int>(points.size()));
     for (int i = 0; i < 3; ++i) {
       for (const int size : {kPositionSize, kTurnSize, static_cast<int>(first->angles.size())}) {
@@ -229,7 +232,7 @@ class PointAcceleration final : public ceres::CostFunction {
     for (std::size_t i = 0; i < points_.size(); ++i) {
       for (int f = 0; f < 3; ++f) {
         // Each of the three frames contributes its share of the difference.
-        const double share = kSecondDifference[f] / usual_[i];
+        const double share = kSecondDifference[f] / deviations_[i];
         const glm::dvec3& p = frames_[f]->placed.positions[points_[i]];
         for (int k = 0; k < 3; ++k) residuals[3 * i + k] += share * p[k];
         if (jacobians == nullptr) continue;
@@ -247,25 +250,25 @@ class PointAcceleration final : public ceres::CostFunction {
  private:
   const std::array<const FrameVariables*, 3> frames_;
   const std::span<const int> points_;
-  const std::span<const double> usual_;
+  const std::span<const double> deviations_;
   const int length_block_;
 };
 
 /// The second difference of all angles over three frames, in standard deviations. Blocks: the angles of each frame.
 class AngleAcceleration final : public ceres::CostFunction {
  public:
-  AngleAcceleration(int angles, double usual) : angles_(angles), usual_(usual) {
+  AngleAcceleration(int angles, double deviation) : angles_(angles), deviation_(deviation) {
     set_num_residuals(angles);
     *mutable_parameter_block_sizes() = {angles, angles, angles};
   }
 
   bool Evaluate(double const* const* q, double* residuals, double** jacobians) const override {
-    for (int k = 0; k < angles_; ++k) residuals[k] = (q[0][k] - 2 * q[1][k] + q[2][k]) / usual_;
+    for (int k = 0; k < angles_; ++k) residuals[k] = (q[0][k] - 2 * q[1][k] + q[2][k]) / deviation_;
     if (jacobians == nullptr) return true;
     ClearJacobians(*this, jacobians);
     for (int f = 0; f < 3; ++f) {
       for (int k = 0; jacobians[f] != nullptr && k < angles_; ++k) {
-        jacobians[f][k * angles_ + k] = kSecondDifference[f] / usual_;
+        jacobians[f][k * angles_ + k] = kSecondDifference[f] / deviation_;
       }
     }
     return true;
@@ -273,13 +276,13 @@ class AngleAcceleration final : public ceres::CostFunction {
 
  private:
   const int angles_;
-  const double usual_;
+  const double deviation_;
 };
 
 /// The amounts by which angles exceed their limits, in standard deviations. Block: the angles of a frame.
-class BeyondLimits final : public ceres::CostFunction {
+class LimitViolation final : public ceres::CostFunction {
  public:
-  BeyondLimits(std::span<const AngleRange> limits, double deviation) : limits_(limits), deviation_(deviation) {
+  LimitViolation(std::span<const AngleRange> limits, double deviation) : limits_(limits), deviation_(deviation) {
     set_num_residuals(static_cast<int>(limits.size()));
     *mutable_parameter_block_sizes() = {static_cast<int>(limits.size())};
   }
@@ -328,7 +331,7 @@ class BundleProblem {
     }
     for (const BundleMark& mark : inputs.marks) AddMark(mark);
     for (FrameVariables& frame : variables_.frames) {
-      Add<BeyondLimits>({frame.angles.data()}, inputs.body.tree.limits, options_.limit_deviation);
+      Add<LimitViolation>({frame.angles.data()}, inputs.body.tree.limits, options_.limit_deviation);
     }
     if (options_.smoothness) AddSmoothness(*options_.smoothness);
   }
@@ -372,12 +375,12 @@ class BundleProblem {
   void AddSmoothness(const BundleSmoothness& smoothness) {
     const double per_frame = 1 / (smoothness.rate_hz * smoothness.rate_hz);
     const int lengths = options_.adjusts_lengths ? static_cast<int>(variables_.lengths.size()) : 0;
-    usual_ = smoothness.accelerations;
-    usual_.resize(smoothness.points.size(), smoothness.acceleration);
-    for (double& usual : usual_) usual *= per_frame;
+    deviations_ = smoothness.accelerations;
+    deviations_.resize(smoothness.points.size(), smoothness.acceleration);
+    for (double& deviation : deviations_) deviation *= per_frame;
     for (std::size_t k = 0; k + 2 < variables_.frames.size(); ++k) {
       FrameVariables* first = &variables_.frames[k];
-      Add<PointAcceleration>(BlocksOf({first, 3}), first, smoothness.points, usual_, lengths);
+      Add<PointAcceleration>(BlocksOf({first, 3}), first, smoothness.points, deviations_, lengths);
       if (std::isinf(smoothness.angle_acceleration)) continue;
       Add<AngleAcceleration>({first[0].angles.data(), first[1].angles.data(), first[2].angles.data()},
                              variables_.body.tree.dof_count(), per_frame * smoothness.angle_acceleration);
@@ -388,7 +391,7 @@ class BundleProblem {
   Variables& variables_;
   const std::unique_ptr<ceres::LossFunction> loss_;
   TurnManifold turn_manifold_;
-  std::vector<double> usual_;  ///< standard deviation of the second difference of each smooth point, metres
+  std::vector<double> deviations_;  ///< standard deviation of the second difference of each smooth point, metres
   std::vector<std::unique_ptr<ceres::CostFunction>> costs_;
   PlaceEveryFrame place_;
   ceres::Problem problem_;

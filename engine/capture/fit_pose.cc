@@ -242,9 +242,10 @@ std::optional<PoseFit> PoseFitter::Fit(const PoseTargets& wanted, const std::opt
   return best;
 }
 
-std::optional<RigidMisfit> MeasureRigidMisfit(const RestBody& rest, std::span<const BodyPose> poses, std::size_t most) {
+std::optional<RigidMisfit> MeasureRigidMisfit(const RestBody& rest, std::span<const BodyPose> poses,
+                                              std::size_t max_poses) {
   const auto body = FittedBody(rest);
-  const std::size_t count = std::min(most, poses.size());
+  const std::size_t count = std::min(max_poses, poses.size());
   if (!body || count == 0) return std::nullopt;
   const PoseFitter fitter(*body);
   RigidMisfit misfit;

@@ -88,8 +88,9 @@ struct RigidMisfit {
   std::size_t pose = 0;
 };
 
-/// Fits the body `rest` to at most `most` of the poses, evenly spaced. Poses are independent, except that the fit of
-/// one is a possible start for the next. Returns nothing if there are no poses or `FittedBody` fails.
-std::optional<RigidMisfit> MeasureRigidMisfit(const RestBody& rest, std::span<const BodyPose> poses, std::size_t most);
+/// Fits the body `rest` to at most `max_poses` of the poses, evenly spaced. Poses are independent, except that the fit
+/// of one is a possible start for the next. Returns nothing if there are no poses or `FittedBody` fails.
+std::optional<RigidMisfit> MeasureRigidMisfit(const RestBody& rest, std::span<const BodyPose> poses,
+                                              std::size_t max_poses);
 
 }  // namespace etude

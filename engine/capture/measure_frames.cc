@@ -46,9 +46,9 @@ std::vector<std::vector<Marks>> AgreeingMarks(std::span<const ProjectionMatrix> 
 namespace {
 
 /// Measures the marks of one frame.
-class FrameMeter {
+class FrameMeasurer {
  public:
-  FrameMeter(const MeasureInputs& inputs, std::size_t frame, const MeasureOptions& options)
+  FrameMeasurer(const MeasureInputs& inputs, std::size_t frame, const MeasureOptions& options)
       : inputs_(inputs), frame_(frame), options_(options) {}
 
   void MeasureEnds(FrameMeasurement& frame) const {
@@ -121,18 +121,18 @@ std::vector<FrameMeasurement> MeasureFrames(const MeasureInputs& inputs, const M
   assert(inputs.known.empty() || inputs.known.size() == count);
   std::vector<FrameMeasurement> frames;
   for (std::size_t i = 0; i < count; ++i) {
-    const FrameMeter meter(inputs, i, options);
+    const FrameMeasurer measurer(inputs, i, options);
     const KnownMeasurement known = inputs.known.empty() ? KnownMeasurement{} : inputs.known[i];
     FrameMeasurement& frame = frames.emplace_back();
     if (known.ends) {
       frame.ends = *known.ends;
     } else {
-      meter.MeasureEnds(frame);
+      measurer.MeasureEnds(frame);
     }
     if (known.directions) {
       frame.directions = *known.directions;
     } else {
-      meter.MeasureDirections(frame);
+      measurer.MeasureDirections(frame);
     }
   }
   return frames;

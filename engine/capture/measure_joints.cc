@@ -104,13 +104,13 @@ std::vector<std::optional<glm::dvec3>> BridgeTrack(std::span<const std::optional
 std::optional<PointMeasurement> OnSightLine(const InformedSighting& seen, const glm::dvec3& near_W) {
   const auto line = SightLineOf(seen.sighting);
   if (!line) return std::nullopt;
-  const glm::dvec3 place = NearestOn(*line, near_W);
-  const auto sum = PointEquationsAt({&seen, 1}, place);
+  const glm::dvec3 position = NearestOn(*line, near_W);
+  const auto sum = PointEquationsAt({&seen, 1}, position);
   if (!sum) return std::nullopt;
   // metres *(ours)*: neighbouring frames do not determine the depth more accurately
   constexpr double kDepthError = 0.15;
   const glm::dmat3 depth = glm::outerProduct(line->direction_W, line->direction_W) / (kDepthError * kDepthError);
-  return PointMeasurement{place, sum->information + depth};
+  return PointMeasurement{position, sum->information + depth};
 }
 
 std::vector<PointMeasurement> TrackOf(std::span<const JointMeasurements> measured, std::size_t role) {
@@ -203,15 +203,15 @@ std::vector<SomeJoints> SmoothJoints(std::span<const JointMeasurements> measured
 
 std::optional<BodyPose> CompleteJoints(const SomeJoints& joints, const BodyPose& like) {
   // Interpolate the joints of the trunk.
-  SomeJoints placed = joints;
+  SomeJoints filled = joints;
   const auto middle = [&](Role role, Role a, Role b, double share) {
-    const auto &from = placed[Index(a)], &to = placed[Index(b)];
-    if (from && to) placed[Index(role)] = glm::mix(*from, *to, share);
+    const auto &from = filled[Index(a)], &to = filled[Index(b)];
+    if (from && to) filled[Index(role)] = glm::mix(*from, *to, share);
   };
   middle(kHipCentre, kLeftHip, kRightHip, 0.5);
-  if (!placed[Index(kShoulderCentre)]) middle(kShoulderCentre, kLeftShoulder, kRightShoulder, 0.5);
+  if (!filled[Index(kShoulderCentre)]) middle(kShoulderCentre, kLeftShoulder, kRightShoulder, 0.5);
   middle(kSpine, kHipCentre, kShoulderCentre, kSpineShare);
-  if (std::ranges::none_of(placed, [](const auto& joint) { return joint.has_value(); })) return std::nullopt;
+  if (std::ranges::none_of(filled, [](const auto& joint) { return joint.has_value(); })) return std::nullopt;
 
   // Attach missing joints to their neighbours as in `like`, turned by the difference of headings.
   const auto across = AcrossOf(joints);
@@ -220,13 +220,13 @@ std::optional<BodyPose> CompleteJoints(const SomeJoints& joints, const BodyPose&
   const auto limb = [&](const Bone& bone) { return turn.Apply(like[bone.child] - like[bone.parent]); };
   for (std::size_t round = 0; round < kRoleCount; ++round) {  // each round reaches one limb farther
     for (const Bone& bone : AllBones()) {
-      auto &parent = placed[Index(bone.parent)], &child = placed[Index(bone.child)];
+      auto &parent = filled[Index(bone.parent)], &child = filled[Index(bone.child)];
       if (parent && !child) child = *parent + limb(bone);
       if (child && !parent) parent = *child - limb(bone);
     }
   }
   BodyPose pose;
-  for (std::size_t i = 0; i < kRoleCount; ++i) pose.joints[i] = *placed[i];
+  for (std::size_t i = 0; i < kRoleCount; ++i) pose.joints[i] = *filled[i];
   return pose;
 }
 

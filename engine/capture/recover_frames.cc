@@ -26,22 +26,22 @@ std::optional<Start> PaperStart(const CaptureBody& body, const LimbObservation& 
 
 // Computes the position of every joint that an end and the limbs inwards from it determine (paper B, figure 3.2(a)),
 // and the midpoint of the hips.
-PoseTargets ClimbFromEnds(const CaptureBody& body, const LimbObservation& seen) {
+PoseTargets TargetsFromEnds(const CaptureBody& body, const LimbObservation& seen) {
   constexpr double kUnseen = 0.01;  // weight of completed positions
   constexpr double kBent = 0.1;     // weight of positions beyond a joint whose bend is not observed
   PoseTargets wanted;
   for (const Role end : {kLeftFoot, kRightFoot, kLeftHand, kRightHand, kHead}) {
-    glm::dvec3 place = seen.ends[end];
+    glm::dvec3 position = seen.ends[end];
     double weight = seen.lacks_end[Index(end)] ? kUnseen : 1;
     Role role = end;
     // Follow the limbs inwards as far as their directions are observed.
     while (true) {
-      wanted.places[role] = place;
+      wanted.places[role] = position;
       wanted.weights[Index(role)] = weight;
       if (std::ranges::find(ObservedLimbs(), role) == ObservedLimbs().end()) break;
       if (!body.is_rigid[Index(role)]) weight = std::min(weight, kBent);
       if (seen.lacks_direction[Index(role)]) weight = kUnseen;
-      place -= body.bones[Index(role)] * glm::normalize(seen.directions[Index(role)]);
+      position -= body.bones[Index(role)] * glm::normalize(seen.directions[Index(role)]);
       role = *ParentOf(role);
     }
   }
@@ -52,7 +52,7 @@ PoseTargets ClimbFromEnds(const CaptureBody& body, const LimbObservation& seen) 
 
 std::optional<Start> FittedStart(const CaptureBody& body, const PoseFitter& fitter, const LimbObservation& seen,
                                  std::optional<PoseFit>& last) {
-  std::optional<PoseFit> found = fitter.Fit(ClimbFromEnds(body, seen), last);
+  std::optional<PoseFit> found = fitter.Fit(TargetsFromEnds(body, seen), last);
   if (!found) return std::nullopt;
   last = std::move(found);
   return Start{ToBodyPose(body, last->state), last->state};

@@ -11,12 +11,12 @@ namespace etude {
 namespace {
 
 /// The minimum of the parabola that is fitted to the misfits around a whole frame.
-struct Lowest {
+struct ParabolaMinimum {
   double shift = 0;  ///< position of the minimum relative to that frame, frames
   double gain = 0;
 };
 
-std::optional<Lowest> LowestAbout(const std::function<std::optional<double>(int offset)>& misfit, int frame) {
+std::optional<ParabolaMinimum> FitParabola(const std::function<std::optional<double>(int offset)>& misfit, int frame) {
   // frames on either side: the misfit is no parabola farther away; with fewer frames, noise matters more
   constexpr int kReach = 2;
   double count = 0, x2 = 0, x4 = 0, f = 0, xf = 0, x2f = 0;
@@ -30,7 +30,7 @@ std::optional<Lowest> LowestAbout(const std::function<std::optional<double>(int 
   const double bend = (count * x2f - x2 * f) / (count * x4 - x2 * x2), slope = xf / x2;
   if (!(bend > 0)) return std::nullopt;
   const double shift = std::clamp(-0.5 * slope / bend, -1.0, 1.0);
-  return Lowest{shift, bend * shift * shift};
+  return ParabolaMinimum{shift, bend * shift * shift};
 }
 
 }  // namespace
@@ -40,24 +40,24 @@ ClockOffset FindOffset(const std::function<std::optional<double>(int offset)>& m
   if (!assumed) return {};
   // The best whole frame, then the minimum of the parabola around it.
   int best = 0, evaluated = 0;
-  double least = *assumed, sum = 0;
+  double min_misfit = *assumed, sum = 0;
   for (int offset = -most_frames; offset <= most_frames; ++offset) {
     const std::optional<double> here = misfit(offset);
     if (!here) continue;
     sum += *here;
     ++evaluated;
-    if (*here >= least) continue;
-    least = *here;
+    if (*here >= min_misfit) continue;
+    min_misfit = *here;
     best = offset;
   }
-  const Lowest lowest = LowestAbout(misfit, best).value_or(Lowest{});
+  const ParabolaMinimum minimum = FitParabola(misfit, best).value_or(ParabolaMinimum{});
   // Hardly an improvement over offset 0 means that nobody moved.
   constexpr double kNoBetter = 0.001, kNothing = 1e-4;  // a share of the misfit; squared pixels
   // noise alone stays below this ratio if there are at least 300 distances
   constexpr double kTold = 1.25;
-  const bool is_better = *assumed - least + lowest.gain > kNothing + kNoBetter * *assumed;
-  const bool is_told = std::abs(best) < most_frames && sum / evaluated > kNothing + kTold * (least - lowest.gain);
-  return {is_better ? best + lowest.shift : 0, is_told};
+  const bool is_better = *assumed - min_misfit + minimum.gain > kNothing + kNoBetter * *assumed;
+  const bool is_told = std::abs(best) < most_frames && sum / evaluated > kNothing + kTold * (min_misfit - minimum.gain);
+  return {is_better ? best + minimum.shift : 0, is_told};
 }
 
 SomePixel PixelBetween(const SomePixel& a, const SomePixel& b, const SomePixel& c, const SomePixel& d, double share) {

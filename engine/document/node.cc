@@ -142,10 +142,10 @@ const Node* Node::Find(std::string_view key) const {
   return nullptr;
 }
 
-Result<Node> ParseYaml(std::string_view text, const std::string& file, std::size_t largest) {
+Result<Node> ParseYaml(std::string_view text, const std::string& file, std::size_t max_bytes) {
   const Place whole{file, 0, 0};
-  if (text.size() > largest) {
-    return Fail(whole, "{} bytes of YAML; at most {} are read", text.size(), largest);
+  if (text.size() > max_bytes) {
+    return Fail(whole, "{} bytes of YAML; at most {} are read", text.size(), max_bytes);
   }
   if (auto utf8 = CheckUtf8(text, file); !utf8) return tl::unexpected(utf8.error());
   if (EstimateNesting(text) > kMaxNesting) return Fail(whole, "nested deeper than {} levels", kMaxNesting);

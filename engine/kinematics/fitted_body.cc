@@ -42,7 +42,7 @@ class Parts {
   }
 
   /// Returns true if every role belongs to the pelvis or a descendant of it.
-  bool HangTogether() const {
+  bool AreConnected() const {
     return std::ranges::all_of(AllRoles(), [&](Role role) { return IsBelowPelvis(carrier_[Index(role)]); });
   }
 
@@ -156,13 +156,13 @@ class Builder {
     AddRoot();
     int below = -1;
     for (int part = parts_.CarrierOf(kLeftFoot); part >= 0; part = parts_[part].parent) {
-      RETURN_IF_ERROR(AddClimbed(part, below));
+      RETURN_IF_ERROR(AddLeftLegLimb(part, below));
       below = part;
     }
     // All other parts, parents first.
     for (std::size_t limb = 1; limb < order_.size(); ++limb) {  // order_ grows inside the loop
       for (const int child : parts_.ChildrenOf(order_[limb])) {
-        if (limb_of_[child] < 0) RETURN_IF_ERROR(AddHanging(child));
+        if (limb_of_[child] < 0) RETURN_IF_ERROR(AddOutwardLimb(child));
       }
     }
     // What pictures show of the body, and its skeleton as a clip.
@@ -181,7 +181,7 @@ class Builder {
   }
 
   // Adds one limb of the left leg or the pelvis, which begins where the limb below it ends.
-  Result<void> AddClimbed(int part, int below) {
+  Result<void> AddLeftLegLimb(int part, int below) {
     RestLimb limb;
     limb.from = below < 0 ? parts_.places()[kLeftFoot] : parts_[below].at;
     limb.tips = parts_.TipsOf(part);
@@ -195,7 +195,7 @@ class Builder {
   }
 
   // Adds a limb that leads away from the pelvis; its far end is its farthest tip.
-  Result<void> AddHanging(int part) {
+  Result<void> AddOutwardLimb(int part) {
     RestLimb limb{.from = parts_[part].at, .to = parts_[part].at, .tips = parts_.TipsOf(part)};
     for (const glm::dvec3& tip : limb.tips) {
       if (glm::distance(tip, limb.from) > glm::distance(limb.to, limb.from)) limb.to = tip;
@@ -387,7 +387,7 @@ class Builder {
 
 Result<CaptureBody> FittedBody(const RestBody& rest) {
   Parts parts(rest);
-  if (!parts.HangTogether()) return Fail({}, "a part of the body does not hang on its pelvis");
+  if (!parts.AreConnected()) return Fail({}, "a part of the body does not hang on its pelvis");
   parts.Simplify();
   return Builder(parts).Build();
 }

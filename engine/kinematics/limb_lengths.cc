@@ -38,16 +38,16 @@ bool IsUsable(const LimbObservation& observation) {
 }
 
 // Builds one chain of figure 3.2(a) from its end inwards.
-class Climber {
+class ChainBuilder {
  public:
-  Climber(const LimbObservation& observation, BodyPose& joints) : observation_(observation), joints_(joints) {}
+  ChainBuilder(const LimbObservation& observation, BodyPose& joints) : observation_(observation), joints_(joints) {}
 
-  Climber& From(Role end) {
+  ChainBuilder& From(Role end) {
     at_ = end;
     joints_[end] = observation_.ends[end];
     return *this;
   }
-  Climber& To(Role upper, double length) {
+  ChainBuilder& To(Role upper, double length) {
     joints_[upper] = joints_[at_] - length * glm::normalize(observation_.directions[Index(at_)]);
     at_ = upper;
     return *this;
@@ -169,14 +169,17 @@ std::optional<BodyPose> FixLimbLengths(const LimbObservation& observation, const
   if (!IsUsable(observation) || !IsValid(lengths)) return std::nullopt;
   BodyPose joints;
   // Figure 3.2(a): the legs, the arms.
-  Climber climber(observation, joints);
-  climber.From(kLeftFoot).To(kLeftAnkle, lengths.foot).To(kLeftKnee, lengths.shank).To(kLeftHip, lengths.thigh);
-  climber.From(kRightFoot).To(kRightAnkle, lengths.foot).To(kRightKnee, lengths.shank).To(kRightHip, lengths.thigh);
-  climber.From(kLeftHand)
+  ChainBuilder chain_builder(observation, joints);
+  chain_builder.From(kLeftFoot).To(kLeftAnkle, lengths.foot).To(kLeftKnee, lengths.shank).To(kLeftHip, lengths.thigh);
+  chain_builder.From(kRightFoot)
+      .To(kRightAnkle, lengths.foot)
+      .To(kRightKnee, lengths.shank)
+      .To(kRightHip, lengths.thigh);
+  chain_builder.From(kLeftHand)
       .To(kLeftWrist, lengths.hand)
       .To(kLeftElbow, lengths.forearm)
       .To(kLeftShoulder, lengths.upper_arm);
-  climber.From(kRightHand)
+  chain_builder.From(kRightHand)
       .To(kRightWrist, lengths.hand)
       .To(kRightElbow, lengths.forearm)
       .To(kRightShoulder, lengths.upper_arm);

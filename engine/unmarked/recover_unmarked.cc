@@ -16,7 +16,7 @@ namespace etude {
 namespace {
 
 /// Returns `adult` with the thickness of `body` relative to `average`. All three must have the same parts.
-SilhouetteBody AsThick(SilhouetteBody adult, const SilhouetteBody& body, const SilhouetteBody& average) {
+SilhouetteBody WithThicknessOf(SilhouetteBody adult, const SilhouetteBody& body, const SilhouetteBody& average) {
   assert(adult.flesh.size() == body.flesh.size() && body.flesh.size() == average.flesh.size());
   for (std::size_t i = 0; i < adult.flesh.size(); ++i) {
     adult.flesh[i].radius_a *= body.flesh[i].radius_a / average.flesh[i].radius_a;
@@ -45,7 +45,8 @@ double FitStature(const SilhouetteBody& body, double stature_m, std::span<const 
   std::array<double, kScales.size()> costs{};
   FitWorkspace workspace;
   for (std::size_t i = 0; i < kScales.size(); ++i) {
-    const SilhouetteBody adult = AsThick(MakeSilhouetteBody(AdultLengths(kScales[i] * stature_m)), body, average);
+    const SilhouetteBody adult =
+        WithThicknessOf(MakeSilhouetteBody(AdultLengths(kScales[i] * stature_m)), body, average);
     for (const PosedViews& moment : moments) {
       costs[i] += FitSilhouettes(adult, moment.views, moment.state, nullptr, options, workspace).picture_cost;
     }
@@ -101,7 +102,7 @@ std::optional<double> KnownStature(const UnmarkedTake& take) {
 }
 
 /// Returns the indices of at most `count` frames, evenly spaced.
-Frames Evenly(std::size_t frames, std::size_t count) {
+Frames EvenlySpaced(std::size_t frames, std::size_t count) {
   Frames some;
   count = std::min(count, frames);
   for (std::size_t i = 0; i < count; ++i) some.push_back((2 * i + 1) * frames / (2 * count));
@@ -125,7 +126,7 @@ class Recovery {
     Frames all(take_.pictures[0].size());
     // Alternate between estimating rooms and tracking the body in some frames, then track it in all.
     for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
-    const Frames some = Evenly(all.size(), options_.samples);
+    const Frames some = EvenlySpaced(all.size(), options_.samples);
     rooms_.assign(take_.rooms.begin(), take_.rooms.end());
     const bool knows_rooms = !rooms_.empty();
     if (!knows_rooms) EstimateRooms(some, {});
@@ -185,7 +186,7 @@ class Recovery {
     }
   }
 
-  std::optional<double> ApartIn(const SilhouetteTrack& track, std::size_t frame, std::size_t camera) {
+  std::optional<double> DisagreementIn(const SilhouetteTrack& track, std::size_t frame, std::size_t camera) {
     const Mask& mask = masks_[camera][frame];
     Mask body(mask.width, mask.height);
     VisitFlesh(track, frame, camera, {mask.width, mask.height}, 0, [&](int x, int y, double distance) {
@@ -299,7 +300,7 @@ class Recovery {
     result.clip = ToClip(body, states, take_.rate_hz, "capture");
     for (std::size_t c = 0; c < matrices_.size(); ++c) {
       result.apart.emplace_back();
-      for (std::size_t k = 0; k < track.frames.size(); ++k) result.apart.back().push_back(ApartIn(track, k, c));
+      for (std::size_t k = 0; k < track.frames.size(); ++k) result.apart.back().push_back(DisagreementIn(track, k, c));
     }
     result.rooms = std::move(rooms_);
     result.silhouettes = std::move(masks_);

@@ -45,7 +45,7 @@ class LanePoses {
       from += stride;
       return number;
     };
-    // In float, positions are relative to the root, which preserves the max_turn digits.
+    // In float, positions are relative to the root, which preserves the limit digits.
     constexpr bool kFromRoot = sizeof(T) < sizeof(double);
     double origin[3] = {};
     for (int k = 0; k < 3; ++k) {
@@ -305,7 +305,7 @@ class GaussNewtonLanes {
     int counting = 0;
     for (const Lane& lane : lanes_) counting += lane.steps;
     if (counting == 0) return;
-    // Repeat passes until max_turn lanes have finished their active sets.
+    // Repeat passes until limit lanes have finished their active sets.
     while (true) {
       Eliminate();
       const M has_changed = Substitute();
@@ -403,8 +403,8 @@ class GaussNewtonLanes {
     }
     largest = OrZero(is_finite, largest);
     registers_[kLargest] = largest;
-    const V max_turn(rules_.largest_turn);
-    const V share = Select(Below(max_turn, largest), max_turn / largest, V(1.0));
+    const V limit(rules_.largest_turn);
+    const V share = Select(Below(limit, largest), limit / largest, V(1.0));
     const M moves = Flag(kMoves) && Below(V(0.0), largest);
     for (std::size_t d = 0; d < angles_.size(); ++d) {
       AngleLanes<V>& angle = angles_[d];

@@ -34,11 +34,11 @@ class LimbPoses {
   /// Places a pose: `angles` in the order of `LimbPacks`, `root` as p_WL and R_WL column by column.
   void Place(const double* angles, const double (&root)[12]) {
     // Sines and cosines of all angles, then the trunk, then the limbs.
-    ForPlaces(sines_.size(), [&](std::size_t i) HWY_ATTR {
-      Places sine, cosine;
-      SineAndCosine(LoadPlaces(angles + i), sine, cosine);
-      StorePlaces(sine, sines_.begin() + i);
-      StorePlaces(cosine, cosines_.begin() + i);
+    ForEachVector(sines_.size(), [&](std::size_t i) HWY_ATTR {
+      RowVector sine, cosine;
+      SineAndCosine(LoadVector(angles + i), sine, cosine);
+      StoreVector(sine, sines_.begin() + i);
+      StoreVector(cosine, cosines_.begin() + i);
     });
     PlaceTrunk(root);
     miss_ = {};
@@ -208,9 +208,9 @@ class LimbLanes final : public GaussNewtonLimbs {
  public:
   explicit LimbLanes(const LimbPacks& packs)
       : packs_(packs),
-        places_(static_cast<std::size_t>(packs.place_count)),
+        index_count_(static_cast<std::size_t>(packs.place_count)),
         poses_(packs),
-        numbers_(10 * places_),
+        numbers_(10 * index_count_),
         trunk_(packs.trunk.size()),
         trunk_hinges_(poses_.trunk_hinges()),
         hinges_(poses_.hinges()),
@@ -221,11 +221,11 @@ class LimbLanes final : public GaussNewtonLimbs {
     for (double** const row :
          {&now_, &last_, &best_, &start_, &lower_, &upper_, &to_start_, &to_lower_, &to_upper_, &change_}) {
       *row = next;
-      next += places_;
+      next += index_count_;
     }
     // Padding without a hinge keeps the angle 0 in the range ±1, so it is always free.
-    std::fill_n(lower_, places_, -1.0);
-    std::fill_n(upper_, places_, 1.0);
+    std::fill_n(lower_, index_count_, -1.0);
+    std::fill_n(upper_, index_count_, 1.0);
     angles = start_;
     lower = lower_;
     upper = upper_;
@@ -274,7 +274,7 @@ class LimbLanes final : public GaussNewtonLimbs {
   };
 
   HWY_INLINE void Copy(const double* from, double* to) {
-    ForPlaces(places_, [&](std::size_t i) HWY_ATTR { StorePlaces(LoadPlaces(from + i), to + i); });
+    ForEachVector(index_count_, [&](std::size_t i) HWY_ATTR { StoreVector(LoadVector(from + i), to + i); });
   }
 
   bool IsMet(const GaussNewtonRules& rules, GaussNewtonHelp& help) {
@@ -289,11 +289,11 @@ class LimbLanes final : public GaussNewtonLimbs {
 
   /// Computes a step with its active-set passes, and moves the angles. Returns the largest change of an angle.
   double Step(const GaussNewtonCourse::Next& next, const GaussNewtonRules& rules) {
-    ForPlaces(places_, [&](std::size_t i) HWY_ATTR {
-      const Places now = LoadPlaces(now_ + i);
-      StorePlaces(next.to_start ? LoadPlaces(start_ + i) - now : Places(0.0), to_start_ + i);
-      StorePlaces(LoadPlaces(lower_ + i) - now, to_lower_ + i);
-      StorePlaces(LoadPlaces(upper_ + i) - now, to_upper_ + i);
+    ForEachVector(index_count_, [&](std::size_t i) HWY_ATTR {
+      const RowVector now = LoadVector(now_ + i);
+      StoreVector(next.to_start ? LoadVector(start_ + i) - now : RowVector(0.0), to_start_ + i);
+      StoreVector(LoadVector(lower_ + i) - now, to_lower_ + i);
+      StoreVector(LoadVector(upper_ + i) - now, to_upper_ + i);
     });
     // Eliminate inwards, substitute outwards, until the active set is settled.
     const Four damping(next.damping);
@@ -331,8 +331,8 @@ class LimbLanes final : public GaussNewtonLimbs {
       }
       // Eliminate its hinges.
       for (int slot = level.first_slot + level.hinge_count; slot-- > level.first_slot;) {
-        const int place = LimbPacks::kWidth * slot;
-        EliminateHinge(damping, LoadFour(to_start_ + place), LoadFour(to_lower_ + place), LoadFour(to_upper_ + place),
+        const int index = LimbPacks::kWidth * slot;
+        EliminateHinge(damping, LoadFour(to_start_ + index), LoadFour(to_lower_ + index), LoadFour(to_upper_ + index),
                        sum, hinges_[slot]);
       }
     }
@@ -358,8 +358,8 @@ class LimbLanes final : public GaussNewtonLimbs {
         is_first = false;
       }
       for (int h = joint.first_hinge + joint.hinge_count; h-- > joint.first_hinge;) {
-        const std::size_t place = packs_.first_trunk_place + h;
-        EliminateHinge(damping, to_start_[place], to_lower_[place], to_upper_[place], m, v, trunk_hinges_[h]);
+        const std::size_t index = packs_.first_trunk_place + h;
+        EliminateHinge(damping, to_start_[index], to_lower_[index], to_upper_[index], m, v, trunk_hinges_[h]);
       }
       QuadraticRows& to = trunk_[n].quadratic;
       for (int r = 0; r < 6; ++r) to.matrix[r] = m[r];
@@ -377,8 +377,8 @@ class LimbLanes final : public GaussNewtonLimbs {
       const LimbPacks::TrunkJoint& joint = packs_.trunk[n];
       SixRow movement = trunk_[joint.parent].movement;
       for (int h = joint.first_hinge; h < joint.first_hinge + joint.hinge_count; ++h) {
-        const std::size_t place = packs_.first_trunk_place + h;
-        has_changed |= SubstituteHinge(to_lower_[place], to_upper_[place], trunk_hinges_[h], change_[place], movement);
+        const std::size_t index = packs_.first_trunk_place + h;
+        has_changed |= SubstituteHinge(to_lower_[index], to_upper_[index], trunk_hinges_[h], change_[index], movement);
       }
       trunk_[n].movement = movement;
     }
@@ -402,13 +402,13 @@ class LimbLanes final : public GaussNewtonLimbs {
     FourMask has_changed = Below(Four(0.0), Four(0.0));
     for (const LimbPacks::Level& level : packs_.LevelsOf(pack)) {
       for (int slot = level.first_slot; slot < level.first_slot + level.hinge_count; ++slot) {
-        const int place = LimbPacks::kWidth * slot;
+        const int index = LimbPacks::kWidth * slot;
         HingeLanes<Four>& hinge = hinges_[slot];
         Four change, side;
-        SubstituteHinge(LoadFour(to_lower_ + place), LoadFour(to_upper_ + place), hinge, change, side, movement);
+        SubstituteHinge(LoadFour(to_lower_ + index), LoadFour(to_upper_ + index), hinge, change, side, movement);
         has_changed = has_changed || !AreEqual(side, hinge.side);
         hinge.side = side;
-        StoreFour(change, change_ + place);
+        StoreFour(change, change_ + index);
       }
     }
     return Any(has_changed);
@@ -417,26 +417,26 @@ class LimbLanes final : public GaussNewtonLimbs {
   /// Adds the changes to the angles, scaled down if one is too large; an infinite change moves none. Returns the
   /// largest.
   double Move(double max_change) {
-    Places largest(0.0);
-    auto is_finite = AtLeast(Places(0.0), Places(0.0));
-    ForPlaces(places_, [&](std::size_t i) HWY_ATTR {
-      const Places size = Magnitude(LoadPlaces(change_ + i));
+    RowVector largest(0.0);
+    auto is_finite = AtLeast(RowVector(0.0), RowVector(0.0));
+    ForEachVector(index_count_, [&](std::size_t i) HWY_ATTR {
+      const RowVector size = Magnitude(LoadVector(change_ + i));
       largest = Larger(largest, size);
-      is_finite = is_finite && AtLeast(Places(std::numeric_limits<double>::max()), size);
+      is_finite = is_finite && AtLeast(RowVector(std::numeric_limits<double>::max()), size);
     });
-    const double largest_change = hn::GetLane(hn::MaxOfLanes(Places::Tag(), largest.v));
+    const double largest_change = hn::GetLane(hn::MaxOfLanes(RowVector::Tag(), largest.v));
     if (Any(!is_finite) || !(largest_change > 0)) return 0;
-    const Places share(largest_change > max_change ? max_change / largest_change : 1);
-    ForPlaces(places_, [&](std::size_t i) HWY_ATTR {
-      const Places lower_end = LoadPlaces(lower_ + i), upper_end = LoadPlaces(upper_ + i);
-      const Places moved = LoadPlaces(now_ + i) + share * LoadPlaces(change_ + i);
-      StorePlaces(Clamped(moved, lower_end, upper_end), now_ + i);
+    const RowVector share(largest_change > max_change ? max_change / largest_change : 1);
+    ForEachVector(index_count_, [&](std::size_t i) HWY_ATTR {
+      const RowVector lower_end = LoadVector(lower_ + i), upper_end = LoadVector(upper_ + i);
+      const RowVector moved = LoadVector(now_ + i) + share * LoadVector(change_ + i);
+      StoreVector(Clamped(moved, lower_end, upper_end), now_ + i);
     });
     return largest_change;
   }
 
   const LimbPacks& packs_;
-  const std::size_t places_;
+  const std::size_t index_count_;
   LimbPoses poses_;
   AlignedList<double> numbers_;  // memory of the following rows, one number per angle index
   double *now_, *last_, *best_, *start_, *lower_, *upper_;

@@ -247,16 +247,16 @@ HWY_INLINE void TransposeTwo(Four& a, Four& b, Four& c, Four& d) {
 // ---- Rows of doubles -----------------------------------------------------------------------------------------------
 
 /// A vector of the full width, for rows of doubles.
-using Places = Lanes<double>;
+using RowVector = Lanes<double>;
 
 /// Calls `act` with the index of every vector in a row of `count` doubles, a multiple of the vector width.
 template <class Do>
-HWY_INLINE void ForPlaces(std::size_t count, const Do& act) {
-  constexpr std::size_t kLanes = sizeof(Places) / sizeof(double);
+HWY_INLINE void ForEachVector(std::size_t count, const Do& act) {
+  constexpr std::size_t kLanes = sizeof(RowVector) / sizeof(double);
   for (std::size_t i = 0; i < count; i += kLanes) act(i);
 }
-HWY_INLINE Places LoadPlaces(const double* from) { return Places(hn::Load(Places::Tag(), from)); }
-HWY_INLINE void StorePlaces(const Places& a, double* to) { hn::Store(a.v, Places::Tag(), to); }
+HWY_INLINE RowVector LoadVector(const double* from) { return RowVector(hn::Load(RowVector::Tag(), from)); }
+HWY_INLINE void StoreVector(const RowVector& a, double* to) { hn::Store(a.v, RowVector::Tag(), to); }
 
 // ---- Memory --------------------------------------------------------------------------------------------------------
 
