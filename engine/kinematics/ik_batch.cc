@@ -86,7 +86,7 @@ IkProblem IkBatch::Get(int problem_index) const {
 std::vector<int> IkBatch::FindSound() const {
   // Checks that set faults[n] for every problem n that fails them.
   const std::size_t count = count_;
-  std::vector<std::int64_t> faults(count);  // as wide as a double
+  std::vector<std::int64_t> faults(count);  // as wide as a double, for vectorisation
   const auto demand = [&](const auto& holds) {
     for (std::size_t n = 0; n < count; ++n) faults[n] |= holds(n) ? 0 : 1;
   };

@@ -172,6 +172,7 @@ std::vector<AngleRange> AllowedRanges(const IkProblem& problem, const IkOptions&
 /// Returns the range of one angle, as above.
 AngleRange AllowedRange(double start_angle, const AngleRange& limits, const IkOptions& options);
 
+/// Returns the distance of an effector from its target, and the angles between their axes.
 EffectorError ErrorOf(const LimbFrame& effector, const EffectorTarget& target);
 
 /// The largest errors over all effectors; positions and axes of weight 0 do not count.
@@ -181,6 +182,7 @@ struct WorstError {
 
   bool Within(const IkOptions& options) const { return position < options.position_goal && axis < options.axis_goal; }
 };
+/// Returns the largest errors of all effectors.
 WorstError FindWorst(std::span<const EffectorError> errors, std::span<const EffectorTarget> targets);
 
 }  // namespace etude

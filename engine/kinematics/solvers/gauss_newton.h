@@ -65,6 +65,7 @@ class GaussNewtonSolver {
   std::unique_ptr<Solver> solver_;  // null if the tree has a fault
 };
 
+/// The floating-point type of a batch.
 enum class Precision { kFloat, kDouble };
 
 /// Solves many problems of one tree at once by `gauss-newton`. Each problem occupies one lane of the CPU's vectors from

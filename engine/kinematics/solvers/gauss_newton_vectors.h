@@ -31,6 +31,7 @@ struct GaussNewtonRules {
   }
 };
 
+/// Returns the rules of these options in the given precision.
 GaussNewtonRules RulesFor(const IkOptions& options, const GaussNewtonOptions& own, Precision precision);
 
 /// Scalar code for the rare operations of the vector solvers. `problem` is a problem's number; angles are in the tree's

@@ -171,8 +171,8 @@ void PassToParent(const SweepTree::Joint& joint, Moments& child, Moments& parent
   for (int r = 0; r < 4; ++r) parent.rows[r] = parent.rows[r] + child.rows[r];
 }
 
-// 2 asin(√chord² / 2), the angle of a chord of the unit circle, to 10⁻¹² of itself: a polynomial in (chord / 2)² up to
-// a right angle (minimax, ours), and beyond it by the chord of the rest of half a turn.
+// Returns the angle of a chord of the unit circle, 2 asin(√chord² / 2), with a relative error of 10⁻¹²: by a minimax
+// polynomial in (chord / 2)² up to a right angle (ours), and beyond it from the chord of the supplementary angle.
 double AngleOfChord(double squared_chord) {
   constexpr double kTerms[] = {2.0000000000021307,   0.3333333319413167,  0.15000015042731862,  0.08927934444224939,
                                0.060903478193634814, 0.04293404585618574, 0.049655906059604696, -0.05387645705990194,
