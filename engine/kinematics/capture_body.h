@@ -66,12 +66,12 @@ CaptureBody PaperBody(const LimbLengths& lengths);
 /// - Joints without a role beyond them are left out. A joint between the pelvis and a hip, as skeletons of depth
 ///   sensors have it, stays (`hips_turn`).
 /// - A limb with one child along its own line has two degrees of freedom, which point it in any direction; nobody sees
-///   its rotation about itself. Three degrees of freedom have the pelvis, limbs with several children, limbs whose
-///   points do not lie on one line, and the upper arms, the right thigh and the left shank, whose rotation turns the
-///   plane in which elbow or knee bends.
+///   its rotation about itself. These have three degrees of freedom: the pelvis, limbs with several children, limbs
+///   whose points do not lie on one line, and the upper arms, the right thigh and the left shank, whose rotation turns
+///   the plane in which elbow or knee bends.
 /// - Joints turn freely, because the range of this person's joints is unknown. Only angles of joints that coincide with
 ///   no role (toes, the middle of the neck) are limited, to ±90°.
-/// Fails with a reason if the body has no pelvis or if a limb has no length.
+/// Fails with a reason if a role is not connected to the pelvis or a limb has no length.
 Result<CaptureBody> FittedBody(const RestBody& rest);
 
 /// Returns the twenty joints of a pose of the tree.

@@ -46,7 +46,8 @@ class Parts {
     return std::ranges::all_of(AllRoles(), [&](Role role) { return IsBelowPelvis(carrier_[Index(role)]); });
   }
 
-  /// Removes the parts that the tree does not need: those not below the pelvis, without tips, or without length.
+  /// Leaves out parts that are not below the pelvis or have no tips, and attaches parts that turn about one point to
+  /// the same parent.
   void Simplify() {
     for (std::size_t i = 0; i < all_.size(); ++i) all_[i].is_left_out = !IsBelowPelvis(static_cast<int>(i));
     for (const Role role : AllRoles()) AssignToParent(role);
@@ -258,9 +259,9 @@ class Builder {
     return {x, glm::cross(z, x), z};
   }
 
-  // Returns the limb's axes at zero angles. Euler angles are singular where a limb points along X. For an upper arm X
-  // is therefore chosen diagonally: it then points forward and out, or back and in behind the trunk, which arms do less
-  // often than hang, point sideways or point forward.
+  // Returns the limb's axes at zero angles. Euler angles are singular where a limb points along ±X. For an upper arm X
+  // is therefore diagonal, so that the singular directions are forward and out, and back and in behind the trunk: arms
+  // point there less often than down, sideways or forward.
   glm::dmat3 NeutralAxes(const RestLimb& limb, const glm::dmat3& R_WL) const {
     if (limb.leads_to != kLeftElbow && limb.leads_to != kRightElbow) return R_WL;
     const double back = limb.leads_to == kLeftElbow ? -1 : 1;
