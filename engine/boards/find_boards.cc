@@ -20,10 +20,10 @@ using GridIndex = std::pair<int, int>;
 using CornerGrid = std::map<GridIndex, std::size_t>;
 
 constexpr double kMaxSpacingPx = 150;  // maximum distance of the first neighbour
-// cosine of 14°: maximum angle between an edge and the way to the next corner
+// Cosine of 14°: maximum angle between an edge and the way to the next corner.
 constexpr double kMinAlignment = 0.97;
 constexpr double kMinSimilarity = 0.9;  // cosine of 26°: maximum rotation of edges from a corner to the next
-// maximum error of a corner predicted from two, as a share of the last step
+// Maximum error of a corner predicted from two, as a share of the last step.
 constexpr double kMaxPredictionError = 0.25;
 constexpr double kMaxStepRatio = 2.2;  // maximum ratio of a step to a neighbouring one in another direction
 

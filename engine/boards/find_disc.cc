@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMinWidthPx = 3;
 constexpr double kMinContrast = 20;  // counts of 255
-// relative difference of its area from that of the ellipse with its second moments
+// Relative difference of its area from that of the ellipse with its second moments.
 constexpr double kMaxShapeError = 0.25;
 
 // A rectangle of pixels, without `right` and `bottom`, clipped to the picture.

@@ -60,7 +60,7 @@ bool IsStrongestAround(const GreyImage& strengths, int x, int y) {
 Saddle Describe(const Hessian& hessian, double x, double y) {
   // In the frame of the principal directions: k1 cos² − k2 sin² = 0 with k1 > 0 > −k2.
   const double mean = 0.5 * (hessian.xx + hessian.yy), half = std::hypot(0.5 * (hessian.xx - hessian.yy), hessian.xy);
-  // direction of the largest curvature
+  // Direction of the largest curvature.
   const double bright = 0.5 * std::atan2(2 * hessian.xy, hessian.xx - hessian.yy);
   const double open = std::atan(std::sqrt((half + mean) / (half - mean)));
   const auto along = [](double angle) { return glm::dvec2(std::cos(angle), std::sin(angle)); };

@@ -57,7 +57,7 @@ KinematicTree WithRoles(const CaptureBody& body, std::vector<Role>& roles) {
 
 constexpr double kGoal = 1e-7;                       // metres
 constexpr double kMet = kRoleCount * kGoal * kGoal;  // a residual below means that all targets are met, m²
-// a residual below this multiple of the last frame's needs no other start
+// A residual below this multiple of the last frame's needs no other start.
 constexpr double kLikeTheLast = 1.5 * 1.5;
 
 IkOptions ExactSteps() {

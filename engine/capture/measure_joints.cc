@@ -107,7 +107,7 @@ std::optional<PointMeasurement> OnSightLine(const InformedSighting& seen, const 
   const glm::dvec3 position = NearestOn(*line, near_W);
   const auto sum = PointEquationsAt({&seen, 1}, position);
   if (!sum) return std::nullopt;
-  // metres *(ours)*: neighbouring frames do not determine the depth more accurately
+  // Metres *(ours)*: neighbouring frames do not determine the depth more accurately.
   constexpr double kDepthError = 0.15;
   const glm::dmat3 depth = glm::outerProduct(line->direction_W, line->direction_W) / (kDepthError * kDepthError);
   return PointMeasurement{position, sum->information + depth};

@@ -17,7 +17,7 @@ struct ParabolaMinimum {
 };
 
 std::optional<ParabolaMinimum> FitParabola(const std::function<std::optional<double>(int offset)>& misfit, int frame) {
-  // frames on either side: the misfit is no parabola farther away; with fewer frames, noise matters more
+  // Frames on either side: the misfit is no parabola farther away; with fewer frames, noise matters more.
   constexpr int kReach = 2;
   double count = 0, x2 = 0, x4 = 0, f = 0, xf = 0, x2f = 0;
   for (int x = -kReach; x <= kReach; ++x) {
@@ -53,7 +53,7 @@ ClockOffset FindOffset(const std::function<std::optional<double>(int offset)>& m
   const ParabolaMinimum minimum = FitParabola(misfit, best).value_or(ParabolaMinimum{});
   // Hardly an improvement over offset 0 means that nobody moved.
   constexpr double kNoBetter = 0.001, kNothing = 1e-4;  // a share of the misfit; squared pixels
-  // noise alone stays below this ratio if there are at least 300 distances
+  // Noise alone stays below this ratio if there are at least 300 distances.
   constexpr double kTold = 1.25;
   const bool is_better = *assumed - min_misfit + minimum.gain > kNothing + kNoBetter * *assumed;
   const bool is_told = std::abs(best) < most_frames && sum / evaluated > kNothing + kTold * (min_misfit - minimum.gain);

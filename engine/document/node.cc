@@ -89,7 +89,7 @@ class Builder {
           if (node.Find(key) != nullptr) return Fail(key_place, "the key '{}' stands here twice", key);
           auto value = Build(pair.second, depth + 1);
           if (!value) return value;
-          // yaml-cpp reports the position of the next token
+          // The position that yaml-cpp reports is that of the next token.
           if (value->kind == Node::Kind::kNull) value->place = key_place;
           node.entries.push_back({key, key_place, std::move(*value)});
         }

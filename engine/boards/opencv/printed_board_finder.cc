@@ -80,7 +80,7 @@ class OpenCvFinder : public PrintedBoardFinder {
   const PrintedBoard board;
   std::array<std::size_t, kDictionaries.size()> votes{};
   std::optional<std::size_t> dictionary;
-  /// number of pictures in which the first marker is in the second (0) or the first (1) square
+  /// Number of pictures in which the first marker is in the second (0) or the first (1) square.
   std::array<std::size_t, 2> layouts{};
   std::map<int, std::size_t> shares;  ///< number of pictures by the ratio of marker side to square side, hundredths
   std::array<std::size_t, 2> inversion{};  ///< number of markers printed black on white (0) and inverted (1)

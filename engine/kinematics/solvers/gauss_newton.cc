@@ -154,7 +154,7 @@ class BatchQueue final : public GaussNewtonQueue {
   ScalarHelp& help_;
   IkBatchSolution& solution_;
   Column column_;
-  // copy of a problem with allowed ranges in place of its limits; empty if they are equal
+  // Copy of a problem with allowed ranges in place of its limits; empty if they are equal.
   std::vector<double> own_ranges_;
 };
 

@@ -265,7 +265,7 @@ void GaussNewtonStep::EliminateInwards(double damping) {
       Hinge& hinge = hinges_[d];
       Spatial y;
       Multiply(limb.matrix.data(), hinge.screw.data(), y.data());
-      // sᵀΛs is negative only by rounding.
+      // The product sᵀΛs is negative only by rounding.
       hinge.scale = 1 / (damping + std::max(0.0, DotSix(y.data(), hinge.screw.data())));
       hinge.best = hinge.scale * (damping * hinge.pull + DotSix(limb.vector.data(), hinge.screw.data()));
       hinge.matrix_s = y;

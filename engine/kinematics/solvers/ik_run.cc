@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kScatter = 1.5;                     // maximum distance of a restart from the start, radians
 constexpr double kGoldenShare = 0.6180339887498949;  // multiples of it modulo 1 are evenly distributed
-// a fifth of a degree of the start angle changes x by a whole period
+// A fifth of a degree of the start angle changes x by a whole period.
 constexpr double kSpread = 300;
 
 }  // namespace

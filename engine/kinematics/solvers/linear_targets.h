@@ -46,7 +46,7 @@ class LinearTargets {
   int columns() const { return tree_.dof_count(); }
   /// J, column by column: rows() numbers for each degree of freedom.
   std::span<const double> jacobian() const { return jacobian_; }
-  /// e, rows() numbers.
+  /// The residuals e, rows() numbers.
   std::span<const double> residuals() const { return residuals_; }
 
   /// Returns the sum above exactly, without linearisation.
