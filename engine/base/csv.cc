@@ -8,7 +8,8 @@
 namespace etude {
 namespace {
 
-/// Spreadsheets skip spaces, and some take the wide forms of these signs, too.
+/// Returns true if a spreadsheet would read the text as a formula. Spreadsheets skip spaces, and some accept the
+/// full-width forms of these signs.
 bool BeginsFormula(std::string_view text) {
   constexpr std::array<char32_t, 8> kSigns = {'=', '+', '-', '@', 0xff1d, 0xff0b, 0xff0d, 0xff20};
   text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));

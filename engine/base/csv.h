@@ -5,9 +5,9 @@
 
 namespace etude {
 
-/// Writes a text as a field of a CSV file (RFC 4180), in quotes where it must be. What is hidden or commands a terminal
-/// is shown (Visible), and a text that a spreadsheet would take for a formula gets a ' before it; numbers are not
-/// written through this.
+/// Formats a text as a field of a CSV file (RFC 4180), quoted if necessary. Hidden and control characters are made
+/// visible (Visible), and a text that a spreadsheet would read as a formula is prefixed with an apostrophe. Not for
+/// numbers.
 std::string CsvText(std::string_view text);
 
 }  // namespace etude

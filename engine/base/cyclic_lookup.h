@@ -7,12 +7,12 @@
 
 namespace etude {
 
-/// A small list of named items; Find starts after the last hit, which is O(1) when names are asked for in a repeating
+/// A small list of named items. Find starts after the last hit, so it is O(1) if names are looked up in a repeating
 /// order.
 template <typename T>
 class CyclicLookup {
  public:
-  /// Returns the item of that name, null when there is none.
+  /// Returns the item of this name, null if there is none.
   T* Find(std::string_view name) {
     for (std::size_t tried = 0; tried < items_.size(); ++tried, ++next_) {
       if (next_ >= items_.size()) next_ = 0;
@@ -26,7 +26,7 @@ class CyclicLookup {
     }
     return nullptr;
   }
-  /// Adds an item of a name that is not in the list yet.
+  /// Adds an item, whose name must not be in the list yet.
   T& Add(std::string name, T item) { return items_.emplace_back(std::move(name), std::move(item)).second; }
 
   auto begin() { return items_.begin(); }

@@ -8,8 +8,8 @@
 
 namespace etude {
 
-/// A 64-bit fingerprint (XXH3) of a sequence of values, the same on every machine. Names the output
-/// of a pipeline stage, so that two runs can be compared stage by stage.
+/// A 64-bit fingerprint (XXH3) of a sequence of values, equal on every machine. Fingerprints of pipeline stages show
+/// the first stage at which two runs differ.
 class Digest {
  public:
   Digest();
@@ -32,7 +32,7 @@ class Digest {
   std::unique_ptr<State> state_;
 };
 
-/// The fingerprint of one string; a stable replacement for std::hash.
+/// Returns the fingerprint of one string; a stable replacement for std::hash.
 std::uint64_t Fingerprint(std::string_view text);
 
 }  // namespace etude

@@ -11,7 +11,7 @@ struct EmbeddedText {
   std::string_view text;
 };
 
-/// The file's name without its ending, "clap": how users name it.
+/// Returns the file's name without its extension, "clap", as users write it.
 inline std::string_view StemOf(const EmbeddedText& file) { return file.name.substr(0, file.name.rfind('.')); }
 
 }  // namespace etude

@@ -31,11 +31,11 @@ glm::dmat3 RotationXyz(const glm::dvec3& angles) {
 }
 
 glm::dvec3 AnglesXyz(const glm::dmat3& rotation) {
-  constexpr double kTold = 1e-6;  // below it, what the first row says of z is lost in rounding
+  constexpr double kMinCosY = 1e-6;  // below it, rounding hides z in the first row
   const double cos_y = std::hypot(rotation[0].x, rotation[1].x);
   const double x = std::atan2(-rotation[2].y, rotation[2].z), y = std::atan2(rotation[2].x, cos_y);
-  if (cos_y > kTold) return {x, y, std::atan2(-rotation[1].x, rotation[0].x)};
-  // z from the axes that x has turned: exact whatever x came out as.
+  if (cos_y > kMinCosY) return {x, y, std::atan2(-rotation[1].x, rotation[0].x)};
+  // Take z from the axes after the rotation about x: exact for any x.
   const double c = std::cos(x), s = std::sin(x);
   return {x, y, std::atan2(c * rotation[0].y + s * rotation[0].z, c * rotation[1].y + s * rotation[1].z)};
 }

@@ -8,8 +8,8 @@
 
 namespace etude {
 
-/// A picture: `width` × `height` pixels in rows from the top, row-major, origin at the top left.
-/// Pixel (x, y) covers the square [x, x+1) × [y, y+1); its centre is (x + 0.5, y + 0.5).
+/// A picture of `width` × `height` pixels, row by row from the top left. Pixel (x, y) covers the square [x, x+1) × [y,
+/// y+1); its centre is (x + 0.5, y + 0.5).
 template <typename Pixel>
 struct Image {
   int width = 0;
@@ -36,31 +36,31 @@ struct Rgb8 {
 };
 
 using ColourImage = Image<Rgb8>;
-/// A picture of 1 where a pixel belongs to the thing looked for, and 0 elsewhere.
+/// A binary picture: 1 for pixels of the object, 0 for the background.
 using Mask = Image<std::uint8_t>;
-/// A picture of distances along the camera's viewing axis in metres; infinity where nothing was hit.
+/// Depths along the camera's viewing axis, metres; infinity where no surface is hit.
 using DepthImage = Image<float>;
-/// The thing that each pixel shows, as a number whose meaning is the renderer's (`sim/render`).
+/// The object that each pixel shows, as a number defined by the renderer (`sim/render`).
 using LabelImage = Image<std::uint32_t>;
 
-/// A picture that is laid on a surface by coordinates (u, v): (0, 0) is its upper left corner, (1, 1) the lower right
+/// A picture that is mapped to a surface by coordinates (u, v): (0, 0) is its upper left corner, (1, 1) the lower right
 /// one.
 struct Texture {
-  /// Says how the picture goes on beyond 0…1.
+  /// The continuation of the picture outside 0…1.
   enum class Beyond { kRepeats, kMirrors, kStays };
 
   ColourImage picture;
   Beyond beyond_u = Beyond::kRepeats, beyond_v = Beyond::kRepeats;
 };
 
-/// A texture shared between a file's materials, the surfaces of every frame and what draws them: large, and never
-/// changed.
+/// An immutable texture, shared by a file's materials, the surfaces of every frame and the renderer because it is
+/// large.
 using SharedTexture = std::shared_ptr<const Texture>;
 
-/// Returns the linear light, 0…1, of a screen's value (IEC 61966-2-1).
+/// Converts an sRGB value to linear light, 0…1 (IEC 61966-2-1).
 double LinearOfSrgb(std::uint8_t value);
 
-/// Returns the screen's value nearest to linear light, which is clamped to 0…1.
+/// Converts linear light, clamped to 0…1, to the nearest sRGB value.
 std::uint8_t SrgbOfLinear(double light);
 
 }  // namespace etude

@@ -10,14 +10,14 @@
 
 namespace etude {
 
-/// A row of a table that gives the values of an enum their names.
+/// A row of a table of names for the values of an enum.
 template <typename Value>
 struct Named {
   std::string_view name;
   Value value;
 };
 
-/// Reads a row's name from its member `name`, which FindByName does unless told otherwise.
+/// Returns the member `name` of a row; the default of FindByName.
 struct NameMember {
   template <typename Row>
   constexpr std::string_view operator()(const Row& row) const {
@@ -25,8 +25,8 @@ struct NameMember {
   }
 };
 
-/// The first of `rows` (an array, vector or span) that is called `name`, null when there is none. `name_of`, a function
-/// or a member, tells what a row is called. The answer points into the rows.
+/// Returns a pointer to the first of `rows` (an array, vector or span) with the name `name`, null if there is none.
+/// `name_of`, a function or a member, returns the name of a row.
 template <typename Rows, typename NameOf = NameMember>
 constexpr auto FindByName(const Rows& rows, std::string_view name, NameOf name_of = {}) -> decltype(std::data(rows)) {
   for (const auto& row : rows) {
@@ -35,14 +35,14 @@ constexpr auto FindByName(const Rows& rows, std::string_view name, NameOf name_o
   return nullptr;
 }
 
-/// The value called `name` of a table of Named rows; nothing when there is none.
+/// Returns the value with the name `name` in a table of Named rows; nothing if there is none.
 template <typename Rows>
 constexpr auto FindValue(const Rows& rows, std::string_view name) -> std::optional<decltype(std::data(rows)->value)> {
   const auto* row = FindByName(rows, name);
   return row != nullptr ? std::optional(row->value) : std::nullopt;
 }
 
-/// The value called `name`, which the table must have.
+/// Returns the value with the name `name`, which must be in the table.
 template <typename Rows>
 constexpr auto ValueNamed(const Rows& rows, std::string_view name) {
   const auto* row = FindByName(rows, name);
@@ -50,7 +50,7 @@ constexpr auto ValueNamed(const Rows& rows, std::string_view name) {
   return row->value;
 }
 
-/// The name of a value, which the table must have.
+/// Returns the name of a value, which must be in the table.
 template <typename Rows, typename Value>
 constexpr std::string_view NameOfValue(const Rows& rows, Value value) {
   for (const auto& row : rows) {
@@ -60,7 +60,7 @@ constexpr std::string_view NameOfValue(const Rows& rows, Value value) {
   return {};
 }
 
-/// Lists the rows' names in their order.
+/// Returns the names of all rows in their order.
 template <typename Rows, typename NameOf = NameMember>
 std::vector<std::string> NamesOf(const Rows& rows, NameOf name_of = {}) {
   std::vector<std::string> names;

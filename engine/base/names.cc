@@ -34,8 +34,8 @@ int EditDistance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string NearestName(std::string_view name, std::span<const std::string> known) {
-  constexpr std::size_t kLongestComparedName = 100;
-  if (name.size() > kLongestComparedName) return "";
+  constexpr std::size_t kMaxComparedLength = 100;
+  if (name.size() > kMaxComparedLength) return "";
   std::string best;
   int best_distance = 1 + static_cast<int>(name.size()) / 3;
   for (const std::string& candidate : known) {
@@ -51,8 +51,8 @@ std::string NearestName(std::string_view name, std::span<const std::string> know
 std::string UnknownName(std::string_view kind, std::string_view name, std::span<const std::string> known) {
   const std::string nearest = NearestName(name, known);
   const std::string hint = nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest);
-  constexpr std::size_t kLongestShown = 60;
-  return fmt::format("unknown {} '{}'{} Allowed: {}", kind, name.substr(0, kLongestShown), nearest.empty() ? "." : hint,
+  constexpr std::size_t kMaxShown = 60;
+  return fmt::format("unknown {} '{}'{} Allowed: {}", kind, name.substr(0, kMaxShown), nearest.empty() ? "." : hint,
                      Join(known));
 }
 

@@ -7,19 +7,19 @@
 
 namespace etude {
 
-/// The known name closest to `name` by edit distance (insert, delete, replace, swap neighbours), or
-/// an empty string when none is close enough to be a likely typing error.
+/// Returns the known name closest to `name` by edit distance (insert, delete, replace, swap neighbours), or an empty
+/// string if none is close enough to be a likely typing error.
 std::string NearestName(std::string_view name, std::span<const std::string> known);
 
-/// The one wording of every complaint about an unknown name:
+/// Returns the complaint about an unknown name:
 /// "unknown solver 'cdc'; did you mean 'ccd'? Allowed: ccd, ccd-hinges".
 std::string UnknownName(std::string_view kind, std::string_view name, std::span<const std::string> known);
 
 /// Joins items as in "a, b, c".
 std::string Join(std::span<const std::string> items, std::string_view separator = ", ");
 
-/// Shows a word as complaints do: in quotes, shortened, unprintable bytes as `?`; nothing at all is "the end of the
-/// line or file".
+/// Formats a word for complaints: quoted, shortened, unprintable characters as `?`; an empty text becomes "the end of
+/// the line or file".
 std::string Quote(std::string_view text);
 
 }  // namespace etude

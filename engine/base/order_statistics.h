@@ -7,8 +7,8 @@
 
 namespace etude {
 
-/// The value of rank size/2 among the sorted ones, counted from 0: of an even number the upper of the two middle
-/// values, never their mean. Needs a value; of none that is NaN.
+/// Returns the value of rank size/2 in ascending order, counted from 0: for an even number of values the upper of the
+/// two middle ones, never their mean. `values` must not be empty or contain NaN.
 template <class T>
 T UpperMedian(std::vector<T> values) {
   assert(!values.empty());
@@ -17,8 +17,9 @@ T UpperMedian(std::vector<T> values) {
   return *middle;
 }
 
-/// The value of rank ⌊share·(n − 1)⌋ among the sorted ones, without interpolation; at share 0.5 of an even number the
-/// *lower* of the two middle values, unlike UpperMedian. `share` from 0 to 1. Needs a value; of none that is NaN.
+/// Returns the value of rank ⌊share·(n − 1)⌋ in ascending order, without interpolation, for `share` in 0…1. At 0.5 and
+/// an even number of values it is the *lower* of the two middle ones, unlike UpperMedian. `values` must not be empty or
+/// contain NaN.
 inline double LowerPercentile(std::vector<double> values, double share) {
   assert(!values.empty());
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));

@@ -5,7 +5,7 @@
 
 namespace etude {
 
-/// Is called with how much of some work is done, of how much. An empty function is not called.
+/// A callback that reports progress: `done` of `all` units of work. It may be empty.
 using OnProgress = std::function<void(std::size_t done, std::size_t all)>;
 
 }  // namespace etude

@@ -8,29 +8,29 @@
 
 namespace etude {
 
-/// A place in a file. Line and column count from 1; 0 means "not known".
+/// A position in a file. Line and column count from 1; 0 means "unknown".
 struct Place {
   std::string file;
   int line = 0;
   int column = 0;
 };
 
-/// An error of bad input for a human to read: where it is, what was found, what is allowed.
+/// An error of bad input, for people: where it is, what was found, what is allowed.
 struct Error {
   Place place;
   std::string message;
 };
 
-/// Formats "file:line:column: message", leaving out what is not known; one line, safe to be shown (Visible).
+/// Formats "file:line:column: message" without the unknown parts, on one line and safe to show (Visible).
 std::string ToString(const Error& error);
 std::string ToString(const Place& place);
 
-/// A value, or the reason why bad input could not give one. Our own bugs are assertions, and
-/// numerical outcomes are status enums: neither travels as an Error.
+/// A value, or the reason why bad input gave none. Our own bugs are assertions and numerical outcomes are status enums;
+/// neither is an Error.
 template <typename T>
 using Result = tl::expected<T, Error>;
 
-/// Makes the failed state of any Result: `return Fail(place, "found {}; allowed: {}", a, b);`
+/// Returns the failed state of any Result: `return Fail(place, "found {}; allowed: {}", a, b);`
 template <typename... Args>
 tl::unexpected<Error> Fail(Place place, fmt::format_string<Args...> format, Args&&... args) {
   return tl::unexpected<Error>(Error{std::move(place), fmt::format(format, std::forward<Args>(args)...)});
@@ -38,7 +38,7 @@ tl::unexpected<Error> Fail(Place place, fmt::format_string<Args...> format, Args
 
 }  // namespace etude
 
-/// Leaves the function with the error of a Result, if there is one: `RETURN_IF_ERROR(fields.Finish());`
+/// Returns the error of a Result from the calling function, if there is one: `RETURN_IF_ERROR(fields.Finish());`
 #define RETURN_IF_ERROR(...)                                   \
   do {                                                         \
     if (auto etude_result_ = (__VA_ARGS__); !etude_result_) {  \
@@ -46,7 +46,7 @@ tl::unexpected<Error> Fail(Place place, fmt::format_string<Args...> format, Args
     }                                                          \
   } while (false)
 
-/// Declares what a Result holds, or leaves the function with its error:
+/// Declares the value of a Result, or returns its error from the calling function:
 /// `ASSIGN_OR_RETURN(const auto clip, ReadBvh(text, file));`
 #define ASSIGN_OR_RETURN(declaration, ...) \
   ETUDE_ASSIGN_OR_RETURN_(ETUDE_UNIQUE_(etude_result_, __COUNTER__), declaration, __VA_ARGS__)

@@ -8,28 +8,29 @@
 
 namespace etude {
 
-/// A character and how many bytes of UTF-8 it has (RFC 3629: no surrogates, no overlong forms, up to U+10FFFF); 0 where
-/// the bytes are no UTF-8.
+/// A character and its number of bytes in UTF-8 (RFC 3629: no surrogates, no overlong forms, up to U+10FFFF); 0 if the
+/// bytes are not valid UTF-8.
 struct Utf8Character {
   char32_t code = 0;
   std::size_t length = 0;
 };
 
-/// Reads the character that a text, which is not empty, begins with.
+/// Decodes the first character of a text, which must not be empty.
 Utf8Character FirstCharacter(std::string_view text);
 
-/// Refuses text that is not UTF-8, or holds a zero byte, with the place of the first byte that is wrong.
+/// Fails for text that is not UTF-8 or contains a zero byte, with the position of the first wrong byte.
 Result<void> CheckUtf8(std::string_view text, const std::string& file);
 
-/// True of what a reader does not see: characters that turn the direction of writing, take no place, or command a
-/// terminal beyond ASCII (U+0080 to U+009F). ASCII's own control characters are not among them.
+/// Returns true for characters that a reader does not see: those that change the direction of writing, have no width,
+/// or control a terminal (U+0080 to U+009F). ASCII control characters are not included.
 bool IsHidden(char32_t code);
 
-/// The number of a character, "[U+202E]", to stand in its place.
+/// Returns the number of a character, "[U+202E]", to be shown in its place.
 std::string NumberOf(char32_t code);
 
-/// Makes text safe to be shown: a hidden character becomes its number, a control character a space but for those of
-/// `kept`, a byte that is no UTF-8 becomes U+FFFD. A hostile name can neither command a terminal nor read as another.
+/// Makes text safe to show: a hidden character becomes its number, a control character becomes a space unless it is in
+/// `kept`, a byte that is not valid UTF-8 becomes U+FFFD. So a hostile name can neither control a terminal nor look
+/// like another name.
 std::string Visible(std::string_view text, std::string_view kept = "");
 
 }  // namespace etude

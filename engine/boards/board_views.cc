@@ -14,8 +14,8 @@ Result<std::size_t> BoardViews::Add(std::size_t camera, const std::string& momen
   const std::vector<SeenCorner> corners = printed_ ? printed_->Find(picture) : FindBoards(picture, boards_);
   std::map<std::size_t, TargetView> by_board;
   for (const SeenCorner& corner : corners) {
-    const glm::dvec2 place = PlaceOf(boards_[corner.board], corner.corner);
-    by_board[corner.board].pairs.push_back({{place.x, place.y, 0}, corner.pixel});
+    const glm::dvec2 position = PlaceOf(boards_[corner.board], corner.corner);
+    by_board[corner.board].pairs.push_back({{position.x, position.y, 0}, corner.pixel});
   }
   for (auto& [board, view] : by_board) {
     view.camera = camera;
@@ -32,7 +32,7 @@ std::vector<TargetView> BoardViews::views() const {
 }
 
 void TurnToStance(BoardStance stance, std::span<Camera> cameras) {
-  // A board's x runs right, its y down, its z away from who sees its front. By columns: where they point in the world.
+  // A board's x points right, its y down, its z away from its front. The columns are these axes in the world.
   const glm::dmat3 R_WT = stance == BoardStance::kOnFloor
                               ? glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0))
                               : glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1));

@@ -17,53 +17,52 @@
 
 namespace etude {
 
-/// A board in one picture of a camera.
+/// One board in one picture of a camera.
 struct BoardSighting {
-  TargetView view;        ///< of the target that the board is at this picture's moment
-  std::size_t board = 0;  ///< which of the boards
-  int look = -1;          ///< which of the film's pictures that were looked at, from 0; −1: of no film
+  TargetView view;        ///< its target is the board at the moment of this picture
+  std::size_t board = 0;  ///< index of the board
+  int look = -1;          ///< index of the picture among the examined pictures of a film; −1 if it is not from a film
 };
 
-/// Looks for boards in the pictures of a rig's cameras and collects what they show for `CalibrateFromPlanes`. A board
-/// at one moment is a target of its own: it may be carried about between pictures, but pictures of one moment show it
-/// at one place.
+/// Detects boards in the pictures of a rig's cameras and collects the sightings for `CalibrateFromPlanes`. A board at
+/// one moment is one target: it may move between moments, but all pictures of one moment show it at the same position.
 class BoardViews {
  public:
   explicit BoardViews(std::vector<Board> boards) : boards_(std::move(boards)) {}
-  /// Looks for one board of OpenCV's instead.
+  /// Detects one board of OpenCV's instead.
   BoardViews(const PrintedBoard& board, std::unique_ptr<PrintedBoardFinder> finder)
       : boards_{{.columns = board.columns, .rows = board.rows, .square = board.square}}, printed_(std::move(finder)) {}
 
-  /// Adds a picture of the camera of that number, counted from 0. Fails when its size is not that of the camera's
-  /// pictures before it.
-  /// @param moment names when it was taken: pictures of the same moment show boards at the same places
-  /// @param look which of its film's pictures that are looked at, equally far apart, from 0; −1: of no film
-  /// @return how many corners it shows
+  /// Adds a picture of a camera. Fails if its size differs from that of the camera's earlier pictures.
+  /// @param camera number of the camera, from 0
+  /// @param moment name of the time at which it was taken: pictures of one moment show boards at the same positions
+  /// @param look index among the examined, evenly spaced pictures of its film, from 0; −1 if it is not from a film
+  /// @return the number of corners found
   Result<std::size_t> Add(std::size_t camera, const std::string& moment, const ColourImage& picture, int look = -1);
 
-  /// Every board in every picture, in the order of `Add`.
+  /// All boards in all pictures, in the order of `Add`.
   const std::vector<BoardSighting>& sightings() const { return sightings_; }
   std::vector<TargetView> views() const;
-  /// The sizes of the cameras' pictures, by camera.
+  /// The picture size of each camera.
   const std::vector<PictureSize>& sizes() const { return sizes_; }
-  /// Returns what was found out about a board of OpenCV's; "" of our own.
+  /// Returns what was detected about a board of OpenCV's; "" for our boards.
   std::string Told() const { return printed_ ? printed_->Told() : ""; }
 
  private:
   const std::vector<Board> boards_;
   std::unique_ptr<PrintedBoardFinder> printed_;
-  std::map<std::pair<std::string, std::size_t>, std::size_t> targets_;  ///< of moment and board
+  std::map<std::pair<std::string, std::size_t>, std::size_t> targets_;  ///< by moment and board
   std::vector<BoardSighting> sightings_;
   std::vector<PictureSize> sizes_;
 };
 
-/// The pose of the first board in the world that the rig's cameras are given in.
+/// The pose of the first board, which defines the world of the cameras.
 enum class BoardStance {
-  kOnFloor,  ///< its front up: X along its rows to the right, Z down its columns, Y up
+  kOnFloor,  ///< on the floor: X along its rows to the right, Z down its columns, Y up
   kOnWall,   ///< upright: X to the right, Y up its columns, Z out of its front
 };
 
-/// Expresses the cameras in a world with Y up, its origin at the top left corner of the first board's first square.
+/// Transforms the cameras to a world with Y up and its origin at the top left corner of the first board.
 void TurnToStance(BoardStance stance, std::span<Camera> cameras);
 
 }  // namespace etude

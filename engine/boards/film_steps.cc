@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// The key of a sighting: a camera, a board and a look.
+/// Identifies a sighting: camera, board, look.
 using SightingKey = std::tuple<std::size_t, std::size_t, int>;
 using SightingMap = std::map<SightingKey, const BoardSighting*>;
 
@@ -23,7 +23,8 @@ const glm::dvec2* PixelOf(const SightingMap& map, const SightingKey& key, const 
   return nullptr;
 }
 
-/// The corners of a sighting `share` of a look later, −0.5 to 0.5: those that a look beside shows, too.
+/// Returns the corners of a sighting, interpolated to `share` looks later, −0.5 to 0.5. Corners that no neighbouring
+/// look shows are left out.
 std::vector<PointPair> CornersBetween(const SightingMap& map, const SightingKey& key, const BoardSighting& sighting,
                                       double share) {
   constexpr double kNow = 1e-6;
@@ -34,27 +35,28 @@ std::vector<PointPair> CornersBetween(const SightingMap& map, const SightingKey&
     const glm::dvec2* const before = PixelOf(map, {camera, board, look - 1}, pair.world);
     const glm::dvec2* const after = PixelOf(map, {camera, board, look + 1}, pair.world);
     if (before && after) {
-      const glm::dvec2 speed = 0.5 * (*after - *before), bend = 0.5 * (*after + *before) - pair.pixel;
-      moved.push_back({pair.world, pair.pixel + share * speed + share * share * bend});
+      const glm::dvec2 velocity = 0.5 * (*after - *before), curvature = 0.5 * (*after + *before) - pair.pixel;
+      moved.push_back({pair.world, pair.pixel + share * velocity + share * share * curvature});
     } else if (before || after) {
-      const glm::dvec2 speed = after ? *after - pair.pixel : pair.pixel - *before;
-      moved.push_back({pair.world, pair.pixel + share * speed});
+      const glm::dvec2 velocity = after ? *after - pair.pixel : pair.pixel - *before;
+      moved.push_back({pair.world, pair.pixel + share * velocity});
     }
   }
   return moved;
 }
 
-/// Keeps at most kMostMoments of the moments that several films see, spread evenly; a sighting keeps its neighbours.
-std::vector<BoardSighting> Thinned(std::span<const BoardSighting> sightings) {
-  constexpr std::size_t kMostMoments = 60;
-  std::map<std::size_t, std::size_t> cameras;  // of each target
+/// Reduces the sightings to about kMaxMoments moments, if several films share any, in evenly spaced blocks of
+/// consecutive looks.
+std::vector<BoardSighting> Subsampled(std::span<const BoardSighting> sightings) {
+  constexpr std::size_t kMaxMoments = 60;
+  std::map<std::size_t, std::size_t> cameras;  // number of cameras that see each target
   for (const BoardSighting& s : sightings) ++cameras[s.view.target];
   std::size_t shared = 0;
   for (const auto& [target, count] : cameras) shared += count > 1 ? 1 : 0;
-  if (cameras.size() <= kMostMoments || shared == 0) return {sightings.begin(), sightings.end()};
-  // Blocks of looks: neighbours tell speeds.
+  if (cameras.size() <= kMaxMoments || shared == 0) return {sightings.begin(), sightings.end()};
+  // Blocks of consecutive looks, because neighbours determine velocities.
   constexpr int kBlock = 6;
-  const std::size_t blocks = std::max<std::size_t>(1, (cameras.size() + kMostMoments - 1) / kMostMoments);
+  const std::size_t blocks = std::max<std::size_t>(1, (cameras.size() + kMaxMoments - 1) / kMaxMoments);
   std::vector<BoardSighting> kept;
   for (const BoardSighting& s : sightings) {
     if (static_cast<std::size_t>(s.look / kBlock) % blocks == 0) kept.push_back(s);
@@ -68,7 +70,7 @@ std::vector<TargetView> ViewsInStep(std::span<const BoardSighting> sightings, st
                                     std::span<const double> late_s) {
   SightingMap map;
   for (const BoardSighting& s : sightings) map[{s.view.camera, s.board, s.look}] = &s;
-  std::map<std::pair<std::size_t, int>, std::size_t> targets;  // of a board and the first film's look
+  std::map<std::pair<std::size_t, int>, std::size_t> targets;  // by board and look of the first film
   std::size_t count = 0;
   const auto target_of = [&](std::size_t board, int look) {
     const auto [at, is_new] = targets.try_emplace({board, look}, count);
@@ -79,14 +81,14 @@ std::vector<TargetView> ViewsInStep(std::span<const BoardSighting> sightings, st
   for (const BoardSighting& s : sightings) {
     const std::size_t camera = s.view.camera;
     const double period = period_s[camera];
-    // The look of the first film that is nearest in time, and where this film's time stands then.
+    // The nearest look of the first film in time, and the fraction of a look from this sighting to that moment.
     const int look = static_cast<int>(std::lround((s.look * period - late_s[camera]) / period_s[0]));
     const double share = (look * period_s[0] + late_s[camera]) / period - s.look;
     constexpr double kHalf = 0.5 + 1e-9;
     std::vector<PointPair> pairs;
     if (std::abs(share) <= kHalf) pairs = CornersBetween(map, {camera, s.board, s.look}, s, share);
-    constexpr std::size_t kFewest = 4;
-    if (pairs.size() >= kFewest) {
+    constexpr std::size_t kMinCorners = 4;
+    if (pairs.size() >= kMinCorners) {
       views.push_back({camera, target_of(s.board, look), std::move(pairs)});
     } else {
       views.push_back({camera, count++, s.view.pairs});
@@ -96,10 +98,10 @@ std::vector<TargetView> ViewsInStep(std::span<const BoardSighting> sightings, st
 }
 
 Result<FilmSteps> FindFilmSteps(std::span<const PictureSize> sizes, std::span<const BoardSighting> sightings,
-                                std::span<const double> period_s, double most_s, const RefineOptions& options,
+                                std::span<const double> period_s, double max_delay_s, const RefineOptions& options,
                                 const OnProgress& on_progress) {
   FilmSteps steps{.late_s = std::vector<double>(sizes.size())};
-  const std::vector<BoardSighting> tried = Thinned(sightings);
+  const std::vector<BoardSighting> tried = Subsampled(sightings);
   RefineOptions quick = options;
   constexpr int kQuick = 25;
   quick.most_iterations = kQuick;
@@ -107,38 +109,41 @@ Result<FilmSteps> FindFilmSteps(std::span<const PictureSize> sizes, std::span<co
     ASSIGN_OR_RETURN(const RefinedRig rig, CalibrateFromPlanes(sizes, ViewsInStep(tried, period_s, late_s), quick));
     return rig.rms_px;
   };
-  // Where nothing can be calibrated in step, it may be later on.
+  // If calibration fails without delays, it may succeed with them.
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const auto in_step = residual(steps.late_s);
   steps.before_px = steps.after_px = in_step ? *in_step : kNever;
   const std::size_t rounds = sizes.size() > 2 ? 2 : 1;
+  // A grid over ±max_delay_s in steps of half a look; two rounds if there are more than two films.
   const double step_s = 0.5 * period_s[0];
-  const int wide = std::max(1, static_cast<int>(std::floor(most_s / step_s)));
+  const int wide = std::max(1, static_cast<int>(std::floor(max_delay_s / step_s)));
   constexpr int kHalvings = 5;
   const std::size_t all = rounds * (sizes.size() - 1) * static_cast<std::size_t>(2 * wide + 1 + 2 * kHalvings);
   std::size_t done = 0;
   for (std::size_t round = 0; round < rounds; ++round) {
     for (std::size_t film = 1; film < sizes.size(); ++film) {
       std::vector<double> late_s = steps.late_s;
-      double best_s = late_s[film], least = steps.after_px;
-      const auto look_at = [&](double s) {
+      double best_s = late_s[film], min_px = steps.after_px;
+      const auto try_delay = [&](double s) {
         late_s[film] = s;
         const auto px = residual(late_s);
         if (on_progress) on_progress(std::min(all, ++done), all);
-        if (!px || !(*px < least)) return;
-        least = *px;
+        if (!px || !(*px < min_px)) return;
+        min_px = *px;
         best_s = s;
       };
-      for (int i = -wide; i <= wide; ++i) look_at(i * step_s);
+      // Search the grid, then halve the step around the best delay.
+      for (int i = -wide; i <= wide; ++i) try_delay(i * step_s);
       double half = 0.5 * step_s;
       for (int i = 0; i < kHalvings; ++i, half *= 0.5) {
         const double middle = best_s;
-        look_at(middle - half);
-        look_at(middle + half);
+        try_delay(middle - half);
+        try_delay(middle + half);
       }
-      constexpr double kMended = 0.9;
-      if (!(least < kMended * steps.after_px)) continue;
-      steps.after_px = least;
+      // Accept the delay if the residual falls enough.
+      constexpr double kMinImprovement = 0.9;
+      if (!(min_px < kMinImprovement * steps.after_px)) continue;
+      steps.after_px = min_px;
       steps.late_s[film] = best_s;
     }
   }

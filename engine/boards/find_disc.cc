@@ -12,11 +12,12 @@
 namespace etude {
 namespace {
 
-constexpr double kNarrowest = 3;       // pixels
-constexpr double kLeastContrast = 20;  // counts of 255
-constexpr double kOddestShape = 0.25;  // how much the area may differ from that of an ellipse with its second moments
+constexpr double kMinWidthPx = 3;
+constexpr double kMinContrast = 20;  // counts of 255
+// Relative difference of its area from that of the ellipse with its second moments.
+constexpr double kMaxShapeError = 0.25;
 
-// A piece of the picture; right and bottom lie beyond it.
+// A rectangle of pixels, without `right` and `bottom`, clipped to the picture.
 struct Window {
   int left, top, right, bottom;
 
@@ -51,43 +52,44 @@ float BrightestOf(const GreyImage& picture, const Window& window) {
   return brightest;
 }
 
-// The pixels darker than `threshold` that hang together with one; none where they go on beyond the window.
+// Returns the connected pixels darker than `threshold` around `darkest`; empty if they extend beyond the window.
 std::vector<glm::ivec2> DarkPiece(const GreyImage& picture, const glm::ivec2& darkest, const Window& window,
                                   float threshold) {
   const int width = window.right - window.left;
-  std::vector<bool> met(static_cast<std::size_t>(width) * static_cast<std::size_t>(window.bottom - window.top));
+  std::vector<bool> visited(static_cast<std::size_t>(width) * static_cast<std::size_t>(window.bottom - window.top));
   std::vector<glm::ivec2> piece;
   bool is_cut = false;
-  const auto meet = [&](int x, int y) {
+  const auto visit = [&](int x, int y) {
     if (!window.Has(x, y)) {
       is_cut = true;
       return;
     }
     const auto index = static_cast<std::size_t>((y - window.top) * width + (x - window.left));
-    if (met[index] || picture.At(x, y) >= threshold) return;
-    met[index] = true;
+    if (visited[index] || picture.At(x, y) >= threshold) return;
+    visited[index] = true;
     piece.emplace_back(x, y);
   };
-  meet(darkest.x, darkest.y);
+  visit(darkest.x, darkest.y);
   for (std::size_t i = 0; i < piece.size() && !is_cut; ++i) {
     const glm::ivec2 p = piece[i];
-    for (const glm::ivec2& step : {glm::ivec2(1, 0), {-1, 0}, {0, 1}, {0, -1}}) meet(p.x + step.x, p.y + step.y);
+    for (const glm::ivec2& step : {glm::ivec2(1, 0), {-1, 0}, {0, 1}, {0, -1}}) visit(p.x + step.x, p.y + step.y);
   }
   return is_cut ? std::vector<glm::ivec2>{} : piece;
 }
 
-// The moments of the darkness in a piece and its surroundings.
+// The moments of the darkness in a region and its surroundings.
 struct Darkness {
   double area = 0;  // pixels
   glm::dvec2 middle{0};
-  double spread = 0;  // the determinant of the covariance, pixels⁴
+  double spread = 0;  // determinant of the covariance, pixels⁴
 
-  /// An ellipse with these second moments has this area, and is about this wide.
+  /// The area and approximate width of an ellipse with these second moments.
   double AreaOfEllipse() const { return 4 * kPi * std::sqrt(spread); }
   double Width() const { return 4 * std::sqrt(std::sqrt(spread)); }
 };
 
 Darkness Measure(const GreyImage& picture, const std::vector<glm::ivec2>& piece) {
+  // Bounding box with a margin for the blurred edge.
   glm::ivec2 low = piece.front(), high = piece.front();
   std::vector<float> inside, around;
   for (const glm::ivec2& p : piece) {
@@ -95,9 +97,10 @@ Darkness Measure(const GreyImage& picture, const std::vector<glm::ivec2>& piece)
     high = glm::max(high, p);
     inside.push_back(picture.At(p.x, p.y));
   }
-  constexpr int kEdge = 3;  // pixels that the disc's edge is blurred over, and one of the ground
+  constexpr int kEdge = 3;  // pixels over which the edge is blurred, and one of the background
   low = glm::max(low - kEdge, glm::ivec2(0));
   high = glm::min(high + kEdge, glm::ivec2(picture.width - 1, picture.height - 1));
+  // Dark and bright levels are medians inside and around.
   for (int y = low.y; y <= high.y; ++y) {
     for (int x = low.x; x <= high.x; ++x) {
       if (x == low.x || x == high.x || y == low.y || y == high.y) around.push_back(picture.At(x, y));
@@ -106,6 +109,7 @@ Darkness Measure(const GreyImage& picture, const std::vector<glm::ivec2>& piece)
   const float dark = UpperMedian(std::move(inside)), bright = UpperMedian(std::move(around));
   Darkness sum;
   if (!(bright > dark)) return sum;
+  // Moments, each pixel weighted by its darkness.
   glm::dmat2 second(0);
   for (int y = low.y; y <= high.y; ++y) {
     for (int x = low.x; x <= high.x; ++x) {
@@ -125,21 +129,23 @@ Darkness Measure(const GreyImage& picture, const std::vector<glm::ivec2>& piece)
 }  // namespace
 
 std::optional<glm::dvec2> FindDisc(const GreyImage& picture, const glm::dvec2& pointer, double reach_px,
-                                   double widest_px) {
+                                   double max_width_px) {
   const glm::dvec2 size(picture.width, picture.height);
   const bool is_near =
       glm::all(glm::greaterThan(pointer, glm::dvec2(-reach_px))) && glm::all(glm::lessThan(pointer, size + reach_px));
-  if (!is_near) return std::nullopt;  // NaN, too
+  if (!is_near) return std::nullopt;  // also if the pointer is NaN
+  // The region around the darkest pixel, at half contrast.
   const auto darkest = FindDarkest(picture, pointer, reach_px);
   if (!darkest) return std::nullopt;
-  const Window window(picture, MiddleOf(darkest->x, darkest->y), widest_px);
+  const Window window(picture, MiddleOf(darkest->x, darkest->y), max_width_px);
   const float dark = picture.At(darkest->x, darkest->y), bright = BrightestOf(picture, window);
-  if (bright - dark < kLeastContrast) return std::nullopt;
+  if (bright - dark < kMinContrast) return std::nullopt;
   const std::vector<glm::ivec2> piece = DarkPiece(picture, *darkest, window, 0.5f * (dark + bright));
   if (piece.empty()) return std::nullopt;
+  // Check its width and shape.
   const Darkness disc = Measure(picture, piece);
-  if (!(disc.spread > 0) || disc.Width() < kNarrowest) return std::nullopt;
-  if (std::abs(disc.area / disc.AreaOfEllipse() - 1) > kOddestShape) return std::nullopt;
+  if (!(disc.spread > 0) || disc.Width() < kMinWidthPx) return std::nullopt;
+  if (std::abs(disc.area / disc.AreaOfEllipse() - 1) > kMaxShapeError) return std::nullopt;
   return disc.middle;
 }
 

@@ -7,11 +7,12 @@
 
 namespace etude {
 
-/// Finds the middle of the dark disc on a bright ground next to a pointer: its darkness's centroid, to about 0.05 pixel
-/// where it is 6 pixels wide or more. A disc seen aside is an ellipse, of which this is the middle; that of the disc
-/// itself lies off by less than (radius / distance)² of its distance. Nothing where no dark piece of an ellipse's
-/// shape, at least 3 pixels wide, lies within `reach_px` of the pointer, or where it does not end within `widest_px`.
+/// Finds the centre of the dark disc on a bright background near `pointer`: the centroid of its darkness, accurate to
+/// about 0.05 pixel for discs of 6 pixels or more. A disc seen at an angle is an ellipse, and this is the centre of the
+/// ellipse; the projected centre of the disc differs from it by less than (radius / distance)² of its distance. Returns
+/// nothing if no dark region of elliptic shape, at least 3 pixels wide, lies within `reach_px` of the pointer, or if it
+/// extends beyond `max_width_px`.
 std::optional<glm::dvec2> FindDisc(const GreyImage& picture, const glm::dvec2& pointer, double reach_px,
-                                   double widest_px);
+                                   double max_width_px);
 
 }  // namespace etude

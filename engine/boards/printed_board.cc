@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-constexpr const char* kModule = "etude_boards_opencv.so";  // found beside the program, by its run path
+constexpr const char* kModule = "etude_boards_opencv.so";  // found beside the program by its run path
 
 Result<OpenCvBoards> OpenBoardModule() {
   void* module = ::dlopen(kModule, RTLD_NOW | RTLD_LOCAL);
@@ -41,6 +41,7 @@ std::optional<Result<PrintedBoard>> ReadPrintedBoard(std::string_view text) {
   } else {
     return std::nullopt;
   }
+  // Three numbers, separated by x.
   std::array<double, 3> numbers{};
   bool is_read = true;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -51,14 +52,14 @@ std::optional<Result<PrintedBoard>> ReadPrintedBoard(std::string_view text) {
     is_read = is_read && rest.starts_with('x');
     if (!rest.empty()) rest.remove_prefix(1);
   }
-  constexpr double kMost = 64;
-  const double least = board.is_charuco ? 3 : 4;  // OpenCV finds no chessboard of two corners a side
-  const auto is_side = [&](double n) { return n == std::floor(n) && n >= least && n <= kMost; };
+  constexpr double kMaxPerSide = 64;
+  const double min_squares = board.is_charuco ? 3 : 4;  // OpenCV does not find chessboards with two corners per side
+  const auto is_side = [&](double n) { return n == std::floor(n) && n >= min_squares && n <= kMaxPerSide; };
   if (!is_read || !rest.empty() || !is_side(numbers[0]) || !is_side(numbers[1]) || !(numbers[2] >= 0.001) ||
       !(numbers[2] <= 10)) {
     return Result<PrintedBoard>(
         Fail({}, "--board {}: no board; allowed: {} to 64 squares a side and their metres, as chess:9x6x0.025", text,
-             least));
+             min_squares));
   }
   board.columns = static_cast<int>(numbers[0]);
   board.rows = static_cast<int>(numbers[1]);

@@ -16,50 +16,52 @@
 
 namespace etude {
 
-/// A board of OpenCV's: a chessboard, or a ChArUco board.
+/// A board of OpenCV's: a chessboard or a ChArUco board.
 struct PrintedBoard {
   bool is_charuco = false;
-  int columns = 0, rows = 0;  ///< squares a side, 4 to 64 of a chessboard, 3 to 64 of a ChArUco board
+  int columns = 0, rows = 0;  ///< squares per side: 4 to 64 for a chessboard, 3 to 64 for a ChArUco board
   double square = 0;          ///< metres
 };
 
-/// Reads "chess:9x6x0.025" or "charuco:4x5x0.054"; nothing of texts that begin otherwise. Fails for wrong numbers.
+/// Reads "chess:9x6x0.025" or "charuco:4x5x0.054". Returns nothing if the text begins otherwise, and an error for
+/// numbers that are not allowed.
 std::optional<Result<PrintedBoard>> ReadPrintedBoard(std::string_view text);
 
-/// Finds the corners of one such board in pictures, by OpenCV's `findChessboardCornersSB` and `aruco::detectMarkers`.
-/// Of a ChArUco board the dictionary, whether it is printed inverted, where its first marker is (both layouts of even
-/// rows) and how large markers are is found in the pictures themselves. A corner counts where both markers beside it
-/// are seen, and is refined by `cornerSubPix`. A chessboard must be seen whole; its top left square is the black one of
-/// columns + rows odd, else 180° are left open.
+/// Finds the corners of such a board in pictures by OpenCV's `findChessboardCornersSB` and `aruco::detectMarkers`. For
+/// a ChArUco board the dictionary, inverted printing, the position of its first marker (both layouts of even rows) and
+/// the size of markers are determined from the pictures. A corner counts if both adjacent markers are seen; it is
+/// refined by `cornerSubPix`. A chessboard must be seen whole. Its top left square is the black one if columns + rows
+/// is odd; otherwise its orientation is ambiguous by 180°.
 class PrintedBoardFinder {
  public:
   virtual ~PrintedBoardFinder() = default;
 
-  /// Returns the corners by rows, pixels of ours; none where there is no board.
+  /// Returns the corners row by row, in our pixel coordinates; empty if there is no board.
   virtual std::vector<SeenCorner> Find(const ColourImage& picture) = 0;
 
-  /// Says what was found out about the board: "DICT_4X4, inverted, markers about 0.75 of a square".
+  /// Describes what was detected about the board: "DICT_4X4, inverted, markers about 0.75 of a square".
   virtual std::string Told() const = 0;
 };
 
-/// One camera as OpenCV's `calibrateCamera` finds it.
+/// One camera as calibrated by OpenCV's `calibrateCamera`.
 struct OpenCvCalibration {
   Intrinsics intrinsics;
   Distortion distortion;
   double rms_px = 0;
 };
 
-/// The functions of the module engine/boards/opencv: nobody who looks for no such board waits for OpenCV to be loaded.
+/// The functions of the module engine/boards/opencv. It is loaded on demand, so that only users of such boards wait for
+/// OpenCV.
 struct OpenCvBoards {
   std::unique_ptr<PrintedBoardFinder> (*make_finder)(const PrintedBoard& board);
   Result<OpenCvCalibration> (*calibrate)(std::span<const TargetView> views, const PictureSize& size, LensModel lens);
 };
 
-/// Fails where the module was not built (libopencv-contrib-dev; `scripts/setup --boards`).
+/// Fails if the module was not built (libopencv-contrib-dev; `scripts/setup --boards`).
 Result<std::unique_ptr<PrintedBoardFinder>> MakePrintedBoardFinder(const PrintedBoard& board);
 
-/// Calibrates one camera by OpenCV from the very views that `CalibrateFromPlanes` gets, to compare with: both minimise
-/// the same sum. Fails like `MakePrintedBoardFinder`, for `LensModel::kAsInCamera`, and where OpenCV fails.
+/// Calibrates one camera by OpenCV from the same views that `CalibrateFromPlanes` gets, for comparison: both minimise
+/// the same sum. Fails like `MakePrintedBoardFinder`, for `LensModel::kAsInCamera`, and if OpenCV fails.
 Result<OpenCvCalibration> CalibrateByOpenCv(std::span<const TargetView> views, const PictureSize& size, LensModel lens);
 
 }  // namespace etude

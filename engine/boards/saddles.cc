@@ -7,16 +7,16 @@
 namespace etude {
 namespace {
 
-constexpr int kBorder = 7;         // pixels at the picture's edges in which nothing is looked for
-constexpr int kNeighbourhood = 3;  // a saddle is the strongest within so many pixels
-constexpr double kWeakest = 0.02;  // of the strongest one
-constexpr double kFaintest = 60;   // squared counts per pixel²: below lies the camera's noise
-constexpr int kRefineReach = 5;    // pixels
+constexpr int kBorder = 7;                     // pixels at the edges of the picture that are not searched
+constexpr int kNeighbourhood = 3;              // a saddle is the strongest within this distance, pixels
+constexpr double kMinRelativeStrength = 0.02;  // of the strongest saddle
+constexpr double kMinStrength = 60;            // squared counts per pixel²: weaker ones are camera noise
+constexpr int kRefineReachPx = 5;
 constexpr int kRefineSteps = 8;
-constexpr double kRefinedEnough = 0.01;  // pixels
-constexpr double kFarthestMove = 2;      // pixels from where it was found
+constexpr double kConvergedPx = 0.01;
+constexpr double kMaxMovePx = 2;  // from where it was found
 
-// Binomial weights 1 4 6 4 1 along one axis.
+// Smooths along one axis with the binomial weights 1 4 6 4 1.
 GreyImage SmoothAlong(const GreyImage& picture, int dx, int dy) {
   GreyImage smooth(picture.width, picture.height);
   for (int y = 0; y < picture.height; ++y) {
@@ -32,14 +32,14 @@ GreyImage SmoothAlong(const GreyImage& picture, int dx, int dy) {
 
 GreyImage Smooth(const GreyImage& picture) { return SmoothAlong(SmoothAlong(picture, 1, 0), 0, 1); }
 
-// The second derivatives at a pixel.
-struct Bend {
+// The second derivatives of brightness at a pixel.
+struct Hessian {
   double xx, xy, yy;
-  /// Positive where the surface bends up one way and down the other.
+  /// Positive at a saddle, where the curvatures have opposite signs.
   double SaddleStrength() const { return xy * xy - xx * yy; }
 };
 
-Bend BendAt(const GreyImage& p, int x, int y) {
+Hessian HessianAt(const GreyImage& p, int x, int y) {
   return {p.At(x + 1, y) - 2.0 * p.At(x, y) + p.At(x - 1, y),
           0.25 * (p.At(x + 1, y + 1) - p.At(x + 1, y - 1) - p.At(x - 1, y + 1) + p.At(x - 1, y - 1)),
           p.At(x, y + 1) - 2.0 * p.At(x, y) + p.At(x, y - 1)};
@@ -56,17 +56,18 @@ bool IsStrongestAround(const GreyImage& strengths, int x, int y) {
   return true;
 }
 
-// The directions in which the surface does not bend: along xx cos² + 2 xy cos sin + yy sin² = 0.
-Saddle Describe(const Bend& bend, double x, double y) {
+// Returns the saddle with the directions of zero curvature, xx cos² + 2 xy cos sin + yy sin² = 0.
+Saddle Describe(const Hessian& hessian, double x, double y) {
   // In the frame of the principal directions: k1 cos² − k2 sin² = 0 with k1 > 0 > −k2.
-  const double mean = 0.5 * (bend.xx + bend.yy), half = std::hypot(0.5 * (bend.xx - bend.yy), bend.xy);
-  const double bright = 0.5 * std::atan2(2 * bend.xy, bend.xx - bend.yy);  // where it bends up most
+  const double mean = 0.5 * (hessian.xx + hessian.yy), half = std::hypot(0.5 * (hessian.xx - hessian.yy), hessian.xy);
+  // Direction of the largest curvature.
+  const double bright = 0.5 * std::atan2(2 * hessian.xy, hessian.xx - hessian.yy);
   const double open = std::atan(std::sqrt((half + mean) / (half - mean)));
   const auto along = [](double angle) { return glm::dvec2(std::cos(angle), std::sin(angle)); };
-  return {{x, y}, {along(bright - open), along(bright + open)}, bend.SaddleStrength()};
+  return {{x, y}, {along(bright - open), along(bright + open)}, hessian.SaddleStrength()};
 }
 
-// The point that is nearest to all edges around it: every gradient g at q asks that g · (p − q) = 0.
+// Refines a saddle to the point nearest to all edges around it: every gradient g at q demands g · (p − q) = 0.
 std::optional<glm::dvec2> Refine(const GreyImage& picture, const glm::dvec2& found) {
   glm::dvec2 pixel = found;
   for (int step = 0; step < kRefineSteps; ++step) {
@@ -74,23 +75,25 @@ std::optional<glm::dvec2> Refine(const GreyImage& picture, const glm::dvec2& fou
     glm::dvec2 right(0);
     const int x0 = static_cast<int>(std::floor(pixel.x)), y0 = static_cast<int>(std::floor(pixel.y));
     if (x0 < kBorder || y0 < kBorder || x0 >= picture.width - kBorder || y0 >= picture.height - kBorder) return {};
-    for (int y = y0 - kRefineReach; y <= y0 + kRefineReach; ++y) {
-      for (int x = x0 - kRefineReach; x <= x0 + kRefineReach; ++x) {
+    // Sum the demands of all gradients nearby, weighted by their distance.
+    for (int y = y0 - kRefineReachPx; y <= y0 + kRefineReachPx; ++y) {
+      for (int x = x0 - kRefineReachPx; x <= x0 + kRefineReachPx; ++x) {
         const glm::dvec2 q(x + 0.5, y + 0.5);
         const glm::dvec2 gradient(0.5 * (picture.At(x + 1, y) - picture.At(x - 1, y)),
                                   0.5 * (picture.At(x, y + 1) - picture.At(x, y - 1)));
-        const double far = glm::dot(q - pixel, q - pixel) / (kRefineReach * kRefineReach);
+        const double far = glm::dot(q - pixel, q - pixel) / (kRefineReachPx * kRefineReachPx);
         const glm::dmat2 outer = std::exp(-4 * far) * glm::outerProduct(gradient, gradient);
         sum += outer;
         right += outer * q;
       }
     }
+    // Solve the weighted least-squares problem, and iterate with the weights around the new point.
     if (!(std::abs(glm::determinant(sum)) > 1e-9)) return {};
     const glm::dvec2 next = glm::inverse(sum) * right;
-    if (!(glm::distance(next, found) < kFarthestMove)) return {};
+    if (!(glm::distance(next, found) < kMaxMovePx)) return {};
     const double moved = glm::distance(next, pixel);
     pixel = next;
-    if (moved < kRefinedEnough) break;
+    if (moved < kConvergedPx) break;
   }
   return pixel;
 }
@@ -116,20 +119,22 @@ double BrightnessAt(const GreyImage& picture, const glm::dvec2& pixel) {
 std::vector<Saddle> FindSaddles(const GreyImage& picture) {
   std::vector<Saddle> saddles;
   const GreyImage smooth = Smooth(picture);
+  // Strength of every pixel.
   GreyImage strengths(picture.width, picture.height);
   double strongest = 0;
   for (int y = 1; y < picture.height - 1; ++y) {
     for (int x = 1; x < picture.width - 1; ++x) {
-      strengths.At(x, y) = static_cast<float>(BendAt(smooth, x, y).SaddleStrength());
+      strengths.At(x, y) = static_cast<float>(HessianAt(smooth, x, y).SaddleStrength());
       strongest = std::max<double>(strongest, strengths.At(x, y));
     }
   }
-  const double least = std::max(kFaintest, kWeakest * strongest);
+  // Refine local maxima that are strong enough.
+  const double min_strength = std::max(kMinStrength, kMinRelativeStrength * strongest);
   for (int y = kBorder; y < picture.height - kBorder; ++y) {
     for (int x = kBorder; x < picture.width - kBorder; ++x) {
-      if (strengths.At(x, y) < least || !IsStrongestAround(strengths, x, y)) continue;
+      if (strengths.At(x, y) < min_strength || !IsStrongestAround(strengths, x, y)) continue;
       const auto pixel = Refine(smooth, {x + 0.5, y + 0.5});
-      if (pixel) saddles.push_back(Describe(BendAt(smooth, x, y), pixel->x, pixel->y));
+      if (pixel) saddles.push_back(Describe(HessianAt(smooth, x, y), pixel->x, pixel->y));
     }
   }
   std::stable_sort(saddles.begin(), saddles.end(),

@@ -10,24 +10,24 @@ namespace etude {
 
 using GreyImage = Image<float>;
 
-/// Returns the picture's brightness, 0…255.
+/// Converts a picture to brightness, 0…255.
 GreyImage ToGrey(const ColourImage& picture);
 
-/// Returns the brightness at a point, bilinear between pixels; outside the picture that of its edge. At least 2 × 2
-/// pixels.
+/// Returns the brightness at a point by bilinear interpolation, beyond the edge that of the edge. The picture must have
+/// at least 2 × 2 pixels.
 double BrightnessAt(const GreyImage& picture, const glm::dvec2& pixel);
 
-/// A point around which dark and bright quarters take turns: a corner of a chessboard, or of a code on it.
+/// A saddle point of brightness, between two dark and two bright quadrants: a corner of a chessboard or of a code.
 struct Saddle {
   glm::dvec2 pixel{0};
-  /// The two edges that cross there, unit: between the first and the second, which is clockwise from it on the screen
-  /// (u right, v down), it is bright.
+  /// Unit vectors along the two crossing edges. The quadrant clockwise from the first to the second (u right, v down)
+  /// is bright.
   std::array<glm::dvec2, 2> edges;
   double strength = 0;
 };
 
-/// Finds the saddles of a picture, the strongest first, to about 0.1 pixel where the squares around them have 6 pixels
-/// or more.
+/// Finds the saddles of a picture, the strongest first, accurate to about 0.1 pixel if the squares around them have 6
+/// pixels or more.
 std::vector<Saddle> FindSaddles(const GreyImage& picture);
 
 }  // namespace etude

@@ -19,9 +19,10 @@
 namespace etude {
 namespace {
 
-constexpr int kPositionSize = 3, kTurnSize = 4;  // of a root's parameter blocks; a turn is a quaternion w, x, y, z
+// Sizes of a root's parameter blocks; the rotation is a quaternion w, x, y, z.
+constexpr int kPositionSize = 3, kTurnSize = 4;
 
-/// One frame's parameters, which Ceres changes, and the body in the pose that they make.
+/// The parameter blocks of one frame, which Ceres changes, and the points of the body in that pose.
 struct FrameVariables {
   std::array<double, kPositionSize> position{};
   std::array<double, kTurnSize> turn{};
@@ -40,14 +41,14 @@ struct FrameVariables {
   }
 };
 
-/// Ceres's QuaternionManifold, but for how it turns: its versions round differently (2.2 takes hypot for sqrt), and an
-/// adjustment of few steps magnifies that.
+/// Ceres's QuaternionManifold with its own `Plus`: Ceres's versions round differently (2.2 uses hypot instead of sqrt),
+/// and an adjustment of few steps magnifies the difference.
 class TurnManifold final : public ceres::Manifold {
  public:
   int AmbientSize() const override { return kTurnSize; }
   int TangentSize() const override { return kTurnSize - 1; }
 
-  /// Turns by twice the tangent d: q ↦ (cos|d|, sin|d| d/|d|) q.
+  /// Rotates by twice the tangent d: q ↦ (cos|d|, sin|d| d/|d|) q.
   bool Plus(const double* q, const double* d, double* turned) const override {
     const double norm = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     const double scale = norm > 0 ? std::sin(norm) / norm : 1.0;
@@ -66,14 +67,14 @@ class TurnManifold final : public ceres::Manifold {
   ceres::QuaternionManifold ceres_;
 };
 
-/// All that Ceres changes.
+/// All parameter blocks of the problem.
 struct Variables {
-  MeasurableBody body;  // with the lengths it had in the last evaluation
+  MeasurableBody body;  // with the lengths of the last evaluation
   std::vector<double> lengths;
   std::vector<FrameVariables> frames;
 };
 
-/// Places the body in every frame before Ceres asks for residuals, each of which needs a part of one frame's.
+/// Computes the body's points in every frame before each evaluation; every residual needs some points of one frame.
 class PlaceEveryFrame final : public ceres::EvaluationCallback {
  public:
   explicit PlaceEveryFrame(Variables& variables) : variables_(variables) {}
@@ -91,10 +92,12 @@ class PlaceEveryFrame final : public ceres::EvaluationCallback {
   Variables& variables_;
 };
 
-/// Writes rows of Jacobians: what a residual gains when a point moves, spread over the parameters that move the point.
+/// Writes rows of Jacobians: the derivative of a residual by a point, times the derivatives of the point by the
+/// parameters that move it.
 class PointGains {
  public:
-  /// `first_block`: of the frame's three (position, turn, angles); `length_block`: −1 when lengths are fixed.
+  /// `first_block` is the first of the frame's three blocks (position, rotation, angles); `length_block` is −1 if
+  /// lengths are fixed.
   PointGains(const FrameVariables& frame, int point, double** jacobians, int first_block, int length_block)
       : frame_(frame),
         gains_(frame.placed.gains_of(point)),
@@ -102,9 +105,10 @@ class PointGains {
         first_(first_block),
         length_block_(length_block) {}
 
-  /// Adds to row `row` of the residuals a residual that gains `along`·(the point's move).
+  /// Adds to row `row` the derivatives of a residual whose derivative by the point is `along`.
   void Add(int row, const glm::dvec3& along) const {
     const auto gain = [&](int column) { return glm::dot(along, gains_[column]); };
+    // Position, rotation, angles, lengths; a block is null if Ceres does not need it.
     if (double* block = jacobians_[first_]) {
       for (int k = 0; k < kPositionSize; ++k) block[row * kPositionSize + k] += gain(k);
     }
@@ -119,8 +123,8 @@ class PointGains {
   }
 
  private:
-  // TurnManifold turns by twice its tangent, and Ceres multiplies what stands here by the derivative of q, whose
-  // columns are orthonormal: so here stands 2 · gain times its transpose.
+  // TurnManifold rotates by twice its tangent, and Ceres multiplies this row by the derivative of q, whose columns are
+  // orthonormal. The row is therefore 2 · gain times the transpose of that derivative.
   void AddTurn(double* cell, double gx, double gy, double gz) const {
     const auto& [w, x, y, z] = frame_.turn;
     cell[0] += 2 * (-x * gx - y * gy - z * gz);
@@ -142,7 +146,7 @@ void ClearJacobians(const ceres::CostFunction& cost, double** jacobians) {
   }
 }
 
-// H (p, 1) without the division.
+// Returns the homogeneous pixel H (p, 1).
 glm::dvec3 Homogeneous(const ProjectionMatrix& matrix, const glm::dvec3& p) {
   glm::dvec3 uvw;
   for (int k = 0; k < 3; ++k) {
@@ -152,7 +156,7 @@ glm::dvec3 Homogeneous(const ProjectionMatrix& matrix, const glm::dvec3& p) {
   return uvw;
 }
 
-/// Two rows W with WᵀW = Λ: those of the upper triangle of Cholesky's factors, which Λ of rank 1 has too.
+/// Returns two rows W with WᵀW = Λ, the upper Cholesky factor; it also exists for Λ of rank 1.
 std::array<glm::dvec2, 2> RootOf(const glm::dmat2& information) {
   const double a = std::sqrt(std::max(0.0, information[0][0]));
   const double b = a > 0 ? information[1][0] / a : 0;
@@ -160,8 +164,8 @@ std::array<glm::dvec2, 2> RootOf(const glm::dmat2& information) {
   return {glm::dvec2(a, b), glm::dvec2(0, c)};
 }
 
-/// The reprojection error of one mark in standard deviations. Blocks: position, turn, angles, and the lengths if they
-/// change.
+/// The reprojection error of one mark in standard deviations. Blocks: position, rotation, angles, and the lengths if
+/// they are adjusted.
 class MarkCost final : public ceres::CostFunction {
  public:
   MarkCost(const BundleMark& mark, const Variables& variables, bool adjusts_lengths)
@@ -176,12 +180,13 @@ class MarkCost final : public ceres::CostFunction {
 
   bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
     const glm::dvec3 uvw = Homogeneous(mark_.matrix, frame_.placed.positions[mark_.point]);
-    constexpr double kNearestDepth = 1e-3;  // metres
-    if (!(uvw.z > kNearestDepth)) return false;
+    constexpr double kMinDepthM = 1e-3;
+    if (!(uvw.z > kMinDepthM)) return false;
     const glm::dvec2 pixel(uvw.x / uvw.z, uvw.y / uvw.z), error = pixel - mark_.pixel;
     for (int k = 0; k < 2; ++k) residuals[k] = glm::dot(root_[k], error);
     if (jacobians == nullptr) return true;
     ClearJacobians(*this, jacobians);
+    // Derivatives of the pixel by the point.
     const auto& h = mark_.matrix.h;
     const auto row_of = [&](int k) {
       const auto gain = [&](int axis) { return (h[k][axis] - pixel[k] * h[2][axis]) / uvw.z; };
@@ -202,12 +207,16 @@ class MarkCost final : public ceres::CostFunction {
 
 constexpr std::array<double, 3> kSecondDifference = {1, -2, 1};
 
-/// The second difference of some points over three frames, in usual sizes. Blocks: position, turn, angles of each.
+/// The second difference of some points over three frames, in standard deviations. Blocks: position, rotation, angles
+/// of each frame, and the lengths if they are adjusted.
 class PointAcceleration final : public ceres::CostFunction {
  public:
-  PointAcceleration(const FrameVariables* first, std::span<const int> points, std::span<const double> usual,
+  PointAcceleration(const FrameVariables* first, std::span<const int> points, std::span<const double> deviation,
                     int lengths)
-      : frames_{first, first + 1, first + 2}, points_(points), usual_(usual), length_block_(lengths > 0 ? 9 : -1) {
+      : frames_{first, first + 1, first + 2},
+        points_(points),
+        deviations_(deviation),
+        length_block_(lengths > 0 ? 9 : -1) {
     set_num_residuals(3 * static_cast<int>(points.size()));
     for (int i = 0; i < 3; ++i) {
       for (const int size : {kPositionSize, kTurnSize, static_cast<int>(first->angles.size())}) {
@@ -222,7 +231,8 @@ class PointAcceleration final : public ceres::CostFunction {
     for (int row = 0; row < num_residuals(); ++row) residuals[row] = 0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       for (int f = 0; f < 3; ++f) {
-        const double share = kSecondDifference[f] / usual_[i];
+        // Each of the three frames contributes its share of the difference.
+        const double share = kSecondDifference[f] / deviations_[i];
         const glm::dvec3& p = frames_[f]->placed.positions[points_[i]];
         for (int k = 0; k < 3; ++k) residuals[3 * i + k] += share * p[k];
         if (jacobians == nullptr) continue;
@@ -240,25 +250,25 @@ class PointAcceleration final : public ceres::CostFunction {
  private:
   const std::array<const FrameVariables*, 3> frames_;
   const std::span<const int> points_;
-  const std::span<const double> usual_;
+  const std::span<const double> deviations_;
   const int length_block_;
 };
 
-/// The second difference of all angles over three frames, in usual sizes. Blocks: the angles of each frame.
+/// The second difference of all angles over three frames, in standard deviations. Blocks: the angles of each frame.
 class AngleAcceleration final : public ceres::CostFunction {
  public:
-  AngleAcceleration(int angles, double usual) : angles_(angles), usual_(usual) {
+  AngleAcceleration(int angles, double deviation) : angles_(angles), deviation_(deviation) {
     set_num_residuals(angles);
     *mutable_parameter_block_sizes() = {angles, angles, angles};
   }
 
   bool Evaluate(double const* const* q, double* residuals, double** jacobians) const override {
-    for (int k = 0; k < angles_; ++k) residuals[k] = (q[0][k] - 2 * q[1][k] + q[2][k]) / usual_;
+    for (int k = 0; k < angles_; ++k) residuals[k] = (q[0][k] - 2 * q[1][k] + q[2][k]) / deviation_;
     if (jacobians == nullptr) return true;
     ClearJacobians(*this, jacobians);
     for (int f = 0; f < 3; ++f) {
       for (int k = 0; jacobians[f] != nullptr && k < angles_; ++k) {
-        jacobians[f][k * angles_ + k] = kSecondDifference[f] / usual_;
+        jacobians[f][k * angles_ + k] = kSecondDifference[f] / deviation_;
       }
     }
     return true;
@@ -266,13 +276,13 @@ class AngleAcceleration final : public ceres::CostFunction {
 
  private:
   const int angles_;
-  const double usual_;
+  const double deviation_;
 };
 
-/// The amounts by which angles lie beyond their limits, in deviations.
-class BeyondLimits final : public ceres::CostFunction {
+/// The amounts by which angles exceed their limits, in standard deviations. Block: the angles of a frame.
+class LimitViolation final : public ceres::CostFunction {
  public:
-  BeyondLimits(std::span<const AngleRange> limits, double deviation) : limits_(limits), deviation_(deviation) {
+  LimitViolation(std::span<const AngleRange> limits, double deviation) : limits_(limits), deviation_(deviation) {
     set_num_residuals(static_cast<int>(limits.size()));
     *mutable_parameter_block_sizes() = {static_cast<int>(limits.size())};
   }
@@ -306,7 +316,7 @@ std::unique_ptr<ceres::LossFunction> MakeLoss(const BundleOptions& options) {
   return nullptr;
 }
 
-/// The sum of squares as a problem of Ceres; owns its terms.
+/// The cost as a Ceres problem, which owns its terms.
 class BundleProblem {
  public:
   BundleProblem(const BundleInputs& inputs, const BundleOptions& options, Variables& variables)
@@ -315,12 +325,13 @@ class BundleProblem {
         loss_(MakeLoss(options)),
         place_(variables),
         problem_(Borrow(place_)) {
+    // Rotations, marks, limits, smoothness.
     for (FrameVariables& frame : variables_.frames) {
       problem_.AddParameterBlock(frame.turn.data(), kTurnSize, &turn_manifold_);
     }
     for (const BundleMark& mark : inputs.marks) AddMark(mark);
     for (FrameVariables& frame : variables_.frames) {
-      Add<BeyondLimits>({frame.angles.data()}, inputs.body.tree.limits, options_.limit_deviation);
+      Add<LimitViolation>({frame.angles.data()}, inputs.body.tree.limits, options_.limit_deviation);
     }
     if (options_.smoothness) AddSmoothness(*options_.smoothness);
   }
@@ -355,8 +366,8 @@ class BundleProblem {
   void AddMark(const BundleMark& mark) {
     FrameVariables& frame = variables_.frames[mark.frame];
     PlacePoints(variables_.body, frame.State(), false, frame.placed);
-    constexpr double kNearestDepth = 0.1;  // metres
-    if (!(Homogeneous(mark.matrix, frame.placed.positions[mark.point]).z > kNearestDepth)) return;
+    constexpr double kMinDepthM = 0.1;
+    if (!(Homogeneous(mark.matrix, frame.placed.positions[mark.point]).z > kMinDepthM)) return;
     costs_.push_back(std::make_unique<MarkCost>(mark, variables_, options_.adjusts_lengths));
     problem_.AddResidualBlock(costs_.back().get(), loss_.get(), BlocksOf({&frame, 1}));
   }
@@ -364,12 +375,12 @@ class BundleProblem {
   void AddSmoothness(const BundleSmoothness& smoothness) {
     const double per_frame = 1 / (smoothness.rate_hz * smoothness.rate_hz);
     const int lengths = options_.adjusts_lengths ? static_cast<int>(variables_.lengths.size()) : 0;
-    usual_ = smoothness.accelerations;
-    usual_.resize(smoothness.points.size(), smoothness.acceleration);
-    for (double& usual : usual_) usual *= per_frame;
+    deviations_ = smoothness.accelerations;
+    deviations_.resize(smoothness.points.size(), smoothness.acceleration);
+    for (double& deviation : deviations_) deviation *= per_frame;
     for (std::size_t k = 0; k + 2 < variables_.frames.size(); ++k) {
       FrameVariables* first = &variables_.frames[k];
-      Add<PointAcceleration>(BlocksOf({first, 3}), first, smoothness.points, usual_, lengths);
+      Add<PointAcceleration>(BlocksOf({first, 3}), first, smoothness.points, deviations_, lengths);
       if (std::isinf(smoothness.angle_acceleration)) continue;
       Add<AngleAcceleration>({first[0].angles.data(), first[1].angles.data(), first[2].angles.data()},
                              variables_.body.tree.dof_count(), per_frame * smoothness.angle_acceleration);
@@ -380,7 +391,7 @@ class BundleProblem {
   Variables& variables_;
   const std::unique_ptr<ceres::LossFunction> loss_;
   TurnManifold turn_manifold_;
-  std::vector<double> usual_;  ///< second differences of the smooth points, metres
+  std::vector<double> deviations_;  ///< standard deviation of the second difference of each smooth point, metres
   std::vector<std::unique_ptr<ceres::CostFunction>> costs_;
   PlaceEveryFrame place_;
   ceres::Problem problem_;
@@ -389,7 +400,7 @@ class BundleProblem {
 ceres::Solver::Options SolverOptions(const BundleOptions& options) {
   ceres::Solver::Options solver;
   solver.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
-  // Eigen's sparse Cholesky is scalar code, which neither a BLAS nor the sizes of caches have a say in.
+  // Eigen's sparse Cholesky is scalar code, so results depend neither on a BLAS nor on cache sizes.
   solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   solver.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
   solver.max_num_iterations = options.max_iterations;
@@ -405,12 +416,14 @@ ceres::Solver::Options SolverOptions(const BundleOptions& options) {
 }  // namespace
 
 BundleSolution AdjustBundle(const BundleInputs& inputs, const BundleOptions& options) {
-  FLAGS_minloglevel = google::GLOG_FATAL;  // what Ceres has to say is in its summary
+  FLAGS_minloglevel = google::GLOG_FATAL;  // no log output: the summary reports the outcome
+  // The parameter blocks begin at the start poses.
   Variables variables{inputs.body, inputs.body.lengths, {}};
   for (const TreeState& state : inputs.start) {
     assert(state.angles.size() == inputs.body.tree.limits.size());
     variables.frames.emplace_back(state);
   }
+  // Without a usable solution the start is returned.
   BundleSolution solution;
   solution.lengths = inputs.body.lengths;
   solution.states.assign(inputs.start.begin(), inputs.start.end());

@@ -12,10 +12,10 @@
 
 namespace etude {
 
-/// A point of the body as one picture shows it.
+/// One observation: a point of the body in one picture.
 struct BundleMark {
   int frame = 0;
-  int point = 0;  ///< index of `MeasurableBody::points`
+  int point = 0;  ///< index in `MeasurableBody::points`
   ProjectionMatrix matrix;
   glm::dvec2 pixel{0};
   glm::dmat2 information{1};  ///< inverse covariance of the pixel, 1/px²; symmetric, may be of rank 1
@@ -23,59 +23,60 @@ struct BundleMark {
 
 struct BundleInputs {
   const MeasurableBody& body;
-  /// The poses that the search begins with, one per frame. Frames follow each other at one rate.
+  /// The start poses, one per frame. Frames are consecutive at a constant rate.
   std::span<const TreeState> start;
   std::span<const BundleMark> marks;
 };
 
-/// The loss of a mark by its distance from the projected body.
+/// The loss function ρ of a mark's reprojection error.
 enum class RobustLoss {
-  kNone,    ///< as its square: one gross error moves the whole body
-  kHuber,   ///< beyond `loss_scale` as its distance
-  kCauchy,  ///< beyond `loss_scale` as the distance's logarithm: hardly at all
+  kNone,    ///< quadratic: one gross error moves the whole body
+  kHuber,   ///< linear beyond `loss_scale`
+  kCauchy,  ///< logarithmic beyond `loss_scale`: gross errors have hardly any influence
 };
 
-/// The prior knowledge of people's motion: second differences of three frames are small.
+/// The smoothness prior: second differences over three frames are small.
 struct BundleSmoothness {
   double rate_hz = 30;
-  /// The usual acceleration of the points `points` along each axis, m/s².
+  /// The standard deviation of the acceleration of `points` along each axis, m/s².
   double acceleration = 8;
   std::vector<int> points;
-  std::vector<double> accelerations;  ///< the usual one of each of `points` instead; none: that of all
-  /// The usual acceleration of every angle, rad/s² *(ours)*; infinite: angles are not compared.
+  std::vector<double> accelerations;  ///< the same for each of `points`; empty: `acceleration` for all
+  /// The standard deviation of the acceleration of every angle, rad/s² *(ours)*; infinity turns this term off.
   double angle_acceleration = 40;
 };
 
 struct BundleOptions {
   RobustLoss loss = RobustLoss::kCauchy;
-  /// The distance beyond which the loss flattens, in standard deviations of a mark.
+  /// The error beyond which the loss flattens, in standard deviations of a mark.
   double loss_scale = 2;
-  /// The smoothness that is asked for; absent when frames do not follow each other.
+  /// The smoothness prior; empty if frames are not consecutive.
   std::optional<BundleSmoothness> smoothness;
-  /// The standard deviation of how far an angle lies beyond its limit, radians: limits are those of people in general
-  /// *(ours)*.
+  /// The standard deviation of the angle beyond a limit, radians. Limits are soft because they describe people in
+  /// general *(ours)*.
   double limit_deviation = Radians(3);
   bool adjusts_lengths = false;
-  /// A take settles within some ten iterations; later ones move only along directions that no mark determines.
+  /// Maximum number of iterations. A take converges in about ten; later ones move only along directions that no mark
+  /// determines.
   int max_iterations = 25;
-  /// The search ends when a step lowers the cost by a smaller part than this.
+  /// The search ends if a step lowers the cost by less than this share.
   double smallest_decrease = 1e-4;
 };
 
 struct BundleSolution {
-  bool is_solved = false;  ///< false: the start could not be judged, and is what stands below
+  bool is_solved = false;  ///< false if the cost at the start could not be evaluated; the result is then the start
   std::vector<TreeState> states;
   std::vector<double> lengths;  ///< metres
   double first_cost = 0, last_cost = 0;
   int iterations = 0;
 };
 
-/// Bundle adjustment: the poses of all frames, and the body's lengths if they may change, that minimise
+/// Adjusts the poses of all frames, and the body's lengths if `adjusts_lengths`, by bundle adjustment. Minimises
 ///   Σ_marks ρ(rᵀ Λ r) + Σ_frames |second difference of points and angles|² / σ² + Σ |angle beyond its limit|² / σ²,
-/// r the reprojection error of a mark in pixels, Λ its information, ρ the robust loss. By Ceres's Levenberg–Marquardt
-/// with an analytic Jacobian and a sparse Cholesky factor: time grows with the number of frames, not with a power of
-/// it. What no mark and no neighbour tells stays as in `start`. Marks of a point that `start` has behind the camera are
-/// left out.
+/// where r is the reprojection error of a mark in pixels, Λ its information and ρ the robust loss, by Ceres's
+/// Levenberg–Marquardt method with an analytic Jacobian and a sparse Cholesky factor; time is linear in the number of
+/// frames. Angles that neither marks nor neighbouring frames determine stay as in `start`. Marks of a point that is
+/// behind the camera at `start` are ignored.
 BundleSolution AdjustBundle(const BundleInputs& inputs, const BundleOptions& options = {});
 
 }  // namespace etude

@@ -8,35 +8,35 @@
 
 namespace etude {
 
-/// A point Q, fixed to a tree's limb L, that pictures show.
+/// A visible point Q that is fixed to a limb L of a tree.
 struct BodyPoint {
-  int joint = 0;       ///< whose limb it is fixed to
+  int joint = 0;       ///< the joint of that limb
   glm::dvec3 p_LQ{0};  ///< metres
 };
 
-/// The share of a length in an offset of the body: the offset grows by `per_metre` for every metre of the length.
+/// The linear dependence of an offset on a length: it grows by `per_metre` for every metre of the length.
 struct LengthShare {
-  int index = 0;   ///< of the joint whose p_PJ, or of the point whose p_LQ it is
-  int length = 0;  ///< index of the length
+  int index = 0;   ///< of the joint (offset p_PJ) or of the point (offset p_LQ)
+  int length = 0;  ///< index in `MeasurableBody::lengths`
   glm::dvec3 per_metre{0};
 };
 
-/// A body whose pose and lengths can be estimated from pictures of its points: offsets grow linearly with a few
-/// lengths, which both sides may share.
+/// A body whose pose and lengths can be estimated from pictures of its points. Its offsets are linear in a few lengths,
+/// which both sides may share.
 struct MeasurableBody {
   KinematicTree tree;
   std::vector<BodyPoint> points;
-  /// The lengths that the offsets of `tree` and `points` are made with, metres; empty when none is to be estimated.
+  /// The lengths from which the offsets of `tree` and `points` were made, metres; empty if none is to be estimated.
   std::vector<double> lengths;
   std::vector<LengthShare> joint_shares, point_shares;
 };
 
-/// Returns the body with other lengths: as many, metres.
+/// Returns the body with other lengths, metres; their number must be the same.
 MeasurableBody WithLengths(const MeasurableBody& body, std::span<const double> lengths);
 
-/// The places of a body's points in one pose, and their Jacobian. Column by column, three numbers for each point: what
-/// its place in the world gains (metres) when the root is shifted along x, y, z (metres), when the whole body turns
-/// about the root about the world's x, y, z (radians), per angle (radians), per length (metres).
+/// The positions of a body's points in one pose, and their Jacobian: for each point, one vector per column with the
+/// derivative of its world position, by the root's translation along x, y, z (metres), by rotations of the whole body
+/// about the root and the world's x, y, z (radians), by each angle, and by each length (metres).
 struct PlacedPoints {
   std::vector<glm::dvec3> positions;  ///< p_WQ, metres
   int columns = 0;                    ///< 6 + angles + lengths
@@ -45,8 +45,8 @@ struct PlacedPoints {
   const glm::dvec3* gains_of(int point) const { return gains.data() + static_cast<std::size_t>(point) * columns; }
 };
 
-/// Fills `out`, which keeps its memory; without `wants_gains` only the positions. `body` has its lengths
-/// (`WithLengths`).
+/// Fills `out`, which is reused without allocation; if `wants_gains` is false, only its positions. The offsets of
+/// `body` must match its lengths (`WithLengths`).
 void PlacePoints(const MeasurableBody& body, const TreeState& state, bool wants_gains, PlacedPoints& out);
 
 }  // namespace etude

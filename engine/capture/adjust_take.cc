@@ -16,7 +16,7 @@ constexpr std::array<double LimbLengths::*, 10> kLengths = {
     &LimbLengths::forearm, &LimbLengths::hand};
 static_assert(sizeof(LimbLengths) == kLengths.size() * sizeof(double), "every length stands in the list");
 
-// All offsets are linear in the lengths: what a metre of one adds is the body that has no other.
+// All offsets are linear in the lengths, so the derivative by one length is the body whose other lengths are 0.
 void AddLengths(const LimbLengths& lengths, TakeBody& made) {
   const auto list = ListOf(lengths);
   made.measurable.lengths.assign(list.begin(), list.end());
@@ -69,7 +69,8 @@ TakeBody MakeTakeBody(const LimbLengths& lengths) {
 
 namespace {
 
-/// One state per frame; frames without one take their neighbour's. Empty when no frame has one.
+/// Returns one state per frame. Frames without a state take that of the frame before, leading ones the first; empty if
+/// no frame has one.
 std::vector<TreeState> StartOf(const CaptureBody& body, std::span<const SomeJoints> joints) {
   const BodyPose standing = ToBodyPose(body, StandingState(body.tree));
   std::vector<TreeState> states;
@@ -135,7 +136,7 @@ namespace {
 
 using enum Role;
 
-/// A length of LimbLengths as the distance of two joints, and of the same two on the other side.
+/// A length of LimbLengths as the distance between two joints; both sides of the body count.
 struct LengthBetween {
   double LimbLengths::*length;
   Role a, b;
@@ -167,12 +168,13 @@ std::optional<glm::dvec3> MiddleOf(const SomeJoints& joints, Role a, Role b) {
   return 0.5 * (*joints[Index(a)] + *joints[Index(b)]);
 }
 
-// Returns the median lengths; those that no frame shows stay an adult's.
+// Returns the median lengths over all frames and both sides. Lengths that no frame shows keep the default of an adult.
 LimbLengths MedianLengths(std::span<const SomeJoints> frames) {
   LimbLengths lengths;
   const auto set = [&](double LimbLengths::*length, std::vector<double> found) {
     if (const auto median = MedianOf(std::move(found)); median && *median > 0) lengths.*length = *median;
   };
+  // Lengths between two joints.
   for (const auto& [length, a, b] : kBetween) {
     std::vector<double> found;
     for (const SomeJoints& joints : frames) {
@@ -184,6 +186,7 @@ LimbLengths MedianLengths(std::span<const SomeJoints> frames) {
     }
     set(length, std::move(found));
   }
+  // Trunk and neck, from the midpoints of hips and shoulders.
   std::vector<double> trunks, necks;
   for (const SomeJoints& joints : frames) {
     const auto hips = MiddleOf(joints, kLeftHip, kRightHip),
@@ -196,7 +199,7 @@ LimbLengths MedianLengths(std::span<const SomeJoints> frames) {
   return lengths;
 }
 
-// Chooses frames, evenly apart, of those that show the most joints.
+// Chooses `wanted` frames, evenly spaced among those that show the most joints.
 std::vector<std::size_t> ChooseFrames(std::span<const SomeJoints> joints, std::size_t wanted) {
   std::vector<std::size_t> shown;
   for (const SomeJoints& frame : joints) {
@@ -204,10 +207,11 @@ std::vector<std::size_t> ChooseFrames(std::span<const SomeJoints> joints, std::s
         static_cast<std::size_t>(std::ranges::count_if(frame, [](const auto& j) { return j.has_value(); })));
   }
   std::vector<std::size_t> candidates;
-  for (std::size_t least = kRoleCount; least > 0 && candidates.size() < wanted; --least) {
+  // Lower the required number of joints until there are enough candidates.
+  for (std::size_t min_shown = kRoleCount; min_shown > 0 && candidates.size() < wanted; --min_shown) {
     candidates.clear();
     for (std::size_t k = 0; k < shown.size(); ++k) {
-      if (shown[k] >= least) candidates.push_back(k);
+      if (shown[k] >= min_shown) candidates.push_back(k);
     }
   }
   if (candidates.size() <= wanted) return candidates;

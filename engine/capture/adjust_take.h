@@ -15,25 +15,25 @@
 
 namespace etude {
 
-/// Paper B's body, prepared for comparing its joints with the marks of pictures.
+/// Paper B's body in the form that bundle adjustment compares with marks.
 struct TakeBody {
   CaptureBody body;  ///< `PaperBody`
-  /// The measurable body: every role that a mark shows is a point; its lengths are those of LimbLengths, in that order,
-  /// both sides alike.
+  /// The same body for `AdjustBundle`: every role that a mark can show is a point; its lengths are those of LimbLengths
+  /// in that order, equal on both sides.
   MeasurableBody measurable;
-  std::array<int, kRoleCount> points{};  ///< of each role its index among `measurable.points`; −1: no mark shows it
+  std::array<int, kRoleCount> points{};  ///< of each role: its index in `measurable.points`, −1 if no mark shows it
 };
 
 TakeBody MakeTakeBody(const LimbLengths& lengths);
 
-/// `LimbLengthsOf` turns the lengths of such a body into a struct, `ListOf` a struct into the list.
+/// Conversions between LimbLengths and the lengths of such a body.
 LimbLengths LimbLengthsOf(std::span<const double> lengths);
 std::array<double, 10> ListOf(const LimbLengths& lengths);
 
 struct AdjustTakeInputs {
-  MeasureInputs pictures;  ///< `known` is not used
-  LimbLengths lengths;     ///< of the person, metres; where the search begins if they are adjusted
-  /// The joints of each frame that the search begins with (`BridgeJoints`).
+  MeasureInputs pictures;  ///< `known` is ignored
+  LimbLengths lengths;     ///< lengths of the person, metres; the start of the search if lengths are adjusted
+  /// The joints of each frame at which the search starts (`BridgeJoints`).
   std::span<const SomeJoints> start;
 };
 
@@ -44,30 +44,30 @@ struct AdjustTakeOptions {
 
 struct AdjustedTake {
   bool is_solved = false;
-  CaptureBody body;               ///< paper B's, with the lengths that were found
+  CaptureBody body;               ///< paper B's body with the lengths of the solution
   std::vector<TreeState> states;  ///< of `body`, one per frame
 };
 
-/// Adjusts a whole take at once (`AdjustBundle`): paper B's body in every frame, seen by every mark of every picture.
-/// Begins with the angles that point its limbs as the joints of `start` lie (`FindStartState`), in a frame without such
-/// with its neighbour's. Not solved when no frame shows a body.
+/// Adjusts a whole take at once (`AdjustBundle`): paper B's body in every frame against every mark of every picture.
+/// The search starts at the angles that point the limbs along the joints of `start` (`FindStartState`); a frame without
+/// such angles takes those of a neighbouring frame. `is_solved` is false if no frame shows a body.
 AdjustedTake AdjustTake(const AdjustTakeInputs& inputs, const AdjustTakeOptions& options = {});
 
-/// Returns the smoothness of a motion that is filmed at this rate: hips, shoulders, wrists and ankles move smoothly,
-/// and all angles.
+/// Returns the smoothness terms for a motion at this frame rate: they apply to hips, shoulders, wrists, ankles and all
+/// angles.
 BundleSmoothness SmoothnessOf(const TakeBody& body, double rate_hz);
 
 struct MeasureLengthsOptions {
-  /// The number of frames used, spread evenly over those that show the most joints. Errors that last over frames are
-  /// averaged by frames far apart, not by more of them.
+  /// The number of frames used, spread evenly over those that show the most joints. Raising it helps little: mark
+  /// errors that persist over frames are averaged by distant frames, not by more frames.
   int frames = 12;
   MarkErrors marks;
 };
 
-/// Measures the limb lengths of the person in the pictures (paper B, section 6.2.2, leaves that as future work): those
-/// with which paper B's body explains the marks of a few frames best, each frame in a pose of its own (`AdjustBundle`
-/// over lengths, poses and marks). Begins with the medians of the lengths between triangulated joints. Nothing when no
-/// frame shows a body, or the outcome is no body.
+/// Measures the limb lengths of the person in the pictures (future work in paper B, section 6.2.2): the lengths with
+/// which paper B's body explains the marks of a few frames best, with an independent pose for each frame
+/// (`AdjustBundle` over lengths and poses). The search starts at the medians of the distances between triangulated
+/// joints. Returns nothing if no frame shows a body or a length of the solution is not positive.
 /// @param measured the joints of every frame (`MeasureJoints`)
 std::optional<LimbLengths> MeasureLengths(const MeasureInputs& pictures, std::span<const JointMeasurements> measured,
                                           const MeasureLengthsOptions& options = {});

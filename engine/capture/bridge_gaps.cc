@@ -10,7 +10,8 @@
 namespace etude {
 namespace {
 
-// Interpolates along the great circle from one unit vector to another; straight through when they are opposite.
+// Interpolates along the great circle between two unit vectors; nearly equal or opposite vectors are not mixed: the
+// nearer one is taken.
 glm::dvec3 SlerpDirections(const glm::dvec3& from, const glm::dvec3& to, double share) {
   const double angle = AngleBetween(from, to);
   constexpr double kNearlyEqual = 1e-6;
@@ -20,13 +21,13 @@ glm::dvec3 SlerpDirections(const glm::dvec3& from, const glm::dvec3& to, double 
 
 glm::dvec3 MixPoints(const glm::dvec3& from, const glm::dvec3& to, double share) { return glm::mix(from, to, share); }
 
-/// A quantity at a frame, interpolated from the measurements around it.
+/// A quantity at one frame, interpolated between measurements.
 struct Bridged {
   glm::dvec3 value{0};
-  int distance = 0;  ///< frames to the nearest measurement; 0: measured in the frame itself
+  int distance = 0;  ///< number of frames to the nearest measurement; 0 if the frame itself was measured
 };
 
-// The value at `frame` from the nearest measured ones, which `value_at` gives.
+// Returns the value at `frame`, interpolated with `mix` between the nearest frames for which `value_at` has one.
 template <typename ValueAt, typename Mix>
 std::optional<Bridged> Bridge(int frame, int frames, int longest_gap, ValueAt value_at, Mix mix) {
   int before = frame, after = frame;
@@ -42,7 +43,8 @@ std::optional<Bridged> Bridge(int frame, int frames, int longest_gap, ValueAt va
   return Bridged{mix(*value_at(before), *value_at(after), share), distance};
 }
 
-// Returns the direction of a limb that is assumed unforeshortened: from where its strokes begin to where they end.
+// Returns the direction of a limb that is assumed unforeshortened: the mean of the directions from the beginning to the
+// end of its strokes.
 std::optional<glm::dvec3> DirectionAcrossSight(std::span<const StrokePlane> planes) {
   glm::dvec3 sum(0);
   for (const StrokePlane& plane : planes) sum += glm::normalize(plane.ray_b_W - plane.ray_a_W);
@@ -52,23 +54,23 @@ std::optional<glm::dvec3> DirectionAcrossSight(std::span<const StrokePlane> plan
   return sum / length;
 }
 
-// The minimiser of the sum of squares in the header, at length 1.
+// Returns the minimiser of the sum of squares in the header, normalised.
 glm::dvec3 FuseDirection(std::span<const StrokePlane> planes, const Bridged& bridged, const BridgeOptions& options) {
   const double turn = options.turn_per_frame * bridged.distance;
   glm::dmat3 squares(1 / (turn * turn));
   const glm::dvec3 wanted = bridged.value / (turn * turn);
   for (const StrokePlane& plane : planes) {
-    constexpr double kLeastError = Radians(1);
+    constexpr double kMinError = Radians(1);
     const glm::dvec3 middle = glm::normalize(plane.ray_a_W + plane.ray_b_W);
-    const double aside = glm::length(glm::cross(middle, bridged.value));
-    const double error = std::max(kLeastError, std::sqrt(2.0) * options.mark_error_px / plane.length_px * aside);
+    const double sine = glm::length(glm::cross(middle, bridged.value));
+    const double error = std::max(kMinError, std::sqrt(2.0) * options.mark_error_px / plane.length_px * sine);
     squares += glm::outerProduct(plane.normal_W, plane.normal_W) / (error * error);
   }
   const glm::dvec3 direction = glm::inverse(squares) * wanted;
   return UnitOr(direction, bridged.value);
 }
 
-/// One frame of a take, completed.
+/// Completes one frame of a take.
 class FrameBridge {
  public:
   FrameBridge(std::span<const FrameMeasurement> frames, int frame, const BridgeOptions& options)

@@ -13,25 +13,26 @@
 namespace etude {
 
 struct CalibrationOptions {
-  /// The method, paper B's by default. Use `kDltNormalised` when point pairs are few or noisy, or far from the world's
-  /// origin: its equations are scaled alike, so that no pair counts more because its numbers are larger. `kRefined`
-  /// asks for `RefineCameras`.
+  /// The method, by default paper B's. Use `kDltNormalised` if there are few or noisy point pairs or if they are far
+  /// from the world's origin: it scales the equations, so that no pair has more weight because its numbers are larger.
+  /// `kRefined` stands for `RefineCameras`.
   Calibration method = Calibration::kDlt;
 };
 
-/// Computes the matrix H of every camera (paper B, section 2.2) from the point pairs measured for it, `pairs[camera]`.
-/// A camera whose matrix is known needs no pairs: `MatrixOf`. How well a matrix fits: `ReprojectionRms`. Fails for the
-/// first camera whose pairs do not determine it, and names it, counted from 1: "camera 2: …".
+/// Computes the matrix H of every camera (paper B, section 2.2) from its point pairs `pairs[camera]`. A camera with a
+/// known matrix needs no pairs (`MatrixOf`); `ReprojectionRms` tells how well a matrix fits. Fails if the pairs of a
+/// camera do not determine its matrix; the message names the first such camera, counted from 1: "camera 2: …".
 Result<std::vector<ProjectionMatrix>> CalibrateCameras(std::span<const std::vector<PointPair>> pairs,
                                                        const CalibrationOptions& options = {});
 
-/// Calibrates every camera with its lens, by least squared reprojection error (`RefineCamera`).
-/// @param sizes of the cameras' pictures, one each
+/// Calibrates every camera with its lens distortion by minimising the squared reprojection error (`RefineCamera`).
+/// Fails as above.
+/// @param sizes the picture size of each camera
 Result<std::vector<Camera>> RefineCameras(std::span<const std::vector<PointPair>> pairs,
                                           std::span<const PictureSize> sizes, const RefineOptions& options = {});
 
-/// Returns the marks as the camera would show them without its lens's distortion, which is what `MeasureInputs` takes
-/// beside `MatrixOf`. A mark outside of what the lens can show is missing.
+/// Returns the marks as the camera would show them without lens distortion, as `MeasureInputs` expects beside
+/// `MatrixOf`. A mark outside the field of the lens is missing.
 Marks UndistortMarks(const Camera& camera, const Marks& marks);
 
 }  // namespace etude

@@ -10,13 +10,14 @@
 namespace etude {
 namespace {
 
-const glm::dvec3 kAlong(0, 0, 1);         // every limb, in its own frame
-constexpr double kStraight = Radians(5);  // elbows and knees nearer to straight tell no plane
-constexpr double kNowhere = 1e-9;         // metres
+const glm::dvec3 kAlong(0, 0, 1);         // the direction of every limb in its own frame
+constexpr double kStraight = Radians(5);  // an elbow or knee nearer to straight defines no plane
+constexpr double kTinyM = 1e-9;
 
 bool IsFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-// The turn about the unit vector `axis` that brings all `from` nearest to `to`, which are seen from the same point.
+// Returns the rotation about the unit vector `axis` that minimises the squared distances between `from` and `to`,
+// radians.
 double BestTwist(const glm::dvec3& axis, const std::vector<glm::dvec3>& from, const std::vector<glm::dvec3>& to) {
   double cosine = 0, sine = 0;
   for (std::size_t i = 0; i < from.size(); ++i) {
@@ -24,9 +25,10 @@ double BestTwist(const glm::dvec3& axis, const std::vector<glm::dvec3>& from, co
     cosine += glm::dot(across, to[i]);
     sine += glm::dot(axis, glm::cross(from[i], to[i]));
   }
-  return std::hypot(cosine, sine) > kNowhere ? std::atan2(sine, cosine) : 0;
+  return std::hypot(cosine, sine) > kTinyM ? std::atan2(sine, cosine) : 0;
 }
 
+// Returns the angles of a joint that give the limb these axes, as far as its degrees of freedom allow.
 glm::dvec3 AnglesOf(const glm::dmat3& R_JL, int dof_count) {
   if (dof_count == 3) return AnglesXyz(R_JL);
   const glm::dvec3& z_J = R_JL[2];
@@ -34,15 +36,15 @@ glm::dvec3 AnglesOf(const glm::dmat3& R_JL, int dof_count) {
   return {std::atan2(-z_J.y, z_J.z), std::asin(std::clamp(z_J.x, -1.0, 1.0)), 0};
 }
 
-// The body's tree with an effector for every role that the root does not hold, in the order of `roles`.
+// Returns the body's tree with one effector per role that is not fixed to the root, in the order of `roles`.
 KinematicTree WithRoles(const CaptureBody& body, std::vector<Role>& roles) {
   KinematicTree tree = body.tree;
   tree.effectors.clear();
   for (const Role role : AllRoles()) {
-    if (role == Role::kHipCentre && body.hips_turn) continue;  // both hips tell it
+    if (role == Role::kHipCentre && body.hips_turn) continue;  // it is the midpoint of the hips
     TreePoint point = body.roles[Index(role)];
-    // Where a limb begins is a point of the one before.
-    while (point.joint > 0 && glm::length(point.p_LQ) < kNowhere) {
+    // The joint of a limb is a point of the limb before.
+    while (point.joint > 0 && glm::length(point.p_LQ) < kTinyM) {
       const TreeJoint& joint = tree.joints[point.joint];
       point = {joint.parent, joint.p_PJ};
     }
@@ -54,8 +56,9 @@ KinematicTree WithRoles(const CaptureBody& body, std::vector<Role>& roles) {
 }
 
 constexpr double kGoal = 1e-7;                       // metres
-constexpr double kMet = kRoleCount * kGoal * kGoal;  // square metres
-constexpr double kLikeTheLast = 1.5 * 1.5;           // times the squares of the frame before
+constexpr double kMet = kRoleCount * kGoal * kGoal;  // a residual below means that all targets are met, m²
+// A residual below this multiple of the last frame's needs no other start.
+constexpr double kLikeTheLast = 1.5 * 1.5;
 
 IkOptions ExactSteps() {
   IkOptions options;
@@ -88,6 +91,7 @@ PoseFitter::PoseFitter(const CaptureBody& body)
     children_[tree_.joints[i].parent].push_back(static_cast<int>(i));
 }
 
+// Collects the known roles beyond a limb, each way outwards as far as the first one.
 void PoseFitter::AddAims(int limb, const glm::dvec3& p_LJ, const glm::dmat3& R_LJ, int beyond,
                          const PoseTargets& wanted, std::vector<Aim>& aims) const {
   bool is_met = false;
@@ -102,22 +106,24 @@ void PoseFitter::AddAims(int limb, const glm::dvec3& p_LJ, const glm::dmat3& R_L
     const bool is_seen = std::ranges::any_of(aims, [&](const Aim& aim) {
       return aim.is_on_limb && glm::distance(aim.p_LQ, p_LJ + R_LJ * joint.p_PJ) < 1e-6;
     });
-    // Limbs beyond a known joint tell nothing of this one.
+    // Limbs beyond a known joint do not constrain this one.
     if (!is_seen) AddAims(limb, p_LJ + R_LJ * joint.p_PJ, R_LJ * joint.R_PJ, child, wanted, aims);
   }
 }
 
-// The axes of a limb from which the way to a known joint leads over others that bend: the two sides of a triangle whose
-// third is the distance to that joint. It bends as at rest; a straight way, such as a back's, bends as backs do.
+// Returns the axes of a limb if the way to the next known joint leads over joints that bend: the limb and the rest of
+// the way are two sides of a triangle, whose third side is the distance to the known joint. It bends to the same side
+// as at rest; if it is straight at rest, as a back is, it bends backwards.
 glm::dmat3 PoseFitter::BendTowards(int limb, const Aim& aim, const glm::dvec3& to_W, const glm::dmat3& R_WL,
                                    const glm::dvec3& back_W, int mirrored) const {
-  glm::dvec3 p_LT(0);  // the limb's own end on that way
+  glm::dvec3 p_LT(0);  // the end of the limb on that way
   for (int beyond = body_.roles[Index(aim.role)].joint; beyond > 0 && beyond != limb;) {
     p_LT = tree_.joints[beyond].p_PJ;
     beyond = tree_.joints[beyond].parent;
   }
   const double own = glm::length(p_LT), rest = glm::distance(p_LT, aim.p_LQ), whole = glm::length(to_W);
-  if (own < kNowhere || rest < kNowhere || whole < kNowhere) return R_WL;
+  if (own < kTinyM || rest < kTinyM || whole < kTinyM) return R_WL;
+  // Law of cosines: the angle between the limb and the line to the known joint.
   const double cosine = (own * own + whole * whole - rest * rest) / (2 * own * whole);
   const glm::dvec3 along = to_W / whole;
   glm::dvec3 side = R_WL * p_LT;
@@ -128,18 +134,19 @@ glm::dmat3 PoseFitter::BendTowards(int limb, const Aim& aim, const glm::dvec3& t
   return SmallestRotation(glm::normalize(R_WL * p_LT), UnitOr(wanted, along)) * R_WL;
 }
 
-// R_WL of a limb that begins at p_WL.
+// Returns R_WL of a limb whose joint is at p_WL, pointed at its targets.
 glm::dmat3 PoseFitter::TurnTowards(int limb, const glm::dvec3& p_WL, const glm::dmat3& R_WJ, const PoseTargets& wanted,
                                    int mirrored, std::vector<int>& bent) const {
   std::vector<Aim> aims;
   AddAims(limb, glm::dvec3(0), glm::dmat3(1), limb, wanted, aims);
   if (aims.empty()) return R_WJ;
-  // Points of the limb itself first; of those the farthest.
+  // Point at the farthest known role of the limb itself, or else at the farthest beyond.
   const auto main = std::ranges::max_element(
       aims, {}, [](const Aim& aim) { return std::pair(aim.is_on_limb, glm::length(aim.p_LQ)); });
   const glm::dvec3 from = UnitOr(R_WJ * main->p_LQ, R_WJ * kAlong);
   const glm::dvec3 to = UnitOr(wanted.places[main->role] - p_WL, from);
   glm::dmat3 R_WL = SmallestRotation(from, to) * R_WJ;
+  // Twist of a limb by the plane in which its elbow or knee bends.
   const auto twist = std::ranges::find(body_.twists, limb, &CaptureBody::Twist::joint);
   if (twist != body_.twists.end()) {
     const glm::dvec3 upper = wanted.places[twist->middle] - wanted.places[twist->upper];
@@ -152,10 +159,12 @@ glm::dmat3 PoseFitter::TurnTowards(int limb, const glm::dvec3& p_WL, const glm::
     }
     return R_WL;
   }
+  // Joints without targets in between: bend them.
   if (!main->is_on_limb) {
     bent.push_back(limb);
     return BendTowards(limb, *main, wanted.places[main->role] - p_WL, R_WL, -Facing(wanted.places), mirrored);
   }
+  // Otherwise turn about the direction to fit all known roles.
   std::vector<glm::dvec3> now, then;
   for (const Aim& aim : aims) {
     now.push_back(R_WL * aim.p_LQ);
@@ -171,6 +180,7 @@ PoseFitter::Pointed PoseFitter::Point(const PoseTargets& wanted, int mirrored) c
            std::vector<double>(tree_.limits.size(), 0.0)};
   std::vector<LimbFrame> limbs(tree_.joints.size());
   limbs[0] = {state.root_position, state.root_frame};
+  // From the root outwards: axes of each limb, then its angles within the limits.
   for (std::size_t i = 1; i < limbs.size(); ++i) {
     const TreeJoint& joint = tree_.joints[i];
     const LimbFrame& X_WP = limbs[joint.parent];
@@ -213,6 +223,7 @@ std::optional<PoseFit> PoseFitter::Fit(const PoseTargets& wanted, const std::opt
   for (const Role role : AllRoles()) {
     if (wanted.weights[Index(role)] > 0 && !IsFinite(wanted.places[role])) return std::nullopt;
   }
+  // Start from the pointed pose; try other starts while the residual is too large.
   const double enough = last ? std::max(kMet, kLikeTheLast * last->squares) : kMet;
   const Pointed pointed = Point(wanted);
   PoseFit best = Settle(wanted, pointed.state);
@@ -231,14 +242,16 @@ std::optional<PoseFit> PoseFitter::Fit(const PoseTargets& wanted, const std::opt
   return best;
 }
 
-std::optional<RigidMisfit> MeasureRigidMisfit(const RestBody& rest, std::span<const BodyPose> poses, std::size_t most) {
+std::optional<RigidMisfit> MeasureRigidMisfit(const RestBody& rest, std::span<const BodyPose> poses,
+                                              std::size_t max_poses) {
   const auto body = FittedBody(rest);
-  const std::size_t count = std::min(most, poses.size());
+  const std::size_t count = std::min(max_poses, poses.size());
   if (!body || count == 0) return std::nullopt;
   const PoseFitter fitter(*body);
   RigidMisfit misfit;
   std::optional<PoseFit> last;
   for (std::size_t i = 0; i < count; ++i) {
+    // Fit the next pose, and record the largest distance of a role.
     const std::size_t pose = i * poses.size() / count;
     last = fitter.Fit(TargetsAt(poses[pose]), last);
     if (!last) return std::nullopt;

@@ -13,25 +13,25 @@
 
 namespace etude {
 
-/// Target places of the twenty roles, with weights.
+/// Target positions of the twenty roles, with weights.
 struct PoseTargets {
-  BodyPose places;                           ///< in the world, metres
-  std::array<double, kRoleCount> weights{};  ///< 0: it is not known where the role is
+  BodyPose places;                           ///< target positions in the world, metres
+  std::array<double, kRoleCount> weights{};  ///< 0 if the position of the role is unknown
 };
 
-/// Makes targets of a pose in which every role counts alike.
+/// Returns a pose as targets of equal weight.
 PoseTargets TargetsAt(const BodyPose& pose);
 
-/// A pose of a body, and how far its roles are from their places: Σ weight · |place − role|², square metres.
+/// A pose of a body, and its residual Σ weight · |target − role|², m².
 struct PoseFit {
   TreeState state;
   double squares = 0;
 };
 
-/// Finds poses of one body from the places of its joints. *(Ours.)* Two steps: from the root outwards every limb points
-/// to where the next known joints are, its twist from elbows and knees (`CaptureBody::Twist`); then Gauss–Newton steps
-/// bring all roles as near to their places as they can be at once, and leave angles that nothing tells of where the
-/// first step put them. A pose of the body comes back exactly, as far as its places say what it is.
+/// Finds poses of one body from the positions of its joints. *(Ours.)* First, from the root outwards, every limb points
+/// to the next known joints, with its twist given by elbows and knees (`CaptureBody::Twist`). Then Gauss–Newton steps
+/// minimise the distances of all roles to their targets together; angles that no target determines keep their values of
+/// the first step. A pose of the body is reproduced exactly, as far as its positions determine it.
 class PoseFitter {
  public:
   /// `body` must outlive this.
@@ -39,30 +39,31 @@ class PoseFitter {
   PoseFitter(const PoseFitter&) = delete;
   PoseFitter& operator=(const PoseFitter&) = delete;
 
-  /// Finds the angles that minimise Σ weight · |place − role|², at least locally; the root stands at the place of the
-  /// left foot. Where places are not met, and not about as nearly as `last` met its own (the frame before of a motion,
-  /// if there is one), that pose is tried as a start, too, and every joint that no place tells bent the other
-  /// way: the least of these minima is the answer. Nothing when a place that counts is not finite, or the left foot's
-  /// does not count.
+  /// Finds angles that minimise Σ weight · |target − role|², at least locally; the root stands at the target of the
+  /// left foot. If targets are not met and the residual is clearly larger than that of `last` (the fit of the frame
+  /// before, if there is one), more starts are tried: the pose of `last`, and for every joint without a target the pose
+  /// in which it bends the other way. The smallest minimum is returned. Returns nothing if a target with weight is not
+  /// finite or the left foot has no weight.
   std::optional<PoseFit> Fit(const PoseTargets& wanted, const std::optional<PoseFit>& last = {}) const;
-  /// Finds the minimum near a state of the body instead; its root is kept.
+  /// Finds the local minimum near `state`; its root is kept.
   TreeState Improve(const PoseTargets& wanted, const TreeState& state) const;
 
  private:
-  /// A known role that is met first on the way outwards, and where it is from a limb when all angles beyond are zero.
+  /// The first known role on a way outwards from a limb, and its position relative to the limb if all angles beyond are
+  /// zero.
   struct Aim {
     Role role;
     glm::dvec3 p_LQ{0};
     bool is_on_limb = false;
   };
 
-  /// The first step, and the limbs of which a joint beyond bends that no place tells.
+  /// Result of the first step: the pose, and the limbs beyond which a joint without a target bends.
   struct Pointed {
     TreeState state;
     std::vector<int> bent;
   };
 
-  /// `mirrored`: the limb that bends the other way; −1: none.
+  /// `mirrored` is the limb whose bend is mirrored, −1 for none.
   Pointed Point(const PoseTargets& wanted, int mirrored = -1) const;
   PoseFit Settle(const PoseTargets& wanted, const TreeState& start) const;
   void AddAims(int limb, const glm::dvec3& p_LJ, const glm::dmat3& R_LJ, int beyond, const PoseTargets& wanted,
@@ -74,21 +75,22 @@ class PoseFitter {
 
   const CaptureBody& body_;
   std::vector<Role> effector_roles_;
-  const KinematicTree tree_;  // with an effector for every role that the root does not hold
+  const KinematicTree tree_;  // with one effector per role that is not fixed to the root
   const GaussNewtonSolver solver_;
   std::vector<std::vector<int>> children_;
 };
 
-/// The distances of joints from where a body that keeps its lengths can bring them.
+/// The distances that remain between joints and a body of constant limb lengths.
 struct RigidMisfit {
-  double mean_m = 0;   ///< of the worst joint of each pose
-  double worst_m = 0;  ///< of that joint in that pose
+  double mean_m = 0;   ///< mean over the poses of their largest distance
+  double worst_m = 0;  ///< the largest distance of all: of `role` in `pose`
   Role role = Role::kHipCentre;
   std::size_t pose = 0;
 };
 
-/// Fits the body `rest` to at most `most` of the poses, evenly over all, each by itself but for a start from the one
-/// before. Nothing without poses, or where `FittedBody` makes no body of it.
-std::optional<RigidMisfit> MeasureRigidMisfit(const RestBody& rest, std::span<const BodyPose> poses, std::size_t most);
+/// Fits the body `rest` to at most `max_poses` of the poses, evenly spaced. Poses are independent, except that the fit
+/// of one is a possible start for the next. Returns nothing if there are no poses or `FittedBody` fails.
+std::optional<RigidMisfit> MeasureRigidMisfit(const RestBody& rest, std::span<const BodyPose> poses,
+                                              std::size_t max_poses);
 
 }  // namespace etude

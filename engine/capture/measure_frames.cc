@@ -8,7 +8,8 @@
 namespace etude {
 namespace {
 
-/// Takes one mark of one frame out of the pictures that disagree about it. `mark_of(camera)`: where it is kept.
+/// Removes one mark of one frame from the pictures that disagree about it. `mark_of(camera)` returns a reference to the
+/// mark.
 template <typename View, typename MarkOf>
 void KeepAgreeing(std::span<const ProjectionMatrix> cameras, double tolerance_px, const MarkOf& mark_of) {
   std::vector<View> views;
@@ -44,10 +45,10 @@ std::vector<std::vector<Marks>> AgreeingMarks(std::span<const ProjectionMatrix> 
 
 namespace {
 
-/// One frame's pictures, and how they are measured.
-class FrameMeter {
+/// Measures the marks of one frame.
+class FrameMeasurer {
  public:
-  FrameMeter(const MeasureInputs& inputs, std::size_t frame, const MeasureOptions& options)
+  FrameMeasurer(const MeasureInputs& inputs, std::size_t frame, const MeasureOptions& options)
       : inputs_(inputs), frame_(frame), options_(options) {}
 
   void MeasureEnds(FrameMeasurement& frame) const {
@@ -120,18 +121,18 @@ std::vector<FrameMeasurement> MeasureFrames(const MeasureInputs& inputs, const M
   assert(inputs.known.empty() || inputs.known.size() == count);
   std::vector<FrameMeasurement> frames;
   for (std::size_t i = 0; i < count; ++i) {
-    const FrameMeter meter(inputs, i, options);
+    const FrameMeasurer measurer(inputs, i, options);
     const KnownMeasurement known = inputs.known.empty() ? KnownMeasurement{} : inputs.known[i];
     FrameMeasurement& frame = frames.emplace_back();
     if (known.ends) {
       frame.ends = *known.ends;
     } else {
-      meter.MeasureEnds(frame);
+      measurer.MeasureEnds(frame);
     }
     if (known.directions) {
       frame.directions = *known.directions;
     } else {
-      meter.MeasureDirections(frame);
+      measurer.MeasureDirections(frame);
     }
   }
   return frames;

@@ -15,62 +15,62 @@
 
 namespace etude {
 
-/// Removes the marks that disagree with the other cameras' *(ours)*: of every disc and stroke that three or more
-/// pictures of a frame show, the views lose it that `AgreeingViews` leaves out. Helps where a camera is knocked, or its
-/// marks are of another limb; costs a little where all err alike.
+/// Removes marks that disagree with those of other cameras *(ours)*. Every disc and stroke that three or more pictures
+/// of a frame show is removed from the views that `AgreeingViews` rejects. Use it if a camera may have moved or marks
+/// may be of the wrong limb; if all marks err alike, it costs a little accuracy.
 /// @param marks `marks[camera][frame]`
-/// @param tolerance_px how far from the others' point a picture may be and agree with them. Marks that err by 2 pixels,
-///     and by more at joints that clothes hide, agree within 12.
+/// @param tolerance_px maximum distance, in pixels, of a mark from the point that the other pictures determine. Marks
+/// that err by 2 pixels, and by more at joints hidden by clothes, agree within 12.
 std::vector<std::vector<Marks>> AgreeingMarks(std::span<const ProjectionMatrix> cameras,
                                               std::span<const std::vector<Marks>> marks, double tolerance_px = 12);
 
-/// Vectors of those of the twenty roles that have one.
+/// One vector per role, empty for roles without one.
 using RoleVectors = std::array<std::optional<glm::dvec3>, kRoleCount>;
 
-/// The measurements in space from one frame's marks.
+/// The spatial measurements from the marks of one frame.
 struct FrameMeasurement {
-  RoleVectors ends;        ///< p_WE, metres: each end effector's place in the world, at its role
-  RoleVectors directions;  ///< unit, in the world: each limb's direction, at the role of its lower joint
-  /// The planes that limbs without a direction lie in, one for each picture that shows the limb.
+  RoleVectors ends;        ///< p_WE, metres: position of each end effector in the world, at its role
+  RoleVectors directions;  ///< unit vectors in the world: direction of each limb, at the role of its lower joint
+  /// For each limb without a direction: the planes in which it lies, one per picture that shows it.
   std::array<std::vector<StrokePlane>, kRoleCount> planes = {};
-  /// The lines that ends lie on which only one picture shows.
+  /// For each end that only one picture shows: its sight line.
   std::array<std::optional<SightLine>, kRoleCount> sight_lines = {};
 };
 
-/// Measurements of one frame that the caller knows without marks: from another sensor, or true values, to see what a
-/// stage costs. Each member that is present replaces all measurements of its kind in that frame.
+/// Measurements of one frame that do not come from marks, for example from another sensor, or true values that show the
+/// cost of a stage. Each member that is present replaces all measurements of its kind.
 struct KnownMeasurement {
   std::optional<RoleVectors> ends;
   std::optional<RoleVectors> directions;
 };
 
 struct MeasureInputs {
-  /// H of each camera: world (metres) to pixels. At least two.
+  /// H of each camera: world (metres) to pixels. At least two cameras.
   std::span<const ProjectionMatrix> cameras;
-  /// `marks[camera][frame]`, pixels. All cameras have the same number of frames, taken at the same moments; a picture
-  /// that nobody has marked has an empty `Marks{}`.
+  /// `marks[camera][frame]`, pixels. All cameras have the same number of frames, taken at the same times; an unmarked
+  /// picture has an empty `Marks{}`.
   std::span<const std::vector<Marks>> marks;
   /// Empty, or one per frame.
   std::span<const KnownMeasurement> known = {};
 };
 
 struct MeasureOptions {
-  /// The direction of a limb is that of its strokes alone if two of its viewing planes are at least this far from
-  /// parallel (radians). An error of the strokes is magnified by 1/sin of that angle: about seven times at 8°. Below,
-  /// the planes are handed on, and the frames before and after help (`BridgeGaps`). Raise it when marks are inexact;
-  /// lower it when marks are exact, or cameras stand close together.
+  /// Minimum angle between two viewing planes of a limb for its strokes alone to give its direction, radians. The error
+  /// of the strokes is multiplied by 1/sin of that angle, about seven at 8°. Below it the planes are kept and combined
+  /// with neighbouring frames (`BridgeGaps`). Raise it if marks are inaccurate; lower it if marks are accurate or the
+  /// cameras are close together.
   double smallest_plane_angle = Radians(8);
-  /// Strokes shorter than this (pixels) give no direction: when a limb is seen almost end on, the error of the marks
-  /// hides its direction. 6 is three times the usual error of marks in pictures of 640 × 480, 2 pixels; scale it with
-  /// that error.
+  /// Strokes shorter than this, in pixels, give no direction: if a limb is seen almost end on, mark errors hide its
+  /// direction. The default is three times the usual mark error in pictures of 640 × 480, 2 pixels; scale it with that
+  /// error.
   double shortest_stroke_px = 6;
 };
 
-/// Triangulates the end effectors and computes the limb directions of every frame (paper B, sections 2.3 and 2.4).
-/// Each mark is measured from all pictures that show it, if these are two or more; of others, what they tell is kept
-/// (`planes`, `sight_lines`). With two cameras these are the paper's formulas; with more, both are least squares in
-/// which views weigh as exactly as they show (`TriangulateByPixels`, `ComputeLimbDirection`). No view is rejected for
-/// disagreeing with the others: `AgreeingMarks` does that beforehand.
+/// Triangulates the end effectors and computes the limb directions of every frame (paper B, sections 2.3 and 2.4). A
+/// mark needs two or more pictures; from a single picture `planes` and `sight_lines` keep the partial information. With
+/// two cameras the formulas are the paper's. With more, both are least squares in which views are weighted by their
+/// accuracy (`TriangulateByPixels`, `ComputeLimbDirection`). No view is rejected here; call `AgreeingMarks` first for
+/// that.
 std::vector<FrameMeasurement> MeasureFrames(const MeasureInputs& inputs, const MeasureOptions& options = {});
 
 }  // namespace etude

@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-// Returns the information of a stroke's end: exact across the stroke, less so along it.
+// Returns the information of a stroke's end: accurate across the stroke, less so along it.
 glm::dmat2 InformationOfEnd(const PixelSegment& stroke, const MarkErrors& errors) {
   const glm::dvec2 limb = stroke.b - stroke.a;
   const double length = glm::length(limb);
@@ -22,7 +22,7 @@ glm::dmat2 InformationOfEnd(const PixelSegment& stroke, const MarkErrors& errors
   return glm::outerProduct(t, t) / (along * along) + glm::outerProduct(n, n) / (across * across);
 }
 
-// A disc lies over the end of its limb's stroke, which is read too short.
+// Returns true if the role has a disc. A disc covers the end of its limb's stroke, which is therefore read too short.
 bool HasDisc(const Marks& marks, Role role) {
   for (std::size_t i = 0; i < kEffectorCount; ++i) {
     if (EffectorMarks()[i].role == role) return marks.effectors[i].has_value();
@@ -34,6 +34,7 @@ bool HasDisc(const Marks& marks, Role role) {
 
 std::vector<MarkedJoint> MarkedJointsOf(const Marks& marks, const MarkErrors& errors) {
   std::vector<MarkedJoint> joints;
+  // Collect the ends of strokes and the discs.
   for (std::size_t i = 0; i < kStrokeCount; ++i) {
     if (!marks.strokes[i]) continue;
     const glm::dmat2 information = InformationOfEnd(*marks.strokes[i], errors);
@@ -44,6 +45,7 @@ std::vector<MarkedJoint> MarkedJointsOf(const Marks& marks, const MarkErrors& er
   for (std::size_t i = 0; i < kEffectorCount; ++i) {
     if (marks.effectors[i]) joints.push_back({EffectorMarks()[i].role, *marks.effectors[i], of_disc});
   }
+  // Marks of one joint share its information.
   std::array<int, kRoleCount> count{};
   for (const MarkedJoint& joint : joints) ++count[Index(joint.role)];
   for (MarkedJoint& joint : joints) joint.information /= static_cast<double>(count[Index(joint.role)]);
@@ -54,7 +56,7 @@ namespace {
 
 using enum Role;
 
-// The sightings of each role: one per picture that shows it, which joins all its marks.
+// For each role, one sighting per picture that shows it, fused from all its marks.
 using FrameSightings = std::array<std::vector<InformedSighting>, kRoleCount>;
 
 FrameSightings SightingsOf(const MeasureInputs& inputs, std::size_t frame, const MarkErrors& errors) {
@@ -77,9 +79,10 @@ FrameSightings SightingsOf(const MeasureInputs& inputs, std::size_t frame, const
 
 bool IsMeasured(const PointMeasurement& measurement) { return measurement.information != glm::dmat3(0); }
 
-// The track of one joint from measured place to measured place.
+// Fills the gaps of a track linearly, and holds its first and last values.
 std::vector<std::optional<glm::dvec3>> BridgeTrack(std::span<const std::optional<glm::dvec3>> track) {
   std::vector<std::optional<glm::dvec3>> bridged(track.begin(), track.end());
+  // `before` is the last measured frame.
   std::optional<std::size_t> before;
   for (std::size_t k = 0; k < track.size(); ++k) {
     if (!track[k]) continue;
@@ -97,16 +100,17 @@ std::vector<std::optional<glm::dvec3>> BridgeTrack(std::span<const std::optional
   return bridged;
 }
 
-// Measures a joint that a single picture shows: it lies on the line of sight.
+// Measures a joint that a single picture shows: the point of its sight line nearest to `near_W`.
 std::optional<PointMeasurement> OnSightLine(const InformedSighting& seen, const glm::dvec3& near_W) {
   const auto line = SightLineOf(seen.sighting);
   if (!line) return std::nullopt;
-  const glm::dvec3 place = NearestOn(*line, near_W);
-  const auto sum = PointEquationsAt({&seen, 1}, place);
+  const glm::dvec3 position = NearestOn(*line, near_W);
+  const auto sum = PointEquationsAt({&seen, 1}, position);
   if (!sum) return std::nullopt;
-  constexpr double kDepthError = 0.15;  // metres *(ours)*: neighbours say no better how far away it is
+  // Metres *(ours)*: neighbouring frames do not determine the depth more accurately.
+  constexpr double kDepthError = 0.15;
   const glm::dmat3 depth = glm::outerProduct(line->direction_W, line->direction_W) / (kDepthError * kDepthError);
-  return PointMeasurement{place, sum->information + depth};
+  return PointMeasurement{position, sum->information + depth};
 }
 
 std::vector<PointMeasurement> TrackOf(std::span<const JointMeasurements> measured, std::size_t role) {
@@ -121,7 +125,7 @@ SmoothedTrack SmoothLikeliest(std::span<const PointMeasurement> track, double ra
   return SmoothTrack(track, motion);
 }
 
-// The usual variance of a joint's triangulated place along one axis, m²; of several frames the middle one.
+// Returns the median over frames of a triangulated joint's variance along one axis, m².
 std::optional<double> UsualVariance(std::span<const JointMeasurements> measured, std::size_t role) {
   std::vector<double> variances;
   for (const JointMeasurements& frame : measured) {
@@ -133,7 +137,7 @@ std::optional<double> UsualVariance(std::span<const JointMeasurements> measured,
   return UpperMedian(std::move(variances));
 }
 
-// From right to left across the body, as far as hips or shoulders tell.
+// Returns a vector from right to left across the body, from hips and shoulders if known.
 std::optional<glm::dvec3> AcrossOf(const SomeJoints& joints) {
   std::optional<glm::dvec3> across;
   for (const auto& [left, right] : {std::pair(kLeftHip, kRightHip), std::pair(kLeftShoulder, kRightShoulder)}) {
@@ -154,6 +158,7 @@ std::vector<JointMeasurements> MeasureJoints(const MeasureInputs& inputs, const 
   std::vector<JointMeasurements> measured(count);
   for (std::size_t k = 0; k < count; ++k) sightings.push_back(SightingsOf(inputs, k, errors));
   for (std::size_t role = 0; role < kRoleCount; ++role) {
+    // Triangulate the joint where two or more pictures show it.
     std::vector<std::optional<glm::dvec3>> track(count);
     for (std::size_t k = 0; k < count; ++k) {
       const auto joint = TriangulateLikeliest(sightings[k][role]);
@@ -162,6 +167,7 @@ std::vector<JointMeasurements> MeasureJoints(const MeasureInputs& inputs, const 
       measured[k].is_triangulated[role] = true;
       track[k] = joint->position;
     }
+    // Where one picture shows it, use its sight line and the neighbouring frames.
     const auto bridged = BridgeTrack(track);
     for (std::size_t k = 0; k < count; ++k) {
       if (track[k] || !bridged[k] || sightings[k][role].empty()) continue;
@@ -196,29 +202,31 @@ std::vector<SomeJoints> SmoothJoints(std::span<const JointMeasurements> measured
 }
 
 std::optional<BodyPose> CompleteJoints(const SomeJoints& joints, const BodyPose& like) {
-  SomeJoints placed = joints;
+  // Interpolate the joints of the trunk.
+  SomeJoints filled = joints;
   const auto middle = [&](Role role, Role a, Role b, double share) {
-    const auto &from = placed[Index(a)], &to = placed[Index(b)];
-    if (from && to) placed[Index(role)] = glm::mix(*from, *to, share);
+    const auto &from = filled[Index(a)], &to = filled[Index(b)];
+    if (from && to) filled[Index(role)] = glm::mix(*from, *to, share);
   };
   middle(kHipCentre, kLeftHip, kRightHip, 0.5);
-  if (!placed[Index(kShoulderCentre)]) middle(kShoulderCentre, kLeftShoulder, kRightShoulder, 0.5);
+  if (!filled[Index(kShoulderCentre)]) middle(kShoulderCentre, kLeftShoulder, kRightShoulder, 0.5);
   middle(kSpine, kHipCentre, kShoulderCentre, kSpineShare);
-  if (std::ranges::none_of(placed, [](const auto& joint) { return joint.has_value(); })) return std::nullopt;
+  if (std::ranges::none_of(filled, [](const auto& joint) { return joint.has_value(); })) return std::nullopt;
 
+  // Attach missing joints to their neighbours as in `like`, turned by the difference of headings.
   const auto across = AcrossOf(joints);
   const glm::dvec3 like_across = like[kLeftHip] - like[kRightHip];
   const FloorMove turn{.yaw = across ? YawOf(*across) - YawOf(like_across) : 0};
   const auto limb = [&](const Bone& bone) { return turn.Apply(like[bone.child] - like[bone.parent]); };
-  for (std::size_t round = 0; round < kRoleCount; ++round) {  // a place spreads by one limb in each
+  for (std::size_t round = 0; round < kRoleCount; ++round) {  // each round reaches one limb farther
     for (const Bone& bone : AllBones()) {
-      auto &parent = placed[Index(bone.parent)], &child = placed[Index(bone.child)];
+      auto &parent = filled[Index(bone.parent)], &child = filled[Index(bone.child)];
       if (parent && !child) child = *parent + limb(bone);
       if (child && !parent) parent = *child - limb(bone);
     }
   }
   BodyPose pose;
-  for (std::size_t i = 0; i < kRoleCount; ++i) pose.joints[i] = *placed[i];
+  for (std::size_t i = 0; i < kRoleCount; ++i) pose.joints[i] = *filled[i];
   return pose;
 }
 

@@ -12,10 +12,10 @@ namespace {
 
 using enum Role;
 
-/// The joints as pictures place them, before the solver brings the ends back.
+/// The start of one frame: its joints from the pictures, before inverse kinematics.
 struct Start {
-  BodyPose fixed;                 ///< with the body's lengths
-  std::optional<TreeState> seen;  ///< the same as angles
+  BodyPose fixed;                 ///< joints with the body's limb lengths
+  std::optional<TreeState> seen;  ///< the same pose as angles, if it has been found
 };
 
 std::optional<Start> PaperStart(const CaptureBody& body, const LimbObservation& seen) {
@@ -24,23 +24,24 @@ std::optional<Start> PaperStart(const CaptureBody& body, const LimbObservation& 
   return Start{*fixed, FindStartState(body.tree, *fixed, body.tree.limits)};
 }
 
-// Places every joint that an end and the limbs from there lead to, as paper B's figure 3.2(a), and the middle of the
-// hips.
-PoseTargets ClimbFromEnds(const CaptureBody& body, const LimbObservation& seen) {
-  constexpr double kUnseen = 0.01;  // what was completed weighs little,
-  constexpr double kBent = 0.1;     // and what lies beyond a joint that nobody sees bend less than the rest
+// Computes the position of every joint that an end and the limbs inwards from it determine (paper B, figure 3.2(a)),
+// and the midpoint of the hips.
+PoseTargets TargetsFromEnds(const CaptureBody& body, const LimbObservation& seen) {
+  constexpr double kUnseen = 0.01;  // weight of completed positions
+  constexpr double kBent = 0.1;     // weight of positions beyond a joint whose bend is not observed
   PoseTargets wanted;
   for (const Role end : {kLeftFoot, kRightFoot, kLeftHand, kRightHand, kHead}) {
-    glm::dvec3 place = seen.ends[end];
+    glm::dvec3 position = seen.ends[end];
     double weight = seen.lacks_end[Index(end)] ? kUnseen : 1;
     Role role = end;
+    // Follow the limbs inwards as far as their directions are observed.
     while (true) {
-      wanted.places[role] = place;
+      wanted.places[role] = position;
       wanted.weights[Index(role)] = weight;
       if (std::ranges::find(ObservedLimbs(), role) == ObservedLimbs().end()) break;
       if (!body.is_rigid[Index(role)]) weight = std::min(weight, kBent);
       if (seen.lacks_direction[Index(role)]) weight = kUnseen;
-      place -= body.bones[Index(role)] * glm::normalize(seen.directions[Index(role)]);
+      position -= body.bones[Index(role)] * glm::normalize(seen.directions[Index(role)]);
       role = *ParentOf(role);
     }
   }
@@ -51,13 +52,13 @@ PoseTargets ClimbFromEnds(const CaptureBody& body, const LimbObservation& seen) 
 
 std::optional<Start> FittedStart(const CaptureBody& body, const PoseFitter& fitter, const LimbObservation& seen,
                                  std::optional<PoseFit>& last) {
-  std::optional<PoseFit> found = fitter.Fit(ClimbFromEnds(body, seen), last);
+  std::optional<PoseFit> found = fitter.Fit(TargetsFromEnds(body, seen), last);
   if (!found) return std::nullopt;
   last = std::move(found);
   return Start{ToBodyPose(body, last->state), last->state};
 }
 
-// Returns the errors of those effectors whose ends were seen.
+// Returns the errors of the effectors whose ends were seen.
 std::vector<EffectorError> ErrorsSeen(const CaptureBody& body, const LimbObservation& seen,
                                       const std::vector<EffectorError>& errors) {
   std::vector<EffectorError> kept;
@@ -67,10 +68,10 @@ std::vector<EffectorError> ErrorsSeen(const CaptureBody& body, const LimbObserva
   return kept;
 }
 
-/// The pose that the solver begins with, or nothing when neither the images nor the last frame give one.
+/// Returns the pose at which the solver starts; nothing if neither the pictures nor the last frame give one.
 std::optional<TreeState> StartOf(const Start& found, const std::optional<RecoveredFrame>& last, bool is_marked) {
   if (!last || (found.seen && is_marked)) return found.seen;
-  // The solver does not move the root: its place and frame are always the images'.
+  // The solver does not move the root, so its position and frame always come from the pictures.
   TreeState start = last->state;
   start.root_position = found.fixed[kLeftFoot];
   if (found.seen) start.root_frame = found.seen->root_frame;

@@ -19,50 +19,47 @@
 namespace etude {
 
 struct RecoverInputs {
-  CaptureBody body;  ///< of the person, measured beforehand: PaperBody or FittedBody
-  /// The observations, one per frame; nothing in frames of which too little was seen.
+  CaptureBody body;  ///< the body of the person, from PaperBody or FittedBody
+  /// The observations, one per frame; empty for frames of which too little was seen.
   std::span<const std::optional<LimbObservation>> seen;
-  /// Tells of each frame whether it was marked itself; empty when all were. The solver starts a marked frame from the
-  /// angles that its pictures show, any other from the last frame's angles.
+  /// Empty, or one flag per frame: true if the frame itself was marked. The solver starts a marked frame at the angles
+  /// that its pictures show, any other at the angles of the last frame.
   std::vector<bool> marked = {};
-  /// The solver's starts and its answers as the caller knows them without pictures, to see what a stage costs; empty,
-  /// or one per frame, each in place of what the stage would find.
+  /// Empty, or one per frame: true starts or true poses that replace those of the stage, to show its cost.
   std::vector<TreeState> known_starts = {}, known_poses = {};
 };
 
 struct RecoverOptions {
-  /// Finds the angles. Not null: one of AllIkSolvers(), or the caller's own.
+  /// The solver, which must be set: one of AllIkSolvers(), or the caller's own.
   const IkSolver* solver = nullptr;
-  /// The solver's options. `angle_change_tolerance` bounds how far an angle may move from its start (paper B, section
-  /// 3.7.2): set it when limb directions are more exact than the places of the ends.
+  /// The options of the solver. Set `angle_change_tolerance`, which limits how far an angle may move from its start
+  /// (paper B, section 3.7.2), if limb directions are more accurate than the positions of the ends.
   IkOptions ik = {};
 };
 
-/// One frame of a recovered motion, in the world, metres.
+/// One frame of a recovered motion; world coordinates, metres.
 struct RecoveredFrame {
-  BodyPose fixed;   ///< with the known limb lengths, before inverse kinematics
-  TreeState state;  ///< after it
-  BodyPose pose;    ///< the same as twenty joints
-  /// The distances from the tree's end effectors to where they were seen, in the tree's order; those not seen are left
-  /// out.
+  BodyPose fixed;   ///< joints with the known limb lengths, before inverse kinematics
+  TreeState state;  ///< the pose after inverse kinematics
+  BodyPose pose;    ///< the same pose as twenty joints
+  /// The errors of the end effectors that were seen, in the tree's order; the others are left out.
   std::vector<EffectorError> errors;
 };
 
-/// Recovers a skeleton from what was seen (paper B, chapter 3): limb lengths are fixed, then every end effector brought
-/// back by the solver. Lengths of paper B's body are fixed as in its section 3.2 (`FixLimbLengths`), start angles found
-/// as in 3.3 (`FindStartState`); another body is brought as near as it can be to all joints that ends and directions
-/// lead to (`PoseFitter`), which does both. What an observation lacks comes from the last frame, or a standing body
-/// before there is one (`CompleteObservation`), and is no target. A frame without observation, or whose skeleton cannot
-/// be computed, stays empty, and so do frames that show no end before the first that does.
+/// Recovers a skeleton in every frame from its observation (paper B, chapter 3): fix the limb lengths, then move every
+/// end effector back to its observed position with the solver. For paper B's body, lengths are fixed as in section 3.2
+/// (`FixLimbLengths`) and start angles found as in 3.3 (`FindStartState`). For another body, `PoseFitter` does both: it
+/// fits the body to all joints that ends and directions determine. Values that an observation lacks come from the last
+/// frame, or from a standing body before there is one (`CompleteObservation`), and are no targets. A frame stays empty
+/// if it has no observation, if its skeleton cannot be computed, or if neither it nor a frame before shows an end.
 std::vector<std::optional<RecoveredFrame>> RecoverFrames(const RecoverInputs& inputs, const RecoverOptions& options);
 
-/// The solver's start and its answer for one frame, as far as the caller knows them without pictures, to see what a
-/// stage costs.
+/// True start or true pose of one frame, if the caller has them; they replace those of the stage, to show its cost.
 struct KnownAngles {
   std::optional<TreeState> start, pose;
 };
 
-/// Recovers frame after frame as `RecoverFrames` does, for callers that cannot wait for the next one.
+/// Recovers frame after frame as `RecoverFrames` does, for callers that need each frame at once.
 class FrameRecovery {
  public:
   /// `body` must outlive this.
@@ -85,26 +82,27 @@ class FrameRecovery {
   std::optional<RecoveredFrame> last_;
 };
 
-/// Fills empty frames: each shows the last skeleton before it, leading ones the first. At least one is not empty.
+/// Fills empty frames with the last skeleton before them, leading ones with the first skeleton. At least one frame must
+/// not be empty.
 std::vector<RecoveredFrame> HoldFrames(std::span<const std::optional<RecoveredFrame>> frames);
 
-/// Makes a clip of the motion, which WriteBvh writes: metres, Y up. `body` is the one it was recovered with.
+/// Converts the motion to a clip that WriteBvh can write: metres, Y up. `body` must be the one it was recovered with.
 Clip ToClip(const CaptureBody& body, std::span<const RecoveredFrame> frames, double rate_hz, const std::string& name);
 
-/// Recovers a motion as it happens: each skeleton from the marks up to its frame alone. What a frame lacks comes from
-/// those before it (`BridgeLast`); no later frame corrects it.
+/// Recovers a motion live: each skeleton comes from the marks up to its frame. Values that a frame lacks come from the
+/// frames before it (`BridgeLast`); later frames do not correct it.
 class LiveRecovery {
  public:
   /// `body` must outlive this.
   LiveRecovery(const CaptureBody& body, const RecoverOptions& recover, const BridgeOptions& bridge);
 
-  /// Takes the next marked frame and returns its skeleton; nothing while too little was seen.
+  /// Takes the next marked frame and returns its skeleton, or nothing while too little has been seen.
   std::optional<RecoveredFrame> Next(const FrameMeasurement& measured, const KnownAngles& known = {});
 
  private:
   const BridgeOptions bridge_;
   FrameRecovery recovery_;
-  std::vector<FrameMeasurement> latest_;  ///< as many as can be bridged
+  std::vector<FrameMeasurement> latest_;  ///< the frames that can be bridged
 };
 
 }  // namespace etude

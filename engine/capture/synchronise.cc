@@ -10,14 +10,15 @@
 namespace etude {
 namespace {
 
-/// The minimum of the parabola that fits the misfits about a whole frame best.
-struct Lowest {
-  double shift = 0;  ///< from that frame
+/// The minimum of the parabola that is fitted to the misfits around a whole frame.
+struct ParabolaMinimum {
+  double shift = 0;  ///< position of the minimum relative to that frame, frames
   double gain = 0;
 };
 
-std::optional<Lowest> LowestAbout(const std::function<std::optional<double>(int offset)>& misfit, int frame) {
-  constexpr int kReach = 2;  // frames: further away misfits are no parabola any more, nearer errors weigh more
+std::optional<ParabolaMinimum> FitParabola(const std::function<std::optional<double>(int offset)>& misfit, int frame) {
+  // Frames on either side: the misfit is no parabola farther away; with fewer frames, noise matters more.
+  constexpr int kReach = 2;
   double count = 0, x2 = 0, x4 = 0, f = 0, xf = 0, x2f = 0;
   for (int x = -kReach; x <= kReach; ++x) {
     const std::optional<double> here = misfit(frame + x);
@@ -25,10 +26,11 @@ std::optional<Lowest> LowestAbout(const std::function<std::optional<double>(int 
     count += 1, x2 += x * x, x4 += x * x * x * x;
     f += *here, xf += x * *here, x2f += x * x * *here;
   }
+  // Least squares of f + slope · x + bend · x².
   const double bend = (count * x2f - x2 * f) / (count * x4 - x2 * x2), slope = xf / x2;
   if (!(bend > 0)) return std::nullopt;
   const double shift = std::clamp(-0.5 * slope / bend, -1.0, 1.0);
-  return Lowest{shift, bend * shift * shift};
+  return ParabolaMinimum{shift, bend * shift * shift};
 }
 
 }  // namespace
@@ -36,24 +38,26 @@ std::optional<Lowest> LowestAbout(const std::function<std::optional<double>(int 
 ClockOffset FindOffset(const std::function<std::optional<double>(int offset)>& misfit, int most_frames) {
   const std::optional<double> assumed = misfit(0);
   if (!assumed) return {};
-  int best = 0, asked = 0;
-  double least = *assumed, sum = 0;
+  // The best whole frame, then the minimum of the parabola around it.
+  int best = 0, evaluated = 0;
+  double min_misfit = *assumed, sum = 0;
   for (int offset = -most_frames; offset <= most_frames; ++offset) {
     const std::optional<double> here = misfit(offset);
     if (!here) continue;
     sum += *here;
-    ++asked;
-    if (*here >= least) continue;
-    least = *here;
+    ++evaluated;
+    if (*here >= min_misfit) continue;
+    min_misfit = *here;
     best = offset;
   }
-  const Lowest lowest = LowestAbout(misfit, best).value_or(Lowest{});
-  // As good as none: nobody moved.
-  constexpr double kNoBetter = 0.001, kNothing = 1e-4;  // a share; pixels squared
-  constexpr double kTold = 1.25;                        // noise alone stays below, where 300 distances or more are had
-  const bool is_better = *assumed - least + lowest.gain > kNothing + kNoBetter * *assumed;
-  const bool is_told = std::abs(best) < most_frames && sum / asked > kNothing + kTold * (least - lowest.gain);
-  return {is_better ? best + lowest.shift : 0, is_told};
+  const ParabolaMinimum minimum = FitParabola(misfit, best).value_or(ParabolaMinimum{});
+  // Hardly an improvement over offset 0 means that nobody moved.
+  constexpr double kNoBetter = 0.001, kNothing = 1e-4;  // a share of the misfit; squared pixels
+  // Noise alone stays below this ratio if there are at least 300 distances.
+  constexpr double kTold = 1.25;
+  const bool is_better = *assumed - min_misfit + minimum.gain > kNothing + kNoBetter * *assumed;
+  const bool is_told = std::abs(best) < most_frames && sum / evaluated > kNothing + kTold * (min_misfit - minimum.gain);
+  return {is_better ? best + minimum.shift : 0, is_told};
 }
 
 SomePixel PixelBetween(const SomePixel& a, const SomePixel& b, const SomePixel& c, const SomePixel& d, double share) {
@@ -72,8 +76,8 @@ using Pixel = SomePixel;
 Pixel BeginOf(const std::optional<PixelSegment>& stroke) { return stroke ? Pixel(stroke->a) : std::nullopt; }
 Pixel EndOf(const std::optional<PixelSegment>& stroke) { return stroke ? Pixel(stroke->b) : std::nullopt; }
 
-/// The mean of the squared distances between what two cameras have marked when the second one is so late; nothing where
-/// they have too little in common.
+/// Returns the mean squared epipolar distance between the marks of two cameras if the second is late by `offset`
+/// frames; nothing if they have too few marks in common.
 std::optional<double> Misfit(const EpipolarGeometry& geometry, std::span<const Marks> first,
                              std::span<const Marks> second, double most_px, double offset) {
   double sum = 0;
@@ -93,8 +97,8 @@ std::optional<double> Misfit(const EpipolarGeometry& geometry, std::span<const M
       add(EndOf(here.strokes[i]), EndOf(there.strokes[i]));
     }
   }
-  constexpr int kFewest = 30;
-  if (count < kFewest) return std::nullopt;
+  constexpr int kMinPairs = 30;
+  if (count < kMinPairs) return std::nullopt;
   return sum / count;
 }
 

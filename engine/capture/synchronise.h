@@ -12,45 +12,45 @@
 namespace etude {
 
 struct SyncOptions {
-  /// The largest offset that is looked for, in frames either way. Raise it for cameras that were started by hand.
+  /// The maximum offset that is searched, in frames either way. Raise it for cameras that were started by hand.
   int most_frames = 16;
-  /// The distance in pixels beyond which two sightings that miss each other count no more: a mark on the wrong limb
-  /// must not set a clock.
+  /// The distance, in pixels, at which the error of a pair of sightings is capped, so that a mark on the wrong limb
+  /// does not determine a clock.
   double most_px = 20;
 };
 
 struct ClockOffset {
   double frames = 0;
-  /// True when the misfits determine the offset: on average they are a quarter more than the least, which is not at an
-  /// end of the search. False: nobody moves, or the clock is further off, and `frames` is a guess.
+  /// True if the misfits determine the offset: their mean is at least a quarter above the minimum, and the minimum is
+  /// not at an end of the search. If false, nobody moves or the true offset is out of range, and `frames` is a guess.
   bool is_told = false;
 };
 
-/// Finds the offset at which `misfit`, in pixels squared, is least: of all whole frames the best one, then where the
-/// parabola through its neighbourhood is lowest. Between frames nothing is asked, because an interpolated pixel errs
-/// less than those it is made of, which would draw every offset to a half. 0 where it is hardly less than at 0, or
-/// nothing there.
+/// Finds the offset that minimises `misfit`, in squared pixels: first the best whole number of frames, then the minimum
+/// of the parabola through its neighbourhood. The misfit is evaluated at whole frames only, because an interpolated
+/// pixel has a smaller error than the pixels it is computed from, which would bias every offset towards a half. Returns
+/// 0 if the minimum is hardly below the misfit at 0, or if there is no misfit at 0.
 ClockOffset FindOffset(const std::function<std::optional<double>(int offset)>& misfit, int most_frames);
 
-/// Returns the pixel `share` of the way from b to c, frames next to each other whose neighbours are a and d: a cubic
-/// through all (Catmull-Rom), straight where a or d is missing, nothing where b or c is.
+/// Returns the pixel at the share `share` between b and c, which are consecutive frames with the neighbours a and d: by
+/// a Catmull-Rom spline through all four, linearly if a or d is missing; empty if b or c is.
 using SomePixel = std::optional<glm::dvec2>;
 SomePixel PixelBetween(const SomePixel& a, const SomePixel& b, const SomePixel& c, const SomePixel& d, double share);
 
-/// Estimates how late each camera's pictures are *(ours)*, in frames: its frame k was taken at k + offset of the first
-/// camera's time. Each camera is set by the first one alone: the offset at which what both have marked, ends and
-/// strokes, meets best (`FindOffset`), the mean of their squared distances (`EpipolarGeometry`), the camera's marks
-/// taken between its frames (`PixelBetween`). A camera of which nothing tells the time (nobody moves, or too little is
-/// marked) has offset 0.
+/// Estimates the delay of each camera's pictures in frames *(ours)*: frame k of a camera was taken at the first
+/// camera's time k + offset. Each camera is compared with the first one: the offset minimises the mean squared epipolar
+/// distance (`EpipolarGeometry`, `FindOffset`) of all ends and strokes that both have marked, with the camera's marks
+/// interpolated between its frames (`MarksAt`). The offset is 0 if nothing determines it (nobody moves, or there are
+/// too few marks).
 std::vector<double> EstimateOffsets(std::span<const ProjectionMatrix> cameras,
                                     std::span<const std::vector<Marks>> marks, const SyncOptions& options = {});
 
-/// Returns what a camera would have marked at `frame`, between its frames: a cubic through the two frames on either
-/// side (Catmull-Rom), straight where one of the outer two lacks the mark; nothing where one of the inner two does.
-/// Where only every n-th frame is marked, give those frames alone.
+/// Returns the marks of a camera at a time between its frames: by a Catmull-Rom spline through the two frames on either
+/// side, linearly if one of the outer two lacks the mark, empty if one of the inner two does. If only every n-th frame
+/// is marked, pass those frames alone.
 Marks MarksAt(std::span<const Marks> track, double frame);
 
-/// Returns the marks of all cameras at the first one's times.
+/// Returns the marks of all cameras at the frame times of the first camera.
 std::vector<std::vector<Marks>> Synchronised(std::span<const std::vector<Marks>> marks,
                                              std::span<const double> offsets);
 

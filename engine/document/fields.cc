@@ -92,9 +92,9 @@ double Fields::Number(std::string_view key, double fallback, Range range) {
 }
 
 int Fields::Integer(std::string_view key, int fallback, Range range) {
-  constexpr double kLargest = std::numeric_limits<int>::max();
-  range.lowest = std::max(range.lowest, -kLargest);
-  range.highest = std::min(range.highest, kLargest);
+  constexpr double kMaxInt = std::numeric_limits<int>::max();
+  range.lowest = std::max(range.lowest, -kMaxInt);
+  range.highest = std::min(range.highest, kMaxInt);
   return static_cast<int>(OptionalWhole(key, range).value_or(fallback));
 }
 

@@ -11,15 +11,15 @@
 
 namespace etude {
 
-/// The closed interval a number must lie in.
+/// The closed interval in which a number must lie.
 struct Range {
   double lowest = -std::numeric_limits<double>::infinity();
   double highest = std::numeric_limits<double>::infinity();
 };
 
-/// Reads the keys of one mapping by name and type. Keeps the first complaint and goes on with
-/// defaults, so that reading code is a plain list of its keys; `Finish` then reports that complaint,
-/// or any key that nobody asked for (with the nearest known one).
+/// Reads the keys of one mapping by name and type. It keeps the first complaint and continues with defaults, so that
+/// reading code is a plain list of keys. `Finish` then returns that complaint, or one about any key that was not read
+/// (with the nearest known key).
 ///
 ///     Fields fields(node, "an ik scenario");
 ///     options.trials = fields.Integer("trials", 100, {1, 100000});
@@ -27,31 +27,33 @@ struct Range {
 ///     RETURN_IF_ERROR(fields.Finish());
 class Fields {
  public:
-  /// Reads the fields of `node`; `what` is the mapping's role in complaints, e.g. "a method of task ik". `node` must
-  /// outlive this.
+  /// `what` names the mapping in complaints, e.g. "a method of task ik". `node` must outlive this object.
   Fields(const Node& node, std::string what);
 
+  /// Each returns the value of `key`, or `fallback` (the empty list, nothing) if the key is absent or its value is
+  /// refused.
   double Number(std::string_view key, double fallback, Range range = {});
   int Integer(std::string_view key, int fallback, Range range = {});
   bool Boolean(std::string_view key, bool fallback);
   std::string Text(std::string_view key, std::string_view fallback);
-  /// A text that must be one of `allowed`.
+  /// Reads a text that must be one of `allowed`.
   std::string Choice(std::string_view key, const std::vector<std::string>& allowed, std::string_view fallback);
   std::vector<std::string> Texts(std::string_view key);
   std::vector<double> Numbers(std::string_view key, Range range = {});
   std::optional<double> OptionalNumber(std::string_view key, Range range = {});
-  /// A number without fraction; may be larger than an int.
+  /// Reads a whole number, which may exceed the range of int.
   std::optional<double> OptionalWhole(std::string_view key, Range range = {});
+  /// Reads a text that must be present and not empty.
   std::string RequiredText(std::string_view key);
 
-  /// The raw value under `key` (null when absent), marked as known.
+  /// Returns the value of `key` unconverted, null if absent, and marks the key as known.
   const Node* Raw(std::string_view key);
   const Node& node() const { return node_; }
 
-  /// Notes a complaint of the caller's own, at `place`; only the first one is kept.
+  /// Records a complaint of the caller at `place`; only the first complaint is kept.
   void Complain(Place place, std::string message);
   bool ok() const { return !error_.has_value(); }
-  /// The first complaint, or an unknown key, or success.
+  /// Returns the first complaint, else a complaint about the first unknown key, else success.
   Result<void> Finish();
 
  private:

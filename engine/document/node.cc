@@ -11,11 +11,12 @@
 namespace etude {
 namespace {
 
-constexpr int kDeepestNesting = 32;
-constexpr int kMostValues = 10'000;  // yaml-cpp takes quadratic time to load them
+constexpr int kMaxNesting = 32;
+constexpr int kMaxValues = 10'000;  // yaml-cpp needs quadratic time to load values
 
-/// The deepest bracket or run of list markers, whichever is larger, counted before yaml-cpp's recursive
-/// parser sees the text. It may overestimate. Nesting by indentation is left to yaml-cpp's own guard.
+/// Estimates the nesting of a text before yaml-cpp's recursive parser sees it: the deepest bracket or the longest run
+/// of list markers, whichever is larger. The estimate may be too high. Nesting by indentation is left to yaml-cpp's own
+/// guard.
 int EstimateNesting(std::string_view text) {
   int deepest = 0;
   int brackets = 0;
@@ -23,12 +24,13 @@ int EstimateNesting(std::string_view text) {
     std::size_t end = text.find('\n', i);
     if (end == std::string_view::npos) end = text.size();
     const std::string_view line = text.substr(i, end - i);
-    int markers = 0;  // "- - - x" and "? ? ? x" open a level each
+    int markers = 0;  // each marker of "- - - x" or "? ? ? x" opens a level
     for (std::size_t k = 0; k + 1 < line.size(); ++k) {
       const bool marker = (line[k] == '-' || line[k] == '?') && line[k + 1] == ' ';
       if (line[k] != ' ' && !marker) break;
       if (marker) ++markers;
     }
+    // Brackets stay open across lines.
     for (char c : line) {
       if (c == '[' || c == '{') ++brackets;
       if ((c == ']' || c == '}') && brackets > 0) --brackets;
@@ -40,8 +42,8 @@ int EstimateNesting(std::string_view text) {
   return deepest;
 }
 
-/// Refuses control characters (C0 but for tabs and line ends, delete, C1): texts of a document reach terminals and
-/// pages.
+/// Refuses control characters (C0 except tabs and line ends, delete, C1), because texts of a document reach terminals
+/// and web pages.
 Result<void> CheckControls(std::string_view text, const Place& place) {
   for (std::size_t at = 0; at < text.size(); ++at) {
     const auto byte = static_cast<unsigned char>(text[at]);
@@ -53,6 +55,7 @@ Result<void> CheckControls(std::string_view text, const Place& place) {
   return {};
 }
 
+// Converts yaml-cpp's tree to nodes with positions.
 class Builder {
  public:
   explicit Builder(std::string file) : file_(std::move(file)) {}
@@ -60,7 +63,7 @@ class Builder {
   Result<Node> Build(const YAML::Node& yaml, int depth) {
     Node node;
     node.place = At(yaml.Mark());
-    if (depth > kDeepestNesting) return Fail(node.place, "nested deeper than {} levels", kDeepestNesting);
+    if (depth > kMaxNesting) return Fail(node.place, "nested deeper than {} levels", kMaxNesting);
     switch (yaml.Type()) {
       case YAML::NodeType::Scalar:
         node.kind = Node::Kind::kScalar;
@@ -77,6 +80,7 @@ class Builder {
         break;
       case YAML::NodeType::Map:
         node.kind = Node::Kind::kMapping;
+        // Keys are unique plain texts.
         for (const auto& pair : yaml) {
           const Place key_place = At(pair.first.Mark());
           if (!pair.first.IsScalar()) return Fail(key_place, "a key must be plain text");
@@ -85,7 +89,8 @@ class Builder {
           if (node.Find(key) != nullptr) return Fail(key_place, "the key '{}' stands here twice", key);
           auto value = Build(pair.second, depth + 1);
           if (!value) return value;
-          if (value->kind == Node::Kind::kNull) value->place = key_place;  // yaml-cpp's is of what follows
+          // The position that yaml-cpp reports is that of the next token.
+          if (value->kind == Node::Kind::kNull) value->place = key_place;
           node.entries.push_back({key, key_place, std::move(*value)});
         }
         break;
@@ -104,8 +109,8 @@ class Builder {
   std::string file_;
 };
 
-/// Checks a document's event stream before it is loaded. An alias (`*name`) repeats a whole subtree, so a few lines can
-/// expand to gigabytes; loading expands it without a trace.
+/// Checks the event stream of a document before it is loaded. An alias (`*name`) repeats a whole subtree, so a few
+/// lines can expand to gigabytes, and loading expands aliases without leaving a trace.
 class DocumentCheck : public YAML::EventHandler {
  public:
   void OnDocumentStart(const YAML::Mark&) override {}
@@ -137,21 +142,22 @@ const Node* Node::Find(std::string_view key) const {
   return nullptr;
 }
 
-Result<Node> ParseYaml(std::string_view text, const std::string& file, std::size_t largest) {
+Result<Node> ParseYaml(std::string_view text, const std::string& file, std::size_t max_bytes) {
   const Place whole{file, 0, 0};
-  if (text.size() > largest) {
-    return Fail(whole, "{} bytes of YAML; at most {} are read", text.size(), largest);
+  if (text.size() > max_bytes) {
+    return Fail(whole, "{} bytes of YAML; at most {} are read", text.size(), max_bytes);
   }
   if (auto utf8 = CheckUtf8(text, file); !utf8) return tl::unexpected(utf8.error());
-  if (EstimateNesting(text) > kDeepestNesting) return Fail(whole, "nested deeper than {} levels", kDeepestNesting);
+  if (EstimateNesting(text) > kMaxNesting) return Fail(whole, "nested deeper than {} levels", kMaxNesting);
   Builder builder(file);
   try {
+    // Check the events first, then load.
     std::istringstream events{std::string(text)};
     DocumentCheck survey;
     YAML::Parser parser(events);
     parser.HandleNextDocument(survey);
     if (!survey.alias.is_null()) return Fail(builder.At(survey.alias), "aliases (*name) are not read; write it out");
-    if (survey.values > kMostValues) return Fail(whole, "{} values; at most {} are read", survey.values, kMostValues);
+    if (survey.values > kMaxValues) return Fail(whole, "{} values; at most {} are read", survey.values, kMaxValues);
     if (parser.HandleNextDocument(survey)) return Fail(whole, "more than one document (---); one is read");
     return builder.Build(YAML::Load(std::string(text)), 0);
   } catch (const YAML::Exception& error) {

@@ -9,18 +9,18 @@
 
 namespace etude {
 
-/// One value of a YAML document, and where it stands, so that every complaint can point at it.
+/// One value of a YAML document and its position, so that every complaint can refer to it.
 struct Node {
   enum class Kind { kNull, kScalar, kSequence, kMapping };
   struct Entry;
 
   Kind kind = Kind::kNull;
-  std::string scalar;          ///< kScalar: the text as written, quotes removed
+  std::string scalar;          ///< kScalar: the text without quotes
   std::vector<Node> items;     ///< kSequence
-  std::vector<Entry> entries;  ///< kMapping, in the order written; keys are unique
+  std::vector<Entry> entries;  ///< kMapping, in the order of the document; keys are unique
   Place place;
 
-  /// The value under `key`, or null when this is no mapping or has no such key.
+  /// Returns the value of `key`, or null if this is not a mapping or has no such key.
   const Node* Find(std::string_view key) const;
 };
 
@@ -30,16 +30,15 @@ struct Node::Entry {
   Node value;
 };
 
-/// Reads one YAML document. `file` names it in complaints. Refused: syntax errors, duplicate keys,
-/// aliases, a second document, more than `largest` bytes of text (1 MiB unless texts hold data) or 10,000 values,
-/// nesting deeper than 32 levels.
-Result<Node> ParseYaml(std::string_view text, const std::string& file, std::size_t largest = std::size_t{1} << 20);
+/// Parses one YAML document. `file` is its name in complaints. Refuses syntax errors, duplicate keys, aliases, a second
+/// document, more than `max_bytes` bytes (1 MiB, unless texts hold data), more than 10,000 values and nesting deeper
+/// than 32 levels.
+Result<Node> ParseYaml(std::string_view text, const std::string& file, std::size_t max_bytes = std::size_t{1} << 20);
 
-/// Returns how many values a document or a part of it holds, itself among them.
+/// Returns the number of values in a document or a part of it, including itself.
 std::size_t CountValues(const Node& node);
 
-/// Describes a value as complaints do: "a mapping", "a list", "the text 'abc'", "nothing": how complaints name what was
-/// found.
+/// Describes a value for complaints: "a mapping", "a list", "'abc'", "nothing".
 std::string Describe(const Node& node);
 
 }  // namespace etude

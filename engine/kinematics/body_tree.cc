@@ -60,6 +60,7 @@ bool IsValid(const LimbLengths& lengths) {
 }
 
 KinematicTree MakeBodyTree(const LimbLengths& lengths) {
+  // One row per joint: name, parent, p_PJ, R_WJ at rest, limits in degrees.
   const double half_shoulders = lengths.shoulder_width / 2;
   // clang-format off
   const std::array<JointRow, kBodyTreeJointCount> rows = {{
@@ -91,6 +92,7 @@ KinematicTree MakeBodyTree(const LimbLengths& lengths) {
   }};
   // clang-format on
 
+  // R_PJ follows from the rest axes of a joint and of its parent.
   KinematicTree tree;
   tree.standing_root = rows[0].R_WJ;
   for (const JointRow& row : rows) {
@@ -113,8 +115,8 @@ namespace {
 
 using enum Role;
 
-// The clip's joints: which limb of the tree each moves with. The tree's limbs are rigid, so a joint's children lie
-// where they lay at rest, turned with that limb.
+// The clip's joints, each with the limb of the tree that carries it. Limbs are rigid, so a joint's children keep their
+// rest offsets and turn with that limb.
 struct ClipJointRow {
   std::string_view name;
   int parent;
@@ -166,6 +168,7 @@ Clip ToClip(const KinematicTree& body, std::span<const TreeState> states, double
   Clip clip;
   clip.name = name;
   clip.rate_hz = rate_hz;
+  // The skeleton: offsets between the joints of the rest pose.
   const TreeFrames rest_frames = ComputeFrames(body, StandingState(body));
   const BodyPose rest = ToBodyPose(body, rest_frames);
   for (const ClipJointRow& row : kClipJoints) {
@@ -173,9 +176,10 @@ Clip ToClip(const KinematicTree& body, std::span<const TreeState> states, double
     clip.skeleton.joints.push_back({std::string(row.name), row.parent, {.translation = offset}, row.is_end});
   }
 
+  // Each frame: the world rotation of every joint, then its rotation relative to its parent.
   clip.frames.reserve(states.size());
   TreeFrames frames;
-  std::array<glm::dquat, kClipJoints.size()> R_WC;  // of each joint of the clip, whose frame is the world's at rest
+  std::array<glm::dquat, kClipJoints.size()> R_WC;  // rotation of each clip joint, identity at rest
   for (const TreeState& state : states) {
     ComputeFrames(body, state, frames);
     LocalPose& pose = clip.frames.emplace_back(kClipJoints.size());

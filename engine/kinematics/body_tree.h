@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// The limbs of one person, metres, both sides alike. The default is an adult.
+/// Limb lengths of one person, metres; left and right are equal. The defaults describe an adult.
 struct LimbLengths {
   double foot = 0.18;   ///< ankle to toe tips
   double shank = 0.42;  ///< knee to ankle
@@ -23,7 +23,7 @@ struct LimbLengths {
   double hand = 0.18;  ///< wrist to finger tips
 };
 
-/// Returns whether every length is finite and more than zero.
+/// Returns true if every length is finite and greater than zero.
 bool IsValid(const LimbLengths& lengths);
 
 /// Indices of `MakeBodyTree(…).joints`.
@@ -46,30 +46,30 @@ enum BodyTreeJoint {
   kBodyTreeJointCount
 };
 
-/// Returns paper B's body (figure 3.10): rooted at the left toe, 15 joints, 29 degrees of freedom,
-/// limits `adult`, effectors right foot, left hand, right hand, head in this order. At rest (all angles zero) it
-/// stands with hanging arms. *Ours*: its feet are level then; on real clips that keeps the ankles within their limits
-/// most often.
+/// Returns paper B's body (figure 3.10): rooted at the left toe, with 15 joints, 29 degrees of freedom, limits `adult`
+/// and the effectors right foot, left hand, right hand, head, in this order. At rest (all angles zero) it stands with
+/// hanging arms. *Ours*: its feet are level in the rest pose, because on real clips this keeps the ankles within their
+/// limits most often.
 KinematicTree MakeBodyTree(const LimbLengths& lengths);
 
-/// The part of the canonical body that a limb of the tree is.
+/// One limb of the tree, named by two roles of the canonical body.
 struct BodyTreeLimb {
-  Role from;  ///< the joint that it turns about
-  Role to;    ///< the joint that it leads to, or the end: the role of the effector on this limb
+  Role from;  ///< the joint that the limb turns about
+  Role to;    ///< the joint at its far end, or the role of the effector if the limb ends in one
 };
 
 /// Returns the limbs of `MakeBodyTree(…).joints`, in the order of BodyTreeJoint.
 std::span<const BodyTreeLimb, kBodyTreeJointCount> BodyTreeLimbs();
 
-/// Returns the twenty joints of a pose of paper B's body (`MakeBodyTree`): the hip centre is the navel, the spine lies
-/// at `kSpineShare` of the way from navel to neck.
+/// Returns the twenty joints of a pose of paper B's body (`MakeBodyTree`). The hip centre is the navel; the spine lies
+/// at the share `kSpineShare` of the way from navel to neck.
 BodyPose ToBodyPose(const KinematicTree& body, const TreeState& state);
 
-/// Returns a motion of paper B's body as a clip of its own skeleton, metres, Y up, rooted at the hips as other programs
-/// expect: the pelvis's frame becomes the root's rotation, and the left leg, which the tree climbs, is turned round.
-/// Exact: ComputeGlobals gives every joint the position that `ToBodyPose` gives. Joint names are MotionBuilder's, so
-/// that FindJointMap knows them; "LowerBack" lies on the hips and carries the navel's turn. At rest the skeleton stands
-/// with hanging arms, facing +Z.
+/// Returns a motion of paper B's body as a clip with its own skeleton: metres, Y up, rooted at the hips as other
+/// programs expect. The root's rotation is the pelvis's frame. The tree runs up the left leg from the toe; the skeleton
+/// runs down it. The conversion is exact: ComputeGlobals gives every joint the position that `ToBodyPose` gives. Joint
+/// names are MotionBuilder's, so FindJointMap knows them; "LowerBack" coincides with the hips and carries the navel's
+/// rotation. At rest the skeleton stands with hanging arms, facing +Z.
 Clip ToClip(const KinematicTree& body, std::span<const TreeState> states, double rate_hz, const std::string& name);
 
 }  // namespace etude

@@ -8,7 +8,7 @@ namespace {
 
 using enum Role;
 
-// Every role of paper B's body is where a limb begins or ends, but for the spine.
+// Returns the point of the tree for every role. All but the spine lie at an end of a limb.
 std::array<TreePoint, kRoleCount> PaperRoles(const KinematicTree& tree, const LimbLengths& lengths) {
   std::array<TreePoint, kRoleCount> roles;
   for (std::size_t i = 0; i < tree.joints.size(); ++i) {
@@ -21,7 +21,7 @@ std::array<TreePoint, kRoleCount> PaperRoles(const KinematicTree& tree, const Li
   return roles;
 }
 
-glm::dvec3 PlaceOf(const TreePoint& point, const TreeFrames& frames) {
+glm::dvec3 PositionOf(const TreePoint& point, const TreeFrames& frames) {
   const LimbFrame& X_WL = frames.joints[point.joint];
   return X_WL.position + X_WL.axes * point.p_LQ;
 }
@@ -45,7 +45,7 @@ CaptureBody PaperBody(const LimbLengths& lengths) {
 
 BodyPose ToBodyPose(const CaptureBody& body, const TreeFrames& frames) {
   BodyPose pose;
-  for (const Role role : AllRoles()) pose[role] = PlaceOf(body.roles[Index(role)], frames);
+  for (const Role role : AllRoles()) pose[role] = PositionOf(body.roles[Index(role)], frames);
   if (body.hips_turn) pose[kHipCentre] = 0.5 * (pose[kLeftHip] + pose[kRightHip]);
   return pose;
 }
@@ -87,7 +87,7 @@ Clip ToClip(const CaptureBody& body, std::span<const TreeState> states, double r
       const CaptureBody::ClipJoint& joint = body.skeleton[i];
       R_WC[i] = glm::normalize(glm::quat_cast(frames.joints[joint.limb].axes * joint.R_LC));
       if (joint.parent < 0) {
-        pose.push_back({PlaceOf(body.skeleton_root, frames), R_WC[i]});
+        pose.push_back({PositionOf(body.skeleton_root, frames), R_WC[i]});
       } else {
         pose.push_back({joint.offset, glm::conjugate(R_WC[joint.parent]) * R_WC[i]});
       }

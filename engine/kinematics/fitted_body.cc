@@ -12,44 +12,46 @@ namespace {
 
 using enum Role;
 
-constexpr double kSamePlace = 1e-6;     // metres
-constexpr double kShortestLimb = 1e-4;  // metres
-constexpr double kOffLine = 1e-4;       // metres
-// No end of a range is ever met: angles start within half a turn.
-constexpr double kFreely = 3 * kPi;
-// A joint that no role shows turns by so much at most.
-constexpr double kMostHidden = Radians(90);
+constexpr double kSamePositionM = 1e-6;
+constexpr double kMinLimbLengthM = 1e-4;
+constexpr double kMaxOffLineM = 1e-4;
+// A range without effect: angles start within half a turn of zero, so they never reach ±3π.
+constexpr double kUnlimited = 3 * kPi;
+// Limit of a joint that coincides with no role.
+constexpr double kMaxHiddenAngle = Radians(90);
 const glm::dvec3 kToTheRight(-1, 0, 0), kDownwards(0, -1, 0), kAhead(0, 0, 1);
 
-bool AreSame(const glm::dvec3& a, const glm::dvec3& b) { return glm::distance(a, b) < kSamePlace; }
+bool AreSame(const glm::dvec3& a, const glm::dvec3& b) { return glm::distance(a, b) < kSamePositionM; }
 
-/// One rigid part of the body, in the rest pose: what turns with a joint of it.
+/// One rigid part of the body in the rest pose: everything that moves with one joint.
 struct Part {
   std::string name;
   int parent = -1;
-  glm::dvec3 at{0};  ///< where it turns against its parent
+  glm::dvec3 at{0};  ///< the joint about which it turns against its parent
   bool is_left_out = false;
 };
 
-/// The rest body as parts, each of which leads somewhere. Part 0 is the pelvis.
+/// The rest body as rigid parts. Part 0 need not be the pelvis; `pelvis()` names it.
 class Parts {
  public:
   explicit Parts(const RestBody& rest) : pelvis_(rest.roles[Index(kHipCentre)].joint) {
     for (const RestBody::Joint& joint : rest.joints) all_.push_back({joint.name, joint.parent, joint.position});
     for (const Role role : AllRoles()) carrier_[Index(role)] = rest.roles[Index(role)].joint;
-    places_ = rest.Pose();
+    positions_ = rest.Pose();
     all_[pelvis_].parent = -1;
   }
 
-  /// Returns whether every role hangs on the pelvis.
-  bool HangTogether() const {
+  /// Returns true if every role belongs to the pelvis or a descendant of it.
+  bool AreConnected() const {
     return std::ranges::all_of(AllRoles(), [&](Role role) { return IsBelowPelvis(carrier_[Index(role)]); });
   }
 
+  /// Leaves out parts that are not below the pelvis or have no tips, and attaches parts that turn about one point to
+  /// the same parent.
   void Simplify() {
     for (std::size_t i = 0; i < all_.size(); ++i) all_[i].is_left_out = !IsBelowPelvis(static_cast<int>(i));
-    for (const Role role : AllRoles()) HandToParent(role);
-    while (LeaveOutOne() || HangHigherOne()) {
+    for (const Role role : AllRoles()) AssignToParent(role);
+    while (LeaveOutOne() || ReattachOne()) {
     }
   }
 
@@ -57,7 +59,7 @@ class Parts {
   std::size_t size() const { return all_.size(); }
   const Part& operator[](int part) const { return all_[part]; }
   int CarrierOf(Role role) const { return carrier_[Index(role)]; }
-  const BodyPose& places() const { return places_; }
+  const BodyPose& places() const { return positions_; }
 
   std::vector<int> ChildrenOf(int part) const {
     std::vector<int> children;
@@ -67,11 +69,11 @@ class Parts {
     return children;
   }
 
-  /// Returns the places of a part's other parts and roles, its own joint left out.
+  /// Returns the positions of a part's children and roles that differ from its own joint.
   std::vector<glm::dvec3> TipsOf(int part) const {
     std::vector<glm::dvec3> tips;
     for (const Role role : AllRoles()) {
-      if (carrier_[Index(role)] == part && !AreSame(places_[role], all_[part].at)) tips.push_back(places_[role]);
+      if (carrier_[Index(role)] == part && !AreSame(positions_[role], all_[part].at)) tips.push_back(positions_[role]);
     }
     for (const int child : ChildrenOf(part)) {
       if (!AreSame(all_[child].at, all_[part].at)) tips.push_back(all_[child].at);
@@ -85,6 +87,7 @@ class Parts {
     return part == pelvis_;
   }
 
+  // Gives the children and roles of `from` to `to`, and leaves `from` out.
   void MoveAll(int from, int to) {
     for (Part& part : all_) {
       if (part.parent == from) part.parent = to;
@@ -95,13 +98,13 @@ class Parts {
     all_[from].is_left_out = true;
   }
 
-  // A joint is the end of the limb above it.
-  void HandToParent(Role role) {
+  // A role at a joint is the end of the limb above that joint, so it belongs to the part above.
+  void AssignToParent(Role role) {
     int& carrier = carrier_[Index(role)];
-    while (carrier != pelvis_ && AreSame(all_[carrier].at, places_[role])) carrier = all_[carrier].parent;
+    while (carrier != pelvis_ && AreSame(all_[carrier].at, positions_[role])) carrier = all_[carrier].parent;
   }
 
-  // A part that leads nowhere, or has no length.
+  // Leaves out one part without tips. Returns false if there is none.
   bool LeaveOutOne() {
     for (std::size_t i = 0; i < all_.size(); ++i) {
       const int part = static_cast<int>(i);
@@ -112,8 +115,9 @@ class Parts {
     return false;
   }
 
-  // A part that turns about the same point as the one that it hangs on may as well hang on the next.
-  bool HangHigherOne() {
+  // If a part and its parent turn about the same point, attaches the part to its grandparent. Returns false if there is
+  // no such part.
+  bool ReattachOne() {
     for (Part& part : all_) {
       if (part.is_left_out || part.parent < 0 || part.parent == pelvis_) continue;
       if (!AreSame(part.at, all_[part.parent].at)) continue;
@@ -126,7 +130,7 @@ class Parts {
   int pelvis_;
   std::vector<Part> all_;
   std::array<int, kRoleCount> carrier_{};
-  BodyPose places_;
+  BodyPose positions_;
 };
 
 bool IsArm(Role role) {
@@ -135,31 +139,34 @@ bool IsArm(Role role) {
   return std::ranges::find(kArms, role) != kArms.end();
 }
 
-/// A limb in the rest pose.
+/// One limb of the tree in the rest pose, world coordinates.
 struct RestLimb {
-  glm::dvec3 from{0};  ///< where it turns in the tree
-  glm::dvec3 to{0};    ///< its main tip
+  glm::dvec3 from{0};  ///< its joint in the tree
+  glm::dvec3 to{0};    ///< its far end, which defines its Z axis
   std::vector<glm::dvec3> tips;
-  Role leads_to = kHipCentre;  ///< the first role that is met along it
+  Role leads_to = kHipCentre;  ///< the first role along it, away from the pelvis
 };
 
-/// Makes the tree of a body's parts.
+/// Builds the tree from the parts: up the left leg to the pelvis, then outwards from there.
 class Builder {
  public:
   explicit Builder(const Parts& parts) : parts_(parts), limb_of_(parts.size(), -1) {}
 
   Result<CaptureBody> Build() {
+    // The left leg, from the toe to the pelvis, where parent and child of the rest body change roles.
     AddRoot();
     int below = -1;
     for (int part = parts_.CarrierOf(kLeftFoot); part >= 0; part = parts_[part].parent) {
-      RETURN_IF_ERROR(AddClimbed(part, below));
+      RETURN_IF_ERROR(AddLeftLegLimb(part, below));
       below = part;
     }
-    for (std::size_t limb = 1; limb < order_.size(); ++limb) {  // the list grows on the way
+    // All other parts, parents first.
+    for (std::size_t limb = 1; limb < order_.size(); ++limb) {  // order_ grows inside the loop
       for (const int child : parts_.ChildrenOf(order_[limb])) {
-        if (limb_of_[child] < 0) RETURN_IF_ERROR(AddHanging(child));
+        if (limb_of_[child] < 0) RETURN_IF_ERROR(AddOutwardLimb(child));
       }
     }
+    // What pictures show of the body, and its skeleton as a clip.
     PlaceRoles();
     AddTwists();
     AddEnds();
@@ -174,8 +181,8 @@ class Builder {
     rest_axes_.push_back(glm::dmat3(1));
   }
 
-  // From the toe up to the pelvis: a limb begins where the one below it ends.
-  Result<void> AddClimbed(int part, int below) {
+  // Adds one limb of the left leg or the pelvis, which begins where the limb below it ends.
+  Result<void> AddLeftLegLimb(int part, int below) {
     RestLimb limb;
     limb.from = below < 0 ? parts_.places()[kLeftFoot] : parts_[below].at;
     limb.tips = parts_.TipsOf(part);
@@ -188,7 +195,8 @@ class Builder {
     return Add(part, below < 0 ? 0 : limb_of_[below], limb);
   }
 
-  Result<void> AddHanging(int part) {
+  // Adds a limb that leads away from the pelvis; its far end is its farthest tip.
+  Result<void> AddOutwardLimb(int part) {
     RestLimb limb{.from = parts_[part].at, .to = parts_[part].at, .tips = parts_.TipsOf(part)};
     for (const glm::dvec3& tip : limb.tips) {
       if (glm::distance(tip, limb.from) > glm::distance(limb.to, limb.from)) limb.to = tip;
@@ -206,23 +214,25 @@ class Builder {
       const std::vector<int> children = parts_.ChildrenOf(next[i]);
       next.insert(next.end(), children.begin(), children.end());
     }
-    return kHipCentre;  // of a part that leads nowhere, which there is none of
+    return kHipCentre;  // unreachable: Simplify leaves out parts without a role
   }
 
   Result<void> Add(int part, int parent, const RestLimb& limb) {
-    if (!(glm::distance(limb.from, limb.to) > kShortestLimb)) {
+    if (!(glm::distance(limb.from, limb.to) > kMinLimbLengthM)) {
       return Fail({}, "'{}' of the body at rest has no length", parts_[part].name);
     }
-    // Of limbs that turn about one point each may as well hang on the one that leads there.
+    // If the parent turns about the same point, attach the limb to the first ancestor that does not.
     while (parent > 0 && AreSame(OriginOf(parent), limb.from)) parent = body_.tree.joints[parent].parent;
+    // Axes at rest, and the axes at which all angles are zero.
     TreeJoint joint{.name = {}, .parent = parent};
     const glm::dmat3 R_WL = RestAxes(part, limb);
     joint.p_PJ = glm::transpose(rest_axes_[parent]) * (limb.from - OriginOf(parent));
     joint.R_PJ = glm::transpose(rest_axes_[parent]) * NeutralAxes(limb, R_WL);
     joint.first_dof = body_.tree.dof_count();
     joint.dof_count = DofsOf(part, limb);
-    const double most = IsHidden(part, limb.from) ? kMostHidden : kFreely;
-    for (int dof = 0; dof < joint.dof_count; ++dof) body_.tree.limits.push_back({-most, most});
+    // Limits of its angles.
+    const double max_angle = IsHidden(part, limb.from) ? kMaxHiddenAngle : kUnlimited;
+    for (int dof = 0; dof < joint.dof_count; ++dof) body_.tree.limits.push_back({-max_angle, max_angle});
     limb_of_[part] = static_cast<int>(body_.tree.joints.size());
     body_.tree.joints.push_back(joint);
     order_.push_back(part);
@@ -233,13 +243,15 @@ class Builder {
 
   glm::dvec3 OriginOf(int limb) const { return limb == 0 ? parts_.places()[kLeftFoot] : origins_[limb - 1]; }
 
-  // Z along the limb. X points right; of arms it is the axis about which elbows bend, of the pelvis forward.
+  // Returns R_WL at rest. Z runs along the limb. X points right; for arms it is the axis about which the elbow bends,
+  // for the pelvis it points forward.
   glm::dmat3 RestAxes(int part, const RestLimb& limb) const {
     const glm::dvec3 z = glm::normalize(limb.to - limb.from);
     const glm::dvec3 wanted = part == parts_.pelvis() ? kAhead
                               : IsArm(limb.leads_to)  ? glm::cross(z, kAhead)
                                                       : kToTheRight;
     glm::dvec3 x = wanted - glm::dot(wanted, z) * z;
+    // If that X axis is nearly parallel to Z, take the forward axis instead, then the downward one.
     constexpr double kAlong = 0.1;
     if (glm::length(x) < kAlong) x = kAhead - glm::dot(kAhead, z) * z;
     if (glm::length(x) < kAlong) x = kDownwards - glm::dot(kDownwards, z) * z;
@@ -247,8 +259,9 @@ class Builder {
     return {x, glm::cross(z, x), z};
   }
 
-  // The limb's axes when its angles are zero. Euler angles are singular where a limb points along X: for an upper arm
-  // that is forward and out, and back and in behind the trunk, which is rarer than to hang, to point aside or forward.
+  // Returns the limb's axes at zero angles. Euler angles are singular where a limb points along ±X. For an upper arm X
+  // is therefore diagonal, so that the singular directions are forward and out, and back and in behind the trunk: arms
+  // point there less often than down, sideways or forward.
   glm::dmat3 NeutralAxes(const RestLimb& limb, const glm::dmat3& R_WL) const {
     if (limb.leads_to != kLeftElbow && limb.leads_to != kRightElbow) return R_WL;
     const double back = limb.leads_to == kLeftElbow ? -1 : 1;
@@ -256,27 +269,30 @@ class Builder {
     return {x, glm::cross(kDownwards, x), kDownwards};
   }
 
+  // Returns 3 for limbs whose rotation about themselves is visible, else 2.
   int DofsOf(int part, const RestLimb& limb) const {
     const bool is_branched = parts_.ChildrenOf(part).size() > 1 || part == parts_.pelvis();
     const glm::dvec3 z = glm::normalize(limb.to - limb.from);
     const bool is_line = std::ranges::all_of(
-        limb.tips, [&](const glm::dvec3& tip) { return glm::length(glm::cross(tip - limb.from, z)) < kOffLine; });
+        limb.tips, [&](const glm::dvec3& tip) { return glm::length(glm::cross(tip - limb.from, z)) < kMaxOffLineM; });
     const bool is_climbed_shank = AreSame(limb.from, parts_.places()[kLeftAnkle]);
     const bool bends_below = limb.leads_to == kLeftElbow || limb.leads_to == kRightElbow || limb.leads_to == kRightKnee;
     return is_branched || !is_line || is_climbed_shank || bends_below ? 3 : 2;
   }
 
-  // Returns whether no role shows how a part bends.
+  // Returns true if the joint at `from` coincides with no role, so that pictures do not show how it bends.
   bool IsHidden(int part, const glm::dvec3& from) const {
     if (part == parts_.pelvis()) return false;
     return std::ranges::none_of(parts_.places().joints, [&](const glm::dvec3& place) { return AreSame(place, from); });
   }
 
+  // Returns a position of the rest pose as a point of the limb made from `part`.
   TreePoint PointAt(const glm::dvec3& place, int part) const {
     const int limb = limb_of_[part];
     return {limb, glm::transpose(rest_axes_[limb]) * (place - OriginOf(limb))};
   }
 
+  // Returns true if `place` is the joint or a tip of the part.
   bool Holds(int part, const glm::dvec3& place) const {
     if (AreSame(parts_[part].at, place)) return true;
     return std::ranges::any_of(parts_.TipsOf(part), [&](const glm::dvec3& tip) { return AreSame(tip, place); });
@@ -296,7 +312,7 @@ class Builder {
     body_.lengths = MeasureLimbLengths(std::span(&rest, 1));
   }
 
-  // Adds the twists of the limbs that turn elbows and knees into the plane in which they bend.
+  // Adds the limbs whose twist turns the plane in which an elbow or a knee bends.
   void AddTwists() {
     const auto add = [&](Role lower_joint, Role upper, Role middle, Role lower, double bends) {
       const TreePoint& point = body_.roles[Index(lower_joint)];
@@ -308,7 +324,8 @@ class Builder {
     add(kLeftAnkle, kLeftHip, kLeftKnee, kLeftAnkle, -1);
   }
 
-  // Paper B's four; its root stands as the left foot was seen, this one is held there by that limb's direction.
+  // Adds paper B's four ends. The left foot needs no position, because the root stands where it was seen; only the
+  // direction of its limb counts.
   void AddEnds() {
     for (const Role role : {kRightFoot, kLeftHand, kRightHand, kHead}) AddEnd(role, true);
     AddEnd(kLeftFoot, false);
@@ -317,17 +334,20 @@ class Builder {
   void AddEnd(Role role, bool has_position) {
     const glm::dvec3 outer = parts_.places()[role], inner = parts_.places()[*ParentOf(role)];
     const int limb = limb_of_[parts_.CarrierOf(role)];
+    // A limb of the left leg runs from the outer joint to the inner one.
     const bool is_climbed = AreSame(OriginOf(limb), outer);
     const TreePoint end = PointAt(is_climbed ? inner : outer, parts_.CarrierOf(role));
-    const double aside = glm::length(glm::cross(end.p_LQ, glm::dvec3(0, 0, 1)));
+    // A direction counts only if the stroke between both roles is the rigid limb itself.
+    const double off_line = glm::length(glm::cross(end.p_LQ, glm::dvec3(0, 0, 1)));
     const bool has_direction =
-        AreSame(OriginOf(limb), is_climbed ? outer : inner) && body_.is_rigid[Index(role)] && aside < kOffLine;
+        AreSame(OriginOf(limb), is_climbed ? outer : inner) && body_.is_rigid[Index(role)] && off_line < kMaxOffLineM;
     if (!has_position && !has_direction) return;
     body_.tree.effectors.push_back({RoleName(role), limb, end.p_LQ});
     body_.ends.push_back({role, has_position, has_direction, is_climbed ? -1.0 : 1.0});
   }
 
   void AddSkeleton() {
+    // One skeleton joint per part, parents first, from the pelvis outwards.
     std::vector<int> joint_of(parts_.size(), -1);
     std::vector<int> next{parts_.pelvis()};
     for (std::size_t i = 0; i < next.size(); ++i) {
@@ -343,6 +363,7 @@ class Builder {
       const std::vector<int> children = parts_.ChildrenOf(part);
       next.insert(next.end(), children.begin(), children.end());
     }
+    // The five ends of the body as end sites.
     body_.skeleton_root = PointAt(parts_[parts_.pelvis()].at, parts_.pelvis());
     for (const Role role : {kHead, kLeftHand, kRightHand, kLeftFoot, kRightFoot}) {
       const int part = parts_.CarrierOf(role);
@@ -357,17 +378,17 @@ class Builder {
 
   const Parts& parts_;
   CaptureBody body_;
-  std::vector<int> limb_of_;           // of each part
-  std::vector<int> order_;             // of each limb: its part
+  std::vector<int> limb_of_;           // the limb of each part, −1 if none yet
+  std::vector<int> order_;             // the part of each limb
   std::vector<glm::dmat3> rest_axes_;  // of each limb: R_WL at rest
-  std::vector<glm::dvec3> origins_;    // of each limb but the first: where it begins at rest
+  std::vector<glm::dvec3> origins_;    // the rest position of each limb's joint, the first limb left out
 };
 
 }  // namespace
 
 Result<CaptureBody> FittedBody(const RestBody& rest) {
   Parts parts(rest);
-  if (!parts.HangTogether()) return Fail({}, "a part of the body does not hang on its pelvis");
+  if (!parts.AreConnected()) return Fail({}, "a part of the body does not hang on its pelvis");
   parts.Simplify();
   return Builder(parts).Build();
 }

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kLine = 8;  // doubles of a cache line
 
-// An odd number of cache lines, so that the rows of one problem do not all fall into one set of the cache.
+// Returns an odd number of cache lines, so that the rows of one problem do not share one cache set.
 std::size_t StrideFor(int count) { return (((static_cast<std::size_t>(count) + kLine - 1) / kLine) | 1) * kLine; }
 
 }  // namespace
@@ -32,8 +32,8 @@ IkBatch::IkBatch(const KinematicTree& tree, std::span<const IkProblem> problems)
   }
 }
 
-void IkBatch::Set(int place, const IkProblem& problem) {
-  double* to = numbers_.data() + place;
+void IkBatch::Set(int problem_index, const IkProblem& problem) {
+  double* to = numbers_.data() + problem_index;
   const auto put = [&](double number) {
     *to = number;
     to += stride_;
@@ -54,8 +54,8 @@ void IkBatch::Set(int place, const IkProblem& problem) {
   }
 }
 
-IkProblem IkBatch::Get(int place) const {
-  const double* from = numbers_.data() + place;
+IkProblem IkBatch::Get(int problem_index) const {
+  const double* from = numbers_.data() + problem_index;
   const auto take = [&] {
     const double number = *from;
     from += stride_;
@@ -82,10 +82,11 @@ IkProblem IkBatch::Get(int place) const {
   return problem;
 }
 
-// Row by row, without branches, so that compilers make vector code of it. Comparisons are false for what is no number.
+// Works row by row without branches, so that compilers vectorise it. Every demand is a comparison that NaN fails.
 std::vector<int> IkBatch::FindSound() const {
+  // Checks that set faults[n] for every problem n that fails them.
   const std::size_t count = count_;
-  std::vector<std::int64_t> faults(count);  // as wide as a double
+  std::vector<std::int64_t> faults(count);  // as wide as a double, for vectorisation
   const auto demand = [&](const auto& holds) {
     for (std::size_t n = 0; n < count; ++n) faults[n] |= holds(n) ? 0 : 1;
   };
@@ -106,12 +107,14 @@ std::vector<int> IkBatch::FindSound() const {
       return std::abs(determinant - 1) < kFrameTolerance;
     });
   };
+  // Angles and limits are finite and in order.
   for (int dof = 0; dof < dofs_; ++dof) {
     demand_sane(start_angles(dof));
     demand_sane(lower_limits(dof));
     demand_sane(upper_limits(dof));
     demand([lower = lower_limits(dof), upper = upper_limits(dof)](std::size_t n) { return lower[n] <= upper[n]; });
   }
+  // The root and every target are orthonormal frames at a sane position, with non-negative weights.
   for (int k = 0; k < 3; ++k) demand_sane(root(k));
   demand_frame([this](int k) { return root(3 + k); });
   for (int e = 0; e < effectors_; ++e) {

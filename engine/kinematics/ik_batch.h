@@ -8,14 +8,13 @@
 
 namespace etude {
 
-/// A batch of problems of one tree as a structure of arrays: a row for each number of an `IkProblem`, the problems side
-/// by side in it.
+/// Many problems of one tree as a structure of arrays: one row per number of an `IkProblem`, one column per problem.
 class IkBatch {
  public:
   /// Makes `count` problems, all zeros.
   IkBatch(const KinematicTree& tree, int count);
-  /// Takes the problems of a list. One whose lists do not fit the tree stays all zeros, which no problem may be (its
-  /// axes are none).
+  /// Copies a list of problems. A problem whose lists do not fit the tree stays all zeros, which `FindSound` never
+  /// accepts (zero axes are not unit vectors).
   IkBatch(const KinematicTree& tree, std::span<const IkProblem> problems);
 
   int count() const { return count_; }
@@ -23,10 +22,10 @@ class IkBatch {
   std::span<double> start_angles(int dof) { return row(dof); }
   std::span<double> lower_limits(int dof) { return row(dofs_ + dof); }
   std::span<double> upper_limits(int dof) { return row(2 * dofs_ + dof); }
-  /// Returns a number of the root. 0…2 are p_WL; 3…11 are R_WL, column by column.
+  /// Returns the row of one number of the root: 0…2 are p_WL, 3…11 are R_WL, column by column.
   std::span<double> root(int number) { return row(3 * dofs_ + number); }
-  /// Returns a number of a target. 0…2 are p_WD; 3…11 are R_WD, column by column; 12 is the position's weight; 13…15
-  /// are the axes' weights.
+  /// Returns the row of one number of a target: 0…2 are p_WD, 3…11 are R_WD, column by column, 12 is the position
+  /// weight, 13…15 are the axis weights.
   std::span<double> target(int effector, int number) {
     return row(3 * dofs_ + kRootNumbers + effector * kTargetNumbers + number);
   }
@@ -38,19 +37,20 @@ class IkBatch {
     return row(3 * dofs_ + kRootNumbers + effector * kTargetNumbers + number);
   }
 
-  /// The numbers of one problem, `stride` after `stride`: start angles, lower and upper limits, root, targets.
+  /// One problem: element k is `numbers[k * stride]`. The order is start angles, lower limits, upper limits, root,
+  /// targets.
   struct Column {
     const double* numbers = nullptr;
     std::size_t stride = 1;
   };
-  Column column(int place) const { return {numbers_.data() + place, stride_}; }
+  Column column(int problem_index) const { return {numbers_.data() + problem_index, stride_}; }
   static constexpr int kRootNumbers = 12, kTargetNumbers = 16;
 
-  /// Puts `problem`, which must fit the tree, to its place.
-  void Set(int place, const IkProblem& problem);
-  IkProblem Get(int place) const;
+  /// Stores `problem`, whose lists must fit the tree, as column `problem_index`.
+  void Set(int problem_index, const IkProblem& problem);
+  IkProblem Get(int problem_index) const;
 
-  /// Returns the places of the problems in which `FindFault` finds no fault.
+  /// Returns the indices of the problems in which `FindFault` finds no fault.
   std::vector<int> FindSound() const;
 
  private:
@@ -65,7 +65,7 @@ class IkBatch {
 /// The solutions of a batch.
 struct IkBatchSolution {
   int count = 0;
-  std::vector<double> angles;  ///< of the first degree of freedom for all problems, then of the second and so on
+  std::vector<double> angles;  ///< angle of degree of freedom d of problem n at [d · count + n], radians
   std::vector<IkStatus> statuses;
   std::vector<int> iterations, fk_evaluations;
 

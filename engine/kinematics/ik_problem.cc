@@ -11,7 +11,7 @@ namespace etude {
 namespace {
 
 constexpr double kCmPerMetre = 100;
-constexpr double kPerSquareCm = kCmPerMetre * kCmPerMetre;  // of a weight per cm², in a weight per m²
+constexpr double kPerSquareCm = kCmPerMetre * kCmPerMetre;  // converts a weight per cm² to one per m²
 
 constexpr Named<WeightRule> kRules[] = {{"fixed", WeightRule::kFixed},
                                         {"fixed-tuned", WeightRule::kFixedTuned},
@@ -22,7 +22,7 @@ constexpr Named<WeightRule> kRules[] = {{"fixed", WeightRule::kFixed},
 constexpr Named<WeightRefresh> kRefreshes[] = {
     {"sweep", WeightRefresh::kSweep}, {"joint", WeightRefresh::kJoint}, {"dof", WeightRefresh::kDof}};
 
-// Without branches: `&` where all is as good as always true. What is no number is below nothing.
+// These checks use `&` instead of `&&` to avoid branches. NaN fails every comparison, so NaN is never sane.
 inline bool IsSane(double value) { return std::abs(value) <= kIkFarthest; }
 inline bool IsSane(const glm::dvec3& v) { return IsSane(v.x) & IsSane(v.y) & IsSane(v.z); }
 
@@ -30,7 +30,7 @@ inline bool IsUnit(const glm::dvec3& axis) { return std::abs(glm::dot(axis, axis
 
 inline bool IsWeight(double weight) { return (weight >= 0) & (weight <= kIkFarthest); }
 
-// Unit axes at right angles to each other, and no mirror image.
+// True for unit axes at right angles to each other that form a right-handed frame.
 inline bool IsAFrame(const glm::dmat3& axes) {
   return IsUnit(axes[0]) & IsUnit(axes[1]) & IsUnit(axes[2]) & (std::abs(glm::determinant(axes) - 1) < kFrameTolerance);
 }
@@ -40,7 +40,8 @@ inline bool IsGood(const EffectorTarget& target) {
          IsWeight(target.axis_weights.z) & IsSane(target.position) & IsAFrame(target.axes);
 }
 
-// One root, which stands first and does not turn; parents before children; every index in its list.
+// True if the first joint is the only root and does not turn, parents stand before children, degrees of freedom are
+// numbered consecutively, and all indices are valid.
 bool IsATree(const KinematicTree& tree) {
   const int joints = static_cast<int>(tree.joints.size());
   int dofs = 0;
@@ -56,26 +57,26 @@ bool IsATree(const KinematicTree& tree) {
   return std::ranges::all_of(tree.effectors, [&](const Effector& e) { return e.joint >= 0 && e.joint < joints; });
 }
 
-// A point that a target fixes, and the limbs from the root to it.
+// A point that a target fixes in the world, and the chain of joints from there to the root.
 struct FixedPoint {
-  glm::dvec3 place;
+  glm::dvec3 position;
   std::vector<int> joints;  // from the point to the root
-  double last_limb = 0;     // from the last joint to the point
+  double last_limb = 0;     // length from the last joint to the point
 };
 
 FixedPoint FixedBy(const KinematicTree& tree, const Effector& effector, const EffectorTarget& target) {
   FixedPoint point{target.position, {}, glm::length(effector.p_LE)};
   const glm::dvec3& w = target.axis_weights;
-  if (w.x > 0 && w.y > 0 && w.z > 0) {  // a whole frame: the limb's upper end is known, too
-    point.place -= target.axes * effector.p_LE;
+  if (w.x > 0 && w.y > 0 && w.z > 0) {  // all three axes have targets, so the upper end of the limb is fixed, too
+    point.position -= target.axes * effector.p_LE;
     point.last_limb = 0;
   }
   for (int joint = effector.joint; joint >= 0; joint = tree.joints[joint].parent) point.joints.push_back(joint);
   return point;
 }
 
-// The limbs from `point` up to where they meet those of `other`: their straight length, and the joint they end at
-// (−1: there are none).
+// Returns the chain of limbs from `point` up to the first joint in `shared`: their summed length, and the joint at
+// which the chain ends (−1 if it is empty).
 struct Branch {
   double length = 0;
   int top = -1;
@@ -91,11 +92,11 @@ Branch BranchOf(const KinematicTree& tree, const FixedPoint& point, std::span<co
   return branch;
 }
 
-// The longest distance that two points can be from each other: all limbs between them stretched out.
+// Returns the largest possible distance of two points: the limbs between them, stretched out.
 double LongestBetween(const KinematicTree& tree, const FixedPoint& a, const FixedPoint& b) {
   const Branch to_a = BranchOf(tree, a, b.joints), to_b = BranchOf(tree, b, a.joints);
   if (to_a.top < 0 || to_b.top < 0) return to_a.length + to_b.length;
-  // Both branches leave the same limb, which is rigid.
+  // Both chains end on the same rigid limb, so the distance between their joints on it is known exactly.
   const glm::dvec3& p_PA = tree.joints[to_a.top].p_PJ;
   const glm::dvec3& p_PB = tree.joints[to_b.top].p_PJ;
   return to_a.length + to_b.length - glm::length(p_PA) - glm::length(p_PB) + glm::distance(p_PA, p_PB);
@@ -118,7 +119,7 @@ std::optional<WeightRule> FindWeightRule(std::string_view name) { return FindVal
 std::optional<WeightRefresh> FindWeightRefresh(std::string_view name) { return FindValue(kRefreshes, name); }
 
 WeightFormula FormulaOf(WeightRule rule) {
-  constexpr double kRoot = 31.622776601683793;  // 100^0.75, of centimetres in a metre
+  constexpr double kRoot = 31.622776601683793;  // 100^0.75, which converts e^0.75 from metres to centimetres
   switch (rule) {
     case WeightRule::kFixed:
       return {kPerSquareCm, 1, ErrorPower::kNone};
@@ -176,7 +177,7 @@ std::string_view FindTreeFault(const KinematicTree& tree) {
   if (!IsATree(tree)) return "the joints are no tree with its root first";
   for (const TreeJoint& joint : tree.joints) {
     if (joint.parent < 0) continue;
-    // A joint may stand where the root does: so a tree turns as a whole.
+    // A joint may coincide with the root: this lets the whole tree turn.
     if (!IsSane(joint.p_PJ) || (joint.parent > 0 && glm::length(joint.p_PJ) <= 0)) return "a limb has no length";
   }
   for (const Effector& effector : tree.effectors) {
@@ -225,11 +226,12 @@ bool IsOutOfReach(const KinematicTree& tree, const IkProblem& problem) {
   std::vector<FixedPoint> points;
   for (std::size_t e = 0; e < tree.effectors.size(); ++e) {
     if (problem.targets[e].position_weight <= 0) continue;
+    // Compare the distance to the root, then to every earlier target, with the stretched limbs in between.
     const FixedPoint point = FixedBy(tree, tree.effectors[e], problem.targets[e]);
-    const double from_root = glm::distance(point.place, problem.start.root_position);
+    const double from_root = glm::distance(point.position, problem.start.root_position);
     if (from_root > BranchOf(tree, point, {}).length + kRounding) return true;
     for (const FixedPoint& other : points) {
-      if (glm::distance(point.place, other.place) > LongestBetween(tree, point, other) + kRounding) return true;
+      if (glm::distance(point.position, other.position) > LongestBetween(tree, point, other) + kRounding) return true;
     }
     points.push_back(point);
   }

@@ -14,9 +14,9 @@
 
 namespace etude {
 
-/// The rule by which an end effector's position counts against its three axes. Paper B, section 3.7.3, asks for weights
-/// that follow the errors and gives no formula; the formulas are ours. e = distance to the target in cm, θ_k = angle of
-/// axis k to its target.
+/// How an end effector's position error is weighed against the errors of its three axes. Paper B, section 3.7.3, asks
+/// for weights that follow the errors but gives no formula; the formulas are ours. e = distance to the target in cm,
+/// θ_k = angle of axis k to its target axis.
 enum class WeightRule {
   kFixed,          ///< w_p = 1, w_o = 1
   kFixedTuned,     ///< w_p = 0.0015, w_o = 1
@@ -26,10 +26,10 @@ enum class WeightRule {
   kWangChen,       ///< w_p = 0.0007 (1 + min/max(|P_d|, |P_c|)), w_o = 1 (Wang and Chen 1991)
 };
 
-/// The step after which errors are measured anew for the weights that depend on them.
+/// When a sweep recomputes adaptive weights: once per sweep, per joint, or per degree of freedom.
 enum class WeightRefresh { kSweep, kJoint, kDof };
 
-/// Return the names of scenario files: "fixed", "fixed-tuned", … and "sweep", "joint", "dof".
+/// The names that scenario files use: "fixed", "fixed-tuned", … and "sweep", "joint", "dof".
 const std::vector<std::string>& WeightRuleNames();
 const std::vector<std::string>& WeightRefreshNames();
 std::optional<WeightRule> FindWeightRule(std::string_view name);
@@ -37,70 +37,72 @@ std::optional<WeightRefresh> FindWeightRefresh(std::string_view name);
 
 /// The weights of one end effector.
 struct EffectorWeights {
-  double position = 1;  ///< w_p per square METRE (the formulas' value, which is per cm², times 10⁴)
+  double position = 1;  ///< w_p per square METRE: the formula's value, which is per cm², times 10⁴
   glm::dvec3 axes{1};   ///< w_o1, w_o2, w_o3
 };
 
-/// The power of an error that a weight grows with.
+/// The power of the error to which a weight is proportional.
 enum class ErrorPower { kNone, kThreeQuarters, kOne };
 
-/// A rule as numbers: w_p = `position` · e^power, w_ok = `axis` · θ_k^power with e in metres and θ_k in radians.
+/// A weight rule in SI units: w_p = `position` · e^power, w_ok = `axis` · θ_k^power, e in metres, θ_k in radians.
 struct WeightFormula {
   double position = 1;
   double axis = 1;
   ErrorPower power = ErrorPower::kNone;
 };
 
-/// Returns the rule as numbers; of `kWangChen` the part without ρ.
+/// Returns the rule in SI units; for `kWangChen` without the factor 1 + ρ.
 WeightFormula FormulaOf(WeightRule rule);
 
-/// Returns whether the rule depends on errors. `kWangChen` does not: it depends on the joint that turns.
+/// Returns true if the weights depend on the errors. Those of `kWangChen` do not; they depend on the joint that turns.
 bool IsAdaptive(WeightRule rule);
 
-/// Returns the weights by `rule` of an effector `distance` metres from its target with axes off by `axis_angles`
-/// radians. For `kWangChen` this is the part without ρ; multiply `position` by `WangChenFactor` at each joint.
+/// Returns the weights of an effector that is `distance` metres from its target and whose axes are off by `axis_angles`
+/// radians. For `kWangChen` the factor 1 + ρ is missing: multiply `position` by `WangChenFactor` at each joint.
 EffectorWeights ComputeWeights(WeightRule rule, double distance, const glm::dvec3& axis_angles);
 
-/// Returns 1 + ρ, where ρ = min / max of the distances of the effector and of its target from the joint; 1 when both
-/// are 0.
+/// Returns 1 + ρ, where ρ = min / max of the distances of the effector and of its target from the joint; returns 1 if
+/// both distances are 0.
 double WangChenFactor(const glm::dvec3& current, const glm::dvec3& desired);
 
-/// The pose X_WD that one end effector shall have, and how much each part of that matters.
+/// The desired pose X_WD of one end effector, and the weight of each part of it.
 struct EffectorTarget {
   glm::dvec3 position{0};      ///< p_WD, metres
   glm::dmat3 axes{1};          ///< R_WD: its three axes in the world, unit columns
-  double position_weight = 1;  ///< multiplies the weight rule's w_p; 0 = the position is unknown
+  double position_weight = 1;  ///< multiplies w_p of the weight rule; 0 if the position is unknown
   glm::dvec3 axis_weights{1};  ///< multiplies w_o of each axis; (0, 0, 1) when only the limb's direction is known
 };
 
-/// The task to find angles that bring every end effector to its target, beginning with those of `start`, whose root
-/// stays where it is.
+/// Find angles that bring every end effector to its target. The search begins at the angles of `start`; the root of
+/// `start` stays fixed.
 struct IkProblem {
   TreeState start;
   std::vector<EffectorTarget> targets;  ///< one per effector of the tree, in its order
   std::vector<AngleRange> limits;       ///< one per degree of freedom, e.g. the tree's own
 };
 
-/// The settings that all solvers share; those of one solver are in its own header.
+/// Options that all solvers share. Each solver's own options are in its header.
 struct IkOptions {
-  WeightRule weights = WeightRule::kAdaptive;  ///< CCD only
+  WeightRule weights = WeightRule::kAdaptive;  ///< CCD solvers only
   WeightRefresh refresh = WeightRefresh::kSweep;
   /// The solver's own settings for `IkSolver::solve`, one value for each of `IkSolver::settings`; empty: its defaults.
   std::vector<double> solver_settings;
-  bool limits = true;  ///< paper B, section 3.7.1; off: angles are free
-  /// No angle may leave its start angle by more than this, radians (paper B, section 3.7.2). Empty: no such bound.
+  bool limits = true;  ///< paper B, section 3.7.1; false leaves all angles free
+  /// Maximum difference between an angle and its start angle, radians (paper B, section 3.7.2). Empty: unlimited.
   std::optional<double> angle_change_tolerance;
   int max_iterations = 200;
-  /// A pose has converged when every effector is nearer than the one, and every single axis of it than the other (axes
-  /// and positions of weight 0 do not count): a mean over the axes would pass a limb that is twisted too far, since the
-  /// axis that it is twisted about stays. The defaults are "solved practically": 0.1 cm and 0.1°.
+  /// A pose has converged if every effector is nearer to its target than `position_goal` and every single axis of it
+  /// nearer than `axis_goal`; axes and positions of weight 0 do not count. A mean over the axes would accept a twisted
+  /// limb, because a twist leaves the limb's own axis in place. The defaults, 0.1 cm and 0.1°, mean "solved
+  /// practically".
   double position_goal = 0.001;     ///< metres
   double axis_goal = Radians(0.1);  ///< radians
-  /// A solver has stalled when no angle moves further than this in one iteration (radians): far below what any goal can
-  /// see, and above rounding.
+  /// A solver has stalled if no angle moves by more than this in one iteration, radians. The default is far below any
+  /// goal and above rounding.
   double stall_change = 1e-10;
-  bool trace = false;  ///< fill IkSolution::trace
-  /// The trace keeps this many entries at most, the first ones: an entry takes half a kilobyte, and time to compute.
+  bool trace = false;  ///< if true, IkSolution::trace is filled
+  /// Maximum number of trace entries; later ones are dropped. Lower it for long runs: an entry takes half a kilobyte
+  /// and costs time.
   int longest_trace = std::numeric_limits<int>::max();
 
   bool operator==(const IkOptions&) const = default;
@@ -108,25 +110,25 @@ struct IkOptions {
 
 enum class IkStatus {
   kConverged,
-  kStalled,      ///< the angles do not move any more, and a goal is not reached
-  kUnreachable,  ///< not converged, and no pose could be: `IsOutOfReach`; the angles are the nearest that were found
+  kStalled,      ///< the angles no longer move, and a goal is not reached
+  kUnreachable,  ///< not converged, and no pose can be (`IsOutOfReach`); the angles are the best that were found
   kIterationLimit,
-  kBadInput,  ///< nothing was computed; angles are zeros
+  kBadInput,  ///< the input has a fault (`FindFault`); nothing was computed, all angles are 0
 };
 
 /// The distance of one end effector from its target.
 struct EffectorError {
   double position = 0;        ///< metres
-  glm::dvec3 axis_angles{0};  ///< of each axis to its target, radians
+  glm::dvec3 axis_angles{0};  ///< between each axis and its target axis, radians
 
-  /// Returns the mean over the axes of non-zero weight; 0 when there is none.
+  /// Returns the mean over the axes whose weight is positive, radians; 0 if there is none.
   double MeanAxisAngle(const glm::dvec3& axis_weights) const;
 };
 
 /// The state after one iteration; entry 0 is the start.
 struct IkTraceEntry {
   double worst_position = 0;   ///< metres, the largest over the effectors
-  double worst_axis = 0;       ///< radians, the largest of a single axis: what the goal is compared with
+  double worst_axis = 0;       ///< radians, the largest of a single axis; this is compared with `axis_goal`
   double worst_mean_axis = 0;  ///< radians, the largest mean over an effector's axes
   std::vector<EffectorError> errors;
   std::vector<double> angles;
@@ -141,43 +143,46 @@ struct IkSolution {
   std::vector<IkTraceEntry> trace;
 };
 
-/// No number of a problem may be larger: beyond this (metres: 1,000 km), squares of distances lose what goals are made
-/// of.
+/// Upper bound on the magnitude of every number of a problem (in metres: 1,000 km). Beyond it, squares of distances
+/// lose the digits that the goals are measured in.
 inline constexpr double kIkFarthest = 1e6;
-/// Squares of unit vectors, and the determinant of a frame, may differ from 1 by this much.
+/// Tolerances on the squared length of an axis and on the determinant of a frame, which should both be 1.
 inline constexpr double kUnitTolerance = 2e-6, kFrameTolerance = 1e-5;
 
-/// Returns why a problem cannot be worked on, or empty when it can: joints that are no tree, angles that are not theirs
-/// one after the other, sizes that do not fit it, values that are not finite or absurdly far (> 1,000 km), limbs of no
-/// length (a joint may stand where the root does), limits whose lower end is above the upper, axes that are not unit
-/// vectors, negative weights, an iteration limit below 1.
+/// Returns the fault of a problem as text, or empty if there is none. Faults are: joints that form no tree; degrees of
+/// freedom that are not numbered consecutively; lists whose sizes do not fit the tree; values that are not finite or
+/// exceed `kIkFarthest`; limbs of zero length (a joint may coincide with the root); limits with lower > upper; axes
+/// that are not orthonormal; negative weights; an iteration limit below 1.
 std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
-/// Find the faults of the tree, of the options or of both; and of one problem of a tree without faults.
+/// The same checks in parts: of tree and options, of the tree, of the options, and of one problem of a tree without
+/// faults.
 std::string_view FindFault(const KinematicTree& tree, const IkOptions& options);
 std::string_view FindTreeFault(const KinematicTree& tree);
 std::string_view FindFault(const IkOptions& options);
 std::string_view FindProblemFault(const KinematicTree& tree, const IkProblem& problem);
 
-/// Returns whether the limbs are too short for the targets whatever the angles: an effector's target is farther from
-/// the root, or two effectors' targets from each other, than all limbs between them together. `false` promises nothing.
+/// Returns true if the limbs are certainly too short for the targets at any angles: the target of an effector is
+/// farther from the root, or from another effector's target, than the stretched limbs between them are long. If it
+/// returns false, the targets may still be unreachable.
 bool IsOutOfReach(const KinematicTree& tree, const IkProblem& problem);
 
-/// Returns the range that every angle may take: limits (when on) and the box of the angle-change tolerance,
-/// intersected. The box is laid around the start angle after that was moved into its limits, so that the intersection
-/// is never empty.
+/// Returns the range that every angle may take: the intersection of its limits (if on) with the angle-change tolerance
+/// around its start angle. The start angle is first clamped into its limits, so the intersection is never empty.
 std::vector<AngleRange> AllowedRanges(const IkProblem& problem, const IkOptions& options);
-/// Returns that range of one angle.
+/// Returns the range of one angle, as above.
 AngleRange AllowedRange(double start_angle, const AngleRange& limits, const IkOptions& options);
 
+/// Returns the distance of an effector from its target, and the angles between their axes.
 EffectorError ErrorOf(const LimbFrame& effector, const EffectorTarget& target);
 
-/// The largest errors over all effectors, counting only what has weight.
+/// The largest errors over all effectors; positions and axes of weight 0 do not count.
 struct WorstError {
   double position = 0;  ///< metres
   double axis = 0;      ///< radians, of a single axis
 
   bool Within(const IkOptions& options) const { return position < options.position_goal && axis < options.axis_goal; }
 };
+/// Returns the largest errors of all effectors.
 WorstError FindWorst(std::span<const EffectorError> errors, std::span<const EffectorTarget> targets);
 
 }  // namespace etude

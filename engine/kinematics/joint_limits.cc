@@ -17,10 +17,10 @@ constexpr Named<LimitSet> kLimitSets[] = {{"adult", LimitSet::kAdult},
                                           {"hoppenfeld", LimitSet::kHoppenfeld},
                                           {"ama", LimitSet::kAma}};
 
-constexpr double kLargestSideways = 80;  // degrees
+constexpr double kMaxSidewaysDeg = 80;
 constexpr double kNotGiven = -1;
 
-// Degrees from the anatomical position, by column of table 3.1.
+// Angles from the anatomical position in degrees, one per column of table 3.1.
 using Movement = std::array<double, 4>;
 constexpr Movement kNone{0, 0, 0, 0};
 constexpr Movement kShoulderFlexion{180, 180, 90, 150};
@@ -54,7 +54,7 @@ constexpr Movement kTrunkExtension{25, kNotGiven, kNotGiven, 25};
 constexpr Movement kTrunkSide{35, kNotGiven, kNotGiven, 25};
 constexpr Movement kTrunkRotation{45, kNotGiven, kNotGiven, 30};
 
-// One degree of freedom: the movements by which its angle sinks and rises.
+// One degree of freedom: the movement that decreases its angle and the one that increases it.
 struct DofRow {
   BodyTreeJoint joint;
   int axis;
@@ -62,7 +62,7 @@ struct DofRow {
   const Movement& rises;
 };
 
-// In the tree's order.
+// All degrees of freedom in the tree's order.
 constexpr std::array<DofRow, 29> kDofs = {{
     {kTreeLeftAnkle, 0, kAnkleDorsiflexion, kAnklePlantarflexion},
     {kTreeLeftKnee, 0, kNone, kKneeFlexion},
@@ -95,10 +95,10 @@ constexpr std::array<DofRow, 29> kDofs = {{
     {kTreeRightAnkle, 1, kAnkleInversion, kAnkleEversion},
 }};
 
-// The angle that a movement leads to, radians.
+// Returns the extreme angle of a movement, radians.
 double Reach(const Movement& movement, int column, int axis) {
   const double degrees = movement[column] == kNotGiven ? movement[0] : movement[column];
-  return Radians(axis == 1 ? std::min(degrees, kLargestSideways) : degrees);
+  return Radians(axis == 1 ? std::min(degrees, kMaxSidewaysDeg) : degrees);
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ constexpr std::array<Role, 4> kLeftArm = {kLeftShoulder, kLeftElbow, kLeftWrist,
 constexpr std::array<Role, 4> kRightArm = {kRightShoulder, kRightElbow, kRightWrist, kRightHand};
 constexpr std::array<Role, 4> kRightLeg = {kRightHip, kRightKnee, kRightAnkle, kRightFoot};
 
-// Hips, shoulders or trunk ends nearer than this give no direction.
-constexpr double kSmallestGap = 1e-6;  // metres
+// Two points nearer than this define no direction.
+constexpr double kMinGapM = 1e-6;
 
 bool IsFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
@@ -37,17 +37,17 @@ bool IsUsable(const LimbObservation& observation) {
   return true;
 }
 
-// Fixes one block of figure 3.2(a), from its end up.
-class Climber {
+// Builds one chain of figure 3.2(a) from its end inwards.
+class ChainBuilder {
  public:
-  Climber(const LimbObservation& observation, BodyPose& joints) : observation_(observation), joints_(joints) {}
+  ChainBuilder(const LimbObservation& observation, BodyPose& joints) : observation_(observation), joints_(joints) {}
 
-  Climber& From(Role end) {
+  ChainBuilder& From(Role end) {
     at_ = end;
     joints_[end] = observation_.ends[end];
     return *this;
   }
-  Climber& To(Role upper, double length) {
+  ChainBuilder& To(Role upper, double length) {
     joints_[upper] = joints_[at_] - length * glm::normalize(observation_.directions[Index(at_)]);
     at_ = upper;
     return *this;
@@ -72,16 +72,19 @@ constexpr Chain kRightArmChain{kRightShoulder, kRightElbow, kRightWrist, kRightH
 constexpr Chain kLeftLegChain{kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot};
 constexpr Chain kRightLegChain{kRightHip, kRightKnee, kRightAnkle, kRightFoot};
 
+// Fills in the missing directions and ends of one observation (`CompleteObservation`).
 class Completer {
  public:
   Completer(const LimbObservation& seen, const LimbLengths& lengths, const BodyPose& like)
       : lengths_(lengths), like_(like), whole_(seen) {}
 
   LimbObservation Complete() {
+    // Complete the directions of arms, legs and neck.
     for (const Chain& chain : {kLeftArmChain, kRightArmChain, kLeftLegChain, kRightLegChain}) {
       CompleteDirections({chain.middle, chain.wrist, chain.end});
     }
     CompleteDirections({kHead});
+    // Find the midpoints of hips and shoulders: from observed ends, else from each other, the head, or `like`.
     const LimbPair legs{kLeftLegChain,  kRightLegChain, lengths_.hip_width,
                         lengths_.thigh, lengths_.shank, lengths_.foot};
     const LimbPair arms{kLeftArmChain,      kRightArmChain,   lengths_.shoulder_width,
@@ -94,6 +97,7 @@ class Completer {
                             : Lacks(kHead)   ? like_[kHipCentre]
                                              : whole_.ends[kHead] - neck - trunk;
     const glm::dvec3 shoulders = seen_shoulders.value_or(hips + trunk);
+    // Extend the limbs from there to the missing ends.
     PutEnds(legs, hips);
     PutEnds(arms, shoulders);
     if (Lacks(kHead)) whole_.ends[kHead] = shoulders + neck;
@@ -112,7 +116,7 @@ class Completer {
 
   /// Completes the directions of a chain, from the trunk outwards.
   void CompleteDirections(std::initializer_list<Role> limbs) {
-    glm::dmat3 turn(1);  // of the limb before, from the pose that it is like
+    glm::dmat3 turn(1);  // rotation of the last observed limb, from `like` to the observation
     for (const Role limb : limbs) {
       const glm::dvec3 before = LimbOfLike(limb);
       if (whole_.lacks_direction[Index(limb)]) {
@@ -131,12 +135,12 @@ class Completer {
            pair.last * Direction(chain.end);
   }
 
-  /// Returns the vector from the middle between both roots to the right one.
+  /// Returns the vector from the midpoint of both chain roots to the right root.
   glm::dvec3 HalfAcross(const LimbPair& pair) const {
     return 0.5 * pair.width * UnitOr(like_[pair.right.root] - like_[pair.left.root], {-1, 0, 0});
   }
 
-  /// Computes the middle between the roots from the ends that were seen.
+  /// Returns the midpoint of both chain roots, computed from the observed ends; nothing if none was observed.
   std::optional<glm::dvec3> MiddleOfRoots(const LimbPair& pair) const {
     const glm::dvec3 from_left = whole_.ends[pair.left.end] - Reach(pair.left, pair) + HalfAcross(pair);
     const glm::dvec3 from_right = whole_.ends[pair.right.end] - Reach(pair.right, pair) - HalfAcross(pair);
@@ -164,37 +168,43 @@ std::span<const Role, 13> ObservedLimbs() { return kObserved; }
 std::optional<BodyPose> FixLimbLengths(const LimbObservation& observation, const LimbLengths& lengths) {
   if (!IsUsable(observation) || !IsValid(lengths)) return std::nullopt;
   BodyPose joints;
-  Climber climber(observation, joints);
-  climber.From(kLeftFoot).To(kLeftAnkle, lengths.foot).To(kLeftKnee, lengths.shank).To(kLeftHip, lengths.thigh);
-  climber.From(kRightFoot).To(kRightAnkle, lengths.foot).To(kRightKnee, lengths.shank).To(kRightHip, lengths.thigh);
-  climber.From(kLeftHand)
+  // Figure 3.2(a): the legs, the arms.
+  ChainBuilder chain_builder(observation, joints);
+  chain_builder.From(kLeftFoot).To(kLeftAnkle, lengths.foot).To(kLeftKnee, lengths.shank).To(kLeftHip, lengths.thigh);
+  chain_builder.From(kRightFoot)
+      .To(kRightAnkle, lengths.foot)
+      .To(kRightKnee, lengths.shank)
+      .To(kRightHip, lengths.thigh);
+  chain_builder.From(kLeftHand)
       .To(kLeftWrist, lengths.hand)
       .To(kLeftElbow, lengths.forearm)
       .To(kLeftShoulder, lengths.upper_arm);
-  climber.From(kRightHand)
+  chain_builder.From(kRightHand)
       .To(kRightWrist, lengths.hand)
       .To(kRightElbow, lengths.forearm)
       .To(kRightShoulder, lengths.upper_arm);
 
-  // Figure 3.2(b), the legs.
+  // Figure 3.2(b): give the hips their width by moving the right leg.
   const glm::dvec3 hip_vector = joints[kRightHip] - joints[kLeftHip];
-  if (glm::length(hip_vector) < kSmallestGap) return std::nullopt;
+  if (glm::length(hip_vector) < kMinGapM) return std::nullopt;
   Shift(kRightLeg, lengths.hip_width * glm::normalize(hip_vector) - hip_vector, joints);
   joints[kHipCentre] = 0.5 * (joints[kLeftHip] + joints[kRightHip]);
 
-  // Figure 3.2(b) and (c), the arms: joining and centring both move along the shoulder line, so that they are one step.
+  // Figure 3.2(b) and (c): joining and centring the arms both move along the shoulder line, so they are one step. The
+  // midpoint of the shoulders is moved to the known trunk length.
   const glm::dvec3 shoulder_vector = joints[kRightShoulder] - joints[kLeftShoulder];
-  if (glm::length(shoulder_vector) < kSmallestGap) return std::nullopt;
+  if (glm::length(shoulder_vector) < kMinGapM) return std::nullopt;
   const glm::dvec3 across = glm::normalize(shoulder_vector);
   const glm::dvec3 to_navel = joints[kHipCentre] - joints[kLeftShoulder];
   const glm::dvec3 foot_of_perpendicular = joints[kLeftShoulder] + glm::dot(to_navel, across) * across;
   const glm::dvec3 trunk = foot_of_perpendicular - joints[kHipCentre];
-  if (glm::length(trunk) < kSmallestGap) return std::nullopt;
+  if (glm::length(trunk) < kMinGapM) return std::nullopt;
   joints[kShoulderCentre] = joints[kHipCentre] + lengths.trunk * glm::normalize(trunk);
   const glm::dvec3 half_width = 0.5 * lengths.shoulder_width * across;
   Shift(kLeftArm, joints[kShoulderCentre] - half_width - joints[kLeftShoulder], joints);
   Shift(kRightArm, joints[kShoulderCentre] + half_width - joints[kRightShoulder], joints);
 
+  // The head and the spine follow from the trunk.
   joints[kHead] = joints[kShoulderCentre] + lengths.neck * glm::normalize(observation.directions[Index(kHead)]);
   joints[kSpine] = glm::mix(joints[kHipCentre], joints[kShoulderCentre], kSpineShare);
   return joints;
@@ -206,6 +216,7 @@ LimbLengths MeasureLimbLengths(std::span<const BodyPose> poses) {
   for (const BodyPose& pose : poses) {
     const auto between = [&](Role a, Role b) { return glm::distance(pose[a], pose[b]); };
     const auto of_both = [&](Role a, Role b) { return 0.5 * (between(a, b) + between(Mirrored(a), Mirrored(b))); };
+    // Sum up the lengths of this frame.
     const glm::dvec3 mid_hips = 0.5 * (pose[kLeftHip] + pose[kRightHip]);
     const glm::dvec3 mid_shoulders = 0.5 * (pose[kLeftShoulder] + pose[kRightShoulder]);
     sum.foot += of_both(kLeftAnkle, kLeftFoot);

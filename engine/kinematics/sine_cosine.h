@@ -9,16 +9,17 @@ struct SineCosine {
   double sine = 0, cosine = 1;
 };
 
-/// Returns sine and cosine of one angle, for |angle| ≤ 10⁶, within 1.5 units in their last place up to 100 rad and 2.5
-/// beyond. Cheaper than the C library's: without branches, so that a processor works on several angles at once. The
+/// Returns sine and cosine of an angle in radians, for |angle| ≤ 10⁶. The error is at most 1.5 units in the last place
+/// up to 100 rad and 2.5 beyond. The code has no branches, so compilers compute several angles at once, and gives the
 /// same bits with every C library.
 ///
-/// The angle is reduced to r in [−π/4, π/4] by the nearest multiple of π/2, in three parts of π/2 (Cody and Waite), the
-/// first short enough for its multiple to be exact. There Taylor's series to r¹⁷ and r¹⁶ leave less than 10⁻¹⁷.
+/// The angle is reduced to r in [−π/4, π/4] by subtracting the nearest multiple of π/2, with π/2 split into three parts
+/// (Cody and Waite); the first part is short enough for its multiple to be exact. There the Taylor series up to r¹⁷ and
+/// r¹⁶ are accurate to 10⁻¹⁷.
 inline SineCosine ComputeSineCosine(double angle) {
   constexpr double kTwoOverPi = 0.6366197723675814;
   constexpr double kFirst = 0x1.921fb544p+0, kSecond = 0x1.0b4611a6p-34, kThird = 0x1.3198a2e037073p-69;
-  constexpr double kRounder = 0x1.8p52;  // added and taken off, it leaves the nearest integer
+  constexpr double kRounder = 0x1.8p52;  // adding and subtracting it rounds to the nearest integer
   const double shifted = angle * kTwoOverPi + kRounder, quarters = shifted - kRounder;
   const double r = ((angle - quarters * kFirst) - quarters * kSecond) - quarters * kThird;
   const double z = r * r, z2 = z * z, z4 = z2 * z2;
@@ -30,7 +31,7 @@ inline SineCosine ComputeSineCosine(double angle) {
   const double sine = r + r * z * sine_tail;
   const double half = 0.5 * z, rounded = 1 - half;
   const double cosine = rounded + (((1 - rounded) - half) + z2 * cosine_tail);
-  // The last bits of `shifted` count quarters: an odd number of them swaps the two, every second one turns a sign.
+  // The last bits of `shifted` count quarter turns: an odd count swaps sine and cosine, every second one flips a sign.
   const auto quarter = std::bit_cast<std::uint64_t>(shifted);
   const auto s = std::bit_cast<std::uint64_t>(sine), c = std::bit_cast<std::uint64_t>(cosine);
   const std::uint64_t swap = (s ^ c) & (0 - (quarter & 1));

@@ -14,14 +14,14 @@ namespace {
 
 using enum Role;
 
-constexpr double kStraight = Radians(3);  // limbs nearer to one line give no normal
-constexpr double kSmallestLength = 1e-6;  // metres
-const glm::dvec3 kAlong(0, 0, 1);         // every limb, in its own frame
+constexpr double kStraight = Radians(3);  // two limbs within this angle of one line define no normal
+constexpr double kMinLengthM = 1e-6;
+const glm::dvec3 kAlong(0, 0, 1);  // the direction of every limb in its own frame
 
-// A hinge at the end of a limb tells the limb's twist.
+// A limb whose rotation about itself follows from the hinge at its end.
 struct TwistHinge {
   BodyTreeJoint limb, hinge;
-  double bends;  // which way about X
+  double bends;  // sign of the rotation about X by which the hinge bends
 };
 constexpr std::array<TwistHinge, 3> kTwistHinges = {{{kTreeLeftShoulder, kTreeLeftElbow, +1},
                                                      {kTreeRightShoulder, kTreeRightElbow, +1},
@@ -35,31 +35,31 @@ std::optional<Directions> FindDirections(const BodyPose& joints) {
     const BodyTreeLimb& ends = BodyTreeLimbs()[i];
     const glm::dvec3 limb = joints[ends.to] - joints[ends.from];
     const double length = glm::length(limb);
-    if (!std::isfinite(length) || length < kSmallestLength) return std::nullopt;
+    if (!std::isfinite(length) || length < kMinLengthM) return std::nullopt;
     directions[i] = limb / length;
   }
   return directions;
 }
 
-// R_WL of the left foot, whose X axis is that of the hinges at ankle and knee.
+// Returns R_WL of the left foot. Its X axis is that of the hinges at ankle and knee.
 std::optional<glm::dmat3> FindRootFrame(const Directions& directions) {
-  // Both hinges turn about +X by positive angles from foot to thigh; a cross product weighs each normal by the sine of
-  // its angle, which is how well it is known.
+  // Both hinges turn about +X by positive angles from foot to thigh. Each cross product is proportional to the sine of
+  // its angle, which weighs the normals by their accuracy.
   glm::dvec3 normal = glm::cross(directions[kTreeLeftAnkle], directions[kTreeLeftToe] + directions[kTreeLeftKnee]);
   if (glm::length(normal) < std::sin(kStraight)) {
-    // Toe, ankle, knee and hip in one line (a leap, a stand on the very toes): then the hips tell what is right.
+    // Toe, ankle, knee and hip lie on one line (a leap, a stand on the toes): use the hip line instead.
     const glm::dvec3& along = directions[kTreeLeftKnee];
     normal = directions[kTreeLeftHip] - glm::dot(directions[kTreeLeftHip], along) * along;
   }
   if (glm::length(normal) < std::sin(kStraight)) return std::nullopt;
   const glm::dvec3 x = glm::normalize(normal);
-  // A foot along X cannot be: it would be normal to the shank and to the plane of the leg at once.
+  // A foot along X is impossible: it would be normal to the shank and to the plane of the leg.
   if (std::abs(glm::dot(directions[kTreeLeftToe], x)) > std::cos(kStraight)) return std::nullopt;
   const glm::dvec3 z = UnitNormalPart(directions[kTreeLeftToe], x);
   return glm::dmat3(x, glm::cross(z, x), z);
 }
 
-// Finds where the limb's X axis shall point in the world, if anything tells.
+// Returns the desired X axis of a limb in the world, or nothing if no neighbour defines it.
 std::optional<glm::dvec3> FindTwist(int limb, const Directions& directions, const BodyPose& joints) {
   const auto next = std::ranges::find(kTwistHinges, limb, &TwistHinge::limb);
   glm::dvec3 x(0);
@@ -71,12 +71,13 @@ std::optional<glm::dvec3> FindTwist(int limb, const Directions& directions, cons
     x = next->bends * glm::cross(directions[limb], directions[next->hinge]);
   }
   const glm::dvec3 across = glm::cross(directions[limb], x);
-  const bool is_known = glm::length(across) > (next != kTwistHinges.end() ? std::sin(kStraight) : kSmallestLength);
+  const bool is_known = glm::length(across) > (next != kTwistHinges.end() ? std::sin(kStraight) : kMinLengthM);
   if (!is_known) return std::nullopt;
   return x;
 }
 
-// The angles of a joint that turn its limb into `direction_W`, its X axis near `x_W` if it has three.
+// Returns the angles that point the limb along `direction_W`; with three angles, its X axis is as near as possible to
+// `x_W`.
 glm::dvec3 AnglesTowards(const glm::dmat3& R_WJ, int dof_count, const glm::dvec3& direction_W,
                          const std::optional<glm::dvec3>& x_W) {
   const glm::dvec3 z_J = glm::transpose(R_WJ) * direction_W;
@@ -100,6 +101,7 @@ std::optional<TreeState> FindStartState(const KinematicTree& body, const BodyPos
   const std::optional<glm::dmat3> root = FindRootFrame(*directions);
   if (!root) return std::nullopt;
 
+  // From the root outwards: angles of each joint, given the actual axes of its parent.
   TreeState state{joints[kLeftFoot], *root, std::vector<double>(limits.size(), 0.0)};
   std::array<glm::dmat3, kBodyTreeJointCount> R_WL;
   R_WL[kTreeLeftToe] = *root;

@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// R_WF times the rotation by `angle` about F's coordinate axis `kAxis`. Returns that axis, which stays.
+/// Multiplies R_WF by the rotation by `angle` about F's axis `kAxis`. Returns that axis, which does not change.
 template <int kAxis>
 glm::dvec3 TurnColumns(glm::dmat3& R_WF, double angle) {
   constexpr int i = (kAxis + 1) % 3, j = (kAxis + 2) % 3;
@@ -57,11 +57,13 @@ void ComputeFrames(const KinematicTree& tree, const TreeState& state, TreeFrames
   out.effectors.resize(tree.effectors.size());
   for (std::size_t i = 0; i < tree.joints.size(); ++i) {
     const TreeJoint& joint = tree.joints[i];
+    // The root takes its frame from the state.
     if (joint.parent < 0) {
       out.joints[i] = {state.root_position, state.root_frame};
       out.R_WJ[i] = state.root_frame;
       continue;
     }
+    // A joint: rest axes from its parent, then its rotations about X, Y, Z, as many as it has.
     const LimbFrame& X_WP = out.joints[joint.parent];
     glm::dmat3 R_WL = X_WP.axes * joint.R_PJ;  // R_WJ until the joint turns
     out.R_WJ[i] = R_WL;
@@ -72,6 +74,7 @@ void ComputeFrames(const KinematicTree& tree, const TreeState& state, TreeFrames
     if (joint.dof_count > 2) dof_axes[2] = TurnColumns<2>(R_WL, angles[2]);
     out.joints[i] = {X_WP.position + X_WP.axes * joint.p_PJ, R_WL};
   }
+  // Effectors are fixed to their limbs.
   for (std::size_t e = 0; e < tree.effectors.size(); ++e) {
     const LimbFrame& X_WL = out.joints[tree.effectors[e].joint];
     out.effectors[e] = {X_WL.position + X_WL.axes * tree.effectors[e].p_LE, X_WL.axes};

@@ -14,16 +14,16 @@ struct Estimate {
   StateMatrix covariance;
 };
 
-/// The point's motion from one frame to the next: x ↦ F x + noise of covariance Q.
+/// The motion from one frame to the next: x ↦ F x + noise of covariance Q.
 struct Transition {
   StateMatrix F = StateMatrix::Identity();
   StateMatrix Q = StateMatrix::Zero();
 
   explicit Transition(const PointMotion& motion) {
     const double t = motion.frame_s, q = motion.acceleration_density, tau = motion.velocity_memory_s;
-    // The integrals over a frame of e^(−s/τ) and of its square.
+    // The integrals of e^(−s/τ) and of its square over one frame.
     const double once = -tau * std::expm1(-t / tau), twice = -tau / 2 * std::expm1(-2 * t / tau);
-    // t − 2·once + twice, times τ²; where the memory is so long that this cancels, by its series.
+    // τ² (t − 2·once + twice); for large τ, where the terms cancel, its Taylor series.
     const double x = t / tau;
     constexpr double kCancels = 1e-3;
     const double drift =
@@ -46,9 +46,9 @@ Estimate FirstEstimate(const PointMotion& motion) {
   return first;
 }
 
-constexpr double kNoInformation = 1e-12;  // as a share of the largest
+constexpr double kMinInformationShare = 1e-12;  // directions with less of the largest information count as unmeasured
 
-/// The measurement as rows of unit variance: y = A p, one row per direction that is measured.
+/// The measurement as rows of unit variance: y = A p, one row per measured direction.
 struct WhiteMeasurement {
   Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 3, 3> A;
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> y;
@@ -58,12 +58,13 @@ struct WhiteMeasurement {
     for (int i = 0; i < 3; ++i) {
       for (int k = 0; k < 3; ++k) information(i, k) = measurement.information[k][i];
     }
+    // Its eigenvectors with positive information are the measured directions.
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(information);
-    const double least = kNoInformation * eigen.eigenvalues()[2];
+    const double min_information = kMinInformationShare * eigen.eigenvalues()[2];
     int rows = 0;
-    for (int i = 0; i < 3; ++i) rows += eigen.eigenvalues()[i] > least && eigen.eigenvalues()[2] > 0;
+    for (int i = 0; i < 3; ++i) rows += eigen.eigenvalues()[i] > min_information && eigen.eigenvalues()[2] > 0;
     A.resize(rows, 3);
-    for (int i = 0; i < rows; ++i) {  // the largest stand last
+    for (int i = 0; i < rows; ++i) {  // Eigen sorts them in ascending order
       const int column = 3 - rows + i;
       A.row(i) = std::sqrt(eigen.eigenvalues()[column]) * eigen.eigenvectors().col(column).transpose();
     }
@@ -71,8 +72,8 @@ struct WhiteMeasurement {
   }
 };
 
-// The estimate after a measurement; returns the measurement's log-likelihood. Joseph's form keeps the covariance
-// positive when a wide prior meets an exact measurement.
+// Updates the estimate by a measurement, and returns the measurement's log-likelihood. Joseph's form keeps the
+// covariance positive definite if a wide prior is combined with an accurate measurement.
 double Update(const WhiteMeasurement& measurement, Estimate& estimate) {
   const auto rows = measurement.A.rows();
   if (rows == 0) return 0;
@@ -123,7 +124,9 @@ glm::dmat3 ToGlm(const Eigen::Matrix3d& m) {
 
 SmoothedTrack SmoothTrack(std::span<const PointMeasurement> measurements, const PointMotion& motion) {
   const Transition transition(motion);
+  // Forward pass.
   Filtered filtered = Filter(Whiten(measurements), motion, transition);
+  // Backward pass: correct each frame by the difference between the smoothed and the predicted next frame.
   std::vector<Estimate>& smoothed = filtered.updated;
   for (std::size_t k = measurements.size(); k-- > 1;) {
     const Estimate &before = smoothed[k - 1], &ahead = filtered.predicted[k];
@@ -142,12 +145,13 @@ SmoothedTrack SmoothTrack(std::span<const PointMeasurement> measurements, const 
 }
 
 double LikeliestAccelerationDensity(std::span<const PointMeasurement> measurements, const PointMotion& motion) {
-  constexpr double kSmallest = 0.01, kFactor = 4;
+  constexpr double kMinDensity = 0.01, kFactor = 4;
   constexpr int kCount = 10;
+  // Try every density of the grid.
   const std::vector<WhiteMeasurement> white = Whiten(measurements);
-  double best = kSmallest, best_likelihood = 0;
+  double best = kMinDensity, best_likelihood = 0;
   PointMotion tried = motion;
-  tried.acceleration_density = kSmallest;
+  tried.acceleration_density = kMinDensity;
   for (int k = 0; k < kCount; ++k, tried.acceleration_density *= kFactor) {
     const double likelihood = Filter(white, tried, Transition(tried)).log_likelihood;
     if (k > 0 && !(likelihood > best_likelihood)) continue;

@@ -15,8 +15,8 @@
 namespace etude {
 namespace {
 
-/// `adult` as thick as `body` is beside `average`: three bodies of the same pieces.
-SilhouetteBody AsThick(SilhouetteBody adult, const SilhouetteBody& body, const SilhouetteBody& average) {
+/// Returns `adult` with the thickness of `body` relative to `average`. All three must have the same parts.
+SilhouetteBody WithThicknessOf(SilhouetteBody adult, const SilhouetteBody& body, const SilhouetteBody& average) {
   assert(adult.flesh.size() == body.flesh.size() && body.flesh.size() == average.flesh.size());
   for (std::size_t i = 0; i < adult.flesh.size(); ++i) {
     adult.flesh[i].radius_a *= body.flesh[i].radius_a / average.flesh[i].radius_a;
@@ -40,18 +40,20 @@ LimbLengths AdultLengths(double stature_m) {
 double FitStature(const SilhouetteBody& body, double stature_m, std::span<const PosedViews> moments,
                   const FitOptions& options) {
   constexpr std::array kScales = {0.94, 0.96, 0.98, 1.0, 1.02, 1.04, 1.06};
+  // Cost of every scale, summed over the moments.
   const SilhouetteBody average = MakeSilhouetteBody(AdultLengths(stature_m));
   std::array<double, kScales.size()> costs{};
   FitWorkspace workspace;
   for (std::size_t i = 0; i < kScales.size(); ++i) {
-    const SilhouetteBody adult = AsThick(MakeSilhouetteBody(AdultLengths(kScales[i] * stature_m)), body, average);
+    const SilhouetteBody adult =
+        WithThicknessOf(MakeSilhouetteBody(AdultLengths(kScales[i] * stature_m)), body, average);
     for (const PosedViews& moment : moments) {
       costs[i] += FitSilhouettes(adult, moment.views, moment.state, nullptr, options, workspace).picture_cost;
     }
   }
   const auto best = static_cast<std::size_t>(std::ranges::min_element(costs) - costs.begin());
   if (best == 0 || best + 1 == kScales.size()) return kScales[best] * stature_m;
-  // Where the parabola through the best and its neighbours is lowest.
+  // The minimum of the parabola through the best scale and its neighbours.
   const double below = costs[best - 1] - costs[best], above = costs[best + 1] - costs[best];
   const double step = kScales[1] - kScales[0];
   const double shift = below + above > 0 ? 0.5 * step * (below - above) / (below + above) : 0;
@@ -86,21 +88,21 @@ std::vector<SeenJoint> SeenJointsOf(const SeenPerson& person, double sigma_px) {
 
 namespace {
 
-// Settings of engine/silhouettes are in pixels of a camera twice as fine as the masks.
+// The options of engine/silhouettes are in pixels of a camera with twice the resolution of the masks.
 constexpr double kMaskPixel = 2;
 constexpr double kUsualStature = 1.70;  // metres
 
 using Frames = std::vector<std::size_t>;
 
-/// The stature that a take tells, metres.
-std::optional<double> StatureToldBy(const UnmarkedTake& take) {
+/// Returns the stature that the caller gives directly or by limb lengths, metres; nothing if neither is known.
+std::optional<double> KnownStature(const UnmarkedTake& take) {
   if (!take.lengths) return take.stature_m;
   const LimbLengths &own = *take.lengths, adult = AdultLengths(kUsualStature);
   return kUsualStature * (own.shank + own.thigh + own.trunk) / (adult.shank + adult.thigh + adult.trunk);
 }
 
-/// Returns at most `count` of the frames, spread evenly over all.
-Frames Evenly(std::size_t frames, std::size_t count) {
+/// Returns the indices of at most `count` frames, evenly spaced.
+Frames EvenlySpaced(std::size_t frames, std::size_t count) {
   Frames some;
   count = std::min(count, frames);
   for (std::size_t i = 0; i < count; ++i) some.push_back((2 * i + 1) * frames / (2 * count));
@@ -116,21 +118,22 @@ ProjectionMatrix MatrixOfMasks(Camera camera) {
 class Recovery {
  public:
   Recovery(const UnmarkedTake& take, const UnmarkedOptions& options)
-      : take_(take), options_(options), stature_(StatureToldBy(take).value_or(kUsualStature)) {
+      : take_(take), options_(options), stature_(KnownStature(take).value_or(kUsualStature)) {
     for (const Camera& camera : take.cameras) matrices_.push_back(MatrixOfMasks(camera));
   }
 
   Result<UnmarkedMotion> Run() {
     Frames all(take_.pictures[0].size());
+    // Alternate between estimating rooms and tracking the body in some frames, then track it in all.
     for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
-    const Frames some = Evenly(all.size(), options_.samples);
+    const Frames some = EvenlySpaced(all.size(), options_.samples);
     rooms_.assign(take_.rooms.begin(), take_.rooms.end());
     const bool knows_rooms = !rooms_.empty();
     if (!knows_rooms) EstimateRooms(some, {});
     for (int round = 1; round < options_.rounds; ++round) {
-      if (knows_rooms && (StatureToldBy(take_) || round > 1)) break;
+      if (knows_rooms && (KnownStature(take_) || round > 1)) break;
       const SilhouetteTrack track = Track(some);
-      if (!StatureToldBy(take_)) stature_ = StatureOf(track);
+      if (!KnownStature(take_)) stature_ = StatureOf(track);
       if (!knows_rooms) EstimateRooms(some, track);
     }
     return MotionOf(Track(all));
@@ -143,10 +146,10 @@ class Recovery {
     return pictures;
   }
 
-  /// Estimates the rooms from the pictures of those frames: where little moves and, once a body was followed in them,
-  /// away from it.
+  /// Estimates the rooms from pixels with little motion and, if a body has been tracked in these frames, away from it.
   void EstimateRooms(const Frames& frames, const SilhouetteTrack& track) {
     constexpr double kMotionLag = 0.1;  // seconds
+    // The lag of motion detection in sampled frames.
     const double between = static_cast<double>(take_.pictures[0].size()) / (take_.rate_hz * frames.size());
     const MotionOptions motion{.lag = std::max<std::size_t>(1, std::lround(kMotionLag / between))};
     rooms_.clear();
@@ -160,8 +163,8 @@ class Recovery {
     }
   }
 
-  /// Calls `visit(x, y, distance)` for the pixels of a mask that may be within `reach` of the body, once for each piece
-  /// of it; lengths are those of `matrices_`. Where the body is not known there is none.
+  /// Calls `visit(x, y, distance)` for all pixels of a mask that may be within `reach` of the body, once for each part
+  /// of it. Lengths are in pixels of `matrices_`. Does nothing if the body is unknown in that frame.
   template <typename Visit>
   void VisitFlesh(const SilhouetteTrack& track, std::size_t frame, std::size_t camera, const glm::dvec2& size,
                   double reach, const Visit& visit) {
@@ -169,6 +172,7 @@ class Recovery {
     if (!fit) return;
     flesh_.clear();
     ProjectFlesh(track.body, ComputeFrames(track.body.tree, fit->state), matrices_[camera], flesh_);
+    // Visit the bounding box of each part.
     for (const ProjectedCapsule& capsule : flesh_) {
       if (!capsule.is_valid) continue;
       const double margin = std::max(capsule.radius_a, capsule.radius_b) + reach;
@@ -182,7 +186,7 @@ class Recovery {
     }
   }
 
-  std::optional<double> ApartIn(const SilhouetteTrack& track, std::size_t frame, std::size_t camera) {
+  std::optional<double> DisagreementIn(const SilhouetteTrack& track, std::size_t frame, std::size_t camera) {
     const Mask& mask = masks_[camera][frame];
     Mask body(mask.width, mask.height);
     VisitFlesh(track, frame, camera, {mask.width, mask.height}, 0, [&](int x, int y, double distance) {
@@ -197,8 +201,8 @@ class Recovery {
     return 1 - static_cast<double>(both) / static_cast<double>(any);
   }
 
-  /// Adds how near each pixel is to the body, in pixels from `body_reach_px` inwards: more than motion ever counts.
-  /// Where the body is not known, every pixel is near.
+  /// Adds to the activity of each pixel its nearness to the body, `reach` minus distance, which exceeds any activity of
+  /// motion. If the body is unknown, every pixel counts as near.
   void AddNearness(const SilhouetteTrack& track, std::size_t frame, std::size_t camera, Activity& activity) {
     const double reach = kMaskPixel * options_.body_reach_px;
     const bool is_known = track.frames[frame].has_value();
@@ -209,8 +213,9 @@ class Recovery {
     for (std::size_t i = 0; i < activity.pixels.size(); ++i) activity.pixels[i] += nearness.pixels[i];
   }
 
-  /// The body in those frames, before the rooms as they are known now.
+  /// Tracks the body in these frames, with the present rooms as backgrounds.
   SilhouetteTrack Track(const Frames& frames) {
+    // Silhouettes of the person in every picture.
     masks_.clear();
     silhouettes_.clear();
     for (std::size_t c = 0; c < take_.cameras.size(); ++c) {
@@ -222,11 +227,12 @@ class Recovery {
         silhouettes.push_back(MakeSilhouette(masks.back(), {.mask_pixel = kMaskPixel}));
       }
     }
-    // A body moves as far in a second at any rate.
+    // Scale the limits of motion per frame to the rate of these frames.
     const double rate = take_.rate_hz * static_cast<double>(frames.size()) / take_.pictures[0].size();
     TrackOptions track = options_.track;
     track.angle_change *= kJudgedRateHz / rate;
     track.place_change_m *= kJudgedRateHz / rate;
+    // Keypoints, in pixels of `matrices_`.
     std::vector<std::vector<std::vector<SeenJoint>>> joints;
     for (const auto& of_camera : take_.people) {
       auto& seen = joints.emplace_back();
@@ -255,7 +261,7 @@ class Recovery {
 
   double StatureOf(const SilhouetteTrack& track) const {
     std::vector<std::vector<SilhouetteView>> views;
-    std::vector<PosedViews> moments;  // whose views stay where they are
+    std::vector<PosedViews> moments;  // spans of `views`, which therefore must not reallocate
     views.reserve(track.frames.size());
     for (std::size_t i = 0; i < track.frames.size(); ++i) {
       if (track.frames[i]) moments.push_back({views.emplace_back(ViewsOf(i)), track.frames[i]->state});
@@ -265,38 +271,40 @@ class Recovery {
   }
 
   Result<UnmarkedMotion> MotionOf(const SilhouetteTrack& track) {
-    UnmarkedMotion told;
-    told.motion.rate_hz = take_.rate_hz;
-    told.stature_m = stature_;
+    UnmarkedMotion result;
+    result.motion.rate_hz = take_.rate_hz;
+    result.stature_m = stature_;
     const auto first = std::ranges::find_if(track.frames, [](const auto& fit) { return fit.has_value(); });
     if (first == track.frames.end()) return Fail({}, "in no frame do two films show anybody who moves");
+    // Poses and cost; untracked frames repeat the last pose.
     BodyPose last = ToBodyPose(track.body, (*first)->state);
     for (const auto& fit : track.frames) {
       if (fit) {
         last = ToBodyPose(track.body, fit->state);
-        told.cost += fit->picture_cost;
+        result.cost += fit->picture_cost;
       } else {
-        ++told.held;
+        ++result.held;
       }
-      told.motion.poses.push_back(last);
+      result.motion.poses.push_back(last);
     }
-    told.cost /= static_cast<double>((track.frames.size() - told.held) * matrices_.size());
-    ASSIGN_OR_RETURN(const CaptureBody body, FittedBody(RestBodyOf(told.motion.poses)));
+    result.cost /= static_cast<double>((track.frames.size() - result.held) * matrices_.size());
+    // Fit a skeleton to the poses, for the clip.
+    ASSIGN_OR_RETURN(const CaptureBody body, FittedBody(RestBodyOf(result.motion.poses)));
     std::vector<TreeState> states;
     const PoseFitter fitter(body);
     std::optional<PoseFit> last_fit;
-    for (const BodyPose& pose : told.motion.poses) {
+    for (const BodyPose& pose : result.motion.poses) {
       if (auto found = fitter.Fit(TargetsAt(pose), last_fit)) last_fit = std::move(found);
       states.push_back(last_fit ? last_fit->state : StandingState(body.tree));
     }
-    told.clip = ToClip(body, states, take_.rate_hz, "capture");
+    result.clip = ToClip(body, states, take_.rate_hz, "capture");
     for (std::size_t c = 0; c < matrices_.size(); ++c) {
-      told.apart.emplace_back();
-      for (std::size_t k = 0; k < track.frames.size(); ++k) told.apart.back().push_back(ApartIn(track, k, c));
+      result.apart.emplace_back();
+      for (std::size_t k = 0; k < track.frames.size(); ++k) result.apart.back().push_back(DisagreementIn(track, k, c));
     }
-    told.rooms = std::move(rooms_);
-    told.silhouettes = std::move(masks_);
-    return told;
+    result.rooms = std::move(rooms_);
+    result.silhouettes = std::move(masks_);
+    return result;
   }
 
   const UnmarkedTake& take_;
@@ -305,7 +313,7 @@ class Recovery {
   std::vector<ProjectionMatrix> matrices_;
   std::vector<ColourImage> rooms_;
   std::vector<std::vector<Mask>> masks_;
-  std::vector<std::vector<Silhouette>> silhouettes_;  ///< of the frames that were followed last
+  std::vector<std::vector<Silhouette>> silhouettes_;  ///< of the frames tracked last
   std::vector<ProjectedCapsule> flesh_;
 };
 

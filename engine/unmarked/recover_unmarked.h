@@ -17,89 +17,90 @@
 
 namespace etude {
 
-/// Returns the limb lengths of an adult of that stature, metres: those of `LimbLengths{}`, whose stature is 1.74, all
-/// scaled alike.
+/// Returns the limb lengths of an adult of this stature, metres: those of `LimbLengths{}`, which belong to a stature of
+/// 1.74, scaled uniformly.
 LimbLengths AdultLengths(double stature_m);
 
-/// The views of one moment of a take and the pose that was found in them.
+/// The views of one moment of a take, and the pose found in them.
 struct PosedViews {
   std::span<const SilhouetteView> views;
   TreeState state;
 };
 
-/// Finds the stature that costs least *(ours)*: of adults who stand as these moments say, 6 % smaller to 6 % larger
-/// than `stature_m`, each fitted anew from there, as thick as `body` is beside an average adult of `stature_m`. A
-/// silhouette tells it because cameras tell metres. `body` is `MakeSilhouetteBody(AdultLengths(stature_m))` with any
-/// thickness.
+/// Finds the stature of the lowest cost *(ours)* among adults 6 % smaller to 6 % larger than `stature_m`. At each
+/// stature the body is fitted to every moment again, starting from its pose; its thickness relative to an average adult
+/// is that of `body` at `stature_m`. Silhouettes determine stature because calibrated cameras measure metres. `body`
+/// must be `MakeSilhouetteBody(AdultLengths(stature_m))`, with any thickness.
 double FitStature(const SilhouetteBody& body, double stature_m, std::span<const PosedViews> moments,
                   const FitOptions& options);
 
-/// Returns the joints that keypoints tell, limb by limb; of a confidence of one they are as exact as `sigma_px`, of a
-/// lower one less: its variance is divided by it. Nose, eyes, ears and the top of the head are no joints of the body.
+/// Returns the joints that keypoints show. A keypoint of confidence 1 has the standard deviation `sigma_px`; for a
+/// lower confidence the variance is divided by it. Nose, eyes, ears and the top of the head are not joints of the body
+/// and are left out.
 std::vector<SeenJoint> SeenJointsOf(const SeenPerson& person, double sigma_px);
 
-/// Films of one person by cameras that stand still.
+/// Films of one person by stationary cameras.
 struct UnmarkedTake {
-  /// The longer side, in pixels, of the pictures that the default options are made for, with a person who fills half of
-  /// it.
+  /// The longer side, in pixels, of the pictures for which the default options are tuned; the person fills half of it.
   static constexpr int kPictureSide = 480;
-  /// Pinholes, two at least, each in the pixels of its pictures; their world's Y points up.
+  /// Pinhole cameras, at least two, each in the pixels of its pictures; Y of their world points up.
   std::span<const Camera> cameras;
-  /// `pictures[camera][frame]`, taken at the same moments.
+  /// `pictures[camera][frame]`, taken at the same times by all cameras.
   std::span<const std::vector<ColourImage>> pictures;
-  /// The empty room as each camera sees it; when there is none at all, it is estimated from the pictures.
+  /// The empty room as seen by each camera; if empty, rooms are estimated from the pictures.
   std::span<const ColourImage> rooms;
   double rate_hz = 30;
-  /// The person's stature, metres; without one it is found from the pictures.
+  /// The person's stature, metres; if empty, it is estimated from the pictures.
   std::optional<double> stature_m;
-  /// The person's limb lengths, which then tell the stature, too; without them an adult's.
+  /// The person's limb lengths, which then also determine the stature; if empty, those of an adult.
   std::optional<LimbLengths> lengths = {};
-  /// `people[camera][frame]`: the person as an estimator of keypoints sees it, in pixels of the pictures; nothing where
-  /// it does not. Empty: there is no estimator.
+  /// `people[camera][frame]`: the keypoints of an estimator, in pixels of the pictures; nothing where it does not see
+  /// the person. Empty: there is no estimator.
   std::span<const std::vector<std::optional<SeenPerson>>> people = {};
 };
 
 struct UnmarkedOptions {
-  /// The options of finding the person; pieces are smaller here than in pictures of 640 × 480.
+  /// The options of the person finder; regions are smaller here than in pictures of 640 × 480.
   PersonOptions person = {.segmenter = Segmenter::kRatio,
                           .change = {},
                           .pieces = PersonPieces::kLarge,
                           .smallest_piece = 60,
                           .piece_reach = 30};
   TrackOptions track;
-  /// The number of times that rooms are estimated, each time from the body that was found with the ones before. On the
-  /// one film it was tried on a fourth time still bettered them a little.
+  /// The number of times that rooms are estimated, each time away from the body found in front of the last estimate. On
+  /// the one film that was tried, a fourth round still improved them slightly.
   int rounds = 4;
-  /// The number of pictures of a camera, evenly over the film, from which rooms are estimated and in which the body is
-  /// followed for that. More take longer; a film of a few seconds shows little new in between.
+  /// The number of pictures of a camera, evenly spaced over the film, from which rooms are estimated and in which the
+  /// body is tracked for that purpose. More take longer; pictures of a short film show little more.
   std::size_t samples = 50;
-  /// The number of these pictures whose median a pixel of the room is. Few, because the room may be seen for a moment
-  /// only.
+  /// The number of these pictures whose median gives a pixel of the room. Keep it small: a pixel of the room may be
+  /// visible only for a moment.
   std::size_t kept = 5;
-  /// The distance from the body, in pixels, within which a pixel may be its shadow or its rim.
+  /// Pixels within this distance of the body, in pixels, may be its shadow or rim and are not trusted as room.
   double body_reach_px = 8;
-  /// The standard deviation of a sure keypoint from the joint in the flesh, pixels.
+  /// The standard deviation of a keypoint of confidence 1 from the true joint, pixels.
   double keypoint_px = 3;
 };
 
 /// The recovered motion.
 struct UnmarkedMotion {
-  Clip clip;          ///< of the person's own skeleton, metres
-  BodyMotion motion;  ///< the same as twenty joints
+  Clip clip;          ///< with the person's own skeleton, metres
+  BodyMotion motion;  ///< the same motion as twenty joints
   double stature_m = 0;
-  std::size_t held = 0;  ///< frames in which fewer than two pictures show anybody: they show the last pose
-  /// The mean cost of the body by its silhouettes (`SilhouetteFit::picture_cost`), for each camera and frame.
+  std::size_t held = 0;  ///< number of frames in which fewer than two pictures show a person; they repeat the last pose
+  /// The mean of `SilhouetteFit::picture_cost` over cameras and tracked frames.
   double cost = 0;
-  std::vector<ColourImage> rooms;              ///< of each camera
-  std::vector<std::vector<Mask>> silhouettes;  ///< of each camera and frame
-  /// The share of what the body or the silhouette covers that only one of them does, of each camera and frame; nothing
-  /// where either shows nobody.
+  std::vector<ColourImage> rooms;              ///< one per camera
+  std::vector<std::vector<Mask>> silhouettes;  ///< per camera and frame
+  /// 1 − intersection over union of the projected body and the silhouette, per camera and frame; nothing if either is
+  /// empty.
   std::vector<std::vector<std::optional<double>>> apart;
 };
 
-/// Recovers a person's motion from outlines alone (engine/silhouettes) *(ours)*: no marks, no estimator, no picture of
-/// the empty room. The room is first estimated from where little moves; a body followed in front of that tells where
-/// the room is uncovered and when, which betters the room, and so on. Fails when no frame shows anybody to two cameras.
+/// Recovers a person's motion from silhouettes alone (engine/silhouettes) *(ours)*: without marks, keypoint estimator
+/// or picture of the empty room. The room is first estimated from pixels with little motion. A body tracked in front of
+/// that estimate shows where and when the room is visible, which improves the estimate, and so on. Fails if no frame
+/// shows a person to two cameras.
 Result<UnmarkedMotion> RecoverUnmarked(const UnmarkedTake& take, const UnmarkedOptions& options = {});
 
 }  // namespace etude

@@ -22,7 +22,7 @@ namespace {
 
 using DictionaryName = decltype(cv::aruco::DICT_4X4_1000);
 
-/// OpenCV's smaller dictionaries are the beginnings of these.
+/// The largest dictionary of each family; OpenCV's smaller dictionaries are their beginnings.
 constexpr std::array<std::pair<DictionaryName, const char*>, 9> kDictionaries = {
     {{cv::aruco::DICT_4X4_1000, "DICT_4X4"},
      {cv::aruco::DICT_5X5_1000, "DICT_5X5"},
@@ -49,13 +49,13 @@ cv::Point2f Mapped(const cv::Mat& H, double x, double y) {
           static_cast<float>((H.at<double>(1, 0) * x + H.at<double>(1, 1) * y + H.at<double>(1, 2)) / w)};
 }
 
-/// Returns the map from a marker's square, whose corners are at (±1, ±1), to the picture.
+/// Returns the homography from a marker's square, with corners (±1, ±1), to the picture.
 cv::Mat HomographyOfQuad(const Quad& quad) {
   const Quad unit = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
   return cv::getPerspectiveTransform(unit, quad);
 }
 
-/// Finds the markers of one dictionary, inverted ones too.
+/// Detects the markers of one dictionary, including inverted ones.
 void DetectMarkers(const cv::Mat& gray, DictionaryName name, std::vector<Quad>& quads, std::vector<int>& ids) {
 #if ETUDE_ARUCO_IN_OBJDETECT
   cv::aruco::DetectorParameters parameters;
@@ -80,9 +80,10 @@ class OpenCvFinder : public PrintedBoardFinder {
   const PrintedBoard board;
   std::array<std::size_t, kDictionaries.size()> votes{};
   std::optional<std::size_t> dictionary;
-  std::array<std::size_t, 2> layouts{};  ///< pictures that speak for a first marker in the second and the first square
-  std::map<int, std::size_t> shares;     ///< of a marker's side in a square's, in hundredths
-  std::array<std::size_t, 2> inversion{};  ///< markers that are printed black on white, and inverted
+  /// Number of pictures in which the first marker is in the second (0) or the first (1) square.
+  std::array<std::size_t, 2> layouts{};
+  std::map<int, std::size_t> shares;  ///< number of pictures by the ratio of marker side to square side, hundredths
+  std::array<std::size_t, 2> inversion{};  ///< number of markers printed black on white (0) and inverted (1)
 
   std::map<int, Quad> Detect(const cv::Mat& gray, std::size_t which) const {
     std::vector<int> ids;
@@ -96,6 +97,7 @@ class OpenCvFinder : public PrintedBoardFinder {
     return markers;
   }
 
+  /// Detects markers. All dictionaries are tried until one has clearly the most detections.
   std::map<int, Quad> Markers(const cv::Mat& gray) {
     if (dictionary) return Detect(gray, *dictionary);
     std::map<int, Quad> best;
@@ -112,7 +114,7 @@ class OpenCvFinder : public PrintedBoardFinder {
     return best;
   }
 
-  /// The square of a marker; of layout 1 the first square holds one.
+  /// Returns column and row of the square of a marker; in layout 1 the first square holds one.
   std::array<int, 2> SquareOf(int id, int layout) const {
     for (int row = 0; row < board.rows; ++row) {
       for (int column = 0; column < board.columns; ++column) {
@@ -125,14 +127,16 @@ class OpenCvFinder : public PrintedBoardFinder {
 
   struct Predicted {
     std::array<int, 2> corner;
-    cv::Point2f place;
-    double apart = 0;  ///< how far both markers' words for it are apart, in markers
+    cv::Point2f pixel;
+    double disagreement = 0;  ///< distance between the predictions of both markers, in marker sides
     double square_px = 0;
   };
 
-  /// Predicts each corner by both markers beside it, if markers have that share of a square.
+  /// Predicts each corner as the mean of the predictions of its two adjacent markers, for a given ratio of marker side
+  /// to square side.
   std::vector<Predicted> Predict(const std::map<int, Quad>& markers, int layout, double share) const {
-    std::map<std::array<int, 2>, std::vector<std::pair<cv::Point2f, double>>> said;
+    // Every marker predicts the four corners of its square.
+    std::map<std::array<int, 2>, std::vector<std::pair<cv::Point2f, double>>> predictions;
     for (const auto& [id, quad] : markers) {
       const auto [column, row] = SquareOf(id, layout);
       if (column < 0) continue;
@@ -140,37 +144,40 @@ class OpenCvFinder : public PrintedBoardFinder {
       for (const auto& [dx, dy] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
         const std::array<int, 2> corner = {column + (dx > 0 ? 0 : -1), row + (dy > 0 ? 0 : -1)};
         if (corner[0] < 0 || corner[1] < 0 || corner[0] >= board.columns - 1 || corner[1] >= board.rows - 1) continue;
-        said[corner].emplace_back(Mapped(H, dx / share, dy / share), Distance(quad[0], quad[2]) / std::sqrt(2.0));
+        predictions[corner].emplace_back(Mapped(H, dx / share, dy / share),
+                                         Distance(quad[0], quad[2]) / std::sqrt(2.0));
       }
     }
+    // Keep the corners predicted by two markers.
     std::vector<Predicted> predicted;
-    for (const auto& [corner, words] : said) {
-      if (words.size() != 2) continue;
-      const double marker = 0.5 * (words[0].second + words[1].second);
-      predicted.push_back({corner, 0.5f * (words[0].first + words[1].first),
-                           Distance(words[0].first, words[1].first) / marker, marker / share});
+    for (const auto& [corner, of_corner] : predictions) {
+      if (of_corner.size() != 2) continue;
+      const double marker = 0.5 * (of_corner[0].second + of_corner[1].second);
+      predicted.push_back({corner, 0.5f * (of_corner[0].first + of_corner[1].first),
+                           Distance(of_corner[0].first, of_corner[1].first) / marker, marker / share});
     }
     return predicted;
   }
 
   std::vector<SeenCorner> FindCharuco(const cv::Mat& gray) {
     const std::map<int, Quad> markers = Markers(gray);
-    constexpr std::size_t kFewest = 3;
-    if (markers.size() < kFewest) return {};
-    // The layout and share with which most corners are agreed about by both markers beside them, and then best.
-    constexpr double kMostApart = 0.2;
-    double least = 1e9;
+    constexpr std::size_t kMinMarkers = 3;
+    if (markers.size() < kMinMarkers) return {};
+    // Choose the layout and ratio for which most corners are predicted consistently, then those of the smallest
+    // disagreement.
+    constexpr double kMaxDisagreement = 0.2;
+    double min_disagreement = 1e9;
     int layout = 0, share = 75;
     std::vector<Predicted> best;
     for (int way = 0; way < 2; ++way) {
       for (int hundredths = 40; hundredths <= 95; ++hundredths) {
         std::vector<Predicted> predicted = Predict(markers, way, hundredths / 100.0);
-        std::erase_if(predicted, [](const Predicted& one) { return one.apart > kMostApart; });
+        std::erase_if(predicted, [](const Predicted& one) { return one.disagreement > kMaxDisagreement; });
         if (predicted.size() < 2 || predicted.size() < best.size()) continue;
         double sum = 0;
-        for (const Predicted& one : predicted) sum += one.apart / static_cast<double>(predicted.size());
-        if (predicted.size() == best.size() && sum >= least) continue;
-        least = sum;
+        for (const Predicted& one : predicted) sum += one.disagreement / static_cast<double>(predicted.size());
+        if (predicted.size() == best.size() && sum >= min_disagreement) continue;
+        min_disagreement = sum;
         layout = way;
         share = hundredths;
         best = std::move(predicted);
@@ -180,22 +187,23 @@ class OpenCvFinder : public PrintedBoardFinder {
     ++layouts[static_cast<std::size_t>(layout)];
     ++shares[share];
     for (const auto& [id, quad] : markers) CountInversion(gray, quad);
+    // Refine the corners in the picture.
     std::vector<SeenCorner> corners;
     for (const Predicted& one : best) {
-      Quad refined = {one.place};
+      Quad refined = {one.pixel};
       const int half = std::clamp(static_cast<int>(0.12 * one.square_px), 2, 12);
       const cv::Rect inside(half + 2, half + 2, gray.cols - 2 * half - 4, gray.rows - 2 * half - 4);
-      if (!inside.contains(one.place)) continue;
+      if (!inside.contains(one.pixel)) continue;
       cv::cornerSubPix(gray, refined, {half, half}, {-1, -1},
                        {cv::TermCriteria::EPS + cv::TermCriteria::COUNT, 40, 0.01});
-      if (Distance(refined[0], one.place) > half) continue;
+      if (Distance(refined[0], one.pixel) > half) continue;
       corners.push_back({0, {one.corner[0], one.corner[1]}, {refined[0].x + 0.5, refined[0].y + 0.5}});
     }
     std::ranges::sort(corners, {}, [](const SeenCorner& c) { return std::pair(c.corner.row, c.corner.column); });
     return corners;
   }
 
-  /// A marker has a rim of one module, black but where it is inverted.
+  /// Compares the rim of a marker, one module wide, with its surroundings: it is darker unless the marker is inverted.
   void CountInversion(const cv::Mat& gray, const Quad& quad) {
     const cv::Mat H = HomographyOfQuad(quad);
     double rim = 0, outside = 0;
@@ -216,12 +224,13 @@ class OpenCvFinder : public PrintedBoardFinder {
     Quad found;
     if (!cv::findChessboardCornersSB(gray, inner, found, cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_ACCURACY))
       return {};
+    // Orient the board by the colours of its squares.
     const auto at = [&](int column, int row) { return found[static_cast<std::size_t>(row * inner.width + column)]; };
     const auto value = [&](const cv::Point2f& p) {
       const cv::Point whole(std::clamp(cvRound(p.x), 0, gray.cols - 1), std::clamp(cvRound(p.y), 0, gray.rows - 1));
       return static_cast<int>(gray.at<std::uint8_t>(whole));
     };
-    // Squares (1, 1) and (2, 1) are between corners; (1, 1) has the first square's colour.
+    // Squares (1, 1) and (2, 1) lie between detected corners; (1, 1) has the colour of the first square.
     const cv::Point2f same = 0.25f * (at(0, 0) + at(1, 0) + at(0, 1) + at(1, 1));
     const cv::Point2f other = 0.25f * (at(1, 0) + at(2, 0) + at(1, 1) + at(2, 1));
     if ((board.columns + board.rows) % 2 != 0 && value(same) > value(other)) std::ranges::reverse(found);
@@ -241,7 +250,7 @@ std::vector<SeenCorner> OpenCvFinder::Find(const ColourImage& picture) {
   try {
     return board.is_charuco ? FindCharuco(gray) : FindChess(gray);
   } catch (const cv::Exception&) {
-    return {};  // a picture that OpenCV cannot use shows no board
+    return {};  // a picture that OpenCV cannot process shows no board
   }
 }
 
@@ -267,6 +276,7 @@ std::unique_ptr<PrintedBoardFinder> MakeOpenCvFinder(const PrintedBoard& board) 
 
 Result<OpenCvCalibration> CalibrateCamera(std::span<const TargetView> views, const PictureSize& size, LensModel lens) {
   constexpr double kOurPixelCentre = 0.5;
+  // The lens model as flags.
   int flags = 0;
   switch (lens) {
     case LensModel::kPinhole:
@@ -280,25 +290,27 @@ Result<OpenCvCalibration> CalibrateCamera(std::span<const TargetView> views, con
     case LensModel::kAsInCamera:
       return Fail({}, "OpenCV's calibrateCamera holds no lens as it is");
   }
-  std::vector<std::vector<cv::Point3f>> places;
+  // Convert the views; OpenCV's pixel centres are at whole numbers, ours at halves.
+  std::vector<std::vector<cv::Point3f>> object_points;
   std::vector<Quad> pixels;
   for (const TargetView& view : views) {
-    auto& of_places = places.emplace_back();
-    auto& of_pixels = pixels.emplace_back();
+    auto& object_view = object_points.emplace_back();
+    auto& image_view = pixels.emplace_back();
     for (const PointPair& pair : view.pairs) {
-      of_places.emplace_back(static_cast<float>(pair.world.x), static_cast<float>(pair.world.y), 0.0F);
-      of_pixels.emplace_back(static_cast<float>(pair.pixel.x - kOurPixelCentre),
-                             static_cast<float>(pair.pixel.y - kOurPixelCentre));
+      object_view.emplace_back(static_cast<float>(pair.world.x), static_cast<float>(pair.world.y), 0.0F);
+      image_view.emplace_back(static_cast<float>(pair.pixel.x - kOurPixelCentre),
+                              static_cast<float>(pair.pixel.y - kOurPixelCentre));
     }
   }
   try {
     cv::setNumThreads(1);
     cv::Mat K, d;
     std::vector<cv::Mat> turns, shifts;
+    // Calibrate, and convert the result to our pixel coordinates.
     OpenCvCalibration found;
     constexpr int kSteps = 100;
     constexpr double kSettled = 1e-12;
-    found.rms_px = cv::calibrateCamera(places, pixels, {size.width, size.height}, K, d, turns, shifts, flags,
+    found.rms_px = cv::calibrateCamera(object_points, pixels, {size.width, size.height}, K, d, turns, shifts, flags,
                                        {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, kSteps, kSettled});
     found.intrinsics = {size.width,
                         size.height,

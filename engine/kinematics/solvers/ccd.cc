@@ -25,7 +25,7 @@ IkSolution SolveBySweeps(const KinematicTree& tree, const IkProblem& problem, co
   return run.Finish({ccd.angles().begin(), ccd.angles().end()});
 }
 
-// R · R_JL, R the rotation by `angle` about J's coordinate axis `axis`.
+// Returns R · R_JL, where R is the rotation by `angle` about J's coordinate axis `axis`.
 glm::dmat3 TurnedAbout(int axis, double angle, glm::dmat3 R_JL) {
   const double c = std::cos(angle), s = std::sin(angle);
   const int i = (axis + 1) % 3, j = (axis + 2) % 3;
@@ -93,7 +93,7 @@ double CcdSweep::Sweep() {
 }
 
 double CcdSweep::Turn() {
-  // The last FK has measured the errors that the weights of this sweep go by.
+  // The weights of this sweep follow the errors measured last.
   for (std::size_t e = 0; e < weights_.size(); ++e) {
     weights_[e] = ComputeWeights(options_.weights, errors_[e].position, errors_[e].axis_angles);
   }
@@ -152,7 +152,7 @@ HingeGain CcdSweep::GainAbout(const glm::dvec3& axis_W, int joint) const {
   return gain;
 }
 
-// By a rotation of the world.
+// Rotates the effectors beyond a joint about it by a rotation given in the world.
 void CcdSweep::TurnBelow(int joint, const glm::dmat3& rotation) {
   const glm::dvec3& p_WJ = frames_.joints[joint].position;
   for (int e : effectors_below_[joint]) {
@@ -161,15 +161,16 @@ void CcdSweep::TurnBelow(int joint, const glm::dmat3& rotation) {
   }
 }
 
-// One degree of freedom (paper B, case 1). Returns how far it turned.
+// Turns one degree of freedom (paper B, case 1). Returns the absolute turn, radians.
 double CcdSweep::TurnHinge(int joint, int axis) {
   if (options_.refresh == WeightRefresh::kDof) UpdateWeightsBelow(joint);
   const int dof = tree_.joints[joint].first_dof + axis;
   double& angle = state_.angles[dof];
-  const glm::dvec3& axis_W = frames_.dof_axes[dof];  // nothing that carries it has turned since the last FK
+  // Still valid: no joint that carries this axis has turned since the last forward kinematics.
+  const glm::dvec3& axis_W = frames_.dof_axes[dof];
   const AngleRange left{ranges_[dof].lower - angle, ranges_[dof].upper - angle};
   const double turn = GainAbout(axis_W, joint).OptimumWithin(left);
-  // (upper − angle) + angle may miss upper by a rounding.
+  // (upper − angle) + angle may differ from upper by rounding.
   angle = std::clamp(angle + turn, ranges_[dof].lower, ranges_[dof].upper);
   TurnBelow(joint, AxisRotation(axis_W, turn));
   return std::abs(turn);
@@ -177,7 +178,7 @@ double CcdSweep::TurnHinge(int joint, int axis) {
 
 double CcdSweep::TurnAsHinges(int joint) {
   double largest = 0;
-  // The innermost axis is nearest to the leaves: turning it leaves the others' axes where they are.
+  // Begin with the axis nearest to the leaves: turning it does not move the joint's other axes.
   for (int axis = tree_.joints[joint].dof_count - 1; axis >= 0; --axis) {
     largest = std::max(largest, TurnHinge(joint, axis));
   }
@@ -192,8 +193,10 @@ double CcdSweep::TurnWhole(int joint) {
   glm::dmat3 R_JL = RotationXyz(angles);
   for (int axis = 0; axis < limb.dof_count; ++axis) {
     if (options_.refresh == WeightRefresh::kDof) UpdateWeightsBelow(joint);
+    // The best turn about this axis, without limits.
     const double turn = GainAbout(R_WJ[axis], joint).Optimum();
     const glm::dmat3 best_R_JL = TurnedAbout(axis, turn, R_JL);
+    // Clip the Euler angles of the turned joint.
     const glm::dvec3 best_angles = AnglesXyz(best_R_JL);
     for (int k = 0; k < 3; ++k) {
       const int dof = limb.first_dof + k;
@@ -213,14 +216,14 @@ double CcdSweep::TurnWhole(int joint) {
 
 namespace {
 
-// Half tangents beyond this are of angles almost half a turn from their middle, where the tangent has its pole.
-constexpr double kLargestHalfTangent = 100;
+// A larger half tangent means an angle almost half a turn from its middle, near the pole of the tangent.
+constexpr double kMaxHalfTangent = 100;
 
 bool AreFarFromPole(std::span<const double> half_tangents) {
-  return std::ranges::all_of(half_tangents, [](double t) { return std::abs(t) < kLargestHalfTangent; });
+  return std::ranges::all_of(half_tangents, [](double t) { return std::abs(t) < kMaxHalfTangent; });
 }
 
-// CcdSweep, for weights that moments cannot carry, with the interface of MomentSweep.
+// Gives `CcdSweep` the interface of `MomentSweep`, for weights that the moment form does not support.
 class AngleSweep {
  public:
   AngleSweep(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options)
@@ -235,7 +238,7 @@ class AngleSweep {
   double Turn() { return sweep_.Turn(); }
   void Measure() { sweep_.Measure(); }
   double Merit() const { return sweep_.Merit(); }
-  bool MissesGoals() const { return false; }  // sweeps from effector to effector measure errors anyway
+  bool MissesGoals() const { return false; }  // errors are always measured here, so no shortcut is needed
   std::vector<double> Angles() const { return {sweep_.angles().begin(), sweep_.angles().end()}; }
 
   void ReadHalfTangents(std::span<double> out) const {
@@ -253,7 +256,7 @@ class AngleSweep {
   std::vector<double> middles_, angles_;
 };
 
-// Sweeps, each followed by an extrapolation from the last ones.
+// A sweep followed by an extrapolation from the last sweeps.
 template <class Sweep>
 class Accelerated {
  public:
@@ -268,17 +271,20 @@ class Accelerated {
   bool MissesGoals() const { return sweep_.MissesGoals(); }
   std::vector<double> Angles() const { return sweep_.Angles(); }
 
-  /// Returns the largest turn of the sweep itself. The caller counts one forward-kinematics pass, this any other.
+  /// One iteration. Returns the largest turn of the sweep, radians. The caller counts one forward-kinematics pass; a
+  /// second one is counted here.
   double Step(IkRun& run) {
     sweep_.ReadHalfTangents(now_);
     const double change = sweep_.Turn();
     sweep_.ReadHalfTangents(swept_);
+    // Near the pole of the tangent, keep the plain sweep and restart the extrapolation.
     if (!AreFarFromPole(now_) || !AreFarFromPole(swept_)) {
       mixing_.Discard();
       sweep_.Measure();
       return change;
     }
-    const double merit = sweep_.Merit();  // of the pose before, by the weights of this sweep
+    // Extrapolate; go back to the plain sweep if that raises the weighted sum.
+    const double merit = sweep_.Merit();  // at the pose before the sweep, with the weights of this sweep
     mixing_.Extrapolate(now_, swept_, mixed_);
     sweep_.SetHalfTangents(mixed_);
     sweep_.Measure();
@@ -296,11 +302,11 @@ class Accelerated {
   std::vector<double> now_, swept_, mixed_;
 };
 
-// A difference of which less than this part is new adds rounding only.
+// A difference is skipped if less than this share of it is independent of newer ones: the rest is rounding.
 constexpr double kNewPart = 1e-10;
 
 double Dot(std::span<const double> a, std::span<const double> b) {
-  double sums[4] = {};  // independent, so that additions overlap
+  double sums[4] = {};  // independent sums, so that additions overlap
   std::size_t i = 0;
   for (; i + 4 <= a.size(); i += 4) {
     for (int k = 0; k < 4; ++k) sums[k] += a[i + k] * b[i + k];
@@ -338,8 +344,9 @@ void AndersonMixing::Extrapolate(std::span<const double> x, std::span<const doub
   RecordPair(x, g);
   std::ranges::copy(g, out.begin());
 
-  // Gram–Schmidt, newest difference first: what f has along each new direction is taken off f at once, which keeps the
-  // shares exact although directions are orthogonal to rounding only (Björck 1967).
+  // Gram–Schmidt orthogonalisation, newest difference first. The component of f along each new direction is subtracted
+  // from f immediately, which keeps the shares accurate although the directions are orthogonal only to rounding (Björck
+  // 1967).
   std::ranges::copy(last_f_, rest_.begin());
   int rank = 0;
   for (int i = 0; i < differences_; ++i) {
@@ -357,6 +364,7 @@ void AndersonMixing::Extrapolate(std::span<const double> x, std::span<const doub
     AddMultiple(rest_, -shares_[rank], direction);
     chosen_[rank++] = i;
   }
+  // Back-substitution gives γ of every chosen difference; subtract γ Δg.
   for (int r = rank - 1; r >= 0; --r) {
     shares_[r] /= parts_[r][r];
     for (int k = 0; k < r; ++k) shares_[k] -= shares_[r] * parts_[r][k];
@@ -364,10 +372,10 @@ void AndersonMixing::Extrapolate(std::span<const double> x, std::span<const doub
   }
 }
 
-// The newest pair, and how it differs from the one before.
+// Stores the newest pair and its difference from the one before, in place of the oldest difference.
 void AndersonMixing::RecordPair(std::span<const double> x, std::span<const double> g) {
   if (has_last_ && memory_ > 0) {
-    // The oldest difference makes room for the newest.
+    // Overwrite the oldest difference.
     std::rotate(df_.begin(), df_.end() - 1, df_.end());
     std::rotate(dg_.begin(), dg_.end() - 1, dg_.end());
     differences_ = std::min(differences_ + 1, memory_);

@@ -9,22 +9,23 @@
 
 namespace etude {
 
-/// Solves by cyclic coordinate descent as paper B describes it (sections 3.6 and 3.7): `IkOptions` chooses joint
-/// limits, angle-change tolerance and weights. One iteration is one sweep over all joints, one forward-kinematics pass.
+/// Solves by cyclic coordinate descent as paper B describes it (sections 3.6 and 3.7). `IkOptions` selects joint
+/// limits, angle-change tolerance and weights. One iteration is one sweep over all joints and costs one
+/// forward-kinematics pass.
 IkSolution SolveCcd(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
 
-/// Solves as `SolveCcd` does, with every joint of two or three degrees of freedom treated as a row of hinges. *Ours.*
+/// Solves as `SolveCcd` does, but treats a joint of two or three degrees of freedom as a sequence of hinges. *Ours.*
 IkSolution SolveCcdHinges(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
 
-/// The gain of a hinge: how well the end effectors below it meet their targets after turning it by φ (paper B,
-/// equations 3.10–3.13): g(φ) = k₁(1 − cos φ) + k₂ cos φ + k₃ sin φ, to be maximal. Sums of several effectors are ours.
-/// For axes the paper sets out from Σ (u_d · u_c − 1)² and then makes Σ u_d · u_c largest, which is not the same for
-/// three of them; the latter is meant here, and makes Σ |u_d − u_c|² least.
+/// The gain of a hinge: how well the end effectors beyond it match their targets after it turns by φ (paper B,
+/// equations 3.10–3.13), g(φ) = k₁(1 − cos φ) + k₂ cos φ + k₃ sin φ, which is to be maximised. Summing over several
+/// effectors is ours. For axes, the paper starts from Σ (u_d · u_c − 1)² and then maximises Σ u_d · u_c, which is a
+/// different criterion for three axes. This struct follows the second, which minimises Σ |u_d − u_c|².
 struct HingeGain {
   double k1 = 0, k2 = 0, k3 = 0;
 
-  /// Adds one pair of vectors, current and desired, both from the joint: a position of the effector
-  /// or one of its axes. All in one frame; `axis` is the hinge's, of unit length.
+  /// Adds one pair of vectors, current and desired: positions of the effector relative to the joint, or one of its
+  /// axes. All vectors are in the same frame; `axis` is the hinge's unit axis.
   void Add(double weight, const glm::dvec3& current, const glm::dvec3& desired, const glm::dvec3& axis) {
     k1 += weight * (glm::dot(desired, axis) * glm::dot(current, axis));
     k2 += weight * glm::dot(desired, current);
@@ -33,43 +34,46 @@ struct HingeGain {
 
   double At(double phi) const;
 
-  /// Returns the φ in (−π, π] where g is maximal; 0 when g is flat.
+  /// Returns the φ in (−π, π] that maximises g; 0 if g is constant.
   double Optimum() const;
 
-  /// Returns the best φ within `range`, which holds 0 (so a turn by nothing is always allowed). The optimum counts
-  /// modulo 2π; when it is outside, the end of the range with the larger g, the lower one on a tie.
+  /// Returns the best φ within `range`, which must contain 0 (no turn is always allowed). The optimum counts modulo 2π.
+  /// If it lies outside, returns the end of the range with the larger g, the lower end on a tie.
   double OptimumWithin(const AngleRange& range) const;
 };
 
-/// The way in which a joint of two or three degrees of freedom is turned.
+/// How a joint of two or three degrees of freedom is turned.
 enum class CcdJoint {
-  kWhole,   ///< paper B, case 2: turn about each axis of the joint's rest frame in turn; after each turn take the
-            ///< joint's whole rotation apart into Rx Ry Rz, clip the angles, put it together again
-  kHinges,  ///< ours: as hinges about its Euler axes, each clipped at once, which never makes the gain smaller
+  /// Paper B, case 2: turn about each axis of the joint's rest frame in turn; after each turn decompose the joint's
+  /// whole rotation into Rx Ry Rz, clip the angles, and compose it again.
+  kWhole,
+  /// Ours: as hinges about its Euler axes, each clipped immediately. This never lowers the gain.
+  kHinges,
 };
 
-/// Cyclic coordinate descent on a tree (paper B, section 3.6), sweep by sweep. Takes its memory when made; `Sweep`
-/// allocates nothing. `tree` and `problem` must be free of faults (`FindFault`) and outlive this.
+/// Cyclic coordinate descent on a tree (paper B, section 3.6), one sweep per call. The constructor allocates all
+/// memory; `Sweep` allocates nothing. `tree` and `problem` must be free of faults (`FindFault`) and outlive this
+/// object.
 class CcdSweep {
  public:
   CcdSweep(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options, CcdJoint joint_kind);
 
-  /// Turns every joint once, leaves to root: a joint after all its children (figure 3.10). Returns the largest change
-  /// of an angle, radians.
+  /// Turns every joint once, from the leaves to the root (figure 3.10): a joint after all its children. Returns the
+  /// largest change of an angle, radians.
   double Sweep();
 
-  /// The two halves of `Sweep`: `Turn` finds new angles, `Measure` the errors that they lead to.
+  /// The two halves of `Sweep`: `Turn` computes new angles, `Measure` computes their frames and errors.
   double Turn();
   void Measure();
 
-  /// Returns what turns lower: Σ w_p e² + Σ w_o |u_c − u_d|² of the pose measured last, by the weights of the last turn
-  /// (by those it ended with when they change on the way; `kWangChen` without ρ).
+  /// Returns the sum that turns reduce, Σ w_p e² + Σ w_o |u_c − u_d|², at the pose measured last, with the weights of
+  /// the last turn. If weights change during a sweep, those at its end count; `kWangChen` counts without ρ.
   double Merit() const;
-  /// Sets every angle, or the nearest end of its range. Measures nothing.
+  /// Sets every angle, clamped to its range. Does not update the errors.
   void SetAngles(std::span<const double> angles);
 
   std::span<const double> angles() const { return state_.angles; }
-  /// The errors of the present angles, as forward kinematics gives them.
+  /// The errors at the pose measured last.
   std::span<const EffectorError> errors() const { return errors_; }
 
  private:
@@ -85,42 +89,42 @@ class CcdSweep {
   const IkOptions options_;
   const CcdJoint joint_kind_;
   const std::vector<AngleRange> ranges_;
-  std::vector<std::vector<int>> effectors_below_;  // of each joint
+  std::vector<std::vector<int>> effectors_below_;  // of each joint: the effectors beyond it
   TreeState state_;
-  TreeFrames frames_;  // effectors are kept current while the joints below have turned, nothing else is
+  TreeFrames frames_;  // during a sweep only its effectors are kept up to date
   std::vector<EffectorError> errors_;
   std::vector<EffectorWeights> weights_;
 };
 
 struct CcdAndersonOptions {
-  /// The number of former sweeps that the extrapolation uses. Five: of 200 starts off by 15° (poses of the joints'
-  /// whole ranges) it solves 97 % to 10⁻³ cm and 10⁻³° in 186 sweeps on average; one solves 55 % in 707, three 96.5 %
-  /// in 198, twelve 98 % in 154. Raise it where a sweep costs much more than mixing, which grows with its square.
+  /// The number of former sweeps that the extrapolation uses. The default solves nearly as many problems as larger
+  /// values, in slightly more sweeps (README.md has the figures). Raise it if a sweep is much more expensive than the
+  /// extrapolation, whose cost grows with its square.
   int memory = 5;
 };
 
-/// Solves by the sweeps of `ccd-hinges`, extrapolated from the last of them (`AndersonMixing`). *Ours.* Paper B settles
-/// one joint after the other, so that errors creep along the limbs, which can be extrapolated. An angle enters as x =
-/// tan((q − middle of its range) / 2), which costs no trigonometry. An extrapolation that raises Σ w_p e² + Σ w_o |u_c
-/// − u_d|², by the weights of its sweep, is dropped for what the sweep itself found. One iteration is one sweep; it
-/// costs one forward-kinematics pass, or two when its extrapolation was dropped.
+/// Solves by the sweeps of `ccd-hinges`, extrapolated from the last of them (`AndersonMixing`). *Ours.* In paper B
+/// every joint is settled in turn, so errors move slowly along the limbs, and such slow convergence can be
+/// extrapolated. An angle enters as x = tan((q − middle of its range) / 2), which costs no trigonometry. If an
+/// extrapolation raises Σ w_p e² + Σ w_o |u_c − u_d|² (with the weights of its sweep), it is discarded and the result
+/// of the sweep is kept. One iteration is one sweep; it costs one forward-kinematics pass, or two if its extrapolation
+/// was discarded.
 IkSolution SolveCcdAnderson(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                             const CcdAndersonOptions& own = {});
 
-/// Anderson's extrapolation of a fixed-point iteration x ← g(x) (Anderson 1965; "type II" of Walker and Ni 2011). From
-/// the last pairs of x and g(x), with f = g(x) − x, it takes
-///     g − Σ γ_i Δg_i,   γ = argmin |f − Σ γ_i Δf_i|,
-/// Δ being differences of neighbouring pairs: where g is linear, the point of their span whose f is shortest. Takes
-/// its memory when made.
+/// Anderson's extrapolation of a fixed-point iteration x ← g(x) (Anderson 1965; "type II" of Walker and Ni 2011). With
+/// f = g(x) − x and Δ the differences of consecutive pairs, it returns
+///     g − Σ γ_i Δg_i,   γ = argmin |f − Σ γ_i Δf_i|.
+/// If g is linear, this is the point of the pairs' span with the shortest f. The constructor allocates all memory.
 class AndersonMixing {
  public:
-  /// Makes one for vectors of `size` numbers, looking back by `memory` ≥ 0 pairs.
+  /// For vectors of `size` numbers; uses the last `memory` ≥ 0 pairs.
   AndersonMixing(int size, int memory);
 
-  /// Records the pair x, g = g(x) and writes the extrapolation to `out`; g itself when no pair came before.
+  /// Records the pair x, g = g(x) and writes the extrapolation to `out`. The first pair is returned as g.
   void Extrapolate(std::span<const double> x, std::span<const double> g, std::span<double> out);
 
-  /// Discards all pairs: to be called after a jump that g did not make.
+  /// Forgets all pairs. Call it after x has changed in another way than by g.
   void Discard();
 
  private:
@@ -130,14 +134,14 @@ class AndersonMixing {
 
   const int memory_;
   bool has_last_ = false;
-  int differences_ = 0;          // known so far, at most `memory_`
-  Vector last_f_, last_g_;       // of the last pair
-  Vector rest_;                  // f without what it has along the basis
+  int differences_ = 0;          // number of stored differences, at most `memory_`
+  Vector last_f_, last_g_;       // of the pair recorded last
+  Vector rest_;                  // the part of f that is orthogonal to the basis
   std::vector<Vector> df_, dg_;  // differences, newest first
-  std::vector<Vector> basis_;    // orthonormal, of those df that are independent of newer ones
+  std::vector<Vector> basis_;    // orthonormal; of those df that are independent of newer ones
   std::vector<Vector> parts_;    // df_[chosen_[r]] = Σ_k parts_[r][k] · basis_[k]
   std::vector<int> chosen_;
-  Vector shares_;  // γ of the chosen ones
+  Vector shares_;  // γ of the chosen differences
 };
 
 }  // namespace etude

@@ -14,22 +14,23 @@
 namespace etude {
 namespace {
 
-// With less damping than this, JᵀJ of 29 angles and 24 demands is too nearly singular for Cholesky.
-constexpr double kLargestRadius = 1e8;
-// A step that lowers the sum by a smaller part than this leads nowhere.
-constexpr double kSmallestCostChange = 1e-9;
-// More than Ceres's 5: at limits, ways out often lead uphill at first.
-constexpr int kMostStepsUphill = 20;
+// Maximum trust-region radius. Beyond it, JᵀJ of 29 angles and 24 residuals is too nearly singular for Cholesky.
+constexpr double kMaxRadius = 1e8;
+// The solver stops if a step lowers the sum by less than this share.
+constexpr double kMinCostChange = 1e-9;
+// Steps that may raise the sum in a row. At limits, ways out often lead uphill at first, so Ceres's 5 are too few.
+constexpr int kMaxStepsUphill = 20;
 
-// The rotation of the world that takes an effector's axes E to the desired ones D, the short way round.
+// Returns the rotation, in the world, that turns an effector's axes E into the desired axes D, by less than half a
+// turn.
 glm::dquat MissingTurn(const glm::dmat3& R_WE, const glm::dmat3& R_WD) {
   const glm::dquat turn = glm::quat_cast(R_WD * glm::transpose(R_WE));
   return turn.w < 0 ? -turn : turn;
 }
 
-// The residuals of all effectors as functions of those angles that can move. A position has three. Three axes of one
-// weight w have three together, 2 √(2w) · (vector part of the quaternion between E and D), whose squares add up
-// to just Σ w |u_d − u_c|²; otherwise every axis with weight has its own three.
+// The residuals of all effectors as functions of the angles that can move. A position has three. Three axes of equal
+// weight w have three together, 2 √(2w) · (vector part of the quaternion between E and D), whose squares sum to Σ w
+// |u_d − u_c|²; otherwise every axis with weight has three of its own.
 class Residuals final : public ceres::CostFunction {
  public:
   Residuals(const KinematicTree& tree, const IkProblem& problem, const std::vector<double>& start_angles,
@@ -37,6 +38,7 @@ class Residuals final : public ceres::CostFunction {
       : tree_(tree), problem_(problem), moving_(std::move(moving)), state_(problem.start) {
     state_.angles = start_angles;
     ComputeFrames(tree_, state_, frames_);
+    // Count the residuals.
     int rows = 0;
     for (const EffectorTarget& target : problem.targets) {
       if (target.position_weight > 0) rows += 3;
@@ -50,6 +52,7 @@ class Residuals final : public ceres::CostFunction {
     mutable_parameter_block_sizes()->push_back(static_cast<int>(moving_.size()));
   }
 
+  // Forward kinematics at `x`, computed only if an angle has changed.
   const TreeFrames& FramesAt(const double* x) const {
     bool has_moved = false;
     for (std::size_t i = 0; i < moving_.size(); ++i) {
@@ -60,7 +63,7 @@ class Residuals final : public ceres::CostFunction {
     if (has_moved) ComputeFrames(tree_, state_, frames_);
     return frames_;
   }
-  /// All angles of the last call.
+  /// All angles of the last evaluation.
   const std::vector<double>& angles() const { return state_.angles; }
 
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
@@ -71,7 +74,8 @@ class Residuals final : public ceres::CostFunction {
     for (std::size_t e = 0; e < problem_.targets.size(); ++e) {
       const EffectorTarget& target = problem_.targets[e];
       const LimbFrame& X_WE = frames.effectors[e];
-      // Writes three rows; `change` gives what they gain from a move by `shift` and a turn by `turn`.
+      // Writes three residuals and their rows of the Jacobian; `change` returns the derivative of the residual for a
+      // shift and a rotation vector of the effector.
       const auto write = [&](const glm::dvec3& residual, const auto& change) {
         for (int k = 0; k < 3; ++k) residuals[row + k] = residual[k];
         for (std::size_t i = 0; jacobian != nullptr && i < moving_.size(); ++i) {
@@ -82,11 +86,13 @@ class Residuals final : public ceres::CostFunction {
         row += 3;
       };
       if (target.position_weight > 0) {
+        // Position residuals, in units of `kPositionScale`.
         const double scale = std::sqrt(target.position_weight) / kPositionScale;
         write(scale * (X_WE.position - target.position),
               [&](const glm::dvec3& shift, const glm::dvec3&) { return scale * shift; });
       }
       if (IsWholeFrame(target)) {
+        // Three axes of one weight: the rotation between E and D.
         const double scale = std::sqrt(2 * target.axis_weights.x);
         const glm::dquat missing = MissingTurn(X_WE.axes, target.axes);
         const glm::dvec3 v(missing.x, missing.y, missing.z);
@@ -97,6 +103,7 @@ class Residuals final : public ceres::CostFunction {
       }
       for (int k = 0; k < 3; ++k) {
         if (target.axis_weights[k] <= 0) continue;
+        // Single axes: the difference of the unit vectors.
         const double scale = std::sqrt(target.axis_weights[k]);
         write(scale * (X_WE.axes[k] - target.axes[k]),
               [&](const glm::dvec3&, const glm::dvec3& turn) { return scale * glm::cross(turn, X_WE.axes[k]); });
@@ -114,19 +121,19 @@ class Residuals final : public ceres::CostFunction {
   const KinematicTree& tree_;
   const IkProblem& problem_;
   const std::vector<int> moving_;
-  mutable TreeState state_;  // of the last call
+  mutable TreeState state_;  // of the last evaluation
   mutable TreeFrames frames_;
   mutable TreeJacobian moves_;
 };
 
-// Records every step and stops Ceres by our goals.
+// Records every step, and stops Ceres when our goals are met.
 class Recorder final : public ceres::IterationCallback {
  public:
   Recorder(IkRun& run, const Residuals& residuals, const std::vector<double>& x, double stall_change)
       : run_(run), residuals_(residuals), x_(x), stall_change_(stall_change) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
-    if (step.iteration == 0) return ceres::SOLVER_CONTINUE;  // the start is recorded
+    if (step.iteration == 0) return ceres::SOLVER_CONTINUE;  // the caller has recorded the start
     const bool has_stalled = step.step_is_successful && StepLength(step) < stall_change_;
     run_.RecordFrames(residuals_.FramesAt(x_.data()), residuals_.angles());
     if (has_stalled) run_.Stall();
@@ -134,8 +141,8 @@ class Recorder final : public ceres::IterationCallback {
   }
 
  private:
-  // Ceres 2.2 tells 0 as the length of the first successful step. That step leads from the start to where the residuals
-  // were asked for last; x is no help, since Ceres keeps the best point so far there.
+  // Ceres 2.2 reports length 0 for the first successful step. That step leads from the start to the point of the last
+  // evaluation. (x does not help: Ceres stores the best point so far there.)
   double StepLength(const ceres::IterationSummary& step) {
     if (std::exchange(has_stepped_, true)) return step.step_norm;
     double squares = 0;
@@ -153,26 +160,27 @@ class Recorder final : public ceres::IterationCallback {
   bool has_stepped_ = false;
 };
 
-// Ceres's best for this kind of problem; every choice was measured against its alternatives.
+// The fastest options for this kind of problem; bench/micro/README.md compares the alternatives.
 ceres::Solver::Options TunedOptions(const IkOptions& options, const CeresLmOptions& own) {
   ceres::Solver::Options tuned;
   tuned.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
-  // Some 24 demands on 29 angles: so few that Eigen does not block by the sizes of caches, which would differ between
-  // machines.
+  // With about 24 residuals and 29 angles, the matrices are too small for Eigen to block them by cache sizes, which
+  // would make results depend on the machine.
   tuned.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
   tuned.dense_linear_algebra_library_type = ceres::EIGEN;
-  // The plain damping of Levenberg: Marquardt's, by the diagonal of JᵀJ, lets weak angles swing.
+  // Levenberg's damping by the identity. Marquardt's scaling by the diagonal of JᵀJ lets weakly determined angles
+  // swing.
   tuned.jacobi_scaling = false;
   tuned.min_lm_diagonal = 1;
   tuned.max_lm_diagonal = 1;
   tuned.initial_trust_region_radius = own.first_radius;
-  tuned.max_trust_region_radius = std::max(kLargestRadius, own.first_radius);
+  tuned.max_trust_region_radius = std::max(kMaxRadius, own.first_radius);
   tuned.use_nonmonotonic_steps = true;
-  tuned.max_consecutive_nonmonotonic_steps = kMostStepsUphill;
-  tuned.max_num_line_search_step_size_iterations = 0;  // steps are cut at the bounds, not searched along
-  // Only our goals, our iterations and a standstill stop it.
+  tuned.max_consecutive_nonmonotonic_steps = kMaxStepsUphill;
+  tuned.max_num_line_search_step_size_iterations = 0;  // no line search at the bounds: steps are projected
+  // Only our goals, the iteration limit and a stall stop it.
   tuned.max_num_iterations = options.max_iterations;
-  tuned.function_tolerance = kSmallestCostChange;
+  tuned.function_tolerance = kMinCostChange;
   tuned.gradient_tolerance = 0;
   tuned.parameter_tolerance = 0;
   tuned.max_solver_time_in_seconds = std::numeric_limits<double>::max();
@@ -186,10 +194,11 @@ ceres::Solver::Options TunedOptions(const IkOptions& options, const CeresLmOptio
 IkSolution SolveCeresLm(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                         const CeresLmOptions& own) {
   if (!FindFault(tree, problem, options).empty()) return BadInput(tree);
-  FLAGS_minloglevel = google::GLOG_FATAL;  // what it has to say is in the status
+  FLAGS_minloglevel = google::GLOG_FATAL;  // no log output: the status reports the outcome
 
+  // Collect the angles that can move, and record the start.
   IkRun run(tree, problem, options);
-  std::vector<int> moving;  // Ceres takes no bounds that leave no room
+  std::vector<int> moving;  // without angles whose range is a single value, which Ceres's bounds do not allow
   for (int i = 0; i < tree.dof_count(); ++i) {
     if (run.ranges()[i].lower < run.ranges()[i].upper) moving.push_back(i);
   }
@@ -200,6 +209,7 @@ IkSolution SolveCeresLm(const KinematicTree& tree, const IkProblem& problem, con
   if (moving.empty()) run.Stall();
 
   if (run.MustGoOn()) {
+    // Set up Ceres's problem with bounds, and solve.
     ceres::Problem::Options borrow;
     borrow.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     borrow.disable_all_safety_checks = true;
@@ -215,7 +225,7 @@ IkSolution SolveCeresLm(const KinematicTree& tree, const IkProblem& problem, con
     tuned.update_state_every_iteration = true;
     ceres::Solver::Summary summary;
     ceres::Solve(tuned, &sum, &summary);
-    if (run.MustGoOn()) run.Stall();  // Ceres gave up
+    if (run.MustGoOn()) run.Stall();  // Ceres stopped without reaching our goals
   }
   residuals.FramesAt(x.data());
   return run.Finish(residuals.angles());

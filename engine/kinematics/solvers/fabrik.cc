@@ -11,9 +11,9 @@
 namespace etude {
 namespace {
 
-constexpr double kSmallestLever = 1e-9;  // metres
+constexpr double kMinLeverM = 1e-9;
 
-// Turns the joints so that the limbs come to lie as a FabrikPass laid them.
+// Turns the joints so that the limbs match the result of a FabrikPass as well as possible.
 class Follower {
  public:
   Follower(const KinematicTree& tree, std::span<const AngleRange> ranges, const FabrikPass& pass)
@@ -25,9 +25,10 @@ class Follower {
     for (std::vector<int>& limbs : led_) std::ranges::reverse(limbs);
   }
 
-  // Sets `angles`, which are those of `frames`.
+  // Updates `angles`, which must be those of `frames`.
   void Follow(const TreeFrames& frames, std::vector<double>& angles) {
     limbs_ = frames.joints;
+    // First round: each joint fits the tips of its own limb. Second round: it fits all tips beyond it.
     for (int j = 1; j < static_cast<int>(led_.size()); ++j) {
       if (!led_[j].empty()) TurnJoint(j, std::span(led_[j]).first(1), angles);
     }
@@ -35,26 +36,28 @@ class Follower {
   }
 
  private:
-  // Turns each hinge of a joint to the angle that brings the tips of the `judged` limbs nearest to where they were
-  // laid.
-  void TurnJoint(int j, std::span<const int> judged, std::vector<double>& angles) {
+  // Turns each hinge of a joint to the angle that brings the tips of the `fitted` limbs nearest to their positions in
+  // the pass.
+  void TurnJoint(int j, std::span<const int> fitted, std::vector<double>& angles) {
     const TreeJoint& joint = tree_.joints[j];
     const glm::dmat3 R_WJ = limbs_[joint.parent].axes * joint.R_PJ;
     const glm::dvec3 p_WJ = limbs_[j].position;
     for (int axis = 0; axis < joint.dof_count; ++axis) {
       const glm::dvec3 axis_W = DofAxis(joint, R_WJ, angles, axis);
+      // Sum the gain over all tips of the fitted limbs.
       HingeGain gain;
       double lever = 0;
-      for (const int limb : judged) {
+      for (const int limb : fitted) {
         const LimbFrame& X_WL = limbs_[limb];
-        const LimbFrame& X_WD = pass_.limbs()[limb];  // as it was laid
+        const LimbFrame& X_WD = pass_.limbs()[limb];  // as the pass left it
         for (const FabrikPass::Tip& tip : pass_.tips(limb)) {
           const glm::dvec3 p_JT_W = X_WL.position + X_WL.axes * tip.p_LT - p_WJ;
           gain.Add(1, p_JT_W, X_WD.position + X_WD.axes * tip.p_LT - p_WJ, axis_W);
           lever = std::max(lever, glm::length(glm::cross(axis_W, p_JT_W)));
         }
       }
-      if (lever < kSmallestLever) continue;  // it moves none of them
+      if (lever < kMinLeverM) continue;  // all tips lie on the axis
+      // Turn by the best angle within the range, and move the limbs beyond along.
       double& angle = angles[joint.first_dof + axis];
       const AngleRange& range = ranges_[joint.first_dof + axis];
       const double best = angle + gain.OptimumWithin({range.lower - angle, range.upper - angle});
@@ -71,11 +74,11 @@ class Follower {
   const KinematicTree& tree_;
   std::span<const AngleRange> ranges_;
   const FabrikPass& pass_;
-  std::vector<std::vector<int>> led_;  // by each joint: the limbs it moves that lead to a target, its own first
-  std::vector<LimbFrame> limbs_;       // as they are now
+  std::vector<std::vector<int>> led_;  // of each joint: the limbs with targets that it moves, its own first
+  std::vector<LimbFrame> limbs_;       // current frames
 };
 
-constexpr double kSmallest = 1e-12;  // metres, and parts of a length
+constexpr double kTiny = 1e-12;  // metres, or relative to a length
 
 Eigen::Vector3d ToEigen(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
@@ -102,23 +105,25 @@ IkSolution SolveFabrik(const KinematicTree& tree, const IkProblem& problem, cons
 }
 
 glm::dmat3 BestTurn(std::span<const glm::dvec3> from, std::span<const glm::dvec3> to) {
+  // The longest vector defines the line, if all vectors are parallel.
   glm::dvec3 longest(0);
   for (const glm::dvec3& v : from) {
     if (glm::length(v) > glm::length(longest)) longest = v;
   }
-  if (glm::length(longest) < kSmallest) return glm::dmat3(1);
+  if (glm::length(longest) < kTiny) return glm::dmat3(1);
   const glm::dvec3 line = glm::normalize(longest);
   bool is_line = true;
   for (const glm::dvec3& v : from) {
     is_line = is_line && glm::length(glm::cross(line, v)) < 1e-9 * glm::length(longest);
   }
+  // Parallel vectors: the smallest rotation of their line.
   if (is_line) {
     glm::dvec3 best(0);
     for (std::size_t i = 0; i < from.size(); ++i) best += glm::dot(from[i], line) * to[i];
-    return glm::length(best) < kSmallest * glm::length(longest) ? glm::dmat3(1)
-                                                                : SmallestRotation(line, glm::normalize(best));
+    return glm::length(best) < kTiny * glm::length(longest) ? glm::dmat3(1)
+                                                            : SmallestRotation(line, glm::normalize(best));
   }
-  // Kabsch 1976: the orthogonal matrix nearest to Σ to · fromᵀ, and no mirror image.
+  // General vectors (Kabsch 1976): the proper rotation nearest to Σ to · fromᵀ.
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < from.size(); ++i) sum += ToEigen(to[i]) * ToEigen(from[i]).transpose();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -138,7 +143,7 @@ FabrikPass::FabrikPass(const KinematicTree& tree, std::span<const EffectorTarget
     if (targets[e].position_weight <= 0) continue;
     tips_[tree.effectors[e].joint].push_back({tree.effectors[e].p_LE, -1, static_cast<int>(e)});
   }
-  // Children stand after their parents: when a limb's turn comes, all its tips are known.
+  // Children stand after their parents, so all tips of a limb are known when it is reached.
   for (int limb = static_cast<int>(tree.joints.size()) - 1; limb > 0; --limb) {
     if (!tips_[limb].empty()) tips_[tree.joints[limb].parent].push_back({tree.joints[limb].p_PJ, limb, -1});
   }
@@ -146,12 +151,13 @@ FabrikPass::FabrikPass(const KinematicTree& tree, std::span<const EffectorTarget
 
 void FabrikPass::Run(const TreeFrames& frames) {
   limbs_ = frames.joints;
+  // Backward, then forward.
   for (int limb = static_cast<int>(limbs_.size()) - 1; limb > 0; --limb) LayBackward(limb);
   for (int limb = 1; limb < static_cast<int>(limbs_.size()); ++limb) {
     const int above = tree_.joints[limb].parent;
     limbs_[limb].position = limbs_[above].position + limbs_[above].axes * tree_.joints[limb].p_PJ;
     if (tips_[limb].empty()) {
-      // R_WL = R_WP R_PL, R_PL as it was.
+      // R_WL = R_WP R_PL with the old R_PL.
       limbs_[limb].axes = limbs_[above].axes * glm::transpose(frames.joints[above].axes) * frames.joints[limb].axes;
     } else {
       LayForward(limb);

@@ -8,45 +8,47 @@
 
 namespace etude {
 
-/// Solves by FABRIK (Aristidou and Lasenby 2011): joints are points that reach forward and backward for the targets
-/// (`FabrikPass`). It knows positions only; the axes of targets are not looked at and count in the errors all the same.
-/// *Ours*, since points are no angles: after every pair of passes the joints, parents first, turn hinge by hinge, each
-/// within its range and given where the joints before really went: first so that the tips of their own limb come as
-/// near as possible to their places in the passes, without changing the twist; then again, so that all tips below do.
-/// The second round makes up for hinges and limits farther out: with the first alone a wrist at its limit keeps its
-/// hand from the target; with the second alone it takes twice the steps and solves three problems of four. The next
-/// passes begin with that pose, and errors are measured there: nothing counts as reached that the angles do not reach.
-/// A limb in line with its target stays so (figure 3.8): points on a line reach along it only. `IkOptions::weights` and
-/// `refresh` do not apply. One iteration is one pair of passes with its rounds; each costs one forward-kinematics pass.
+/// Solves by FABRIK (Aristidou and Lasenby 2011), which moves joints as points, forward and backward towards the
+/// targets (`FabrikPass`). It uses positions only; the targets' axes are ignored but still count in the errors. *Ours*
+/// is the step from points to angles. After every pair of passes the joints, parents first, turn hinge by hinge, each
+/// within its range and given the actual pose of the joints before it. The first round moves the tips of each joint's
+/// own limb as near as possible to their positions in the passes, without changing the twist; the second round does so
+/// for all tips beyond the joint. The second round compensates for hinges and limits farther out: with the first round
+/// alone, a wrist at its limit keeps its hand from the target; with the second round alone, the solver takes twice the
+/// steps and solves three problems of four. The next passes begin at that pose, and errors are measured there, so a
+/// goal counts as reached only if the angles reach it. A limb in line with its target stays so (figure 3.8), because
+/// points on a line reach along it only. `IkOptions::weights` and `refresh` do not apply. One iteration is one pair of
+/// passes with both rounds; each costs one forward-kinematics pass.
 IkSolution SolveFabrik(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
 
-/// FABRIK's two passes (Aristidou and Lasenby 2011) over a tree of rigid limbs, on places alone. A limb has a base (its
-/// joint) and tips (the joints below it, the effectors at its end). With one tip this is the paper's rule to the
-/// letter: the tip goes to its desired place, the base follows on the line to where it was. With several tips the paper
-/// takes their joint (its sub-base) for the mean of what the chains below want, and has no rule for tips that are rigid
-/// among themselves, like shoulders and neck. *Ours*: such a limb is laid through its tips by least squares:
-/// - backward, tips to root: the mean of the tips goes to the mean of their desired places; the limb is turned about
-///   it to suit the tips and, counted like one more tip, the old place of its base;
-/// - forward, root to tips: the base stands where the limb above ends; the limb is turned about it to suit the tips.
-/// Both turn no further than they must: never about the line of a limb whose points are in line. What leads to no
-/// target moves along with the limb above.
+/// FABRIK's two passes (Aristidou and Lasenby 2011) over a tree of rigid limbs, on positions alone. A limb has a base
+/// (its joint) and tips (the joints beyond it, the effectors at its end). With one tip this is exactly the paper's
+/// rule: the tip moves to its desired position, and the base follows on the line to its old position. With several tips
+/// the paper moves their common joint (its sub-base) to the mean of the positions that the chains beyond want. It has
+/// no rule for tips that form one rigid limb, like shoulders and neck. *Ours*: such a limb is fitted to its tips by
+/// least squares:
+/// - backward, tips to root: the mean of the tips moves to the mean of their desired positions; the limb turns about it
+///   to fit the tips and the old position of its base, which counts like one more tip;
+/// - forward, root to tips: the base is at the end of the limb before; the limb turns about it to fit the tips.
+/// Both use the smallest rotation: a limb whose points lie on one line does not turn about that line. A limb without a
+/// target moves along with the limb before it.
 class FabrikPass {
  public:
-  /// A point T of a limb that leads to a target.
+  /// A point T of a limb beyond which there is a target: the base of another limb, or an effector.
   struct Tip {
     glm::dvec3 p_LT;    ///< T in the frame of the limb L, metres
-    int limb = -1;      ///< whose base it is, or
-    int effector = -1;  ///< what it is the end of
+    int limb = -1;      ///< the limb whose base it is, or −1
+    int effector = -1;  ///< the effector at T, or −1
   };
 
   FabrikPass(const KinematicTree& tree, std::span<const EffectorTarget> targets);
 
-  /// Runs both passes, beginning with the limbs as they are in `frames`.
+  /// Runs both passes, starting from the limbs in `frames`.
   void Run(const TreeFrames& frames);
 
-  /// Returns the tips of one limb; none when it leads to no target.
+  /// Returns the tips of one limb; empty if no target lies beyond it.
   std::span<const Tip> tips(int limb) const { return tips_[limb]; }
-  /// Returns where the last run laid the limbs: each one's base and axes.
+  /// Returns the frame of every limb (base and axes) after the last run.
   std::span<const LimbFrame> limbs() const { return limbs_; }
 
  private:
@@ -62,8 +64,8 @@ class FabrikPass {
   std::vector<glm::dvec3> from_, to_;
 };
 
-/// Returns the rotation that turns the vectors `from` best into `to`, making Σ |R from − to|² least. When all of `from`
-/// are in line, the smallest such rotation; none when nothing tells.
+/// Returns the rotation R that minimises Σ |R from − to|². If all of `from` lie on one line, the smallest such
+/// rotation; the identity if the vectors determine no rotation.
 glm::dmat3 BestTurn(std::span<const glm::dvec3> from, std::span<const glm::dvec3> to);
 
 }  // namespace etude

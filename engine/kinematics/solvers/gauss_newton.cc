@@ -15,12 +15,12 @@
 namespace etude {
 namespace {
 
-// Nearer to a goal than this share of it, and this far, rounding might decide.
+// An error within this share of a goal plus this absolute amount may be decided by rounding, so it is measured exactly.
 constexpr double kDoubtfulShare = 1e-9, kDoubtfulRounding = 1e-14;
 
-// In float goals are this share of what is asked for, and nothing is in doubt.
+// In float, goals are tightened to this share, so no error is in doubt.
 constexpr double kFloatShare = 0.9;
-// A step in floats may still move this much when it has arrived, radians: the last bit of an angle.
+// Stall threshold in float, radians: an angle may move by its last bit after it has converged.
 constexpr double kFloatStall = 2e-7;
 constexpr GaussNewtonCourse::Numerics kFloatNumerics{.least_damping = 1e-5, .pulled_above = 1e-6};
 
@@ -29,7 +29,7 @@ double SquareBelow(double goal) {
   return certain * certain;
 }
 
-// Does what is rare for the vector solvers, one number at a time.
+// Scalar code for the rare operations of the vector solvers.
 class ScalarHelp final : public GaussNewtonHelp {
  public:
   using FindProblem = std::function<IkProblem(int)>;
@@ -42,6 +42,7 @@ class ScalarHelp final : public GaussNewtonHelp {
   bool MeetsGoals(int n, std::span<const double> angles) override { return MeetsGoalsOf(find_(n), angles); }
 
   void Sweep(int n, const GaussNewtonCourse::Next& next, GaussNewtonCourse& course, std::span<double> angles) override {
+    // Start from the given angles, or from a scattered pose, within the allowed ranges.
     IkProblem problem = find_(n);
     problem.limits = AllowedRanges(problem, options_);
     std::vector<double> start = problem.start.angles;
@@ -50,6 +51,7 @@ class ScalarHelp final : public GaussNewtonHelp {
     }
     problem.start.angles.assign(angles.begin(), angles.end());
     if (next.restart > 0) ScatterAround(start, problem.limits, next.restart, problem.start.angles);
+    // Sweep until the goals are met or no iterations are left.
     MomentSweep sweep(tree_, problem, GaussNewtonSweepOptions(options_));
     for (int i = 0; i < next.sweeps; ++i) {
       sweep.Sweep();
@@ -78,7 +80,7 @@ class ScalarHelp final : public GaussNewtonHelp {
   const FindProblem find_;
 };
 
-// Hands out the problems of a batch.
+// Hands out the problems of a batch and stores their solutions.
 class BatchQueue final : public GaussNewtonQueue {
  public:
   BatchQueue(const KinematicTree& tree, const IkBatch& problems, const IkOptions& options, Precision precision,
@@ -89,7 +91,7 @@ class BatchQueue final : public GaussNewtonQueue {
         course_(InPrecision(options, precision), own,
                 precision == Precision::kFloat ? kFloatNumerics : GaussNewtonCourse::Numerics{}),
         asked_(std::move(asked)),
-        may_round_(precision == Precision::kFloat),
+        rounds_angles_(precision == Precision::kFloat),
         help_(help),
         solution_(solution),
         own_ranges_(options.limits && !options.angle_change_tolerance ? 0 : NumberCount(tree)) {}
@@ -117,7 +119,7 @@ class BatchQueue final : public GaussNewtonQueue {
     for (int d = 0; d < tree_.dof_count(); ++d) {
       double& angle = solution_.angles[static_cast<std::size_t>(d) * solution_.count + n];
       angle = angles[d];
-      if (!may_round_) continue;
+      if (!rounds_angles_) continue;
       const AngleRange range = own_ranges_.empty() ? LimitsOf(n, d) : RangeOf(n, d);
       angle = std::clamp(angle, range.lower, range.upper);
     }
@@ -147,19 +149,20 @@ class BatchQueue final : public GaussNewtonQueue {
   const IkOptions& options_;
   const GaussNewtonCourse course_;
   const std::vector<int> asked_;
-  const bool may_round_;  // angles, to float and beyond their ranges
+  const bool rounds_angles_;  // float: angles are rounded and may leave their ranges
   std::size_t next_ = 0;
   ScalarHelp& help_;
   IkBatchSolution& solution_;
   Column column_;
-  std::vector<double> own_ranges_;  // a column whose ranges are not the problem's limits
+  // Copy of a problem with allowed ranges in place of its limits; empty if they are equal.
+  std::vector<double> own_ranges_;
 };
 
 }  // namespace
 
 GaussNewtonRules RulesFor(const IkOptions& options, const GaussNewtonOptions& own, Precision precision) {
   const double position = options.position_goal, axis = options.axis_goal;
-  // The chord of an angle is shorter than its arc.
+  // Goals on axes are compared by chords, which are shorter than the angle.
   const double chord = 2 * ComputeSineCosine(0.5 * std::min(axis, kPi)).sine;
   if (precision == Precision::kDouble) {
     return {SquareBelow(position), position * position, SquareBelow(chord),
@@ -176,12 +179,12 @@ GaussNewtonCourse::GaussNewtonCourse(const IkOptions& options, const GaussNewton
       first_sweeps_(own.first_sweeps),
       patience_(std::clamp(options.max_iterations / kShareOfPatience, 1, kPatience)),
       stall_change_(options.stall_change),
-      most_restarts_(own.restarts) {
+      max_restarts_(own.restarts) {
   static_assert(GaussNewtonOptions{}.restarts == kRestarts);
   Begin(Phase::kToStart, kProgress, patience_);
 }
 
-// One problem at a time, whose numbers it puts to their places and whose answer it takes from there.
+// Copies one problem into the layout of `GaussNewtonLimbs` and its solution back.
 class GaussNewtonSolver::Solver {
  public:
   explicit Solver(const KinematicTree& tree) : tree_(tree), packs_(tree), limbs_(GaussNewtonLimbs::Make(packs_)) {}
@@ -273,6 +276,7 @@ IkSolution SolveGaussNewton(const KinematicTree& tree, const IkProblem& problem,
 
 IkBatchSolution SolveGaussNewtonBatch(const KinematicTree& tree, const IkBatch& problems, const IkOptions& options,
                                       Precision precision, const GaussNewtonOptions& own) {
+  // Every problem is kBadInput until it is solved.
   const std::size_t count = problems.count();
   IkBatchSolution solution;
   solution.count = problems.count();
@@ -282,6 +286,7 @@ IkBatchSolution SolveGaussNewtonBatch(const KinematicTree& tree, const IkBatch& 
   solution.fk_evaluations.resize(count);
   if (!FindFault(tree, options).empty()) return solution;
 
+  // Solve all problems without faults, then those again in double that float did not solve.
   std::vector<int> asked = problems.FindSound();
   const GaussNewtonTree lane_tree(tree);
   ScalarHelp help(tree, options, [&problems](int n) { return problems.Get(n); });
@@ -302,6 +307,7 @@ std::vector<IkSolution> SolveGaussNewtonBatch(const KinematicTree& tree, std::sp
                                               const IkOptions& options, Precision precision,
                                               const GaussNewtonOptions& own) {
   const IkBatchSolution batch = SolveGaussNewtonBatch(tree, IkBatch(tree, problems), options, precision, own);
+  // Compute the errors of every solution from its angles.
   std::vector<IkSolution> solutions(problems.size());
   TreeFrames frames;
   for (std::size_t n = 0; n < problems.size(); ++n) {

@@ -13,87 +13,88 @@
 namespace etude {
 
 struct GaussNewtonOptions {
-  /// The number of sweeps of coordinate descent before the first Gauss–Newton step. None: damped steps do better from
-  /// the start than from a pose whose angles sweeps have driven into their limits. Of 200 starts off by 15° all are
-  /// solved with 0 to 20 of them, in 5.3, 6.9 and 24.6 iterations with 0, 2 and 20. Raise it to compare.
+  /// The number of sweeps of coordinate descent before the first Gauss–Newton step. The default is 0, because damped
+  /// steps work better from the start pose than from a pose whose angles sweeps have moved to their limits. Raise it
+  /// only to compare (README.md has the figures).
   int first_sweeps = 0;
-  /// The number of extra passes of a step's active set when damping is small: the null-space components of the step
-  /// depend on which limits are active. Over the joints' whole ranges three take 4.27 instead of 4.49 iterations from
-  /// starts off by 15°, and of 500 starts off by 2° leave 5 farther than 0.01 rad from the nearest solution instead of
-  /// 16; one does most of that, six no more. Set it to 0 where a step's time counts more than its answer.
+  /// The number of extra active-set passes per step while damping is small: the null-space components of the step
+  /// depend on which limits are active. More than three change little. Set it to 0 if the time of a step matters more
+  /// than its accuracy.
   int extra_passes = 3;
-  /// The number of restarts from other poses when steps are stuck. Set it to 0 where targets that no pose meets are the
-  /// rule and the start is near: every iteration then goes into the least residual around it.
+  /// The number of restarts from other poses when steps are stuck. Set it to 0 if targets are often unreachable and the
+  /// start is near: all iterations then minimise the residual around the start.
   int restarts = 20;
 };
 
-/// Looks, of all poses that meet the targets within the limits, for the one nearest to the start: hidden angles, which
-/// no target sees, stay where they were. *Ours*, the default solver. In turn, until the targets are met:
+/// Finds, of all poses that meet the targets within the limits, one near the start, so hidden angles, which no target
+/// determines, stay near their start values. *Ours*, the default solver. It runs these phases until the targets are
+/// met:
 ///
 /// 1. `first_sweeps` sweeps of coordinate descent, none by default;
-/// 2. Gauss–Newton steps pulled towards the start (`GaussNewtonStep`), with damping in proportion to the squared
-///    residual: far away steps are short, so that few angles run into their limits, and near the targets convergence
-///    is quadratic;
-/// 3. the same without the pull, where it has led to limits that block: Levenberg–Marquardt steps, which never raise
+/// 2. Gauss–Newton steps with a pull towards the start (`GaussNewtonStep`). The damping is proportional to the squared
+///    residual: far from the targets steps are short, so few angles reach their limits, and near the targets
+///    convergence is quadratic;
+/// 3. Levenberg–Marquardt steps without the pull, if it has led to limits that block progress. These steps never raise
 ///    the residual;
-/// 4. `restarts` from other poses around the start, two sweeps and such steps each, none if the targets are out of any
-///    pose's reach;
-/// 5. from the pose of the least residual, such steps until they stall: the answer where targets cannot be met.
+/// 4. `restarts` from other poses around the start, each with two sweeps and steps as in 3; none if the targets are out
+///    of reach of any pose;
+/// 5. from the pose of the smallest residual, steps as in 3 until they stall: the answer if the targets cannot be met.
 ///
-/// Nearly always the second is the last. With few iterations 2 and 3 give up sooner, so that a solver which is blocked
-/// by limits gets past them within some frames of a motion. One iteration is one sweep or one step; a trace can jump
-/// where 4 and 5 begin, and without convergence the solution is the pose of the least residual, not the last one of
-/// the trace. The sweeps' weights are `adaptive-power`.
+/// Most problems end in phase 2. If few iterations are allowed, phases 2 and 3 give up sooner, so that along a motion a
+/// blocked solver recovers within some frames. One iteration is one sweep or one step. A trace can jump where phases 4
+/// and 5 begin, and without convergence the solution is the pose of the smallest residual, not the last pose of the
+/// trace. Sweeps use the weights `adaptive-power`.
 IkSolution SolveGaussNewton(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                             const GaussNewtonOptions& own = {});
 
-/// Solves one problem of a tree after the other as `SolveGaussNewton` does. What is the tree's own, its validity and
-/// the order of its joints, is looked at once, and memory is taken once. `tree` must outlive this. Use it along a
-/// motion, or where problems come one by one; many at once are faster together (`SolveGaussNewtonBatch`).
+/// Solves one problem of a tree after the other as `SolveGaussNewton` does. The tree is checked and its joints are
+/// ordered once, and memory is allocated once. `tree` must outlive this object. Use it along a motion or for problems
+/// that arrive one by one; `SolveGaussNewtonBatch` is faster for many at once.
 class GaussNewtonSolver {
  public:
   explicit GaussNewtonSolver(const KinematicTree& tree);
   ~GaussNewtonSolver();
 
-  /// Solves one problem. Only memory changes: an answer does not depend on what was asked before.
+  /// Solves one problem. The answer does not depend on earlier problems.
   IkSolution Solve(const IkProblem& problem, const IkOptions& options, const GaussNewtonOptions& own = {}) const;
 
  private:
   class Solver;
 
   const KinematicTree& tree_;
-  std::unique_ptr<Solver> solver_;  // none where the tree is faulty
+  std::unique_ptr<Solver> solver_;  // null if the tree has a fault
 };
 
+/// The floating-point type of a batch.
 enum class Precision { kFloat, kDouble };
 
-/// Solves many problems of one tree at once by `gauss-newton`, each in a lane of the CPU's vectors from its start to
-/// its last restart; a lane whose problem is done takes the next one. What comes out depends neither on the width of
-/// the vectors nor on the other problems. Pairs of a position and an axis that nearly meet the goals, restarts' poses
-/// and their sweeps are left to scalar code; all else is done in lanes.
-/// - `kDouble`: every solution is that of `SolveGaussNewton`, to the last bit.
-/// - `kFloat`: twice as many lanes. Goals are nine tenths of what is asked for, so that those asked for are met in
-///   double; damping is 10⁻⁵ at least, and steps are not pulled to the start once |e|² < 10⁻⁶, where floats see no more
-///   of it. A problem that floats do not solve is solved in double, from its start, and its iterations are those. Where
-///   several poses meet the targets it may be another one that is found than in double. Not for goals below 2·10⁻⁴ cm
-///   or degrees.
-/// A bad problem answers kBadInput for itself; so does every problem when the tree or the options are bad.
-/// `IkOptions::trace` is not filled.
+/// Solves many problems of one tree at once by `gauss-newton`. Each problem occupies one lane of the CPU's vectors from
+/// its start to its last restart; a lane whose problem is finished takes the next one. Results depend neither on the
+/// width of the vectors nor on the other problems. Goals that are met only to within rounding, the poses of restarts
+/// and their sweeps are computed by scalar code, everything else in lanes.
+/// - `kDouble`: every solution equals that of `SolveGaussNewton` to the last bit.
+/// - `kFloat`: twice as many lanes. Goals are tightened to nine tenths, so that the requested goals are met in double;
+///   damping is at least 10⁻⁵; steps have no pull to the start once |e|² < 10⁻⁶, where float cannot resolve it. A
+///   problem that float does not solve is solved again in double from its start, and only those iterations are
+///   reported. If several poses meet the targets, the one found may differ from that in double. Not for goals below
+///   2·10⁻⁴ cm or degrees.
+/// A faulty problem gets kBadInput; if the tree or the options have a fault, all problems do. `IkOptions::trace` is
+/// ignored.
 IkBatchSolution SolveGaussNewtonBatch(const KinematicTree& tree, const IkBatch& problems, const IkOptions& options,
                                       Precision precision, const GaussNewtonOptions& own = {});
 
-/// Solves as above, with a solution of its own for each problem, errors included.
+/// Solves as above and returns one solution per problem, with errors.
 std::vector<IkSolution> SolveGaussNewtonBatch(const KinematicTree& tree, std::span<const IkProblem> problems,
                                               const IkOptions& options, Precision precision,
                                               const GaussNewtonOptions& own = {});
 
-/// Returns `options` for the sweeps of `gauss-newton`, which begin and stay within ranges that have been found before.
+/// Returns the options for the sweeps of `gauss-newton`. The problem's limits must already be the allowed ranges.
 IkOptions GaussNewtonSweepOptions(const IkOptions& options);
 
-/// Returns the kinds of vectors that this CPU has, the widest first. For tests and benchmarks.
+/// Returns the names of the instruction sets that this CPU supports, widest vectors first. For tests and benchmarks.
 std::vector<std::string> BatchTargets();
-/// Makes batches, and solvers that are made from now on, use this one of `BatchTargets`; the empty name: the widest.
-/// For tests and benchmarks: results are the same.
+/// Selects one of `BatchTargets` for batches and for solvers made from now on; an empty name selects the widest. For
+/// tests and benchmarks: results are the same.
 void SetBatchTarget(std::string_view name);
 
 }  // namespace etude

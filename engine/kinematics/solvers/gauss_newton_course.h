@@ -8,35 +8,35 @@ namespace etude {
 struct IkOptions;
 struct GaussNewtonOptions;
 
-/// Decides what `gauss-newton` does next with one problem (gauss_newton.h says in which turn), from how far each pose
-/// is off. It knows numbers only, neither angles nor trees, so that one problem and many in lanes take the same way:
+/// The state machine of `gauss-newton` for one problem: decides what comes next (gauss_newton.h lists the phases) from
+/// the residual of each pose. It knows neither angles nor trees, so the scalar solver and the vector solvers share it:
 ///
 ///     place the start;
 ///     while (true) {
 ///       const auto next = course.Arrive(|e|² at the pose, whether it meets the goals, is_out_of_reach);
-///       if (next.is_best) keep the pose as the best one;
-///       act as next.act says, and place the pose that this leads to;
+///       if (next.is_best) store the pose as the best one;
+///       do what next.act says, and place the resulting pose;
 ///     }
 class GaussNewtonCourse {
  public:
   enum class Act {
-    kStep,      ///< keep the pose as the last one, step with `damping`, and report the step by `Stepped`
-    kGoBack,    ///< return to the last pose: the step from there has raised the residual
-    kSweep,     ///< scatter by `restart`, if it is not 0, and sweep `sweeps` times, or until `CountSweep` says no
-    kTakeBest,  ///< go on from the best pose
-    kEnd,       ///< end at this pose if it `has_converged`, else at the best one
+    kStep,      ///< store the pose as the last one, step with `damping`, and report the step to `Stepped`
+    kGoBack,    ///< return to the last pose, because the step from there raised the residual
+    kSweep,     ///< scatter by `restart` unless it is 0, then sweep `sweeps` times or until `CountSweep` returns false
+    kTakeBest,  ///< continue from the best pose
+    kEnd,       ///< end at this pose if `has_converged`, else at the best pose
   };
   struct Next {
     Act act = Act::kEnd;
     bool is_best = false;
-    bool to_start = false;  ///< steps are pulled to the start; else they stay near to where they begin
+    bool to_start = false;  ///< true: steps are pulled to the start; false: they stay near their own beginning
     double damping = 0;     ///< μ
     int restart = 0;
     int sweeps = 0;
   };
 
-  /// The least damping, and the squared residual below which steps are no longer pulled to the start. Both are larger
-  /// where numbers have few digits.
+  /// Limits that depend on the precision: the minimum damping, and the |e|² below which steps are not pulled to the
+  /// start. Both are larger for float.
   struct Numerics {
     double least_damping = 1e-7;
     double pulled_above = 0;
@@ -45,22 +45,26 @@ class GaussNewtonCourse {
   GaussNewtonCourse() = default;
   GaussNewtonCourse(const IkOptions& options, const GaussNewtonOptions& own, const Numerics& numerics);
 
-  /// Takes in a pose that has been placed: its |e|² and whether it meets the goals. `is_out_of_reach()`, whether no
-  /// pose can meet the targets, is asked once, where restarts would begin.
+  /// Decides what follows from a new pose, given its |e|² and whether it meets the goals. `is_out_of_reach()` returns
+  /// true if no pose can meet the targets; it is called at most once, where restarts would begin.
   template <class IsOutOfReach>
   Next Arrive(double squares, bool is_met, const IsOutOfReach& is_out_of_reach) {
+    // Count the iteration and its forward-kinematics pass.
     if (arrival_ == Arrival::kStep) ++iterations_;
     if (arrival_ == Arrival::kStep || arrival_ == Arrival::kStart) ++fk_evaluations_;
+    // After going back, try again with more damping.
     if (arrival_ == Arrival::kBack && left_ > 0) return Step(before_);
+    // End if the goals are met.
     if (is_met && arrival_ != Arrival::kBack) {
       has_converged_ = true;
       return {};
     }
     if (arrival_ == Arrival::kStart && first_sweeps_ > 0) return Sweep(0, first_sweeps_);
+    // Continue the present phase while it makes progress.
     Next next;
     const bool is_at_end = arrival_ == Arrival::kBack || (arrival_ == Arrival::kStep && is_stuck_);
     if (!is_at_end && Approach(squares, next)) return next;
-    // The approach has come to its end; so may the next ones, at once.
+    // The phase has ended. Begin the next one, which may end at once, too.
     while (true) {
       RecordBest(squares, next);
       if (phase_ == Phase::kToStart) {
@@ -68,8 +72,9 @@ class GaussNewtonCourse {
         if (Approach(squares, next)) return next;
         continue;
       }
+      // Then restarts, then the best pose, then the end.
       const bool is_best = next.is_best;
-      if (phase_ == Phase::kHere) restarts_ = MayGoOn() && !is_out_of_reach() ? most_restarts_ : 0;
+      if (phase_ == Phase::kHere) restarts_ = MayGoOn() && !is_out_of_reach() ? max_restarts_ : 0;
       if (MayGoOn() && phase_ != Phase::kSettle) {
         if (restart_ < restarts_) {
           ++restart_;
@@ -83,7 +88,7 @@ class GaussNewtonCourse {
           next = {.act = Act::kTakeBest};
         }
       } else {
-        ++fk_evaluations_;  // of the best pose, whose errors are told
+        ++fk_evaluations_;  // for the errors of the best pose
         next = {};
       }
       next.is_best = is_best;
@@ -91,17 +96,17 @@ class GaussNewtonCourse {
     }
   }
 
-  /// Takes in the largest change of an angle that the step's optimum asks for; 0 where there was no step.
+  /// Reports the largest change of an angle that a step computed, radians; 0 if there was no step.
   void Stepped(double largest) { is_stuck_ = largest < stall_change_; }
 
-  /// Counts a sweep. Returns whether there may be another.
+  /// Counts a sweep. Returns false if the iterations are used up.
   bool CountSweep() {
     ++iterations_;
     ++fk_evaluations_;
     return MayGoOn();
   }
 
-  /// Returns whether a step with `damping` gets extra passes of its active set.
+  /// Returns true if a step with `damping` gets extra active-set passes.
   static bool HasExtraPasses(double damping) { return damping < kSmallDamping; }
 
   bool has_converged() const { return has_converged_; }
@@ -110,22 +115,23 @@ class GaussNewtonCourse {
   int fk_evaluations() const { return fk_evaluations_; }
 
  private:
-  // The damping is this share of the squared residual, times a factor that follows the steps' success.
+  // The damping is this share of |e|², times a factor that follows the success of the steps.
   static constexpr double kDamping = 0.1;
-  static constexpr double kMostDamping = 10;
-  static constexpr double kDampingUp = 10;       // times the factor after a step that has raised the residual,
-  static constexpr double kDampingDown = 3;      // divided by this after one that has not,
-  static constexpr double kDampingFloor = 1e-3;  // at least 1, or this where the residual, and damping, stays large
+  static constexpr double kMaxDamping = 10;
+  static constexpr double kDampingUp = 10;   // multiplies the factor after a step that raised the residual
+  static constexpr double kDampingDown = 3;  // divides the factor after other steps
+  // Minimum factor in the last phase, where the residual and thus the damping stay large; elsewhere it is 1.
+  static constexpr double kDampingFloor = 1e-3;
 
   // Below this damping a step gets extra active-set passes.
   static constexpr double kSmallDamping = 0.01;
 
-  // Steps are stuck when this many of them have not brought the squared residual down to the share kProgress; when
-  // iterations are few, a share of them counts, so that restarts get theirs.
+  // Steps are stuck if kPatience of them have not reduced |e|² to the share kProgress. If few iterations are allowed,
+  // max_iterations / kShareOfPatience steps count instead, so that restarts get some.
   static constexpr int kPatience = 6;
   static constexpr int kShareOfPatience = 5;
   static constexpr double kProgress = 0.7;
-  static constexpr double kSettled = 1 - 1e-5;  // instead, where targets cannot be met
+  static constexpr double kSettled = 1 - 1e-5;  // replaces kProgress in the last phase
 
   static constexpr int kRestartSweeps = 2;
 
@@ -137,14 +143,15 @@ class GaussNewtonCourse {
   void Begin(Phase phase, double progress, int patience) {
     phase_ = phase;
     progress_ = progress;
-    left_ = most_left_ = patience;
+    left_ = initial_left_ = patience;
     before_ = fallen_to_ = std::numeric_limits<double>::infinity();
     factor_ = 1;
   }
 
-  /// Returns whether steps go on, as `next` says; if not, this approach is at its end.
+  /// Returns true if the phase goes on with `next`, false if it has ended.
   bool Approach(double squares, Next& next) {
     if (!MayGoOn()) return false;
+    // The step raised the residual: go back and raise the damping.
     if (phase_ != Phase::kToStart && squares > before_) {
       ++fk_evaluations_;
       factor_ *= kDampingUp;
@@ -153,10 +160,11 @@ class GaussNewtonCourse {
       next.act = Act::kGoBack;
       return true;
     }
+    // The step was good: lower the damping, and end the phase after too many steps with little progress.
     factor_ = std::max(phase_ == Phase::kSettle ? kDampingFloor : 1.0, factor_ / kDampingDown);
     if (squares < progress_ * fallen_to_) {
       fallen_to_ = squares;
-      left_ = most_left_;
+      left_ = initial_left_;
     } else if (--left_ == 0) {
       return false;
     }
@@ -172,7 +180,7 @@ class GaussNewtonCourse {
     arrival_ = Arrival::kStep;
     return {.act = Act::kStep,
             .to_start = phase_ == Phase::kToStart && squares >= numerics_.pulled_above,
-            .damping = factor_ * std::clamp(kDamping * squares, numerics_.least_damping, kMostDamping)};
+            .damping = factor_ * std::clamp(kDamping * squares, numerics_.least_damping, kMaxDamping)};
   }
 
   Next Sweep(int restart, int sweeps) {
@@ -194,7 +202,7 @@ class GaussNewtonCourse {
   bool is_stuck_ = false, has_converged_ = false;
   double progress_ = 0, before_ = 0, fallen_to_ = 0, factor_ = 1;
   double best_squares_ = std::numeric_limits<double>::infinity();
-  int left_ = 0, most_left_ = 0, restart_ = 0, restarts_ = 0, most_restarts_ = 0;
+  int left_ = 0, initial_left_ = 0, restart_ = 0, restarts_ = 0, max_restarts_ = 0;
   int iterations_ = 0, fk_evaluations_ = 0;
 };
 

@@ -1,7 +1,7 @@
-// The parts of a Gauss–Newton step (gauss_newton_plain.h), and of the forward kinematics before it, for a value V: one
-// number each of many problems (`Lanes`) or of four limbs (`Four`). Every operation is the one that `ComputeFrames` and
-// `GaussNewtonStep` make, in their order, so that a problem in double has their very bits, in every lane, on every CPU.
-// Included once per instruction set, hence this kind of guard.
+// The parts of a Gauss–Newton step (gauss_newton_plain.h) and of its forward kinematics, for a value type V: `Lanes`
+// holds one number each of many problems, `Four` one number each of four limbs. All operations are those of
+// `ComputeFrames` and `GaussNewtonStep` in the same order, so a problem in double gets the same bits in every lane on
+// every CPU. This file is included once per instruction set, which explains the include guard.
 #if defined(ETUDE_GAUSS_NEWTON_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ETUDE_GAUSS_NEWTON_KERNEL_INL_H_
 #undef ETUDE_GAUSS_NEWTON_KERNEL_INL_H_
@@ -17,19 +17,19 @@
 HWY_BEFORE_NAMESPACE();
 namespace etude::HWY_NAMESPACE {
 
-/// Metres that count as much as one radian: `kPositionScale` squared.
+/// `kPositionScale` squared, m².
 inline constexpr double kSquaredPositionScale = 0.30 * 0.30;
 
 // ---- Sine and cosine ------------------------------------------------------------------------------------------------
 
-/// Sets sine and cosine of an angle from those of its rest, `s` and `c`. The last bits of `shifted` count its quarter
-/// turns: an odd number of them swaps the two, every second one turns a sign.
+/// Computes sine and cosine of an angle from those of its remainder, `s` and `c`. The last bits of `shifted` count
+/// quarter turns: an odd count swaps sine and cosine, every second one flips a sign.
 template <class T>
 HWY_INLINE void AddQuarters(const Lanes<T>& shifted, const Lanes<T>& s, const Lanes<T>& c, Lanes<T>& sine,
                             Lanes<T>& cosine) {
   using Tag = typename Lanes<T>::Tag;
   const hn::RebindToUnsigned<Tag> bits;
-  constexpr int kToSign = 8 * sizeof(T) - 2;  // from the second lowest bit
+  constexpr int kToSign = 8 * sizeof(T) - 2;  // distance from the second lowest bit to the sign bit
   const auto quarter = hn::BitCast(bits, shifted.v), one = hn::Set(bits, 1u), two = hn::Set(bits, 2u);
   const auto s_bits = hn::BitCast(bits, s.v), c_bits = hn::BitCast(bits, c.v);
   const auto swap = hn::And(hn::Xor(s_bits, c_bits), hn::Sub(hn::Zero(bits), hn::And(quarter, one)));
@@ -39,7 +39,7 @@ HWY_INLINE void AddQuarters(const Lanes<T>& shifted, const Lanes<T>& s, const La
   cosine = Lanes<T>(hn::BitCast(Tag(), hn::Xor(hn::Xor(c_bits, swap), c_sign)));
 }
 
-/// Computes sine and cosine by the operations of `ComputeSineCosine`.
+/// Computes sine and cosine in double, with the operations of `ComputeSineCosine`.
 HWY_INLINE void SineAndCosine(const Lanes<double>& angle, Lanes<double>& sine, Lanes<double>& cosine) {
   using V = Lanes<double>;
   const V shifted = angle * V(0.6366197723675814) + V(0x1.8p52), quarters = shifted - V(0x1.8p52);
@@ -57,8 +57,8 @@ HWY_INLINE void SineAndCosine(const Lanes<double>& angle, Lanes<double>& sine, L
   AddQuarters(shifted, s, c, sine, cosine);
 }
 
-/// Computes sine and cosine in float, for |angle| ≤ 1000, within 2 units in their last place: Taylor's series to r⁹ and
-/// r⁸ leave less than 10⁻⁸.
+/// Computes sine and cosine in float for |angle| ≤ 1000, within 2 units in the last place. The Taylor series up to r⁹
+/// and r⁸ are accurate to 10⁻⁸.
 HWY_INLINE void SineAndCosine(const Lanes<float>& angle, Lanes<float>& sine, Lanes<float>& cosine) {
   using V = Lanes<float>;
   const V shifted = angle * V(0.6366197723675814) + V(0x1.8p23), quarters = shifted - V(0x1.8p23);
@@ -71,7 +71,7 @@ HWY_INLINE void SineAndCosine(const Lanes<float>& angle, Lanes<float>& sine, Lan
 
 // ---- Vectors of three -----------------------------------------------------------------------------------------------
 
-// One by one everywhere: GCC copies whole arrays of vectors in pieces that are too narrow to be read back at once.
+// Numbers are copied one by one: GCC copies arrays of vectors in narrow pieces, which stalls the next wide load.
 
 template <class V>
 HWY_INLINE V Dot3(const V (&a)[3], const V (&b)[3]) {
@@ -98,13 +98,13 @@ struct FrameLanes {
   V position[3];
 };
 
-/// Sets `out` to a frame's axes times a vector in it.
+/// Sets `out` to `axes` times the vector `by`: from the frame's coordinates to the world's.
 template <class V>
 HWY_INLINE void Mix(const V (&axes)[3][3], const V (&by)[3], V (&out)[3]) {
   for (int k = 0; k < 3; ++k) out[k] = axes[0][k] * by[0] + axes[1][k] * by[1] + axes[2][k] * by[2];
 }
 
-/// Turns a frame's axes by an angle about its axis `kAxis`.
+/// Rotates a frame by an angle, given by sine and cosine, about its axis `kAxis`.
 template <int kAxis, class V>
 HWY_INLINE void TurnAxes(const V& s, const V& c, V (&axes)[3][3]) {
   constexpr int i = (kAxis + 1) % 3, j = (kAxis + 2) % 3;
@@ -115,7 +115,7 @@ HWY_INLINE void TurnAxes(const V& s, const V& c, V (&axes)[3][3]) {
   }
 }
 
-/// Sets `screw` to `axis`, and to how turning about it at J moves the limb's point at the root R.
+/// Sets `screw` to `axis` and the translation that turning about it at J gives the limb's point at the root R.
 template <class V>
 HWY_INLINE void SetScrew(const V (&axis)[3], const V (&p_RJ_W)[3], V (&screw)[6]) {
   V shift[3];
@@ -126,7 +126,7 @@ HWY_INLINE void SetScrew(const V (&axis)[3], const V (&p_RJ_W)[3], V (&screw)[6]
   }
 }
 
-// ---- What targets ask -----------------------------------------------------------------------------------------------
+// ---- Quadratics of targets ------------------------------------------------------------------------------------------
 
 template <class V>
 struct TargetLanes {
@@ -136,39 +136,40 @@ struct TargetLanes {
   V axis_weights[3];
 };
 
-/// The quadratic ½VᵀΛV − ηᵀV that a target asks of its limb, as the few numbers that it is made of.
+/// The quadratic ½VᵀΛV − ηᵀV of one target, stored by the few numbers that define it.
 template <class V>
 struct AskedLanes {
-  V turn[6];  ///< the lower triangle of Λ's first three rows, row by row
+  V turn[6];  ///< rotation block of Λ: its lower triangle, row by row
   V lever[3];
   V weight;
   V vector[6];  ///< η
 };
 
-/// Λ is symmetric but for rounding. In double it is kept in full, since that is what `GaussNewtonStep` does; in float,
-/// which need not agree with anybody, by its lower triangle.
+/// Λ is symmetric except for rounding. In double both triangles are stored, to give the same bits as `GaussNewtonStep`.
+/// In float, where bits need not agree, only the lower triangle is stored.
 template <class V>
 inline constexpr bool kHasUpperTriangle = !std::is_same_v<V, Lanes<float>>;
 
-/// The quadratic that all targets beyond ask of a limb, in full.
+/// The sum of the quadratics of all targets beyond a limb, as full matrices.
 template <class V>
 struct QuadraticLanes {
   V matrix[36];  ///< Λ
   V vector[6];   ///< η
 };
 
-/// The residual of a pose.
+/// The residual of a pose, summed or maximised over its targets.
 template <class V>
 struct MissLanes {
   V squares;           ///< |e|²
-  V squared_distance;  ///< the largest of those that count
-  V squared_chord;
+  V squared_distance;  ///< largest squared distance of a position with weight, m²
+  V squared_chord;     ///< largest squared chord |u_d − u_c|² of an axis with weight
 };
 
-/// Linearises one target at an effector's frame, and adds to `miss` how far it is off.
+/// Linearises one target at an effector's frame, and adds its errors to `miss`.
 template <class V>
 HWY_INLINE void Linearise(const TargetLanes<V>& target, const V (&R_WE)[3][3], const V (&p_WE)[3], const V (&p_WR)[3],
                           AskedLanes<V>& asked, MissLanes<V>& miss) {
+  // Position: weighted error, its moment about the root, its part of the residual.
   const V w = target.position_weight;
   V p_RE_W[3], p_ED_W[3], pull[3], twist[3];
   for (int k = 0; k < 3; ++k) {
@@ -181,6 +182,7 @@ HWY_INLINE void Linearise(const TargetLanes<V>& target, const V (&R_WE)[3][3], c
   const V nothing(0.0);
   miss.squared_distance = Larger(miss.squared_distance, Select(Below(nothing, w), Dot3(p_ED_W, p_ED_W), nothing));
   for (int k = 0; k < 3; ++k) {
+    // Axis k: moment of its error, chord, part of the residual.
     const V u = target.axis_weights[k];
     V cross[3], chord[3];
     Cross(R_WE[k], target.axes[k], cross);
@@ -191,6 +193,7 @@ HWY_INLINE void Linearise(const TargetLanes<V>& target, const V (&R_WE)[3][3], c
     squares = squares + V(2.0) * u * (V(1.0) - Dot3(R_WE[k], target.axes[k]));
     miss.squared_chord = Larger(miss.squared_chord, Select(Below(nothing, u), Dot3(chord, chord), nothing));
   }
+  // Λ and η (see `GaussNewtonStep::LineariseTarget`).
   const V ux = target.axis_weights[0], uy = target.axis_weights[1], uz = target.axis_weights[2];
   const V straight = w * Dot3(p_RE_W, p_RE_W) + ux + uy + uz;
   for (int k = 0; k < 3; ++k) asked.lever[k] = p_RE_W[k] * w;
@@ -208,7 +211,7 @@ HWY_INLINE void Linearise(const TargetLanes<V>& target, const V (&R_WE)[3][3], c
   miss.squares = miss.squares + squares;
 }
 
-/// Sets `sum` to what a target asks, or adds it.
+/// Expands the quadratic of one target into the full Λ and η: sets `sum` to it or adds it.
 template <bool kIsFirst, class V>
 HWY_INLINE void Gather(const AskedLanes<V>& asked, QuadraticLanes<V>& sum) {
   const V nothing(0.0);
@@ -244,7 +247,7 @@ template <class V>
 struct HingeLanes {
   V screw[6], matrix_s[6];
   V scale, best;
-  V side;  ///< −1 at the lower end of its range, 1 at the upper one, 0 free
+  V side;  ///< −1 if fixed at the lower end of its range, 1 at the upper end, 0 if free
   V change;
 };
 
@@ -253,30 +256,34 @@ HWY_INLINE V Dot6(const V (&a)[6], const V (&b)[6]) {
   return (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]) + (a[4] * b[4] + a[5] * b[5]);
 }
 
-/// Takes a hinge's part off the quadratic of its limb.
+/// Eliminates a hinge from the quadratic of its limb. `pull`, `lower` and `upper` are changes of its angle.
 template <class V>
 HWY_INLINE void EliminateHinge(const V& damping, const V& pull, const V& lower, const V& upper, QuadraticLanes<V>& limb,
                                HingeLanes<V>& hinge) {
   V* HWY_RESTRICT m = limb.matrix;
   V s[6], y[6];
   for (int k = 0; k < 6; ++k) s[k] = hinge.screw[k];
+  // y = Λs.
   const auto times = [&](int row, int column) HWY_ATTR {
     const bool is_kept = kHasUpperTriangle<V> || column <= row;
     return m[is_kept ? 6 * row + column : 6 * column + row] * s[row];
   };
   for (int i = 0; i < 6; ++i)
     y[i] = (times(0, i) + times(1, i)) + (times(2, i) + times(3, i)) + (times(4, i) + times(5, i));
+  // The best change, if the limb before does not move; a fixed hinge moves to its end instead.
   const V nothing(0.0);
   const V scale = V(1.0) / (damping + Larger(nothing, Dot6(y, s)));
   const V best = scale * (damping * pull + Dot6(limb.vector, s));
   const auto is_free = AreEqual(hinge.side, nothing);
   const V change = Select(is_free, best, Select(Below(hinge.side, nothing), lower, upper));
-  // Adding less costs an instruction less than taking off: what is in memory may be the second operand of either.
+  // Subtract the hinge's part from Λ, as the addition of a negative share: additions can take either operand from
+  // memory, which saves an instruction.
   const V share = OrZero(is_free, nothing - scale);
   for (int r = 0; r < 6; ++r) {
     const V row_share = share * y[r];
     for (int i = 0; i < (kHasUpperTriangle<V> ? 6 : r + 1); ++i) m[6 * r + i] = m[6 * r + i] + row_share * y[i];
   }
+  // Subtract the part of its change from η.
   const V back = nothing - change;
   for (int k = 0; k < 6; ++k) {
     limb.vector[k] = limb.vector[k] + back * y[k];
@@ -286,13 +293,14 @@ HWY_INLINE void EliminateHinge(const V& damping, const V& pull, const V& lower, 
   hinge.best = best;
 }
 
-/// Returns the value nearest to `x` that is not beyond an end.
+/// Returns `x`, clamped to [lower, upper].
 template <class V>
 HWY_INLINE V Clamped(const V& x, const V& lower, const V& upper) {
   return Select(Below(x, lower), lower, Select(Below(upper, x), upper, x));
 }
 
-/// Sets the hinge's change and side, as its limb moves now, and makes `movement` that of the limb beyond.
+/// Sets the hinge's change and side from the movement of the limb before, and updates `movement` to that of the limb
+/// beyond.
 template <class V>
 HWY_INLINE void SubstituteHinge(const V& lower, const V& upper, const HingeLanes<V>& hinge, V& change, V& side,
                                 V (&movement)[6]) {
@@ -306,9 +314,9 @@ HWY_INLINE void SubstituteHinge(const V& lower, const V& upper, const HingeLanes
 
 // ---- The step for one limb, by rows --------------------------------------------------------------------------------
 
-// Six numbers at a time, every sum in the order in which it stands above.
+// Rows of six numbers; every sum is taken in the same order as above.
 
-/// Six numbers in a row, and two zeros.
+/// Six numbers and two zeros.
 struct SixRow {
   Four low, high;
 };
@@ -322,14 +330,14 @@ HWY_INLINE SixRow operator+(const SixRow& a, const SixRow& b) { return {a.low + 
 HWY_INLINE SixRow operator-(const SixRow& a, const SixRow& b) { return {a.low - b.low, a.high - b.high}; }
 HWY_INLINE SixRow operator*(const Four& a, const SixRow& b) { return {a * b.low, a * b.high}; }
 
-/// Returns `Dot6` of two rows, in every lane.
+/// Returns `Dot6` of two rows, repeated in every lane.
 HWY_INLINE Four DotRows(const SixRow& a, const SixRow& b) {
   const Four low = a.low * b.low, high = a.high * b.high;
   const Four pairs = low + SwapNeighbours(low), last = high + SwapNeighbours(high);
   return (pairs + SwapHalves(pairs)) + LowerTwice(last);
 }
 
-/// Puts six numbers of every lane into a row for each lane, at `row_of(lane)`.
+/// Transposes six vectors of four lanes into one row per lane, at `row_of(lane)`.
 template <class RowOf>
 HWY_INLINE void PutRows(const Four* numbers, const RowOf& row_of) {
   Four a = numbers[0], b = numbers[1], c = numbers[2], d = numbers[3];
@@ -348,13 +356,13 @@ struct QuadraticRows {
   SixRow vector;
 };
 
-/// `FrameLanes` of one.
+/// `FrameLanes` of one limb.
 struct TrunkFrame {
   Four axes[3];  ///< x, y, z, 0
   Four position;
 };
 
-/// `HingeLanes` of one.
+/// `HingeLanes` of one hinge.
 struct alignas(64) TrunkHinge {
   double screw[8], matrix_s[8];
   double scale, best, side;
@@ -365,7 +373,7 @@ HWY_INLINE Four CrossAxes(const Four& a, const Four& b) {
   return NextAxes(a) * NextAxes(NextAxes(b)) - NextAxes(b) * NextAxes(NextAxes(a));
 }
 
-/// Takes a hinge's part off the quadratic of its limb, (m, v).
+/// Eliminates a hinge from the quadratic (m, v) of its limb.
 HWY_INLINE void EliminateHinge(const Four& damping, double to_start, double to_lower, double to_upper, SixRow (&m)[6],
                                SixRow& v, TrunkHinge& hinge) {
   const double* s = hinge.screw;
@@ -386,8 +394,8 @@ HWY_INLINE void EliminateHinge(const Four& damping, double to_start, double to_l
   hinge.best = FirstOf(best);
 }
 
-/// Sets the hinge's change, as its limb moves now, and makes `movement` that of the limb beyond. Returns whether the
-/// hinge has changed sides.
+/// Sets the hinge's change from the movement of the limb before, and updates `movement` to that of the limb beyond.
+/// Returns true if the hinge has changed sides.
 HWY_INLINE bool SubstituteHinge(double to_lower, double to_upper, TrunkHinge& hinge, double& change, SixRow& movement) {
   const Four best = Four(hinge.best) - Four(hinge.scale) * DotRows(LoadRow(hinge.matrix_s), movement);
   const Four lower(to_lower), upper(to_upper);

@@ -1,5 +1,5 @@
-// Many problems of one tree, each in a lane of the CPU's vectors. Compiled once per instruction set; the best one is
-// chosen when the program runs (README.md).
+// Solves many problems of one tree, each in one lane of the CPU's vectors. Compiled once per instruction set; the best
+// one is selected at run time (README.md).
 #include <algorithm>
 #include <limits>
 #include <vector>
@@ -10,7 +10,7 @@
 #define HWY_TARGET_INCLUDE "engine/kinematics/solvers/gauss_newton_lanes.cc"
 #include "hwy/foreach_target.h"  // before highway.h
 
-// In this order: per target.
+// The order matters: these headers are included once per instruction set.
 #include "engine/kinematics/solvers/gauss_newton_kernel-inl.h"
 #include "engine/kinematics/solvers/vectors-inl.h"
 #include "hwy/highway.h"
@@ -18,13 +18,13 @@
 HWY_BEFORE_NAMESPACE();
 namespace etude::HWY_NAMESPACE {
 
-/// The angles of one degree of freedom.
+/// The angles of one degree of freedom, one problem per lane.
 template <class V>
 struct AngleLanes {
   V now, last, best, start, lower, upper;
 };
 
-/// Places poses, one in each lane: forward kinematics, in the order of `ComputeFrames`, and what targets ask there.
+/// Forward kinematics of one pose per lane, in the order of `ComputeFrames`, and the linearised targets.
 template <class T>
 class LanePoses {
  public:
@@ -38,20 +38,20 @@ class LanePoses {
         asked_(tree.effectors.size()),
         miss_(1) {}
 
-  /// The root and the targets of a problem: numbers as `IkBatch::column` has them, `stride` apart.
+  /// Loads root and targets of a problem into lane n. Its numbers are `stride` apart, as `IkBatch::column` has them.
   void Load(int n, const double* from, std::size_t stride) {
     const auto take = [&from, stride] {
       const double number = *from;
       from += stride;
       return number;
     };
-    // In float, places are counted from the root, where they have the most digits.
+    // In float, positions are relative to the root, which preserves the limit digits.
     constexpr bool kFromRoot = sizeof(T) < sizeof(double);
     double origin[3] = {};
     for (int k = 0; k < 3; ++k) {
-      const double place = take();
-      if (kFromRoot) origin[k] = place;
-      SetLane(frames_[0].position[k], n, place - origin[k]);
+      const double coordinate = take();
+      if (kFromRoot) origin[k] = coordinate;
+      SetLane(frames_[0].position[k], n, coordinate - origin[k]);
     }
     for (int k = 0; k < 9; ++k) SetLane(frames_[0].axes[k / 3][k % 3], n, take());
     for (TargetLanes<V>& target : targets_) {
@@ -67,10 +67,10 @@ class LanePoses {
     Linearise();
   }
 
-  /// Returns the residuals of the poses.
+  /// Returns the residuals of all lanes.
   const MissLanes<V>& miss() const { return miss_[0]; }
   const AskedLanes<V>& AskedOf(std::size_t effector) const { return asked_[effector]; }
-  /// Returns the hinges with their screws at the poses; all else in them is the step's.
+  /// Returns the hinges. Their screws belong to the placed poses, the rest to the step.
   AlignedList<HingeLanes<V>>& hinges() { return hinges_; }
 
  private:
@@ -82,11 +82,13 @@ class LanePoses {
       FrameLanes<V>& frame = frames_[n];
       V p_RJ_W[3], axes[3][3];
       V p_PJ_W[3];
+      // Position of the joint.
       MixNumbers(parent.axes, joint.p_PJ, p_PJ_W);
       for (int k = 0; k < 3; ++k) {
         frame.position[k] = parent.position[k] + p_PJ_W[k];
         p_RJ_W[k] = frame.position[k] - root.position[k];
       }
+      // Axes before the joint turns: renamed copies of the parent's axes where possible.
       if (joint.renames_axes) {
         for (int c = 0; c < 3; ++c) {
           for (int k = 0; k < 3; ++k) axes[c][k] = parent.axes[joint.from[c]][k] * V(joint.sign[c]);
@@ -94,6 +96,7 @@ class LanePoses {
       } else {
         for (int c = 0; c < 3; ++c) MixNumbers(parent.axes, joint.R_PJ[c], axes[c]);
       }
+      // Turn about X, Y, Z, as many as the joint has.
       if (joint.dof_count > 0) TurnHinge<0>(joint, angles, p_RJ_W, axes);
       if (joint.dof_count > 1) TurnHinge<1>(joint, angles, p_RJ_W, axes);
       if (joint.dof_count > 2) TurnHinge<2>(joint, angles, p_RJ_W, axes);
@@ -137,10 +140,10 @@ class LanePoses {
   AlignedList<MissLanes<V>> miss_;
 };
 
-/// Problems on their way, one in each lane: a round places all poses, tells their courses how far they are off, and
-/// steps. A lane whose pose is no outcome of a step, or whose step wants another pass of its active set while few
-/// others do, stays where it is for a round. What a lane does in a round depends on its own problem alone, but for when
-/// it comes.
+/// Solves one problem per lane in rounds: a round places all poses, passes their residuals to the lanes' courses, and
+/// steps. A lane skips the step of a round if its course asks for something else, or if its step needs another
+/// active-set pass that few other lanes need. The results of a lane depend on its own problem alone; only their timing
+/// depends on the others.
 template <class T>
 class GaussNewtonLanes {
  public:
@@ -173,18 +176,18 @@ class GaussNewtonLanes {
 
   struct Lane {
     int problem = -1;
-    bool steps = false;  ///< in this round
-    int passes = 0;      ///< of the active set, which its step has had in former rounds
+    bool steps = false;  ///< true if it takes part in the step of this round
+    int passes = 0;      ///< active-set passes of its present step in former rounds
     GaussNewtonCourse course;
   };
 
-  /// Numbers of every lane.
+  /// Variables with one number per lane.
   enum Register {
     kDamping,
-    kToStart,    // 1 or 0, as what follows
-    kKeepsLast,  // the present pose becomes the last one
-    kKeepsBest,  // or the best one
-    kCounts,     // takes part in this pass of the active sets
+    kToStart,    // 1 or 0, as the following flags
+    kKeepsLast,  // the present pose is stored as the last one
+    kKeepsBest,  // the present pose is stored as the best one
+    kCounts,     // takes part in this active-set pass
     kHasChanged,
     kMoves,
     kLargest,
@@ -195,6 +198,7 @@ class GaussNewtonLanes {
   HWY_INLINE M Flag(Register which) { return Below(V(0.0), registers_[which]); }
   HWY_INLINE void SetFlag(Register which, const M& flag) { registers_[which] = OrZero(flag, V(1.0)); }
 
+  /// Gives a problem to every idle lane. Returns false if all lanes are idle.
   bool FillLanes() {
     bool has_problems = false;
     for (std::size_t n = 0; n < lanes_.size(); ++n) {
@@ -209,6 +213,7 @@ class GaussNewtonLanes {
     return has_problems;
   }
 
+  /// Loads the next problem into lane n: its start, clamped to the ranges, becomes the present pose.
   void Load(int n) {
     Lane& lane = lanes_[n];
     lane.course = queue_.Course();
@@ -232,13 +237,13 @@ class GaussNewtonLanes {
     poses_.Load(n, from + 2 * dofs, stride);
   }
 
-  /// Asks every lane's course what to do, and does all but the step.
+  /// Asks every lane's course what to do, and does it, except for steps.
   void Steer() {
     registers_[kKeepsLast] = registers_[kKeepsBest] = registers_[kCounts] = V(0.0);
     for (std::size_t n = 0; n < lanes_.size(); ++n) {
       Lane& lane = lanes_[n];
       lane.steps = lane.problem >= 0 && (lane.passes > 0 || Ask(lane, static_cast<int>(n)));
-      if (lane.problem < 0) At(kDamping, n) = 1;  // a lane without a problem computes all the same
+      if (lane.problem < 0) At(kDamping, n) = 1;  // an idle lane computes along with harmless numbers
       if (lane.steps) At(kCounts, n) = 1;
     }
     const M keeps_last = Flag(kKeepsLast), keeps_best = Flag(kKeepsBest);
@@ -248,12 +253,13 @@ class GaussNewtonLanes {
     }
   }
 
-  /// Asks the lane's course what comes next; true when it steps.
+  /// Asks a lane's course what comes next, and does it unless it is a step. Returns true for a step.
   bool Ask(Lane& lane, int n) {
     using enum GaussNewtonCourse::Act;
     const auto is_out_of_reach = [&] { return help_.IsOutOfReach(lane.problem); };
     const GaussNewtonCourse::Next next =
         lane.course.Arrive(GetLane(poses_.miss().squares, n), IsMet(lane, n), is_out_of_reach);
+    // A step: store the pose as the last one, and set up the step's variables.
     if (next.act == kStep) {
       At(kKeepsLast, n) = 1;
       At(kKeepsBest, n) = next.is_best;
@@ -261,6 +267,7 @@ class GaussNewtonLanes {
       At(kToStart, n) = next.to_start;
       return true;
     }
+    // Other actions: copy stored poses, sweep, or finish the problem.
     if (next.is_best) {
       for (AngleLanes<V>& angle : angles_) SetLane(angle.best, n, GetLane(angle.now, n));
     }
@@ -272,7 +279,7 @@ class GaussNewtonLanes {
     if (next.act == kSweep) {
       help_.Sweep(lane.problem, next, lane.course, Angles(n));
       for (std::size_t d = 0; d < angles_.size(); ++d) {
-        // Rounded to float, an angle may be beyond its range.
+        // An angle that is rounded to float may leave its range.
         const double lower = GetLane(angles_[d].lower, n), upper = GetLane(angles_[d].upper, n);
         SetLane(angles_[d].now, n, std::clamp<double>(static_cast<T>(scratch_[d]), lower, upper));
       }
@@ -293,10 +300,12 @@ class GaussNewtonLanes {
     return scratch_;
   }
 
+  /// Steps in all lanes that asked for it: active-set passes, then the move.
   void Step() {
     int counting = 0;
     for (const Lane& lane : lanes_) counting += lane.steps;
     if (counting == 0) return;
+    // Repeat passes until limit lanes have finished their active sets.
     while (true) {
       Eliminate();
       const M has_changed = Substitute();
@@ -311,8 +320,9 @@ class GaussNewtonLanes {
         if (is_finished) At(kCounts, n) = 0;
         unfinished += !is_finished;
       }
-      if (2 * unfinished < counting) break;  // they may wait for the next round
+      if (2 * unfinished < counting) break;  // the unfinished lanes continue in the next round
     }
+    // Move the lanes that have finished.
     for (std::size_t n = 0; n < lanes_.size(); ++n) At(kMoves, n) = lanes_[n].steps && lanes_[n].passes == 0;
     Move();
     for (std::size_t n = 0; n < lanes_.size(); ++n) {
@@ -320,10 +330,11 @@ class GaussNewtonLanes {
     }
   }
 
-  /// Eliminates from the leaves to the root.
+  /// Gathers the quadratics from the leaves to the root and eliminates every hinge on the way.
   void Eliminate() {
     for (std::size_t e = 0; e < tree_.effectors.size(); ++e) {
       const GaussNewtonTree::Effector& effector = tree_.effectors[e];
+      // The quadratics of the effectors start those of their limbs.
       QuadraticLanes<V>& limb = quadratics_[tree_.joints[effector.joint].quadratic];
       if (effector.is_first) {
         Gather<true>(poses_.AskedOf(e), limb);
@@ -331,6 +342,7 @@ class GaussNewtonLanes {
         Gather<false>(poses_.AskedOf(e), limb);
       }
     }
+    // Limbs without targets beyond start at zero.
     for (const int n : tree_.unasked) {
       std::memset(static_cast<void*>(&quadratics_[tree_.joints[n].quadratic]), 0, sizeof(QuadraticLanes<V>));
     }
@@ -339,6 +351,7 @@ class GaussNewtonLanes {
     for (const GaussNewtonTree::Step& step : tree_.steps) {
       const GaussNewtonTree::Joint& joint = tree_.joints[step.joint];
       QuadraticLanes<V>& limb = quadratics_[joint.quadratic];
+      // Eliminate a hinge, or add a limb's quadratic to its parent's.
       if (step.dof >= 0) {
         const AngleLanes<V>& angle = angles_[step.dof];
         EliminateHinge(damping, OrZero(to_start, angle.start - angle.now), angle.lower - angle.now,
@@ -355,7 +368,8 @@ class GaussNewtonLanes {
     }
   }
 
-  /// Substitutes from the root to the leaves. Returns which lanes have a hinge that has changed sides.
+  /// Computes the change of every hinge from the root to the leaves. Returns the lanes in which a hinge has changed
+  /// sides.
   M Substitute() {
     const M counts = Flag(kCounts);
     M has_changed = Below(V(0.0), V(0.0));
@@ -378,7 +392,7 @@ class GaussNewtonLanes {
     return has_changed;
   }
 
-  /// Moves by the changes of all hinges, shortened where they are too long.
+  /// Adds the changes to the angles, scaled down where one is too large; lanes with an infinite change do not move.
   void Move() {
     V largest(0.0);
     M is_finite = AtLeast(V(0.0), V(0.0));
@@ -389,8 +403,8 @@ class GaussNewtonLanes {
     }
     largest = OrZero(is_finite, largest);
     registers_[kLargest] = largest;
-    const V most(rules_.largest_turn);
-    const V share = Select(Below(most, largest), most / largest, V(1.0));
+    const V limit(rules_.largest_turn);
+    const V share = Select(Below(limit, largest), limit / largest, V(1.0));
     const M moves = Flag(kMoves) && Below(V(0.0), largest);
     for (std::size_t d = 0; d < angles_.size(); ++d) {
       AngleLanes<V>& angle = angles_[d];
@@ -407,12 +421,12 @@ class GaussNewtonLanes {
   const GaussNewtonRules& rules_;
   GaussNewtonQueue& queue_;
   GaussNewtonHelp& help_;
-  bool is_empty_ = false;  // the queue
+  bool is_empty_ = false;  // true if the queue has no more problems
   std::vector<Lane> lanes_;
   AlignedList<AngleLanes<V>> angles_;
   LanePoses<T> poses_;
   AlignedList<HingeLanes<V>>& hinges_;
-  AlignedList<Movement> movements_;  // of each joint's limb
+  AlignedList<Movement> movements_;  // one per limb
   AlignedList<QuadraticLanes<V>> quadratics_;
   std::vector<double> scratch_;  // angles of one lane
   AlignedList<V> registers_;

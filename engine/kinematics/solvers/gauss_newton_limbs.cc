@@ -1,6 +1,6 @@
-// One problem after the other, four limbs in the lanes of vectors and the trunk by rows. Compiled once per instruction
-// set; the best one is chosen when the program runs (README.md). Whatever the width of vectors, numbers are added up in
-// one order: that of gauss_newton_plain.cc.
+// Solves one problem after the other, four limbs in the lanes of a vector and the trunk by rows. Compiled once per
+// instruction set; the best one is selected at run time (README.md). Whatever the width of the vectors, numbers are
+// added in the order of gauss_newton_plain.cc.
 #include <algorithm>
 #include <limits>
 
@@ -10,7 +10,7 @@
 #define HWY_TARGET_INCLUDE "engine/kinematics/solvers/gauss_newton_limbs.cc"
 #include "hwy/foreach_target.h"  // before highway.h
 
-// In this order: per target.
+// The order matters: these headers are included once per instruction set.
 #include "engine/kinematics/solvers/gauss_newton_kernel-inl.h"
 #include "engine/kinematics/solvers/vectors-inl.h"
 #include "hwy/highway.h"
@@ -18,7 +18,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace etude::HWY_NAMESPACE {
 
-// Places limbs: forward kinematics, in the order of `ComputeFrames`, and what targets ask there.
+// Forward kinematics of one pose, in the order of `ComputeFrames`, and its linearised targets.
 class LimbPoses {
  public:
   explicit LimbPoses(const LimbPacks& packs)
@@ -31,13 +31,14 @@ class LimbPoses {
         ends_(packs.ends.size()),
         squares_of_(packs.end_places.size()) {}
 
-  /// `angles` at their places; the root's p_WL, and R_WL column by column.
+  /// Places a pose: `angles` in the order of `LimbPacks`, `root` as p_WL and R_WL column by column.
   void Place(const double* angles, const double (&root)[12]) {
-    ForPlaces(sines_.size(), [&](std::size_t i) HWY_ATTR {
-      Places sine, cosine;
-      SineAndCosine(LoadPlaces(angles + i), sine, cosine);
-      StorePlaces(sine, sines_.begin() + i);
-      StorePlaces(cosine, cosines_.begin() + i);
+    // Sines and cosines of all angles, then the trunk, then the limbs.
+    ForEachVector(sines_.size(), [&](std::size_t i) HWY_ATTR {
+      RowVector sine, cosine;
+      SineAndCosine(LoadVector(angles + i), sine, cosine);
+      StoreVector(sine, sines_.begin() + i);
+      StoreVector(cosine, cosines_.begin() + i);
     });
     PlaceTrunk(root);
     miss_ = {};
@@ -45,10 +46,10 @@ class LimbPoses {
     for (const double squares : squares_of_) miss_.squares += squares;
   }
 
-  /// Returns the residual of the pose: |e|², and the largest distance and chord that count.
+  /// Returns the residual of the pose.
   const MissLanes<double>& miss() const { return miss_; }
   const AskedLanes<Four>& AskedAt(int ends) const { return ends_[ends].asked; }
-  /// Returns the hinges with their screws at the pose; all else in them is the step's.
+  /// Returns the hinges. Their screws belong to the placed pose, the rest to the step.
   AlignedList<HingeLanes<Four>>& hinges() { return hinges_; }
   AlignedList<TrunkHinge>& trunk_hinges() { return trunk_hinges_; }
 
@@ -73,6 +74,7 @@ class LimbPoses {
   int Lane(int effector) const { return packs_.end_places[effector] % LimbPacks::kWidth; }
 
   void PlaceTrunk(const double (&root)[12]) {
+    // The root.
     TrunkFrame& at_root = trunk_[0];
     alignas(64) double numbers[16] = {};
     for (int i = 0; i < 12; ++i) numbers[4 * (i / 3) + i % 3] = root[i];
@@ -80,6 +82,7 @@ class LimbPoses {
     for (int c = 0; c < 3; ++c) at_root.axes[c] = LoadFour(numbers + 4 * (c + 1));
     for (std::size_t n = 1; n < packs_.trunk.size(); ++n) {
       const LimbPacks::TrunkJoint& joint = packs_.trunk[n];
+      // A joint: frame before it turns, then its rotations about X, Y, Z.
       const TrunkFrame& parent = trunk_[joint.parent];
       Four axes[3];
       for (int c = 0; c < 3; ++c) axes[c] = MixRows(parent.axes, joint.R_PJ[c]);
@@ -111,12 +114,14 @@ class LimbPoses {
     PutFour(CrossAxes(p_RJ_W, axes[kAxis]), screw + 3);
   }
 
+  /// Forward kinematics of four limbs, outwards from the trunk joints that carry them.
   void PlaceLimbs(const LimbPacks::Pack& pack, const double (&root)[12]) {
     FrameLanes<Four> frame;
     TakeFrames(pack, frame);
     const Four p_WR[3] = {Four(root[0]), Four(root[1]), Four(root[2])};
     for (const LimbPacks::Level& level : packs_.LevelsOf(pack)) {
       Four p_PJ_W[3], p_RJ_W[3];
+      // Position, axes before the joints turn, rotations, effectors.
       MixLoaded(frame.axes, level.p_PJ, p_PJ_W);
       for (int k = 0; k < 3; ++k) {
         frame.position[k] = frame.position[k] + p_PJ_W[k];
@@ -139,7 +144,7 @@ class LimbPoses {
     Mix(axes, by, out);
   }
 
-  /// Sets the lanes of `frame` to the frames of the joints that limbs hang on.
+  /// Sets the lanes of `frame` to the frames of the trunk joints that carry the limbs.
   HWY_INLINE void TakeFrames(const LimbPacks::Pack& pack, FrameLanes<Four>& frame) {
     const TrunkFrame* from[LimbPacks::kWidth];
     for (int lane = 0; lane < LimbPacks::kWidth; ++lane) from[lane] = &trunk_[pack.parents[lane]];
@@ -192,20 +197,20 @@ class LimbPoses {
   AlignedList<double> sines_, cosines_;
   AlignedList<TrunkFrame> trunk_;
   AlignedList<TrunkHinge> trunk_hinges_;
-  AlignedList<HingeLanes<Four>> hinges_;  // of each slot
+  AlignedList<HingeLanes<Four>> hinges_;  // one per slot
   AlignedList<EndsState> ends_;
-  AlignedList<double> squares_of_;  // of each effector
+  AlignedList<double> squares_of_;  // |e|² of each effector
   MissLanes<double> miss_{};
 };
 
-// Steps from pose to pose as the course says.
+// Solves one problem, as its course decides.
 class LimbLanes final : public GaussNewtonLimbs {
  public:
   explicit LimbLanes(const LimbPacks& packs)
       : packs_(packs),
-        places_(static_cast<std::size_t>(packs.place_count)),
+        index_count_(static_cast<std::size_t>(packs.place_count)),
         poses_(packs),
-        numbers_(10 * places_),
+        numbers_(10 * index_count_),
         trunk_(packs.trunk.size()),
         trunk_hinges_(poses_.trunk_hinges()),
         hinges_(poses_.hinges()),
@@ -216,11 +221,11 @@ class LimbLanes final : public GaussNewtonLimbs {
     for (double** const row :
          {&now_, &last_, &best_, &start_, &lower_, &upper_, &to_start_, &to_lower_, &to_upper_, &change_}) {
       *row = next;
-      next += places_;
+      next += index_count_;
     }
-    // Places without a hinge stay at zero, and free.
-    std::fill_n(lower_, places_, -1.0);
-    std::fill_n(upper_, places_, 1.0);
+    // Padding without a hinge keeps the angle 0 in the range ±1, so it is always free.
+    std::fill_n(lower_, index_count_, -1.0);
+    std::fill_n(upper_, index_count_, 1.0);
     angles = start_;
     lower = lower_;
     upper = upper_;
@@ -236,6 +241,7 @@ class LimbLanes final : public GaussNewtonLimbs {
     Copy(start_, now_);
     const auto is_out_of_reach = [&] { return help.IsOutOfReach(0); };
     while (true) {
+      // Place the pose, ask the course, do what it says.
       poses_.Place(now_, root);
       const GaussNewtonCourse::Next next = course.Arrive(poses_.miss().squares, IsMet(rules, help), is_out_of_reach);
       if (next.is_best) Copy(now_, best_);
@@ -268,7 +274,7 @@ class LimbLanes final : public GaussNewtonLimbs {
   };
 
   HWY_INLINE void Copy(const double* from, double* to) {
-    ForPlaces(places_, [&](std::size_t i) HWY_ATTR { StorePlaces(LoadPlaces(from + i), to + i); });
+    ForEachVector(index_count_, [&](std::size_t i) HWY_ATTR { StoreVector(LoadVector(from + i), to + i); });
   }
 
   bool IsMet(const GaussNewtonRules& rules, GaussNewtonHelp& help) {
@@ -281,14 +287,15 @@ class LimbLanes final : public GaussNewtonLimbs {
     return {scratch_.begin(), scratch_.size()};
   }
 
-  /// Returns the largest change of an angle.
+  /// Computes a step with its active-set passes, and moves the angles. Returns the largest change of an angle.
   double Step(const GaussNewtonCourse::Next& next, const GaussNewtonRules& rules) {
-    ForPlaces(places_, [&](std::size_t i) HWY_ATTR {
-      const Places now = LoadPlaces(now_ + i);
-      StorePlaces(next.to_start ? LoadPlaces(start_ + i) - now : Places(0.0), to_start_ + i);
-      StorePlaces(LoadPlaces(lower_ + i) - now, to_lower_ + i);
-      StorePlaces(LoadPlaces(upper_ + i) - now, to_upper_ + i);
+    ForEachVector(index_count_, [&](std::size_t i) HWY_ATTR {
+      const RowVector now = LoadVector(now_ + i);
+      StoreVector(next.to_start ? LoadVector(start_ + i) - now : RowVector(0.0), to_start_ + i);
+      StoreVector(LoadVector(lower_ + i) - now, to_lower_ + i);
+      StoreVector(LoadVector(upper_ + i) - now, to_upper_ + i);
     });
+    // Eliminate inwards, substitute outwards, until the active set is settled.
     const Four damping(next.damping);
     bool limbs_have_changed = true;
     for (int pass = 0;; ++pass) {
@@ -305,12 +312,14 @@ class LimbLanes final : public GaussNewtonLimbs {
     return Move(rules.largest_turn);
   }
 
+  /// Eliminates the hinges of four limbs, from their ends to the trunk.
   void EliminateLimbs(std::size_t number, const Four& damping) {
     const LimbPacks::Pack& pack = packs_.packs[number];
-    QuadraticLanes<Four>& sum = sum_[0];  // in memory: what GCC knows to be local it keeps twice
+    QuadraticLanes<Four>& sum = sum_[0];  // in memory: GCC would keep a local variable twice
     bool is_empty = true;
     for (int l = pack.first_level + pack.level_count; l-- > pack.first_level;) {
       const LimbPacks::Level& level = packs_.levels[l];
+      // Add the effectors of this level.
       if (level.ends >= 0 && is_empty) {
         Gather<true>(poses_.AskedAt(level.ends), sum);
         is_empty = false;
@@ -320,23 +329,27 @@ class LimbLanes final : public GaussNewtonLimbs {
         std::memset(static_cast<void*>(&sum), 0, sizeof(sum));
         is_empty = false;
       }
+      // Eliminate its hinges.
       for (int slot = level.first_slot + level.hinge_count; slot-- > level.first_slot;) {
-        const int place = LimbPacks::kWidth * slot;
-        EliminateHinge(damping, LoadFour(to_start_ + place), LoadFour(to_lower_ + place), LoadFour(to_upper_ + place),
+        const int index = LimbPacks::kWidth * slot;
+        EliminateHinge(damping, LoadFour(to_start_ + index), LoadFour(to_lower_ + index), LoadFour(to_upper_ + index),
                        sum, hinges_[slot]);
       }
     }
+    // Store what is left of each limb as rows, for the trunk.
     QuadraticRows* rows = &limb_rows_[number * LimbPacks::kWidth];
     for (int r = 0; r < 6; ++r) PutRows(sum.matrix + 6 * r, [&](int lane) -> SixRow& { return rows[lane].matrix[r]; });
     PutRows(sum.vector, [&](int lane) -> SixRow& { return rows[lane].vector; });
   }
 
+  /// Eliminates the hinges of the trunk, inwards to the root.
   void EliminateTrunk(const Four& damping) {
     for (const int n : packs_.inwards) {
       const LimbPacks::TrunkJoint& joint = packs_.trunk[n];
       SixRow m[6], v{Four(0.0), Four(0.0)};
       for (SixRow& row : m) row = v;
       bool is_first = true;
+      // Add up the quadratics of all branches, then eliminate the joint's hinges.
       for (const LimbPacks::Branch& branch : packs_.BranchesOf(joint)) {
         const QuadraticRows& from = branch.pack < 0 ? trunk_[branch.number].quadratic
                                                     : limb_rows_[branch.pack * LimbPacks::kWidth + branch.number];
@@ -345,8 +358,8 @@ class LimbLanes final : public GaussNewtonLimbs {
         is_first = false;
       }
       for (int h = joint.first_hinge + joint.hinge_count; h-- > joint.first_hinge;) {
-        const std::size_t place = packs_.first_trunk_place + h;
-        EliminateHinge(damping, to_start_[place], to_lower_[place], to_upper_[place], m, v, trunk_hinges_[h]);
+        const std::size_t index = packs_.first_trunk_place + h;
+        EliminateHinge(damping, to_start_[index], to_lower_[index], to_upper_[index], m, v, trunk_hinges_[h]);
       }
       QuadraticRows& to = trunk_[n].quadratic;
       for (int r = 0; r < 6; ++r) to.matrix[r] = m[r];
@@ -354,7 +367,7 @@ class LimbLanes final : public GaussNewtonLimbs {
     }
   }
 
-  /// Substitutes from the root on. Returns whether a hinge has changed sides.
+  /// Computes the changes of the trunk's hinges, outwards from the root. Returns true if a hinge has changed sides.
   bool SubstituteTrunk() {
     SixRow& at_rest = trunk_[0].movement;
     at_rest = {Four(0.0), Four(0.0)};
@@ -364,18 +377,20 @@ class LimbLanes final : public GaussNewtonLimbs {
       const LimbPacks::TrunkJoint& joint = packs_.trunk[n];
       SixRow movement = trunk_[joint.parent].movement;
       for (int h = joint.first_hinge; h < joint.first_hinge + joint.hinge_count; ++h) {
-        const std::size_t place = packs_.first_trunk_place + h;
-        has_changed |= SubstituteHinge(to_lower_[place], to_upper_[place], trunk_hinges_[h], change_[place], movement);
+        const std::size_t index = packs_.first_trunk_place + h;
+        has_changed |= SubstituteHinge(to_lower_[index], to_upper_[index], trunk_hinges_[h], change_[index], movement);
       }
       trunk_[n].movement = movement;
     }
     return has_changed;
   }
 
+  /// Computes the changes of four limbs' hinges. Returns true if a hinge has changed sides.
   bool SubstituteLimbs(const LimbPacks::Pack& pack) {
     const SixRow* from[LimbPacks::kWidth];
     for (int lane = 0; lane < LimbPacks::kWidth; ++lane) from[lane] = &trunk_[pack.parents[lane]].movement;
     Four movement[6], none;
+    // Transpose the movements of the trunk joints into lanes.
     for (int k = 0; k < 4; ++k) movement[k] = from[k]->low;
     Transpose(movement[0], movement[1], movement[2], movement[3]);
     Four last = from[2]->high;
@@ -383,53 +398,55 @@ class LimbLanes final : public GaussNewtonLimbs {
     movement[5] = from[1]->high;
     none = from[3]->high;
     Transpose(movement[4], movement[5], last, none);
+    // Substitute outwards, level by level.
     FourMask has_changed = Below(Four(0.0), Four(0.0));
     for (const LimbPacks::Level& level : packs_.LevelsOf(pack)) {
       for (int slot = level.first_slot; slot < level.first_slot + level.hinge_count; ++slot) {
-        const int place = LimbPacks::kWidth * slot;
+        const int index = LimbPacks::kWidth * slot;
         HingeLanes<Four>& hinge = hinges_[slot];
         Four change, side;
-        SubstituteHinge(LoadFour(to_lower_ + place), LoadFour(to_upper_ + place), hinge, change, side, movement);
+        SubstituteHinge(LoadFour(to_lower_ + index), LoadFour(to_upper_ + index), hinge, change, side, movement);
         has_changed = has_changed || !AreEqual(side, hinge.side);
         hinge.side = side;
-        StoreFour(change, change_ + place);
+        StoreFour(change, change_ + index);
       }
     }
     return Any(has_changed);
   }
 
-  /// Turns all angles by their changes, shortened where they are too long. Returns the largest change.
-  double Move(double longest) {
-    Places largest(0.0);
-    auto is_finite = AtLeast(Places(0.0), Places(0.0));
-    ForPlaces(places_, [&](std::size_t i) HWY_ATTR {
-      const Places size = Magnitude(LoadPlaces(change_ + i));
+  /// Adds the changes to the angles, scaled down if one is too large; an infinite change moves none. Returns the
+  /// largest.
+  double Move(double max_change) {
+    RowVector largest(0.0);
+    auto is_finite = AtLeast(RowVector(0.0), RowVector(0.0));
+    ForEachVector(index_count_, [&](std::size_t i) HWY_ATTR {
+      const RowVector size = Magnitude(LoadVector(change_ + i));
       largest = Larger(largest, size);
-      is_finite = is_finite && AtLeast(Places(std::numeric_limits<double>::max()), size);
+      is_finite = is_finite && AtLeast(RowVector(std::numeric_limits<double>::max()), size);
     });
-    const double most = hn::GetLane(hn::MaxOfLanes(Places::Tag(), largest.v));
-    if (Any(!is_finite) || !(most > 0)) return 0;
-    const Places share(most > longest ? longest / most : 1);
-    ForPlaces(places_, [&](std::size_t i) HWY_ATTR {
-      const Places least = LoadPlaces(lower_ + i), most_allowed = LoadPlaces(upper_ + i);
-      const Places moved = LoadPlaces(now_ + i) + share * LoadPlaces(change_ + i);
-      StorePlaces(Clamped(moved, least, most_allowed), now_ + i);
+    const double largest_change = hn::GetLane(hn::MaxOfLanes(RowVector::Tag(), largest.v));
+    if (Any(!is_finite) || !(largest_change > 0)) return 0;
+    const RowVector share(largest_change > max_change ? max_change / largest_change : 1);
+    ForEachVector(index_count_, [&](std::size_t i) HWY_ATTR {
+      const RowVector lower_end = LoadVector(lower_ + i), upper_end = LoadVector(upper_ + i);
+      const RowVector moved = LoadVector(now_ + i) + share * LoadVector(change_ + i);
+      StoreVector(Clamped(moved, lower_end, upper_end), now_ + i);
     });
-    return most;
+    return largest_change;
   }
 
   const LimbPacks& packs_;
-  const std::size_t places_;
+  const std::size_t index_count_;
   LimbPoses poses_;
-  AlignedList<double> numbers_;  // these rows, of all places
+  AlignedList<double> numbers_;  // memory of the following rows, one number per angle index
   double *now_, *last_, *best_, *start_, *lower_, *upper_;
-  double *to_start_, *to_lower_, *to_upper_, *change_;  // in a step
-  AlignedList<TrunkState> trunk_;                       // of each of its joints
+  double *to_start_, *to_lower_, *to_upper_, *change_;  // of the present step
+  AlignedList<TrunkState> trunk_;                       // one per trunk joint
   AlignedList<TrunkHinge>& trunk_hinges_;
   AlignedList<HingeLanes<Four>>& hinges_;
-  AlignedList<QuadraticLanes<Four>> sum_;  // of a pack on its way inwards
-  AlignedList<QuadraticRows> limb_rows_;   // of each limb, when its hinges are eliminated
-  AlignedList<double> scratch_;            // angles in the tree's order
+  AlignedList<QuadraticLanes<Four>> sum_;  // quadratic of a pack during elimination
+  AlignedList<QuadraticRows> limb_rows_;   // one per limb, after its hinges are eliminated
+  AlignedList<double> scratch_;            // angles in the order of the tree
 };
 
 std::unique_ptr<GaussNewtonLimbs> MakeLimbs(const LimbPacks& packs) { return std::make_unique<LimbLanes>(packs); }

@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-// Goes the way that a GaussNewtonCourse tells.
+// Runs one problem as its GaussNewtonCourse decides.
 class PlainSolver {
  public:
   PlainSolver(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
@@ -56,13 +56,13 @@ class PlainSolver {
   }
 
  private:
-  // Finds how far the pose is off, and asks the course what follows from that.
+  // Computes the residual of the pose, and asks the course what comes next.
   GaussNewtonCourse::Next LinearisePose() {
     const bool is_met = run_.HasConverged();
     return course_.Arrive(is_met ? 0 : step_.Build(frames_), is_met, [&] { return IsOutOfReach(tree_, problem_); });
   }
 
-  // The step's optimum within the ranges, or what some passes of its active set have made of it.
+  // Computes the step within the ranges, with extra active-set passes if damping is small.
   void FindChange(const GaussNewtonCourse::Next& next) {
     const std::vector<double>& posture = next.to_start ? run_.start_angles() : state_.angles;
     change_ = step_.Solve(state_.angles, posture, run_.ranges(), next.damping);
@@ -72,11 +72,11 @@ class PlainSolver {
     }
   }
 
-  // Turns all angles by their changes, all shortened by one share where one is too long.
+  // Adds the changes to the angles. If one is too large, all are scaled down together.
   void MoveByChange() {
     double largest = 0;
     for (const double c : change_) largest = std::max(largest, std::abs(c));
-    // Overflow, from weights and limbs of absurd sizes: no step.
+    // Overflow, from extreme weights or lengths: take no step.
     if (!std::ranges::all_of(change_, [](double c) { return std::isfinite(c); })) largest = 0;
     const double share = largest > kLargestTurn ? kLargestTurn / largest : 1;
     for (std::size_t d = 0; d < state_.angles.size() && largest > 0; ++d) {
@@ -114,13 +114,13 @@ class PlainSolver {
     Place();
   }
 
-  // Forward kinematics of angles that are not the outcome of an iteration.
+  // Forward kinematics at a pose that no iteration produced.
   void Place() {
     ComputeFrames(tree_, state_, frames_);
     run_.CountPass();
   }
 
-  // Forward kinematics after an iteration, and how far it is off.
+  // Forward kinematics and errors after an iteration.
   void Measure() {
     ComputeFrames(tree_, state_, frames_);
     run_.RecordFrames(frames_, state_.angles);
@@ -135,17 +135,17 @@ class PlainSolver {
   TreeFrames& frames_;
   GaussNewtonStep step_;
   GaussNewtonCourse course_;
-  std::span<const double> change_;  // of every angle, in a step
+  std::span<const double> change_;  // the step, one number per angle
   std::vector<double> best_angles_, last_angles_;
 };
 
-// The loops have fixed lengths and no aliases, so that compilers make vector code of them.
+// Fixed loop lengths without aliases let compilers vectorise these functions.
 
 double DotSix(const double* a, const double* b) {
   return (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]) + (a[4] * b[4] + a[5] * b[5]);
 }
 
-// y = M s, M symmetric.
+// y = M s for a symmetric M.
 void Multiply(const double* __restrict matrix, const double* __restrict s, double* __restrict y) {
   for (int i = 0; i < 6; ++i) {
     y[i] = (matrix[i] * s[0] + matrix[6 + i] * s[1]) + (matrix[12 + i] * s[2] + matrix[18 + i] * s[3]) +
@@ -192,6 +192,7 @@ GaussNewtonStep::GaussNewtonStep(const KinematicTree& tree, std::span<const Effe
       change_(tree.limits.size()) {}
 
 double GaussNewtonStep::Build(const TreeFrames& frames) {
+  // The screw of every hinge: its axis, and the translation that it gives the limb's point at the root.
   const glm::dvec3 p_WR = frames.joints[0].position;
   for (const int n : inwards_) {
     const TreeJoint& joint = tree_.joints[n];
@@ -202,6 +203,7 @@ double GaussNewtonStep::Build(const TreeFrames& frames) {
       hinges_[d].screw = {axis.x, axis.y, axis.z, shift.x, shift.y, shift.z};
     }
   }
+  // The quadratic of every effector.
   double squares = 0;
   for (std::size_t e = 0; e < targets_.size(); ++e) {
     squares += LineariseTarget(targets_[e], frames.effectors[e], p_WR, effectors_[e]);
@@ -209,9 +211,10 @@ double GaussNewtonStep::Build(const TreeFrames& frames) {
   return squares;
 }
 
-// Sets `out` to what one target asks of the limb. Returns its part of |e|².
+// Sets `out` to the quadratic of one target in the movement of its limb. Returns its part of |e|².
 double GaussNewtonStep::LineariseTarget(const EffectorTarget& target, const LimbFrame& X_WE, const glm::dvec3& p_WR,
                                         Quadratic& out) {
+  // η and |e|²: pull is the weighted position error, twist its moment about the root plus the axes' errors.
   const double w = target.position_weight / (kPositionScale * kPositionScale);
   const glm::dvec3& u = target.axis_weights;
   const glm::dmat3 &R_WE = X_WE.axes, &R_WD = target.axes;
@@ -224,7 +227,8 @@ double GaussNewtonStep::LineariseTarget(const EffectorTarget& target, const Limb
     twist += u[k] * glm::cross(R_WE[k], R_WD[k]);
     squares += 2 * u[k] * (1 - glm::dot(R_WE[k], R_WD[k]));
   }
-  // The square of shift + turn × p_RE with weight w, and of each axis the part of the turn that is across it.
+  // Λ: the weighted square of the effector's translation, and of each axis's movement, which is the component of the
+  // rotation normal to it.
   const double straight = w * glm::dot(p_RE_W, p_RE_W) + u.x + u.y + u.z;
   const glm::dvec3 lever = w * p_RE_W;
   std::array<double, 36>& m = out.matrix;
@@ -245,9 +249,9 @@ double GaussNewtonStep::LineariseTarget(const EffectorTarget& target, const Limb
   return squares;
 }
 
-// From the leaves to the root.
+// Gathers the quadratics from the leaves to the root and eliminates every hinge on the way.
 void GaussNewtonStep::EliminateInwards(double damping) {
-  std::memset(limbs_.get(), 0, tree_.joints.size() * sizeof(Quadratic));  // a loop costs as much as ten hinges
+  std::memset(limbs_.get(), 0, tree_.joints.size() * sizeof(Quadratic));  // a loop would cost as much as ten hinges
   for (std::size_t e = 0; e < targets_.size(); ++e) {
     Quadratic& limb = limbs_[tree_.effectors[e].joint];
     Add<36>(effectors_[e].matrix.data(), limb.matrix.data());
@@ -256,14 +260,16 @@ void GaussNewtonStep::EliminateInwards(double damping) {
   for (const int n : inwards_) {
     const TreeJoint& joint = tree_.joints[n];
     Quadratic& limb = limbs_[n];
+    // Eliminate the hinges of the joint, the outermost first.
     for (int d = joint.first_dof + joint.dof_count - 1; d >= joint.first_dof; --d) {
       Hinge& hinge = hinges_[d];
       Spatial y;
       Multiply(limb.matrix.data(), hinge.screw.data(), y.data());
-      // sᵀΛs is not negative but by rounding.
+      // The product sᵀΛs is negative only by rounding.
       hinge.scale = 1 / (damping + std::max(0.0, DotSix(y.data(), hinge.screw.data())));
       hinge.best = hinge.scale * (damping * hinge.pull + DotSix(limb.vector.data(), hinge.screw.data()));
       hinge.matrix_s = y;
+      // A fixed hinge contributes a constant change; a free one takes its best change for every movement.
       double change = hinge.side == Side::kLower ? hinge.lower : hinge.upper;
       if (hinge.side == Side::kFree) {
         change = hinge.best;
@@ -271,13 +277,15 @@ void GaussNewtonStep::EliminateInwards(double damping) {
       }
       AddScaled(y.data(), -change, limb.vector.data());
     }
+    // Add the rest to the parent limb.
     Quadratic& parent = limbs_[joint.parent];
     Add<36>(limb.matrix.data(), parent.matrix.data());
     Add<6>(limb.vector.data(), parent.vector.data());
   }
 }
 
-// From the root to the leaves. Returns whether a hinge has changed sides.
+// Computes the change of every hinge from the root to the leaves, clamped to its range. Returns true if a hinge has
+// changed sides.
 bool GaussNewtonStep::SubstituteOutwards() {
   bool has_changed = false;
   movements_[0].fill(0);

@@ -9,8 +9,9 @@
 namespace etude {
 namespace {
 
-constexpr int kMostDofs = 3;  // of a joint
+constexpr int kMaxDofs = 3;  // of a joint
 
+// Sets the axes of a joint, and whether they only rename or reverse those of its parent.
 void DescribeAxes(const glm::dmat3& R_PJ, GaussNewtonTree::Joint& joint) {
   joint.renames_axes = true;
   for (int c = 0; c < 3; ++c) {
@@ -26,15 +27,16 @@ void DescribeAxes(const glm::dmat3& R_PJ, GaussNewtonTree::Joint& joint) {
   }
 }
 
-constexpr int kMostLanes = 8;  // of doubles, in any CPU's vectors
+constexpr int kMaxLanes = 8;  // maximum number of doubles in a vector of any CPU
 
-// A chain of joints, or none, that hangs on the joint `parent` of the tree.
+// An unbranched chain of joints, possibly empty, beyond the joint `parent` of the tree.
 struct Limb {
   int parent = 0, first_joint = -1, joint_count = 0;
-  int effector = -1;  // at its end
+  int effector = -1;  // the effector at its end
   LimbPacks::Branch branch = {};
 };
 
+// Builds `LimbPacks`: finds the trunk, then the limbs, then packs the limbs by fours.
 class LimbPacker {
  public:
   LimbPacker(const KinematicTree& tree, LimbPacks& made)
@@ -58,19 +60,20 @@ class LimbPacker {
  private:
   struct Joint {
     int child_count = 0, effector_count = 0;
-    int next = -1;      // the joint beyond, of a limb
-    int effector = -1;  // the last one
-    int trunk = -1;     // which joint of the trunk it is
+    int next = -1;      // the next joint outwards, within a limb
+    int effector = -1;  // its last effector
+    int trunk = -1;     // its index in the trunk, or −1
     bool is_trunk = false;
   };
 
-  // Joints with more than one branch or more than one effector, and all before them.
+  // The trunk: joints with several branches or several effectors, and all joints between them and the root.
   void FindTrunk() {
     for (std::size_t e = 0; e < tree_.effectors.size(); ++e) {
       Joint& joint = joints_[tree_.effectors[e].joint];
       ++joint.effector_count;
       joint.effector = static_cast<int>(e);
     }
+    // From the leaves inwards, mark the trunk joints and all their ancestors.
     for (std::size_t n = joints_.size() - 1; n > 0; --n) {
       Joint &joint = joints_[n], &parent = joints_[tree_.joints[n].parent];
       joint.is_trunk |= joint.child_count > 1 || joint.effector_count > 1;
@@ -78,6 +81,7 @@ class LimbPacker {
       ++parent.child_count;
     }
     joints_[0].is_trunk = true;
+    // Copy them as plain numbers.
     made_.trunk.reserve(joints_.size());
     made_.inwards.reserve(joints_.size());
     for (std::size_t n = 0; n < joints_.size(); ++n) {
@@ -97,7 +101,7 @@ class LimbPacker {
     }
   }
 
-  // An effector on the trunk is the end of a limb without joints. The longest limbs come first.
+  // Finds the limbs, the longest first. An effector on the trunk counts as a limb without joints.
   void FindLimbs() {
     limbs_.reserve(tree_.effectors.size() + joints_.size());
     for (std::size_t e = 0; e < tree_.effectors.size(); ++e) {
@@ -119,6 +123,7 @@ class LimbPacker {
   }
 
   void AddPack(std::span<Limb> limbs) {
+    // Each limb takes one lane.
     const int number = static_cast<int>(made_.packs.size());
     LimbPacks::Pack& pack = made_.packs.emplace_back();
     pack.first_level = static_cast<int>(made_.levels.size());
@@ -130,6 +135,8 @@ class LimbPacker {
       pack.parents[lane] = joints_[limb.parent].trunk;
       joints[lane] = limb.first_joint;
     }
+    // Outwards, each level holds the next joint of every limb and its effector; the last level holds the ends of
+    // shorter limbs.
     for (int l = 0; l < pack.level_count; ++l) {
       LimbPacks::Level& level = made_.levels.emplace_back();
       level.first_slot = made_.slot_count;
@@ -184,10 +191,10 @@ class LimbPacker {
       }
     }
     const int places = made_.first_trunk_place + made_.trunk_hinge_count;
-    made_.place_count = (places + kMostLanes - 1) / kMostLanes * kMostLanes;
+    made_.place_count = (places + kMaxLanes - 1) / kMaxLanes * kMaxLanes;
   }
 
-  // First a joint's own effectors, then what is beyond it.
+  // Lists the branches of each trunk joint: first its own effectors, then what lies beyond it.
   void AddBranches() {
     for (std::size_t n = 0; n < joints_.size(); ++n) {
       if (!joints_[n].is_trunk) continue;
@@ -228,11 +235,12 @@ GaussNewtonTree::GaussNewtonTree(const KinematicTree& tree)
     for (int k = 0; k < 3; ++k) joints[n].p_PJ[k] = from.p_PJ[k];
     DescribeAxes(from.R_PJ, joints[n]);
   }
+  // The first effector or branch of a limb determines where its quadratic is gathered.
   for (const etude::Effector& from : tree.effectors) {
     Effector& made = effectors.emplace_back(Effector{from.joint, {from.p_LE.x, from.p_LE.y, from.p_LE.z}});
-    int& place = joints[from.joint].quadratic;
-    made.is_first = place < 0;
-    if (made.is_first) place = quadratic_count++;
+    int& quadratic = joints[from.joint].quadratic;
+    made.is_first = quadratic < 0;
+    if (made.is_first) quadratic = quadratic_count++;
   }
   for (const int n : inwards) {
     Joint& joint = joints[n];
@@ -240,14 +248,15 @@ GaussNewtonTree::GaussNewtonTree(const KinematicTree& tree)
       joint.quadratic = quadratic_count++;
       unasked.push_back(n);
     }
-    int& place = joints[joint.parent].quadratic;
-    if (place < 0) place = joint.quadratic;
+    int& quadratic = joints[joint.parent].quadratic;
+    if (quadratic < 0) quadratic = joint.quadratic;
   }
+  // Elimination, height by height: hinges of one height alternate; then the additions to parents.
   const std::vector<int> heights = JointHeights(tree);
   for (auto first = inwards.begin(); first != inwards.end();) {
     const auto is_higher = [&](int n) { return heights[n] > heights[*first]; };
     const auto last = std::find_if(first, inwards.end(), is_higher);
-    for (int turn = 1; turn <= kMostDofs; ++turn) {
+    for (int turn = 1; turn <= kMaxDofs; ++turn) {
       for (auto n = first; n != last; ++n) {
         if (turn <= joints[*n].dof_count) steps.push_back({*n, joints[*n].first_dof + joints[*n].dof_count - turn});
       }

@@ -7,9 +7,10 @@
 namespace etude {
 namespace {
 
-constexpr double kScatter = 1.5;                     // of restarts, radians
-constexpr double kGoldenShare = 0.6180339887498949;  // its multiples, modulo 1, are spread evenly
-constexpr double kSpread = 300;                      // a fifth of a degree changes x by a whole period
+constexpr double kScatter = 1.5;                     // maximum distance of a restart from the start, radians
+constexpr double kGoldenShare = 0.6180339887498949;  // multiples of it modulo 1 are evenly distributed
+// A fifth of a degree of the start angle changes x by a whole period.
+constexpr double kSpread = 300;
 
 }  // namespace
 
@@ -40,19 +41,19 @@ double IkRun::WorstMeanAxis() const {
   return worst;
 }
 
-// An angle is never smaller than its chord.
+// Compares chords, because an angle is never smaller than its chord.
 bool IkRun::MissesByFar(const TreeFrames& frames) const {
-  const double farthest = options_.position_goal * options_.position_goal;
-  const double longest_chord = options_.axis_goal * options_.axis_goal;
+  const double squared_position_goal = options_.position_goal * options_.position_goal;
+  const double squared_axis_goal = options_.axis_goal * options_.axis_goal;
   for (std::size_t e = 0; e < problem_.targets.size(); ++e) {
     const EffectorTarget& target = problem_.targets[e];
     const LimbFrame& X_WE = frames.effectors[e];
     const glm::dvec3 gap = target.position - X_WE.position;
-    if (target.position_weight > 0 && glm::dot(gap, gap) >= farthest) return true;
+    if (target.position_weight > 0 && glm::dot(gap, gap) >= squared_position_goal) return true;
     for (int k = 0; k < 3; ++k) {
       if (target.axis_weights[k] <= 0) continue;
       const glm::dvec3 chord = target.axes[k] - X_WE.axes[k];
-      if (glm::dot(chord, chord) >= longest_chord) return true;
+      if (glm::dot(chord, chord) >= squared_axis_goal) return true;
     }
   }
   return false;

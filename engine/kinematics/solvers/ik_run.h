@@ -9,26 +9,26 @@
 
 namespace etude {
 
-/// Sets `out` to the errors of all effectors at these frames.
+/// Sets `out` to the errors of all effectors at `frames`.
 void MeasureErrors(const TreeFrames& frames, std::span<const EffectorTarget> targets, std::vector<EffectorError>& out);
 
-/// Sets `out` to the errors of all effectors of `problem` at these angles.
+/// Sets `out` to the errors of all effectors of `problem` at `angles`.
 void MeasurePose(const KinematicTree& tree, const IkProblem& problem, std::span<const double> angles,
                  std::vector<EffectorError>& out);
 
-/// Keeps the records of a solver: the ranges of the angles, when to stop, the trace and the status. `tree` and
-/// `problem` must be free of faults (`FindFault`) and outlive this. See `RunFromStart` for its use.
+/// The bookkeeping of one solver run: ranges of the angles, stopping criteria, trace and status. `tree` and `problem`
+/// must be free of faults (`FindFault`) and outlive this object. `RunFromStart` shows its use.
 class IkRun {
  public:
   IkRun(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
 
   const std::vector<AngleRange>& ranges() const { return ranges_; }
-  /// Returns the problem's start angles, moved into their ranges.
+  /// Returns the problem's start angles, clamped to their ranges.
   const std::vector<double>& start_angles() const { return start_angles_; }
 
-  /// Records the start, at the first call, and then the outcome of each iteration: errors by forward kinematics of
-  /// `angles`, a list or a function that makes one, which is called for a trace only. `fk_evaluations`: how many
-  /// passes led here.
+  /// Records the start at the first call, later the result of each iteration. `errors` belong to `angles`, which is a
+  /// list or a function that makes one; the function is called only for a trace. `fk_evaluations` is the number of
+  /// forward-kinematics passes since the last record.
   template <class Angles>
   void Record(std::span<const EffectorError> errors, const Angles& angles, int fk_evaluations = 1) {
     RecordErrors(errors, fk_evaluations);
@@ -45,8 +45,8 @@ class IkRun {
     }
   }
 
-  /// Records by the frames of `angles`, for solvers that do not look at errors themselves: errors are computed only
-  /// where they are needed, in a trace, near the goals and at the end.
+  /// Records by the frames of `angles`, for solvers that do not need errors themselves. Errors are then computed only
+  /// for a trace, near the goals, and at the end.
   template <class Angles>
   void RecordFrames(const TreeFrames& frames, const Angles& angles) {
     if (!Traces() && MissesByFar(frames)) {
@@ -57,25 +57,25 @@ class IkRun {
     Record(errors_, angles);
   }
 
-  /// Returns whether the trace takes in what is recorded next.
+  /// Returns true if the next record enters the trace.
   bool Traces() const { return options_.trace && std::ssize(solution_.trace) < options_.longest_trace; }
 
-  /// Records an iteration that certainly misses the goals and whose errors are not needed: not while it traces.
+  /// Records an iteration that certainly misses the goals, without its errors. Must not be called while `Traces()`.
   void RecordMisses();
 
-  /// Counts a forward-kinematics pass beyond the one of each iteration.
+  /// Counts a forward-kinematics pass in addition to the one per iteration.
   void CountPass() { ++solution_.fk_evaluations; }
-  /// Records that the angles cannot move any further.
+  /// Records that the solver has stalled.
   void Stall() { has_stalled_ = true; }
 
-  /// Records that the solution is not the state recorded last, so that its errors take a pass of their own.
+  /// Records that the solution is not the pose recorded last; `Finish` then measures its errors with one more pass.
   void DiscardErrors();
 
   bool HasConverged() const { return worst_.Within(options_); }
   bool MustGoOn() const { return !HasConverged() && !has_stalled_ && solution_.iterations < options_.max_iterations; }
   int iterations() const { return solution_.iterations; }
 
-  /// Ends the run. Returns the solution with these angles, which were recorded last.
+  /// Ends the run and returns the solution. `angles` must be those recorded last, unless `DiscardErrors` was called.
   IkSolution Finish(std::vector<double> angles);
 
  private:
@@ -96,11 +96,11 @@ class IkRun {
   IkSolution solution_;
 };
 
-/// Returns what every solver answers to a faulty problem.
+/// Returns the solution of every solver to a faulty problem.
 IkSolution BadInput(const KinematicTree& tree);
 
-/// Runs a solver that goes from pose to pose. `iterate(run, state, frames)` begins at the start, which is recorded, and
-/// leaves the angles that it has found in `state`:
+/// Runs a solver that moves from pose to pose. The start has been recorded when `iterate(run, state, frames)` is
+/// called; it leaves the resulting angles in `state`:
 ///
 ///     while (run.MustGoOn()) {
 ///       … one iteration: new state.angles …
@@ -121,9 +121,9 @@ IkSolution RunFromStart(const KinematicTree& tree, const IkProblem& problem, con
   return run.Finish(std::move(state.angles));
 }
 
-/// Runs a solver that goes sweep by sweep and does not look at errors itself. `step(sweep, run)` makes one iteration of
-/// a Sweep, made of (tree, problem, options, own…), and returns the largest turn. Errors are measured at
-/// `Sweep::Angles` in a trace, and where `Sweep::MissesGoals` does not exclude that the pose meets the goals.
+/// Runs a solver that works sweep by sweep and does not need errors itself. `step(sweep, run)` makes one iteration of a
+/// Sweep, constructed from (tree, problem, options, own…), and returns the largest turn. Errors are measured at
+/// `Sweep::Angles` for a trace, at the last iteration, and where `Sweep::MissesGoals` returns false.
 template <class Sweep, class Step, class... Own>
 IkSolution RunSweeps(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options, const Step& step,
                      const Own&... own) {
@@ -144,12 +144,12 @@ IkSolution RunSweeps(const KinematicTree& tree, const IkProblem& problem, const 
   });
 }
 
-/// The number of other poses that a solver that got stuck begins at, before it gives up.
+/// The number of restarts of a solver that is stuck.
 inline constexpr int kRestarts = 20;
 
-/// Sets `angles` to a pose to begin at anew: around `start`, up to 1.5 rad from it in every angle, within `ranges`. It
-/// is another one for every number ≥ 1 and every start, and the same at every call: no dice are thrown, and along a
-/// motion, with few iterations a frame, every frame tries new ones.
+/// Sets `angles` to the pose of restart `number` ≥ 1: up to 1.5 rad from `start` in every angle, within `ranges`. The
+/// pose is a deterministic function of `number` and `start`; it uses no random numbers. Along a motion with few
+/// iterations a frame, every frame therefore tries new poses.
 void ScatterAround(std::span<const double> start, std::span<const AngleRange> ranges, int number,
                    std::vector<double>& angles);
 

@@ -13,7 +13,7 @@ namespace etude {
 
 namespace {
 
-// Former names of solvers, and their present ones.
+// Former names of solvers, with their present names.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 1> kRenamed = {{{"ccd-nullspace", "gauss-newton"}}};
 
 template <typename Own>
@@ -46,7 +46,7 @@ class PreparedGaussNewton final : public PreparedIkSolver {
   const GaussNewtonSolver solver_;
 };
 
-/// Wraps a solver that has nothing to prepare.
+/// Adapts a solver without preparation.
 class Unprepared final : public PreparedIkSolver {
  public:
   Unprepared(const IkSolver& solver, const KinematicTree& tree) : solver_(solver), tree_(tree) {}

@@ -13,47 +13,47 @@
 
 namespace etude {
 
-/// A solver made ready for one tree.
+/// A solver that is prepared for one tree.
 class PreparedIkSolver {
  public:
   virtual ~PreparedIkSolver() = default;
-  /// Returns the very answer of `IkSolver::solve`, whatever was asked before.
+  /// Returns what `IkSolver::solve` returns, whatever was solved before.
   virtual IkSolution Solve(const IkProblem& problem, const IkOptions& options) const = 0;
 };
 
-/// A way to solve an IkProblem, with the name that scenario files call it.
+/// A solver of IkProblems, by the name that scenario files use.
 struct IkSolver {
   std::string name;
   std::string description;    ///< one line, for people
-  bool uses_weights = false;  ///< whether IkOptions::weights and refresh apply
-  bool uses_axes = true;      ///< whether it turns effectors into their desired axes; else it sees positions only
+  bool uses_weights = false;  ///< true if IkOptions::weights and refresh apply
+  bool uses_axes = true;      ///< true if it aligns the axes of effectors; false if it uses positions only
   std::string_view step;      ///< what one iteration is called: "sweeps", "steps"
   /// The settings that `IkOptions::solver_settings` holds values for, in this order.
   std::vector<NumberSetting> settings = {};
   std::function<IkSolution(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options)> solve = {};
-  /// Makes the solver ready for problems of one tree that come one after the other; empty where there is nothing to
-  /// prepare. Call `Prepare` instead.
+  /// Prepares the solver for problems of one tree that come one after the other; empty if there is nothing to prepare.
+  /// Callers use the function `Prepare` instead.
   std::function<std::unique_ptr<PreparedIkSolver>(const KinematicTree& tree)> prepare = {};
-  /// Solves many problems of one tree sooner than `solve` does one by one and with its very answers, but for traces;
-  /// empty where there is no such way. Call `SolveAll` instead.
+  /// Solves many problems of one tree faster than `solve` one by one, with the same answers except for traces; empty if
+  /// there is no such method. Callers use the function `SolveAll` instead.
   std::function<std::vector<IkSolution>(const KinematicTree& tree, std::span<const IkProblem> problems,
                                         const IkOptions& options)>
       solve_batch = {};
 };
 
-/// Makes `solver` ready for one problem of `tree` after the other. Both must outlive the result.
+/// Prepares `solver` for problems of `tree`. Both must outlive the result.
 std::unique_ptr<PreparedIkSolver> Prepare(const IkSolver& solver, const KinematicTree& tree);
 
-/// Returns what `solver.solve` answers to each of many problems of one tree.
+/// Returns the answers of `solver.solve` to many problems of one tree.
 std::vector<IkSolution> SolveAll(const IkSolver& solver, const KinematicTree& tree, std::span<const IkProblem> problems,
                                  const IkOptions& options);
 
 std::span<const IkSolver> AllIkSolvers();
 std::vector<std::string> IkSolverNames();
-/// Returns null when there is no such solver.
+/// Returns null if no solver has this name.
 const IkSolver* FindIkSolver(std::string_view name);
 
-/// Returns the name that the solver once called `name` has now; empty when none was called so.
+/// Returns the present name of the solver that was called `name`; empty if no solver was.
 std::string_view NewNameOfIkSolver(std::string_view name);
 
 }  // namespace etude

@@ -10,8 +10,9 @@
 namespace etude {
 namespace {
 
+// A matrix is singular if its smallest pivot is not above this share of its largest.
 constexpr double kSingular = 1e-12;
-constexpr int kMostPasses = 4;  // of an active set
+constexpr int kMaxPasses = 4;  // of an active set
 
 }  // namespace
 
@@ -21,7 +22,7 @@ void DampedInverse::Build(const LinearTargets& linear) {
   jacobian_.assign(linear.jacobian().begin(), linear.jacobian().end());
   residuals_.assign(linear.residuals().begin(), linear.residuals().end());
   gram_.assign(static_cast<std::size_t>(rows_) * rows_, 0.0);
-  if (rows_ == 0) return;  // Eigen would look at what is not there
+  if (rows_ == 0) return;  // Eigen must not map empty matrices
   const Eigen::Map<const Eigen::MatrixXd> jacobian(jacobian_.data(), rows_, columns_);
   Eigen::Map<Eigen::MatrixXd>(gram_.data(), rows_, rows_).selfadjointView<Eigen::Lower>().rankUpdate(jacobian);
 }
@@ -45,7 +46,8 @@ bool DampedInverse::Step(double damping, std::span<const double> preferred, std:
   return true;
 }
 
-// Solves (J_F J_Fᵀ + μI) y = e − J step for y, in place of e − J step in `duals_`, F the angles that are free.
+// Solves (J_F J_Fᵀ + μI) y = e − J step, where F are the free angles. `duals_` holds the right-hand side before and y
+// after. Returns false if the matrix is singular.
 bool DampedInverse::SolveDuals(double damping) {
   if (rows_ == 0) return true;  // no target: only the preferred posture counts
   damped_ = gram_;
@@ -75,15 +77,18 @@ bool DampedInverse::StepWithin(double damping, std::span<const double> preferred
   const Eigen::Map<const Eigen::VectorXd> residuals(residuals_.data(), rows_);
   Eigen::Map<Eigen::VectorXd> out(step.data(), columns_), duals(duals_.data(), rows_);
   is_exact_ = false;
-  for (int pass = 0; pass < kMostPasses && !is_exact_; ++pass) {
+  for (int pass = 0; pass < kMaxPasses && !is_exact_; ++pass) {
+    // Fix the active angles at their ends, the others at the preferred change.
     for (int i = 0; i < columns_; ++i) {
       step[i] = sides_[i] < 0   ? ranges[i].lower - angles[i]
                 : sides_[i] > 0 ? ranges[i].upper - angles[i]
                                 : preferred[i];
     }
+    // Solve for y.
     duals = residuals;
     duals.noalias() -= jacobian * out;
     if (!SolveDuals(damping)) return false;
+    // The primal step follows from y; update the active set.
     is_exact_ = true;
     for (int i = 0; i < columns_; ++i) {
       const Eigen::Map<const Eigen::VectorXd> column(&jacobian_[static_cast<std::size_t>(i) * rows_], rows_);
@@ -108,7 +113,7 @@ double DampedInverse::Gain(std::span<const double> step) const {
 
 namespace {
 
-// α JᵀdX at `angles`; zeros when nothing pulls.
+// Computes α JᵀdX at `angles`; zeros if no torque is left.
 void ComputeStep(const LinearTargets& linear, std::span<const double> angles, std::span<const AngleRange> ranges,
                  double gain, Eigen::VectorXd& step) {
   const Eigen::Map<const Eigen::MatrixXd> jacobian(linear.jacobian().data(), linear.rows(), linear.columns());
@@ -127,12 +132,12 @@ void ComputeStep(const LinearTargets& linear, std::span<const double> angles, st
 // Damps the active set's steps where an undamped one within the limits cannot meet the targets.
 constexpr double kFallbackDamping = 0.1;
 
-// Damped least squares' range of λ, and the factor by which λ follows the steps' success.
-constexpr double kSmallestDamping = 1e-9;
-constexpr double kLargestDamping = 1e6;
+// The range of λ in damped least squares, and the factor by which it changes.
+constexpr double kMinDamping = 1e-9;
+constexpr double kMaxDamping = 1e6;
 constexpr double kDampingStep = 5;
-// A step that lowers the sum by a smaller part than this would have to be taken a million times to matter.
-constexpr double kSmallestGain = 1e-6;
+// The solver stalls if a step lowers the sum by less than this share: it would take a million such steps to matter.
+constexpr double kMinGain = 1e-6;
 
 }  // namespace
 
@@ -183,7 +188,7 @@ IkSolution SolveDampedLeastSquares(const KinematicTree& tree, const IkProblem& p
   return RunFromStart(tree, problem, options, [&](IkRun& run, TreeState& state, TreeFrames& frames) {
     LinearTargets linear(tree, problem.targets);
     DampedInverse inverse;
-    const std::vector<double> none_preferred(state.angles.size(), 0.0);
+    const std::vector<double> no_preference(state.angles.size(), 0.0);
     std::vector<double> step;
     linear.Build(frames);
     inverse.Build(linear);
@@ -192,23 +197,26 @@ IkSolution SolveDampedLeastSquares(const KinematicTree& tree, const IkProblem& p
     TreeState trial = state;
     TreeFrames trial_frames = frames;
     while (run.MustGoOn()) {
+      // Compute the step; more damping makes a singular matrix regular.
       if (own.bounds == Bounds::kClamped) {
-        while (!inverse.Step(damping, none_preferred, step)) damping *= kDampingStep;
+        while (!inverse.Step(damping, no_preference, step)) damping *= kDampingStep;
         for (double& turn : step) turn = std::clamp(turn, -kLargestTurn, kLargestTurn);
       } else {
-        while (!inverse.StepWithin(damping, none_preferred, state.angles, run.ranges(), step)) damping *= kDampingStep;
+        while (!inverse.StepWithin(damping, no_preference, state.angles, run.ranges(), step)) damping *= kDampingStep;
         Shorten(step);
       }
+      // Try it.
       const double largest = MoveWithin(run.ranges(), state.angles, step, trial.angles);
       ComputeFrames(tree, trial, trial_frames);
       const double trial_cost = linear.Cost(trial_frames);
-      if (largest < options.stall_change || damping > kLargestDamping) run.Stall();
+      if (largest < options.stall_change || damping > kMaxDamping) run.Stall();
+      // Accept it and lower the damping, or reject it and raise the damping.
       if (trial_cost < cost) {
-        if (cost - trial_cost < kSmallestGain * cost) run.Stall();
+        if (cost - trial_cost < kMinGain * cost) run.Stall();
         std::swap(state, trial);
         std::swap(frames, trial_frames);
         cost = trial_cost;
-        damping = std::max(damping / kDampingStep, kSmallestDamping);
+        damping = std::max(damping / kDampingStep, kMinDamping);
         linear.Build(frames);
         inverse.Build(linear);
       } else {
@@ -221,19 +229,22 @@ IkSolution SolveDampedLeastSquares(const KinematicTree& tree, const IkProblem& p
 
 namespace {
 
-// Nielsen's factor on the damping. Below the least, damping no longer keeps steps short where the residual stays large.
-constexpr double kLeastFactor = 1e-2, kMostFactor = 1e9;
+// Range of Nielsen's factor on the damping. A factor below the minimum would no longer keep steps short where the
+// residual stays large.
+constexpr double kMinFactor = 1e-2, kMaxFactor = 1e9;
+// Growth of that factor after the first rejected step.
 constexpr double kFirstGrowth = 2;
-// JJᵀ of limbs at their limits is singular: less damping than this is none.
-constexpr double kLeastMu = 1e-9;
+// Minimum damping: JJᵀ of limbs at their limits is singular.
+constexpr double kMinMu = 1e-9;
 
-// A descent is stuck when so many steps have not brought the sum of squares down to a share; when iterations are few, a
-// part of them counts, so that restarts get theirs.
-constexpr int kMostPatience = 6;
+// A descent is stuck if kMaxPatience steps have not reduced the sum of squares to the share kMinProgress. If few
+// iterations are allowed, max_iterations / kPartOfIterations steps count instead, so that restarts get some.
+constexpr int kMaxPatience = 6;
 constexpr int kPartOfIterations = 5;
-constexpr double kDescends = 0.7;
-constexpr double kHasSettled = 1 - 1e-5;  // instead, where targets cannot be met
+constexpr double kMinProgress = 0.7;
+constexpr double kSettledProgress = 1 - 1e-5;  // replaces kMinProgress in the last descent
 
+// The descents of one problem: from the start, from restarts, and from the best pose.
 class Minimiser {
  public:
   Minimiser(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options, double damping_share,
@@ -252,18 +263,21 @@ class Minimiser {
         best_angles_(state.angles) {}
 
   void Minimise() {
-    const int patience = std::clamp(options_.max_iterations / kPartOfIterations, 1, kMostPatience);
-    Descend(kDescends, patience);
+    // The first descent.
+    const int patience = std::clamp(options_.max_iterations / kPartOfIterations, 1, kMaxPatience);
+    Descend(kMinProgress, patience);
+    // Restarts, unless no pose can meet the targets.
     const int restarts = run_.MustGoOn() && !IsOutOfReach(tree_, problem_) ? kRestarts : 0;
     for (int restart = 1; restart <= restarts && run_.MustGoOn(); ++restart) {
       ScatterAround(run_.start_angles(), run_.ranges(), restart, state_.angles);
       Place();
-      Descend(kDescends, patience);
+      Descend(kMinProgress, patience);
     }
+    // Refine the best pose, which is the answer if no descent has converged.
     if (run_.MustGoOn()) {
       state_.angles = best_angles_;
       Place();
-      Descend(kHasSettled, kMostPatience);
+      Descend(kSettledProgress, kMaxPatience);
     }
     if (run_.HasConverged()) return;
     if (run_.iterations() < options_.max_iterations) run_.Stall();
@@ -272,26 +286,29 @@ class Minimiser {
   }
 
  private:
-  /// Forward kinematics of angles that are not the outcome of an iteration.
+  /// Forward kinematics at a pose that no iteration produced.
   void Place() {
     ComputeFrames(tree_, state_, frames_);
     run_.CountPass();
   }
 
-  /// Steps from `state_` until the targets are met, or `patience` steps have not brought the sum down to `progress`.
+  /// Steps from `state_` until the targets are met or `patience` steps have not reduced the sum to the share
+  /// `progress`.
   void Descend(double progress, int patience) {
     double cost = linear_.Cost(frames_), fallen_to = cost;
     double factor = 1, growth = kFirstGrowth;
     bool has_moved = true;
-    for (int left = patience; left > 0 && factor <= kMostFactor && run_.MustGoOn();) {
+    for (int left = patience; left > 0 && factor <= kMaxFactor && run_.MustGoOn();) {
+      // Try a step; after a rejected one the linearisation is still valid.
       if (has_moved) Linearise();
-      if (FindStep(std::max(kLeastMu, factor * damping_share_ * cost)) < options_.stall_change) break;
+      if (FindStep(std::max(kMinMu, factor * damping_share_ * cost)) < options_.stall_change) break;
       ComputeFrames(tree_, trial_, trial_frames_);
       const double trial_cost = linear_.Cost(trial_frames_);
       has_moved = trial_cost < cost;
+      // Accept it and update the factor by Nielsen's rule, or reject it and grow the factor.
       if (has_moved) {
         const double surplus = 2 * (cost - trial_cost) / inverse_.Gain(step_) - 1;
-        factor = std::max(kLeastFactor, factor * std::max(1.0 / 3, 1 - surplus * surplus * surplus));
+        factor = std::max(kMinFactor, factor * std::max(1.0 / 3, 1 - surplus * surplus * surplus));
         growth = kFirstGrowth;
         std::swap(state_.angles, trial_.angles);
         std::swap(frames_, trial_frames_);
@@ -301,6 +318,7 @@ class Minimiser {
         growth *= 2;
       }
       run_.RecordFrames(frames_, state_.angles);
+      // Measure progress.
       if (cost < progress * fallen_to) {
         fallen_to = cost;
         left = patience;
@@ -319,7 +337,8 @@ class Minimiser {
     inverse_.Build(linear_);
   }
 
-  /// Sets `trial_` to where the step with damping `mu` leads. Returns the largest change of an angle, 0 without a step.
+  /// Sets `trial_` to the pose after the step with damping `mu`. Returns the largest change of an angle, 0 if there is
+  /// no step.
   double FindStep(double mu) {
     if (!inverse_.StepWithin(mu, no_preference_, state_.angles, run_.ranges(), step_)) return 0;
     Shorten(step_);
@@ -338,7 +357,7 @@ class Minimiser {
   TreeState trial_;
   TreeFrames trial_frames_;
   std::vector<double> step_;
-  const std::vector<double> no_preference_;  // a step stays near to where it begins
+  const std::vector<double> no_preference_;  // zeros: steps stay near their own beginning
   double best_cost_ = std::numeric_limits<double>::infinity();
   std::vector<double> best_angles_;
 };

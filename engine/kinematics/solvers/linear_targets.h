@@ -8,32 +8,33 @@
 
 namespace etude {
 
-/// The derivatives of every end effector by every angle. Column by column, one per degree of freedom: six numbers for
-/// each effector in the tree's order, first what its position gains (∂p/∂q, metres per radian, x y z of the world),
-/// then about which vector it turns (the rotation vector per radian, in the world). So any vector u fixed to the
-/// effector gains ω × u. Zeros where an angle does not lead to an effector.
+/// The derivative of every end effector by every angle. Each degree of freedom has one column, with six numbers per
+/// effector in the tree's order: the derivative of its position (∂p/∂q, metres per radian, world), then its rotation
+/// vector per radian (world). A vector u that is fixed to the effector changes by ω × u. The entries are 0 if the angle
+/// does not move the effector.
 struct TreeJacobian {
   static constexpr int kPerEffector = 6;
 
   int rows = 0;                ///< kPerEffector times the number of effectors
-  std::vector<double> values;  ///< rows × degrees of freedom, column after column
+  std::vector<double> values;  ///< rows × degrees of freedom, column by column
 
   std::span<const double> column(int dof) const {
     return {values.data() + static_cast<std::size_t>(dof) * rows, static_cast<std::size_t>(rows)};
   }
 };
 
-/// Computes the Jacobian at `frames`, which are those of `tree` in some pose. `out` keeps its memory from call to call.
+/// Computes the Jacobian at `frames`, which belong to `tree`. `out` is reused from call to call without allocation.
 void ComputeJacobian(const KinematicTree& tree, const TreeFrames& frames, TreeJacobian& out);
 
-/// The metres that count as much as one radian, in all solvers that minimise a sum of squares.
+/// A position error of this many metres counts as much as an axis error of one radian, in all solvers that minimise a
+/// sum of squares.
 inline constexpr double kPositionScale = 0.30;
 
-/// The targets of a problem to first order around a pose: angle changes dq meet them when J dq = e. Three rows for a
-/// position, in units of 0.30 m; up to three for the axes, in radians, about the effector's own axes; all times the
-/// root of their weight, so that |e|² is to first order
+/// The targets of a problem, linearised at a pose: angle changes dq meet them to first order if J dq = e. A position
+/// has three rows, in units of 0.30 m; the axes have up to three, in radians, about the effector's own axes. All rows
+/// are multiplied by the root of their weight, so |e|² is to first order
 ///     Σ_e [ position_weight · (|P_d − P_c| / 0.30 m)² + Σ_k axis_weights_k · |u_kd − u_kc|² ].
-/// What has no weight has no row. Shared by the solvers that work with Jacobians.
+/// Positions and axes of weight 0 have no rows. Shared by all solvers that use a Jacobian.
 class LinearTargets {
  public:
   LinearTargets(const KinematicTree& tree, std::span<const EffectorTarget> targets);
@@ -43,18 +44,18 @@ class LinearTargets {
 
   int rows() const { return static_cast<int>(residuals_.size()); }
   int columns() const { return tree_.dof_count(); }
-  /// J, column after column: rows() numbers for each degree of freedom.
+  /// J, column by column: rows() numbers for each degree of freedom.
   std::span<const double> jacobian() const { return jacobian_; }
-  /// e, rows() numbers.
+  /// The residuals e, rows() numbers.
   std::span<const double> residuals() const { return residuals_; }
 
-  /// Returns the sum above, without any approximation.
+  /// Returns the sum above exactly, without linearisation.
   double Cost(const TreeFrames& frames) const;
 
  private:
-  /// One row: the vector of the world along or about which an effector moves.
+  /// One row of J: the world vector along or about which an effector moves.
   struct Row {
-    int first = 0;  ///< of three rows of the tree's Jacobian: an effector's position, or its rotation vector
+    int first = 0;  ///< first of three rows of the tree's Jacobian: an effector's position or rotation vector
     glm::dvec3 along{0};
   };
 
@@ -65,15 +66,15 @@ class LinearTargets {
   std::vector<double> jacobian_, residuals_;
 };
 
-/// The most that any angle turns in one step, radians: beyond that, first order means little.
+/// Maximum change of an angle in one step, radians. Beyond it the linearisation is poor.
 inline constexpr double kLargestTurn = 0.6;
 
-/// Sets `moved` to `angles` + `step`, each clamped to its range; it may be the angles' own memory. Returns the largest
+/// Sets `moved` to `angles` + `step`, clamped to `ranges`; `moved` may be the memory of `angles`. Returns the largest
 /// change, radians.
 double MoveWithin(std::span<const AngleRange> ranges, std::span<const double> angles, std::span<const double> step,
                   std::vector<double>& moved);
 
-/// Scales the whole step down so that no angle turns by more than `kLargestTurn`.
+/// Scales the step down so that no angle turns by more than `kLargestTurn`.
 void Shorten(std::span<double> step);
 
 }  // namespace etude

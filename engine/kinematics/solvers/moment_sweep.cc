@@ -1,16 +1,18 @@
-// What a hinge needs of all end effectors beyond it is carried from joint to joint as one 4×4 matrix, so the cost does
-// not depend on how many there are, and angles are kept as (cos, sin), so the loop holds no trigonometry.
+// The data that a hinge needs about all end effectors beyond it are passed from joint to joint as one 4×4 matrix, so
+// the cost does not depend on the number of effectors. Angles are stored as (cos, sin), so the loop needs no
+// trigonometry.
 //
-// For the current vectors of every effector E beyond a joint and the desired ones, of its target D,
+// For every effector E beyond a joint and its target D, the moments are
 //     M = Σ w_p (p_LE, 1)(p_WD, 1)ᵀ + Σ_k w_ok (u_kE_L, 0)(u_kD_W, 0)ᵀ,
-// rows in the frame of the limb L, columns in the world W. A hinge that turns axis i of L towards axis j by the angle q
-// gains
+// with rows in the frame of the limb L and columns in the world W. A hinge that turns axis i of L towards axis j by the
+// angle q has the gain
 //     x cos q + y sin q,   x = M_i·ê_i + M_j·ê_j,   y = M_i·ê_j − M_j·ê_i,
-// where M_i is a row and ê = (e_W, −p_WJ·e_W) an axis of the frame before the hinge: M_i·ê_j sums the current
-// components along i times the desired ones along j, both from the joint J. So the best angle has the direction (x, y)
-// (paper B's equations 3.10–3.13 for several effectors). A turn by it mixes the rows i and j; a step to the parent's
-// joint, away by p_PJ, adds p_PJ[r] times the last row to the row r. Columns never change. Likewise ê is enough to
-// place limbs: a turn mixes two of them, and a step by p_PJ takes p_PJ[k] off the last number of ê_k.
+// where M_i is a row and ê = (e_W, −p_WJ·e_W) an axis of the frame before the hinge turns: M_i·ê_j sums the current
+// components along i times the desired ones along j, both relative to the joint J. So the best angle has the direction
+// (x, y) (paper B's equations 3.10–3.13 for several effectors). Turning by it mixes rows i and j. A step to the
+// parent's joint, away by p_PJ, adds p_PJ[r] times the last row to row r. Columns never change. The vectors ê also
+// suffice for forward kinematics: a turn mixes two of them, and a step by p_PJ subtracts p_PJ[k] from the last
+// component of ê_k.
 #include "engine/kinematics/solvers/moment_sweep.h"
 
 #include <algorithm>
@@ -23,13 +25,13 @@
 namespace etude {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;  // of the narrowest vectors, which every CPU has: two doubles each
+namespace hn = hwy::HWY_NAMESPACE;  // for 128-bit vectors of two doubles, which every CPU has
 
 // ---- Four numbers side by side -------------------------------------------------------------------------------------
 
 using Pair = hn::FixedTag<double, 2>;
 
-// A row of moments, or an axis with what belongs to it: two vectors take half the instructions of four numbers.
+// A row of moments, or an axis ê. Two vectors take half the instructions of four numbers.
 struct Quad {
   hn::Vec128<double> low, high;
 };
@@ -45,7 +47,7 @@ HWY_INLINE Quad operator*(const Quad& a, double b) {
 }
 HWY_INLINE Quad operator+(const Quad& a, const Quad& b) { return {a.low + b.low, a.high + b.high}; }
 HWY_INLINE Quad operator-(const Quad& a, const Quad& b) { return {a.low - b.low, a.high - b.high}; }
-// `a` with its last number less by `b`.
+// Returns `a` with `b` subtracted from its last number.
 HWY_INLINE Quad LessLast(const Quad& a, double b) {
   return {a.low, a.high - hn::ShiftLeftLanes<1>(Pair(), hn::Set(Pair(), b))};
 }
@@ -58,11 +60,11 @@ HWY_INLINE Quad Mix(const Quad& x, double a, const Quad& y, double b, const Quad
   return x * a + y * b + z * c;
 }
 
-// ---- What a sweep works on -----------------------------------------------------------------------------------------
+// ---- State of a sweep ----------------------------------------------------------------------------------------------
 
 struct HingeState {
-  double c, s;  // of the angle
-  // Of the middle of its range and of half its width; `cos_half` is −2 when every angle is allowed.
+  double c, s;  // cosine and sine of the angle
+  // Cosine and sine of the middle of its range and of half its width; `cos_half` is −2 if the angle is unlimited.
   double cos_middle, sin_middle, cos_half, sin_half;
 };
 
@@ -74,13 +76,13 @@ struct GoalState {
   Quad axes[3];   // (u_kD_W, 0)
   Quad position;  // (p_WD, 1), from the root
   double position_weight, axis_weights[3];
-  double position_share, axis_shares[3];  // 1 for a position or an axis that counts, else 0
-  // Of the present angles, and the weights of a sweep.
+  double position_share, axis_shares[3];  // 1 if the position or axis has weight, else 0
+  // Errors at the pose measured last, and weights of the present sweep.
   double squared_distance, squared_chords[3];
   double position_pull, axis_pulls[3];
 };
 
-// Angles are counted from here, by less than half a turn: a free one from its start.
+// Returns the angle from which an angle is counted: the middle of its range, or the start of a free angle.
 double MiddleOf(const AngleRange& range, double start) {
   const bool is_free = start - kPi > range.lower && start + kPi < range.upper;
   return is_free ? start : 0.5 * (range.lower + range.upper);
@@ -115,26 +117,28 @@ GoalState GoalAt(const SweepTree::Effector& effector, const EffectorTarget& targ
 
 // ---- Parts of a sweep ----------------------------------------------------------------------------------------------
 
-// Turns a hinge to the best angle of its range, and with it the two rows of moments. Returns the square of the chord
-// of the turn, which is the turn itself when it is small.
+// Turns a hinge to the best angle within its range, and transforms the two rows of moments accordingly. Returns the
+// squared chord of the turn, which equals the squared turn for small turns.
 HWY_INLINE double TurnHinge(const Quad& from, const Quad& towards, HingeState& hinge, Quad& row_i, Quad& row_j) {
+  // The unlimited optimum has the direction (x, y).
   const Quad a = row_i, b = row_j;
   const double x = Sum(a * from + b * towards);
   const double y = Sum(a * towards - b * from);
   const double square = x * x + y * y;
   const double length = std::sqrt(square);
-  // Outside its range, the end nearer on the circle has the larger gain; the lower one on a tie. Asked of (x, y) rather
-  // than of its direction, so that nothing waits for the quotient.
+  // If the optimum is outside the range, the end nearer on the circle has the larger gain; on a tie the lower end. The
+  // test uses (x, y) rather than its direction, so that it need not wait for the quotient.
   const bool is_inside = x * hinge.cos_middle + y * hinge.sin_middle >= hinge.cos_half * length;
   const bool is_below = 0.0 >= y * hinge.cos_middle - x * hinge.sin_middle;
   const double half_s = is_below ? 0.0 - hinge.sin_half : hinge.sin_half;
   const double end_c = hinge.cos_middle * hinge.cos_half - hinge.sin_middle * half_s;
   const double end_s = hinge.sin_middle * hinge.cos_half + hinge.cos_middle * half_s;
-  const bool is_flat = 0.0 >= square;  // every angle is as good: stay
+  const bool is_flat = 0.0 >= square;  // the gain is constant: keep the angle
   const double scale = 1.0 / (is_flat ? 1.0 : length);
   const double old_c = hinge.c, old_s = hinge.s;
   const double c = is_flat ? old_c : is_inside ? x * scale : end_c;
   const double s = is_flat ? old_s : is_inside ? y * scale : end_s;
+  // Mix the two rows.
   hinge.c = c;
   hinge.s = s;
   row_i = a * c - b * s;
@@ -143,7 +147,7 @@ HWY_INLINE double TurnHinge(const Quad& from, const Quad& towards, HingeState& h
   return dc * dc + ds * ds;
 }
 
-// Adds what an effector brings to the moments of its limb, or sets them to it if it is the limb's first.
+// Adds the moments of an effector to those of its limb, or sets them if it is the limb's first effector.
 void AddEffector(const SweepTree::Effector& effector, const GoalState& goal, Moments& moments) {
   const Quad pull = goal.position * goal.position_pull;
   const auto add = [&](const Quad& row, Quad& sum) { sum = effector.is_first ? row : sum + row; };
@@ -151,9 +155,9 @@ void AddEffector(const SweepTree::Effector& effector, const GoalState& goal, Mom
   add(pull, moments.rows[3]);
 }
 
-// Takes the moments of a limb, whose hinges have turned, to its parent's joint and frame, and adds them to those that
-// are there; if none are, both are in the same place.
-void HandOn(const SweepTree::Joint& joint, Moments& child, Moments& parent) {
+// Transforms the moments of a limb, whose hinges have turned, to its parent's joint and frame, and adds them to the
+// parent's moments. The first child shares its memory with the parent, so nothing is added.
+void PassToParent(const SweepTree::Joint& joint, Moments& child, Moments& parent) {
   if (!joint.is_aligned) {
     const double(&R_PJ)[3][3] = joint.R_PJ;
     const Quad x = child.rows[0], y = child.rows[1], z = child.rows[2];
@@ -167,8 +171,8 @@ void HandOn(const SweepTree::Joint& joint, Moments& child, Moments& parent) {
   for (int r = 0; r < 4; ++r) parent.rows[r] = parent.rows[r] + child.rows[r];
 }
 
-// 2 asin(√chord² / 2), the angle of a chord of the unit circle, to 10⁻¹² of itself: a polynomial in (chord / 2)² up to
-// a right angle (minimax, ours), and beyond it by the chord of the rest of half a turn.
+// Returns the angle of a chord of the unit circle, 2 asin(√chord² / 2), with a relative error of 10⁻¹²: by a minimax
+// polynomial in (chord / 2)² up to a right angle (ours), and beyond it from the chord of the supplementary angle.
 double AngleOfChord(double squared_chord) {
   constexpr double kTerms[] = {2.0000000000021307,   0.3333333319413167,  0.15000015042731862,  0.08927934444224939,
                                0.060903478193634814, 0.04293404585618574, 0.049655906059604696, -0.05387645705990194,
@@ -176,7 +180,7 @@ double AngleOfChord(double squared_chord) {
                                0.5043726115326342};
   const double whole = squared_chord * 0.25;
   const bool is_small = 0.5 >= whole;
-  // Never below zero: rounding may make a chord longer than the circle is wide.
+  // Rounding can make the squared chord exceed 4.
   const double rest = 1.0 >= whole ? 1.0 - whole : 0.0;
   const double z = is_small ? whole : rest;
   double sum = kTerms[std::size(kTerms) - 1];
@@ -223,14 +227,14 @@ struct MomentSweep::State {
   const double squared_position_goal, squared_axis_goal;
   const SweepTree tree;
   const std::vector<AngleRange> ranges;
-  std::vector<double> middles;  // of the ranges, or the start where an angle is free: angles are counted from there
+  std::vector<double> middles;  // see `MiddleOf`; angles are counted from there
   std::vector<HingeState> hinges;
   std::vector<GoalState> goals;
-  std::vector<Quad> axes;  // ê of limbs, also before their turns
+  std::vector<Quad> axes;  // ê of limbs, before and after each turn
   std::vector<Moments> moments;
 };
 
-// Sets the weights of the next sweep, by the errors of the present angles.
+// Computes the weights of the next sweep from the errors at the pose measured last.
 void MomentSweep::State::Weigh() {
   for (GoalState& goal : goals) {
     goal.position_pull = goal.position_weight * formula.position;
@@ -243,7 +247,8 @@ void MomentSweep::State::Weigh() {
   }
 }
 
-// Turns every hinge once, leaves to root. Moves no limb. Returns the square of the largest chord of a turn.
+// Turns every hinge once, from the leaves to the root; limbs are not moved. Returns the squared chord of the largest
+// turn.
 double MomentSweep::State::TurnHinges() {
   for (std::size_t e = 0; e < tree.effectors.size(); ++e) {
     const SweepTree::Effector& effector = tree.effectors[e];
@@ -258,13 +263,13 @@ double MomentSweep::State::TurnHinges() {
           TurnHinge(axes[step.from], axes[step.towards], hinges[step.hinge], here.rows[step.i], here.rows[step.j]);
       largest = chord >= largest ? chord : largest;
     } else if (joint.parent > 0) {  // the root does not turn and needs no moments
-      HandOn(joint, here, moments[tree.joints[joint.parent].moments]);
+      PassToParent(joint, here, moments[tree.joints[joint.parent].moments]);
     }
   }
   return largest;
 }
 
-// Forward kinematics, root to leaves, and what comes of it.
+// Forward kinematics from the root to the leaves, then the distances to the goals.
 void MomentSweep::State::PlaceLimbs() {
   for (std::size_t n = tree.steps.size(); n-- > 0;) {
     const SweepTree::Step& step = tree.steps[n];
@@ -275,11 +280,12 @@ void MomentSweep::State::PlaceLimbs() {
       axes[step.turned + 1] = towards * c - from * s;
       continue;
     }
+    // From limb to limb: shift the axes by p_PJ, and rotate them unless R_PJ is the identity.
     const SweepTree::Joint& joint = tree.joints[step.joint];
     const int(&above)[3] = tree.joints[joint.parent].axes;
     if (joint.is_aligned) {
       for (int k = 0; k < 3; ++k) {
-        if (joint.base[k] == above[k]) continue;  // the very same axis
+        if (joint.base[k] == above[k]) continue;  // the parent's own axis
         axes[joint.base[k]] = LessLast(axes[above[k]], joint.p_PJ[k]);
       }
       continue;
@@ -293,7 +299,7 @@ void MomentSweep::State::PlaceLimbs() {
   MeasureGoals();
 }
 
-// Measures how far every effector is from its goal.
+// Computes the distance and the chords of every effector to its goal.
 void MomentSweep::State::MeasureGoals() {
   for (std::size_t e = 0; e < tree.effectors.size(); ++e) {
     const SweepTree::Effector& effector = tree.effectors[e];
@@ -310,7 +316,7 @@ void MomentSweep::State::MeasureGoals() {
   }
 }
 
-// The angle, within its range.
+// Returns the angle, clamped to its range.
 double MomentSweep::State::AngleOf(std::size_t dof) const {
   const HingeState& hinge = hinges[dof];
   const double from_middle = std::atan2(hinge.s * hinge.cos_middle - hinge.c * hinge.sin_middle,
@@ -357,7 +363,7 @@ void MomentSweep::ReadHalfTangents(std::span<double> out) const {
     const HingeState& hinge = state_->hinges[i];
     const double c = hinge.c * hinge.cos_middle + hinge.s * hinge.sin_middle;
     const double s = hinge.s * hinge.cos_middle - hinge.c * hinge.sin_middle;
-    out[i] = c >= 0 ? s / (1 + c) : (1 - c) / s;  // the same, each where it keeps its digits
+    out[i] = c >= 0 ? s / (1 + c) : (1 - c) / s;  // two forms of tan(angle / 2); each keeps its digits where it is used
   }
 }
 
@@ -365,7 +371,7 @@ void MomentSweep::SetHalfTangents(std::span<const double> half_tangents) {
   for (std::size_t i = 0; i < half_tangents.size(); ++i) {
     HingeState& hinge = state_->hinges[i];
     const double t = half_tangents[i], scale = 1 / (1 + t * t);
-    const double free_c = (1 - t * t) * scale, free_s = 2 * t * scale;  // from the middle, without limits
+    const double free_c = (1 - t * t) * scale, free_s = 2 * t * scale;  // before limits, counted from the middle
     const bool is_inside = free_c >= hinge.cos_half;
     const double c = is_inside ? free_c : hinge.cos_half;
     const double s = is_inside ? free_s : std::copysign(hinge.sin_half, t);

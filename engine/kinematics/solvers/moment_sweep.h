@@ -10,39 +10,42 @@
 namespace etude {
 
 /// The sweeps of `CcdSweep` with `CcdJoint::kHinges` and weights refreshed every sweep, in moment form
-/// (moment_sweep.cc): the same angles to rounding, four times faster. Not for `WeightRule::kWangChen`, whose weights
-/// differ from joint to joint. Takes its memory when made; `Sweep` allocates nothing. `tree` and `problem` must be free
-/// of faults (`FindFault`) and outlive this.
+/// (moment_sweep.cc). The angles are equal up to rounding, and it is four times as fast. It does not support
+/// `WeightRule::kWangChen`, whose weights differ from joint to joint. The constructor allocates all memory; `Sweep`
+/// allocates nothing. `tree` and `problem` must be free of faults (`FindFault`) and outlive this object.
 class MomentSweep {
  public:
   MomentSweep(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
   ~MomentSweep();
 
-  /// Returns whether moments can carry the weights that these options ask for.
+  /// Returns true if the moment form supports the weights of these options.
   static bool CanServe(const IkOptions& options);
 
-  /// Turns every joint once, leaves to root. Returns the largest change of an angle (its chord), radians.
+  /// Turns every joint once, from the leaves to the root. Returns the largest change of an angle, measured by its
+  /// chord, radians.
   double Sweep();
 
-  /// The two halves of `Sweep`: `Turn` finds new angles, `Measure` the errors that they lead to.
+  /// The two halves of `Sweep`: `Turn` computes new angles, `Measure` computes the limbs' frames and the distances to
+  /// the goals.
   double Turn();
   void Measure();
 
-  /// Returns what turns lower: Σ w_p e² + Σ w_o |u_c − u_d|² of the pose measured last, by the weights of the last
-  /// turn.
+  /// Returns the sum that turns reduce, Σ w_p e² + Σ w_o |u_c − u_d|², at the pose measured last, with the weights of
+  /// the last turn.
   double Merit() const;
-  /// Writes tan((q − middle) / 2) of every present angle; the middle is that of its range, or a free angle's start.
+  /// Writes tan((q − middle) / 2) of every angle, where `middle` is the middle of its range, or the start of a free
+  /// angle.
   void ReadHalfTangents(std::span<double> out) const;
-  /// Sets every angle, or the nearest end of its range. Measures nothing.
+  /// Sets every angle, clamped to its range. Does not update the errors.
   void SetHalfTangents(std::span<const double> half_tangents);
 
-  /// Returns whether the pose measured last certainly misses the goals of the options: much cheaper than `errors`. When
-  /// not, errors decide.
+  /// Returns true if the pose measured last certainly misses the goals; much cheaper than `errors`. If false, the
+  /// errors decide.
   bool MissesGoals() const;
 
-  /// Returns the present angles, radians.
+  /// Returns the angles, radians.
   std::vector<double> Angles() const;
-  /// Returns the errors of the pose measured last; axis angles are off by up to 10⁻¹² of themselves.
+  /// Returns the errors of the pose measured last; axis angles have a relative error of up to 10⁻¹².
   std::vector<EffectorError> errors() const;
 
  private:

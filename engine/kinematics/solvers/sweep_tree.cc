@@ -11,6 +11,7 @@ void Copy(const glm::dvec3& from, double (&to)[3]) {
   for (int k = 0; k < 3; ++k) to[k] = from[k];
 }
 
+// Returns true if every axis of the rotation is ± a coordinate axis.
 bool SwapsAxes(const glm::dmat3& rotation) {
   for (int c = 0; c < 3; ++c) {
     for (int r = 0; r < 3; ++r) {
@@ -20,7 +21,7 @@ bool SwapsAxes(const glm::dmat3& rotation) {
   return true;
 }
 
-// The coordinate axis along which a unit vector is.
+// A coordinate axis with a sign.
 struct NamedAxis {
   int name = 0;
   double sign = 1;
@@ -31,35 +32,35 @@ NamedAxis NameOf(const glm::dvec3& axis) {
   return {name, axis[name]};
 }
 
-// A step and how many others depend on it, one after another: those on which the most depend come first.
-struct PlacedStep {
+// A step and the number of steps that depend on it one after another. Steps with the most dependants come first.
+struct StepWithDepth {
   SweepTree::Step step;
   int depth = 0;
 };
 
 std::vector<SweepTree::Step> StepsOf(const KinematicTree& tree) {
-  std::vector<bool> is_used(tree.joints.size());  // whether effectors lie beyond a joint
+  std::vector<bool> is_used(tree.joints.size());  // true if an effector lies beyond the joint
   for (const Effector& effector : tree.effectors) is_used[effector.joint] = true;
   for (std::size_t n = tree.joints.size() - 1; n > 0; --n) {
     if (is_used[n]) is_used[tree.joints[n].parent] = true;
   }
-  std::vector<int> depths(tree.joints.size());  // after the joint's own steps
-  std::vector<PlacedStep> placed;
+  std::vector<int> depths(tree.joints.size());  // depth after the joint's own steps
+  std::vector<StepWithDepth> ordered;
   for (int n = 1; n < static_cast<int>(tree.joints.size()); ++n) {
     if (!is_used[n]) continue;
     const TreeJoint& joint = tree.joints[n];
     int& depth = depths[n];
     depth = depths[joint.parent];
-    placed.push_back({{.joint = n}, depth++});
-    // The innermost axis is nearest to the leaves: turning it leaves the others' axes where they are.
+    ordered.push_back({{.joint = n}, depth++});
+    // The Z axis is nearest to the leaves: turning it does not move the joint's other axes.
     for (int axis = 0; axis < joint.dof_count; ++axis) {
-      placed.push_back(
+      ordered.push_back(
           {{.joint = n, .hinge = joint.first_dof + axis, .i = (axis + 1) % 3, .j = (axis + 2) % 3}, depth++});
     }
   }
-  std::ranges::stable_sort(placed, std::ranges::greater(), &PlacedStep::depth);
+  std::ranges::stable_sort(ordered, std::ranges::greater(), &StepWithDepth::depth);
   std::vector<SweepTree::Step> steps;
-  for (const PlacedStep& each : placed) steps.push_back(each.step);
+  for (const StepWithDepth& each : ordered) steps.push_back(each.step);
   return steps;
 }
 
@@ -72,7 +73,7 @@ SweepTree::SweepTree(const KinematicTree& tree) : steps(StepsOf(tree)) {
 }
 
 void SweepTree::NameAxes(const KinematicTree& tree) {
-  std::vector<glm::dmat3> R_LS;  // of each limb: the sweep's frame in the tree's
+  std::vector<glm::dmat3> R_LS;  // of each limb: the axes of the sweep's frame in the tree's frame
   for (const TreeJoint& from : tree.joints) {
     Joint& joint = joints.emplace_back();
     joint.parent = from.parent;
@@ -85,13 +86,15 @@ void SweepTree::NameAxes(const KinematicTree& tree) {
       for (int c = 0; c < 3; ++c) joint.R_PJ[r][c] = R_SJ[c][r];
     }
   }
+  // Rename the axes of hinges.
   for (Step& step : steps) {
     if (step.hinge < 0 || !joints[step.joint].is_aligned) continue;
     const NamedAxis i = NameOf(glm::transpose(R_LS[step.joint])[step.i]);
     const NamedAxis j = NameOf(glm::transpose(R_LS[step.joint])[step.j]);
-    step.i = i.sign * j.sign > 0 ? i.name : j.name;  // the way round of a turn follows its axes' signs
+    step.i = i.sign * j.sign > 0 ? i.name : j.name;  // exchanging the axes reverses the turn if the signs differ
     step.j = i.sign * j.sign > 0 ? j.name : i.name;
   }
+  // Express effectors in the new frames.
   for (const etude::Effector& from : tree.effectors) {
     Effector& effector = effectors.emplace_back();
     effector.joint = from.joint;
@@ -104,7 +107,7 @@ void SweepTree::NameAxes(const KinematicTree& tree) {
   }
 }
 
-// Nothing is overwritten: a sweep needs the axes as they were before every turn.
+// Assigns an index to every axis before and after every turn: a sweep needs them all, so none is overwritten.
 void SweepTree::PlaceAxes() {
   for (int& axis : joints[0].axes) axis = axis_count++;
   for (std::size_t n = steps.size(); n-- > 0;) {
@@ -126,7 +129,7 @@ void SweepTree::PlaceAxes() {
   }
 }
 
-// A limb's moments become its parent's where they are, unless they are added to others.
+// Assigns memory to moments: a limb shares that of its parent, unless the parent already has moments to add to.
 void SweepTree::PlaceMoments() {
   for (Effector& effector : effectors) {
     Joint& joint = joints[effector.joint];

@@ -1,7 +1,7 @@
-// A CPU's vectors as values with operators: `Lanes`, one number of each of many problems side by side, and `Four`, four
-// doubles. Included once per instruction set, hence this kind of guard. No operation of `Lanes` mixes lanes, and none
-// is fused: a multiply-add rounds once where CPUs without it round twice. Roots and quotients are exact everywhere. So
-// what a problem gets does not depend on the width of the vectors.
+// A CPU's vectors as values with operators: `Lanes` holds one number each of many problems, `Four` holds four doubles.
+// This file is included once per instruction set, which explains the include guard. No operation of `Lanes` mixes
+// lanes, and none is a fused multiply-add, which rounds once where CPUs without it round twice. Roots and quotients are
+// correctly rounded everywhere. So the results of a problem do not depend on the width of the vectors.
 #if defined(ETUDE_VECTORS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ETUDE_VECTORS_INL_H_
 #undef ETUDE_VECTORS_INL_H_
@@ -63,7 +63,7 @@ template <class T, class D>
 HWY_INLINE Lanes<T, D> Select(const LaneMask<T, D>& condition, const Lanes<T, D>& yes, const Lanes<T, D>& no) {
   return Lanes<T, D>(hn::IfThenElse(condition.m, yes.v, no.v));
 }
-/// Zero where the condition does not hold.
+/// Returns `yes` where the condition holds, else 0.
 template <class T, class D>
 HWY_INLINE Lanes<T, D> OrZero(const LaneMask<T, D>& condition, const Lanes<T, D>& yes) {
   return Lanes<T, D>(hn::IfThenElseZero(condition.m, yes.v));
@@ -97,13 +97,13 @@ HWY_INLINE bool Any(const LaneMask<T, D>& a) {
   return !hn::AllFalse(D(), a.m);
 }
 
-/// Takes the larger, lane by lane, as std::max(a, b) does: the first, unless the second is really larger.
+/// Returns the larger number of each lane as std::max(a, b) does: `a` unless `b` is greater.
 template <class V>
 HWY_INLINE V Larger(const V& a, const V& b) {
   return Select(Below(a, b), b, a);
 }
 
-// A vector in memory is its lanes in a row.
+// A vector in memory is the array of its lanes.
 template <class T, class D>
 HWY_INLINE void SetLane(Lanes<T, D>& a, int lane, double x) {
   reinterpret_cast<T*>(&a)[lane] = static_cast<T>(x);
@@ -115,18 +115,18 @@ HWY_INLINE double GetLane(const Lanes<T, D>& a, int lane) {
 
 // ---- Four doubles --------------------------------------------------------------------------------------------------
 
-// On every CPU: one vector, or two where vectors hold two doubles. One number each of four limbs, or four numbers of a
-// row; only the latter move from lane to lane.
+// Stored as one vector, or as two on CPUs whose vectors hold two doubles. A `Four` is either one number each of four
+// limbs or four numbers of a row; only rows move numbers between lanes.
 
 #if HWY_MAX_BYTES >= 32
 
 using Four = Lanes<double, hn::FixedTag<double, 4>>;
 using FourMask = LaneMask<double, Four::Tag>;
 
-/// `from` is aligned for four doubles, as is `to`.
+/// Load and store with alignment for four doubles.
 HWY_INLINE Four LoadFour(const double* from) { return Four(hn::Load(Four::Tag(), from)); }
 HWY_INLINE void StoreFour(const Four& a, double* to) { hn::Store(a.v, Four::Tag(), to); }
-/// Writes four doubles to any place, aligned or not.
+/// Stores four doubles without alignment.
 HWY_INLINE void PutFour(const Four& a, double* to) { hn::StoreU(a.v, Four::Tag(), to); }
 
 HWY_INLINE double FirstOf(const Four& a) { return hn::GetLane(a.v); }
@@ -153,7 +153,7 @@ HWY_INLINE void Transpose(Four& a, Four& b, Four& c, Four& d) {
   d.v = hn::ConcatUpperUpper(kTag, cd_odd, ab_odd);
 }
 
-/// Transposes four vectors of which `c` and `d` are zero as they come.
+/// Transposes four vectors; `c` and `d` are taken as zero.
 HWY_INLINE void TransposeTwo(Four& a, Four& b, Four& c, Four& d) {
   constexpr Four::Tag kTag;
   constexpr hn::Half<Four::Tag> kHalf;
@@ -246,21 +246,21 @@ HWY_INLINE void TransposeTwo(Four& a, Four& b, Four& c, Four& d) {
 
 // ---- Rows of doubles -----------------------------------------------------------------------------------------------
 
-/// Vectors of as many doubles of a row as fit.
-using Places = Lanes<double>;
+/// A vector of the full width, for rows of doubles.
+using RowVector = Lanes<double>;
 
-/// Calls `act` with the index of every vector of a row of `count` doubles, which is whole vectors long.
+/// Calls `act` with the index of every vector in a row of `count` doubles, a multiple of the vector width.
 template <class Do>
-HWY_INLINE void ForPlaces(std::size_t count, const Do& act) {
-  constexpr std::size_t kLanes = sizeof(Places) / sizeof(double);
+HWY_INLINE void ForEachVector(std::size_t count, const Do& act) {
+  constexpr std::size_t kLanes = sizeof(RowVector) / sizeof(double);
   for (std::size_t i = 0; i < count; i += kLanes) act(i);
 }
-HWY_INLINE Places LoadPlaces(const double* from) { return Places(hn::Load(Places::Tag(), from)); }
-HWY_INLINE void StorePlaces(const Places& a, double* to) { hn::Store(a.v, Places::Tag(), to); }
+HWY_INLINE RowVector LoadVector(const double* from) { return RowVector(hn::Load(RowVector::Tag(), from)); }
+HWY_INLINE void StoreVector(const RowVector& a, double* to) { hn::Store(a.v, RowVector::Tag(), to); }
 
 // ---- Memory --------------------------------------------------------------------------------------------------------
 
-/// A list in memory that is aligned for every vector and begins as zeros.
+/// An array that is aligned for every vector type and zero-initialised.
 template <class Item>
 class AlignedList {
  public:
