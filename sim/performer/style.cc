@@ -115,8 +115,8 @@ bool IsSwitch(std::size_t control) {
          control == Controls::SideIndex(Side::kRight, kLegFree);
 }
 
-/// The share of each harmonic in an offset's spread: two thirds for the constant, the rest for three harmonics. The
-/// squares sum to one.
+/// The share of each term in an offset's standard deviation: the constant, then the cosine and sine of three harmonics.
+/// The squares sum to one, and the constant has about half of the variance.
 constexpr std::array<double, 7> kTermShares = {0.66, 0.38, 0.38, 0.28, 0.28, 0.22, 0.22};
 
 /// Draws standard normal numbers, each times its term's share.

@@ -148,7 +148,7 @@ void FrameTargets::Begin(int width, int height, Targets asked) {
 }
 
 void FrameTargets::Clear(const std::vector<PixelRect>& rects) {
-  constexpr GLfloat kNothing[] = {1, 1, 1, 1}, kNoDepth[] = {0, 0, 0, 0}, kFarthestDepth[] = {1};
+  constexpr GLfloat kNothing[] = {1, 1, 1, 1}, kNoDepth[] = {0, 0, 0, 0}, kMaxDepth[] = {1};
   constexpr GLuint kNoLabel[] = {kUndrawnLabel, 0, 0, 0};
   gl_.Enable(GL_SCISSOR_TEST);
   PixelRect all = rects.front();
@@ -159,7 +159,7 @@ void FrameTargets::Clear(const std::vector<PixelRect>& rects) {
     gl_.ClearBufferfv(GL_COLOR, 0, kNothing);
     gl_.ClearBufferuiv(GL_COLOR, 1, kNoLabel);
     gl_.ClearBufferfv(GL_COLOR, 2, kNoDepth);
-    gl_.ClearBufferfv(GL_DEPTH, 0, kFarthestDepth);
+    gl_.ClearBufferfv(GL_DEPTH, 0, kMaxDepth);
   }
   gl_.Scissor(all.left, all.top, all.Width(), all.Height());
 }
