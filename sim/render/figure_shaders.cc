@@ -96,7 +96,7 @@ constexpr const char* kCorner = R"glsl(
 in vec3 place_in;   // in E
 in vec3 normal_in;
 in vec4 paint_in;   // rgb; a = label
-in vec4 rest_in;    // the place on the body at rest; a = number of its paint, or -1
+in vec4 rest_in;    // position on the body at rest; a = index of its paint, or -1
 
 uniform mat3 image_of_direction;  // E -> (u w, v w, w)
 uniform vec2 image_size;
@@ -130,7 +130,7 @@ uniform vec3 lamp;
 uniform float wall_z;
 uniform bool onto_wall;
 
-out vec3 caster;  // in E: what stands in the light
+out vec3 caster;  // in E: the point that casts the shadow
 
 void main() {
   vec3 lamp_E = lamp - eye, from_lamp = place_in - lamp_E;
@@ -139,7 +139,7 @@ void main() {
   vec3 thrown = lamp_E * fall + from_lamp * reach;
   Place(vec4(thrown, fall));
   caster = place_in;
-  gl_ClipDistance[0] = reach - fall;  // what lies behind the plane is in its shadow instead
+  gl_ClipDistance[0] = reach - fall;  // clips points behind the plane
   // Pixels behind the wall or under the floor are discarded later; this clips nearly all of them.
   vec3 place = thrown + eye * fall;
   gl_ClipDistance[1] = (onto_wall ? place.y : place.z - wall_z * fall) + 0.01 * fall;

@@ -13,7 +13,7 @@ const float kInfinity = uintBitsToFloat(0x7f800000u);
 vec3 PixelRay() { return ray_of_pixel * vec3(gl_FragCoord.xy, 1.0); }
 
 struct RoomHit {
-  float depth;  // along the viewing axis; infinity when nothing is met
+  float depth;  // along the viewing axis; infinity if the ray hits nothing
   bool is_wall;
 };
 
@@ -88,7 +88,7 @@ const char* const kCapsuleBox = R"glsl(
 in vec4 start_and_radius;  // in E
 in vec4 end_and_label;
 in vec4 paint_in;          // rgb; a = 1 for a head with a face
-in vec3 front_in;          // where the face looks
+in vec3 front_in;          // direction of the face
 
 uniform mat3 image_of_direction;  // E -> (u w, v w, w)
 uniform vec2 image_size;

@@ -97,7 +97,7 @@ struct SkeletonSensorOptions {
   /// The `size` of an ankle or foot at rest on the floor; its noise is slow (`rest_time_s`). In motion the group's size
   /// holds.
   double planted_feet = 0.003;
-  double rest_time_s = 0.2;  ///< (ours)
+  double rest_time_s = 0.2;  ///< time constant of that noise (ours)
 
   // The slow drift: its time constant, and the time constant of its smoothing (0: an Ornstein–Uhlenbeck process).
   double wander_time_s = 0.4;
@@ -112,7 +112,7 @@ struct SkeletonSensorOptions {
 
   // The fast part: short noise in bursts, larger when the body moves.
   double fast_share = 0.2;    ///< share of the variance of `size`
-  double fast_time_s = 0.05;  ///< (ours)
+  double fast_time_s = 0.05;  ///< time constant (ours)
   double fast_quiet = 0.05;   ///< factor for a body at rest; grows with the square of speed to 1 at 0.5 m/s (ours)
   double fast_tail = 0.7;     ///< standard deviation of the logarithm of its strength; 0: Gaussian (ours)
 
