@@ -12,7 +12,7 @@ namespace etude {
 
 /// The timing of the motion from one key to the next.
 enum class Ease {
-  kSmooth,  ///< evenly, with no stop at the key
+  kSmooth,  ///< evenly, passing through the key
   kLinger,  ///< most of the way early, then slower and slower: hovers before it arrives
   kRush,    ///< starts slowly and arrives fast: a blow, a clap
   kSnap,    ///< waits, covers the way in the second half of the time, and stops abruptly
@@ -27,7 +27,7 @@ enum class Ease {
 /// derivatives at the keys. Keys before and after a snap or a step are at rest.
 ///
 /// The segments are quintic Hermite polynomials. Slopes are the weighted harmonic means of Fritsch and Butland (1984).
-/// The second derivative at a key is that of the two neighbouring cubics with the smaller magnitude, or 0 if they
+/// The second derivative at a key is the smaller in magnitude of those of the two neighbouring cubics, or 0 if they
 /// differ in sign (ours).
 class PeriodicCurve {
  public:
