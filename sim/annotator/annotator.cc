@@ -57,9 +57,9 @@ glm::dvec2 Normal2(RandomStream& random) {
   return {u, random.Normal()};
 }
 
-constexpr double kUsualErrorPx = 2;  // that probabilities and shares are given for
+constexpr double kReferenceErrorPx = 2;  // the error for which probabilities and shares are given
 
-// The three strokes of a left limb begin at `left`, of the right one at `right`.
+// The indices of the first of the three strokes of a left and of a right limb.
 struct Pair {
   std::size_t left, right;
 };
@@ -86,7 +86,7 @@ double HalfWidthOf(const PictureEvidence& seen, std::size_t first) {
   return widest;
 }
 
-// 1 when the two limbs lie over each other or only one is seen, 0 when they are two widths apart.
+// Returns 1 if the two limbs overlap or only one is seen, and 0 if they are at least two widths apart.
 double Overlap(const PictureEvidence& seen, const Pair& pair) {
   const auto left = MiddleOf(seen, pair.left), right = MiddleOf(seen, pair.right);
   if (!left || !right) return 1;
@@ -103,7 +103,7 @@ void Exchange(const Pair& pair, PictureEvidence& seen) {
   }
 }
 
-/// The errors of this picture's marks, joint by joint.
+/// The errors of the marks in one picture.
 class PictureErrors {
  public:
   PictureErrors(const PersonErrors& errors, const std::array<glm::dvec2, kRoleCount>& bias, const PictureDice& dice,
@@ -112,7 +112,7 @@ class PictureErrors {
     MeasureLimbs();
   }
 
-  /// Returns by how much a mark misses the joint centre, pixels.
+  /// Returns the offset of a mark from the joint centre, pixels.
   glm::dvec2 ErrorAt(Role role) const {
     const std::size_t i = Index(role);
     const glm::dvec2 along = along_[i], across(-along.y, along.x);
@@ -126,19 +126,20 @@ class PictureErrors {
     return dice_.miss[stroke] < Strength() * MissProbability(*seen_.limbs[stroke]);
   }
 
-  /// Returns the stroke between the marked ends, perhaps too short.
+  /// Returns the stroke between the marked ends, shortened at random.
   PixelSegment Stroke(std::size_t i) const {
     const PixelSegment& line = seen_.limbs[i]->line;
     const glm::dvec2 a = line.a + ErrorAt(StrokeMarks()[i].from), b = line.b + ErrorAt(StrokeMarks()[i].to);
-    constexpr double kMostShort = 0.3;  // of the stroke, at each end
-    const glm::dvec2 left_out = glm::min(Strength() * kShortShare * glm::abs(dice_.shortness[i]), kMostShort);
+    constexpr double kMaxShortening = 0.3;  // maximum share left out at each end
+    const glm::dvec2 left_out = glm::min(Strength() * kShortShare * glm::abs(dice_.shortness[i]), kMaxShortening);
     return {glm::mix(a, b, left_out.x), glm::mix(b, a, left_out.y)};
   }
 
  private:
-  double Strength() const { return errors_.error_px / kUsualErrorPx; }
+  double Strength() const { return errors_.error_px / kReferenceErrorPx; }
 
-  // A joint's bias lies along the limb beyond it, else along the one before it; it is as unclear as the less clear one.
+  // A joint's bias is along the limb beyond it, or else along the limb before it. A joint is as unclear as its less
+  // clear limb.
   void MeasureLimbs() {
     along_.fill({0, 1});
     for (std::size_t i = kStrokeCount; i-- > 0;) {
@@ -208,13 +209,13 @@ Annotator::Annotator(const PersonErrors& errors, const EvidenceOptions& eye, con
     : errors_(errors), eye_(eye), dice_(key, annotator, camera) {}
 
 void Annotator::SwapSides(const PictureDice& dice, PictureEvidence& seen) {
-  const double strength = errors_.error_px / kUsualErrorPx;
+  const double strength = errors_.error_px / kReferenceErrorPx;
   for (std::size_t i = 0; i < kPairs.size(); ++i) {
     const double begins = strength * (kSwapProbability + kOverlapSwapProbability * Overlap(seen, kPairs[i]));
     if (swapped_frames_[i] > 0) {
       --swapped_frames_[i];
     } else if (dice.swap_begins[i] < begins) {
-      // Geometric: 1, 2, … frames, kSwapFrames in the mean.
+      // The length of an exchange is geometric: 1, 2, … frames with mean kSwapFrames.
       swapped_frames_[i] = 1 + static_cast<int>(std::log1p(-dice.swap_lasts[i]) / std::log1p(-1 / kSwapFrames));
     }
     if (swapped_frames_[i] > 0) Exchange(kPairs[i], seen);
@@ -223,16 +224,19 @@ void Annotator::SwapSides(const PictureDice& dice, PictureEvidence& seen) {
 
 Marks Annotator::Mark(int frame, const AnnotatedPicture& picture) {
   const PictureDice& dice = dice_.Throw(frame);
+  // Look at the picture, and confuse left and right at times.
   PictureEvidence seen = SeePicture(picture, eye_);
   SwapSides(dice, seen);
   const PictureErrors errors(errors_, dice_.bias(), dice, seen);
   Marks marks;
+  // Draw a stroke for every limb that is seen and not overlooked.
   std::array<bool, kStrokeCount> overlooked{};
   for (std::size_t i = 0; i < kStrokeCount; ++i) {
     if (!seen.limbs[i]) continue;
     overlooked[i] = errors.Overlooks(i);
     if (!overlooked[i]) marks.strokes[i] = errors.Stroke(i);
   }
+  // Mark the end effectors.
   for (std::size_t i = 0; i < kEffectorCount; ++i) {
     const Role role = EffectorMarks()[i].role;
     const auto& joint = seen.joints[Index(role)];

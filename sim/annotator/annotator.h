@@ -13,57 +13,57 @@ namespace etude {
 
 /// The errors of a person who marks joint centres by hand.
 struct PersonErrors {
-  /// The standard deviation of a mark in u and in v, pixels: mean over the joints, on a limb that stands out clearly.
-  /// Scales everything that is random: 0 is a perfect hand and a perfect eye, which overlook and mistake nothing. Two
-  /// pixels are about 13 mm on a person 4 m away *(ours)*.
+  /// The standard deviation of a mark in u and in v, pixels: the mean over the joints, on a limb with clear contrast.
+  /// It scales all random errors: at 0, nothing is inaccurate, overlooked or confused. Two pixels are about 13 mm on a
+  /// person 4 m away *(ours)*.
   double error_px = 2;
 };
 
-/// Returns how much harder each joint centre is to find than the mean one, by role. Computed from the standard
-/// deviations σ that COCO's keypoint evaluation publishes (5,000 images annotated more than once; relative to the
-/// square root of a person's area: shoulders .079, elbows .072, wrists .062, hips .107, knees .087, ankles .089, ears
-/// .035, which stand for the head) and COCO-WholeBody's for the tips (big toes .068, middle fingers .026), divided by
-/// their mean. Their absolute size is not taken: that is of a crowd in wild pictures.
+/// Returns the relative difficulty of locating each joint centre, by role; the mean is 1. The values are the standard
+/// deviations σ of COCO's keypoint evaluation (5,000 images annotated more than once; relative to the square root of a
+/// person's area: shoulders .079, elbows .072, wrists .062, hips .107, knees .087, ankles .089, and ears .035 for the
+/// head) and COCO-WholeBody's for the tips (big toes .068, middle fingers .026), divided by their mean. Their absolute
+/// size is not used, because it describes crowd workers on pictures of all kinds.
 const std::array<double, kRoleCount>& RelativeDeviations();
 
-/// The shares of a mark's variance *(ours; that operators differ from each other more than from themselves, and from
-/// joint to joint, is Bartlett, Bussey and Flyger 2006)*.
-constexpr double kBiasShare = 0.3;         ///< of one annotator's idea of one joint, the same in all pictures of a take
+/// The shares of a mark's variance *(ours; Bartlett, Bussey and Flyger 2006 show that operators differ from each other
+/// more than from themselves, and from joint to joint)*.
+constexpr double kBiasShare = 0.3;         ///< bias of one annotator for one joint, constant over a take
 constexpr double kLastingShare = 0.4;      ///< correlated from frame to frame
-constexpr double kIndependentShare = 0.3;  ///< thrown anew
-/// The number of frames at 30 Hz after which the correlation of the lasting part has fallen to 1/e *(ours)*.
+constexpr double kIndependentShare = 0.3;  ///< drawn for each frame
+/// The number of frames at 30 Hz after which the autocorrelation of the lasting part is 1/e *(ours)*.
 constexpr double kLastingFrames = 10;
 
-/// Returns how unclear a limb of this contrast (`LimbEvidence::contrast`, counts) is, in (0, 1]: 1/2 at 20 counts, four
-/// times a camera's noise *(ours)*. Errors that are not bias grow by (1 + unclearness).
+/// Returns how unclear a limb of this contrast (`LimbEvidence::contrast`, counts) is, in (0, 1]. It is 1/2 at 20
+/// counts, four times a camera's noise *(ours)*. All errors except the bias grow by the factor (1 + unclearness).
 double Unclearness(double contrast);
 
-/// The chances and sizes of mistakes with a limb, for `error_px` = 2; all are *(ours)* and proportional to `error_px`.
-double MissProbability(const LimbEvidence& limb);  ///< 0.2 %, up to 10 % more when hardly seen, 3 % when unclear
-constexpr double kShortShare = 0.03;               ///< deviation of the share of a stroke that is left out at each end
+/// Probabilities and sizes of mistakes with a limb for `error_px` = 2; all are *(ours)* and proportional to `error_px`.
+double MissProbability(const LimbEvidence& limb);  ///< 0.2 % + up to 10 % if hardly visible + up to 3 % if unclear
+constexpr double kShortShare = 0.03;               ///< standard deviation of the share left out at each end of a stroke
 constexpr double kSwapProbability = 0.0003;        ///< per marked frame: left and right arms, or legs, are exchanged
-constexpr double kOverlapSwapProbability = 0.002;  ///< so much more when both lie over each other, as from aside
-constexpr double kSwapFrames = 5;                  ///< mean number of marked frames that an exchange lasts
+constexpr double kOverlapSwapProbability = 0.002;  ///< added if both overlap, as seen from the side
+constexpr double kSwapFrames = 5;                  ///< mean number of marked frames of an exchange
 
-/// The dice of one picture, as many whatever is seen in it and however strong errors are.
+/// The random numbers of one picture; their count depends neither on the picture nor on the errors' strength.
 struct PictureDice {
-  std::array<glm::dvec2, kRoleCount> lasting;      ///< of unit variance in u and v: one throw per joint
-  std::array<glm::dvec2, kRoleCount> independent;  ///< likewise
+  std::array<glm::dvec2, kRoleCount> lasting;      ///< unit variance in u and v: one value per joint
+  std::array<glm::dvec2, kRoleCount> independent;  ///< unit variance in u and v: one value per joint
   std::array<glm::dvec2, kStrokeCount> shortness;  ///< at both ends, standard normal
   std::array<double, kStrokeCount> miss;           ///< uniform in [0, 1)
   std::array<double, 2> swap_begins;               ///< uniform in [0, 1); arms, legs
-  std::array<double, 2> swap_lasts;                ///< likewise
+  std::array<double, 2> swap_lasts;                ///< uniform in [0, 1); arms, legs
 };
 
-/// Throws the dice of one annotator for one camera, marked frame after marked frame.
+/// Draws the random numbers of one annotator for one camera, marked frame by marked frame.
 class AnnotatorDice {
  public:
   AnnotatorDice(const WorldKey& key, int annotator, int camera);
 
-  /// Returns this person's bias at each joint centre, of unit variance, along the limb beyond it and across: the same
-  /// for all cameras.
+  /// Returns this person's bias at each joint centre, with unit variance, along and across the limb beyond the joint;
+  /// it is the same for all cameras.
   const std::array<glm::dvec2, kRoleCount>& bias() const { return bias_; }
-  /// Throws the dice of a frame. Frames are asked for in order, each once.
+  /// Draws the numbers of a frame. Frames must ascend.
   const PictureDice& Throw(int frame);
 
  private:
@@ -74,15 +74,15 @@ class AnnotatorDice {
   PictureDice dice_{};
 };
 
-/// The human who marks limbs and end effectors in the pictures of one camera (paper B, section 4.2), frame after frame:
-/// sees what a picture shows (`SeePicture`) and errs as people do (`PersonErrors`). True joints are not known here.
-/// Annotators made from the same key, number and camera throw the same dice, whatever their pictures show.
+/// The human who marks limbs and end effectors in the pictures of one camera (paper B, section 4.2), frame by frame.
+/// The annotator sees only the picture (`SeePicture`), never the true joints, and makes the errors of people
+/// (`PersonErrors`). Annotators with the same key, number and camera draw the same random numbers for all pictures.
 class Annotator {
  public:
   Annotator(const PersonErrors& errors, const EvidenceOptions& eye, const WorldKey& key, int annotator, int camera);
 
-  /// Returns the marks that are put on this picture; nothing for what is not seen, or overlooked. A joint is thrown
-  /// once: both its limbs and its disc are drawn to the same pixel. Frames come in order, each once.
+  /// Returns the marks for this picture; a mark is empty if its limb is not seen or is overlooked. A joint's error is
+  /// drawn once: both its limbs and its disc use the same pixel. Frames must ascend.
   Marks Mark(int frame, const AnnotatedPicture& picture);
 
  private:
@@ -92,7 +92,7 @@ class Annotator {
   PersonErrors errors_;
   EvidenceOptions eye_;
   AnnotatorDice dice_;
-  std::array<int, 2> swapped_frames_{};  // how many marked frames arms and legs stay exchanged
+  std::array<int, 2> swapped_frames_{};  // remaining marked frames in which arms and legs are exchanged
 };
 
 }  // namespace etude

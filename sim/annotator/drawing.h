@@ -7,13 +7,12 @@
 
 namespace etude {
 
-/// Returns the annotation picture that shows these marks (engine/vision/strokes.h): on black, strokes first, discs over
-/// them.
+/// Returns the annotation picture of these marks (engine/vision/strokes.h): strokes on black, discs over them.
 ColourImage DrawMarks(const Marks& marks, int width, int height);
 
-/// Draws one stroke from a to b, the second half in the second shade. Parts outside are cut off.
+/// Draws one stroke from a to b, with its second half in the second shade. Parts outside the picture are clipped.
 void DrawStroke(const PixelSegment& segment, const StrokeMark& mark, ColourImage& picture);
-/// Draws one disc. Parts outside are cut off.
+/// Draws one disc. Parts outside the picture are clipped.
 void DrawDisc(const glm::dvec2& centre, const EffectorMark& mark, ColourImage& picture);
 
 }  // namespace etude

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kNoBorder = -1;
 
-// Which stroke begins where two parts meet.
+// The stroke that begins at the border of two parts.
 using BorderTable = std::array<std::array<int, kPartCount>, kPartCount>;
 constexpr BorderTable kBorderOf = [] {
   BorderTable table{};
@@ -35,8 +35,8 @@ class RegionFinder {
 
   Regions Find() {
     for (int y = 0; y < labels_.height; ++y) {
-      SeeRow(y);
-      SplitRow(y);
+      FindVisible(y);
+      AddRuns(y);
     }
     for (std::size_t i = 0; i < kPartCount; ++i) {
       Region& region = found_.parts[i];
@@ -53,9 +53,9 @@ class RegionFinder {
     return found != 0;
   }
 
-  void SeeRow(int y) {
+  void FindVisible(int y) {
     const std::uint32_t* labels = &labels_.pixels[static_cast<std::size_t>(y) * labels_.width];
-    constexpr int kBlock = 16;  // most of a picture shows nobody
+    constexpr int kBlock = 16;  // most pixels of a picture show no person
     for (int x = 0; x < labels_.width; ++x) {
       if (x + kBlock <= labels_.width && !HasPerformer(labels + x, kBlock)) {
         x += kBlock - 1;
@@ -68,7 +68,7 @@ class RegionFinder {
     }
   }
 
-  void SplitRow(int y) {
+  void AddRuns(int y) {
     int x = first_;
     while (x <= last_) {
       const std::uint8_t part = seen_.At(x, y);
@@ -78,6 +78,7 @@ class RegionFinder {
     }
   }
 
+  // Extend the part's region.
   void AddRun(const PixelRun& run, std::uint8_t part) {
     Region& region = found_.parts[part];
     const int count = run.x1 - run.x0;
@@ -85,10 +86,12 @@ class RegionFinder {
     region.pixels += count;
     region.is_cut |= run.x0 == 0 || run.x1 == labels_.width || run.y == 0 || run.y == labels_.height - 1;
     region.middle += static_cast<double>(count) * glm::dvec2(0.5 * (run.x0 + run.x1), run.y + 0.5);
+    // Collect borders with the pixels to the left and above.
     if (run.x0 > 0) AddBorder(part, seen_.At(run.x0 - 1, run.y), {run.x0, run.y + 0.5});
     if (run.y > 0) {
       for (int x = run.x0; x < run.x1; ++x) AddBorder(part, seen_.At(x, run.y - 1), {x + 0.5, run.y});
     }
+    // Measure the contrast at both ends of the run.
     AddContrast(run, part, run.x0, -1);
     AddContrast(run, part, run.x1 - 1, +1);
   }
@@ -98,9 +101,9 @@ class RegionFinder {
     if (stroke != kNoBorder) found_.borders[static_cast<std::size_t>(stroke)].push_back(at);
   }
 
-  // At the end `x` of a run, beyond which x grows by `step`.
+  // Adds the contrast at the end `x` of a run; the outside is at x + `step`.
   void AddContrast(const PixelRun& run, std::uint8_t part, int x, int step) {
-    constexpr int kApart = 2;  // clear of pixels that show both sides
+    constexpr int kApart = 2;  // avoids pixels that mix both sides
     const int outside = x + kApart * step, inside = std::clamp(x - kApart * step, run.x0, run.x1 - 1);
     if (outside < 0 || outside >= labels_.width) return;
     const std::uint32_t other = labels_.At(outside, run.y);
@@ -115,8 +118,8 @@ class RegionFinder {
   const ColourImage& colours_;
   const Mask& person_;
   const int margin_px_;
-  Image<std::uint8_t> seen_;         // the part of each pixel that is seen, 0 elsewhere
-  int first_ = 1 << 30, last_ = -1;  // columns of what was seen so far
+  Image<std::uint8_t> seen_;         // part of each visible pixel, 0 elsewhere
+  int first_ = 1 << 30, last_ = -1;  // range of columns with visible pixels so far
   std::array<int, kPartCount> outline_{};
   Regions found_;
 };

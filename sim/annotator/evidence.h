@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// The part that a stroke runs along, and the part that it hangs from; the joint between the two is the stroke's
+/// The part along which a stroke runs, and the part to which it is attached; the joint between the two is the stroke's
 /// `from`. The table is in the order of `StrokeMarks`.
 struct LimbParts {
   Part limb;
@@ -33,25 +33,26 @@ constexpr std::array<LimbParts, kStrokeCount> kLimbParts = {{
     {Part::kHead, Part::kTrunk},
 }};
 
-/// The regions that an annotator can tell apart in one picture.
+/// The regions that an annotator can distinguish in one picture.
 struct Regions {
   int width = 0, height = 0;
   std::array<Region, kPartCount> parts;
-  /// The borders between a limb and the part it hangs from: the middles of all pixel sides between them, by stroke.
+  /// The borders between a limb and the part to which it is attached: the midpoints of all pixel sides between them, by
+  /// stroke.
   std::array<std::vector<glm::dvec2>, kStrokeCount> borders;
 
   const Region& operator[](Part part) const { return parts[static_cast<std::size_t>(part)]; }
 };
 
-/// Finds the visible parts of the performer that lie on `person` or at most `margin_px` beside it (in u and in v): what
-/// the segmenter lost is not seen. All pictures have the same size.
+/// Finds the visible parts of the performer on `person` or at most `margin_px` beside it (in u and in v); the annotator
+/// does not see what the segmenter lost. All pictures have the same size.
 Regions FindRegions(const LabelImage& labels, const ColourImage& colours, const Mask& person, int margin_px);
 
-/// A picture as the annotator is shown it; all three images have one size.
+/// A picture as the annotator sees it; all three images have the same size.
 struct AnnotatedPicture {
-  const LabelImage& labels;    ///< which part is seen where: stands for the eye that tells limbs apart
-  const ColourImage& colours;  ///< decides only how clearly a limb stands out
-  const Mask& person;          ///< what the segmenter cut out; the rest is not seen
+  const LabelImage& labels;    ///< the part at each pixel: the annotator's ability to tell limbs apart
+  const ColourImage& colours;  ///< used only for the contrast of limbs
+  const Mask& person;          ///< the segmented person; everything else is not seen
 };
 
 /// The options of the annotator's view of a picture.
@@ -60,8 +61,8 @@ struct EvidenceOptions {
   int margin_px = kFrayedEdgePx;
 };
 
-/// Returns what the annotator can know from one picture and from anatomy (`FindLimbEvidence`); nothing else enters.
-/// What these rules cost in exact joint centres: docs/annotator.md, by joint.
+/// Returns what the annotator can infer from one picture and from anatomy (`FindLimbEvidence`); it uses nothing else.
+/// docs/annotator.md lists the resulting errors of joint centres, by joint.
 PictureEvidence SeePicture(const AnnotatedPicture& picture, const EvidenceOptions& options = {});
 
 }  // namespace etude

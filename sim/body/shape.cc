@@ -13,10 +13,10 @@ using enum Role;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Radii as shares of the length named: chosen so that a 1.70 m body looks like a dressed adult.
+// Radii as shares of the lengths named, chosen so that a body of 1.70 m looks like a dressed adult.
 constexpr double kUpperArmPerLength = 0.155;
 constexpr double kForearmPerLength = 0.145;
-constexpr double kHandPerForearm = 0.13;  // files often end the hand at the wrist: its own bone is no measure
+constexpr double kHandPerForearm = 0.13;  // many files end the hand at the wrist, so its own length cannot be used
 constexpr double kThighPerLength = 0.165;
 constexpr double kShankPerLength = 0.12;
 constexpr double kFootPerShank = 0.068;
@@ -51,7 +51,7 @@ constexpr std::array<Limb, 12> kLimbs = {{
     {Part::kRightFoot, kRightAnkle, kRightFoot, kRightKnee, kRightAnkle, kFootPerShank},
 }};
 
-/// The parts whose flesh a joint lies in: at most two.
+/// The parts in which a joint lies: at most two.
 struct OwnParts {
   Part first, second;
 };
@@ -107,7 +107,7 @@ double TrunkLength(const BodyPose& pose) {
 
 void AddTrunk(const BodyPose& pose, std::vector<Capsule>& body) {
   const double length = TrunkLength(pose);
-  // The ribs' widest points lie between the middle of the back and the shoulders.
+  // The ribs are widest between the middle of the back and the shoulders.
   constexpr double kRibs = 0.45;
   const glm::dvec3 middle = 0.5 * (pose[kSpine] + pose[kShoulderCentre]);
   const glm::dvec3 left_rib = glm::mix(middle, pose[kLeftShoulder], kRibs);
@@ -135,7 +135,7 @@ void AddHead(const BodyPose& pose, std::vector<Capsule>& body) {
   body.push_back({Part::kHead, middle - half, middle + half, kHeadPerTrunk * trunk});
 }
 
-/// Returns the smaller root of t² + 2bt + c = 0 when the ray enters from outside, else infinity.
+/// Returns the smaller root of t² + 2bt + c = 0 if it is not negative, otherwise infinity.
 double EntryRoot(double b, double c) {
   const double discriminant = b * b - c;
   if (discriminant < 0) return kInfinity;
@@ -156,7 +156,7 @@ bool IsInside(const Capsule& capsule, const glm::dvec3& point) {
   return glm::dot(off, off) <= capsule.radius * capsule.radius;
 }
 
-/// Tells whether the ray misses the sphere around the whole capsule by so much that rounding cannot matter, as most do.
+/// Returns true if the ray misses the bounding sphere of the capsule by more than any rounding error; most rays do.
 bool PassesBy(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction) {
   constexpr double kAir = 1e-6;  // metres
   const glm::dvec3 from = origin - 0.5 * (capsule.a + capsule.b);
@@ -165,7 +165,7 @@ bool PassesBy(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3
   return outside > 0 && (along > 0 || along * along < outside);
 }
 
-/// Returns where the ray enters the round side of the capsule, its half-spheres aside.
+/// Returns the distance at which the ray enters the cylinder between the half-spheres.
 double SideEntry(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction) {
   const glm::dvec3 axis = capsule.b - capsule.a;
   const double length = glm::length(axis);
@@ -175,7 +175,7 @@ double SideEntry(const Capsule& capsule, const glm::dvec3& origin, const glm::dv
   const glm::dvec3 across = direction - glm::dot(direction, unit) * unit;
   const glm::dvec3 from_across = from - glm::dot(from, unit) * unit;
   const double scale = glm::dot(across, across);
-  constexpr double kParallel = 1e-18;  // squared sine: the half-spheres are met first then
+  constexpr double kParallel = 1e-18;  // squared sine: a parallel ray hits a half-sphere first
   if (scale < kParallel) return kInfinity;
   const double t = EntryRoot(glm::dot(from_across, across) / scale,
                              (glm::dot(from_across, from_across) - capsule.radius * capsule.radius) / scale);
@@ -183,7 +183,7 @@ double SideEntry(const Capsule& capsule, const glm::dvec3& origin, const glm::dv
   return t < kInfinity && along >= 0 && along <= length ? t : kInfinity;
 }
 
-// From the world's axes to the box's.
+// Rotates a vector from the world's axes to the box's.
 glm::dvec3 Turned(const glm::dvec3& v, double sine, double cosine) {
   return {cosine * v.x - sine * v.z, v.y, sine * v.x + cosine * v.z};
 }
@@ -234,6 +234,7 @@ double HitDistance(const Cuboid& box, const glm::dvec3& origin, const glm::dvec3
   const double sine = std::sin(box.heading), cosine = std::cos(box.heading);
   const glm::dvec3 from = Turned(origin - box.centre, sine, cosine), along = Turned(direction, sine, cosine);
   double enter = 0, leave = kInfinity;
+  // Intersect the ray's intervals between the box's pairs of faces.
   for (int axis = 0; axis < 3; ++axis) {
     if (along[axis] == 0) {
       if (std::abs(from[axis]) > box.half_size[axis]) return kInfinity;

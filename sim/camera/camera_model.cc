@@ -11,21 +11,21 @@
 namespace etude {
 namespace {
 
-RandomStream Throws(const CameraIdentity& identity, const std::string& purpose) {
+RandomStream StreamOf(const CameraIdentity& identity, const std::string& purpose) {
   return {identity.world, identity.name + "/" + purpose};
 }
 
 Shutter MakeShutter(const CameraEffects& effects, double rate_hz, const CameraIdentity& identity) {
-  RandomStream random = Throws(identity, "clock");
+  RandomStream random = StreamOf(identity, "clock");
   return {effects, rate_hz, identity.is_reference, random};
 }
 
 AutomaticToning MakeToning(const CameraEffects& effects, const CameraIdentity& identity) {
-  RandomStream exposure = Throws(identity, "exposure"), white_balance = Throws(identity, "white-balance");
+  RandomStream exposure = StreamOf(identity, "exposure"), white_balance = StreamOf(identity, "white-balance");
   return {effects, exposure, white_balance};
 }
 
-/// Mixes the pictures: full + share · (demosaiced − full).
+/// Mixes two pictures: full + share · (demosaiced − full).
 void Mix(const LightImage& demosaiced, float share, LightImage& full) {
   for (std::size_t i = 0; i < full.pixels.size(); ++i) {
     const Light& to = demosaiced.pixels[i];
@@ -59,7 +59,7 @@ std::vector<Shutter::Band> Shutter::BandsOf(std::size_t frame, int height) const
   for (int i = 0; i < kBands; ++i) {
     const RowRange rows{height * i / kBands, height * (i + 1) / kBands};
     if (rows.first == rows.end) continue;
-    const double middle = 0.5 * (rows.first + rows.end) / height - 0.5;  // of the picture's height, from its middle
+    const double middle = 0.5 * (rows.first + rows.end) / height - 0.5;  // in picture heights from the middle row
     bands.push_back({rows, TimeOf(frame) + middle * read_out_});
   }
   return bands;
@@ -91,16 +91,18 @@ CameraModel::CameraModel(const Camera& camera, const CameraEffects& effects, dou
       shutter_(MakeShutter(effects, rate_hz, identity_)),
       toning_(MakeToning(effects, identity_)),
       noise_(WebcamNoise(effects.noise, effects.gain_db)) {
+  // Without effects on light, noise is applied to 8-bit pictures directly.
   if (!needs_light_) {
     if (!noise_.IsNone()) code_noise_.emplace(noise_);
     return;
   }
+  // Prepare what all pictures have in common.
   light_ = LightImage(width_, height_);
   if (effects_.defocus_px > 0) defocus_.emplace(effects_.defocus_px);
   if (effects_.vignette > 0 || effects_.dust > 0) transmission_.emplace(width_, height_, 1.0f);
   if (effects_.vignette > 0) AddVignette(camera, effects_.vignette, *transmission_);
   if (effects_.dust > 0) {
-    RandomStream random = Throws(identity_, "dust");
+    RandomStream random = StreamOf(identity_, "dust");
     AddDust(ThrowSpecks(width_, height_, random), effects_.dust, *transmission_);
   }
   if (effects_.bayer > 0) mosaic_ = Mosaic(width_, height_);
@@ -108,6 +110,7 @@ CameraModel::CameraModel(const Camera& camera, const CameraEffects& effects, dou
 }
 
 void CameraModel::AddLight(const Shutter::Band& band, const Scene& scene, const View& middle) {
+  // Decode the pinhole's rows to linear light, averaged over the exposure.
   const RowRange rows = lens_.SourceRows(band.rows);
   const int width = pinhole().intrinsics.width, pixels = width * (rows.end - rows.first);
   if (!lens_.is_none()) {
@@ -126,6 +129,7 @@ void CameraModel::AddLight(const Shutter::Band& band, const Scene& scene, const 
       AddDecodedRow(view.colour.pixels.data(), pixels, 1.0f / static_cast<float>(times.size()), out);
     }
   }
+  // Warp them into the lens's picture.
   if (!lens_.is_none()) lens_.Warp(pinhole_light_, band.rows, light_);
 }
 
@@ -144,6 +148,7 @@ void CameraModel::AddBand(const Shutter::Band& band, const Scene& scene, Targets
 }
 
 void CameraModel::DevelopLight(double seconds, RandomStream& random, ColourImage& out) {
+  // Blur, then read the light with the sensor: a mosaic, full colours, or a mix of both.
   if (defocus_) defocus_->Apply(light_);
   const Sensor sensor{transmission_ ? &*transmission_ : nullptr, toning_.At(seconds), noise_};
   const LightImage* developed = &light_;
@@ -164,6 +169,7 @@ void CameraModel::DevelopLight(double seconds, RandomStream& random, ColourImage
 }
 
 View CameraModel::Develop(std::size_t frame, const Scene& scene, Targets targets, const std::string& noise_purpose) {
+  // Render the frame in bands; a single band without effects on light needs no copy.
   View view;
   const std::vector<Shutter::Band> bands = shutter_.BandsOf(frame, height_);
   const bool is_plain = bands.size() == 1 && !needs_light_;
@@ -175,12 +181,14 @@ View CameraModel::Develop(std::size_t frame, const Scene& scene, Targets targets
     if (targets == Targets::kAll) view.depth = DepthImage(width_, height_);
     for (const Shutter::Band& band : bands) AddBand(band, scene, targets, view);
   }
-  RandomStream random = Throws(identity_, noise_purpose);
+  // Apply tones and noise.
+  RandomStream random = StreamOf(identity_, noise_purpose);
   if (needs_light_) {
     DevelopLight(static_cast<double>(frame) / rate_hz_, random, view.colour);
   } else if (code_noise_) {
     code_noise_->Apply(random, view.colour);
   }
+  // Compress and decompress.
   if (effects_.jpeg_loss > 0) {
     const int quality = std::max(1, static_cast<int>(std::lround(100 - effects_.jpeg_loss)));
     DecodeJpeg(EncodeJpeg(view.colour, quality), view.colour);

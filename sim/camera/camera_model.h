@@ -14,66 +14,66 @@
 
 namespace etude {
 
-/// The shutter says when a camera takes its pictures. Times are in frames of the reference clock, as is the truth:
-/// frame k of a faultless camera is taken at k.
+/// The times at which a camera takes its pictures. Times are in frames of the reference clock, like the truth: an ideal
+/// camera takes frame k at time k.
 class Shutter {
  public:
-  /// @param is_reference the camera whose clock is right; the others' offset and drift have a sign by throws, their
-  ///        size is the effect's
+  /// @param is_reference true for the camera whose clock is correct. The others' offset and drift have the effect's
+  /// magnitude and a random sign.
   Shutter(const CameraEffects& effects, double rate_hz, bool is_reference, RandomStream& random);
 
-  /// Returns the time at which the middle row of the camera's own frame k is taken: k (1 + drift) + offset.
+  /// Returns the time at which the middle row of the camera's own frame k is exposed: k (1 + drift) + offset.
   double TimeOf(std::size_t frame) const;
 
-  /// A band of rows that are taken at one time.
+  /// A band of rows that are exposed at the same time.
   struct Band {
     RowRange rows;
     double time = 0;
   };
-  /// Returns the bands of a frame. A rolling shutter reads row after row, from the top; it is drawn in kBands bands,
-  /// each at the time of its middle; without one there is a single band.
+  /// Returns the bands of a frame. A rolling shutter reads the rows from the top; it is approximated by kBands bands,
+  /// each at the time of its middle. Without a rolling shutter there is one band.
   std::vector<Band> BandsOf(std::size_t frame, int height) const;
   static constexpr int kBands = 8;
 
-  /// Returns the times, while the shutter is open, whose pictures are averaged: kSubframes of them, evenly spread about
-  /// the band's; one without motion blur.
+  /// Returns the times whose pictures are averaged for a band: kSubframes times evenly spaced over the exposure; one
+  /// without motion blur.
   std::vector<double> SubframesOf(const Band& band) const;
   static constexpr int kSubframes = 9;
 
  private:
   double offset_ = 0;    ///< frames
   double drift_ = 0;     ///< frames per frame
-  double read_out_ = 0;  ///< frames from the first row to the last
-  double open_ = 0;      ///< frames
+  double read_out_ = 0;  ///< frames between the first row and the last
+  double open_ = 0;      ///< exposure time, frames
 };
 
-/// The identity of a camera within its world, which keys its dice.
+/// A camera's identity within its world; it is the key of the camera's random numbers.
 struct CameraIdentity {
   WorldKey world;
-  std::string name;          ///< "capture/camera-0": its purposes begin so
-  bool is_reference = true;  ///< its clock is the one that the truth is told by
+  std::string name;          ///< "capture/camera-0": the prefix of its purposes
+  bool is_reference = true;  ///< true if its clock is that of the truth
 };
 
-/// A camera of a world: everything that its pictures have in common. It applies the effects in the order in which light
-/// meets them (README.md). Not thread-safe: it reuses its buffers.
+/// A camera of a world: it takes pictures and applies the effects in the order in which they act on the light
+/// (README.md). It is not thread-safe, because it reuses its buffers.
 class CameraModel {
  public:
-  /// Draws what a faultless pinhole (`pinhole()`) would see in some rows, at a time in frames of the reference clock,
-  /// as a view as high as there are rows.
+  /// Renders the rows `rows` of the ideal pinhole's picture (`pinhole()`) at a time in frames of the reference clock;
+  /// the view's height is the number of rows.
   using Scene = std::function<View(double frame, const RowRange& rows, Targets targets)>;
 
-  /// @param camera with its distortion (LensDistortion); `effects` has the rest
+  /// @param camera includes its distortion (LensDistortion); all other effects are in `effects`
   CameraModel(const Camera& camera, const CameraEffects& effects, double rate_hz, CameraIdentity identity);
 
-  /// Returns the camera that scenes are drawn for: without distortion, with a margin for it.
+  /// Returns the camera for which scenes are rendered: without distortion, and with a margin for it.
   const Camera& pinhole() const { return lens_.pinhole(); }
   const Shutter& shutter() const { return shutter_; }
 
-  /// Takes the camera's own frame k. Labels and depth, if asked for, are those of the light on each pixel's middle, in
-  /// the middle of the exposure: free of blur, noise and dust.
+  /// Takes the camera's own frame k. Labels and depth, if requested, are those at each pixel's centre in the middle of
+  /// the exposure, without blur, noise and dust.
   View Shoot(std::size_t frame, const Scene& scene, Targets targets);
 
-  /// Takes a picture of the empty stage at the beginning, with dice of its own.
+  /// Takes a picture of the empty stage at time 0, with its own random numbers.
   ColourImage ShootBackground(const Scene& scene);
 
  private:
@@ -88,7 +88,7 @@ class CameraModel {
   const CameraIdentity identity_;
   const int width_, height_;
   const LensWarp lens_;
-  const bool needs_light_;  ///< else noise on 8-bit pictures is all there is
+  const bool needs_light_;  ///< false: only noise on 8-bit pictures is needed
   Shutter shutter_;
   AutomaticToning toning_;
   SensorNoise noise_;

@@ -1,6 +1,6 @@
 #include "sim/camera/jpeg.h"
 
-// jpeglib.h wants these before it.
+// jpeglib.h needs these headers before it.
 #include <jpeglib.h>
 
 #include <algorithm>
@@ -17,12 +17,12 @@ static_assert(sizeof(Rgb8) == 3, "a row's bytes are its colours");
 
 JSAMPROW RowOf(const ColourImage& picture, JDIMENSION y) {
   const Rgb8* row = picture.pixels.data() + std::size_t{y} * static_cast<std::size_t>(picture.width);
-  return const_cast<JSAMPROW>(reinterpret_cast<const JSAMPLE*>(row));  // libjpeg does not write what it encodes
+  return const_cast<JSAMPROW>(reinterpret_cast<const JSAMPLE*>(row));  // libjpeg does not write to its input
 }
 
-// libjpeg knows no other way out of a damaged file.
+// libjpeg reports a damaged file only through this callback, so it is left by longjmp.
 struct JpegError {
-  jpeg_error_mgr errors;  // first: libjpeg knows this part only
+  jpeg_error_mgr errors;  // must be first: libjpeg knows only this part
   std::jmp_buf way_out;
   std::array<char, JMSG_LENGTH_MAX> words;
 };
@@ -33,22 +33,24 @@ void JumpOut(j_common_ptr job) {
   std::longjmp(jpeg_error->way_out, 1);
 }
 
-// Warnings tell of damage, too; traces (levels from 0) do not.
+// Negative levels are warnings of damage; levels from 0 are traces.
 void JumpOnWarning(j_common_ptr job, int level) {
   if (level < 0) JumpOut(job);
 }
 
-// The size, or with `picture` its pixels, too: false when the file is damaged, as `jpeg_error` says. No object here has
-// a destructor, so that a jump leaves nothing behind.
+// Decodes the size, and the pixels too if `picture` is given. Returns false if the file is damaged; `jpeg_error` has
+// the message. No object here has a destructor, so the jump leaks nothing.
 bool DecodeUntrusted(std::string_view jpeg, JpegError& jpeg_error, jpeg_decompress_struct& job, ColourImage* picture) {
   job.err = jpeg_std_error(&jpeg_error.errors);
   jpeg_error.errors.error_exit = JumpOut;
   jpeg_error.errors.emit_message = JumpOnWarning;
   jpeg_create_decompress(&job);
+  // Control returns here after an error.
   if (setjmp(jpeg_error.way_out) != 0) return false;
   jpeg_mem_src(&job, reinterpret_cast<const unsigned char*>(jpeg.data()), jpeg.size());
   jpeg_read_header(&job, TRUE);
   if (picture == nullptr) return true;
+  // Decode row by row.
   job.out_color_space = JCS_RGB;
   job.dct_method = JDCT_ISLOW;
   jpeg_start_decompress(&job);
@@ -62,17 +64,19 @@ bool DecodeUntrusted(std::string_view jpeg, JpegError& jpeg_error, jpeg_decompre
 
 }  // namespace
 
-Result<ColourImage> ReadJpeg(std::string_view jpeg, std::size_t most_pixels) {
+Result<ColourImage> ReadJpeg(std::string_view jpeg, std::size_t max_pixels) {
+  // Read the size, and check it before memory is allocated.
   JpegError jpeg_error{};
   jpeg_decompress_struct job{};
   bool is_read = DecodeUntrusted(jpeg, jpeg_error, job, nullptr);
   const std::size_t width = job.image_width, height = job.image_height;
   jpeg_destroy_decompress(&job);
-  constexpr std::size_t kLargestSide = 16'384;  // what GL can hold
-  if (is_read && (width * height > most_pixels || std::max(width, height) > kLargestSide)) {
+  constexpr std::size_t kMaxSide = 16'384;  // the limit of GL
+  if (is_read && (width * height > max_pixels || std::max(width, height) > kMaxSide)) {
     return Fail({}, "a JPEG picture of {} x {} pixels; allowed: at most {} in all, {} a side", width, height,
-                most_pixels, kLargestSide);
+                max_pixels, kMaxSide);
   }
+  // Read the pixels.
   ColourImage picture;
   if (is_read) {
     picture = ColourImage(static_cast<int>(width), static_cast<int>(height));
@@ -87,11 +91,12 @@ Result<ColourImage> ReadJpeg(std::string_view jpeg, std::size_t most_pixels) {
 std::string EncodeJpeg(const ColourImage& picture, int quality) {
   jpeg_compress_struct job;
   jpeg_error_mgr errors;
-  job.err = jpeg_std_error(&errors);  // ends the program when memory does
+  job.err = jpeg_std_error(&errors);  // terminates the program if memory runs out
   jpeg_create_compress(&job);
   unsigned char* bytes = nullptr;
   unsigned long size = 0;
   jpeg_mem_dest(&job, &bytes, &size);
+  // Describe the input.
   job.image_width = static_cast<JDIMENSION>(picture.width);
   job.image_height = static_cast<JDIMENSION>(picture.height);
   job.input_components = 3;
@@ -100,6 +105,7 @@ std::string EncodeJpeg(const ColourImage& picture, int quality) {
   jpeg_set_quality(&job, quality, TRUE);
   job.dct_method = JDCT_ISLOW;
   jpeg_start_compress(&job, TRUE);
+  // Encode row by row.
   while (job.next_scanline < job.image_height) {
     JSAMPROW row = RowOf(picture, job.next_scanline);
     jpeg_write_scanlines(&job, &row, 1);
@@ -118,6 +124,7 @@ void DecodeJpeg(const std::string& jpeg, ColourImage& picture) {
   jpeg_create_decompress(&job);
   jpeg_mem_src(&job, reinterpret_cast<const unsigned char*>(jpeg.data()), jpeg.size());
   jpeg_read_header(&job, TRUE);
+  // Decode row by row.
   job.out_color_space = JCS_RGB;
   job.dct_method = JDCT_ISLOW;
   jpeg_start_decompress(&job);

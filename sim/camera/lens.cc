@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-/// Four floats that the compiler computes with at once.
+/// Four floats that the compiler processes in one vector.
 using Lanes = float __attribute__((vector_size(16)));
 Lanes LoadLanes(const Light* light) {
   Lanes colours;
@@ -23,9 +23,9 @@ void StoreLanes(const Lanes& colours, Light* light) {
   std::memcpy(static_cast<void*>(light), &colours, sizeof colours);
 }
 
-constexpr int kMostUnrolled = 6;
+constexpr int kMaxUnrolled = 6;
 
-/// Rows of floats about the middle one: rows[reach + i] is i away.
+/// Rows of floats around a centre: rows[reach + i] is i rows away.
 using Rows = const float* const*;
 
 /// Computes out[i] = Σ weights[k] · (row −k [i] + row k [i]), k = 0 … kReach, in one pass.
@@ -43,7 +43,7 @@ void WeighUnrolled(Rows rows, const float* weights, std::size_t count, float* __
   }
 }
 
-/// Weighs rows likewise for any reach, pass by pass; the sums have the same order.
+/// Computes the same for any reach in several passes; the sums are added in the same order.
 void WeighInPasses(Rows rows, int reach, const float* weights, std::size_t count, float* __restrict out) {
   for (std::size_t i = 0; i < count; ++i) out[i] = weights[0] * (rows[reach][i] + rows[reach][i]);
   for (int k = 1; k <= reach; ++k) {
@@ -64,8 +64,8 @@ void Weigh(Rows rows, int reach, const float* weights, std::size_t count, float*
       return WeighUnrolled<4>(rows, weights, count, out);
     case 5:
       return WeighUnrolled<5>(rows, weights, count, out);
-    case kMostUnrolled:
-      return WeighUnrolled<kMostUnrolled>(rows, weights, count, out);
+    case kMaxUnrolled:
+      return WeighUnrolled<kMaxUnrolled>(rows, weights, count, out);
     default:
       return WeighInPasses(rows, reach, weights, count, out);
   }
@@ -85,19 +85,20 @@ LensWarp::LensWarp(const Camera& camera)
     : width_(camera.intrinsics.width), height_(camera.intrinsics.height), pinhole_(camera) {
   if (camera.distortion.IsNone()) return;
   pinhole_.distortion = {};
-  std::vector<glm::dvec2> places;
+  std::vector<glm::dvec2> points;
+  // Undistort the centre of every pixel, and find the bounding box of the results.
   glm::dvec2 low(0), high(width_, height_);
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
       const glm::dvec2 here(x + 0.5, y + 0.5);
-      const auto place = UndistortPixel(camera, here);
-      assert(place && "so strong a distortion has no picture");
-      places.push_back(place.value_or(here));
-      low = glm::min(low, places.back());
-      high = glm::max(high, places.back());
+      const auto point = UndistortPixel(camera, here);
+      assert(point && "so strong a distortion has no picture");
+      points.push_back(point.value_or(here));
+      low = glm::min(low, points.back());
+      high = glm::max(high, points.back());
     }
   }
-  // A pixel more on every side, for the neighbours of the outermost.
+  // Enlarge the pinhole's picture to that box, plus one pixel on every side for interpolation.
   const glm::dvec2 margin = glm::ceil(-low) + 1.0, beyond = glm::ceil(high - glm::dvec2(width_, height_)) + 1.0;
   pinhole_.intrinsics.width += static_cast<int>(margin.x + beyond.x);
   pinhole_.intrinsics.height += static_cast<int>(margin.y + beyond.y);
@@ -105,10 +106,11 @@ LensWarp::LensWarp(const Camera& camera)
   pinhole_.intrinsics.cy += margin.y;
   assert(pinhole_.intrinsics.width <= kLargestPicture && pinhole_.intrinsics.height <= kLargestPicture);
 
+  // Store for every pixel its four source pixels, its nearest one, and the rows that each row needs.
   for (int y = 0; y < height_; ++y) {
     RowRange& rows = source_of_row_.emplace_back(RowRange{pinhole_.intrinsics.height, 0});
     for (int x = 0; x < width_; ++x) {
-      const glm::dvec2 centre = places[sources_.size()] + margin - 0.5;
+      const glm::dvec2 centre = points[sources_.size()] + margin - 0.5;
       const glm::dvec2 corner = glm::floor(centre);
       sources_.push_back({static_cast<std::int32_t>(corner.x), static_cast<std::int32_t>(corner.y),
                           static_cast<float>(centre.x - corner.x), static_cast<float>(centre.y - corner.y)});
@@ -177,6 +179,7 @@ View LensWarp::Warp(const View& pinhole) const {
     std::copy_n(&picture.At(0, rows.first), part.pixels.size(), part.pixels.begin());
     return part;
   };
+  // Convert colour to light, warp it, and convert back; labels and depth are looked up directly.
   View view;
   if (!pinhole.colour.pixels.empty()) {
     const ColourImage colour = rows_of(pinhole.colour);
@@ -205,7 +208,7 @@ Defocus::Defocus(double sigma_px) {
     exact.push_back(std::exp(-0.5 * i * i / (sigma_px * sigma_px)));
     sum += (i == 0 ? 1 : 2) * exact.back();
   }
-  // The middle is added to itself.
+  // The centre is added twice, so its weight is halved.
   exact[0] /= 2;
   for (const double weight : exact) weights_.push_back(static_cast<float>(weight / sum));
 }
@@ -224,7 +227,7 @@ void Defocus::BlurAcross(const Light* row, std::size_t width, Light* out) {
 void Defocus::Apply(LightImage& light) {
   const int reach = static_cast<int>(weights_.size()) - 1, height = light.height, kept = 2 * reach + 1;
   const std::size_t width = static_cast<std::size_t>(light.width);
-  // Rows blurred across, as many as one row needs about it.
+  // A ring of horizontally blurred rows, as many as one output row needs.
   across_.resize(static_cast<std::size_t>(kept) * width);
   const auto across = [&](int y) { return across_.data() + static_cast<std::size_t>(y % kept) * width; };
   int done = 0;
@@ -259,7 +262,7 @@ std::vector<Speck> ThrowSpecks(int width, int height, RandomStream& random) {
 }
 
 void AddDust(const std::vector<Speck>& specks, double strength, Transmission& transmission) {
-  constexpr double kReach = 6;  // radii, beyond which a shadow is below a thousandth
+  constexpr double kReach = 6;  // in radii; beyond this the shadow is below a thousandth
   for (const Speck& speck : specks) {
     const int left = std::max(0, static_cast<int>(speck.x - kReach * speck.radius));
     const int top = std::max(0, static_cast<int>(speck.y - kReach * speck.radius));

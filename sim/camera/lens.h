@@ -12,39 +12,38 @@
 
 namespace etude {
 
-/// Returns the distortion of those strengths for a camera with those intrinsics: k1 = radial / r², where r is the
-/// distance of the picture's farthest corner from the axis at distance 1; tangential |p| = strength / 3r, its direction
-/// by one throw.
+/// Returns the lens distortion for these effects and intrinsics: k1 = radial / r², where r is the distance of the
+/// picture's farthest corner from the axis at depth 1; |p| = tangential / 3r, in a random direction (one draw).
 Distortion LensDistortion(const CameraEffects& effects, const Intrinsics& intrinsics, RandomStream& random);
 
-/// Turns pictures of a pinhole into those of a lens. The renderer draws straight lines only: it draws a pinhole's
-/// picture of the same scale with a margin, and each pixel of the lens's picture is looked up there, by
+/// Warps pictures of a pinhole into pictures of a lens with distortion. The renderer draws straight lines only, so it
+/// draws a pinhole's picture of the same scale with a margin; every pixel of the lens is looked up in it by
 /// `UndistortPixel`.
 class LensWarp {
  public:
-  /// Every pixel of the camera must have a source: |radial| of a barrel stays below 0.14 for usual cameras.
+  /// Every pixel of the camera must have a source: for usual cameras |radial| of a barrel must be below 0.14.
   explicit LensWarp(const Camera& camera);
 
-  /// Returns the camera to draw for: without distortion, with as much more picture as the corners need; the camera
-  /// itself when it has no distortion.
+  /// Returns the camera for which to render: without distortion, and enlarged as far as the corners need. It is the
+  /// camera itself if there is no distortion.
   const Camera& pinhole() const { return pinhole_; }
   bool is_none() const { return sources_.empty(); }
 
-  /// Returns the pinhole's rows that these rows of the camera are made of.
+  /// Returns the pinhole's rows from which these rows of the camera are computed.
   RowRange SourceRows(const RowRange& rows) const;
 
-  /// Fills those rows (of a camera with distortion; else labels and depths are copied): light between four pixels,
-  /// labels and depths of the nearest. `source` holds the pinhole's rows SourceRows(rows) and no others. Empty pictures
-  /// stay empty.
+  /// Computes these rows of `out`: light by bilinear interpolation, labels and depths from the nearest pixel. `source`
+  /// must hold exactly the pinhole's rows SourceRows(rows). Without distortion, labels and depths are copied; light
+  /// must not be warped. Empty pictures stay empty.
   void Warp(const LightImage& source, const RowRange& rows, LightImage& out) const;
   void Warp(const LabelImage& source, const RowRange& rows, LabelImage& out) const;
   void Warp(const DepthImage& source, const RowRange& rows, DepthImage& out) const;
 
-  /// Returns a whole picture of the pinhole as the lens shows it; colour goes through light and back.
+  /// Returns a whole picture of the pinhole as the lens shows it; colour is interpolated in linear light.
   View Warp(const View& pinhole) const;
 
  private:
-  /// The source of a pixel: its upper left neighbour, and its distance from there.
+  /// The source of a pixel: its upper left neighbour, and the distance from there.
   struct Source {
     std::int32_t x, y;
     float right, down;
@@ -55,14 +54,13 @@ class LensWarp {
   int width_, height_;
   Camera pinhole_;
   std::vector<Source> sources_;          ///< empty without distortion
-  std::vector<std::int32_t> nearest_;    ///< likewise: each pixel's place in the pinhole's picture
+  std::vector<std::int32_t> nearest_;    ///< likewise: index of each pixel's nearest source pixel
   std::vector<RowRange> source_of_row_;  ///< likewise
 };
 
-/// Spreads every point to a Gaussian of standard deviation `sigma_px`, cut off beyond three of them; what lies outside
-/// is taken to be like the nearest pixel. A lens out of focus spreads a point to a disc, but its aberrations and the
-/// sensor's pixels round that off; MTF(f) = exp(−2π²σ²f²), f in cycles per pixel. Not deeper or shallower with
-/// distance.
+/// Blurs with a Gaussian of standard deviation `sigma_px`, truncated at three deviations; outside the picture the
+/// nearest pixel is repeated. A defocused lens spreads a point to a disc, but aberrations and the sensor's pixels
+/// smooth the disc. MTF(f) = exp(−2π²σ²f²), with f in cycles per pixel. The blur does not depend on depth.
 class Defocus {
  public:
   explicit Defocus(double sigma_px);
@@ -71,29 +69,29 @@ class Defocus {
  private:
   void BlurAcross(const Light* row, std::size_t width, Light* out);
 
-  std::vector<float> weights_;  ///< of the middle, and of those 1, 2, … away
+  std::vector<float> weights_;  ///< of the centre, and of distances 1, 2, …
   std::vector<Light> padded_row_, across_;
   std::vector<const float*> rows_;
 };
 
-/// The share of the light that reaches a pixel, 0…1.
+/// The share of the light that reaches each pixel, 0 to 1.
 using Transmission = Image<float>;
 
-/// Darkens towards the corners: cos(θ) to the power 4 · strength, θ between the pixel's ray and the axis. 1 is what
-/// geometry alone does to a lens; mounts and filters add to it.
+/// Darkens the corners by cos(θ) to the power 4 · strength, where θ is the angle between the pixel's ray and the axis.
+/// A strength of 1 is the geometric effect of any lens; mounts and filters add to it.
 void AddVignette(const Camera& camera, double strength, Transmission& transmission);
 
-/// A speck of dust before the sensor: its shadow is soft, because the light comes from the whole lens.
+/// A speck of dust in front of the sensor. Its shadow is soft, because light arrives from the whole lens.
 struct Speck {
   double x = 0, y = 0;  ///< pixels
-  double radius = 0;    ///< pixels, to where half of the shadow is left
+  double radius = 0;    ///< pixels; at this radius half of the shadow is left
 };
 
-/// Draws ten specks of 2 to 6 pixels, anywhere in a picture of that size.
+/// Draws ten specks with radii of 2 to 6 pixels, uniformly over a picture of that size.
 std::vector<Speck> ThrowSpecks(int width, int height, RandomStream& random);
 
-/// Darkens `transmission` by dust: each speck keeps `strength` of the light away in its middle, and half as much at its
-/// radius: strength / (1 + (d / radius)⁴) at distance d. Shadows of several multiply.
+/// Darkens `transmission` by dust: at distance d from its centre, a speck absorbs the share strength / (1 + (d /
+/// radius)⁴) of the light. Several shadows multiply.
 void AddDust(const std::vector<Speck>& specks, double strength, Transmission& transmission);
 
 }  // namespace etude

@@ -16,8 +16,8 @@ constexpr int kTableSize = 1 << kTableBits;
 constexpr std::size_t kDrawsPerWord = 64 / kTableBits;
 using NormalTable = std::array<float, kTableSize>;
 
-// The x below which a standard normal falls with this probability (0 < p < 1/2): Newton's method, which
-// from 0 walks down the convex half of the distribution without overshooting.
+// Returns the x below which a standard normal number falls with this probability (0 < p < 1/2) by Newton's method.
+// Started at 0, it descends the convex half of the distribution without overshooting.
 double LowerQuantile(double probability) {
   double x = 0;
   for (int i = 0; i < 40; ++i) {
@@ -28,8 +28,8 @@ double LowerQuantile(double probability) {
   return x;
 }
 
-// The middle of each of 1024 equally likely slices of the standard normal, in rising order, stretched by 0.06 % so that
-// their variance is 1.
+// Returns the medians of 1024 equally likely intervals of the standard normal distribution in ascending order, scaled
+// by 0.06 % to variance 1.
 const NormalTable& Normals() {
   static const NormalTable kNormals = [] {
     std::array<double, kTableSize / 2> lower;
@@ -49,14 +49,14 @@ const NormalTable& Normals() {
   return kNormals;
 }
 
-/// Writes a row with a mirrored pixel at either end: [−1] is [1].
+/// Copies a row with one mirrored pixel at either end: [−1] is [1].
 void Pad(const float* row, int width, float* padded) {
   padded[0] = row[1];
   for (int x = 0; x < width; ++x) padded[x + 1] = row[x];
   padded[width + 1] = row[width - 2];
 }
 
-/// The row's own colour (red or blue), green, and the colour of the rows above and below.
+/// The row's own colour (red or blue), green, and the colour of the neighbouring rows.
 struct Colours {
   float own, green, other;
 };
@@ -79,7 +79,7 @@ Light InOrder(const Colours& c) {
 
 template <bool kRedRow>
 void DemosaicRow(const float* above, const float* here, const float* below, int width, Light* out) {
-  // Red rows begin with their own colour, blue ones with green.
+  // Red rows begin with their own colour, blue rows with green.
   constexpr int kOwn = kRedRow ? 0 : 1;
   for (int x = kOwn; x < width; x += 2) out[x] = InOrder<kRedRow>(AtOwn(above + x, here + x, below + x));
   for (int x = 1 - kOwn; x < width; x += 2) out[x] = InOrder<kRedRow>(AtGreen(above + x, here + x, below + x));
@@ -93,13 +93,13 @@ void Disturb(const SensorNoise& noise, const float* normals, std::size_t count, 
 
 double AutomaticToning::Swing::At(double seconds) const { return std::sin(2 * kPi * seconds / period_s + phase); }
 
-AutomaticToning::Swing AutomaticToning::ThrowSwing(RandomStream& random) {
+AutomaticToning::Swing AutomaticToning::DrawSwing(RandomStream& random) {
   const double period_s = random.Uniform(4, 10);
   return {period_s, random.Uniform(0, 2 * kPi)};
 }
 
 AutomaticToning::AutomaticToning(const CameraEffects& effects, RandomStream& exposure, RandomStream& white_balance)
-    : effects_(effects), exposure_(ThrowSwing(exposure)), white_balance_(ThrowSwing(white_balance)) {}
+    : effects_(effects), exposure_(DrawSwing(exposure)), white_balance_(DrawSwing(white_balance)) {}
 
 Toning AutomaticToning::At(double seconds) const {
   const double stops = effects_.exposure_ev + effects_.exposure_drift_ev * exposure_.At(seconds);
@@ -117,37 +117,38 @@ SensorNoise WebcamNoise(double strength, double gain_db) {
           static_cast<float>(strength * std::sqrt(gain / kFullWellElectrons))};
 }
 
-const std::uint16_t* NormalRows::NextPlaces(std::size_t count) {
+const std::uint16_t* NormalRows::NextIndices(std::size_t count) {
   bits_.resize((count + kDrawsPerWord - 1) / kDrawsPerWord);
-  places_.resize(bits_.size() * kDrawsPerWord);
+  indices_.resize(bits_.size() * kDrawsPerWord);
   random_.FillBits(bits_);
-  std::uint16_t* out = places_.data();
+  std::uint16_t* out = indices_.data();
   for (const std::uint64_t bits : bits_) {
     for (std::size_t j = 0; j < kDrawsPerWord; ++j) {
       out[j] = static_cast<std::uint16_t>((bits >> (kTableBits * j)) & (kTableSize - 1));
     }
     out += kDrawsPerWord;
   }
-  return places_.data();
+  return indices_.data();
 }
 
 const float* NormalRows::Table() { return Normals().data(); }
 
 const float* NormalRows::Next(std::size_t count) {
-  const std::uint16_t* places = NextPlaces(count);
+  const std::uint16_t* indices = NextIndices(count);
   const float* table = Normals().data();
   normals_.resize(count);
-  for (std::size_t i = 0; i < count; ++i) normals_[i] = table[places[i]];
+  for (std::size_t i = 0; i < count; ++i) normals_[i] = table[indices[i]];
   return normals_.data();
 }
 
 CodeNoise::CodeNoise(const SensorNoise& noise) : outcomes_(std::size_t{256} * kTableSize) {
   const CodeTable& code_of = CodeTable::Get();
+  // Tabulate the outcomes of every code.
   for (int code = 0; code < 256; ++code) {
     const float light = LightOfCodes()[static_cast<std::size_t>(code)];
     std::uint8_t* outcome = outcomes_.data() + static_cast<std::size_t>(code) * kTableSize;
     const auto at = [&](float normal) { return code_of(Disturbed(noise, light, normal)); };
-    // Outcomes rise with the normal: whole runs are filled at once.
+    // Outcomes increase with the normal number, so whole runs of equal values are filled at once.
     const NormalTable& table = Normals();
     for (auto from = table.begin(); from != table.end();) {
       const std::uint8_t value = at(*from);
@@ -164,13 +165,14 @@ void CodeNoise::Apply(RandomStream& random, ColourImage& picture) const {
   const std::size_t values = 3 * static_cast<std::size_t>(picture.width);
   std::uint8_t* code = reinterpret_cast<std::uint8_t*>(picture.pixels.data());
   for (int y = 0; y < picture.height; ++y) {
-    const std::uint16_t* place = normals.NextPlaces(values);
-    for (std::size_t i = 0; i < values; ++i) code[i] = outcomes_[std::size_t{code[i]} * kTableSize + place[i]];
+    const std::uint16_t* index = normals.NextIndices(values);
+    for (std::size_t i = 0; i < values; ++i) code[i] = outcomes_[std::size_t{code[i]} * kTableSize + index[i]];
     code += values;
   }
 }
 
 void Demosaic(const Mosaic& mosaic, LightImage& out) {
+  // Keep three padded rows in a ring.
   const int width = mosaic.width, height = mosaic.height;
   const std::size_t stride = static_cast<std::size_t>(width) + 2;
   std::vector<float> rows(3 * stride);
@@ -191,10 +193,11 @@ void Demosaic(const Mosaic& mosaic, LightImage& out) {
 void Sensor::ReadColours(RandomStream& random, LightImage& light) const {
   const std::size_t width = static_cast<std::size_t>(light.width);
   const float* table = NormalRows::Table();
-  NormalRows throws(random);
-  std::vector<float> normals(4 * width);  // as light lies: the fourth of a pixel is nothing
+  NormalRows numbers(random);
+  std::vector<float> normals(4 * width);  // four per pixel like the light; the fourth is unused
   const float gains[] = {toning.red, toning.green, toning.blue, 1};
   for (int y = 0; y < light.height; ++y) {
+    // Light that reaches the sensor.
     float* values = &light.At(0, y).r;
     if (transmission == nullptr) {
       for (std::size_t i = 0; i < 4 * width; ++i) values[i] *= toning.exposure;
@@ -204,13 +207,15 @@ void Sensor::ReadColours(RandomStream& random, LightImage& light) const {
         for (std::size_t c = 0; c < 4; ++c) values[4 * x + c] *= toning.exposure * passes[x];
       }
     }
+    // Noise.
     if (!noise.IsNone()) {
-      const std::uint16_t* places = throws.NextPlaces(3 * width);
+      const std::uint16_t* indices = numbers.NextIndices(3 * width);
       for (std::size_t x = 0; x < width; ++x) {
-        for (std::size_t c = 0; c < 3; ++c) normals[4 * x + c] = table[places[3 * x + c]];
+        for (std::size_t c = 0; c < 3; ++c) normals[4 * x + c] = table[indices[3 * x + c]];
       }
       Disturb(noise, normals.data(), 4 * width, values);
     }
+    // Gains of the white balance.
     for (std::size_t x = 0; x < width; ++x) {
       for (std::size_t c = 0; c < 4; ++c) values[4 * x + c] *= gains[c];
     }
@@ -220,31 +225,34 @@ void Sensor::ReadColours(RandomStream& random, LightImage& light) const {
 void Sensor::ReadMosaic(const LightImage& light, RandomStream& random, Mosaic& out) const {
   const std::size_t width = static_cast<std::size_t>(light.width);
   const float* table = NormalRows::Table();
-  NormalRows throws(random);
+  NormalRows numbers(random);
   std::vector<float> normals(width);
   for (int y = 0; y < light.height; ++y) {
     const Light* row = &light.At(0, y);
     float* values = &out.At(0, y);
-    // The two colours of this row: in its even pixels, and in its odd ones.
+    // Take the row's two colours, from its even and its odd pixels.
     const bool red_row = (y & 1) == 0;
     for (std::size_t x = 0; x + 1 < width; x += 2) {
       values[x] = red_row ? row[x].r : row[x].g;
       values[x + 1] = red_row ? row[x + 1].g : row[x + 1].b;
     }
     if (width % 2 == 1) values[width - 1] = red_row ? row[width - 1].r : row[width - 1].g;
+    // Light that reaches the sensor.
     if (transmission == nullptr) {
       for (std::size_t x = 0; x < width; ++x) values[x] *= toning.exposure;
     } else {
       const float* passes = &transmission->At(0, y);
       for (std::size_t x = 0; x < width; ++x) values[x] *= toning.exposure * passes[x];
     }
+    // Noise.
     if (!noise.IsNone()) {
-      const std::uint16_t* places = throws.NextPlaces(3 * width);
+      const std::uint16_t* indices = numbers.NextIndices(3 * width);
       for (std::size_t x = 0; x < width; ++x) {
-        normals[x] = table[places[3 * x + static_cast<std::size_t>(BayerColour(static_cast<int>(x), y))]];
+        normals[x] = table[indices[3 * x + static_cast<std::size_t>(BayerColour(static_cast<int>(x), y))]];
       }
       Disturb(noise, normals.data(), width, values);
     }
+    // Gains of the white balance.
     const float gains[] = {red_row ? toning.red : toning.green, red_row ? toning.green : toning.blue};
     if (gains[0] == 1 && gains[1] == 1) continue;
     for (std::size_t x = 0; x < width; ++x) values[x] *= gains[x & 1];

@@ -14,18 +14,17 @@ namespace etude {
 
 /// The exposure of a picture and the gains of its three colours.
 struct Toning {
-  float exposure = 1;                  ///< times the light that falls on the sensor
-  float red = 1, green = 1, blue = 1;  ///< times what the sensor tells
+  float exposure = 1;                  ///< factor on the light that falls on the sensor
+  float red = 1, green = 1, blue = 1;  ///< factors on the values that the sensor reads
   friend bool operator==(const Toning&, const Toning&) = default;
 };
 
-/// An automatic exposure and white balance that are never quite right: each wanders slowly and regularly about its
-/// setting, 4 to 10 seconds to and fro, by throws of their own.
+/// An automatic exposure and white balance with errors: each oscillates slowly about its setting, with a period of 4 to
+/// 10 seconds, independently of the other.
 class AutomaticToning {
  public:
   AutomaticToning(const CameraEffects& effects, RandomStream& exposure, RandomStream& white_balance);
-  /// Returns the toning at a time: exposure = 2^(ev + drift · sin); red / blue = 2^(balance + drift · sin), green is
-  /// left alone.
+  /// Returns the toning at a time: exposure = 2^(ev + drift · sin); red / blue = 2^(balance + drift · sin); green is 1.
   Toning At(double seconds) const;
 
  private:
@@ -33,89 +32,88 @@ class AutomaticToning {
     double period_s, phase;
     double At(double seconds) const;
   };
-  static Swing ThrowSwing(RandomStream& random);
+  static Swing DrawSwing(RandomStream& random);
 
   const CameraEffects effects_;
   const Swing exposure_, white_balance_;
 };
 
-/// Shot and read noise of a sensor, told in linear light v (1 = a full pixel at this gain):
+/// Shot and read noise of a sensor in linear light v (1 = a full pixel at this gain):
 ///
 ///     variance = read² + photon² · v
 ///
-/// Independent per pixel and colour.
+/// It is independent between pixels and colours.
 struct SensorNoise {
   float read = 0;
   float photon = 0;
   bool IsNone() const { return read == 0 && photon == 0; }
 };
 
-/// Returns the noise of an indoor webcam with pixels of 3000 electrons, read with an error of 3: about 3 counts of an
-/// 8-bit picture in the dark, 2.4 at mid-grey, 2 in the light (ours). `strength` multiplies deviations. Amplified by
-/// `gain_db`, a pixel is full with so many fewer electrons.
+/// Returns the noise of an indoor webcam whose pixels hold 3000 electrons, with a read noise of 3 electrons: about 3
+/// codes of an 8-bit picture in the dark, 2.4 at mid-grey, 2 in the light (ours). `strength` multiplies the standard
+/// deviations. A gain of `gain_db` fills a pixel with proportionally fewer electrons.
 SensorNoise WebcamNoise(double strength, double gain_db);
 
-/// Standard normal numbers, six out of each draw: a table of 1024 equally likely quantiles (nothing beyond 3.3
-/// deviations). Each row of a picture takes ⌈count / 6⌉ draws.
+/// Draws standard normal numbers, six per 64 random bits, from a table of 1024 equally likely quantiles (so none is
+/// beyond 3.3 deviations). Each row of a picture uses ⌈count / 6⌉ words.
 class NormalRows {
  public:
   explicit NormalRows(RandomStream& random) : random_(random) {}
   /// Returns `count` numbers, valid until the next call.
   const float* Next(std::size_t count);
-  /// Returns the numbers as places in the table.
-  const std::uint16_t* NextPlaces(std::size_t count);
-  /// Returns the table of numbers by place.
+  /// Returns the numbers as indices of the table.
+  const std::uint16_t* NextIndices(std::size_t count);
+  /// Returns the table of numbers.
   static const float* Table();
 
  private:
   RandomStream& random_;
   std::vector<std::uint64_t> bits_;
-  std::vector<std::uint16_t> places_;
+  std::vector<std::uint16_t> indices_;
   std::vector<float> normals_;
 };
 
-/// Returns the noisy value of light v for a standard normal number; a full pixel takes no more light.
+/// Returns the noisy value of light v for a standard normal number, clipped at a full pixel.
 inline float Disturbed(const SensorNoise& noise, float light, float normal) {
   const float deviation = std::sqrt(noise.read * noise.read + noise.photon * noise.photon * (light > 0 ? light : 0));
   const float seen = light + deviation * normal;
   return seen < 1 ? seen : 1;
 }
 
-/// Noise for pictures that need nothing else, the same bytes as from light and faster: decoded, disturbed, encoded by
-/// one table of every code's 1024 outcomes.
+/// Noise for pictures without any other effect. The bytes are the same as by way of light, but faster: one table holds
+/// the 1024 outcomes of decoding, adding noise and encoding for every code.
 class CodeNoise {
  public:
   explicit CodeNoise(const SensorNoise& noise);
   void Apply(RandomStream& random, ColourImage& picture) const;
 
  private:
-  std::vector<std::uint8_t> outcomes_;  ///< [code][place in the table of normals]
+  std::vector<std::uint8_t> outcomes_;  ///< [code][index in the table of normals]
 };
 
-/// The picture of one chip under a Bayer filter: each pixel has one colour only, red where row and column are even,
-/// blue where both are odd, green elsewhere.
+/// The picture of a chip under a Bayer filter: each pixel has one colour, red where row and column are even, blue where
+/// both are odd, green elsewhere.
 using Mosaic = Image<float>;
 
-/// Returns which of r, g, b a pixel of the mosaic holds: 0, 1 or 2.
+/// Returns the colour (0, 1, 2 for r, g, b) that a pixel of the mosaic holds.
 constexpr int BayerColour(int x, int y) { return (x & 1) + (y & 1); }
 
-/// Interpolates the two colours that each pixel lacks, as the mean of the nearest two or four that have them: bilinear
-/// demosaicing, the baseline that better ones are compared with. Beyond an edge the mosaic is mirrored. At least 2 × 2
-/// pixels.
-/// @param out of the mosaic's size
+/// Interpolates the two missing colours of each pixel as the mean of the nearest two or four pixels that have them.
+/// This bilinear demosaicing is the usual baseline. The mosaic is mirrored at its edges; it has at least 2 × 2 pixels.
+/// @param out has the mosaic's size
 void Demosaic(const Mosaic& mosaic, LightImage& out);
 
-/// The sensor, from the light behind the lens to the values that it reads: light × transmission × exposure, noise, then
-/// the gains of the white balance.
+/// The sensor's model: light behind the lens × transmission × exposure, plus noise, times the gains of the white
+/// balance.
 struct Sensor {
-  const Transmission* transmission = nullptr;  ///< of the light's size; none: all light passes
+  const Transmission* transmission = nullptr;  ///< of the light's size; null: all light passes
   Toning toning{};
   SensorNoise noise{};
 
-  /// Reads the light with a chip for each colour. Each row throws for three colours a pixel.
+  /// Reads the light with one chip per colour. Each row draws numbers for three colours a pixel.
   void ReadColours(RandomStream& random, LightImage& light) const;
-  /// Reads the light with one chip under a Bayer filter; of the throws of ReadColours it uses those of the colours that
-  /// are there.
+  /// Reads the light with one chip under a Bayer filter. It draws the same numbers as ReadColours and uses those of the
+  /// existing colours.
   void ReadMosaic(const LightImage& light, RandomStream& random, Mosaic& out) const;
 };
 

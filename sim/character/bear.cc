@@ -15,9 +15,9 @@ constexpr Rgb8 kBlush{240, 138, 112};
 constexpr Rgb8 kShine{255, 255, 255};
 constexpr Rgb8 kRibbon{32, 150, 170};
 
-// Centimetres throughout. The skeleton is an adult's, the head of a toy's size.
+// All lengths are in centimetres. The skeleton is an adult's, and the head has a toy's proportions.
 
-/// The trunk reaches from under the seat to the throat, which the head hides. A low seat makes an adult's long legs
+/// The trunk reaches from below the seat to the throat, which the head hides. A low seat makes an adult's long legs
 /// look short.
 const Tube kTrunk{.name = "trunk",
                   .chain = {kHipCentre, kSpine, kShoulderCentre},

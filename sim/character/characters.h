@@ -7,7 +7,7 @@ namespace etude {
 /// Generates the coach, a friendly low-poly toy bear (paper A, figure 16), bound to BodySkeleton(StandingPose()).
 Character BearCharacter();
 
-/// Generates the learner, a plain mannequin, bound likewise.
+/// Generates the learner, a plain mannequin, bound to the same skeleton.
 Character MannequinCharacter();
 
 }  // namespace etude

@@ -15,12 +15,12 @@ namespace {
 
 using enum Role;
 
-/// The pieces of a dressed person on the body at rest, by what they are painted with.
+/// The pieces of a dressed person on the body at rest, grouped by their paint.
 struct DressedPieces {
   std::vector<Piece> skin, hair, eyes, top, bottom, shoes;
 };
 
-// How much wider than the medium build its parts are.
+// The widths of a build's parts relative to those of the medium build.
 struct Girth {
   double trunk, belly, limbs, head;
 };
@@ -41,7 +41,7 @@ Girth GirthOf(Build build) {
   return {1, 1, 1, 1};
 }
 
-// Centimetres throughout, on the standing body.
+// All lengths are in centimetres on the standing body.
 using Rings = std::vector<Tube::Ring>;
 
 Rings Scaled(Rings rings, double by, double margin_cm = 0) {
@@ -52,7 +52,7 @@ Rings Scaled(Rings rings, double by, double margin_cm = 0) {
   return rings;
 }
 
-// The rings up to `end_cm`, the last one there.
+// Returns the rings up to `end_cm`, with a last ring interpolated there.
 Rings CutOff(const Rings& rings, double end_cm) {
   Rings cut;
   for (std::size_t i = 0; i < rings.size(); ++i) {
@@ -74,7 +74,7 @@ const Rings kArmRings{{-3, 4.6, 4.8}, {3, 5, 5.2},  {10, 4.9, 5},   {19, 4.3, 4.
 const Rings kLegRings{{-4, 8, 8.6},   {4, 8.4, 9},        {14, 8, 8.6},         {27, 6.7, 7.2}, {37, 5.6, 5.9},
                       {43, 5.3, 5.7}, {53, 5.5, 6, -0.7}, {65, 4.5, 4.9, -0.4}, {78, 3.5, 3.8}, {84, 3.4, 3.8}};
 
-// Round both sides of the body.
+// Adds a piece and its mirror image.
 void AddBoth(std::vector<Piece>& pieces, const Piece& left) {
   pieces.push_back(left);
   pieces.push_back(MirrorImage(left));
@@ -102,6 +102,7 @@ Tube LegTube(Rings rings, double first_cap, double last_cap) {
 
 void AddHead(const Girth& girth, bool long_hair, const BodyPose& rest, DressedPieces& pieces) {
   const double g = girth.head;
+  // Skull, neck, nose and eyes.
   const Tube skull{.name = "skull",
                    .chain = {kHead},
                    .rings = Scaled({{-10, 4, 4.6, 2.4},
@@ -135,7 +136,7 @@ void AddHead(const Girth& girth, bool long_hair, const BodyPose& rest, DressedPi
                                       .half_cm = glm::dvec3(1.1, 0.8, 0.8) * g,
                                       .around = 8},
                                  rest));
-  // A cap that leaves the face free: farther back the lower it reaches.
+  // A cap of hair that leaves the face free: the lower its rings, the farther back they are.
   pieces.hair.push_back(MakePiece(Tube{.name = "hair",
                                        .chain = {kHead},
                                        .rings = Scaled({{-3, 6.6, 5.4, -4.6},
@@ -164,7 +165,7 @@ void AddTrunk(const Girth& girth, const BodyPose& rest, DressedPieces& pieces) {
               {21, 14.8, 11.2, 0.4}, {31, 16.4, 11.8, 0.6}, {38, 17, 11.4, 0.2},
               {44, 15.6, 9.8, -0.2}, {48.5, 11, 7.4, -0.6}, {51, 7, 6, -0.8}};
   for (Tube::Ring& ring : rings) {
-    // The belly is widest below the middle; shoulders are as wide as their joints are apart.
+    // The belly is widest below the middle; the shoulders' width follows their joints.
     const double low = std::clamp((36 - ring.along_cm) / 24, 0.0, 1.0);
     ring.side_cm *= std::lerp(g, b, low);
     ring.front_cm *= std::lerp(g, b, low);
@@ -178,6 +179,7 @@ void AddTrunk(const Girth& girth, const BodyPose& rest, DressedPieces& pieces) {
                                       .last_cap_cm = 1.5,
                                       .around = 20},
                                  rest));
+  // Collars and shoulders.
   AddBoth(pieces.top, MakePiece(Tube{.name = "collar",
                                      .chain = {kShoulderCentre, kLeftShoulder},
                                      .rings = Scaled({{2, 5.4, 5.6}, {8, 5.8, 6}, {13, 5.6, 5.8}, {17, 5, 5.2}}, g),
@@ -206,18 +208,19 @@ void AddArms(const Girth& girth, double sleeve_cm, const BodyPose& rest, Dressed
                          .last_cap_cm = 3.5,
                          .around = 10},
                     rest));
-  // A sleeve too short to be one leaves the arm bare up to the shoulder's ball.
+  // A sleeve of less than 4 cm is left out; the arm is then bare up to the shoulder.
   if (sleeve_cm < 4) return;
   const double loose = sleeve_cm < 40 ? 1.4 : 0.9;
   AddBoth(pieces.top, MakePiece(ArmTube(Scaled(CutOff(kArmRings, std::min(sleeve_cm, 55.0)), g, loose), 1, 0.2), rest));
 }
 
-/// Makes a skirt from the waist down around both legs; each side of it goes with its leg.
+/// Makes a skirt from the waist down around both legs; each side follows its leg.
 Piece MakeSkirt(const Girth& girth, double length_cm, const BodyPose& rest) {
   Piece skirt;
   constexpr int kAround = 28, kRings = 7;
   const double waist = 15.4 * girth.belly, hem = waist + 5 + 0.16 * length_cm;
   const glm::dvec3 centre = rest[kHipCentre];
+  // A vertex follows the hips at the waist and a mix of both legs below.
   const auto add = [&](double down_cm, double side_cm, double front_cm, double angle) {
     const double c = std::cos(angle), s = std::sin(angle);
     Piece::Vertex vertex;
@@ -231,6 +234,7 @@ Piece MakeSkirt(const Girth& girth, double length_cm, const BodyPose& rest) {
     }
     skirt.vertices.push_back(vertex);
   };
+  // Rings from the waist to the hem, between two poles.
   add(-7, 0, 0, 0);
   for (int ring = 0; ring < kRings; ++ring) {
     const double t = static_cast<double>(ring) / (kRings - 1), down = std::lerp(-6.0, length_cm, t);
@@ -241,6 +245,7 @@ Piece MakeSkirt(const Girth& girth, double length_cm, const BodyPose& rest) {
     }
   }
   add(length_cm, 0, 0, 0);
+  // Connect the rings.
   const auto last = static_cast<std::uint32_t>(skirt.vertices.size() - 1);
   const auto at = [&](int ring, int i) { return static_cast<std::uint32_t>(1 + ring * kAround + i % kAround); };
   for (int i = 0; i < kAround; ++i) {
@@ -264,6 +269,7 @@ void AddLegs(const Outfit& outfit, const Girth& girth, const BodyPose& rest, Dre
            .last_cap_cm = 1,
            .around = 16},
       rest));
+  // Shoes.
   AddBoth(pieces.shoes, MakePiece(Blob{.name = "shoe",
                                        .joint = kLeftAnkle,
                                        .centre_cm = {1.3, -4, 6},
@@ -272,6 +278,7 @@ void AddLegs(const Outfit& outfit, const Girth& girth, const BodyPose& rest, Dre
                                        .sole_cm = 0,
                                        .around = 12},
                                   rest));
+  // Skirt or trousers, and the skin that they leave bare.
   const double leg_cm = outfit.is_skirt ? 0 : std::min(outfit.leg_cm, 83.0);
   if (leg_cm < 70) AddBoth(pieces.skin, MakePiece(LegTube(Scaled(kLegRings, g), 2, 1), rest));
   if (outfit.is_skirt) {
@@ -280,7 +287,7 @@ void AddLegs(const Outfit& outfit, const Girth& girth, const BodyPose& rest, Dre
   }
   const double loose = leg_cm < 50 ? 1.6 : 0.9;
   AddBoth(pieces.bottom, MakePiece(LegTube(Scaled(CutOff(kLegRings, leg_cm), g, loose), 3, 0.2), rest));
-  // A bare ankle shows between hem and shoe.
+  // A bare ankle is visible between hem and shoe.
   if (leg_cm >= 70) {
     AddBoth(pieces.skin, MakePiece(Blob{.name = "ankle",
                                         .joint = kLeftAnkle,
@@ -291,7 +298,7 @@ void AddLegs(const Outfit& outfit, const Girth& girth, const BodyPose& rest, Dre
   }
 }
 
-/// Sleeves and trousers are tubes of their own over arms and legs, and end at their hems.
+/// Makes all pieces. Sleeves and trousers are separate tubes over arms and legs that end at their hems.
 DressedPieces MakeDressedPieces(const Outfit& outfit, const BodyPose& rest) {
   const Girth girth = GirthOf(outfit.build);
   DressedPieces pieces;
@@ -312,6 +319,7 @@ struct PaintedPieces {
 
 DressedPerson::DressedPerson(const Outfit& outfit) {
   const BodyPose rest = StandingPose();
+  // Make the pieces, grouped by their paint.
   DressedPieces made = MakeDressedPieces(outfit, rest);
   const SurfacePaint eyes{.first = {40, 30, 28}, .second = {40, 30, 28}};
   std::vector<PaintedPieces> all;
@@ -322,12 +330,14 @@ DressedPerson::DressedPerson(const Outfit& outfit) {
   all.push_back({"bottom", outfit.bottom, std::move(made.bottom)});
   all.push_back({"shoes", outfit.shoes, std::move(made.shoes)});
 
+  // Bind them to the skeleton, one mesh per paint.
   CharacterBuilder builder("dressed person", rest);
   for (const PaintedPieces& painted : all) {
     const int material = builder.AddMaterial(painted.name, painted.paint.first);
     for (const Piece& piece : painted.pieces) builder.Add(material, piece);
   }
   character_ = std::move(builder).Take();
+  // Prepare what does not depend on the pose.
   still_ = StillSurfaces(character_, PartsOfJoints(character_.skeleton));
   for (std::size_t i = 0; i < all.size(); ++i) {
     Surface& surface = still_[i];

@@ -9,11 +9,11 @@ namespace {
 
 using enum Role;
 
-// Colours, sRGB: warm hues as the captured performer's, away from the room's.
+// Colours, sRGB: warm hues like the captured performer's, unlike the room's.
 constexpr Rgb8 kWood{208, 192, 170};
 constexpr Rgb8 kAccent{206, 92, 52};
 
-// Centimetres throughout; an artist's lay figure: turned wood, and balls where it moves.
+// All lengths are in centimetres. The model is an artist's lay figure: turned wood, with balls at the joints.
 
 const Tube kPelvis{.name = "pelvis",
                    .chain = {kHipCentre},
@@ -33,7 +33,7 @@ const Tube kChest{.name = "chest",
                   .first_cap_cm = 2,
                   .last_cap_cm = 2,
                   .around = 16};
-/// Leans with the head, about its base in the chest.
+/// The neck leans with the head about its base in the chest.
 const Tube kNeck{.name = "neck",
                  .chain = {kHead},
                  .rings = {{-22, 4.9, 4.9, -1}, {-12, 4.6, 4.6, -0.6}, {-6, 4.5, 4.5}},
@@ -57,7 +57,7 @@ const Blob kNosePiece{.name = "nose",
                  .half_cm = {1.2, 2.6, 1.6},
                  .tilt_deg = {-14, 0, 0},
                  .around = 8};
-/// Shows from afar which way the head leans and faces: higher in front.
+/// Higher in front, so that the direction of the head is visible from afar.
 const Tube kBand{.name = "headband",
                  .chain = {kHead},
                  .rings = {{5, 8.25, 10.1, -0.1}, {8, 7.85, 9.7, -0.4}},
@@ -65,8 +65,8 @@ const Tube kBand{.name = "headband",
                  .last_cap_cm = 0.3,
                  .around = 16};
 
-/// Turned pieces: each rigid on the joint at its beginning, thick in the muscle, thin at its ends. The collar alone is
-/// soft at its end: shoulders rise with the arms.
+/// Turned pieces: each is rigid, moves with the joint at its start, and is thick in the middle and thin at its ends.
+/// Only the collar is blended at its end, because shoulders rise with the arms.
 const std::array kLimbs = {
     Tube{.name = "collar",
          .chain = {kShoulderCentre, kLeftShoulder},

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kMetresPerCm = 0.01;
 
-/// Closes rings of `around` vertices each, which follow the vertex of the first pole and are followed by that of the
-/// last, into a skin. Seen from the last pole, rings run counter-clockwise.
+/// Connects rings of `around` vertices each to a closed surface. The vertices are: first pole, rings, last pole. Seen
+/// from the last pole, the rings run counter-clockwise.
 void CloseRings(Piece& piece, int around) {
   const auto n = static_cast<std::uint32_t>(around);
   const auto last_pole = static_cast<std::uint32_t>(piece.vertices.size() - 1);
@@ -34,7 +34,7 @@ void CloseRings(Piece& piece, int around) {
 
 double CornerAngle(int corner, int around) { return 2 * kPi * corner / around; }
 
-/// The shape of a tube, in metres.
+/// The geometry of a tube, in metres.
 class TubeShape {
  public:
   TubeShape(const Tube& tube, const BodyPose& rest) : tube_(tube) {
@@ -47,7 +47,7 @@ class TubeShape {
     }
   }
 
-  /// Returns the ring that the table means at `along_cm`, within it.
+  /// Returns the ring interpolated at `along_cm`, clamped to the tube.
   Tube::Ring RingAt(double along_cm) const {
     std::size_t i = 0;
     while (i + 2 < tube_.rings.size() && tube_.rings[i + 1].along_cm < along_cm) ++i;
@@ -57,14 +57,13 @@ class TubeShape {
             std::lerp(a.front_cm, b.front_cm, t), std::lerp(a.ahead_cm, b.ahead_cm, t)};
   }
 
-  /// Returns a point of the ring at `angle` from the left over the front, `lift` metres above the skin, with its
-  /// weights.
+  /// Returns the vertex of a ring at `angle` (0 = left, π/2 = front), `lift` metres above the skin, with its weights.
   Piece::Vertex VertexAt(const Tube::Ring& ring, double angle, double lift = 0) const {
     const double along = ring.along_cm * kMetresPerCm;
     const auto [centre, direction] = PathAt(along);
     const glm::dvec3 forward(0, 0, 1);
     const glm::dvec3 front = glm::normalize(forward - glm::dot(forward, direction) * direction);
-    // Left for a chain that climbs and for one that descends.
+    // Left must be the same for ascending and descending chains.
     const glm::dvec3 side = glm::cross(direction, front) * (direction.y < 0 ? -1.0 : 1.0);
     const double c = std::cos(angle), s = std::sin(angle);
     glm::dvec3 position =
@@ -77,7 +76,7 @@ class TubeShape {
 
  private:
   struct PathPoint {
-    glm::dvec3 place, direction;
+    glm::dvec3 position, direction;
   };
 
   PathPoint PathAt(double along) const {
@@ -104,8 +103,8 @@ class TubeShape {
   std::vector<double> starts_;
 };
 
-/// Makes half an ellipsoid on the end of a tube: smaller rings ever farther out, then the pole. In order from the tube
-/// outwards; `out` is −1 before the first ring.
+/// Makes half an ellipsoid at the end of a tube: shrinking rings from the tube outwards, then the pole. `out` is −1
+/// before the first ring and 1 behind the last.
 std::vector<Tube::Ring> Cap(const Tube::Ring& end, double length_cm, double out) {
   constexpr int kRings = 3;
   std::vector<Tube::Ring> cap;
@@ -122,7 +121,7 @@ void TurnInsideOut(Piece& piece) {
   for (auto& triangle : piece.triangles) std::swap(triangle[1], triangle[2]);
 }
 
-/// Computes the normal of each vertex: the mean of its triangles' normals, weighted by their areas.
+/// Computes the normal of each vertex as the area-weighted mean of its triangles' normals.
 std::vector<glm::dvec3> Normals(const Piece& piece) {
   std::vector<glm::dvec3> normals(piece.vertices.size(), glm::dvec3(0));
   for (const auto& [a, b, c] : piece.triangles) {
@@ -148,6 +147,7 @@ Piece MirrorImage(const Piece& piece) {
 
 Piece MakePiece(const Blob& blob, const BodyPose& rest) {
   Piece piece;
+  // A vertex of the tilted ellipsoid at a latitude and longitude; the sole is cut flat.
   const glm::dmat3 tilt =
       RotationZ(Radians(blob.tilt_deg.z)) * RotationY(Radians(blob.tilt_deg.y)) * RotationX(Radians(blob.tilt_deg.x));
   const glm::dvec3 centre = rest[blob.joint] + blob.centre_cm * kMetresPerCm;
@@ -158,10 +158,11 @@ Piece MakePiece(const Blob& blob, const BodyPose& rest) {
     position.y = std::max(position.y, blob.sole_cm * kMetresPerCm);
     piece.vertices.push_back({.position = position, .joints = {blob.joint, blob.joint}});
   };
+  // Poles and rings.
   const int steps = blob.around / 2;
   add(-kPi / 2, 0);
   for (int ring = 1; ring < steps; ++ring) {
-    // Backwards around: counter-clockwise seen from the upper pole.
+    // The angle decreases, so that the ring runs counter-clockwise seen from the upper pole.
     for (int i = 0; i < blob.around; ++i) add(kPi * ring / steps - kPi / 2, -CornerAngle(i, blob.around));
   }
   add(kPi / 2, 0);
@@ -191,6 +192,7 @@ Piece MakePiece(const Tube& tube, const BodyPose& rest) {
 
 Piece MakePiece(const Patch& patch, const Tube& tube, const BodyPose& rest) {
   constexpr int kRings = 5, kAround = 20;
+  // A vertex of the sheet at a radius (1 = edge) and angle around its centre.
   const TubeShape shape(tube, rest);
   Piece piece;
   const auto add = [&](double radius, double angle, double lift_cm) {
@@ -198,16 +200,18 @@ Piece MakePiece(const Patch& patch, const Tube& tube, const BodyPose& rest) {
     const double round = kPi / 2 - Radians(patch.half_angle_deg) * radius * std::cos(angle);
     piece.vertices.push_back(shape.VertexAt(ring, round, lift_cm * kMetresPerCm));
   };
+  // Rings from the centre to the edge.
   add(0, 0, patch.lift_cm);
   for (int ring = 1; ring <= kRings; ++ring) {
-    // Level inside, down through the tube's skin at the edge.
+    // Inner rings are level; the edge goes down through the tube's skin.
     const bool edge = ring == kRings;
     const double radius = edge ? 1 : 0.97 * ring / (kRings - 1);
     for (int i = 0; i < kAround; ++i) {
       add(radius, CornerAngle(i, kAround), edge ? -patch.lift_cm : patch.lift_cm);
     }
   }
-  add(0, 0, -2 * patch.lift_cm);  // the middle of its back, hidden in the tube
+  add(0, 0, -2 * patch.lift_cm);  // the centre of the back, hidden in the tube
+  // Connect the rings on the front, and the edge with the back.
   const auto back = static_cast<std::uint32_t>(piece.vertices.size() - 1);
   const auto at = [&](int ring, int i) { return static_cast<std::uint32_t>(1 + (ring - 1) * kAround + i % kAround); };
   for (int i = 0; i < kAround; ++i) {
@@ -225,6 +229,7 @@ Piece MakePiece(const Rope& rope, const BodyPose& rest) {
   constexpr int kAround = 6;
   Piece piece;
   const auto& points = rope.points_cm;
+  // One ring of corners per point, between two poles.
   const auto add = [&](const glm::dvec3& from_joint_cm) {
     piece.vertices.push_back(
         {.position = rest[rope.joint] + from_joint_cm * kMetresPerCm, .joints = {rope.joint, rope.joint}});
@@ -254,7 +259,7 @@ CharacterBuilder::CharacterBuilder(std::string name, const BodyPose& rest) : res
 int CharacterBuilder::AddMaterial(std::string name, Rgb8 colour) {
   const int material = static_cast<int>(character_.materials.size());
   SkinnedMesh mesh{.name = name, .material = material, .bindings = {}, .vertices = {}, .triangles = {}};
-  // Bindings are numbered as roles are; at rest all axes are the world's.
+  // Bindings have the roles' indices; at rest all joints have the world's axes.
   for (const Role role : AllRoles()) {
     glm::dmat4 inverse_bind(1);
     inverse_bind[3] = glm::dvec4(-rest_[role], 1);

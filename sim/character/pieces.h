@@ -13,7 +13,7 @@
 
 namespace etude {
 
-/// A piece of a character: a surface on the body at rest (metres), and which joints move it.
+/// A piece of a character: a surface on the body at rest (metres) and the joints that move it.
 struct Piece {
   struct Vertex {
     glm::dvec3 position{0};
@@ -24,52 +24,53 @@ struct Piece {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
 };
 
-/// Returns the mirror image of a piece, for the body's other side.
+/// Returns the mirror image of a piece for the body's other side.
 Piece MirrorImage(const Piece& piece);
 
-/// A rounded body that moves with one joint; lengths in centimetres, axes as the body at rest: left, up, forward.
+/// An ellipsoid that moves with one joint. Lengths are in centimetres; the axes are those of the body at rest: left,
+/// up, forward.
 struct Blob {
   std::string name;
   Role joint;
-  glm::dvec3 centre_cm;    ///< from the joint
-  glm::dvec3 half_cm;      ///< half its size along the three axes, before it is tilted
+  glm::dvec3 centre_cm;    ///< relative to the joint
+  glm::dvec3 half_cm;      ///< half sizes along the three axes, before the tilt
   glm::dvec3 tilt_deg{0};  ///< about left, then up, then forward
-  /// The lowest height above the floor, for a foot's flat sole.
+  /// The minimum height above the floor, for a foot's flat sole.
   double sole_cm = -std::numeric_limits<double>::infinity();
-  int around = 16;  ///< corners of its equator; half as many rings from pole to pole
+  int around = 16;  ///< number of corners of the equator; half as many rings from pole to pole
 };
 Piece MakePiece(const Blob& blob, const BodyPose& rest);
 
-/// A tube along a chain of joints, round at both ends; lengths in centimetres. Every stretch moves with the joint at
-/// its beginning; across the joints between, the skin passes gradually from one to the next.
+/// A tube along a chain of joints with round ends; lengths in centimetres. Every section moves with the joint at its
+/// start; around the joints between sections, the skin is blended.
 struct Tube {
   struct Ring {
-    double along_cm;      ///< from the first joint on; before the first and behind the last joint too
-    double side_cm;       ///< half its width, as seen from the front
-    double front_cm;      ///< half its depth
-    double ahead_cm = 0;  ///< of the chain, forward
+    double along_cm;      ///< distance from the first joint; may lie before the first and behind the last joint
+    double side_cm;       ///< half the width, seen from the front
+    double front_cm;      ///< half the depth
+    double ahead_cm = 0;  ///< forward offset from the chain
   };
   std::string name;
-  std::vector<Role> chain;  ///< of a single joint: straight up from there
+  std::vector<Role> chain;  ///< a single joint means straight up from there
   std::vector<Ring> rings;  ///< in order
-  double blend_cm = 0;      ///< half the length over which the skin passes from joint to joint
-  double first_cap_cm = 0;  ///< lengths of the round ends, beyond the first and last ring
+  double blend_cm = 0;      ///< half the length over which the skin is blended between two joints
+  double first_cap_cm = 0;  ///< lengths of the round ends beyond the first and last ring
   double last_cap_cm = 0;
-  int around = 16;  ///< corners of a ring
+  int around = 16;  ///< number of corners of a ring
 };
 Piece MakePiece(const Tube& tube, const BodyPose& rest);
 
-/// A thin oval sheet on a tube's front, its edge tucked under the tube's skin, with which it moves.
+/// A thin oval sheet on the front of a tube. Its edge lies inside the tube, and it moves with the tube's skin.
 struct Patch {
   std::string name;
-  double along_cm;        ///< its centre, along the tube
-  double half_along_cm;   ///< half its length
-  double half_angle_deg;  ///< half the angle that it takes of the tube's round
+  double along_cm;        ///< centre, along the tube
+  double half_along_cm;   ///< half the length
+  double half_angle_deg;  ///< half the angle that it covers around the tube
   double lift_cm;         ///< above the tube's skin
 };
 Piece MakePiece(const Patch& patch, const Tube& tube, const BodyPose& rest);
 
-/// A thin rope through points, which moves with one joint; centimetres from the joint.
+/// A thin rope through points that moves with one joint; centimetres from the joint.
 struct Rope {
   std::string name;
   Role joint;
@@ -78,13 +79,13 @@ struct Rope {
 };
 Piece MakePiece(const Rope& rope, const BodyPose& rest);
 
-/// Puts pieces together to a character bound to BodySkeleton(rest): one mesh per material, normals smoothed within
-/// each piece.
+/// Combines pieces to a character bound to BodySkeleton(rest): one mesh per material, with normals smoothed within each
+/// piece.
 class CharacterBuilder {
  public:
   CharacterBuilder(std::string name, const BodyPose& rest);
 
-  /// Adds a material of a colour in sRGB; returns the number to add pieces with.
+  /// Adds a material with a colour in sRGB; returns its index for `Add`.
   int AddMaterial(std::string name, Rgb8 colour);
   void Add(int material, const Piece& piece);
   /// Adds a piece and its mirror image on the other side.

@@ -13,14 +13,14 @@
 namespace etude {
 namespace {
 
-// What moves with each role's joint, in the roles' order: a limb hangs from the joint where it begins.
+// The part that each role's joint moves, in the roles' order: the limb that begins at the joint.
 constexpr std::array<Part, kRoleCount> kPartOfRole = {
     Part::kTrunk,       Part::kTrunk,      Part::kTrunk,      Part::kHead,          Part::kLeftUpperArm,
     Part::kLeftForearm, Part::kLeftHand,   Part::kLeftHand,   Part::kRightUpperArm, Part::kRightForearm,
     Part::kRightHand,   Part::kRightHand,  Part::kLeftThigh,  Part::kLeftShank,     Part::kLeftFoot,
     Part::kLeftFoot,    Part::kRightThigh, Part::kRightShank, Part::kRightFoot,     Part::kRightFoot};
 
-using MaybeParts = std::vector<std::optional<Part>>;  // of every joint
+using MaybeParts = std::vector<std::optional<Part>>;  // one per joint
 
 std::vector<Part> Inherited(const Skeleton& skeleton, const MaybeParts& known) {
   std::vector<Part> parts;
@@ -32,13 +32,13 @@ std::vector<Part> Inherited(const Skeleton& skeleton, const MaybeParts& known) {
   return parts;
 }
 
-// What hangs from a role's joint was made for the standing body: how much wider, longer and deeper `pose` wants it.
-// Limbs keep their shape; hips and chest are as wide as their joints are apart, however long the spine is.
+// Returns the scale of the part at a role's joint relative to the standing body: width, length, depth. Limbs keep their
+// shape; hips and chest have the width of their joints, independent of the spine's length.
 glm::dvec3 SizeOf(Role role, const BodyPose& pose) {
   static const BodyPose standing = StandingPose();
   const auto ratio = [&](Role a, Role b) {
-    constexpr double kLeast = 0.2, kMost = 5;  // nobody has such limbs: broken measurements still make a figure
-    return std::clamp(glm::distance(pose[a], pose[b]) / glm::distance(standing[a], standing[b]), kLeast, kMost);
+    constexpr double kMin = 0.2, kMax = 5;  // limits, so that wrong measurements still give a figure
+    return std::clamp(glm::distance(pose[a], pose[b]) / glm::distance(standing[a], standing[b]), kMin, kMax);
   };
   const auto trunk = [](double width, double length) { return glm::dvec3(width, length, 0.5 * (width + length)); };
   using enum Role;
@@ -51,7 +51,7 @@ glm::dvec3 SizeOf(Role role, const BodyPose& pose) {
   for (const Role end : AllRoles()) {
     if (ParentOf(end) == role) return glm::dvec3(ratio(role, end));
   }
-  // Where in the head its joint lies is a file's choice: a longer way there is not all size.
+  // Files differ in where the head joint lies, so only the square root of that ratio counts as size.
   return glm::dvec3(std::sqrt(ratio(*ParentOf(role), role)));
 }
 
@@ -75,10 +75,11 @@ std::vector<Part> PartsOfJoints(const Skeleton& skeleton, const JointMap& map) {
   MaybeParts known(skeleton.joints.size());
   const auto part_of = [&known](int joint) -> std::optional<Part>& { return known[static_cast<std::size_t>(joint)]; };
   for (const Role role : AllRoles()) {
-    // Where several ride on one joint, the first is the one that it moves. A head is below its tip.
+    // If several roles share a joint, the first one is the role that the joint moves. The head joint may be a tip, so
+    // heads are found below.
     if (role != Role::kHead && !part_of(map[role].joint)) part_of(map[role].joint) = kPartOfRole[Index(role)];
   }
-  // The neck ends where the shoulders hang.
+  // Mark everything from the head down to the neck; the neck ends at the ancestor that carries the shoulders.
   std::vector<bool> carries_shoulder(known.size());
   for (int joint = map[Role::kLeftShoulder].joint; joint >= 0; joint = skeleton.joints[joint].parent) {
     carries_shoulder[static_cast<std::size_t>(joint)] = true;
@@ -94,6 +95,7 @@ std::vector<Part> PartsOfTriangles(const std::vector<Part>& parts_of_joints, con
   std::vector<Part> parts;
   parts.reserve(mesh.triangles.size());
   for (const auto& triangle : mesh.triangles) {
+    // Sum the weights of every part over the triangle's corners.
     std::array<double, std::tuple_size_v<PartColours>> share{};
     for (const std::uint32_t corner : triangle) {
       const SkinnedMesh::Vertex& vertex = mesh.vertices[corner];

@@ -12,55 +12,56 @@
 
 namespace etude {
 
-/// Returns a character in a pose of its own skeleton, ready to be drawn: metres, Y up, moved as `to_world` says (of a
-/// file's figure: the unit, axes and floor that ToBodyMotion has found).
+/// Returns a character in a pose of its own skeleton, ready to be drawn: metres, Y up, transformed by `to_world` (for a
+/// file's figure: the units, axes and floor that ToBodyMotion has found).
 Figure PosedFigure(const Character& character, const LocalPose& pose, const glm::dmat4& to_world = glm::dmat4(1));
 
-/// Returns a character bound to BodySkeleton(StandingPose()) in a body's pose. A body of other proportions is filled
-/// too: each part is as large as the limb that it clothes, hips and chest as wide as their joints are apart.
-/// `is_closed`: its meshes are, as those of the bear and the mannequin (`Surface::is_closed`).
+/// Returns a character bound to BodySkeleton(StandingPose()) in a body's pose. The character is scaled to the body's
+/// proportions: each part to the length of its limb, hips and chest to the distances of their joints. Set `is_closed`
+/// if all meshes are closed, as those of the bear and the mannequin are (`Surface::is_closed`).
 Figure PosedFigure(const Character& character, const BodyPose& pose, bool is_closed = false);
 
-/// Computes the joints of such a character in `pose`; their axes are scaled as its limbs are.
+/// Computes the joints of such a character in `pose`; their axes are scaled to the body's proportions.
 std::vector<GlobalTransform> FilledGlobals(const Character& character, const BodyPose& pose);
 
-/// Finds the part of the body that each joint of a skeleton moves: that of the role it is named after, else what the
-/// nearest such joint upwards moves (an ear belongs to the head that it hangs from), else the trunk.
+/// Finds the part of the body that each joint of a skeleton moves: that of the role in the joint's name, or else that
+/// of the nearest such ancestor (an ear belongs to the head), or else the trunk.
 std::vector<Part> PartsOfJoints(const Skeleton& skeleton);
-/// Finds these parts for a file's skeleton whose roles are in `map`; everything between neck and head is head, but what
-/// carries a shoulder.
+/// Finds these parts for a file's skeleton whose roles are in `map`. Joints between neck and head belong to the head
+/// unless they carry a shoulder.
 std::vector<Part> PartsOfJoints(const Skeleton& skeleton, const JointMap& map);
 
-/// Finds the part that each triangle shows: the one whose joints move its corners most.
+/// Finds the part of each triangle: the one whose joints have the largest total weight at its corners.
 std::vector<Part> PartsOfTriangles(const std::vector<Part>& parts_of_joints, const SkinnedMesh& mesh);
 
-/// Makes one surface per mesh with everything that no pose changes.
+/// Makes one surface per mesh with everything that does not depend on the pose.
 std::vector<Surface> StillSurfaces(const Character& character, const std::vector<Part>& parts_of_joints);
-/// Moves those surfaces to where the joints take them.
+/// Moves those surfaces with the joints.
 Figure FigureAt(const Character& character, const std::vector<Surface>& still,
                 const std::vector<GlobalTransform>& globals);
 
-/// Computes the joints of a skeleton's pose in the world.
+/// Computes the joints of a skeleton's pose in world coordinates.
 std::vector<GlobalTransform> GlobalsInWorld(const Skeleton& skeleton, const LocalPose& pose,
                                             const glm::dmat4& to_world);
 
-/// The figure that a file brings along with its clip, moving as recorded: its meshes and textures on its own skeleton.
+/// The figure that a file contains with its clip: its meshes and textures, moving on its own skeleton as recorded.
 class RecordedFigure {
  public:
-  /// Takes a clip of the character's skeleton, with the joint map and the body conversion that were found for it.
+  /// Takes a clip of the character's skeleton, with the joint map and the body conversion found for it.
   RecordedFigure(std::shared_ptr<const Character> character, Clip clip, const JointMap& map,
                  const BodyConversion& body);
 
-  /// Returns the figure at a frame of the body's motion, also between frames (`SampleFrame`), moved along the floor.
+  /// Returns the figure at a frame of the body's motion, also between frames (`SampleFrame`), moved along the floor by
+  /// `move`.
   Figure At(double frame, const FloorMove& move = {}) const;
 
  private:
   std::shared_ptr<const Character> character_;
   Clip clip_;
   double first_ = 0;             // the clip's frame that is the motion's first one
-  double frames_per_frame_ = 1;  // of the clip, for one of the motion
+  double frames_per_frame_ = 1;  // frames of the clip per frame of the motion
   glm::dmat4 to_world_{1};
-  std::vector<Surface> still_;  // one per mesh: all of it that no pose changes
+  std::vector<Surface> still_;  // one per mesh: everything that does not depend on the pose
 };
 
 }  // namespace etude

@@ -21,21 +21,21 @@ struct LegJoints {
   glm::dvec3 hip, knee, ankle, toe;
 };
 
-/// The share of a straight leg's length up to which it reaches: knees never lock, and never snap.
+/// The largest share of a straight leg's length that a leg may reach, so that knees never lock or snap.
 constexpr double kReach = 0.998;
 
 double LegLength(const BodyDimensions& body) { return body.thigh + body.shank; }
 
-/// The place of a foot, and the direction in which its knee points.
+/// The target position of a foot, and the direction in which its knee points.
 struct FootGoal {
   glm::dvec3 ankle;
-  glm::dvec3 to_toe;        // from the ankle
-  glm::dvec3 knee_forward;  // the side of the hip–ankle line on which the knee lies
+  glm::dvec3 to_toe;        // from the ankle to the toe
+  glm::dvec3 knee_forward;  // the knee lies on this side of the hip–ankle line
 };
 
 double Outward(Side side) { return side == Side::kLeft ? 1 : -1; }
 
-/// Returns the foot on its spot, rolled up on its toes by the heel's rise.
+/// Returns the foot on its spot, with the heel raised about the toe tip.
 FootGoal StandingGoal(const Controls& controls, const BodyDimensions& body, Side side) {
   const double out = Outward(side);
   const double heel = controls.Of(side, kFootHeel);
@@ -49,7 +49,7 @@ FootGoal StandingGoal(const Controls& controls, const BodyDimensions& body, Side
   return {toe - to_toe, to_toe, heading * glm::dvec3(0, 0, 1)};
 }
 
-/// Returns the foot at the end of a leg that follows its angles.
+/// Returns the foot at the end of a free leg, by forward kinematics of its angles.
 FootGoal FreeGoal(const Controls& controls, const BodyDimensions& body, Side side, const glm::dmat3& pelvis,
                   const glm::dvec3& hip) {
   const double out = Outward(side);
@@ -62,9 +62,10 @@ FootGoal FreeGoal(const Controls& controls, const BodyDimensions& body, Side sid
           foot * glm::dvec3(0, body.toe_height - body.ankle_height, body.foot_reach), thigh[2]};
 }
 
-/// Solves two-bone inverse kinematics: moves the ankle into reach and returns the knee on the wanted side.
+/// Solves two-bone inverse kinematics: moves the ankle into reach, and returns the knee on the side of `knee_forward`.
 glm::dvec3 SolveKnee(const BodyDimensions& body, const glm::dvec3& hip, glm::dvec3& ankle,
                      const glm::dvec3& knee_forward) {
+  // Clamp the distance from hip to ankle to what the leg can reach.
   const double shortest = std::abs(body.thigh - body.shank) + 0.05;
   const glm::dvec3 line = ankle - hip;
   const double length = glm::length(line);
@@ -72,6 +73,7 @@ glm::dvec3 SolveKnee(const BodyDimensions& body, const glm::dvec3& hip, glm::dve
   const double reach = std::clamp(length, shortest, kReach * LegLength(body));
   ankle = hip + along * reach;
 
+  // Find the knee by the law of cosines, bent towards `knee_forward`.
   const double cosine = (body.thigh * body.thigh + reach * reach - body.shank * body.shank) / (2 * body.thigh * reach);
   const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
   glm::dvec3 across = knee_forward - glm::dot(knee_forward, along) * along;
@@ -83,19 +85,19 @@ glm::dvec3 SolveKnee(const BodyDimensions& body, const glm::dvec3& hip, glm::dve
 
 double Freedom(const Controls& controls, Side side) { return std::clamp(controls.Of(side, kLegFree), 0.0, 1.0); }
 
-/// Places the leg below `hip`; the metres of `controls` are this body's. A standing foot is on its spot whatever the
-/// hips do; a free leg follows its angles in the pelvis' frame; in between, the ankle goes from one to the other. A
-/// spot out of reach stretches the leg towards it.
+/// Places the leg below `hip`; the lengths in `controls` are already scaled to this body. A standing foot is on its
+/// spot wherever the hips are; a free leg follows its angles in the pelvis' frame; between the two, the ankle is
+/// interpolated. If the spot is out of reach, the leg stretches towards it.
 LegJoints PlaceLeg(const Controls& controls, const BodyDimensions& body, Side side, const glm::dmat3& pelvis,
                    const glm::dvec3& hip) {
   const double free = Freedom(controls, side);
   const FootGoal standing = StandingGoal(controls, body, side), swinging = FreeGoal(controls, body, side, pelvis, hip);
-  // A foot rises before it travels, so that it does not brush along the floor.
+  // The foot rises before it moves sideways, so that it does not brush along the floor.
   const double travelled = free * free;
   glm::dvec3 ankle = glm::mix(standing.ankle, swinging.ankle, glm::dvec3(travelled, free, travelled));
   glm::dvec3 to_toe = glm::mix(standing.to_toe, swinging.to_toe, travelled);
   to_toe *= glm::length(standing.to_toe) / glm::length(to_toe);
-  // On its way from the one to the other it swings clear of the floor.
+  // While the foot changes from standing to free, it is kept clear of the floor.
   constexpr double kClearance = 0.04;
   ankle.y += 4 * kClearance * free * (1 - free);
   ankle.y = std::max({ankle.y, body.ankle_height, body.toe_height - to_toe.y});
@@ -103,14 +105,14 @@ LegJoints PlaceLeg(const Controls& controls, const BodyDimensions& body, Side si
   return {hip, knee, ankle, ankle + to_toe};
 }
 
-/// Returns the greatest height of a hip above which the standing leg, nearly straight, loses its spot; it grows out of
-/// the way as the leg becomes free. Only x and z of `hip` count.
+/// Returns the greatest height of the hip at which the nearly straight standing leg still reaches its spot. The limit
+/// rises as the leg becomes free. Only x and z of `hip` are used.
 double HighestHip(const Controls& controls, const BodyDimensions& body, Side side, const glm::dvec3& hip) {
   const glm::dvec3 ankle = StandingGoal(controls, body, side).ankle;
   const double sideways = std::hypot(hip.x - ankle.x, hip.z - ankle.z);
   const double reach = kReach * LegLength(body);
   const double height = std::sqrt(std::max(0.0, reach * reach - sideways * sideways));
-  // One metre is more than any leg: a free leg holds nobody down.
+  // One metre is longer than any leg, so a free leg does not limit the hips.
   return ankle.y + height + Freedom(controls, side);
 }
 
@@ -131,9 +133,9 @@ LegRoles LegOf(Side side) {
   return {kRightHip, kRightKnee, kRightAnkle, kRightFoot};
 }
 
-/// Places trunk and neck, upward from the hip centre; returns the chest's orientation.
+/// Places the trunk and the neck upward from the hip centre; returns the chest's orientation.
 glm::dmat3 PlaceTrunk(const Controls& controls, const BodyDimensions& body, const glm::dmat3& pelvis, BodyPose& pose) {
-  // The lower spine takes part of every bend: a back is an arc, not a hinge.
+  // The lower spine takes a part of every bend, because a back bends as an arc and not at a hinge.
   constexpr double kLowerShare = 0.55;
   const auto bent = [&](double share) {
     return pelvis *
@@ -143,7 +145,7 @@ glm::dmat3 PlaceTrunk(const Controls& controls, const BodyDimensions& body, cons
   pose[kSpine] = pose[kHipCentre] + bent(kLowerShare) * glm::dvec3(0, body.spine, 0);
   pose[kShoulderCentre] = pose[kSpine] + chest * glm::dvec3(0, body.chest, 0);
 
-  // Dancers keep their eyes on the audience: the neck takes back most of the body's turn.
+  // Dancers look at the audience, so the neck compensates most of the body's turn.
   constexpr double kGazeShare = 0.7;
   const double gaze = -kGazeShare * (controls[kHipsTurn] + controls[kTrunkTurn]);
   const glm::dmat3 neck = chest * TurnSideBend(controls[kNeckTurn] + gaze, controls[kNeckSide], controls[kNeckBend]);
@@ -158,13 +160,14 @@ void PlaceArm(const Controls& controls, const BodyDimensions& body, Side side, c
                            RotationY(out * controls.Of(side, kArmTwist));
   const glm::dvec3 down(0, -1, 0);
 
-  // The shoulder blade follows a rising arm: beyond 60 degrees the shoulder itself goes up.
+  // The shoulder blade follows a raised arm: above 60 degrees the shoulder itself rises.
   constexpr double kFullRise = Radians(24);
   const double raise = AngleBetween(upper * down, down);
   const double rise = kFullRise * Smoothstep(Radians(60), Radians(175), raise);
   const glm::dvec3 shoulder =
       RotationZ(out * rise) * glm::dvec3(out * body.shoulder_half_width, -body.shoulder_fall, 0);
 
+  // Chain upper arm, forearm and hand from the shoulder.
   const ArmRoles roles = ArmOf(side);
   const glm::dmat3 forearm = upper * RotationX(-controls.Of(side, kElbow));
   const glm::dmat3 hand = forearm * RotationX(-controls.Of(side, kWrist));
@@ -178,13 +181,13 @@ glm::dvec3 HipOffset(const BodyDimensions& body, Side side, const glm::dmat3& pe
   return pelvis * glm::dvec3(side == Side::kLeft ? body.hip_half_width : -body.hip_half_width, 0, 0);
 }
 
-/// Returns the smaller of both, rounded off where they come within some millimetres of each other.
+/// Returns a smooth minimum of both; it differs from the exact minimum only where they are within some millimetres.
 double SmoothMin(double a, double b) {
   constexpr double kEase = 0.004;
   return 0.5 * (a + b - std::hypot(a - b, kEase));
 }
 
-/// Places the hips where the choreography wants them, lowered until standing legs reach the floor.
+/// Places the hips where the choreography puts them, lowered until the standing legs reach their spots.
 glm::dvec3 PlaceHips(const Controls& controls, const BodyDimensions& body, const glm::dmat3& pelvis) {
   const glm::dvec3 wanted(controls[kHipsSide], body.HipHeight() - controls[kHipsDrop] + controls[kJump],
                           controls[kHipsAhead]);
@@ -195,7 +198,7 @@ glm::dvec3 PlaceHips(const Controls& controls, const BodyDimensions& body, const
   return {wanted.x, SmoothMin(wanted.y, SmoothMin(limit(Side::kLeft), limit(Side::kRight))), wanted.z};
 }
 
-/// Returns the controls with their metres in proportion to the body's legs.
+/// Returns the controls with lengths scaled in proportion to the body's legs.
 Controls InProportion(const Controls& controls, const BodyDimensions& body) {
   constexpr std::array kMiddle = {kHipsSide, kHipsAhead, kHipsDrop, kJump};
   constexpr std::array kOfASide = {kFootSide, kFootAhead, kFootLift};

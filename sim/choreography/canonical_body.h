@@ -7,31 +7,31 @@
 
 namespace etude {
 
-/// The proportions of the body that performs the built-in moves, metres: an adult of 1.70 m, after
-/// Drillis and Contini's segment lengths (1966).
+/// The proportions of the body that performs the built-in moves, metres: an adult of 1.70 m with the segment lengths of
+/// Drillis and Contini (1966).
 struct CanonicalBody {
   static constexpr double kHipHalfWidth = 0.09;
   static constexpr double kThigh = 0.4165;
   static constexpr double kShank = 0.418;
   static constexpr double kAnkleHeight = 0.066;
-  static constexpr double kToeHeight = 0.025;  ///< the toe tip of a flat foot
+  static constexpr double kToeHeight = 0.025;  ///< height of the toe tip of a flat foot
   static constexpr double kFootReach = 0.17;   ///< ankle to toe tip, along the floor
   static constexpr double kSpine = 0.21;       ///< hip centre to spine
   static constexpr double kChest = 0.31;       ///< spine to shoulder centre
   static constexpr double kShoulderHalfWidth = 0.18;
-  static constexpr double kShoulderFall = 0.03;  ///< shoulders below the base of the neck
+  static constexpr double kShoulderFall = 0.03;  ///< vertical distance from the base of the neck down to the shoulders
   static constexpr double kHeadRise = 0.165;     ///< base of the neck to the middle of the head
   static constexpr double kUpperArm = 0.30;
   static constexpr double kForearm = 0.25;
   static constexpr double kHand = 0.18;
-  /// The hip centre's height above the floor on straight legs.
+  /// Height of the hip centre above the floor on straight legs.
   static constexpr double kHipHeight = kThigh + kShank + kAnkleHeight;
-  /// Home spots of the feet: half their distance, and how far the toes point outward (radians).
+  /// The home spots of the feet: half the distance between them, and the outward angle of the toes, radians.
   static constexpr double kHomeHalfWidth = 0.12;
   static constexpr double kHomeToeOut = 0.2;
 };
 
-/// The sizes of one body, metres, both sides alike: the canonical body's unless said otherwise.
+/// The sizes of one body, metres, equal on both sides. The defaults are those of the canonical body.
 struct BodyDimensions {
   double hip_half_width = CanonicalBody::kHipHalfWidth;
   double thigh = CanonicalBody::kThigh;
@@ -52,20 +52,22 @@ struct BodyDimensions {
   double HipHeight() const { return thigh + shank + ankle_height; }
 };
 
-/// Computes the twenty joints of a body on a floor at y = 0, facing +Z, the feet's home spots left and right of the
-/// origin. Legs that are not free reach for their spot by two-bone inverse kinematics, so a standing foot cannot slide;
-/// the hips sink as far as standing legs need to reach. Limb lengths are those of `body` in every pose. Angles are
-/// taken as they are, metres (of hips, feet and jumps) in proportion to the legs: a child's step is a child's.
+/// Computes the twenty joints of a body on a floor at y = 0 that faces +Z; the home spots of the feet are left and
+/// right of the origin. Legs that are not free reach for their spot by two-bone inverse kinematics, so a standing foot
+/// cannot slide; the hips sink until the standing legs reach their spots. The limb lengths are those of `body` in every
+/// pose. Angles are used unchanged; lengths (of hips, feet and jumps) are scaled in proportion to the legs, so a child
+/// takes a child's steps.
 BodyPose PoseOf(const Controls& controls, const BodyDimensions& body = {});
 
-/// Returns the ready stance near which every move starts and ends: feet on their home spots, knees soft, arms loosely
-/// hanging. What a choreography file does not name stands like this.
+/// Returns the ready stance near which every move starts and ends: feet on their home spots, knees soft, arms hanging
+/// loosely. Controls that a choreography file does not name have the values of this stance.
 Controls ReadyStance();
 
-/// Returns the canonical body at rest, with straight legs and hanging arms: the pose to calibrate, fit and compare by.
+/// Returns the canonical body at rest with straight legs and hanging arms: the pose for calibrating, fitting and
+/// comparing bodies.
 BodyPose StandingPose();
 
-/// The height of the hips of the body that performs a scenario's clips, metres: StandingPose, scaled to it.
+/// Hip height of the body that performs a scenario's clips, metres: `StandingPose` is scaled to it.
 inline constexpr double kScenarioHipHeight = 0.90;
 
 }  // namespace etude

@@ -19,17 +19,17 @@
 namespace etude {
 namespace {
 
-/// The word for a feature of up to so many degrees (Posture: on its own scale).
+/// The word for a feature's values up to `up_to` degrees (Posture: on its own scale).
 struct Word {
   double up_to;
   std::string_view word;
 };
 constexpr double kAny = 1e9;
 
-/// The part of the body that a feature is about, without its side, and its words; "" is not worth saying.
+/// The words for one feature, and the part of the body that it describes. An empty word is left out of the hint.
 struct Vocabulary {
-  std::string_view feature;  ///< R or L left out
-  std::string_view part;     ///< of the body
+  std::string_view feature;  ///< without R or L
+  std::string_view part;     ///< of the body, without its side
   std::vector<Word> words;
 };
 const std::vector<Vocabulary>& Vocabularies() {
@@ -53,7 +53,7 @@ std::optional<double> DegreesOf(const KeyPose& pose, const std::string& feature)
   return found != pose.targets.end() ? std::optional(found->degrees) : std::nullopt;
 }
 
-/// Says the two sides of one part; "both …s" when they are alike.
+/// Describes the two sides of one part; "both …s" if their words are equal.
 void SayLimb(const KeyPose& pose, const Vocabulary& vocabulary, std::vector<std::string>& said) {
   const auto word_of = [&](const char* side) {
     const auto degrees = DegreesOf(pose, side + std::string(vocabulary.feature));
@@ -81,7 +81,7 @@ std::string Words(const KeyPose& pose) {
   return Join(said);
 }
 
-/// Returns the pose with its targets' sides exchanged.
+/// Returns the pose with left and right exchanged in its targets.
 KeyPose OtherSide(KeyPose pose) {
   for (KeyPose::Target& target : pose.targets) {
     char& side = target.feature.front();
@@ -100,7 +100,7 @@ Result<DanceMove> DanceMoveOf(const std::string& name) {
                    .slow = std::move(slow.motion)};
 }
 
-/// Returns the moment of every beat, from the song's beginning to its end.
+/// Returns the time of every beat, from the song's beginning to its end.
 std::vector<double> BeatsOf(const Song& song) {
   std::vector<double> beats;
   for (int beat = 0; beat * 60 / song.tempo_bpm <= song.motion.DurationSeconds(); ++beat) {
@@ -109,8 +109,8 @@ std::vector<double> BeatsOf(const Song& song) {
   return beats;
 }
 
-constexpr double kShortestBeat = 0.2, kLongestBeat = 3;
-constexpr std::size_t kFewestBeats = 8, kMostBeats = 10000;
+constexpr double kMinBeatSeconds = 0.2, kMaxBeatSeconds = 3;
+constexpr std::size_t kMinBeats = 8, kMaxBeats = 10000;
 
 std::string_view WithoutBlanks(std::string_view line) {
   const auto first = line.find_first_not_of(" \t\r");
@@ -124,7 +124,7 @@ std::optional<double> NumberAtFront(std::string_view line) {
   return error == std::errc() && is_whole && std::isfinite(number) ? std::optional(number) : std::nullopt;
 }
 
-/// Returns the moment of a beat; between two beats it goes in proportion.
+/// Returns the time of a beat, interpolated linearly between two whole beats.
 double MomentOf(double beat, const std::vector<double>& beats_s) {
   const auto before = static_cast<std::size_t>(beat);
   const double share = beat - std::floor(beat);
@@ -164,7 +164,8 @@ Result<Dance> DanceOf(const Song& song) {
               .acts = {},
               .beats_s = BeatsOf(song)};
   std::map<std::string, int> indices;
-  std::vector<int> moves;  // of each repetition
+  std::vector<int> moves;  // the move of each repetition
+  // Collect each move once, in the order of its first turn.
   for (const SongPart& part : song.parts) {
     if (!indices.contains(part.move)) {
       indices[part.move] = static_cast<int>(dance.moves.size());
@@ -173,13 +174,14 @@ Result<Dance> DanceOf(const Song& song) {
     }
     moves.insert(moves.end(), part.times, indices[part.move]);
   }
-  // A song has a tag at the beginning of every repetition.
+  // Every repetition begins at its tag and ends where the next one begins.
   const SongPart& last = song.parts.back();
   const double end_s = (last.start_beat + last.beats) * 60 / song.tempo_bpm;
   for (std::size_t i = 0; i < moves.size(); ++i) {
     const auto end = i + 1 < moves.size() ? song.tags[i + 1].frame : static_cast<std::size_t>(end_s * kJudgedRateHz);
     dance.repetitions.push_back({.move = moves[i], .first = song.tags[i].frame, .end = end});
   }
+  // Add the coach's acts.
   for (const std::string& name : BuiltinActNames()) {
     ASSIGN_OR_RETURN(auto act, LoadBuiltinMove(name));
     dance.acts.push_back({.name = name, .motion = std::move(act.motion), .loops = act.loops});
@@ -191,29 +193,31 @@ Result<std::vector<double>> ReadBeats(std::string_view text, const std::string& 
   std::vector<double> beats;
   int number = 0;
   while (!text.empty()) {
+    // Take the next line.
     const std::string_view line = WithoutBlanks(text.substr(0, text.find('\n')));
     text.remove_prefix(std::min(text.size(), std::min(text.find('\n'), text.size() - 1) + 1));
     ++number;
     if (line.empty() || line.front() == '#') continue;
+    // Read its time, and check it against the beat before.
     const auto moment = NumberAtFront(line);
     if (!moment) return Fail({file, number, 1}, "a beat is a number of seconds, found {}", Quote(line.substr(0, 40)));
     if (*moment < 0) return Fail({file, number, 1}, "a beat at {} s; must not be before 0", *moment);
-    const double step = beats.empty() ? kShortestBeat : *moment - beats.back();
-    if (step < kShortestBeat - 1e-9 || step > kLongestBeat) {
+    const double step = beats.empty() ? kMinBeatSeconds : *moment - beats.back();
+    if (step < kMinBeatSeconds - 1e-9 || step > kMaxBeatSeconds) {
       return Fail({file, number, 1}, "a beat at {} s, {:.3f} s after the one before; allowed: {} to {}", *moment, step,
-                  kShortestBeat, kLongestBeat);
+                  kMinBeatSeconds, kMaxBeatSeconds);
     }
     beats.push_back(*moment);
-    if (beats.size() > kMostBeats) return Fail({file, number, 1}, "more than {} beats", kMostBeats);
+    if (beats.size() > kMaxBeats) return Fail({file, number, 1}, "more than {} beats", kMaxBeats);
   }
-  if (beats.size() < kFewestBeats) return Fail({file}, "{} beats; at least {}", beats.size(), kFewestBeats);
+  if (beats.size() < kMinBeats) return Fail({file}, "{} beats; at least {}", beats.size(), kMinBeats);
   return beats;
 }
 
 double TempoOf(const std::vector<double>& beats_s) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < beats_s.size(); ++i) steps.push_back(beats_s[i] - beats_s[i - 1]);
-  // To a hundredth: digits of a file are no reason to call a tempo too fast for a move.
+  // The tempo is rounded to 0.01, so that a file's last digits do not make it too fast for a move.
   return std::round(6000 / UpperMedian(std::move(steps))) / 100;
 }
 
@@ -229,9 +233,9 @@ Result<Dance> ToBeats(Dance dance, const std::vector<double>& beats_s) {
 }
 
 TaughtMove TaughtOf(const Move& move) {
-  constexpr double kForTheSlow = 0.5;  // seconds beyond one performance at the taught tempo
+  constexpr double kExtraSeconds = 0.5;  // seconds allowed beyond one performance at the taught tempo
   TaughtMove taught{.name = move.name,
-                    .span_s = 60.0 * move.beats / move.tempo_bpm + kForTheSlow,
+                    .span_s = 60.0 * move.beats / move.tempo_bpm + kExtraSeconds,
                     .examples = {StreamOf(move.motion)}};
   for (const KeyPose& key_pose : move.key_poses) {
     TaughtPose& pose = taught.poses.emplace_back();

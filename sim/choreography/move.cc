@@ -16,10 +16,10 @@
 namespace etude {
 namespace {
 
-/// The range of a control: wider than any body, narrow enough to catch a slip of the keyboard.
+/// The allowed range of a control: wider than any body's, but narrow enough to catch a typing error.
 constexpr Range kControlRange = {-200, 200};
 
-/// Reads the keys of one group of a pose ("left_arm") into the controls that `set` names.
+/// Reads the controls of one group of a pose ("left_arm") and passes each value to `set`.
 template <std::size_t kCount, typename Set>
 bool ReadGroup(Fields& pose, const std::string& yaml_key, std::string_view group,
                std::span<const ControlName, kCount> names, Set set) {
@@ -69,15 +69,15 @@ Controls ReadControls(Fields& pose) {
 }
 
 Result<void> CheckList(const Node& list, std::string_view name) {
-  constexpr std::size_t kMost = 256;
+  constexpr std::size_t kMaxPoses = 256;
   if (list.kind != Node::Kind::kSequence || list.items.empty()) {
     return Fail(list.place, "'{}' must be a list of at least one pose, found {}", name, Describe(list));
   }
-  if (list.items.size() > kMost) return Fail(list.place, "{} {}; at most {}", list.items.size(), name, kMost);
+  if (list.items.size() > kMaxPoses) return Fail(list.place, "{} {}; at most {}", list.items.size(), name, kMaxPoses);
   return {};
 }
 
-/// Reads the pose's beat, within [0, beats).
+/// Reads the pose's beat; it must be in [0, beats).
 double ReadBeat(Fields& pose, double beats) {
   const auto beat = pose.OptionalNumber("beat", {0, beats});
   if (!beat && pose.ok()) pose.Complain(pose.node().place, "a pose needs a 'beat'");
@@ -111,32 +111,35 @@ KeyPose::Target ReadTarget(Fields& pose, const Node& node, std::string_view feat
   return target;
 }
 
-/// Reads the list `poses` of a choreography file. Each pose says how the body differs from the ready stance (controls.h
-/// names the groups; "arms", "legs", … set both sides), at a `beat` within [0, beats); `hold_beats` keeps it, `ease`
-/// says how it is reached. Beats must ascend. At most 256 poses.
+/// Reads the list `poses` of a choreography file. Each pose states how the body differs from the ready stance
+/// (controls.h names the groups; "arms", "legs", … set both sides) at a `beat` in [0, beats). `hold_beats` keeps the
+/// pose, and `ease` sets the timing towards it. Beats must ascend. At most 256 poses.
 Result<std::vector<PoseKey>> ReadPoses(const Node& poses, double beats) {
   RETURN_IF_ERROR(CheckList(poses, "poses"));
   std::vector<PoseKey> keys;
   for (const Node& item : poses.items) {
+    // Read one pose.
     Fields pose(item, "a pose");
     const double beat = ReadBeat(pose, beats);
     const double hold = pose.Number("hold_beats", 0, {0, beats});
     const Ease ease = ReadEase(pose);
     const Controls controls = ReadControls(pose);
+    // Check that it comes after the pose before and is held within the loop.
     if (!keys.empty() && beat <= keys.back().beat) {
       pose.Complain(item.place, fmt::format("beat {} does not come after the pose before it, which lasts to beat {}",
                                             beat, keys.back().beat));
     }
     if (beat + hold >= beats) pose.Complain(item.place, fmt::format("the pose is held beyond beat {}", beats));
     RETURN_IF_ERROR(pose.Finish());
+    // A held pose has two keys: at the start and at the end of its hold.
     keys.push_back({beat, controls, ease});
     if (hold > 0) keys.push_back({beat + hold, controls});
   }
   return keys;
 }
 
-/// Reads the list `key_poses`: `{beat, tolerance_deg, <feature>: degrees, …}`, where a feature may have its own
-/// tolerance: `RH: {degrees: 90, tolerance_deg: 10}`.
+/// Reads the list `key_poses`: `{beat, tolerance_deg, <feature>: degrees, …}`. A feature may have its own tolerance:
+/// `RH: {degrees: 90, tolerance_deg: 10}`.
 Result<std::vector<KeyPose>> ReadKeyPoses(const Node& key_poses, double beats) {
   RETURN_IF_ERROR(CheckList(key_poses, "key_poses"));
   std::vector<KeyPose> read;
@@ -157,7 +160,7 @@ Result<std::vector<KeyPose>> ReadKeyPoses(const Node& key_poses, double beats) {
 
 constexpr Range kTempoRange = {40, 240};
 
-/// Appends the first half's mirror image as the second half.
+/// Appends the mirror image of the first half as the second half.
 void AppendMirrorImage(std::vector<PoseKey>& keys, double half) {
   const std::size_t count = keys.size();
   for (std::size_t i = 0; i < count; ++i) {
@@ -165,7 +168,7 @@ void AppendMirrorImage(std::vector<PoseKey>& keys, double half) {
   }
 }
 
-/// Reads `tempo_range_bpm: [slowest, fastest]`, which holds the move's own tempo.
+/// Reads `tempo_range_bpm: [slowest, fastest]`, which must contain the move's own tempo.
 void ReadTempoRange(Fields& fields, Move& move) {
   const std::vector<double> range = fields.Numbers("tempo_range_bpm", kTempoRange);
   move.slowest_bpm = range.empty() ? move.tempo_bpm : range.front();
@@ -178,7 +181,7 @@ void ReadTempoRange(Fields& fields, Move& move) {
   }
 }
 
-/// Makes the curves of a move from its poses, at its tempo.
+/// Computes the curves of a move from its poses at its tempo.
 Result<Move> WithCurves(Move move, MoveCurves::Style style, const Place& place) {
   style.beat_seconds = 60 / move.tempo_bpm;
   RETURN_IF_ERROR(CheckJumps(move.poses, move.beats, style.beat_seconds, place));
@@ -191,10 +194,11 @@ Result<Move> WithMotion(Result<Move> move) {
   return move;
 }
 
-/// The move of a choreography file, without its motion.
+/// Reads a move or an act from a choreography file, without its motion.
 Result<Move> ParseCurves(std::string_view yaml, const std::string& file) {
   ASSIGN_OR_RETURN(const auto document, ParseYaml(yaml, file));
 
+  // Read the keys of the file's top level.
   Fields fields(document, "a choreography file");
   const bool is_act = document.Find("act") != nullptr;
   Move move;
@@ -203,22 +207,24 @@ Result<Move> ParseCurves(std::string_view yaml, const std::string& file) {
   ReadTempoRange(fields, move);
   move.beats = fields.Number("beats", 8, {1, 64});
   const bool mirrored = fields.Boolean("second_half_mirrored", false);
-  // Nobody is asked to do an act right, so acts have no key poses.
+  // Acts have no key poses, because they are never judged.
   if (is_act) move.loops = fields.Boolean("loops", true);
   const MoveCurves::Style style = {.overlap_beats = fields.Number("overlap_beats", 0.1, {0, 0.5}),
                                    .bounce = 0.01 * fields.Number("bounce_cm", 0, {0, 20}),
                                    .loops = move.loops};
-  Node nothing;
-  nothing.place = document.place;
+  // A missing list is complained about at the document's place.
+  Node missing;
+  missing.place = document.place;
   const Node* poses = fields.Raw("poses");
   const Node* key_poses = is_act ? nullptr : fields.Raw("key_poses");
   RETURN_IF_ERROR(fields.Finish());
 
+  // Read the poses, mirror them if asked, and read the key poses.
   const double authored_beats = mirrored ? 0.5 * move.beats : move.beats;
-  ASSIGN_OR_RETURN(auto keys, ReadPoses(poses ? *poses : nothing, authored_beats));
+  ASSIGN_OR_RETURN(auto keys, ReadPoses(poses ? *poses : missing, authored_beats));
   if (mirrored) AppendMirrorImage(keys, authored_beats);
   if (!is_act) {
-    ASSIGN_OR_RETURN(auto targets, ReadKeyPoses(key_poses ? *key_poses : nothing, move.beats));
+    ASSIGN_OR_RETURN(auto targets, ReadKeyPoses(key_poses ? *key_poses : missing, move.beats));
     move.key_poses = std::move(targets);
   }
   move.poses = std::move(keys);
@@ -242,7 +248,7 @@ Result<Move> AtTempo(const Move& move, double tempo_bpm, const Place& place) {
 BodyMotion MotionOf(const Move& move) {
   const double seconds = move.beats * 60.0 / move.tempo_bpm;
   const auto steps = static_cast<int>(std::lround(seconds * kJudgedRateHz));
-  // The frame after a loop's last one is its first; what does not loop ends in its last pose.
+  // A loop's last frame is followed by its first one; other motions include their last pose.
   const int frames = move.loops ? steps : steps + 1;
   BodyMotion motion;
   motion.poses.reserve(static_cast<std::size_t>(frames));

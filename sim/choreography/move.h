@@ -10,14 +10,14 @@
 
 namespace etude {
 
-/// A target that a recogniser looks for: the move is right when these angles are reached together.
+/// A pose that a recogniser looks for: it is reached when all of these angles are within tolerance at once.
 struct KeyPose {
   struct Target {
     std::string feature;  ///< one of paper A's ten features: "RH", "LHE", … (engine/fuzzy)
-    double degrees;       ///< for Posture: its scale, standing = 80
+    double degrees;       ///< Posture has its own scale: standing = 80
     double tolerance_deg;
   };
-  double beat = 0;  ///< when it is reached, counted from the move's first beat
+  double beat = 0;  ///< when the pose is reached, in beats from the move's first beat
   std::vector<Target> targets;
 };
 
@@ -25,13 +25,13 @@ struct KeyPose {
 struct Move {
   std::string name;  ///< "clap"
   double tempo_bpm = 120;
-  double slowest_bpm = 120;  ///< `tempo_range_bpm`: the songs that the move suits; its own tempo alone unless given
+  double slowest_bpm = 120;  ///< range of song tempos that suit the move (`tempo_range_bpm`); default: its own tempo
   double fastest_bpm = 120;
   double beats = 8;   ///< length of one performance
-  bool loops = true;  ///< the end joins the start: true of every move, and of acts that can go on for ever
+  bool loops = true;  ///< true if the end joins the start; true of every move, and of acts that can repeat
   std::vector<KeyPose> key_poses;
-  std::vector<PoseKey> poses;  ///< as authored, a mirrored half included; empty of a slow demonstration
-  MoveCurves curves;           ///< the same performance before joints were made of it, over `beats` beats
+  std::vector<PoseKey> poses;  ///< as authored, including a mirrored half; empty in a slow demonstration
+  MoveCurves curves;           ///< the same performance as curves of controls, over `beats` beats
   BodyMotion motion;           ///< one performance at `tempo_bpm`, 30 Hz, performed by the canonical body
 };
 
@@ -39,18 +39,19 @@ struct Move {
 std::vector<std::string> BuiltinMoveNames();
 /// Returns the names of the coach's acts (choreography/acts), sorted.
 std::vector<std::string> BuiltinActNames();
-/// Loads the built-in move or act of that name, or a move's slow demonstration, "slow_clap" (slow_demonstration.h); the
-/// error lists the known ones.
+/// Loads the built-in move or act of that name, or a move's slow demonstration, "slow_clap" (slow_demonstration.h). The
+/// error lists the known names.
 Result<Move> LoadBuiltinMove(const std::string& name);
-/// Loads the move or act of that name without its `motion`, which takes longer to make than all else. Knows no slow
+/// Loads the move or act of that name without its `motion`, which is the slowest part to compute. It does not know slow
 /// demonstrations.
 Result<Move> LoadBuiltinCurves(const std::string& name);
-/// Returns the move at another tempo: the beats are the same, while flights take as long as gravity has them. Fails at
-/// `place` when they do not fit into the beats any more. `move` has poses.
+/// Returns the move at another tempo. The beats of its poses stay the same; the duration of a flight in seconds stays
+/// the same, too, because gravity sets it. Fails at `place` if a flight no longer fits between the beats. `move` must
+/// have poses.
 Result<Move> AtTempo(const Move& move, double tempo_bpm, const Place& place);
 /// Returns the move at another tempo without its `motion`.
 Result<Move> CurvesAtTempo(const Move& move, double tempo_bpm, const Place& place);
-/// Samples one performance at 30 Hz: the value of `Move::motion`.
+/// Samples one performance at 30 Hz; the result is what `Move::motion` holds.
 BodyMotion MotionOf(const Move& move);
 /// Reads one move or act from the text of a choreography file.
 Result<Move> ParseMove(std::string_view yaml, const std::string& file);

@@ -10,7 +10,8 @@
 namespace etude {
 namespace {
 
-/// Returns the slope at a key from the steps before and after it (widths h, secants d).
+/// Returns the slope at a key by Fritsch and Butland's formula, from the interval before and after it (widths h, secant
+/// slopes d).
 double MonotoneSlope(double h_before, double d_before, double h_after, double d_after) {
   if (d_before * d_after <= 0) return 0;
   const double w_before = 2 * h_after + h_before, w_after = h_after + 2 * h_before;
@@ -22,13 +23,14 @@ double SmallerOfSameSign(double a, double b) {
   return std::abs(a) < std::abs(b) ? a : b;
 }
 
-/// Tells whether the way starts and ends at rest.
+/// Returns true if the motion starts and ends at rest.
 bool IsBetweenRests(Ease ease) { return ease == Ease::kSnap || ease == Ease::kStep; }
 
-/// Returns the share of the way's quintic that is reached after a share of its time. Where the curve does not rest at
-/// both ends, the first two derivatives there must be those of the identity.
+/// Returns the parameter of the segment's quintic after a share of its time. If the curve does not rest at both ends,
+/// the first two derivatives at the ends must be those of the identity.
 double Eased(Ease ease, double share) {
-  // Zero up to the second derivative at both ends; up to 18.6 times it the sum below still rises everywhere.
+  // The bulge and its first two derivatives are zero at both ends. The sums below increase everywhere while kStrength
+  // is below 18.6.
   constexpr double kStrength = 8;
   const double hump = share * (1 - share), bulge = kStrength * hump * hump * hump;
   const auto within = [share](double from, double to) { return std::clamp((share - from) / (to - from), 0.0, 1.0); };
@@ -60,6 +62,7 @@ PeriodicCurve::PeriodicCurve(std::vector<Key> keys, double period) : period_(per
     return IsBetweenRests(keys[i].ease) || IsBetweenRests(keys[(i + 1) % count].ease);
   };
 
+  // Compute the slope of every knot.
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t before = (i + count - 1) % count;
     double slope = rests(i) ? 0 : MonotoneSlope(width(before), secant(before), width(i), secant(i));
@@ -68,7 +71,7 @@ PeriodicCurve::PeriodicCurve(std::vector<Key> keys, double period) : period_(per
   }
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t before = (i + count - 1) % count, after = (i + 1) % count;
-    // Second derivatives of the cubic Hermite segments that end and start at this key.
+    // The second derivatives here of the cubic Hermite segments before and after this key.
     const double ending = (2 * knots_[before].slope + 4 * knots_[i].slope - 6 * secant(before)) / width(before);
     const double starting = (6 * secant(i) - 4 * knots_[i].slope - 2 * knots_[after].slope) / width(i);
     knots_[i].bend = rests(i) ? 0 : SmallerOfSameSign(ending, starting);
@@ -79,6 +82,7 @@ PeriodicCurve::PeriodicCurve(std::vector<Key> keys, double period) : period_(per
 }
 
 double PeriodicCurve::At(double time) const {
+  // Find the segment that contains the time, modulo the period.
   const double first = knots_.front().at;
   double at = first + std::fmod(time - first, period_);
   if (at < first) at += period_;
@@ -87,7 +91,7 @@ double PeriodicCurve::At(double time) const {
   const Knot& from = *(after - 1);
   const Knot& to = *after;
 
-  // Quintic Hermite: the curve relative to the start's own parabola, corrected to meet the end.
+  // Evaluate the quintic Hermite segment: the Taylor parabola at its start plus a correction that fits its end.
   const double h = to.at - from.at, s = Eased(to.ease, (at - from.at) / h);
   const double slope = from.slope * h, bend = from.bend * h * h;
   const double gap = to.value - from.value - slope - 0.5 * bend;
@@ -114,7 +118,7 @@ bool IsOneOf(std::size_t control, std::span<const SideControl> of) {
   });
 }
 
-/// Tells whether the foot must be lifted off the floor on its way from one pose to the next.
+/// Returns true if the foot must be lifted on its way from one pose to the next.
 bool Steps(const Controls& from, const Controls& to, Side side) {
   if (from[MiddleControl::kJump] > 0 || to[MiddleControl::kJump] > 0) return false;
   for (SideControl off_the_floor : {SideControl::kFootLift, SideControl::kLegFree}) {
@@ -123,7 +127,7 @@ bool Steps(const Controls& from, const Controls& to, Side side) {
   return std::ranges::any_of(kSpot, [&](SideControl spot) { return from.Of(side, spot) != to.Of(side, spot); });
 }
 
-/// Returns the keys of the foot's height: as authored, and lifted half way through every step.
+/// Returns the keys of the foot's height: the authored ones, and one lifted key half way through every step.
 Keys LiftKeys(const std::vector<PoseKey>& poses, double beats, Side side) {
   constexpr double kStepHeight = 0.05;
   Keys keys;
@@ -140,14 +144,14 @@ Keys LiftKeys(const std::vector<PoseKey>& poses, double beats, Side side) {
 
 double JumpOf(const PoseKey& pose) { return pose.controls[MiddleControl::kJump]; }
 
-/// The times of a jump, in beats from its top: the body is in the air for `flight` before and after it, and the knees
-/// throw and catch it from `effort` before to `effort` after.
+/// The times of a jump, in beats from its top. The body is in the air for `flight` before and after it; the knees push
+/// off from `effort` before it and absorb the landing until `effort` after it.
 struct JumpTimes {
   double flight, effort;
 };
 
 JumpTimes TimesOf(const PoseKey& top, double beat_seconds) {
-  constexpr double kEffort = 2.5;  // of half a flight: three quarters of a flight for the knees on either side
+  constexpr double kEffort = 2.5;  // in half flights: push-off and landing take three quarters of a flight each
   const double flight = std::sqrt(2 * JumpOf(top) / kStandardGravity) / beat_seconds;
   return {flight, kEffort * flight};
 }
@@ -165,7 +169,7 @@ Keys JumpKeys(const std::vector<PoseKey>& poses, double beat_seconds) {
       const auto [flight, effort] = TimesOf(pose, beat_seconds);
       const double speed = gravity * flight;
       keys.push_back({pose.beat - effort, 0});
-      // Quintics through these three are the parabola, exactly.
+      // The quintics through these three keys are exactly the parabola of the flight.
       keys.push_back({pose.beat - flight, 0, Ease::kSmooth, {{speed, -gravity}}});
       keys.push_back({pose.beat, JumpOf(pose), Ease::kSmooth, {{0, -gravity}}});
       keys.push_back({pose.beat + flight, 0, Ease::kSmooth, {{-speed, -gravity}}});
@@ -177,11 +181,11 @@ Keys JumpKeys(const std::vector<PoseKey>& poses, double beat_seconds) {
   return keys;
 }
 
-/// The share of the overlap by which each control comes late: hips lead, hands and head follow, feet keep time.
-constexpr std::array<double, kControlCount> kLateness = [] {
-  std::array<double, kControlCount> lateness{};
+/// The share of the overlap by which each control is delayed: hips lead, hands and head follow, feet are on time.
+constexpr std::array<double, kControlCount> kDelay = [] {
+  std::array<double, kControlCount> delay{};
   const auto late = [&](SideControl control, double share) {
-    for (Side side : {Side::kLeft, Side::kRight}) lateness[Controls::SideIndex(side, control)] = share;
+    for (Side side : {Side::kLeft, Side::kRight}) delay[Controls::SideIndex(side, control)] = share;
   };
   late(SideControl::kArmForward, 0.4);
   late(SideControl::kArmSide, 0.4);
@@ -189,12 +193,12 @@ constexpr std::array<double, kControlCount> kLateness = [] {
   late(SideControl::kElbow, 0.8);
   late(SideControl::kWrist, 1.4);
   for (MiddleControl control : {MiddleControl::kTrunkBend, MiddleControl::kTrunkSide, MiddleControl::kTrunkTurn}) {
-    lateness[static_cast<std::size_t>(control)] = 0.2;
+    delay[static_cast<std::size_t>(control)] = 0.2;
   }
   for (MiddleControl control : {MiddleControl::kNeckBend, MiddleControl::kNeckSide, MiddleControl::kNeckTurn}) {
-    lateness[static_cast<std::size_t>(control)] = 1.0;
+    delay[static_cast<std::size_t>(control)] = 1.0;
   }
-  return lateness;
+  return delay;
 }();
 
 }  // namespace
@@ -212,8 +216,8 @@ std::vector<PeriodicCurve::Key> KeysOf(const std::vector<PoseKey>& poses, std::s
     const double value = pose.controls.values[control];
     Ease ease = pose.ease;
     if (is_spot) ease = Ease::kStep;
-    // Lifting and lowering take their time: the leg is free before its angles carry it up, and after they have brought
-    // it down.
+    // Give the lift and the landing time: the leg becomes free before its angles raise it, and stands only after they
+    // have lowered it.
     if (is_leg_free) ease = value > 0 ? Ease::kLinger : Ease::kRush;
     keys.push_back({pose.beat, value, ease});
   }
@@ -238,8 +242,8 @@ MoveCurves::MoveCurves(const std::vector<PoseKey>& authored, double beats, Style
     : style_(style), last_beat_(authored.back().beat) {
   std::vector<PoseKey> keys = authored;
   if (!style.loops) {
-    // A closed curve that rests in the last pose, and again in the first one, comes to a stop in both; nobody sees
-    // its way back.
+    // A closed curve that rests in the last pose and again in the first one stops in both. Its way back is never
+    // sampled.
     keys.push_back({last_beat_ + 1, keys.back().controls});
     keys.push_back({last_beat_ + 2, keys.front().controls});
     beats = last_beat_ + 3;
@@ -266,7 +270,7 @@ Controls MoveCurves::At(double beat) const {
   const auto seen = [&](double at) { return style_.loops ? at : std::clamp(at, 0.0, last_beat_); };
   Controls controls;
   for (std::size_t i = 0; i < kControlCount; ++i) {
-    controls.values[i] = curves_[i].At(seen(beat - style_.overlap_beats * kLateness[i]));
+    controls.values[i] = curves_[i].At(seen(beat - style_.overlap_beats * kDelay[i]));
   }
   controls[MiddleControl::kHipsDrop] += style_.bounce * 0.5 * (1 + std::cos(2 * kPi * seen(beat)));
   return controls;

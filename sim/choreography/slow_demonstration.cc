@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kHoldBeats = 1;
 
-/// The timing of a demonstration: the move's beat as a function of its own, standing still at the key poses.
+/// The timing of a demonstration: maps a beat of the demonstration to a beat of the move, with a stop at each key pose.
 class Pauses {
  public:
   /// `stops` ascend strictly within (0, beats).
@@ -19,16 +19,16 @@ class Pauses {
     double before = 0;
     for (std::size_t i = 0; i <= stops_.size(); ++i) {
       const double next = i < stops_.size() ? stops_[i] : beats;
-      // Two ramps meet between neighbouring stops; each takes half its length of the move.
+      // Two ramps fit between neighbouring stops; each covers half its length of the move.
       ramp_ = std::min(ramp_, next - before);
       before = next;
     }
   }
 
-  /// Returns by how much every stop lengthens the demonstration: the hold, and what the two ramps lose.
+  /// Returns the beats by which every stop lengthens the demonstration: the hold, and the loss in its two ramps.
   double PerStop() const { return kHoldBeats + ramp_; }
   double Beats() const { return beats_ + PerStop() * static_cast<double>(stops_.size()); }
-  /// Returns when the hold of a stop begins.
+  /// Returns the beat at which the hold of a stop begins.
   double HoldStart(std::size_t stop) const {
     return stops_[stop] + PerStop() * static_cast<double>(stop) + 0.5 * ramp_;
   }
@@ -44,7 +44,7 @@ class Pauses {
   }
 
  private:
-  /// Returns how far one comes in `time` from standing still: the speed rises to 1 along a smoothstep of length
+  /// Returns the distance covered in `time` after standing still: the speed rises to 1 along a smoothstep of length
   /// `ramp_`.
   double Gathering(double time) const {
     if (time >= ramp_) return time - 0.5 * ramp_;
@@ -60,6 +60,7 @@ class Pauses {
 }  // namespace
 
 Result<Move> SlowDemonstration(const Move& move) {
+  // Collect the beats of the key poses, where the demonstration stops.
   std::vector<double> stops;
   for (const KeyPose& key_pose : move.key_poses) stops.push_back(key_pose.beat);
   std::ranges::sort(stops);
@@ -68,6 +69,7 @@ Result<Move> SlowDemonstration(const Move& move) {
   stops.erase(std::unique(stops.begin(), stops.end()), stops.end());
   const Pauses pauses(stops, move.beats);
 
+  // Set its name, tempo and key poses.
   Move demonstration = move;
   demonstration.name = std::string(kSlowDemonstrationPrefix) + move.name;
   demonstration.tempo_bpm = 0.5 * move.tempo_bpm;
@@ -78,7 +80,7 @@ Result<Move> SlowDemonstration(const Move& move) {
     key_pose.beat = pauses.HoldStart(static_cast<std::size_t>(stop));
   }
 
-  // Read off densely: a hold becomes equal neighbours, between which curves stand exactly still.
+  // Sample the move densely: a hold becomes equal neighbours, between which curves are exactly constant.
   constexpr double kPerBeat = 16;
   const auto steps = static_cast<int>(std::ceil(kPerBeat * demonstration.beats));
   std::vector<Controls> bodies;

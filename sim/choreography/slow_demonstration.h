@@ -7,13 +7,13 @@
 
 namespace etude {
 
-/// A demonstration is named after its move: "slow_clap".
+/// The prefix of a demonstration's name before the name of its move: "slow_clap".
 constexpr std::string_view kSlowDemonstrationPrefix = "slow_";
 
-/// Makes the coach's slow demonstration of a move: at half its tempo, every key pose held for one (slow) beat, slowing
-/// down into it and gathering way out of it, so that a learner sees what is asked. A jump hangs in the air, as in a
-/// film that is stopped. Its beats are the slow ones; its key poses are the move's, at the beginning of their hold.
-/// Fails for what has no key poses (an act), or has one at its very first beat, where nothing leads into it.
+/// Makes the coach's slow demonstration of a move: at half its tempo, with a hold of one (slow) beat at every key pose.
+/// The motion slows down before each hold and speeds up after it, so that a learner sees what is expected. A jump
+/// freezes in the air like a paused film. `beats` counts slow beats; the key poses are the move's, at the start of
+/// their holds. Fails if the move has no key poses (an act), or one at beat 0, where nothing leads into it.
 Result<Move> SlowDemonstration(const Move& move);
 
 }  // namespace etude

@@ -23,15 +23,15 @@ Controls Waiting(double beat) {
   return waiting;
 }
 
-/// Returns the time of a clock that stands until -`lead`, gathers way, and runs with the music from 0 on.
+/// Returns the time of a clock that is stopped until -`lead`, accelerates, and runs with the music from 0 on.
 double StartingClock(double time, double lead) {
   if (time >= 0) return time;
   const double t = std::max(time, -lead) + lead;
   return 0.5 * (t * t / lead - lead);
 }
 
-/// Returns a turn's own clock, beats: it runs with the music within the turn, gathers way in the blend before, and
-/// comes to rest in the blend after, so that nobody starts a gesture that is not to be.
+/// Returns a turn's own time, beats. It runs with the music within the turn, speeds up in the blend before it, and
+/// stops in the blend after it, so that no unfinished gesture begins.
 double ClockOf(const Turn& turn, double beat) {
   const double since = beat - turn.start_beat;
   if (since > turn.beats) return turn.beats - StartingClock(turn.beats - since, kBlendBeatsAfter);
@@ -43,18 +43,18 @@ Controls TurnAt(const Turn& turn, double beat) {
   return turn.move ? turn.move->curves.At(turn.pace * clock) : Waiting(clock);
 }
 
-/// Tells whether the control puts a foot somewhere. A heel rises above toes that stay where they are.
+/// Returns true if the control changes where a foot is. A raised heel leaves the toes in place.
 bool MovesAFoot(SideControl control) { return control >= SideControl::kLegFree && control != SideControl::kFootHeel; }
 
-constexpr std::size_t kFewestMoves = 8, kMostMoves = 12;
-constexpr double kLongestSeconds = 600;
-/// The beats for which the dancer waits before the first part, and stands after the last one.
+constexpr std::size_t kMinMoves = 8, kMaxMoves = 12;
+constexpr double kMaxSeconds = 600;
+/// The beats for which the dancer waits before the first part and stands after the last one.
 constexpr double kLeadBeats = 4;
 constexpr double kHalfTimePace = 0.5;
 
 double PaceOf(const SongPart& part) { return part.half_time ? kHalfTimePace : 1; }
 
-/// Returns the curves of the part's move at the music's tempo; fails when the tempo does not suit it.
+/// Returns the curves of the part's move at the music's tempo; fails if the tempo does not suit the move.
 Result<Move> MoveOf(const SongPart& part, double tempo_bpm, const Place& place) {
   if (FindByName(BuiltinMoveFiles(), part.move, StemOf) == nullptr) {
     return Fail(place, "{}", UnknownName("move", part.move, BuiltinMoveNames()));
@@ -79,28 +79,31 @@ Result<SongPart> ReadPart(const Node& item) {
   return part;
 }
 
-/// Reads the parts and lays them out one after the other, from beat `kLeadBeats` of the music on. `moves` gets the move
-/// of each.
+/// Reads the parts and places them one after the other, from beat `kLeadBeats` of the music on. `moves` receives the
+/// move of each.
 Result<std::vector<SongPart>> ReadParts(const Node& parts, double tempo_bpm, std::vector<Move>& moves) {
   std::vector<SongPart> read;
   std::set<std::string> names;
   double beat = kLeadBeats;
   for (const Node& item : parts.items) {
+    // Read the part, and place it after the part before.
     ASSIGN_OR_RETURN(auto part, ReadPart(item));
     ASSIGN_OR_RETURN(auto move, MoveOf(part, tempo_bpm, item.Find("move")->place));
     part.start_beat = beat;
     part.beats = part.times * move.beats / PaceOf(part);
     beat += part.beats;
+    // Check the length so far.
     const double seconds = (beat + kLeadBeats) * 60 / tempo_bpm;
-    if (seconds > kLongestSeconds) {
-      return Fail(item.place, "the song lasts {:.0f} s up to here; at most {}", seconds, kLongestSeconds);
+    if (seconds > kMaxSeconds) {
+      return Fail(item.place, "the song lasts {:.0f} s up to here; at most {}", seconds, kMaxSeconds);
     }
     names.insert(part.move);
     read.push_back(std::move(part));
     moves.push_back(std::move(move));
   }
-  if (names.size() < kFewestMoves || names.size() > kMostMoves) {
-    return Fail(parts.place, "{} different moves; a song has {} to {}", names.size(), kFewestMoves, kMostMoves);
+  // Check the number of different moves.
+  if (names.size() < kMinMoves || names.size() > kMaxMoves) {
+    return Fail(parts.place, "{} different moves; a song has {} to {}", names.size(), kMinMoves, kMaxMoves);
   }
   return read;
 }
@@ -116,7 +119,7 @@ std::vector<Turn> TurnsOf(std::span<const SongPart> parts, std::span<const Move>
 
 double BeatsPerFrame(const Song& song) { return song.tempo_bpm / 60 / kJudgedRateHz; }
 
-/// The beat at which the song ends: the dancer stands again for `kLeadBeats` after the last part.
+/// Returns the beat at which the song ends: the dancer stands for `kLeadBeats` after the last part.
 double LastBeatOf(const Song& song) { return song.parts.back().start_beat + song.parts.back().beats + kLeadBeats; }
 
 BodyMotion MotionOf(const Song& song, std::span<const Turn> turns) {
@@ -143,7 +146,7 @@ std::vector<MusicTag> TagsOf(const Song& song) {
   return tags;
 }
 
-/// Reads the song of a file without its tags and motion; `moves` gets the move of each part.
+/// Reads the song of a file without its tags and motion; `moves` receives the move of each part.
 Result<Song> ParseOutline(std::string_view yaml, const std::string& file, std::optional<double> tempo_bpm,
                           std::vector<Move>& moves) {
   ASSIGN_OR_RETURN(const auto document, ParseYaml(yaml, file));
@@ -177,7 +180,7 @@ Result<const EmbeddedText*> FindSongFile(const std::string& name) {
 
 Controls SequenceAt(std::span<const Turn> turns, double beat) {
   assert(!turns.empty());
-  // The turn that the beat belongs to, and the two turns of the blend that it lies in.
+  // Find the turn that contains the beat; outside the blends, it alone is danced.
   const auto after = std::ranges::upper_bound(turns.begin() + 1, turns.end(), beat, {}, &Turn::start_beat);
   const Turn& now = *(after - 1);
   const Controls dancing = TurnAt(now, beat);
@@ -185,10 +188,12 @@ Controls SequenceAt(std::span<const Turn> turns, double beat) {
   const bool is_arriving = &now != &turns.front() && beat < now.start_beat + kBlendBeatsAfter;
   if (!is_leaving && !is_arriving) return dancing;
 
+  // Blend the two turns.
   const Turn& next = is_leaving ? *after : now;
   const double since = beat - (next.start_beat - kBlendBeatsBefore);
   const double share = Smootherstep(since / (kBlendBeatsBefore + kBlendBeatsAfter));
   Controls mixed = Mix(TurnAt(*(&next - 1), beat), TurnAt(next, beat), share);
+  // Take the feet from the current turn.
   for (Side side : {Side::kLeft, Side::kRight}) {
     for (std::size_t i = 0; i < kSideControlCount; ++i) {
       const auto control = static_cast<SideControl>(i);

@@ -14,52 +14,52 @@
 
 namespace etude {
 
-/// A stretch of music that one dancer fills with repetitions of one move, or by waiting.
+/// A section of the music in which one dancer repeats one move, or waits.
 struct Turn {
   double start_beat = 0;
-  double beats = 2;            ///< at least the two blends together
-  const Move* move = nullptr;  ///< null: waits in the ready stance, knees giving way between the beats
+  double beats = 2;            ///< at least as long as both blends together
+  const Move* move = nullptr;  ///< null: waits in the ready stance, with the knees giving between the beats
   double pace = 1;             ///< beats of the move per beat of the music
 };
 
-/// The blend from one turn to the next begins so many beats before the change and ends so many after it: a dancer
-/// thinks ahead, and the first key pose of a move may come early.
+/// The blend from one turn to the next begins `kBlendBeatsBefore` beats before the change and ends `kBlendBeatsAfter`
+/// after it. It begins early because dancers think ahead and a move's first key pose may come early.
 constexpr double kBlendBeatsBefore = 1, kBlendBeatsAfter = 0.5;
 
-/// Returns the body at a beat of the music, with turns that flow into each other: in the blend both are danced, the one
-/// beyond its last beat and the other before its first, and the share of the next one grows. Feet do not take part: all
-/// moves have them home at their beat 0, where they change over at once, so that a foot which stands, stands. `turns`
-/// (at least one) follow each other without gaps; before the first and after the last the body comes to rest.
+/// Returns the body at a beat of the music. In the blend between two turns both are danced, the first beyond its last
+/// beat and the second before its first, and the second one's weight grows. Feet are not blended: every move has them
+/// at home at its beat 0, where they change from one turn to the next at once, so a standing foot does not move.
+/// `turns` (at least one) follow each other without gaps; the body is at rest before the first and after the last.
 Controls SequenceAt(std::span<const Turn> turns, double beat);
 
-/// A move's turn in a song: danced `times` times in a row.
+/// One move's part of a song: the move is danced `times` times in a row.
 struct SongPart {
   std::string move;
   int times = 2;
-  bool half_time = false;  ///< each of the move's beats takes two of the music's
-  double start_beat = 0;   ///< of the music, which begins with the song
-  double beats = 0;        ///< of the music, for all repetitions
+  bool half_time = false;  ///< each beat of the move takes two beats of the music
+  double start_beat = 0;   ///< in beats of the music, which begins with the song
+  double beats = 0;        ///< in beats of the music, for all repetitions
 };
 
-/// A choreography to a piece of music: 8 to 12 different moves, each at least twice in a row (paper A, 3.4), authored
-/// in scenarios/choreography/songs/*.yaml. Only moves that suit the tempo: agile ones fast songs, warm-up ones slow
-/// songs, or fast ones in half time.
+/// A choreography for a piece of music: 8 to 12 different moves, each at least twice in a row (paper A, 3.4), authored
+/// in scenarios/choreography/songs/*.yaml. Every move must suit the tempo: agile moves are for fast songs, warm-up
+/// moves for slow songs or for fast ones in half time.
 struct Song {
   std::string name;
   double tempo_bpm = 120;
   std::vector<SongPart> parts;
-  std::vector<MusicTag> tags;  ///< the frame nearest to the beginning of every repetition, in order
-  BodyMotion motion;           ///< 30 Hz, from the ready stance to the ready stance, moves flowing into each other
+  std::vector<MusicTag> tags;  ///< the frame nearest to the start of every repetition, in order
+  BodyMotion motion;           ///< 30 Hz, from ready stance to ready stance, with moves that flow into each other
 
-  /// Returns the number of frames that `motion` has once it is made.
+  /// Returns the number of frames of `motion`, also before it is computed.
   std::size_t CountFrames() const;
 };
 
-/// Reads a song whose moves are the built-in ones; it may last ten minutes. `tempo_bpm`: other than the file's.
+/// Reads a song of built-in moves; it may last at most ten minutes. `tempo_bpm` overrides the file's tempo.
 Result<Song> ParseSong(std::string_view yaml, const std::string& file, std::optional<double> tempo_bpm = {});
 std::vector<std::string> BuiltinSongNames();
 Result<Song> LoadBuiltinSong(const std::string& name, std::optional<double> tempo_bpm = {});
-/// The built-in song without its tags and its motion, which takes longer to make than all else.
+/// Loads the built-in song without its tags and its motion, which is the slowest part to compute.
 Result<Song> LoadBuiltinSongOutline(const std::string& name);
 
 }  // namespace etude

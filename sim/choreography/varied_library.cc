@@ -14,10 +14,10 @@ namespace {
 
 using enum Role;
 
-/// The parts of the body whose turns are scaled together.
+/// The parts of the body whose rotations are scaled together.
 enum class Part { kTrunk, kLeftArm, kRightArm, kLeftLeg, kRightLeg };
 constexpr std::size_t kPartCount = 5;
-/// The rows of hips and shoulders carry the others and are left as they are.
+/// The rows of hips and shoulders carry the other parts and are not scaled.
 constexpr Part kNoPart{kPartCount};
 
 Part PartOf(Role child) {
@@ -47,11 +47,11 @@ Part PartOf(Role child) {
   }
 }
 
-/// A number that swings slowly about its middle.
-struct Wander {
+/// A number that oscillates slowly about a centre.
+struct Oscillation {
   double middle, swing, period_s, phase;
 
-  static Wander Draw(double low, double high, double swing, RandomStream& stream) {
+  static Oscillation Draw(double low, double high, double swing, RandomStream& stream) {
     const double middle = stream.Uniform(low + swing, high - swing);
     const double period_s = stream.Uniform(3, 9);
     return {middle, swing, period_s, stream.Uniform(0, 2 * std::numbers::pi)};
@@ -61,7 +61,7 @@ struct Wander {
   }
 };
 
-/// Directions of the limbs, by their child joint, in the frame of a body that faces +Z.
+/// Directions of the limbs, indexed by their child joint, in the frame of a body that faces +Z.
 using Directions = std::array<glm::dvec3, kRoleCount>;
 
 Directions DirectionsOf(const BodyPose& pose) {
@@ -90,7 +90,7 @@ MeanPose ComputeMean(const BodyMotion& motion) {
   return mean;
 }
 
-/// Returns `direction` turned about `centre` to `factor` times its angle from it, at most opposite to it.
+/// Returns `direction` rotated away from `centre`, to `factor` times its angle from it, at most π.
 glm::dvec3 ScaleTurn(const glm::dvec3& direction, const glm::dvec3& centre, double factor) {
   const double along = glm::dot(direction, centre);
   const glm::dvec3 across = direction - along * centre;
@@ -101,7 +101,7 @@ glm::dvec3 ScaleTurn(const glm::dvec3& direction, const glm::dvec3& centre, doub
   return std::cos(angle) * centre + std::sin(angle) * (across / sine);
 }
 
-/// Returns the pose between two frames of a motion. Joints move straight; `Vary` gives limbs their lengths back.
+/// Returns the pose between two frames of a motion by linear interpolation of joints; `Vary` restores the limb lengths.
 BodyPose PoseAt(const BodyMotion& motion, double frame) {
   const auto before = static_cast<std::size_t>(frame);
   const std::size_t after = std::min(before + 1, motion.poses.size() - 1);
@@ -113,17 +113,18 @@ BodyPose PoseAt(const BodyMotion& motion, double frame) {
 
 /// The style in which a dancer performs a clip.
 struct Style {
-  Wander tempo;
-  std::array<Wander, kPartCount> amplitudes;
+  Oscillation tempo;
+  std::array<Oscillation, kPartCount> amplitudes;
 
   static Style Draw(RandomStream& stream) {
-    Style style{.tempo = Wander::Draw(0.7, 1.4, 0.1, stream), .amplitudes = {}};
-    for (Wander& amplitude : style.amplitudes) amplitude = Wander::Draw(0.6, 1.3, 0.1, stream);
+    Style style{.tempo = Oscillation::Draw(0.7, 1.4, 0.1, stream), .amplitudes = {}};
+    for (Oscillation& amplitude : style.amplitudes) amplitude = Oscillation::Draw(0.6, 1.3, 0.1, stream);
     return style;
   }
 };
 
-/// Returns `pose`, a moment of a motion with the given mean, in a style; limb lengths are those of `lengths`.
+/// Returns `pose`, a frame of a motion with the given mean, performed in a style; the limb lengths are those of
+/// `lengths`.
 BodyPose Vary(const BodyPose& pose, const BodyPose& lengths, const MeanPose& mean, const Style& style, double seconds) {
   const Directions directions = DirectionsOf(pose);
   const FloorMove to_world{.yaw = Heading(pose)};

@@ -12,14 +12,14 @@
 namespace etude {
 namespace {
 
-/// Tells whether two depths of neighbouring pixels (metres) belong to different surfaces: they differ by more than 3 %
-/// of the nearer one, or one of them is missing (infinite).
+/// Returns true if two depths of neighbouring pixels (metres) belong to different surfaces: they differ by more than 3
+/// % of the nearer one, or exactly one of them is missing (infinite).
 bool IsDepthEdge(double a, double b) {
   if (std::isinf(a) || std::isinf(b)) return std::isinf(a) != std::isinf(b);
   return std::abs(a - b) > 0.03 * (a < b ? a : b);
 }
 
-/// A row of pixels as the projector would see them.
+/// A row of pixels in the projector's view.
 class Row {
  public:
   Row(const DepthImage& depth, const Camera& camera, double baseline_m, int y)
@@ -30,19 +30,19 @@ class Row {
       Pixel& made = pixels_[static_cast<std::size_t>(x)];
       made.disparity = in.fx * baseline_m / depth.At(x, y);
       made.camera_column = pixel ? pixel->x : x + 0.5;
-      most_ = std::max(most_, made.disparity);
+      max_disparity_ = std::max(max_disparity_, made.disparity);
     }
     for (int x = 0; x < depth.width; ++x) SetExtent(x);
   }
 
-  /// Tells whether the light on its way to a pixel's middle meets a nearer pixel's surface. Such a pixel lies to the
-  /// right, by as many columns as its disparity is larger.
+  /// Returns true if a nearer pixel's surface blocks the projector's light on its way to the centre of pixel x. Such a
+  /// pixel lies to the right by the difference of disparities.
   bool IsUnlit(int x) const {
     const Pixel& here = pixels_[static_cast<std::size_t>(x)];
     const double column = here.ProjectorColumn();
     for (std::size_t i = static_cast<std::size_t>(x) + 1; i < pixels_.size(); ++i) {
       const Pixel& other = pixels_[i];
-      if (other.first - most_ > column) break;
+      if (other.first - max_disparity_ > column) break;
       if (other.disparity > here.disparity && other.from <= column && column < other.to) return true;
     }
     return false;
@@ -51,12 +51,12 @@ class Row {
  private:
   struct Pixel {
     double camera_column = 0, disparity = 0;
-    double first = 0;         ///< its left border in the camera's picture
-    double from = 0, to = 0;  ///< the projector's columns that it covers
+    double first = 0;         ///< left border of the pixel in the camera's picture
+    double from = 0, to = 0;  ///< range of the projector's columns that it covers
     double ProjectorColumn() const { return camera_column - disparity; }
   };
 
-  // A pixel reaches half way to a neighbour on the same surface, beside an edge half a pixel.
+  // A pixel extends half way to its neighbour on the same surface, and by half a pixel at an edge.
   void SetExtent(int x) {
     Pixel& pixel = pixels_[static_cast<std::size_t>(x)];
     const auto border = [&](int side) {
@@ -75,15 +75,15 @@ class Row {
   int y_;
   const DepthImage& depth_;
   std::vector<Pixel> pixels_;
-  double most_ = 0;  ///< the largest disparity
+  double max_disparity_ = 0;  ///< the largest disparity
 };
 
 constexpr double kRightAngle = std::numbers::pi / 2;
-// Where LateralDeviationPx is taken at most: measured up to here.
+// LateralDeviationPx is evaluated up to this angle, the limit of its measurements.
 constexpr double kMeasuredAngle = 80 * std::numbers::pi / 180;
 
-/// Computes the angle between the normal of the surface that each pixel shows and its line of sight, radians; 0 where a
-/// pixel has no normal of its own.
+/// Computes for each pixel the angle between the normal of its surface and its line of sight, radians; 0 for a pixel
+/// without a normal.
 Image<double> AnglesOfSight(const DepthImage& depth, const Camera& camera) {
   const NormalImage normals = NormalsOf(depth, camera);
   const Intrinsics& in = camera.intrinsics;
@@ -102,7 +102,7 @@ Image<double> AnglesOfSight(const DepthImage& depth, const Camera& camera) {
   return angles;
 }
 
-/// A picture on its way through the sensor.
+/// Simulates the measurement of one picture.
 class Exposure {
  public:
   Exposure(const DepthImage& truth, const Camera& camera, const DepthCameraOptions& options)
@@ -125,7 +125,7 @@ class Exposure {
   }
 
  private:
-  // Edges shift, surfaces do not: their pixels' noise is the axial one.
+  // Only edges shift: away from edges a pixel keeps its own depth, and its noise is the axial one.
   double Displaced(int x, int y, double right, double down) const {
     const double own = echo_.At(x, y);
     const double angle = std::min(angles_.At(x, y), kMeasuredAngle);
@@ -137,8 +137,8 @@ class Exposure {
     return IsDepthEdge(own, other) ? other : own;
   }
 
-  // Disparities in steps of s, depth in those of s z² / (f b); a rounded value's variance is a twelfth of the step's
-  // square. The published law was measured behind the steps.
+  // With disparity steps of s, depth has steps of s z² / (f b), and rounding adds the variance step² / 12. The
+  // published law includes this variance, so it is subtracted.
   double WithNoise(double z, double normal) const {
     if (std::isinf(z)) return z;
     const double step = HasSteps() ? Step() * z * z / Focus() : 0;
@@ -157,7 +157,7 @@ class Exposure {
 
   const DepthCameraOptions& options_;
   const Image<double> angles_;
-  DepthImage echo_;  ///< the truth, where light comes back at all
+  DepthImage echo_;  ///< the truth where light returns, kNotMeasured elsewhere
   const double pixels_per_sensor_pixel_;
 };
 

@@ -8,22 +8,22 @@
 
 namespace etude {
 
-/// The faults of a music player, compared with the dance's own clock.
+/// The faults of a music player relative to the dance's own clock.
 struct MusicClockOptions {
-  double drift = 0;             ///< it plays 1 + drift seconds of music in a second
-  double stutters_per_min = 0;  ///< how often it stands still, on average
-  double stutter_s = 0.2;       ///< for how long; it goes on where it stood
+  double drift = 0;             ///< plays 1 + drift seconds of music per second
+  double stutters_per_min = 0;  ///< mean number of interruptions
+  double stutter_s = 0.2;       ///< duration of an interruption; playing continues where it stopped
 };
 
-/// Simulated music, at 30 Hz: what is heard at every frame of a session. One throw of the dice per frame whatever it is
-/// told, so that its stutters fall on the same frames of the session for every coach.
+/// A simulated music player at 30 Hz: the position in the song at every frame of a session. It draws one number per
+/// frame whatever it is told to do, so its stutters are on the same frames of the session for every coach.
 class MusicClock {
  public:
   MusicClock(const MusicClockOptions& options, const WorldKey& world);
 
   void PlayFrom(double music_s);
   void Pause();
-  /// Moves the clock on by one frame.
+  /// Advances the clock by one frame.
   void Tick();
   /// Returns the position in the song, seconds.
   double Now() const { return now_s_; }
@@ -34,11 +34,11 @@ class MusicClock {
   RandomStream stutters_;
   double now_s_ = 0;
   bool playing_ = false;
-  int standing_ = 0;  // frames that the stutter still lasts
+  int standing_ = 0;  // remaining frames of the stutter
 };
 
-/// Makes a click on every beat, the first of four higher: samples in [-1, 1] of one channel, `duration_s` long.
-/// `beats_s` ascend; beats outside are silent.
+/// Makes a click on every beat; the first of every four is higher. Returns the samples of one channel in [-1, 1],
+/// `duration_s` long. `beats_s` must ascend; beats outside the duration are not heard.
 std::vector<double> ClickTrack(std::span<const double> beats_s, double duration_s, int rate_hz = 44100);
 
 }  // namespace etude

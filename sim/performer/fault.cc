@@ -24,7 +24,7 @@ constexpr std::array<Named<Fault>, 10> kFaults = {{{"amplitude", Fault::kAmplitu
 
 using enum Role;
 
-/// The limbs that strays are measured by: trunk, line of the shoulders, and both upper arms, forearms, thighs, shanks.
+/// The limbs whose directions are compared: trunk, line of the shoulders, both upper arms, forearms, thighs and shanks.
 constexpr std::size_t kStrayLimbs = 10;
 constexpr std::array<Bone, kStrayLimbs> kLimbs = {{{kHipCentre, kShoulderCentre},
                                                    {kRightShoulder, kLeftShoulder},
@@ -37,11 +37,11 @@ constexpr std::array<Bone, kStrayLimbs> kLimbs = {{{kHipCentre, kShoulderCentre}
                                                    {kRightHip, kRightKnee},
                                                    {kRightKnee, kRightAnkle}}};
 
-/// Returns the middle of the i-th of `count` equal parts of [0, 1].
+/// Returns the centre of the i-th of `count` equal parts of [0, 1].
 double MiddleOf(int i, int count) { return (i + 0.5) / count; }
 
-/// Returns the unit directions of those limbs, as the person stands: `pose` faces +Z when they face the coach. A limb
-/// without length has none (zero), which differs from nothing.
+/// Returns the unit directions of those limbs in the frame of `pose`, which faces +Z if the person faces the coach. A
+/// limb of length zero has a zero direction, whose angle to any other is 0.
 std::array<glm::dvec3, kStrayLimbs> LimbDirections(const BodyPose& pose) {
   std::array<glm::dvec3, kStrayLimbs> directions{};
   for (std::size_t i = 0; i < kStrayLimbs; ++i) {

@@ -15,39 +15,41 @@
 namespace etude {
 namespace {
 
-// Units of learning (learning_law.h) are ours; that practice without knowledge of its result teaches little, and such
-// knowledge much, is Salmoni, Schmidt and Walter's (1984) first finding.
+// The units of learning (learning_law.h) are ours. Practice without knowledge of results teaches little, and such
+// knowledge teaches much: this is the first finding of Salmoni, Schmidt and Walter (1984).
 constexpr double kPractice = 0.25;
 constexpr double kDemonstration = 1;
-constexpr double kCorrection = 4;  // of the faults that were made
+constexpr double kCorrection = 4;  // for the faults that were made
 constexpr double kWrongPraise = 0.5;
 
-// Feedback guides (Winstein and Schmidt 1990): right after it errors are rarer, which does not last.
-constexpr double kGuided = 0.5;           // the share of errors that it keeps away at once
-constexpr double kGuidedLater = 0.5;      // what is left of that one performance later
-constexpr double kFrequencyMemory = 0.7;  // of how often feedback came, from one performance to the next
+// Feedback guides (Winstein and Schmidt 1990): errors are rarer immediately after it, but not permanently.
+constexpr double kGuided = 0.5;           // share of errors avoided right after feedback
+constexpr double kGuidedLater = 0.5;      // share of guidance left one performance later
+constexpr double kFrequencyMemory = 0.7;  // weight of the past in the running mean of feedback frequency
 
-// Patience, of 1 (ours).
+// Costs and gains of patience, whose maximum is 1 (ours).
 constexpr double kNeedlessCost = 0.15;
 constexpr double kWrongPraiseCost = 0.06;
 constexpr double kCorrectionCost = 0.02;
 constexpr double kPraiseGain = 0.03;
 
-/// The severity of a fault when it happens (ours): seldom too mild to be wrong.
-constexpr double kLeastSeverity = 0.35;
+/// The minimum severity of a fault that happens (ours), so that few faults are too mild to be wrong.
+constexpr double kMinSeverity = 0.35;
 
-/// The frequency of each fault of somebody without any skill, in the order of Fault (ours).
-constexpr std::array<double, 10> kUsual = {0.25, 0.10, 0.10, 0.12, 0.15, 0.10, 0.12, 0.12, 0.08, 0.10};
+/// The probability of each fault of a person without any skill, in the order of Fault (ours).
+constexpr std::array<double, 10> kFaultChances = {0.25, 0.10, 0.10, 0.12, 0.15, 0.10, 0.12, 0.12, 0.08, 0.10};
 using Proneness = std::array<double, 10>;
 
-/// People err in ways of their own: in each move two faults come most of the time, the others seldom (ours).
+/// Draws the probability of each fault in one move, without skill. Each person has typical mistakes: two faults are
+/// frequent in a move, the others rare (ours).
 Proneness DrawProneness(RandomStream& dice, std::span<const GradedFault> showable) {
   constexpr std::array<double, 2> kTypical = {0.45, 0.25};
   constexpr double kSeldom = 0.3;
   Proneness usual{}, proneness{};
   for (const GradedFault& fault : showable)
-    usual[static_cast<std::size_t>(fault.fault)] = kUsual[static_cast<std::size_t>(fault.fault)];
+    usual[static_cast<std::size_t>(fault.fault)] = kFaultChances[static_cast<std::size_t>(fault.fault)];
   for (std::size_t i = 0; i < usual.size(); ++i) proneness[i] = kSeldom * usual[i];
+  // Draw two typical faults, with probability proportional to their usual frequency.
   for (double typical : kTypical) {
     const double all = std::accumulate(usual.begin(), usual.end(), 0.0);
     double left = dice.Uniform() * all;
@@ -60,7 +62,7 @@ Proneness DrawProneness(RandomStream& dice, std::span<const GradedFault> showabl
   return proneness;
 }
 
-/// The skill with which people of a kind start, on average, and their patience (ours).
+/// The mean initial skill of a kind of people, and their initial patience (ours).
 struct Beginning {
   double skill, patience;
 };
@@ -82,8 +84,8 @@ std::vector<Skill> DrawSkills(RandomStream& dice, const Person& person, const Le
   constexpr double kSpread = 0.15, kFloor = 0.02;
   std::vector<Skill> skills;
   for (std::size_t i = 0; i < AllFaults().size(); ++i) {
-    const double thrown = BeginningOf(person.kind).skill + kSpread * std::clamp(dice.Normal(), -2.0, 2.0);
-    const double error = 1 - options.skill.value_or(std::clamp(thrown, kFloor, 1 - kFloor));
+    const double drawn = BeginningOf(person.kind).skill + kSpread * std::clamp(dice.Normal(), -2.0, 2.0);
+    const double error = 1 - options.skill.value_or(std::clamp(drawn, kFloor, 1 - kFloor));
     skills.emplace_back(options.law, error, std::min(kFloor, error), options.rates);
   }
   return skills;
@@ -98,14 +100,14 @@ Sway DrawSway(const WorldKey& key) {
 
 struct Learner::MoveState {
   std::vector<Skill> skills;  // in the order of Fault
-  Proneness proneness{};      // to each, without any skill
+  Proneness proneness{};      // probability of each fault without any skill
   std::unique_ptr<Style> style;
   int attempts = 0;
-  std::optional<std::size_t> latest;  // performance that is over and was not cut
+  std::optional<std::size_t> latest;  // index of the latest performance that is over and was not cut
   bool latest_was_corrected = false;
-  bool was_fed = false;      // feedback came since the latest performance
-  double fed_frequency = 0;  // in [0, 1]
-  double guided = 0;         // the share of errors kept away
+  bool had_feedback = false;      // true if there was feedback since the latest performance
+  double feedback_frequency = 0;  // running mean, in [0, 1]
+  double guided = 0;              // share of errors that guidance avoids now
 
   double ChanceOf(Fault fault) const {
     const auto i = static_cast<std::size_t>(fault);
@@ -114,18 +116,18 @@ struct Learner::MoveState {
 };
 
 struct Learner::Layer {
-  std::optional<Rendition> rendition;  // none: stands
-  double seen_s = 0;                   // when it began to be shown
+  std::optional<Rendition> rendition;  // empty: stands
+  double seen_s = 0;                   // time from which it was shown
   double lag_s = 0;
   double blend_s = kBlendSeconds;
   double vigour = 1;
-  std::vector<double> beats;  // shown, frame by frame
+  std::vector<double> beats;  // shown beats, frame by frame
   std::size_t performance = 0;
 
   double Weight(double time_s) const { return Smootherstep((time_s - seen_s) / blend_s); }
 
-  /// Returns the person's clock, in shares of the performance: the beat that they saw their lag ago. Before the first
-  /// they gather way, and after the last one shown they go on by themselves.
+  /// Returns the person's time within the performance, as a share: the beat that they saw one lag ago. Before the first
+  /// beat it accelerates from rest; after the last one shown it continues at the move's tempo.
   double DueAt(double time_s) const {
     const Move& move = rendition->style().move();
     const double beats_per_s = move.tempo_bpm / 60, length_s = move.beats / beats_per_s;
@@ -184,9 +186,11 @@ const BodyPose& Learner::Step(const Shown& shown) {
 void Learner::Notice(const Shown& shown) {
   using enum Shown::Act;
   const bool goes_on = shown.act == before_.act && shown.move == before_.move && shown.repetition == before_.repetition;
+  // The same thing is still shown: record its beat.
   if (goes_on) {
     if (shown.act == kDance && layers_.back().rendition) layers_.back().beats.push_back(shown.beat);
   } else {
+    // Something else is shown: end the dance, begin the next, or learn from the coach's act.
     if (before_.act == kDance) End();
     if (shown.act == kDance) {
       Begin(shown);
@@ -198,6 +202,7 @@ void Learner::Notice(const Shown& shown) {
     if (shown.act == kDemonstrate && shown.move >= 0) Demonstrate(static_cast<std::size_t>(shown.move));
   }
   if (shown.praises && !before_.praises) Praise();
+  // Drop the layers that a later one covers completely.
   const auto covers = [&](const Layer& layer) { return layer.Weight(time_s_) >= 1; };
   const auto top = std::find_if(layers_.rbegin(), layers_.rend(), covers);
   if (top != layers_.rend()) layers_.erase(layers_.begin(), top.base() - 1);
@@ -207,14 +212,14 @@ std::vector<GradedFault> Learner::DrawFaults(RandomStream& dice, std::size_t mov
   std::vector<GradedFault> faults;
   const std::span<const GradedFault> showable = showable_.Of(move);
   for (Fault fault : AllFaults()) {
-    // Every fault throws its dice, whether it happens or not.
+    // Every fault draws its random numbers, whether it happens or not.
     const double happens = dice.Uniform(), severity = dice.Uniform(), choice = dice.Uniform();
     const std::span<const GradedFault> ways(std::ranges::lower_bound(showable, fault, {}, &GradedFault::fault),
                                             std::ranges::upper_bound(showable, fault, {}, &GradedFault::fault));
     if (ways.empty() || happens >= known_[move].ChanceOf(fault)) continue;
     const auto way = static_cast<std::size_t>(choice * static_cast<double>(ways.size()));
-    const double thrown = kLeastSeverity + (1 - kLeastSeverity) * severity;
-    faults.push_back({fault, options_.severity.value_or(thrown), ways[way].choice});
+    const double drawn = kMinSeverity + (1 - kMinSeverity) * severity;
+    faults.push_back({fault, options_.severity.value_or(drawn), ways[way].choice});
   }
   instead = (move + 1 + dice.IndexBelow(std::max<std::size_t>(1, moves_.size() - 1))) % moves_.size();
   return faults;
@@ -226,10 +231,12 @@ void Learner::Begin(const Shown& shown) {
   const Move& move = moves_[index];
   MoveState& known = known_[index];
   LearnerPerformance& performance = performances_.emplace_back();
+  // Open the record of this performance.
   performance.repetition = shown.repetition;
   performance.move = shown.move;
   performance.attempt = known.attempts++;
 
+  // Draw its variation and its faults; an absent person or one who has given up stands still.
   RandomStream dice(key_, fmt::format("learner/{}/{}", move.name, performance.attempt));
   Chance chance = DrawChance(dice, person_);
   chance.tempo = 1;  // the music keeps the time
@@ -238,6 +245,7 @@ void Learner::Begin(const Shown& shown) {
   const bool stands = HasGivenUp() || person_.kind == People::kAbsent;
   if (stands) faults = {{Fault::kSkipped, 1, 0}};
 
+  // Fill in the event.
   SessionEvent& event = performance.event;
   event.move = event.danced = move.name;
   event.faults = faults;
@@ -249,11 +257,12 @@ void Learner::Begin(const Shown& shown) {
     event.danced = moves_[instead].name;
   }
 
+  // Lay the performance over what the body does so far, and compute its truth.
   Layer layer;
   layer.rendition.emplace(StyleOf(index), chance, std::move(faults), &StyleOf(instead));
   layer.seen_s = time_s_;
   layer.lag_s = chance.lag_s;
-  // Who follows closely must also be quick.
+  // A person with a short lag must also blend quickly.
   layer.blend_s = std::clamp(chance.lag_s + 0.15, 0.2, kBlendSeconds);
   layer.vigour = VigourAfter(person_, danced_s_);
   layer.beats = {shown.beat};
@@ -267,49 +276,53 @@ void Learner::End() {
   LearnerPerformance& performance = performances_.back();
   const Move& move = moves_[static_cast<std::size_t>(performance.move)];
   MoveState& known = known_[static_cast<std::size_t>(performance.move)];
-  constexpr double kLastBeats = 0.25;  // more than a frame
+  constexpr double kLastBeats = 0.25;  // more than one frame's length
   performance.is_over = true;
   performance.is_cut = before_.beat < move.beats - kLastBeats;
   performance.event.end_s = time_s_ + performance.event.chance.lag_s;
   if (performance.is_cut || HasGivenUp()) return;
 
+  // Practise, and update guidance and the feedback frequency.
   for (Skill& skill : known.skills) skill.Practise(kPractice);
   known.guided *= kGuidedLater;
-  known.fed_frequency = kFrequencyMemory * known.fed_frequency + (1 - kFrequencyMemory) * (known.was_fed ? 1 : 0);
-  known.was_fed = false;
+  known.feedback_frequency =
+      kFrequencyMemory * known.feedback_frequency + (1 - kFrequencyMemory) * (known.had_feedback ? 1 : 0);
+  known.had_feedback = false;
   known.latest = latest_ = performances_.size() - 1;
   known.latest_was_corrected = false;
 }
 
-void Learner::Feed(std::size_t move) {
-  known_[move].was_fed = true;
+void Learner::NoteFeedback(std::size_t move) {
+  known_[move].had_feedback = true;
   known_[move].guided = kGuided;
 }
 
 void Learner::Correct(std::size_t move) {
   MoveState& known = known_[move];
   if (HasGivenUp()) return;
+  // A correction without a mistake only costs patience.
   const bool follows_mistake =
       known.latest && !known.latest_was_corrected && performances_[*known.latest].event.truth != Truth::kRight;
   if (!follows_mistake) {
     SpendPatience(kNeedlessCost);
     return;
   }
+  // Learn about the faults that were made; frequent feedback is retained less.
   known.latest_was_corrected = true;
-  const double lasts = 1 - options_.guidance * known.fed_frequency;
+  const double lasts = 1 - options_.guidance * known.feedback_frequency;
   for (const GradedFault& fault : performances_[*known.latest].event.faults) {
     known.skills[static_cast<std::size_t>(fault.fault)].Learn(kCorrection * lasts);
   }
-  Feed(move);
+  NoteFeedback(move);
   SpendPatience(kCorrectionCost);
 }
 
 void Learner::Demonstrate(std::size_t move) {
   MoveState& known = known_[move];
   if (HasGivenUp()) return;
-  const double lasts = 1 - options_.guidance * known.fed_frequency;
+  const double lasts = 1 - options_.guidance * known.feedback_frequency;
   for (Skill& skill : known.skills) skill.Learn(kDemonstration * lasts);
-  Feed(move);
+  NoteFeedback(move);
 }
 
 void Learner::Praise() {

@@ -15,82 +15,85 @@
 
 namespace etude {
 
-/// The part of the coach that a learner sees in one frame.
+/// What a learner sees of the coach in one frame.
 struct Shown {
   enum class Act {
-    kNothing,      ///< stands by, dozes, wakes: there is nothing to follow
-    kDance,        ///< dances `move`, to be danced along
-    kCorrect,      ///< a head shake, a wave, the puzzled act: about `move`
-    kDemonstrate,  ///< `move` slowly: the learner only watches
+    kNothing,      ///< stands by, dozes or wakes; the learner has nothing to follow
+    kDance,        ///< dances `move` for the learner to dance along
+    kCorrect,      ///< corrects `move`: a head shake, a wave, the puzzled act
+    kDemonstrate,  ///< shows `move` slowly while the learner only watches
   };
   Act act = Act::kNothing;
-  int move = -1;         ///< index of the learner's moves; −1 where there is none
-  int repetition = -1;   ///< of kDance: which performance of the dance; another number is another performance
-  double beat = 0;       ///< of kDance: beats since that performance's first, up to the move's
-  bool praises = false;  ///< whether the latest finished performance is praised in this frame, in whatever act
+  int move = -1;         ///< index of the learner's moves; −1 if none
+  int repetition = -1;   ///< kDance: number of the dance's performance; another number means another performance
+  double beat = 0;       ///< kDance: beats since that performance's first beat, up to the move's length
+  bool praises = false;  ///< true if the latest finished performance is praised in this frame, in any act
 };
 
 struct LearnerOptions {
   LearningLaw law = LearningLaw::kExponential;
   LearningRates rates = {};
   /// The cost of frequent feedback (Salmoni, Schmidt and Walter 1984; Winstein and Schmidt 1990): the share of what
-  /// feedback teaches that does not last when it follows every performance. In [0, 1]; a half is ours.
+  /// feedback teaches that is not retained if feedback follows every performance. In [0, 1]; the default of 0.5 is
+  /// ours.
   double guidance = 0.5;
-  /// The level at which every skill starts, in [0, 1]; without a value it follows the person's kind and differs for
-  /// every fault of every move.
+  /// The level at which every skill starts, in [0, 1]. If empty, it depends on the person's kind and is drawn for every
+  /// fault of every move.
   std::optional<double> skill = {};
-  /// The severity of every fault that happens, in [0, 1]; drawn when there is no value.
+  /// The severity of every fault that happens, in [0, 1]; drawn if empty.
   std::optional<double> severity = {};
-  bool gives_up = true;  ///< whether patience can end
+  bool gives_up = true;  ///< false: a learner never loses patience
 };
 
 /// One performance that a learner was asked for, and its truth. Times are seconds since the learner's first frame.
 struct LearnerPerformance {
-  int repetition = -1;  ///< of the dance
+  int repetition = -1;  ///< number within the dance
   int move = 0;
-  int attempt = 0;       ///< the number of the attempt at this move, from 0; keys its luck
-  bool is_over = false;  ///< the coach shows it no more
-  bool is_cut = false;   ///< and stopped before its last beat: there is nothing to judge
-  /// The event, with faults, stray and truth from its first frame on; `end_s` is expected until it is over;
-  /// `first_right_s` is found when it comes.
+  int attempt = 0;       ///< number of the attempt at this move, from 0; the key of its random numbers
+  bool is_over = false;  ///< true once the coach no longer shows it
+  bool is_cut = false;   ///< true if the coach stopped it before its last beat, so it is not judged
+  /// The event, with faults, stray and truth from its first frame on. `end_s` is an estimate until the performance is
+  /// over; `first_right_s` is set when that beat is performed.
   SessionEvent event;
 };
 
-/// A person who dances along with a coach and learns, frame by frame: what they do depends on what was shown so far.
+/// A person who dances along with a coach and learns, frame by frame. Their behaviour depends only on what was shown so
+/// far.
 ///
-/// They follow what they see with their lag and in their own way (Style), and err by their skills, one for every fault
-/// of every move. A performance's luck is keyed by its move and its attempt, never by time, so that every coach meets
-/// the same luck. Practice teaches a little, a demonstration more, a correction most, but only of the faults of a
-/// mistake that it follows. Feedback guides, too: it helps the next performances more than it teaches. Praise for a
-/// mistake unteaches. A correction without a mistake and wrong praise cost patience; without patience a learner gives
-/// up, and stands there. The sizes stand in learner.cc, with their sources or as ours.
+/// Learners follow what they see with their lag and in their own style (Style), and make mistakes according to their
+/// skills, one for every fault of every move. The random numbers of a performance are keyed by its move and its attempt
+/// and never by time, so they are the same under every coach. Practice teaches a little, a demonstration more, and a
+/// correction most, but a correction teaches only about the faults of the mistake that it follows. Feedback also
+/// guides: it improves the next performances more than what is retained. Praise for a mistake unteaches. Wrong praise
+/// and a correction without a mistake cost patience; without patience a learner gives up and stands still. The
+/// constants, with their sources or marked as ours, are in learner.cc.
 class Learner {
  public:
-  /// `moves`, `showable` (of the same moves) and the text of `key.scenario` must outlive this.
+  /// `moves`, `showable` (of the same moves) and the text of `key.scenario` must outlive this object.
   Learner(const WorldKey& key, const Person& person, std::span<const Move> moves, const ShowableFaults& showable,
           const LearnerOptions& options = {});
   ~Learner();
   Learner(const Learner&) = delete;
   Learner& operator=(const Learner&) = delete;
 
-  /// Moves the learner on by one frame (30 Hz), in which they see this of the coach; returns the pose.
+  /// Advances the learner by one frame (30 Hz) in which they see `shown`; returns the pose.
   const BodyPose& Step(const Shown& shown);
 
   const Person& person() const { return person_; }
-  /// Returns the performances in the order in which they began, the current one last.
+  /// Returns the performances in the order in which they began; the last one is the current one.
   std::span<const LearnerPerformance> performances() const { return performances_; }
-  /// Returns the patience that is left, in [0, 1]; at 0 the learner has given up.
+  /// Returns the remaining patience, in [0, 1]; at 0 the learner has given up.
   double patience() const { return patience_; }
   bool HasGivenUp() const { return patience_ <= 0; }
-  /// Returns the chance that the next performance of this move has no fault, as things stand.
+  /// Returns the probability that the next performance of this move has no fault.
   double ChanceOfRight(std::size_t move) const;
-  /// Returns that chance without a coach, after the time of so many performances: nothing guides any more, and what is
-  /// forgotten by then is forgotten. That of somebody who has given up is what they could do.
+  /// Returns that probability without a coach after the time of `performances_later` performances: guidance has ended,
+  /// and what is forgotten by then is forgotten. For a learner who has given up, it is the probability if they danced.
   double RetainedChanceOfRight(std::size_t move, int performances_later) const;
 
  private:
-  struct Layer;      // one thing that the body does, blended over the one before
-  struct MoveState;  // what is known and remembered of one move
+  struct Layer;      // one action of the body, blended over the one before
+  struct MoveState;  // skills and memory of one move
 
   void Notice(const Shown& shown);
   void Begin(const Shown& shown);
@@ -98,7 +101,7 @@ class Learner {
   void Correct(std::size_t move);
   void Demonstrate(std::size_t move);
   void Praise();
-  void Feed(std::size_t move);
+  void NoteFeedback(std::size_t move);
   void SpendPatience(double cost);
   std::vector<GradedFault> DrawFaults(RandomStream& dice, std::size_t move, std::size_t& instead) const;
   const Style& StyleOf(std::size_t move);
@@ -113,14 +116,14 @@ class Learner {
   const Controls rest_;
   const Sway sway_;
 
-  double time_s_ = 0;    // of this frame
-  double danced_s_ = 0;  // of it dancing
+  double time_s_ = 0;    // time of this frame
+  double danced_s_ = 0;  // time spent dancing so far
   double patience_ = 1;
   Shown before_;  // what was shown in the frame before
   std::vector<LearnerPerformance> performances_;
-  std::optional<std::size_t> latest_;  // of those that are over and were not cut
-  std::vector<MoveState> known_;       // by move
-  std::vector<Layer> layers_;          // the later over the earlier
+  std::optional<std::size_t> latest_;  // index of the latest performance that is over and was not cut
+  std::vector<MoveState> known_;       // per move
+  std::vector<Layer> layers_;          // later layers are blended over earlier ones
   BodyPose pose_;
 };
 

@@ -6,45 +6,46 @@
 
 namespace etude {
 
-/// The law by which errors shrink with learning. Since the learner is an invention, a verdict about coaches counts only
-/// if it holds under all of them.
+/// The law by which errors decrease with learning. Because the learner is a model of ours, a verdict about coaches
+/// counts only if it holds under all three laws.
 enum class LearningLaw {
-  kExponential,  ///< Heathcote, Brown and Mewhort (2000): of one person's practice
-  kPower,        ///< Newell and Rosenbloom (1981): quick at first, never quite done
-  kTwoRate,      ///< Smith, Ghazizadeh and Shadmehr (2006): what is learnt fast is forgotten fast
+  kExponential,  ///< Heathcote, Brown and Mewhort (2000): practice of one person
+  kPower,        ///< Newell and Rosenbloom (1981): fast at first, with a long tail
+  kTwoRate,      ///< Smith, Ghazizadeh and Shadmehr (2006): a fast process forgets fast, a slow one retains
 };
 /// Returns the names "exponential", "power", "two-rate", in the order of the enum.
 const std::vector<std::string>& LearningLawNames();
-/// Returns the law of a name, which must be one of LearningLawNames().
+/// Returns the law with this name, which must be one of LearningLawNames().
 LearningLaw FindLearningLaw(std::string_view name);
 
 /// The constants of the laws.
 struct LearningRates {
-  /// The share of the error that is lost per unit of learning at first, under the exponential law. The power law starts
-  /// as steeply (ours).
+  /// The initial relative decrease of the error per unit of learning, under the exponential law. The power law starts
+  /// equally steep (ours).
   double rate = 0.15;
   /// The power law's exponent: (1 + n·rate/exponent)^−exponent after n units (Newell and Rosenbloom report 0.2–0.6).
   double exponent = 0.5;
-  // The two states: what is kept from one performance to the next, and what an error teaches (Smith et al., table 1).
+  // The two states: the share kept from one performance to the next, and the share learnt from an error (Smith et al.,
+  // table 1).
   double fast_kept = 0.59, fast_learnt = 0.21;
   double slow_kept = 0.992, slow_learnt = 0.02;
 };
 
-/// A skill: the likelihood of one fault of one move, and the learning that led to it.
+/// A skill: the probability of one fault of one move, as a function of the learning so far.
 class Skill {
  public:
-  /// The skill starts at `error` in [0, 1]; `floor` in [0, error] never goes away.
+  /// The error starts at `error` in [0, 1] and never falls below `floor` in [0, error].
   Skill(LearningLaw law, double error, double floor = 0, const LearningRates& rates = {});
 
   double Error() const;
-  /// Lets one performance go by, which teaches `units` (in [0, 1]; a unit is what a trial with knowledge of its result
-  /// does). Under the two-rate law it makes forget, too.
+  /// Records one performance, which teaches `units` in [0, 1]; one unit is what a trial with knowledge of results
+  /// teaches. Under the two-rate law it also causes forgetting.
   void Practise(double units);
-  /// Adds what somebody else teaches between performances, ≥ 0 units.
+  /// Adds `units` ≥ 0 of learning from another person between performances.
   void Learn(double units);
-  /// Loses what so many units had taught at first.
+  /// Removes `units` of learning. Under the two-rate law both states shrink by exp(−rate · units).
   void Unlearn(double units);
-  /// Lets the time of this many performances pass.
+  /// Lets the time of `performances` performances pass without practice.
   void Rest(int performances);
 
  private:

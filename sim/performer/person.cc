@@ -9,23 +9,23 @@
 namespace etude {
 namespace {
 
-/// The sizes of one preset (ours, but for statures: school children's are the growth charts' of six to fourteen). Every
-/// spread is a standard deviation.
+/// The sizes of one preset (ours, but the statures of school children are those of growth charts for six to fourteen
+/// years). Every spread is a standard deviation.
 struct Preset {
-  double least_m, most_m;      // stature, evenly
-  double lag_s, lag_spread_s;  // of people; of one person's performances
-  double tempo, tempo_spread;  // of people (of the logarithm)
+  double min_m, max_m;         // stature, drawn uniformly
+  double lag_s, lag_spread_s;  // spread between people, and between one person's performances
+  double tempo, tempo_spread;  // spread between people, of the logarithm
   double own_tempo_spread, drift;
   double amplitude, amplitude_spread;
-  double lower, lower_spread;  // what hips, trunk and legs take part of what the arms do
-  double gain_spread;          // of the logarithm, each control
-  double asymmetry;            // of the logarithm, left against right
+  double lower, lower_spread;  // gain of hips, trunk and legs relative to the arms
+  double gain_spread;          // of each gain's logarithm
+  double asymmetry;            // of the logarithm of left over right
   double looseness;
   double tiring;
 };
 
 constexpr Preset kPresets[] = {
-    {},  // mixed: one of the others
+    {},  // mixed: one of the others is used
     {1.00, 1.10, 0.55, 0.18, 0.85, 0.25, 0.14, 0.10, 0.72, 0.14, 0.70, 0.25, 0.30, 0.12, 1.55, 0.10},
     {1.10, 1.60, 0.32, 0.10, 0.92, 0.24, 0.10, 0.06, 0.82, 0.13, 0.75, 0.25, 0.26, 0.08, 1.35, 0.05},
     {1.50, 1.90, 0.24, 0.07, 0.95, 0.24, 0.08, 0.05, 0.84, 0.13, 0.70, 0.25, 0.25, 0.07, 1.25, 0.03},
@@ -33,16 +33,16 @@ constexpr Preset kPresets[] = {
     {1.50, 1.90, 0.24, 0.07, 0.95, 0.24, 0.08, 0.05, 0.84, 0.13, 0.70, 0.25, 0.25, 0.07, 1.25, 0.03},
 };
 
-/// Returns the childhood of a stature: 1 at a metre, 0 from 1.65 m on.
+/// Returns how childlike the proportions at a stature are: 1 at a metre, 0 from 1.65 m on.
 double ChildhoodOf(People kind, double stature_m) {
   if (kind != People::kToddler && kind != People::kSchoolChild) return 0;
   return std::clamp((1.65 - stature_m) / 0.65, 0.0, 1.0);
 }
 
-/// Draws a standard normal number, cut off at two and a half deviations.
+/// Draws a standard normal number clamped to ±2.5.
 double Bounded(RandomStream& random) { return std::clamp(random.Normal(), -2.5, 2.5); }
 
-/// Draws how far a person's own way of standing is from the ready stance; sizes are for looseness 1, in radians and
+/// Draws a person's posture as differences from the ready stance. The sizes below are for looseness 1, in radians and
 /// metres.
 Controls DrawPosture(RandomStream& random, double looseness) {
   Controls posture;
@@ -73,12 +73,14 @@ Controls DrawPosture(RandomStream& random, double looseness) {
 bool IsOfTheArm(SideControl control) { return control <= SideControl::kWrist; }
 
 std::array<double, kControlCount> DrawGains(RandomStream& random, const Preset& preset) {
-  constexpr double kLeastLower = 0.25;
-  const double lower = std::max(kLeastLower, preset.lower + preset.lower_spread * Bounded(random));
-  constexpr double kLeast = 0.65, kMost = 1.5;
-  const auto own = [&] { return std::clamp(std::exp(preset.gain_spread * Bounded(random)), kLeast, kMost); };
+  // Hips, trunk and legs share one factor, and every control has its own.
+  constexpr double kMinLower = 0.25;
+  const double lower = std::max(kMinLower, preset.lower + preset.lower_spread * Bounded(random));
+  constexpr double kMin = 0.65, kMax = 1.5;
+  const auto own = [&] { return std::clamp(std::exp(preset.gain_spread * Bounded(random)), kMin, kMax); };
   std::array<double, kControlCount> gains{};
   for (std::size_t i = 0; i < kMiddleControlCount; ++i) gains[i] = lower * own();
+  // One side is stronger than the other in all of its controls.
   const double strong_left = std::exp(0.5 * preset.asymmetry * Bounded(random));
   for (std::size_t i = 0; i < kSideControlCount; ++i) {
     const auto control = static_cast<SideControl>(i);
@@ -113,7 +115,7 @@ Person DrawPerson(const WorldKey& key, People people) {
   const double kind = random.Uniform();
   Person person{.kind = people == People::kMixed ? KindInMixture(kind) : people};
   const Preset& preset = kPresets[static_cast<std::size_t>(person.kind)];
-  person.stature_m = random.Uniform(preset.least_m, preset.most_m);
+  person.stature_m = random.Uniform(preset.min_m, preset.max_m);
   person.body = DimensionsOf(person.stature_m, ChildhoodOf(person.kind, person.stature_m));
   person.place = {.yaw = Radians(8) * Bounded(random), .x = 0.12 * Bounded(random), .z = 0.12 * Bounded(random)};
   person.lag_s = preset.lag_s * std::exp(0.25 * Bounded(random));
@@ -121,8 +123,8 @@ Person DrawPerson(const WorldKey& key, People people) {
   person.tempo = preset.tempo * std::exp(preset.tempo_spread * Bounded(random));
   person.tempo_spread = preset.own_tempo_spread;
   person.drift = preset.drift;
-  constexpr double kLeastAmplitude = 0.55;  // of who means to dance
-  person.amplitude = std::max(kLeastAmplitude, preset.amplitude + preset.amplitude_spread * Bounded(random));
+  constexpr double kMinAmplitude = 0.55;  // of a person who takes part
+  person.amplitude = std::max(kMinAmplitude, preset.amplitude + preset.amplitude_spread * Bounded(random));
   person.tiring = preset.tiring * std::exp(0.4 * Bounded(random));
   person.looseness = preset.looseness;
   person.gains = DrawGains(random, preset);
@@ -132,13 +134,13 @@ Person DrawPerson(const WorldKey& key, People people) {
 }
 
 double VigourAfter(const Person& person, double danced_s) {
-  constexpr double kLeast = 0.6;
-  return std::max(kLeast, std::exp(-person.tiring * danced_s / 60));
+  constexpr double kMin = 0.6;
+  return std::max(kMin, std::exp(-person.tiring * danced_s / 60));
 }
 
 BodyDimensions DimensionsOf(double stature_m, double childhood) {
   constexpr double kCanonicalStature = 1.7;
-  /// The shares of stature of a child of four years.
+  /// The proportions of a child of four years, as shares of stature.
   constexpr BodyDimensions kChild = {.hip_half_width = 0.055,
                                      .thigh = 0.213,
                                      .shank = 0.211,

@@ -12,17 +12,17 @@
 namespace etude {
 namespace {
 
-/// The share of a performance over which a person changes from what is wrong to what is right, or back.
+/// The duration of the change from wrong to right or back, as a share of a performance.
 constexpr double kChange = 0.25;
 
-// What faults do at severity 1 (ours).
+// The effects of faults at severity 1 (ours).
 constexpr double kLostAmplitude = 0.8;
 constexpr double kLateBeats = 1;
-constexpr double kOffBeats = 1;  // at its furthest, or what leaves the clock rising
-constexpr double kMostOff = 0.7 / kPi;
-constexpr double kUnstopped = 0.35;  // what is danced before a person stops
+constexpr double kOffBeats = 1;  // at the largest deviation, limited by kMaxOffBeat so that the timing still increases
+constexpr double kMaxOffBeat = 0.7 / kPi;
+constexpr double kUnstopped = 0.35;  // share danced before a person stops
 
-/// Returns 1 in the first `severity` of the performance, then 0.
+/// Returns 1 in the first `severity` of the performance and 0 after it, with a smooth change.
 double First(double share, double severity) {
   return 1 - Smootherstep((share - severity * (1 + kChange)) / kChange + 1);
 }
@@ -42,7 +42,7 @@ struct LimbName {
   bool is_leg;
 };
 
-/// Returns the limb that a choice in [0, 1) falls on.
+/// Returns the limb that `choice` in [0, 1) selects.
 LimbName LimbOf(double choice) {
   constexpr std::array<LimbName, 4> kAllLimbs = {
       {{Side::kLeft, false}, {Side::kRight, false}, {Side::kLeft, true}, {Side::kRight, true}}};
@@ -57,7 +57,7 @@ void LeaveOut(Controls& controls, const Controls& rest, const LimbName& limb, do
 }
 
 SmoothOffsets DrawWays(const Person& person, std::uint64_t key) {
-  constexpr double kOfStyle = 0.25;  // how much one performance differs, of how much people do (ours)
+  constexpr double kOfStyle = 0.25;  // variation between performances relative to that between people (ours)
   RandomStream random(WorldKey{.suite_seed = key, .scenario = "rendition"}, "ways");
   return {random, kOfStyle * person.looseness};
 }
@@ -94,12 +94,12 @@ Controls Rendition::Meant(double share, double vigour) const {
 
 Controls Rendition::Reordered(double share, double vigour) const {
   static constexpr std::array<int, 4> kOrder = {0, 2, 1, 3};
-  static constexpr double kQuarter = 0.25, kSeam = 0.22;
-  const auto moved = [](std::size_t place) { return kQuarter * (kOrder[place] - static_cast<int>(place)); };
-  // Around a seam both quarters run on, and one becomes the other.
-  const double seam = std::clamp(std::round(share / kQuarter), 1.0, 3.0);
-  const auto after = static_cast<std::size_t>(seam), before = after - 1;
-  const double over = Smootherstep((share - kQuarter * seam) / kSeam + 0.5);
+  static constexpr double kQuarter = 0.25, kBorderBlend = 0.22;
+  const auto moved = [](std::size_t quarter) { return kQuarter * (kOrder[quarter] - static_cast<int>(quarter)); };
+  // Around a border between quarters both quarters continue, and one is blended into the other.
+  const double border = std::clamp(std::round(share / kQuarter), 1.0, 3.0);
+  const auto after = static_cast<std::size_t>(border), before = after - 1;
+  const double over = Smootherstep((share - kQuarter * border) / kBorderBlend + 0.5);
   if (over <= 0) return Meant(share + moved(before), vigour);
   if (over >= 1) return Meant(share + moved(after), vigour);
   return Mix(Meant(share + moved(before), vigour), Meant(share + moved(after), vigour), over);
@@ -109,6 +109,7 @@ Controls Rendition::Danced(double share, double vigour) const {
   Controls danced = Meant(share, vigour);
   if (faults_.empty()) return danced;
   const Controls rest = RestOf(meant_->person());
+  // Faults of content, for the first part of the performance.
   if (const auto order = Find(Fault::kWrongOrder)) {
     const double weight = First(share, order->severity);
     if (weight > 0) danced = Mix(danced, Reordered(share, vigour), weight);
@@ -120,6 +121,7 @@ Controls Rendition::Danced(double share, double vigour) const {
   if (const auto side = Find(Fault::kWrongSide)) {
     danced = Mix(danced, Mirrored(danced), First(share, side->severity));
   }
+  // Faults of execution, for all of it.
   if (const auto limb = Find(Fault::kLimbMissing)) LeaveOut(danced, rest, LimbOf(limb->choice), limb->severity);
   if (const auto elbow = Find(Fault::kElbowStraight)) {
     for (Side side : {Side::kLeft, Side::kRight}) danced.Of(side, SideControl::kElbow) *= 1 - elbow->severity;
@@ -154,7 +156,7 @@ double Rendition::DancedShare(double due) const {
   const double late = due - Lateness();
   double share = MeantShare(late);
   if (const auto off = Find(Fault::kOffBeat); off && late > 0 && late < 1) {
-    const double most = std::min(kOffBeats / meant_->move().beats, kMostOff);
+    const double most = std::min(kOffBeats / meant_->move().beats, kMaxOffBeat);
     share += (off->choice < 0.5 ? 1 : -1) * off->severity * most * std::sin(kPi * late);
   }
   return share;
@@ -187,6 +189,7 @@ bool CanShow(const GradedFault& fault, const Move& move, const Move* instead) {
   GradedFault worst = fault;
   worst.severity = 1;
   const Rendition rendition(style, {}, {worst}, &other);
+  // A mirrored move that fits the move half a performance later has no wrong side.
   if (fault.fault == Fault::kWrongSide) {
     const auto shifted = [&](double share) { return PoseOf(rendition.Meant(share + 0.5)); };
     const auto mirrored = [&](double share) { return PoseOf(rendition.Danced(share)); };

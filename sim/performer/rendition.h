@@ -12,11 +12,11 @@
 
 namespace etude {
 
-/// The length of the way from standing into a move, and back.
+/// The duration of the blend from standing into a move, and of the blend back.
 constexpr double kBlendSeconds = 0.45;
 
-/// Returns a performance's clock, seconds: it runs with time between 0 and `length`, gathers way in the blend before,
-/// and comes to rest in the blend after, so that nothing starts or stops at a jerk.
+/// Returns the time within a performance, seconds: it equals `time` between 0 and `length`, accelerates from rest in
+/// the blend before, and decelerates to rest in the blend after, so that no motion starts or stops abruptly.
 inline double EasedTime(double time, double length) {
   if (time < 0) {
     const double t = std::max(time, -kBlendSeconds) + kBlendSeconds;
@@ -26,41 +26,41 @@ inline double EasedTime(double time, double length) {
   return time;
 }
 
-/// The random part of one performance, faults aside: no two performances of one person are alike.
+/// The random variation of one performance besides its faults; it differs between the performances of one person.
 struct Chance {
-  double lag_s = 0;        ///< behind what is seen
-  double tempo = 1;        ///< times the move's
-  double unevenness = 0;   ///< of the clock between the first beat and the last, share of the performance
-  std::uint64_t ways = 0;  ///< the key of its offsets
+  double lag_s = 0;        ///< delay behind what is seen
+  double tempo = 1;        ///< factor on the move's tempo
+  double unevenness = 0;   ///< unevenness of the timing from the first beat to the last, as a share of the performance
+  std::uint64_t ways = 0;  ///< the random key of its offsets
 };
 
 Chance DrawChance(RandomStream& random, const Person& person);
 
-/// A performance of a move: what is danced at each share of it, and its clock; with its faults, and as it was meant.
-/// Shares and clock run from 0, the first beat, to 1, the last; both go on smoothly outside.
+/// One performance of a move: the body at each share of the performance, and its timing, both with its faults and as it
+/// was meant. Shares and times run from 0 at the first beat to 1 at the last, and continue smoothly beyond.
 class Rendition {
  public:
-  /// `meant` and `instead` must outlive this. `instead` is danced in place of the move where a fault is kWrongMove.
+  /// `meant` and `instead` must outlive this object. A performance with kWrongMove dances `instead`.
   Rendition(const Style& meant, const Chance& chance, std::vector<GradedFault> faults, const Style* instead = nullptr);
 
   const Style& style() const { return *meant_; }
 
-  /// Returns the body at a share of the performance, without its faults and with them.
+  /// Returns the body at a share of the performance, without its faults (Meant) or with them (Danced).
   Controls Meant(double share, double vigour = 1) const;
   Controls Danced(double share, double vigour = 1) const;
-  /// Returns how much of the body takes part: 1, but 0 where the person stands and waits.
+  /// Returns the weight of the dance: 1 while the person dances, 0 while they stand still.
   double Presence(double share) const;
 
-  /// Returns the share that is danced when the person's own clock says `due`, which runs evenly from 0 to 1 in a
-  /// performance that is in time; without faults and with them. Both rise.
+  /// Returns the share of the performance reached at `due`, a time that runs evenly from 0 to 1 in a performance on
+  /// time, without faults (MeantShare) or with them (DancedShare). Both functions increase.
   double MeantShare(double due) const;
   double DancedShare(double due) const;
-  /// Returns by how much the clock is late as a whole, in shares of a performance.
+  /// Returns the delay of the whole performance, as a share of its length.
   double Lateness() const;
-  /// Returns what the clock says when `share` is danced: the inverse of DancedShare.
+  /// Returns the time at which `share` is danced: the inverse of DancedShare.
   double DueOf(double share) const;
 
-  /// Measures how far this strays from what was meant; zero without faults.
+  /// Computes the deviation from what was meant; it is zero without faults.
   Stray Strays() const;
 
  private:
@@ -74,17 +74,18 @@ class Rendition {
   std::vector<GradedFault> faults_;
 };
 
-/// Tells whether a performance of `move` by somebody who dances as taught is truly wrong when only this fault happens,
-/// at its worst. A move that is its own mirror image half a performance later has no wrong side. `choice` as in
-/// GradedFault; `instead` for kWrongMove.
+/// Returns true if a performance of `move` with only this fault at its worst, by somebody who otherwise dances as
+/// taught, is truly wrong. A move that equals its own mirror image half a performance later has no wrong side. `choice`
+/// is as in GradedFault; `instead` is used for kWrongMove.
 bool CanShow(const GradedFault& fault, const Move& move, const Move* instead);
 
-/// The faults that each of some moves can show: costly to find (some milliseconds a move), the same for everybody.
+/// The faults that each of some moves can show. They are the same for everybody; finding them costs some milliseconds
+/// per move.
 class ShowableFaults {
  public:
   explicit ShowableFaults(std::span<const Move> moves);
 
-  /// Returns the faults of the i-th move, each at severity 1, once for every choice that it leaves open.
+  /// Returns the faults of the i-th move at severity 1, one for each variant (`choice`).
   std::span<const GradedFault> Of(std::size_t move) const { return faults_[move]; }
 
  private:

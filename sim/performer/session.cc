@@ -16,13 +16,13 @@
 namespace etude {
 namespace {
 
-/// Shuffles items as Fisher and Yates do.
+/// Shuffles items (Fisher–Yates).
 template <typename T>
 void Shuffle(RandomStream& random, std::vector<T>& items) {
   for (std::size_t i = items.size(); i > 1; --i) std::swap(items[i - 1], items[random.IndexBelow(i)]);
 }
 
-/// Draws `count` indices of moves: every move is asked once before any is asked again.
+/// Draws `count` indices of moves: no move is repeated before all moves were drawn.
 std::vector<std::size_t> DrawMoves(RandomStream& random, std::size_t move_count, std::size_t count) {
   std::vector<std::size_t> drawn;
   while (drawn.size() < count) {
@@ -35,8 +35,8 @@ std::vector<std::size_t> DrawMoves(RandomStream& random, std::size_t move_count,
   return drawn;
 }
 
-/// Adds one more fault that the move can show, of another kind than those it has; adds none when there is no such
-/// fault.
+/// Adds one more fault that the move can show, of a kind that the event does not have yet; adds none if there is no
+/// such fault.
 void AddFault(RandomStream& random, std::span<const Move> moves, const SessionOptions& options, SessionEvent& event) {
   const Move& asked = *FindByName(moves, event.move);
   std::vector<Fault> left = options.faults.empty() ? AllFaults() : options.faults;
@@ -57,7 +57,7 @@ void AddFault(RandomStream& random, std::span<const Move> moves, const SessionOp
   }
 }
 
-/// An event, ready to be danced.
+/// An event with its rendition, placed in time.
 class Dance {
  public:
   Dance(const SessionEvent& event, Rendition rendition)
@@ -68,7 +68,7 @@ class Dance {
     vigour_ = VigourAfter(rendition_.style().person(), event.start_s);
   }
 
-  /// Returns how much of the body dances: 0 outside the event, 1 inside.
+  /// Returns the weight of the dance over standing: 0 outside the event, 1 inside.
   double Weight(double time_s) const {
     const double since = time_s - starts_s_ - late_s_;
     const double inside =
@@ -79,7 +79,7 @@ class Dance {
   Controls At(double time_s) const { return rendition_.Danced(ShareAt(time_s), vigour_); }
 
   Stray Strays() const { return rendition_.Strays(); }
-  /// Returns the time at which the performance gets to this beat of its move.
+  /// Returns the time at which the performance reaches this beat of its move.
   double TimeOf(double beat) const {
     return starts_s_ + length_s_ * rendition_.DueOf(beat / rendition_.style().move().beats);
   }
@@ -95,7 +95,7 @@ class Dance {
   double vigour_ = 1;
 };
 
-/// Makes the person's styles of the moves that a plan names.
+/// Returns the person's styles of all moves that a plan names.
 std::map<std::string_view, Style> StylesFor(const SessionPlan& plan, std::span<const Move> moves,
                                             const Person& person) {
   std::map<std::string_view, Style> styles;
@@ -115,17 +115,19 @@ std::map<std::string_view, Style> StylesFor(const SessionPlan& plan, std::span<c
 SessionPlan PlanSession(RandomStream& random, std::span<const Move> moves, const Person& person,
                         const SessionOptions& options) {
   assert(!moves.empty());
+  // Choose which events have faults.
   const auto count = static_cast<std::size_t>(std::max(0, options.events));
   const double share = std::clamp(options.fault_share, 0.0, 1.0);
   std::vector<char> is_fault(count, 0);
   std::fill_n(is_fault.begin(), std::lround(share * static_cast<double>(count)), 1);
   Shuffle(random, is_fault);
 
-  constexpr double kStandsFirst = 2.0;  // sensors and filters settle
-  constexpr double kLeastRest = 1.0;    // the ways out of one move and into the next must not meet
+  constexpr double kStandsFirst = 2.0;  // time for sensors and filters to settle
+  constexpr double kMinRest = 1.0;      // the blends out of one move and into the next must not overlap
   SessionPlan plan;
   double time = kStandsFirst;
   const std::vector<std::size_t> asked = DrawMoves(random, moves.size(), count);
+  // Lay out the events one after the other.
   for (std::size_t i = 0; i < count; ++i) {
     const Move& move = moves[asked[i]];
     SessionEvent event;
@@ -133,6 +135,7 @@ SessionPlan PlanSession(RandomStream& random, std::span<const Move> moves, const
     event.start_s = time;
     event.chance = DrawChance(random, person);
     event.end_s = time + event.chance.lag_s + move.beats * 60 / (move.tempo_bpm * event.chance.tempo);
+    // Draw the event's faults.
     if (person.kind == People::kAbsent) {
       event.faults = {{Fault::kSkipped, 1, 0}};
       event.danced.clear();
@@ -140,7 +143,7 @@ SessionPlan PlanSession(RandomStream& random, std::span<const Move> moves, const
       AddFault(random, moves, options, event);
       if (random.Chance(options.two_faults)) AddFault(random, moves, options, event);
     }
-    time = event.WindowEnd() + std::max(options.rest_s, kLeastRest) + random.Uniform(0, 0.5);
+    time = event.WindowEnd() + std::max(options.rest_s, kMinRest) + random.Uniform(0, 0.5);
     plan.events.push_back(std::move(event));
   }
   plan.duration_s = time;
@@ -155,6 +158,7 @@ Performance Perform(RandomStream& random, std::span<const Move> moves, const Per
     dances.emplace_back(event, Rendition(styles.at(event.move), event.chance, event.faults, instead));
   }
 
+  // Blend every frame from standing with sway and the dances at that time.
   Performance performance{.person = person, .motion = {}, .events = plan.events};
   const Sway sway(random);
   const Controls rest = RestOf(person);
@@ -168,6 +172,7 @@ Performance Perform(RandomStream& random, std::span<const Move> moves, const Per
     }
     performance.motion.poses.push_back(person.place.Apply(PoseOf(controls, person.body)));
   }
+  // Judge every event.
   for (std::size_t i = 0; i < dances.size(); ++i) {
     SessionEvent& event = performance.events[i];
     event.stray = dances[i].Strays();

@@ -13,8 +13,8 @@ namespace {
 using enum MiddleControl;
 using enum SideControl;
 
-/// The size of offsets (standard deviation at size 1) and the range of each control. Ranges are an adult's (algorithms
-/// B6, table 3.1), less a margin where a limb would meet the trunk.
+/// The standard deviation of a control's offsets at size 1, and its range. Ranges are an adult's (algorithms B6, table
+/// 3.1), reduced where a limb would touch the trunk.
 struct ControlSpan {
   double spread, lower, upper;
 };
@@ -91,7 +91,7 @@ ControlSpan SpanOf(SideControl control) {
   return {};
 }
 
-/// Returns the spans of all controls, in their order.
+/// Returns the spans of all controls in order.
 const std::array<ControlSpan, kControlCount>& Spans() {
   static const std::array<ControlSpan, kControlCount> spans = [] {
     std::array<ControlSpan, kControlCount> all{};
@@ -109,23 +109,24 @@ const std::array<ControlSpan, kControlCount>& Spans() {
 
 bool IsSpot(SideControl control) { return control == kFootSide || control == kFootAhead || control == kFootTurn; }
 
-/// Tells whether a control is a switch, which no gain or offset changes: whether a leg is free.
+/// Returns true for kLegFree, which is 0 or 1 and never scaled or offset.
 bool IsSwitch(std::size_t control) {
   return control == Controls::SideIndex(Side::kLeft, kLegFree) ||
          control == Controls::SideIndex(Side::kRight, kLegFree);
 }
 
-/// The share of each harmonic in an offset's spread: half of it stays, the rest comes and goes. Squares sum to one.
+/// The share of each term in an offset's standard deviation: the constant, then the cosine and sine of three harmonics.
+/// The squares sum to one, and the constant has about half of the variance.
 constexpr std::array<double, 7> kTermShares = {0.66, 0.38, 0.38, 0.28, 0.28, 0.22, 0.22};
 
-/// Draws standard normal terms, times their shares.
+/// Draws standard normal numbers, each times its term's share.
 std::array<double, 7> DrawTerms(RandomStream& random) {
   std::array<double, 7> terms{};
   for (std::size_t i = 0; i < terms.size(); ++i) terms[i] = kTermShares[i] * std::clamp(random.Normal(), -2.5, 2.5);
   return terms;
 }
 
-/// Returns a deviation that fits into the room: nearly all of a small one, never more than the room.
+/// Returns a deviation limited to `room`: small deviations are nearly unchanged, and large ones approach `room`.
 double Saturated(double deviation, double room) {
   if (room <= 0) return 0;
   return room * (1 - std::exp(-deviation / room));
@@ -138,7 +139,7 @@ SmoothOffsets::SmoothOffsets(RandomStream& random, double size) {
     terms_[i] = DrawTerms(random);
     for (double& term : terms_[i]) term *= size * Spans()[i].spread;
   }
-  // Of a control's offset: with the other side's, and alone. Squares sum to one.
+  // The parts of a control's offset that are common to both sides and separate. The squares sum to one.
   constexpr double kCommon = 0.8, kAlone = 0.6;
   for (std::size_t i = 0; i < kSideControlCount; ++i) {
     const auto control = static_cast<SideControl>(i);
@@ -147,7 +148,7 @@ SmoothOffsets::SmoothOffsets(RandomStream& random, double size) {
       const auto alone = DrawTerms(random);
       const std::size_t index = Controls::SideIndex(side, control);
       for (std::size_t k = 0; k < kTerms; ++k) {
-        const bool moves = k > 0 && IsSpot(control);  // a foot that stands, stands
+        const bool moves = k > 0 && IsSpot(control);  // a standing foot must not slide
         terms_[index][k] = moves ? 0 : size * Spans()[index].spread * (kCommon * common[k] + kAlone * alone[k]);
       }
     }
@@ -171,16 +172,18 @@ Style::Style(const Person& person, const Move& move) : person_(person), move_(mo
   for (double& share : rhythm_) share = 0.02 * person.looseness * std::clamp(random.Normal(), -2.0, 2.0);
 }
 
+// Sample the choreography at the person's own rhythm.
 Controls Style::At(double beat, double vigour, const SmoothOffsets& chance) const {
   const double share = beat / move_.beats, angle = 2 * kPi * share;
   const double own_beat = beat + move_.beats * (rhythm_[0] * std::sin(angle) + 0.5 * rhythm_[1] * std::sin(2 * angle));
   const Controls authored = move_.curves.At(own_beat), ready = ReadyStance();
-  const Controls own = offsets_.At(share), thrown = chance.At(share);
+  const Controls own = offsets_.At(share), chance_offsets = chance.At(share);
+  // Scale it about the ready stance, and add posture and offsets.
   Controls danced;
   for (std::size_t i = 0; i < kControlCount; ++i) {
     const double reach = person_.amplitude * vigour * person_.gains[i];
     danced.values[i] = ready.values[i] + reach * (authored.values[i] - ready.values[i]) + person_.posture.values[i] +
-                       own.values[i] + thrown.values[i];
+                       own.values[i] + chance_offsets.values[i];
   }
   return WithinReach(danced, authored);
 }
@@ -192,6 +195,7 @@ Controls RestOf(const Person& person) {
 }
 
 Controls WithinReach(const Controls& wanted, const Controls& authored) {
+  // Limit every control to its joint's range.
   Controls within;
   for (std::size_t i = 0; i < kControlCount; ++i) {
     const double from = authored.values[i], deviation = wanted.values[i] - from;
@@ -200,7 +204,7 @@ Controls WithinReach(const Controls& wanted, const Controls& authored) {
                        : deviation >= 0 ? from + Saturated(deviation, span.upper - from)
                                         : from - Saturated(-deviation, from - span.lower);
   }
-  // A hanging arm stays outside the trunk.
+  // Keep a hanging arm outside the trunk.
   for (Side side : {Side::kLeft, Side::kRight}) {
     const double raised = Smoothstep(Radians(25), Radians(60), within.Of(side, kArmForward));
     const double from = authored.Of(side, kArmSide), deviation = within.Of(side, kArmSide) - from;

@@ -9,17 +9,17 @@
 
 namespace etude {
 
-/// Smooth offsets: offsets of every control that change smoothly over one performance and close with it: a constant and
-/// three harmonics each. Joints of an arm and the two sides go partly together, as a body's do. Feet that stand keep
-/// their spots.
+/// Offsets of every control that vary smoothly over one performance and are periodic with it: a constant and three
+/// harmonics per control. The two sides are correlated, as in a body. The spot of a standing foot gets only a constant
+/// offset, so the foot does not slide.
 class SmoothOffsets {
  public:
   SmoothOffsets() = default;
-  /// Draws the offsets. A `size` of 1 is about 15 degrees in the arms (the standard deviation of people's ways with one
-  /// move; ours).
+  /// Draws the offsets. A `size` of 1 is about 15 degrees in the arms: the standard deviation between people in one
+  /// move (ours).
   SmoothOffsets(RandomStream& random, double size);
 
-  /// Returns the offsets at a share of the performance; they repeat after every whole one.
+  /// Returns the offsets at a share of the performance; their period is 1.
   Controls At(double share) const;
 
  private:
@@ -27,40 +27,40 @@ class SmoothOffsets {
   std::array<std::array<double, kTerms>, kControlCount> terms_{};
 };
 
-/// A style is one person's way with one move, the same every time they dance it: the choreography with the person's
-/// gains and posture, smooth offsets of their own, and a rhythm of their own within it; no joint beyond its range.
+/// One person's way of dancing one move, the same in all of their performances: the choreography with the person's
+/// gains and posture, with offsets and a rhythm of their own, and with every joint kept within its range.
 class Style {
  public:
-  /// The person and the move must outlive this.
+  /// The person and the move must outlive this object.
   Style(const Person& person, const Move& move);
 
   const Person& person() const { return person_; }
   const Move& move() const { return move_; }
 
-  /// Returns the body at `beat` of the move. `vigour`, in (0, 1], is what tiredness leaves of the amplitude; `chance`
-  /// are one performance's own offsets.
+  /// Returns the body at `beat` of the move. `vigour`, in (0, 1], is the share of the amplitude that tiredness leaves;
+  /// `chance` holds one performance's own offsets.
   Controls At(double beat, double vigour = 1, const SmoothOffsets& chance = {}) const;
 
  private:
   const Person& person_;
   const Move& move_;
   SmoothOffsets offsets_;
-  std::array<double, 2> rhythm_{};  // of the first two harmonics, shares of a performance
+  std::array<double, 2> rhythm_{};  // amplitudes of the first two harmonics, as shares of a performance
 };
 
-/// Returns how this person stands when they do nothing.
+/// Returns the person's posture at rest.
 Controls RestOf(const Person& person);
 
-/// Returns `wanted`, but with no control further outside its joint's range than `authored` is: the deviation shrinks
-/// smoothly as it nears the end of the range.
+/// Returns `wanted` with every control kept within its joint's range; a control that `authored` has outside its range
+/// may stay there, but goes no further. Near the end of the range the difference from `authored` saturates smoothly.
 Controls WithinReach(const Controls& wanted, const Controls& authored);
 
-/// The sway of a standing body: weight shifts from foot to foot, the chest breathes, the head looks about.
+/// The sway of a standing body: weight shifts from foot to foot, the chest breathes, the head turns.
 class Sway {
  public:
   explicit Sway(RandomStream& random);
 
-  /// Returns what the sway adds to a standing body, at a time in seconds after the session's first frame.
+  /// Returns the offsets that the sway adds to a standing body, `time_s` seconds after the session's first frame.
   Controls At(double time_s) const;
 
  private:

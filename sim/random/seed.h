@@ -10,33 +10,36 @@
 
 namespace etude {
 
-/// 256 bits: a secret key, what a block cipher makes of a block, a digest.
+/// 256 bits: a secret key, a block of a block cipher, or a digest.
 using Words256 = std::array<std::uint64_t, 4>;
 
-/// Threefish-256 (Random123's Threefry 4×64 of 72 rounds): without the key, nothing tells its output from noise.
+/// Encrypts a block with Threefish-256 (Random123's Threefry 4×64 with 72 rounds). Without the key, the output cannot
+/// be distinguished from noise.
 Words256 Encrypt(const Words256& key, const Words256& block);
 
-/// The key of a run's dice: a number that anybody may know and try, or a secret of 256 bits that is known by its
+/// The seed of a run: a plain number that anybody may know, or a secret key of 256 bits that is identified by its
 /// digest.
 class Seed {
  public:
-  /// A plain seed, wherever a number is given for one.
+  /// Makes a plain seed; the conversion is implicit, so a number can be passed as a seed.
   constexpr Seed(std::uint64_t number = 1) : words_{number} {}  // NOLINT(google-explicit-constructor)
   static constexpr Seed Secret(const Words256& key) { return {Kind::kSecret, key}; }
 
   bool IsPlain() const { return kind_ == Kind::kPlain; }
-  /// True if the dice can be thrown: of a secret seed that was read from a manifest only the digest is known.
+  /// Returns true if random numbers can be drawn. They cannot if a secret seed was read from a manifest, which has only
+  /// its digest.
   bool IsOpen() const { return kind_ != Kind::kDigest; }
-  /// The number of a plain seed.
+  /// Returns the number of a plain seed.
   std::uint64_t number() const { return words_[0]; }
-  /// The key of a secret seed that is open.
+  /// Returns the key of an open secret seed.
   const Words256& key() const { return words_; }
-  /// Tells a secret key without telling it: the key's cipher of a fixed block, 64 hexadecimal digits (Davies and
-  /// Meyer).
+  /// Identifies a secret key without revealing it: the encryption of a fixed block with the key, combined with the
+  /// block (Davies–Meyer), as 64 hexadecimal digits. It is empty for a plain seed.
   std::string Digest() const;
-  /// Keys what is no part of a world (samples of statistics): the plain number, or one that the digest makes.
+  /// Returns a seed for random numbers that are no part of a world (samples of statistics): the plain number, or one
+  /// derived from the digest.
   std::uint64_t Public() const;
-  /// The same, of a secret seed by its digest alone.
+  /// Returns the same seed without its key: a plain seed unchanged, a secret one with its digest only.
   Seed WithoutKey() const;
 
   friend auto operator<=>(const Seed&, const Seed&) = default;
@@ -51,13 +54,13 @@ class Seed {
   Words256 words_{};
 };
 
-/// Writes the seed for people and manifests: "7"; "secret" and the digest.
+/// Writes the seed for people and manifests: "7", or "secret" and the digest.
 std::string ToString(const Seed& seed);
-/// Reads that; a secret one is not open.
+/// Reads what ToString writes. A secret seed read in this way is not open. Fails for any other text.
 Result<Seed> ParseSeed(std::string_view text);
-/// Reads 64 hexadecimal digits.
+/// Reads 64 hexadecimal digits; fails for anything else.
 Result<Words256> ParseWords256(std::string_view digits);
-/// Writes them.
+/// Writes 64 hexadecimal digits.
 std::string Hex(const Words256& words);
 
 }  // namespace etude

@@ -14,8 +14,8 @@ namespace etude {
 
 namespace {
 
-/// Authenticates the text under the key (the cipher's blocks chained, the text's length first, so that no text is the
-/// beginning of another): a key of its own for every text.
+/// Derives a key for every text by a message authentication code: the cipher's blocks are chained, and the text's
+/// length comes first, so that no text is a prefix of another.
 Words256 DeriveKey(const Words256& key, std::string_view text) {
   Words256 chained = Encrypt(key, {text.size()});
   while (!text.empty()) {
@@ -59,7 +59,7 @@ std::uint64_t RandomStream::Bits() {
 void RandomStream::FillBits(std::span<std::uint64_t> out) {
   std::size_t i = 0;
   while (i < out.size() && used_ != 4) out[i++] = Bits();
-  // Whole blocks know nothing of each other, so the processor works at several of them at once.
+  // Whole blocks are independent of each other, so the processor computes several at once.
   if (is_secret_) {
     for (; i + 4 <= out.size(); i += 4) std::ranges::copy(Block(counter_++), out.begin() + i);
   } else {
@@ -91,7 +91,7 @@ glm::dvec3 RandomStream::Normal3() {
 }
 
 std::uint64_t RandomStream::IndexBelow(std::uint64_t count) {
-  // Values past the last whole multiple of `count` are thrown away, so that none is favoured.
+  // Values beyond the last whole multiple of `count` are rejected, so that all results are equally likely.
   const std::uint64_t limit = ~std::uint64_t{0} - (~std::uint64_t{0} % count);
   std::uint64_t bits = Bits();
   while (bits >= limit) bits = Bits();

@@ -9,27 +9,27 @@
 namespace etude {
 namespace {
 
-// Beyond it a body does not darken what it stands on, metres.
+// The distance up to which a body darkens the surface that it stands on, metres.
 constexpr float kContactReach = 0.12f;
-// Pixels are computed with floats.
+// A margin for pixels computed in single precision.
 constexpr double kFloatMargin = 1e-3;
-// What lies farther away throws no shadow here, metres.
-constexpr double kFarthestCaster = 1e4;
+// Capsules farther away cast no shadow here, metres.
+constexpr double kMaxCasterDistance = 1e4;
 
 float Clamp01(float value) { return std::min(std::max(value, 0.0f), 1.0f); }
 
-bool CanThrowShadow(const Capsule& capsule) {
-  return glm::all(glm::lessThan(glm::abs(capsule.a), glm::dvec3(kFarthestCaster))) &&
-         glm::all(glm::lessThan(glm::abs(capsule.b), glm::dvec3(kFarthestCaster))) && capsule.radius > 0;
+bool CanCastShadow(const Capsule& capsule) {
+  return glm::all(glm::lessThan(glm::abs(capsule.a), glm::dvec3(kMaxCasterDistance))) &&
+         glm::all(glm::lessThan(glm::abs(capsule.b), glm::dvec3(kMaxCasterDistance))) && capsule.radius > 0;
 }
 
-// Pixels beside each other in a row, of a LampView.
+// Consecutive pixels of one row of a LampView.
 struct PixelRow {
   const float *x, *y, *z;
   int count;
 };
 
-// A capsule as the lamp sees it: around start + t · along, 0 ≤ t ≤ 1, metres from the lamp.
+// A capsule in the lamp's view: around start + t · along, 0 ≤ t ≤ 1, metres from the lamp.
 class Caster {
  public:
   Caster(const Capsule& capsule, const glm::dvec3& lamp)
@@ -45,14 +45,15 @@ class Caster {
     is_near_floor_ = std::min(capsule.a.y, capsule.b.y) - radius_ < kContactReach;
   }
 
-  // Whether a pixel of the tile may lie in the capsule's shadow; never a wrong no.
+  // Returns true if a pixel of the tile may be in the capsule's shadow; false positives are possible, false negatives
+  // are not.
   bool MayDarken(const RoomTile& tile) const {
     if (tile.farthest < nearest_ - kFloatMargin) return false;
     const glm::dvec3 apart = tile.middle - middle_;
     const double both = tile.spread + spread_ + kFloatMargin;
     if (glm::dot(apart, apart) > both * both) return false;
-    // How far the capsule's middle line passes the line from the lamp through the tile's middle. A ray whose direction
-    // is off by so much passes a point at that distance so much nearer.
+    // Compute the distance of the capsule's axis from the line through the lamp and the tile's middle direction. A ray
+    // whose direction differs by `spread` can pass a point at that distance closer by distance times spread.
     const auto across = [&](const glm::dvec3& v) { return v - glm::dot(v, tile.middle) * tile.middle; };
     const glm::dvec3 from = across(start_), direction = across(along_);
     const double square = glm::dot(direction, direction);
@@ -62,7 +63,7 @@ class Caster {
     return glm::dot(gap, gap) <= reach * reach;
   }
 
-  // Likewise close to the capsule, if that stands on the floor or nearly does.
+  // Returns true if a pixel of the tile may be within kContactReach of the capsule, for capsules on or near the floor.
   bool MayTouch(const RoomTile& tile) const {
     if (!is_near_floor_) return false;
     const double square = glm::dot(along_, along_);
@@ -71,20 +72,21 @@ class Caster {
     return gap <= tile.radius + radius_ + kContactReach + kFloatMargin;
   }
 
-  // Raises each pixel's darkness to that of this shadow: 0 outside, 1 deep inside. The light's way is a segment from
-  // the lamp to the pixel's point w, the capsule's middle line another: their distance as in Ericson 2005, section
-  // 5.1.9.
+  // Raises each pixel's darkness to that of this shadow: 0 outside, 1 deep inside. The lamp and the pixel's point w
+  // define one segment, the capsule's axis another; their distance is computed as in Ericson 2005, section 5.1.9.
   void Darken(const PixelRow& row, float* darkness) const {
     const glm::vec3 a(start_), v(along_);
     const float aa = glm::dot(a, a), va = glm::dot(v, a), vv = glm::dot(v, v);
     const float per_vv = vv > 0 ? 1 / vv : 0, per_radius = static_cast<float>(1 / radius_);
     for (int i = 0; i < row.count; ++i) {
+      // Closest points of both segments.
       const float x = row.x[i], y = row.y[i], z = row.z[i];
       const float ww = x * x + y * y + z * z, wa = x * a.x + y * a.y + z * a.z, wv = x * v.x + y * v.y + z * v.z;
       const float determinant = std::max(ww * vv - wv * wv, 1e-12f);
       const float at_first = Clamp01((wa * vv - wv * va) / determinant);
       const float t = Clamp01((wv * at_first - va) * per_vv);
       const float s = Clamp01((wv * t + wa) / ww);
+      // Depth inside the capsule, and softness by the distance from caster to pixel.
       const float gx = s * x - a.x - t * v.x, gy = s * y - a.y - t * v.y, gz = s * z - a.z - t * v.z;
       const float inside = 1 - std::sqrt(gx * gx + gy * gy + gz * gz) * per_radius;
       const float away = std::sqrt(std::max(ww - 2 * wa + aa, 0.0f));
@@ -111,7 +113,7 @@ class Caster {
   glm::dvec3 start_, along_;
   double radius_;
   glm::dvec3 middle_;  // unit: the axis of a cone around it
-  double spread_;      // as RoomTile has it
+  double spread_;      // as in RoomTile
   double nearest_, farthest_;
   bool is_near_floor_;
 };
@@ -120,7 +122,7 @@ std::vector<Caster> CastersOf(const std::vector<Figure>& figures, bool is_interi
   std::vector<Caster> casters;
   const auto add = [&](const std::vector<Capsule>& shape) {
     for (const Capsule& capsule : shape) {
-      if (CanThrowShadow(capsule)) casters.emplace_back(capsule, lamp);
+      if (CanCastShadow(capsule)) casters.emplace_back(capsule, lamp);
     }
   };
   for (const Figure& figure : figures) {
@@ -130,7 +132,7 @@ std::vector<Caster> CastersOf(const std::vector<Figure>& figures, bool is_interi
   return casters;
 }
 
-// What bodies take from the pixels of one tile.
+// The darkening of one tile's pixels by all capsules.
 struct TileShade {
   std::array<float, kRoomTileSize * kRoomTileSize> darkness, nearness;
   bool is_dark = false, is_touched = false;
@@ -162,6 +164,7 @@ TileShade Shade(const std::vector<Caster>& casters, bool with_contacts, const La
 
 void Paint(const KeptRoom& kept, const TileShade& shade, double brightness, const PixelRect& pixels, bool labels,
            int top_row, View& view) {
+  // Row by row: darken the light, then convert it to bytes.
   const std::size_t width = static_cast<std::size_t>(view.colour.width);
   std::array<float, 3 * kRoomTileSize> light;
   for (int y = pixels.top; y < pixels.bottom; ++y) {
@@ -173,12 +176,13 @@ void Paint(const KeptRoom& kept, const TileShade& shade, double brightness, cons
       for (int c = 0; c < 3; ++c) {
         const std::size_t at = 3 * (first + x) + c;
         const float share = kept.lamp_shares[at];
-        const float left = std::min(1 - darkness[x] * share, 1 - contact * (0.55f - 0.3f * share));
-        light[3 * x + c] = kept.colours[at] * left;
+        const float remaining = std::min(1 - darkness[x] * share, 1 - contact * (0.55f - 0.3f * share));
+        light[3 * x + c] = kept.colours[at] * remaining;
       }
     }
     RoundToBytes(light.data(), 3 * static_cast<std::size_t>(pixels.Width()), static_cast<float>(brightness),
                  reinterpret_cast<std::uint8_t*>(&view.colour.At(pixels.left, y - top_row)));
+    // Label the shadows.
     if (!labels) continue;
     std::uint32_t* label = &view.labels.At(pixels.left, y - top_row);
     for (int x = 0; x < pixels.Width(); ++x) {
@@ -189,8 +193,8 @@ void Paint(const KeptRoom& kept, const TileShade& shade, double brightness, cons
 
 }  // namespace
 
-void ThrowCapsuleShadows(const KeptRoom& kept, const Room& room, const std::vector<Figure>& figures, Targets targets,
-                         const RowRange& rows, View& view) {
+void CastCapsuleShadows(const KeptRoom& kept, const Room& room, const std::vector<Figure>& figures, Targets targets,
+                        const RowRange& rows, View& view) {
   const bool is_interior = room.interior != nullptr;
   const std::vector<Caster> casters = CastersOf(figures, is_interior, kept.lamp.lamp);
   for (const RoomTile& tile : kept.lamp.tiles) {

@@ -7,15 +7,15 @@
 
 namespace etude {
 
-/// Draws the shadows that the capsules of figures throw on the empty room: how deep the light's way from the lamp to a
-/// pixel runs inside a capsule says how much of the lamp's light is left, softer the farther the shadow falls; where
-/// shadows overlap the deepest counts. In interiors what stands close to the floor also takes the light that comes from
-/// all sides. `view` shows those rows of the empty room; shadows of the lamp are labelled kShadow, but furniture keeps
-/// its label.
-void ThrowCapsuleShadows(const KeptRoom& kept, const Room& room, const std::vector<Figure>& figures, Targets targets,
-                         const RowRange& rows, View& view);
+/// Draws the shadows that the capsules of figures cast on the empty room. The depth to which the line from the lamp to
+/// a pixel runs inside a capsule determines the lamp's remaining light; shadows are softer the farther they fall, and
+/// where shadows overlap the darkest counts. In interiors, capsules close to a surface also darken it by contact
+/// shadows. `view` shows those rows of the empty room. Shadows of the lamp are labelled kShadow, except on furniture,
+/// which keeps its label.
+void CastCapsuleShadows(const KeptRoom& kept, const Room& room, const std::vector<Figure>& figures, Targets targets,
+                        const RowRange& rows, View& view);
 
-/// Marks where the capsules of figures darken the studio's room, in pixels of the overlay that show nothing else.
+/// Marks the pixels of the overlay that the capsules of figures shadow in the studio's room and that show nothing else.
 void MarkCapsuleShadows(const KeptRoom& kept, const std::vector<Figure>& figures, Overlay& overlay);
 
 }  // namespace etude

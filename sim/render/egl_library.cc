@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-/// The functions of EGL, of its library alone: what else is loaded may bring others of these names.
+/// The functions of EGL, taken from its library alone, because other loaded libraries may define the same names.
 struct Egl {
   decltype(&eglGetPlatformDisplay) GetPlatformDisplay = nullptr;
   decltype(&eglInitialize) Initialize = nullptr;
@@ -38,7 +38,7 @@ Result<void*> MakeEglContext() {
 void MakeEglCurrent(void* context) { egl.MakeCurrent(egl.display, EGL_NO_SURFACE, EGL_NO_SURFACE, context); }
 
 void DestroyEglContext(void* context) {
-  // A context that is current would live on.
+  // A current context would not be destroyed.
   if (egl.GetCurrentContext() == context) MakeEglCurrent(EGL_NO_CONTEXT);
   egl.DestroyContext(egl.display, context);
 }
@@ -46,7 +46,7 @@ void DestroyEglContext(void* context) {
 }  // namespace
 
 Result<GlLibrary> LoadEgl() {
-  // Mesa's rasteriser, whatever graphics card there is.
+  // Select Mesa's software rasteriser, whatever graphics card there is.
   ::setenv("LIBGL_ALWAYS_SOFTWARE", "true", 1);
   ::setenv("GALLIUM_DRIVER", "llvmpipe", 1);
   ASSIGN_OR_RETURN(void* const library, OpenGlLibrary("EGL", "libEGL.so.1"));
@@ -63,10 +63,12 @@ Result<GlLibrary> LoadEgl() {
   ETUDE_EGL_LOAD(GetCurrentContext)
   ETUDE_EGL_LOAD(GetProcAddress)
 #undef ETUDE_EGL_LOAD
+  // Open Mesa's display without a surface.
   egl.display = egl.GetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
   if (egl.display == EGL_NO_DISPLAY || !egl.Initialize(egl.display, nullptr, nullptr)) {
     return Fail({}, "EGL opens no display of Mesa's without a surface");
   }
+  // Check that contexts need neither a configuration nor a surface.
   const char* extensions = egl.QueryString(egl.display, EGL_EXTENSIONS);
   for (const char* wanted : {"EGL_KHR_no_config_context", "EGL_KHR_surfaceless_context"}) {
     if (extensions == nullptr || std::string_view(extensions).find(wanted) == std::string_view::npos) {

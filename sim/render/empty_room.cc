@@ -27,6 +27,7 @@ constexpr double kNextToLamp = 1e-3;
 
 RoomTile MakeTile(const PixelRect& pixels, const LampView& view, int width) {
   RoomTile tile{.pixels = pixels};
+  // Collect the tile's points and their directions.
   std::vector<glm::dvec3> points, directions;
   glm::dvec3 sum(0), low(1e9), high(-1e9);
   for (int y = pixels.top; y < pixels.bottom; ++y) {
@@ -42,23 +43,26 @@ RoomTile MakeTile(const PixelRect& pixels, const LampView& view, int width) {
       sum += directions.back();
     }
   }
+  // The cone around the directions.
   const double length = glm::length(sum);
   tile.middle = length > 0 ? sum / length : glm::dvec3(0, 1, 0);
   for (const glm::dvec3& direction : directions) {
     tile.spread = std::max(tile.spread, glm::distance(direction, tile.middle));
   }
+  // The ball around the points.
   tile.centre = 0.5 * (low + high);
   for (const glm::dvec3& point : points) tile.radius = std::max(tile.radius, glm::distance(point, tile.centre));
   return tile;
 }
 
-/// Computes the lamp's view of a picture. `depths`: metres, infinite where there is no room.
+/// Computes the lamp's view of a picture. `depths` are in metres, infinite where there is no room.
 LampView SeeFromLamp(const std::vector<float>& depths, const Camera& camera, const glm::dvec3& lamp) {
   const Intrinsics& in = camera.intrinsics;
   const glm::dmat3 R_WC = glm::transpose(camera.R_CW);
   LampView view;
   view.lamp = lamp;
   for (std::vector<float>* part : {&view.x, &view.y, &view.z}) part->reserve(depths.size());
+  // Relative position of every pixel's point.
   for (int y = 0; y < in.height; ++y) {
     for (int x = 0; x < in.width; ++x) {
       const double depth = depths[static_cast<std::size_t>(y) * in.width + x];
@@ -70,6 +74,7 @@ LampView SeeFromLamp(const std::vector<float>& depths, const Camera& camera, con
       view.z.push_back(static_cast<float>(point.z));
     }
   }
+  // Tiles that show room.
   for (int top = 0; top < in.height; top += kRoomTileSize) {
     for (int left = 0; left < in.width; left += kRoomTileSize) {
       const PixelRect pixels{left, top, std::min(left + kRoomTileSize, in.width),
@@ -81,8 +86,8 @@ LampView SeeFromLamp(const std::vector<float>& depths, const Camera& camera, con
   return view;
 }
 
-// The largest rig: about 25 MB apiece at 640 × 480, 100 MB when smooth.
-constexpr std::size_t kMostKept = 8;
+// As many as the largest rig has cameras: about 25 MB each at 640 × 480, 100 MB with smoothing.
+constexpr std::size_t kMaxKept = 8;
 
 bool SameView(const Camera& a, const Camera& b) {
   const Intrinsics &i = a.intrinsics, &j = b.intrinsics;
@@ -123,7 +128,7 @@ RoomTexture MakeRoomTexture(std::uint64_t seed) {
 }
 
 void RoundToBytes(const float* light, std::size_t count, float brightness, std::uint8_t* bytes) {
-  // Added to 2²³, a float has no room for fractions: its last bits are the rounded number.
+  // Adding 2²³ leaves a float no bits for fractions: the sum is rounded to a whole number.
   constexpr float kWhole = 8388608;
   for (std::size_t i = 0; i < count; ++i) {
     const float level = std::min(std::max(light[i] * brightness, 0.0f), 1.0f) * 255.0f;
@@ -158,6 +163,7 @@ void KeptRooms::Drop(const Kept& kept) {
 }
 
 const KeptRoom& KeptRooms::FindOrDraw(const Room& room, const Camera& camera) {
+  // Take a kept picture and make it the most recent.
   const auto found = std::ranges::find_if(kept_, [&](const Kept& kept) {
     return kept.texture_seed == room.texture_seed && SameView(kept.camera, camera) &&
            SameInterior(kept.interior, room.interior);
@@ -166,7 +172,8 @@ const KeptRoom& KeptRooms::FindOrDraw(const Room& room, const Camera& camera) {
     std::rotate(kept_.begin(), found, found + 1);
     return kept_.front().picture;
   }
-  if (kept_.size() == kMostKept) {
+  // Otherwise drop the oldest and draw.
+  if (kept_.size() == kMaxKept) {
     Drop(kept_.back());
     kept_.pop_back();
   }
@@ -178,6 +185,7 @@ const KeptRoom& KeptRooms::FindOrDraw(const Room& room, const Camera& camera) {
 KeptRoom KeptRooms::Draw(const Room& room, const Camera& camera) {
   const int width = camera.intrinsics.width, height = camera.intrinsics.height;
   KeptRoom kept;
+  // Attach two float textures.
   GLuint framebuffer = 0;
   gl_.GenFramebuffers(1, &framebuffer);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
@@ -190,8 +198,9 @@ KeptRoom KeptRooms::Draw(const Room& room, const Camera& camera) {
   }
   gl_.DrawBuffers(2, attachments);
   for (GLuint i = 0; i < 2; ++i)
-    gl_.ColorMaski(i, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);  // the last picture's are still on
+    gl_.ColorMaski(i, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);  // the last picture may have masked them
 
+  // Draw the room with its rays.
   gl_.Viewport(0, 0, width, height);
   gl_.Disable(GL_DEPTH_TEST);
   gl_.Disable(GL_SCISSOR_TEST);
@@ -204,6 +213,7 @@ KeptRoom KeptRooms::Draw(const Room& room, const Camera& camera) {
   gl_.BindVertexArray(empty_vertices_);
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
 
+  // Read colours and depths, then lamp shares and labels.
   const std::size_t pixels = static_cast<std::size_t>(width) * height;
   std::vector<float> four(4 * pixels);
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT0);

@@ -15,7 +15,7 @@ const Capsule* FindFirst(const std::vector<Capsule>& shape, Part part) {
   return nullptr;
 }
 
-// The roundest part of the head: a neck may be labelled kHead too, but gets no face.
+// The skull is the thickest capsule of the head: a neck may be labelled kHead too, but gets no face.
 const Capsule* FindSkull(const std::vector<Capsule>& shape) {
   const Capsule* skull = nullptr;
   for (const Capsule& capsule : shape) {
@@ -24,14 +24,14 @@ const Capsule* FindSkull(const std::vector<Capsule>& shape) {
   return skull;
 }
 
-// Which capsule gets a face, and where that looks.
+// The capsule that gets a face, and the direction in which it looks.
 struct Face {
   const Capsule* head = nullptr;  // null: no face
   glm::dvec3 up{0};
   glm::dvec3 front{0};
 };
 
-// The face looks where the chest does: across the shoulders × up the neck.
+// The face has the direction of the chest: across the shoulders × up the neck.
 Face PlaceFace(const std::vector<Capsule>& shape) {
   const Capsule* left = FindFirst(shape, Part::kLeftUpperArm);
   const Capsule* right = FindFirst(shape, Part::kRightUpperArm);
@@ -63,15 +63,15 @@ void AddInstances(const Figure& figure, const glm::dvec3& eye, std::vector<Capsu
   }
 }
 
-// Metres. Well inside what a float's products hold; NaN is not inside either.
-constexpr float kFarthestCorner = 1e6f;
+// Metres. Within this limit, products of floats do not overflow; NaN fails the comparison.
+constexpr float kMaxCoordinate = 1e6f;
 
 bool IsWithin(const glm::vec3& v, float limit) {
   return std::abs(v.x) < limit && std::abs(v.y) < limit && std::abs(v.z) < limit;
 }
 
 bool IsDrawable(const SurfaceCorner& corner) {
-  return IsWithin(corner.place, kFarthestCorner) && IsWithin(corner.normal, 2);
+  return IsWithin(corner.place, kMaxCoordinate) && IsWithin(corner.normal, 2);
 }
 
 glm::vec3 ColourOf(const Surface& surface, Part part) {
@@ -84,7 +84,7 @@ void AddTriangles(const Surface& surface, std::optional<Part> seen_as, int paint
   assert(surface.normals.size() == surface.positions.size() && surface.parts.size() == surface.triangles.size());
   assert(!surface.paint || surface.rest.size() == surface.positions.size());
   assert(surface.paint || !surface.texture || surface.on_texture.size() == surface.positions.size());
-  // The corners that a vertex has, one for each part that meets there, are a chain.
+  // The corners of a vertex, one per part that meets there, form a linked list.
   struct Made {
     Part part;
     std::uint32_t next;
@@ -93,6 +93,7 @@ void AddTriangles(const Surface& surface, std::optional<Part> seen_as, int paint
   std::vector<std::uint32_t> first(surface.positions.size(), kNone);
   std::vector<Made> made;
   const std::size_t before = all.corners.size();
+  // Find or add the corner of a vertex for a part.
   const auto corner_of = [&](std::uint32_t vertex, Part part) {
     std::uint32_t* at = &first[vertex];
     while (*at != kNone && made[*at].part != part) at = &made[*at].next;
@@ -108,6 +109,7 @@ void AddTriangles(const Surface& surface, std::optional<Part> seen_as, int paint
                            paint_and_label, glm::vec4(rest, paint)});
     return added;
   };
+  // Add every triangle whose corners can be drawn.
   for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
     std::array<std::uint32_t, 3> triangle{};
     std::ranges::transform(surface.triangles[i], triangle.begin(), [&](std::uint32_t vertex) {

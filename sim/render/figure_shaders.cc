@@ -17,8 +17,8 @@ layout(location = 0) out vec4 colour;
 layout(location = 1) out uint label;
 layout(location = 2) out float depth;
 
-// The depth at which `ray` enters the capsule, or infinity. The ray's start is moved next to the
-// capsule first: far away, the difference of squares would lose most of a float's digits.
+// Returns the depth at which `ray` enters the capsule, or infinity. The ray's start is first moved next to the capsule,
+// because far away the difference of squares would lose most of a float's digits.
 float MeetCapsule(vec3 ray) {
   vec3 start = capsule_start.xyz, along = capsule_end.xyz - start;
   float radius = capsule_start.w;
@@ -33,7 +33,7 @@ float MeetCapsule(vec3 ray) {
   float h = b * b - a * c;
   if (along_along > 0.0 && h < 0.0) return kInfinity;
 
-  // First the endless cylinder; beyond its ends, the half-sphere of that end.
+  // Intersect the infinite cylinder first; beyond its ends, intersect the half-sphere of that end.
   float cylinder = -(b + sqrt(max(h, 0.0))) / max(a, 1e-20);
   float share = along_origin + cylinder * along_ray;
   if (along_along > 0.0 && share > 0.0 && share < along_along) return shift + cylinder;
@@ -56,7 +56,7 @@ vec3 SkinPaint(vec3 point) { return paint.rgb; }
 )glsl";
 
 constexpr const char* kFace = R"glsl(
-// Hair, eyes and a smile, so that one sees where the person looks.
+// Hair, eyes and a smile, so that a viewer sees the direction of the face.
 vec3 FacePaint(vec3 skin, vec3 point) {
   vec3 middle = 0.5 * (capsule_start.xyz + capsule_end.xyz);
   vec3 upward = capsule_end.xyz - capsule_start.xyz;
@@ -96,7 +96,7 @@ constexpr const char* kCorner = R"glsl(
 in vec3 place_in;   // in E
 in vec3 normal_in;
 in vec4 paint_in;   // rgb; a = label
-in vec4 rest_in;    // the place on the body at rest; a = number of its paint, or -1
+in vec4 rest_in;    // position on the body at rest; a = index of its paint, or -1
 
 uniform mat3 image_of_direction;  // E -> (u w, v w, w)
 uniform vec2 image_size;
@@ -106,9 +106,8 @@ out vec3 rest;
 flat out vec4 paint;
 flat out int pattern;
 
-// `point` is homogeneous in E. Row 0 of the framebuffer is the picture's top row, so nothing needs to be flipped.
-// Hidden surfaces are told by the depth that each pixel writes; z only cuts off what is nearer than 1 cm, or beyond
-// infinity.
+// `point` is homogeneous in E. Row 0 of the framebuffer is the picture's top row, so nothing is flipped. Every pixel
+// writes its depth for hidden surfaces; z only clips what is nearer than 1 cm or beyond infinity.
 void Place(vec4 point) {
   vec3 image = image_of_direction * point.xyz;
   gl_Position = vec4(2.0 * image.xy / image_size - image.z, image.z - 0.02 * point.w, image.z);
@@ -123,15 +122,15 @@ constexpr const char* kPlace = R"glsl(
 void main() { Place(vec4(place_in, 1.0)); }
 )glsl";
 
-// Throwing a point from the lamp onto a plane is a division by its fall. Left to the division by w, it keeps triangles
-// flat, everything that is interpolated over them exact, and what hangs above the lamp beyond infinity.
+// A point is projected from the lamp onto a plane by dividing by its fall. Leaving this division to w keeps triangles
+// flat and interpolation exact, and moves points above the lamp beyond infinity.
 constexpr const char* kShadowPlace = R"glsl(
 uniform vec3 eye;
 uniform vec3 lamp;
 uniform float wall_z;
 uniform bool onto_wall;
 
-out vec3 caster;  // in E: what stands in the light
+out vec3 caster;  // in E: the point that casts the shadow
 
 void main() {
   vec3 lamp_E = lamp - eye, from_lamp = place_in - lamp_E;
@@ -140,8 +139,8 @@ void main() {
   vec3 thrown = lamp_E * fall + from_lamp * reach;
   Place(vec4(thrown, fall));
   caster = place_in;
-  gl_ClipDistance[0] = reach - fall;  // what lies behind the plane is in its shadow instead
-  // What falls behind the wall or under the floor is discarded pixel by pixel; nearly all of it is saved here.
+  gl_ClipDistance[0] = reach - fall;  // clips points behind the plane
+  // Pixels behind the wall or under the floor are discarded later; this clips nearly all of them.
   vec3 place = thrown + eye * fall;
   gl_ClipDistance[1] = (onto_wall ? place.y : place.z - wall_z * fall) + 0.01 * fall;
 }
@@ -178,7 +177,7 @@ void main() {
   vec3 ray = PixelRay();
   depth = 1.0 / gl_FragCoord.w;
   if (!(depth < farthest) || IsBehindRoom(depth)) discard;
-  // Open surfaces show their back too. Upside down as the picture is drawn, GL takes backs for fronts.
+  // Open surfaces show their back, too. The picture is drawn upside down, so GL takes backs for fronts.
   vec3 outward = gl_FrontFacing ? -normal : normal;
   colour = LitPaint(SkinPaint(), outward / max(length(normal), 1e-6), depth * ray, ray);
   label = uint(paint.a);
@@ -200,8 +199,8 @@ void main() {
   RoomHit hit = MeetRoom(ray);
   if (hit.is_wall != onto_wall || hit.depth == kInfinity) discard;
   vec3 point = hit.depth * ray;
-  // As a ball with this normal has it: softer where the body turns away from the lamp, which is at its outline. Less so
-  // than capsules, or each ear and cheek would show in the soft edge of the head.
+  // The shadow of a ball with this normal: softer where the body turns away from the lamp, i.e. at its outline. It is
+  // less soft than that of capsules, because otherwise each ear and cheek would show in the soft edge of the head.
   float slant = dot(normal, normalize(lamp - eye - caster)) / max(length(normal), 1e-6);
   float inside = 1.0 - sqrt(max(1.0 - slant * slant, 0.0));
   colour = RoomInShadow(hit, point, inside, clamp(0.04 * distance(point, caster), 0.03, 0.12));

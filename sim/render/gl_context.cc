@@ -4,9 +4,8 @@
 #include <string_view>
 
 #ifdef __SANITIZE_ADDRESS__
-// OSMesa keeps 480 bytes of every destroyed context, EGL its display, fontconfig what it once read. The sanitizer asks
-// every program that links this file for what it shall not report, so that neither the tests nor a run by hand needs
-// LSAN_OPTIONS.
+// OSMesa leaks 480 bytes per destroyed context, EGL its display, and fontconfig what it has read. The sanitizer calls
+// this function in every program that links this file, so neither tests nor manual runs need LSAN_OPTIONS.
 extern "C" const char* __lsan_default_suppressions() {
   return "leak:libOSMesa\nleak:libEGL\nleak:libgallium\nleak:swrast_dri\nleak:libfontconfig\n";
 }
@@ -36,14 +35,17 @@ Result<GLuint> CompileShader(const GlFunctions& gl, GLenum stage, const std::str
 Result<std::unique_ptr<GlContext>> GlContext::Create() {
   RETURN_IF_ERROR(LoadedGlLibrary());
   const GlLibrary& library = *LoadedGlLibrary();
+  // Create the context.
   std::unique_ptr<GlContext> result(new GlContext(library));
   ASSIGN_OR_RETURN(result->context_, library.make_context());
   result->MakeCurrent();
+// Load the functions.
 #define ETUDE_GL_LOAD(type, name)                                                      \
   result->functions_.name = reinterpret_cast<type>(library.find_function("gl" #name)); \
   if (!result->functions_.name) return Fail({}, "{} lacks the OpenGL function gl{}", result->library(), #name);
   ETUDE_GL_FUNCTIONS(ETUDE_GL_LOAD)
 #undef ETUDE_GL_LOAD
+  // Accept only llvmpipe.
   const auto* renderer = reinterpret_cast<const char*>(result->functions_.GetString(GL_RENDERER));
   if (renderer == nullptr || !std::string_view(renderer).starts_with("llvmpipe")) {
     return Fail({}, "{} draws by {}; only Mesa's llvmpipe gives the same pixels on every machine", library.name,

@@ -1,6 +1,6 @@
 #pragma once
 
-// The door to GL: only the .cc files of this folder include this header.
+// The only header with GL: only this folder's .cc files include it.
 #include <GL/glcorearb.h>
 
 #include <memory>
@@ -12,8 +12,8 @@
 
 namespace etude {
 
-// Every GL function that this folder calls. They are asked of OSMesa or EGL by name, because the
-// ready-made loaders (libepoxy, GLEW) do not work with OSMesa.
+// Every GL function that this folder calls. Their addresses are requested from OSMesa or EGL by name, because the usual
+// loaders (libepoxy, GLEW) do not work with OSMesa.
 #define ETUDE_GL_FUNCTIONS(X)                                  \
   X(PFNGLACTIVETEXTUREPROC, ActiveTexture)                     \
   X(PFNGLATTACHSHADERPROC, AttachShader)                       \
@@ -89,10 +89,11 @@ struct GlFunctions {
 #undef ETUDE_GL_MEMBER
 };
 
-/// An offscreen GL 3.3 core context. Everything is drawn into framebuffer objects of our own.
+/// An offscreen context of OpenGL 3.3 core. Everything is drawn into our own framebuffer objects.
 class GlContext {
  public:
-  /// Fails when no library can be loaded, or the one loaded has no such context or lacks a function, saying which.
+  /// Fails if no library can be loaded, or if the loaded one has no such context or lacks a function; the error says
+  /// which.
   static Result<std::unique_ptr<GlContext>> Create();
   ~GlContext();
   GlContext(const GlContext&) = delete;
@@ -100,11 +101,11 @@ class GlContext {
 
   void MakeCurrent();
   const GlFunctions& functions() const { return functions_; }
-  /// The library that it is of: "OSMesa", "EGL".
+  /// Returns the name of its library: "OSMesa", "EGL".
   const std::string& library() const { return library_.name; }
 
-  /// Compiles and links; `attributes` get the locations 0, 1, 2, … in order. The shader's own
-  /// messages travel in the error.
+  /// Compiles and links a program; `attributes` get the locations 0, 1, 2, … in order. The error contains the
+  /// compiler's own messages.
   Result<GLuint> LinkProgram(const std::string& vertex_source, const std::string& fragment_source,
                              const std::vector<std::string>& attributes = {}) const;
 
@@ -116,7 +117,7 @@ class GlContext {
   GlFunctions functions_;
 };
 
-/// Throws std::bad_alloc when GL lacked memory since it was asked last: what it then drew is no picture.
+/// Throws std::bad_alloc if GL has run out of memory since the last call; what it drew since is not a valid picture.
 void CheckMemory(const GlFunctions& gl);
 
 /// Makes a texture without filtering and leaves it bound.

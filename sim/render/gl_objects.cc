@@ -76,21 +76,21 @@ void VertexStream::DrawSome(std::size_t first, std::size_t count) const {
 
 void TextureStore::Bind(const SharedTexture& texture) {
   gl_.ActiveTexture(GL_TEXTURE0 + kUnit);
-  auto found = std::ranges::find(given_, texture, &Given::texture);
-  if (found != given_.end()) {
+  auto found = std::ranges::find(uploaded_, texture, &Uploaded::texture);
+  if (found != uploaded_.end()) {
     gl_.BindTexture(GL_TEXTURE_2D, found->name);
   } else {
-    constexpr std::size_t kMostKept = 64;
-    if (given_.size() == kMostKept) {
-      for (const Given& old : given_) gl_.DeleteTextures(1, &old.name);
-      given_.clear();
+    constexpr std::size_t kMaxKept = 64;
+    if (uploaded_.size() == kMaxKept) {
+      for (const Uploaded& old : uploaded_) gl_.DeleteTextures(1, &old.name);
+      uploaded_.clear();
     }
-    given_.push_back({texture, Give(*texture)});
+    uploaded_.push_back({texture, UploadTexture(*texture)});
   }
   gl_.ActiveTexture(GL_TEXTURE0);
 }
 
-GLuint TextureStore::Give(const Texture& texture) const {
+GLuint TextureStore::UploadTexture(const Texture& texture) const {
   const ColourImage& picture = texture.picture;
   assert(picture.width > 0 && picture.height > 0);
   GLuint name = 0;
@@ -148,7 +148,7 @@ void FrameTargets::Begin(int width, int height, Targets asked) {
 }
 
 void FrameTargets::Clear(const std::vector<PixelRect>& rects) {
-  constexpr GLfloat kNothing[] = {1, 1, 1, 1}, kNoDepth[] = {0, 0, 0, 0}, kFarthestDepth[] = {1};
+  constexpr GLfloat kNothing[] = {1, 1, 1, 1}, kNoDepth[] = {0, 0, 0, 0}, kMaxDepth[] = {1};
   constexpr GLuint kNoLabel[] = {kUndrawnLabel, 0, 0, 0};
   gl_.Enable(GL_SCISSOR_TEST);
   PixelRect all = rects.front();
@@ -159,7 +159,7 @@ void FrameTargets::Clear(const std::vector<PixelRect>& rects) {
     gl_.ClearBufferfv(GL_COLOR, 0, kNothing);
     gl_.ClearBufferuiv(GL_COLOR, 1, kNoLabel);
     gl_.ClearBufferfv(GL_COLOR, 2, kNoDepth);
-    gl_.ClearBufferfv(GL_DEPTH, 0, kFarthestDepth);
+    gl_.ClearBufferfv(GL_DEPTH, 0, kMaxDepth);
   }
   gl_.Scissor(all.left, all.top, all.Width(), all.Height());
 }
@@ -175,9 +175,10 @@ void FrameTargets::WriteOnly(bool colour, bool labels, bool depth) {
 void FrameTargets::Read(const PixelRect& rect, int top_row, Targets targets, View& view) {
   const int width = rect.Width();
   const std::size_t pixels = static_cast<std::size_t>(width) * rect.Height();
+  // Colour: bodies replace, shadows darken.
   bytes_.resize(4 * pixels);
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT0);
-  // Four bytes a pixel are what the framebuffer holds; letting GL drop the fourth is slower.
+  // The framebuffer holds four bytes a pixel; letting GL drop the fourth is slower.
   gl_.ReadPixels(rect.left, rect.top, width, rect.Height(), GL_RGBA, GL_UNSIGNED_BYTE, bytes_.data());
   CheckMemory(gl_);
   const std::uint8_t* source = bytes_.data();
@@ -191,6 +192,7 @@ void FrameTargets::Read(const PixelRect& rect, int top_row, Targets targets, Vie
   }
   if (targets == Targets::kColour) return;
 
+  // Labels.
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT1);
   gl_.ReadPixels(rect.left, rect.top, width, rect.Height(), GL_RED_INTEGER, GL_UNSIGNED_BYTE, bytes_.data());
   CheckMemory(gl_);
@@ -201,6 +203,7 @@ void FrameTargets::Read(const PixelRect& rect, int top_row, Targets targets, Vie
   }
   if (targets == Targets::kColourAndLabels) return;
 
+  // Depth.
   depths_.resize(pixels);
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT2);
   gl_.ReadPixels(rect.left, rect.top, width, rect.Height(), GL_RED, GL_FLOAT, depths_.data());

@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// The functions of OSMesa that it cannot be asked for by name.
+/// OSMesa's own functions; OSMesaGetProcAddress returns only those of GL.
 struct OsMesa {
   decltype(&OSMesaCreateContextAttribs) CreateContextAttribs = nullptr;
   decltype(&OSMesaDestroyContext) DestroyContext = nullptr;
@@ -36,7 +36,7 @@ Result<void*> MakeOsMesaContext() {
 }
 
 void MakeOsMesaCurrent(void* context) {
-  // OSMesa insists on a default framebuffer, however small; nothing is drawn there.
+  // OSMesa needs a default framebuffer of some size; nothing is drawn into it.
   static std::array<unsigned char, 64 * 64 * 4> unused{};
   osmesa.MakeCurrent(static_cast<OSMesaContext>(context), unused.data(), GL_UNSIGNED_BYTE, 64, 64);
 }

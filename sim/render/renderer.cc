@@ -19,7 +19,7 @@ namespace etude {
 namespace {
 
 // Surfaces beyond this depth are not drawn, metres.
-constexpr float kFarthest = 200;
+constexpr float kMaxDepth = 200;
 
 // A box as one triangle strip.
 constexpr GLsizei kStripLength = 14;
@@ -28,8 +28,8 @@ struct Programs {
   GLuint studio = 0;
   GLuint interior = 0;
   GLuint capsule = 0;
-  GLuint face = 0;     // capsules with one
-  GLuint surface = 0;  // in plain colours
+  GLuint face = 0;     // capsules with a face
+  GLuint surface = 0;  // surfaces in plain colours
   GLuint painted = 0;
   GLuint textured = 0;
   GLuint surface_shadow = 0;
@@ -111,11 +111,11 @@ struct Renderer::State {
         targets(gl),
         rooms(gl, linked.studio, linked.interior, empty_vertices) {
     gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl.CullFace(GL_FRONT);  // box faces turned away are in sight even from inside the box
+    gl.CullFace(GL_FRONT);  // cull front faces: the back faces of a box are visible even from inside it
     gl.BlendEquation(GL_MIN);
   }
 
-  // One picture's wishes.
+  // The settings for drawing one picture.
   struct Shot {
     const Room& room;
     const Camera& camera;
@@ -126,7 +126,7 @@ struct Renderer::State {
   void Use(GLuint program, const Shot& shot) {
     gl.UseProgram(program);
     SetNumber(program, "brightness", shot.room.brightness);
-    SetNumber(program, "farthest", kFarthest);
+    SetNumber(program, "farthest", kMaxDepth);
   }
 
   void SetNumber(GLuint program, const char* name, double value) {
@@ -138,7 +138,8 @@ struct Renderer::State {
     gl.BindTexture(GL_TEXTURE_2D, room.room);
   }
 
-  // In the studio. Each triangle darkens on its own; where shadows overlap the darkest counts, not their product.
+  // Draws the shadows of surfaces in the studio. Each triangle darkens separately; where shadows overlap, the darkest
+  // counts and not their product.
   void DrawShadowsOfSurfaces(const Shot& shot) {
     const GLuint program = programs.surface_shadow;
     Use(program, shot);
@@ -156,12 +157,12 @@ struct Renderer::State {
     gl.Disablei(GL_BLEND, 0);
   }
 
-  // Of the studio's floor only; bodies are drawn over it.
+  // Marks shadows on the studio's floor only; bodies are drawn over them.
   void MarkShadowsOfSurfaces(const Room& room, const Camera& camera) {
     gl.UseProgram(programs.shadow_mark);
     SetPixelGeometry(gl, programs.shadow_mark, camera, room);
     for (const GLenum plane : {GL_CLIP_DISTANCE0, GL_CLIP_DISTANCE1}) gl.Enable(plane);
-    if (all_closed) gl.Enable(GL_CULL_FACE);  // the half of a closed body that faces the lamp throws all of its shadow
+    if (all_closed) gl.Enable(GL_CULL_FACE);  // the half that faces the lamp casts the whole shadow
     for (const VertexStream* stream : {&surfaces, &painted, &textured}) {
       if (!stream->IsEmpty()) stream->Draw();
     }
@@ -214,6 +215,7 @@ struct Renderer::State {
   }
 
   void Upload(const std::vector<Figure>& figures, const glm::dvec3& eye) {
+    // Capsules, with and without a face.
     std::vector<CapsuleInstance> plain = MakeInstances(figures, eye), with_face;
     const auto first_face = std::stable_partition(
         plain.begin(), plain.end(), [](const CapsuleInstance& instance) { return instance.paint.a == 0; });
@@ -221,6 +223,7 @@ struct Renderer::State {
     plain.erase(first_face, plain.end());
     capsules.Upload(plain);
     faces.Upload(with_face);
+    // Surfaces.
     all_closed = AllClosed(figures);
     MakeTriangles(figures, eye, triangles);
     surfaces.Upload(triangles.plain.corners, triangles.plain.indices);
@@ -228,7 +231,7 @@ struct Renderer::State {
     textured.Upload(triangles.textured.corners, triangles.textured.indices);
   }
 
-  // Bodies, and what shadows they throw in the studio: `rects` of the picture, on top of `view`, which begins with
+  // Draws bodies, and the shadows of surfaces in the studio, in `rects` of the picture, over `view`, whose first row is
   // `top_row`.
   void DrawTouched(const KeptRoom& kept, const Room& room, const std::vector<Figure>& figures, const Camera& camera,
                    Targets asked, const std::vector<PixelRect>& rects, int top_row, View& view) {
@@ -266,7 +269,7 @@ struct Renderer::State {
   GLuint empty_vertices;
   VertexStream capsules, faces, surfaces, painted, textured;
   TextureStore textures;
-  bool all_closed = false;     // of surfaces: no backs are in sight
+  bool all_closed = false;     // true if all surfaces are closed, so no back is visible
   SurfaceTriangles triangles;  // reused
   FrameTargets targets;
   KeptRooms rooms;
@@ -282,7 +285,7 @@ Result<std::unique_ptr<Renderer>> Renderer::Create() {
 }
 
 Result<Renderer*> SharedRenderer() {
-  // Never destroyed: Mesa may be gone by then.
+  // Never destroyed, because Mesa may already be unloaded at exit.
   static const auto* const shared = new Result<std::unique_ptr<Renderer>>(Renderer::Create());
   if (!*shared) return tl::unexpected(shared->error());
   return (*shared)->get();
@@ -317,10 +320,12 @@ View Renderer::RenderRows(const Room& room, const std::vector<Figure>& figures, 
   assert(width > 0 && height > 0 && width <= kLargestPicture && height <= kLargestPicture);
   assert(0 <= rows.first && rows.first < rows.end && rows.end <= height);
   state_->context->MakeCurrent();
+  // The empty room with the shadows of capsules.
   const KeptRoom& kept = state_->rooms.FindOrDraw(room, camera);
   View view;
   FillBackdrop(kept, width, room.brightness, targets, rows, view);
-  if (room.casts_shadows) ThrowCapsuleShadows(kept, room, figures, targets, rows, view);
+  if (room.casts_shadows) CastCapsuleShadows(kept, room, figures, targets, rows, view);
+  // The figures.
   state_->DrawTouched(kept, room, figures, camera, targets, TouchedPixels(room, figures, camera, rows), rows.first,
                       view);
   return view;
@@ -329,6 +334,7 @@ View Renderer::RenderRows(const Room& room, const std::vector<Figure>& figures, 
 void Renderer::DrawFigures(const std::vector<Figure>& figures, const Camera& camera, Overlay& overlay) {
   const int width = camera.intrinsics.width, height = camera.intrinsics.height;
   state_->context->MakeCurrent();
+  // Clear what the last picture drew.
   if (overlay.width != width || overlay.height != height) {
     overlay = {width, height, std::vector(4 * static_cast<std::size_t>(width) * height, std::uint8_t{255}), {}};
   }
@@ -338,6 +344,7 @@ void Renderer::DrawFigures(const std::vector<Figure>& figures, const Camera& cam
                 4 * static_cast<std::size_t>(last.Width()));
   }
   overlay.drawn = {};
+  // Draw bodies and mark shadows.
   const KeptRoom& kept = state_->rooms.FindOrDraw({}, camera);
   state_->DrawOver(kept, figures, camera, overlay);
   MarkCapsuleShadows(kept, figures, overlay);

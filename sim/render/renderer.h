@@ -10,28 +10,27 @@
 
 namespace etude {
 
-/// Draws rooms and people offscreen with Mesa's llvmpipe (the one door to GL). Not thread-safe: one renderer
-/// per process is enough, it can be used for cameras of any size.
+/// Draws rooms and people offscreen with Mesa's llvmpipe. It is not thread-safe; one renderer per process is enough,
+/// for cameras of any size.
 class Renderer {
  public:
-  /// Makes a renderer. Fails when no GL context can be made, saying why.
+  /// Makes a renderer. Fails with the reason if no GL context can be made.
   static Result<std::unique_ptr<Renderer>> Create();
   ~Renderer();
 
-  /// Draws `figures` (none = the background picture) in `room`, seen by `camera`. The same bytes every
-  /// time in the pinned environment. Pixel geometry is `Project`'s, without smoothing of
-  /// edges: a triangle has the pixels whose centres it covers. Pictures have 1 to `kLargestPicture` pixels a side. The
-  /// camera stands above the floor and in front of the wall; up to about 55° to the side, every pixel then shows floor,
-  /// wall or a figure.
+  /// Draws `figures` (none = the background picture) in `room`, seen by `camera`. In the pinned environment the bytes
+  /// are the same every time. The pixel geometry is that of `Project`, without antialiasing: a triangle covers the
+  /// pixels whose centres it contains. Pictures have 1 to `kMaxPictureSide` pixels a side. The camera must be above the
+  /// floor and in front of the wall; up to about 55° to the side, every pixel then shows floor, wall or a figure.
   View Render(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets);
 
-  /// Draws only some rows of that picture, with the same bytes: the view is as high as there are rows. A rolling
+  /// Draws only some rows of that picture, with the same bytes; the view's height is the number of rows. A rolling
   /// shutter sees each band of rows at another time.
   View RenderRows(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets,
                   const RowRange& rows);
 
-  /// Draws figures as they look in the studio, and marks where their shadows fall on its floor; the room is not drawn.
-  /// An overlay of this size is used again.
+  /// Draws figures as in the studio and marks their shadows on its floor, without the room. An overlay of the right
+  /// size is reused.
   void DrawFigures(const std::vector<Figure>& figures, const Camera& camera, Overlay& overlay);
 
  private:
@@ -40,18 +39,19 @@ class Renderer {
   std::unique_ptr<State> state_;
 };
 
-/// Returns the one renderer of this process, made when first asked for: compiling its shaders takes longer than drawing
-/// a hundred pictures. For one thread at a time, as every renderer; its pictures do not depend on what it drew before.
+/// Returns the one renderer of this process, made at the first call, because compiling its shaders takes longer than
+/// drawing a hundred pictures. Like every renderer it is for one thread at a time; its pictures do not depend on
+/// earlier ones.
 Result<Renderer*> SharedRenderer();
 
-/// Fails when the variable ETUDE_GL, by which a user chooses how GL is reached, holds neither "osmesa" nor "egl".
+/// Fails if the environment variable ETUDE_GL, by which a user chooses the GL library, is neither "osmesa" nor "egl".
 Result<void> CheckRendererChoice();
 
-/// Loads what draws, so that it is among the libraries of this process; whoever draws does so anyway. Fails when it
-/// cannot be loaded, saying why.
+/// Loads the drawing library, so that it appears among the libraries of this process; otherwise it is loaded at the
+/// first drawing. Fails with the reason if it cannot be loaded.
 Result<void> LoadRenderer();
 
-/// Returns the version of OpenGL and Mesa, on which pixels depend, and how they were reached ("4.5 (Core Profile) Mesa
+/// Returns the version of OpenGL and Mesa, on which pixels depend, and the library used ("4.5 (Core Profile) Mesa
 /// 22.3.6, by OSMesa"), or the reason why there is no context.
 std::string RendererVersion();
 

@@ -25,14 +25,14 @@ void main() {
   vec2 light = RoomLight(point, RoomNormal(hit.is_wall));
   float blur = 0.7 * hit.depth * pixel_angle;
   vec3 paint = StudioPaint(hit.is_wall ? point.xy : point.xz, hit.is_wall, blur);
-  // A skirting board ends the wall.
+  // A skirting board at the bottom of the wall.
   if (hit.is_wall) paint *= 1.0 - 0.35 * (1.0 - smoothstep(-blur, blur, point.y - 0.09));
   room = vec4(paint * (light.x + light.y), hit.depth);
   extra = vec4(vec3(light.y / (light.x + light.y)), 0.0);
 }
 )glsl";
 
-// Where rays meet the closed room and what stands in it, in E.
+// Intersects rays with the closed room and its boxes, in E.
 constexpr const char* kInteriorGeometry = R"glsl(
 uniform vec3 room_low;   // in the world
 uniform vec3 room_high;
@@ -49,7 +49,7 @@ struct Hit {
 };
 
 void MeetPlane(inout Hit hit, float from_eye, float along, int surface, vec3 normal) {
-  // A wall is seen from inside only: eye and ray have to be on its two sides.
+  // A wall is visible from inside only: eye and ray must be on opposite sides of it.
   if (from_eye * dot(normal, vec3(1.0)) >= 0.0 || from_eye * along <= 0.0) return;
   float depth = from_eye / along;
   if (depth < hit.depth) hit = Hit(depth, surface, normal);
@@ -59,7 +59,7 @@ vec3 InBox(vec3 v, vec4 centre, vec4 half_size) {
   return vec3(half_size.w * v.x - centre.w * v.z, v.y, centre.w * v.x + half_size.w * v.z);
 }
 
-// Where a ray enters and leaves the box; it misses where it leaves before it enters.
+// The depths at which a ray enters and leaves the box; it misses the box if it leaves before it enters.
 vec2 BoxSpan(int i, vec3 origin, vec3 ray, out vec3 near) {
   vec3 from = InBox(origin - box_centre[i].xyz, box_centre[i], box_half[i]);
   vec3 along = InBox(ray, box_centre[i], box_half[i]);
@@ -110,14 +110,14 @@ uniform vec3 window_colour;
 layout(location = 0) out vec4 room;   // rgb, depth
 layout(location = 1) out vec4 extra;  // rgb = the lamp's share of the light; a = label
 
-// Paints: 0 floor, 1 wall, 2 ceiling, 3 rug, 4… pictures, 12… boxes.
+// Paint indices: 0 floor, 1 wall, 2 ceiling, 3 rug, 4… pictures, 12… boxes.
 vec3 SurfacePaint(Hit hit, vec3 point, float blur, out float glow) {
   glow = 0.0;
   if (hit.surface >= kBox) {
     int i = hit.surface - kBox;
     vec3 local = InBox(point - box_centre[i].xyz, box_centre[i], box_half[i]);
     vec3 own = InBox(hit.normal, box_centre[i], box_half[i]);
-    // Upright faces are painted along the floor and up, tops as seen from above.
+    // Vertical faces are painted along the floor and upwards, top faces as seen from above.
     vec3 place = abs(own.y) > 0.5 ? vec3(local.x, local.z, 0.0) : abs(own.x) > 0.5 ? vec3(local.z, local.y, 0.0)
                                                                               : vec3(local.x, local.y, 1.0);
     return Painted(12 + i, place + vec3(0.0, 0.0, 0.003), blur);
@@ -157,7 +157,7 @@ vec3 SurfacePaint(Hit hit, vec3 point, float blur, out float glow) {
   return paint;
 }
 
-// What is left of the lamp's light: 0 deep in the shadow of a box.
+// The remaining share of the lamp's light: 0 deep in the shadow of a box.
 float LampLeft(int own, vec3 point, vec3 normal, vec3 to_lamp) {
   float left = 1.0, distance_to_lamp = length(to_lamp);
   vec3 ray = to_lamp / distance_to_lamp;
@@ -166,14 +166,14 @@ float LampLeft(int own, vec3 point, vec3 normal, vec3 to_lamp) {
     vec2 span = BoxSpan(i, point + 0.002 * normal, ray, near);
     float inside = min(span.y, distance_to_lamp) - max(span.x, 0.0);
     if (inside <= 0.0) continue;
-    // The lamp is no point: softer the farther the shadow falls.
+    // The lamp has a size: the shadow is softer the farther it falls.
     float softness = 0.01 + 0.05 * max(span.x, 0.0);
     left = min(left, 1.0 - smoothstep(0.0, softness, inside));
   }
   return left;
 }
 
-// Corners are darker: what stands near takes the light that comes from all sides.
+// Ambient occlusion: nearby boxes and walls take light that comes from all sides.
 float Openness(int own, vec3 point, vec3 normal) {
   float open = 1.0;
   for (int i = 0; i < boxes; ++i) {

@@ -13,7 +13,7 @@ const float kInfinity = uintBitsToFloat(0x7f800000u);
 vec3 PixelRay() { return ray_of_pixel * vec3(gl_FragCoord.xy, 1.0); }
 
 struct RoomHit {
-  float depth;  // along the viewing axis; infinity when nothing is met
+  float depth;  // along the viewing axis; infinity if the ray hits nothing
   bool is_wall;
 };
 
@@ -23,7 +23,7 @@ RoomHit MeetRoom(vec3 ray) {
   return RoomHit(min(floor_depth, wall_depth), wall_depth < floor_depth);
 }
 
-// The light of a room's surface: x = what is left in shadow, y = what the lamp adds.
+// The light on a room's surface: x = the part that remains in shadow, y = the lamp's part.
 vec2 RoomLight(vec3 point, vec3 normal) {
   vec3 to_lamp = lamp - point;
   float square = dot(to_lamp, to_lamp);
@@ -43,7 +43,7 @@ uniform vec3 fill_colour;
 uniform vec3 window;  // in the world
 uniform vec3 window_colour;
 
-// `point` in E, `normal` unit. An alpha of 0 says that the pixel was drawn (FrameTargets).
+// `point` in E, `normal` unit. An alpha of 0 marks the pixel as drawn (FrameTargets).
 vec4 LitPaint(vec3 skin, vec3 normal, vec3 point, vec3 ray) {
   vec3 to_lamp = normalize(lamp - eye - point);
   float facing = max(-dot(normal, normalize(ray)), 0.0);
@@ -63,7 +63,7 @@ const char* const kRoomInFront = R"glsl(
 uniform sampler2D kept_room;
 uniform float farthest;
 
-// Whether what stands in the room hides that depth.
+// True if the room hides that depth.
 bool IsBehindRoom(float depth) {
   return texelFetch(kept_room, ivec2(gl_FragCoord.xy), 0).a / farthest <= depth / farthest;
 }
@@ -73,8 +73,9 @@ const char* const kShadowLight = R"glsl(
 uniform sampler2D kept_room;
 uniform float brightness;
 
-// The alpha of 0.5 says that it is a shadow (FrameTargets). `point` of the room in E; `inside` = how deep the light's way runs inside the body: 0 at its skin, 1 through its
-// middle; `softness` = from where on the shadow is full. The outermost edge is where the label ends.
+// The alpha of 0.5 marks a shadow (FrameTargets). `point` of the room is in E. `inside` is the depth of the light's
+// path inside the body: 0 at its skin, 1 through its middle. The shadow is full from `softness` on; its outermost edge
+// is where the label ends.
 vec4 RoomInShadow(RoomHit hit, vec3 point, float inside, float softness) {
   vec2 light = RoomLight(eye + point, RoomNormal(hit.is_wall));
   float left_over = 1.0 - smoothstep(0.0, softness, inside) * light.y / (light.x + light.y);
@@ -87,7 +88,7 @@ const char* const kCapsuleBox = R"glsl(
 in vec4 start_and_radius;  // in E
 in vec4 end_and_label;
 in vec4 paint_in;          // rgb; a = 1 for a head with a face
-in vec3 front_in;          // where the face looks
+in vec3 front_in;          // direction of the face
 
 uniform mat3 image_of_direction;  // E -> (u w, v w, w)
 uniform vec2 image_size;
@@ -111,8 +112,8 @@ vec3 BoxCorner() {
 
 void Place(vec3 point) {
   vec3 image = image_of_direction * point;
-  // Row 0 of the framebuffer is the picture's top row, so nothing needs to be flipped. Depth is
-  // written per pixel; z = 0 keeps near boxes from being cut.
+  // Row 0 of the framebuffer is the picture's top row, so nothing is flipped. Depth is written per pixel; z = 0 keeps
+  // near boxes from being clipped.
   gl_Position = vec4(2.0 * image.xy / image_size - image.z, 0.0, image.z);
   capsule_start = start_and_radius;
   capsule_end = end_and_label;
@@ -127,7 +128,7 @@ uniform vec4 wall_tiles[64];
 
 int Wrap(float tile) { return int(tile - 8.0 * floor(tile / 8.0)); }
 
-// Hues stay between 140 and 240 degrees: people wear the others.
+// Hues stay between 140 and 240 degrees; people have the others.
 vec3 SpotPaint(float tone, bool is_wall) {
   float pick = fract(tone * 7.0);
   if (!is_wall) return mix(vec3(0.26, 0.50, 0.62), vec3(0.34, 0.60, 0.64), pick);
@@ -212,7 +213,7 @@ float RoomPattern(int pattern, vec3 place, float size, float blur, inout float t
 }
 )glsl";
 
-// Shaders run every branch: what people wear is spared the patterns of rooms.
+// Shaders execute every branch, so the clothes' shader leaves out the patterns of rooms.
 const char* const kNoRoomPatterns = R"glsl(
 float RoomPattern(int pattern, vec3 place, float size, float blur, inout float tone) { return 0.0; }
 )glsl";
@@ -238,7 +239,7 @@ vec3 Painted(int index, vec3 place, float blur) {
     share = mix(share, 1.0, smoothstep(-blur, blur, min(inside.x, inside.y)));
   }
   if (patch_at.z < 0.0) {
-    // Seams down the sides and the middle, and soft creases, which bend with the body.
+    // Seams along the sides and the middle, and soft creases that move with the body.
     tone *= 1.0 - 0.30 * max(Line(place.z, 0.0025, blur), place.z > 0.0 ? Line(place.x, 0.002, blur) : 0.0);
     tone *= 1.0 + 0.07 * sin(41.0 * place.y + 9.0 * sin(13.0 * (place.x + place.z))) *
                       sin(23.0 * (place.x - place.z) + 5.0 * place.y);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Upright to the world's axes; empty while nothing was added.
+// An axis-aligned box in the world; empty while no point was added.
 struct Extent {
   glm::dvec3 low{kInfinity}, high{-kInfinity};
 
@@ -30,7 +30,8 @@ struct Extent {
 
 bool IsFinitePoint(const glm::dvec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-// What grows over projected points. One behind the camera may be seen anywhere: then it is the whole picture.
+// A rectangle that grows over projected points. A point behind the camera may appear anywhere, so the rectangle is then
+// the whole picture.
 class SeenRect {
  public:
   explicit SeenRect(const Camera& camera) : camera_(camera) {}
@@ -42,7 +43,7 @@ class SeenRect {
   void AddEverything() { low_ = glm::dvec2(-kInfinity), high_ = glm::dvec2(kInfinity); }
 
   PixelRect Pixels(const RowRange& rows) const {
-    constexpr double kMargin = 2;  // pixels, for what floats round otherwise
+    constexpr double kMargin = 2;  // pixels, for rounding of floats
     const auto clamp = [](double value, int low, int high) {
       return static_cast<int>(std::clamp(std::floor(value), static_cast<double>(low), static_cast<double>(high)));
     };
@@ -70,26 +71,26 @@ class SeenRect {
   glm::dvec2 low_{kInfinity}, high_{-kInfinity};
 };
 
-// The shadow of an extent on one plane of the room, cut off at the plane's ends.
-Extent ThrownOnto(const Extent& extent, const glm::dvec3& lamp, int axis, double plane, const Extent& room) {
-  Extent thrown;
+// Returns the shadow of an extent on one plane of the room, clipped to the plane's bounds.
+Extent ShadowOn(const Extent& extent, const glm::dvec3& lamp, int axis, double plane, const Extent& room) {
+  Extent shadow;
   const double reach = std::abs(lamp[axis] - plane), side = lamp[axis] > plane ? 1 : -1;
   for (const glm::dvec3& corner : extent.Corners()) {
     const glm::dvec3 from_lamp = corner - lamp;
-    const double fall = std::max(-side * from_lamp[axis], 0.05);  // as the shaders have it
+    const double fall = std::max(-side * from_lamp[axis], 0.05);  // as in the shaders
     glm::dvec3 point = lamp + from_lamp * (reach / fall);
     point[axis] = plane;
-    thrown.Add(point);
+    shadow.Add(point);
   }
   for (int i = 0; i < 3; ++i) {
-    if (thrown.high[i] < room.low[i] || thrown.low[i] > room.high[i]) return {};
+    if (shadow.high[i] < room.low[i] || shadow.low[i] > room.high[i]) return {};
   }
-  thrown.low = glm::clamp(thrown.low, room.low, room.high);
-  thrown.high = glm::clamp(thrown.high, room.low, room.high);
-  return thrown;
+  shadow.low = glm::clamp(shadow.low, room.low, room.high);
+  shadow.high = glm::clamp(shadow.high, room.low, room.high);
+  return shadow;
 }
 
-// Every capsule, and every surface as a whole.
+// Return the extents of every capsule, and of every surface as a whole.
 std::vector<Extent> ExtentsOf(const std::vector<Capsule>& shape) {
   std::vector<Extent> extents;
   for (const Capsule& capsule : shape) {
@@ -115,7 +116,7 @@ std::vector<Extent> ExtentsOf(const std::vector<Surface>& surfaces) {
 
 int Area(const PixelRect& rect) { return rect.Width() * rect.Height(); }
 
-// Two rectangles become one where that has hardly more pixels.
+// Merges two rectangles if their union has at most 10 % more pixels than both.
 void Merge(std::vector<PixelRect>& rects) {
   std::erase_if(rects, [](const PixelRect& rect) { return rect.IsEmpty(); });
   for (std::size_t i = 0; i < rects.size(); ++i) {
@@ -124,7 +125,7 @@ void Merge(std::vector<PixelRect>& rects) {
       if (Area(both) > 1.1 * (Area(rects[i]) + Area(rects[k]))) continue;
       rects[i] = both;
       rects.erase(rects.begin() + static_cast<std::ptrdiff_t>(k));
-      i = static_cast<std::size_t>(-1);  // a larger one may take in others: from the beginning
+      i = static_cast<std::size_t>(-1);  // the union may merge with others, so start again
       break;
     }
   }
@@ -142,8 +143,8 @@ std::vector<PixelRect> TouchedPixels(const Room& room, const std::vector<Figure>
       body.Add(extent);
       if (!room.casts_shadows || room.interior != nullptr) continue;
       const Extent open{{-kInfinity, 0, kWallZ}, glm::dvec3(kInfinity)};
-      on_floor.Add(ThrownOnto(extent, kLamp, 1, 0, open));
-      if (with_wall) on_wall.Add(ThrownOnto(extent, kLamp, 2, kWallZ, open));
+      on_floor.Add(ShadowOn(extent, kLamp, 1, 0, open));
+      if (with_wall) on_wall.Add(ShadowOn(extent, kLamp, 2, kWallZ, open));
     }
     for (const SeenRect* seen : {&body, &on_floor, &on_wall}) rects.push_back(seen->Pixels(rows));
   }

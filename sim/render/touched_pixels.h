@@ -7,8 +7,8 @@
 
 namespace etude {
 
-/// Rectangles of the picture outside which GL draws nothing: around every figure and, in the studio, the shadow of its
-/// surfaces (`with_wall`: on the wall too). They may overlap. All within `rows` of the picture.
+/// Returns the rectangles of the picture in which GL draws: around every figure and, in the studio, around the shadow
+/// of its surfaces (`with_wall`: on the wall, too). They may overlap, and lie within `rows` of the picture.
 std::vector<PixelRect> TouchedPixels(const Room& room, const std::vector<Figure>& figures, const Camera& camera,
                                      const RowRange& rows, bool with_wall = true);
 

@@ -15,7 +15,7 @@ void SetMatrix(const GlFunctions& gl, GLuint program, const char* name, const gl
   gl.UniformMatrix3fv(gl.GetUniformLocation(program, name), 1, GL_FALSE, glm::value_ptr(narrow));
 }
 
-// Numbers of paints, as the shader has them.
+// The first indices of the shader's paints.
 constexpr int kFirstPicturePaint = 4, kFirstBoxPaint = 12;
 static_assert(kFirstBoxPaint - kFirstPicturePaint == kMostWallPictures);
 static_assert(kFirstBoxPaint + kMostFurnitureBoxes <= kMostPaints);
@@ -60,17 +60,17 @@ void SetFurniture(const GlFunctions& gl, GLuint program, const std::vector<Furni
 
 void SetPictures(const GlFunctions& gl, GLuint program, const std::vector<WallPicture>& pictures) {
   const std::size_t count = std::min(pictures.size(), kMostWallPictures);
-  std::vector<glm::vec4> places, frames;
+  std::vector<glm::vec4> positions, frames;
   std::vector<SurfacePaint> paints;
   for (std::size_t i = 0; i < count; ++i) {
     const WallPicture& picture = pictures[i];
-    places.emplace_back(glm::vec2(picture.centre), glm::vec2(picture.half_size));
-    // Sixteen steps of glow share a number with the wall.
+    positions.emplace_back(glm::vec2(picture.centre), glm::vec2(picture.half_size));
+    // The glow, in sixteen steps, shares a number with the wall.
     const int glow = static_cast<int>(std::lround(16 * std::clamp(picture.glow, 0.0, 1.0)));
     frames.emplace_back(ToShares(picture.frame), static_cast<float>(WallNumber(picture.wall) + 8 * glow));
     paints.push_back(picture.paint);
   }
-  SetArray(gl, program, "picture_place", places);
+  SetArray(gl, program, "picture_place", positions);
   SetArray(gl, program, "picture_frame", frames);
   SetPaints(gl, program, paints, kFirstPicturePaint);
   gl.Uniform1i(gl.GetUniformLocation(program, "pictures"), static_cast<GLint>(count));
@@ -85,7 +85,7 @@ void SetPoint(const GlFunctions& gl, GLuint program, const char* name, const glm
 
 void SetPixelGeometry(const GlFunctions& gl, GLuint program, const Camera& camera, const Room& room) {
   const Intrinsics& in = camera.intrinsics;
-  // Columns, as GLM has it: image (u w, v w, w) = K · direction in C.
+  // Columns, as in GLM: image (u w, v w, w) = K · direction in C.
   const glm::dmat3 K(in.fx, 0, 0, in.skew, in.fy, 0, in.cx, in.cy, 1);
   SetMatrix(gl, program, "ray_of_pixel", glm::transpose(camera.R_CW) * glm::inverse(K));
   SetMatrix(gl, program, "image_of_direction", K * camera.R_CW);
@@ -113,7 +113,7 @@ void SetPaints(const GlFunctions& gl, GLuint program, const std::vector<SurfaceP
     firsts.emplace_back(ToShares(paint.first), static_cast<float>(paint.pattern));
     seconds.emplace_back(ToShares(paint.second), static_cast<float>(paint.size));
     const bool has_patch = paint.patch_half.x > 0 && paint.patch_half.y > 0;
-    // Cloth is told by a negative width, a patch by a height.
+    // A negative width marks cloth, and a positive height marks a patch.
     const double width = has_patch ? paint.patch_half.x : 1;
     patches.emplace_back(glm::vec2(paint.patch), paint.is_cloth ? -width : width, has_patch ? paint.patch_half.y : 0);
   }

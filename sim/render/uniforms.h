@@ -6,20 +6,20 @@
 
 namespace etude {
 
-/// Sets the camera's pixel geometry, the room's surfaces and its lamp in `program`, which is in use.
+/// Sets the camera's pixel geometry, the room's surfaces and its lamp in `program`, which must be in use.
 void SetPixelGeometry(const GlFunctions& gl, GLuint program, const Camera& camera, const Room& room);
 
-/// Sets the room's lights in `program`, which is in use.
+/// Sets the room's lights in `program`, which must be in use.
 void SetLights(const GlFunctions& gl, GLuint program, const Lights& lights);
 
-/// Sets the paints `first`, `first` + 1, … in `program`, which is in use.
+/// Sets the paints `first`, `first` + 1, … in `program`, which must be in use.
 void SetPaints(const GlFunctions& gl, GLuint program, const std::vector<SurfacePaint>& paints, int first = 0);
 
 void SetPoint(const GlFunctions& gl, GLuint program, const char* name, const glm::dvec3& point);
 glm::vec3 ToShares(Rgb8 colour);
 
-/// Sets the walls, the furniture and the pictures of an interior in `program`, which is in use
-/// (InteriorFragmentShader).
+/// Sets the walls, the furniture and the pictures of an interior in `program` (InteriorFragmentShader), which must be
+/// in use.
 void SetInterior(const GlFunctions& gl, GLuint program, const Interior& interior);
 
 }  // namespace etude

@@ -7,9 +7,9 @@
 namespace etude {
 namespace {
 
-constexpr double kCube = 1.2;   // metres a side
-constexpr double kStand = 0.3;  // metres high
-constexpr int kSquares = 5;     // a side of a board
+constexpr double kCube = 1.2;   // side, metres
+constexpr double kStand = 0.3;  // height, metres
+constexpr int kSquares = 5;     // squares along a board's side
 
 constexpr Rgb8 kBlack{25, 25, 25};
 constexpr Rgb8 kWhite{225, 225, 225};
@@ -17,8 +17,8 @@ constexpr Rgb8 kWhite{225, 225, 225};
 void AddRectangle(const PlacedBoard& placed, const glm::dvec2& low, const glm::dvec2& high, Surface& surface) {
   const auto first = static_cast<std::uint32_t>(surface.positions.size());
   const glm::dvec3 normal = glm::cross(placed.down_W, placed.right_W);
-  for (const glm::dvec2& place : {low, glm::dvec2(low.x, high.y), high, glm::dvec2(high.x, low.y)}) {
-    surface.positions.push_back(placed.At(place));
+  for (const glm::dvec2& point : {low, glm::dvec2(low.x, high.y), high, glm::dvec2(high.x, low.y)}) {
+    surface.positions.push_back(placed.At(point));
     surface.normals.push_back(normal);
   }
   for (const std::uint32_t second : {1u, 2u}) {
@@ -42,7 +42,7 @@ void AddDisc(const PlacedDisc& disc, const glm::dvec3& right, const glm::dvec3& 
   }
 }
 
-// The board as rectangles of one colour: black squares whole, white ones module by module.
+// Adds a board as rectangles of one colour: black squares whole, white squares module by module.
 void AddBoard(const PlacedBoard& placed, Surface& black, Surface& white) {
   const Board& board = placed.board;
   const double module = board.square / kModules;
@@ -90,7 +90,8 @@ std::vector<Surface> SurfacesOf(std::span<const PlacedBoard> boards) {
 }
 
 MarkedCube MakeMarkedCube(const glm::dvec3& middle) {
-  constexpr double kThickness = 0.001;  // of a disc, metres: what keeps it apart from its plane in the picture
+  constexpr double kThickness =
+      0.001;  // metres between a disc and its plane, so that they do not coincide in the picture
   MarkedCube cube;
   cube.surfaces.resize(2);
   Surface &black = cube.surfaces[0], &white = cube.surfaces[1];
@@ -100,8 +101,8 @@ MarkedCube MakeMarkedCube(const glm::dvec3& middle) {
     AddRectangle(placed, glm::dvec2(0), glm::dvec2(kCube), white);
     const glm::dvec3 outwards = glm::cross(placed.down_W, placed.right_W);
     for (int square = 0; square < kSquares * kSquares; ++square) {
-      const glm::dvec2 place = placed.board.square * glm::dvec2(square % kSquares + 0.5, square / kSquares + 0.5);
-      cube.discs.push_back({placed.At(place) + kThickness * outwards, outwards});
+      const glm::dvec2 point = placed.board.square * glm::dvec2(square % kSquares + 0.5, square / kSquares + 0.5);
+      cube.discs.push_back({placed.At(point) + kThickness * outwards, outwards});
       AddDisc(cube.discs.back(), placed.right_W, placed.down_W, black);
     }
   }

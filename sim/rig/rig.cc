@@ -11,16 +11,16 @@
 namespace etude {
 namespace {
 
-constexpr double kAimHeight = 0.95;    // metres: the middle of a standing body
-constexpr double kFlesh = 0.15;        // metres of body around a joint that shall be in the picture, too
-constexpr double kToWall = 0.3;        // metres that a camera keeps from the wall
-constexpr double kWidestLens = 0.5;    // of the usual focal length
-constexpr double kPlaceError = 0.05;   // metres, along the floor: standard deviations of setting up by hand
-constexpr double kHeightError = 0.03;  // metres
-constexpr double kAngleError = 2;      // degrees
-constexpr double kAimError = 0.02;     // metres
+constexpr double kAimHeight = 0.95;      // metres: the centre of a standing body
+constexpr double kFlesh = 0.15;          // metres of the body around a joint that must be in the picture, too
+constexpr double kWallDistance = 0.3;    // minimum distance from the wall, metres
+constexpr double kMinFocalShare = 0.5;   // minimum focal length as a share of the usual one
+constexpr double kPositionError = 0.05;  // metres along the floor: standard deviations of setting up by hand
+constexpr double kHeightError = 0.03;    // metres
+constexpr double kAngleError = 2;        // degrees
+constexpr double kAimError = 0.02;       // metres
 
-// Where a camera shall stand: from the middle of the performer's place.
+// The intended position of a camera relative to the middle of the motion.
 struct Stand {
   double angle_deg = 0;
   double height = 0;
@@ -54,14 +54,14 @@ std::vector<Stand> StandsOf(const RigOptions& options) {
 
 glm::dvec3 OnFloor(double angle) { return {std::sin(angle), 0, std::cos(angle)}; }
 
-// As far from `middle` as wanted, but before the back wall.
+// Returns the distance from `middle` that is wanted, or less if the back wall is in the way.
 double DistanceWithin(const glm::dvec3& middle, const glm::dvec3& outwards, double wanted) {
   if (outwards.z >= 0) return wanted;
-  const double to_wall = (kWallZ + kToWall - middle.z) / outwards.z;
-  return std::min(wanted, std::max(to_wall, kToWall));
+  const double to_wall = (kWallZ + kWallDistance - middle.z) / outwards.z;
+  return std::min(wanted, std::max(to_wall, kWallDistance));
 }
 
-// The largest share of the usual focal length with which `point` and the flesh around it stay in the picture.
+// Returns the largest share of the usual focal length at which `point` and the body around it stay in the picture.
 double LensFor(const Camera& camera, const glm::dvec3& point) {
   const glm::dvec3 p_C = camera.R_CW * (point - camera.p_WC);
   if (p_C.z <= kFlesh) return 0;
@@ -76,14 +76,14 @@ void ChooseLens(std::span<const BodyPose> motion, Camera& camera) {
   for (const BodyPose& pose : motion) {
     for (const glm::dvec3& joint : pose.joints) lens = std::min(lens, LensFor(camera, joint));
   }
-  lens = std::max(lens, kWidestLens);
+  lens = std::max(lens, kMinFocalShare);
   camera.intrinsics.fx *= lens;
   camera.intrinsics.fy *= lens;
 }
 
 Camera SetUp(const Stand& stand, const glm::dvec3& middle, double distance, RandomStream& random) {
   const double angle = Radians(stand.angle_deg + random.Normal(0, kAngleError));
-  const double wanted = distance + random.Normal(0, kPlaceError);
+  const double wanted = distance + random.Normal(0, kPositionError);
   const double height = stand.height + random.Normal(0, kHeightError);
   const double aim_x = random.Normal(0, kAimError), aim_y = kAimHeight + random.Normal(0, kAimError);
   const glm::dvec3 outwards = OnFloor(angle), aside = stand.aside * OnFloor(angle + kPi / 2);
@@ -91,10 +91,11 @@ Camera SetUp(const Stand& stand, const glm::dvec3& middle, double distance, Rand
   return LookAt({}, foot + glm::dvec3(0, height, 0), middle + glm::dvec3(aim_x, aim_y, 0) + aside);
 }
 
-// The point that is nearest to all optical axes; where they are parallel, some metres ahead.
+// Returns the point nearest to all optical axes in the least-squares sense; if they are parallel, it is some metres
+// ahead.
 glm::dvec3 CommonMiddle(std::span<const Camera> cameras) {
   constexpr double kAhead = 3;          // metres
-  constexpr double kHintWeight = 1e-3;  // decides only what axes leave open
+  constexpr double kHintWeight = 1e-3;  // decides only directions that the axes leave open
   glm::dmat3 normal(0);
   glm::dvec3 right(0);
   for (const Camera& camera : cameras) {

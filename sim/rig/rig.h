@@ -9,47 +9,48 @@
 
 namespace etude {
 
-/// The arrangement of the cameras about the performer.
+/// The arrangement of the cameras around the performer.
 enum class RigShape {
-  kAngles,   ///< "angles": at the angles and heights that are given
-  kStereo,   ///< "stereo": a pair side by side in front, both axes parallel
-  kRing,     ///< "ring": evenly about the performer, the first one in front
-  kCorners,  ///< "corners": four, in the corners of a square about the performer
-  kFile,     ///< "file": somebody's own, as they were calibrated
+  kAngles,   ///< "angles": at given angles and heights
+  kStereo,   ///< "stereo": a pair side by side in front, with parallel axes
+  kRing,     ///< "ring": at equal angles around the performer, the first one in front
+  kCorners,  ///< "corners": four cameras in the corners of a square around the performer
+  kFile,     ///< "file": a calibrated rig of the user's own
 };
 
 struct RigOptions {
   RigShape shape = RigShape::kAngles;
-  /// The angles about the performer for kAngles, degrees; 0 = in front, positive = to the performer's left.
+  /// The angles around the performer for kAngles, degrees; 0 = in front, positive = to the performer's left.
   std::vector<double> angles_deg = {-40, 40};
-  /// The heights of the cameras, metres: one per angle for kAngles, else taken in turn. Cameras at one height cannot
-  /// tell the direction of a limb parallel to the line between them, and a performer who faces two has hips, shoulders
-  /// and stretched arms there: so heights differ.
+  /// The heights of the cameras, metres: one per angle for kAngles, otherwise taken in turn. The defaults differ,
+  /// because two cameras at one height cannot determine the direction of a limb parallel to the line between them;
+  /// hips, shoulders and stretched arms of a performer who faces both are such limbs.
   std::vector<double> heights_m = {1.0, 2.2};
-  double distance_m = 3.8;       ///< from the middle of where the performer moves, as far as the room allows
-  double baseline_m = 0.6;       ///< kStereo: between the two
-  int cameras = 4;               ///< kRing: how many
+  double distance_m = 3.8;       ///< from the middle of the performer's motion, as far as the room allows
+  double baseline_m = 0.6;       ///< kStereo: distance between the two cameras
+  int cameras = 4;               ///< kRing: number of cameras
   std::vector<Camera> own = {};  ///< kFile: metres, Y up
 };
 
 constexpr std::size_t kMostCameras = 8;
 
-/// Sets up the cameras of a studio as people do by hand for a take: fitted to the room (none stands in or behind its
-/// back wall) and to the motion. They look at the middle of where the performer moves; a camera that would lose a part
-/// of the performer takes a wider lens, to 94° (half of the usual focal length), and what leaves the picture then is
-/// out of view. Nobody sets up a tripod to the centimetre: every camera has dice of its own. A rig of one's own is
-/// moved along the floor as a whole, its cameras' common middle to that of the motion, and left as it is otherwise.
+/// Sets up the cameras of a studio as a crew does by hand for a take. The cameras are fitted to the room (none is in or
+/// behind its back wall) and to the motion: they look at the middle of the performer's motion, and a camera that would
+/// cut off the performer gets a wider lens, up to 94° (half of the usual focal length); joints that still leave the
+/// picture are out of view. Positions and angles have random errors, because nobody places a tripod to the centimetre;
+/// every camera has its own random numbers. A user's own rig is only moved along the floor as a whole, so that the
+/// point nearest to its optical axes is at the middle of the motion.
 /// @param motion at least one pose, metres, Y up
 std::vector<Camera> SetUpCameras(const RigOptions& options, std::span<const BodyPose> motion, const WorldKey& key);
 
-/// Returns the middle of the box around all joints of a motion, on the floor.
+/// Returns the centre of the bounding box of all joints of a motion, on the floor.
 glm::dvec3 MiddleOnFloor(std::span<const BodyPose> motion);
 
-/// Tells whether the camera's picture shows all twenty joints, as far as nothing stands before them.
+/// Returns true if all twenty joints project into the camera's picture; occlusion is ignored.
 bool IsInPicture(const Camera& camera, const BodyPose& pose);
 
-/// Tells for each frame whether at least two cameras have the whole body in their pictures; otherwise nothing can be
-/// measured.
+/// Returns for each frame true if at least two cameras have the whole body in their pictures; otherwise the pose cannot
+/// be triangulated.
 std::vector<bool> FramesInView(std::span<const Camera> cameras, std::span<const BodyPose> motion);
 
 }  // namespace etude

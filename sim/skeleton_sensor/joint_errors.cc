@@ -10,10 +10,10 @@
 namespace etude {
 namespace {
 
-/// Returns the share of its value that a first-order low pass keeps over one frame; a time constant of 0 keeps nothing.
+/// Returns the factor by which a first-order low pass keeps its value over one frame; 0 for a time constant of 0.
 double MemoryOf(double time_s, double rate_hz) { return time_s > 0 ? std::exp(-1.0 / (rate_hz * time_s)) : 0.0; }
 
-constexpr double kLoudnessTime = 0.7;  // seconds that a burst lasts, about (ours)
+constexpr double kLoudnessTime = 0.7;  // approximate duration of a burst, seconds (ours)
 
 using enum Role;
 
@@ -33,18 +33,18 @@ PoseLengths LengthsOf(const SkeletonSensorOptions& options) {
   return {.own = options.pose_length_m, .far = options.far_pose_length_m};
 }
 
-constexpr double kFullSpeed = 0.5;  // m/s at which the fast part has its size
-constexpr double kSpeedCap = 1.3;   // times kFullSpeed: no further growth
+constexpr double kFullSpeed = 0.5;  // m/s, at which the fast part has its full size
+constexpr double kSpeedCap = 1.3;   // times kFullSpeed: the fast part grows no further
 
 double FastGain(const JointSpeeds& speeds, std::size_t joint, const SkeletonSensorOptions& options) {
   double body = 0;
   for (double speed : speeds) body += speed / kRoleCount;
-  // A joint that rests on a moving body is not seen as well as one that rests on a resting body.
+  // The joint's speed and the body's mean speed count equally, because a moving body disturbs its resting joints, too.
   const double activity = std::min(0.5 * (speeds[joint] + body) / kFullSpeed, kSpeedCap);
   return options.fast_quiet + (1 - options.fast_quiet) * activity * activity;
 }
 
-/// The line of sight and two axes across it, and how much larger errors are there than at the reference distance.
+/// The line of sight and two axes across it, and the growth of errors relative to the reference distance.
 struct Sight {
   glm::dmat3 axes;  ///< columns: across, across, along
   double across_growth, along_growth;
@@ -59,28 +59,28 @@ Sight SightOf(const Camera& sensor, const glm::dvec3& joint, const SkeletonSenso
   const glm::dvec3 off = right - glm::dot(right, along) * along;
   const double length = glm::length(off);
   const glm::dvec3 across = length > 1e-9 ? off / length : glm::dvec3(sensor.R_CW[0][1], sensor.R_CW[1][1], 0);
-  const double z = std::max(0.5, glm::dot(forward, from));  // nearer no Kinect sees a body
+  const double z = std::max(0.5, glm::dot(forward, from));  // a Kinect sees no body nearer than this
   const double z0 = options.reference_distance_m;
   return {.axes = {across, glm::cross(along, across), along},
           .across_growth = z / z0,
           .along_growth = DepthDeviation(options.depth_law, z) / DepthDeviation(options.depth_law, z0)};
 }
 
-/// Turns unit errors (across, across, along) into metres in the world.
+/// Converts unit errors (across, across, along) to metres in the world.
 glm::dvec3 InWorld(const Sight& sight, const glm::dvec3& unit, double size, double depth_ratio) {
   const double across = size / std::sqrt(2 + depth_ratio * depth_ratio);
   return sight.axes *
          (across * unit * glm::dvec3(sight.across_growth, sight.across_growth, depth_ratio * sight.along_growth));
 }
 
-/// The other end of a bone that ends in a joint, and how much of the joint's own error along it is left.
+/// The other end of a bone at a joint, and the factor on the joint's own error along the bone.
 struct StiffBone {
   std::optional<Role> other;
   double stretch = 1;
 };
 
 std::array<StiffBone, 2> StiffBonesOf(Role role, const SkeletonSensorOptions& options) {
-  const auto child = [&] { return AllRoles()[Index(role) + 1]; };  // along an arm, roles follow each other
+  const auto child = [&] { return AllRoles()[Index(role) + 1]; };  // along an arm, roles are consecutive
   switch (GroupOf(role)) {
     case JointGroup::kShoulders:
       return {{{child(), options.arm_stretch}, {Mirrored(role), options.shoulder_stretch}}};
@@ -95,8 +95,8 @@ std::array<StiffBone, 2> StiffBonesOf(Role role, const SkeletonSensorOptions& op
   }
 }
 
-/// Takes from a joint's own error (along the axes of sight) what would stretch its bones; its mean square stays as it
-/// is when the bones are perpendicular or one.
+/// Scales a joint's own error (in the axes of sight) along its bones by their stretch factors, and normalises it. The
+/// mean square is preserved exactly if there is one bone or the bones are perpendicular.
 glm::dvec3 Stiffened(glm::dvec3 own, Role role, const BodyPose& pose, const Sight& sight,
                      const SkeletonSensorOptions& options) {
   double mean_square = 3;
@@ -113,10 +113,10 @@ glm::dvec3 Stiffened(glm::dvec3 own, Role role, const BodyPose& pose, const Sigh
 
 SlowNoise::SlowNoise(double time_s, double smoothing_s, double rate_hz, RandomStream& dice)
     : memory_(MemoryOf(time_s, rate_hz)), smoothing_(MemoryOf(smoothing_s, rate_hz)) {
-  // The variance of a second low pass (s) behind a unit AR(1) (m): (1 − s) (1 + s m) / ((1 + s) (1 − s m)).
+  // The variance of a second low pass (s) applied to a unit AR(1) process (m): (1 − s) (1 + s m) / ((1 + s) (1 − s m)).
   const double s = smoothing_, m = memory_;
   scale_ = std::sqrt((1 + s) * (1 - s * m) / ((1 - s) * (1 + s * m)));
-  // The joint stationary law of both: variances 1 and 1/scale², covariance (1 − s) / (1 − s m).
+  // The joint stationary distribution of both: variances 1 and 1/scale², covariance (1 − s) / (1 − s m).
   const glm::dvec3 a = dice.Normal3(), b = dice.Normal3();
   const double covariance = (1 - s) / (1 - s * m);
   const double rest = std::max(0.0, 1 / (scale_ * scale_) - covariance * covariance);
@@ -135,52 +135,54 @@ BurstNoise::BurstNoise(double time_s, double tail, double rate_hz, RandomStream&
 
 glm::dvec3 BurstNoise::Next(RandomStream& dice) {
   const glm::dvec3 noise = noise_.Next(dice);
-  // Log-normal of unit mean square, the same along all axes.
+  // Scale by a log-normal factor of unit mean square, the same for all axes.
   const double loudness = std::exp(tail_ * loudness_.Next(dice).x - tail_ * tail_);
   return loudness * noise;
 }
 
 PoseField::PoseField(Role role, const PoseLengths& lengths, RandomStream& dice) {
-  const auto see = [&](Role joint, bool from_shoulders, double length) {
-    seen_[seen_count_++] = {joint, from_shoulders, length};
+  // Choose the joint positions on which the function depends.
+  const auto depend_on = [&](Role joint, bool from_shoulders, double length) {
+    points_[point_count_++] = {joint, from_shoulders, length};
   };
-  const auto see_arms = [&] {
-    for (const Role joint : {kLeftElbow, kLeftWrist, kRightElbow, kRightWrist}) see(joint, true, lengths.far);
+  const auto depend_on_arms = [&] {
+    for (const Role joint : {kLeftElbow, kLeftWrist, kRightElbow, kRightWrist}) depend_on(joint, true, lengths.far);
   };
   switch (GroupOf(role)) {
     case JointGroup::kElbows:
     case JointGroup::kWrists:
     case JointGroup::kHands:
-      see(IsLeft(role) ? kLeftElbow : kRightElbow, true, lengths.own);
-      see(IsLeft(role) ? kLeftWrist : kRightWrist, true, lengths.own);
+      depend_on(IsLeft(role) ? kLeftElbow : kRightElbow, true, lengths.own);
+      depend_on(IsLeft(role) ? kLeftWrist : kRightWrist, true, lengths.own);
       break;
     case JointGroup::kFeet:
-      see(role, false, lengths.own);
+      depend_on(role, false, lengths.own);
       break;
     default:
-      see(role, false, lengths.own);
-      see_arms();
+      depend_on(role, false, lengths.own);
+      depend_on_arms();
   }
+  // Draw the waves.
   for (Wave& wave : waves_) {
     wave.direction = dice.Normal3() * std::sqrt(2.0 / kWaves);
     wave.phase = dice.Uniform(0, 2 * kPi);
-    // As many throws whatever the joint sees.
-    for (std::size_t i = 0; i < kMostPlaces; ++i) {
-      const glm::dvec3 thrown = dice.Normal3();
-      wave.per_metre[i] = i < seen_count_ ? thrown / seen_[i].length : glm::dvec3(0);
+    // The number of draws is the same for all joints.
+    for (std::size_t i = 0; i < kMaxPoints; ++i) {
+      const glm::dvec3 drawn = dice.Normal3();
+      wave.per_metre[i] = i < point_count_ ? drawn / points_[i].length : glm::dvec3(0);
     }
   }
 }
 
 glm::dvec3 PoseField::At(const BodyPose& pose) const {
-  std::array<glm::dvec3, kMostPlaces> places;
-  for (std::size_t i = 0; i < seen_count_; ++i) {
-    places[i] = pose[seen_[i].joint] - (seen_[i].from_shoulders ? pose[kShoulderCentre] : glm::dvec3(0));
+  std::array<glm::dvec3, kMaxPoints> points;
+  for (std::size_t i = 0; i < point_count_; ++i) {
+    points[i] = pose[points_[i].joint] - (points_[i].from_shoulders ? pose[kShoulderCentre] : glm::dvec3(0));
   }
   glm::dvec3 sum(0);
   for (const Wave& wave : waves_) {
     double phase = wave.phase;
-    for (std::size_t i = 0; i < seen_count_; ++i) phase += glm::dot(wave.per_metre[i], places[i]);
+    for (std::size_t i = 0; i < point_count_; ++i) phase += glm::dot(wave.per_metre[i], points[i]);
     sum += wave.direction * std::cos(phase);
   }
   return sum;
@@ -224,6 +226,7 @@ FrameErrors ContinuousErrors::Next(const BodyPose& pose, const FrameMotion& moti
   for (const Role role : AllRoles()) {
     const std::size_t j = Index(role);
     JointNoise& noise = noises_[j];
+    // Draw the joint's own error: pose-dependent and fast in motion, slow at rest.
     const Sight sight = SightOf(sensor_, pose[role], options_);
     const double moves = motion.moves[j];
     const glm::dvec3 fast = FastGain(motion.speeds, j, options_) * noise.fast.Next(fast_dice_);
@@ -231,16 +234,18 @@ FrameErrors ContinuousErrors::Next(const BodyPose& pose, const FrameMotion& moti
     const glm::dvec3 resting = noise.resting.Next(rest_dice_);
     const glm::dvec3 own =
         Stiffened(std::sqrt(moves) * moving + std::sqrt(1 - moves) * resting, role, pose, sight, options_);
+    // Correlate it with the parent's error.
     const auto parent = ParentOf(role);
     const double rho = parent ? options_.correlation[Index(BoneKindOf(role))] : 0;
     unit[j] = (parent ? rho * unit[Index(*parent)] : glm::dvec3(0)) + std::sqrt(1 - rho * rho) * own;
 
+    // Add drift and white noise, and convert to metres in the world.
     const GroupErrors& group = options_[GroupOf(role)];
     const glm::dvec3 wander = group.still * noise.wander.Next(wander_dice_);
     const glm::dvec3 white = group.white * wander_dice_.Normal3();
     const bool is_foot = GroupOf(role) == JointGroup::kFeet;
     const double size = is_foot ? glm::mix(options_.planted_feet, group.size, moves) : group.size;
-    const double rest_axis = std::sqrt(3.0);  // still and white are per axis
+    const double rest_axis = std::sqrt(3.0);  // still and white are given per axis
     errors[j] = options_.strength * (InWorld(sight, unit[j], size, group.depth_ratio) +
                                      InWorld(sight, wander + white, rest_axis, group.depth_ratio));
   }

@@ -12,14 +12,15 @@
 
 namespace etude {
 
-/// A stationary process of three independent axes, each of unit variance: white noise through one first-order low
-/// pass (Ornstein–Uhlenbeck, correlation exp(−t/τ)), or through two.
+/// A stationary random process with three independent axes of unit variance: white noise filtered by one first-order
+/// low pass (Ornstein–Uhlenbeck, correlation exp(−t/τ)), or by two.
 class SlowNoise {
  public:
-  /// Starts stationary. `time_s` is the longer time constant, `smoothing_s` the shorter; 0 means a single low pass.
+  /// Starts in the stationary distribution. `time_s` is the longer time constant and `smoothing_s` the shorter; 0 means
+  /// a single low pass.
   SlowNoise(double time_s, double smoothing_s, double rate_hz, RandomStream& dice);
 
-  /// Returns the next frame's value; takes three throws.
+  /// Returns the next frame's value; uses three normal draws.
   glm::dvec3 Next(RandomStream& dice);
 
  private:
@@ -27,12 +28,12 @@ class SlowNoise {
   glm::dvec3 first_{0}, second_{0};
 };
 
-/// Short noise in bursts, of unit variance over long times and with heavy tails. Kurtosis 3 exp(4 tail²).
+/// Short noise in bursts, with unit variance over long times and heavy tails; its kurtosis is 3 exp(4 tail²).
 class BurstNoise {
  public:
   BurstNoise(double time_s, double tail, double rate_hz, RandomStream& dice);
 
-  /// Returns the next frame's value; takes six throws.
+  /// Returns the next frame's value; uses six normal draws.
   glm::dvec3 Next(RandomStream& dice);
 
  private:
@@ -40,14 +41,14 @@ class BurstNoise {
   SlowNoise noise_, loudness_;
 };
 
-/// The distances over which a joint's error changes, metres.
+/// The lengths over which a joint's error is correlated, metres.
 struct PoseLengths {
-  double own = 0.25;  ///< moving the joint itself, or the next joint of its limb
-  double far = 0.8;   ///< moving the arms, for joints of the trunk and legs
+  double own = 0.25;  ///< as the joint itself or the next joint of its limb moves
+  double far = 0.8;   ///< as the arms move, for joints of the trunk and legs
 };
 
-/// A random function of the pose, for one joint: unit normal along each axis, smooth, and the same whenever the pose
-/// comes back. (A sum of random waves over the places of the joint, of its limb and of the arms.)
+/// A smooth random function of the pose for one joint, with a standard normal distribution along each axis; equal poses
+/// have equal values. It is a sum of random waves over the positions of the joint, of its limb and of the arms.
 class PoseField {
  public:
   PoseField(Role role, const PoseLengths& lengths, RandomStream& dice);
@@ -56,20 +57,20 @@ class PoseField {
 
  private:
   static constexpr int kWaves = 12;
-  static constexpr std::size_t kMostPlaces = 5;
-  /// A place that the function depends on: of one joint, from another or in the world.
-  struct Seen {
+  static constexpr std::size_t kMaxPoints = 5;
+  /// A joint position on which the function depends, relative to the shoulder centre or in the world.
+  struct Point {
     Role joint;
     bool from_shoulders;
     double length;
   };
   struct Wave {
     glm::dvec3 direction;
-    std::array<glm::dvec3, kMostPlaces> per_metre;
+    std::array<glm::dvec3, kMaxPoints> per_metre;
     double phase;
   };
-  std::array<Seen, kMostPlaces> seen_{};
-  std::size_t seen_count_ = 0;
+  std::array<Point, kMaxPoints> points_{};
+  std::size_t point_count_ = 0;
   std::array<Wave, kWaves> waves_;
 };
 
@@ -85,22 +86,23 @@ class PoseError {
   double usual_size_ = 1, mode_size_ = 1, threshold_ = 0;
 };
 
-/// The offset of each joint of a frame from its true to its reported place, metres, in the world.
+/// The offset of each joint's reported position from its true position, metres, in the world.
 using FrameErrors = std::array<glm::dvec3, kRoleCount>;
 
-/// The continuous errors of plainly seen joints, frame by frame. In units of its group's size, and along the line of
-/// sight and two axes across it, a joint's error is ρ times its parent's and √(1 − ρ²) of its own; its own depends on
-/// the pose, with a share that is fast and comes in bursts. To that comes the wander of a body at rest, joint by joint.
+/// The continuous errors of clearly seen joints, frame by frame. In units of its group's size, and in axes along and
+/// across the line of sight, a joint's error is ρ times its parent's plus √(1 − ρ²) times its own. Its own error
+/// depends on the pose, and a share of it is fast and comes in bursts. The slow drift of a body at rest is added joint
+/// by joint.
 class ContinuousErrors {
  public:
   /// `rate_hz` > 0.
   ContinuousErrors(const Camera& sensor, const SkeletonSensorOptions& options, double rate_hz, const WorldKey& world);
 
-  /// Returns the errors of the next frame; takes as many throws whatever the pose.
+  /// Returns the errors of the next frame; uses the same number of draws for every pose.
   FrameErrors Next(const BodyPose& pose, const FrameMotion& motion);
 
  private:
-  /// The dice of one joint, and what they have come to.
+  /// The random processes of one joint.
   struct JointNoise {
     PoseError by_pose;
     BurstNoise fast;

@@ -10,9 +10,9 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kSpeedReach = 2;           // frames to both sides that a speed is measured over
-constexpr std::size_t kFootReach = 5;            // frames to both sides: a foot is about to land, or has just left
-constexpr double kResting = 0.1, kMoving = 0.6;  // m/s of a foot
+constexpr std::size_t kSpeedReach = 2;           // frames on either side for a speed
+constexpr std::size_t kFootReach = 5;            // frames on either side of a foot's fast motion
+constexpr double kResting = 0.1, kMoving = 0.6;  // m/s of a foot: below it rests, above it moves
 static_assert(kSpeedReach + kFootReach == MotionWindow::kAhead);
 
 std::size_t Before(std::size_t frame, std::size_t by) { return frame - std::min(frame, by); }
@@ -20,16 +20,16 @@ std::size_t Before(std::size_t frame, std::size_t by) { return frame - std::min(
 }  // namespace
 
 void MotionWindow::Push(const BodyPose& pose) {
-  assert(!ended_ && count_ - next_ <= kAhead);  // whoever pushes takes what is known first
+  assert(!ended_ && count_ - next_ <= kAhead);  // the caller takes every known frame before the next Push
   poses_[count_++ % kKept] = pose;
-  NoteSpeeds();
+  ComputeSpeeds();
 }
 
-void MotionWindow::NoteSpeeds() {
+void MotionWindow::ComputeSpeeds() {
   for (; speeds_ + (ended_ ? 0 : kSpeedReach) < count_; ++speeds_) {
     const std::size_t before = Before(speeds_, kSpeedReach), after = std::min(speeds_ + kSpeedReach, count_ - 1);
     const double seconds = static_cast<double>(after - before) / rate_hz_;
-    JointSpeeds& speeds = noted_[speeds_ % kKept];
+    JointSpeeds& speeds = frame_speeds_[speeds_ % kKept];
     for (std::size_t j = 0; j < kRoleCount; ++j) {
       const double distance = glm::distance(PoseAt(after).joints[j], PoseAt(before).joints[j]);
       speeds[j] = after == before ? 0 : distance / seconds;
@@ -38,17 +38,18 @@ void MotionWindow::NoteSpeeds() {
 }
 
 std::optional<MotionWindow::Known> MotionWindow::Next() {
-  if (ended_) NoteSpeeds();
+  if (ended_) ComputeSpeeds();
   if (next_ + (ended_ ? 0 : kAhead) >= count_) return std::nullopt;
   const std::size_t frame = next_++;
-  Known known{PoseAt(frame), {.speeds = noted_[frame % kKept], .moves = {}}};
+  Known known{PoseAt(frame), {.speeds = frame_speeds_[frame % kKept], .moves = {}}};
   known.motion.moves.fill(1);
   const std::size_t last = std::min(frame + kFootReach, count_ - 1);
+  // A foot moves if it is fast at any time within kFootReach frames.
   for (const Role role : AllRoles()) {
     if (GroupOf(role) != JointGroup::kFeet) continue;
     double fastest = 0;
     for (std::size_t t = Before(frame, kFootReach); t <= last; ++t) {
-      fastest = std::max(fastest, noted_[t % kKept][Index(role)]);
+      fastest = std::max(fastest, frame_speeds_[t % kKept][Index(role)]);
     }
     known.motion.moves[Index(role)] = Smoothstep(kResting, kMoving, fastest);
   }

@@ -14,12 +14,12 @@ using JointSpeeds = std::array<double, kRoleCount>;
 
 /// The motion of a body in one frame.
 struct FrameMotion {
-  JointSpeeds speeds{};                    ///< over the two frames before and after
-  std::array<double, kRoleCount> moves{};  ///< 0 for a foot that rests on the floor, 1 in motion and for other joints
+  JointSpeeds speeds{};                    ///< central differences over two frames before and after
+  std::array<double, kRoleCount> moves{};  ///< 0 for a foot at rest on the floor, 1 in motion and for all other joints
 };
 
-/// The motion around each frame of a stream. A foot counts as moving shortly before it leaves and after it lands, so
-/// a frame's motion is known kAhead frames later.
+/// Computes the motion around each frame of a stream. A foot counts as moving from shortly before it leaves the floor
+/// until shortly after it lands, so a frame's motion is known kAhead frames later.
 class MotionWindow {
  public:
   static constexpr std::size_t kAhead = 7;
@@ -29,7 +29,7 @@ class MotionWindow {
 
   /// Adds the next frame of the stream.
   void Push(const BodyPose& pose);
-  /// Ends the stream: the motion of the last frames is computed from the frames that there are.
+  /// Ends the stream: the motion of the last frames is computed from the available frames.
   void End() { ended_ = true; }
   /// The pose and the motion of the next frame whose motion is known.
   struct Known {
@@ -39,30 +39,31 @@ class MotionWindow {
   std::optional<Known> Next();
 
  private:
-  static constexpr std::size_t kKept = 16;  // frames: a power of two, above twice kAhead
+  static constexpr std::size_t kKept = 16;  // number of frames: a power of two, larger than twice kAhead
 
   const BodyPose& PoseAt(std::size_t frame) const { return poses_[frame % kKept]; }
-  void NoteSpeeds();
+  /// Computes the speeds of all frames whose neighbours are known.
+  void ComputeSpeeds();
 
   double rate_hz_;
   bool ended_ = false;
   std::size_t count_ = 0;   ///< poses pushed
-  std::size_t speeds_ = 0;  ///< frames whose speeds are noted
-  std::size_t next_ = 0;    ///< the frame to be told next
+  std::size_t speeds_ = 0;  ///< number of frames with known speeds
+  std::size_t next_ = 0;    ///< the frame to be returned next
   std::array<BodyPose, kKept> poses_{};
-  std::array<JointSpeeds, kKept> noted_{};
+  std::array<JointSpeeds, kKept> frame_speeds_{};
 };
 
-/// The interface of a sensor that watches a body while it moves, for closed loops.
+/// A sensor that observes a body while it moves, for closed loops.
 class LiveSensor {
  public:
-  /// The number of frames that a body must have planned ahead: sensors err by how it is about to move, cameras look
-  /// between frames. What is reported of a frame depends on later pictures or reports in no case.
+  /// The number of frames that a body must plan ahead: a skeleton sensor's errors depend on the coming motion, and
+  /// cameras expose between frames. A frame's report never depends on later pictures or reports.
   static constexpr std::size_t kAhead = MotionWindow::kAhead;
 
   virtual ~LiveSensor() = default;
 
-  /// Takes the body's next pose and returns the report of the frame `kAhead` before it; nothing in the first `kAhead`
+  /// Takes the body's next pose and returns the report of the frame `kAhead` before it; empty in the first `kAhead`
   /// frames.
   virtual std::optional<SensedFrame> Update(const BodyPose& pose) = 0;
 };

@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// Returns how far from `eye` the ray to `joint` meets furniture or the second person.
+/// Returns the distance from `eye` at which the ray to `joint` hits furniture or the second person.
 double NearestOccluder(const std::vector<Cuboid>& furniture, const std::vector<Capsule>& bystander,
                        const glm::dvec3& joint, const glm::dvec3& eye) {
   double nearest = std::numeric_limits<double>::infinity();
@@ -24,7 +24,7 @@ double NearestOccluder(const std::vector<Cuboid>& furniture, const std::vector<C
 
 using enum Role;
 
-/// A limb from its anchor outwards: an error of the guess grows along it.
+/// A limb's joints from its root outwards; the error of a guess grows along it.
 struct Limb {
   std::array<Role, 4> joints;
 };
@@ -34,8 +34,8 @@ constexpr std::array<Limb, 4> kLimbRoles = {{{{kLeftShoulder, kLeftElbow, kLeftW
                                              {{kRightHip, kRightKnee, kRightAnkle, kRightFoot}}}};
 constexpr std::array<double, 4> kShareOfOffset = {0.0, 0.5, 0.9, 1.0};
 
-// Frames that the body is lost for (ours).
-constexpr std::uint64_t kShortestDropout = 2, kLongestDropout = 10;
+// The number of frames of a dropout (ours).
+constexpr std::uint64_t kMinDropout = 2, kMaxDropout = 10;
 
 }  // namespace
 
@@ -57,7 +57,7 @@ HiddenJoints FindHidden(const BodyPose& pose, std::size_t frame, const Occluders
 OcclusionGuesses::OcclusionGuesses(const SkeletonSensorOptions& options, const WorldKey& world)
     : options_(options), dice_(world, "skeleton/occlusion") {}
 
-OcclusionGuesses::Episode OcclusionGuesses::Throw() {
+OcclusionGuesses::Episode OcclusionGuesses::DrawEpisode() {
   const double wrong_chance = std::min(1.0, options_.wrong_guess_chance * options_.strength);
   const int lengths = options_.longest_episode - options_.shortest_episode + 1;
   return {.age = 0,
@@ -73,9 +73,10 @@ FrameGuesses OcclusionGuesses::Next(const BodyPose& pose, const HiddenJoints& hi
   FrameGuesses guesses;
   for (std::size_t j = 0; j < kRoleCount; ++j) guesses[j].inferred = hidden[j];
 
+  // Begin, continue or end the limb's episode.
   for (std::size_t l = 0; l < kLimbs; ++l) {
     const Limb& limb = kLimbRoles[l];
-    const Episode fresh = Throw();  // in every frame, used only where an episode begins
+    const Episode fresh = DrawEpisode();  // drawn in every frame, used only if an episode begins
 
     Episode& episode = episodes_[l];
     bool hides = false;
@@ -86,10 +87,11 @@ FrameGuesses OcclusionGuesses::Next(const BodyPose& pose, const HiddenJoints& hi
     if (!episode.IsRunning()) continue;
 
     ++episode.age;
-    // A guess leans towards the body: what is not seen is taken for part of what is.
+    // A wrong guess is biased towards the body: the hidden limb is taken for a visible part of it.
     const glm::dvec3 inwards = pose[limb.joints.front()] - pose[limb.joints.back()];
     const glm::dvec3 lean = glm::normalize(inwards + glm::dvec3(0, 1e-6, 0)) + episode.direction;
     const glm::dvec3 offset = episode.wrong ? episode.size_m * glm::normalize(lean) : glm::dvec3(0);
+    // Offset the joints that were hidden since the episode began, more towards the end of the limb.
     for (std::size_t k = 1; k < limb.joints.size(); ++k) {
       const std::size_t joint = Index(limb.joints[k]);
       episode.joints[k] |= hidden[joint];
@@ -133,14 +135,14 @@ Swap Swaps::Next(double turn) {
 }
 
 Dropouts::Dropouts(const SkeletonSensorOptions& options, const WorldKey& world) : dice_(world, "skeleton/dropouts") {
-  constexpr double kMeanLength = 0.5 * (kShortestDropout + kLongestDropout);
+  constexpr double kMeanLength = 0.5 * (kMinDropout + kMaxDropout);
   const double share = std::min(0.9, options.dropout_share * options.strength);
   chance_ = share / ((1.0 - share) * kMeanLength);
 }
 
 bool Dropouts::Next() {
   const bool starts = dice_.Chance(chance_);
-  const std::uint64_t length = kShortestDropout + dice_.IndexBelow(kLongestDropout - kShortestDropout + 1);
+  const std::uint64_t length = kMinDropout + dice_.IndexBelow(kMaxDropout - kMinDropout + 1);
   if (left_ == 0 && starts) left_ = length;
   if (left_ == 0) return false;
   --left_;
@@ -157,7 +159,7 @@ bool IsInView(const Camera& camera, const ProjectionMatrix& matrix, const glm::d
          pixel->y < camera.intrinsics.height;
 }
 
-/// Returns how far the body is turned away from the sensor, radians.
+/// Returns the angle by which the body is turned away from the sensor, radians.
 double TurnFrom(const glm::dvec3& eye, const BodyPose& pose) {
   const glm::dvec3 to_eye = eye - pose[kHipCentre];
   return AngleBetween(Facing(pose), {to_eye.x, 0, to_eye.z});
@@ -210,7 +212,7 @@ SensedFrame SkeletonSensor::Sense(const BodyPose& pose, const FrameMotion& motio
   return frame;
 }
 
-/// Delays every frame by Lag() frames; until then the first one is reported.
+/// Delays every frame by Lag() frames; the first frame is repeated until then.
 SensedFrame SkeletonSensor::Delayed(const SensedFrame& sensed) {
   if (frame_ == 0) std::fill(delayed_.begin(), delayed_.end(), sensed);
   delayed_[frame_ % delayed_.size()] = sensed;
@@ -227,9 +229,9 @@ std::optional<SensedFrame> SkeletonSensor::Update(const BodyPose& pose) {
 
 std::vector<SensedFrame> SkeletonSensor::Finish() {
   motion_.End();
-  std::vector<SensedFrame> owed;
-  while (const auto known = motion_.Next()) owed.push_back(Delayed(Sense(known->pose, known->motion)));
-  return owed;
+  std::vector<SensedFrame> remaining;
+  while (const auto known = motion_.Next()) remaining.push_back(Delayed(Sense(known->pose, known->motion)));
+  return remaining;
 }
 
 SkeletonStream SenseSkeleton(const BodyMotion& truth, const Camera& sensor, const Occluders& occluders,

@@ -17,28 +17,28 @@
 
 namespace etude {
 
-/// Flags that say for each joint of one frame whether it is hidden.
+/// For each joint of one frame: true if it is hidden.
 using HiddenJoints = std::array<bool, kRoleCount>;
 
-/// The things beside the body itself that may stand between it and a sensor.
+/// The objects besides the body itself that may hide it from a sensor.
 struct Occluders {
   std::vector<Cuboid> furniture;
-  std::vector<BodyPose> bystander;  ///< a second person: a pose per frame (the last one stays), none = nobody
+  std::vector<BodyPose> bystander;  ///< a second person: one pose per frame (the last one stays); empty: nobody
 };
 
-/// Finds the joints of `pose` in this frame that `eye` does not see: the ray to the joint meets another part of the
-/// body, furniture or the second person clearly (2 cm) before the joint's own skin. The flesh is what the renderer
-/// draws (sim/body).
+/// Finds the joints of `pose` that `eye` does not see in this frame: the ray to the joint hits another part of the
+/// body, furniture or the second person at least 2 cm before the joint's own skin. The body's shape is that of the
+/// renderer (sim/body).
 HiddenJoints FindHidden(const BodyPose& pose, std::size_t frame, const Occluders& occluders, const glm::dvec3& eye);
 
-/// The sensor's guess of a joint that is not plainly seen.
+/// The sensor's guess of the position of a joint that is not clearly seen.
 struct Guess {
   bool inferred = false;
-  glm::dvec3 offset{0};  ///< metres from where it would be reported if it were seen
+  glm::dvec3 offset{0};  ///< metres from the position that would be reported if the joint were seen
 };
 using FrameGuesses = std::array<Guess, kRoleCount>;
 
-/// The guesses for hidden joints, limb by limb, in episodes.
+/// The guesses for hidden joints, limb by limb, each lasting for an episode.
 class OcclusionGuesses {
  public:
   OcclusionGuesses(const SkeletonSensorOptions& options, const WorldKey& world);
@@ -46,26 +46,26 @@ class OcclusionGuesses {
 
  private:
   static constexpr std::size_t kLimbs = 4, kJointsOfLimb = 4;
-  /// The current guess of where the hidden joints of one limb are, wrong or right by luck.
+  /// The current guess of the positions of one limb's hidden joints; it is randomly right or wrong.
   struct Episode {
     int age = 0;
-    int length = 0;  ///< 0: none running
+    int length = 0;  ///< 0: no episode
     bool wrong = false;
     double size_m = 0;
     glm::dvec3 direction{0};
-    std::array<bool, kJointsOfLimb> joints{};  ///< which were hidden since it began
+    std::array<bool, kJointsOfLimb> joints{};  ///< joints that were hidden since the episode began
 
     bool IsRunning() const { return length > 0; }
   };
 
-  Episode Throw();
+  Episode DrawEpisode();
 
   SkeletonSensorOptions options_;
   RandomStream dice_;
   std::array<Episode, kLimbs> episodes_;
 };
 
-/// Rare single-frame errors of single joints, zero where there is none.
+/// Rare errors of single joints in single frames; zero elsewhere.
 class Outliers {
  public:
   Outliers(const SkeletonSensorOptions& options, const WorldKey& world);
@@ -76,7 +76,7 @@ class Outliers {
   RandomStream dice_;
 };
 
-/// Flags that say whether a frame shows arms, or legs, exchanged.
+/// The swap of one frame: left and right arms, or legs, are exchanged.
 struct Swap {
   bool arms = false;
   bool legs = false;
@@ -84,11 +84,11 @@ struct Swap {
 class Swaps {
  public:
   Swaps(double rate_hz, const SkeletonSensorOptions& options, const WorldKey& world);
-  /// Returns the next frame's swap. `turn` is how far the body is turned away from the sensor in it, radians.
+  /// Returns the next frame's swap. `turn` is the angle by which the body is turned away from the sensor, radians.
   Swap Next(double turn);
 
  private:
-  double usual_chance_;  ///< of starting in a frame
+  double usual_chance_;  ///< probability that a swap starts in a frame
   bool when_facing_;
   int length_;  ///< frames
   RandomStream dice_;
@@ -103,33 +103,33 @@ class Dropouts {
   bool Next();
 
  private:
-  double chance_;  ///< of starting in a frame with the body seen
+  double chance_;  ///< probability that a dropout starts in a frame in which the body is seen
   RandomStream dice_;
   std::uint64_t left_ = 0;
 };
 
-/// The place of a sensor in front of a performer who is at the origin facing +Z.
+/// The position of a sensor in front of a performer who is at the origin and faces +Z.
 struct SensorPlace {
-  double distance = 2.75;  ///< metres on the floor
-  double turn = 0;         ///< radians: the performer is seen turned by so much
-  double height = 1.0;     ///< metres above the floor; it looks at the performer a metre above the floor
+  double distance = 2.75;  ///< metres along the floor
+  double turn = 0;         ///< radians: the performer appears turned by this angle
+  double height = 1.0;     ///< metres above the floor; the sensor looks at a point one metre above the floor
 };
 Camera SkeletonSensorAt(const SensorPlace& place, const Intrinsics& view);
 
-/// A skeleton sensor, frame by frame. How much a joint errs depends on how it is about to move, so a frame's report
-/// comes when the body's pose `kAhead` frames later is known: whoever closes a loop over it lets the body plan so far
-/// ahead. Every error has dice of its own, and as many throws per frame whatever happens, so that options change
-/// strengths and nothing else.
+/// A skeleton sensor, frame by frame. A joint's error depends on the body's motion around the frame, so a frame's
+/// report is available only when the pose `kAhead` frames later is known; in a closed loop the body must plan that far
+/// ahead. Every kind of error has its own random stream and a fixed number of draws per frame, so options change only
+/// the strengths.
 class SkeletonSensor final : public LiveSensor {
  public:
-  /// `occluders` must outlive this; `rate_hz` > 0.
+  /// `occluders` must outlive this object; `rate_hz` > 0.
   SkeletonSensor(const Camera& sensor, const Occluders& occluders, const SkeletonSensorOptions& options, double rate_hz,
                  const WorldKey& world);
 
-  /// Reports a joint as inferred while something stands before it, and as not tracked while it is out of view; a report
-  /// is of the pose the options' lag ago.
+  /// Reports a joint as inferred while something hides it, and as not tracked while it is out of view. The report
+  /// describes the pose of `options.Lag()` frames before.
   std::optional<SensedFrame> Update(const BodyPose& pose) override;
-  /// Returns the reports of the last `kAhead` frames at the end of a motion. Nothing may follow.
+  /// Returns the reports of the last `kAhead` frames at the end of a motion. No call may follow.
   std::vector<SensedFrame> Finish();
 
  private:
@@ -145,12 +145,12 @@ class SkeletonSensor final : public LiveSensor {
   Outliers outliers_;
   Swaps swaps_;
   Dropouts dropouts_;
-  std::size_t frame_ = 0;             ///< sensed so far
-  SensedFrame last_;                  ///< before arms or legs were exchanged
+  std::size_t frame_ = 0;             ///< number of frames sensed so far
+  SensedFrame last_;                  ///< the last frame before swaps
   std::vector<SensedFrame> delayed_;  ///< a ring of the last Lag() + 1 frames
 };
 
-/// Returns what `sensor` would report of a body that moves as `truth`, frame by frame.
+/// Returns the stream that `sensor` would report of a body that moves like `truth`.
 SkeletonStream SenseSkeleton(const BodyMotion& truth, const Camera& sensor, const Occluders& occluders,
                              const SkeletonSensorOptions& options, const WorldKey& world);
 

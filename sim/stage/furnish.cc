@@ -13,10 +13,10 @@
 namespace etude {
 namespace {
 
-// Collects boxes in a piece's own frame: x to its left as it looks, y up, z out of the wall. Metres.
-class Joiner {
+// Collects boxes in a piece's own frame: x to the piece's left, y up, z away from the wall. Metres.
+class FurnitureBuilder {
  public:
-  Joiner(const glm::dvec3& place, double heading) : place_(place), heading_(heading) {}
+  FurnitureBuilder(const glm::dvec3& place, double heading) : place_(place), heading_(heading) {}
 
   void Add(const glm::dvec3& low, const glm::dvec3& high, const SurfacePaint& paint) {
     const glm::dvec3 middle = 0.5 * (low + high);
@@ -64,135 +64,136 @@ SurfacePaint Darker(SurfacePaint paint) {
   return paint;
 }
 
-void AddLegs(Joiner& joiner, double half_x, double z_near, double z_far, double height, double half_leg,
+void AddLegs(FurnitureBuilder& builder, double half_x, double z_near, double z_far, double height, double half_leg,
              const SurfacePaint& paint) {
   for (const double x : {-half_x, half_x}) {
     for (const double z : {z_near, z_far}) {
-      joiner.Add({x - half_leg, 0, z - half_leg}, {x + half_leg, height, z + half_leg}, paint);
+      builder.Add({x - half_leg, 0, z - half_leg}, {x + half_leg, height, z + half_leg}, paint);
     }
   }
 }
 
-// Pieces of furniture, made of boxes. `place` is on the floor, in the middle of the piece's back (of what stands free:
-// of the piece); `heading` is where it looks. Sizes, colours and details by dice; colours lie `share` of the way from
-// the studio's to those of everyday things. A piece always takes as many numbers.
+// Each function makes one piece of furniture from boxes. `place` is on the floor at the middle of the piece's back, or
+// at its centre if it stands free; `heading` is the direction of its front. Sizes, colours and details are random;
+// colours are interpolated by `share` between the studio's and those of everyday objects. The number of draws of a
+// piece is constant.
 
 std::vector<FurnitureBox> MakeCupboard(RandomStream& random, double share, const glm::dvec3& place, double heading) {
   const double half = random.Uniform(0.4, 0.65), height = random.Uniform(0.9, 2.05), deep = random.Uniform(0.36, 0.48);
   const SurfacePaint wood = DrawWood(random, share), doors = DrawWood(random, share);
-  Joiner joiner(place, heading);
-  joiner.Add({-half, 0.06, 0.01}, {half, height, deep}, wood);
-  joiner.Add({-half + 0.03, 0.10, deep}, {-0.01, height - 0.04, deep + 0.015}, doors);
-  joiner.Add({0.01, 0.10, deep}, {half - 0.03, height - 0.04, deep + 0.015}, doors);
-  joiner.Add({-half + 0.04, 0, 0.03}, {half - 0.04, 0.06, deep - 0.04}, Darker(wood));
-  return std::move(joiner).Take();
+  FurnitureBuilder builder(place, heading);
+  builder.Add({-half, 0.06, 0.01}, {half, height, deep}, wood);
+  builder.Add({-half + 0.03, 0.10, deep}, {-0.01, height - 0.04, deep + 0.015}, doors);
+  builder.Add({0.01, 0.10, deep}, {half - 0.03, height - 0.04, deep + 0.015}, doors);
+  builder.Add({-half + 0.04, 0, 0.03}, {half - 0.04, 0.06, deep - 0.04}, Darker(wood));
+  return std::move(builder).Take();
 }
 
 std::vector<FurnitureBox> MakeShelf(RandomStream& random, double share, const glm::dvec3& place, double heading) {
   const double half = random.Uniform(0.4, 0.6), height = random.Uniform(1.4, 2.1), deep = random.Uniform(0.26, 0.34);
   const SurfacePaint wood = DrawWood(random, share);
-  Joiner joiner(place, heading);
-  joiner.Add({-half, 0, 0.01}, {-half + 0.03, height, deep}, wood);
-  joiner.Add({half - 0.03, 0, 0.01}, {half, height, deep}, wood);
-  joiner.Add({-half, 0, 0.005}, {half, height, 0.02}, Darker(wood));
+  FurnitureBuilder builder(place, heading);
+  builder.Add({-half, 0, 0.01}, {-half + 0.03, height, deep}, wood);
+  builder.Add({half - 0.03, 0, 0.01}, {half, height, deep}, wood);
+  builder.Add({-half, 0, 0.005}, {half, height, 0.02}, Darker(wood));
   constexpr int kBoards = 4;
   for (int i = 0; i <= kBoards; ++i) {
     const double y = (height - 0.03) * i / kBoards;
-    joiner.Add({-half, y, 0.01}, {half, y + 0.03, deep}, wood);
+    builder.Add({-half, y, 0.01}, {half, y + 0.03, deep}, wood);
     const double left = random.Uniform(-half + 0.05, -0.1), right = random.Uniform(0.0, half - 0.05);
     const double tall = random.Uniform(0.5, 0.85) * (height / kBoards - 0.03);
     const Hsv one = DrawMixed(random, share), two = DrawMixed(random, share);
     const SurfacePaint books{.first = ToRgb(one), .second = ToRgb(two), .pattern = Pattern::kPatchwork, .size = 0.045};
-    if (i < kBoards) joiner.Add({left, y + 0.03, 0.03}, {right, y + 0.03 + tall, deep - 0.05}, books);
+    if (i < kBoards) builder.Add({left, y + 0.03, 0.03}, {right, y + 0.03 + tall, deep - 0.05}, books);
   }
-  return std::move(joiner).Take();
+  return std::move(builder).Take();
 }
 
 std::vector<FurnitureBox> MakeSofa(RandomStream& random, double share, const glm::dvec3& place, double heading) {
   const double half = random.Uniform(0.7, 0.88), seat = random.Uniform(0.38, 0.46), back = random.Uniform(0.75, 0.9);
   const SurfacePaint fabric = DrawFabric(random, share), cushion = DrawFabric(random, share);
-  Joiner joiner(place, heading);
-  joiner.Add({-half, 0.06, 0.03}, {half, seat, 0.82}, fabric);
-  joiner.Add({-half, seat, 0.03}, {half, back, 0.24}, fabric);
-  joiner.Add({-half - 0.12, 0.04, 0.03}, {-half, seat + 0.2, 0.84}, Darker(fabric));
-  joiner.Add({half, 0.04, 0.03}, {half + 0.12, seat + 0.2, 0.84}, Darker(fabric));
-  joiner.Add({-half + 0.08, seat, 0.24}, {-half + 0.48, seat + 0.36, 0.36}, cushion);
-  joiner.Add({half - 0.46, seat, 0.24}, {half - 0.06, seat + 0.34, 0.36}, cushion);
-  return std::move(joiner).Take();
+  FurnitureBuilder builder(place, heading);
+  builder.Add({-half, 0.06, 0.03}, {half, seat, 0.82}, fabric);
+  builder.Add({-half, seat, 0.03}, {half, back, 0.24}, fabric);
+  builder.Add({-half - 0.12, 0.04, 0.03}, {-half, seat + 0.2, 0.84}, Darker(fabric));
+  builder.Add({half, 0.04, 0.03}, {half + 0.12, seat + 0.2, 0.84}, Darker(fabric));
+  builder.Add({-half + 0.08, seat, 0.24}, {-half + 0.48, seat + 0.36, 0.36}, cushion);
+  builder.Add({half - 0.46, seat, 0.24}, {half - 0.06, seat + 0.34, 0.36}, cushion);
+  return std::move(builder).Take();
 }
 
 std::vector<FurnitureBox> MakeTable(RandomStream& random, double share, const glm::dvec3& place, double heading) {
   const double half = random.Uniform(0.5, 0.75), height = random.Uniform(0.68, 0.76), deep = random.Uniform(0.6, 0.8);
   const SurfacePaint wood = DrawWood(random, share);
-  Joiner joiner(place, heading);
-  joiner.Add({-half, height - 0.04, 0.05}, {half, height, 0.05 + deep}, wood);
-  AddLegs(joiner, half - 0.06, 0.1, deep, height - 0.04, 0.025, Darker(wood));
+  FurnitureBuilder builder(place, heading);
+  builder.Add({-half, height - 0.04, 0.05}, {half, height, 0.05 + deep}, wood);
+  AddLegs(builder, half - 0.06, 0.1, deep, height - 0.04, 0.025, Darker(wood));
   const double x = random.Uniform(-half + 0.2, half - 0.2);
   const SurfacePaint things = DrawFabric(random, share);
-  joiner.Add({x - 0.12, height, 0.2}, {x + 0.12, height + random.Uniform(0.1, 0.28), 0.4}, things);
-  return std::move(joiner).Take();
+  builder.Add({x - 0.12, height, 0.2}, {x + 0.12, height + random.Uniform(0.1, 0.28), 0.4}, things);
+  return std::move(builder).Take();
 }
 
-// A low cabinet and a screen on it; the screen comes last.
+// A low cabinet with a screen on it; the screen is the last box.
 std::vector<FurnitureBox> MakeScreen(RandomStream& random, double share, const glm::dvec3& place, double heading) {
   const double half = random.Uniform(0.5, 0.7), low = random.Uniform(0.42, 0.55), wide = random.Uniform(0.42, 0.58);
   const SurfacePaint wood = DrawWood(random, share);
-  Joiner joiner(place, heading);
-  joiner.Add({-half, 0.05, 0.02}, {half, low, 0.4}, wood);
-  joiner.Add({-0.12, low, 0.16}, {0.12, low + 0.05, 0.28}, Darker(wood));
+  FurnitureBuilder builder(place, heading);
+  builder.Add({-half, 0.05, 0.02}, {half, low, 0.4}, wood);
+  builder.Add({-0.12, low, 0.16}, {0.12, low + 0.05, 0.28}, Darker(wood));
   const SurfacePaint black{.first = {34, 34, 38}, .second = {34, 34, 38}};
-  joiner.Add({-wide, low + 0.05, 0.19}, {wide, low + 0.05 + 1.15 * wide, 0.24}, black);
-  return std::move(joiner).Take();
+  builder.Add({-wide, low + 0.05, 0.19}, {wide, low + 0.05 + 1.15 * wide, 0.24}, black);
+  return std::move(builder).Take();
 }
 
-// One box: the leaves move (Movers).
+// One box; the leaves move (Movers).
 std::vector<FurnitureBox> MakePlantPot(RandomStream& random, double share, const glm::dvec3& place, double heading) {
   const double half = random.Uniform(0.13, 0.2), height = random.Uniform(0.25, 0.42), out = random.Uniform(0.35, 0.5);
   const SurfacePaint pot = WithGrain(DrawMixed(random, share), Pattern::kPlain, 0.1);
-  Joiner joiner(place, heading);
-  joiner.Add({-half, 0, out - half}, {half, height, out + half}, pot);
-  return std::move(joiner).Take();
+  FurnitureBuilder builder(place, heading);
+  builder.Add({-half, 0, out - half}, {half, height, out + half}, pot);
+  return std::move(builder).Take();
 }
 
-// Boxes on one another.
+// Three boxes stacked on each other.
 std::vector<FurnitureBox> MakePile(RandomStream& random, double share, const glm::dvec3& place, double heading) {
-  Joiner joiner(place, heading);
+  FurnitureBuilder builder(place, heading);
   double y = 0, half = random.Uniform(0.26, 0.36);
   for (int i = 0; i < 3; ++i) {
     const double height = random.Uniform(0.2, 0.36), x = random.Uniform(-0.08, 0.08);
     const double grain = random.Uniform(-0.05, 0.05);
     const SurfacePaint board = WithGrain(DrawMixed(random, share), Pattern::kTwoTone, grain);
-    joiner.Add({x - half, y, 0.05}, {x + half, y + height, 0.05 + 1.5 * half}, board);
+    builder.Add({x - half, y, 0.05}, {x + half, y + height, 0.05 + 1.5 * half}, board);
     y += height;
     half *= random.Uniform(0.7, 0.95);
   }
-  return std::move(joiner).Take();
+  return std::move(builder).Take();
 }
 
 std::vector<FurnitureBox> MakeChair(RandomStream& random, double share, const glm::dvec3& place, double heading) {
   const double half = random.Uniform(0.19, 0.23), seat = random.Uniform(0.43, 0.48), back = random.Uniform(0.82, 0.95);
   const SurfacePaint wood = DrawWood(random, share), cover = DrawFabric(random, share);
-  Joiner joiner(place, heading);
-  joiner.Add({-half, seat - 0.05, -half}, {half, seat, half}, cover);
-  AddLegs(joiner, half - 0.02, -half + 0.02, half - 0.02, seat - 0.05, 0.018, wood);
-  joiner.Add({-half, seat, -half}, {-half + 0.03, back, -half + 0.03}, wood);
-  joiner.Add({half - 0.03, seat, -half}, {half, back, -half + 0.03}, wood);
-  joiner.Add({-half, back - 0.2, -half}, {half, back, -half + 0.025}, wood);
-  return std::move(joiner).Take();
+  FurnitureBuilder builder(place, heading);
+  builder.Add({-half, seat - 0.05, -half}, {half, seat, half}, cover);
+  AddLegs(builder, half - 0.02, -half + 0.02, half - 0.02, seat - 0.05, 0.018, wood);
+  builder.Add({-half, seat, -half}, {-half + 0.03, back, -half + 0.03}, wood);
+  builder.Add({half - 0.03, seat, -half}, {half, back, -half + 0.03}, wood);
+  builder.Add({-half, back - 0.2, -half}, {half, back, -half + 0.025}, wood);
+  return std::move(builder).Take();
 }
 
 std::vector<FurnitureBox> MakeCrate(RandomStream& random, double share, const glm::dvec3& place, double heading) {
   const double half = random.Uniform(0.2, 0.32), height = random.Uniform(0.36, 0.6);
   const SurfacePaint wood = DrawWood(random, share);
   const double lid = random.Uniform(0.02, 0.05);
-  Joiner joiner(place, heading);
-  joiner.Add({-half, 0, -0.8 * half}, {half, height, 0.8 * half}, wood);
-  joiner.Add({-half - 0.015, height, -0.8 * half - 0.015}, {half + 0.015, height + lid, 0.8 * half + 0.015},
-             Darker(wood));
-  return std::move(joiner).Take();
+  FurnitureBuilder builder(place, heading);
+  builder.Add({-half, 0, -0.8 * half}, {half, height, 0.8 * half}, wood);
+  builder.Add({-half - 0.015, height, -0.8 * half - 0.015}, {half + 0.015, height + lid, 0.8 * half + 0.015},
+              Darker(wood));
+  return std::move(builder).Take();
 }
 
-// From which `scene` on each piece stands in the room.
+// The value of `scene` from which each piece is in the room.
 constexpr double kPoster1 = 0.05, kCupboard = 0.10, kPlant = 0.15, kRug = 0.20, kShelf = 0.25, kPoster2 = 0.30;
 constexpr double kWindow = 0.35, kSofa = 0.40, kScreen = 0.45, kTable = 0.50, kPoster3 = 0.55, kChair = 0.65;
 constexpr double kPile = 0.75, kCrate = 0.85;
@@ -207,7 +208,7 @@ SurfacePaint RoomPaint(RandomStream& random, const Hsv& studio, double share, st
   return {.first = ToRgb(first), .second = ToRgb(second), .pattern = patterns[pick], .size = sizes[pick]};
 }
 
-// Walls and floor, by their own dice.
+// Paints walls and floor; each has its own random numbers.
 void PaintRoom(const WorldKey& key, double share, Interior& room) {
   RandomStream walls(key, "walls"), floor(key, "floor"), rug(key, "rug"), ceiling(key, "ceiling");
   constexpr std::array kWallPatterns = {Pattern::kPlain, Pattern::kStripes, Pattern::kSpeckle, Pattern::kTwoTone};
@@ -233,7 +234,7 @@ void Light(const WorldKey& key, double scene, Interior& room) {
   Lights& lights = room.lights;
   const glm::dvec3 offset{random.Uniform(-0.9, 1.5), random.Uniform(-0.1, 0.05), random.Uniform(-1.3, 0.5)};
   lights.key += scene * offset;
-  // Between a bulb's yellow and a cloudy sky's blue.
+  // A colour between a bulb's yellow and a cloudy sky's blue.
   const auto tint = [&](double warmth, double strength) {
     return glm::dvec3(1) + scene * strength * warmth * glm::dvec3(0.10, 0.0, -0.14);
   };
@@ -266,12 +267,14 @@ WallPicture DrawPicture(RandomStream& random, const Interior& room, double share
 }
 
 void HangPictures(const WorldKey& key, double scene, double share, Interior& room) {
+  // Posters; each appears from its threshold on.
   int number = 0;
   for (const double threshold : {kPoster1, kPoster2, kPoster3}) {
     RandomStream random(key, "poster-" + std::to_string(++number));
     const WallPicture poster = DrawPicture(random, room, share);
     if (scene >= threshold) room.pictures.push_back(poster);
   }
+  // A window.
   RandomStream random(key, "window");
   WallPicture window = DrawPicture(random, room, share);
   window.half_size = {random.Uniform(0.5, 0.8), random.Uniform(0.55, 0.75)};
@@ -283,18 +286,19 @@ void HangPictures(const WorldKey& key, double scene, double share, Interior& roo
                   .size = random.Uniform(-0.4, 0.1)};
   window.frame = {225, 222, 214};
   window.glow = daylight;
+  // The window also lights the room.
   if (scene < kWindow) return;
   room.pictures.push_back(window);
   Lights& lights = room.lights;
   const bool back = window.wall == WallPicture::Wall::kBack;
   const double side = window.wall == WallPicture::Wall::kLeft ? room.low.x : room.high.x;
   lights.window = back ? glm::dvec3(window.centre, room.low.z) : glm::dvec3(side, window.centre.y, window.centre.x);
-  // The glass lights the room from the wall inwards: a little before it, so that its own wall gets none.
+  // The window's light acts from the wall inwards, so it does not light its own wall.
   const double strength = 0.30 * daylight * (scene - kWindow) / (1 - kWindow);
   lights.window_colour = strength * glm::dvec3(0.92, 0.98, 1.08);
 }
 
-// A place along a wall, where one piece can stand: the middle of its back, and where it looks.
+// A position along a wall for one piece: the middle of its back, and its heading.
 struct Slot {
   glm::dvec3 place{0};
   double heading = 0;
@@ -312,7 +316,7 @@ std::array<Slot, 8> Slots(const Interior& room) {
            {{right, 0, 0.7}, -kPi / 2}}};
 }
 
-// A permutation by dice (Fisher and Yates).
+// Returns a random permutation (Fisher–Yates).
 std::array<Slot, 8> Shuffled(std::array<Slot, 8> slots, RandomStream& random) {
   for (std::size_t i = slots.size() - 1; i > 0; --i) std::swap(slots[i], slots[random.IndexBelow(i + 1)]);
   return slots;
@@ -324,13 +328,14 @@ bool StandsOn(const FurnitureBox& box, const FreeFloor& free) {
          box.centre.z - reach < free.high.y;
 }
 
-// Between the performer and one of the cameras, at the edge of the free floor, where it hides part of the legs.
+// Returns a position between the performer and a camera, at the edge of the free floor, where a piece hides part of the
+// legs.
 Slot InFrontOf(const Camera& camera, const FreeFloor& free, double aside, double turn) {
   const glm::dvec2 middle = 0.5 * (free.low + free.high), half = 0.5 * (free.high - free.low);
   glm::dvec2 towards(camera.p_WC.x - middle.x, camera.p_WC.z - middle.y);
   const double away = glm::length(towards);
   towards = away > 0 ? towards / away : glm::dvec2(0, 1);
-  // To the border of the rectangle, and half a metre on.
+  // Go to the border of the rectangle, and 45 cm beyond.
   const double to_border = std::min(std::abs(towards.x) > 1e-6 ? half.x / std::abs(towards.x) : 1e9,
                                     std::abs(towards.y) > 1e-6 ? half.y / std::abs(towards.y) : 1e9);
   const double distance = std::min(to_border + 0.45, 0.62 * away);
@@ -345,6 +350,7 @@ FurnishedRoom Furnish(std::uint64_t seed, double scene, double colour_share, con
   const WorldKey key{seed, "stage", 0};
   RandomStream size(key, "size"), order(key, "slots"), front(key, "in-front");
   FurnishedRoom made;
+  // Walls, floor, lights and pictures.
   Interior& room = made.interior;
   room.low = {-size.Uniform(3.5, 4.3), 0, kWallZ};
   room.high = {size.Uniform(3.5, 4.3), size.Uniform(3.1, 3.5), 5.6};
@@ -354,8 +360,9 @@ FurnishedRoom Furnish(std::uint64_t seed, double scene, double colour_share, con
   Light(key, scene, room);
   HangPictures(key, scene, colour_share, room);
 
+  // Place each piece at a random slot along the walls; a piece in the performer's way is left out.
   const std::array<Slot, 8> slots = Shuffled(Slots(room), order);
-  const auto stand = [&](const char* purpose, double threshold, auto make, const Slot& slot) {
+  const auto add_piece = [&](const char* purpose, double threshold, auto make, const Slot& slot) {
     RandomStream random(key, purpose);
     const std::vector<FurnitureBox> piece = make(random, colour_share, slot.place, slot.heading);
     if (scene < threshold) return false;
@@ -365,28 +372,28 @@ FurnishedRoom Furnish(std::uint64_t seed, double scene, double colour_share, con
     room.furniture.insert(room.furniture.end(), piece.begin(), piece.end());
     return true;
   };
-  stand("cupboard", kCupboard, MakeCupboard, slots[0]);
-  made.places.has_plant = stand("plant", kPlant, MakePlantPot, slots[1]);
+  add_piece("cupboard", kCupboard, MakeCupboard, slots[0]);
+  made.places.has_plant = add_piece("plant", kPlant, MakePlantPot, slots[1]);
   if (made.places.has_plant) {
     const FurnitureBox& pot = room.furniture.back();
     made.places.plant = pot.centre + glm::dvec3(0, pot.half_size.y, 0);
   }
-  stand("shelf", kShelf, MakeShelf, slots[2]);
-  stand("sofa", kSofa, MakeSofa, slots[3]);
-  made.places.has_screen = stand("screen", kScreen, MakeScreen, slots[4]);
+  add_piece("shelf", kShelf, MakeShelf, slots[2]);
+  add_piece("sofa", kSofa, MakeSofa, slots[3]);
+  made.places.has_screen = add_piece("screen", kScreen, MakeScreen, slots[4]);
   if (made.places.has_screen) made.places.screen = room.furniture.back();
-  stand("table", kTable, MakeTable, slots[5]);
-  stand("pile", kPile, MakePile, slots[6]);
+  add_piece("table", kTable, MakeTable, slots[5]);
+  add_piece("pile", kPile, MakePile, slots[6]);
 
-  // These two hide part of the performer from the cameras.
+  // The last two pieces hide part of the performer from the cameras.
   const double chair_aside = front.Uniform(-0.35, 0.35), chair_turn = front.Uniform(-kPi, kPi);
   const double crate_aside = front.Uniform(-0.35, 0.35), crate_turn = front.Uniform(-kPi, kPi);
   const std::size_t first = front.IndexBelow(2);
   if (cameras.empty()) return made;
   const Camera& by_chair = cameras[first % cameras.size()];
   const Camera& by_crate = cameras[(first + 1) % cameras.size()];
-  stand("chair", kChair, MakeChair, InFrontOf(by_chair, free, chair_aside, chair_turn));
-  stand("crate", kCrate, MakeCrate, InFrontOf(by_crate, free, crate_aside, crate_turn));
+  add_piece("chair", kChair, MakeChair, InFrontOf(by_chair, free, chair_aside, chair_turn));
+  add_piece("crate", kCrate, MakeCrate, InFrontOf(by_crate, free, crate_aside, crate_turn));
   return made;
 }
 

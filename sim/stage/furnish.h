@@ -8,27 +8,27 @@
 
 namespace etude {
 
-/// The floor that the performer needs: no piece stands there.
+/// The part of the floor that the performer needs; no piece of furniture stands on it.
 struct FreeFloor {
   glm::dvec2 low{0}, high{0};  ///< x, z
 };
 
-/// The places of the room's moving things.
-struct Places {
-  glm::dvec3 plant{0};  ///< the top of its pot
+/// The positions of the room's moving objects.
+struct MoverPositions {
+  glm::dvec3 plant{0};  ///< the top of the pot
   bool has_plant = false;
-  FurnitureBox screen;  ///< its front (+Z) shows pictures
+  FurnitureBox screen;  ///< its front (+Z) shows the picture
   bool has_screen = false;
 };
 
 struct FurnishedRoom {
   Interior interior;
-  Places places;
+  MoverPositions places;
 };
 
-/// Furnishes the room of this seed. Each piece has dice of its own and appears at its own threshold of `scene`, so that
-/// what is there at 0.25 is there at 0.5; colours lie `colour_share` of the way from the studio's to those of everyday
-/// things.
+/// Furnishes the room of this seed. Each piece has its own random numbers and its own threshold of `scene`, so
+/// everything present at 0.25 is present at 0.5. Colours are interpolated by `colour_share` between the studio's (0)
+/// and those of everyday objects (1).
 FurnishedRoom Furnish(std::uint64_t seed, double scene, double colour_share, const FreeFloor& free,
                       std::span<const Camera> cameras);
 

@@ -23,10 +23,10 @@ Rgb8 ToRgb(const Hsv& colour) {
 
 Hsv ToHsv(Rgb8 colour) {
   const double r = colour.r / 255.0, g = colour.g / 255.0, b = colour.b / 255.0;
-  const double most = std::max({r, g, b}), range = most - std::min({r, g, b});
-  if (range == 0) return {0, 0, most};
-  double sextant = most == r ? (g - b) / range : most == g ? 2 + (b - r) / range : 4 + (r - g) / range;
-  return {Wrapped(60 * sextant), range / most, most};
+  const double value = std::max({r, g, b}), range = value - std::min({r, g, b});
+  if (range == 0) return {0, 0, value};
+  double sextant = value == r ? (g - b) / range : value == g ? 2 + (b - r) / range : 4 + (r - g) / range;
+  return {Wrapped(60 * sextant), range / value, value};
 }
 
 Hsv Mixed(const Hsv& a, const Hsv& b, double share) {

@@ -15,14 +15,14 @@ struct Hsv {
 Rgb8 ToRgb(const Hsv& colour);
 Hsv ToHsv(Rgb8 colour);
 
-/// Mixes two colours from `a` (share 0) to `b` (share 1), hues the shorter way round.
+/// Interpolates from colour `a` (share 0) to `b` (share 1); hues take the shorter way round.
 Hsv Mixed(const Hsv& a, const Hsv& b, double share);
 
-/// Draws a colour of things that people live with, walls and clothes alike: often wood and leather, some denim, some
-/// green, sometimes anything. It always takes as many numbers.
+/// Draws a colour of everyday objects, walls and clothes: often wood and leather, some denim, some green, and sometimes
+/// any hue. The number of draws is constant.
 Hsv DrawColour(RandomStream& random);
 
-/// Draws a colour of the studio's things: hues of 150–230°, away from its performers.
+/// Draws a colour of the studio's objects: hues of 150–230°, which its performers do not have.
 Hsv DrawStudioColour(RandomStream& random);
 
 }  // namespace etude

@@ -16,9 +16,9 @@
 namespace etude {
 namespace {
 
-// From which `scene` on they are there; the plant and the screen come with their furniture.
+// The value of `scene` from which each is present; the plant and the screen come with their furniture.
 constexpr double kBall = 0.55, kBystander = 0.60;
-constexpr double kShotSeconds = 1.7;  // how long a screen shows one picture
+constexpr double kShotSeconds = 1.7;  // duration of one picture on the screen
 
 double Wave(double seconds, double rate_hz, double phase) { return std::sin(2 * kPi * (rate_hz * seconds + phase)); }
 
@@ -28,7 +28,7 @@ BodyPose Placed(const BodyPose& pose, double size, double heading, const glm::dv
   return FloorMove{heading, place.x, place.z}.Apply(scaled);
 }
 
-// Where the performer is at any moment, with some air.
+// Returns the floor that the performer covers, plus a margin.
 FreeFloor FloorOf(std::span<const BodyPose> poses) {
   constexpr double kAir = 0.3, kInfinity = std::numeric_limits<double>::infinity();
   FreeFloor free{glm::dvec2(kInfinity), glm::dvec2(-kInfinity)};
@@ -46,6 +46,7 @@ FreeFloor FloorOf(std::span<const BodyPose> poses) {
 Movers::Movers(std::uint64_t seed, double scene, double colour_share, const FurnishedRoom& room, const FreeFloor& free)
     : seed_(seed), scene_(scene), colour_share_(colour_share), places_(room.places) {
   const WorldKey key{seed, "stage", 0};
+  // The plant's leaves, at golden-angle steps.
   RandomStream plant(key, "leaves"), ball(key, "ball"), person(key, "bystander");
 
   leaf_colour_ = ToRgb(Mixed({150, 0.5, 0.5}, {plant.Uniform(80, 130), 0.5, plant.Uniform(0.35, 0.6)}, colour_share));
@@ -57,17 +58,19 @@ Movers::Movers(std::uint64_t seed, double scene, double colour_share, const Furn
     leaves_.push_back({{out * std::cos(angle), up, out * std::sin(angle)}, phase, rate});
   }
 
+  // The ball, behind the performer.
   const double behind = std::max(room.interior.low.z + 0.45, std::min(-1.25, free.low.y - 0.2));
-  Ball thrown;
-  thrown.middle = {ball.Uniform(-0.6, 0.6), 0, behind + 0.15};
-  thrown.reach = ball.Uniform(1.4, 2.4);
-  thrown.radius = ball.Uniform(0.09, 0.17);
-  thrown.height = ball.Uniform(0.2, 0.9);
-  thrown.period_s = ball.Uniform(5, 9);
-  thrown.phase = ball.Uniform();
-  thrown.colour = ToRgb(Mixed(DrawStudioColour(ball), DrawColour(ball), colour_share));
-  if (scene >= kBall) ball_ = thrown;
+  Ball drawn;
+  drawn.middle = {ball.Uniform(-0.6, 0.6), 0, behind + 0.15};
+  drawn.reach = ball.Uniform(1.4, 2.4);
+  drawn.radius = ball.Uniform(0.09, 0.17);
+  drawn.height = ball.Uniform(0.2, 0.9);
+  drawn.period_s = ball.Uniform(5, 9);
+  drawn.phase = ball.Uniform();
+  drawn.colour = ToRgb(Mixed(DrawStudioColour(ball), DrawColour(ball), colour_share));
+  if (scene >= kBall) ball_ = drawn;
 
+  // The second person, who dances a built-in move.
   const std::vector<std::string> moves = BuiltinMoveNames();
   const std::string& name = moves[person.IndexBelow(moves.size())];
   const glm::dvec3 place{person.Uniform(-1.0, 1.0), 0, behind};
@@ -89,7 +92,7 @@ Movers::Movers(std::uint64_t seed, double scene, double colour_share, const Furn
 Figure Movers::PlantAt(double seconds) const {
   Figure plant{.shape = {}, .seen_as = Part::kClutter};
   plant.colours.fill(leaf_colour_);
-  const double sway = 0.01 + 0.09 * scene_;  // metres at the tips
+  const double sway = 0.01 + 0.09 * scene_;  // metres, at the tips
   for (const Leaf& leaf : leaves_) {
     const double wave = sway * Wave(seconds, leaf.rate_hz, leaf.phase);
     const glm::dvec3 tip = places_.plant + leaf.tip + wave * glm::dvec3(1, -0.2, 0.4);
@@ -101,6 +104,7 @@ Figure Movers::PlantAt(double seconds) const {
 }
 
 Figure Movers::ScreenAt(double seconds) const {
+  // Every picture of the screen has its own random numbers.
   const auto shot = static_cast<std::int64_t>(std::floor(seconds / kShotSeconds));
   RandomStream random({seed_, "stage", 0}, "screen/shot/" + std::to_string(shot));
   const Hsv studio = DrawStudioColour(random), one = DrawColour(random), two = DrawColour(random);
@@ -110,6 +114,7 @@ Figure Movers::ScreenAt(double seconds) const {
   bright.value = std::clamp(0.85 * flicker, 0.0, 1.0);
   other.value = std::clamp(0.6 * flicker, 0.0, 1.0);
 
+  // A rectangle on the box's front.
   const FurnitureBox& box = places_.screen;
   const glm::dvec3 across(std::cos(box.heading), 0, -std::sin(box.heading)),
       out(std::sin(box.heading), 0, std::cos(box.heading));
@@ -123,7 +128,7 @@ Figure Movers::ScreenAt(double seconds) const {
   }
   surface.triangles = {{0, 1, 2}, {0, 2, 3}};
   surface.parts = {Part::kClutter, Part::kClutter};
-  surface.is_closed = true;  // its back is in its box
+  surface.is_closed = true;  // its back is inside its box
   surface.paint =
       SurfacePaint{.first = ToRgb(bright), .second = ToRgb(other), .pattern = Pattern::kChecks, .size = size};
   return {.shape = {}, .surfaces = {surface}, .seen_as = Part::kClutter};
@@ -161,7 +166,7 @@ std::vector<Figure> Movers::At(double seconds) const {
 }
 
 double ColourShare(double scene) {
-  // Hue segmentation bears much: these steps make its IoU fall about evenly (README.md).
+  // Hue segmentation tolerates much of this; with these steps its IoU falls about evenly (README.md).
   constexpr std::array kSteps = {0.0, 0.85, 0.92, 0.95, 1.0};
   const double step = std::clamp(scene, 0.0, 1.0) * (kSteps.size() - 1);
   const auto below = std::min(static_cast<std::size_t>(step), kSteps.size() - 2);
@@ -197,7 +202,7 @@ std::optional<BodyPose> StagedRoom::BystanderAt(double seconds) const {
 }
 
 double StagedRoom::FlickerAt(double seconds) const {
-  // A mains a little off 50 Hz, so that 30 pictures a second show a slow beat.
+  // The mains frequency is slightly off 50 Hz, so 30 pictures a second show a slow beat.
   constexpr double kLampHz = 2 * 50.02;
   return 1 + flicker_ * std::sin(2 * kPi * (kLampHz * seconds + flicker_phase_));
 }

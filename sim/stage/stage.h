@@ -14,21 +14,21 @@
 
 namespace etude {
 
-/// The things that move in the room besides the performer: a plant, a screen, a ball and a second person. Each of them
-/// is a function of time; each has dice of its own and appears at its own threshold of `scene`.
+/// The moving objects in the room besides the performer: a plant, a screen, a ball and a second person. Each is a
+/// function of time, and has its own random numbers and its own threshold of `scene`.
 class Movers {
  public:
   Movers(std::uint64_t seed, double scene, double colour_share, const FurnishedRoom& room, const FreeFloor& free);
 
-  /// Returns the figures at a moment, which may lie before the take; they are labelled kClutter and kBystander.
+  /// Returns the figures at a time, which may be before the take; they are labelled kClutter and kBystander.
   std::vector<Figure> At(double seconds) const;
 
-  /// Returns the second person's joints at that moment; nothing while nobody is there.
+  /// Returns the second person's joints at that time; empty if there is no such person.
   std::optional<BodyPose> BystanderAt(double seconds) const;
 
  private:
   struct Leaf {
-    glm::dvec3 tip{0};  ///< from the pot, at rest
+    glm::dvec3 tip{0};  ///< from the pot, without sway
     double phase = 0, rate_hz = 0;
   };
   struct Ball {
@@ -49,7 +49,7 @@ class Movers {
 
   std::uint64_t seed_;
   double scene_, colour_share_;
-  Places places_;
+  MoverPositions places_;
   std::vector<Leaf> leaves_;
   Rgb8 leaf_colour_{};
   std::optional<Ball> ball_;
@@ -58,35 +58,35 @@ class Movers {
 
 /// The options of a stage.
 struct StageOptions {
-  std::uint64_t seed = 1;  ///< of every dice: nothing that they decide depends on `scene`
-  /// 0 = the studio: an empty, bluish room and a performer of capsules in warm colours; 1 = a furnished room with
-  /// people and things that move, in whose colours the performer is dressed, too (README.md has the table).
+  std::uint64_t seed = 1;  ///< of all random numbers; what they determine does not depend on `scene`
+  /// 0 = the studio: an empty, bluish room and a performer of capsules in warm colours. 1 = a furnished room with
+  /// moving people and objects, whose colours the performer's clothes share (README.md has the table).
   double scene = 0;
   Wardrobe wardrobe = Wardrobe::kStudio;
 };
 
-/// The room around a performer: what stands in it, what moves in it, how the performer is dressed, how it is lit. At
-/// scene 0 there is nothing of this.
+/// The room around a performer: its furniture, its moving objects, the performer's clothes, and the lighting. At scene
+/// 0 it has none of these.
 class StagedRoom {
  public:
   StagedRoom() = default;
-  /// Makes a room for a performer who moves like `poses` before `cameras`: furniture leaves that floor free.
+  /// Makes a room for a performer who moves like `poses` in front of `cameras`; furniture leaves that floor free.
   StagedRoom(const StageOptions& options, std::span<const BodyPose> poses, std::span<const Camera> cameras);
 
-  /// Returns the interior, or null for the studio. It lives as long as this.
+  /// Returns the interior, or null for the studio. It lives as long as this object.
   const Interior* interior() const { return furnished_ ? &furnished_->interior : nullptr; }
   bool IsPerformerDressed() const { return performer_.has_value(); }
-  /// Returns the dressed performer; at scene 0 the capsules in `studio` colours.
+  /// Returns the dressed performer, or at scene 0 the capsules in the `studio` colours.
   Figure PerformerAt(const BodyPose& pose, const PartColours& studio) const;
-  /// Returns what moves in the room, `seconds` after the take's start (less than 0: before).
+  /// Returns the moving objects at `seconds` after the take's start (negative: before it).
   std::vector<Figure> MoversAt(double seconds) const;
-  /// Returns the joints of the second person, if there is one.
+  /// Returns the second person's joints, if there is one.
   std::optional<BodyPose> BystanderAt(double seconds) const;
-  /// Returns the factor that the lamps' mains puts on the light of a picture taken at that moment: 100 Hz, sampled by
-  /// the camera.
+  /// Returns the factor by which the flicker of mains-powered lamps changes the light of a picture taken at that time:
+  /// 100 Hz, sampled by the camera.
   double FlickerAt(double seconds) const;
 
-  /// The time of the background picture: before the take, with everything that moves elsewhere.
+  /// The time of the background picture: before the take, when all moving objects are elsewhere.
   static constexpr double kBackgroundSeconds = -6.3;
 
  private:
@@ -97,7 +97,7 @@ class StagedRoom {
   double flicker_ = 0, flicker_phase_ = 0;
 };
 
-/// Returns how far from the studio's colours to everyday ones the colours are at this `scene`.
+/// Returns the share of everyday colours at this `scene`; the rest is the studio's.
 double ColourShare(double scene);
 
 }  // namespace etude

@@ -8,7 +8,7 @@
 namespace etude {
 namespace {
 
-// The studio's performer (PerformerColours), and hair as its face has it.
+// The colours of the studio's performer (PerformerColours), and of the hair drawn on its face.
 constexpr Rgb8 kStudioSkin{232, 168, 128}, kStudioTop{230, 92, 66}, kStudioBottom{150, 46, 88};
 constexpr Rgb8 kStudioShoes{240, 186, 76}, kStudioHair{66, 33, 20};
 
@@ -21,7 +21,7 @@ SurfacePaint Plain(const Hsv& colour) {
   return {.first = rgb, .second = rgb};
 }
 
-// A garment of the studio's colour or of any, and a second colour for its pattern.
+// The colours of a garment, and the second colour of its pattern.
 struct Dye {
   Hsv first, second;
 };
@@ -96,11 +96,11 @@ PartColours CodedSuit() {
                                  kLeftForearm, kLeftHand,      kHead,         kRightThigh, kRightShank,
                                  kRightFoot,   kRightUpperArm, kRightForearm, kRightHand};
   constexpr double kFirstHue = 250, kHues = 240;  // degrees: to 130
-  constexpr std::size_t kStep = 5;                // from limb to limb, hues
+  constexpr std::size_t kStep = 5;                // hues between consecutive limbs of kOrder
   PartColours suit{};
   for (std::size_t i = 0; i < kOrder.size(); ++i) {
-    const auto place = static_cast<double>(kStep * i % kOrder.size());
-    suit[static_cast<std::size_t>(kOrder[i])] = ToRgb({kFirstHue + kHues * place / (kOrder.size() - 1), 1, 0.82});
+    const auto hue = static_cast<double>(kStep * i % kOrder.size());
+    suit[static_cast<std::size_t>(kOrder[i])] = ToRgb({kFirstHue + kHues * hue / (kOrder.size() - 1), 1, 0.82});
   }
   return suit;
 }

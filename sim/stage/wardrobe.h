@@ -8,21 +8,22 @@
 
 namespace etude {
 
-/// The clothes of the people on the stage.
+/// The clothes of the people on stage.
 enum class Wardrobe {
-  kStudio,    ///< the captured performer's warm colours, which give way to everyday ones as `scene` grows
-  kEveryday,  ///< a grey shirt and dark blue trousers at any `scene`
-  kCoded,     ///< a tight suit of which every limb has a colour of its own (`CodedSuit`), at any `scene`
+  kStudio,    ///< the captured performer's warm colours, which change to everyday ones as `scene` grows
+  kEveryday,  ///< a grey shirt and dark blue trousers for every `scene`
+  kCoded,     ///< a tight suit with a different colour for every limb (`CodedSuit`), for every `scene`
 };
 
-/// Returns the coded suit: plain colours as pure and as bright as a lamp that wanders leaves them unclipped, their hues
-/// 18.5° apart on the two thirds of the circle that the studio's wall and floor (150–230°) leave, with 20° of air.
-/// Limbs that hang together are 92° and more apart, the two of a pair 120°. Furnished rooms have things of any hue, but
+/// Returns the coded suit. Its colours are plain and saturated, and as bright as possible without clipping under the
+/// drifting lamp. Their hues are 18.5° apart, on the 240° of the circle that are at least 20° from the studio's wall
+/// and floor (150–230°). Adjacent limbs differ by 92° or more, and the two limbs of a pair by 120°. Furnished rooms
+/// have objects of any hue, but paler (palette.h).
 /// paler ones (palette.h).
 PartColours CodedSuit();
 
-/// Draws what `who` wears on the stage of this seed. Builds, cuts and patterns are the seed's alone; the colours lie
-/// `colour_share` of the way from the studio's to those of everyday things.
+/// Draws the clothes of `who` on the stage of this seed. Builds, cuts and patterns depend on the seed alone; colours
+/// are interpolated by `colour_share` between the studio's and those of everyday objects.
 Outfit MakeOutfit(std::uint64_t seed, const std::string& who, Wardrobe wardrobe, double colour_share);
 
 }  // namespace etude
