@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "engine/base/csv.h"
+#include "engine/base/order_statistics.h"
 #include "reports/words/cell_series.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"

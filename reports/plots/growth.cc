@@ -1,3 +1,4 @@
+#include "engine/base/order_statistics.h"
 #include "reports/plots/growth.h"
 
 #include <fmt/core.h>

@@ -7,6 +7,7 @@
 #include <map>
 #include <tuple>
 
+#include "engine/base/order_statistics.h"
 #include "reports/words/answer.h"
 #include "reports/words/cell_series.h"
 #include "reports/words/figures.h"
@@ -88,12 +89,9 @@ class Times {
     if (const auto seconds = CpuSecondsOf(run, row, place)) seconds_[row.method].push_back(*seconds);
   }
 
-  std::optional<double> MedianOf(const std::string& method) {
+  std::optional<double> MedianOf(const std::string& method) const {
     const auto found = seconds_.find(method);
-    if (found == seconds_.end()) return std::nullopt;
-    const auto middle = found->second.begin() + static_cast<std::ptrdiff_t>(found->second.size() / 2);
-    std::ranges::nth_element(found->second, middle);
-    return *middle;
+    return found == seconds_.end() ? std::nullopt : std::optional(Median(found->second));
   }
 
  private:
