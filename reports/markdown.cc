@@ -14,6 +14,7 @@
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"
 #include "reports/words/judged.h"
+#include "reports/words/table.h"
 
 namespace etude {
 namespace {
@@ -27,22 +28,6 @@ std::string FindingText(const MethodFinding& finding) {
 std::string AnswerText(const ScenarioFindings& findings) {
   std::string text = FindingText(findings.answer) + "\n";
   return HasOtherRival(findings) ? text + "\nThe strongest other: " + FindingText(findings.rival) + "\n" : text;
-}
-
-std::string FiguresText(const KeyFigures& figures) {
-  if (figures.methods.empty()) return "";
-  std::string text = "\n| |", rule = "|---|";
-  for (const std::string& label : figures.labels) {
-    text += fmt::format(" {} |", EscapeMarkdown(label));
-    rule += "--:|";
-  }
-  text += "\n" + rule + "\n";
-  for (const KeyFigures::Method& method : figures.methods) {
-    text += fmt::format("| {} |", EscapeMarkdown(method.name));
-    for (const std::string& value : method.values) text += fmt::format(" {} |", EscapeMarkdown(value));
-    text += "\n";
-  }
-  return text;
 }
 
 /// Tells what the worlds are, and what each method is in a sentence; "" where nobody said.
@@ -62,7 +47,8 @@ std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
   const ScenarioFindings findings = FindingsOf(run, scenario);
   std::string text = fmt::format("\n## {}\n\n{}\n\n{}", EscapeMarkdown(scenario.name),
                                  EscapeMarkdown(scenario.question), AnswerText(findings));
-  text += FiguresText(findings.figures) + WhatIsComparedText(scenario) + OverviewTableMarkdown(scenario);
+  if (!findings.figures.methods.empty()) text += TableMarkdown(FiguresTable(findings.figures, true));
+  text += WhatIsComparedText(scenario) + OverviewTableMarkdown(scenario);
   text += ComparisonTableMarkdown(scenario) + AcrossTableMarkdown(scenario) + '\n';
   for (const ExpectationResult& e : scenario.expectations) {
     const std::string_view ruling = e.ruling == Ruling::kMet     ? "met"

@@ -315,4 +315,16 @@ std::string MissingReasons(const RunData& run, const std::string& scenario, cons
   return text;
 }
 
+Table FiguresTable(const KeyFigures& figures, bool has_number_columns) {
+  Table table{.columns = {{.is_row_head = true}}};
+  for (const std::string& label : figures.labels) {
+    table.columns.push_back({.head = label, .is_number = has_number_columns});
+  }
+  for (const KeyFigures::Method& method : figures.methods) {
+    table.rows.push_back({{method.name}});
+    for (const std::string& value : method.values) table.rows.back().cells.emplace_back(value);
+  }
+  return table;
+}
+
 }  // namespace etude
