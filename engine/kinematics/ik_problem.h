@@ -81,13 +81,25 @@ struct IkProblem {
   std::vector<AngleRange> limits;       ///< one per degree of freedom, e.g. the tree's own
 };
 
-/// The settings that all solvers share; those of one solver are in its own header.
+/// What single solvers can be set by. Each reads its own, whose default and meaning stand in its header.
+struct SolverSettings {
+  std::optional<int> first_sweeps;      ///< gauss-newton
+  std::optional<int> memory;            ///< ccd-anderson
+  std::optional<double> damping_share;  ///< levenberg-marquardt
+  std::optional<double> first_radius;   ///< ceres-lm
+  std::optional<double> damping;        ///< damped-least-squares, damped-least-squares-active-set
+  std::optional<double> pinv_damping;   ///< jacobian-pinv
+  std::optional<double> gain;           ///< jacobian-transpose
+
+  bool operator==(const SolverSettings&) const = default;
+};
+
+/// The settings that all solvers share, and those of single ones.
 struct IkOptions {
   WeightRule weights = WeightRule::kAdaptive;  ///< CCD only
   WeightRefresh refresh = WeightRefresh::kSweep;
-  /// The solver's own settings for `IkSolver::solve`, one value for each of `IkSolver::settings`; empty: its defaults.
-  std::vector<double> solver_settings;
-  bool limits = true;  ///< paper B, section 3.7.1; off: angles are free
+  SolverSettings solver_settings;  ///< for `IkSolver::solve`
+  bool limits = true;              ///< paper B, section 3.7.1; off: angles are free
   /// No angle may leave its start angle by more than this, radians (paper B, section 3.7.2). Empty: no such bound.
   std::optional<double> angle_change_tolerance;
   int max_iterations = 200;

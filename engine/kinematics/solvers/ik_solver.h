@@ -21,6 +21,12 @@ class PreparedIkSolver {
   virtual IkSolution Solve(const IkProblem& problem, const IkOptions& options) const = 0;
 };
 
+/// A number that a solver can be set by.
+struct IkSolverSetting {
+  NumberSetting number;
+  std::function<void(SolverSettings& settings, double value)> set;
+};
+
 /// A way to solve an IkProblem, with the name that scenario files call it.
 struct IkSolver {
   std::string name;
@@ -28,8 +34,7 @@ struct IkSolver {
   bool uses_weights = false;  ///< whether IkOptions::weights and refresh apply
   bool uses_axes = true;      ///< whether it turns effectors into their desired axes; else it sees positions only
   std::string_view step;      ///< what one iteration is called: "sweeps", "steps"
-  /// The settings that `IkOptions::solver_settings` holds values for, in this order.
-  std::vector<NumberSetting> settings = {};
+  std::vector<IkSolverSetting> settings = {};  ///< those of `IkOptions::solver_settings` that it reads
   std::function<IkSolution(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options)> solve = {};
   /// Makes the solver ready for problems of one tree that come one after the other; empty where there is nothing to
   /// prepare. Call `Prepare` instead.
