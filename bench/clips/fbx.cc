@@ -155,7 +155,7 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
   if (child_ < 0) {
     std::array<int, 2> ends{};
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-      return Fail({kThisMachine}, "no pair of sockets can be made: {}", std::strerror(errno));
+      return FailOfMachine("no pair of sockets can be made: {}", std::strerror(errno));
     }
     const pid_t parent = ::getpid();
     child_ = ::fork();
@@ -167,7 +167,7 @@ Result<FbxMotion> FbxReader::Read(std::string_view bytes, const std::string& pat
     socket_ = ends[0];
     if (child_ < 0) {
       ::close(socket_);
-      return Fail({kThisMachine}, "no process can be started: {}", std::strerror(errno));
+      return FailOfMachine("no process can be started: {}", std::strerror(errno));
     }
   }
   std::optional<std::string> said;

@@ -33,7 +33,7 @@ Result<void> TryRendererInACopy() {
     ::dup2(silence, STDERR_FILENO);
     ::_exit(!LoadRenderer() ? kNotLoaded : SharedRenderer() ? 0 : 1);
   }
-  if (copy < 0) return Fail({kThisMachine}, "no process can be started: {}", std::strerror(errno));
+  if (copy < 0) return FailOfMachine("no process can be started: {}", std::strerror(errno));
   int status = 0;
   while (::waitpid(copy, &status, 0) < 0 && errno == EINTR) {
   }

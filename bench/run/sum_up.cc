@@ -88,14 +88,13 @@ class Copies {
     const pid_t parent = ::getpid();
     for (std::size_t first = 0; first < jobs; ++first) {
       std::array<int, 2> ends{};
-      if (::pipe2(ends.data(), O_CLOEXEC) != 0)
-        return Fail({kThisMachine}, "no pipe can be made: {}", std::strerror(errno));
+      if (::pipe2(ends.data(), O_CLOEXEC) != 0) return FailOfMachine("no pipe can be made: {}", std::strerror(errno));
       const pid_t pid = ::fork();
       if (pid == 0) Work(first, count, jobs, ends[1], parent, work);
       ::close(ends[1]);
       if (pid < 0) {
         ::close(ends[0]);
-        return Fail({kThisMachine}, "no process can be started: {}", std::strerror(errno));
+        return FailOfMachine("no process can be started: {}", std::strerror(errno));
       }
       copies_.push_back({pid, ends[0]});
     }

@@ -2,18 +2,22 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "engine/base/result.h"
 
 namespace etude {
 
-/// The place of errors that the machine caused, not the input and not a method: no process can be started, the
-/// disk is full. What hinders us from asking a method is no answer of it.
-constexpr const char* kThisMachine = "this machine";
+/// Makes the failed state of any Result by a fault of this machine. What hinders us from asking a method is no answer
+/// of it.
+template <typename... Args>
+tl::unexpected<Error> FailOfMachine(fmt::format_string<Args...> format, Args&&... args) {
+  return tl::unexpected<Error>(Error{{}, fmt::format(format, std::forward<Args>(args)...), ErrorKind::kMachine});
+}
 
-/// The same error as one of this machine.
-inline Error OfThisMachine(const Error& error) { return {{kThisMachine, 0, 0}, ToString(error)}; }
-inline bool IsOfThisMachine(const Error& error) { return error.place.file == kThisMachine; }
+/// The same error as one of this machine, its place in its message.
+inline Error OfThisMachine(const Error& error) { return {{}, ToString(error), ErrorKind::kMachine}; }
+inline bool IsOfThisMachine(const Error& error) { return error.kind == ErrorKind::kMachine; }
 
 /// Makes the error of a file or folder that cannot be written, by an errno: "PATH: WHAT: No space left on device". It
 /// is the machine's (full, limited, read-only, forbidden), but where the name itself is at fault: a file where a folder

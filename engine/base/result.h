@@ -15,13 +15,21 @@ struct Place {
   int column = 0;
 };
 
-/// An error of bad input for a human to read: where it is, what was found, what is allowed.
+/// Who is to blame for an error.
+enum class ErrorKind {
+  kInput,
+  kMachine,  ///< not the input and not a method: no process can be started, the disk is full (machine.h)
+};
+
+/// An error for a human to read: where it is, what was found, what is allowed.
 struct Error {
   Place place;
   std::string message;
+  ErrorKind kind = ErrorKind::kInput;
 };
 
-/// Formats "file:line:column: message", leaving out what is not known; one line, safe to be shown (Visible).
+/// Formats "file:line:column: message", leaving out what is not known, "this machine: " before what is the machine's;
+/// one line, safe to be shown (Visible).
 std::string ToString(const Error& error);
 std::string ToString(const Place& place);
 

@@ -60,8 +60,7 @@ FilmWorkers::FilmWorkers(int frames, int jobs, int width, int height, FrameFeed 
 Result<void> FilmWorkers::MapSlots() {
   const std::size_t slots = workers_.size() * static_cast<std::size_t>(slots_), bytes = slots * SlotBytes();
   void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  if (memory == MAP_FAILED)
-    return Fail({kThisMachine}, "there is no memory for {} frames: {}", slots, std::strerror(errno));
+  if (memory == MAP_FAILED) return FailOfMachine("there is no memory for {} frames: {}", slots, std::strerror(errno));
   memory_ = {static_cast<std::uint8_t*>(memory), Unmap{bytes}};
   return {};
 }
@@ -100,7 +99,7 @@ Result<FilmWorkers> FilmWorkers::Start(int frames, int jobs, const Draw& draw, F
   for (std::size_t i = 0; i < film.workers_.size(); ++i) {
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
-      return Fail({kThisMachine}, "cannot talk to a drawing process: {}", std::strerror(errno));
+      return FailOfMachine("cannot talk to a drawing process: {}", std::strerror(errno));
     }
     const pid_t child = fork();
     if (child == 0) {
@@ -112,7 +111,7 @@ Result<FilmWorkers> FilmWorkers::Start(int frames, int jobs, const Draw& draw, F
     }
     close(ends[1]);
     film.workers_[i] = {.child = child, .talk = ends[0]};
-    if (child < 0) return Fail({kThisMachine}, "cannot start a drawing process: {}", std::strerror(errno));
+    if (child < 0) return FailOfMachine("cannot start a drawing process: {}", std::strerror(errno));
   }
   if (film.feed_.bytes > 0) {
     std::ranges::copy(of_first, film.SlotOf(0, 0).feed.begin());
